@@ -9,7 +9,7 @@
 
 #include "core/base/rng.hpp"
 #include "planners/axis/medial_axis.hpp"
-#include "planners/cells/cell_planner.hpp"
+#include "planners/vertical_cells/cell_planner.hpp"
 
 namespace warren::bench {
 namespace {

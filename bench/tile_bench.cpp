@@ -10,10 +10,10 @@
 
 #include "bench/report.hpp"
 #include "core/base/rng.hpp"
+#include "planners/mazes/tile_reduction.hpp"
+#include "planners/mazes/tiled_prm_lattice.hpp"
+#include "planners/mazes/wall_marking.hpp"
 #include "planners/roadmap/prm.hpp"
-#include "planners/tiled/tiled_prm_lattice.hpp"
-#include "planners/tiles/lattice_tile_reduction.hpp"
-#include "planners/tiles/wall_marking.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "verify/judges/verify_point.hpp"
 #include "worlds/plane/maze_world.hpp"

@@ -7,7 +7,7 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/report.hpp"
-#include "planners/tiled/tiled_prm_lattice.hpp"
+#include "planners/mazes/tiled_prm_lattice.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "verify/near/obstacle_index.hpp"
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/plane/geometry.hpp"
-#include "planners/visibility/lazy_visibility.hpp"
 #include "planners/visibility/visibility_graph.hpp"
+#include "planners/visibility/visibility_path.hpp"
 #include "scenes/formats/scene_io.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "scenes/scene/polygon_generator.hpp"

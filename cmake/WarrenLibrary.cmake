@@ -3,6 +3,7 @@
 # include. Sources are found by pattern: a file belongs to the library of the folder that it lies in, always.
 function(warren_library folder)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp ${PROJECT_SOURCE_DIR}/${folder}/*.hpp)
+  cmake_path(GET folder FILENAME folder)  # apps/studies is warren_studies
   if(folder STREQUAL "solve")  # the planners of each world: where all the time of a solve goes, so compiled with all care
     set(planned ${sources})
     list(FILTER planned INCLUDE REGEX "/planned_[a-z0-9_]+_world[.]cpp$")

@@ -23,7 +23,7 @@ set(Python3_EXECUTABLE ${WARREN_SYSTEM_PYTHON})
 if(WARREN_PYTHON)
   set(packages_of_python lib/python3/dist-packages/warren)
   install(TARGETS warren_python LIBRARY DESTINATION ${packages_of_python} COMPONENT python)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/python/warren/ DESTINATION ${packages_of_python} COMPONENT python
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/apps/python/warren/ DESTINATION ${packages_of_python} COMPONENT python
           FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
 endif()
 

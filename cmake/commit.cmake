@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # cmake -DROOT=DIR -DTO=FILE.cpp [-DCOMMIT=NAME] -P commit.cmake: which commit the sources are of, as
-# tools/words/build_facts.hpp declares it. Run by every build; the file is touched only where that has changed.
+# tools/words/help.hpp declares it. Run by every build; the file is touched only where that has changed.
 cmake_minimum_required(VERSION 3.25)
 if(NOT COMMIT)
   set(COMMIT unknown)
@@ -14,7 +14,7 @@ if(NOT COMMIT)
   endif()
 endif()
 set(text "// Made by cmake/commit.cmake.
-#include \"tools/words/build_facts.hpp\"
+#include \"tools/words/help.hpp\"
 
 namespace warren::tools {
 

@@ -12,7 +12,7 @@
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
 #include "pictures/model/picture.hpp"
-#include "planners/roadmap/planned_roadmap.hpp"
+#include "planners/graph/roadmap_arrays.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/answer/by_products.hpp"
@@ -77,5 +77,16 @@ Picture picture_of(const Scene& scene, const Drawing& drawing, const DrawingPage
 std::vector<std::string> write_picture(const std::string& file, const Scene& scene, const Answer& answer,
                                        ByProducts made = {}, const PictureOptions& options = {},
                                        const Execution& execution = {});
+
+// What stands under a picture's title: the world, the body, how it was solved and what came of it. A line each.
+
+/// The world's name, without its folder.
+std::string title_of(const Scene& scene);
+
+std::string subtitle_of(const Scene& scene, const Answer& answer);
+std::string subtitle_of(const Scene& scene, const RecordedAnswer& answer);
+
+/// The world and the body in it.
+std::string subtitle_of(const Scene& scene, const RobotSpec& robot);
 
 }  // namespace warren

@@ -33,8 +33,8 @@ function(complains path text expected)
   endif()
 endfunction()
 
-complains(distributed/leader.cpp "#include <mpi.h>" "rule .mpi.")
-passes(distributed/mpi_transport.cpp "#include <mpi.h>\n#include \"tools/words/help.hpp\"")
+complains(apps/distributed/leader_follower.cpp "#include <mpi.h>" "rule .mpi.")
+passes(apps/distributed/mpi_transport.cpp "#include <mpi.h>\n#include \"tools/words/help.hpp\"")
 passes(worlds/plane/a.hpp "#include \"spatial/points/kd_tree.hpp\"\n#include <vector>")
 passes(scenes/formats/walls_io.cpp "#include <fstream>\n#include <fmt/format.h>")
 passes(tools/main.cpp "#include \"scenes/scene/scene.hpp\"\n#include <iostream>\nint main() { std::cout << 1; return 0; }")
@@ -52,6 +52,10 @@ complains(core/base/a.cpp "#include \"geometry.hpp\"" "core/base/ may include")
 complains(core/base/a.cpp "#include \"../worlds/scene.hpp\"" "core/base/ may include")
 complains(verify/judges/a.cpp "#include \"scenes/formats/scene_io.hpp\"" "verify/judges/ may include")
 complains(core/a.cpp "" "core/ is no room")
+complains(apps/a.cpp "" "apps/ is no room")
+complains(apps/serve/tiles/a.cpp "#include \"apps/serve/api/route.hpp\"" "apps/serve/tiles/ may include")
+complains(apps/serve/api/a.cpp "#include \"apps/studies/statistics.hpp\"" "apps/serve/api/ may include")
+passes(apps/serve/api/a.cpp "#include \"apps/serve/tiles/web_tile.hpp\"")
 complains(worlds/attic/a.cpp "" "worlds/attic/ is no room")
 complains(verify/judges/verify_point.cpp "#include \"spatial/obstacles/wall_index.hpp\"" "reached from verify/judges/verify_point.cpp: a judge shares nothing"
           spatial/obstacles/wall_index.hpp "#pragma once")
@@ -98,7 +102,7 @@ complains(solve/roadmaps/a.cpp "#include \"solve/solve.hpp\"" "solve/roadmaps/ m
 passes(solve/solve.cpp "#include \"solve/kinds/plane_steps.hpp\"")
 # One name, one type.
 set(comparison "namespace warren {\nstruct Comparison {\n}\n}  // namespace warren\n")
-complains(verify/judges/a.hpp "${comparison}" "warren::Comparison is defined in verify/judges/a.hpp too" studies/compare/b.hpp "${comparison}")
+complains(verify/judges/a.hpp "${comparison}" "warren::Comparison is defined in verify/judges/a.hpp too" apps/studies/b.hpp "${comparison}")
 complains(core/base/a.hpp "${comparison}" "warren::Comparison is defined in core/base/a.hpp too"
           tools/words/b.cpp "namespace warren {\nclass Comparison final\n    : public Other {\n}\n}  // namespace warren")
 complains(core/base/a.hpp "namespace warren {\nusing Comparison = int\n}  // namespace warren" "warren::Comparison is defined in"

@@ -11,11 +11,12 @@ for line in (ROOT / "tests" / "parts").read_text(encoding="utf-8").splitlines():
         name, tests, *paths = line.split()
         re.compile(tests)
         PARTS[name] = paths
-FOLDERS = {path.parts[0] for path in (file.relative_to(ROOT) for file in ROOT.glob("*/**/*.hpp")) if path.parts[0] not in ("build", "out")}
+FOLDERS = {"/".join(path.parts[: 2 if path.parts[0] == "apps" else 1])
+           for path in (file.relative_to(ROOT) for file in ROOT.glob("*/**/*.hpp")) if path.parts[0] not in ("build", "out")}
 STANDS_ON = {folder: set() for folder in FOLDERS}
 for folder in FOLDERS:
     for file in (ROOT / folder).rglob("*.[ch]pp"):
-        STANDS_ON[folder] |= {f for f in re.findall(r'#include "([a-z]+)/', file.read_text(encoding="utf-8"))} & FOLDERS
+        STANDS_ON[folder] |= {f for f in re.findall(r'#include "((?:apps/)?[a-z]+)/', file.read_text(encoding="utf-8"))} & FOLDERS
 
 faults = []
 for name, paths in PARTS.items():

@@ -9,7 +9,7 @@
 //   second
 //                        thread polls every millisecond while the first one grows the roadmap further
 //   its A* alone         start and goal as milestones, constructSolution(), as solve() does once
-//   overlay search       prm by tiles (planners/tiled), which keeps nothing and builds its overlay for each question
+//   overlay search       prm by tiles (planners/mazes), which keeps nothing and builds its overlay for each question
 // CPU time of the process, all threads of it. Lengths are compared with Boost's; OMPL joins start and goal to
 // more.
 //   rival_ompl_kept_roadmap [SIDE [SAMPLES [QUESTIONS]]]

@@ -20,10 +20,10 @@
 #include <string>
 
 #include "bench/rivals/ompl_prm.hpp"
+#include "planners/mazes/tiled_prm_lattice.hpp"
 #include "planners/roadmap/lazy_prm.hpp"
 #include "planners/roadmap/prm.hpp"
 #include "planners/shorten/taut_path.hpp"
-#include "planners/tiled/tiled_prm_lattice.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "verify/judges/verify_point.hpp"
 

@@ -27,7 +27,7 @@
 #include "bench/rivals/stopwatch.hpp"
 #include "core/base/path.hpp"
 #include "core/base/rng.hpp"
-#include "planners/roadmap/roadmap_options.hpp"
+#include "planners/graph/roadmap_options.hpp"
 #include "worlds/plane/maze_world.hpp"
 
 namespace warren {

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "bench/report.hpp"
+#include "planners/graph/roadmap_arrays.hpp"
 #include "roadmaps/file/roadmap_file.hpp"
 #include "roadmaps/file/write_roadmap_file.hpp"
-#include "roadmaps/graph/check_parts.hpp"
 
 namespace warren::bench {
 namespace {

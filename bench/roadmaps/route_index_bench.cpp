@@ -10,8 +10,8 @@
 
 #include "bench/report.hpp"
 #include "core/base/rng.hpp"
-#include "planners/route_index/route_query.hpp"
-#include "planners/route_trees/wall_passages.hpp"
+#include "planners/lengths/lattice_passages.hpp"
+#include "planners/lengths/route_query.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 
 namespace warren::bench {

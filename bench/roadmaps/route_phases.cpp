@@ -14,13 +14,11 @@
 
 #include "core/base/page_pool.hpp"
 #include "core/base/rng.hpp"
-#include "planners/route_cuts/core_graph.hpp"
-#include "planners/route_cuts/core_reduction.hpp"
-#include "planners/route_cuts/dissection.hpp"
-#include "planners/route_index/route_query.hpp"
-#include "planners/route_index/route_sections.hpp"
-#include "planners/route_trees/peeling.hpp"
-#include "planners/route_trees/wall_passages.hpp"
+#include "planners/lengths/core_graph.hpp"
+#include "planners/lengths/dissection.hpp"
+#include "planners/lengths/lattice_passages.hpp"
+#include "planners/lengths/route_index.hpp"
+#include "planners/lengths/route_query.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 
 namespace {

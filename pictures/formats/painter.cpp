@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Lines are as wide as the page says (Page::thickness), so they stay in proportion to a maze's cells; walls, paths and
 // marks keep a least width. Many lines are drawn thinner and fainter: their ink covers a part of the page, not all.
+
 #include "pictures/formats/painter.hpp"
 
 #include <fmt/format.h>
@@ -8,13 +9,60 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
 
-#include "pictures/formats/line_group.hpp"
+#include "core/base/types.hpp"
+#include "parallel/execution.hpp"
 #include "pictures/formats/solid_raster.hpp"
-#include "pictures/model/known_part.hpp"
+#include "pictures/formats/surface.hpp"
+#include "pictures/model/page.hpp"
+#include "pictures/model/picture.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 
 namespace warren {
+// Many lines or areas of one kind as a group on a surface. Where their ink would cover much of the page they become
+// thinner and fainter; where a file of them would be too large they are drawn as pixels.
+
+class LineGroup {
+ public:
+  LineGroup(Surface& surface, const Page& page, const Execution& execution, const Pen& pen)
+      : surface_(surface), page_(page), execution_(execution), pen_(pen) {}
+
+  /// Before the group begins: what its lines are to cover; a point twice is a dot.
+  void measure(std::span<const Vec2> chain);
+  /// The pen that covers no more than a share of the page with what was measured; the group takes it.
+  Pen thinned();
+  /// points: how many will follow, at least.
+  void begin(std::string_view id, std::string_view label, std::size_t points);
+  void take_color(Rgb color);
+  /// Throws Stopped.
+  void segment(Vec2 a, Vec2 b);
+  /// As Surface's, with this share of the opacity.
+  void chain(std::span<const Vec2> points, std::span<const double> turns, bool closed, double opacity = 1.0);
+  void end();
+
+  /// Are they visibly thinner than they were to be? Are they pixels?
+  bool is_thin() const { return thin_; }
+  bool is_mask() const { return mask_.has_value(); }
+
+ private:
+  Vec2 in_mask(Vec2 p) const { return density_ * (page_.view.at(p) - page_.data.min); }
+  void count();
+
+  Surface& surface_;
+  const Page& page_;
+  const Execution& execution_;
+  Pen pen_;
+  double ink_ = 0.0;  // square pixels of the page
+  std::size_t drawn_ = 0;
+  bool thin_ = false;
+  std::optional<Mask> mask_;
+  double density_ = 1.0;  // pixels of the mask a pixel of the page
+};
+
 namespace {
 
 class Painter {
@@ -344,6 +392,82 @@ void Painter::swatch(const PlacedLegend& placed) {
 std::vector<std::string> paint(const Picture& picture, Parts parts, const Page& page, Surface& surface,
                                const Execution& execution) {
   return Painter(picture, parts, page, surface, execution).paint();
+}
+
+void LineGroup::measure(std::span<const Vec2> chain) {
+  constexpr std::size_t chains_per_poll = 1 << 14;
+  if (++drawn_ % chains_per_poll == 0) execution_.check();
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    ink_ += pen_.width * (page_.view.scale * distance(chain[i - 1], chain[i]) + pen_.width);
+  }
+}
+
+Pen LineGroup::thinned() {
+  constexpr double most_cover = 0.3;
+  constexpr double least_width = 0.4;
+  constexpr double least_opacity = 0.25;
+  const double allowed = most_cover * page_.data.width() * page_.data.height();
+  if (ink_ > allowed) {
+    constexpr double visibly = 0.9;
+    const double share = std::sqrt(allowed / ink_);
+    thin_ = share < visibly;
+    pen_.width = std::min(pen_.width, std::max(pen_.width * share, least_width));
+    pen_.opacity *= std::max(share, least_opacity);
+  }
+  return pen_;
+}
+
+void LineGroup::begin(std::string_view id, std::string_view label, std::size_t points) {
+  surface_.begin_group(id, label, pen_);
+  drawn_ = 0;
+  if (!surface_.takes_as_mask(points)) return;
+  constexpr double most_pixels = 3072.0;
+  density_ = most_pixels / std::max(page_.data.width(), page_.data.height());
+  mask_.emplace(static_cast<std::size_t>(std::ceil(density_ * page_.data.width())),
+                static_cast<std::size_t>(std::ceil(density_ * page_.data.height())), execution_);
+}
+
+void LineGroup::take_color(Rgb color) {
+  if (mask_) return;  // has one
+  pen_.stroke = color;
+  surface_.take_pen(pen_);
+}
+
+void LineGroup::count() {
+  constexpr std::size_t lines_per_poll = 64;  // each may run across the whole picture
+  if (++drawn_ % lines_per_poll == 0) execution_.check();
+}
+
+void LineGroup::segment(Vec2 a, Vec2 b) {
+  count();
+  if (!mask_) return surface_.segment(a, b);
+  mask_->draw_line(in_mask(a), in_mask(b), density_ * pen_.width, pen_.opacity);
+}
+
+void LineGroup::chain(std::span<const Vec2> points, std::span<const double> turns, bool closed, double opacity) {
+  count();
+  if (!mask_) {
+    Pen pen = pen_;
+    pen.opacity *= opacity;
+    surface_.take_pen(pen);
+    return surface_.chain(points, turns, closed);
+  }
+  std::vector<Vec2> all = without_arcs(points, turns);
+  for (Vec2& p : all) p = in_mask(p);
+  if (pen_.fill) {
+    PolygonSet outline;
+    outline.add(all);
+    return mask_->fill(outline, pen_.opacity * opacity, execution_);
+  }
+  if (closed) all.push_back(all.front());
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    mask_->draw_line(all[i - 1], all[i], density_ * pen_.width, pen_.opacity * opacity);
+  }
+}
+
+void LineGroup::end() {
+  if (mask_) surface_.mask(*mask_, pen_.fill ? *pen_.fill : *pen_.stroke);
+  surface_.end_group();
 }
 
 }  // namespace warren

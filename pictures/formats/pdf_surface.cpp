@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "pictures/formats/drawn_files.hpp"
 #include "pictures/formats/painter.hpp"
+#include "pictures/formats/surface.hpp"
 #include "pictures/model/letters.hpp"
 
 #ifdef WARREN_PDF

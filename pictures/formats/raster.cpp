@@ -2,8 +2,17 @@
 #include "pictures/formats/raster.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <utility>
+#include <vector>
+
+#include "pictures/formats/painter.hpp"
+#include "pictures/formats/surface.hpp"
+#include "pictures/model/letters.hpp"
+#include "scenes/images/png_writer_io.hpp"
 
 namespace warren {
 
@@ -169,6 +178,251 @@ void Mask::draw_line(Vec2 a, Vec2 b, double width, double opacity) {
 void Mask::fill(const PolygonSet& outlines, double opacity, const Execution& execution) {
   cover_inside(outlines, width_, height_, execution,
                [&](std::size_t x, std::size_t y, double share) { cover(x, y, opacity * share); });
+}
+
+// Colours are counted in boxes of 8 x 8 x 8 values; a box's colour is its mean, white stays white. The 255 boxes with
+// most pixels make the palette, each other box takes the nearest of them.
+
+namespace {
+
+constexpr std::size_t most_colors = 256;
+constexpr std::size_t box_count = std::size_t{1} << 15U;
+
+std::size_t box_of_pixel(const std::uint8_t* p) {
+  return static_cast<std::size_t>(p[0] >> 3) << 10U | static_cast<std::size_t>(p[1] >> 3) << 5U | p[2] >> 3;
+}
+
+using Color = std::array<std::uint8_t, 3>;
+
+/// Means of the boxes and how often they occur.
+class ColorCount {
+ public:
+  ColorCount(const Image& image, const Execution& execution) : sums_(box_count), counts_(box_count, 0) {
+    for (std::size_t y = 0; y < image.height(); ++y) {
+      if (y % 64 == 0) execution.check();
+      const std::uint8_t* row = image.row(y);
+      for (std::size_t x = 0; x < image.width(); ++x) {
+        const std::uint8_t* pixel = row + 3 * x;
+        const std::size_t box = box_of_pixel(pixel);
+        ++counts_[box];
+        for (std::size_t c = 0; c < 3; ++c) sums_[box][c] += pixel[c];
+      }
+    }
+  }
+  std::uint64_t count(std::size_t box) const { return counts_[box]; }
+  Color mean(std::size_t box) const {
+    Color color;
+    for (std::size_t c = 0; c < 3; ++c) {
+      color[c] = static_cast<std::uint8_t>((sums_[box][c] + counts_[box] / 2) / counts_[box]);
+    }
+    return color;
+  }
+
+ private:
+  std::vector<std::array<std::uint64_t, 3>> sums_;
+  std::vector<std::uint64_t> counts_;
+};
+
+std::uint8_t nearest(const Color& color, const std::vector<Color>& palette) {
+  std::size_t best = 0;
+  int least = std::numeric_limits<int>::max();
+  for (std::size_t i = 0; i < palette.size(); ++i) {
+    int square = 0;
+    for (std::size_t c = 0; c < 3; ++c) square += (color[c] - palette[i][c]) * (color[c] - palette[i][c]);
+    if (square < least) {
+      least = square;
+      best = i;
+    }
+  }
+  return static_cast<std::uint8_t>(best);
+}
+
+/// A palette, and where in it the colours of each box are.
+struct ImagePalette {
+  std::vector<Color> colors;
+  std::vector<std::uint8_t> of_box;
+};
+
+ImagePalette palette_of(const Image& image, const Execution& execution) {
+  const ColorCount count(image, execution);
+  std::vector<std::size_t> boxes;
+  for (std::size_t box = 0; box < box_count; ++box) {
+    if (count.count(box) > 0) boxes.push_back(box);
+  }
+  std::stable_sort(boxes.begin(), boxes.end(),
+                   [&](std::size_t a, std::size_t b) { return count.count(a) > count.count(b); });
+  constexpr Color white{255, 255, 255};
+  ImagePalette palette{{white}, std::vector<std::uint8_t>(box_count, 0)};
+  for (const std::size_t box : boxes) {
+    if (box == box_count - 1) continue;  // white's
+    const bool has_room = palette.colors.size() < most_colors;
+    if (has_room) palette.colors.push_back(count.mean(box));
+    palette.of_box[box] =
+        has_room ? static_cast<std::uint8_t>(palette.colors.size() - 1) : nearest(count.mean(box), palette.colors);
+  }
+  return palette;
+}
+
+}  // namespace
+
+void write_png_file(const Image& image, double dpi, const Execution& execution, const Write& write) {
+  const ImagePalette palette = palette_of(image, execution);
+  std::vector<std::uint8_t> row(image.width());
+  write_png({.width = static_cast<std::uint32_t>(image.width()),
+             .height = static_cast<std::uint32_t>(image.height()),
+             .palette = palette.colors,
+             .dpi = dpi,
+             .row =
+                 [&](std::size_t y) {
+                   const std::uint8_t* pixels = image.row(y);
+                   for (std::size_t x = 0; x < row.size(); ++x) row[x] = palette.of_box[box_of_pixel(pixels + 3 * x)];
+                   return static_cast<const std::uint8_t*>(row.data());
+                 }},
+            execution, write);
+}
+
+void write_png_file(const Mask& mask, Rgb color, const Execution& execution, const Write& write) {
+  constexpr std::size_t shades = 16;
+  std::vector<std::uint8_t> alphas(shades);
+  for (std::size_t i = 0; i < shades; ++i) alphas[i] = static_cast<std::uint8_t>(17 * i);
+  std::vector<std::uint8_t> row(mask.width());
+  write_png({.width = static_cast<std::uint32_t>(mask.width()),
+             .height = static_cast<std::uint32_t>(mask.height()),
+             .palette = std::vector<Color>(shades, Color{color.red, color.green, color.blue}),
+             .alphas = alphas,
+             .row =
+                 [&](std::size_t y) {
+                   const std::uint8_t* pixels = mask.pixels().data() + y * mask.width();
+                   for (std::size_t x = 0; x < row.size(); ++x)
+                     row[x] = static_cast<std::uint8_t>((pixels[x] + 8) / 17);
+                   return static_cast<const std::uint8_t*>(row.data());
+                 }},
+            execution, write);
+}
+
+// The picture in pixels, drawn by our own rasteriser; its words are outlines, filled.
+
+namespace {
+
+class PngSurface : public Surface {
+ public:
+  PngSurface(const Page& page, const Execution& execution)
+      : page_(page),
+        execution_(execution),
+        density_(page.density()),
+        image_(pixels(page.width), pixels(page.height), colors::paper, execution) {}
+
+  const Image& image() const { return image_; }
+
+  void enter_world() override { in_world_ = true; }
+  void leave_world() override { in_world_ = false; }
+  void begin_group(std::string_view, std::string_view, const Pen& pen) override { pen_ = pen; }
+  void end_group() override {}
+  void take_pen(const Pen& pen) override { pen_ = pen; }
+  void segment(Vec2 a, Vec2 b) override { line(at(a), at(b)); }
+  void chain(std::span<const Vec2> points, std::span<const double> turns, bool closed) override;
+  void text(const PlacedText& text) override;
+  bool takes_as_mask(std::size_t) const override { return false; }
+  void mask(const Mask&, Rgb) override {}
+  double image_density() const override { return density_; }
+  void image(const Image& image, const Box& at) override;
+
+ private:
+  std::size_t pixels(double length) const {
+    return std::max<std::size_t>(static_cast<std::size_t>(std::lround(length * density_)), 1);
+  }
+  Vec2 at(Vec2 p) const { return density_ * (in_world_ ? page_.view.at(p) : p); }
+  void line(Vec2 a, Vec2 b) { image_.draw_line(a, b, density_ * pen_.width, *pen_.stroke, pen_.opacity); }
+
+  const Page& page_;
+  const Execution& execution_;
+  double density_;  // pixels a pixel of the page
+  Image image_;
+  Pen pen_;
+  bool in_world_ = false;
+};
+
+void PngSurface::chain(std::span<const Vec2> points, std::span<const double> turns, bool closed) {
+  execution_.check();
+  std::vector<Vec2> all = without_arcs(points, turns);
+  for (Vec2& p : all) p = at(p);
+  if (pen_.fill && all.size() > 2) {
+    // Rectangles that tile end at whole pixels, where they are large enough.
+    const Box box = box_of({all[0], all[2]});
+    if (pen_.crisp && std::min(box.width(), box.height()) >= 1.0) {
+      for (Vec2& p : all) p = {std::round(p.x), std::round(p.y)};
+    }
+    PolygonSet outline;
+    outline.add(all);
+    image_.fill(outline, *pen_.fill, pen_.opacity, execution_);
+  }
+  if (!pen_.stroke) return;
+  if (all.size() == 1) line(all[0], all[0]);
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    if (i % 64 == 0) execution_.check();
+    line(all[i - 1], all[i]);
+  }
+  if (closed && all.size() > 2) line(all.back(), all.front());
+}
+
+void PngSurface::text(const PlacedText& text) {
+  const double size = density_ * text.size;
+  const double width = text_width(text.text, size);
+  const double back = text.anchor == Anchor::start ? 0.0 : text.anchor == Anchor::middle ? 0.5 * width : width;
+  PolygonSet outlines = text_outlines(text.text, size);
+  const Vec2 from = density_ * text.at;
+  for (Vec2& p : outlines.corners) {
+    p.x -= back;
+    p = from + (text.upright ? Vec2{p.y, -p.x} : p);
+  }
+  const Rgb ink = pen_.fill.value_or(colors::text);
+  image_.fill(outlines, ink, 1.0, execution_);
+  if (!text.bold) return;
+  constexpr double stroke = 0.055;  // of the size
+  for (std::size_t i = 0; i < outlines.size(); ++i) {
+    Vec2 a = outlines[i].back();
+    for (const Vec2 b : outlines[i]) {
+      image_.draw_line(a, b, stroke * size, ink);
+      a = b;
+    }
+  }
+}
+
+/// Each pixel takes the nearest one.
+void PngSurface::image(const Image& image, const Box& at) {
+  const Vec2 low = density_ * at.min;
+  const Vec2 size = density_ * (at.max - at.min);
+  const auto place = [](double v, std::size_t most) {
+    return static_cast<std::size_t>(std::clamp(v, 0.0, static_cast<double>(most)));
+  };
+  const std::size_t right = place(std::round(low.x + size.x), image_.width());
+  const std::size_t bottom = place(std::round(low.y + size.y), image_.height());
+  for (std::size_t y = place(std::round(low.y), image_.height()); y < bottom; ++y) {
+    execution_.check();
+    const double v = (static_cast<double>(y) + 0.5 - low.y) / size.y * static_cast<double>(image.height());
+    for (std::size_t x = place(std::round(low.x), image_.width()); x < right; ++x) {
+      const double u = (static_cast<double>(x) + 0.5 - low.x) / size.x * static_cast<double>(image.width());
+      std::copy_n(image.row(place(v, image.height() - 1)) + 3 * place(u, image.width() - 1), 3, image_.row(y) + 3 * x);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> draw_png(const Page& page, const DrawOn& draw, const Execution& execution,
+                                  const Write& write) {
+  PngSurface surface(page, execution);
+  std::vector<std::string> notes = draw(surface);
+  write_png_file(surface.image(), page.dpi, execution, write);
+  return notes;
+}
+
+std::vector<std::string> write_png(const Picture& picture, const PictureOptions& options, const Execution& execution,
+                                   const Write& write) {
+  const Page page = page_of(picture, options, true, execution);
+  return draw_png(
+      page, [&](Surface& surface) { return paint(picture, options.parts, page, surface, execution); }, execution,
+      write);
 }
 
 }  // namespace warren

@@ -12,6 +12,7 @@
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
 #include "parallel/execution.hpp"
+#include "pictures/formats/write_picture.hpp"
 #include "pictures/model/colors.hpp"
 
 namespace warren {
@@ -57,5 +58,13 @@ class Mask {
   std::size_t height_;
   RawVector<std::uint8_t> pixels_;
 };
+
+// Pixels as PNG with a palette: the most frequent colours of an image; a mask in sixteen shades of one colour.
+
+/// dpi is told to those who print. Throws Stopped between rows.
+void write_png_file(const Image& image, double dpi, const Execution& execution, const Write& write);
+
+/// Transparent where nothing is covered.
+void write_png_file(const Mask& mask, Rgb color, const Execution& execution, const Write& write);
 
 }  // namespace warren

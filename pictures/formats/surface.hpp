@@ -4,12 +4,17 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/base/types.hpp"
+#include "parallel/execution.hpp"
 #include "pictures/formats/raster.hpp"
+#include "pictures/formats/write_picture.hpp"
 #include "pictures/model/colors.hpp"
 #include "pictures/model/page.hpp"
 
@@ -59,5 +64,22 @@ class Surface {
   /// The same of an arm.
   virtual void moving_arm(const MovingArm&, double /*line_width*/) {}
 };
+
+// Pages as files of pixels or of PDF, whatever draws on them: pictures of worlds and plots.
+
+/// Draws all there is on a surface, and says what was drawn otherwise than usual, a line each.
+using DrawOn = std::function<std::vector<std::string>(Surface&)>;
+
+/// What a document says of itself.
+struct DocumentWords {
+  std::string title;
+  std::string subject;
+};
+
+/// Both return what `draw` returns; they throw Stopped, and what `draw` and `write` throw.
+std::vector<std::string> draw_png(const Page& page, const DrawOn& draw, const Execution& execution, const Write& write);
+/// Throws UsageError where can_write_pdf() is false, and for pages too large.
+std::vector<std::string> draw_pdf(const Page& page, const DocumentWords& words, const DrawOn& draw,
+                                  const Execution& execution, const Write& write);
 
 }  // namespace warren

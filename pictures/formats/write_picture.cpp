@@ -26,10 +26,10 @@ std::vector<std::string> write_picture(const std::string& file, const Picture& p
                                        const Execution& execution) {
   options.validate();
   const std::string ending = ending_of(file);
-  const auto writer = ending == ".png"    ? write_png
-                      : ending == ".pdf"  ? write_pdf
-                      : ending == ".html" ? write_html
-                                          : write_svg;
+  decltype(write_svg)* writer = write_svg;
+  if (ending == ".png") writer = write_png;
+  if (ending == ".pdf") writer = write_pdf;
+  if (ending == ".html") writer = write_html;
   OutputFile output(file, execution);
   std::vector<std::string> notes =
       writer(picture, options, execution, [&](std::string_view bytes) { output.write(bytes); });

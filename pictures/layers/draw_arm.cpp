@@ -2,6 +2,7 @@
 // The three views stand as in a technical drawing: from above over the one from the front, the one from the side to
 // the right of it, the perspective above that. In the projections a sphere is a circle, a box a rectangle, a capsule a
 // stadium.
+
 #include "pictures/layers/draw_arm.hpp"
 
 #include <fmt/format.h>
@@ -9,14 +10,51 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "core/base/types.hpp"
-#include "pictures/layers/arm_path.hpp"
-#include "pictures/model/ticks.hpp"
+#include "parallel/execution.hpp"
+#include "pictures/model/axis.hpp"
+#include "scenes/scene/dh_table.hpp"
+#include "worlds/arms/arm_world.hpp"
+#include "worlds/arms/serial_chain.hpp"
 
 namespace warren {
+// An arm along a path in joint space: what its pictures ask.
+
+/// Refers to the path, which has at least one state.
+class ArmPath {
+ public:
+  ArmPath(const DhTable& table, std::span<const JointState> states);
+
+  std::span<const JointState> states() const { return states_; }
+  /// In joint space.
+  double length() const { return shares_.back(); }
+  /// The ends of the links, from the base.
+  std::vector<Vec3> spine(const JointState& q) const;
+  Vec3 tool(const JointState& q) const;
+
+  /// Where it is when that share of the length is behind, 0 .. 1.
+  JointState at(double moment) const;
+
+  struct Place {
+    double moment;  ///< the share of the length that is behind, 0 .. 1
+    JointState q;
+  };
+  /// All states, and more between them so that there are about `count` evenly along the path. Throws Stopped.
+  std::vector<Place> places(double count, const Execution& execution) const;
+
+ private:
+  SerialChain chain_;
+  std::vector<ArmLink> links_;
+  std::span<const JointState> states_;
+  std::vector<double> shares_;  // of each state: the length up to it
+};
+
 namespace {
 
 // An arm and its obstacles as solids, seen in perspective.
@@ -385,6 +423,67 @@ ArmViews arm_views(const Scene& scene, const DhTable& table, double radius, std:
                    const Execution& execution) {
   const ArmPath along(table, path);
   return ArmDrawing(scene, radius, along, execution).draw(along);
+}
+
+namespace {
+
+double joint_distance(const JointState& a, const JointState& b) {
+  double square = 0.0;
+  for (std::size_t j = 0; j < most_joints; ++j) square += (b[j] - a[j]) * (b[j] - a[j]);
+  return std::sqrt(square);
+}
+
+JointState between(const JointState& a, const JointState& b, double t) {
+  JointState q;
+  for (std::size_t j = 0; j < most_joints; ++j) q[j] = a[j] + t * (b[j] - a[j]);
+  return q;
+}
+
+}  // namespace
+
+ArmPath::ArmPath(const DhTable& table, std::span<const JointState> states)
+    : chain_(table), links_(links_of(chain_)), states_(states), shares_{0.0} {
+  for (std::size_t i = 1; i < states.size(); ++i) {
+    shares_.push_back(shares_.back() + joint_distance(states[i - 1], states[i]));
+  }
+}
+
+std::vector<Vec3> ArmPath::spine(const JointState& q) const {
+  ChainPosture at;
+  chain_.place(q, at);
+  std::vector<Vec3> ends{at.points[links_.front().from]};
+  for (const ArmLink& link : links_) ends.push_back(at.points[link.to]);
+  return ends;
+}
+
+Vec3 ArmPath::tool(const JointState& q) const {
+  ChainPosture at;
+  chain_.place(q, at);
+  return at.points[chain_.point_count() - 1];
+}
+
+JointState ArmPath::at(double moment) const {
+  const double way = moment * length();
+  std::size_t i = 1;
+  while (i + 1 < states_.size() && shares_[i] < way) ++i;
+  if (i >= states_.size() || !(shares_[i] > shares_[i - 1])) return states_.front();
+  return between(states_[i - 1], states_[i],
+                 std::clamp((way - shares_[i - 1]) / (shares_[i] - shares_[i - 1]), 0.0, 1.0));
+}
+
+std::vector<ArmPath::Place> ArmPath::places(double count, const Execution& execution) const {
+  std::vector<Place> all{{0.0, states_.front()}};
+  if (!(length() > 0.0)) return all;
+  for (std::size_t i = 1; i < states_.size(); ++i) {
+    execution.check();
+    const double leg = shares_[i] - shares_[i - 1];
+    const double parts = std::max(1.0, std::ceil(count * leg / length()));
+    for (double part = 1.0; part <= parts; part += 1.0) {
+      const double t = part / parts;
+      all.push_back({(shares_[i - 1] + t * leg) / length(), between(states_[i - 1], states_[i], t)});
+    }
+  }
+  return all;
 }
 
 }  // namespace warren

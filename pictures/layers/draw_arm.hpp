@@ -8,9 +8,7 @@
 #include <vector>
 
 #include "parallel/execution.hpp"
-#include "pictures/model/moving_arm.hpp"
 #include "pictures/model/picture.hpp"
-#include "pictures/model/solids.hpp"
 #include "scenes/scene/dh_table.hpp"
 #include "scenes/scene/scene.hpp"
 

@@ -3,7 +3,9 @@
 // looks on a page is page.hpp's, how it becomes a file formats/'.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,17 +14,81 @@
 
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
+#include "core/plane/se2.hpp"
 #include "parallel/execution.hpp"
 #include "pictures/model/colors.hpp"
-#include "pictures/model/marks.hpp"
-#include "pictures/model/moving_arm.hpp"
-#include "pictures/model/moving_body.hpp"
 #include "pictures/model/picture_options.hpp"
-#include "pictures/model/solids.hpp"
-#include "planners/roadmap/planned_roadmap.hpp"
+#include "planners/graph/roadmap_arrays.hpp"
+#include "scenes/scene/dh_table.hpp"
+#include "scenes/scene/occupancy_map.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace warren {
+// The shapes of marks: start is a disc, goal a star with five points; a front is a triangle.
+
+enum class MarkShape : std::uint8_t { disc, star, front };
+
+/// The outline around the origin; y up; the star stands on two points, the front points to the right. All look equally
+/// large.
+std::vector<Vec2> mark_outline(MarkShape shape, double radius);
+
+// An arm that moves: where the ends of its links are at moments of its path.
+
+/// From space into a picture's world: which axes run right and up, and where the space's zero stands.
+struct Projection {
+  std::array<int, 2> axes;
+  Vec2 shift;
+  Vec2 at(const Vec3& p) const { return shift + Vec2{p[axes[0]], p[axes[1]]}; }
+};
+
+struct MovingArm {
+  double radius = 0.0;                 ///< of the links
+  std::vector<Projection> views = {};  ///< that show it
+  std::vector<double> moments = {};    ///< 0 .. 1, by the way in joint space; as many as spines, none or at least one
+  std::vector<Vec3> tools = {};        ///< the tool's way; a line
+  std::vector<std::vector<Vec3>> spines = {};  ///< the ends of its links, from the base; all of one size
+};
+
+// A body that moves along a picture's path.
+
+struct MovingBody {
+  std::vector<Vec2> outline = {};    ///< around the reference point; empty: a disc
+  double radius = 0.0;               ///< of the disc
+  bool heads = false;                ///< a disc that has a heading: it is marked
+  std::vector<Se2> poses = {};       ///< along the path, at least one; a leg turns the shorter way
+  std::vector<double> lengths = {};  ///< of the leg that ends at each pose; the first is 0
+};
+
+// Solids of space seen in perspective, as one part of a picture: plain data; formats/solid_raster.cpp draws them.
+
+/// A ball that went from a to b (a == b: a ball), or the box between these corners.
+struct Solid {
+  Vec3 a;
+  Vec3 b;
+  double radius = 0.0;  ///< of the ball; < 0: a box
+  Rgb color = {};
+  Part part = Part::world;
+};
+
+/// A floor with squares below the solids, and shadows on it, makes depth readable; what is far is paler.
+struct SolidView {
+  Box box = {};              ///< in the picture's world: where it stands
+  Vec3 target;               ///< the middle of what is seen
+  double reach = 1.0;        ///< of a ball around the target that just fits into the box, > 0
+  double azimuth_rad = 0.0;  ///< where the eye stands, as seen from the target: from x to y
+  double rise_rad = 0.0;     ///< and above the floor
+  Vec3 floor;                ///< the corner of the floor with the least x and y
+  double floor_side = 1.0;   ///< > 0
+  double square = 1.0;       ///< side of the floor's squares
+  std::vector<Solid> solids = {};
+  bool is_thinned = false;  ///< lines of a roadmap are thinner and paler, being so many
+};
+
+/// Of links and paths that are to be seen, in reaches.
+inline constexpr double least_radius = 0.006;
+
+/// The eye is so many reaches away from the target.
+inline constexpr double eye_distance = 3.2;
 
 /// Lines or areas of one kind: cells, a visibility graph, a medial axis, bodies along a path.
 struct PictureLayer {
@@ -96,5 +162,16 @@ Canvas canvas_of(const Picture& picture, const Execution& execution);
 /// For each vertex the index of its colour in colors::components: the largest components have colours of their own.
 /// Throws Stopped.
 std::vector<std::uint8_t> component_colors(const Graph& graph, const Execution& execution);
+
+// The part of a map that a picture shows: a map server's image often reaches far beyond what its robot has seen.
+
+/// The box, in the world, of all cells that are not unknown, with a fortieth of its longer side around them, two cells
+/// at least. Nothing where it would leave out less than a tenth of the map's width and of its height, or where all is
+/// unknown. O(cells / 64). Throws Stopped.
+std::optional<Box> known_part(const OccupancyMap& map, const Execution& execution);
+
+/// What lies in the box of an outline that is convex (Sutherland and Hodgman, 1974), in the same order; fewer than
+/// three points where nothing does.
+std::vector<Vec2> part_in_box(std::span<const Vec2> outline, const Box& box);
 
 }  // namespace warren

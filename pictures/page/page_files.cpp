@@ -5,8 +5,7 @@
 
 #include <algorithm>
 
-#include "pictures/formats/base64.hpp"
-#include "pictures/model/xml_text.hpp"
+#include "pictures/formats/markup.hpp"
 
 namespace warren {
 namespace {

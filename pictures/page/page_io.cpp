@@ -1,23 +1,108 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A picture as a page of its own: what it shows as arrays of numbers in base64, and a script that draws them. Written
 // in pieces: memory stays small whatever the world.
-#include <fmt/format.h>
 
-#include <array>
-#include <cmath>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "pictures/formats/svg_animation.hpp"
+#include <array>
+#include <bit>
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "core/base/types.hpp"
+#include "parallel/execution.hpp"
+#include "pictures/formats/markup.hpp"
+#include "pictures/formats/raster.hpp"
+#include "pictures/formats/solid_raster.hpp"
+#include "pictures/formats/svg_surface.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/model/picture.hpp"
-#include "pictures/model/xml_text.hpp"
-#include "pictures/page/number_array.hpp"
-#include "pictures/page/page_arm_io.hpp"
 #include "pictures/page/page_files.hpp"
-#include "pictures/page/page_layers_io.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
 #include "scenes/scene/unit_of.hpp"
 
 namespace warren {
+// Numbers as pages hold them: {"type": "f32", "data": base64}, little-endian, written in pieces.
+
+static_assert(std::endian::native == std::endian::little, "the arrays of pages are little-endian");
+
+template <class T>
+constexpr std::string_view array_type() {
+  if constexpr (std::is_same_v<T, float>) return "f32";
+  if constexpr (std::is_same_v<T, double>) return "f64";
+  if constexpr (std::is_same_v<T, std::uint8_t>) return "u8";
+  if constexpr (std::is_same_v<T, std::uint16_t>) return "u16";
+  if constexpr (std::is_same_v<T, std::int32_t>) return "i32";
+  return "u32";
+}
+
+/// A member of a JSON object that has one before it: begun by the constructor, ended by end(). add() throws Stopped.
+template <class T>
+class NumberArray {
+ public:
+  NumberArray(std::string_view name, const Execution& execution, const Write& write)
+      : execution_(execution), write_(write), base64_(write) {
+    write_(fmt::format(",\"{}\":{{\"type\":\"{}\",\"data\":\"", name, array_type<T>()));
+  }
+  template <class Number>
+  void add(Number number) {
+    constexpr std::size_t piece = 1U << 16U;
+    const auto value = static_cast<T>(number);
+    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+    if (bytes_.size() >= piece) flush();
+  }
+  void add(Vec2 p) {
+    add(p.x);
+    add(p.y);
+  }
+  void end() {
+    flush();
+    base64_.end();
+    write_("\"}");
+  }
+
+ private:
+  void flush() {
+    execution_.check();
+    base64_.write(bytes_);
+    bytes_.clear();
+  }
+
+  const Execution& execution_;
+  const Write& write_;
+  Base64 base64_;
+  std::string bytes_;
+};
+
+// An arm and its solids as the member "arm" of a page's JSON.
+
+/// Does the page's script draw an arm in perspective, where it is on its way? Else its perspective is an image.
+inline bool moves_arm(const Picture& picture, Parts parts) {
+  return picture.solids != nullptr && picture.arm != nullptr && !picture.arm->spines.empty() && parts.has(Part::body);
+}
+
+/// Of a picture that moves an arm. Places of space are relative to the view's target, of the picture's world
+/// to `origin`. Throws Stopped, and what `write` throws.
+void write_page_arm(const Picture& picture, Parts parts, Vec2 origin, const Execution& execution, const Write& write);
+
+// What a page shows of a picture's world and layers, as the member "layers" of its JSON. Of walls by the million, which
+// no browser would draw at once, there is an image.
+
+/// "#1e293b"
+std::string css_color(Rgb color);
+
+/// JSON as it may stand in a <script>.
+std::string in_script(std::string_view json);
+
+/// `canvas`: the picture's. Numbers are relative to `origin`. Returns what is drawn otherwise than usual, as
+/// write_html() does. Throws Stopped, and what `write` throws.
+std::vector<std::string> write_page_layers(const Picture& picture, Parts parts, const Canvas& canvas, Vec2 origin,
+                                           const Execution& execution, const Write& write);
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -202,6 +287,312 @@ void PageWriter::poses(const MovingBody& body) {
 std::vector<std::string> write_html(const Picture& picture, const PictureOptions& options, const Execution& execution,
                                     const Write& write) {
   return PageWriter(picture, options.parts, execution, write).document(options.title.value_or(picture.title));
+}
+
+namespace {
+
+constexpr std::size_t most_drawn_walls = 4'000'000;
+
+class PageLayers {
+ public:
+  PageLayers(const Picture& picture, Parts parts, const Canvas& canvas, Vec2 origin, const Execution& execution,
+             const Write& write)
+      : picture_(picture), parts_(parts), canvas_(canvas), origin_(origin), execution_(execution), write_(write) {}
+
+  void all();
+
+ private:
+  void polygons();
+  void layer(const PictureLayer& layer);
+  void walls();
+  template <class T>
+  void wall_ends();
+  void wall_image();
+  void perspective(const SolidView& view);
+  template <class WritePng>
+  void image_in(const Box& box, const WritePng& write_png);
+
+  void begin_layer(const Json& about) {
+    std::string text = in_script(about.dump(-1, ' ', true, Json::error_handler_t::replace));
+    text.pop_back();
+    write_((is_first_ ? "" : ",") + text);
+    is_first_ = false;
+  }
+  template <class T>
+  NumberArray<T> numbers(std::string_view name) const {
+    return {name, execution_, write_};
+  }
+  Vec2 moved(Vec2 p) const { return p - origin_; }
+  bool has_small_whole_walls() const;
+
+  const Picture& picture_;
+  Parts parts_;
+  const Canvas& canvas_;
+  Vec2 origin_;
+  const Execution& execution_;
+  const Write& write_;
+  bool is_first_ = true;
+};
+
+void PageLayers::all() {
+  write_(",\"layers\":[");
+  for (const PictureLayer& one : picture_.layers) {
+    if (one.part == Part::world && parts_.has(one.part) && !one.lines.empty()) layer(one);
+  }
+  if (parts_.has(Part::world) && !picture_.scene.polygons.empty()) polygons();
+  for (const PictureLayer& one : picture_.layers) {
+    if (one.part != Part::world && parts_.has(one.part) && !one.lines.empty()) layer(one);
+  }
+  if (parts_.has(Part::world)) walls();
+  if (picture_.solids != nullptr && !moves_arm(picture_, parts_)) perspective(*picture_.solids);
+  write_("]");
+}
+
+void PageLayers::polygons() {
+  const std::vector<ScenePolygon>& all = picture_.scene.polygons;
+  begin_layer({{"id", "polygons"},
+               {"label", "obstacles"},
+               {"kind", "areas"},
+               {"obstacle", true},
+               {"color", css_color(colors::polygon)},
+               {"outline", css_color(colors::outline)},
+               {"width", widths::outline}});
+  auto first = numbers<std::uint32_t>("first");
+  std::size_t corners = 0;
+  first.add(corners);
+  for (const ScenePolygon& polygon : all) first.add(corners += anticlockwise(polygon.corners).size());
+  first.end();
+  auto xy = numbers<float>("xy");
+  for (const ScenePolygon& polygon : all) {
+    for (const Vec2 p : anticlockwise(polygon.corners)) xy.add(moved(p));
+  }
+  xy.end();
+  write_("}");
+}
+
+void PageLayers::layer(const PictureLayer& layer) {
+  Json about{{"id", layer.id},
+             {"label", layer.label.empty() ? layer.id : layer.label},
+             {"kind", layer.fill ? "areas" : "chains"},
+             {"obstacle", layer.part == Part::world && layer.fill && layer.blocks},
+             {"color", css_color(layer.fill.value_or(layer.color))},
+             {"width", layer.width},
+             {"closed", layer.closed},
+             {"opacity", layer.opacity}};
+  if (layer.fill && layer.width > 0.0) about["outline"] = css_color(layer.color);
+  if (!layer.opacities.empty()) about["opacities"] = layer.opacities;
+  begin_layer(about);
+  std::vector<std::uint32_t> first{0};
+  auto xy = numbers<float>("xy");
+  for (std::size_t i = 0; i < layer.lines.size(); ++i) {
+    const std::vector<Vec2> chain = without_arcs(layer.lines[i], layer.turns_of(i));
+    for (const Vec2 p : chain) xy.add(moved(p));
+    first.push_back(first.back() + static_cast<std::uint32_t>(chain.size()));
+  }
+  xy.end();
+  auto starts = numbers<std::uint32_t>("first");
+  for (const std::uint32_t corner : first) starts.add(corner);
+  starts.end();
+  write_("}");
+}
+
+void PageLayers::walls() {
+  const std::size_t count = picture_.scene.walls.size();
+  if (count == 0 && !picture_.scene.bounds) return;
+  Json about{{"id", "walls"},
+             {"label", picture_.scene.map         ? "borders of blocked cells"
+                       : count == 0               ? "bounds"
+                       : count > most_drawn_walls ? "walls, as pixels"
+                                                  : "walls"},
+             {"obstacle", picture_.panels.empty()},
+             {"color", css_color(colors::wall)},
+             {"width", widths::wall}};
+  if (count > most_drawn_walls) {
+    about["count"] = count;
+    begin_layer(about);
+    return wall_image();
+  }
+  about["kind"] = "segments";
+  begin_layer(about);
+  if (has_small_whole_walls()) {
+    wall_ends<std::uint16_t>();
+  } else {
+    wall_ends<float>();
+  }
+  write_("}");
+}
+
+bool PageLayers::has_small_whole_walls() const {
+  constexpr double most = 65535.0;
+  const auto fits = [](double x) { return x >= 0.0 && x <= most && x == std::floor(x); };
+  const auto all_fit = [&](Vec2 p) { return fits(moved(p).x) && fits(moved(p).y); };
+  if (picture_.scene.bounds && !(all_fit(picture_.scene.bounds->min) && all_fit(picture_.scene.bounds->max)))
+    return false;
+  return picture_.scene.walls.visit([&](auto all) {
+    for (const auto& wall : all) {
+      if (!all_fit(wall.segment().a) || !all_fit(wall.segment().b)) return false;
+    }
+    return true;
+  });
+}
+
+template <class T>
+void PageLayers::wall_ends() {
+  auto xy = numbers<T>("xy");
+  const auto add = [&](Vec2 a, Vec2 b) {
+    xy.add(moved(a));
+    xy.add(moved(b));
+  };
+  picture_.scene.walls.visit([&](auto all) {
+    for (const auto& wall : all) add(wall.segment().a, wall.segment().b);
+  });
+  if (picture_.scene.bounds) {
+    const auto [low, high] = *picture_.scene.bounds;
+    add(low, {high.x, low.y});
+    add({high.x, low.y}, high);
+    add(high, {low.x, high.y});
+    add({low.x, high.y}, low);
+  }
+  xy.end();
+}
+
+void PageLayers::wall_image() {
+  constexpr double most_pixels = 4096.0;
+  constexpr double least_width = 0.2;
+  constexpr std::size_t walls_a_poll = 1 << 14;
+  const Box& box = canvas_.box;
+  const double scale = most_pixels / std::max(box.width(), box.height());
+  Mask mask(static_cast<std::size_t>(std::ceil(scale * box.width())),
+            static_cast<std::size_t>(std::ceil(scale * box.height())), execution_);
+  const auto at = [&](Vec2 p) { return Vec2{scale * (p.x - box.min.x), scale * (box.max.y - p.y)}; };
+  const double width = std::max(widths::wall / 20.0 * scale * canvas_.unit, least_width);
+  picture_.scene.walls.visit([&](auto all) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (i % walls_a_poll == 0) execution_.check();
+      mask.draw_line(at(all[i].segment().a), at(all[i].segment().b), width);
+    }
+  });
+  const Vec2 top_left = moved({box.min.x, box.max.y});
+  const double width_seen = static_cast<double>(mask.width()) / scale;
+  const double height_seen = static_cast<double>(mask.height()) / scale;
+  image_in({{top_left.x, top_left.y - height_seen}, {top_left.x + width_seen, top_left.y}},
+           [&](const Write& write) { write_png_file(mask, colors::wall, execution_, write); });
+}
+
+/// Of an arm that doesn't move there; the page's script draws the others.
+void PageLayers::perspective(const SolidView& view) {
+  constexpr std::size_t pixels = 1024;
+  begin_layer({{"id", "perspective"}, {"label", "perspective"}, {"isOpaque", true}});
+  const double scale = static_cast<double>(pixels) / std::max(view.box.width(), view.box.height());
+  const Image image = draw_solids(view, parts_, static_cast<std::size_t>(std::ceil(scale * view.box.width())),
+                                  static_cast<std::size_t>(std::ceil(scale * view.box.height())), execution_);
+  constexpr double dots_an_inch = 96.0;
+  image_in({moved(view.box.min), moved(view.box.max)},
+           [&](const Write& write) { write_png_file(image, dots_an_inch, execution_, write); });
+}
+
+/// The rest of a layer that has begun: an image, the page's numbers for its place.
+template <class WritePng>
+void PageLayers::image_in(const Box& box, const WritePng& write_png) {
+  write_(fmt::format(",\"kind\":\"image\",\"box\":[{},{},{},{}],\"href\":\"data:image/png;base64,", box.min.x,
+                     box.min.y, box.max.x, box.max.y));
+  Base64 out(write_);
+  write_png([&](std::string_view bytes) { out.write(bytes); });
+  out.end();
+  write_("\"}");
+}
+
+}  // namespace
+
+std::string css_color(Rgb c) { return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue); }
+
+std::string in_script(std::string_view json) {
+  std::string safe;
+  for (const char c : json) {
+    if (c == '<') {
+      safe += "\\u003c";
+    } else {
+      safe += c;
+    }
+  }
+  return safe;
+}
+
+std::vector<std::string> write_page_layers(const Picture& picture, Parts parts, const Canvas& canvas, Vec2 origin,
+                                           const Execution& execution, const Write& write) {
+  PageLayers(picture, parts, canvas, origin, execution, write).all();
+  if (!parts.has(Part::world) || picture.scene.walls.size() <= most_drawn_walls) return {};
+  return {"as pixels, being so many: walls"};
+}
+
+namespace {
+
+Json facts_of(const SolidView& solids, const MovingArm& arm, Vec2 origin) {
+  const Vec2 low = solids.box.min - origin;
+  const Vec2 high = solids.box.max - origin;
+  const Vec3 floor = solids.floor - solids.target;
+  Json about{{"box", {low.x, low.y, high.x, high.y}},
+             {"reach", solids.reach},
+             {"azimuth", solids.azimuth_rad},
+             {"rise", solids.rise_rad},
+             {"floor", {floor.x(), floor.y(), floor.z()}},
+             {"floorSide", solids.floor_side},
+             {"square", solids.square},
+             {"radius", arm.radius},
+             {"least", least_radius * solids.reach},
+             {"ends", arm.spines.front().size()},
+             {"colors",
+              {{"solid", css_color(colors::blocked_cell)},
+               {"start", css_color(colors::start)},
+               {"goal", css_color(colors::goal)},
+               {"moving", css_color(colors::path)}}},
+             {"views", Json::array()}};
+  for (const Projection& view : arm.views) {
+    const Vec2 zero = view.at(solids.target) - origin;
+    about["views"].push_back({view.axes[0], view.axes[1], zero.x, zero.y});
+  }
+  return about;
+}
+
+}  // namespace
+
+void write_page_arm(const Picture& picture, Parts parts, Vec2 origin, const Execution& execution, const Write& write) {
+  const SolidView& solids = *picture.solids;
+  const MovingArm& arm = *picture.arm;
+  std::string text = facts_of(solids, arm, origin).dump();
+  text.pop_back();
+  write(",\"arm\":" + text);
+  const auto place = [&](NumberArray<float>& to, const Vec3& p) {
+    for (int k = 0; k < 3; ++k) to.add(p[k] - solids.target[k]);
+  };
+  NumberArray<float> spheres("spheres", execution, write);
+  for (const Solid& s : solids.solids) {
+    if (s.part != Part::world || s.radius < 0.0 || !parts.has(s.part)) continue;
+    place(spheres, s.a);
+    spheres.add(s.radius);
+  }
+  spheres.end();
+  NumberArray<float> boxes("boxes", execution, write);
+  for (const Solid& s : solids.solids) {
+    if (s.radius >= 0.0 || !parts.has(s.part)) continue;
+    place(boxes, s.a);
+    place(boxes, s.b);
+  }
+  boxes.end();
+  NumberArray<float> tools("tools", execution, write);
+  if (parts.has(Part::path)) {
+    for (const Vec3& p : arm.tools) place(tools, p);
+  }
+  tools.end();
+  NumberArray<float> spines("spines", execution, write);
+  for (const std::vector<Vec3>& spine : arm.spines) {
+    for (const Vec3& end : spine) place(spines, end);
+  }
+  spines.end();
+  NumberArray<double> moments("moments", execution, write);
+  for (const double moment : arm.moments) moments.add(moment);
+  moments.end();
+  write("}");
 }
 
 }  // namespace warren

@@ -7,7 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
-#include "planners/cells/cell_decomposition.hpp"
+#include "planners/vertical_cells/cell_decomposition.hpp"
 
 namespace warren {
 namespace {

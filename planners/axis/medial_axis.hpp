@@ -3,10 +3,10 @@
 // Voronoi diagram of walls, polygons' sides and the frame (the bounds' sides; without bounds, those of the obstacles'
 // box), pruned to what lies inside the frame and outside all polygons.
 //
-// The diagram is exact for ends snapped to a grid of 2^-29 of half the world (planners/pieces/snapped_segments.hpp);
+// The diagram is exact for ends snapped to a grid of 2^-29 of half the world (planners/visibility/noding.hpp);
 // clearances are computed anew at each curve's narrowest point, as distances to the obstacles that were given. Gaps
 // narrower than `resolution` (a few units of the grid) count as closed. Where a vertex lies is decided by the sweep of
-// planners/cells/cell_decomposition.hpp, so polygons must not overlap.
+// planners/vertical_cells/cell_decomposition.hpp, so polygons must not overlap.
 // Time O(n log n), 20 microseconds a segment (bench/cells_bench.cpp).
 #pragma once
 
@@ -17,9 +17,8 @@
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
 #include "parallel/execution.hpp"
-#include "planners/axis/axis_curve.hpp"
 #include "planners/axis/voronoi_diagram.hpp"
-#include "planners/pieces/snapped_segments.hpp"
+#include "planners/visibility/noding.hpp"
 
 namespace warren {
 

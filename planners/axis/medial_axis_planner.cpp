@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,13 +20,151 @@
 #include "parallel/assemble_graph.hpp"
 #include "parallel/components.hpp"
 #include "parallel/polled_sort.hpp"
-#include "planners/axis/retraction.hpp"
-#include "planners/roadmap/queue_choice.hpp"
-#include "planners/roadmap/separation.hpp"
-#include "planners/roadmap/stopped_solution.hpp"
-#include "planners/shorten/certain_clearance.hpp"
+#include "planners/axis/medial_axis.hpp"
+#include "planners/graph/no_path.hpp"
+#include "planners/graph/queue_choice.hpp"
 
 namespace warren {
+// How a point gets onto a medial axis: straight away from its nearest obstacle until another one is as near (the
+// retraction). On the way the distance to the nearest obstacle grows, so the leg has the clearance of its first point.
+// O(axis), for a few points a plan.
+
+/// A place on the axis.
+struct AxisPlace {
+  std::uint32_t edge;  ///< its number
+  double parameter;    ///< on the edge's curve
+  Vec2 at;
+};
+
+/// Distance of the closed segment to the nearest true obstacle; infinite where there is none.
+double clearance_of_leg(const MedialAxis& axis, const Segment& leg);
+
+/// Where p, free and inside the frame, retracts to; none where rounding hides it, or where p touches an obstacle.
+std::optional<AxisPlace> retract(const MedialAxis& axis, Vec2 p);
+
+namespace {
+
+constexpr double margin = 1.0 + 1e-12;
+
+/// Is high - low >= r? Exact: the rounding error of the difference decides where it rounds to r.
+bool is_apart(double low, double high, double r) noexcept {
+  const double difference = high - low;
+  if (difference != r) return difference > r;
+  const double taken = high - difference;
+  const double error = (high - (difference + taken)) + (taken - low);
+  return error >= 0.0;
+}
+
+bool boxes_are_apart(const Box& a, const Box& b, double r) noexcept {
+  return is_apart(a.max.x, b.min.x, r) || is_apart(b.max.x, a.min.x, r) || is_apart(a.max.y, b.min.y, r) ||
+         is_apart(b.max.y, a.min.y, r);
+}
+
+}  // namespace
+
+bool certainly_keeps_clearance(const WallIndex& walls, const Segment& leg, double r) noexcept {
+  if (r == 0.0) return !walls.blocks(leg.a, leg.b);
+  if (walls.keeps_clearance(leg.a, leg.b, r * margin)) return true;
+  const Box box = box_of(leg);
+  bool keeps = true;
+  walls.for_each_near(box.grown(r * margin), [&](const Segment& wall) {
+    keeps = boxes_are_apart(box, box_of(wall), r) || segments_keep_distance(leg, wall, r * margin);
+    return keeps;
+  });
+  return keeps;
+}
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double tolerance = 1e-6;  // of the frame's size: how well a computed point must fit a curve
+constexpr double noise = 1e-7;      // of that: p lies on the axis
+
+double distance_to(const AxisSite& site, Vec2 p) { return distance(p, Segment{site.a, site.b}); }
+
+/// Away from the nearest site, from p on.
+struct Retraction {
+  std::uint32_t site;
+  Vec2 from, direction;
+  double room;  ///< distance of p to the site
+
+  /// How far the ray goes until the other site is as near; infinite if never.
+  double reach(const AxisSite& other) const {
+    const Vec2 to_p = from - other.a;
+    if (other.is_point()) {
+      const double closing = dot(direction, to_p) - room;
+      return closing < 0.0 ? 0.5 * (room * room - dot(to_p, to_p)) / closing : infinity;
+    }
+    const Vec2 along = (1.0 / distance(other.a, other.b)) * (other.b - other.a);
+    const double height = cross(along, to_p);
+    const double rise = cross(along, direction);
+    const double speed = height < 0.0 || (height == 0.0 && rise < 0.0) ? -rise : rise;
+    return speed < 1.0 ? (std::abs(height) - room) / (1.0 - speed) : infinity;
+  }
+};
+
+std::optional<Retraction> retraction_of(const MedialAxis& axis, Vec2 p) {
+  const std::vector<VoronoiSite>& sites = axis.sites();
+  Retraction best{0, p, {}, infinity};
+  for (std::uint32_t s = 0; s < sites.size(); ++s) {
+    const double d = distance_to(sites[s].shape, p);
+    // An end of a segment is a site of its own, and comes first where both are as near.
+    if (d < best.room || (d == best.room && sites[s].shape.is_point())) {
+      best.room = d;
+      best.site = s;
+    }
+  }
+  const AxisSite& site = sites[best.site].shape;
+  const Vec2 away = p - nearest_point(p, {site.a, site.b});
+  if (!site.is_point()) {
+    const Vec2 along = site.b - site.a;
+    Vec2 normal{-along.y, along.x};
+    const Vec2 inwards = 0.5 * (axis.frame().min + axis.frame().max) - p;  // for points on the frame
+    if (dot(normal, best.room > 0.0 ? away : inwards) < 0.0) normal = -1.0 * normal;
+    best.direction = (1.0 / norm(normal)) * normal;
+  } else if (best.room > 0.0) {
+    best.direction = (1.0 / norm(away)) * away;
+  } else {
+    return std::nullopt;
+  }
+  return best;
+}
+
+}  // namespace
+
+double clearance_of_leg(const MedialAxis& axis, const Segment& leg) {
+  double least = infinity;
+  for (std::size_t i = 0; i < axis.true_obstacle_count(); ++i) {
+    least = std::min(least, distance(leg, axis.obstacles()[i]));
+  }
+  return least;
+}
+
+std::optional<AxisPlace> retract(const MedialAxis& axis, Vec2 p) {
+  const std::optional<Retraction> ray = retraction_of(axis, p);
+  if (!ray) return std::nullopt;
+  const double fit = tolerance * std::max(axis.frame().width(), axis.frame().height());
+  std::optional<AxisPlace> found;
+  double nearest = infinity;
+  for (std::uint32_t i = 0; i < axis.edges().size(); ++i) {
+    const AxisEdge& edge = axis.edges()[i];
+    if (edge.site != ray->site && edge.other != ray->site) continue;
+    const std::uint32_t other = edge.site == ray->site ? edge.other : edge.site;
+    const double reach = std::max(0.0, ray->reach(axis.sites()[other].shape));
+    if (!(reach < nearest)) continue;
+    const AxisCurve curve = axis.curve(edge);
+    const Vec2 hit = p + reach * ray->direction;
+    const double low = std::min(curve.first(), curve.last());
+    const double high = std::max(curve.first(), curve.last());
+    const double parameter = std::clamp(curve.parameter_beside(hit), low, high);
+    if (distance(curve.at(parameter), hit) > fit) continue;
+    nearest = reach;
+    const Vec2 at = curve.at(parameter);
+    found = AxisPlace{i, parameter, distance(at, p) <= noise * fit ? p : at};
+  }
+  return found;
+}
+
 namespace {
 
 // What of a medial axis may be travelled with a clearance, as a graph between two places on it: the edges that are wide
@@ -428,6 +567,69 @@ Solution<Vec2> plan_on_medial_axis(const PlaneObstacles& obstacles, Vec2 start, 
 Solution<Vec2> plan_on_medial_axis(const AxisRoadmap& roadmap, Vec2 start, Vec2 goal, const MedialAxisOptions& options,
                                    const Execution& execution, MedialAxisPlan* keep) {
   return plan_on(roadmap, start, goal, options, execution, keep);
+}
+
+namespace {
+
+constexpr std::size_t edges_per_poll = 256;
+
+/// Collects lines; a vertex of the axis becomes a point where a line first comes by.
+class LinesOfAxis {
+ public:
+  LinesOfAxis(const AxisRoadmap& roadmap, double clearance)
+      : roadmap_(roadmap), clearance_(clearance), point_of_(roadmap.axis.vertices().size(), no_vertex) {}
+
+  void add(const AxisEdge& edge) {
+    const AxisCurve curve = roadmap_.axis.curve(edge);
+    const Vec2 from = roadmap_.axis.vertices()[edge.from];
+    const Vec2 to = roadmap_.axis.vertices()[edge.to];
+    corners_.assign(1, from);
+    curve.between(from, to).append_polyline(corners_);
+    corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
+    for (std::size_t i = 1; i < corners_.size(); ++i) {
+      if (!certainly_keeps_clearance(roadmap_.index, {corners_[i - 1], corners_[i]}, clearance_)) return;
+    }
+    VertexId before = vertex(edge.from);
+    for (std::size_t i = 1; i < corners_.size(); ++i) {
+      const VertexId next = i + 1 == corners_.size() ? vertex(edge.to) : point(corners_[i]);
+      if (before != next) lines_.edges.push_back({std::min(before, next), std::max(before, next)});
+      before = next;
+    }
+  }
+  StraightLines take(const Execution& execution) {
+    polled_sort(lines_.edges.begin(), lines_.edges.end(), execution);
+    lines_.edges.erase(std::unique(lines_.edges.begin(), lines_.edges.end()), lines_.edges.end());
+    return std::move(lines_);
+  }
+
+ private:
+  VertexId point(Vec2 at) {
+    lines_.points.push_back(at);
+    return static_cast<VertexId>(lines_.points.size() - 1);
+  }
+  VertexId vertex(VertexId v) {
+    if (point_of_[v] == no_vertex) point_of_[v] = point(roadmap_.axis.vertices()[v]);
+    return point_of_[v];
+  }
+
+  const AxisRoadmap& roadmap_;
+  double clearance_;
+  std::vector<VertexId> point_of_;
+  std::vector<Vec2> corners_;
+  StraightLines lines_;
+};
+
+}  // namespace
+
+StraightLines axis_lines(const AxisRoadmap& roadmap, double clearance, const Execution& execution) {
+  const double least = std::max(clearance, roadmap.axis.resolution());
+  LinesOfAxis lines(roadmap, clearance);
+  for (std::size_t i = 0; i < roadmap.axis.edges().size(); ++i) {
+    if (i % edges_per_poll == 0) execution.check();
+    const AxisEdge& edge = roadmap.axis.edges()[i];
+    if (edge.clearance >= least) lines.add(edge);
+  }
+  return lines.take(execution);
 }
 
 }  // namespace warren

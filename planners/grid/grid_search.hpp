@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Shortest paths over the cells of an occupancy map, without an explicit graph: the steps of a cell are looked up by
 // the nine bits around it. A* and Dijkstra with exact octile, unit or Manhattan costs, breadth-first search, and jump
-// point search (planners/grid/jump_point_search). Moving AI's rule: a diagonal step needs both cells beside it free, so
+// point search (planners/grid/grid_search). Moving AI's rule: a diagonal step needs both cells beside it free, so
 // a point never touches the closed square of a blocked cell.
 //
 // One bit a cell for the map; 12 bytes a cell for A* and Dijkstra, allocated at the first such search and cleared by

@@ -12,9 +12,10 @@
 
 #include "core/base/bitmap.hpp"
 #include "core/base/solution.hpp"
+#include "core/search/graph.hpp"
 #include "parallel/execution.hpp"
 #include "planners/axis/medial_axis_planner.hpp"
-#include "planners/roadmap/roadmap_options.hpp"
+#include "planners/graph/roadmap_options.hpp"
 #include "spatial/maps/distance_field.hpp"
 
 namespace warren {
@@ -52,5 +53,18 @@ SkeletonPath plan_on_skeleton(const Bitmap& blocked, Cell start, Cell goal, cons
 /// The same plan on a map whose distances are there already. Of the options `radius` is the roadmap's.
 SkeletonPath plan_on_skeleton(const SkeletonRoadmap& roadmap, Cell start, Cell goal, const SkeletonOptions& options,
                               const Execution& execution, std::vector<std::pair<Cell, Cell>>* steps = nullptr);
+
+// The skeleton of a map without a question (planners/grid/map_skeleton.hpp, ends stay), as a graph of straight lines:
+// vertices are the cells where it forks, ends or turns. Steps of lines are those of planners/grid/skeleton_planner, to
+// the side and across corners beside which both cells are free, so that a disc that fits at the middles of cells fits
+// all along. A ring without a fork begins at its first cell. O(cells) beside the thinning.
+
+struct SkeletonLines {
+  std::vector<Cell> cells;  ///< row by row
+  std::vector<Edge> edges;  ///< ascending, each once, from < to; straight, or at half a right angle
+};
+
+/// Throws Stopped.
+SkeletonLines skeleton_lines(const SkeletonRoadmap& roadmap, const Execution& execution);
 
 }  // namespace warren

@@ -25,12 +25,11 @@
 #include "parallel/assemble_graph.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/components.hpp"
+#include "planners/graph/roadmap_options.hpp"
+#include "planners/graph/roadmap_search.hpp"
 #include "planners/roadmap/connection.hpp"
 #include "planners/roadmap/milestones.hpp"
-#include "planners/roadmap/one_way_candidates.hpp"
 #include "planners/roadmap/roadmap_growth.hpp"
-#include "planners/roadmap/roadmap_options.hpp"
-#include "planners/roadmap/roadmap_search.hpp"
 
 namespace warren {
 

@@ -17,7 +17,7 @@
 #include "core/base/types.hpp"
 #include "core/base/world.hpp"
 #include "parallel/chunks.hpp"
-#include "planners/roadmap/roadmap_options.hpp"
+#include "planners/graph/roadmap_options.hpp"
 #include "spatial/points/tile_order.hpp"
 
 namespace warren {

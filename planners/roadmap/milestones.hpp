@@ -16,8 +16,8 @@
 #include "core/base/types.hpp"
 #include "core/base/world.hpp"
 #include "parallel/chunks.hpp"
+#include "planners/graph/roadmap_options.hpp"
 #include "planners/roadmap/lattice_milestones.hpp"
-#include "planners/roadmap/roadmap_options.hpp"
 #include "planners/roadmap/sampler.hpp"
 #include "spatial/points/tile_order.hpp"
 

@@ -4,7 +4,7 @@
 // search decides. Otherwise as prm and lazy_prm: milestones in tile order, rounds of growing size, the same answer for
 // any number of threads.
 //
-// Which edges: from each milestone those to its nearest, and from the nearest to the goal (one_way_candidates.hpp).
+// Which edges: from each milestone those to its nearest, and from the nearest to the goal (connection.hpp).
 // Lazy: an edge is checked when the search would use it. Cost a round: n (4 k distances and k motion checks).
 #pragma once
 
@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include "planners/graph/roadmap_search.hpp"
 #include "planners/roadmap/build_roadmap.hpp"
 #include "planners/roadmap/plan_in_rounds.hpp"
-#include "planners/roadmap/roadmap_search.hpp"
 
 namespace warren {
 

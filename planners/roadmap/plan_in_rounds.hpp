@@ -14,13 +14,12 @@
 #include "core/search/search.hpp"
 #include "parallel/execution.hpp"
 #include "parallel/first_touch.hpp"
+#include "planners/graph/no_path.hpp"
+#include "planners/graph/roadmap_arrays.hpp"
+#include "planners/graph/roadmap_options.hpp"
 #include "planners/roadmap/connection.hpp"
 #include "planners/roadmap/milestones.hpp"
-#include "planners/roadmap/planned_roadmap.hpp"
 #include "planners/roadmap/roadmap_growth.hpp"
-#include "planners/roadmap/roadmap_options.hpp"
-#include "planners/roadmap/separation.hpp"
-#include "planners/roadmap/stopped_solution.hpp"
 
 namespace warren::detail {
 

@@ -14,8 +14,8 @@
 
 #include "parallel/assemble_graph.hpp"
 #include "parallel/components.hpp"
+#include "planners/graph/roadmap_search.hpp"
 #include "planners/roadmap/plan_in_rounds.hpp"
-#include "planners/roadmap/roadmap_search.hpp"
 
 namespace warren {
 

@@ -10,7 +10,7 @@
 
 #include "core/base/world.hpp"
 #include "parallel/execution.hpp"
-#include "planners/roadmap/roadmap_options.hpp"
+#include "planners/graph/roadmap_options.hpp"
 
 namespace warren {
 

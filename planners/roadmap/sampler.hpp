@@ -19,7 +19,7 @@
 #include "core/base/rng.hpp"
 #include "core/base/trigonometry.hpp"
 #include "core/base/world.hpp"
-#include "planners/roadmap/roadmap_options.hpp"
+#include "planners/graph/roadmap_options.hpp"
 
 namespace warren {
 

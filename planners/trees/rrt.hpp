@@ -9,8 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "planners/roadmap/separation.hpp"
-#include "planners/trees/independent_trees.hpp"
+#include "planners/graph/no_path.hpp"
 #include "planners/trees/motion_tree.hpp"
 
 namespace warren {

@@ -17,8 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "planners/roadmap/separation.hpp"
-#include "planners/trees/independent_trees.hpp"
+#include "planners/graph/no_path.hpp"
 #include "planners/trees/motion_tree.hpp"
 #include "planners/trees/way_over_places.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "planners/roadmap/roadmap_options.hpp"
+#include "planners/graph/roadmap_options.hpp"
 
 namespace warren {
 

@@ -2,6 +2,7 @@
 #include "planners/visibility/visibility_path.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -10,13 +11,70 @@
 #include "parallel/assemble_graph.hpp"
 #include "parallel/components.hpp"
 #include "parallel/polled_sort.hpp"
-#include "planners/pieces/box_as_bounds.hpp"
-#include "planners/roadmap/queue_choice.hpp"
-#include "planners/roadmap/roadmap_search.hpp"
-#include "planners/roadmap/separation.hpp"
-#include "planners/visibility/lazy_visibility.hpp"
+#include "planners/graph/no_path.hpp"
+#include "planners/graph/queue_choice.hpp"
+#include "planners/graph/roadmap_search.hpp"
 
 namespace warren {
+
+Box box_around(const PlaneObstacles& obstacles) {
+  if (obstacles.bounds) return *obstacles.bounds;
+  Box box;
+  for (const Vec2 p : obstacles.polygons.corners) box.include(p);
+  for (const Segment& wall : obstacles.walls) box.include(box_of(wall));
+  return box;
+}
+
+PlaneObstacles confined(PlaneObstacles obstacles) {
+  if (obstacles.bounds) return obstacles;
+  const Box box = box_around(obstacles);
+  const Box outer = box.grown(std::max(box.width(), box.height()));
+  for (const Segment& wall : obstacles.walls) {
+    const BoxSide side = side_under(wall, box);
+    if (side == BoxSide::none) continue;
+    Box behind = box_of(wall);
+    if (side == BoxSide::left) behind.min.x = outer.min.x;
+    if (side == BoxSide::right) behind.max.x = outer.max.x;
+    if (side == BoxSide::bottom) behind.min.y = outer.min.y;
+    if (side == BoxSide::top) behind.max.y = outer.max.y;
+    obstacles.polygons.add(
+        std::array{behind.min, Vec2{behind.max.x, behind.min.y}, behind.max, Vec2{behind.min.x, behind.max.y}});
+    obstacles.bounds = outer;
+  }
+  return obstacles;
+}
+
+SearchResult lazy_visibility_search(const VisibleCorners& corners, Vec2 start, Vec2 goal, const Execution& execution,
+                                    Counters& counters, std::vector<Edge>* found) {
+  constexpr std::uint64_t looks_per_poll = 64;
+  const auto n = static_cast<VertexId>(corners.size());
+  CornerSight sight(corners, execution);
+  SearchState state;
+  const auto poll = [&] { execution.check(); };
+  state.resize(n + 2, poll);
+  IndexedHeap<4> queue;
+  queue.resize(n + 2, poll);
+  std::vector<VertexId> seen;
+  const auto at = [&](VertexId v) { return v < n ? corners.position(v) : v == n ? start : goal; };
+  const auto neighbours = [&](VertexId v, const auto& visit) {
+    if (++counters.neighbour_queries % looks_per_poll == 0) execution.check();
+    if (v == n) {
+      sight.from_point(start, SightLines::tangent, goal, seen);
+    } else {
+      sight.taut_from_vertex(v, at(state.parent(v)), goal, seen);
+    }
+    counters.edges_checked += seen.size();
+    counters.edges_free += seen.size();
+    for (const VertexId w : seen) {
+      const VertexId to = w == CornerSight::target ? n + 1 : w;
+      visit(to, distance(at(v), at(to)));
+      if (found != nullptr) found->push_back({v, to});
+    }
+  };
+  const auto estimate = [&](VertexId v) { return distance(at(v), goal); };
+  return best_first(n, n + 1, neighbours, estimate, queue, state, NeverStop());
+}
+
 namespace {
 
 /// One plan.

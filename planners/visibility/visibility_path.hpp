@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The planner `visibility`: the shortest path for a point among polygons and walls, contact allowed, by the visibility
-// graph (planners/visibility/visibility_graph) or lazily (planners/visibility/lazy_visibility).
+// graph (planners/visibility/visibility_graph) or lazily (planners/visibility/visibility_path).
 #pragma once
 
+#include <vector>
+
+#include "core/base/counters.hpp"
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
+#include "core/search/graph.hpp"
+#include "core/search/search.hpp"
 #include "parallel/execution.hpp"
-#include "planners/roadmap/planned_roadmap.hpp"
-#include "planners/roadmap/roadmap_options.hpp"
+#include "planners/graph/roadmap_arrays.hpp"
+#include "planners/graph/roadmap_options.hpp"
 #include "planners/visibility/visibility_graph.hpp"
 
 namespace warren {
@@ -29,7 +34,7 @@ struct VisibilityOptions {
 Solution<Vec2> visibility_path(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, const VisibilityOptions& options,
                                const Execution& execution, PlannedRoadmap<Vec2>* keep = nullptr);
 
-/// The same where, without bounds, the obstacles' box confines the point (planners/pieces/box_as_bounds.hpp).
+/// The same where, without bounds, the obstacles' box confines the point (planners/visibility/visibility_path.hpp).
 Solution<Vec2> confined_visibility_path(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal,
                                         const VisibilityOptions& options, const Execution& execution,
                                         PlannedRoadmap<Vec2>* keep = nullptr);
@@ -51,5 +56,28 @@ struct VisibilityRoadmap {
 Solution<Vec2> visibility_path(const VisibilityRoadmap& roadmap, Vec2 start, Vec2 goal,
                                const VisibilityOptions& options, const Execution& execution,
                                PlannedRoadmap<Vec2>* keep = nullptr);
+
+// The shortest path among polygons and walls without building the visibility graph: A* over the reduced graph, whose
+// rows are found when a vertex is settled, and of which only those edges are looked for that a taut way can take: at
+// each vertex the range of directions between straight on and the obstacle round which the way bends. Any optimal way
+// through a vertex is taut at it whichever optimal way led there, so the path is as short as the graph's.
+// One look a vertex settled, each over what can be seen in that range; memory 150 bytes a corner.
+
+/// Start and goal are not blocked, and different; start is vertex corners.size(), goal the next. Looks
+/// (neighbour_queries) and what they found (edges_checked) are added to the counters; `found`, where given, receives
+/// the edges. Throws Stopped.
+SearchResult lazy_visibility_search(const VisibleCorners& corners, Vec2 start, Vec2 goal, const Execution& execution,
+                                    Counters& counters, std::vector<Edge>* found = nullptr);
+
+// Worlds without bounds, whose obstacles' box confines the reference point and is no wall: paths may run along polygons
+// on it and around walls that end on it, and shortest paths don't leave it by themselves. But nobody gets between the
+// box and a wall that lies on its side: a maze's outline shall not be walked around on the outside.
+
+/// The bounds, or else the box of polygons and walls; empty where there is nothing.
+Box box_around(const PlaneObstacles& obstacles);
+
+/// The same for planners of shortest paths that know bounds only. Behind each wall on a side of the box stands a
+/// polygon that reaches to bounds well outside of the box; without such walls, or with bounds, nothing is changed.
+PlaneObstacles confined(PlaneObstacles obstacles);
 
 }  // namespace warren

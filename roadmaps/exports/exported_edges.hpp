@@ -13,8 +13,8 @@
 
 #include "parallel/chunks.hpp"
 #include "parallel/execution.hpp"
-#include "planners/roadmap/roadmap_search.hpp"
-#include "roadmaps/graph/roadmap_parts.hpp"
+#include "planners/graph/roadmap_arrays.hpp"
+#include "planners/graph/roadmap_search.hpp"
 
 namespace warren {
 

@@ -11,7 +11,7 @@
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
 #include "core/plane/se2.hpp"
-#include "planners/roadmap/planned_roadmap.hpp"
+#include "planners/graph/roadmap_arrays.hpp"
 #include "worlds/arms/serial_chain.hpp"
 
 namespace warren {

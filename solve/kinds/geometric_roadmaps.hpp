@@ -11,8 +11,8 @@
 #include <type_traits>
 
 #include "planners/axis/medial_axis_planner.hpp"
-#include "planners/cells/cell_planner.hpp"
 #include "planners/grid/skeleton_planner.hpp"
+#include "planners/vertical_cells/cell_planner.hpp"
 #include "planners/visibility/visibility_path.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 

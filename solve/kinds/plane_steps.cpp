@@ -6,7 +6,7 @@
 #include <array>
 
 #include "core/base/error.hpp"
-#include "planners/cells/cell_decomposition.hpp"
+#include "planners/vertical_cells/cell_decomposition.hpp"
 #include "scenes/scene/holes_cut_open.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 

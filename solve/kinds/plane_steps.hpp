@@ -11,7 +11,7 @@
 #include "core/base/solution.hpp"
 #include "core/plane/polygon.hpp"
 #include "planners/axis/medial_axis_planner.hpp"
-#include "planners/cells/cell_planner.hpp"
+#include "planners/vertical_cells/cell_planner.hpp"
 #include "solve/answer/by_products.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 
@@ -45,7 +45,8 @@ NamedFigure doors_option(const CellOptions& options);
 /// The doors, which are the borders between cells; floors and ceilings are obstacles anyway.
 NamedLines doors_of(const CellDecomposition& cells);
 
-/// Runs `plan`, and says it with the file's lines where obstacles clash (planners/cells/cell_decomposition.hpp).
+/// Runs `plan`, and says it with the file's lines where obstacles clash
+/// (planners/vertical_cells/cell_decomposition.hpp).
 void without_clashes(const SolveRequest& request, const std::function<void()>& plan);
 
 /// The problem of voronoi, and the clearance that it plans with: a hair more, so that rounding can't fail the

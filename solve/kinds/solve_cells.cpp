@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "planners/cells/cell_planner.hpp"
+#include "planners/vertical_cells/cell_planner.hpp"
 #include "solve/kinds/geometric_roadmaps.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/steps/solve_steps.hpp"

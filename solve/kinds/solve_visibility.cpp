@@ -12,7 +12,7 @@
 #include "core/search/graph.hpp"
 #include "core/search/search.hpp"
 #include "parallel/assemble_graph.hpp"
-#include "planners/roadmap/queue_choice.hpp"
+#include "planners/graph/queue_choice.hpp"
 #include "planners/visibility/sampled_visibility.hpp"
 #include "planners/visibility/visibility_path.hpp"
 #include "solve/kinds/geometric_roadmaps.hpp"

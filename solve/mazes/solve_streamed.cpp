@@ -12,9 +12,9 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "planners/tiled/path_keeper.hpp"
-#include "planners/tiled/tiled_prm_lattice.hpp"
-#include "planners/tiles/tile_source.hpp"
+#include "planners/mazes/overlay_path.hpp"
+#include "planners/mazes/tile_source.hpp"
+#include "planners/mazes/tiled_prm_lattice.hpp"
 #include "solve/answer/path_hash.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/mazes/streamed_walls.hpp"

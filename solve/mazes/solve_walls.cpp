@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "planners/mazes/tiled_prm_lattice.hpp"
 #include "planners/shorten/taut_path.hpp"
-#include "planners/tiled/tiled_prm_lattice.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "solve/steps/sampled_roadmap.hpp"

@@ -4,7 +4,7 @@
 
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
-#include "planners/roadmap/planned_roadmap.hpp"
+#include "planners/graph/roadmap_arrays.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/question/planner_choice.hpp"

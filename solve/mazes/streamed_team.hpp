@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Several processes that share the work of a streamed solve, as the one that asks for the answer sees them
-// (distributed/leader.hpp).
+// (apps/distributed/leader_follower.hpp).
 #pragma once
 
 #include <memory>
 
 #include "parallel/execution.hpp"
-#include "planners/tiled/other_tiles.hpp"
+#include "planners/mazes/tiled_prm_lattice.hpp"
 #include "solve/mazes/streamed_walls.hpp"
 #include "verify/cells/verify_cells.hpp"
 

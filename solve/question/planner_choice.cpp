@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/base/error.hpp"
-#include "planners/tiled/tiled_prm_lattice.hpp"
+#include "planners/mazes/tiled_prm_lattice.hpp"
 
 namespace warren {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "planners/roadmap/roadmap_options.hpp"
+#include "planners/graph/roadmap_options.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/question/figure.hpp"
 #include "solve/question/question.hpp"

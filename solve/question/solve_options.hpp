@@ -14,9 +14,9 @@
 
 #include "core/base/enum_names.hpp"
 #include "planners/axis/medial_axis_planner.hpp"
-#include "planners/cells/cell_planner.hpp"
+#include "planners/graph/roadmap_options.hpp"
 #include "planners/grid/grid_search.hpp"
-#include "planners/roadmap/roadmap_options.hpp"
+#include "planners/vertical_cells/cell_planner.hpp"
 #include "scenes/scene/scene.hpp"
 #include "worlds/rasters/heading_layers_of_scene.hpp"
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "planners/graph/roadmap_arrays.hpp"
 #include "planners/roadmap/milestones.hpp"
-#include "roadmaps/graph/free_components.hpp"
 #include "solve/roadmaps/roadmap_query.hpp"
 
 namespace warren {

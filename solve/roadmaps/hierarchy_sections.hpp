@@ -6,7 +6,7 @@
 
 #include "core/base/raw_vector.hpp"
 #include "parallel/execution.hpp"
-#include "planners/contraction/hierarchy.hpp"
+#include "planners/graph/hierarchy.hpp"
 #include "roadmaps/file/roadmap_file.hpp"
 #include "roadmaps/file/write_roadmap_file.hpp"
 

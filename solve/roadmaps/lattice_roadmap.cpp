@@ -9,9 +9,9 @@
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
+#include "planners/lengths/lattice_passages.hpp"
+#include "planners/mazes/tiled_prm_lattice.hpp"
 #include "planners/roadmap/milestones.hpp"
-#include "planners/route_trees/wall_passages.hpp"
-#include "planners/tiled/tiled_prm_lattice.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "solve/roadmaps/maze_bits.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The roadmap of a maze's lattice, held as a route index (planners/route_index) instead of states and edges: two bits a
+// The roadmap of a maze's lattice, held as a route index (planners/lengths) instead of states and edges: two bits a
 // cell for its edges, and about one byte a cell by which any question is answered exactly without a search.
 //
 // Ends are joined to the lattice as solve() joins them: to the milestones within a step that they reach freely, and
@@ -15,8 +15,8 @@
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
 #include "parallel/made_once.hpp"
-#include "planners/route_index/route_index.hpp"
-#include "planners/route_index/route_query.hpp"
+#include "planners/lengths/route_index.hpp"
+#include "planners/lengths/route_query.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "planners/route_index/route_sections.hpp"
+#include "planners/lengths/route_index.hpp"
 
 namespace warren {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "parallel/execution.hpp"
-#include "planners/route_index/route_index.hpp"
+#include "planners/lengths/route_index.hpp"
 #include "roadmaps/file/roadmap_file.hpp"
 #include "roadmaps/file/write_roadmap_file.hpp"
 

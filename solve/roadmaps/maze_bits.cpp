@@ -7,7 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
-#include "planners/route_trees/lattice_places.hpp"
+#include "planners/lengths/cell_marks.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 
 namespace warren {

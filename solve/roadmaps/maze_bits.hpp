@@ -11,7 +11,7 @@
 
 #include "core/base/raw_vector.hpp"
 #include "parallel/execution.hpp"
-#include "planners/route_trees/lattice_passages.hpp"
+#include "planners/lengths/lattice_passages.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace warren {

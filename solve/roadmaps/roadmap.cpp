@@ -12,7 +12,7 @@
 
 #include "core/base/error.hpp"
 #include "parallel/polled_sort.hpp"
-#include "roadmaps/graph/free_components.hpp"
+#include "planners/graph/roadmap_arrays.hpp"
 #include "solve/steps/changed_places.hpp"
 #include "solve/steps/kind_of_problem.hpp"
 #include "solve/steps/planned_scene.hpp"

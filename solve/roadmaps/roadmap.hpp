@@ -9,10 +9,10 @@
 #include <optional>
 #include <string>
 
+#include "planners/graph/roadmap_arrays.hpp"
+#include "planners/lengths/route_index.hpp"
 #include "planners/roadmap/roadmap_growth.hpp"
-#include "planners/route_index/route_index.hpp"
 #include "roadmaps/file/roadmap_file.hpp"
-#include "roadmaps/graph/roadmap_arrays.hpp"
 #include "solve/question/limits.hpp"
 #include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "planners/graph/roadmap_arrays.hpp"
 #include "roadmaps/file/checksum.hpp"
 #include "roadmaps/file/write_roadmap_file.hpp"
-#include "roadmaps/graph/check_parts.hpp"
 #include "solve/question/plannable.hpp"
 #include "solve/roadmaps/hierarchy_sections.hpp"
 #include "solve/roadmaps/lattice_sections.hpp"

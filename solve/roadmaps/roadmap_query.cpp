@@ -8,8 +8,8 @@
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
+#include "planners/graph/roadmap_arrays.hpp"
 #include "planners/shorten/taut_path.hpp"
-#include "roadmaps/graph/free_components.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "solve/roadmaps/blocked_end_of_roadmap.hpp"
 #include "solve/steps/heuristic_price.hpp"

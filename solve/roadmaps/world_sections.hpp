@@ -11,7 +11,7 @@
 
 #include "core/base/raw_vector.hpp"
 #include "parallel/execution.hpp"
-#include "planners/route_trees/lattice_passages.hpp"
+#include "planners/lengths/lattice_passages.hpp"
 #include "roadmaps/file/roadmap_file.hpp"
 #include "roadmaps/file/write_roadmap_file.hpp"
 #include "scenes/scene/scene.hpp"

@@ -17,8 +17,8 @@
 
 #include "core/base/path_taker.hpp"
 #include "parallel/execution.hpp"
+#include "planners/graph/roadmap_arrays.hpp"
 #include "planners/roadmap/roadmap_growth.hpp"
-#include "roadmaps/graph/roadmap_arrays.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/answer/by_products.hpp"

@@ -6,8 +6,8 @@
 #include <memory>
 #include <optional>
 
+#include "planners/graph/roadmap_arrays.hpp"
 #include "planners/roadmap/ask_roadmap.hpp"
-#include "roadmaps/graph/roadmap_parts.hpp"
 #include "verify/near/obstacle_index.hpp"
 
 namespace warren {

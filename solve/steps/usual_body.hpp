@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/solution.hpp"
-#include "planners/roadmap/roadmap_options.hpp"
+#include "planners/graph/roadmap_options.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/question/solve_options.hpp"
 

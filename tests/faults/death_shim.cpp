@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // For tests alone: loaded before MPI (LD_PRELOAD), it makes a rank fail in the midst of a phase that is too short to be
 // met from outside.
-//   WARREN_DEATH=RANK:REQUEST  kills it, by the number of a request of distributed/messages.hpp: a rank above 0 when
+//   WARREN_DEATH=RANK:REQUEST  kills it, by the number of a request of apps/distributed/rank_protocol.hpp: a rank above
+//   0 when
 //                              all others above 0 are at it, too; rank 0 as the next message comes in after it has
 //                              asked
 //   WARREN_SILENCE=RANK:COUNT  after so many messages it says nothing more until there is a file named go

@@ -8,11 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "apps/serve/api/world_service.hpp"
+#include "apps/serve/http/beast_words.hpp"
+#include "apps/serve/http/http_message.hpp"
 #include "scenes/formats/read_world_io.hpp"
 #include "scenes/text/input_file_io.hpp"
-#include "serve/api/world_service.hpp"
-#include "serve/http/beast_words.hpp"
-#include "serve/http/http_names.hpp"
 #include "tests/fuzz/fuzz_reader.hpp"
 #include "tests/fuzz/properties.hpp"
 

@@ -8,9 +8,9 @@
 #include <iterator>
 #include <vector>
 
+#include "planners/graph/roadmap_arrays.hpp"
 #include "roadmaps/file/roadmap_file.hpp"
 #include "roadmaps/file/write_roadmap_file.hpp"
-#include "roadmaps/graph/check_parts.hpp"
 #include "tests/fuzz/fuzz_reader.hpp"
 #include "tests/fuzz/properties.hpp"
 #include "tests/fuzz/scratch_folder.hpp"

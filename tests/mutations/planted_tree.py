@@ -8,7 +8,7 @@ import subprocess
 from fault_table import planted
 
 FOLDERS = ("cmake", "core", "parallel", "spatial", "scenes", "worlds", "verify", "planners", "roadmaps", "solve", "pictures",
-           "studies", "serve", "tools", "distributed", "tests", "bench", "docs", "examples")
+           "apps", "tools", "tests", "bench", "docs", "examples")
 VARIABLE = "WARREN_PLANTED_FAULT"
 
 HEADER = """// SPDX-License-Identifier: BSD-3-Clause

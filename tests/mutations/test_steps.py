@@ -139,9 +139,8 @@ class TestsFail(Exception):
 
 def steps_for(fault, times):
     """The nearest tests first, then the rest of the folder, then the others; of each the quick ones first."""
-    folder, stem = fault.file.split("/", 1)
-    stem = os.path.splitext(stem)[0]
-    near = [f"tests/{folder}/{stem}_test.cpp"] + ["tests/" + name for name in fault.near]
+    folder = re.match("(?:apps/)?[^/]*", fault.file)[0]
+    near = [f"tests/{os.path.splitext(fault.file)[0]}_test.cpp"] + ["tests/" + name for name in fault.near]
     steps, asked = [], set()
 
     def add(program, chosen):
@@ -150,7 +149,7 @@ def steps_for(fault, times):
             asked.update(test[0] for test in tests)
             steps.append(Step(program, [test[0] for test in tests], sum(test[2] for test in tests)))
 
-    programs = sorted((name for name in times if name), key=lambda name: name != folder)
+    programs = sorted((name for name in times if name), key=lambda name: name != folder.removeprefix("apps/"))
     for program in programs:
         add(program, lambda test: any(test[1].endswith(name) for name in near))
     for program in programs:

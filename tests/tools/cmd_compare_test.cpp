@@ -8,8 +8,8 @@
 #include <set>
 #include <sstream>
 
+#include "apps/studies/search_graph.hpp"
 #include "pictures/formats/write_picture.hpp"
-#include "studies/searches/graph_search.hpp"
 #include "tests/paths.hpp"
 #include "tests/tools/compared.hpp"
 #include "tests/tools/process.hpp"

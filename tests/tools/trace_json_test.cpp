@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "studies/measure/trace_json.hpp"
+#include "tools/screen/run_of_verb.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,6 +2,9 @@
 // What the program's exit code says: the table of docs/file_formats.md.
 #pragma once
 
+#include <functional>
+#include <string_view>
+
 namespace warren::tools::exit_code {
 
 inline constexpr int success = 0;
@@ -17,3 +20,32 @@ inline constexpr int interrupted = 130;
 inline constexpr int terminated = 143;
 
 }  // namespace warren::tools::exit_code
+
+namespace warren::tools {
+// What goes wrong in a program becomes one line on standard error and an exit code, here and nowhere else.
+
+/// Runs the program of that name and gives its exit code; what it has printed is on its way then. hint: follows what is
+/// said of a command line that can't be.
+int run_with_errors_told(std::string_view program, std::string_view hint, const std::function<int()>& run);
+
+/// "NAME: text" on standard error; gives the code back.
+int complain(std::string_view program, int code, std::string_view text);
+
+// What still works when nothing else does: one line on standard error without a byte of memory, and descriptors that
+// are what their numbers say.
+
+/// Where the caller has closed standard input, output or error, what is opened first would take its number, and results
+/// and messages would end up in it. Such a descriptor fails from now on when it is used.
+void hold_standard_descriptors();
+
+/// Writes to standard error, come what may. Allocates nothing.
+void say_on_standard_error(std::string_view text) noexcept;
+
+/// Says that memory is out; returns the exit code for it. Allocates nothing.
+int say_memory_is_out() noexcept;
+
+/// Memory that runs out in a destructor, or while an error is told, ends the program by say_memory_is_out(), too, where
+/// it would have been aborted.
+void install_last_words();
+
+}  // namespace warren::tools

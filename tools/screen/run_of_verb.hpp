@@ -17,7 +17,6 @@
 #include "parallel/trace.hpp"
 #include "tools/screen/progress_bar.hpp"
 #include "tools/screen/terminal.hpp"
-#include "tools/words/arguments.hpp"
 #include "tools/words/command.hpp"
 
 namespace warren::tools {
@@ -76,3 +75,10 @@ class Run {
 int exit_code_of(StopReason reason);
 
 }  // namespace warren::tools
+
+namespace warren::studies {
+// A Trace as Chrome trace events, for chrome://tracing and ui.perfetto.dev: complete events ("X"), microseconds.
+
+std::string trace_json(const Trace& trace);
+
+}  // namespace warren::studies

@@ -10,7 +10,7 @@
 #include "pictures/answer_summary.hpp"
 #include "pictures/draw_answer.hpp"
 #include "pictures/formats/write_picture.hpp"
-#include "pictures/layers/heading_layer.hpp"
+#include "pictures/layers/draw_bodies.hpp"
 #include "solve/answer/answer_notes.hpp"
 #include "solve/answer/explanation_text.hpp"
 #include "solve/answer/write_answer_io.hpp"
@@ -18,9 +18,8 @@
 #include "solve/roadmaps/roadmap_file_io.hpp"
 #include "solve/steps/solve_steps.hpp"
 #include "tools/screen/exit_code.hpp"
-#include "tools/screen/output_names.hpp"
-#include "tools/words/path_words.hpp"
-#include "tools/words/picture_words.hpp"
+#include "tools/screen/output_files.hpp"
+#include "tools/words/output_words.hpp"
 #include "worlds/rasters/map_borders.hpp"
 
 namespace warren::tools {

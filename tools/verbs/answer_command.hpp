@@ -17,7 +17,6 @@
 #include "solve/paths/path_file_io.hpp"
 #include "solve/roadmaps/roadmap.hpp"
 #include "tools/screen/run_of_verb.hpp"
-#include "tools/words/arguments.hpp"
 #include "tools/words/command.hpp"
 
 namespace warren::tools {

@@ -14,14 +14,13 @@
 #include "solve/answer/world_account.hpp"
 #include "solve/question/grid_choice.hpp"
 #include "tools/screen/exit_code.hpp"
-#include "tools/screen/last_words.hpp"
-#include "tools/screen/output_names.hpp"
+#include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/terminal.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"
-#include "tools/words/picture_words.hpp"
+#include "tools/words/output_words.hpp"
 #include "worlds/rasters/map_borders.hpp"
 
 namespace warren::tools {

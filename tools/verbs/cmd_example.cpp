@@ -12,7 +12,7 @@
 #include "scenes/text/input_file_io.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "tools/screen/exit_code.hpp"
-#include "tools/screen/output_names.hpp"
+#include "tools/screen/output_files.hpp"
 #include "tools/screen/terminal.hpp"
 #include "tools/verbs/example_files.hpp"
 #include "tools/words/command.hpp"

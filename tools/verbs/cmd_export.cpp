@@ -7,12 +7,11 @@
 #include "scenes/text/human_units.hpp"
 #include "solve/roadmaps/export_of_roadmap.hpp"
 #include "tools/screen/exit_code.hpp"
-#include "tools/screen/output_names.hpp"
-#include "tools/screen/roadmap_files.hpp"
+#include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/words/command.hpp"
-#include "tools/words/picture_words.hpp"
+#include "tools/words/output_words.hpp"
 
 namespace warren::tools {
 namespace {

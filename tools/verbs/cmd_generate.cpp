@@ -19,15 +19,15 @@
 #include "scenes/text/human_units.hpp"
 #include "solve/answer/world_account.hpp"
 #include "tools/screen/exit_code.hpp"
-#include "tools/screen/output_names.hpp"
+#include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/terminal.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/words/command.hpp"
-#include "tools/words/maze_words.hpp"
 #include "tools/words/option_values.hpp"
-#include "tools/words/picture_words.hpp"
+#include "tools/words/output_words.hpp"
 #include "tools/words/planner_words.hpp"
+#include "tools/words/question_words.hpp"
 
 namespace warren::tools {
 namespace {

@@ -21,7 +21,7 @@
 #include "solve/roadmaps/roadmap_file_io.hpp"
 #include "solve/roadmaps/world_sections.hpp"
 #include "tools/screen/exit_code.hpp"
-#include "tools/screen/output_names.hpp"
+#include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/terminal.hpp"
 #include "tools/screen/world_files.hpp"

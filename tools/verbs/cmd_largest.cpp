@@ -6,16 +6,14 @@
 #include <cmath>
 #include <limits>
 
+#include "apps/studies/largest_maze.hpp"
 #include "core/base/error.hpp"
 #include "solve/question/planner_choice.hpp"
-#include "studies/sizes/largest_maze.hpp"
-#include "studies/sizes/largest_report.hpp"
 #include "tools/screen/exit_code.hpp"
-#include "tools/screen/output_names.hpp"
+#include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/terminal.hpp"
 #include "tools/words/command.hpp"
-#include "tools/words/maze_words.hpp"
 #include "tools/words/option_values.hpp"
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"

@@ -15,7 +15,6 @@
 #include "tools/screen/terminal.hpp"
 #include "tools/words/command.hpp"
 #include "tools/words/help.hpp"
-#include "tools/words/option_groups.hpp"
 
 namespace warren::tools {
 namespace {

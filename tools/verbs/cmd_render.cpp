@@ -9,14 +9,12 @@
 #include "solve/answer/world_account.hpp"
 #include "solve/question/plannable.hpp"
 #include "tools/screen/exit_code.hpp"
-#include "tools/screen/output_conflicts.hpp"
-#include "tools/screen/output_names.hpp"
-#include "tools/screen/roadmap_files.hpp"
+#include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/terminal.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/words/command.hpp"
-#include "tools/words/picture_words.hpp"
+#include "tools/words/output_words.hpp"
 #include "worlds/rasters/map_borders.hpp"
 
 namespace warren::tools {

@@ -5,16 +5,15 @@
 #include <algorithm>
 #include <limits>
 
+#include "apps/studies/scaling_report.hpp"
+#include "apps/studies/scaling_study.hpp"
 #include "core/base/error.hpp"
 #include "solve/question/planner_choice.hpp"
-#include "studies/sizes/scaling_report.hpp"
-#include "studies/sizes/scaling_study.hpp"
 #include "tools/screen/exit_code.hpp"
-#include "tools/screen/output_names.hpp"
+#include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/terminal.hpp"
 #include "tools/words/command.hpp"
-#include "tools/words/maze_words.hpp"
 #include "tools/words/option_values.hpp"
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"

@@ -10,15 +10,13 @@
 #include <string>
 #include <utility>
 
+#include "apps/serve/api/served_world.hpp"
+#include "apps/serve/api/world_service.hpp"
+#include "apps/serve/http/http_server.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stop_reason.hpp"
 #include "scenes/text/input_file_io.hpp"
-#include "serve/api/served_world.hpp"
-#include "serve/api/writable_service.hpp"
-#include "serve/http/http_server.hpp"
 #include "tools/screen/exit_code.hpp"
-#include "tools/screen/last_words.hpp"
-#include "tools/screen/roadmap_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/signals.hpp"
 #include "tools/screen/terminal.hpp"

@@ -14,10 +14,10 @@
 #include "solve/solve.hpp"
 #include "solve/solve_and_keep.hpp"
 #include "solve/steps/kind_of_problem.hpp"
-#include "tools/screen/output_conflicts.hpp"
+#include "tools/screen/output_files.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/verbs/answer_command.hpp"
-#include "tools/words/path_words.hpp"
+#include "tools/words/output_words.hpp"
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
 

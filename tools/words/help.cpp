@@ -4,12 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
+#include <utility>
 
 #include "core/base/error.hpp"
-#include "tools/words/build_facts.hpp"
-#include "tools/words/closest_match.hpp"
-#include "tools/words/option_groups.hpp"
-#include "tools/words/other_names.hpp"
+#include "tools/words/unknown_words.hpp"
 
 namespace warren::tools {
 namespace {
@@ -174,6 +173,192 @@ std::string version_text(std::string_view commit) {
       "warren " WARREN_VERSION
       "\ncommit {}\nbuilt by {}\nfor {}\nLicense BSD-3-Clause. There is no warranty, to the extent permitted by law.\n",
       commit, build_compiler(), build_instruction_sets());
+}
+
+namespace {
+
+struct NamedGroup {
+  std::string_view title;
+  std::string_view names;
+};
+
+/// What stands in none is the verb's own.
+constexpr std::string_view own = "Options";
+constexpr NamedGroup option_groups[] = {
+    {"Question", "--robot --start --goal --via --clearance --contact --map-rules"},
+    {"Planner", "--planner --planners --seed"},
+    {"Roadmaps of samples",
+     "--sampler --samplers --samples --neighbours --radius --neighbour-index --attach --lazy --pipeline"},
+    {"Trees", "--step --goal-bias --nodes --trees"},
+    {"Grids", "--cell --angles --face-motion --step-cost --turn-cost --diagonal --layers"},
+    {"Visibility graph, cells, medial axis", "--full --sampled-edges --doors --objective"},
+    {"Cars", "--steering --turning-radius"},
+    {"Search", "--search --searches --heuristic --queue --queues"},
+    {"Shortening", "--optimise --cusp-cost --reverse-cost"},
+    {"Mazes", "--algorithm --loops"},
+    {"Outputs",
+     "--output --picture --figures --table --json --no-path --csv --runs --log --html --pictures --report "
+     "--save-roadmap --keep "
+     "--explain --show "
+     "--heading --size --dpi --title"},
+    {"Path as a file",
+     "--path --every --speed --acceleration --lateral-acceleration --joint-speed --joint-acceleration --frame"},
+    {"Run", "--threads --budget --memory --quiet --progress --color --trace --resume"},
+};
+
+constexpr NamedGroup command_groups[] = {
+    {"Paths", "solve verify render compare"},
+    {"Roadmaps that are kept", "build query update export"},
+    {"In the browser", "serve"},
+    {"Worlds", "example generate info convert"},
+    {"Measuring", "profile largest scale bench-scen"},
+    {"Words", "help man completion"},
+};
+
+bool is_among(std::string_view name, std::string_view names) {
+  const std::vector<std::string> words = words_of(names);
+  return std::find(words.begin(), words.end(), name) != words.end();
+}
+
+std::string_view group_of(const OptionSpec& option) {
+  if (!option.group.empty()) return option.group;
+  for (const NamedGroup& group : option_groups) {
+    if (is_among(option.name, group.names)) return group.title;
+  }
+  return own;
+}
+
+}  // namespace
+
+std::vector<OptionGroup> grouped_options(const Command& command) {
+  std::vector<OptionGroup> groups{{own, {}}};
+  for (const NamedGroup& group : option_groups) groups.push_back({group.title, {}});
+  for (const OptionSpec& option : command.options) {
+    const std::string_view title = group_of(option);
+    std::find_if(groups.begin(), groups.end(), [&](const OptionGroup& group) {
+      return group.title == title;
+    })->options.push_back(&option);
+  }
+  std::erase_if(groups, [](const OptionGroup& group) { return group.options.empty(); });
+  return groups;
+}
+
+std::vector<std::pair<std::string_view, std::vector<const Command*>>> grouped_commands() {
+  std::vector<std::pair<std::string_view, std::vector<const Command*>>> groups;
+  for (const NamedGroup& group : command_groups) {
+    groups.push_back({group.title, {}});
+    for (const Command& command : command_table()) {
+      if (is_among(command.name, group.names)) groups.back().second.push_back(&command);
+    }
+  }
+  return groups;
+}
+
+// What help has of all verbs beside their options: examples and what is used most, one table, since they share both.
+
+namespace {
+
+constexpr std::string_view example_lines = R"(warren example # the worlds that there are
+warren example flat # a map of three rooms
+warren example parking-lot # a car
+warren generate maze 41x41 --algorithm wilson -o maze.npy # a maze as an array
+warren generate polygons 50 --seed 7 -o town.scene # a town of polygons
+warren solve maze:41x41 --picture maze.svg --json answer.json # a maze, solved and drawn
+warren solve flat.yaml --robot "disc 0.2" --start 0.5,0.5 --goal 4.3,0.5 # a disc on a map
+warren solve town.scene --planner prm --neighbours star --samples 2000 # PRM*
+warren solve parking-lot.scene --optimise --json drive.json # a car
+warren solve parking-lot.scene --path drive.yaml --speed 1.5 # its path with times, for ROS
+warren verify maze:41x41 answer.json # an answer of 'warren solve --json'
+warren render maze:41x41 --answer answer.json -o path.png # an answer as a picture
+warren render parking-lot.scene --answer drive.json --animate -o drive.svg # the car drives
+warren build maze:100x100,loops=0.01 -o maze.roadmap # the roadmap of a maze
+warren build flat.yaml --planner voronoi -o axis.roadmap # the middles of a map's corridors
+warren query maze.roadmap --start 1,1 --goal 80,80 # one question
+warren query maze.roadmap --batch questions.csv --lengths-only # start_x,start_y,goal_x,goal_y a line
+warren update maze.roadmap maze:100x100,loops=0.02 -o new.roadmap # the maze has more loops now
+warren export axis.roadmap -o route.geojson # a route graph for Nav2
+warren export maze.roadmap -o maze.graphml # for NetworkX and others
+warren info flat.yaml # a world
+warren info maze.roadmap --check all # every byte of a roadmap
+warren convert maze.npy -o maze.walls # walls as text
+warren convert town.scene --cell 0.2 -o town.map # polygons as cells
+warren serve flat.yaml --robot "disc 0.2" # click start and goal in the browser
+warren serve empty:20x10 --writable # draw a world of your own
+warren compare maze:41x41 --planners prm,lazy-prm --seeds 20 # two planners
+warren compare town.scene --planners prm --samples 100,250 --picture k.svg # plots of two numbers of samples
+warren compare maze:41x41,loops=0.2 --searches dijkstra,astar # searches alone
+warren profile maze:99x99 --planner prm --picture stages.svg # what each stage costs
+warren largest --budget 1s --max-size 500 # mazes that are solved within a second each
+warren scale --sizes 50,100,200 --threads 1,2 --html scale.html # time against size and threads
+warren bench-scen arena.map.scen # beside its arena.map
+warren help solve # what is used most
+warren help solve all # all of its options
+warren help --clearance # one option
+warren help footprint # a word that you know from elsewhere
+warren man solve # the page of 'warren solve'
+warren completion bash # the script for bash
+)";
+
+constexpr std::pair<std::string_view, std::string_view> most_used[] = {
+    {"solve", "--robot --start --goal --clearance --planner --samples --optimise --explain --picture --json"},
+    {"render", "--output --answer --animate --show --heading --size --dpi --title --world --budget"},
+    {"export", "--output --unchecked --frame --world --show --heading --size --dpi --title --budget"},
+    {"generate", "--output --algorithm --loops --unit-walls --corners --seed --show --size --title --budget"},
+    {"build", "--output --planner --sampler --samples --neighbours --radius --robot --clearance --index --budget"},
+    {"query", "--start --goal --batch --matrix --lengths-only --csv --optimise --explain --picture --json"},
+    {"compare", "--planners --sampler --samples --neighbours --seeds --searches --queues --picture --html --table"},
+    {"largest", "--budget --precision --max-size --seeds --planner --sampler --pipeline --threads --json --picture"},
+    {"profile", "--runs --planner --sampler --samples --neighbour-index --start --goal --threads --json --picture"},
+    {"scale", "--sizes --threads --planners --samplers --seeds --repeats --budget --json --csv --html"}};
+
+}  // namespace
+
+std::vector<HelpExample> help_examples(std::string_view verb) {
+  const std::string begins = verb.empty() ? "warren " : fmt::format("warren {} ", verb);
+  std::vector<HelpExample> some;
+  for (std::string_view left = example_lines; !left.empty();) {
+    const std::string_view line = left.substr(0, left.find('\n'));
+    left.remove_prefix(line.size() + 1);
+    const std::size_t mark = line.find(" # ");
+    if (line.starts_with(begins)) some.push_back({line.substr(0, mark), line.substr(mark + 3)});
+  }
+  return some;
+}
+
+std::string_view most_used_options(std::string_view verb) {
+  for (const auto& [name, options] : most_used) {
+    if (name == verb) return options;
+  }
+  return {};
+}
+
+std::string build_compiler() {
+#ifdef __clang__
+  const std::string compiler = fmt::format("clang++ {}.{}.{}", __clang_major__, __clang_minor__, __clang_patchlevel__);
+#else
+  const std::string compiler = fmt::format("g++ {}.{}.{}", __GNUC__, __GNUC_MINOR__, __GNUC_PATCHLEVEL__);
+#endif
+  return fmt::format("{}, {}", compiler, WARREN_BUILD_TYPE);
+}
+
+std::string build_instruction_sets() {
+#if defined(__x86_64__) && !defined(WARREN_PLAIN)
+  std::string text = "x86-64";
+#if defined(__AVX512F__)
+  text += " with avx512";
+#elif defined(__AVX2__)
+  text += " with avx2";
+#endif
+  const bool avx2 = __builtin_cpu_supports("avx2") != 0;
+  const bool avx512 = __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512bw") != 0;
+  return text + fmt::format("; used on this processor: sse2{}{}", avx2 ? ", avx2" : "", avx512 ? ", avx512" : "");
+#elif defined(__x86_64__)
+  return "x86-64, plain code alone";
+#elif defined(__aarch64__)
+  return "arm64, plain code alone";
+#else
+  return "plain code alone";
+#endif
 }
 
 }  // namespace warren::tools

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tools/words/command.hpp"
@@ -24,7 +25,7 @@ struct HelpExample {
   std::string_view command;  ///< a whole command line
   std::string_view does;
 };
-/// Of one verb, or of all in an order in which they can be typed one after the other (short_help.cpp).
+/// Of one verb, or of all in an order in which they can be typed one after the other (help.cpp).
 std::vector<HelpExample> help_examples(std::string_view verb = {});
 /// Of verbs with many options the ten that are used most, blank-separated; empty: help has all options.
 std::string_view most_used_options(std::string_view verb);
@@ -33,5 +34,31 @@ std::string_view most_used_options(std::string_view verb);
 std::string option_usage(const OptionSpec& option);
 /// What "WORLD", an operand or a value of that name, is; empty where the name says enough.
 std::string_view meaning_of(std::string_view operand);
+
+// The headings under which help and manual pages list options: what is asked, how it is solved, what is written, how
+// the program runs. One table by name, since verbs share options.
+
+struct OptionGroup {
+  std::string_view title;  ///< "Question"
+  std::vector<const OptionSpec*> options;
+};
+
+/// The verb's options in groups, none empty: its own first, the others in the order of the table.
+std::vector<OptionGroup> grouped_options(const Command& command);
+
+/// The headings of the verbs themselves, in the order of command_table().
+std::vector<std::pair<std::string_view, std::vector<const Command*>>> grouped_commands();
+
+// Which build this is: what `warren --version` says beyond the version.
+
+/// The commit that the sources are of, with "-dirty" where they differ from it; "unknown" where they came without git.
+/// Made anew by each build (cmake/commit.cmake) and linked into the program alone.
+std::string_view build_commit();
+
+/// "g++ 12.2.0, Release".
+std::string build_compiler();
+
+/// "x86-64; used here: avx2": what the code needs, and what it takes beside that where the processor has it.
+std::string build_instruction_sets();
 
 }  // namespace warren::tools

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "core/base/error.hpp"
-#include "tools/words/closest_match.hpp"
+#include "tools/words/unknown_words.hpp"
 
 namespace warren::tools {
 namespace {

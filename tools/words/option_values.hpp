@@ -12,7 +12,7 @@
 
 #include "core/base/enum_names.hpp"
 #include "core/base/types.hpp"
-#include "tools/words/arguments.hpp"
+#include "tools/words/command.hpp"
 
 namespace warren::tools {
 

@@ -196,4 +196,78 @@ RoadmapSearchFields search_words(const Arguments& arguments) {
           words.car.reverse_cost, words.heuristic};
 }
 
+// What a command line says about grids and lattices.
+
+namespace {
+
+constexpr OptionSpec grid_specs[] = {
+    {"--cell", "C",
+     "grid in a scene: distance of its positions (default: the file's grid line, else a 400th of the longer side)"},
+    {"--angles", "N", "grid: headings of a body that turns (default: the file's grid line, else 72)"},
+    {"--face-motion", "", "grid of a body that turns: it moves only where it faces"},
+    {"--step-cost", "C", "grid in a scene or of a body that turns: what a step to the side costs (default: 1)"},
+    {"--turn-cost", "C", "grid of a body that turns: what a turn to the next heading costs (default: 1)"},
+    {"--diagonal", "NAME", "grid: what a diagonal step costs (default: sqrt2)", "sqrt2 unit none"},
+    {"--layers", "NAME",
+     "grid in a scene. exact: the body's own outline; report004: discs that cover it, rounded up to cells, among walls "
+     "two cells thick (default: exact)",
+     "exact report004"},
+};
+
+}  // namespace
+
+std::span<const OptionSpec> grid_option_specs() { return grid_specs; }
+
+GridFields grid_words(const Arguments& arguments) {
+  constexpr std::uint32_t most_angles = 1'000'000;
+  GridFields grid;
+  grid.cell = given_value(arguments, "--cell", positive_value);
+  grid.angles = given_count(arguments, "--angles", 1, most_angles);
+  grid.face_motion = arguments.has("--face-motion");
+  grid.step_cost = given_value(arguments, "--step-cost", positive_value);
+  grid.turn_cost = given_value(arguments, "--turn-cost", positive_value);
+  grid.diagonal = given_choice<Diagonal>(arguments, "--diagonal");
+  grid.layers = given_choice<LayerKind>(arguments, "--layers");
+  return grid;
+}
+
+// What a command line says about rrt and rrt-connect.
+
+namespace {
+
+constexpr OptionSpec tree_specs[] = {
+    {"--step", "D", "longest motion of a tree, in the body's metric (default: a third of half the space's diagonal)"},
+    {"--goal-bias", "F", "share of rrt's samples that are the goal (default: 0.05)"},
+    {"--nodes", "N", "most nodes of a tree; a tree that has them gives up (default: 100000)"},
+    {"--trees", "N", "trees grown independently at once; the first to arrive answers (default: 1)"},
+    {"--via", "STATES",
+     "waypoints to pass in this order, apart by semicolons; each X,Y or X,Y,THETA or six joint angles"},
+};
+
+std::vector<std::vector<double>> way_points_value(std::string_view option, std::string_view text) {
+  std::vector<std::vector<double>> points;
+  for (;;) {
+    const std::size_t end = text.find(';');
+    points.push_back(state_value(option, text.substr(0, end)));
+    if (end == std::string_view::npos) return points;
+    text.remove_prefix(end + 1);
+  }
+}
+
+}  // namespace
+
+std::span<const OptionSpec> tree_option_specs() { return tree_specs; }
+
+TreeFields tree_words(const Arguments& arguments) {
+  constexpr std::uint64_t most_nodes = std::uint64_t{1} << 31;
+  constexpr std::uint32_t most_trees = 4096;
+  TreeFields trees;
+  trees.step = given_value(arguments, "--step", positive_value);
+  trees.goal_bias = given_value(arguments, "--goal-bias", number_value, 0.0, 1.0);
+  trees.nodes = given_value(arguments, "--nodes", count_value, std::uint64_t{2}, most_nodes);
+  trees.trees = given_count(arguments, "--trees", 1, most_trees);
+  if (const auto text = arguments.value("--via")) trees.via = way_points_value("--via", *text);
+  return trees;
+}
+
 }  // namespace warren::tools

@@ -11,7 +11,6 @@
 
 #include "solve/question/solve_options.hpp"
 #include "solve/roadmaps/roadmap_query.hpp"
-#include "tools/words/arguments.hpp"
 #include "tools/words/command.hpp"
 
 namespace warren::tools {
@@ -30,8 +29,8 @@ SolveOptions solve_words(const Arguments& arguments);
 /// What a question to a roadmap may say of its search. Throws as solve_words().
 RoadmapSearchFields search_words(const Arguments& arguments);
 
-/// The parts of these that have files of their own: grid_words.cpp (--cell --angles --face-motion --step-cost
-/// --turn-cost --diagonal --layers), tree_words.cpp (--step --goal-bias --nodes --trees --via).
+/// The parts of these that have files of their own: planner_words.cpp (--cell --angles --face-motion --step-cost
+/// --turn-cost --diagonal --layers), planner_words.cpp (--step --goal-bias --nodes --trees --via).
 std::span<const OptionSpec> grid_option_specs();
 GridFields grid_words(const Arguments& arguments);
 std::span<const OptionSpec> tree_option_specs();

@@ -4,8 +4,8 @@
 
 #include <span>
 
+#include "scenes/mazes/maze_generator.hpp"
 #include "solve/question/question.hpp"
-#include "tools/words/arguments.hpp"
 #include "tools/words/command.hpp"
 
 namespace warren::tools {
@@ -15,5 +15,13 @@ std::span<const OptionSpec> question_option_specs();
 
 /// Nothing where nothing is said. Throws UsageError for values that no problem can have.
 Question question_words(const Arguments& arguments);
+
+// What a command line says about the making of mazes.
+
+/// --algorithm --loops, where many mazes are made.
+std::span<const OptionSpec> maze_option_specs();
+
+/// Algorithm and loops as the command line says, all else as it is in `usual`. Throws UsageError.
+MazeOptions maze_words(const Arguments& arguments, MazeOptions usual = {});
 
 }  // namespace warren::tools

@@ -6,8 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "pictures/formats/solid_rays.hpp"
-
 namespace warren {
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pictures/formats/svg_animation.hpp"
+#include "pictures/formats/svg_surface.hpp"
 
 #include <gtest/gtest.h>
 

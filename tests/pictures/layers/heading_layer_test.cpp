@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pictures/layers/heading_layer.hpp"
+#include "pictures/layers/draw_bodies.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pictures/model/known_part.hpp"
+#include "pictures/model/picture.hpp"
 
 #include <gtest/gtest.h>
 

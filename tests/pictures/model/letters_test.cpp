@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "pictures/model/ticks.hpp"
+#include "pictures/model/axis.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pictures/plots/box_plot.hpp"
+#include "pictures/plots/plot.hpp"
 
 #include <gtest/gtest.h>
 

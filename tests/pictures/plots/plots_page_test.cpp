@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pictures/plots/plots_page.hpp"
+#include "pictures/plots/plot_sheet.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "pictures/formats/drawn_files.hpp"
-#include "pictures/plots/box_plot.hpp"
+#include "pictures/formats/surface.hpp"
 #include "pictures/plots/plot.hpp"
 
 namespace warren {

@@ -10,7 +10,6 @@
 
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
-#include "planners/shorten/certain_clearance.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "tests/planners/visibility/plane_worlds.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/grid/skeleton_lines.hpp"
+#include "planners/grid/skeleton_planner.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/roadmap/dead_ends.hpp"
+#include "planners/roadmap/lazy_prm.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,8 +10,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "planners/cells/cell_planner.hpp"
-#include "planners/pieces/box_as_bounds.hpp"
+#include "planners/vertical_cells/cell_planner.hpp"
 #include "planners/visibility/visibility_path.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "tests/planners/visibility/degenerate_worlds.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/visibility/pieces_in_sight.hpp"
+#include "planners/visibility/plane_pieces.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/base/error.hpp"
-#include "planners/pieces/box_as_bounds.hpp"
+#include "planners/visibility/visibility_path.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "tests/planners/visibility/rational_plane.hpp"
 

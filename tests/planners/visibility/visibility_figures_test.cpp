@@ -10,7 +10,6 @@
 #include <cmath>
 #include <string>
 
-#include "planners/visibility/lazy_visibility.hpp"
 #include "planners/visibility/visibility_path.hpp"
 #include "scenes/formats/scene_io.hpp"
 #include "scenes/scene/plane_obstacles.hpp"

@@ -7,8 +7,8 @@
 #include <tuple>
 #include <vector>
 
-#include "planners/roadmap/roadmap_search.hpp"
-#include "roadmaps/graph/roadmap_parts.hpp"
+#include "planners/graph/roadmap_arrays.hpp"
+#include "planners/graph/roadmap_search.hpp"
 
 namespace warren {
 

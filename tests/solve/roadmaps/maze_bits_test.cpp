@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "planners/route_trees/wall_passages.hpp"
+#include "planners/lengths/lattice_passages.hpp"
 #include "scenes/formats/read_world_io.hpp"
 
 namespace warren {

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/screen/whole_run.hpp"
+#include "tools/screen/progress_bar.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <vector>
-
-#include "tools/screen/progress_bar.hpp"
 
 namespace warren::tools {
 namespace {

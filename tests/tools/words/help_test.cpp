@@ -7,7 +7,6 @@
 #include "tests/tools/process.hpp"
 #include "tools/words/command.hpp"
 #include "tools/words/help.hpp"
-#include "tools/words/option_groups.hpp"
 
 namespace warren::test {
 namespace {

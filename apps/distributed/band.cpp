@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/distributed/band.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "planners/mazes/overlay.hpp"
+#include "planners/mazes/tile_source.hpp"
+#include "planners/mazes/tiled_prm_lattice.hpp"
+#include "scenes/mazes/cell_bits.hpp"
+
+namespace warren::distributed {
+namespace {
+
+constexpr std::size_t grain = 8;  // tiles: a reader's scratch is large
+
+/// The steps of the first chain of that length between the two places; there must be one.
+std::span<const std::uint8_t> steps_in(const TileSummary& tile, const TileChain& asked) {
+  const auto key = [&](std::uint16_t place) {
+    const auto found = std::lower_bound(tile.keys.begin(), tile.keys.end(), place);
+    if (found == tile.keys.end() || *found != place) throw InputError("path", "passes a point that is no key");
+    return static_cast<std::uint16_t>(found - tile.keys.begin());
+  };
+  const std::uint16_t from = key(asked.from);
+  const std::uint16_t to = key(asked.to);
+  for (const Chain& chain : tile.chains) {
+    if (chain.from != from || chain.to != to || chain.length != asked.length) continue;
+    return std::span(tile.steps).subspan(chain.first_step, chain.length);
+  }
+  throw InputError("path", "takes a chain that is none");
+}
+
+}  // namespace
+
+BandTask BandTask::of(const Scene& unmade, const WallProblem& problem) {
+  return {*unmade.maze,
+          unmade.formula.value_or(MazeFormula{}),
+          unmade.packed,
+          problem.reach(),
+          {.radius = problem.robot.radius, .clearance = problem.clearance}};
+}
+
+TileGrid BandTask::grid() const { return TileGrid::of({size.rows, size.cols}, CellBits::usual_side_log2); }
+
+KnownWalls KnownWalls::of(const StreamedWalls& read) {
+  return {read.hash().value_or(std::string{}), read.wall_count().value_or(0)};
+}
+
+void KnownWalls::pack(ValuePacker& to) const {
+  to.add_text(hash);
+  to.add(count);
+}
+
+KnownWalls KnownWalls::unpack(ValueUnpacker& from) {
+  std::string hash = from.take_text();
+  return {std::move(hash), from.take<std::uint64_t>()};
+}
+
+TileRows band_rows(std::size_t tile_rows, unsigned rank, unsigned ranks) {
+  return {tile_rows * rank / ranks, tile_rows * (rank + std::size_t{1}) / ranks};
+}
+
+unsigned rank_of_row(std::size_t row, std::size_t tile_rows, unsigned ranks) {
+  auto rank = static_cast<unsigned>(row * ranks / tile_rows);
+  while (band_rows(tile_rows, rank, ranks).last <= row) ++rank;
+  return rank;
+}
+
+ReducedBand ReducedBand::of(std::span<const TileSummary> tiles) {
+  ReducedBand sum;
+  for (const TileSummary& tile : tiles) {
+    sum.add({tile.bytes(), tile.keys.size(), tile.milestones, tile.candidate_edges, tile.free_edges,
+             tile.closed_components});
+  }
+  return sum;
+}
+
+void ReducedBand::add(const ReducedBand& other) {
+  bytes += other.bytes;
+  keys += other.keys;
+  milestones += other.milestones;
+  candidate_edges += other.candidate_edges;
+  free_edges += other.free_edges;
+  closed_components += other.closed_components;
+}
+
+TileSummary ReducedBand::counts() const {
+  TileSummary tile;
+  tile.milestones = milestones;
+  tile.candidate_edges = candidate_edges;
+  tile.free_edges = free_edges;
+  tile.closed_components = closed_components;
+  return tile;
+}
+
+Band::Band(const BandTask& task, TileRows own) : task_(task), grid_(task.grid()), own_(own) {}
+
+std::optional<maze::RimPart> Band::make(const Execution& execution) {
+  if (is_empty()) return std::nullopt;
+  if (task_.packed) {
+    Scene unmade;
+    unmade.maze = task_.size;
+    unmade.packed = task_.packed;
+    read_ = streamed_walls(unmade, own_, execution);
+    return std::nullopt;
+  }
+  maze::RimPart rim;
+  const auto [seed, loops] = task_.formula;
+  maze_.emplace(task_.size.rows, task_.size.cols, seed, loops, own_, rim, execution, grid_.side_log2);
+  return rim;
+}
+
+const CellWallSource& Band::walls(WallsFor who) const {
+  if (!read_) return *maze_;
+  return who == WallsFor::judge ? read_->judged() : read_->planned();
+}
+
+std::vector<TileSummary> Band::reduce(const OverlayEnds& ends, BandPeeling peeling, const Execution& execution) {
+  ends_ = ends;
+  if (is_empty()) return {};
+  const auto source = cell_tiles(walls(WallsFor::planner), grid_);
+  execution.reserve(tiles().size() * sizeof(TileSummary));
+  std::vector<TileSummary> summaries(tiles().size());
+  LatticeTiles(grid_, *source, source->box(), task_.clearance * (1 + 1e-9), ends_, grain)
+      .reduce(tiles(), false, summaries, nullptr, execution);
+  if (peeling == BandPeeling::band) peel_band(grid_, own_.first, own_.last, ends_, summaries, execution);
+  return summaries;
+}
+
+std::vector<std::vector<std::uint8_t>> Band::steps_of(std::span<const TileChain> chains,
+                                                      const Execution& execution) const {
+  std::vector<std::vector<std::uint8_t>> steps(chains.size());
+  std::vector<std::size_t> own;
+  for (const TileChain& chain : chains) {
+    if (chain.tile >= tiles().first && chain.tile < tiles().last) own.push_back(chain.tile);
+  }
+  if (own.empty()) return steps;
+  std::sort(own.begin(), own.end());
+  own.erase(std::unique(own.begin(), own.end()), own.end());
+  const auto source = cell_tiles(walls(WallsFor::planner), grid_);
+  std::vector<TileSummary> made(own.size());
+  LatticeTiles(grid_, *source, source->box(), task_.clearance * (1 + 1e-9), ends_, grain).reduce(own, made, execution);
+  for (std::size_t i = 0; i < chains.size(); ++i) {
+    const auto at = std::lower_bound(own.begin(), own.end(), chains[i].tile);
+    if (at == own.end() || *at != chains[i].tile) continue;
+    const auto found = steps_in(made[static_cast<std::size_t>(at - own.begin())], chains[i]);
+    steps[i].assign(found.begin(), found.end());
+  }
+  return steps;
+}
+
+NearestWalls Band::judge(std::span<const NearLegs> legs, double reach, const Execution& execution) const {
+  NearestWalls nearest{std::numeric_limits<double>::infinity(), std::numeric_limits<std::uint64_t>::max(), 0};
+  for (const NearLegs& run : legs) {
+    NearestWalls found =
+        nearest_among_cells(walls(WallsFor::judge), tiles(), run.points, task_.judged, reach, execution);
+    nearest.least = std::min(nearest.least, found.least);
+    if (found.leg == std::numeric_limits<std::uint64_t>::max()) continue;
+    found.leg += run.first;
+    if (std::tie(found.leg, found.wall) < std::tie(nearest.leg, nearest.wall)) {
+      nearest.leg = found.leg;
+      nearest.wall = found.wall;
+    }
+  }
+  return nearest;
+}
+
+std::vector<NearLegs> legs_near(std::span<const Vec2> path, TileRows rows, const TileGrid& grid, double reach) {
+  std::vector<NearLegs> runs;
+  if (rows.first == rows.last) return runs;
+  constexpr double far = std::numeric_limits<double>::infinity();
+  const double margin = reach + 1.0;  // a cell more than is asked for
+  const auto y = [&](std::size_t row) { return static_cast<double>(row << grid.side_log2) + 0.5; };
+  const double low = rows.first == 0 ? -far : y(rows.first) - margin;
+  const double high = rows.last == grid.tile_rows ? far : y(rows.last) + margin;
+  bool goes_on = false;
+  for (std::size_t leg = 0; leg + 1 < path.size(); ++leg) {
+    const auto [least, most] = std::minmax({path[leg].y, path[leg + 1].y});
+    const bool is_near = most >= low && least <= high;
+    if (is_near && !goes_on) runs.push_back({leg, {path[leg]}});
+    if (is_near) runs.back().points.push_back(path[leg + 1]);
+    goes_on = is_near;
+  }
+  return runs;
+}
+
+}  // namespace warren::distributed

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One rank's share of a streamed run: rows of tiles of a maze, which it makes or reads, reduces and peels, expands and
+// judges. It knows nothing of other ranks.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/packed_values.hpp"
+#include "core/plane/cell_walls.hpp"
+#include "parallel/chunks.hpp"
+#include "parallel/execution.hpp"
+#include "planners/mazes/overlay.hpp"
+#include "planners/mazes/tile_grid.hpp"
+#include "planners/mazes/tiled_prm_lattice.hpp"
+#include "scenes/mazes/spanning_maze.hpp"
+#include "scenes/scene/scene.hpp"
+#include "solve/mazes/streamed_walls.hpp"
+#include "solve/question/question.hpp"
+#include "verify/cells/verify_cells.hpp"
+
+namespace warren::distributed {
+
+/// What all ranks know before the first message: they are given the same words.
+struct BandTask {
+  MazeHint size;
+  MazeFormula formula;               ///< of the walls
+  std::optional<PackedMaze> packed;  ///< instead: the file that has them, as this rank sees it
+  double clearance;                  ///< of body and question
+  VerifyOptions judged;              ///< of the judge
+
+  static BandTask of(const Scene& unmade, const WallProblem& problem);
+  TileGrid grid() const;
+};
+
+/// What is known of a file's walls by reading them; the same at all ranks that have read all of it.
+struct KnownWalls {
+  std::string hash;  ///< empty: not known
+  std::uint64_t count = 0;
+
+  static KnownWalls of(const StreamedWalls& read);
+  void pack(ValuePacker& to) const;
+  static KnownWalls unpack(ValueUnpacker& from);
+  bool operator==(const KnownWalls&) const = default;
+};
+
+/// Rows of tiles first .. last - 1 of rank r: R r / p to R (r + 1) / p.
+TileRows band_rows(std::size_t tile_rows, unsigned rank, unsigned ranks);
+/// The rank that has a tile row.
+unsigned rank_of_row(std::size_t row, std::size_t tile_rows, unsigned ranks);
+
+/// Legs in a row that come near a band.
+struct NearLegs {
+  std::uint64_t first;  ///< leg of the path
+  std::vector<Vec2> points;
+};
+
+/// Those of a path that come within `reach` of rows of tiles; whatever leaves the maze is near its outermost rows.
+std::vector<NearLegs> legs_near(std::span<const Vec2> path, TileRows rows, const TileGrid& grid, double reach);
+
+/// A band's tiles, reduced, in sum.
+struct ReducedBand {
+  std::uint64_t bytes = 0;  ///< of their summaries
+  std::uint64_t keys = 0;
+  std::uint64_t milestones = 0, candidate_edges = 0, free_edges = 0, closed_components = 0;
+
+  static ReducedBand of(std::span<const TileSummary> tiles);
+  void add(const ReducedBand& other);
+  /// As a tile that has nothing else.
+  TileSummary counts() const;
+};
+
+/// How much of its tiles a rank hands on: dead ends that end within its band say nothing of the way between the ends.
+enum class BandPeeling : std::uint32_t { none, band };
+
+/// Who asks for walls: of files both have readers of their own.
+enum class WallsFor : std::uint32_t { planner, judge };
+
+class Band {
+ public:
+  /// own may be empty.
+  Band(const BandTask& task, TileRows own);
+
+  /// Reads what a file has of the own tiles, which can be read then, or makes their trees; what these say to the rest
+  /// of the maze. Nothing where there are no tiles. Throws InputError, ReadError, Stopped.
+  std::optional<maze::RimPart> make(const Execution& execution);
+  /// What the rest of the maze makes of trees, of the row below as well. From now on tiles can be read.
+  void turn(std::span<const std::uint64_t> edges) { maze_->turn(edges); }
+  /// What was read of a file; nullptr where nothing was.
+  const StreamedWalls* read() const { return read_.get(); }
+
+  bool is_empty() const { return own_.first == own_.last; }
+  Range tiles() const { return {own_.first * grid_.tile_cols, own_.last * grid_.tile_cols}; }
+  const TileGrid& grid() const { return grid_; }
+  const CellWallSource& walls(WallsFor who) const;
+
+  /// Summaries of the own tiles without steps.
+  std::vector<TileSummary> reduce(const OverlayEnds& ends, BandPeeling peeling, const Execution& execution);
+  /// Directions of chains of own tiles; of others nothing.
+  std::vector<std::vector<std::uint8_t>> steps_of(std::span<const TileChain> chains, const Execution& execution) const;
+  NearestWalls judge(std::span<const NearLegs> legs, double reach, const Execution& execution) const;
+
+ private:
+  const BandTask task_;
+  const TileGrid grid_;
+  const TileRows own_;
+  std::optional<SpanningMaze> maze_;     // made
+  std::unique_ptr<StreamedWalls> read_;  // or read
+  OverlayEnds ends_;                     // as reduce() was told
+};
+
+}  // namespace warren::distributed

@@ -1,0 +1,434 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/distributed/leader_follower.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <limits>
+#include <new>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "apps/distributed/rank_protocol.hpp"
+#include "apps/distributed/shared_search.hpp"
+#include "apps/distributed/transport.hpp"
+#include "core/base/enum_names.hpp"
+#include "core/base/error.hpp"
+#include "core/base/let_go.hpp"
+#include "parallel/ticker.hpp"
+#include "planners/mazes/tile_reduction.hpp"
+#include "scenes/mazes/joined_parts.hpp"
+
+namespace warren::distributed {
+
+class RemoteCells::Reader : public CellWallReader {
+ public:
+  explicit Reader(const RemoteCells& cells) : cells_(cells) {
+    if (!cells.band_.is_empty()) own_ = cells.band_.walls(cells.who_).reader();
+  }
+  void read(std::size_t number, CellTile& tile) override {
+    const Range own = cells_.band_.tiles();
+    if (number >= own.first && number < own.last) return own_->read(number, tile);
+    tile = cells_.leader_.tile(number, cells_.who_);
+  }
+
+ private:
+  const RemoteCells& cells_;
+  std::unique_ptr<CellWallReader> own_;
+};
+
+RemoteCells::RemoteCells(const Band& band, Leader& leader, WallsFor who)
+    : CellWallSource(band.grid().rows, band.grid().cols, band.grid().side_log2),
+      band_(band),
+      leader_(leader),
+      who_(who) {}
+
+std::unique_ptr<CellWallReader> RemoteCells::reader() const { return std::make_unique<Reader>(*this); }
+
+namespace {
+
+void pack_links(const EndLinks& end, ValuePacker& to) { to.add_list(end.links); }
+
+/// Edges that a rank's tiles and the row of tiles below them have to know.
+std::vector<std::uint64_t> edges_near(std::span<const std::uint64_t> edges, TileRows rows, unsigned side_log2) {
+  std::vector<std::uint64_t> near;
+  for (const std::uint64_t edge : edges) {
+    const std::size_t row = maze::edge_row(edge) >> side_log2;
+    if (row + 1 >= rows.first && row < rows.last) near.push_back(edge);
+  }
+  return near;
+}
+
+}  // namespace
+
+class Leader::Walls : public StreamedWalls {
+ public:
+  explicit Walls(const Leader& leader) : leader_(leader) {}
+  const CellWallSource& planned() const override { return leader_.planned_; }
+  const CellWallSource& judged() const override { return leader_.judged_; }
+  std::optional<std::size_t> wall_count() const override {
+    return leader_.known_.hash.empty() ? std::nullopt : std::optional<std::size_t>(leader_.known_.count);
+  }
+  std::optional<std::string> hash() const override {
+    return leader_.known_.hash.empty() ? std::nullopt : std::optional(leader_.known_.hash);
+  }
+
+ private:
+  const Leader& leader_;
+};
+
+Leader::Leader(Transport& transport, const BandTask& task, const Execution& execution, std::uint64_t most_keys)
+    : requests_(transport, execution),
+      task_(task),
+      most_keys_(most_keys),
+      band_(task, band_rows(task.grid().tile_rows, 0, transport.ranks())),
+      planned_(band_, *this, WallsFor::planner),
+      judged_(band_, *this, WallsFor::judge) {}
+
+std::unique_ptr<StreamedWalls> Leader::make(const Execution& execution) {
+  requests_.wait_as(execution);
+  requests_.ask(Request::make, {});
+  std::vector<maze::RimPart> rims;
+  if (auto own = band_.make(execution)) rims.push_back(std::move(*own));
+  if (band_.read() != nullptr) known_ = KnownWalls::of(*band_.read());
+  const std::vector<Bytes> others = requests_.answers();
+  for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
+    ValueUnpacker from(others[rank], fmt::format("rank {}", rank));
+    if (from.is_done()) continue;
+    if (task_.packed) {
+      learn(KnownWalls::unpack(from), rank);
+    } else {
+      rims.push_back(maze::RimPart::unpack(from));
+    }
+  }
+  if (!task_.packed) join_trees(std::move(rims), execution);
+  return std::make_unique<Walls>(*this);
+}
+
+void Leader::learn(const KnownWalls& theirs, unsigned rank) {
+  if (known_.hash.empty()) known_ = theirs;
+  if (known_ == theirs) return;
+  throw InputError(fmt::format("rank {}", rank), "sees another file than a lower rank: its walls have another hash",
+                   fmt::format("{}, not {}", theirs.hash, known_.hash));
+}
+
+void Leader::join_trees(std::vector<maze::RimPart> rims, const Execution& execution) {
+  constexpr std::size_t most_on_sides = std::numeric_limits<std::uint32_t>::max();
+  std::size_t edges = 0;
+  std::size_t on_sides = 0;  // cells
+  for (const maze::RimPart& rim : rims) {
+    edges += rim.edges.size() + rim.at.width;
+    on_sides += 2 * (std::size_t{rim.at.width} + rim.at.height);
+  }
+  if (on_sides >= most_on_sides) {
+    throw InputError("maze",
+                     fmt::format("has 2^32 cells or more on the sides of {} bands; take fewer ranks", rims.size()));
+  }
+  execution.reserve(edges * 64 + on_sides * 2 * sizeof(std::uint32_t));
+  const maze::JoinedParts joined = join_parts(task_.formula.seed, rims, 1, band_.grid().side_log2, execution);
+  for (unsigned rank = 0; rank < requests_.ranks(); ++rank) {
+    const TileRows rows = band_rows(tile_rows(), rank, requests_.ranks());
+    const std::vector<std::uint64_t> near = edges_near(joined.turned, rows, band_.grid().side_log2);
+    if (rank == 0 && !band_.is_empty()) band_.turn(near);
+    if (rank == 0) continue;
+    ValuePacker packer;
+    packer.add_list(near);
+    requests_.ask_one(rank, Request::turn, packer.bytes());
+  }
+  requests_.answers();
+}
+
+/// Of a key the overlay has a row, a count, two labels and a parent.
+bool Leader::can_hold(std::size_t bytes, std::uint64_t keys, const Execution& execution) const {
+  if (keys > most_keys_) return false;
+  try {
+    execution.reserve(bytes + keys * (32 + 1 + 2 * sizeof(double) + sizeof(VertexId)));
+    return true;
+  } catch (const Stopped& stopped) {
+    if (stopped.reason != StopReason::memory) throw;
+    return false;
+  }
+}
+
+/// Each reduces its tiles, and keeps them. own: those of this rank.
+Leader::Reduced Leader::reduce_bands(const OverlayEnds& ends, BandPeeling peeling, const Execution& execution) {
+  ValuePacker packer;
+  pack_links(ends.start, packer);
+  pack_links(ends.goal, packer);
+  packer.add(peeling);
+  requests_.ask(Request::reduce, packer.bytes());
+  Reduced reduced{band_.reduce(ends, peeling, execution), {}, 0};
+  reduced.all = ReducedBand::of(reduced.own);
+  std::size_t largest = 0;
+  const std::vector<Bytes> others = requests_.answers();
+  for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
+    const auto band = ValueUnpacker(others[rank], fmt::format("rank {}", rank)).take<ReducedBand>();
+    largest = std::max<std::size_t>(largest, band.bytes);
+    reduced.bytes_to_come += band.bytes;
+    reduced.all.add(band);
+  }
+  reduced.bytes_to_come += 2 * largest;
+  return reduced;
+}
+
+/// Room for all is asked for before the first comes.
+std::vector<TileSummary> Leader::reduce_all(const OverlayEnds& ends, const Execution& execution) {
+  Reduced reduced = reduce_bands(ends, BandPeeling::band, execution);
+  if (can_hold(reduced.bytes_to_come, reduced.all.keys, execution)) return hand_over(std::move(reduced.own), execution);
+  ends_ = ends;
+  if (!reduced.own.empty()) {
+    rounds_.emplace(band_.grid(), band_rows(tile_rows(), 0, requests_.ranks()), ends_, std::move(reduced.own),
+                    execution);
+  }
+  search_.emplace(requests_, rounds_ ? &*rounds_ : nullptr, band_.grid());
+  return {reduced.all.counts()};
+}
+
+std::vector<TileSummary> Leader::reduce_whole(const OverlayEnds& ends, const Execution& execution) {
+  Reduced reduced = reduce_bands(ends, BandPeeling::none, execution);
+  execution.reserve(reduced.bytes_to_come);
+  return hand_over(std::move(reduced.own), execution);
+}
+
+std::vector<TileSummary> Leader::hand_over(std::vector<TileSummary> own, const Execution& execution) {
+  std::vector<TileSummary> tiles = std::move(own);
+  tiles.reserve(band_.grid().count());
+  for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
+    execution.check();
+    requests_.ask_one(rank, Request::hand_over, {});
+    const Bytes bytes = requests_.answer(rank);
+    ValueUnpacker from(bytes, fmt::format("rank {}", rank));
+    while (!from.is_done()) tiles.push_back(unpack_summary(from, band_.grid().side()));
+  }
+  if (tiles.size() != band_.grid().count()) throw InputError("ranks", "do not have all tiles between them");
+  return tiles;
+}
+
+ToldRoute Leader::search(const OverlayEnds& ends, const Execution& execution) {
+  ToldRoute route = search_->run(ends, execution);
+  rounds_.reset();
+  return route;
+}
+
+std::vector<std::vector<std::uint8_t>> Leader::steps_of(std::span<const TileChain> chains, const Execution& execution) {
+  std::vector<std::vector<std::size_t>> of_rank(requests_.ranks());
+  for (std::size_t i = 0; i < chains.size(); ++i) {
+    of_rank[rank_of_row(chains[i].tile / band_.grid().tile_cols, tile_rows(), requests_.ranks())].push_back(i);
+  }
+  for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
+    std::vector<TileChain> own;
+    for (const std::size_t i : of_rank[rank]) own.push_back(chains[i]);
+    ValuePacker packer;
+    packer.add_list(own);
+    requests_.ask_one(rank, Request::steps, packer.bytes());
+  }
+  std::vector<std::vector<std::uint8_t>> steps = band_.steps_of(chains, execution);
+  const std::vector<Bytes> others = requests_.answers();
+  for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
+    ValueUnpacker from(others[rank], fmt::format("rank {}", rank));
+    for (const std::size_t i : of_rank[rank]) {
+      steps[i] = from.take_list<std::uint8_t>();
+      if (steps[i].size() != chains[i].length) from.refuse();
+    }
+  }
+  return steps;
+}
+
+void Leader::begin(std::span<const Vec2> path, double reach) {
+  for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
+    ValuePacker packer;
+    packer.add(reach);
+    for (const NearLegs& run : legs_near(path, band_rows(tile_rows(), rank, requests_.ranks()), band_.grid(), reach)) {
+      packer.add(run.first);
+      packer.add_list(run.points);
+    }
+    requests_.ask_one(rank, Request::judge, packer.bytes());
+  }
+}
+
+std::vector<NearestWalls> Leader::take() {
+  std::vector<NearestWalls> found;
+  const std::vector<Bytes> others = requests_.answers();
+  for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
+    found.push_back(ValueUnpacker(others[rank], fmt::format("rank {}", rank)).take<NearestWalls>());
+  }
+  return found;
+}
+
+CellTile Leader::tile(std::size_t number, WallsFor who) {
+  const unsigned rank = rank_of_row(number / band_.grid().tile_cols, tile_rows(), requests_.ranks());
+  return asking_([&] {
+    ValuePacker packer;
+    packer.add(number);
+    packer.add(who);
+    requests_.ask_one(rank, Request::read, packer.bytes());
+    const Bytes bytes = requests_.answer(rank);
+    ValueUnpacker from(bytes, fmt::format("rank {}", rank));
+    CellTile tile;
+    tile.first_col = from.take<std::uint32_t>();
+    tile.first_row = from.take<std::uint32_t>();
+    tile.width = from.take<std::uint32_t>();
+    tile.height = from.take<std::uint32_t>();
+    tile.walls = from.take_list<std::uint8_t>();
+    if (tile.walls.size() != (std::size_t{tile.width} + 1) * (std::size_t{tile.height} + 1)) from.refuse();
+    return tile;
+  });
+}
+
+namespace {
+
+class Follower {
+ public:
+  Follower(Transport& transport, const BandTask& task, const FollowerLimits& limits)
+      : transport_(transport),
+        band_(task, band_rows(task.grid().tile_rows, transport.rank(), transport.ranks())),
+        outer_(limits.signal),
+        deadline_(std::numeric_limits<double>::infinity(), limits.memory_bytes, &stop_),
+        waiting_(std::numeric_limits<double>::infinity(), limits.memory_bytes, limits.signal),
+        execution_{limits.threads, &deadline_, limits.progress} {}
+
+  void run() {
+    while (serve(transport_.receive(0, {.deadline = &waiting_}))) {
+    }
+    const Reply ended = Reply::ended;
+    transport_.send(0, std::as_bytes(std::span(&ended, 1)), {.deadline = &waiting_});
+  }
+
+ private:
+  /// Answers one request; false at the end.
+  bool serve(const Bytes& message) {
+    ValueUnpacker from(message, "rank 0");
+    const auto request = from.take<Request>();
+    if (request == Request::end) return false;
+    if (execution_.progress != nullptr) execution_.progress->begin(name_of(request).data(), 0);
+    const bool is_short = request == Request::rounds && rounds_ && rounds_->is_short(from);
+    const Bytes answer = answered(is_short, [&](ValuePacker& to) { work(request, from, to); });
+    transport_.send(0, answer, {.deadline = &waiting_});
+    return true;
+  }
+
+  /// The answer, or why there is none. A message that comes meanwhile is the end; of what is short that is found
+  /// afterwards.
+  template <class Work>
+  Bytes answered(bool is_short, const Work& work) {
+    using std::chrono::milliseconds;
+    std::optional<Ticker> ticker;
+    if (!is_short) {
+      ticker.emplace(milliseconds(50), milliseconds(50), [this] {
+        const int signal = outer_ != nullptr ? outer_->load() : 0;
+        stop_.store(signal != 0 ? signal : transport_.has_message(0) ? SIGTERM : 0);
+      });
+    }
+    ValuePacker packer;
+    try {
+      packer.add(Reply::done);
+      work(packer);
+      return packer.take();
+    } catch (const Stopped& stopped) {
+      return said(Reply::stopped, [&](ValuePacker& to) { to.add(stopped.reason); });
+    } catch (const std::bad_alloc&) {
+      return said(Reply::stopped, [&](ValuePacker& to) { to.add(StopReason::memory); });
+    } catch (const Error& error) {
+      return said(Reply::refused, [&](ValuePacker& to) { to.add_text(error.what()); });
+    }
+  }
+  template <class Say>
+  static Bytes said(Reply reply, const Say& say) {
+    ValuePacker packer;
+    packer.add(reply);
+    say(packer);
+    return packer.take();
+  }
+
+  void work(Request request, ValueUnpacker& from, ValuePacker& to) {
+    if (request != Request::rounds) rounds_.reset();
+    switch (request) {
+      case Request::make:
+        if (const auto rim = band_.make(execution_)) rim->pack(to);
+        if (band_.read() != nullptr) KnownWalls::of(*band_.read()).pack(to);
+        return;
+      case Request::turn: {
+        const auto edges = from.take_list<std::uint64_t>();
+        if (!band_.is_empty()) band_.turn(edges);
+        return;
+      }
+      case Request::reduce:
+        return reduce(from, to);
+      case Request::hand_over:
+        return hand_over(to);
+      case Request::rounds:
+        return rounds(from, to);
+      case Request::steps:
+        for (const auto& steps : band_.steps_of(from.take_list<TileChain>(), execution_)) to.add_list(steps);
+        return;
+      case Request::judge: {
+        const auto reach = from.take<double>();
+        std::vector<NearLegs> legs;
+        while (!from.is_done()) {
+          const auto first = from.take<std::uint64_t>();
+          legs.push_back({first, from.take_list<Vec2>()});
+        }
+        return to.add(band_.judge(legs, reach, execution_));
+      }
+      case Request::read:
+        return read(from, to);
+      case Request::end:
+        return;
+    }
+  }
+
+  void reduce(ValueUnpacker& from, ValuePacker& to) {
+    ends_.start.links = from.take_list<EndLink>();
+    ends_.goal.links = from.take_list<EndLink>();
+    tiles_ = band_.reduce(ends_, from.take<BandPeeling>(), execution_);
+    to.add(ReducedBand::of(tiles_));
+  }
+  void hand_over(ValuePacker& to) {
+    std::size_t bytes = 0;
+    for (const TileSummary& tile : tiles_) bytes += tile.bytes();
+    execution_.reserve(bytes);
+    for (TileSummary& tile : tiles_) {
+      pack_summary(tile, to);
+      tile = {};
+    }
+    let_go(tiles_);
+  }
+  void rounds(ValueUnpacker& from, ValuePacker& to) {
+    if (!rounds_) {
+      const TileGrid& grid = band_.grid();
+      rounds_.emplace(grid, band_rows(grid.tile_rows, transport_.rank(), transport_.ranks()), ends_, std::move(tiles_),
+                      execution_);
+    }
+    rounds_->serve(from, to);
+  }
+  void read(ValueUnpacker& from, ValuePacker& to) const {
+    const auto number = from.take<std::size_t>();
+    if (number < band_.tiles().first || number >= band_.tiles().last) throw InputError("tile", "is of another rank");
+    CellTile tile;
+    band_.walls(from.take<WallsFor>()).reader()->read(number, tile);
+    for (const std::uint32_t value : {tile.first_col, tile.first_row, tile.width, tile.height}) to.add(value);
+    to.add_list(tile.walls);
+  }
+
+  Transport& transport_;
+  Band band_;
+  const SignalFlag* outer_;
+  SignalFlag stop_{0};
+  Deadline deadline_;  // while it works
+  Deadline waiting_;   // while it waits
+  Execution execution_;
+  OverlayEnds ends_;
+  std::vector<TileSummary> tiles_;  // until they are handed over, or searched here
+  std::optional<BandRounds> rounds_;
+};
+
+}  // namespace
+
+void follow(Transport& transport, const BandTask& task, const FollowerLimits& limits) {
+  Follower(transport, task, limits).run();
+}
+
+}  // namespace warren::distributed

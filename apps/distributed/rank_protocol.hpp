@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What rank 0 asks of the others, and how they answer. Rank 0 leads: it sends the same request to all, does its own
+// share, and takes the others' answers; nobody else ever speaks first. So no two ranks wait for each other, and a
+// message that comes to a rank at work can only be the end.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "apps/distributed/transport.hpp"
+
+namespace warren::distributed {
+
+/// The stages of a run, as messages name them.
+enum class Request : std::uint32_t { make, turn, reduce, hand_over, rounds, steps, judge, read, end };
+inline constexpr std::size_t request_count = 9;
+constexpr auto enum_names(Request) {
+  return std::array<std::string_view, request_count>{"generate", "join",   "connect", "gather", "rounds",
+                                                     "expand",   "verify", "search",  "end"};
+}
+
+/// How an answer begins: what follows is what was asked for, a StopReason, or the line of an error. Alone stand the
+/// answer to Request::end, and what a rank says last of all.
+enum class Reply : std::uint32_t { done, stopped, refused, ended, gone };
+
+// Rank 0's side of the conversation: it asks, the others answer, and what keeps one of them from it is thrown here.
+
+/// Refers to the transport, whose rank is 0.
+class Requests {
+ public:
+  Requests(Transport& transport, const Execution& execution) : transport_(transport), execution_(execution) {}
+
+  unsigned ranks() const { return transport_.ranks(); }
+  /// Whoever waits from now on waits so.
+  void wait_as(const Execution& execution) { execution_ = execution; }
+  void ask(Request request, std::span<const std::byte> body);
+  void ask_one(unsigned rank, Request request, std::span<const std::byte> body);
+  /// The answer of one. Throws Stopped, InputError.
+  Bytes answer(unsigned rank);
+  /// The answers of these ranks, by rank; of the others nothing. Throws Stopped, InputError.
+  std::vector<Bytes> answers(std::vector<unsigned> awaited);
+  /// Of all but rank 0.
+  std::vector<Bytes> answers();
+
+  /// Bytes that this rank has sent and received for each kind of request: all that went over the wire.
+  const std::array<std::uint64_t, request_count>& traffic() const { return traffic_; }
+
+ private:
+  Transport& transport_;
+  Execution execution_;
+  Request asked_ = Request::make;  // last
+  std::array<std::uint64_t, request_count> traffic_{};
+};
+
+// The first and the last step of a run over ranks: all are the same program with the same words, or none begins; and
+// whatever becomes of rank 0, the others are told that it is over.
+
+/// Every rank calls it before what it is about begins, as often and in the same order as the others, with all that must
+/// be the same everywhere: its words first, then what it sees of the world. Throws InputError at rank 0, which says
+/// what a rank that differs does, and returns false at the others. These return false, too, where rank 0 has failed
+/// before it. Throws Stopped.
+bool agree(Transport& transport, std::string_view facts, const Execution& execution,
+           std::string_view difference = "is another program or was given other words than rank 0");
+
+/// Lives at rank 0 while the others follow().
+class EndOfFollowers {
+ public:
+  explicit EndOfFollowers(Transport& transport) : transport_(transport) {}
+  /// Tells the others, whatever they are doing, and hears them out: what they were sending, too, and that they have
+  /// ended. Waits for some seconds at most.
+  ~EndOfFollowers();
+  EndOfFollowers(const EndOfFollowers&) = delete;
+  EndOfFollowers& operator=(const EndOfFollowers&) = delete;
+
+ private:
+  Transport& transport_;
+};
+
+/// The last that rank 0 does; the others, who may still wait for it, are told the end. False where one of them does not
+/// leave() within some seconds: they can't part in order then.
+bool all_have_left(Transport& transport);
+
+/// The last that every other rank does.
+void leave(Transport& transport);
+
+// What a rank that is stopped says last: where it was and why, for of many ranks that end somebody has to.
+
+/// One line on standard error.
+void say_where_stopped(const Transport& transport, const Progress& progress, StopReason reason);
+
+/// Gives what work() gives. Throws as it does, after the line where that is Stopped or memory that is out.
+template <class Work>
+auto telling_where_stopped(const Transport& transport, const Progress& progress, const Work& work) {
+  try {
+    return work();
+  } catch (const Stopped& stopped) {
+    say_where_stopped(transport, progress, stopped.reason);
+    throw;
+  } catch (const std::bad_alloc&) {
+    say_where_stopped(transport, progress, StopReason::memory);
+    throw;
+  }
+}
+
+}  // namespace warren::distributed

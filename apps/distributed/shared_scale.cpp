@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/distributed/shared_scale.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "apps/distributed/leader_follower.hpp"
+#include "apps/distributed/rank_protocol.hpp"
+#include "apps/distributed/ranks_report_io.hpp"
+#include "apps/studies/machine.hpp"
+#include "core/base/error.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "solve/mazes/solve_streamed.hpp"
+#include "tools/screen/exit_code.hpp"
+#include "tools/screen/output_files.hpp"
+#include "tools/screen/run_of_verb.hpp"
+#include "tools/screen/signals.hpp"
+#include "tools/screen/terminal.hpp"
+#include "tools/words/option_values.hpp"
+#include "tools/words/planner_words.hpp"
+#include "tools/words/question_words.hpp"
+
+namespace warren::distributed {
+namespace {
+
+constexpr tools::OptionSpec scale_specs[] = {
+    {"--side", "N", "the maze of the strong runs is N x N; those of k ranks N k x N in the weak ones (default: 4000)"},
+    {"--loops", "F", "fraction of the walls left that are taken out (default: 0)"},
+    {"--seed", "N", "of the mazes (default: 1)"},
+    {"--ranks", "LIST",
+     "numbers of ranks, apart by commas, at most those that mpirun has started (default: 1 and all)"},
+    {"--json", "FILE", "write warren.ranks/1; - is standard output"},
+};
+
+/// The first ranks of a run, as if they were all.
+class FirstRanks : public Transport {
+ public:
+  FirstRanks(Transport& all, unsigned ranks) : all_(all), ranks_(ranks) {}
+  unsigned rank() const override { return all_.rank(); }
+  unsigned ranks() const override { return ranks_; }
+  void send(unsigned to, std::span<const std::byte> bytes, const Execution& execution) override {
+    all_.send(to, bytes, execution);
+  }
+  Bytes receive(unsigned from, const Execution& execution) override { return all_.receive(from, execution); }
+  bool has_message(unsigned from) override { return all_.has_message(from); }
+
+ private:
+  Transport& all_;
+  const unsigned ranks_;
+};
+
+/// What rank 0 tells the others before each run; no ranks: there is none.
+struct NextRun {
+  std::uint32_t ranks, rows, cols;
+};
+
+class UsedMeter {
+ public:
+  explicit UsedMeter(const Transport& transport) : transport_(transport), bytes_(transport.bytes_sent()) {
+    studies::restart_peak_memory();
+  }
+  RankUse used() const {
+    return {(process_.read() - before_).cpu_s, transport_.bytes_sent() - bytes_, peak_resident_bytes()};
+  }
+
+ private:
+  const Transport& transport_;
+  const std::uint64_t bytes_;
+  const studies::RunCounters process_{std::span<const studies::PerfEvent>()};
+  const studies::RunCounts before_ = process_.read();
+};
+
+class NobodysPath : public PathTaker {
+ public:
+  void begin(std::uint64_t) override {}
+  void add(std::span<const Vec2>) override {}
+};
+
+struct Mazes {
+  explicit Mazes(const tools::Arguments& arguments)
+      : side(tools::given_count(arguments, "--side", 1, 1'000'000).value_or(4000)),
+        made(tools::maze_words(arguments, {.seed = tools::seed_word(arguments), .algorithm = MazeAlgorithm::mst})) {}
+  Scene scene(const NextRun& run) const {
+    MazeOptions sized = made;
+    sized.rows = run.rows;
+    sized.cols = run.cols;
+    return unmade_maze_scene(sized);
+  }
+  BandTask task(const NextRun& run) const {
+    const Scene unmade = scene(run);
+    return BandTask::of(unmade, keeping_off(unmade, {}, ""));
+  }
+  std::uint32_t side;
+  MazeOptions made;  // but for its size
+};
+
+/// The line of a stop comes before the others are ended, which may take longer than a launcher waits.
+RanksRun measured(Transport& transport, const Mazes& mazes, bool is_strong, const NextRun& next,
+                  const Execution& execution) {
+  const auto told = [&](const auto& work) { telling_where_stopped(transport, *execution.progress, work); };
+  told([&] {
+    for (unsigned rank = 1; rank < transport.ranks(); ++rank) {
+      transport.send(rank, std::as_bytes(std::span(&next, 1)), execution);
+    }
+  });
+  const UsedMeter meter(transport);
+  const auto begin = std::chrono::steady_clock::now();
+  RanksRun found{.is_strong = is_strong, .ranks = next.ranks, .rows = next.rows, .cols = next.cols};
+  {
+    FirstRanks first(transport, next.ranks);
+    const EndOfFollowers end(first);
+    told([&] {
+      Leader leader(first, mazes.task(next), execution);
+      NobodysPath nobody;
+      SolveOptions options;
+      options.roadmap.pipeline = PipelineKind::streamed;
+      const Answer answer =
+          solve_streamed_within(mazes.scene(next), {}, options, execution, {.taker = &nobody, .team = &leader});
+      if (answer.stop_reason) throw Stopped(*answer.stop_reason);
+      found.length = answer.length;
+      found.traffic = leader.traffic();
+    });
+  }
+  found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  found.used.push_back(meter.used());
+  told([&] {
+    for (unsigned rank = 1; rank < next.ranks; ++rank) {
+      found.used.push_back(ValueUnpacker(transport.receive(rank, execution), "rank").take<RankUse>());
+    }
+  });
+  return found;
+}
+
+std::vector<unsigned> ranks_asked(const tools::Arguments& arguments, unsigned most) {
+  std::vector<unsigned> ranks = tools::given_values(arguments, "--ranks", "--ranks", [&](auto option, auto text) {
+    return static_cast<unsigned>(tools::count_value(option, text, 1, most));
+  });
+  if (ranks.empty()) ranks = {1, most};
+  std::sort(ranks.begin(), ranks.end());
+  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+  return ranks;
+}
+
+int lead(const tools::Arguments& arguments, Transport& transport) {
+  const Mazes mazes(arguments);
+  const std::vector<unsigned> ranks = ranks_asked(arguments, transport.ranks());
+  tools::Run run(arguments);
+  Progress unseen;
+  Execution execution = run.execution();
+  if (execution.progress == nullptr) execution.progress = &unseen;
+  std::vector<RanksRun> runs;
+  for (const bool is_strong : {true, false}) {
+    for (const unsigned count : ranks) {
+      const NextRun next{count, is_strong ? mazes.side : mazes.side * count, mazes.side};
+      runs.push_back(measured(transport, mazes, is_strong, next, execution));
+    }
+  }
+  run.end();
+  tools::write_report(arguments, "--json", [&] {
+    return ranks_json(runs, {mazes.made.seed, mazes.made.loops, run.threads()});
+  });
+  if (arguments.value("--json") != "-" && !run.quiet()) tools::print_text(ranks_table(runs).text(run.palette()));
+  return tools::exit_code::success;
+}
+
+void follow_until_end(Transport& transport, const Mazes& mazes, const FollowerLimits& limits) {
+  const Deadline waiting(std::numeric_limits<double>::infinity(), limits.memory_bytes, limits.signal);
+  for (;;) {
+    const Bytes bytes = transport.receive(0, {.deadline = &waiting});
+    if (bytes.size() != sizeof(NextRun)) return;  // the end
+    const auto next = ValueUnpacker(bytes, "rank 0").take<NextRun>();
+    if (transport.rank() >= next.ranks) continue;
+    const UsedMeter meter(transport);
+    FirstRanks first(transport, next.ranks);
+    follow(first, mazes.task(next), limits);
+    const RankUse used = meter.used();
+    transport.send(0, std::as_bytes(std::span(&used, 1)), {.deadline = &waiting});
+  }
+}
+
+int follow_runs(const tools::Arguments& arguments, Transport& transport) {
+  const Mazes mazes(arguments);
+  ranks_asked(arguments, transport.ranks());
+  Progress progress;
+  const auto memory = tools::given_value(arguments, "--memory", tools::memory_value);
+  const FollowerLimits limits{.threads = tools::given_value(arguments, "--threads", tools::threads_value).value_or(0),
+                              .memory_bytes = memory ? *memory : available_bytes(),
+                              .signal = &tools::signal_flag(),
+                              .progress = &progress};
+  telling_where_stopped(transport, progress, [&] { follow_until_end(transport, mazes, limits); });
+  return tools::exit_code::success;
+}
+
+}  // namespace
+
+tools::Command shared_scale_command(Transport& transport) {
+  tools::Command command{"scale", "", "measure how a streamed solve spreads over ranks", {}, {}};
+  tools::add_options(command.options, scale_specs);
+  tools::add_options(command.options, tools::run_option_specs());
+  command.run = [&](const tools::Arguments& arguments) {
+    return transport.rank() > 0 ? follow_runs(arguments, transport) : lead(arguments, transport);
+  };
+  return command;
+}
+
+}  // namespace warren::distributed

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/distributed/shared_solve.hpp"
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "apps/distributed/leader_follower.hpp"
+#include "apps/distributed/rank_protocol.hpp"
+#include "core/base/error.hpp"
+#include "scenes/formats/maze_file_io.hpp"
+#include "scenes/formats/npy_io.hpp"
+#include "scenes/formats/read_world_io.hpp"
+#include "scenes/formats/unmade_maze_io.hpp"
+#include "scenes/text/human_units.hpp"
+#include "scenes/text/input_file_io.hpp"
+#include "solve/mazes/solve_streamed.hpp"
+#include "solve/steps/kind_of_problem.hpp"
+#include "tools/screen/exit_code.hpp"
+#include "tools/screen/run_of_verb.hpp"
+#include "tools/screen/signals.hpp"
+#include "tools/verbs/answer_command.hpp"
+#include "tools/words/option_values.hpp"
+#include "tools/words/output_words.hpp"
+#include "tools/words/planner_words.hpp"
+#include "tools/words/question_words.hpp"
+
+namespace warren::distributed {
+namespace {
+
+/// What is asked, as every rank reads it from the same words, and from a file that has to be the same.
+struct SharedQuestion {
+  explicit SharedQuestion(const tools::Arguments& arguments)
+      : source(arguments.operand(0)),
+        question(tools::question_words(arguments)),
+        options(tools::solve_words(arguments)) {
+    if (options.roadmap.pipeline.value_or(PipelineKind::streamed) != PipelineKind::streamed) {
+      throw UsageError("@pipeline: ranks share the work of the pipeline streamed alone");
+    }
+    options.roadmap.pipeline = PipelineKind::streamed;
+    question.validate();
+    options.validate();
+    check_solver_options(options);
+  }
+  /// Every rank calls it, and they tell what they see. False where that is not the same; at rank 0 then throws who sees
+  /// what, or what keeps all of them from it.
+  bool open(Transport& transport, const Execution& execution, double& seconds) {
+    std::exception_ptr wrong;
+    std::string seen;
+    const StageTimer timer(execution, "read", seconds);
+    try {
+      look(execution);
+      seen = world.facts;
+    } catch (const Stopped&) {
+      throw;
+    } catch (const Error& error) {
+      wrong = std::current_exception();
+      seen = error.what();
+    }
+    const bool is_same = agree(transport, seen, execution, "does not see what rank 0 sees of the world");
+    if (wrong && transport.rank() == 0) std::rethrow_exception(wrong);
+    return is_same && !wrong;
+  }
+  const Scene& scene() const { return world.scene; }
+  BandTask task() const { return BandTask::of(scene(), problem); }
+
+  std::string source;
+  Question question;
+  SolveOptions options;
+  SharedWorld world;
+  WallProblem problem;
+
+ private:
+  void look(const Execution& execution) {
+    world = shared_world(source, execution);
+    choose_solver(options, scene(), question);
+    problem = keeping_off(scene(), question, "prm keeps off the walls");
+  }
+};
+
+class SharedSolve : public tools::AnswerCommand {
+ public:
+  SharedSolve(const tools::Arguments& arguments, Transport& transport)
+      : tools::AnswerCommand(arguments, "--save-roadmap"), transport_(transport), asked_(arguments) {
+    if (arguments.has("--explain")) {
+      throw UsageError("--explain: looks at walls that are held, and these are made tile by tile");
+    }
+  }
+
+ private:
+  Answer find(const tools::Run& run, StageTimes& before, ByProducts*) override {
+    Progress unseen;
+    Execution execution = run.execution();
+    if (execution.progress == nullptr) execution.progress = &unseen;
+    return telling_where_stopped(transport_, *execution.progress, [&] { return found(execution, before); });
+  }
+  Answer found(const Execution& execution, StageTimes& before) {
+    asked_.open(transport_, execution, before.read);
+    check_outputs_of(robot_of(asked_.scene(), asked_.question));
+    const EndOfFollowers end(transport_);
+    Leader leader(transport_, asked_.task(), execution);
+    Answer answer = solve_streamed_within(asked_.scene(), asked_.question, asked_.options, execution,
+                                          {.taker = path_taker(), .team = &leader});
+    answer.figures.push_back({"ranks", std::uint64_t{transport_.ranks()}});
+    if (answer.stop_reason) say_where_stopped(transport_, *execution.progress, *answer.stop_reason);
+    if (const auto lack = leader.lack()) {
+      tools::say_on_standard_error(fmt::format("warren-mpi: rank {} would need {} more for its share of the search\n",
+                                               lack->rank, human_bytes(static_cast<double>(lack->bytes))));
+    }
+    return answer;
+  }
+  Scene scene_drawn(const Execution& execution, ByProducts&) override {
+    return read_world(arguments_.operand(0), execution);
+  }
+  void explain(const Execution&, Answer&, ByProducts&) override {}
+  const Roadmap& roadmap() const override { return roadmap_; }
+
+  Transport& transport_;
+  SharedQuestion asked_;
+  Roadmap roadmap_;
+};
+
+/// Says nothing of words that rank 0 refuses, too.
+int follow_words(const tools::Arguments& arguments, Transport& transport) {
+  SharedQuestion asked(arguments);
+  Progress progress;
+  const auto memory = tools::given_value(arguments, "--memory", tools::memory_value);
+  const auto threads = tools::given_value(arguments, "--threads", tools::threads_value);
+  const Deadline looking(std::numeric_limits<double>::infinity(), available_bytes(), &tools::signal_flag());
+  const FollowerLimits limits{.threads = threads.value_or(0),
+                              .memory_bytes = memory ? *memory : available_bytes(),
+                              .signal = &tools::signal_flag(),
+                              .progress = &progress};
+  telling_where_stopped(transport, progress, [&] {
+    double seconds = 0.0;
+    if (asked.open(transport, {.deadline = &looking, .progress = &progress}, seconds)) {
+      follow(transport, asked.task(), limits);
+    }
+  });
+  return tools::exit_code::success;
+}
+
+}  // namespace
+
+tools::Command shared_solve_command(Transport& transport) {
+  tools::Command command{"solve", "WORLD", "find a path, verify it, print a summary, by all ranks together", {}, {}};
+  tools::add_options(command.options, tools::solve_option_specs());
+  tools::add_options(command.options, tools::question_option_specs());
+  tools::add_options(command.options, tools::answer_output_specs());
+  tools::add_options(command.options, tools::path_option_specs());
+  tools::add_options(command.options, tools::run_option_specs());
+  command.run = [&](const tools::Arguments& arguments) {
+    if (transport.rank() > 0) return follow_words(arguments, transport);
+    return SharedSolve(arguments, transport).run();
+  };
+  return command;
+}
+
+namespace {
+
+[[noreturn]] void refuse() {
+  throw UsageError(
+      "WORLD: ranks share mazes named maze:ROWSxCOLS,algorithm=mst, whose tiles any of them can make, and files .maze "
+      "and .npy of mazes, of which each reads its part");
+}
+
+/// What a file says of the walls beside their number of rows and columns.
+std::string facts_of(const InputFile& file, const Scene& scene) {
+  if (is_maze_file(file.bytes())) {
+    return fmt::format("{} bytes with checksums {:016x}", file.bytes().size(), *scene.packed->hash);
+  }
+  return fmt::format("{} walls of {} x {} cells in {} bytes", npy_walls(file).walls, scene.maze->rows, scene.maze->cols,
+                     file.bytes().size());
+}
+
+}  // namespace
+
+SharedWorld shared_world(const std::string& source, const Execution& execution) {
+  if (is_maze_source(source)) {
+    std::optional<Scene> scene = unmade_maze(source);
+    if (!scene) refuse();
+    return {std::move(*scene), ""};
+  }
+  std::error_code missing;
+  if (source == "-" || std::filesystem::is_other(source, missing)) refuse();  // a pipe has one reader
+  const InputFile file(source, execution);
+  std::optional<Scene> scene = unmade_maze(file);
+  if (!scene && is_npy(file.bytes())) {
+    throw InputError(file.name(),
+                     "its first four rows are no outline of a maze as 'warren generate' writes it; only the walls of "
+                     "such mazes can be shared");
+  }
+  if (!scene) refuse();
+  std::string facts = facts_of(file, *scene);
+  return {std::move(*scene), std::move(facts)};
+}
+
+}  // namespace warren::distributed

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// `warren-mpi solve`: the words of `warren solve`, for mazes of mst that are made tile by tile, by all ranks together.
+#pragma once
+
+#include <string>
+
+#include "apps/distributed/transport.hpp"
+#include "parallel/execution.hpp"
+#include "scenes/scene/scene.hpp"
+#include "tools/words/command.hpp"
+
+namespace warren::distributed {
+
+/// The command of this rank: rank 0 answers, the others follow it. Refers to the transport.
+tools::Command shared_solve_command(Transport& transport);
+
+// The world that ranks share: a maze whose tiles any of them can make, or a file of which each reads its part. Files of
+// different hosts may have one name and other walls, so the ranks compare what they see before they begin.
+
+struct SharedWorld {
+  Scene scene;        ///< without its walls (is_unmade)
+  std::string facts;  ///< what all ranks must see of it; of a .maze all its checksums, of a .npy its size and outline
+};
+
+/// Reads what a file says of itself: a .maze's header and checksums, a .npy's header and the four walls of the outline,
+/// no other walls. Throws UsageError for what ranks do not share, InputError, ReadError, Stopped.
+SharedWorld shared_world(const std::string& source, const Execution& execution);
+
+}  // namespace warren::distributed

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/python/bind.hpp"
+
+#include <cstring>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "scenes/scene/scene.hpp"
+
+namespace warren::python {
+namespace py = pybind11;
+namespace {
+
+constexpr std::string_view head = "warren.pickle/" WARREN_VERSION "\n";
+
+class BytesOut {
+ public:
+  static constexpr bool reads = false;
+  void block(const void* from, std::size_t n) { text_.append(static_cast<const char*>(from), n); }
+  std::size_t count(std::size_t n) {
+    block(&n, sizeof n);
+    return n;
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_{head};
+};
+
+class BytesIn {
+ public:
+  static constexpr bool reads = true;
+  explicit BytesIn(std::string_view text) : text_(text) {
+    if (!text_.starts_with(head)) throw InputError("pickle", "is of another version of warren");
+    text_.remove_prefix(head.size());
+  }
+  void block(void* to, std::size_t n) {
+    if (n > text_.size()) throw InputError("pickle", "is cut off");
+    if (n > 0) std::memcpy(to, text_.data(), n);
+    text_.remove_prefix(n);
+  }
+  /// Of elements, each of which takes a byte at least.
+  std::size_t count(std::size_t) {
+    std::size_t n = 0;
+    block(&n, sizeof n);
+    if (n > text_.size()) throw InputError("pickle", "is cut off");
+    return n;
+  }
+  void check_end() const {
+    if (!text_.empty()) throw InputError("pickle", "is damaged");
+  }
+
+ private:
+  std::string_view text_;
+};
+
+template <class Ar, class... Members>
+void all(Ar& ar, Members&... members) {
+  (put(ar, members), ...);
+}
+
+template <class Ar, class T>
+requires std::is_trivially_copyable_v<T>
+void put(Ar& ar, T& value) { ar.block(&value, sizeof value); }
+
+template <class Ar, class T, class Allocator>
+void put(Ar& ar, std::vector<T, Allocator>& list) {
+  if constexpr (std::is_trivially_copyable_v<T>) {
+    std::size_t n = ar.count(list.size());
+    if constexpr (Ar::reads) list.resize(n);
+    ar.block(list.data(), n * sizeof(T));
+  } else {
+    const std::size_t n = ar.count(list.size());
+    if constexpr (Ar::reads) list.resize(n);
+    for (T& item : list) put(ar, item);
+  }
+}
+
+template <class Ar>
+void put(Ar& ar, std::string& text) {
+  const std::size_t n = ar.count(text.size());
+  if constexpr (Ar::reads) text.resize(n);
+  ar.block(text.data(), n);
+}
+
+template <class Ar, class T>
+requires(!std::is_trivially_copyable_v<T>) void put(Ar& ar, std::optional<T>& value) {
+  bool has = value.has_value();
+  put(ar, has);
+  if constexpr (Ar::reads) {
+    if (has) value.emplace();
+  }
+  if (has) put(ar, *value);
+}
+
+template <std::size_t I = 0, class... Ts>
+void emplace_alternative(std::variant<Ts...>& value, std::size_t index) {
+  if constexpr (I < sizeof...(Ts)) {
+    if (index == I) {
+      value.template emplace<I>();
+    } else {
+      emplace_alternative<I + 1>(value, index);
+    }
+  } else {
+    throw InputError("pickle", "is damaged");
+  }
+}
+
+template <class Ar, class... Ts>
+requires(!std::is_trivially_copyable_v<std::variant<Ts...>>) void put(Ar& ar, std::variant<Ts...>& value) {
+  std::size_t index = value.index();
+  put(ar, index);
+  if constexpr (Ar::reads) emplace_alternative(value, index);
+  std::visit([&](auto& held) { put(ar, held); }, value);
+}
+
+template <class Ar>
+void put(Ar& ar, WallSet& walls) {
+  std::uint8_t bytes = walls.holds_packed()   ? sizeof(PackedWall)
+                       : walls.holds_floats() ? sizeof(FloatWall)
+                                              : sizeof(DoubleWall);
+  put(ar, bytes);
+  const auto block = [&]<class Wall>(Wall) {
+    RawVector<Wall> list;
+    if constexpr (!Ar::reads) {
+      walls.visit([&](auto span) {
+        if constexpr (std::is_same_v<std::remove_cv_t<typename decltype(span)::value_type>, Wall>) {
+          list.assign(span.begin(), span.end());
+        }
+      });
+    }
+    put(ar, list);
+    if constexpr (Ar::reads) walls = WallSet(std::move(list));
+  };
+  if (bytes == sizeof(PackedWall)) return block(PackedWall());
+  bytes == sizeof(FloatWall) ? block(FloatWall{}) : block(DoubleWall{});
+}
+
+template <class Ar>
+void put(Ar& ar, Bitmap& bits) {
+  std::uint32_t width = bits.width();
+  std::uint32_t height = bits.height();
+  all(ar, width, height);
+  if constexpr (Ar::reads) {
+    if (ar.count(0) != Bitmap::bytes_for(width, height)) throw InputError("pickle", "is damaged");
+    bits = Bitmap(width, height);
+  } else {
+    ar.count(bits.bytes());
+  }
+  for (std::uint32_t y = 0; y < height; ++y) ar.block(bits.row(y).data(), bits.row(y).size_bytes());
+}
+
+/// Says each member once: for the binding, which doesn't compile where one is missing, and for the archive. The macro
+/// that the house otherwise does without: no template of C++20 can take a struct apart by names.
+#define WARREN_ARCHIVED(Type, ...) \
+  template <class Ar>              \
+  void put(Ar& ar, Type& whole) {  \
+    auto& [__VA_ARGS__] = whole;   \
+    all(ar, __VA_ARGS__);          \
+  }
+WARREN_ARCHIVED(RobotSpec, kind, radius, turning_radius, tool, outline, steering, limits, table, self_collision)
+WARREN_ARCHIVED(ScenePolygon, corners, line)
+WARREN_ARCHIVED(OccupancyMap, format, blocked, unknown, water, free, occupied, unknown_count, between, grey_free, cell,
+                origin, yaw_rad, start, goal, source, image)
+WARREN_ARCHIVED(PackedMaze, file, hash)
+WARREN_ARCHIVED(Scene, walls, polygons, seams, spheres, boxes, bounds, clearance, maze, formula, packed, robot, start,
+                goal, grid, map, source)
+WARREN_ARCHIVED(StateList, width, numbers)
+WARREN_ARCHIVED(Violation, leg, distance, obstacle)
+WARREN_ARCHIVED(RefutedPath, violation, length, cost, path, states)
+WARREN_ARCHIVED(BlockedEnd, is_start, by, free_place, distance, hint, room, needed, depth)
+WARREN_ARCHIVED(Hint, verb, words, why)
+WARREN_ARCHIVED(Explanation, components, narrowest, hints, stopped)
+WARREN_ARCHIVED(Problem, robot, start, goal, clearance, contact)
+WARREN_ARCHIVED(WorldAccount, source, kind, walls, polygons, hash, spheres, boxes, unit)
+WARREN_ARCHIVED(NamedFigure, name, value)
+WARREN_ARCHIVED(StageCost, name, wall_s, cpu_s)
+WARREN_ARCHIVED(HandedPath, points, hash)
+WARREN_ARCHIVED(Answer, outcome, stop_reason, verified, blocked, explained, refuted, length, min_clearance, raw_length,
+                optimal, cost, turn_rad, problem, world, planner, pipeline, sampler, search, seed, threads, options,
+                roadmap, cells, figures, path_figures, separation, counters, seconds, costs, solve_s, peak_memory_bytes,
+                path, handed, states, tells_path)
+#undef WARREN_ARCHIVED
+
+}  // namespace
+
+template <class T>
+py::bytes bytes_of(const T& value) {
+  BytesOut out;
+  put(out, const_cast<T&>(value));  // NOLINT: BytesOut changes nothing
+  return out.text();
+}
+
+template <class T>
+T from_bytes(const py::bytes& bytes) {
+  BytesIn in{std::string_view(bytes)};
+  T value;
+  put(in, value);
+  in.check_end();
+  return value;
+}
+
+template py::bytes bytes_of(const Scene&);
+template Scene from_bytes(const py::bytes&);
+template py::bytes bytes_of(const Answer&);
+template Answer from_bytes(const py::bytes&);
+
+}  // namespace warren::python

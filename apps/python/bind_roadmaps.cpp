@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Roadmaps: built, asked, updated, in files, as arrays.
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <iterator>
+
+#include "apps/python/bind.hpp"
+#include "apps/python/kept_roadmap.hpp"
+#include "apps/python/keywords.hpp"
+#include "apps/python/library_calls.hpp"
+#include "core/base/error.hpp"
+#include "core/search/edge_states.hpp"
+#include "parallel/deadline.hpp"
+#include "solve/explain/explain_answer.hpp"
+#include "solve/roadmaps/export_of_roadmap.hpp"
+#include "solve/roadmaps/roadmap_file_io.hpp"
+#include "tools/words/option_values.hpp"
+#include "tools/words/planner_words.hpp"
+#include "tools/words/question_words.hpp"
+
+namespace warren::python {
+namespace {
+
+// States and edges of a roadmap as NumPy's arrays.
+
+/// indptr, indices and lengths of all edges: views that keep the roadmap, `self`, alive.
+pybind11::tuple all_rows(const pybind11::object& self);
+/// The same of the free edges, in arrays of their own.
+pybind11::tuple free_rows_of(KeptRoadmap& kept);
+/// 0 unchecked, 1 free, 2 blocked: of each edge end.
+pybind11::array edge_states(KeptRoadmap& kept);
+/// (n, numbers of a state): a view that keeps the roadmap, `self`, alive.
+pybind11::array states_of(const pybind11::object& self);
+/// A copy: what is learnt changes it.
+pybind11::array components_of(KeptRoadmap& kept);
+
+namespace py = pybind11;
+
+template <class List>
+Shape size_of(const List& list) {
+  return {static_cast<py::ssize_t>(list.size())};
+}
+
+py::tuple all_rows(const py::object& self) {
+  auto& kept = self.cast<KeptRoadmap&>();
+  const Asking asking(kept);
+  const RawVector<double>* lengths = nullptr;
+  const RoadmapArrays* arrays = nullptr;
+  CallLimits().run([&](const Execution& execution) {
+    arrays = &kept.arrays(execution);
+    lengths = &kept.lengths(execution);
+  });
+  // Below 2^31 unsigned numbers are the same bits as numbers with a sign, which SciPy has.
+  const auto signed_view = [&](const auto& list) {
+    return view_of(reinterpret_cast<const std::int32_t*>(list.data()), size_of(list), self);  // NOLINT
+  };
+  return py::make_tuple(signed_view(arrays->candidates.offsets()), signed_view(arrays->candidates.targets()),
+                        view_of(lengths->data(), size_of(*lengths), self));
+}
+
+py::tuple free_rows_of(KeptRoadmap& kept) {
+  const Asking asking(kept);
+  EdgeRows rows = CallLimits().run([&](const Execution& execution) { return free_rows(kept, execution); });
+  const Shape first = size_of(rows.first);
+  const Shape ends = size_of(rows.to);
+  return py::make_tuple(array_of<std::int32_t>(std::move(rows.first), first),
+                        array_of<std::int32_t>(std::move(rows.to), ends),
+                        array_of<double>(std::move(rows.lengths), ends));
+}
+
+py::array edge_states(KeptRoadmap& kept) {
+  const Asking asking(kept);
+  const RoadmapArrays* arrays = nullptr;
+  CallLimits().run([&](const Execution& execution) { arrays = &kept.arrays(execution); });
+  py::array_t<std::uint8_t> states(static_cast<py::ssize_t>(arrays->candidates.targets().size()));
+  std::uint8_t* to = states.mutable_data();
+  for (std::size_t i = 0; i < arrays->candidates.targets().size(); ++i) {
+    to[i] = static_cast<std::uint8_t>(edge_state(arrays->edge_states, i));
+  }
+  return read_only(std::move(states));
+}
+
+py::array states_of(const py::object& self) {
+  auto& kept = self.cast<KeptRoadmap&>();
+  const Asking asking(kept);
+  const RoadmapArrays* arrays = nullptr;
+  CallLimits().run([&](const Execution& execution) { arrays = &kept.arrays(execution); });
+  const auto width = static_cast<py::ssize_t>(arrays->dimension);
+  return view_of(arrays->states.data(), {static_cast<py::ssize_t>(arrays->states.size()) / width, width}, self);
+}
+
+py::array components_of(KeptRoadmap& kept) {
+  const Asking asking(kept);
+  RawVector<VertexId> component =
+      CallLimits().run([&](const Execution& execution) { return kept.arrays(execution).component; });
+  const Shape size = size_of(component);
+  return array_of<VertexId>(std::move(component), size);
+}
+
+}  // namespace
+
+namespace py = pybind11;
+namespace {
+
+using Kept = std::unique_ptr<KeptRoadmap>;
+
+/// Of one of the program's verbs the options that `keeps` chooses.
+template <class Keeps>
+tools::Command of_verb(std::string_view name, const tools::Command& verb, const Keeps& keeps) {
+  tools::Command made{name, "", "", {}, {}};
+  made.foreign = verb.foreign;
+  std::copy_if(verb.options.begin(), verb.options.end(), std::back_inserter(made.options), keeps);
+  return made;
+}
+
+bool is_among(std::initializer_list<std::string_view> options, const tools::OptionSpec& spec) {
+  return std::find(options.begin(), options.end(), spec.name) != options.end();
+}
+
+/// Those that say how `warren build` works, not where things are written.
+tools::Command building() {
+  return of_verb("build", tools::build_command(), [](const tools::OptionSpec& spec) {
+    return !is_among({"--output", "--no-world", "--map-rules", "--threads", "--budget", "--memory", "--quiet",
+                      "--progress", "--color", "--trace"},
+                     spec);
+  });
+}
+
+bool is_of_search(const tools::OptionSpec& spec) {
+  return is_among({"--search", "--heuristic", "--queue", "--optimise", "--cusp-cost", "--reverse-cost", "--attach"},
+                  spec);
+}
+
+tools::Command asking() {
+  return of_verb("query", tools::query_command(), [](const tools::OptionSpec& spec) {
+    return is_of_search(spec) || is_among({"--start", "--goal"}, spec);
+  });
+}
+tools::Command asking_pairs() { return of_verb("lengths", tools::query_command(), is_of_search); }
+tools::Command asking_matrix() { return of_verb("matrix", tools::query_command(), is_of_search); }
+
+Kept build_roadmap(const Scene& scene, py::dict keywords) {
+  CallLimits limits = take_limits(keywords);
+  const tools::Arguments words = arguments_of(made_once<building>(), keywords);
+  const Question question = tools::question_words(words);
+  const SolveOptions options = tools::solve_words(words);
+  const auto index = tools::given_choice<IndexChoice>(words, "--index").value_or(IndexChoice::where_it_pays);
+  return limits.run([&](const Execution& execution) {
+    return std::make_unique<KeptRoadmap>(build_within(scene, question, options, execution, index));
+  });
+}
+
+Kept open_roadmap(const std::string& file, const Scene* world, py::dict keywords) {
+  CallLimits limits = take_limits(keywords);
+  arguments_of({"open", "", "", {}, {}}, keywords);
+  return limits.run([&](const Execution& execution) {
+    std::optional<Scene> given;
+    if (world != nullptr) given = *world;
+    return std::make_unique<KeptRoadmap>(read_roadmap(file, execution, std::move(given)));
+  });
+}
+
+py::tuple update_roadmap(KeptRoadmap& old, const Scene& now, py::dict keywords) {
+  CallLimits limits = take_limits(keywords);
+  arguments_of({"update", "", "", {}, {}}, keywords);
+  const Asking asking(old);
+  UpdateAccount account;
+  Kept next = limits.run([&](const Execution& execution) {
+    return std::make_unique<KeptRoadmap>(update(old.roadmap(), now, execution, &account));
+  });
+  py::dict report;
+  report["mode"] = account.built_anew ? "built" : "changed";
+  report["edges"] = account.edges;
+  report["edges_checked"] = account.edges_checked;
+  report["states_added"] = account.states_added;
+  report["states_dropped"] = account.states_dropped;
+  return py::make_tuple(py::cast(std::move(next)), report);
+}
+
+KeptAnswer ask(KeptRoadmap& kept, py::dict keywords, bool keep, bool explain) {
+  CallLimits limits = take_limits(keywords);
+  const tools::Arguments words = arguments_of(made_once<asking>(), keywords);
+  const Question question = tools::question_words(words);
+  const RoadmapSearchFields how = tools::search_words(words);
+  const Asking asking(kept);
+  KeptAnswer said;
+  said.answer = limits.run([&](const Execution& execution) {
+    QuestionScratch scratch;
+    const RoadmapQuery& query = kept.query(execution);
+    ByProducts* made = keep || explain ? &said.made : nullptr;
+    Answer answer = query.ask_explained(question.start, question.goal, how, execution, scratch, made);
+    const Roadmap& roadmap = kept.roadmap();
+    if (explain) {
+      const AskedWith asked{.options = roadmap.options, .samples = roadmap.samples, .is_kept = true};
+      explain_in_time(answer,
+                      [&] { explain_answer(roadmap.world.whole(execution), asked, answer, said.made, execution); });
+    }
+    return answer;
+  });
+  return finished(std::move(said), keep, limits);
+}
+
+py::array lengths(KeptRoadmap& kept, const py::object& from, const py::object& to, bool each_to_each,
+                  py::dict keywords) {
+  CallLimits limits = take_limits(keywords);
+  const RoadmapSearchFields how = tools::search_words(
+      arguments_of(each_to_each ? made_once<asking_matrix>() : made_once<asking_pairs>(), keywords));
+  const std::size_t width = state_size(kept.roadmap().robot);
+  const NumberRows starts = rows_of(from, "starts", {width});
+  const NumberRows goals = width == 3   ? rows_of(to, "goals", {3, 2})
+                           : width == 6 ? rows_of(to, "goals", {6, 3})
+                                        : rows_of(to, "goals", {2});
+  if (!each_to_each && starts.rows != goals.rows && starts.rows != 1 && goals.rows != 1) {
+    throw py::value_error("starts and goals: expected as many of both, or one of either (found: " +
+                          std::to_string(starts.rows) + " and " + std::to_string(goals.rows) + ")");
+  }
+  const auto size = [](std::size_t n) { return static_cast<py::ssize_t>(n); };
+  const bool none = starts.rows == 0 || goals.rows == 0;
+  py::array_t<double> told(each_to_each ? Shape{size(starts.rows), size(goals.rows)}
+                                        : Shape{none ? 0 : size(std::max(starts.rows, goals.rows))});
+  if (none) return told;
+  double* numbers = told.mutable_data();
+  const Asking asking(kept);
+  limits.run(
+      [&](const Execution& execution) { ask_lengths(kept, starts, goals, each_to_each, how, execution, numbers); });
+  return told;
+}
+
+py::dict export_to(KeptRoadmap& kept, const std::string& file, bool unchecked, const std::string& frame) {
+  const Asking asking(kept);
+  const ExportAccount account = CallLimits().run([&](const Execution& execution) {
+    return export_of_roadmap(kept.roadmap(), file, {.with_unchecked = unchecked, .frame = frame}, execution);
+  });
+  py::dict told;
+  told["vertices"] = account.vertices;
+  told["edges"] = account.edges;
+  told["unchecked_left_out"] = account.unchecked_left_out;
+  told["blocked_left_out"] = account.blocked_left_out;
+  return told;
+}
+
+py::tuple counts(KeptRoadmap& kept) {
+  const Asking asking(kept);
+  const EdgeCounts edges =
+      CallLimits().run([&](const Execution& execution) { return count_edges(kept.roadmap(), execution); });
+  return py::make_tuple(count_states(kept.roadmap()), edges.free, edges.blocked, edges.unchecked);
+}
+
+void learn_from_questions(KeptRoadmap& kept) {
+  const Learning learning(kept);
+  CallLimits().run([&](const Execution& execution) { kept.learn(execution); });
+}
+
+}  // namespace
+
+void bind_roadmaps(py::module_& module) {
+  py::class_<KeptRoadmap>(module, "Roadmap")
+      .def_property_readonly(
+          "world",
+          [](const KeptRoadmap& kept) -> const Scene& {
+            const Scene* whole = nullptr;
+            CallLimits().run([&](const Execution& execution) { whole = &kept.roadmap().world.whole(execution); });
+            return *whole;
+          },
+          py::return_value_policy::reference_internal)
+      .def_property_readonly("robot", [](const KeptRoadmap& kept) { return robot_text(kept.roadmap().robot); })
+      .def_property_readonly("clearance", [](const KeptRoadmap& kept) { return kept.roadmap().clearance; })
+      .def_property_readonly("seed", [](const KeptRoadmap& kept) { return kept.roadmap().options.seed; })
+      .def_property_readonly("planner",
+                             [](const KeptRoadmap& kept) {
+                               const auto planner = kept.roadmap().options.planner;
+                               return planner ? std::optional(name_of(*planner)) : std::nullopt;
+                             })
+      .def_property_readonly("directed", [](const KeptRoadmap& kept) { return kept.roadmap().arrays.directed; })
+      .def_property_readonly("indexed", [](const KeptRoadmap& kept) { return kept.roadmap().lattice != nullptr; })
+      .def("ask", &ask)
+      .def("lengths", &lengths)
+      .def("all_rows", &all_rows)
+      .def("free_rows", &free_rows_of)
+      .def("edge_states", &edge_states)
+      .def_property_readonly("states", &states_of)
+      .def("components", &components_of)
+      .def("counts", &counts)
+      .def("learn", &learn_from_questions)
+      .def("update", &update_roadmap)
+      .def("export", &export_to)
+      .def("save", [](KeptRoadmap& kept, const std::string& file, bool with_world) {
+        const Asking asking(kept);
+        CallLimits().run([&](const Execution& on) { write_roadmap(kept.roadmap(), file, on, with_world); });
+      });
+  module.def("build", &build_roadmap);
+  module.def("open_roadmap", &open_roadmap, py::arg(), py::arg().none(true), py::arg());
+  module.def("build_keywords", [] { return keyword_table(made_once<building>()); });
+  module.def("query_keywords", [] { return keyword_table(made_once<asking>()); });
+  module.def("lengths_keywords", [] { return keyword_table(made_once<asking_pairs>()); });
+}
+
+}  // namespace warren::python

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// solve() and verify(), with the program's options as keywords.
+
+#include <pybind11/stl.h>
+
+#include "apps/python/arrays.hpp"
+#include "apps/python/bind.hpp"
+#include "apps/python/keywords.hpp"
+#include "apps/studies/comparison_report.hpp"
+#include "parallel/deadline.hpp"
+#include "scenes/text/input_file_io.hpp"
+#include "solve/answer/explanation_text.hpp"
+#include "solve/explain/explain_answer.hpp"
+#include "solve/solve.hpp"
+#include "solve/steps/kind_of_problem.hpp"
+#include "tools/verbs/cmd_compare.hpp"
+#include "tools/words/planner_words.hpp"
+#include "tools/words/question_words.hpp"
+
+namespace warren::python {
+namespace py = pybind11;
+namespace {
+
+tools::Command solving() { return command_of("solve", {tools::solve_option_specs(), tools::question_option_specs()}); }
+constexpr tools::OptionSpec narrow_spec[] = {{"--explain", "", "say where along the path there is least room"}};
+tools::Command verifying() { return command_of("verify", {tools::question_option_specs(), narrow_spec}); }
+
+/// The answer as the program makes it; a stopped one, too, unless Python's handler of a signal raises.
+KeptAnswer solve_scene(const Scene& scene, py::dict keywords, bool keep, bool explain) {
+  CallLimits limits = take_limits(keywords);
+  const tools::Arguments words = arguments_of(made_once<solving>(), keywords);
+  const Question question = tools::question_words(words);
+  const SolveOptions options = tools::solve_words(words);
+  check_solver_options(options);
+  KeptAnswer kept;
+  kept.answer = limits.run([&](const Execution& execution) {
+    Answer answer = solve_explained(scene, question, options, execution, keep || explain ? &kept.made : nullptr);
+    const auto complete = [&] {
+      if (answer.outcome != Outcome::stopped) make_by_products(scene, question, options, execution, kept.made);
+    };
+    if (keep) complete();
+    if (explain) {
+      explain_in_time(answer, [&] {
+        if (!keep) complete();
+        explain_answer(scene, AskedWith{options}, answer, kept.made, execution);
+      });
+    }
+    return answer;
+  });
+  return finished(std::move(kept), keep, limits);
+}
+
+py::dict told(const Verdict& verdict, const std::optional<NarrowPlace>& narrow) {
+  py::dict account;
+  account["verified"] = verdict.verified;
+  account["length"] = verdict.length;
+  account["min_clearance"] = verdict.min_clearance;
+  account["violation"] = py::none();
+  if (const auto& violation = verdict.first_violation) {
+    account["violation"] = py::make_tuple(violation->leg, violation->distance, violation->obstacle);
+  }
+  account["narrowest"] = narrowest_json(narrow);
+  account["ended"] = py::none();
+  return account;
+}
+
+/// With explain the narrowest place of a free path, too; "ended" says what stopped the search for it.
+py::dict judge(const Scene& scene, const RecordedAnswer& answer, py::dict keywords) {
+  CallLimits limits = take_limits(keywords);
+  const tools::Arguments words = arguments_of(made_once<verifying>(), keywords);
+  const Question question = tools::question_words(words);
+  std::optional<NarrowPlace> narrow;
+  std::optional<StopReason> ended;
+  const Verdict verdict = limits.run([&](const Execution& execution) {
+    Verdict said = verify_within(scene, question, answer, execution);
+    if (!words.has("--explain") || !said.verified) return said;
+    try {
+      narrow = narrowest_place(scene, said.problem.question(), answer, said.min_clearance, execution);
+    } catch (const Stopped& stopped) {
+      ended = stopped.reason;
+    }
+    return said;
+  });
+  if (ended) limits.raise_what_stopped(*ended);
+  py::dict account = told(verdict, narrow);
+  if (ended) account["ended"] = text_of(*ended);
+  return account;
+}
+
+py::dict judge_states(const Scene& scene, const py::object& states, const py::dict& keywords) {
+  const NumberRows rows = rows_of(states, "path", {2, 3, 6});
+  RecordedAnswer answer;
+  answer.file = "path";
+  const auto end = [&](std::size_t i) {
+    const double* state = rows.numbers + i * rows.columns;
+    return std::vector<double>(state, state + rows.columns);
+  };
+  if (scene.start.empty() && rows.rows > 0) answer.problem.start = end(0);
+  if (scene.goal.empty() && rows.rows > 0) answer.problem.goal = end(rows.rows - 1);
+  if (rows.columns != 2) answer.states.width = rows.columns;
+  for (std::size_t i = 0; i < rows.rows; ++i) {
+    const double* state = rows.numbers + i * rows.columns;
+    answer.path.push_back({state[0], state[1]});
+    if (rows.columns != 2) answer.states.add({state, rows.columns});
+  }
+  return judge(scene, answer, keywords);
+}
+
+RecordedAnswer recorded(const InputFile& file) {
+  return CallLimits().run([&](const Execution& execution) { return read_answer(file, execution); });
+}
+
+}  // namespace
+
+KeptAnswer finished(KeptAnswer said, bool keep, CallLimits& limits) {
+  const auto& explained = said.answer.explained;
+  for (const auto& reason : {said.answer.stop_reason, explained ? explained->stopped : std::nullopt}) {
+    if (reason) limits.raise_what_stopped(*reason);
+  }
+  if (!keep) said.made = {};
+  return said;
+}
+
+void bind_solving(py::module_& module) {
+  module.def("solve", &solve_scene);
+  module.def("verify_states", &judge_states);
+  module.def("verify_json", [](const Scene& scene, const std::string& json, const py::dict& keywords) {
+    return judge(scene, recorded(InputFile::of_bytes("answer", json)), keywords);
+  });
+  module.def("verify_file", [](const Scene& scene, const std::string& file, const py::dict& keywords) {
+    CallLimits limits;
+    const RecordedAnswer answer = limits.run([&](const Execution& execution) { return read_answer(file, execution); });
+    return judge(scene, answer, keywords);
+  });
+  module.def("solve_keywords", [] { return keyword_table(made_once<solving>()); });
+  module.def("verify_keywords", [] { return keyword_table(made_once<verifying>()); });
+}
+
+// Planners compared in a world and searches on graphs, as `warren compare` does.
+
+namespace py = pybind11;
+namespace {
+
+tools::Command comparing() {
+  tools::Command command =
+      command_of("compare", {tools::compare_option_specs()}, {"--pictures", "--show", "--size", "--dpi", "--title"});
+  command.operands = "[WORLD]";
+  command.options.push_back(
+      {"--budget", "TIME", "each run, of a planner or a search, may take so long (default: none)"});
+  return command;
+}
+
+/// Without a world random graphs alone.
+studies::Comparison compare(const Scene* scene, py::dict keywords) {
+  if (keywords.contains("budget") && !keywords["budget"].is_none()) {
+    keywords["budget"] = budget_word(keywords["budget"]);
+  }
+  const py::object each_budget = keywords.attr("pop")("budget", py::none());
+  CallLimits limits = take_limits(keywords);
+  keywords["budget"] = each_budget;
+  std::vector<std::string> world;
+  if (scene != nullptr) world.push_back(scene->source);
+  const tools::CompareOptions options =
+      tools::compare_options(arguments_of(made_once<comparing>(), keywords, std::move(world)));
+  studies::Comparison comparison;
+  limits.run([&](const Execution& execution) {
+    tools::run_comparison(options, scene, execution, comparison, [](std::string_view) {});
+  });
+  if (comparison.stopped) {
+    limits.raise_what_stopped(*comparison.stopped);
+    throw Stopped(*comparison.stopped);
+  }
+  return comparison;
+}
+
+}  // namespace
+
+void bind_studies(py::module_& module) {
+  py::class_<studies::Comparison>(module, "Comparison")
+      .def("runs_csv", &studies::comparison_runs)
+      .def("table_csv", &studies::comparison_csv)
+      .def("json", &studies::comparison_json)
+      .def("svg", [](const studies::Comparison& comparison) { return studies::comparison_plots(comparison).svg(); })
+      .def("summary", [](const studies::Comparison& comparison) {
+        return studies::comparison_summary(comparison, Palette(false));
+      });
+  module.def("compare", &compare, py::arg().none(true), py::arg());
+  module.def("compare_keywords", [] { return keyword_table(made_once<comparing>()); });
+}
+
+}  // namespace warren::python

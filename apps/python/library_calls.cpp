@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/python/library_calls.hpp"
+
+#include <cxxabi.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <exception>
+#include <string>
+#include <string_view>
+
+#include "core/base/error.hpp"
+#include "parallel/deadline.hpp"
+
+namespace warren::python {
+namespace py = pybind11;
+namespace {
+
+constinit SignalFlag flag{0};
+constexpr std::array<int, 3> watched{SIGINT, SIGTERM, SIGHUP};
+std::array<struct sigaction, watched.size()> pythons;  // what Python does at each; only the main thread writes it
+
+/// Called by any thread. Python's own handler only takes a note, too.
+void take_note(int number) {
+  flag.store(number, std::memory_order_relaxed);
+  for (std::size_t i = 0; i < watched.size(); ++i) {
+    if (watched[i] == number) pythons[i].sa_handler(number);
+  }
+}
+
+bool is_handled_by_function(const struct sigaction& action) {
+  return (action.sa_flags & SA_SIGINFO) == 0 && action.sa_handler != SIG_DFL && action.sa_handler != SIG_IGN;
+}
+
+bool is_main_thread() {
+  static const auto main_thread =
+      py::module_::import("threading").attr("main_thread")().attr("ident").cast<unsigned long>();
+  return PyThread_get_thread_ident() == main_thread;
+}
+
+/// Calls what wants the interpreter's lock; where the interpreter has ended, which unwinds this thread, it never
+/// returns. So nothing that Python counts may be a local of `call`.
+template <class Call>
+void or_sleep_at_exit(const Call& call) noexcept {
+  try {
+    call();
+  } catch (abi::__forced_unwind&) {
+    while (true) ::pause();
+  }
+}
+
+}  // namespace
+
+SignalWatch::SignalWatch() : is_watching_(is_main_thread()) {
+  if (!is_watching_) return;
+  flag.store(0, std::memory_order_relaxed);
+  for (std::size_t i = 0; i < watched.size(); ++i) {
+    ::sigaction(watched[i], nullptr, &pythons[i]);
+    if (!is_handled_by_function(pythons[i])) continue;
+    struct sigaction ours = pythons[i];
+    ours.sa_handler = take_note;
+    ::sigaction(watched[i], &ours, nullptr);
+  }
+}
+
+SignalWatch::~SignalWatch() {
+  if (!is_watching_) return;
+  for (std::size_t i = 0; i < watched.size(); ++i) {
+    if (is_handled_by_function(pythons[i])) ::sigaction(watched[i], &pythons[i], nullptr);
+  }
+}
+
+SignalFlag& SignalWatch::flag_or(SignalFlag& other) const { return is_watching_ ? flag : other; }
+
+Unlocked::~Unlocked() {
+  or_sleep_at_exit([&] { PyEval_RestoreThread(state_); });
+}
+
+void let_python_handle_signals() {
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+CallLimits::CallLimits(unsigned threads, std::optional<double> budget_s, std::optional<std::size_t> memory,
+                       py::object progress)
+    : progress_(std::move(progress)) {
+  limits_.threads = threads;
+  constexpr double longest_s = 1e9;  // thirty years are no limit, and nanoseconds count to a few hundred
+  constexpr double shortest_s = 1e-9;
+  if (budget_s && *budget_s < longest_s) {
+    const std::chrono::duration<double> seconds(std::max(*budget_s, shortest_s));
+    limits_.budget = std::chrono::duration_cast<std::chrono::nanoseconds>(seconds);
+  }
+  limits_.memory = memory;
+}
+
+Limits CallLimits::limits(const SignalWatch& watch) {
+  flag_ = &watch.flag_or(own_flag_);
+  limits_.cancel = flag_;
+  if (!progress_.is_none()) limits_.progress = [this](const ProgressReport& report) { tell(report); };
+  return limits_;
+}
+
+void CallLimits::tell(const ProgressReport& report) noexcept {
+  or_sleep_at_exit([&] {
+    const PyGILState_STATE state = PyGILState_Ensure();
+    if (!failure_) ask_python(report);
+    PyGILState_Release(state);
+  });
+}
+
+void CallLimits::ask_python(const ProgressReport& report) {
+  PyObject* stage = PyUnicode_FromStringAndSize(report.stage.data(), static_cast<Py_ssize_t>(report.stage.size()));
+  PyObject* said = PyObject_CallFunction(progress_.ptr(), "NKK", stage, static_cast<unsigned long long>(report.done),
+                                         static_cast<unsigned long long>(report.total));
+  Py_XDECREF(said);
+  if (said != nullptr) return;
+  failure_.emplace();
+  flag_->store(SIGINT, std::memory_order_relaxed);
+}
+
+void CallLimits::raise_failure() {
+  if (failure_) throw std::move(*failure_);
+}
+
+void CallLimits::raise_what_stopped(StopReason reason) {
+  raise_failure();
+  if (is_signal(reason)) let_python_handle_signals();
+}
+
+namespace py = pybind11;
+namespace {
+
+py::object error_class(const char* name) { return py::module_::import("warren._errors").attr(name); }
+
+void set(const char* name, std::string_view where, std::string_view what, std::string_view value) {
+  const py::object type = error_class(name);
+  PyErr_SetObject(type.ptr(), type(std::string(where), std::string(what), std::string(value)).ptr());
+}
+
+void set(const char* name, const PlacedError& error) { set(name, error.where(), error.wrong(), error.value()); }
+
+bool is_keyword(std::string_view text) {
+  return text.find_first_not_of("abcdefghijklmnopqrstuvwxyz_") == std::string_view::npos;
+}
+
+/// A line of the program's words: "goal_bias: expected a number from 0 to 1 (found: '2')".
+void set_usage(std::string_view line) {
+  const std::size_t colon = line.find(": ");
+  const bool has_place = colon != std::string_view::npos && is_keyword(line.substr(0, colon));
+  const std::string_view where = has_place ? line.substr(0, colon) : "";
+  std::string_view what = has_place ? line.substr(colon + 2) : line;
+  std::string_view value;
+  constexpr std::string_view before = " (found: ";
+  if (const std::size_t found = what.rfind(before); found != std::string_view::npos && what.ends_with(')')) {
+    value = what.substr(found + before.size(), what.size() - found - before.size() - 1);
+    what = what.substr(0, found);
+  }
+  set("UsageError", where, what, value);
+}
+
+void set_stopped(StopReason reason, const py::object& answer) {
+  const py::object type = error_class("Stopped");
+  const std::string_view name = name_of(reason);
+  PyErr_SetObject(type.ptr(), type(std::string(name), std::string(text_of(reason)), answer).ptr());
+}
+
+}  // namespace
+
+std::string with_keywords(std::string text) {
+  std::string said;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool begins = text.compare(i, 2, "--") == 0 && i + 2 < text.size() && std::islower(text[i + 2]) != 0 &&
+                        (i == 0 || text[i - 1] == ' ');
+    if (!begins) {
+      said += text[i];
+      continue;
+    }
+    for (i += 2; i < text.size() && (std::islower(text[i]) != 0 || text[i] == '-'); ++i) {
+      said += text[i] == '-' ? '_' : text[i];
+    }
+    --i;
+  }
+  return said;
+}
+
+void raise_stopped(StopReason reason, const py::object& answer) {
+  set_stopped(reason, answer);
+  throw py::error_already_set();
+}
+
+void translate_errors() {
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      std::rethrow_exception(std::move(thrown));
+    } catch (const UsageError& error) {
+      set_usage(with_keywords(error.spelled("", '_')));
+    } catch (const InputError& error) {
+      set("InputError", error);
+    } catch (const ReadError& error) {
+      set("ReadError", error);
+    } catch (const WriteError& error) {
+      set("WriteError", error);
+    } catch (const Stopped& stopped) {
+      set_stopped(stopped.reason, py::none());
+    }
+  });
+}
+
+}  // namespace warren::python

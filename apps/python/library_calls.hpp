@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Calls from Python into the library: without the interpreter's lock, within limits, and stopped by signals. Only the
+// main thread runs Python's handlers, and it is busy here: so while it computes, SIGINT, SIGTERM and SIGHUP that Python
+// handles set the flag that all loops of the library look at, beside what Python does with them; then the handler runs.
+// No second thread, no hand-over: 1 us a call.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <csignal>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "core/base/stop_reason.hpp"
+#include "parallel/deadline.hpp"
+#include "solve/question/limits.hpp"
+
+namespace warren::python {
+
+/// While it lives on the main thread, signals that Python handles stop the call. Does nothing on other threads, as
+/// Python does. Never two at once, and nothing of Python runs on that thread meanwhile: a handler may set another one,
+/// and may compute itself. Made and ended with the interpreter's lock held.
+class SignalWatch {
+ public:
+  SignalWatch();
+  ~SignalWatch();
+  SignalWatch(const SignalWatch&) = delete;
+  SignalWatch& operator=(const SignalWatch&) = delete;
+
+  /// The flag that signals set, if any do; else `other`.
+  SignalFlag& flag_or(SignalFlag& other) const;
+
+ private:
+  bool is_watching_ = false;
+};
+
+/// While it lives, the interpreter's lock is free for others. A thread that wants it back when the interpreter has
+/// ended sleeps until the process ends, too: CPython would unwind its stack, through destructors, and abort.
+class Unlocked {
+ public:
+  Unlocked() : state_(PyEval_SaveThread()) {}
+  ~Unlocked();
+  Unlocked(const Unlocked&) = delete;
+  Unlocked& operator=(const Unlocked&) = delete;
+
+ private:
+  PyThreadState* state_;
+};
+
+/// Python runs its handlers; throws what they raise: KeyboardInterrupt, most of all.
+void let_python_handle_signals();
+
+/// What a call may take, as its keywords say, and the function that is told how far it is.
+class CallLimits {
+ public:
+  /// `progress`: None, or called with stage, done and total, on another thread.
+  CallLimits(unsigned threads, std::optional<double> budget_s, std::optional<std::size_t> memory,
+             pybind11::object progress);
+  CallLimits() : CallLimits(0, {}, {}, pybind11::none()) {}
+
+  /// Calls work(execution) without the interpreter's lock. Throws what it throws, and what handlers of signals and
+  /// progress functions raise; Stopped where a handler of a signal lets the program go on.
+  template <class Work>
+  auto run(const Work& work) {
+    try {
+      if constexpr (std::is_void_v<decltype(watched(work))>) {
+        watched(work);
+        raise_failure();
+      } else {
+        auto made = watched(work);
+        raise_failure();
+        return made;
+      }
+    } catch (const Stopped& stopped) {
+      raise_what_stopped(stopped.reason);
+      throw;
+    }
+  }
+  /// Throws what has stopped a call for that reason, if it was raised in Python.
+  void raise_what_stopped(StopReason reason);
+
+ private:
+  template <class Work>
+  auto watched(const Work& work) {
+    const SignalWatch watch;
+    const Unlocked unlocked;
+    const LimitedExecution limited(limits(watch));
+    return work(limited.execution());
+  }
+  Limits limits(const SignalWatch& watch);
+  void tell(const ProgressReport& report) noexcept;
+  void ask_python(const ProgressReport& report);
+  void raise_failure();
+
+  Limits limits_;
+  SignalFlag own_flag_{0};
+  SignalFlag* flag_ = &own_flag_;  // set by signals, and where the progress function fails
+  pybind11::object progress_;
+  std::optional<pybind11::error_already_set> failure_;  // of the progress function
+};
+
+// What the library throws, as Python's exceptions of warren/_errors.py: each with where, what and value.
+
+/// From now on what the library throws becomes an exception of warren._errors.
+void translate_errors();
+
+/// Throws warren.Stopped with the answer, or None, that it has so far.
+[[noreturn]] void raise_stopped(StopReason reason, const pybind11::object& answer);
+
+/// "--goal-bias: ..." as Python says it: "goal_bias: ...".
+std::string with_keywords(std::string text);
+
+}  // namespace warren::python

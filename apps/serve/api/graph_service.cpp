@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/serve/api/graph_service.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "apps/serve/graphs/route_graph.hpp"
+#include "apps/serve/graphs/route_graph_io.hpp"
+#include "core/base/error.hpp"
+
+namespace warren::serve {
+namespace {
+
+std::vector<DrawnEdge> edges_of(const RouteGraph& graph, const std::vector<RouteEnds>& ends) {
+  const auto place = [&](std::size_t node) { return EdgePlace{graph.nodes[node].at, graph.nodes[node].theta}; };
+  std::vector<DrawnEdge> edges;
+  for (const RouteEnds& e : ends) edges.push_back({place(e.from), place(e.to)});
+  return edges;
+}
+
+[[noreturn]] void refuse_blocked(const RouteGraph& graph, const std::vector<EdgeVerdict>& verdicts, std::size_t first) {
+  const auto blocked = std::count_if(verdicts.begin(), verdicts.end(), [](const EdgeVerdict& v) { return !v.free; });
+  const RouteEdge& edge = graph.edges[first];
+  throw HttpError(422, "not_free", "edges",
+                  fmt::format("{} of {} edges are not free, so nothing is saved; edge {} from node {} to {}: {}",
+                              blocked, verdicts.size(), edge.id, edge.from, edge.to, words_of(verdicts[first])));
+}
+
+}  // namespace
+
+HttpResponse GraphService::answer(Place place, std::string_view body, const Execution& execution) const {
+  if (place == Place::check)
+    return {.body = verdicts_json(judge(execution).judge(read_drawn_edges(body, execution), execution))};
+  if (place == Place::open_graph) return told(read_nav2_graph(body, execution), execution);
+  if (place == Place::save_graph) return saved(read_graph_json(body, execution), execution);
+  return told(built(body, execution), execution);
+}
+
+const EdgeJudge& GraphService::judge(const Execution& execution) const {
+  check_drives_edges(world_.robot());
+  if (world_.query() != nullptr && world_.query()->roadmap().lattice != nullptr) {
+    throw UsageError("a large maze is asked by its lattice, and route graphs are for maps and scenes");
+  }
+  return world_.judge(execution);
+}
+
+RouteGraph GraphService::built(std::string_view body, const Execution& execution) const {
+  const GraphOptions options = read_graph_options(body);
+  judge(execution);  // or there are no such graphs
+  const bool is_as_it_is = options.kind == GraphKind::roadmap && !options.samples && !options.neighbours;
+  if (world_.query() != nullptr && is_as_it_is) return graph_of_roadmap(world_.query()->roadmap(), execution);
+  return built_graph(world_.whole(execution), world_.robot(), world_.clearance(), options, execution);
+}
+
+HttpResponse GraphService::told(const RouteGraph& graph, const Execution& execution) const {
+  const std::vector<EdgeVerdict> verdicts = judge(execution).judge(edges_of(graph, ends_of(graph)), execution);
+  return {.body = graph_json(graph, verdicts, execution)};
+}
+
+HttpResponse GraphService::saved(const RouteGraph& graph, const Execution& execution) const {
+  const std::vector<RouteEnds> ends = ends_of(graph);
+  const std::vector<EdgeVerdict> verdicts = judge(execution).judge(edges_of(graph, ends), execution);
+  const auto first = std::find_if(verdicts.begin(), verdicts.end(), [](const EdgeVerdict& v) { return !v.free; });
+  if (first != verdicts.end()) refuse_blocked(graph, verdicts, static_cast<std::size_t>(first - verdicts.begin()));
+  return {.type = "application/geo+json", .body = nav2_graph_text(graph, ends, execution)};
+}
+
+}  // namespace warren::serve

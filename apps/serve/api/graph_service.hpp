@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is asked about route graphs of the served world (docs/service.md): built, opened, judged edge by edge, saved as
+// Nav2 loads them. The graph itself is the client's.
+#pragma once
+
+#include <string_view>
+
+#include "apps/serve/api/route.hpp"
+#include "apps/serve/api/served_world.hpp"
+#include "apps/serve/graphs/edge_judge.hpp"
+#include "apps/serve/graphs/route_graph.hpp"
+#include "apps/serve/http/http_message.hpp"
+#include "parallel/execution.hpp"
+
+namespace warren::serve {
+
+/// Refers to the world. Any number of threads may ask.
+class GraphService {
+ public:
+  explicit GraphService(const ServedWorld& world) : world_(world) {}
+
+  /// One of the places that is_of_graphs() knows. Throws HttpError, UsageError, InputError, Stopped.
+  HttpResponse answer(Place place, std::string_view body, const Execution& execution) const;
+
+ private:
+  const EdgeJudge& judge(const Execution& execution) const;
+  RouteGraph built(std::string_view body, const Execution& execution) const;
+  HttpResponse told(const RouteGraph& graph, const Execution& execution) const;
+  HttpResponse saved(const RouteGraph& graph, const Execution& execution) const;
+
+  const ServedWorld& world_;
+};
+
+}  // namespace warren::serve

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/serve/api/route.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace warren::serve {
+namespace {
+
+[[noreturn]] void refuse_path() { throw HttpError(404, "not_found", "path", "there is nothing at this address"); }
+
+std::vector<std::string_view> split(std::string_view text, char mark) {
+  std::vector<std::string_view> pieces;
+  while (true) {
+    const std::size_t end = text.find(mark);
+    pieces.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return pieces;
+    text = text.substr(end + 1);
+  }
+}
+
+/// zoom, column, row.png
+Route tile_route(std::string_view z, std::string_view x, std::string_view y, const TileGrid& grid) {
+  constexpr std::string_view ending = ".png";
+  if (!y.ends_with(ending)) refuse_path();
+  y.remove_suffix(ending.size());
+  const auto tile = grid.tile_at(z, x, y);
+  if (!tile) refuse_path();
+  return {.place = Place::tile, .tile = *tile};
+}
+
+Route api_route(const std::vector<std::string_view>& words) {
+  constexpr std::pair<std::string_view, Place> places[] = {{"health", Place::health},
+                                                           {"metrics", Place::metrics},
+                                                           {"world", Place::world},
+                                                           {"query", Place::query},
+                                                           {"query/batch", Place::batch},
+                                                           {"scene", Place::scene},
+                                                           {"update", Place::update},
+                                                           {"check", Place::check},
+                                                           {"graph", Place::graph},
+                                                           {"graph/open", Place::open_graph},
+                                                           {"graph/save", Place::save_graph},
+                                                           {"path", Place::path},
+                                                           {"path/clearance", Place::clearance},
+                                                           {"path/sweep", Place::sweep}};
+  const bool is_path = words.size() > 3 && words[2] == "path" && !words[3].empty();
+  std::string name(words[2]);
+  for (std::size_t i = is_path ? 4 : 3; i < words.size(); ++i) name.append("/").append(words[i]);
+  for (const auto& [known, place] : places) {
+    if (name == known && is_path == name.starts_with("path")) {
+      return {.place = place, .name = is_path ? std::string(words[3]) : std::string()};
+    }
+  }
+  refuse_path();
+}
+
+Route place_of(std::string_view path, const TileGrid& grid, std::string_view hash) {
+  const std::vector<std::string_view> words = split(path, '/');  // the first one is empty
+  if (words.size() == 2) return {.place = Place::file, .name = std::string(words[1].empty() ? "index.html" : words[1])};
+  if (words[1] == "api") return api_route(words);
+  if (words.size() == 5 && words[1] == "tiles") return tile_route(words[2], words[3], words[4], grid);
+  if (words.size() == 7 && words[1] == "v" && words[2] == hash && words[3] == "tiles") {
+    Route route = tile_route(words[4], words[5], words[6], grid);
+    route.has_its_hash = true;
+    return route;
+  }
+  const bool is_of_layers = words.size() >= 6 && words[1] == "v" && words[2] == hash && words[3] == "layers";
+  if (is_of_layers && words.size() == 6 && words[5] == "legend") {
+    return {.place = Place::legend, .name = std::string(words[4])};
+  }
+  if (is_of_layers && words.size() == 8) {
+    Route route = tile_route(words[5], words[6], words[7], grid);
+    route.place = Place::layer;
+    route.name = words[4];
+    return route;
+  }
+  refuse_path();
+}
+
+}  // namespace
+
+bool is_of_graphs(Place place) { return place >= Place::graph; }
+bool is_posted(Place place) {
+  return place == Place::query || place == Place::batch || place == Place::update || is_of_graphs(place);
+}
+
+Route route_of(const HttpRequest& request, const TileGrid& grid, std::string_view hash) {
+  Route route = place_of(request.path, grid, hash);
+  const bool is_post = request.method == "POST";
+  if (is_post != is_posted(route.place)) {
+    throw HttpError(405, "method_not_allowed", "method", is_post ? "GET is expected" : "POST is expected");
+  }
+  return route;
+}
+
+std::optional<std::string> parameter(const HttpRequest& request, std::string_view name) {
+  std::optional<std::string> found;
+  for (const auto& [key, value] : request.query) {
+    if (key != name) continue;
+    if (found) throw HttpError(400, "bad_request", "query", fmt::format("{}: expected once", name));
+    found = value;
+  }
+  return found;
+}
+
+std::optional<std::vector<double>> numbers_parameter(const HttpRequest& request, std::string_view name,
+                                                     std::size_t count) {
+  const auto text = parameter(request, name);
+  if (!text) return std::nullopt;
+  std::vector<double> numbers;
+  for (const std::string_view word : split(*text, ',')) {
+    double number = 0.0;
+    const char* last = word.data() + word.size();
+    const auto [read, error] = std::from_chars(word.data(), last, number);
+    if (error == std::errc() && read == last && std::isfinite(number)) numbers.push_back(number);
+  }
+  if (numbers.size() == count && split(*text, ',').size() == count) return numbers;
+  throw HttpError(400, "bad_request", "query",
+                  fmt::format("{}: expected {} number{}", name, count, count == 1 ? "" : "s"));
+}
+
+bool flag_parameter(const HttpRequest& request, std::string_view name) {
+  const auto text = parameter(request, name);
+  if (!text || *text == "0") return false;
+  if (*text == "1") return true;
+  throw HttpError(400, "bad_request", "query", fmt::format("{}: expected 0 or 1", name));
+}
+
+}  // namespace warren::serve

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/serve/api/scene_change_io.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "apps/serve/graphs/json_body_io.hpp"
+#include "apps/serve/http/http_message.hpp"
+#include "core/base/error.hpp"
+#include "core/plane/geometry.hpp"
+#include "core/plane/polygon_distance.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+#include "scenes/text/human_units.hpp"
+#include "scenes/text/json_text.hpp"
+
+namespace warren::serve {
+namespace {
+
+constexpr std::size_t most_corners = 10'000;
+
+template <std::size_t count>
+std::array<double, count> numbers_of(const OrderedJson& json, const std::string& where) {
+  std::array<double, count> numbers{};
+  if (!json.is_array() || json.size() != count) refuse_json(where, fmt::format("{} numbers", count));
+  for (std::size_t i = 0; i < count; ++i) numbers[i] = finite_number(json[i], where);
+  return numbers;
+}
+
+template <class Take>
+void for_each_in(const OrderedJson& json, const std::string& where, std::size_t most, const Take& take) {
+  std::size_t number = 0;
+  for (const OrderedJson& item : list_of(json, where, most)) take(item, fmt::format("{}[{}]", where, number++));
+}
+
+DrawnShapes shapes_of(const OrderedJson& json, const std::string& where) {
+  if (!json.is_object()) refuse_json(where, "an object with walls and polygons");
+  DrawnShapes shapes;
+  for (const auto& [key, value] : json.items()) {
+    if (key == "walls") {
+      for_each_in(value, where + ".walls", most_changed_shapes, [&](const OrderedJson& item, const std::string& place) {
+        const auto [ax, ay, bx, by] = numbers_of<4>(item, place);
+        shapes.walls.push_back({{ax, ay}, {bx, by}});
+      });
+    } else if (key == "polygons") {
+      for_each_in(value, where + ".polygons", most_changed_shapes,
+                  [&](const OrderedJson& ring, const std::string& place) {
+                    std::vector<Vec2>& corners = shapes.polygons.emplace_back();
+                    for_each_in(ring, place, most_corners, [&](const OrderedJson& corner, const std::string& at) {
+                      const auto [x, y] = numbers_of<2>(corner, at);
+                      corners.push_back({x, y});
+                    });
+                    if (corners.size() < 3) refuse_json(place, "three corners or more");
+                  });
+    } else {
+      refuse_json(where, "the keys walls, polygons");
+    }
+  }
+  return shapes;
+}
+
+}  // namespace
+
+SceneChange read_scene_change(std::string_view text, const Execution& execution) {
+  SceneChange change;
+  const OrderedJson json = json_object_of(text, deepest_json, execution);
+  for (const auto& [key, value] : json.items()) {
+    if (key == "add") {
+      change.add = shapes_of(value, "add");
+    } else if (key == "remove") {
+      change.remove = shapes_of(value, "remove");
+    } else if (key == "erase") {
+      for_each_in(value, "erase", most_changed_shapes, [&](const OrderedJson& item, const std::string& place) {
+        const auto [x, y, reach] = numbers_of<3>(item, place);
+        if (reach < 0.0) refuse_json(place, "x, y and a reach of 0 or more");
+        change.erase.push_back({{x, y}, reach});
+      });
+    } else {
+      refuse_json("body", "the keys add, remove, erase");
+    }
+  }
+  return change;
+}
+
+std::string shapes_json(const DrawnShapes& shapes) {
+  std::string walls = "[";
+  for (const Segment& wall : shapes.walls) {
+    if (walls.size() > 1) walls += ',';
+    append_json_list(walls, std::array{wall.a.x, wall.a.y, wall.b.x, wall.b.y});
+  }
+  std::string polygons = "[";
+  for (const std::vector<Vec2>& corners : shapes.polygons) {
+    polygons += polygons.size() > 1 ? ",[" : "[";
+    for (const Vec2 corner : corners) {
+      if (polygons.back() == ']') polygons += ',';
+      append_json_list(polygons, std::array{corner.x, corner.y});
+    }
+    polygons += ']';
+  }
+  JsonObject json;
+  json.add_json("walls", walls + "]");
+  json.add_json("polygons", polygons + "]");
+  return json.closed();
+}
+
+// Polygons are few beside walls and are looked through; of walls, those to remove are sorted, so a change costs
+// O(n log k) for n walls and k shapes.
+
+namespace {
+
+constexpr std::size_t a_poll = 4096;
+
+using WallKey = std::array<double, 4>;
+WallKey key_of(const Segment& wall) {
+  const std::pair a{wall.a.x, wall.a.y};
+  const std::pair b{wall.b.x, wall.b.y};
+  const auto [low, high] = std::minmax(a, b);
+  return {low.first, low.second, high.first, high.second};
+}
+
+double distance_to(const std::vector<Vec2>& polygon, Vec2 p) {
+  if (contains(polygon, p)) return 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    least = std::min(least, distance(p, Segment{polygon[i], polygon[(i + 1) % polygon.size()]}));
+  }
+  return least;
+}
+
+/// What is erased becomes what is removed.
+class Removal {
+ public:
+  Removal(const Scene& scene, const SceneChange& change, const Execution& execution)
+      : scene_(scene), execution_(execution), is_gone_(scene.polygons.size(), false), shapes_(change.remove) {
+    for (const ErasedPlace& place : change.erase) erase(place);
+    for (const Segment& wall : shapes_.walls) walls_.push_back(key_of(wall));
+    std::sort(walls_.begin(), walls_.end());
+    for (const std::vector<Vec2>& polygon : shapes_.polygons) take(polygon);
+  }
+  const DrawnShapes& shapes() const { return shapes_; }
+
+  std::vector<Segment> walls_left() {
+    execution_.reserve(scene_.walls.size() * sizeof(Segment));
+    std::vector<Segment> left;
+    left.reserve(scene_.walls.size());
+    std::vector<bool> used(walls_.size(), false);
+    for (std::size_t i = 0; i < scene_.walls.size(); ++i) {
+      if (i % a_poll == 0) execution_.check();
+      const Segment wall = scene_.walls.segment(i);
+      if (!is_removed(wall, used)) left.push_back(wall);
+    }
+    if (std::find(used.begin(), used.end(), false) != used.end()) refuse("wall");
+    return left;
+  }
+  std::vector<ScenePolygon> polygons_left() const {
+    std::vector<ScenePolygon> left;
+    for (std::size_t i = 0; i < is_gone_.size(); ++i) {
+      if (!is_gone_[i]) left.push_back(scene_.polygons[i]);
+    }
+    return left;
+  }
+
+ private:
+  [[noreturn]] static void refuse(std::string_view what) {
+    throw HttpError(400, "not_there", "remove", fmt::format("a {} that shall be removed is not in the world", what));
+  }
+  bool is_removed(const Segment& wall, std::vector<bool>& used) const {
+    if (walls_.empty()) return false;
+    const auto [first, last] = std::equal_range(walls_.begin(), walls_.end(), key_of(wall));
+    for (auto it = first; it != last; ++it) {  // each takes one
+      const auto k = static_cast<std::size_t>(it - walls_.begin());
+      if (used[k]) continue;
+      used[k] = true;
+      return true;
+    }
+    return false;
+  }
+  void take(const std::vector<Vec2>& polygon) {
+    execution_.check();
+    for (std::size_t i = 0; i < is_gone_.size(); ++i) {
+      if (is_gone_[i] || scene_.polygons[i].corners != polygon) continue;
+      is_gone_[i] = true;
+      return;
+    }
+    refuse("polygon");
+  }
+  void erase(const ErasedPlace& place) {
+    double least = place.reach;
+    std::size_t wall = scene_.walls.size();
+    std::size_t polygon = scene_.polygons.size();
+    for (std::size_t i = 0; i < scene_.walls.size(); ++i) {
+      if (i % a_poll == 0) execution_.check();
+      const double away = distance(place.at, scene_.walls.segment(i));
+      if (away <= least) std::tie(least, wall) = std::pair(away, i);
+    }
+    for (std::size_t i = 0; i < scene_.polygons.size(); ++i) {
+      if (i % a_poll == 0) execution_.check();
+      const double away = distance_to(scene_.polygons[i].corners, place.at);
+      if (away < least || (away <= least && wall == scene_.walls.size())) std::tie(least, polygon) = std::pair(away, i);
+    }
+    if (polygon < scene_.polygons.size()) {
+      shapes_.polygons.push_back(scene_.polygons[polygon].corners);
+    } else if (wall < scene_.walls.size()) {
+      shapes_.walls.push_back(scene_.walls.segment(wall));
+    }
+  }
+
+  const Scene& scene_;
+  const Execution& execution_;
+  std::vector<bool> is_gone_;  // of polygons
+  DrawnShapes shapes_;
+  std::vector<WallKey> walls_;  // sorted
+};
+
+void check(const Scene& scene, const SceneChange& change) {
+  if (scene.map) {
+    throw UsageError(
+        "this world is the cells of a map, which an image editor draws; walls and polygons are for scenes");
+  }
+  if (change.add.size() + change.remove.size() + change.erase.size() > most_changed_shapes) {
+    throw HttpError(413, "change_too_large", "body",
+                    fmt::format("a change has at most {} walls and polygons", grouped(most_changed_shapes)));
+  }
+  for (const Segment& wall : change.add.walls) {
+    if (wall.a == wall.b) throw InputError("add.walls", "a wall has two different ends");
+  }
+}
+
+}  // namespace
+
+ChangedScene changed(const Scene& scene, const SceneChange& change, const std::optional<MazeHint>& maze,
+                     const Execution& execution) {
+  check(scene, change);
+  Removal removal(scene, change, execution);
+  std::vector<Segment> walls = removal.walls_left();
+  walls.insert(walls.end(), change.add.walls.begin(), change.add.walls.end());
+  std::vector<ScenePolygon> polygons = removal.polygons_left();
+  for (const std::vector<Vec2>& corners : change.add.polygons) polygons.push_back({corners});
+
+  ChangedScene result{.scene = {}, .made = {.add = change.add, .remove = removal.shapes()}};
+  Scene& now = result.scene;
+  now.source = scene.source;
+  now.polygons = std::move(polygons);
+  now.walls = WallSet::narrowest(walls);
+  now.seams = scene.seams;
+  now.bounds = scene.bounds;
+  now.clearance = scene.clearance;
+  if (maze && !first_wall_off_grid(now.walls, *maze, execution)) now.maze = maze;
+  now.robot = scene.robot;
+  now.start = scene.start;
+  now.goal = scene.goal;
+  now.grid = scene.grid;
+  check_polygons(now, execution);
+  return result;
+}
+
+}  // namespace warren::serve

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/serve/api/served_world.hpp"
+
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "solve/explain/explain_answer.hpp"
+#include "solve/question/plannable.hpp"
+#include "solve/roadmaps/kept_cells.hpp"
+#include "solve/roadmaps/walls_let_go.hpp"
+#include "solve/solve.hpp"
+
+namespace warren::serve {
+namespace {
+
+void refuse_arms(const RobotSpec& robot) {
+  if (state_size(robot) <= 3) return;
+  throw UsageError("arms move in space, and this shows a plane; 'warren solve' plans them, 'warren render' draws them");
+}
+
+bool is_large_maze(const Scene& scene) {
+  return scene.maze && std::uint64_t{scene.maze->rows} * scene.maze->cols >= fewest_indexed_cells;
+}
+
+/// Where a roadmap's answers are as long as those of solve(): of a maze's lattice.
+bool is_asked_by_roadmap(const Scene& scene, const Question& body, const SolveOptions& options) {
+  if (!is_large_maze(scene)) return false;
+  try {
+    check_buildable(scene, body, options);
+    return true;
+  } catch (const UsageError&) {
+    return false;
+  }
+}
+
+/// Where walls stand wherever the lattice has no passage: it says where they are, and nobody makes them.
+std::unique_ptr<WorldTiles> tiles_of_lattice(const LatticePassages& lattice, const Execution& execution) {
+  return maze_tiles({lattice.size(), lattice.right_words(), lattice.up_words()}, MazeOutline::of_course(lattice.size()),
+                    execution);
+}
+
+}  // namespace
+
+ServedWorld::ServedWorld(Scene scene, const Question& body, const Execution& execution) : body_(body) {
+  body.validate();
+  robot_ = robot_of(scene, body);
+  refuse_arms(robot_);
+  check_plannable(scene, body);
+  clearance_ = clearance_of(scene, body);
+  const SolveOptions as_usual{.planner = PlannerKind::prm};
+  if (is_asked_by_roadmap(scene, body, as_usual)) {
+    roadmap_ = std::make_unique<Roadmap>(build_within(std::move(scene), body, as_usual, execution));
+    let_walls_go(*roadmap_, execution);
+  } else {
+    hash_ = scene_hash(scene, execution);
+    scene_ = std::make_unique<Scene>(std::move(scene));
+  }
+  describe(execution);
+}
+
+ServedWorld::ServedWorld(Roadmap roadmap, const Execution& execution)
+    : roadmap_(std::make_unique<Roadmap>(std::move(roadmap))), is_roadmap_(true) {
+  refuse_arms(roadmap_->robot);
+  robot_ = roadmap_->robot;
+  clearance_ = roadmap_->clearance;
+  describe(execution);
+}
+
+void ServedWorld::describe(const Execution& execution) {
+  if (roadmap_) {
+    hash_ = roadmap_->world_hash;
+    query_ = std::make_unique<RoadmapQuery>(*roadmap_, execution, Questions::many);
+  }
+  if (roadmap_ && roadmap_->lattice != nullptr && roadmap_->world.is_looked_up()) {
+    tiles_ = tiles_of_lattice(*passages(execution), execution);
+    const MazeHint maze = *roadmap_->world.outline().maze;
+    box_ = {{0.5, 0.5}, {maze.cols + 0.5, maze.rows + 0.5}};
+    return;
+  }
+  const Scene& scene = roadmap_ ? roadmap_->world.whole(execution) : *scene_;
+  tiles_ = tiles_of(scene, execution);
+  box_ = scene.map || scene.walls.size() + scene.polygons.size() > 0 ? obstacle_box(scene, execution) : Box{};
+  if (scene.bounds) box_.include(*scene.bounds);
+}
+
+std::size_t ServedWorld::wall_count(const Execution& execution) const {
+  const KeptCells* cells = roadmap_ ? roadmap_->world.looked_up(execution) : nullptr;
+  return cells != nullptr ? cells->wall_count : whole(execution).walls.size();
+}
+
+std::string_view ServedWorld::why_fixed() const {
+  if (roadmap_ && roadmap_->lattice != nullptr) {
+    return "a large maze is asked by its lattice, which is not changed here; 'warren update' does that";
+  }
+  return {};
+}
+
+std::unique_ptr<ServedWorld> ServedWorld::changed(Scene now, const Execution& execution) const {
+  if (const std::string_view why = why_fixed(); !why.empty()) throw UsageError(std::string(why));
+  auto next = roadmap_ ? std::make_unique<ServedWorld>(update(*roadmap_, std::move(now), execution), execution)
+                       : std::make_unique<ServedWorld>(std::move(now), body_, execution);
+  next->is_changed_ = true;
+  return next;
+}
+
+const EdgeJudge& ServedWorld::judge(const Execution& execution) const {
+  return judge_.get(execution, [&] { return std::make_unique<EdgeJudge>(whole(execution), box_, robot_, clearance_); });
+}
+
+bool ServedWorld::is_own(const RobotSpec& robot, double clearance) const {
+  return clearance == clearance_ && robot_text(robot) == robot_text(robot_);
+}
+
+Question ServedWorld::body_asked(const std::optional<RobotSpec>& robot, const std::optional<double>& clearance) const {
+  Question body = body_;
+  body.robot = robot.value_or(robot_);
+  body.clearance = clearance.value_or(clearance_);
+  if (is_own(*body.robot, *body.clearance)) return body;
+  if (is_roadmap_) throw UsageError("a roadmap is of one body; 'warren serve' of its world asks for any");
+  body.validate();
+  refuse_arms(*body.robot);
+  check_plannable(outline(), body);
+  return body;
+}
+
+double ServedWorld::clearance_at(std::span<const double> state, const Execution& execution,
+                                 const EdgeJudge* other) const {
+  const Vec2 at{state[0], state[1]};
+  if (other == nullptr && roadmap_ && roadmap_->lattice != nullptr) return query_->clearance_at(at, execution);
+  const EdgeJudge& asked = other == nullptr ? judge(execution) : *other;
+  return asked.clearance_at({at, state.size() > 2 ? std::optional(state[2]) : std::nullopt}, execution);
+}
+
+const LatticePassages* ServedWorld::passages(const Execution& execution) const {
+  if (!roadmap_ || roadmap_->lattice == nullptr) return nullptr;
+  if (const RoadmapFile* file = roadmap_->file.get()) {
+    for (const char* name : {"passages.right", "passages.up"}) file->check_section(*file->find(name), execution);
+  }
+  return &roadmap_->lattice->passages();
+}
+
+void ServedWorld::prepare(const Execution& execution) const {
+  if (query_) query_->prepare_paths(execution);
+}
+
+Answer ServedWorld::ask(const ServedQuestion& question, const Execution& execution,
+                        std::function<void(const Answer&)> beside_judge) const {
+  ByProducts made;
+  ByProducts* const keep = question.explains ? &made : nullptr;
+  Question asked = body_asked(question.robot, question.clearance);
+  if (query_ && is_own(*asked.robot, *asked.clearance)) {
+    if (question.planner && *question.planner != roadmap_->options.planner) {
+      throw UsageError("@planner: the roadmap was built with its own");
+    }
+    QuestionScratch scratch;
+    scratch.beside_judge = std::move(beside_judge);
+    const RoadmapSearchFields how{.optimise = question.optimise};
+    Answer answer = query_->ask_explained(question.start, question.goal, how, execution, scratch, keep);
+    const AskedWith with{.options = roadmap_->options, .samples = roadmap_->samples, .is_kept = true};
+    const auto explain = [&] { explain_answer(whole(execution), with, answer, made, execution); };
+    if (keep != nullptr && roadmap_->lattice == nullptr) explain_in_time(answer, explain);
+    return answer;
+  }
+  const Scene& scene = whole(execution);
+  asked.start = question.start;
+  asked.goal = question.goal;
+  const SolveOptions options{.planner = question.planner, .optimise = question.optimise};
+  Answer answer = solve_explained(scene, asked, options, execution, keep);
+  const auto explain = [&] {
+    make_by_products(scene, asked, options, execution, made);
+    explain_answer(scene, {options}, answer, made, execution);
+  };
+  if (keep != nullptr && answer.outcome != Outcome::stopped) explain_in_time(answer, explain);
+  return answer;
+}
+
+}  // namespace warren::serve

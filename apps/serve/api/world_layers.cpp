@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/serve/api/world_layers.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "apps/serve/api/kept_path.hpp"
+#include "apps/serve/graphs/route_graph.hpp"
+#include "core/base/error.hpp"
+#include "scenes/scene/unit_of.hpp"
+#include "scenes/text/human_units.hpp"
+#include "scenes/text/json_text.hpp"
+#include "solve/question/question.hpp"
+
+namespace warren::serve {
+namespace {
+
+// What the colours of layers mean, with figures: each a JSON list of "color" and "words".
+
+/// The steps, and behind them what the start does not reach.
+inline constexpr std::array<Rgb, unreached_ink + 1> search_inks = [] {
+  std::array<Rgb, unreached_ink + 1> inks{};
+  for (std::size_t step = 0; step < step_inks.size(); ++step) inks[step] = step_inks[step];
+  inks.back() = component_inks.back();
+  return inks;
+}();
+
+class Legend {
+ public:
+  /// opacity: as two hexadecimal digits; empty: opaque.
+  void add(Rgb color, std::string_view words, std::string_view opacity = {}) {
+    JsonObject entry;
+    entry.add("color", fmt::format("#{:02x}{:02x}{:02x}{}", color.red, color.green, color.blue, opacity));
+    entry.add("words", words);
+    text_ += (text_.size() > 1 ? "," : "") + entry.closed();
+  }
+  std::string closed() const { return text_ + "]"; }
+
+ private:
+  std::string text_ = "[";
+};
+
+/// As people read it, what is before the point in groups of three.
+std::string grouped_number(double value) {
+  const std::string text = human_number(value);
+  const std::size_t whole = std::min(text.size(), text.find_first_not_of("0123456789"));
+  return whole == 0 ? text : grouped(std::stoull(text.substr(0, whole))) + text.substr(whole);
+}
+
+/// Behind a number.
+std::string unit_behind(const ServedWorld& world) {
+  const std::string_view unit = unit_of(world.outline());
+  return unit.empty() ? "" : " " + std::string(unit);
+}
+
+/// Of a scale whose steps below `needed` are not seen.
+void add_steps(Legend& legend, const Steps& steps, double needed, std::string_view behind) {
+  const std::string opacity = fmt::format("{:02x}", step_opacity);
+  for (std::size_t step = 0; step < steps.count; ++step) {
+    const double low = std::max(needed, static_cast<double>(step) * steps.each);
+    const double high = static_cast<double>(step + 1) * steps.each;
+    const bool is_last = step + 1 == steps.count;
+    if (!is_last && high <= needed) continue;
+    legend.add(step_inks[step],
+               is_last ? fmt::format("{}{} and more", grouped_number(low), behind)
+                       : fmt::format("{} to {}{}", grouped_number(low), grouped_number(high), behind),
+               opacity);
+  }
+}
+
+/// Of a maze's lattice.
+std::string passages_legend(std::uint64_t passages, std::uint64_t cells) {
+  Legend legend;
+  legend.add(component_inks[0], fmt::format("{} between {}, drawn where a cell has 8 pixels or more",
+                                            counted(passages, "passage", "passages"), counted(cells, "cell", "cells")));
+  return legend.closed();
+}
+/// turns: the axis is that of the disc around a body that turns.
+std::string axis_legend(const RoadmapLayer& layer, bool turns) {
+  Legend legend;
+  legend.add(component_inks[0], fmt::format("{} and {}, as far from all obstacles as can be{}",
+                                            counted(layer.milestones(), "place", "places"),
+                                            counted(layer.free_edges(), "free edge", "free edges"),
+                                            turns ? ", of the disc around the body" : ""));
+  return legend.closed();
+}
+/// has_curves: cars drive the edges.
+std::string edges_legend(const RoadmapLayer& layer, bool has_curves) {
+  Legend legend;
+  legend.add(component_inks[0],
+             fmt::format("{} and {}{}; where a tile has more than {} edges, milestones alone",
+                         counted(layer.milestones(), "milestone", "milestones"),
+                         counted(layer.free_edges(), "free edge", "free edges"),
+                         has_curves ? ", which cars drive as curves" : "", grouped(most_drawn_edges)));
+  return legend.closed();
+}
+std::string components_legend(const RoadmapLayer& layer) {
+  Legend legend;
+  const auto& milestones = layer.milestones_of_ink();
+  for (std::size_t rank = 0; rank + 1 < component_inks.size(); ++rank) {
+    if (milestones[rank] == 0) break;
+    legend.add(component_inks[rank], fmt::format("{}: {}", rank == 0 ? "largest" : fmt::format("number {}", rank + 1),
+                                                 counted(milestones[rank], "milestone", "milestones")));
+  }
+  if (layer.small_components() > 0) {
+    legend.add(component_inks.back(), fmt::format("{}: {}", counted(layer.small_components(), "other", "others"),
+                                                  counted(milestones.back(), "milestone", "milestones")));
+  }
+  return legend.closed();
+}
+std::string search_legend(const StartDistances& found, const ServedWorld& world) {
+  Legend legend;
+  const std::string behind = unit_behind(world);
+  for (std::size_t step = 0; step < found.steps.count && found.reached > 0; ++step) {
+    const bool is_last = step + 1 == found.steps.count;
+    const double high = is_last ? found.farthest : static_cast<double>(step + 1) * found.steps.each;
+    legend.add(search_inks[step],
+               fmt::format("{} to {}{} from the start", grouped_number(static_cast<double>(step) * found.steps.each),
+                           grouped_number(high), behind));
+  }
+  if (const std::uint64_t others = found.inks.size() - found.reached; others > 0) {
+    legend.add(search_inks.back(), counted(others, "milestone", "milestones") + " that it does not reach");
+  }
+  return legend.closed();
+}
+std::string clearance_legend(const ClearanceLayer& layer, const ServedWorld& world) {
+  Legend legend;
+  const std::string behind = unit_behind(world);
+  const double needed = layer.needed();
+  if (needed > 0.0) {
+    legend.add(
+        too_near_ink,
+        fmt::format("nearer than {}{}: too near for {}", grouped_number(needed), behind, robot_text(world.robot())),
+        fmt::format("{:02x}", step_opacity));
+  }
+  add_steps(legend, layer.steps(), needed, behind);
+  return legend.closed();
+}
+
+constexpr const char* no_roadmap =
+    "each question of this world is solved by itself; open a roadmap, which 'warren build' makes of it";
+
+/// The first one whose pixels are no larger.
+unsigned zoom_of(double pixel, const TileGrid& grid) {
+  unsigned zoom = 0;
+  while (zoom + 1 < grid.levels && grid.pixel(zoom) > pixel) ++zoom;
+  return zoom;
+}
+
+LayerAccount roadmap_account(const ServedWorld& world) {
+  LayerAccount account{.name = "roadmap"};
+  if (world.query() == nullptr) account.why = no_roadmap;
+  if (world.query() == nullptr || world.query()->roadmap().lattice == nullptr) return account;
+  account.from_zoom = zoom_of(largest_pixel_of_passages, world.tiles().grid());
+  return account;
+}
+
+LayerAccount components_account(const ServedWorld& world) {
+  LayerAccount account{.name = "components"};
+  if (world.query() == nullptr) {
+    account.why = no_roadmap;
+  } else if (world.query()->roadmap().lattice != nullptr) {
+    account.why = "the roadmap of a maze's lattice holds passages and no components";
+  }
+  return account;
+}
+
+/// Up to one more than are shown.
+std::size_t side_count(const Scene& scene) {
+  std::size_t count = scene.walls.size();
+  for (const ScenePolygon& polygon : scene.polygons) {
+    count += polygon.corners.size();
+    if (count > most_shapes) break;
+  }
+  return count;
+}
+
+LayerAccount clearance_account(const ServedWorld& world) {
+  LayerAccount account{.name = "clearance"};
+  const Scene& outline = world.outline();
+  account.from_zoom = zoom_of(world.tiles().largest_pixel_of_distances(), world.tiles().grid());
+  if (outline.maze || outline.map) return account;
+  if (side_count(outline) > most_shapes) {
+    account.why = fmt::format("at most {} walls and sides are measured", grouped(most_shapes));
+  }
+  return account;
+}
+
+/// Distance that the middle of a round body must have; 0 of others, whose place alone doesn't say whether they fit.
+double needed_around(const ServedWorld& world) {
+  return world.robot().outline.empty() ? world.robot().radius + world.clearance() : 0.0;
+}
+
+LayerAccount axis_account(const ServedWorld& world) {
+  LayerAccount account{.name = "axis"};
+  if (world.query() != nullptr && world.query()->roadmap().lattice != nullptr) {
+    account.why = "the axis of a maze is its passages; see 'roadmap'";
+    return account;
+  }
+  try {
+    check_has_axis(world.outline(), world.robot(), world.clearance());
+  } catch (const UsageError& error) {
+    account.why = error.what();
+  }
+  return account;
+}
+
+LayerAccount search_account(const ServedWorld& world) {
+  LayerAccount account{.name = "search", .is_of_start = true};
+  const bool is_round = world.robot().kind == RobotKind::point || world.robot().kind == RobotKind::disc;
+  if (world.query() == nullptr) {
+    account.why = no_roadmap;
+  } else if (world.query()->roadmap().lattice != nullptr) {
+    account.why = "the index of a maze's lattice finds its paths without a search";
+  } else if (!is_round) {
+    account.why = "the distances of a roadmap are drawn for points and discs";
+  } else if (world.query()->roadmap().options.planner == PlannerKind::lazy_prm) {
+    account.why = "this roadmap's edges are checked while it is asked; one of 'build --planner prm' has distances";
+  } else if (world.query()->roadmap().options.planner != PlannerKind::prm) {
+    account.why = "distances are drawn of roadmaps of samples; one of 'build --planner prm' has them";
+  }
+  return account;
+}
+
+LayerAccount sweep_account(const RobotSpec& robot) {
+  LayerAccount account{.name = "sweep", .is_of_path = true};
+  if (!(reach_of(robot) > 0.0)) account.why = "a point has no extent, so it sweeps no more than its path";
+  return account;
+}
+
+std::string json_of_account(const LayerAccount& account, const std::string& hash) {
+  JsonObject json;
+  json.add("name", account.name);
+  json.add("there", account.why.empty());
+  if (!account.why.empty()) {
+    json.add("why", account.why);
+    return json.closed();
+  }
+  if (account.is_of_path) {
+    json.add("of_path", std::string("api/path/{id}/") + std::string(account.name));
+    return json.closed();
+  }
+  const std::string address = fmt::format("v/{}/layers/{}/", hash, account.name);
+  json.add("url", address + "{z}/{x}/{y}.png");
+  json.add("legend", address + "legend");
+  json.add("from_zoom", std::uint32_t{account.from_zoom});
+  if (account.is_of_start) json.add("of_start", true);
+  return json.closed();
+}
+
+/// Two at least, however large: tiles are asked for one by one, and none of them may search anew.
+std::size_t most_bytes_of_starts(std::size_t bytes_a_start) {
+  return std::max(std::size_t{64} << 20U, 2 * bytes_a_start);
+}
+
+}  // namespace
+
+WorldLayers::WorldLayers(const ServedWorld& world)
+    : world_(world),
+      accounts_{roadmap_account(world), components_account(world), clearance_account(world),
+                axis_account(world),    search_account(world),     sweep_account(world.robot())},
+      bytes_a_start_(sizeof(StartDistances) + (world.query() == nullptr ? 0 : count_states(world.query()->roadmap()))),
+      starts_(most_bytes_of_starts(bytes_a_start_)) {}
+
+std::string WorldLayers::json(const RobotSpec& robot) const {
+  std::string text = "[";
+  for (const LayerAccount& account : accounts_) {
+    text += (text.size() > 1 ? "," : "") +
+            json_of_account(account.is_of_path ? sweep_account(robot) : account, world_.hash());
+  }
+  return text + "]";
+}
+
+bool WorldLayers::knows(std::string_view name) const {
+  return std::ranges::any_of(accounts_, [&](const LayerAccount& account) { return account.name == name; });
+}
+
+bool WorldLayers::is_of_start(std::string_view name) const {
+  return std::ranges::any_of(accounts_,
+                             [&](const LayerAccount& account) { return account.name == name && account.is_of_start; });
+}
+
+void WorldLayers::refuse_missing(std::string_view name) const {
+  for (const LayerAccount& account : accounts_) {
+    if (account.name != name) continue;
+    if (!account.why.empty()) throw UsageError(fmt::format("there is no layer '{}': {}", name, account.why));
+    if (account.is_of_path) throw UsageError(fmt::format("'{0}' is no tiles; ask /api/path/ID/{0}", name));
+  }
+}
+
+const RoadmapLayer& WorldLayers::roadmap(const Execution& execution) const {
+  return roadmap_.get(
+      execution, [&] { return std::make_unique<RoadmapLayer>(world_.query()->roadmap().arrays.parts(), execution); });
+}
+
+std::uint64_t WorldLayers::passages(const Execution& execution) const {
+  return passages_.get(execution, [&] {
+    return std::make_unique<std::uint64_t>(count_edges(world_.query()->roadmap(), execution).free);
+  });
+}
+
+const ClearanceLayer& WorldLayers::clearance(const Execution& execution) const {
+  return clearance_.get(execution, [&] {
+    return std::make_unique<ClearanceLayer>(world_.tiles(), world_.box(), needed_around(world_), execution);
+  });
+}
+
+const RoadmapLayer& WorldLayers::axis(const Execution& execution) const {
+  const RoadmapArrays& arrays = axis_arrays_.get(execution, [&] {
+    const Scene& whole = world_.whole(execution);
+    return std::make_unique<RoadmapArrays>(
+        built_roadmap(whole, world_.robot(), world_.clearance(), {.kind = GraphKind::axis}, execution).arrays);
+  });
+  return axis_.get(execution, [&] { return std::make_unique<RoadmapLayer>(arrays.parts(), execution); });
+}
+
+MadeByName<StartDistances>::Lease WorldLayers::from_start(const std::optional<std::vector<double>>& from,
+                                                          const Execution& execution) const {
+  if (!from) throw UsageError("from: the start of the search is expected, as ?from=x,y");
+  const std::string name = fmt::format("{}", fmt::join(*from, ","));
+  return starts_.get(name, bytes_a_start_, execution, [&] {
+    return std::make_unique<StartDistances>(start_distances(*world_.query(), *from, execution));
+  });
+}
+
+std::string WorldLayers::legend(std::string_view name, const std::optional<std::vector<double>>& from,
+                                const Execution& execution) const {
+  refuse_missing(name);
+  if (name == "search") return search_legend(*from_start(from, execution), world_);
+  if (name == "clearance") return clearance_legend(clearance(execution), world_);
+  if (name == "axis") return axis_legend(axis(execution), !world_.robot().outline.empty());
+  if (world_.passages(execution) != nullptr) {
+    return passages_legend(passages(execution), count_states(world_.query()->roadmap()));
+  }
+  if (name == "components") return components_legend(roadmap(execution));
+  return edges_legend(roadmap(execution), world_.robot().kind == RobotKind::car);
+}
+
+std::string WorldLayers::draw(std::string_view name, const TilePlace& tile,
+                              const std::optional<std::vector<double>>& from, const Execution& execution) const {
+  refuse_missing(name);
+  if (name == "clearance") return clearance(execution).draw(tile, execution);
+  const TileGrid& grid = world_.tiles().grid();
+  const Box box = grid.box_of(tile);
+  const double pixel = grid.pixel(tile.zoom);
+  if (name == "axis") return axis(execution).draw(box, pixel, RoadmapInk::one, execution);
+  if (name == "search") {
+    return roadmap(execution).draw(box, pixel, search_inks, from_start(from, execution)->inks, execution);
+  }
+  if (const LatticePassages* passages = world_.passages(execution)) {
+    return draw_passages(*passages, box, pixel, execution);
+  }
+  return roadmap(execution).draw(box, pixel, name == "components" ? RoadmapInk::by_component : RoadmapInk::one,
+                                 execution);
+}
+
+}  // namespace warren::serve

@@ -1,0 +1,553 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/serve/api/world_service.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "apps/serve/api/kept_path.hpp"
+#include "apps/serve/api/query_body_io.hpp"
+#include "apps/serve/api/scene_change_io.hpp"
+#include "apps/serve/page/served_files.hpp"
+#include "core/base/error.hpp"
+#include "parallel/deadline.hpp"
+#include "roadmaps/file/checksum.hpp"
+#include "scenes/formats/scene_io.hpp"
+#include "scenes/scene/unit_of.hpp"
+#include "scenes/text/human_units.hpp"
+#include "scenes/text/input_file_io.hpp"
+#include "scenes/text/json_text.hpp"
+#include "solve/answer/path_hash.hpp"
+#include "solve/answer/world_account.hpp"
+#include "solve/answer/write_answer_io.hpp"
+#include "solve/batches/ask_batch_io.hpp"
+#include "solve/steps/kind_of_problem.hpp"
+
+namespace warren::serve {
+namespace {
+
+/// Of a profile.
+std::size_t sample_count(const HttpRequest& request) {
+  constexpr double most = 2000.0;
+  const double count = numbers_parameter(request, "samples", 1).value_or(std::vector{200.0})[0];
+  if (count >= 2.0 && count <= most && count == std::floor(count)) return static_cast<std::size_t>(count);
+  throw HttpError(400, "bad_request", "query", "samples: expected a whole number, 2 to 2000");
+}
+
+/// What is drawn of a body: corners, or the radius of one that has none.
+void add_outline(JsonObject& json, const RobotSpec& robot) {
+  std::string outline;
+  for (const Vec2 corner : robot.outline) {
+    outline += (outline.empty() ? "" : ",") + json_list(std::span<const double>(std::array{corner.x, corner.y}));
+  }
+  json.add("radius", robot.outline.empty() ? robot.radius : 0.0);
+  json.add_json("outline", "[" + outline + "]");
+}
+
+}  // namespace
+
+void PathService::keep(const std::string& name, Answer answer, const Execution& execution) {
+  KeptPath kept;
+  const bool is_driven = !answer.states.empty() && answer.problem.robot.kind == RobotKind::car;
+  kept.curve = KeptCurve(is_driven ? curve_of(answer, execution) : std::move(answer.path), execution);
+  kept.way.states = std::move(answer.states);
+  kept.way.problem.robot = std::move(answer.problem.robot);
+  kept.way.length = answer.length;
+  kept.way.min_clearance = answer.min_clearance;
+  const std::size_t bytes = kept.curve.bytes() + kept.way.states.numbers.size() * sizeof(double) + sizeof(KeptPath);
+  paths_.put(name, std::move(kept), bytes);
+}
+
+HttpResponse PathService::answer(const Route& route, const HttpRequest& request, const Execution& execution) {
+  const auto kept = paths_.find(route.name);
+  if (!kept) {
+    throw HttpError(404, "not_found", "path",
+                    "no path of this name is kept, or none any more; POST its question to /api/query again, and the "
+                    "field Warren-Path of the answer names it");
+  }
+  if (route.place == Place::clearance) return clearance(*kept, request, execution);
+  if (route.place == Place::sweep) return sweep(*kept, request, execution);
+  return told(*kept, request, execution);
+}
+
+/// What of a path is seen: everything where the request doesn't say.
+PathView PathService::view_of(const HttpRequest& request) const {
+  constexpr double everything = std::numeric_limits<double>::infinity();
+  PathView view{.box = {{-everything, -everything}, {everything, everything}}};
+  if (const auto box = numbers_parameter(request, "bbox", 4))
+    view.box = {{(*box)[0], (*box)[1]}, {(*box)[2], (*box)[3]}};
+  if (const auto zoom = numbers_parameter(request, "z", 1)) {
+    const TileGrid& grid = world_.tiles().grid();
+    constexpr double farthest = -8.0;
+    view.pixel = std::ldexp(grid.pixel(0), -static_cast<int>(std::clamp((*zoom)[0], farthest, grid.levels - 1.0)));
+  }
+  return view;
+}
+
+HttpResponse PathService::told(const KeptPath& kept, const HttpRequest& request, const Execution& execution) const {
+  constexpr std::size_t bytes_a_point = 96;  // of text that doubles, and of the answer
+  PathView view = view_of(request);
+  view.most_points = most_view_points_;
+  const std::vector<std::vector<Vec2>> chains = seen_of(kept.curve, view, execution);
+  std::size_t points = 0;
+  for (const std::vector<Vec2>& chain : chains) points += chain.size();
+  execution.reserve(points * bytes_a_point);
+  std::string text = "[";
+  for (const std::vector<Vec2>& chain : chains) {
+    execution.check();
+    text += text.size() > 1 ? ",[" : "[";
+    for (const Vec2 p : chain) {
+      if (text.back() == ']') text += ',';
+      append_json_list(text, std::array{p.x, p.y});
+    }
+    text += ']';
+  }
+  JsonObject json;
+  json.add("length", kept.way.length);
+  json.add("points", std::uint64_t{kept.curve.size()});
+  json.add_json("chains", text + "]");
+  return {.body = json.closed() + "\n"};
+}
+
+HttpResponse PathService::clearance(const KeptPath& kept, const HttpRequest& request,
+                                    const Execution& execution) const {
+  const std::size_t count = sample_count(request);
+  Answer way = kept.way;
+  if (way.states.empty()) way.path = kept.curve.whole(execution);
+  std::optional<EdgeJudge> other;
+  if (!world_.is_own(way.problem.robot, world_.clearance())) {
+    other.emplace(world_.whole(execution), world_.box(), way.problem.robot, world_.clearance());
+  }
+  std::string text;
+  for (const PathPlace& place : places_along(way, count, execution)) {
+    execution.check();
+    const double clearance = world_.clearance_at(place.state.used(), execution, other ? &*other : nullptr);
+    JsonObject told;
+    told.add("along", place.along);
+    told.add_json("at", json_list(place.state.used()));
+    told.add_or_null("clearance", std::isfinite(clearance), clearance);
+    text += (text.empty() ? "" : ",") + told.closed();
+  }
+  JsonObject json;
+  json.add("length", kept.way.length);
+  json.add_or_null("min_clearance", std::isfinite(kept.way.min_clearance), kept.way.min_clearance);
+  json.add_json("places", "[" + text + "]");
+  return {.body = json.closed() + "\n"};
+}
+
+HttpResponse PathService::sweep(const KeptPath& kept, const HttpRequest& request, const Execution& execution) const {
+  const SweptBodies bodies = swept_bodies(kept.way, kept.curve, view_of(request), execution);
+  std::string places;
+  for (const PathState& place : bodies.places) places += (places.empty() ? "" : ",") + json_list(place.used());
+  JsonObject json;
+  add_outline(json, kept.way.problem.robot);
+  json.add("apart", bodies.apart);
+  json.add_json("places", "[" + places + "]");
+  return {.body = json.closed() + "\n"};
+}
+
+namespace {
+
+// What a service says of its world and of itself.
+
+/// What is kept.
+struct KeptBytes {
+  std::size_t tile_bytes = 0;
+  std::size_t path_bytes = 0;
+};
+
+std::string box_json(const Box& box) {
+  return json_list(std::span<const double>(std::array{box.min.x, box.min.y, box.max.x, box.max.y}));
+}
+
+std::string tiles_json(const TileGrid& grid, const std::string& hash) {
+  JsonObject json;
+  json.add("url", "v/" + hash + "/tiles/{z}/{x}/{y}.png");
+  json.add("pixels", std::uint32_t{TileGrid::pixels});
+  json.add("levels", std::uint32_t{grid.levels});
+  json.add_json("corner", json_list(std::span<const double>(std::array{grid.corner.x, grid.corner.y})));
+  json.add("span", grid.span);
+  return json.closed();
+}
+
+/// Those that a question may name.
+std::string planners_json(const ServedWorld& world, const Question& body, bool asks_roadmap) {
+  std::string text = "[";
+  if (!asks_roadmap) {
+    for (const PlannerKind planner : planners_there_are()) {
+      try {
+        choose_solver({.planner = planner}, world.outline(), body);
+        text += (text.size() > 1 ? "," : "") + json_string(name_of(planner));
+      } catch (const UsageError&) {  // not in this world
+      }
+    }
+  }
+  return text + "]";
+}
+
+/// A lattice in a file has its walls made later.
+std::string words_of_world(const Scene& outline) {
+  if (outline.maze && outline.walls.size() == 0) {
+    return fmt::format("{} x {} maze", grouped(outline.maze->rows), grouped(outline.maze->cols));
+  }
+  return description_of(outline);
+}
+
+void add_line(std::string& text, std::string_view name, std::string_view kind, std::string_view help, double value) {
+  fmt::format_to(std::back_inserter(text), "# HELP warren_{} {}\n# TYPE warren_{} {}\nwarren_{} {}\n", name, help, name,
+                 kind, name, value);
+}
+
+/// warren.service/1: what a page needs to show the world and to ask of this body.
+std::string description_json(const ServedWorld& world, const Question& body, const WorldLayers& layers,
+                             const ServiceLimits& limits) {
+  const Scene& outline = world.outline();
+  const bool asks_roadmap = world.query() != nullptr && world.is_own(*body.robot, *body.clearance);
+  JsonObject json;
+  json.add("schema", "warren.service/1");
+  json.add("source", outline.source);
+  json.add("opened_as", world.is_roadmap() ? "roadmap" : "world");
+  json.add("description", words_of_world(outline));
+  json.add("hash", world.hash());
+  json.add("unit", unit_of(outline));
+  json.add_json("box", box_json(world.box()));
+  json.add("robot", robot_text(*body.robot));
+  json.add("state_size", std::uint64_t{state_size(*body.robot)});
+  json.add("clearance", *body.clearance);
+  add_outline(json, *body.robot);
+  json.add_json("start", json_list(std::span<const double>(outline.start)));
+  json.add_json("goal", json_list(std::span<const double>(outline.goal)));
+  json.add("asks_roadmap", asks_roadmap);
+  json.add_json("planners", planners_json(world, body, asks_roadmap));
+  json.add("budget_ms", 1e3 * limits.budget_s);
+  json.add("changed", world.is_changed());
+  json.add("writable", limits.writable && !outline.map && world.why_fixed().empty());
+  json.add("wants_token", limits.wants_token);
+  json.add_json("tiles", tiles_json(world.tiles().grid(), world.hash()));
+  json.add_json("layers", layers.json(*body.robot));
+  return json.closed() + "\n";
+}
+/// In the text format of Prometheus.
+std::string metrics_text(const HttpFigures& f, const KeptBytes& kept) {
+  std::string text;
+  const auto number = [](auto count) { return static_cast<double>(count); };
+  add_line(text, "connections", "gauge", "Open connections.", number(f.connections));
+  add_line(text, "connections_total", "counter", "Connections accepted.", number(f.accepted));
+  add_line(text, "connections_gave_way_total", "counter", "Connections closed for others.", number(f.gave_way));
+  add_line(text, "requests_timed_out_total", "counter", "Requests that did not come in time.", number(f.timed_out));
+  add_line(text, "requests_abandoned_total", "counter", "Clients who left before their answer.", number(f.abandoned));
+  add_line(text, "requests_working", "gauge", "Requests worked on or waiting for it.", number(f.working));
+  add_line(text, "requests_worked_total", "counter", "Requests that were worked on.", number(f.worked));
+  add_line(text, "wait_seconds_total", "counter", "Time that they waited for a thread.", f.waited_s);
+  add_line(text, "work_seconds_total", "counter", "Time that was worked on them.", f.worked_s);
+  text += "# HELP warren_responses_total Answers by the first digit of their status.\n";
+  text += "# TYPE warren_responses_total counter\n";
+  for (std::size_t digit = 1; digit < f.said.size(); ++digit) {
+    fmt::format_to(std::back_inserter(text), "warren_responses_total{{status=\"{}xx\"}} {}\n", digit, f.said[digit]);
+  }
+  add_line(text, "kept_tile_bytes", "gauge", "Tiles that are kept.", number(kept.tile_bytes));
+  add_line(text, "kept_path_bytes", "gauge", "Paths that are kept.", number(kept.path_bytes));
+  add_line(text, "resident_bytes", "gauge", "Memory that the process holds.", number(resident_bytes()));
+  return text;
+}
+
+/// Changes whenever tiles of a world look otherwise than before.
+constexpr int tile_style = 1;
+/// Ends the name of a path of another body than the service's: bodies may share points.
+std::string mark_of_body(const ServedWorld& world, const Problem& problem) {
+  if (world.is_own(problem.robot, problem.clearance)) return {};
+  const std::string body = fmt::format("{} {}", robot_text(problem.robot), problem.clearance);
+  return fmt::format("-{:016x}", checksum(std::as_bytes(std::span(body))));
+}
+
+constexpr std::size_t of_an_entry = 256;  // bytes of a kept tile beside its own
+
+std::string tile_name(const TilePlace& tile) { return fmt::format("{}/{}/{}", tile.zoom, tile.x, tile.y); }
+
+HttpResponse not_modified(std::string tag) {
+  return {.status = 304, .fields = {{"ETag", std::move(tag)}, {"Cache-Control", "no-cache"}}};
+}
+
+HttpError scene_too_large() { return {413, "scene_too_large", "path", "this scene is more than 64 MiB of text"}; }
+
+/// The address names the world but not its roadmap, so that a client asks anew and is told whether it has changed.
+HttpResponse layer_response(const HttpRequest& request, const std::string& bytes) {
+  std::string tag = fmt::format("\"{:016x}\"", checksum(std::as_bytes(std::span(bytes))));
+  if (request.if_none_match == tag) return not_modified(std::move(tag));
+  return {.type = "image/png", .body = bytes, .fields = {{"ETag", std::move(tag)}, {"Cache-Control", "no-cache"}}};
+}
+
+}  // namespace
+
+WorldService::WorldService(const ServedWorld& world, const ServiceLimits& limits)
+    : world_(world),
+      limits_(limits),
+      layers_(world),
+      world_json_(description_json(world, world.body_asked({}, {}), layers_, limits)),
+      graphs_(world),
+      tiles_(limits.tile_bytes),
+      paths_(world, limits) {}
+
+Route WorldService::route(const HttpRequest& request) const {
+  return route_of(request, world_.tiles().grid(), world_.hash());
+}
+
+std::size_t WorldService::most_body(const HttpRequest& head) const {
+  const Route asked = route(head);
+  if (asked.place == Place::file) file(head, asked.name);  // or there is none
+  if ((asked.place == Place::layer || asked.place == Place::legend) && !layers_.knows(asked.name)) {
+    throw HttpError(404, "not_found", "path", "there is no layer of this name; /api/world lists them");
+  }
+  if (asked.place == Place::update) {
+    throw HttpError(403, "read_only", "path", "this world is not to be changed; 'serve --writable' lets it");
+  }
+  if (asked.place == Place::batch || is_of_graphs(asked.place)) return limits_.batch_body;
+  return asked.place == Place::query ? limits_.small_body : 0;
+}
+
+void WorldService::prepare(const SignalFlag& gone) {
+  const Deadline deadline(std::numeric_limits<double>::infinity(), limits_.memory_bytes, &gone);
+  world_.prepare({.threads = limits_.threads, .deadline = &deadline});
+}
+
+std::optional<HttpResponse> WorldService::at_once(const HttpRequest& request, const HttpFigures& figures) {
+  const Route asked = route(request);
+  switch (asked.place) {
+    case Place::file:
+      return file(request, asked.name);
+    case Place::health:
+      return HttpResponse{.body = "{\"status\":\"ok\"}\n"};
+    case Place::metrics:
+      return metrics(figures);
+    case Place::world:
+      return request.query.empty() ? std::optional(HttpResponse{.body = world_json_}) : std::nullopt;
+    case Place::tile: {
+      if (request.if_none_match == tile_tag()) return not_modified(tile_tag());
+      const auto known = tiles_.find(tile_name(asked.tile));
+      return known ? std::optional(tile_response(asked, *known)) : std::nullopt;
+    }
+    case Place::layer: {
+      const auto known = tiles_.find(layer_name(request, asked));
+      return known ? std::optional(layer_response(request, *known)) : std::nullopt;
+    }
+    default:
+      return std::nullopt;
+  }
+}
+
+HttpResponse WorldService::work(const HttpRequest& request, const SignalFlag& gone) {
+  const Route asked = route(request);
+  if (asked.place == Place::query) return query(request, gone);
+  const Deadline deadline(limits_.budget_s, limits_.memory_bytes, &gone);
+  const Execution execution{.threads = limits_.threads, .deadline = &deadline};
+  execution.check();
+  if (asked.place == Place::tile) return tile(asked, execution);
+  if (asked.place == Place::layer) return layer(request, asked, execution);
+  if (asked.place == Place::legend) {
+    return {.body = layers_.legend(asked.name, numbers_parameter(request, "from", 2), execution) + "\n"};
+  }
+  if (asked.place == Place::batch) return batch(request, execution);
+  if (asked.place == Place::scene) return scene(request, execution);
+  if (asked.place == Place::world) return {.body = description_json(world_, body_in(request), layers_, limits_)};
+  if (is_of_graphs(asked.place)) return graphs_.answer(asked.place, request.body, execution);
+  return paths_.answer(asked, request, execution);
+}
+
+Question WorldService::body_in(const HttpRequest& request) const {
+  std::optional<RobotSpec> robot;
+  if (const auto text = parameter(request, "robot")) robot = robot_value("robot", *text);
+  const auto clearance = numbers_parameter(request, "clearance", 1);
+  return world_.body_asked(robot, clearance ? std::optional((*clearance)[0]) : std::nullopt);
+}
+
+HttpResponse WorldService::file(const HttpRequest& request, const std::string& name) const {
+  const ServedFile* found = served_file(name);
+  if (found == nullptr) throw HttpError(404, "not_found", "path", "there is nothing at this address");
+  const std::string tag = fmt::format("\"{}\"", found->tag);
+  if (request.if_none_match == tag) return not_modified(tag);
+  return {.type = std::string(found->type),
+          .body = std::string(found->bytes),
+          .fields = {{"ETag", tag}, {"Cache-Control", "no-cache"}}};
+}
+
+std::string WorldService::layer_name(const HttpRequest& request, const Route& route) const {
+  const std::string name = route.name + "/" + tile_name(route.tile);
+  if (!layers_.is_of_start(route.name)) return name;
+  return fmt::format("{}?{}", name,
+                     fmt::join(numbers_parameter(request, "from", 2).value_or(std::vector<double>()), ","));
+}
+
+std::string WorldService::tile_tag() const { return fmt::format("\"{}-{}\"", world_.hash(), tile_style); }
+
+HttpResponse WorldService::tile_response(const Route& route, std::string bytes) const {
+  return {.type = "image/png",
+          .body = std::move(bytes),
+          .fields = {{"ETag", tile_tag()},
+                     {"Cache-Control", route.has_its_hash ? "public, max-age=31536000, immutable" : "no-cache"}}};
+}
+
+HttpResponse WorldService::tile(const Route& route, const Execution& execution) {
+  std::string bytes = world_.tiles().draw(route.tile, execution);
+  tiles_.put(tile_name(route.tile), bytes, bytes.size() + of_an_entry);
+  return tile_response(route, std::move(bytes));
+}
+
+HttpResponse WorldService::layer(const HttpRequest& request, const Route& route, const Execution& execution) {
+  const std::string bytes = layers_.draw(route.name, route.tile, numbers_parameter(request, "from", 2), execution);
+  tiles_.put(layer_name(request, route), bytes, bytes.size() + of_an_entry);
+  return layer_response(request, bytes);
+}
+
+HttpResponse WorldService::query(const HttpRequest& request, const SignalFlag& gone) {
+  const QueryBody body = read_query_body(request.body);
+  const double budget_s = std::min(limits_.budget_s, body.question.budget_s.value_or(limits_.budget_s));
+  const Deadline deadline(budget_s, limits_.memory_bytes, &gone);
+  const Execution execution{.threads = limits_.threads, .deadline = &deadline};
+  execution.check();
+  std::string name;
+  Answer answer =
+      world_.ask(body.question, execution, [&](const Answer& found) { name = path_hash(found, execution); });
+  if (answer.outcome == Outcome::stopped) throw Stopped(answer.stop_reason.value_or(StopReason::time));
+  HttpResponse response;
+  if (answer.verified) {
+    if (name.empty()) name = path_hash(answer, execution);
+    answer.tells_path = body.tells_path && path_points(answer) <= limits_.most_points;
+    if (!answer.tells_path) answer.handed = HandedPath{path_points(answer), name};
+    name += mark_of_body(world_, answer.problem);
+    response.fields.emplace_back("Warren-Path", name);
+  }
+  write_answer_json(answer, execution, [&](std::string_view piece) { response.body += piece; });
+  if (answer.verified) paths_.keep(name, std::move(answer), execution);
+  return response;
+}
+
+HttpResponse WorldService::batch(const HttpRequest& request, const Execution& execution) const {
+  if (world_.query() == nullptr) {
+    throw HttpError(400, "no_roadmap", "",
+                    "many questions are for roadmaps; serve what 'warren build' makes of this world");
+  }
+  if (nesting_of(request.body) > deepest_json) {
+    throw HttpError(400, "bad_request", "body", "JSON that is nested at most 8 deep is expected");
+  }
+  const BatchOptions options{.how = {.optimise = flag_parameter(request, "optimise")},
+                             .lengths_only = flag_parameter(request, "lengths_only")};
+  const InputFile questions = InputFile::of_bytes("body", request.body);
+  HttpResponse response{.type = "application/x-ndjson"};
+  ask_batch(*world_.query(), questions, options, execution, [&](std::string_view piece) {
+    response.body += piece;
+    if (response.body.size() <= limits_.batch_answers) return;
+    throw HttpError(413, "answers_too_large", "body",
+                    "the answers are more than 32 MiB; ask fewer questions, or lengths_only=1");
+  });
+  return response;
+}
+
+HttpResponse WorldService::scene(const HttpRequest& request, const Execution& execution) const {
+  constexpr std::string_view shortest = "wall 1 1 1 2\n";
+  if (world_.outline().map) throw UsageError("this world is the cells of a map, which no scene holds");
+  const Question body = body_in(request);
+  const std::size_t walls = world_.wall_count(execution);
+  if (walls > limits_.scene_bytes / shortest.size()) throw scene_too_large();
+  execution.reserve(walls * sizeof(Segment));
+  Scene told = world_.copy_of_whole(execution);
+  told.robot = body.robot;
+  told.clearance = body.clearance;
+  const std::size_t numbers = state_size(*body.robot);
+  if (auto start = numbers_parameter(request, "start", numbers)) told.start = std::move(*start);
+  const bool any_heading = std::ranges::count(parameter(request, "goal").value_or(""), ',') == 1;
+  if (auto goal = numbers_parameter(request, "goal", any_heading ? 2 : numbers)) told.goal = std::move(*goal);
+  Question{.start = told.start, .goal = told.goal}.validate();
+  HttpResponse response{.type = "text/plain; charset=utf-8",
+                        .fields = {{"Content-Disposition", "attachment; filename=\"world.scene\""}}};
+  write_scene_text(
+      told,
+      [&](std::string_view piece) {
+        response.body += piece;
+        if (response.body.size() <= limits_.scene_bytes) return;
+        throw scene_too_large();
+      },
+      execution);
+  return response;
+}
+
+HttpResponse WorldService::metrics(const HttpFigures& figures) const {
+  return {.type = "text/plain; version=0.0.4",
+          .body = metrics_text(figures, {.tile_bytes = tiles_.bytes(), .path_bytes = paths_.bytes()})};
+}
+
+namespace {
+
+bool is_update(const HttpRequest& request) { return request.path == "/api/update" && request.method == "POST"; }
+
+}  // namespace
+
+bool is_same_secret(std::string_view a, std::string_view b) {
+  if (a.size() != b.size()) return false;
+  unsigned differing = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) differing |= static_cast<unsigned char>(a[i] ^ b[i]);
+  return differing == 0;
+}
+
+WritableService::WritableService(std::unique_ptr<ServedWorld> world, const ServiceLimits& limits, std::string token)
+    : limits_(limits), token_(std::move(token)), current_(std::make_unique<Version>(std::move(world), limits)) {}
+
+std::size_t WritableService::most_body(const HttpRequest& head) const {
+  if (!limits_.writable || !is_update(head)) return current_.now()->service.most_body(head);
+  check_token(head);
+  return limits_.batch_body;
+}
+
+std::optional<HttpResponse> WritableService::at_once(const HttpRequest& request, const HttpFigures& figures) {
+  if (is_update(request)) return std::nullopt;
+  return current_.now()->service.at_once(request, figures);
+}
+
+HttpResponse WritableService::work(const HttpRequest& request, const SignalFlag& gone) {
+  if (!is_update(request)) return current_.now()->service.work(request, gone);
+  check_token(request);
+  const Deadline deadline(limits_.budget_s, limits_.memory_bytes, &gone);
+  const Execution execution{.threads = limits_.threads, .deadline = &deadline};
+  return update(request, execution);
+}
+
+void WritableService::prepare(const SignalFlag& gone) { current_.now()->service.prepare(gone); }
+
+void WritableService::check_token(const HttpRequest& request) const {
+  if (token_.empty() || is_same_secret(request.authorization, "Bearer " + token_)) return;
+  throw HttpError(request.authorization.empty() ? 401 : 403, "token", "Authorization",
+                  "who changes this world must send 'Bearer TOKEN', the token that the service was started with");
+}
+
+HttpResponse WritableService::update(const HttpRequest& request, const Execution& execution) {
+  const SceneChange wanted = read_scene_change(request.body, execution);
+  CurrentValue<Version>::Change change(current_);
+  if (!change.is_mine()) {
+    HttpResponse busy = error_response(503, "busy", "", "somebody else changes the world now; try again");
+    busy.fields.emplace_back("Retry-After", "1");
+    return busy;
+  }
+  const auto before = current_.now();
+  if (const std::string_view why = before->world->why_fixed(); !why.empty()) throw UsageError(std::string(why));
+  const Scene& scene = before->world->whole(execution);
+  if (scene.maze) maze_ = scene.maze;
+  ChangedScene now = changed(scene, wanted, maze_, execution);
+  auto next = std::make_unique<Version>(before->world->changed(std::move(now.scene), execution), limits_);
+  JsonObject json;
+  json.add("schema", "warren.change/1");
+  json.add("before", std::string_view(before->world->hash()));
+  json.add("hash", std::string_view(next->world->hash()));
+  json.add_json("added", shapes_json(now.made.add));
+  json.add_json("removed", shapes_json(now.made.remove));
+  execution.check();
+  change.replace(std::move(next));
+  return {.body = json.closed() + "\n"};
+}
+
+}  // namespace warren::serve

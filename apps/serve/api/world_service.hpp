@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The interface of `warren serve` (docs/service.md): page, tiles, questions and paths of one world, as a service that
+// any server of HTTP may ask.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "apps/serve/api/graph_service.hpp"
+#include "apps/serve/api/kept_path.hpp"
+#include "apps/serve/api/route.hpp"
+#include "apps/serve/api/served_world.hpp"
+#include "apps/serve/api/world_layers.hpp"
+#include "apps/serve/http/http_message.hpp"
+#include "apps/serve/http/http_server.hpp"
+#include "apps/serve/http/kept_values.hpp"
+#include "parallel/execution.hpp"
+#include "solve/answer/answer.hpp"
+
+namespace warren::serve {
+
+// What a service may spend on its clients.
+
+struct ServiceLimits {
+  double budget_s = 10.0;  ///< of each request that is worked on; questions may ask for less
+  std::size_t memory_bytes = static_cast<std::size_t>(-1);  ///< that the process may hold
+  unsigned threads = 0;                                     ///< of each request
+  bool writable = false;                                    ///< does whoever owns the service take changes?
+  bool wants_token = false;                                 ///< from those who change
+  std::size_t scene_bytes = std::size_t{64} << 20U;         ///< of a scene that is told
+  std::size_t tile_bytes = std::size_t{64} << 20U;          ///< of tiles that are kept
+  std::size_t path_bytes = std::size_t{1} << 30U;           ///< of paths that are kept; one has half of it at most
+  std::size_t most_points = 10'000;                         ///< of a path that an answer lists
+  std::size_t most_view_points = 500'000;                   ///< of a path that is told by itself
+  std::size_t small_body = std::size_t{64} << 10U;
+  std::size_t batch_body = std::size_t{4} << 20U;      ///< of a route graph, too
+  std::size_t batch_answers = std::size_t{32} << 20U;  ///< bytes
+};
+
+// Paths that were found, kept by name, and what is asked about them (docs/service.md): their points, the room around
+// the body along them, the body's sweep.
+
+/// Any number of threads may ask.
+class PathService {
+ public:
+  /// Refers to the world.
+  PathService(const ServedWorld& world, const ServiceLimits& limits)
+      : world_(world), most_view_points_(limits.most_view_points), paths_(limits.path_bytes) {}
+
+  /// The answer has a path. Throws Stopped.
+  void keep(const std::string& name, Answer answer, const Execution& execution);
+  /// Of a path by its name, at Place::path, clearance or sweep. Throws HttpError, UsageError, Stopped.
+  HttpResponse answer(const Route& route, const HttpRequest& request, const Execution& execution);
+  /// Of all that is kept.
+  std::size_t bytes() const { return paths_.bytes(); }
+
+ private:
+  struct KeptPath {
+    Answer way;  // states, body, length and clearance alone
+    KeptCurve curve;
+  };
+  HttpResponse told(const KeptPath& kept, const HttpRequest& request, const Execution& execution) const;
+  HttpResponse clearance(const KeptPath& kept, const HttpRequest& request, const Execution& execution) const;
+  HttpResponse sweep(const KeptPath& kept, const HttpRequest& request, const Execution& execution) const;
+  PathView view_of(const HttpRequest& request) const;
+
+  const ServedWorld& world_;
+  const std::size_t most_view_points_;
+  KeptValues<KeptPath> paths_;
+};
+
+class WorldService : public HttpService {
+ public:
+  /// Refers to the world.
+  WorldService(const ServedWorld& world, const ServiceLimits& limits);
+
+  std::size_t most_body(const HttpRequest& head) const override;
+  std::optional<HttpResponse> at_once(const HttpRequest& request, const HttpFigures& figures) override;
+  HttpResponse work(const HttpRequest& request, const SignalFlag& gone) override;
+  void prepare(const SignalFlag& gone) override;
+
+ private:
+  Route route(const HttpRequest& request) const;
+  HttpResponse file(const HttpRequest& request, const std::string& name) const;
+  HttpResponse tile(const Route& route, const Execution& execution);
+  HttpResponse layer(const HttpRequest& request, const Route& route, const Execution& execution);
+  HttpResponse query(const HttpRequest& request, const SignalFlag& gone);
+  HttpResponse batch(const HttpRequest& request, const Execution& execution) const;
+  HttpResponse scene(const HttpRequest& request, const Execution& execution) const;
+  Question body_in(const HttpRequest& request) const;
+  HttpResponse metrics(const HttpFigures& figures) const;
+  std::string layer_name(const HttpRequest& request, const Route& route) const;
+  std::string tile_tag() const;
+  HttpResponse tile_response(const Route& route, std::string bytes) const;
+
+  const ServedWorld& world_;
+  const ServiceLimits limits_;
+  WorldLayers layers_;
+  const std::string world_json_;
+  const GraphService graphs_;
+  KeptValues<std::string> tiles_;
+  PathService paths_;
+};
+
+// A service whose world may be changed while it is asked (docs/service.md): each change makes a new world with a
+// service of its own, and requests that have begun go on in the one that they began in. One change at a time.
+
+/// Takes the same time for any wrong guess of the right length.
+bool is_same_secret(std::string_view a, std::string_view b);
+
+class WritableService : public HttpService {
+ public:
+  /// Changes are refused where limits.writable is false. token: who sends it as `Authorization: Bearer TOKEN` may
+  /// change the world; empty: whoever reaches it.
+  WritableService(std::unique_ptr<ServedWorld> world, const ServiceLimits& limits, std::string token);
+
+  std::size_t most_body(const HttpRequest& head) const override;
+  std::optional<HttpResponse> at_once(const HttpRequest& request, const HttpFigures& figures) override;
+  HttpResponse work(const HttpRequest& request, const SignalFlag& gone) override;
+  void prepare(const SignalFlag& gone) override;
+
+ private:
+  struct Version {
+    Version(std::unique_ptr<ServedWorld> its_world, const ServiceLimits& limits)
+        : world(std::move(its_world)), service(*world, limits) {}
+    std::unique_ptr<ServedWorld> world;
+    WorldService service;
+  };
+  void check_token(const HttpRequest& request) const;
+  HttpResponse update(const HttpRequest& request, const Execution& execution);
+
+  const ServiceLimits limits_;
+  const std::string token_;
+  std::optional<MazeHint> maze_;  // what the walls were of; of whoever changes the world
+  mutable CurrentValue<Version> current_;
+};
+
+}  // namespace warren::serve

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A route graph as Nav2 has it, as plain data: nodes where a robot may go, edges that it may drive, each one way. What
+// people have written beside places and ends is kept as the JSON that it was.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/types.hpp"
+#include "parallel/execution.hpp"
+#include "scenes/scene/scene.hpp"
+#include "solve/roadmaps/roadmap.hpp"
+
+namespace warren::serve {
+
+/// An id is one node's; edges may share theirs with each other and with nodes, for Nav2 tells them by their ends, and
+/// an edge may lead from a node to itself. The largest number of 32 bits means "none" to Nav2.
+struct RouteNode {
+  std::uint32_t id = 0;
+  Vec2 at = {};                      ///< metres of the map's frame
+  std::optional<double> theta = {};  ///< radians; none: whoever stands there may turn
+  std::string more = "{}";           ///< further properties, one JSON object
+};
+
+struct RouteEdge {
+  std::uint32_t id = 0;
+  std::uint32_t from = 0;  ///< ids of nodes
+  std::uint32_t to = 0;
+  std::optional<double> cost = {};  ///< none: its length
+  std::string more = "{}";
+};
+
+struct RouteGraph {
+  std::string frame = "map";
+  std::vector<RouteNode> nodes = {};
+  std::vector<RouteEdge> edges = {};
+  std::string more = "{}";   ///< of the file
+  std::size_t left_out = 0;  ///< features that are neither, and nodes whose id a later one has: no edge leads there
+};
+
+inline constexpr std::uint64_t largest_route_id = 0xfffffffeU;
+inline constexpr std::size_t most_route_nodes = 20'000;
+inline constexpr std::size_t most_route_edges = 100'000;
+
+/// Where each edge leads, as places in graph.nodes. Throws HttpError (400, "bad_graph") where Nav2 would not take the
+/// graph: no nodes, no edges, ends that are no nodes; where two nodes have one id; and where it is too large to be
+/// edited.
+struct RouteEnds {
+  std::size_t from = 0;
+  std::size_t to = 0;
+};
+std::vector<RouteEnds> ends_of(const RouteGraph& graph);
+
+// Route graphs that nobody has to draw: the axis of what is free, or a roadmap of samples, built as `warren build` does
+// and numbered as `warren export` does.
+
+/// axis: as far from all obstacles as can be; of a body that turns, that of the disc around it, where it may stand in
+/// all headings. roadmap: of samples.
+enum class GraphKind : std::uint8_t { axis, roadmap };
+constexpr auto enum_names(GraphKind) { return std::array<std::string_view, 2>{"axis", "roadmap"}; }
+
+struct GraphOptions {
+  GraphKind kind = GraphKind::axis;
+  std::optional<std::uint64_t> samples = {};     ///< of a roadmap; none: it grows until what is joined stays joined
+  std::optional<std::uint32_t> neighbours = {};  ///< of a roadmap; none: by its rule
+  std::uint64_t seed = 1;
+};
+
+/// Throws UsageError where there is no axis in such a world; any walls will do.
+void check_has_axis(const Scene& scene, const RobotSpec& robot, double clearance);
+/// Throws UsageError for what can't be built in this world, Stopped.
+Roadmap built_roadmap(const Scene& scene, const RobotSpec& robot, double clearance, const GraphOptions& options,
+                      const Execution& execution);
+/// The same as a graph. Throws HttpError, too, for more than can be edited.
+RouteGraph built_graph(const Scene& scene, const RobotSpec& robot, double clearance, const GraphOptions& options,
+                       const Execution& execution);
+
+/// The free edges of a roadmap. Throws HttpError for more than can be edited, Stopped.
+RouteGraph graph_of_roadmap(const Roadmap& roadmap, const Execution& execution);
+
+}  // namespace warren::serve

@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/serve/graphs/route_graph_io.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <map>
+
+#include "apps/serve/graphs/json_body_io.hpp"
+#include "apps/serve/http/http_message.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/se2.hpp"
+#include "scenes/text/json_text.hpp"
+
+namespace warren::serve {
+namespace {
+
+double heading_of(const OrderedJson& json, const std::string& where) {
+  const double theta = finite_number(json, where);
+  if (std::abs(theta) > largest_heading) refuse_json(where, "radians, at most 1000");
+  return theta;
+}
+
+DrawnEdge drawn_edge(const OrderedJson& json, const std::string& where) {
+  if (!json.is_array() || (json.size() != 4 && json.size() != 6)) {
+    refuse_json(where, "x, y, x, y, or x, y, theta, x, y, theta");
+  }
+  const auto end = [&](std::size_t first) {
+    EdgePlace place{{finite_number(json[first], where), finite_number(json[first + 1], where)}};
+    if (json.size() == 6 && !json[first + 2].is_null()) place.theta = heading_of(json[first + 2], where);
+    return place;
+  };
+  return {end(0), end(json.size() / 2)};
+}
+
+std::string verdict_json(const EdgeVerdict& verdict) {
+  JsonObject json;
+  json.add("free", verdict.free);
+  if (verdict.free) {
+    json.add("clearance", verdict.clearance);
+  } else {
+    json.add("why", std::string_view(words_of(verdict)));
+    json.add("by", std::string_view(verdict.by));
+    json.add("distance", verdict.distance);
+    json.add("needed", verdict.needed);
+  }
+  return json.closed();
+}
+
+std::string list_of_verdicts(const std::vector<EdgeVerdict>& verdicts) {
+  std::string text = "[";
+  for (const EdgeVerdict& verdict : verdicts) text.append(text.size() > 1 ? ",\n" : "").append(verdict_json(verdict));
+  return text + "]";
+}
+
+std::string node_json(const RouteNode& node) {
+  JsonObject json;
+  json.add("id", node.id);
+  json.add_json("at", json_list(std::span<const double>(std::array{node.at.x, node.at.y})));
+  if (node.theta) json.add("theta", *node.theta);
+  if (node.more != "{}") json.add("more", std::string_view(node.more));
+  return json.closed();
+}
+
+std::string edge_json(const RouteEdge& edge) {
+  JsonObject json;
+  json.add("id", edge.id);
+  json.add("from", edge.from);
+  json.add("to", edge.to);
+  if (edge.cost) json.add("cost", *edge.cost);
+  if (edge.more != "{}") json.add("more", std::string_view(edge.more));
+  return json.closed();
+}
+
+std::uint32_t id_of(const OrderedJson& json, const char* key, const std::string& where) {
+  const OrderedJson* id = member(json, key);
+  if (id == nullptr) refuse_json(where + ": " + key, "a whole number");
+  return static_cast<std::uint32_t>(whole_number(*id, where + ": " + key, largest_route_id));
+}
+
+/// JSON in a text, as it was told but for what is told beside it; nobody is trusted to have left it so.
+std::string more_of(const OrderedJson& json, const std::string& where, std::initializer_list<const char*> told,
+                    const Execution& execution) {
+  const OrderedJson* more = member(json, "more");
+  if (more == nullptr) return "{}";
+  if (!more->is_string()) refuse_json(where + ": more", "a text");
+  constexpr std::size_t deepest_more = 16;
+  OrderedJson kept = json_object_of(more->get<std::string>(), deepest_more, execution);
+  for (const char* key : told) kept.erase(key);
+  check_properties(kept, where);
+  return kept.dump();
+}
+
+RouteNode node_of(const OrderedJson& json, const std::string& where, const Execution& execution) {
+  if (!json.is_object()) refuse_json(where, "an object");
+  const OrderedJson* at = member(json, "at");
+  if (at == nullptr || !at->is_array() || at->size() != 2) refuse_json(where + ": at", "x, y");
+  RouteNode node{.id = id_of(json, "id", where),
+                 .at = {finite_number((*at)[0], where + ": at"), finite_number((*at)[1], where + ": at")}};
+  if (const OrderedJson* theta = member(json, "theta")) node.theta = heading_of(*theta, where + ": theta");
+  node.more = more_of(json, where, {"id", "frame"}, execution);
+  return node;
+}
+
+RouteEdge edge_of(const OrderedJson& json, const std::string& where, const Execution& execution) {
+  if (!json.is_object()) refuse_json(where, "an object");
+  RouteEdge edge{.id = id_of(json, "id", where), .from = id_of(json, "from", where), .to = id_of(json, "to", where)};
+  if (const OrderedJson* cost = member(json, "cost")) edge.cost = finite_number(*cost, where + ": cost");
+  edge.more = more_of(json, where, {"id", "startid", "endid", "cost"}, execution);
+  return edge;
+}
+
+}  // namespace
+
+GraphOptions read_graph_options(std::string_view text) {
+  constexpr std::uint64_t most = std::uint64_t{1} << 31U;
+  GraphOptions options;
+  const OrderedJson json = json_object_of(text, deepest_json, {});
+  for (const auto& [key, value] : json.items()) {
+    if (key == "kind") {
+      const auto kind = value.is_string() ? enum_named<GraphKind>(value.get<std::string>()) : std::nullopt;
+      if (!kind) refuse_json("kind", "\"axis\" or \"roadmap\"");
+      options.kind = *kind;
+    } else if (key == "samples") {
+      options.samples = whole_number(value, key, most);
+    } else if (key == "neighbours") {
+      options.neighbours = static_cast<std::uint32_t>(whole_number(value, key, most));
+    } else if (key == "seed") {
+      options.seed = whole_number(value, key, std::numeric_limits<std::uint64_t>::max());
+    } else {
+      refuse_json("body", "the keys kind, samples, neighbours, seed");
+    }
+  }
+  return options;
+}
+
+std::vector<DrawnEdge> read_drawn_edges(std::string_view text, const Execution& execution) {
+  const OrderedJson json = json_object_of(text, deepest_json, execution);
+  if (json.size() != 1 || !json.contains("edges")) refuse_json("body", "the key edges");
+  const OrderedJson& list = list_of(json["edges"], "edges", most_route_edges);
+  std::vector<DrawnEdge> edges;
+  for (std::size_t i = 0; i < list.size(); ++i) edges.push_back(drawn_edge(list[i], fmt::format("edges[{}]", i)));
+  return edges;
+}
+
+std::string verdicts_json(const std::vector<EdgeVerdict>& verdicts) {
+  JsonObject json;
+  json.add_json("edges", list_of_verdicts(verdicts));
+  return json.closed() + "\n";
+}
+
+std::string graph_json(const RouteGraph& graph, const std::vector<EdgeVerdict>& verdicts, const Execution& execution) {
+  const auto list = [&](const auto& items, auto json_of_item) {
+    std::string text = "[";
+    for (const auto& item : items) {
+      execution.check();
+      text.append(text.size() > 1 ? ",\n" : "").append(json_of_item(item));
+    }
+    return text + "]";
+  };
+  JsonObject json;
+  json.add("schema", "warren.graph/1");
+  json.add("frame", std::string_view(graph.frame));
+  json.add("left_out", std::uint64_t{graph.left_out});
+  if (graph.more != "{}") json.add("more", std::string_view(graph.more));
+  json.add_json("nodes", list(graph.nodes, node_json));
+  json.add_json("edges", list(graph.edges, edge_json));
+  json.add_json("verdicts", list_of_verdicts(verdicts));
+  return json.closed() + "\n";
+}
+
+RouteGraph read_graph_json(std::string_view text, const Execution& execution) {
+  const OrderedJson json = json_object_of(text, deepest_json, execution);
+  const OrderedJson* nodes = member(json, "nodes");
+  const OrderedJson* edges = member(json, "edges");
+  if (nodes == nullptr || edges == nullptr) refuse_json("body", "the keys nodes and edges, as warren.graph/1 has them");
+  RouteGraph graph;
+  if (const OrderedJson* frame = member(json, "frame")) {
+    if (!frame->is_string()) refuse_json("frame", "a text");
+    graph.frame = *frame;
+  }
+  graph.more = more_of(json, "body", {"type", "features"}, execution);
+  std::size_t number = 0;
+  for (const OrderedJson& node : list_of(*nodes, "nodes", most_route_nodes)) {
+    execution.check();
+    graph.nodes.push_back(node_of(node, fmt::format("nodes[{}]", number++), execution));
+  }
+  number = 0;
+  for (const OrderedJson& edge : list_of(*edges, "edges", most_route_edges)) {
+    execution.check();
+    graph.edges.push_back(edge_of(edge, fmt::format("edges[{}]", number++), execution));
+  }
+  return graph;
+}
+
+namespace {
+
+constexpr std::size_t deepest_geojson = 16;
+
+/// A feature's properties, from which what has been read is taken away.
+class Properties {
+ public:
+  Properties(const OrderedJson& feature, std::string where) : where_(std::move(where)) {
+    const OrderedJson* properties = member(feature, "properties");
+    if (properties == nullptr || !properties->is_object()) refuse_json(where_, "properties");
+    json_ = *properties;
+  }
+  std::uint32_t id(const char* key) {
+    if (!json_.contains(key)) refuse_json(where_ + ": " + key, "a whole number, the id of a node or edge");
+    const auto number = static_cast<std::uint32_t>(whole_number(json_[key], where_ + ": " + key, largest_route_id));
+    json_.erase(key);
+    return number;
+  }
+  std::optional<std::string> text(const char* key) {
+    if (!json_.contains(key)) return std::nullopt;
+    if (!json_[key].is_string()) refuse_json(where_ + ": " + key, "a text");
+    const std::string text = json_[key];
+    json_.erase(key);
+    return text;
+  }
+  std::optional<double> number(const char* key) {
+    if (!json_.contains(key)) return std::nullopt;
+    const double number = finite_number(json_[key], where_ + ": " + key);
+    json_.erase(key);
+    return number;
+  }
+  std::optional<double> heading() {
+    if (!json_.contains("metadata") || !json_["metadata"].is_object()) return std::nullopt;
+    const auto theta = json_["metadata"].find("theta");
+    if (theta == json_["metadata"].end() || !theta->is_number()) return std::nullopt;
+    const double heading = *theta;
+    json_["metadata"].erase("theta");
+    if (json_["metadata"].empty()) json_.erase("metadata");
+    return heading;
+  }
+  std::string rest() const {
+    check_properties(json_, where_);
+    return json_.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+  }
+
+ private:
+  std::string where_;
+  OrderedJson json_;
+};
+
+class Reader {
+ public:
+  void take(const OrderedJson& feature, std::size_t number) {
+    const std::string where = fmt::format("feature {}", number + 1);
+    const OrderedJson* geometry = feature.is_object() ? member(feature, "geometry") : nullptr;
+    if (geometry == nullptr || !geometry->is_object()) refuse_json(where, "a feature with a geometry");
+    const OrderedJson* type = member(*geometry, "type");
+    if (type != nullptr && *type == "Point") {
+      take_node(feature, *geometry, where);
+    } else if (type != nullptr && (*type == "MultiLineString" || *type == "LineString")) {
+      take_edge(feature, where);
+    } else {
+      ++graph.left_out;
+    }
+  }
+  RouteGraph graph;
+
+ private:
+  void take_node(const OrderedJson& feature, const OrderedJson& geometry, const std::string& where) {
+    Properties properties(feature, where);
+    RouteNode node{.id = properties.id("id")};
+    const OrderedJson* at = member(geometry, "coordinates");
+    if (at == nullptr || !at->is_array() || at->size() < 2) refuse_json(where, "coordinates x, y");
+    node.at = {finite_number((*at)[0], where + ": x"), finite_number((*at)[1], where + ": y")};
+    const std::string frame = properties.text("frame").value_or("map");
+    if (graph.nodes.empty()) graph.frame = frame;
+    if (frame != graph.frame) {
+      refuse_json(where + ": frame", fmt::format("{}, as nodes before have it", graph.frame));
+    }
+    node.theta = properties.heading();
+    node.more = properties.rest();
+    const auto [place, is_new] = places_.emplace(node.id, graph.nodes.size());
+    if (is_new) {
+      graph.nodes.push_back(std::move(node));
+    } else {  // to Nav2 the last of them is the one that edges lead to
+      graph.nodes[place->second] = std::move(node);
+      ++graph.left_out;
+    }
+  }
+  void take_edge(const OrderedJson& feature, const std::string& where) {
+    Properties properties(feature, where);
+    RouteEdge edge{.id = properties.id("id")};
+    edge.from = properties.id("startid");
+    edge.to = properties.id("endid");
+    edge.cost = properties.number("cost");
+    edge.more = properties.rest();
+    graph.edges.push_back(std::move(edge));
+  }
+
+  std::map<std::uint32_t, std::size_t> places_;  // of nodes, by their ids
+};
+
+/// What `more` holds, to stand in an object after other members.
+void append_members(std::string& text, std::string_view more) {
+  if (more.size() > 2) text.append(",").append(more.substr(1, more.size() - 2));
+}
+
+/// Metadata keep the point of whole numbers: Nav2 tells the type of a value by it.
+std::string with_heading(const RouteNode& node) {
+  if (!node.theta) return node.more;
+  OrderedJson json = OrderedJson::parse(node.more);
+  if (!json["metadata"].is_object()) json["metadata"] = OrderedJson::object();
+  json["metadata"]["theta"] = *node.theta;
+  return json.dump();
+}
+
+void append_place(std::string& text, Vec2 at) { append_json_list(text, std::array{at.x, at.y}); }
+
+bool is_plain(const OrderedJson& value) { return value.is_number() || value.is_boolean() || value.is_string(); }
+
+void check_metadata(const OrderedJson& metadata, const std::string& where) {
+  if (!metadata.is_object()) refuse_json(where, "an object");
+  for (const auto& [key, value] : metadata.items()) {
+    const std::string place = where + "." + key;
+    if (value.is_object()) {
+      check_metadata(value, place);
+    } else if (value.is_array() ? !std::all_of(value.begin(), value.end(), is_plain) : !is_plain(value)) {
+      refuse_json(place, "a number, a text, true, false, a list of them or an object; Nav2 loads nothing else");
+    }
+  }
+}
+
+}  // namespace
+
+void check_properties(const OrderedJson& properties, const std::string& where) {
+  const auto says = [&](const char* key) { return properties.contains(key) && !properties[key].is_null(); };
+  if (says("metadata")) check_metadata(properties["metadata"], where + ": metadata");
+  if (!says("operations")) return;
+  for (const OrderedJson& operation : properties["operations"]) {
+    const std::string place = where + ": operations";
+    for (const char* key : {"type", "trigger"}) {
+      if (!operation.is_object() || !operation.contains(key) || !operation[key].is_string()) {
+        refuse_json(place, fmt::format("{} as a text in each of them", key));
+      }
+    }
+    if (operation.contains("metadata")) check_metadata(operation["metadata"], place + ".metadata");
+  }
+}
+
+RouteGraph read_nav2_graph(std::string_view geojson, const Execution& execution) {
+  OrderedJson file = json_object_of(geojson, deepest_geojson, execution);
+  if (!file.contains("features"))
+    refuse_json("body", "a FeatureCollection of GeoJSON, as Nav2's route server loads it");
+  const OrderedJson& features = list_of(file["features"], "features", most_route_nodes + most_route_edges);
+  Reader reader;
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    execution.check();
+    reader.take(features[i], i);
+  }
+  file.erase("features");
+  file.erase("type");
+  reader.graph.more = file.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+  return std::move(reader.graph);
+}
+
+std::string nav2_graph_text(const RouteGraph& graph, const std::vector<RouteEnds>& ends, const Execution& execution) {
+  std::string text = "{\"type\":\"FeatureCollection\"";
+  append_members(text, graph.more == "{}" ? "{\"name\":\"graph\"}" : graph.more);
+  text += ",\"features\":[\n";
+  const std::string frame = json_string(graph.frame);
+  for (const RouteNode& node : graph.nodes) {
+    execution.check();
+    text += fmt::format("{{\"type\":\"Feature\",\"properties\":{{\"id\":{},\"frame\":{}", node.id, frame);
+    append_members(text, with_heading(node));
+    text += "},\"geometry\":{\"type\":\"Point\",\"coordinates\":";
+    append_place(text, node.at);
+    text += "}},\n";
+  }
+  for (std::size_t i = 0; i < graph.edges.size(); ++i) {
+    execution.check();
+    const RouteEdge& edge = graph.edges[i];
+    const Vec2 from = graph.nodes[ends[i].from].at;
+    const Vec2 to = graph.nodes[ends[i].to].at;
+    text += fmt::format("{{\"type\":\"Feature\",\"properties\":{{\"id\":{},\"startid\":{},\"endid\":{},\"cost\":{}",
+                        edge.id, edge.from, edge.to, json_number(edge.cost.value_or(distance(from, to))));
+    append_members(text, edge.more);
+    text += "},\"geometry\":{\"type\":\"MultiLineString\",\"coordinates\":[[";
+    append_place(text, from);
+    text += ",";
+    append_place(text, to);
+    text += i + 1 < graph.edges.size() ? "]]}},\n" : "]]}}\n";
+  }
+  return text + "]}\n";
+}
+
+}  // namespace warren::serve

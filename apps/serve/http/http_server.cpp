@@ -1,0 +1,542 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/serve/http/http_server.hpp"
+
+#include <fmt/format.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ip/v6_only.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/http/parser.hpp>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <limits>
+#include <map>
+#include <memory>
+#include <new>
+#include <optional>
+#include <utility>
+
+#include "apps/serve/http/beast_words.hpp"
+#include "apps/serve/http/http_message.hpp"
+#include "apps/serve/http/task_crew.hpp"
+#include "core/base/error.hpp"
+#include "parallel/deadline.hpp"
+
+namespace warren::serve {
+// One connection of the server, and what is worked on for it: data of the server's own thread, but for what a job's
+// task fills in.
+
+using ServerClock = std::chrono::steady_clock;
+inline constexpr auto never = ServerClock::time_point::max();
+
+/// Where a connection is with its request: in the first three it still waits for a whole one.
+enum class Stage : std::uint8_t { idle, head, body, work, write, linger };
+
+struct Connection;
+
+/// A request that is worked on; outlives its connection.
+struct Job {
+  Connection* connection;  ///< nullptr: it has gone
+  HttpRequest request;
+  HttpResponse response = {};
+  SignalFlag gone{0};
+  ServerClock::time_point offered = ServerClock::now();
+  ServerClock::time_point begun = {};
+};
+
+struct Connection {
+  Connection(std::uint64_t number, boost::asio::ip::tcp::socket&& its_socket, std::size_t buffer_bytes)
+      : id(number), socket(std::move(its_socket)), buffer(buffer_bytes) {}
+  std::uint64_t id;
+  boost::asio::ip::tcp::socket socket;
+  boost::asio::ip::address address = {};
+  boost::beast::flat_buffer buffer;
+  std::optional<RequestParser> parser = {};
+  std::optional<BeastResponse> response = {};
+  HttpRequest request = {};
+  Job* job = nullptr;
+  Stage stage = Stage::idle;
+  ServerClock::time_point waits_since = ServerClock::now();  ///< for a whole request
+  ServerClock::time_point end = never;                       ///< of the stage
+  unsigned pending = 0;                                      ///< operations that will call back
+  bool closed = false;
+  bool keep_alive = true;
+  bool has_large_body = false;
+  std::size_t unsent_bytes = 0;  ///< of a large answer on its way
+};
+
+namespace {
+
+// Who is connected, and who gives way where all places are taken.
+
+/// Owns the connections.
+class ConnectionPlaces {
+ public:
+  Connection& add(boost::asio::ip::tcp::socket socket, const boost::asio::ip::address& address,
+                  std::size_t buffer_bytes);
+  void forget(const Connection& connection) { connections_.erase(connection.id); }
+  std::size_t size() const { return connections_.size(); }
+  std::size_t of_address(const boost::asio::ip::address& address) const;
+  /// Who has waited longest without a whole request; nullptr: all are worked on or answered.
+  Connection* longest_waiting() const;
+  /// Calls visit with each; it may forget the one that it is given.
+  template <class Visit>
+  void each(const Visit& visit) {
+    for (auto next = connections_.begin(); next != connections_.end();) visit(*(next++)->second);
+  }
+
+ private:
+  std::uint64_t next_id_ = 0;
+  std::map<std::uint64_t, std::unique_ptr<Connection>> connections_;
+};
+
+Connection& ConnectionPlaces::add(boost::asio::ip::tcp::socket socket, const boost::asio::ip::address& address,
+                                  std::size_t buffer_bytes) {
+  const std::uint64_t id = next_id_++;
+  auto& place = connections_[id] = std::make_unique<Connection>(id, std::move(socket), buffer_bytes);
+  place->address = address;
+  return *place;
+}
+
+std::size_t ConnectionPlaces::of_address(const boost::asio::ip::address& address) const {
+  const auto same = [&](const auto& other) { return other.second->address == address; };
+  return static_cast<std::size_t>(std::count_if(connections_.begin(), connections_.end(), same));
+}
+
+Connection* ConnectionPlaces::longest_waiting() const {
+  Connection* longest = nullptr;
+  for (const auto& [id, other] : connections_) {
+    const bool waits = !other->closed && (other->stage <= Stage::body || other->stage == Stage::linger);
+    if (waits && (longest == nullptr || other->waits_since < longest->waits_since)) longest = other.get();
+  }
+  return longest;
+}
+
+// Where a server listens.
+
+/// Listens at all addresses that the machine has, at the first one's port. Throws UsageError where the first can't be.
+std::vector<boost::asio::ip::tcp::acceptor> acceptors_at(const HttpPlace& place, boost::asio::io_context& io);
+
+namespace asio = boost::asio;
+using Tcp = asio::ip::tcp;
+
+std::vector<Tcp::acceptor> acceptors_at(const HttpPlace& place, asio::io_context& io) {
+  std::vector<Tcp::acceptor> acceptors;
+  std::uint16_t port = place.port;
+  for (const std::string& name : place.addresses) {
+    boost::system::error_code code;
+    const auto address = asio::ip::make_address(name, code);
+    Tcp::acceptor acceptor(io);
+    if (!code) acceptor.open(address.is_v4() ? Tcp::v4() : Tcp::v6(), code);
+    if (!code) acceptor.set_option(Tcp::acceptor::reuse_address(true), code);
+    if (!code && address.is_v6()) acceptor.set_option(asio::ip::v6_only(true), code);
+    if (!code) acceptor.bind({address, port}, code);
+    if (!code) acceptor.listen(asio::socket_base::max_listen_connections, code);
+    if (code == asio::error::address_in_use && acceptors.empty()) {
+      throw UsageError(fmt::format("@port: {} of {} is taken; 0 takes a free one", port, name));
+    }
+    if (code && acceptors.empty())
+      throw UsageError(fmt::format("@listen: {}, port {}: {}", name, port, code.message()));
+    if (code) continue;
+    port = acceptor.local_endpoint().port();
+    acceptors.push_back(std::move(acceptor));
+  }
+  return acceptors;
+}
+
+namespace asio = boost::asio;
+namespace http = boost::beast::http;
+using Tcp = asio::ip::tcp;
+using Code = boost::system::error_code;
+using Clock = ServerClock;
+
+constexpr auto between_looks = std::chrono::milliseconds(50);
+
+Clock::time_point in(double seconds) {
+  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+double seconds_between(Clock::time_point from, Clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
+/// Has the other end closed the connection? Told even where bytes wait that nobody has read.
+bool has_gone(Tcp::socket& socket) {
+  tcp_info info{};
+  socklen_t size = sizeof info;
+  return ::getsockopt(socket.native_handle(), IPPROTO_TCP, TCP_INFO, &info, &size) == 0 &&
+         info.tcpi_state != TCP_ESTABLISHED;
+}
+
+}  // namespace
+
+/// All of it is the business of the thread of run(), but for jobs' tasks, which touch their job alone.
+class HttpServer::Connections {
+ public:
+  Connections(const HttpPlace& place, const HttpLimits& limits, HttpService& service)
+      : limits_(limits),
+        service_(service),
+        acceptors_(acceptors_at(place, io_)),
+        crew_(limits.threads, limits.waiting) {
+    const auto end = acceptors_.front().local_endpoint();
+    const std::string name = end.address().to_string();
+    address_ = fmt::format("http://{}:{}/", end.address().is_v6() ? "[" + name + "]" : name, end.port());
+    names_ = {.port = end.port(), .is_loopback = end.address().is_loopback(), .public_urls = place.public_urls};
+  }
+  const std::string& address() const { return address_; }
+  const HttpNames& names() const { return names_; }
+
+  void run(const SignalFlag& stop) {
+    for (Tcp::acceptor& acceptor : acceptors_) accept(acceptor);
+    crew_.offer([this] { prepare(); });
+    look(stop);
+    io_.run();
+    crew_.end();
+  }
+
+ private:
+  void prepare() noexcept {
+    try {
+      service_.prepare(ended_);
+    } catch (...) {  // NOLINT(bugprone-empty-catch): who asks meets it again
+    }
+  }
+
+  // Connections come.
+  void accept(Tcp::acceptor& acceptor) {
+    acceptor.async_accept([this, &acceptor](const Code& code, Tcp::socket socket) {
+      if (ending_ != never) return;
+      if (code) {
+        idle_acceptors_.push_back(&acceptor);  // out of descriptors: look() tries again
+        return;
+      }
+      take(std::move(socket));
+      accept(acceptor);
+    });
+  }
+  void take(Tcp::socket socket) {
+    Code code;
+    const auto peer = socket.remote_endpoint(code);
+    if (code || !has_place_for(peer.address())) return;
+    ++figures_.accepted;
+    socket.set_option(Tcp::no_delay(true), code);
+    socket.non_blocking(true, code);
+    Connection& c = connections_.add(std::move(socket), peer.address(), limits_.head_bytes + 8192);
+    figures_.connections = connections_.size();
+    wait_for_request(c);
+  }
+  bool has_place_for(const asio::ip::address& address) {
+    if (!address.is_loopback() && connections_.of_address(address) >= limits_.of_an_address) return false;
+    if (connections_.size() < limits_.connections) return true;
+    Connection* const longest = connections_.longest_waiting();
+    if (longest == nullptr) return false;
+    ++figures_.gave_way;
+    close(*longest);
+    return true;
+  }
+  void close(Connection& c) {
+    if (c.closed) return;
+    c.closed = true;
+    end_large_body(c);
+    end_unsent(c);
+    if (c.job != nullptr) {
+      c.job->gone = SIGTERM;
+      c.job->connection = nullptr;
+      c.job = nullptr;
+    }
+    Code ignored;
+    c.socket.close(ignored);
+    if (c.pending == 0) forget(c);
+  }
+  void forget(Connection& c) {
+    connections_.forget(c);
+    figures_.connections = connections_.size();
+  }
+  void enter(Connection& c, Stage stage, double seconds) {
+    c.stage = stage;
+    c.end = in(seconds);
+  }
+  /// `then` as what an operation calls: while its connection is open and still in the stage in which it was begun.
+  template <class Then>
+  auto while_open(Connection& c, const Then& then) {
+    ++c.pending;
+    return [this, &c, then, stage = c.stage](const Code& code, auto&&...) {
+      --c.pending;
+      if (c.closed) {
+        if (c.pending == 0) forget(c);
+      } else if (c.stage == stage) {
+        then(code);
+      }
+    };
+  }
+
+  // Requests come.
+  void wait_for_request(Connection& c) {
+    if (ending_ != never) return close(c);
+    enter(c, Stage::idle, limits_.idle_s);
+    c.waits_since = Clock::now();
+    c.response.reset();
+    if (c.buffer.size() > 0) return read_head(c);
+    c.socket.async_wait(Tcp::socket::wait_read,
+                        while_open(c, [this, &c](const Code& code) { code ? close(c) : read_head(c); }));
+  }
+  void read_head(Connection& c) {
+    enter(c, Stage::head, limits_.head_s);
+    c.parser.emplace();
+    c.parser->header_limit(static_cast<std::uint32_t>(limits_.head_bytes));
+    c.parser->body_limit(std::numeric_limits<std::uint64_t>::max());  // read_body() knows it; in 1.74 none is 0
+    http::async_read_header(c.socket, c.buffer, *c.parser,
+                            while_open(c, [this, &c](const Code& code) { take_head(c, code); }));
+  }
+  void take_head(Connection& c, const Code& code) {
+    if (code == http::error::end_of_stream || (code && code.category() == boost::system::system_category()))
+      return close(c);
+    if (code == http::error::partial_message) return close(c);
+    try {
+      if (code) throw error_of_parser(code);
+      c.request = request_of(c.parser->get());
+      check_names(c.request, names_);
+      take_public_path(c.request.path, names_);
+      read_body(c, service_.most_body(c.request));
+    } catch (const HttpError& error) {
+      refuse(c, error);
+    }
+  }
+  void read_body(Connection& c, std::size_t most) {
+    const auto length = c.parser->content_length();
+    if (length && *length > most) throw HttpError(413, "body_too_large", "body", fmt::format("at most {} bytes", most));
+    if (c.parser->is_done()) return take_request(c);
+    if (c.request.method != "POST") throw HttpError(400, "bad_request", "body", "GET and HEAD have none");
+    const bool is_large = length ? *length > limits_.small_body : most > limits_.small_body;
+    if (is_large && large_bodies_ >= limits_.large_bodies) {
+      throw HttpError(503, "busy", "body", "too many large requests at a time; try again");
+    }
+    c.has_large_body = is_large;
+    large_bodies_ += is_large ? 1 : 0;
+    c.parser->body_limit(most);
+    enter(c, Stage::body, limits_.body_s);
+    http::async_read(c.socket, c.buffer, *c.parser, while_open(c, [this, &c](const Code& code) {
+                       if (code == http::error::body_limit) return refuse(c, error_of_parser(code));
+                       if (code && code.category() == boost::system::system_category()) return close(c);
+                       if (code == http::error::end_of_stream || code == http::error::partial_message) return close(c);
+                       code ? refuse(c, error_of_parser(code)) : take_request(c);
+                     }));
+  }
+  void end_large_body(Connection& c) {
+    large_bodies_ -= c.has_large_body ? 1 : 0;
+    c.has_large_body = false;
+  }
+  void take_request(Connection& c) {
+    c.keep_alive = c.parser->get().keep_alive() && ending_ == never;
+    c.request.body = std::move(c.parser->get().body());
+    try {
+      if (auto said = service_.at_once(c.request, figures_)) return write(c, std::move(*said));
+    } catch (const HttpError& error) {
+      return refuse(c, error);
+    }
+    offer(c);
+  }
+
+  // They are worked on.
+  void offer(Connection& c) {
+    const std::uint64_t number = next_job_++;
+    auto& job = jobs_[number] = std::unique_ptr<Job>(new Job{&c, std::move(c.request)});
+    Job* const working = c.job = job.get();
+    c.stage = Stage::work;
+    c.end = never;
+    figures_.working = jobs_.size();
+    const bool taken = crew_.offer([this, working, number] {
+      working->begun = Clock::now();
+      working->response = answer_of(service_, working->request, working->gone);
+      asio::post(io_, [this, number] { finish(number); });
+    });
+    if (taken) return;
+    jobs_.erase(number);
+    c.job = nullptr;
+    figures_.working = jobs_.size();
+    HttpResponse busy = error_response(503, "busy", "", "too many requests wait; try again");
+    busy.fields.emplace_back("Retry-After", "1");
+    write(c, std::move(busy));
+  }
+  /// Whoever has gone wants no answer, whatever was sent before that.
+  void leave(Connection& c) {
+    if (c.closed || c.stage != Stage::work || !has_gone(c.socket)) return;
+    ++figures_.abandoned;
+    close(c);
+  }
+  void finish(std::uint64_t number) {
+    const auto found = jobs_.find(number);
+    const std::unique_ptr<Job> job = std::move(found->second);
+    jobs_.erase(found);
+    const auto now = Clock::now();
+    const double waited_s = seconds_between(job->offered, job->begun);
+    const double worked_s = seconds_between(job->begun, now);
+    figures_.working = jobs_.size();
+    ++figures_.worked;
+    figures_.waited_s += waited_s;
+    figures_.worked_s += worked_s;
+    if (job->connection == nullptr) return;
+    Connection& c = *job->connection;
+    c.job = nullptr;
+    c.request.method = job->request.method;
+    job->response.fields.emplace_back("Server-Timing",
+                                      fmt::format("queue;dur={:.3f}, work;dur={:.3f}", 1e3 * waited_s, 1e3 * worked_s));
+    write(c, std::move(job->response));
+  }
+
+  // Answers go.
+  void refuse(Connection& c, const HttpError& error) {
+    c.keep_alive = false;  // what follows may be a body
+    HttpResponse said = error_response(error);
+    if (error.status == 405) said.fields.emplace_back("Allow", "GET, HEAD, POST");
+    if (error.status == 503) said.fields.emplace_back("Retry-After", "1");
+    write(c, std::move(said));
+  }
+  void write(Connection& c, HttpResponse said) {
+    enter(c, Stage::write, limits_.write_s);
+    Code ignored;
+    c.socket.cancel(ignored);  // a read that took too long; it may still go on for a while, by buffer and parser
+    if (said.body.size() > limits_.small_body && unsent_bytes_ > 0 &&
+        unsent_bytes_ + said.body.size() > limits_.unsent_bytes) {
+      said = error_response(503, "busy", "", "too many large answers are on their way; try again");
+      said.fields.emplace_back("Retry-After", "1");
+    }
+    c.unsent_bytes = said.body.size() > limits_.small_body ? said.body.size() : 0;
+    unsent_bytes_ += c.unsent_bytes;
+    ++figures_.said[std::min<std::size_t>(said.status / 100, 5)];
+    c.response = beast_response(said);
+    c.response->keep_alive(c.keep_alive && ending_ == never);
+    c.response->content_length(said.body.size());
+    if (c.request.method != "HEAD" && said.status != 304) c.response->body() = std::move(said.body);
+    http::async_write(c.socket, *c.response, while_open(c, [this, &c](const Code& code) { wrote(c, code); }));
+  }
+  void end_unsent(Connection& c) { unsent_bytes_ -= std::exchange(c.unsent_bytes, 0); }
+  void wrote(Connection& c, const Code& code) {
+    end_large_body(c);
+    end_unsent(c);
+    if (code) return close(c);
+    if (c.response->keep_alive()) return wait_for_request(c);
+    Code ignored;
+    c.socket.shutdown(Tcp::socket::shutdown_send, ignored);
+    enter(c, Stage::linger, limits_.linger_s);
+    linger(c);
+  }
+  /// A connection that is closed while the client still sends loses the answer on its way.
+  void linger(Connection& c) {
+    c.socket.async_read_some(asio::buffer(unread_),
+                             while_open(c, [this, &c](const Code& code) { code ? close(c) : linger(c); }));
+  }
+
+  // Time goes by.
+  void look(const SignalFlag& stop) {
+    if (stop.load() != 0 && ending_ == never) begin_end();
+    if (Clock::now() >= ending_) {
+      for (const auto& [number, job] : jobs_) job->gone = SIGTERM;
+      connections_.each([this](Connection& c) { close(c); });
+    }
+    if (ending_ != never && connections_.size() == 0 && jobs_.empty()) return io_.stop();
+    end_stages();
+    connections_.each([this](Connection& c) { leave(c); });
+    if (ending_ == never) {
+      for (Tcp::acceptor* acceptor : std::exchange(idle_acceptors_, {})) accept(*acceptor);
+    }
+    timer_.expires_after(between_looks);
+    timer_.async_wait([this, &stop](const Code&) { look(stop); });
+  }
+  void begin_end() {
+    ending_ = in(limits_.patience_s);
+    ended_ = SIGTERM;
+    Code ignored;
+    for (Tcp::acceptor& acceptor : acceptors_) acceptor.close(ignored);
+    connections_.each([this](Connection& c) {
+      if (c.stage <= Stage::body) close(c);
+    });
+  }
+  void end_stages() {
+    const auto now = Clock::now();
+    connections_.each([this, now](Connection& c) {
+      if (!c.closed && now >= c.end) end_stage(c);
+    });
+  }
+  void end_stage(Connection& c) {
+    if (c.stage != Stage::head && c.stage != Stage::body) return close(c);
+    ++figures_.timed_out;
+    refuse(c, {408, "timeout", c.stage == Stage::head ? "head" : "body", "the request did not come in time"});
+  }
+
+  const HttpLimits limits_;
+  HttpService& service_;
+  asio::io_context io_{1};
+  std::vector<Tcp::acceptor> acceptors_;
+  std::vector<Tcp::acceptor*> idle_acceptors_;
+  asio::steady_timer timer_{io_};
+  HttpNames names_;
+  std::string address_;
+  HttpFigures figures_;
+  Clock::time_point ending_ = never;
+  SignalFlag ended_{0};  // stops prepare()
+  std::uint64_t next_job_ = 0;
+  std::size_t large_bodies_ = 0;
+  std::size_t unsent_bytes_ = 0;
+  std::array<char, 4096> unread_{};  // what nobody looks at; all connections may share it
+  ConnectionPlaces connections_;
+  std::map<std::uint64_t, std::unique_ptr<Job>> jobs_;
+  TaskCrew crew_;  // last: it ends before what its tasks look at
+};
+
+HttpServer::HttpServer(const HttpPlace& place, const HttpLimits& limits, HttpService& service)
+    : connections_(std::make_unique<Connections>(place, limits, service)) {}
+HttpServer::~HttpServer() = default;
+std::string HttpServer::address() const { return connections_->address(); }
+std::uint16_t HttpServer::port() const { return connections_->names().port; }
+bool HttpServer::is_loopback() const { return connections_->names().is_loopback; }
+void HttpServer::run(const SignalFlag& stop) { connections_->run(stop); }
+
+namespace {
+
+HttpResponse said_of(const Stopped& stopped) {
+  if (stopped.reason == StopReason::memory) {
+    return error_response(503, "memory", "", "this needs more memory than there is");
+  }
+  return error_response(504, "budget", "budget_ms", "this takes longer than it may");
+}
+
+HttpResponse said_of_what_is_thrown() {
+  try {
+    throw;
+  } catch (const HttpError& error) {
+    return error_response(error);
+  } catch (const UsageError& error) {
+    return error_response(400, "usage", "", error.what());
+  } catch (const InputError& error) {
+    return error_response(400, "bad_data", error.where(), error.what());
+  } catch (const Stopped& stopped) {
+    return said_of(stopped);
+  } catch (const std::bad_alloc&) {
+    return error_response(503, "memory", "", "memory is out");
+  } catch (const std::exception& error) {
+    return error_response(500, "internal", "", error.what());
+  }
+}
+
+}  // namespace
+
+HttpResponse answer_of(HttpService& service, const HttpRequest& request, const SignalFlag& gone) noexcept {
+  try {
+    return service.work(request, gone);
+  } catch (...) {
+    return said_of_what_is_thrown();
+  }
+}
+
+}  // namespace warren::serve

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/serve/page/served_files.hpp"
+
+#include <map>
+
+namespace warren::serve {
+namespace {
+
+std::string_view type_of(std::string_view name) {
+  if (name.ends_with(".js")) return "text/javascript; charset=utf-8";
+  if (name.ends_with(".txt")) return "text/plain; charset=utf-8";
+  if (name.ends_with(".css")) return "text/css; charset=utf-8";
+  return "text/html; charset=utf-8";
+}
+
+using Files = std::map<std::string_view, ServedFile>;
+
+void add_files(Files& files, std::span<const EmbeddedFile> embedded) {
+  for (const EmbeddedFile& file : embedded) {
+    files[file.name] = {type_of(file.name), file.bytes, file.sha256.substr(0, 16)};
+  }
+}
+
+Files all_files() {
+  Files files;
+#ifdef WARREN_LEAFLET
+  add_files(files, service_page_files());
+  add_files(files, leaflet_files());
+#else
+  files["index.html"] = {"text/plain; charset=utf-8",
+                         "This program was built without Leaflet (Debian: libjs-leaflet), so it shows no page. "
+                         "Programs ask /api/world and what docs/service.md says of it.\n",
+                         "without-leaflet"};
+#endif
+  return files;
+}
+
+}  // namespace
+
+const ServedFile* served_file(std::string_view name) {
+  static const Files files = all_files();
+  const auto found = files.find(name);
+  return found == files.end() ? nullptr : &found->second;
+}
+
+bool has_leaflet() { return served_file("leaflet.min.js") != nullptr; }
+
+}  // namespace warren::serve

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/serve/tiles/roadmap_layer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "pictures/formats/raster.hpp"
+#include "scenes/images/png_writer_io.hpp"
+
+namespace warren::serve {
+namespace {
+
+// A tile that lies above the world's: lines and dots in a few inks, transparent where there are none. Where inks meet,
+// a pixel has the one that covers most of it.
+
+/// Of one thread.
+class InkTile {
+ public:
+  /// At most 16 inks, which outlive it. What draws asks the execution for a quarter of a MiB an ink that is used.
+  InkTile(std::span<const Rgb> inks, const Execution& execution);
+
+  /// The pixels of that ink.
+  Mask& of(std::size_t ink);
+  /// A PNG. Throws Stopped.
+  std::string png() const;
+
+ private:
+  std::span<const Rgb> inks_;
+  const Execution& execution_;
+  std::vector<std::optional<Mask>> masks_;
+};
+
+constexpr unsigned shades = 15;  // of an ink, beside none
+
+InkTile::InkTile(std::span<const Rgb> inks, const Execution& execution)
+    : inks_(inks), execution_(execution), masks_(inks.size()) {}
+
+Mask& InkTile::of(std::size_t ink) {
+  if (!masks_[ink]) masks_[ink].emplace(TileGrid::pixels, TileGrid::pixels, execution_);
+  return *masks_[ink];
+}
+
+std::string InkTile::png() const {
+  std::vector<std::array<std::uint8_t, 3>> palette{{0, 0, 0}};
+  std::vector<std::uint8_t> alphas{0};
+  for (const Rgb ink : inks_) {
+    for (unsigned shade = 1; shade <= shades; ++shade) {
+      palette.push_back({ink.red, ink.green, ink.blue});
+      alphas.push_back(static_cast<std::uint8_t>(255 * shade / shades));
+    }
+  }
+  std::vector<std::uint8_t> row(TileGrid::pixels);
+  const auto row_of = [&](std::size_t y) {
+    for (std::size_t x = 0; x < row.size(); ++x) {
+      unsigned most = 0;
+      row[x] = 0;
+      for (std::size_t ink = 0; ink < masks_.size(); ++ink) {
+        const unsigned shade = masks_[ink] ? masks_[ink]->pixels()[y * TileGrid::pixels + x] >> 4U : 0;
+        if (shade <= most) continue;
+        most = shade;
+        row[x] = static_cast<std::uint8_t>(shades * ink + shade);
+      }
+    }
+    return static_cast<const std::uint8_t*>(row.data());
+  };
+  std::string bytes;
+  write_png({.width = TileGrid::pixels,
+             .height = TileGrid::pixels,
+             .palette = palette,
+             .alphas = alphas,
+             .compression = 1,
+             .row = row_of},
+            execution_, [&](std::string_view piece) { bytes += piece; });
+  return bytes;
+}
+
+constexpr double edge_pixels = 1.3;
+constexpr double milestone_pixels = 4.0;
+constexpr double edge_opacity = 0.75;
+constexpr double far_opacity = 0.6;
+constexpr std::size_t items_a_poll = std::size_t{1} << 14U;
+
+struct OnTile {
+  Box box;
+  double pixel;
+  Vec2 operator()(Vec2 p) const { return {(p.x - box.min.x) / pixel, (box.max.y - p.y) / pixel}; }
+};
+
+}  // namespace
+
+RoadmapLayer::RoadmapLayer(const RoadmapParts& parts, const Execution& execution) : placed_(parts, execution) {
+  rank_components(parts.component, execution);
+}
+
+void RoadmapLayer::rank_components(std::span<const VertexId> component, const Execution& execution) {
+  constexpr auto others = static_cast<std::uint8_t>(component_inks.size() - 1);
+  const std::size_t count = component.size();
+  const auto for_each = [&](const auto& visit) {
+    for (VertexId v = 0; v < count; ++v) {
+      if (v % items_a_poll == 0) execution.check();
+      visit(v);
+    }
+  };
+  execution.reserve(count * (2 * sizeof(std::uint32_t) + 1));
+  std::vector<std::uint32_t> sizes(count, 0);
+  for_each([&](VertexId v) { ++sizes[component[v]]; });
+  // A milestone that no edge is known to join is grey, however few there are.
+  const auto is_before = [&](VertexId a, VertexId b) { return sizes[a] != sizes[b] ? sizes[a] > sizes[b] : a < b; };
+  std::vector<VertexId> largest;
+  for_each([&](VertexId v) {
+    if (sizes[v] == 0) return;
+    ++small_components_;
+    if (sizes[v] == 1 || (largest.size() == others && is_before(largest.back(), v))) return;
+    largest.insert(std::ranges::upper_bound(largest, v, is_before), v);
+    if (largest.size() > others) largest.pop_back();
+  });
+  small_components_ -= largest.size();
+  ranks_.assign(count, others);
+  for (std::size_t rank = 0; rank < largest.size(); ++rank) ranks_[largest[rank]] = static_cast<std::uint8_t>(rank);
+  // A root is the smallest of its component, so it has its rank before others look.
+  for_each([&](VertexId v) { ++of_ink_[ranks_[v] = ranks_[component[v]]]; });
+}
+
+/// One more than are drawn where there are too many.
+std::vector<PlacedRoadmap::Edge> RoadmapLayer::edges_in(const Box& box, const Execution& execution) const {
+  std::vector<PlacedRoadmap::Edge> edges;
+  placed_.for_each_edge_near(box, execution, [&](PlacedRoadmap::Edge edge) {
+    if (box.meets(box_of({placed_.at(edge.from), placed_.at(edge.to)}))) edges.push_back(edge);
+    return edges.size() <= most_drawn_edges;
+  });
+  return edges;
+}
+
+std::string RoadmapLayer::draw(const Box& box, double pixel, RoadmapInk ink, const Execution& execution) const {
+  if (ink == RoadmapInk::one) return draw(box, pixel, std::span(component_inks).first(1), {}, execution);
+  return draw(box, pixel, component_inks, ranks_, execution);
+}
+
+std::string RoadmapLayer::draw(const Box& box, double pixel, std::span<const Rgb> inks,
+                               std::span<const std::uint8_t> of_milestone, const Execution& execution) const {
+  const OnTile on_tile{box, pixel};
+  InkTile tile(inks, execution);
+  const Box reach = box.grown(milestone_pixels * pixel);
+  const std::vector<PlacedRoadmap::Edge> edges = edges_in(reach, execution);
+  const bool is_far = edges.size() > most_drawn_edges;
+  for (std::size_t i = 0; i < edges.size() && !is_far; ++i) {
+    if (i % 64 == 0) execution.check();
+    const auto [from, to] = edges[i];
+    Mask& mask = tile.of(of_milestone.empty() ? 0 : std::max(of_milestone[from], of_milestone[to]));
+    mask.draw_line(on_tile(placed_.at(from)), on_tile(placed_.at(to)), edge_pixels, edge_opacity);
+  }
+  placed_.for_each_milestone(reach, execution, [&](VertexId v) {
+    const Vec2 p = on_tile(placed_.at(v));
+    tile.of(of_milestone.empty() ? 0 : of_milestone[v])
+        .draw_line(p, p, is_far ? 1.0 : milestone_pixels, is_far ? far_opacity : 1.0);
+    return true;
+  });
+  return tile.png();
+}
+
+std::string draw_passages(const LatticePassages& passages, const Box& box, double pixel, const Execution& execution) {
+  InkTile tile(std::span<const Rgb>(component_inks).first(1), execution);
+  const OnTile on_tile{box, pixel};
+  const LatticeSize size = passages.size();
+  const auto cell = [](double at, std::uint32_t count) {
+    return static_cast<std::uint32_t>(std::clamp(std::floor(at) - 1.0, 0.0, count - 1.0));
+  };
+  const std::uint32_t right = cell(box.max.x + 1.0, size.cols);
+  const std::uint32_t top = cell(box.max.y + 1.0, size.rows);
+  for (std::uint32_t y = cell(box.min.y, size.rows); y <= top && pixel <= largest_pixel_of_passages; ++y) {
+    execution.check();
+    for (std::uint32_t x = cell(box.min.x, size.cols); x <= right; ++x) {
+      const unsigned open = passages.open_at(x, y);
+      const Vec2 middle{x + 1.0, y + 1.0};
+      const auto passage = [&](Vec2 to) {
+        tile.of(0).draw_line(on_tile(middle), on_tile(middle + to), edge_pixels, edge_opacity);
+      };
+      if ((open & 1U) != 0) passage({1, 0});
+      if ((open & 2U) != 0) passage({0, 1});
+      if (open != 0) tile.of(0).draw_line(on_tile(middle), on_tile(middle), milestone_pixels);
+    }
+  }
+  return tile.png();
+}
+
+namespace {
+
+constexpr std::size_t milestones_a_poll = std::size_t{1} << 14U;
+/// One edge in so many may be in the list that each box looks at.
+constexpr std::uint64_t edges_a_long_one = 256;
+
+}  // namespace
+
+PlacedRoadmap::PlacedRoadmap(const RoadmapParts& parts, const Execution& execution) : parts_(parts) {
+  file_milestones(execution);
+  part_long_edges(execution);
+}
+
+std::size_t PlacedRoadmap::cell_at(double share) const {
+  const auto side = static_cast<double>(side_);
+  return static_cast<std::size_t>(std::clamp(share * side, 0.0, side - 1.0));
+}
+
+double PlacedRoadmap::length(Edge edge) const {
+  const Vec2 off = at(edge.to) - at(edge.from);
+  return std::max(std::abs(off.x), std::abs(off.y));
+}
+
+void PlacedRoadmap::file_milestones(const Execution& execution) {
+  constexpr std::size_t milestones_a_cell = 8;
+  constexpr std::size_t most_side = 1024;
+  const auto count = static_cast<VertexId>(parts_.vertex_count());
+  const auto poll = [&](VertexId v) {
+    if (v % milestones_a_poll == 0) execution.check();
+  };
+  const double cells = static_cast<double>(count) / milestones_a_cell;
+  side_ = std::clamp<std::size_t>(static_cast<std::size_t>(std::sqrt(cells)), 1, most_side);
+  execution.reserve(count * sizeof(VertexId) + (side_ * side_ + 1) * sizeof(std::uint32_t));
+  for (VertexId v = 0; v < count; ++v) {
+    poll(v);
+    box_.include(at(v));
+  }
+  first_.assign(side_ * side_ + 1, 0);
+  const auto cell_of = [&](VertexId v) { return row(at(v).y) * side_ + column(at(v).x); };
+  for (VertexId v = 0; v < count; ++v) {
+    poll(v);
+    ++first_[cell_of(v)];
+  }
+  std::uint32_t sum = 0;
+  for (std::uint32_t& first : first_) first = sum += first;  // the end of each cell, from which it is filled
+  order_.resize(count);
+  for (VertexId v = count; v-- > 0;) {
+    poll(v);
+    order_[--first_[cell_of(v)]] = v;
+  }
+}
+
+template <class Visit>
+void PlacedRoadmap::for_each_edge(const Execution& execution, const Visit& visit) const {
+  for (VertexId v = 0; v < parts_.vertex_count(); ++v) {
+    if (v % 1024 == 0) execution.check();
+    for (std::size_t end = parts_.first[v]; end < parts_.first[v + 1]; ++end) {
+      if (is_edge(v, end)) visit(Edge{v, parts_.to[end]});
+    }
+  }
+}
+
+void PlacedRoadmap::part_long_edges(const Execution& execution) {
+  constexpr int least_exponent = -1074;
+  constexpr int most_exponent = 1024;
+  std::array<std::uint64_t, most_exponent - least_exponent + 1> of_bin{};  // edges
+  const auto bin = [&](Edge edge) -> std::size_t {
+    const double how_long = length(edge);
+    int exponent = least_exponent;
+    if (how_long > 0.0) std::frexp(how_long, &exponent);  // of 0 it says 0, the exponent of 0.5
+    return static_cast<std::size_t>(std::clamp(exponent, least_exponent, most_exponent) - least_exponent);
+  };
+  for_each_edge(execution, [&](Edge edge) {
+    ++free_edges_;
+    ++of_bin[bin(edge)];
+  });
+  const std::uint64_t most_long = free_edges_ / edges_a_long_one;
+  std::size_t first_long = of_bin.size();
+  std::uint64_t longer = 0;
+  while (first_long > 1 && longer + of_bin[first_long - 1] <= most_long) longer += of_bin[--first_long];
+  execution.reserve(longer * sizeof(Edge));
+  long_edges_.reserve(longer);
+  for_each_edge(execution, [&](Edge edge) {
+    if (bin(edge) >= first_long) {
+      long_edges_.push_back(edge);
+    } else {
+      reach_ = std::max(reach_, length(edge));
+    }
+  });
+}
+
+}  // namespace warren::serve

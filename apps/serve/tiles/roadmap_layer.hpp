@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A roadmap as tiles above the world: its milestones and free edges, in one ink or by component.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/serve/tiles/web_tile.hpp"
+#include "parallel/execution.hpp"
+#include "pictures/model/colors.hpp"
+#include "planners/graph/roadmap_arrays.hpp"
+#include "planners/lengths/lattice_passages.hpp"
+
+namespace warren::serve {
+// A roadmap's milestones and free edges by place. Milestones are filed in a grid; an edge is found by its ends, which
+// are no farther from a box that it meets than it is long. The few longest are in a list of their own: one of them
+// would let each box look at all edges.
+
+/// Immutable; any number of threads may look.
+class PlacedRoadmap {
+ public:
+  struct Edge {
+    VertexId from, to;
+  };
+  /// Refers to the arrays. Four bytes a milestone, and eight for one free edge in 256. Throws Stopped.
+  PlacedRoadmap(const RoadmapParts& parts, const Execution& execution);
+
+  Vec2 at(VertexId v) const { return {parts_.state(v)[0], parts_.state(v)[1]}; }
+  std::uint64_t milestones() const { return order_.size(); }
+  std::uint64_t free_edges() const { return free_edges_; }
+  /// Visits milestones in the box until visit says false. Throws Stopped.
+  template <class Visit>
+  void for_each_milestone(const Box& box, const Execution& execution, const Visit& visit) const;
+  /// Visits each free edge that may meet the box once, until visit says false. Throws Stopped.
+  template <class Visit>
+  void for_each_edge_near(const Box& box, const Execution& execution, const Visit& visit) const;
+
+ private:
+  bool is_edge(VertexId v, std::size_t end) const {
+    return (parts_.directed || v < parts_.to[end]) && parts_.state_of_end(end) == EdgeState::free;
+  }
+  double length(Edge edge) const;
+  std::size_t cell_at(double share) const;
+  std::size_t column(double x) const { return cell_at((x - box_.min.x) / std::max(box_.width(), 1e-300)); }
+  std::size_t row(double y) const { return cell_at((y - box_.min.y) / std::max(box_.height(), 1e-300)); }
+  void file_milestones(const Execution& execution);
+  template <class Visit>
+  void for_each_edge(const Execution& execution, const Visit& visit) const;
+  void part_long_edges(const Execution& execution);
+
+  RoadmapParts parts_;
+  Box box_;                           // of all milestones
+  std::size_t side_ = 1;              // of the grid, in cells
+  std::vector<std::uint32_t> first_;  // of each cell, in order_
+  std::vector<VertexId> order_;
+  std::uint64_t free_edges_ = 0;
+  double reach_ = 0.0;  // the length of the longest edge that is not in long_edges_
+  std::vector<Edge> long_edges_;
+};
+
+template <class Visit>
+void PlacedRoadmap::for_each_milestone(const Box& box, const Execution& execution, const Visit& visit) const {
+  const std::size_t right = column(box.max.x);
+  const std::size_t top = row(box.max.y);
+  std::size_t seen = 0;
+  for (std::size_t y = row(box.min.y); y <= top; ++y) {
+    for (std::size_t x = column(box.min.x); x <= right; ++x) {
+      if (seen++ % 256 == 0) execution.check();
+      for (std::uint32_t i = first_[y * side_ + x]; i < first_[y * side_ + x + 1]; ++i) {
+        if (seen++ % 1024 == 0) execution.check();
+        if (box.contains(at(order_[i])) && !visit(order_[i])) return;
+      }
+    }
+  }
+}
+
+template <class Visit>
+void PlacedRoadmap::for_each_edge_near(const Box& box, const Execution& execution, const Visit& visit) const {
+  for (std::size_t i = 0; i < long_edges_.size(); ++i) {
+    if (i % 1024 == 0) execution.check();
+    if (!visit(long_edges_[i])) return;
+  }
+  for_each_milestone(box.grown(reach_), execution, [&](VertexId v) {
+    for (std::size_t end = parts_.first[v]; end < parts_.first[v + 1]; ++end) {
+      if (!is_edge(v, end)) continue;
+      const Edge edge{v, parts_.to[end]};
+      if (length(edge) <= reach_ && !visit(edge)) return false;
+    }
+    return true;
+  });
+}
+
+/// A tile with more edges shows its milestones alone, each a pixel, which from afar are a shade.
+inline constexpr std::size_t most_drawn_edges = 20'000;
+/// Of the largest components, the largest first; the last one is for all others.
+inline constexpr std::array<Rgb, 8> component_inks{{colors::series[0],
+                                                    colors::series[1],
+                                                    colors::series[2],
+                                                    colors::series[3],
+                                                    colors::series[4],
+                                                    colors::series[5],
+                                                    colors::series[7],
+                                                    {138, 146, 158}}};
+
+enum class RoadmapInk : std::uint8_t { one, by_component };
+
+/// Immutable; any number of threads may draw.
+class RoadmapLayer {
+ public:
+  /// Refers to the arrays. Six bytes a milestone, and eight more meanwhile. Throws Stopped.
+  RoadmapLayer(const RoadmapParts& parts, const Execution& execution);
+
+  /// A PNG of what lies in the box. Throws Stopped.
+  std::string draw(const Box& box, double pixel, RoadmapInk ink, const Execution& execution) const;
+  /// The same with which of at most 16 inks each milestone has; none: all have the first.
+  std::string draw(const Box& box, double pixel, std::span<const Rgb> inks, std::span<const std::uint8_t> of_milestone,
+                   const Execution& execution) const;
+  /// Which of component_inks the milestone has.
+  std::uint8_t rank(VertexId v) const { return ranks_[v]; }
+  std::uint64_t milestones() const { return placed_.milestones(); }
+  std::uint64_t free_edges() const { return placed_.free_edges(); }
+  /// Milestones in each of component_inks.
+  const std::array<std::uint64_t, component_inks.size()>& milestones_of_ink() const { return of_ink_; }
+  /// Components that share the last ink.
+  std::uint64_t small_components() const { return small_components_; }
+
+ private:
+  void rank_components(std::span<const VertexId> component, const Execution& execution);
+  std::vector<PlacedRoadmap::Edge> edges_in(const Box& box, const Execution& execution) const;
+
+  PlacedRoadmap placed_;
+  std::vector<std::uint8_t> ranks_;
+  std::array<std::uint64_t, component_inks.size()> of_ink_ = {};
+  std::uint64_t small_components_ = 0;
+};
+
+/// A PNG of the passages of a maze's lattice, from middle to middle of unit cells, the first of which is at (1, 1):
+/// empty where a cell has less than 8 pixels. Throws Stopped.
+std::string draw_passages(const LatticePassages& passages, const Box& box, double pixel, const Execution& execution);
+/// Tiles whose pixels are larger show no passages.
+inline constexpr double largest_pixel_of_passages = 1.0 / 8.0;
+
+}  // namespace warren::serve

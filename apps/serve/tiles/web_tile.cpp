@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/serve/tiles/web_tile.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "scenes/images/png_writer_io.hpp"
+
+namespace warren::serve {
+namespace {
+
+constexpr int closest = -6;  // 64 pixels a cell
+
+std::optional<std::uint32_t> number_below(std::uint32_t end, std::string_view digits) {
+  std::uint32_t number = 0;
+  const char* last = digits.data() + digits.size();
+  const auto [read, error] = std::from_chars(digits.data(), last, number);
+  const bool is_plain = digits == "0" || !digits.starts_with('0');  // one name a tile
+  return is_plain && error == std::errc() && read == last && number < end ? std::optional(number) : std::nullopt;
+}
+
+}  // namespace
+
+Box TileGrid::box_of(const TilePlace& tile) const {
+  const double side = pixel(tile.zoom) * pixels;
+  const Vec2 upper_left{corner.x + tile.x * side, corner.y - tile.y * side};
+  return {{upper_left.x, upper_left.y - side}, {upper_left.x + side, upper_left.y}};
+}
+
+std::optional<TilePlace> TileGrid::tile_at(std::string_view zoom, std::string_view x, std::string_view y) const {
+  const auto z = number_below(levels, zoom);
+  if (!z) return std::nullopt;
+  const auto column = number_below(1U << *z, x);
+  const auto row = number_below(1U << *z, y);
+  if (!column || !row) return std::nullopt;
+  return TilePlace{*z, *column, *row};
+}
+
+TileGrid grid_for_cells(std::uint32_t cols, std::uint32_t rows, double cell, Vec2 upper_left, CellsOnTiles& cells) {
+  const double extent = std::max(cols, rows);
+  cells.level = closest;
+  const auto margin = [&] { return std::ldexp(1.0, std::max(0, cells.level)); };
+  while (std::ldexp(TileGrid::pixels, cells.level) < extent + 2.0 * margin()) ++cells.level;
+  cells.margin = static_cast<std::uint32_t>(margin());
+  return {.corner = {upper_left.x - margin() * cell, upper_left.y + margin() * cell},
+          .span = std::ldexp(TileGrid::pixels * cell, cells.level),
+          .levels = static_cast<unsigned>(cells.level - closest) + 1};
+}
+
+TileGrid grid_around(const Box& box) {
+  constexpr double margin = 1.06;
+  constexpr unsigned levels = 14;
+  const double extent = std::max({box.width(), box.height(), 1e-9});
+  const Vec2 middle = 0.5 * (box.min + box.max);
+  const double span = extent * margin;
+  return {.corner = {middle.x - 0.5 * span, middle.y + 0.5 * span}, .span = span, .levels = levels};
+}
+
+namespace {
+
+/// The least of 1, 2, 2.5 and 5 times a power of ten that is not below.
+double round_number_from(double least) {
+  double times_ten = 1.0;
+  while (least >= 10.0 * times_ten) times_ten *= 10.0;
+  double parts = 1.0;
+  while (least * parts < 1.0) parts *= 10.0;
+  const double power = least < 1.0 ? 1.0 / parts : times_ten;
+  for (const double times : {1.0, 2.0, 2.5, 5.0}) {
+    if (times * power >= least) return times * power;
+  }
+  return 10.0 * power;
+}
+
+}  // namespace
+
+Steps Steps::up_to(double usual, double most) {
+  constexpr double with_an_end = step_inks.size() - 1.0;
+  Steps steps;
+  constexpr double smallest = 1e-300;  // the product of which and a power of ten is 1
+  if (std::isfinite(usual) && usual >= smallest) steps.each = round_number_from(usual / with_an_end);
+  steps.count = 1 + static_cast<std::size_t>(std::clamp(most / steps.each, 0.0, with_an_end));
+  return steps;
+}
+
+std::size_t Steps::of(double value) const {
+  return static_cast<std::size_t>(std::min(value / each, static_cast<double>(count - 1)));
+}
+
+std::string png_of(const StepTile& tile, std::span<const Rgb> inks, const Execution& execution) {
+  std::vector<std::array<std::uint8_t, 3>> palette{{0, 0, 0}};
+  std::vector<std::uint8_t> alphas{0};
+  for (const Rgb ink : inks) {
+    palette.push_back({ink.red, ink.green, ink.blue});
+    alphas.push_back(step_opacity);
+  }
+  std::string bytes;
+  write_png({.width = TileGrid::pixels,
+             .height = TileGrid::pixels,
+             .palette = palette,
+             .alphas = alphas,
+             .compression = 1,
+             .row = [&](std::size_t y) { return tile.steps.data() + y * TileGrid::pixels; }},
+            execution, [&](std::string_view piece) { bytes += piece; });
+  return bytes;
+}
+
+std::string png_of(const ShadeTile& tile, Rgb ink, const Execution& execution) {
+  constexpr unsigned shades = 16;
+  std::vector<std::array<std::uint8_t, 3>> palette;
+  for (unsigned i = 0; i < shades; ++i) {
+    const Rgb color = mixed(ink, colors::paper, 100 * i / (shades - 1));
+    palette.push_back({color.red, color.green, color.blue});
+  }
+  std::vector<std::uint8_t> row(TileGrid::pixels);
+  std::string bytes;
+  write_png({.width = TileGrid::pixels,
+             .height = TileGrid::pixels,
+             .palette = palette,
+             .compression = 1,
+             .row =
+                 [&](std::size_t y) {
+                   const std::uint8_t* from = tile.shades.data() + y * TileGrid::pixels;
+                   for (std::size_t x = 0; x < row.size(); ++x) row[x] = static_cast<std::uint8_t>(from[x] >> 4U);
+                   return static_cast<const std::uint8_t*>(row.data());
+                 }},
+            execution, [&](std::string_view piece) { bytes += piece; });
+  return bytes;
+}
+
+}  // namespace warren::serve

@@ -1,0 +1,555 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/serve/tiles/world_tiles.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "apps/serve/tiles/web_tile.hpp"
+#include "core/base/error.hpp"
+#include "core/plane/geometry.hpp"
+#include "parallel/polled_sort.hpp"
+#include "pictures/formats/raster.hpp"
+#include "solve/roadmaps/maze_bits.hpp"
+#include "spatial/maps/distance_field.hpp"
+#include "spatial/obstacles/box_tree.hpp"
+
+namespace warren::serve {
+
+std::unique_ptr<WorldTiles> tiles_of(const Scene& scene, const Execution& execution) {
+  if (scene.map) return map_tiles(*scene.map, execution);
+  if (scene.maze) {
+    constexpr double no_reach = 0.0;
+    if (auto passages = passages_of_maze(scene, no_reach, execution)) {
+      MazeOutline outline = MazeOutline::of_walls(scene.walls, passages->size(), execution);
+      return maze_tiles(std::move(*passages), std::move(outline), execution);
+    }
+  }
+  return shape_tiles(scene, execution);
+}
+
+// Tiles of mazes. Where a cell has two pixels or more its walls are drawn as lines, else the share of its walls is a
+// shade: of each cell where it is a pixel, of squares of cells from the pyramid beyond. Wall by wall the same numbers
+// decide, so a tile costs 512 x 512 looks at bits or bytes at most, whatever the maze's size.
+
+namespace {
+
+constexpr std::int64_t side = TileGrid::pixels;
+
+class MazeTiles : public WorldTiles {
+ public:
+  MazeTiles(LatticePassages passages, MazeOutline outline, const TileGrid& grid, CellsOnTiles cells,
+            const Execution& execution)
+      : WorldTiles(grid),
+        passages_(std::move(passages)),
+        outline_(std::move(outline)),
+        cells_(cells),
+        far_(
+            passages_.size().cols, passages_.size().rows,
+            [this](std::uint32_t col, std::uint32_t row) { return shade_of(col, row); }, execution) {}
+
+  std::string draw(const TilePlace& place, const Execution& execution) const override {
+    ShadeTile tile;
+    const int level = cells_.level - static_cast<int>(place.zoom);
+    if (level >= 0) {
+      draw_far(tile, place, static_cast<unsigned>(level), execution);
+    } else {
+      draw_near(tile, place, std::int64_t{1} << -level, execution);
+    }
+    return png_of(tile, colors::wall, execution);
+  }
+
+  std::unique_ptr<PlaceDistances> distances(const Execution& execution) const override;
+  double largest_pixel_of_distances() const override { return 1.0 / 8.0; }
+
+  LatticeSize size() const { return passages_.size(); }
+  /// Column and row from 0; -1: the outline's left and lower side.
+  bool has_right_wall(std::int64_t col, std::int64_t row) const {
+    if (col < 0) return outline_.left[static_cast<std::size_t>(row)];
+    if (col + 1 == passages_.size().cols) return outline_.right[static_cast<std::size_t>(row)];
+    return (open_at(col, row) & 1U) == 0;
+  }
+  bool has_upper_wall(std::int64_t col, std::int64_t row) const {
+    if (row < 0) return outline_.lower[static_cast<std::size_t>(col)];
+    if (row + 1 == passages_.size().rows) return outline_.upper[static_cast<std::size_t>(col)];
+    return (open_at(col, row) & 2U) == 0;
+  }
+
+ private:
+  unsigned open_at(std::int64_t col, std::int64_t row) const {
+    return passages_.open_at(static_cast<std::uint32_t>(col), static_cast<std::uint32_t>(row));
+  }
+  std::uint8_t shade_of(std::uint32_t col, std::uint32_t row) const {
+    constexpr unsigned of_a_wall = 127;
+    const unsigned open = passages_.open_at(col, row);
+    return static_cast<std::uint8_t>(of_a_wall * (2U - (open & 1U) - (open >> 1U & 1U)));
+  }
+  /// Lighter than lines, for the path to be seen.
+  void draw_far(ShadeTile& tile, const TilePlace& place, unsigned level, const Execution& execution) const {
+    const LatticeSize size = passages_.size();
+    const std::int64_t margin = cells_.margin >> level;
+    const std::int64_t squares = (std::int64_t{size.rows} + (std::int64_t{1} << level) - 1) >> level;
+    // Rows of pixels are counted from the maze's upper side, squares from its lower one: those may lie askew.
+    const std::int64_t top_row = std::int64_t{size.rows} - 1;
+    for (std::int64_t y = 0; y < side; ++y) {
+      if (y % 64 == 0) execution.check();
+      const std::int64_t from_top = (std::int64_t{place.y} * side + y - margin) << level;
+      const std::int64_t row = (top_row - from_top) >> level;
+      if (from_top < 0 || row < 0 || row >= squares) continue;
+      for (std::int64_t x = 0; x < side; ++x) {
+        const std::int64_t col = std::int64_t{place.x} * side + x - margin;
+        if (col < 0 || col << level >= size.cols) continue;
+        const unsigned shade = level == 0 ? shade_of(static_cast<std::uint32_t>(col), static_cast<std::uint32_t>(row))
+                                          : far_.at(level, col, row);
+        tile.at(static_cast<std::size_t>(x), static_cast<std::size_t>(y)) = static_cast<std::uint8_t>(shade / 2);
+      }
+    }
+  }
+  void draw_near(ShadeTile& tile, const TilePlace& place, std::int64_t cell, const Execution& execution) const {
+    const LatticeSize size = passages_.size();
+    const std::int64_t left = std::int64_t{place.x} * side;
+    const std::int64_t top = std::int64_t{place.y} * side;
+    const std::int64_t thick = std::max<std::int64_t>(1, cell / 8);
+    const std::uint8_t shade = cell >= 8 ? 255 : cell >= 4 ? 208 : 160;
+    const auto fill = [&](std::int64_t x, std::int64_t y, std::int64_t width, std::int64_t height) {
+      const std::int64_t right = std::min(side, x - left + width);
+      const std::int64_t bottom = std::min(side, y - top + height);
+      for (std::int64_t v = std::max<std::int64_t>(0, y - top); v < bottom; ++v) {
+        for (std::int64_t u = std::max<std::int64_t>(0, x - left); u < right; ++u) {
+          tile.at(static_cast<std::size_t>(u), static_cast<std::size_t>(v)) = shade;
+        }
+      }
+    };
+    const std::int64_t before = (thick + 1) / 2;
+    const auto clamped = [](std::int64_t number, std::int64_t end) {
+      return std::clamp<std::int64_t>(number, -1, end - 1);
+    };
+    const std::int64_t first_col = clamped(left / cell - cells_.margin - 1, size.cols);
+    const std::int64_t last_col = clamped((left + side) / cell - cells_.margin + 1, size.cols);
+    const std::int64_t highest = clamped(size.rows - 1 - (top / cell - cells_.margin - 1), size.rows);
+    const std::int64_t lowest = clamped(size.rows - 1 - ((top + side) / cell - cells_.margin + 1), size.rows);
+    for (std::int64_t row = lowest; row <= highest; ++row) {
+      execution.check();
+      const std::int64_t upper = (size.rows - 1 - row + cells_.margin) * cell;  // the pixel of the cell's upper side
+      for (std::int64_t col = first_col; col <= last_col; ++col) {
+        const std::int64_t leftmost = (col + cells_.margin) * cell;
+        if (row >= 0 && has_right_wall(col, row)) {
+          fill(leftmost + cell - before, upper - before, thick, cell + thick);
+        }
+        if (col >= 0 && has_upper_wall(col, row)) fill(leftmost - before, upper - before, cell + thick, thick);
+      }
+    }
+  }
+
+  LatticePassages passages_;
+  MazeOutline outline_;
+  CellsOnTiles cells_;
+  ShadePyramid far_;
+};
+
+/// By the walls of the cells around the place's own, ring by ring, until those farther out can't be nearer.
+class MazeDistances : public PlaceDistances {
+ public:
+  explicit MazeDistances(const MazeTiles& tiles) : tiles_(tiles) {}
+
+  double at(Vec2 place) const override {
+    const double cols = tiles_.size().cols;
+    const double rows = tiles_.size().rows;
+    const bool is_inside = place.x >= 0.5 && place.y >= 0.5 && place.x <= cols + 0.5 && place.y <= rows + 0.5;
+    if (!is_inside) return std::numeric_limits<double>::quiet_NaN();
+    const auto col = static_cast<std::int64_t>(std::min(place.x - 0.5, cols - 1.0));
+    const auto row = static_cast<std::int64_t>(std::min(place.y - 0.5, rows - 1.0));
+    double least = farthest;
+    for (std::int64_t ring = 0; ring == 0 || least > static_cast<double>(ring - 1); ++ring) {
+      for (std::int64_t y = row - ring; y <= row + ring; ++y) {
+        const bool is_whole = y == row - ring || y == row + ring;
+        const std::int64_t step = is_whole || ring == 0 ? 1 : 2 * ring;
+        for (std::int64_t x = col - ring; x <= col + ring; x += step) least = std::min(least, to_walls(place, x, y));
+      }
+    }
+    return least;
+  }
+
+ private:
+  static constexpr double farthest = 4.0;  // cells; what is farther is as far
+
+  /// To the right and the upper wall of a cell; any column and row.
+  double to_walls(Vec2 place, std::int64_t col, std::int64_t row) const {
+    const LatticeSize size = tiles_.size();
+    if (col < -1 || row < -1 || col >= size.cols || row >= size.rows) return farthest;
+    const Vec2 corner{static_cast<double>(col) + 1.5, static_cast<double>(row) + 1.5};  // upper right
+    double least = farthest;
+    if (row >= 0 && tiles_.has_right_wall(col, row)) least = distance(place, {{corner.x, corner.y - 1.0}, corner});
+    if (col < 0 || !tiles_.has_upper_wall(col, row)) return least;
+    return std::min(least, distance(place, {{corner.x - 1.0, corner.y}, corner}));
+  }
+
+  const MazeTiles& tiles_;
+};
+
+std::unique_ptr<PlaceDistances> MazeTiles::distances(const Execution&) const {
+  return std::make_unique<MazeDistances>(*this);
+}
+
+}  // namespace
+
+MazeOutline MazeOutline::of_course(LatticeSize size) {
+  MazeOutline outline{std::vector<bool>(size.rows, true), std::vector<bool>(size.rows, true),
+                      std::vector<bool>(size.cols, true), std::vector<bool>(size.cols, true)};
+  outline.left.front() = false;
+  outline.right.back() = false;
+  return outline;
+}
+
+MazeOutline MazeOutline::of_walls(const WallSet& walls, LatticeSize size, const Execution& execution) {
+  MazeOutline outline{std::vector<bool>(size.rows), std::vector<bool>(size.rows), std::vector<bool>(size.cols),
+                      std::vector<bool>(size.cols)};
+  constexpr std::size_t walls_a_poll = std::size_t{1} << 20U;
+  const Box around{{0.5, 0.5}, {size.cols + 0.5, size.rows + 0.5}};
+  const auto mark = [](std::vector<bool>& side, double from, double to) {
+    for (double at = from + 0.5; at < to; at += 1.0) {
+      const auto cell = static_cast<std::size_t>(at - 0.5);
+      if (at > 0.5 && cell < side.size()) side[cell] = true;
+    }
+  };
+  walls.visit([&](auto all) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (i % walls_a_poll == 0) execution.check();
+      const Segment s = all[i].segment();
+      const BoxSide side = side_under(s, around);
+      const Box box = box_of(s);
+      if (side == BoxSide::left) mark(outline.left, box.min.y, box.max.y);
+      if (side == BoxSide::right) mark(outline.right, box.min.y, box.max.y);
+      if (side == BoxSide::bottom) mark(outline.lower, box.min.x, box.max.x);
+      if (side == BoxSide::top) mark(outline.upper, box.min.x, box.max.x);
+    }
+  });
+  return outline;
+}
+
+std::unique_ptr<WorldTiles> maze_tiles(LatticePassages passages, MazeOutline outline, const Execution& execution) {
+  CellsOnTiles cells;
+  const LatticeSize size = passages.size();
+  const TileGrid grid = grid_for_cells(size.cols, size.rows, 1.0, {0.5, size.rows + 0.5}, cells);
+  return std::make_unique<MazeTiles>(std::move(passages), std::move(outline), grid, cells, execution);
+}
+
+// Tiles of maps: a pixel takes the shade of the cell in its middle, from afar that of the pyramid's square there. Maps
+// may be turned, so each row of pixels is a line through the cells.
+
+namespace {
+
+constexpr std::uint8_t blocked_shade = 255;
+constexpr std::uint8_t unknown_shade = 80;
+
+Box box_of_map(const OccupancyMap& map) {
+  Box box;
+  for (const double x : {0.0, static_cast<double>(map.width())}) {
+    for (const double y : {0.0, static_cast<double>(map.height())}) box.include(world_point(map, {x, y}));
+  }
+  return box;
+}
+
+/// Of a cell's middle, from the squares of blocked cells and of those around the map; four bytes a cell.
+class MapDistances : public PlaceDistances {
+ public:
+  MapDistances(const OccupancyMap& map, const Execution& execution)
+      : map_(map), field_(map.blocked, CellDistance::squares, true, execution) {}
+
+  double at(Vec2 place) const override {
+    const std::optional<Cell> cell = cell_at(map_, place);
+    if (!cell || map_.blocked.test(cell->x, cell->y)) return std::numeric_limits<double>::quiet_NaN();
+    return map_.cell * field_.distance(cell->x, cell->y);
+  }
+
+ private:
+  const OccupancyMap& map_;
+  DistanceField field_;
+};
+
+class MapTiles : public WorldTiles {
+ public:
+  MapTiles(const OccupancyMap& map, const Execution& execution)
+      : WorldTiles(grid_around(box_of_map(map))),
+        map_(map),
+        far_(
+            map.width(), map.height(), [this](std::uint32_t x, std::uint32_t y) { return shade_of(x, y); }, execution) {
+  }
+
+  std::string draw(const TilePlace& place, const Execution& execution) const override {
+    ShadeTile tile;
+    const double pixel = grid().pixel(place.zoom);
+    const Box box = grid().box_of(place);
+    const Vec2 first = map_point(map_, {box.min.x + 0.5 * pixel, box.max.y - 0.5 * pixel});
+    const Vec2 right = map_point(map_, {box.min.x + 1.5 * pixel, box.max.y - 0.5 * pixel}) - first;
+    const Vec2 down = map_point(map_, {box.min.x + 0.5 * pixel, box.max.y - 1.5 * pixel}) - first;
+    const unsigned level = level_of(pixel / map_.cell);
+    for (unsigned y = 0; y < TileGrid::pixels; ++y) {
+      if (y % 64 == 0) execution.check();
+      for (unsigned x = 0; x < TileGrid::pixels; ++x) {
+        tile.at(x, y) = shade_at(first + static_cast<double>(x) * right + static_cast<double>(y) * down, level);
+      }
+    }
+    return png_of(tile, colors::wall, execution);
+  }
+
+  std::unique_ptr<PlaceDistances> distances(const Execution& execution) const override {
+    return std::make_unique<MapDistances>(map_, execution);
+  }
+
+ private:
+  std::uint8_t shade_of(std::uint32_t x, std::uint32_t y) const {
+    if (!map_.blocked.test(x, y)) return 0;
+    return !map_.unknown.empty() && map_.unknown.test(x, y) ? unknown_shade : blocked_shade;
+  }
+  /// The last one whose squares are no larger than a pixel.
+  unsigned level_of(double cells) const {
+    unsigned level = 0;
+    while (level + 1 < far_.levels() && static_cast<double>(2U << level) <= cells) ++level;
+    return level;
+  }
+  std::uint8_t shade_at(Vec2 in_cells, unsigned level) const {
+    if (!(in_cells.x >= 0.0 && in_cells.y >= 0.0 && in_cells.x < map_.width() && in_cells.y < map_.height())) return 0;
+    const auto x = static_cast<std::uint32_t>(in_cells.x);
+    const auto y = static_cast<std::uint32_t>(in_cells.y);
+    return level == 0 ? shade_of(x, y) : far_.at(level, x >> level, y >> level);
+  }
+
+  const OccupancyMap& map_;
+  ShadePyramid far_;
+};
+
+}  // namespace
+
+std::unique_ptr<WorldTiles> map_tiles(const OccupancyMap& map, const Execution& execution) {
+  return std::make_unique<MapTiles>(map, execution);
+}
+
+// Tiles of walls, polygons and bounds: the shapes whose boxes meet a tile, by a tree of boxes, drawn as they are. From
+// afar that is all of them: a tile of zoom 0 costs a fifth of a microsecond a wall.
+
+namespace {
+
+constexpr double wall_pixels = 2.0;
+constexpr double outline_pixels = 1.0;
+constexpr std::size_t shapes_a_poll = std::size_t{1} << 12U;
+
+std::size_t shape_count(const Scene& scene) { return scene.walls.size() + scene.polygons.size(); }
+
+BoxOf<2> as_item(const Box& box) { return {{box.min.x, box.min.y}, {box.max.x, box.max.y}}; }
+
+Box box_of_corners(const ScenePolygon& polygon) {
+  Box box;
+  for (const Vec2 p : polygon.corners) box.include(p);
+  return box;
+}
+
+std::vector<BoxOf<2>> boxes_of(const Scene& scene, const Execution& execution) {
+  if (shape_count(scene) > most_shapes) {
+    throw UsageError(fmt::format("a world of {} walls and polygons is too large to be shown; at most {} are",
+                                 shape_count(scene), most_shapes));
+  }
+  execution.reserve(2 * shape_count(scene) * sizeof(BoxOf<2>) + shape_count(scene) * 64);
+  std::vector<BoxOf<2>> boxes;
+  const auto add = [&](const Box& box) {
+    if (boxes.size() % shapes_a_poll == 0) execution.check();
+    boxes.push_back(as_item(box));
+  };
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) add(box_of(scene.walls.segment(i)));
+  for (const ScenePolygon& polygon : scene.polygons) add(box_of_corners(polygon));
+  return boxes;
+}
+
+Box box_of_world(const Scene& scene, const Execution& execution) {
+  Box box = obstacle_box(scene, execution);
+  if (scene.bounds) box.include(*scene.bounds);
+  return box.empty() ? Box{{0, 0}, {1, 1}} : box;
+}
+
+/// Sides along which parts of one polygon are joined.
+class SeamSides {
+ public:
+  SeamSides(const Scene& scene, const Execution& execution) {
+    for (const Segment& seam : scene.seams) sides_.push_back(ordered(seam.a, seam.b));
+    polled_sort(sides_.begin(), sides_.end(), execution);
+  }
+  bool holds(Vec2 a, Vec2 b) const { return std::binary_search(sides_.begin(), sides_.end(), ordered(a, b)); }
+
+ private:
+  /// With the lower end first, as sides and seams are compared.
+  static std::array<double, 4> ordered(Vec2 a, Vec2 b) {
+    if (b.x < a.x || (b.x == a.x && b.y < a.y)) std::swap(a, b);
+    return {a.x, a.y, b.x, b.y};
+  }
+  std::vector<std::array<double, 4>> sides_;
+};
+
+/// Walls, sides of polygons but seams, and bounds.
+std::vector<Segment> sides_of(const Scene& scene, const SeamSides& seams, const Execution& execution) {
+  std::size_t count = scene.walls.size();
+  for (const ScenePolygon& polygon : scene.polygons) count += polygon.corners.size();
+  execution.reserve(count * (sizeof(Segment) + 3 * sizeof(BoxOf<2>)));
+  std::vector<Segment> sides = bounds_walls(scene);
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    if (i % shapes_a_poll == 0) execution.check();
+    sides.push_back(scene.walls.segment(i));
+  }
+  for (const ScenePolygon& polygon : scene.polygons) {
+    execution.check();
+    Vec2 a = polygon.corners.back();
+    for (const Vec2 b : polygon.corners) {
+      if (!seams.holds(a, b)) sides.push_back({a, b});
+      a = b;
+    }
+  }
+  return sides;
+}
+
+std::vector<BoxOf<2>> boxes_of(const std::vector<Segment>& sides, const Execution& execution) {
+  std::vector<BoxOf<2>> boxes;
+  for (const Segment& edge : sides) {
+    if (boxes.size() % shapes_a_poll == 0) execution.check();
+    boxes.push_back(as_item(box_of(edge)));
+  }
+  return boxes;
+}
+
+class ShapeTiles : public WorldTiles {
+ public:
+  ShapeTiles(const Scene& scene, const Execution& execution)
+      : WorldTiles(grid_around(box_of_world(scene, execution))),
+        scene_(scene),
+        tree_(boxes_of(scene, execution), execution),
+        seams_(scene, execution) {}
+
+  std::string draw(const TilePlace& place, const Execution& execution) const override {
+    Image image(TileGrid::pixels, TileGrid::pixels, colors::paper, execution);
+    const Brush brush{image, grid().box_of(place), grid().pixel(place.zoom), execution};
+    const std::vector<std::uint32_t> shapes = shapes_in(brush.box.grown(2.0 * wall_pixels * brush.pixel), execution);
+    const auto walls = static_cast<std::uint32_t>(scene_.walls.size());
+    const auto polygons = std::lower_bound(shapes.begin(), shapes.end(), walls);
+    std::for_each(polygons, shapes.end(), [&](std::uint32_t i) { fill(brush, scene_.polygons[i - walls]); });
+    std::for_each(polygons, shapes.end(), [&](std::uint32_t i) { outline(brush, scene_.polygons[i - walls]); });
+    std::for_each(shapes.begin(), polygons, [&](std::uint32_t i) {
+      if (i % 256 == 0) execution.check();
+      brush.line(scene_.walls.segment(i), wall_pixels);
+    });
+    for (const Segment& s : bounds_walls(scene_)) brush.line(s, wall_pixels);
+    std::string bytes;
+    write_png_file(image, 0.0, execution, [&](std::string_view piece) { bytes += piece; });
+    return bytes;
+  }
+  std::unique_ptr<PlaceDistances> distances(const Execution& execution) const override;
+
+  const Scene& scene() const { return scene_; }
+  const SeamSides& seams() const { return seams_; }
+  /// How much of each pixel lies inside of polygons. Throws Stopped.
+  Mask insides(const Box& box, double pixel, const Execution& execution) const {
+    Mask mask(TileGrid::pixels, TileGrid::pixels, execution);
+    for (const std::uint32_t i : shapes_in(box, execution)) {
+      if (i < scene_.walls.size()) continue;
+      PolygonSet one;
+      std::vector<Vec2> corners;
+      for (const Vec2 p : scene_.polygons[i - scene_.walls.size()].corners) {
+        corners.push_back({(p.x - box.min.x) / pixel, (box.max.y - p.y) / pixel});
+      }
+      one.add(corners);
+      mask.fill(one, 1.0, execution);
+    }
+    return mask;
+  }
+
+ private:
+  struct Brush {
+    Image& image;
+    Box box;
+    double pixel;
+    const Execution& execution;
+
+    Vec2 at(Vec2 p) const { return {(p.x - box.min.x) / pixel, (box.max.y - p.y) / pixel}; }
+    void line(const Segment& s, double width) const {
+      image.draw_line(at(s.a), at(s.b), width, width == wall_pixels ? colors::wall : colors::outline);
+    }
+  };
+
+  /// Walls and then polygons, each in the order of the world.
+  std::vector<std::uint32_t> shapes_in(const Box& box, const Execution& execution) const {
+    std::vector<std::uint32_t> shapes;
+    tree_.search(as_item(box), 0.0, [&](std::uint32_t place) {
+      if (shapes.size() % shapes_a_poll == 0) execution.check();
+      shapes.push_back(tree_.order()[place]);
+      return 0.0;
+    });
+    polled_sort(shapes.begin(), shapes.end(), execution);
+    return shapes;
+  }
+  static void fill(const Brush& brush, const ScenePolygon& polygon) {
+    std::vector<Vec2> corners;
+    for (const Vec2 p : polygon.corners) corners.push_back(brush.at(p));
+    PolygonSet one;
+    one.add(corners);
+    brush.image.fill(one, colors::polygon, 1.0, brush.execution);
+  }
+  void outline(const Brush& brush, const ScenePolygon& polygon) const {
+    brush.execution.check();
+    Vec2 a = polygon.corners.back();
+    for (const Vec2 b : polygon.corners) {
+      if (!seams_.holds(a, b)) brush.line({a, b}, outline_pixels);
+      a = b;
+    }
+  }
+
+  const Scene& scene_;
+  BoxTree<2> tree_;
+  SeamSides seams_;
+};
+
+/// By a tree of sides; 132 bytes a side.
+class ShapeDistances : public PlaceDistances {
+ public:
+  ShapeDistances(const ShapeTiles& tiles, const Execution& execution)
+      : tiles_(tiles),
+        sides_(sides_of(tiles.scene(), tiles.seams(), execution)),
+        tree_(boxes_of(sides_, execution), execution),
+        room_(tiles.scene().bounds ? *tiles.scene().bounds : box_of_world(tiles.scene(), execution)) {}
+
+  double at(Vec2 place) const override {
+    double least = std::numeric_limits<double>::infinity();
+    tree_.search({{place.x, place.y}, {place.x, place.y}}, least,
+                 [&](std::uint32_t i) { return least = std::min(least, distance(place, sides_[tree_.order()[i]])); });
+    return least;
+  }
+  bool are_dear() const override { return true; }
+  void leave_out(StepTile& tile, const Box& box, double pixel, const Execution& execution) const override {
+    const Mask inside = tiles_.insides(box, pixel, execution);
+    for (std::size_t i = 0; i < tile.steps.size(); ++i) {
+      const Vec2 middle{static_cast<double>(i % TileGrid::pixels) + 0.5,
+                        static_cast<double>(i / TileGrid::pixels) + 0.5};
+      const bool is_outside = !room_.contains({box.min.x + middle.x * pixel, box.max.y - middle.y * pixel});
+      if (is_outside || inside.pixels()[i] >= 128) tile.steps[i] = 0;
+    }
+  }
+
+ private:
+  const ShapeTiles& tiles_;
+  std::vector<Segment> sides_;
+  BoxTree<2> tree_;
+  Box room_;
+};
+
+std::unique_ptr<PlaceDistances> ShapeTiles::distances(const Execution& execution) const {
+  return std::make_unique<ShapeDistances>(*this, execution);
+}
+
+}  // namespace
+
+std::unique_ptr<WorldTiles> shape_tiles(const Scene& scene, const Execution& execution) {
+  return std::make_unique<ShapeTiles>(scene, execution);
+}
+
+}  // namespace warren::serve

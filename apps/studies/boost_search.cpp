@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Boost.Graph's searches on the same graph with the same numbering, the peer of `warren compare --peer boost`: its
+// compressed rows, edge lengths in an array, maps allocated once. A visitor ends each search at the goal by throwing,
+// as Boost's own example of A* does; its priority queue is Boost's indirect 4-ary heap.
+#include <algorithm>
+#include <boost/graph/astar_search.hpp>
+#include <boost/graph/breadth_first_search.hpp>
+#include <boost/graph/compressed_sparse_row_graph.hpp>
+#include <boost/graph/depth_first_search.hpp>
+#include <boost/graph/dijkstra_shortest_paths.hpp>
+
+#include "apps/studies/search_graph.hpp"
+
+namespace warren::studies {
+namespace {
+
+struct Weight {
+  double length;
+};
+using BoostGraph = boost::compressed_sparse_row_graph<boost::directedS, boost::no_property, Weight, boost::no_property,
+                                                      std::uint32_t, std::uint32_t>;
+using BoostVertex = boost::graph_traits<BoostGraph>::vertex_descriptor;
+
+BoostGraph boost_graph(const SearchGraph& from) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;
+  std::vector<Weight> weights;
+  ends.reserve(2 * from.graph.edge_count());
+  weights.reserve(2 * from.graph.edge_count());
+  for (VertexId v = 0; v < from.graph.vertex_count(); ++v) {
+    const std::span<const VertexId> row = from.graph.neighbours(v);
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      ends.emplace_back(v, row[i]);
+      weights.push_back({from.graph.lengths(v)[i]});
+    }
+  }
+  return {boost::edges_are_sorted, ends.begin(), ends.end(), weights.begin(),
+          static_cast<std::uint32_t>(from.graph.vertex_count())};
+}
+
+struct Reached {};  // thrown at the goal
+struct TimeIsUp {};
+
+/// What ends a search: counts the vertices that are settled, looks at the clock like our own searches.
+class Watch {
+ public:
+  Watch(BoostVertex goal, const Execution& execution, std::uint64_t& settled)
+      : goal_(goal), execution_(&execution), settled_(&settled) {}
+  void settle(BoostVertex v) const {
+    ++*settled_;
+    if (v == goal_) throw Reached();
+    if (*settled_ % expansions_per_poll == 0 && execution_->should_stop()) throw TimeIsUp();
+  }
+
+ private:
+  BoostVertex goal_;
+  const Execution* execution_;
+  std::uint64_t* settled_;
+};
+
+struct AStarVisitor : boost::default_astar_visitor {
+  explicit AStarVisitor(Watch w) : watch(w) {}
+  void examine_vertex(BoostVertex v, const BoostGraph&) const { watch.settle(v); }
+  Watch watch;
+};
+
+struct DijkstraVisitor : boost::default_dijkstra_visitor {
+  explicit DijkstraVisitor(Watch w) : watch(w) {}
+  void examine_vertex(BoostVertex v, const BoostGraph&) const { watch.settle(v); }
+  Watch watch;
+};
+
+struct BreadthVisitor : boost::default_bfs_visitor {
+  BreadthVisitor(Watch w, std::vector<BoostVertex>& p) : watch(w), parent(&p) {}
+  void examine_vertex(BoostVertex v, const BoostGraph&) const { watch.settle(v); }
+  template <class BoostEdge>
+  void tree_edge(const BoostEdge& e, const BoostGraph& graph) const {
+    (*parent)[target(e, graph)] = source(e, graph);
+  }
+  Watch watch;
+  std::vector<BoostVertex>* parent;
+};
+
+struct DepthVisitor : boost::default_dfs_visitor {
+  DepthVisitor(Watch w, std::vector<BoostVertex>& p) : watch(w), parent(&p) {}
+  void discover_vertex(BoostVertex v, const BoostGraph&) const { watch.settle(v); }
+  template <class BoostEdge>
+  void tree_edge(const BoostEdge& e, const BoostGraph& graph) const {
+    (*parent)[target(e, graph)] = source(e, graph);
+  }
+  Watch watch;
+  std::vector<BoostVertex>* parent;
+};
+
+class StraightDistance : public boost::astar_heuristic<BoostGraph, double> {
+ public:
+  StraightDistance(const std::vector<Vec2>& at, Vec2 goal) : at_(&at), goal_(goal) {}
+  double operator()(BoostVertex v) const { return distance((*at_)[v], goal_); }
+
+ private:
+  const std::vector<Vec2>* at_;
+  Vec2 goal_;
+};
+
+class BoostSearch : public GraphSearch {
+ public:
+  BoostSearch(const SearchGraph& from, SearchKind search)
+      : from_(from),
+        search_(search),
+        graph_(boost_graph(from)),
+        g_(from.graph.vertex_count()),
+        f_(g_.size()),
+        parent_(g_.size()),
+        color_(g_.size()) {}
+
+  SearchResult run(const Execution& execution) override {
+    SearchResult result;
+    try {
+      search(Watch(from_.goal, execution, result.expanded));
+    } catch (const Reached&) {
+      result.status = SearchStatus::found;
+      result.path = path();
+      if (has_queue(search_)) result.length = g_[from_.goal];
+    } catch (const TimeIsUp&) {
+      result.status = SearchStatus::stopped;
+    }
+    return result;
+  }
+
+ private:
+  template <class Values>
+  auto map(Values& values) {
+    return boost::make_iterator_property_map(values.begin(), get(boost::vertex_index, graph_));
+  }
+
+  void search(const Watch& watch) {
+    const auto lengths = get(&Weight::length, graph_);
+    switch (search_) {
+      case SearchKind::bfs:
+        return boost::breadth_first_search(graph_, from_.start,
+                                           boost::visitor(BreadthVisitor(watch, parent_)).color_map(map(color_)));
+      case SearchKind::dfs:
+        std::fill(color_.begin(), color_.end(), boost::white_color);
+        return boost::depth_first_visit(graph_, from_.start, DepthVisitor(watch, parent_), map(color_));
+      case SearchKind::dijkstra:
+        return boost::dijkstra_shortest_paths(graph_, from_.start,
+                                              boost::weight_map(lengths)
+                                                  .distance_map(map(g_))
+                                                  .predecessor_map(map(parent_))
+                                                  .color_map(map(color_))
+                                                  .visitor(DijkstraVisitor(watch)));
+      case SearchKind::astar:
+        return boost::astar_search(graph_, from_.start, StraightDistance(from_.at, from_.at[from_.goal]),
+                                   boost::weight_map(lengths)
+                                       .distance_map(map(g_))
+                                       .rank_map(map(f_))
+                                       .predecessor_map(map(parent_))
+                                       .color_map(map(color_))
+                                       .visitor(AStarVisitor(watch)));
+    }
+  }
+
+  RawVector<VertexId> path() const {
+    RawVector<VertexId> path{from_.goal};
+    while (path.back() != from_.start) path.push_back(parent_[path.back()]);
+    std::reverse(path.begin(), path.end());
+    return path;
+  }
+
+  const SearchGraph& from_;
+  SearchKind search_;
+  BoostGraph graph_;
+  std::vector<double> g_;
+  std::vector<double> f_;
+  std::vector<BoostVertex> parent_;
+  std::vector<boost::default_color_type> color_;
+};
+
+}  // namespace
+
+bool has_boost_graph() { return true; }
+
+std::unique_ptr<GraphSearch> boost_search(const SearchGraph& graph, SearchKind search) {
+  return std::make_unique<BoostSearch>(graph, search);
+}
+
+}  // namespace warren::studies

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/studies/comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <numeric>
+#include <stdexcept>
+#include <variant>
+
+#include "apps/studies/search_graph.hpp"
+#include "core/base/rng.hpp"
+#include "solve/answer/write_answer_io.hpp"
+
+namespace warren::studies {
+namespace {
+
+/// The distribution of what `figure` gives for the runs that it gives anything for.
+template <class Figure>
+std::optional<Distribution> distribution(const Contender& contender, const Figure& figure) {
+  std::vector<double> values;
+  values.reserve(contender.runs.size());
+  for (const ComparedRun& run : contender.runs) {
+    if (const std::optional<double> value = figure(run)) values.push_back(*value);
+  }
+  return distribution_of(values);
+}
+
+template <class Number>
+std::optional<double> if_solved(const ComparedRun& run, Number value) {
+  return run.solved() ? std::optional(static_cast<double>(value)) : std::nullopt;
+}
+
+/// A run that was cut says nothing about others.
+bool is_known(const Contender& c) {
+  return c.deterministic && !c.runs.empty() && c.runs.front().outcome != Outcome::stopped;
+}
+
+Interval success_of(const Contender& contender, const ComparisonRow& row) {
+  if (row.runs == 0) return {0.0, 1.0};
+  const double solved = row.solved > 0 ? 1.0 : 0.0;
+  return is_known(contender) ? Interval{solved, solved} : wilson_interval(row.solved, row.runs);
+}
+
+/// "samples 50", "full"
+std::vector<std::string> option_parts(const Contender& contender) {
+  std::vector<std::string> parts;
+  for (const auto& [name, value] : contender.options) {
+    const bool is_word = value.size() >= 2 && value.front() == '"';
+    parts.push_back(value == "true" ? name : name + " " + (is_word ? value.substr(1, value.size() - 2) : value));
+  }
+  return parts;
+}
+
+/// What a contender's name in a plot is made of.
+std::vector<std::string> name_parts(const Contender& c, bool with_planner) {
+  if (!c.dealt.empty()) {
+    std::vector<std::string> parts{c.planner};
+    for (const auto& [option, word] : c.dealt) parts.push_back(fmt::format("{} {}", option, word));
+    return parts;
+  }
+  if (c.library != "warren") return {c.search, c.library};
+  std::vector<std::string> parts;
+  for (const std::string& part : {with_planner ? c.planner : "", c.search, c.queue}) {
+    if (!part.empty()) parts.push_back(part);
+  }
+  if (with_planner) std::ranges::copy(option_parts(c), std::back_inserter(parts));
+  return parts;
+}
+
+}  // namespace
+
+ComparisonRow row_of(const Contender& contender) {
+  ComparisonRow row;
+  row.runs = contender.runs.size();
+  for (const ComparedRun& run : contender.runs) row.solved += run.solved() ? 1 : 0;
+  row.success = success_of(contender, row);
+  row.length = distribution(contender, [](const ComparedRun& r) { return if_solved(r, r.length); });
+  row.hops = distribution(contender, [](const ComparedRun& r) { return if_solved(r, r.hops); });
+  row.min_clearance = distribution(
+      contender, [](const ComparedRun& r) { return r.solved() ? r.min_clearance : std::optional<double>(); });
+  row.cells = distribution(contender, [](const ComparedRun& r) {
+    return r.solved() && r.cells ? std::optional(static_cast<double>(*r.cells)) : std::nullopt;
+  });
+  row.turn_rad =
+      distribution(contender, [](const ComparedRun& r) { return r.solved() ? r.turn_rad : std::optional<double>(); });
+  row.search_s =
+      distribution(contender, [](const ComparedRun& r) { return r.solved() ? r.search_s : std::optional<double>(); });
+  row.expanded =
+      distribution(contender, [](const ComparedRun& r) { return std::optional(static_cast<double>(r.expanded)); });
+  row.time_s = distribution(contender, [](const ComparedRun& r) { return std::optional(r.time_s); });
+  return row;
+}
+
+std::vector<std::pair<std::string, std::string>> json_options(const std::vector<NamedFigure>& options) {
+  std::vector<std::pair<std::string, std::string>> texts;
+  for (const auto& [name, value] : options) {
+    texts.emplace_back(name, figure_json(value));
+  }
+  return texts;
+}
+
+std::optional<double> number_in_word(const std::string& word) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const bool is_number = error == std::errc{} && end == word.data() + word.size() && std::isfinite(value);
+  return is_number ? std::optional(value) : std::nullopt;
+}
+
+std::string contender_name(const Contender& contender, bool with_planner) {
+  std::string name = with_planner ? contender.planner : "";
+  for (const std::string& part : {contender.search, contender.queue}) {
+    if (!part.empty()) name += (name.empty() ? "" : ", ") + part;
+  }
+  return name;
+}
+
+std::string options_text(const Contender& contender) {
+  return fmt::format("{}", fmt::join(option_parts(contender), ", "));
+}
+
+std::vector<const Contender*> contenders_of(const Comparison& comparison, std::size_t problem) {
+  std::vector<const Contender*> all;
+  for (const Contender& c : comparison.contenders) {
+    if (c.problem == problem) all.push_back(&c);
+  }
+  return all;
+}
+
+std::vector<std::string> plot_names_of(std::span<const Contender* const> contenders, bool with_planner) {
+  std::vector<std::vector<std::string>> all;
+  for (const Contender* c : contenders) all.push_back(name_parts(*c, with_planner));
+  const auto is_common = [&](const std::string& part) {
+    return all.size() > 1 && std::all_of(all.begin(), all.end(), [&](const auto& parts) {
+             return std::find(parts.begin(), parts.end(), part) != parts.end();
+           });
+  };
+  std::vector<std::string> names;
+  for (const std::vector<std::string>& parts : all) {
+    std::vector<std::string> own;
+    std::copy_if(parts.begin(), parts.end(), std::back_inserter(own),
+                 [&](const auto& part) { return !is_common(part); });
+    names.push_back(fmt::format("{}", fmt::join(own.empty() ? parts : own, ", ")));
+  }
+  return names;
+}
+
+std::vector<std::size_t> turns(std::size_t count, std::uint64_t round) {
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  SequentialRng rng(round);
+  for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[rng.below(i)]);
+  return order;
+}
+
+namespace {
+
+constexpr double least_s = 1e-9;  // a time that the clock's cost has eaten up
+
+bool same_way(const SweepCurve& curve, const Contender& c) {
+  return curve.search == c.search && curve.queue == c.queue && curve.library == c.library;
+}
+
+/// The line y = level + slope · x of least squares; none where all x are alike.
+struct Line {
+  double level;
+  double slope;
+};
+std::optional<Line> fitted_line(const std::vector<Vec2>& points) {
+  Vec2 mean;
+  for (const Vec2 p : points) mean = mean + p;
+  mean = 1.0 / static_cast<double>(points.size()) * mean;
+  double xx = 0.0;
+  double xy = 0.0;
+  for (const Vec2 p : points) {
+    xx += (p.x - mean.x) * (p.x - mean.x);
+    xy += (p.x - mean.x) * (p.y - mean.y);
+  }
+  if (xx <= 0.0) return std::nullopt;
+  return Line{mean.y - xy / xx * mean.x, xy / xx};
+}
+
+/// Where the line through these points, both axes as logarithms, rises through 1.
+std::optional<double> rise_through_one(const std::vector<Vec2>& points) {
+  std::vector<Vec2> logarithms;
+  for (const Vec2 p : points) logarithms.push_back({std::log(p.x), std::log(p.y)});
+  const std::optional<Line> line = fitted_line(logarithms);
+  if (!line || line->slope <= 0.0) return std::nullopt;
+  const double size = std::exp(-line->level / line->slope);
+  return std::isfinite(size) ? std::optional(size) : std::nullopt;
+}
+
+std::vector<Vec2> ratios_of(const SweepCurve& array, const SweepCurve& heap) {
+  std::vector<Vec2> ratios;
+  for (const Vec2 a : array.points) {
+    for (const Vec2 h : heap.points) {
+      if (a.x == h.x) ratios.push_back({a.x, a.y / h.y});
+    }
+  }
+  return ratios;
+}
+
+QueueCrossing crossing_of(const SweepCurve& array, const SweepCurve& heap) {
+  QueueCrossing c;
+  c.search = array.search;
+  c.array = array.queue;
+  c.heap = heap.queue;
+  c.ratios = ratios_of(array, heap);
+  const auto last_not_slower = std::find_if(c.ratios.rbegin(), c.ratios.rend(), [](Vec2 r) { return r.y <= 1.0; });
+  if (last_not_slower != c.ratios.rend()) c.not_slower_at = last_not_slower->x;
+  if (last_not_slower != c.ratios.rbegin()) c.slower_from = std::prev(last_not_slower)->x;
+  if (c.not_slower_at && c.slower_from) c.crossing = rise_through_one({*last_not_slower, *std::prev(last_not_slower)});
+  if (!c.ratios.empty()) c.fitted = rise_through_one(c.ratios);
+  return c;
+}
+
+bool is_heap(const SweepCurve& curve) {
+  return curve.queue == name_of(QueuePolicy::heap) || curve.queue == name_of(QueuePolicy::lazy_heap);
+}
+
+}  // namespace
+
+std::vector<SweepCurve> sweep_curves(const Comparison& comparison) {
+  std::vector<SweepCurve> curves;
+  std::vector<std::map<std::uint64_t, std::vector<double>>> medians;  // of each curve, by size
+  for (const Contender& c : comparison.contenders) {
+    const ComparedProblem& problem = comparison.problems[c.problem];
+    const ComparisonRow row = row_of(c);
+    if (problem.kind != "geometric" || row.solved == 0 || row.solved < row.runs) continue;
+    const auto curve = std::find_if(curves.begin(), curves.end(), [&](const auto& s) { return same_way(s, c); });
+    const auto place = static_cast<std::size_t>(curve - curves.begin());
+    if (curve == curves.end()) {
+      curves.push_back({c.search, c.queue, c.library, {}});
+      medians.emplace_back();
+    }
+    medians[place][problem.vertices].push_back(std::max(least_s, row.time_s->median));
+  }
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    for (const auto& [size, times] : medians[i]) {
+      double sum = 0.0;
+      for (const double t : times) sum += std::log(t);
+      curves[i].points.push_back({static_cast<double>(size), std::exp(sum / static_cast<double>(times.size()))});
+    }
+  }
+  return curves;
+}
+
+std::vector<QueueCrossing> queue_crossings(const std::vector<SweepCurve>& curves) {
+  std::vector<QueueCrossing> crossings;
+  for (const SweepCurve& array : curves) {
+    if (array.queue.empty() || is_heap(array) || array.library != name_of(SearchLibrary::warren)) continue;
+    for (const SweepCurve& heap : curves) {
+      if (is_heap(heap) && heap.search == array.search) crossings.push_back(crossing_of(array, heap));
+    }
+  }
+  return crossings;
+}
+
+}  // namespace warren::studies

@@ -1,0 +1,478 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Plots of a comparison. Random graphs: for each search that takes a queue, times against size, and beside them the
+// ratios to the heap, whose crossing of 1 is where array and heap cross. Else: what options that were dealt out do
+// (comparison_plots.cpp), for each contender the share of its runs that had found a path, against time, and how its
+// lengths, times and clearances are spread (comparison_plots.cpp).
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <map>
+#include <utility>
+
+#include "apps/studies/comparison.hpp"
+#include "apps/studies/comparison_report.hpp"
+#include "apps/studies/statistics.hpp"
+#include "pictures/plots/plot.hpp"
+#include "scenes/scene/unit_of.hpp"
+#include "scenes/text/human_units.hpp"
+
+namespace warren::studies {
+namespace {
+
+std::string series_name(const SweepCurve& curve) {
+  if (curve.library != "warren") return curve.library;
+  return curve.queue.empty() ? curve.search : curve.queue;
+}
+
+/// Its place among all names: the same in the plots of all searches.
+std::size_t color_of(const std::vector<SweepCurve>& curves, const std::string& name) {
+  std::vector<std::string> names;
+  for (const SweepCurve& curve : curves) add_once(names, series_name(curve));
+  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+Plot time_plot(const std::vector<SweepCurve>& curves, const std::string& search) {
+  Plot plot{.title = search + " on random geometric graphs",
+            .x_label = "vertices",
+            .y_label = "seconds a search (median)",
+            .log_x = true,
+            .log_y = true,
+            .series = {}};
+  for (const SweepCurve& curve : curves) {
+    if (curve.search != search) continue;
+    plot.series.push_back(
+        {.name = series_name(curve), .points = curve.points, .color = color_of(curves, series_name(curve))});
+  }
+  return plot;
+}
+
+/// Against the first heap of the search.
+Plot ratio_plot(const std::vector<SweepCurve>& curves, const std::string& search) {
+  Plot plot{.title = search + ": where array and heap cross",
+            .x_label = "vertices",
+            .y_label = "time of the array over the heap's",
+            .log_x = true,
+            .log_y = true,
+            .series = {},
+            .level = 1.0};
+  std::string heap;
+  for (const QueueCrossing& c : queue_crossings(curves)) {
+    if (c.search != search || (!heap.empty() && c.heap != heap)) continue;
+    heap = c.heap;
+    plot.series.push_back({.name = c.array, .points = c.ratios, .color = color_of(curves, c.array)});
+    if (c.crossing) plot.series.back().name += fmt::format(", crosses at {:.0f}", *c.crossing);
+  }
+  plot.level_name = "as fast as the " + heap;
+  return plot;
+}
+
+std::vector<Plot> sweep_plots(const std::vector<SweepCurve>& curves) {
+  std::vector<Plot> plots;
+  for (const std::string search : {"dijkstra", "astar", "bfs", "dfs"}) {
+    Plot times = time_plot(curves, search);
+    if (times.series.empty()) continue;
+    plots.push_back(std::move(times));
+    Plot ratios = ratio_plot(curves, search);
+    if (!ratios.series.empty()) plots.push_back(std::move(ratios));
+  }
+  return plots;
+}
+
+/// The share of the runs that were solved within each of their times, thinned to what a plot can show.
+std::vector<Vec2> solved_shares(const Contender& contender) {
+  constexpr std::size_t most_points = 40;
+  std::vector<double> times;
+  for (const ComparedRun& run : contender.runs) {
+    if (run.solved()) times.push_back(run.time_s);
+  }
+  std::sort(times.begin(), times.end());
+  const std::size_t step = times.size() / most_points + 1;
+  std::vector<Vec2> points;
+  for (std::size_t i = 0; i < times.size(); i += step) {
+    points.push_back({times[i], 100.0 * static_cast<double>(i + 1) / static_cast<double>(contender.runs.size())});
+  }
+  return points;
+}
+
+std::vector<Plot> share_plots(const Comparison& comparison) {
+  std::vector<Plot> plots;
+  for (std::size_t problem = 0; problem < comparison.problems.size(); ++problem) {
+    const bool planners = comparison.problems[problem].kind.empty();
+    Plot plot{.title = comparison.problems[problem].source + ": solved",
+              .x_label = "seconds",
+              .y_label = "per cent of the runs solved within",
+              .log_x = true,
+              .from_zero = true,
+              .series = {}};
+    const std::vector<const Contender*> contenders = contenders_of(comparison, problem);
+    const std::vector<std::string> names = plot_names_of(contenders, planners);
+    for (std::size_t i = 0; i < contenders.size(); ++i) {
+      plot.series.push_back({names[i], solved_shares(*contenders[i])});
+    }
+    plots.push_back(std::move(plot));
+  }
+  return plots;
+}
+
+}  // namespace
+
+std::vector<PlotSheet> comparison_panels(const Comparison& comparison) {
+  std::vector<PlotSheet> panels = list_panels(comparison);
+  const std::vector<SweepCurve> curves = sweep_curves(comparison);
+  const bool is_alone = panels.empty();
+  for (const Plot& plot : curves.empty() ? share_plots(comparison) : sweep_plots(curves)) {
+    if (!curves.empty() || is_alone || plot.series.size() <= colors::series.size()) panels.push_back(sheet_of(plot));
+  }
+  if (curves.empty()) {
+    for (PlotSheet& panel : box_panels(comparison)) panels.push_back(std::move(panel));
+  }
+  return panels;
+}
+
+PlotsPage comparison_plots(const Comparison& comparison) {
+  constexpr std::size_t side_by_side = 2;
+  constexpr std::size_t figures = 3;
+  return {comparison_panels(comparison), list_panels(comparison).empty() ? side_by_side : figures};
+}
+
+// Box plots of a comparison: how lengths, times and clearances of each contender's runs are spread, how many runs there
+// were and how many of them found a path.
+
+namespace {
+
+/// One of the figures that are drawn.
+struct BoxedFigure {
+  std::string_view name;
+  std::string_view label;  ///< of its axis
+  bool is_time;            ///< may be logarithmic; the others are lengths
+  std::optional<double> (*value)(const ComparedRun& run);
+  std::string (*text)(double value);
+};
+
+constexpr BoxedFigure boxed_figures[] = {
+    {"length", "length of the paths", false,
+     [](const ComparedRun& r) { return r.solved() ? std::optional(r.length) : std::nullopt; }, human_number},
+    {"time", "seconds, of all runs", true, [](const ComparedRun& r) { return std::optional(r.time_s); },
+     precise_seconds},
+    {"clearance", "clearance of the paths", false,
+     [](const ComparedRun& r) { return r.solved() ? r.min_clearance : std::nullopt; }, human_number},
+};
+
+std::optional<BoxFigures> figures_of(const Contender& contender, const BoxedFigure& figure) {
+  std::vector<double> values;
+  for (const ComparedRun& run : contender.runs) {
+    if (const auto value = figure.value(run)) values.push_back(*value);
+  }
+  return box_figures_of(std::move(values));
+}
+
+std::string solved_text(const Contender& contender) {
+  const auto solved =
+      std::count_if(contender.runs.begin(), contender.runs.end(), [](const ComparedRun& run) { return run.solved(); });
+  return fmt::format("{} of {}", solved == 0 ? "none" : std::to_string(solved), contender.runs.size());
+}
+
+/// Do boxes of values that reach over more than a decade leave most of them in a corner?
+bool is_spread(const BoxPlot& plot) {
+  constexpr double wide = 10.0;
+  double low = 0.0;
+  double high = 0.0;
+  for (const PlottedBox& box : plot.boxes) {
+    if (!box.figures) continue;
+    const double least =
+        box.figures->outliers.empty() ? box.figures->low : std::min(box.figures->low, box.figures->outliers.front());
+    low = high > 0.0 ? std::min(low, least) : least;
+    high = std::max({high, box.figures->high, box.figures->outliers.empty() ? 0.0 : box.figures->outliers.back()});
+  }
+  return low > 0.0 && high > wide * low;
+}
+
+/// Nothing where no contender's runs differ.
+std::optional<BoxPlot> box_plot(const Comparison& comparison, std::size_t problem, const BoxedFigure& figure) {
+  const bool planners = comparison.problems[problem].kind.empty();
+  const bool is_metres = !metres_behind(comparison.problems[problem].unit).empty();
+  BoxPlot plot{.title = fmt::format("{}: {}", comparison.problems[problem].source, figure.name),
+               .label = std::string(figure.label).append(is_metres && !figure.is_time ? " (m)" : ""),
+               .remarks = "solved",
+               .text = figure.text};
+  bool any_differ = false;
+  const std::vector<const Contender*> contenders = contenders_of(comparison, problem);
+  const std::vector<std::string> names = plot_names_of(contenders, planners);
+  for (std::size_t i = 0; i < contenders.size(); ++i) {
+    PlottedBox& box =
+        plot.boxes.emplace_back(PlottedBox{names[i], solved_text(*contenders[i]), figures_of(*contenders[i], figure)});
+    any_differ =
+        any_differ || (box.figures && (box.figures->low < box.figures->high || !box.figures->outliers.empty()));
+  }
+  plot.logarithmic = figure.is_time && is_spread(plot);
+  return any_differ ? std::optional(std::move(plot)) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<BoxFigures> box_figures_of(std::vector<double> values) {
+  if (values.empty()) return std::nullopt;
+  std::sort(values.begin(), values.end());
+  BoxFigures box{
+      .q1 = sorted_quantile(values, 0.25), .median = sorted_quantile(values, 0.5), .q3 = sorted_quantile(values, 0.75)};
+  const double reach = 1.5 * (box.q3 - box.q1);
+  const auto first = std::lower_bound(values.begin(), values.end(), box.q1 - reach);
+  const auto last = std::upper_bound(first, values.end(), box.q3 + reach);
+  box.low = std::min(*first, box.q1);
+  box.high = std::max(*(last - 1), box.q3);
+  box.outliers.assign(values.begin(), first);
+  box.outliers.insert(box.outliers.end(), last, values.end());
+  return box;
+}
+
+std::vector<PlotSheet> box_panels(const Comparison& comparison) {
+  std::vector<PlotSheet> panels;
+  for (std::size_t problem = 0; problem < comparison.problems.size(); ++problem) {
+    if (contenders_of(comparison, problem).size() > most_boxes) continue;
+    for (const BoxedFigure& figure : boxed_figures) {
+      if (const auto plot = box_plot(comparison, problem, figure)) panels.push_back(sheet_of(*plot));
+    }
+  }
+  return panels;
+}
+
+std::string note_on_box_plots(const Comparison& comparison) {
+  if (!sweep_tables(comparison).empty()) return {};
+  for (std::size_t problem = 0; problem < comparison.problems.size(); ++problem) {
+    const std::size_t count = contenders_of(comparison, problem).size();
+    if (count > most_boxes) {
+      return fmt::format("no box plots: they show at most {} planners or searches, and here are {}", most_boxes, count);
+    }
+  }
+  return {};
+}
+
+// Plots of what options that were dealt out do. Where a planner takes the values of one option in turn: success with
+// its interval, lengths and times with their quartiles, against its value. Where it takes those of more: the same as
+// heat maps over the two options with most values, one row of maps for each way to take the others, and as lines over
+// one of the two, one line a value of the other.
+
+namespace {
+
+using Words = std::vector<std::pair<std::string, std::string>>;
+
+/// One of the figures that are shown against options.
+struct ShownFigure {
+  std::string_view name;
+  std::string_view label;                                 ///< of its axis
+  std::optional<Vec2> (*span)(const ComparisonRow& row);  ///< its interval or quartiles
+  std::optional<double> (*value)(const ComparisonRow& row);
+  std::string (*text)(double value);
+};
+
+template <auto Field>
+std::optional<double> median(const ComparisonRow& row) {
+  return row.*Field ? std::optional((row.*Field)->median) : std::nullopt;
+}
+template <auto Field>
+std::optional<Vec2> quartiles(const ComparisonRow& row) {
+  return row.*Field ? std::optional(Vec2{(row.*Field)->q1, (row.*Field)->q3}) : std::nullopt;
+}
+std::optional<double> success(const ComparisonRow& row) {
+  if (row.runs == 0) return std::nullopt;
+  return 100.0 * static_cast<double>(row.solved) / static_cast<double>(row.runs);
+}
+std::optional<Vec2> success_interval(const ComparisonRow& row) {
+  return Vec2{100.0 * row.success.low, 100.0 * row.success.high};
+}
+std::string per_cent(double value) { return fmt::format("{:.0f} %", value); }
+
+constexpr std::size_t most_panels = 60;
+
+constexpr ShownFigure figures[] = {
+    {"runs solved", "per cent of the runs, 95 % interval", success_interval, success, per_cent},
+    {"median length", "length, with quartiles", quartiles<&ComparisonRow::length>, median<&ComparisonRow::length>,
+     human_number},
+    {"median time", "seconds, with quartiles", quartiles<&ComparisonRow::time_s>, median<&ComparisonRow::time_s>,
+     precise_seconds},
+};
+
+const std::string& word_of(const Words& dealt, const std::string& name) {
+  static const std::string none;
+  for (const auto& [option, word] : dealt) {
+    if (option == name) return word;
+  }
+  return none;
+}
+
+/// As the command line has it: goal-bias.
+std::string spelled(std::string option) {
+  std::ranges::replace(option, '_', '-');
+  return option;
+}
+
+/// Contenders that differ in nothing but the values on the axes.
+struct Family {
+  std::string name;                       ///< the planner, and what its contenders share of what was dealt
+  std::vector<std::string> axes;          ///< names of options, one or two
+  std::vector<const Contender*> members;  ///< all that take the axes' options
+};
+
+/// Of what the planner's contenders were dealt, the names of the two options with most values.
+std::vector<std::string> axes_of(const Comparison& comparison, const Contender& like) {
+  std::vector<std::pair<std::size_t, std::string>> by_count;
+  for (const auto& [name, word] : like.dealt) {
+    std::vector<std::string> words;
+    for (const Contender& c : comparison.contenders) {
+      if (c.planner == like.planner && c.problem == like.problem) add_once(words, word_of(c.dealt, name));
+    }
+    by_count.emplace_back(words.size(), name);
+  }
+  std::stable_sort(by_count.begin(), by_count.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<std::string> axes;
+  for (std::size_t i = 0; i < std::min<std::size_t>(2, by_count.size()); ++i) axes.push_back(by_count[i].second);
+  return axes;
+}
+
+std::vector<Family> families_of(const Comparison& comparison) {
+  std::vector<Family> families;
+  for (const Contender& c : comparison.contenders) {
+    if (c.dealt.empty()) continue;
+    Family family{c.planner, axes_of(comparison, c), {}};
+    for (const auto& [name, word] : c.dealt) {
+      const bool on_axis = std::find(family.axes.begin(), family.axes.end(), name) != family.axes.end();
+      if (!on_axis) family.name += fmt::format(", {} {}", spelled(name), word);
+    }
+    const auto same = std::find_if(families.begin(), families.end(),
+                                   [&](const Family& f) { return f.name == family.name && f.axes == family.axes; });
+    Family& of = same == families.end() ? families.emplace_back(std::move(family)) : *same;
+    of.members.push_back(&c);
+  }
+  return families;
+}
+
+HeatMap heat_map(const Family& family, const ShownFigure& figure) {
+  HeatMap map{.title = fmt::format("{}: {}", family.name, figure.name),
+              .x_label = spelled(family.axes[0]),
+              .y_label = spelled(family.axes[1])};
+  if (figure.text == per_cent) map.low = 0.0, map.high = 100.0;
+  map.less_is_better = figure.text != per_cent;
+  for (const Contender* c : family.members) {
+    add_once(map.columns, word_of(c->dealt, family.axes[0]));
+    add_once(map.rows, word_of(c->dealt, family.axes[1]));
+  }
+  map.cells.resize(map.columns.size() * map.rows.size());
+  for (const Contender* c : family.members) {
+    const auto index = [&](const std::vector<std::string>& words, const std::string& axis) {
+      return static_cast<std::size_t>(std::find(words.begin(), words.end(), word_of(c->dealt, axis)) - words.begin());
+    };
+    HeatMap::Cell& cell =
+        map.cells[index(map.rows, family.axes[1]) * map.columns.size() + index(map.columns, family.axes[0])];
+    cell.value = figure.value(row_of(*c));
+    cell.text = cell.value ? figure.text(*cell.value) : "none";
+  }
+  return map;
+}
+
+/// Over the values of an option. Nothing of an option whose values are no numbers.
+std::optional<PlotSeries> series_of(const Family& family, const std::string& option, const ShownFigure& figure) {
+  PlotSeries series{.name = family.name, .points = {}};
+  std::map<double, const Contender*> by_value;
+  for (const Contender* c : family.members) {
+    if (const auto x = number_in_word(word_of(c->dealt, option))) by_value[*x] = c;
+  }
+  for (const auto& [x, c] : by_value) {
+    const ComparisonRow row = row_of(*c);
+    const auto y = figure.value(row);
+    if (!y) continue;
+    series.points.push_back({x, *y});
+    series.spans.push_back(figure.span(row).value_or(Vec2{*y, *y}));
+  }
+  return by_value.size() < 2 || series.points.empty() ? std::nullopt : std::optional(std::move(series));
+}
+
+Plot plot_over(const std::string& option, const ShownFigure& figure) {
+  return {.title = fmt::format("{} against {}", figure.name, spelled(option)),
+          .x_label = spelled(option),
+          .y_label = std::string(figure.label),
+          .from_zero = figure.text == per_cent,
+          .series = {}};
+}
+
+/// What a heat map shows, as lines with intervals over one of its options, one a value of the other; nothing where
+/// neither option's values are numbers, or where there are more lines than colours.
+std::optional<Plot> sweep_plot(const Family& family, const ShownFigure& figure) {
+  for (const std::size_t x : {0U, 1U}) {
+    const std::string& other = family.axes[1 - x];
+    std::vector<std::string> values;
+    for (const Contender* c : family.members) add_once(values, word_of(c->dealt, other));
+    Plot plot = plot_over(family.axes[x], figure);
+    plot.title = fmt::format("{}: {}", family.name, plot.title);
+    for (const std::string& value : values) {
+      Family line{fmt::format("{} {}", spelled(other), value), {}, {}};
+      std::ranges::copy_if(family.members, std::back_inserter(line.members),
+                           [&](const Contender* c) { return word_of(c->dealt, other) == value; });
+      auto series = series_of(line, family.axes[x], figure);
+      if (!series) continue;
+      series->color = static_cast<std::size_t>(&value - values.data());
+      plot.series.push_back(std::move(*series));
+    }
+    if (!plot.series.empty() && plot.series.size() <= colors::series.size()) return plot;
+  }
+  return std::nullopt;
+}
+
+/// Planners that take the values of the same option are in one plot.
+std::vector<PlotSheet> line_panels(const std::vector<Family>& families) {
+  std::vector<std::string> options;
+  for (const Family& family : families) {
+    if (family.axes.size() == 1) add_once(options, family.axes[0]);
+  }
+  std::vector<PlotSheet> panels;
+  for (const std::string& option : options) {
+    for (const ShownFigure& figure : figures) {
+      Plot plot = plot_over(option, figure);
+      std::size_t color = 0;  // of a family the same in all plots
+      for (const Family& family : families) {
+        if (family.axes.size() != 1) continue;
+        const std::size_t own = color++;
+        if (family.axes[0] != option) continue;
+        auto series = series_of(family, option, figure);
+        if (!series) continue;
+        series->color = own;
+        plot.series.push_back(std::move(*series));
+      }
+      if (!plot.series.empty()) panels.push_back(sheet_of(plot));
+    }
+  }
+  return panels;
+}
+
+}  // namespace
+
+std::string note_on_heat_maps(const Comparison& comparison) {
+  const std::vector<Family> families = families_of(comparison);
+  const auto has_map = [](const Family& family) { return family.axes.size() == 2; };
+  const auto maps =
+      std::size(figures) * static_cast<std::size_t>(std::count_if(families.begin(), families.end(), has_map));
+  const std::size_t drawn = most_panels - std::min(most_panels, line_panels(families).size());
+  if (maps <= drawn) return {};
+  return fmt::format("{} of {} heat maps are drawn: shorten a list, or take the figures from --csv FILE", drawn, maps);
+}
+
+std::vector<PlotSheet> list_panels(const Comparison& comparison) {
+  const std::vector<Family> families = families_of(comparison);
+  std::vector<PlotSheet> panels = line_panels(families);
+  for (const Family& family : families) {
+    for (const ShownFigure& figure : figures) {
+      if (family.axes.size() == 2 && panels.size() < most_panels) panels.push_back(sheet_of(heat_map(family, figure)));
+    }
+  }
+  for (const Family& family : families) {
+    for (const ShownFigure& figure : figures) {
+      if (family.axes.size() != 2 || panels.size() >= most_panels) continue;
+      if (const auto plot = sweep_plot(family, figure)) panels.push_back(sheet_of(*plot));
+    }
+  }
+  return panels;
+}
+
+}  // namespace warren::studies

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/studies/contest_pictures.hpp"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <iterator>
+#include <optional>
+#include <set>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/base/types.hpp"
+#include "parallel/execution.hpp"
+#include "pictures/draw_answer.hpp"
+#include "pictures/formats/write_picture.hpp"
+#include "pictures/layers/draw_cells.hpp"
+#include "pictures/layers/lines_side_by_side.hpp"
+#include "pictures/model/picture.hpp"
+#include "planners/graph/roadmap_arrays.hpp"
+#include "scenes/scene/scene.hpp"
+#include "scenes/text/human_units.hpp"
+#include "solve/answer/world_account.hpp"
+#include "worlds/rasters/map_borders.hpp"
+
+namespace warren::studies {
+// One figure of several paths through a world, each in a colour of its own with its name in the legend; where paths run
+// along the same stretches they take turns in dashes.
+
+struct NamedPath {
+  std::string label;         ///< in the legend
+  std::vector<Vec2> points;  ///< arcs as chords
+};
+
+struct PathsFigure {
+  std::vector<NamedPath> paths = {};
+  const PlannedRoadmap<Vec2>* roadmap = nullptr;  ///< drawn below the paths; nullptr: none
+  std::optional<Vec2> start = {};
+  std::optional<Vec2> goal = {};
+  std::string subtitle = {};
+};
+
+/// Writes FOLDER/NAME. Returns what is drawn otherwise than usual, a line each that begins with the name. Throws
+/// WriteError, Stopped.
+std::vector<std::string> write_named(const std::string& folder, const std::string& name, const Picture& picture,
+                                     const PictureOptions& look, const Execution& execution);
+
+/// The same of the figure. A map's scene has its border walls.
+std::vector<std::string> draw_paths(const std::string& folder, const std::string& name, const Scene& scene,
+                                    const PathsFigure& figure, const PictureOptions& look, const Execution& execution);
+
+namespace {
+
+/// Of the runs that were solved, the one whose path is of median length; nullptr where none was.
+const ComparedRun* median_run(const Contender& contender) {
+  std::vector<const ComparedRun*> solved;
+  for (const ComparedRun& run : contender.runs) {
+    if (run.solved()) solved.push_back(&run);
+  }
+  if (solved.empty()) return nullptr;
+  const auto middle = solved.begin() + static_cast<std::ptrdiff_t>((solved.size() - 1) / 2);
+  std::nth_element(solved.begin(), middle, solved.end(), [](const ComparedRun* a, const ComparedRun* b) {
+    return a->length != b->length ? a->length < b->length : a->seed < b->seed;
+  });
+  return *middle;
+}
+
+/// Letters, digits and dashes as they are, all else as one underscore.
+std::string file_name(std::string_view text) {
+  std::string name;
+  for (const char c : text) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
+    if (plain) {
+      name += c;
+    } else if (!name.empty() && name.back() != '_') {
+      name += '_';
+    }
+  }
+  while (name.ends_with('_')) name.pop_back();
+  return name;
+}
+
+class ContestPictures {
+ public:
+  ContestPictures(const Scene& scene, const PlannerContestOptions& options, const std::string& folder,
+                  const Execution& execution)
+      : scene_(scene), options_(options), folder_(folder), execution_(execution) {}
+
+  void draw(const Contender& contender, const PlannerContender& asked) {
+    const ComparedRun* run = median_run(contender);
+    const std::uint64_t seed = run != nullptr ? run->seed : options_.first_seed;
+    ByProducts made;
+    const Answer answer = solve_contender(scene_, asked, seed, execution_, &made);
+    const Drawing drawing = drawing_of(scene_, answer, std::move(made), execution_, options_.look.heading);
+    const std::string said = options_text(contender);
+    const std::string title = fmt::format("{}, {}{}seed {}: {}", title_of(scene_), contender.planner,
+                                          said.empty() ? ", " : ", " + said + ", ", seed, name_of(answer.outcome));
+    write(unused(file_name(contender.planner + " " + said)), title, picture_of(scene_, drawing));
+    add_path(drawing, said.empty() ? contender.planner : contender.planner + ", " + said,
+             run != nullptr ? run->length : 0.0);
+    for (const DrawingPage& page : drawing.pages) {
+      const std::string name = file_name(contender.planner) + "_" + page.id;
+      if (!names_.insert(name).second) continue;
+      write(name, title_of(scene_) + ": " + page.id, picture_of(scene_, drawing, page));
+    }
+  }
+  /// The paths of all contenders in one figure.
+  void draw_paths() {
+    if (paths_.paths.size() < 2) return;
+    paths_.subtitle = fmt::format("{}\nof each planner the path of median length", description_of(scene_));
+    keep(studies::draw_paths(folder_, unused("paths") + ".svg", scene_, paths_, options_.look, execution_));
+  }
+  /// What was drawn otherwise than usual.
+  std::vector<std::string> take_notes() { return std::move(notes_); }
+
+ private:
+  std::string unused(const std::string& wanted) {
+    std::string name = wanted;
+    for (int i = 2; !names_.insert(name).second; ++i) name = fmt::format("{}_{}", wanted, i);
+    return name;
+  }
+  /// Keeps what the figure of all paths shows; an arm's are in joint space.
+  void add_path(const Drawing& drawing, const std::string& label, double length) {
+    if (drawing.path.size() < 2) return;
+    paths_.paths.push_back(
+        {fmt::format("{}: length {}", label, human_number(length)), without_arcs(drawing.path, drawing.path_turns)});
+    paths_.start = drawing.start;
+    paths_.goal = drawing.goal;
+  }
+  void keep(std::vector<std::string> notes) { std::move(notes.begin(), notes.end(), std::back_inserter(notes_)); }
+  void write(const std::string& name, const std::string& title, Picture picture) {
+    picture.title = title;
+    picture.description = description_of(scene_);
+    keep(write_named(folder_, name + ".svg", picture, options_.look, execution_));
+  }
+
+  const Scene& scene_;
+  const PlannerContestOptions& options_;
+  const std::string& folder_;
+  const Execution& execution_;
+  std::set<std::string> names_;
+  PathsFigure paths_;
+  std::vector<std::string> notes_;
+};
+
+}  // namespace
+
+std::vector<std::string> draw_contest(const Scene& scene, const PlannerContestOptions& options,
+                                      const Comparison& comparison, const std::string& folder,
+                                      const Execution& execution) {
+  ContestPictures pictures(scene, options, folder, execution);
+  for (std::size_t i = 0; i < options.contenders.size(); ++i) {
+    execution.check();
+    pictures.draw(comparison.contenders[i], options.contenders[i]);
+  }
+  pictures.draw_paths();
+  return pictures.take_notes();
+}
+
+void make_folder(const std::string& folder) {
+  constexpr mode_t all_that_the_mask_leaves = 0777;
+  const bool made = ::mkdir(folder.c_str(), all_that_the_mask_leaves) == 0;
+  const int error = errno;
+  struct stat status {};
+  const bool is_folder = ::stat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode);
+  if (!is_folder) throw WriteError(folder, std::generic_category().message(made ? ENOTDIR : error));
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) throw WriteError(folder, std::generic_category().message(errno));
+}
+
+namespace {
+
+/// Some sixty dashes across all that is drawn.
+double dash_of(const std::vector<std::vector<Vec2>>& paths) {
+  Box box;
+  for (const std::vector<Vec2>& path : paths) {
+    for (const Vec2 p : path) box.include(p);
+  }
+  const double extent = box.empty() ? 0.0 : std::max(box.width(), box.height());
+  return extent > 0.0 ? extent / 60.0 : 1.0;
+}
+
+}  // namespace
+
+std::vector<std::string> write_named(const std::string& folder, const std::string& name, const Picture& picture,
+                                     const PictureOptions& look, const Execution& execution) {
+  std::vector<std::string> notes = write_picture(folder + "/" + name, picture, look, execution);
+  for (std::string& note : notes) note = fmt::format("{}: drawn {}", name, note);
+  return notes;
+}
+
+std::vector<std::string> draw_paths(const std::string& folder, const std::string& name, const Scene& scene,
+                                    const PathsFigure& figure, const PictureOptions& look, const Execution& execution) {
+  std::vector<PictureLayer> layers;
+  if (scene.map) layers = cells_of_map(*scene.map, execution);
+  std::vector<std::vector<Vec2>> points;
+  for (const NamedPath& path : figure.paths) points.push_back(path.points);
+  std::vector<PolygonSet> lines = lines_side_by_side(points, dash_of(points), execution);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    layers.push_back({.id = fmt::format("path_{}", i + 1),
+                      .label = figure.paths[i].label,
+                      .part = Part::path,
+                      .color = colors::series[i % colors::series.size()],
+                      .width = 0.8 * widths::path,
+                      .lines = std::move(lines[i])});
+  }
+  const Picture picture{.scene = scene,
+                        .roadmap = figure.roadmap,
+                        .layers = layers,
+                        .start = figure.start,
+                        .goal = figure.goal,
+                        .title = title_of(scene),
+                        .subtitle = figure.subtitle,
+                        .description = description_of(scene)};
+  return write_named(folder, name, picture, look, execution);
+}
+
+namespace {
+
+/// A path that one or more variants of a search found.
+struct FoundPath {
+  SearchVariant first;
+  std::size_t variants = 1;
+  std::uint64_t expanded = 0;
+  RawVector<VertexId> path = {};
+};
+
+/// Those that found something, in the order of the options.
+std::vector<FoundPath> found_paths(const SearchGraph& graph, const SearchContestOptions& options,
+                                   const Execution& execution) {
+  std::vector<FoundPath> all;
+  for (const SearchVariant& variant : options.variants) {
+    execution.check();
+    const Deadline deadline(execution.deadline, options.budget_s);
+    Execution within = execution;
+    within.deadline = &deadline;
+    SearchResult result = graph_search(graph, variant)->run(within);
+    if (result.status != SearchStatus::found) continue;
+    const auto same = std::find_if(all.begin(), all.end(), [&](const FoundPath& f) {
+      return f.first.search == variant.search && f.expanded == result.expanded && f.path == result.path;
+    });
+    if (same != all.end()) {
+      ++same->variants;
+    } else {
+      all.push_back({.first = variant, .expanded = result.expanded, .path = std::move(result.path)});
+    }
+  }
+  return all;
+}
+
+/// A search's name alone where all its variants found the same.
+std::string label_of(const FoundPath& found, const std::vector<FoundPath>& all, const SearchGraph& graph) {
+  std::string name{name_of(found.first.search)};
+  const auto alike =
+      std::count_if(all.begin(), all.end(), [&](const FoundPath& f) { return f.first.search == found.first.search; });
+  if (alike > 1) {
+    if (found.first.queue) name.append(", ").append(name_of(*found.first.queue));
+    if (found.first.library != SearchLibrary::warren) name.append(", ").append(name_of(found.first.library));
+    if (found.variants > 1) name += fmt::format(" and {} more", found.variants - 1);
+  }
+  return fmt::format("{}: length {}, {} settled", name, human_number(path_length(graph, found.path)),
+                     grouped(found.expanded));
+}
+
+}  // namespace
+
+std::vector<std::string> draw_searches(const Scene& world, const SearchGraph& graph,
+                                       const SearchContestOptions& options, const std::string& folder,
+                                       const PictureOptions& look, const Execution& execution) {
+  Scene scene = world;
+  add_map_walls(scene, execution);
+  PlannedRoadmap<Vec2> roadmap{.states = {}, .graph = graph.graph, .search_tree = {}};
+  for (const Vec2 p : graph.at) roadmap.states.push_back(p);
+  PathsFigure figure{.roadmap = &roadmap,
+                     .start = graph.at[graph.start],
+                     .goal = graph.at[graph.goal],
+                     .subtitle = fmt::format("{}\ngraph of {}: {}, {}", description_of(scene), graph.kind,
+                                             counted(graph.graph.vertex_count(), "vertex", "vertices"),
+                                             counted(graph.graph.edge_count(), "edge", "edges"))};
+  const std::vector<FoundPath> all = found_paths(graph, options, execution);
+  for (const FoundPath& found : all) {
+    NamedPath& path = figure.paths.emplace_back(NamedPath{label_of(found, all, graph), {}});
+    for (const VertexId v : found.path) path.points.push_back(graph.at[v]);
+  }
+  if (all.empty()) figure.subtitle += "; no search found a path";
+  return draw_paths(folder, "searches.svg", scene, figure, look, execution);
+}
+
+}  // namespace warren::studies

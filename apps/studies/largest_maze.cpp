@@ -1,0 +1,449 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/studies/largest_maze.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <new>
+#include <numbers>
+
+#include "apps/studies/bfs_funnel_baseline.hpp"
+#include "core/base/error.hpp"
+#include "pictures/plots/plot.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "scenes/text/human_units.hpp"
+#include "solve/answer/answer.hpp"
+
+namespace warren::studies {
+namespace {
+
+std::uint32_t extent(double cells) {
+  return static_cast<std::uint32_t>(std::clamp(std::round(cells), 1.0, 4294967295.0));
+}
+
+/// One search: sizes come from size_search, mazes and runs from maze_trial.
+class LargestSearch {
+ public:
+  LargestSearch(const LargestOptions& options, const Execution& execution,
+                const std::function<void(std::string_view)>& note)
+      : options_(options), execution_(execution), note_(note) {}
+
+  void search();
+  LargestResult& result() { return result_; }
+
+ private:
+  MazeOptions maze(std::uint32_t side, std::uint64_t seed) const;
+  void probe();
+  bool fits(std::uint32_t side);
+  void confirm(std::uint32_t side);
+  bool all_seeds_fit(std::uint32_t side, bool first_is_known);
+  std::optional<MazeTrial> trial(const MazeOptions& maze, bool last);
+  bool has_memory_for(const MazeOptions& maze);
+  bool within_budget(const MazeTrial& t) const { return t.verified && t.solve_s <= options_.budget_s; }
+  void measure_bar(const Scene& scene);
+  void say(const MazeTrial& t) const;
+
+  const LargestOptions& options_;
+  const Execution& execution_;
+  const std::function<void(std::string_view)>& note_;
+  LargestResult result_;
+  WarmMemory warm_;
+  double bytes_a_cell_ = 0.0;  // of the last run that came to its end
+};
+
+void LargestSearch::search() {
+  probe();
+  const std::uint32_t side = largest_side(options_.sizes, [&](std::uint32_t n) { return fits(n); });
+  if (side > 0) confirm(side);
+}
+
+/// What a cell takes, learned from a smaller maze: else the memory of a large first one could not be warmed, nor known
+/// to be too little.
+void LargestSearch::probe() {
+  constexpr std::uint32_t large = 2000;
+  constexpr std::uint32_t enough = 500;
+  if (options_.sizes.start > large) trial(maze(std::max(enough, options_.sizes.start / 10), options_.maze.seed), false);
+}
+
+/// The shape keeps the number of cells: rows * cols is about side * side.
+MazeOptions LargestSearch::maze(std::uint32_t side, std::uint64_t seed) const {
+  MazeOptions maze = options_.maze;
+  const double lean = std::sqrt(options_.shape_rows / options_.shape_cols);
+  maze.rows = extent(side * lean);
+  maze.cols = extent(side / lean);
+  maze.seed = seed;
+  return maze;
+}
+
+bool LargestSearch::fits(std::uint32_t side) {
+  const auto ran = trial(maze(side, options_.maze.seed), false);
+  if (!ran || !within_budget(*ran)) return false;
+  result_.best = {*ran};
+  return true;
+}
+
+void LargestSearch::confirm(std::uint32_t side) {
+  bool known = options_.seeds > 1;  // the first seed has run; with one seed it runs again, as the independent check
+  while (side > 0 && !all_seeds_fit(side, known)) {
+    side = side_below(options_.sizes, side);
+    known = false;
+  }
+  result_.confirmed = side > 0;
+}
+
+bool LargestSearch::all_seeds_fit(std::uint32_t side, bool first_is_known) {
+  std::vector<MazeTrial> runs;
+  if (first_is_known) runs = result_.best;
+  while (runs.size() < options_.seeds) {
+    const std::uint64_t seed = options_.maze.seed + runs.size();
+    const auto ran = trial(maze(side, seed), runs.size() + 1 == options_.seeds);
+    if (!ran || !within_budget(*ran)) {
+      result_.best.clear();
+      return false;
+    }
+    runs.push_back(*ran);
+    result_.best = runs;
+  }
+  return true;
+}
+
+/// A size that is expected not to fit is not begun.
+bool LargestSearch::has_memory_for(const MazeOptions& maze) {
+  const double cells = static_cast<double>(maze.rows) * maze.cols;
+  const auto expected = static_cast<std::size_t>(bytes_a_cell_ * cells);
+  if (expected > execution_.deadline->memory_bytes()) {
+    result_.unbegun.push_back({maze.rows, maze.cols, expected});
+    note_(fmt::format("{:>6} x {:<6} not begun: it would need {}", maze.rows, maze.cols,
+                      human_bytes(static_cast<double>(expected))));
+    return false;
+  }
+  warm_.prepare(expected, execution_);
+  result_.touch = warm_.touch();
+  return true;
+}
+
+std::optional<MazeTrial> LargestSearch::trial(const MazeOptions& maze, bool last) {
+  if (!has_memory_for(maze)) return std::nullopt;
+  try {
+    double generate_s = 0.0;
+    const Scene scene = generate_trial(maze, options_.planner, execution_, generate_s);
+    MazeTrial ran = solve_trial(scene, maze, options_.question, options_.planner, options_.budget_s, execution_);
+    ran.generate_s = generate_s;
+    if (ran.outcome == Outcome::solved) bytes_a_cell_ = static_cast<double>(ran.peak_memory_bytes) / ran.cells();
+    result_.trials.push_back(ran);
+    say(ran);
+    if (last && within_budget(ran) && !is_unmade(scene)) measure_bar(scene);
+    return ran;
+  } catch (const Stopped& stopped) {
+    if (stopped.reason != StopReason::memory) throw;
+  } catch (const std::bad_alloc&) {
+  }
+  result_.unbegun.push_back({maze.rows, maze.cols, execution_.deadline->memory_bytes()});
+  note_(fmt::format("{:>6} x {:<6} too little memory to generate it", maze.rows, maze.cols));
+  return std::nullopt;
+}
+
+/// On the maze that was just solved, while its walls are in memory.
+void LargestSearch::measure_bar(const Scene& scene) {
+  const auto begin = std::chrono::steady_clock::now();
+  try {
+    const Path<Vec2> path = bfs_funnel(scene, execution_);
+    HonestBar bar;
+    bar.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    for (std::size_t i = 1; i < path.size(); ++i) bar.length += distance(path[i - 1], path[i]);
+    result_.bar = bar;
+  } catch (const Stopped& stopped) {
+    if (stopped.reason != StopReason::memory) throw;
+  } catch (const std::bad_alloc&) {  // then there is no bar
+  }
+}
+
+void LargestSearch::say(const MazeTrial& t) const {
+  const std::string_view verdict =
+      t.outcome == Outcome::solved ? (within_budget(t) ? "within the budget" : "over the budget") : verdict_of(t);
+  note_(fmt::format("{:>6} x {:<6} seed {}: {:>8}, {:>6.1f} ns a cell, {:>8}; {}", t.rows, t.cols, t.seed,
+                    human_seconds(t.solve_s), t.solve_s * 1e9 / t.cells(),
+                    human_bytes(static_cast<double>(t.peak_memory_bytes)), verdict));
+}
+
+}  // namespace
+
+const MazeTrial& median_trial(const LargestResult& result) {
+  std::vector<const MazeTrial*> runs;
+  for (const MazeTrial& t : result.best) runs.push_back(&t);
+  const auto middle = runs.begin() + static_cast<std::ptrdiff_t>(runs.size() / 2);
+  std::nth_element(runs.begin(), middle, runs.end(),
+                   [](const MazeTrial* a, const MazeTrial* b) { return a->solve_s < b->solve_s; });
+  return **middle;
+}
+
+LargestResult find_largest(const LargestOptions& options, const Execution& execution,
+                           const std::function<void(std::string_view)>& note) {
+  LargestSearch search(options, execution, note);
+  try {
+    search.search();
+  } catch (const Stopped& stopped) {
+    search.result().signal = stopped.reason;
+  }
+  return std::move(search.result());
+}
+
+namespace {
+
+/// A side that fits and a larger one that doesn't; 0: not found.
+struct Bracket {
+  std::uint32_t fits = 0;
+  std::uint32_t too_large = 0;
+};
+
+std::uint32_t doubled(std::uint32_t side, std::uint32_t most) {
+  const double next = std::ceil(side * std::numbers::sqrt2);
+  return next < most ? static_cast<std::uint32_t>(next) : most;
+}
+
+Bracket shrink(const SizeSearch& search, const std::function<bool(std::uint32_t)>& fits) {
+  Bracket bracket{0, search.start};
+  while (bracket.too_large > search.least) {
+    const auto side = std::max(search.least, static_cast<std::uint32_t>(bracket.too_large / std::numbers::sqrt2));
+    if (fits(side)) {
+      bracket.fits = side;
+      break;
+    }
+    bracket.too_large = side;
+  }
+  return bracket;
+}
+
+Bracket grow(const SizeSearch& search, const std::function<bool(std::uint32_t)>& fits) {
+  Bracket bracket{search.start, 0};
+  while (bracket.fits < search.most) {
+    const std::uint32_t side = doubled(bracket.fits, search.most);
+    if (!fits(side)) {
+      bracket.too_large = side;
+      break;
+    }
+    bracket.fits = side;
+  }
+  return bracket;
+}
+
+}  // namespace
+
+std::uint32_t largest_side(const SizeSearch& search, const std::function<bool(std::uint32_t)>& fits) {
+  Bracket bracket = fits(search.start) ? grow(search, fits) : shrink(search, fits);
+  if (bracket.fits == 0 || bracket.too_large == 0) return bracket.fits;
+  while (bracket.too_large - bracket.fits > std::max(1.0, search.step * bracket.fits)) {
+    const std::uint32_t side = bracket.fits + (bracket.too_large - bracket.fits) / 2;
+    (fits(side) ? bracket.fits : bracket.too_large) = side;
+  }
+  return bracket.fits;
+}
+
+std::uint32_t side_below(const SizeSearch& search, std::uint32_t side) {
+  const double next = std::min(std::floor(side / (1.0 + search.step)), side - 1.0);
+  return next < search.least ? 0 : static_cast<std::uint32_t>(next);
+}
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void line(std::string& text, const Palette& palette, std::string_view name, const std::string& what) {
+  text += fmt::format("  {}{}\n", palette.faint(fmt::format("{:<14}", name)), what);
+}
+
+bool by_seconds(const MazeTrial& a, const MazeTrial& b) { return a.solve_s < b.solve_s; }
+
+std::string headline(const LargestOptions& options, const LargestResult& result, const Palette& palette) {
+  if (result.best.empty()) {
+    return result.signal
+               ? palette.doubtful("interrupted") + " before a maze was solved within the budget\n"
+               : palette.bad("none") + fmt::format(": no maze was solved within {}\n", human_seconds(options.budget_s));
+  }
+  const MazeTrial& best = result.best.front();
+  const std::string size = palette.strong(fmt::format("{} x {}", best.rows, best.cols));
+  if (!result.confirmed)
+    return fmt::format("{} is the largest maze so far: {}\n", size, palette.doubtful("interrupted"));
+  return fmt::format("{} is the largest maze {} within {}\n", size, palette.good("solved and verified"),
+                     human_seconds(options.budget_s));
+}
+
+std::string loops_text(double loops) {
+  return loops > 0.0 ? human_number(loops) + " of the remaining walls taken out" : "perfect";
+}
+
+void add_size(std::string& text, const LargestOptions& options, const LargestResult& result, const Palette& palette) {
+  const MazeTrial& median = median_trial(result);
+  const auto [fastest, slowest] = std::minmax_element(result.best.begin(), result.best.end(), by_seconds);
+  line(text, palette, "size",
+       fmt::format("{} cells, {} mazes, {}", grouped(static_cast<std::uint64_t>(median.cells())),
+                   name_of(options.maze.algorithm), loops_text(options.maze.loops)));
+  line(text, palette, "planner",
+       fmt::format("{}, clearance {}, {} {}", planner_text(median), human_number(median.clearance), median.threads,
+                   median.threads == 1 ? "thread" : "threads"));
+  line(text, palette, "solve",
+       fmt::format("{}, the median of {} {} ({} to {})", palette.strong(human_seconds(median.solve_s)),
+                   result.best.size(), result.best.size() == 1 ? "seed" : "seeds", human_seconds(fastest->solve_s),
+                   human_seconds(slowest->solve_s)));
+  line(text, palette, "rate",
+       fmt::format("{} cells a second, {:.1f} ns a cell", human_count(median.cells() / median.solve_s),
+                   median.solve_s * 1e9 / median.cells()));
+}
+
+void add_stages(std::string& text, const LargestResult& result, const Palette& palette) {
+  const MazeTrial& median = median_trial(result);
+  for (const auto& [name, seconds] : named_stages(median.seconds)) {
+    if (seconds == 0.0) continue;  // no stage of this planner: tiles do several in one
+    line(text, palette, fmt::format("  {}", name),
+         fmt::format("{:>9}  {:>5.1f} %  {:>7.2f} ns a cell", human_seconds(seconds), 100.0 * seconds / median.solve_s,
+                     seconds * 1e9 / median.cells()));
+  }
+}
+
+void add_memory(std::string& text, const LargestResult& result, const Palette& palette) {
+  const MazeTrial& median = median_trial(result);
+  const auto bytes = static_cast<double>(median.peak_memory_bytes);
+  line(text, palette, "memory",
+       fmt::format("{} at the peak, walls included: {:.1f} B a cell", human_bytes(bytes), bytes / median.cells()));
+  const MemoryTouch& touch = result.touch;
+  if (touch.bytes == 0) return;
+  line(text, palette, "first touch",
+       fmt::format("{} took {} cold and {} warm, before the clock: a cold start adds {}",
+                   human_bytes(static_cast<double>(touch.bytes)), human_seconds(touch.cold_s),
+                   human_seconds(touch.warm_s), human_seconds(touch.cold_s - touch.warm_s)));
+}
+
+void add_bar(std::string& text, const LargestOptions& options, const LargestResult& result, const Palette& palette) {
+  if (!result.bar || result.best.empty()) return;
+  const MazeTrial& same = result.best.back();  // the bar's own maze
+  line(text, palette, "BFS + funnel",
+       fmt::format("{} from the same walls to {} path, touching allowed: {:.1f} times as fast, {:.1f} % shorter",
+                   human_seconds(result.bar->seconds), options.maze.loops > 0.0 ? "a taut" : "the shortest",
+                   same.solve_s / result.bar->seconds, 100.0 * (1.0 - result.bar->length / same.length)));
+}
+
+/// Why not larger?
+void add_limit(std::string& text, const LargestOptions& options, const LargestResult& result, const Palette& palette) {
+  const double cells = result.best.empty() ? 0.0 : result.best.front().cells();
+  const MazeTrial* next = nullptr;
+  for (const MazeTrial& t : result.trials) {
+    const bool fits = t.verified && t.solve_s <= options.budget_s;
+    if (!fits && t.cells() > cells && (next == nullptr || t.cells() < next->cells())) next = &t;
+  }
+  if (next != nullptr) {
+    line(text, palette, "too large",
+         fmt::format("{} x {}, seed {}: {}, {}", next->rows, next->cols, next->seed, human_seconds(next->solve_s),
+                     next->verified ? std::string_view{"over the budget"} : verdict_of(*next)));
+  }
+  for (const UnbegunSize& size : result.unbegun) {
+    line(text, palette, "not begun",
+         fmt::format("{} x {}: it would need {}", size.rows, size.cols,
+                     human_bytes(static_cast<double>(size.expected_bytes))));
+  }
+}
+
+Json best_json(const LargestResult& result) {
+  Json json = Json::object();
+  if (result.best.empty()) {
+    for (const char* key : {"rows", "cols", "cells", "solve_s"}) json[key] = nullptr;
+    json["verified"] = false;
+    return json;
+  }
+  const MazeTrial& median = median_trial(result);
+  json["rows"] = median.rows;
+  json["cols"] = median.cols;
+  json["cells"] = static_cast<std::uint64_t>(median.cells());
+  json["solve_s"] = median.solve_s;
+  json["verified"] = std::all_of(result.best.begin(), result.best.end(), [](const auto& t) { return t.verified; });
+  return json;
+}
+
+/// The maze's seeds at the largest size, spread of their times, rate, memory a cell.
+void add_figures(Json& json, const LargestResult& result) {
+  if (result.best.empty()) return;
+  const MazeTrial& median = median_trial(result);
+  const auto [fastest, slowest] = std::minmax_element(result.best.begin(), result.best.end(), by_seconds);
+  json["confirmed"] = result.confirmed;
+  json["seeds"] = Json::array();
+  for (const MazeTrial& t : result.best) json["seeds"].push_back(t.seed);
+  json["solve_s_range"] = {fastest->solve_s, slowest->solve_s};
+  json["cells_per_s"] = median.cells() / median.solve_s;
+  json["stages_s"] = trial_json(median)["stages_s"];
+  json["bytes_per_cell"] = static_cast<double>(median.peak_memory_bytes) / median.cells();
+}
+
+}  // namespace
+
+std::string largest_summary(const LargestOptions& options, const LargestResult& result, const Palette& palette) {
+  std::string text = headline(options, result, palette);
+  if (!result.best.empty()) {
+    add_size(text, options, result, palette);
+    add_stages(text, result, palette);
+    add_memory(text, result, palette);
+    add_bar(text, options, result, palette);
+  }
+  add_limit(text, options, result, palette);
+  line(text, palette, "machine", text_of(this_machine()));
+  return text;
+}
+
+std::string largest_json(const LargestOptions& options, const LargestResult& result) {
+  Json json{{"schema", "warren.largest/1"}, {"warren_version", WARREN_VERSION}, {"budget_s", options.budget_s}};
+  json.update(best_json(result));
+  const MazeTrial* shown =
+      !result.best.empty() ? &median_trial(result) : (result.trials.empty() ? nullptr : &result.trials.back());
+  json["planner"] = shown == nullptr ? Json(nullptr) : Json(shown->planner);
+  json["sampler"] = shown == nullptr ? Json(nullptr) : Json(shown->sampler);
+  json["threads"] = shown == nullptr ? Json(nullptr) : Json(shown->threads);
+  json["peak_memory_bytes"] = shown == nullptr ? Json(nullptr) : Json(shown->peak_memory_bytes);
+  json["bfs_funnel_s"] = result.bar ? Json(result.bar->seconds) : Json(nullptr);
+  json["bfs_funnel_length"] = result.bar ? Json(result.bar->length) : Json(nullptr);
+  json["algorithm"] = name_of(options.maze.algorithm);
+  json["loops"] = options.maze.loops;
+  if (result.signal) json["stopped_by"] = name_of(*result.signal);
+  add_figures(json, result);
+  const MemoryTouch& touch = result.touch;
+  json["first_touch"] = {{"bytes", touch.bytes}, {"cold_s", touch.cold_s}, {"warm_s", touch.warm_s}};
+  json["machine"] = machine_json(this_machine());
+  json["not_begun"] = Json::array();
+  for (const UnbegunSize& size : result.unbegun) {
+    json["not_begun"].push_back({{"rows", size.rows}, {"cols", size.cols}, {"expected_bytes", size.expected_bytes}});
+  }
+  json["trials"] = Json::array();
+  for (const MazeTrial& t : result.trials) json["trials"].push_back(trial_json(t));
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+PlotSheet largest_plot(const LargestOptions& options, const LargestResult& result) {
+  PlotSeries tried{.name = "solved, fastest of a size", .points = {}};
+  PlotSeries cut{.name = "cut or unsolved", .points = {}, .joined = false};
+  PlotSeries largest{.name = "largest size, a seed each", .points = {}, .joined = false};
+  for (const MazeTrial& t : result.trials) (t.verified ? tried : cut).points.push_back({t.cells(), t.solve_s});
+  for (const MazeTrial& t : result.best) largest.points.push_back({t.cells(), t.solve_s});
+  std::sort(tried.points.begin(), tried.points.end(),
+            [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  const auto same_size = [](Vec2 a, Vec2 b) { return a.x == b.x; };
+  tried.points.erase(std::unique(tried.points.begin(), tried.points.end(), same_size), tried.points.end());
+  Plot plot{.title = "Largest maze solved within the budget",
+            .x_label = "cells",
+            .y_label = "seconds, from walls in memory to path verified",
+            .log_x = true,
+            .log_y = true,
+            .series = {},
+            .level = options.budget_s,
+            .level_name = fmt::format("budget {}", human_seconds(options.budget_s))};
+  if (!result.best.empty()) {
+    const MazeTrial& best = median_trial(result);
+    plot.title =
+        fmt::format("{} x {} in {}: {}", best.rows, best.cols, human_seconds(best.solve_s), planner_text(best));
+  }
+  for (const PlotSeries& series : {tried, cut, largest}) {
+    if (!series.points.empty()) plot.series.push_back(series);
+  }
+  return sheet_of(plot);
+}
+
+}  // namespace warren::studies

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/studies/maze_trial.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "apps/studies/machine.hpp"
+#include "parallel/stage_account.hpp"
+#include "solve/answer/stage_lines.hpp"
+#include "solve/answer/write_answer_io.hpp"
+#include "solve/mazes/solve_streamed.hpp"
+#include "solve/mazes/solve_walls.hpp"
+#include "solve/question/planner_choice.hpp"
+#include "solve/question/question.hpp"
+
+namespace warren::studies {
+Scene generate_trial(const MazeOptions& maze, const SolveOptions& options, const Execution& execution,
+                     double& seconds) {
+  const bool is_streamed = options.roadmap.pipeline == PipelineKind::streamed;
+  if (is_streamed && maze.algorithm == MazeAlgorithm::mst) return unmade_maze_scene(maze);
+  const StageTimer timer(execution, "generate", seconds);
+  return maze_scene(maze, false, execution);
+}
+
+MazeTrial solve_trial(const Scene& scene, const MazeOptions& maze, const Question& question,
+                      const SolveOptions& options, double budget_s, const Execution& execution) {
+  const WallProblem problem = wall_problem(scene, question);
+  PlannerOptions planner = planner_options(options, scene, problem);
+  planner.roadmap.seed = maze.seed;
+  restart_peak_memory();
+  const Deadline deadline(execution.deadline, budget_s);
+  Execution within = execution;
+  within.deadline = &deadline;
+  StageAccount account;
+  within.account = &account;
+  const Answer answer = is_unmade(scene) ? solve_streamed(scene, problem, planner, within)
+                                         : solve_walls(scene, problem, planner, within, nullptr);
+  const auto reason = answer.outcome == Outcome::stopped ? answer.stop_reason : std::nullopt;
+  if (reason && is_signal(*reason)) throw Stopped{*reason};
+  return {.rows = maze.rows,
+          .cols = maze.cols,
+          .seed = maze.seed,
+          .threads = thread_count(execution.threads),
+          .planner = answer.planner,
+          .sampler = answer.sampler,
+          .pipeline = answer.pipeline,
+          .outcome = answer.outcome,
+          .stop_reason = reason,
+          .verified = answer.verified,
+          .length = answer.length,
+          .clearance = problem.clearance,
+          .generate_s = 0.0,
+          .solve_s = answer.solve_s,
+          .seconds = answer.seconds,
+          .costs = account.costs(),
+          .peak_memory_bytes = peak_resident_bytes()};
+}
+
+std::string planner_text(const MazeTrial& trial) {
+  return trial.planner + (trial.pipeline.empty() ? "" : ", " + trial.pipeline) + ", " + trial.sampler + " sampler";
+}
+
+std::string_view verdict_of(const MazeTrial& trial) {
+  if (trial.outcome != Outcome::stopped) return name_of(trial.outcome);
+  return trial.stop_reason == StopReason::memory ? "too little memory" : "cut by the budget";
+}
+
+nlohmann::ordered_json trial_json(const MazeTrial& trial) {
+  nlohmann::ordered_json stages = nlohmann::ordered_json::object();
+  for (const auto& [key, seconds] : keyed_seconds(trial.seconds, trial.costs)) stages[key] = seconds;
+  nlohmann::ordered_json json{{"rows", trial.rows},         {"cols", trial.cols},
+                              {"threads", trial.threads},   {"planner", trial.planner},
+                              {"sampler", trial.sampler},   {"seed", trial.seed},
+                              {"solve_s", trial.solve_s},   {"stages_s", std::move(stages)},
+                              {"verified", trial.verified}, {"status", name_of(trial.outcome)}};
+  if (!trial.pipeline.empty()) json["pipeline"] = trial.pipeline;
+  if (trial.stop_reason) json["stopped_by"] = trial.stop_reason == StopReason::memory ? "memory" : "budget";
+  json["length"] = trial.verified ? nlohmann::ordered_json(trial.length) : nlohmann::ordered_json(nullptr);
+  json["generate_s"] = trial.generate_s;
+  json["peak_memory_bytes"] = trial.peak_memory_bytes;
+  return json;
+}
+
+}  // namespace warren::studies

@@ -1,0 +1,434 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/studies/planner_contest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "parallel/chunks.hpp"
+#include "scenes/scene/unit_of.hpp"
+#include "solve/answer/write_answer_io.hpp"
+#include "solve/question/grid_choice.hpp"
+#include "solve/solve.hpp"
+#include "solve/steps/kind_of_problem.hpp"
+
+namespace warren::studies {
+namespace {
+
+/// A turn that a contender takes, and what comes of it.
+struct Turn {
+  std::size_t contender;
+  std::uint64_t seed;
+  std::optional<ComparedRun> run = {};  ///< none: a signal came first
+};
+
+class PlannerContest {
+ public:
+  PlannerContest(const Scene& scene, const PlannerContestOptions& options, const Execution& execution,
+                 Comparison& comparison)
+      : scene_(scene), options_(options), execution_(execution), comparison_(comparison) {}
+
+  void run();
+
+ private:
+  void enter();
+  std::uint64_t turns_in_all() const;
+  std::vector<Turn> turns_of(std::uint64_t round) const;
+  void take(std::vector<Turn> turns);
+  ComparedRun run_once(const Turn& turn);
+  Answer solve(const PlannerContender& contender, std::uint64_t seed) const;
+  void describe(Contender& contender, const PlannerContender& asked, const Answer& answer) const;
+  Contender& contender(std::size_t i) { return comparison_.contenders[first_contender_ + i]; }
+  const Contender& contender(std::size_t i) const { return comparison_.contenders[first_contender_ + i]; }
+
+  const Scene& scene_;
+  const PlannerContestOptions& options_;
+  const Execution& execution_;
+  Comparison& comparison_;
+  std::size_t first_contender_ = 0;
+  std::optional<GridFields> raster_;  ///< of the contender on whose raster cells are counted
+};
+
+/// The first round tells who needs others. Rounds beside each other are as many as keep all threads busy.
+void PlannerContest::run() {
+  constexpr std::size_t turns_at_once = 256;
+  enter();
+  double seconds = 0.0;
+  const StageTimer timer(execution_, "compare", seconds, options_.runs * options_.contenders.size());
+  take(turns_of(0));
+  if (execution_.progress != nullptr) execution_.progress->set_total(turns_in_all());
+  std::vector<Turn> turns;
+  for (std::uint64_t round = 1; round < options_.runs; ++round) {
+    const std::vector<Turn> more = turns_of(round);
+    if (more.empty()) return;
+    turns.insert(turns.end(), more.begin(), more.end());
+    const bool more_fit = options_.parallel && turns.size() < turns_at_once && round + 1 < options_.runs;
+    if (!more_fit) take(std::exchange(turns, {}));
+  }
+}
+
+/// Asks every planner, before the first run, whether it can solve this world with these options.
+void PlannerContest::enter() {
+  comparison_.problems.push_back({.source = scene_.source, .kind = "", .unit = std::string(unit_of(scene_))});
+  if (options_.parallel) {
+    comparison_.notes.push_back(fmt::format("times are of runs beside each other, up to {} at once, on a thread each",
+                                            thread_count(execution_.threads)));
+  }
+  first_contender_ = comparison_.contenders.size();
+  for (const PlannerContender& asked : options_.contenders) {
+    const SolveOptions& options = asked.options;
+    if (!raster_ && options.planner == PlannerKind::grid) raster_ = options.grid;
+    Contender contender;
+    contender.dealt = asked.dealt;
+    contender.problem = comparison_.problems.size() - 1;
+    contender.planner = name_of(choose_solver(options, scene_, asked.question).planner);
+    if (options.search) contender.search = name_of(*options.search);
+    if (options.queue) contender.queue = name_of(*options.queue);
+    contender.library = "warren";
+    comparison_.contenders.push_back(std::move(contender));
+  }
+}
+
+/// Of all rounds together, when the first has told who needs others.
+std::uint64_t PlannerContest::turns_in_all() const {
+  std::uint64_t count = options_.contenders.size();
+  for (std::size_t i = 0; i < options_.contenders.size(); ++i) {
+    if (options_.repeat_all || !contender(i).deterministic) count += options_.runs - 1;
+  }
+  return count;
+}
+
+std::vector<Turn> PlannerContest::turns_of(std::uint64_t round) const {
+  std::vector<Turn> all;
+  for (const std::size_t i : turns(options_.contenders.size(), round)) {
+    const bool sits_out = round > 0 && !options_.repeat_all && contender(i).deterministic;
+    if (!sits_out) all.push_back({i, options_.first_seed + round});
+  }
+  return all;
+}
+
+/// Runs are kept in the order of the turns, whichever end first.
+void PlannerContest::take(std::vector<Turn> turns) {
+  Execution side_by_side = execution_;
+  if (!options_.parallel) side_by_side.threads = 1;
+  const auto keep = [&] {
+    for (const Turn& turn : turns) {
+      if (turn.run) contender(turn.contender).runs.push_back(*turn.run);
+    }
+  };
+  try {
+    for_chunks(turns.size(), 1, side_by_side, [&](Range r) { turns[r.first].run = run_once(turns[r.first]); });
+  } catch (...) {
+    keep();
+    throw;
+  }
+  keep();
+}
+
+Answer PlannerContest::solve(const PlannerContender& contender, std::uint64_t seed) const {
+  execution_.check();
+  const Deadline deadline(execution_.deadline, options_.budget_s);
+  Execution within = execution_;
+  within.deadline = &deadline;
+  within.progress = nullptr;  // the bar shows the runs, not the stages of each
+  if (options_.parallel) within.threads = 1;
+  Answer answer = solve_contender(scene_, contender, seed, within);
+  if (answer.outcome == Outcome::stopped) execution_.check();
+  return answer;
+}
+
+/// Where the world has a raster, or somebody plans on one.
+std::optional<std::uint64_t> cells_of(const Answer& answer, const Scene& scene,
+                                      const std::optional<GridFields>& raster) {
+  if (answer.path.empty()) return std::nullopt;
+  if (scene.map) return cells_passed(answer.path, *scene.map);
+  if (!scene.grid && !raster) return std::nullopt;
+  const Box box = scene.bounds ? *scene.bounds : obstacle_box(scene);
+  return cells_passed(answer.path, Raster{box.min, grid_spec(raster.value_or(GridFields{}), scene).cell});
+}
+
+/// A number as it is, a word as text.
+std::string word_json(const std::string& word) {
+  const std::optional<double> number = number_in_word(word);
+  return number ? fmt::format("{}", *number) : json_string(word);
+}
+
+/// Trees settle no vertices in a search; they grow them.
+std::uint64_t expanded_by(const Answer& answer) {
+  const bool grows = answer.planner == name_of(PlannerKind::rrt) || answer.planner == name_of(PlannerKind::rrt_connect);
+  return grows ? answer.roadmap.milestones : answer.counters.expanded;
+}
+
+std::size_t state_count(const Answer& answer) {
+  return answer.states.empty() ? answer.path.size() : answer.states.size();
+}
+
+/// What was dealt out is an option, whether or not the answer repeats it.
+void PlannerContest::describe(Contender& contender, const PlannerContender& asked, const Answer& answer) const {
+  contender.search = answer.search;
+  contender.deterministic = !depends_on_seed(answer, asked.options, scene_);
+  auto& options = contender.options;
+  options = json_options(answer.options);
+  if (!answer.sampler.empty()) options.insert(options.begin(), {"sampler", json_string(answer.sampler)});
+  for (const auto& [name, word] : asked.dealt) {
+    const bool has_column = name == name_of(Option::search) || name == name_of(Option::queue);
+    const auto is_it = [&, &name = name](const auto& option) { return option.first == name; };
+    if (!has_column && std::none_of(options.begin(), options.end(), is_it)) options.emplace_back(name, word_json(word));
+  }
+  std::erase_if(options, [](const auto& option) { return option.first == "queue"; });  // has a column
+}
+
+ComparedRun PlannerContest::run_once(const Turn& turn) {
+  const PlannerContender& asked = options_.contenders[turn.contender];
+  const Answer answer = solve(asked, turn.seed);
+  if (turn.seed == options_.first_seed) describe(contender(turn.contender), asked, answer);
+  ComparedRun run{.seed = turn.seed,
+                  .outcome = answer.outcome,
+                  .time_s = answer.solve_s,
+                  .length = answer.length,
+                  .hops = state_count(answer) > 0 ? state_count(answer) - 1 : 0,
+                  .expanded = expanded_by(answer)};
+  if (answer.verified) run.min_clearance = answer.min_clearance;
+  run.cells = cells_of(answer, scene_, raster_);
+  run.turn_rad = answer.turn_rad;
+  if (answer.seconds.search > 0.0) run.search_s = answer.seconds.search;
+  run.raw_length = answer.raw_length;
+  run.cost = answer.cost;
+  run.counters = answer.counters;
+  run.costs = answer.costs;
+  run.roadmap = answer.roadmap;
+  return run;
+}
+
+}  // namespace
+
+bool depends_on_seed(const Answer& answer, const SolveOptions& options, const Scene& scene) {
+  const auto planner = enum_named<PlannerKind>(answer.planner);
+  if (!planner || *planner == PlannerKind::rrt || *planner == PlannerKind::rrt_connect) return true;
+  if (is_roadmap_planner(*planner)) {
+    const auto sampler = enum_named<SamplerKind>(answer.sampler);
+    if (!sampler || !takes_all_places(*sampler)) return true;
+  }
+  const RobotKind body = answer.problem.robot.kind;
+  const bool taut = !scene.map && (body == RobotKind::point || body == RobotKind::disc);
+  return options.optimise && !taut;
+}
+
+Answer solve_contender(const Scene& scene, const PlannerContender& contender, std::uint64_t seed,
+                       const Execution& execution, ByProducts* keep) {
+  SolveOptions options = contender.options;
+  options.seed = seed;
+  Answer answer = solve_within(scene, contender.question, options, execution, keep);
+  if (keep != nullptr) make_by_products(scene, contender.question, options, execution, *keep);
+  return answer;
+}
+
+void run_planner_contest(const Scene& scene, const PlannerContestOptions& options, const Execution& execution,
+                         Comparison& comparison) {
+  PlannerContest(scene, options, execution, comparison).run();
+}
+
+namespace {
+
+/// Gives one option the value that it has in `from`.
+using Copy = void (*)(SolveOptions& to, const SolveOptions& from);
+
+template <auto Field>
+void whole(SolveOptions& to, const SolveOptions& from) {
+  to.*Field = from.*Field;
+}
+template <auto Part, auto Field>
+void part(SolveOptions& to, const SolveOptions& from) {
+  to.*Part.*Field = from.*Part.*Field;
+}
+template <auto Field, StarRule Rule>
+void joining(SolveOptions& to, const SolveOptions& from) {
+  to.roadmap.*Field = from.roadmap.*Field;
+  if (from.roadmap.star == Rule) to.roadmap.star = Rule;
+}
+void lazy(SolveOptions& to, const SolveOptions& from) {
+  to.roadmap.lazy = from.roadmap.lazy;
+  to.visibility.lazy = from.visibility.lazy;
+}
+
+/// In the order of Option.
+constexpr std::array<Copy, option_count> copies{
+    whole<&SolveOptions::sampler>,
+    part<&SolveOptions::roadmap, &RoadmapFields::samples>,
+    joining<&RoadmapFields::neighbours, StarRule::neighbours>,
+    joining<&RoadmapFields::radius, StarRule::radius>,
+    whole<&SolveOptions::search>,
+    whole<&SolveOptions::queue>,
+    lazy,
+    part<&SolveOptions::roadmap, &RoadmapFields::pipeline>,
+    whole<&SolveOptions::optimise>,
+    part<&SolveOptions::grid, &GridFields::cell>,
+    part<&SolveOptions::grid, &GridFields::angles>,
+    part<&SolveOptions::grid, &GridFields::face_motion>,
+    part<&SolveOptions::grid, &GridFields::step_cost>,
+    part<&SolveOptions::grid, &GridFields::turn_cost>,
+    part<&SolveOptions::grid, &GridFields::diagonal>,
+    part<&SolveOptions::grid, &GridFields::layers>,
+    part<&SolveOptions::visibility, &VisibilityFields::full>,
+    part<&SolveOptions::visibility, &VisibilityFields::sampled_edges>,
+    part<&SolveOptions::cells, &CellFields::doors>,
+    part<&SolveOptions::axis, &AxisFields::objective>,
+    part<&SolveOptions::trees, &TreeFields::step>,
+    part<&SolveOptions::trees, &TreeFields::goal_bias>,
+    part<&SolveOptions::trees, &TreeFields::nodes>,
+    part<&SolveOptions::trees, &TreeFields::trees>,
+    part<&SolveOptions::trees, &TreeFields::via>,
+    part<&SolveOptions::car, &CarFields::steering>,
+    part<&SolveOptions::car, &CarFields::turning_radius>,
+    part<&SolveOptions::car, &CarFields::cusp_cost>,
+    part<&SolveOptions::car, &CarFields::reverse_cost>,
+    part<&SolveOptions::roadmap, &RoadmapFields::attach>,
+    whole<&SolveOptions::heuristic>,
+    part<&SolveOptions::roadmap, &RoadmapFields::neighbour_index>,
+};
+
+/// Why the planner does not take this option as it is in `from`; nothing where it does.
+std::optional<UsageError> refusal(PlannerKind planner, Option option, const SolveOptions& from) {
+  SolveOptions alone{.planner = planner};
+  copy_option(option, alone, from);
+  if (option == Option::samples && !alone.roadmap.samples) alone.roadmap.samples = 1;  // what takes a number takes none
+  try {
+    check_solver_options(alone);
+    return std::nullopt;
+  } catch (const UsageError& error) {
+    return error;
+  }
+}
+
+/// The first that would know the option tells best what is wrong with its value.
+void check_taken(const std::vector<PlannerKind>& planners, Option option, const SolveOptions& from) {
+  std::optional<UsageError> refused;
+  for (const PlannerKind planner : planners) {
+    const std::optional<UsageError> why = refusal(planner, option, from);
+    if (!why) return;
+    const bool knows_it = std::string_view(why->what()).find("would ignore it") == std::string_view::npos;
+    if (!refused || knows_it) refused.emplace(*why);
+  }
+  if (refused) throw UsageError(*refused);
+}
+
+/// Would this queue, or this estimate, go unused?
+bool idles(const SolveOptions& contender, Option option) {
+  const SearchMethod search = contender.search.value_or(SearchMethod::astar);
+  if (option == Option::heuristic) return search != SearchMethod::astar;
+  return option == Option::queue && (search == SearchMethod::bfs || search == SearchMethod::dfs);
+}
+
+/// Throws where another `times` as many contenders would be too many.
+void check_count(std::size_t contenders, std::size_t times) {
+  constexpr std::size_t most_contenders = 10'000;
+  if (contenders * std::max<std::size_t>(times, 1) <= most_contenders) return;
+  throw UsageError(fmt::format("@planners: more than {} contenders come of these lists; shorten one", most_contenders));
+}
+
+/// Every way to give the contenders one of the values each.
+std::vector<PlannerContender> dealt(const std::vector<PlannerContender>& contenders, const DealtOption& list) {
+  check_count(contenders.size(), list.values.size());
+  std::vector<PlannerContender> all;
+  for (const PlannerContender& contender : contenders) {
+    if (list.values.empty() || idles(contender.options, list.option)) {
+      all.push_back(contender);
+      continue;
+    }
+    for (const DealtValue& value : list.values) {
+      all.push_back(contender);
+      copy_option(list.option, all.back().options, value.value);
+      if (list.values.size() > 1) all.back().dealt.emplace_back(name_of(list.option), value.word);
+    }
+  }
+  return all;
+}
+
+std::vector<PlannerContender> with_clearances(const std::vector<PlannerContender>& contenders,
+                                              const std::vector<double>& clearances) {
+  check_count(contenders.size(), clearances.size());
+  std::vector<PlannerContender> all;
+  for (const PlannerContender& contender : contenders) {
+    for (const double clearance : clearances) {
+      all.push_back(contender);
+      all.back().question.clearance = clearance;
+      all.back().question.validate();
+      if (clearances.size() > 1) all.back().dealt.emplace_back("clearance", fmt::format("{}", clearance));
+    }
+  }
+  return clearances.empty() ? contenders : all;
+}
+
+std::vector<Option> options_of(const SolveOptions& options) {
+  const OptionSet set = given(options);
+  std::vector<Option> all;
+  for (std::size_t i = 0; i < option_count; ++i) {
+    if (set.has(static_cast<Option>(i))) all.push_back(static_cast<Option>(i));
+  }
+  return all;
+}
+
+std::vector<PlannerContender> contenders_of(const PlannerDeal& deal, PlannerKind planner) {
+  SolveOptions usual{.planner = planner, .seed = deal.common.seed};
+  for (const Option option : options_of(deal.common)) {
+    if (!refusal(planner, option, deal.common)) copy_option(option, usual, deal.common);
+  }
+  std::vector<PlannerContender> all{{usual, deal.question, {}}};
+  for (DealtOption list : deal.lists) {
+    std::erase_if(list.values, [&](const DealtValue& v) { return refusal(planner, list.option, v.value).has_value(); });
+    all = dealt(all, list);
+  }
+  return with_clearances(all, deal.clearances);
+}
+
+}  // namespace
+
+void copy_option(Option option, SolveOptions& to, const SolveOptions& from) {
+  copies[static_cast<std::size_t>(option)](to, from);
+}
+
+std::vector<PlannerContender> deal_planners(const PlannerDeal& deal) {
+  deal.question.validate();
+  for (const Option option : options_of(deal.common)) check_taken(deal.planners, option, deal.common);
+  for (const DealtOption& list : deal.lists) {
+    for (const DealtValue& value : list.values) check_taken(deal.planners, list.option, value.value);
+  }
+  std::vector<PlannerContender> all;
+  for (const PlannerKind planner : deal.planners) {
+    for (PlannerContender& contender : contenders_of(deal, planner)) {
+      check_solver_options(contender.options);
+      all.push_back(std::move(contender));
+    }
+  }
+  check_count(all.size(), 1);
+  return all;
+}
+
+std::uint64_t cells_passed(std::span<const Vec2> path, const Raster& raster) {
+  if (path.empty()) return 0;
+  const auto index = [&](double at, double from) {
+    return static_cast<std::int64_t>(std::llround((at - from) / raster.cell));
+  };
+  std::int64_t steps = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const std::int64_t dx = index(path[i].x, raster.origin.x) - index(path[i - 1].x, raster.origin.x);
+    const std::int64_t dy = index(path[i].y, raster.origin.y) - index(path[i - 1].y, raster.origin.y);
+    steps += std::max(std::abs(dx), std::abs(dy));
+  }
+  return static_cast<std::uint64_t>(steps) + 1;
+}
+
+std::uint64_t cells_passed(std::span<const Vec2> path, const OccupancyMap& map) {
+  std::vector<Vec2> in_cells;
+  for (const Vec2 p : path) in_cells.push_back(map_point(map, p));
+  return cells_passed(in_cells, Raster{{0.5, 0.5}, 1.0});
+}
+
+}  // namespace warren::studies

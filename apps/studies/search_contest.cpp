@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/studies/search_contest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "apps/studies/comparison.hpp"
+#include "core/base/error.hpp"
+#include "pictures/layers/draw_bodies.hpp"
+#include "planners/graph/roadmap_options.hpp"
+#include "scenes/scene/unit_of.hpp"
+#include "solve/steps/kind_of_problem.hpp"
+
+namespace warren::studies {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double seconds_each = 0.25;  // when nobody says how many trials
+constexpr std::uint64_t fewest_trials = 5;
+constexpr std::uint64_t most_trials = 10'000;
+
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+std::string text_of(const SearchVariant& v) {
+  std::string text{name_of(v.search)};
+  if (v.queue) text.append(" with ").append(name_of(*v.queue));
+  if (v.library != SearchLibrary::warren) text.append(" of ").append(name_of(v.library));
+  return text;
+}
+
+Outcome outcome_of(SearchStatus status) {
+  if (status == SearchStatus::found) return Outcome::solved;
+  return status == SearchStatus::stopped ? Outcome::stopped : Outcome::not_connected;
+}
+
+/// One variant at work.
+struct Entrant {
+  SearchVariant variant;
+  std::unique_ptr<GraphSearch> search;
+  ComparedRun first;         // what every trial must repeat, and the seconds of the first, cold run
+  std::uint64_t trials = 0;  // to be made; 0 for one that its budget cut
+};
+
+class SearchContest {
+ public:
+  SearchContest(const SearchGraph& graph, const SearchContestOptions& options, const Execution& execution,
+                Comparison& comparison)
+      : graph_(graph), options_(options), execution_(execution), comparison_(comparison) {}
+
+  void run() {
+    enter();
+    check_all();
+    const double clock_before = comparison_.clock_s;
+    try {
+      measure();
+    } catch (const Stopped&) {
+      take_clock_off(clock_before);
+      throw;
+    }
+    take_clock_off(clock_before);
+  }
+
+ private:
+  void enter();
+  void check_all();
+  ComparedRun run_once(Entrant& entrant) const;
+  std::uint64_t trials_for(const ComparedRun& first) const;
+  void measure();
+  void measure_round(std::uint64_t round, std::uint64_t rounds);
+  void take_clock_off(double clock_before);
+  Contender& contender(std::size_t i) { return comparison_.contenders[first_contender_ + i]; }
+
+  const SearchGraph& graph_;
+  const SearchContestOptions& options_;
+  const Execution& execution_;
+  Comparison& comparison_;
+  std::vector<Entrant> entrants_;
+  std::size_t first_contender_ = 0;
+  std::vector<double> clock_s_;
+};
+
+void SearchContest::enter() {
+  comparison_.problems.push_back(
+      {graph_.source, graph_.kind, graph_.graph.vertex_count(), graph_.graph.edge_count(), graph_.unit});
+  first_contender_ = comparison_.contenders.size();
+  for (const SearchVariant& v : options_.variants) {
+    entrants_.push_back({v, graph_search(graph_, v), {}, 0});
+    comparison_.contenders.push_back({.problem = comparison_.problems.size() - 1,
+                                      .planner = graph_.kind,
+                                      .search = std::string{name_of(v.search)},
+                                      .queue = v.queue ? std::string{name_of(*v.queue)} : std::string{},
+                                      .library = std::string{name_of(v.library)},
+                                      .options = graph_.options,
+                                      .runs = {}});
+  }
+}
+
+/// Throws Stopped at a signal; a budget that ends gives Outcome::stopped.
+ComparedRun SearchContest::run_once(Entrant& entrant) const {
+  execution_.check();
+  const Deadline deadline(execution_.deadline, options_.budget_s);
+  Execution within = execution_;
+  within.deadline = &deadline;
+  const auto begin = Clock::now();
+  SearchResult result = entrant.search->run(within);
+  const double seconds = seconds_since(begin);
+  if (result.status == SearchStatus::stopped) execution_.check();
+  ComparedRun run{.outcome = outcome_of(result.status), .time_s = seconds, .expanded = result.expanded};
+  if (seconds > options_.budget_s) run.outcome = Outcome::stopped;
+  if (run.solved()) {
+    run.length = path_length(graph_, result.path);
+    run.hops = result.path.size() - 1;
+  }
+  return run;
+}
+
+std::uint64_t SearchContest::trials_for(const ComparedRun& first) const {
+  if (options_.trials) return *options_.trials;
+  const double fitting = std::ceil(seconds_each / std::max(first.time_s, 1e-9));
+  return std::clamp(static_cast<std::uint64_t>(std::min(fitting, 1e9)), fewest_trials, most_trials);
+}
+
+/// One run of each, compared before anything is measured.
+void SearchContest::check_all() {
+  std::vector<SearchClaim> claims;
+  for (std::size_t i = 0; i < entrants_.size(); ++i) {
+    Entrant& entrant = entrants_[i];
+    entrant.first = run_once(entrant);
+    if (entrant.first.outcome == Outcome::stopped) {
+      contender(i).runs.push_back(entrant.first);
+      comparison_.notes.push_back(
+          fmt::format("{} on {}: cut by the budget, and measured no further", text_of(entrant.variant), graph_.source));
+      continue;
+    }
+    entrant.trials = trials_for(entrant.first);
+    claims.push_back(
+        {entrant.variant, entrant.first.solved(), entrant.first.length, entrant.first.hops, entrant.first.expanded});
+  }
+  if (const auto contradiction = contradiction_in(claims)) {
+    throw std::logic_error(fmt::format("searches of {} contradict each other: {}", graph_.source, *contradiction));
+  }
+}
+
+void SearchContest::measure() {
+  std::uint64_t rounds = 0;
+  for (const Entrant& entrant : entrants_) rounds = std::max(rounds, entrant.trials);
+  double seconds = 0.0;
+  const StageTimer timer(execution_, "compare", seconds, rounds);
+  for (std::uint64_t round = 0; round < rounds; ++round) {
+    measure_round(round, rounds);
+    execution_.advance(1);
+  }
+}
+
+/// Those with fewer trials than rounds sit some out, evenly.
+void SearchContest::measure_round(std::uint64_t round, std::uint64_t rounds) {
+  for (const std::size_t i : turns(entrants_.size(), round)) {
+    Entrant& entrant = entrants_[i];
+    if (round * entrant.trials / rounds == (round + 1) * entrant.trials / rounds) continue;
+    ComparedRun run = run_once(entrant);
+    run.seed = contender(i).runs.size() + 1;
+    const bool same = run.solved() == entrant.first.solved() && run.expanded == entrant.first.expanded &&
+                      run.length == entrant.first.length;
+    if (!same && run.outcome != Outcome::stopped) {
+      throw std::logic_error(
+          fmt::format("{} of {} gives another answer the second time", text_of(entrant.variant), graph_.source));
+    }
+    contender(i).runs.push_back(run);
+  }
+  const auto begin = Clock::now();
+  clock_s_.push_back(seconds_since(begin));
+}
+
+void SearchContest::take_clock_off(double clock_before) {
+  if (clock_s_.empty()) return;
+  const double clock = median_of(clock_s_);
+  comparison_.clock_s = std::max(clock_before, clock);
+  for (std::size_t i = 0; i < entrants_.size(); ++i) {
+    for (ComparedRun& run : contender(i).runs) run.time_s = std::max(0.0, run.time_s - clock);
+  }
+}
+
+bool differ(double a, double b) { return std::abs(a - b) > 1e-9 * std::max(std::abs(a), std::abs(b)); }
+
+/// What a pair of claims contradicts each other in.
+std::optional<std::string> contradiction_between(const SearchClaim& a, const SearchClaim& b) {
+  const auto say = [&](std::string_view what, auto of_a, auto of_b) {
+    return fmt::format("{}: {} for {}, {} for {}", what, of_a, text_of(a.variant), of_b, text_of(b.variant));
+  };
+  if (a.found != b.found) return say("a path is found", a.found, b.found);
+  if (!a.found) return std::nullopt;
+  const bool a_is_best = has_queue(a.variant.search);
+  const bool b_is_best = has_queue(b.variant.search);
+  if (a_is_best && b_is_best && differ(a.length, b.length)) return say("lengths", a.length, b.length);
+  if (a_is_best && b.length < a.length && differ(a.length, b.length)) return say("lengths", a.length, b.length);
+  if (a.variant.search == SearchKind::bfs && b.hops < a.hops) return say("hops", a.hops, b.hops);
+  const bool both_ours = a.variant.library == SearchLibrary::warren && b.variant.library == SearchLibrary::warren;
+  if (both_ours && a.variant.search == b.variant.search) {
+    if (a.length != b.length) return say("lengths", a.length, b.length);
+    if (a.expanded != b.expanded) return say("vertices settled", a.expanded, b.expanded);
+  }
+  if (both_ours && a.variant.search == SearchKind::astar && b.variant.search == SearchKind::dijkstra &&
+      a.expanded > b.expanded) {
+    return say("vertices settled", a.expanded, b.expanded);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> contradiction_in(std::span<const SearchClaim> claims) {
+  for (const SearchClaim& a : claims) {
+    for (const SearchClaim& b : claims) {
+      if (auto contradiction = contradiction_between(a, b)) return contradiction;
+    }
+  }
+  return std::nullopt;
+}
+
+void run_search_contest(const SearchGraph& graph, const SearchContestOptions& options, const Execution& execution,
+                        Comparison& comparison) {
+  SearchContest(graph, options, execution, comparison).run();
+}
+
+namespace {
+
+constexpr double longest_search_s = 2.0;
+
+/// Drops the variants of which one of the contenders from `first` on took too long in the median.
+void drop_slow_variants(std::vector<SearchVariant>& variants, std::size_t first, std::uint32_t size,
+                        Comparison& comparison) {
+  for (std::size_t i = variants.size(); i-- > 0;) {
+    const Contender& contender = comparison.contenders[first + i];
+    const ComparisonRow row = row_of(contender);
+    if (!row.time_s || row.time_s->median <= longest_search_s) continue;
+    const std::string note = fmt::format("{}: left out beyond {} vertices, where a search takes {:.1f} s",
+                                         contender_name(contender, false), size, row.time_s->median);
+    comparison.notes.push_back(note);
+    variants.erase(variants.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
+}  // namespace
+
+void run_size_sweep(const SizeSweepOptions& options, const Execution& execution, Comparison& comparison,
+                    const std::function<void(std::string_view)>& say) {
+  SearchContestOptions contest = options.contest;
+  for (const std::uint32_t size : options.sizes) {
+    for (std::uint64_t seed = options.first_seed; seed < options.first_seed + options.seeds; ++seed) {
+      if (contest.variants.empty()) return;
+      const SearchGraph graph = geometric_graph(size, options.degree, seed, execution);
+      const std::size_t first = comparison.contenders.size();
+      run_search_contest(graph, contest, execution, comparison);
+      say(fmt::format("{} vertices, seed {}: {} edges, {} searches", size, seed, graph.graph.edge_count(),
+                      contest.variants.size()));
+      if (!contest.trials) drop_slow_variants(contest.variants, first, size, comparison);
+    }
+  }
+}
+
+namespace {
+
+/// The roadmap that the planner leaves.
+WorldGraph roadmap_graph(SolveRequest request, const ChosenSolver& solver) {
+  ByProducts made_too;
+  request.keep = &made_too;
+  const Answer answer = solver.kind->solve(request);
+  if (answer.outcome == Outcome::stopped) throw Stopped{answer.stop_reason.value_or(StopReason::time)};
+  WorldGraph made;
+  made.outcome = answer.outcome;
+  const bool has_trees = !made_too.trees.empty();
+  const PlannedRoadmap<Vec2> roadmap =
+      has_trees ? in_the_plane(made_too.trees, request.execution) : std::move(made_too.roadmap);
+  if (roadmap.states.empty()) {
+    if (answer.outcome != Outcome::solved) return made;
+    throw UsageError(fmt::format("@graph: {} leaves no graph to search", name_of(solver.planner)));
+  }
+  made.graph.options = json_options(answer.options);
+  std::erase_if(made.graph.options, [](const auto& option) { return option.first == "pipeline"; });
+  made.graph.at.assign(roadmap.states.begin(), roadmap.states.end());
+  made.graph.graph = with_plane_lengths(roadmap.graph, made.graph.at);
+  made.graph.start = static_cast<VertexId>(made.graph.at.size() - 2);
+  made.graph.goal = static_cast<VertexId>(made.graph.at.size() - 1);
+  return made;
+}
+
+}  // namespace
+
+PlannerKind usual_graph_planner(const Scene& scene, const Question& question, const SolveOptions& options) {
+  const PlannerKind usual = choose_solver(options, scene, question).planner;
+  return usual == PlannerKind::lazy_prm ? PlannerKind::prm : usual;
+}
+
+WorldGraph world_graph(const Scene& scene, const Question& question, const SolveOptions& options,
+                       const Execution& execution) {
+  const RobotKind robot = robot_of(scene, question).kind;
+  if (robot != RobotKind::point && robot != RobotKind::disc) {
+    throw UsageError(
+        fmt::format("{}: searches are compared on graphs in the plane, and a {} has states of its own; "
+                    "@planners compares its planners",
+                    scene.source, name_of(robot)));
+  }
+  const ChosenSolver solver = choose_solver(options, scene, question);
+  WorldGraph made = roadmap_graph({options, scene, question, solver.planner, execution}, solver);
+  made.graph.source = scene.source;
+  made.graph.kind = name_of(solver.planner);
+  made.graph.unit = unit_of(scene);
+  return made;
+}
+
+}  // namespace warren::studies

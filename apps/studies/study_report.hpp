@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A study as a page that needs nothing but itself: tables that a click on a head sorts, plots whose marks tell what
+// they stand for, light and dark, wide and narrow.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "scenes/text/palette.hpp"
+
+namespace warren::studies {
+// A table for the terminal, with columns as wide as their widest cell, and for documents.
+
+struct TextTable {
+  std::vector<std::string> head;
+  std::size_t words = 0;  ///< so many columns from the left stand to the left, the others to the right
+  std::vector<std::vector<std::string>> rows;
+
+  /// The head strong, each line with an end; columns that are empty in all rows are left out.
+  std::string text(const Palette& palette) const;
+
+  TextTable without_empty_columns() const;
+
+  /// As Markdown has tables, or as LaTeX's tabular, with the package booktabs; without columns that are empty.
+  std::string markdown() const;
+  std::string latex() const;
+};
+
+struct ReportTable {
+  std::string title;  ///< "": none
+  TextTable table;
+};
+
+/// All words are plain text.
+struct ReportPage {
+  std::string title;
+  std::string command_line = {};
+  std::vector<std::string> notes = {};  ///< a paragraph each, above the plots
+  std::vector<std::string> plots = {};  ///< SVG elements; what has data-tip tells it
+  std::vector<ReportTable> tables = {};
+  std::vector<std::string> remarks = {};  ///< a paragraph each, at the end
+
+  std::string html() const;
+};
+
+}  // namespace warren::studies

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Why start and goal are apart: the sizes of their components and the nearest gap between them. One query a milestone
+// of the smaller component against an index over the larger: O(n).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/base/solution.hpp"
+#include "core/base/world.hpp"
+#include "core/search/graph.hpp"
+#include "parallel/chunks.hpp"
+#include "parallel/execution.hpp"
+#include "planners/graph/state_index.hpp"
+
+namespace warren {
+
+/// Of two sets of points, neither of them empty; the order of the points does not matter.
+template <int D>
+Separation separation_between(std::vector<PointOf<D>> start, std::vector<PointOf<D>> goal, const Execution& execution) {
+  Separation result{.start_size = start.size(), .goal_size = goal.size()};
+  const bool start_is_smaller = start.size() <= goal.size();
+  const auto& small = start_is_smaller ? start : goal;
+  const auto& large = start_is_smaller ? goal : start;
+  const KdTree<D> index(large, execution);  // a grid would search long where points are far
+  constexpr std::size_t grain = 1024;
+  struct Gap {
+    double distance = std::numeric_limits<double>::infinity();
+    std::size_t small = 0;
+    std::size_t large = 0;
+  };
+  std::vector<Gap> gaps(chunk_count(small.size(), grain));
+  for_chunks(small.size(), grain, execution, [&](Range r) {
+    std::vector<Neighbour> near;
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      index.nearest(small[i], 1, no_vertex, near);
+      Gap& least = gaps[r.first / grain];
+      if (near.front().distance < least.distance) least = {near.front().distance, i, near.front().id};
+    }
+  });
+  const Gap least =
+      *std::min_element(gaps.begin(), gaps.end(), [](const Gap& a, const Gap& b) { return a.distance < b.distance; });
+  result.nearest_gap = least.distance;
+  const auto place = [](const PointOf<D>& point) {
+    if constexpr (D == 2) {
+      return std::array{point.x, point.y};
+    } else {
+      return std::array{point[0], point[1]};
+    }
+  };
+  result.near_start = place(start_is_smaller ? small[least.small] : large[least.large]);
+  result.near_goal = place(start_is_smaller ? large[least.large] : small[least.small]);
+  return result;
+}
+
+template <World W>
+Separation separation_of(const W& world, std::span<const typename W::State> states, const Components& components,
+                         VertexId start, VertexId goal, const Execution& execution) {
+  const auto points_of = [&](VertexId v) {
+    std::vector<PointOf<embedding_dimension<W>>> points;
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      if (components.label[i] != components.label[v]) continue;
+      points.push_back(embedded(world, states[i]));
+    }
+    return points;
+  };
+  return separation_between<embedding_dimension<W>>(points_of(start), points_of(goal), execution);
+}
+
+// What a planner answers when it was stopped: why, and no path.
+
+/// Counts and times stay as they are.
+template <class State>
+void mark_stopped(Solution<State>& solution, const Stopped& stopped) {
+  solution.outcome = Outcome::stopped;
+  solution.stop_reason = stopped.reason;
+  solution.path.clear();
+}
+
+}  // namespace warren

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/graph/roadmap_arrays.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+#include <string_view>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/plane/se2.hpp"
+#include "parallel/chunks.hpp"
+#include "parallel/union_forest.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::size_t parts_grain = std::size_t{1} << 14;
+
+/// The first of n for which first_bad(range), the range's first or its end, says that there is one; else n.
+template <class FirstBad>
+std::size_t first_in_chunks(std::size_t n, const Execution& execution, const FirstBad& first_bad) {
+  std::vector<std::size_t> bad(chunk_count(n, parts_grain), n);
+  for_chunks(n, parts_grain, execution, [&](Range r) {
+    const std::size_t i = first_bad(r);
+    if (i < r.last) bad[r.first / parts_grain] = i;
+  });
+  const auto found = std::find_if(bad.begin(), bad.end(), [n](std::size_t i) { return i < n; });
+  return found == bad.end() ? n : *found;
+}
+
+/// The same where each element is asked by itself.
+template <class IsBad>
+std::size_t first_that(std::size_t n, const Execution& execution, const IsBad& is_bad) {
+  return first_in_chunks(n, execution, [&](Range r) {
+    std::size_t i = r.first;
+    while (i < r.last && !is_bad(i)) ++i;
+    return i;
+  });
+}
+
+class PartsCheck {
+ public:
+  PartsCheck(const RoadmapParts& parts, const std::string& where, const Execution& execution)
+      : parts_(parts), where_(where), execution_{execution.threads, execution.deadline} {}
+
+  void check() const {
+    check_sizes();
+    check_states();
+    check_first();
+    check_rows();
+    check_edge_states();
+    if (!parts_.directed) check_twins();
+    check_components();
+  }
+
+ private:
+  static std::string number(std::uint64_t n) { return std::to_string(n); }
+  [[noreturn]] void fail(const std::string& place, std::string_view what, const std::string& found) const {
+    throw InputError(where_ + ": " + place, what, found);
+  }
+  void check_size(const std::string& array, std::size_t found, std::size_t expected) const {
+    if (found != expected) fail(array, "expected " + number(expected) + " elements", number(found));
+  }
+  void check_sizes() const {
+    const std::size_t d = parts_.dimension;
+    if (d != 2 && d != 3 && d != 6) fail("dimension", "expected 2, 3 or 6 numbers a state", number(d));
+    if (parts_.first.empty()) fail("first", "expected one element more than vertices", "0");
+    const std::size_t n = parts_.vertex_count();
+    if (n > no_vertex) fail("first", "expected fewer than 2^32 vertices", number(n));
+    check_size("states", parts_.states.size(), n * d);
+    check_size("to", parts_.to.size(), parts_.first.back());
+    check_size("edge_states", parts_.edge_states.size(), edge_state_words(parts_.to.size()));
+    check_size("component", parts_.component.size(), n);
+  }
+  void check_states() const {
+    const auto states = parts_.states;
+    const std::size_t bad = first_in_chunks(states.size(), execution_, [&](Range r) {
+      const auto part = states.subspan(r.first, r.size());
+      bool all = true;  // without a branch an element: memory speed
+      for (const double x : part) all &= std::abs(x) <= largest_coordinate;
+      const auto is_bad = [](double x) { return !(std::abs(x) <= largest_coordinate); };
+      return all ? r.last : r.first + index_of(part, is_bad);
+    });
+    if (bad != states.size()) {
+      fail("states[" + number(bad) + "]", "expected a finite number of at most 1e60", std::to_string(states[bad]));
+    }
+    if (parts_.dimension == 3) check_headings();
+  }
+  void check_headings() const {
+    const std::size_t n = parts_.vertex_count();
+    const std::size_t bad =
+        first_that(n, execution_, [&](std::size_t v) { return std::abs(parts_.states[3 * v + 2]) > largest_heading; });
+    if (bad == n) return;
+    fail("states[" + number(3 * bad + 2) + "]", "expected a heading of at most 1000 rad",
+         std::to_string(parts_.states[3 * bad + 2]));
+  }
+  template <class T, class IsBad>
+  static std::size_t index_of(std::span<const T> part, const IsBad& is_bad) {
+    return static_cast<std::size_t>(std::find_if(part.begin(), part.end(), is_bad) - part.begin());
+  }
+  void check_first() const {
+    const auto first = parts_.first;
+    if (first.front() != 0) fail("first[0]", "expected 0", number(first.front()));
+    const std::size_t bad =
+        first_that(first.size() - 1, execution_, [&](std::size_t v) { return first[v] > first[v + 1]; });
+    if (bad == first.size() - 1) return;
+    fail("first[" + number(bad + 1) + "]", "expected no less than " + number(first[bad]), number(first[bad + 1]));
+  }
+
+  /// A chunk may have any number of ends: to be called for each of them.
+  void poll(std::size_t end) const {
+    constexpr std::size_t ends_between = std::size_t{1} << 16;
+    if (end % ends_between == 0) execution_.check();
+  }
+  /// Rows ascend strictly, so that a last element below V is enough for all of them.
+  bool is_sound_row(VertexId v) const {
+    const std::size_t begin = parts_.first[v];
+    const std::size_t last = parts_.first[v + 1];
+    if (begin == last) return true;
+    bool sound = parts_.to[last - 1] < parts_.vertex_count() && parts_.to[begin] != v;
+    for (std::size_t end = begin + 1; end < last; ++end) {
+      poll(end);
+      sound &= parts_.to[end - 1] < parts_.to[end] && parts_.to[end] != v;
+    }
+    return sound;
+  }
+  void check_rows() const {
+    const std::size_t n = parts_.vertex_count();
+    const std::size_t bad =
+        first_that(n, execution_, [&](std::size_t v) { return !is_sound_row(static_cast<VertexId>(v)); });
+    if (bad == n) return;
+    for (std::size_t end = parts_.first[bad]; end < parts_.first[bad + 1]; ++end) {
+      const std::string place = "to[" + number(end) + "]";
+      const VertexId w = parts_.to[end];
+      if (w >= n) fail(place, "expected a vertex below " + number(n), number(w));
+      if (w == bad) fail(place, "expected no edge from a vertex to itself", number(w));
+      if (end > parts_.first[bad] && w <= parts_.to[end - 1]) {
+        fail(place, "expected more than " + number(parts_.to[end - 1]) + ", the one before it in its row", number(w));
+      }
+    }
+  }
+
+  void check_edge_states() const {
+    constexpr std::uint64_t low_bits = 0x5555555555555555U;
+    const auto words = parts_.edge_states;
+    const std::size_t bad = first_that(words.size(), execution_,
+                                       [&](std::size_t i) { return (words[i] & words[i] >> 1U & low_bits) != 0; });
+    if (bad != words.size()) {
+      const int bit = std::countr_zero(words[bad] & words[bad] >> 1U & low_bits);
+      const std::size_t end = bad * edge_states_in_word + static_cast<std::size_t>(bit) / 2;
+      fail("edge_states of end " + number(end), "expected 0, 1 or 2", "3");
+    }
+    const std::size_t used = parts_.to.size() % edge_states_in_word;
+    if (used != 0 && words.back() >> (2 * used) != 0) {
+      fail("edge_states[" + number(words.size() - 1) + "]", "expected zeros behind the last end", number(words.back()));
+    }
+  }
+
+  /// The end that leads back from w to v; to.size() where there is none.
+  std::size_t twin_of(VertexId v, VertexId w) const {
+    const auto row = parts_.neighbours(w);
+    const auto found = std::lower_bound(row.begin(), row.end(), v);
+    if (found == row.end() || *found != v) return parts_.to.size();
+    return parts_.first[w] + static_cast<std::size_t>(found - row.begin());
+  }
+  bool has_twin(VertexId v, std::size_t end) const {
+    const std::size_t twin = twin_of(v, parts_.to[end]);
+    return twin != parts_.to.size() && parts_.state_of_end(twin) == parts_.state_of_end(end);
+  }
+  /// Where the row's ends to larger vertices begin.
+  std::size_t upper_begin(VertexId v) const {
+    const auto row = parts_.neighbours(v);
+    return parts_.first[v] + static_cast<std::size_t>(std::upper_bound(row.begin(), row.end(), v) - row.begin());
+  }
+  bool has_all_twins(VertexId v, std::size_t begin, std::size_t last) const {
+    for (std::size_t end = begin; end < last; ++end) {
+      poll(end);
+      if (!has_twin(v, end)) return false;
+    }
+    return true;
+  }
+  void check_twins() const {
+    const std::size_t n = parts_.vertex_count();
+    std::vector<std::size_t> uppers(chunk_count(n, parts_grain), 0);
+    const std::size_t bad = first_in_chunks(n, execution_, [&](Range r) {
+      std::size_t count = 0;
+      for (std::size_t i = r.first; i < r.last; ++i) {
+        const auto v = static_cast<VertexId>(i);
+        const std::size_t begin = upper_begin(v);
+        count += parts_.first[i + 1] - begin;
+        if (!has_all_twins(v, begin, parts_.first[i + 1])) return i;
+      }
+      uppers[r.first / parts_grain] = count;
+      return r.last;
+    });
+    if (bad != n) fail_twin(static_cast<VertexId>(bad));
+    if (2 * std::accumulate(uppers.begin(), uppers.end(), std::size_t{0}) == parts_.to.size()) return;
+    const std::size_t lower = first_that(n, execution_, [&](std::size_t i) {
+      return !has_all_twins(static_cast<VertexId>(i), parts_.first[i], parts_.first[i + 1]);
+    });
+    fail_twin(static_cast<VertexId>(lower));
+  }
+  [[noreturn]] void fail_twin(VertexId v) const {
+    std::size_t end = parts_.first[v];
+    while (has_twin(v, end)) ++end;
+    const VertexId w = parts_.to[end];
+    const std::string edge = "to[" + number(end) + "]: the edge from " + number(v) + " to " + number(w);
+    if (twin_of(v, w) == parts_.to.size()) fail(edge, "expected to stand in the other vertex's row, too", "once");
+    fail(edge, "expected the same state at both ends", "two");
+  }
+
+  void check_components() const {
+    const std::size_t n = parts_.vertex_count();
+    const RawVector<VertexId> expected = free_components(parts_, execution_);
+    const std::size_t bad =
+        first_that(n, execution_, [&](std::size_t v) { return expected[v] != parts_.component[v]; });
+    if (bad == n) return;
+    fail("component[" + number(bad) + "]",
+         "expected the smallest vertex that free edges lead to, " + number(expected[bad]),
+         number(parts_.component[bad]));
+  }
+
+  const RoadmapParts& parts_;
+  const std::string& where_;
+  Execution execution_;
+};
+
+}  // namespace
+
+void check_parts(const RoadmapParts& parts, const std::string& where, const Execution& execution) {
+  PartsCheck(parts, where, execution).check();
+}
+
+RawVector<VertexId> free_components(const RoadmapParts& parts, const Execution& execution) {
+  constexpr std::size_t grain = std::size_t{1} << 14;
+  const std::size_t n = parts.vertex_count();
+  execution.reserve(n * sizeof(VertexId));
+  RawVector<VertexId> parent(n);
+  for_chunks(n, grain, execution, [&](Range r) {
+    for (std::size_t v = r.first; v < r.last; ++v) parent[v] = static_cast<VertexId>(v);
+  });
+  const UnionForest forest(parent);
+  for_chunks(n, grain, execution, [&](Range r) {
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      const auto v = static_cast<VertexId>(i);
+      for (std::size_t end = parts.first[i]; end < parts.first[i + 1]; ++end) {
+        if (parts.state_of_end(end) == EdgeState::free) forest.join(v, parts.to[end]);
+      }
+    }
+  });
+  RawVector<VertexId> label(n);
+  for_chunks(n, grain, execution, [&](Range r) {
+    for (std::size_t v = r.first; v < r.last; ++v) label[v] = forest.root(static_cast<VertexId>(v));
+  });
+  return label;
+}
+
+}  // namespace warren

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A roadmap as plain arrays that it owns, and what building it took: whoever builds one gives these, and knows nothing
+// of the roadmap as a value that is asked, updated and kept in a file (solve/roadmaps/roadmap.hpp).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/base/counters.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/base/types.hpp"
+#include "core/search/edge_states.hpp"
+#include "core/search/graph.hpp"
+#include "parallel/execution.hpp"
+#include "planners/graph/hierarchy.hpp"
+
+namespace warren {
+// A roadmap as plain arrays, whoever holds them: what planners leave behind, files hold and exports write. Start and
+// goal are no part of it.
+
+/// Refers to arrays that live elsewhere. Any number of threads may read.
+struct RoadmapParts {
+  unsigned dimension = 2;  ///< numbers a state: 2 (x, y), 3 (x, y, heading in radians), 6 (joint angles in radians)
+  bool directed = false;   ///< an edge leads from its row to its target alone; else each edge stands twice
+  std::span<const double> states;              ///< `dimension` finite numbers a vertex
+  std::span<const EdgeEnd> first;              ///< vertex_count + 1: the ends of vertex v are first[v] .. first[v + 1]
+  std::span<const VertexId> to;                ///< where each edge end leads; the ends of a vertex ascend
+  std::span<const std::uint64_t> edge_states;  ///< edge_states.hpp
+  std::span<const VertexId> component;         ///< smallest vertex that free edges join each vertex with, any direction
+
+  std::size_t vertex_count() const { return first.empty() ? 0 : first.size() - 1; }
+  std::size_t edge_count() const { return directed ? to.size() : to.size() / 2; }
+  std::span<const double> state(VertexId v) const { return states.subspan(std::size_t{v} * dimension, dimension); }
+  std::span<const VertexId> neighbours(VertexId v) const { return to.subspan(first[v], first[v + 1] - first[v]); }
+  EdgeState state_of_end(std::size_t end) const { return edge_state(edge_states, end); }
+};
+
+/// States and edges, owned. An edge that leads both ways stands in both its rows.
+struct RoadmapArrays {
+  unsigned dimension = 2;                ///< numbers a state
+  bool directed = false;                 ///< do edges lead one way?
+  RawVector<double> states;              ///< `dimension` numbers each
+  Graph candidates;                      ///< edges that are free, blocked or unchecked
+  RawVector<std::uint64_t> edge_states;  ///< two bits an edge end (core/search/edge_states.hpp)
+  RawVector<VertexId> component;         ///< a number each state: the same where free edges join them
+  Hierarchy hierarchy;                   ///< of the free edges; empty: there is none
+
+  /// Views of all of it.
+  RoadmapParts parts() const {
+    return {dimension, directed, states, candidates.offsets(), candidates.targets(), edge_states, component};
+  }
+};
+
+/// What building took.
+struct BuildAccount {
+  Counters counters;   ///< exact, the same for any number of threads
+  StageTimes seconds;  ///< wall-clock
+};
+
+// Holds the arrays of a roadmap against what roadmap_arrays.hpp promises, so that nobody who reads them afterwards can
+// look beyond an array or go round for ever, whoever made them: right checksums prove nothing about meaning.
+//
+// First the sizes, then every element in parallel, each rule in a pass of its own and each pass only over what the ones
+// before it have found sound. An edge's other end is found by a search in its row, from the lower vertex alone: where
+// each of these has its twin and both kinds are as many, all have one. Components are computed again from the free
+// edges by a lock-free union and compared. O(V + E log degree) time; memory: 4 bytes a vertex.
+
+/// Throws InputError, which names the array, the first element that breaks its rule and what it is, as part of `where`;
+/// Stopped. The same error for any number of threads.
+void check_parts(const RoadmapParts& parts, const std::string& where, const Execution& execution);
+
+// Which vertices of a roadmap are joined by edges that are known to be free, whatever their direction. O(E α(V)), on
+// all threads by a lock-free union; the same labels whatever the order of the unions.
+
+/// For each vertex the smallest one of its component. `parts` needs no components of its own. Throws Stopped.
+RawVector<VertexId> free_components(const RoadmapParts& parts, const Execution& execution);
+
+// A roadmap as a planner leaves it behind, for pictures and second queries: milestones in tile order with start and
+// goal as the last two, the graph over them, and the search's tree.
+
+template <class State>
+struct PlannedRoadmap {
+  RawVector<State> states;         ///< milestones, then start, then goal
+  Graph graph;                     ///< free edges; lazy planners: the edges that were checked and found free
+  std::vector<Edge> search_tree;   ///< (vertex, parent) of every vertex that the search reached
+  std::vector<Edge> motions = {};  ///< trees that grow: each motion from where it begins to where it ends
+};
+
+}  // namespace warren

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/graph/roadmap_options.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "core/base/error.hpp"
+
+namespace warren {
+
+void RoadmapOptions::validate() const {
+  constexpr std::uint64_t most_samples = std::uint64_t{1} << 31;
+  if (samples && (*samples < 1 || *samples > most_samples)) {
+    throw InputError("samples", "must be from 1 to 2^31", std::to_string(*samples));
+  }
+  if (neighbours && (*neighbours < 1 || *neighbours > 4096)) {
+    throw InputError("neighbours", "must be from 1 to 4096", std::to_string(*neighbours));
+  }
+  if (radius && !(*radius > 0.0 && std::isfinite(*radius))) {
+    throw InputError("radius", "must be a positive number", std::to_string(*radius));
+  }
+  if (attach) {
+    const auto positive = [](const std::optional<double>& x) { return !x || (*x > 0.0 && std::isfinite(*x)); };
+    if (!positive(attach->radius) || !positive(attach->step) || attach->tries < 1) {
+      throw InputError("attach", "takes a positive radius and step, and one try or more");
+    }
+  }
+  if (neighbours && radius) throw InputError("radius", "replaces the number of neighbours: give one of the two");
+  if (star != StarRule::none && (neighbours || radius)) {
+    throw InputError("neighbours", "follow from the samples by the rules of PRM*: give a number or the rule");
+  }
+  if (sampler == SamplerKind::lattice && (lattice.rows < 1 || lattice.cols < 1)) {
+    throw InputError("lattice", "needs the rows and columns of the maze");
+  }
+}
+
+}  // namespace warren

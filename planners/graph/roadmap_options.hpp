@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How a roadmap is built and searched: the options that prm and lazy_prm share, as plain aggregates.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <string_view>
+
+#include "core/base/enum_names.hpp"
+#include "core/base/types.hpp"
+#include "core/base/world.hpp"
+#include "spatial/points/neighbours.hpp"
+
+namespace warren {
+// What A* takes the way to the goal for, of points of the plane. Edges are as long as they are, so an estimate that may
+// be longer than the straight line loses the shortest path: by the Manhattan distance it may come out sqrt(2) times as
+// long, by the octile one 1.083 times. Such a search goes from the start alone and never looks at a settled vertex
+// again, as those do that are programmed so.
+
+/// Of dx and dy: euclidean: the straight line. manhattan: dx + dy. octile: along axes and diagonals. chebyshev: the
+/// larger. zero: nothing, which makes A* Dijkstra's search.
+enum class HeuristicKind : std::uint8_t { euclidean, manhattan, octile, chebyshev, zero };
+constexpr auto enum_names(HeuristicKind) {
+  return std::array<std::string_view, 5>{"euclidean", "manhattan", "octile", "chebyshev", "zero"};
+}
+
+/// Is it never more than the straight line?
+constexpr bool never_overestimates(HeuristicKind kind) {
+  return kind != HeuristicKind::manhattan && kind != HeuristicKind::octile;
+}
+
+/// The estimate between two states; of bodies that have more than a place the world's metric, whatever the kind.
+template <World W>
+double estimated_way(const W& world, HeuristicKind kind, const typename W::State& a, const typename W::State& b) {
+  if constexpr (std::same_as<typename W::State, Vec2>) {
+    const double dx = std::abs(a.x - b.x);
+    const double dy = std::abs(a.y - b.y);
+    if (kind == HeuristicKind::manhattan) return dx + dy;
+    if (kind == HeuristicKind::octile) return std::max(dx, dy) + (std::numbers::sqrt2 - 1.0) * std::min(dx, dy);
+    if (kind == HeuristicKind::chebyshev) return std::max(dx, dy);
+    if (kind == HeuristicKind::zero) return 0.0;
+  }
+  return world.distance(a, b);
+}
+
+/// uniform: in the plane stratified, one sample drawn uniformly in each of as many equal boxes as there are samples,
+/// which joins mazes with a quarter of the milestones that independent draws need (docs/performance.md); else
+/// independent. lattice: the cell centres of a maze. halton: the Halton sequence, shifted by the seed. random:
+/// independent uniform. gaussian, bridge, mixture: planners/roadmap/sampler.hpp. corridor: the middles of a map's
+/// corridors, by the distance transform (worlds/rasters/corridor_points.hpp); where the world knows none, as random.
+/// cell_centres: of a map (spatial/points/cell_milestones.hpp), all at once; for worlds without cells as random.
+enum class SamplerKind : std::uint8_t {
+  uniform,
+  lattice,
+  halton,
+  random,
+  gaussian,
+  bridge,
+  mixture,
+  corridor,
+  cell_centres
+};
+constexpr auto enum_names(SamplerKind) {
+  return std::array<std::string_view, 9>{"uniform", "lattice", "halton",   "random",      "gaussian",
+                                         "bridge",  "mixture", "corridor", "cell-centres"};
+}
+/// Does this kind take all its places at once, so that there is no number of samples to choose?
+constexpr bool takes_all_places(SamplerKind kind) {
+  return kind == SamplerKind::lattice || kind == SamplerKind::cell_centres;
+}
+/// The rules of PRM* (Karaman, Frazzoli, Int. J. Robotics Research 30(7), 2011), by which the number of neighbours or
+/// the radius follows the number of samples so that paths approach the shortest ones.
+enum class StarRule : std::uint8_t { none, neighbours, radius };
+/// How a graph is searched: by cost and estimate, by cost, by the number of edges, or depth first.
+enum class SearchKind : std::uint8_t { astar, dijkstra, bfs, dfs };
+constexpr auto enum_names(SearchKind) { return std::array<std::string_view, 4>{"astar", "dijkstra", "bfs", "dfs"}; }
+/// What holds the open vertices of astar and dijkstra; the path has the same length with each of them.
+enum class QueueKind : std::uint8_t { heap, lazy_heap, sorted_array, resorted_array };
+constexpr auto enum_names(QueueKind) {
+  return std::array<std::string_view, 4>{"heap", "lazy-heap", "sorted-array", "resorted-array"};
+}
+
+/// Cell centres (1..cols) x (1..rows): what SamplerKind::lattice needs to know.
+struct LatticeSize {
+  std::uint32_t rows = 0;  ///< of cells; y of their centres is 1 .. rows
+  std::uint32_t cols = 0;  ///< of cells; x of their centres is 1 .. cols
+};
+
+/// Start and goal are joined to all milestones within a radius to which their motion is free; while there is none, the
+/// radius grows by a step, up to `tries` radii in all (after the study's query, which did this with the wrong metric).
+struct GrowingAttach {
+  std::optional<double> radius = {};  ///< the first, > 0; none: the rule's radius, or as far as its k nearest
+  std::optional<double> step = {};    ///< > 0; none: half of the first radius
+  std::uint32_t tries = 10;           ///< 1 .. 10,000
+  friend bool operator==(const GrowingAttach&, const GrowingAttach&) = default;
+};
+
+/// How a roadmap is made and searched.
+/// validate() refuses values outside the stated ranges with InputError.
+struct RoadmapOptions {
+  SamplerKind sampler = SamplerKind::uniform;    ///< where states are drawn
+  LatticeSize lattice = {};                      ///< only for SamplerKind::lattice; both >= 1
+  std::optional<std::uint64_t> samples = {};     ///< states drawn, 1 .. 2^31; none: grow until start and goal connect
+  std::optional<std::uint32_t> neighbours = {};  ///< k of the k nearest, 1 .. 4096; none: by the sampler's rule
+  std::optional<double> radius = {};      ///< longest edge, world units, > 0 (replaces neighbours); none: by rule
+  StarRule star = StarRule::none;         ///< instead of neighbours and radius
+  std::uint64_t seed = 1;                 ///< any value
+  SearchKind search = SearchKind::astar;  ///< of the roadmap
+  QueueKind queue = QueueKind::heap;      ///< of astar and dijkstra
+  HeuristicKind heuristic = HeuristicKind::euclidean;          ///< of astar, for points of the plane
+  NeighbourIndex neighbour_index = NeighbourIndex::by_counts;  ///< of the milestones
+  /// How start and goal are joined; none: by the rule, and where that finds nothing to the nearest that will do.
+  std::optional<GrowingAttach> attach = {};
+
+  /// Throws InputError for values outside their ranges.
+  void validate() const;
+};
+
+}  // namespace warren

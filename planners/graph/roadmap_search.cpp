@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/graph/roadmap_search.hpp"
+
+#include <array>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <type_traits>
+
+#include "core/search/search.hpp"
+#include "parallel/bidirectional_search.hpp"
+#include "parallel/chunks.hpp"
+#include "planners/graph/queue_choice.hpp"
+
+namespace warren {
+namespace {
+
+/// NBA* (core/search/bidirectional_search.hpp), a thread an end: 17 bytes a vertex and end, and the queues.
+/// neighbours[i]: of the side that begins at roots[i]; the two are called from two threads at once. estimate_to(root)
+/// gives a consistent estimate of the way to a root. states[i] keeps what side i has reached. Throws Stopped at the
+/// deadline.
+template <class Neighbours, class EstimateTo>
+SearchResult search_from_both_ends(QueueKind kind, std::size_t vertex_count, const std::array<VertexId, 2>& roots,
+                                   const std::array<Neighbours, 2>& neighbours, const EstimateTo& estimate_to,
+                                   const std::array<SearchState*, 2>& states, const Execution& execution) {
+  using Estimate = decltype(estimate_to(no_vertex));
+  const std::array<Estimate, 2> to_root{estimate_to(roots[0]), estimate_to(roots[1])};
+  const SearchResult found = with_queue(kind, 0, execution, [&](const auto& empty_queue) {
+    using Queue = std::remove_cvref_t<decltype(empty_queue)>;
+    struct alignas(apart) Side {
+      Queue queue;
+      std::optional<SearchSide<Queue, Neighbours, Estimate, Estimate>> search;
+    };
+    std::array<Side, 2> sides{Side{empty_queue, {}}, Side{empty_queue, {}}};
+    // Both at once: the first touch of their memory is half of the cost. Few vertices do not repay a thread's start.
+    const std::size_t grain = vertex_count < fewest_for_both_ends ? 2 : 1;
+    for_chunks(2, grain, execution, [&](Range r) {
+      for (std::size_t i = r.first; i < r.last; ++i) {
+        sides[i].search.emplace(roots[i], vertex_count, neighbours[i], to_root[1 - i], to_root[i], sides[i].queue,
+                                *states[i], [&] { execution.check(); });
+      }
+    });
+    return bidirectional(*sides[0].search, *sides[1].search, execution);
+  });
+  if (found.status == SearchStatus::stopped) execution.check();
+  return found;
+}
+
+/// The edges of a graph, as a search asks for them.
+struct GraphEdges {
+  const Graph& graph;
+  const VertexDistance& length;
+  template <class Visit>
+  void operator()(VertexId v, const Visit& visit) const {
+    const std::span<const VertexId> row = graph.neighbours(v);
+    if (!graph.has_lengths()) {
+      for (const VertexId w : row) visit(w, length(v, w));
+      return;
+    }
+    const std::span<const double> lengths = graph.lengths(v);
+    for (std::size_t i = 0; i < row.size(); ++i) visit(row[i], lengths[i]);
+  }
+  void fetch(VertexId v) const { __builtin_prefetch(graph.neighbours(v).data()); }
+  template <class Visit>
+  void for_each_target(VertexId v, const Visit& visit) const {
+    for (const VertexId w : graph.neighbours(v)) visit(w);
+  }
+};
+
+/// A* or Dijkstra. estimate_to(root) gives a consistent estimate of the way to start or goal.
+template <class EstimateTo>
+SearchResult search_best(const Graph& graph, VertexId start, VertexId goal, const EstimateTo& estimate_to,
+                         const RoadmapSearch& asked) {
+  const GraphEdges neighbours{graph, asked.length};
+  const Execution& execution = asked.execution;
+  const std::size_t n = graph.vertex_count();
+  execution.reserve(n * 36);
+  std::array<SearchState, 2> states;
+  SearchResult found;
+  if (n >= fewest_for_both_ends && asked.estimate_fits) {
+    found = search_from_both_ends<GraphEdges>(asked.queue, n, {start, goal}, {neighbours, neighbours}, estimate_to,
+                                              {&states[0], &states[1]}, execution);
+  } else {
+    states[0].resize(n, [&] { execution.check(); });
+    found = with_queue(asked.queue, n, execution, [&](auto& queue) {
+      return best_first(start, goal, neighbours, estimate_to(goal), queue, states[0],
+                        [&] { return execution.should_stop(); });
+    });
+  }
+  if (found.status == SearchStatus::stopped) execution.check();
+  if (asked.tree != nullptr) *asked.tree = search_trees(states[0], states[1]);
+  return found;
+}
+
+/// estimate_to() of search_best, of graph and reduced graph alike: vertex_of(v) is the vertex that asked knows.
+template <class VertexOf>
+auto estimates(const RoadmapSearch& asked, const VertexOf& vertex_of) {
+  return [&asked, &vertex_of](VertexId root) {
+    const bool informed = asked.search == SearchKind::astar && root != no_vertex;
+    const VertexId to = informed ? vertex_of(root) : no_vertex;
+    return [&asked, &vertex_of, to](VertexId v) { return to != no_vertex ? asked.estimate(vertex_of(v), to) : 0.0; };
+  };
+}
+
+/// A search tree over keys as the tree over the vertices on their chains.
+template <class Reduced>
+std::vector<Edge> expanded_tree(const Reduced& reduced, const std::vector<Edge>& keys, const Execution& execution) {
+  std::vector<Edge> tree;
+  for (const Edge& e : keys) {
+    const RawVector<VertexId> chain = reduced.expand(std::array{e.from, e.to}, execution);
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) tree.push_back({chain[i], chain[i + 1]});
+  }
+  return tree;
+}
+
+template <class Reduced>
+SearchResult search_keys(const Reduced& reduced, const RoadmapSearch& asked) {
+  const auto vertex_of = [&](VertexId key) { return reduced.vertex_of(key); };
+  SearchResult found = search_best(reduced.graph(), reduced.key_of(asked.start), reduced.key_of(asked.goal),
+                                   estimates(asked, vertex_of), asked);
+  found.path = reduced.expand(found.path, asked.execution);
+  if (asked.tree != nullptr) *asked.tree = expanded_tree(reduced, *asked.tree, asked.execution);
+  return found;
+}
+
+/// Breadth or depth first.
+SearchResult search_blindly(const Graph& graph, const RoadmapSearch& asked) {
+  const Execution& execution = asked.execution;
+  const auto should_stop = [&] { return execution.should_stop(); };
+  SearchState state;
+  state.resize(graph.vertex_count(), [&] { execution.check(); });
+  SearchResult found = asked.search == SearchKind::bfs
+                           ? breadth_first(graph, asked.start, asked.goal, state, should_stop)
+                           : depth_first(graph, asked.start, asked.goal, state, should_stop);
+  if (found.status == SearchStatus::stopped) execution.check();
+  if (asked.tree != nullptr) *asked.tree = search_tree(state);
+  return found;
+}
+
+/// Of the way to `to`; zero where there is none.
+struct EstimateTo {
+  VertexDistance estimate;
+  VertexId to;
+  double operator()(VertexId v) const { return to != no_vertex ? estimate(v, to) : 0.0; }
+};
+EstimateTo estimate_to(const ImplicitSearch& asked, VertexId to) {
+  return {asked.estimate, asked.informed ? to : no_vertex};
+}
+
+bool is_blind(SearchKind search) { return search == SearchKind::bfs || search == SearchKind::dfs; }
+
+}  // namespace
+
+std::vector<Edge> search_tree(const SearchState& state) {
+  std::vector<Edge> tree;
+  for (const VertexId v : state.touched()) {
+    if (state.parent(v) != no_vertex) tree.push_back({v, state.parent(v)});
+  }
+  return tree;
+}
+
+std::vector<Edge> search_trees(const SearchState& forward, const SearchState& backward) {
+  std::vector<Edge> tree = search_tree(forward);
+  for (const Edge& e : search_tree(backward)) {
+    if (!forward.reached(e.from)) tree.push_back(e);
+  }
+  return tree;
+}
+
+bool is_stringy(const Graph& graph, const Execution& execution) {
+  constexpr std::size_t grain = std::size_t{1} << 16;
+  const std::size_t n = graph.vertex_count();
+  std::vector<std::size_t> counts(chunk_count(n, grain), 0);
+  for_chunks(n, grain, execution, [&](Range r) {
+    std::size_t count = 0;
+    for (std::size_t v = r.first; v < r.last; ++v) {
+      count += static_cast<std::size_t>(graph.neighbours(static_cast<VertexId>(v)).size() <= 2);
+    }
+    counts[r.first / grain] = count;
+  });
+  return 2 * std::accumulate(counts.begin(), counts.end(), std::size_t{0}) >= n;
+}
+
+std::optional<TwiceReducedGraphView> reduced_for_search(const Graph& graph, const RoadmapSearch& asked) {
+  if (is_blind(asked.search) || !asked.estimate_fits) return std::nullopt;
+  if (graph.vertex_count() < fewest_for_both_ends || !is_stringy(graph, asked.execution)) return std::nullopt;
+  return TwiceReducedGraphView(graph, std::array{asked.start, asked.goal}, asked.length, asked.execution);
+}
+
+SearchResult search_roadmap(const Graph& graph, const RoadmapSearch& asked) {
+  if (is_blind(asked.search)) return search_blindly(graph, asked);
+  const auto itself = [](VertexId v) { return v; };
+  return search_best(graph, asked.start, asked.goal, estimates(asked, itself), asked);
+}
+
+SearchResult search_roadmap(const ReducedGraphView& reduced, const RoadmapSearch& asked) {
+  return search_keys(reduced, asked);
+}
+
+SearchResult search_roadmap(const TwiceReducedGraphView& reduced, const RoadmapSearch& asked) {
+  return search_keys(reduced, asked);
+}
+
+SearchResult search_implicit(const AnyNeighbours& neighbours, VertexId from, VertexId to, const ImplicitSearch& asked,
+                             SearchState& state) {
+  const Execution& execution = asked.execution;
+  state.resize(asked.vertex_count, [&] { execution.check(); });
+  return with_queue(asked.queue, asked.vertex_count, execution, [&](auto& queue) {
+    return best_first(from, to, neighbours, estimate_to(asked, to), queue, state,
+                      [&] { return execution.should_stop(); });
+  });
+}
+
+SearchResult search_implicit_from_both_ends(const std::array<AnyNeighbours, 2>& neighbours,
+                                            const std::array<VertexId, 2>& ends, const ImplicitSearch& asked,
+                                            const std::array<SearchState*, 2>& states) {
+  return search_from_both_ends<AnyNeighbours>(
+      asked.queue, asked.vertex_count, ends, neighbours, [&](VertexId to) { return estimate_to(asked, to); }, states,
+      asked.execution);
+}
+
+}  // namespace warren

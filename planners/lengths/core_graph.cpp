@@ -1,0 +1,458 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/lengths/core_graph.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "core/base/error.hpp"
+#include "parallel/chunks.hpp"
+#include "parallel/first_touch.hpp"
+#include "parallel/scan.hpp"
+
+namespace warren {
+namespace {
+
+/// Eight bits as the lowest bits of eight bytes.
+constexpr std::array<std::uint64_t, 256> bits_as_bytes = [] {
+  std::array<std::uint64_t, 256> table{};
+  for (unsigned bits = 0; bits < 256; ++bits) {
+    for (unsigned i = 0; i < 8; ++i) table[bits] |= std::uint64_t{bits >> i & 1U} << (8 * i);
+  }
+  return table;
+}();
+
+/// Tiles [first_col, end_col) x [first_row, end_row).
+struct TileSquare {
+  std::uint32_t first_col, first_row, end_col, end_row;
+};
+
+class Peeling {
+ public:
+  Peeling(const LatticePassages& passages, const LatticePlaces& places, const Execution& execution)
+      : passages_(passages), places_(places), execution_(execution) {
+    execution.reserve(places.place_count());
+    bytes_.resize(places.place_count());
+    touch_first(bytes_, execution);
+  }
+
+  RawVector<std::uint8_t> run() {
+    for_chunks(places_.tile_count(), 16, execution_, [&](Range r) {
+      for (std::size_t tile = r.first; tile < r.last; ++tile) {
+        load(static_cast<std::uint32_t>(tile));
+        peel_tile(static_cast<LatticePlace>(tile * LatticePlaces::tile_places));
+      }
+    });
+    for (std::uint32_t side = growth; side / growth < most_tiles(); side *= growth) peel_squares(side);
+    return std::move(bytes_);
+  }
+
+ private:
+  static constexpr std::uint32_t growth = 8;
+
+  std::uint32_t most_tiles() const { return std::max(places_.tile_cols(), places_.tile_rows()); }
+  void load(std::uint32_t tile);
+  void load_row(std::uint8_t* at, std::uint32_t col, std::uint32_t row) const;
+  void peel_tile(LatticePlace first);
+  void peel_squares(std::uint32_t side);
+  void peel_border(std::uint32_t tile, unsigned direction, const TileSquare& square);
+  void follow(LatticePlace at, const TileSquare& square);
+  bool leaves(std::uint32_t tile, unsigned direction, const TileSquare& square) const;
+
+  const LatticePassages& passages_;
+  const LatticePlaces& places_;
+  const Execution& execution_;
+  RawVector<std::uint8_t> bytes_;
+};
+
+void Peeling::load(std::uint32_t tile) {
+  std::uint8_t* at = bytes_.data() + std::size_t{tile} * LatticePlaces::tile_places;
+  const std::uint32_t col = tile % places_.tile_cols() * LatticePlaces::side;
+  const std::uint32_t row = tile / places_.tile_cols() * LatticePlaces::side;
+  for (std::uint32_t i = 0; i < LatticePlaces::side; ++i) load_row(at + i * LatticePlaces::side, col, row + i);
+}
+
+void Peeling::load_row(std::uint8_t* at, std::uint32_t col, std::uint32_t row) const {
+  std::memset(at, 0, LatticePlaces::side);  // what fills up the lattice is no tree
+  if (row >= places_.size().rows) return;
+  const std::array<std::uint64_t, 4> open = passages_.open_words(col, row);
+  const std::uint32_t width = std::min(LatticePlaces::side, places_.size().cols - col);
+  std::array<std::uint8_t, LatticePlaces::side> line;
+  for (unsigned i = 0; i < LatticePlaces::side; i += 8) {
+    std::uint64_t eight = 0;
+    for (unsigned d = 0; d < 4; ++d) eight |= bits_as_bytes[open[d] >> i & 255U] << d;
+    std::memcpy(line.data() + i, &eight, 8);
+  }
+  std::memcpy(at, line.data(), width);
+}
+
+/// Dead ends of a tile whose way goes on in it.
+void Peeling::peel_tile(LatticePlace first) {
+  std::uint8_t* const tile = bytes_.data() + first;
+  for (LatticePlace start = 0; start < LatticePlaces::tile_places; ++start) {
+    LatticePlace at = start;
+    for (unsigned open = tile[at]; std::has_single_bit(open); open = tile[at]) {
+      const auto direction = static_cast<unsigned>(std::countr_zero(open));
+      if (direction > 3 || LatticePlaces::leaves_tile(at, direction)) break;
+      tile[at] = static_cast<std::uint8_t>(peel_bit::peeled | direction << peel_bit::direction_shift);
+      at = places_.step_inside(at, direction);
+      tile[at] = static_cast<std::uint8_t>(tile[at] & ~(1U << (direction ^ 2U)));
+    }
+  }
+}
+
+/// Squares of side x side tiles: the dead ends at the borders of the smaller squares in them.
+void Peeling::peel_squares(std::uint32_t side) {
+  const std::uint32_t cols = (places_.tile_cols() - 1) / side + 1;
+  const std::uint32_t rows = (places_.tile_rows() - 1) / side + 1;
+  const std::uint32_t inner = side / growth;
+  for_chunks(std::size_t{cols} * rows, 1, execution_, [&](Range r) {
+    const auto number = static_cast<std::uint32_t>(r.first);
+    TileSquare square{number % cols * side, number / cols * side, 0, 0};
+    square.end_col = std::min(square.first_col + side, places_.tile_cols());
+    square.end_row = std::min(square.first_row + side, places_.tile_rows());
+    for (std::uint32_t row = square.first_row; row < square.end_row; ++row) {
+      execution_.check();
+      for (std::uint32_t col = square.first_col; col < square.end_col; ++col) {
+        const std::uint32_t tile = row * places_.tile_cols() + col;
+        if (col % inner == inner - 1) peel_border(tile, 0, square);
+        if (row % inner == inner - 1) peel_border(tile, 1, square);
+        if (col % inner == 0) peel_border(tile, 2, square);
+        if (row % inner == 0) peel_border(tile, 3, square);
+      }
+    }
+  });
+}
+
+void Peeling::peel_border(std::uint32_t tile, unsigned direction, const TileSquare& square) {
+  const unsigned last = LatticePlaces::side - 1;
+  const std::array<LatticePlace, 4> corner{last, last * LatticePlaces::side, 0, 0};
+  const LatticePlace along = (direction & 1U) == 0 ? LatticePlaces::side : 1;
+  LatticePlace at = tile * LatticePlaces::tile_places + corner[direction];
+  for (unsigned i = 0; i <= last; ++i, at += along) {
+    if (bytes_[at] == 1U << direction) follow(at, square);
+  }
+}
+
+bool Peeling::leaves(std::uint32_t tile, unsigned direction, const TileSquare& square) const {
+  const std::uint32_t col = tile % places_.tile_cols();
+  const std::uint32_t row = tile / places_.tile_cols();
+  switch (direction) {
+    case 0:
+      return col + 1 == square.end_col;
+    case 1:
+      return row + 1 == square.end_row;
+    case 2:
+      return col == square.first_col;
+    default:
+      return row == square.first_row;
+  }
+}
+
+void Peeling::follow(LatticePlace at, const TileSquare& square) {
+  constexpr unsigned borders_a_poll = 1024;
+  unsigned borders = 0;
+  for (unsigned open = bytes_[at]; std::has_single_bit(open) && open <= peel_bit::edges; open = bytes_[at]) {
+    const auto direction = static_cast<unsigned>(std::countr_zero(open));
+    if (LatticePlaces::leaves_tile(at, direction)) {
+      if (leaves(LatticePlaces::tile_of(at), direction, square)) return;
+      if (++borders % borders_a_poll == 0) execution_.check();
+    }
+    bytes_[at] = static_cast<std::uint8_t>(peel_bit::peeled | direction << peel_bit::direction_shift);
+    at = places_.step(at, direction);
+    bytes_[at] = static_cast<std::uint8_t>(bytes_[at] & ~(1U << (direction ^ 2U)));
+  }
+}
+
+}  // namespace
+
+RawVector<std::uint8_t> peel(const LatticePassages& passages, const LatticePlaces& places, const Execution& execution) {
+  return Peeling(passages, places, execution).run();
+}
+
+namespace {
+
+/// Junctions are found row by row of the tiles, 64 cells each.
+constexpr std::size_t row_grain = 1024;
+constexpr std::size_t junction_grain = 4096;
+
+/// Bit e: of nibbles of edges e, have they `least` edges or more? Processors without an instruction to count bits call
+/// a function for each cell.
+constexpr std::uint32_t nibbles_with(int least) {
+  std::uint32_t bits = 0;
+  for (unsigned e = 0; e < 16; ++e) bits |= std::uint32_t{std::popcount(e) >= least} << e;
+  return bits;
+}
+
+bool is_junction(LatticePlace p, unsigned byte) {
+  if ((byte & peel_bit::peeled) != 0) return false;
+  constexpr std::uint32_t two = nibbles_with(2);
+  constexpr std::uint32_t three = nibbles_with(3);
+  return ((is_post(p) ? two : three) >> (byte & peel_bit::edges) & 1U) != 0;
+}
+
+class CoreWalk {
+ public:
+  CoreWalk(const RawVector<std::uint8_t>& peeled, const LatticePlaces& places, const Execution& execution)
+      : peeled_(peeled), places_(places), execution_(execution) {}
+
+  CoreGraph run() {
+    find_junctions();
+    walk_chains();
+    drop_useless();
+    return std::move(graph_);
+  }
+
+ private:
+  void find_junctions();
+  void walk_chains();
+  void walk(JunctionId from, unsigned direction);
+  void drop_useless();
+  bool is_useless(JunctionId v, unsigned slot) const;
+  JunctionId junction_at(LatticePlace p) const {
+    const std::uint64_t below = (std::uint64_t{1} << p % 64) - 1;
+    return first_[p / 64] + static_cast<JunctionId>(std::popcount(bits_[p / 64] & below));
+  }
+
+  const RawVector<std::uint8_t>& peeled_;
+  const LatticePlaces& places_;
+  const Execution& execution_;
+  RawVector<std::uint64_t> bits_;   // of junctions
+  RawVector<std::uint32_t> first_;  // junction of a row
+  CoreGraph graph_;
+};
+
+void CoreWalk::find_junctions() {
+  const std::size_t rows = places_.place_count() / 64;
+  execution_.reserve(rows * 12);
+  bits_.resize(rows);
+  first_.resize(rows);
+  std::vector<std::uint64_t> cells(chunk_count(rows, row_grain));
+  for_chunks(rows, row_grain, execution_, [&](Range r) {
+    for (std::size_t row = r.first; row < r.last; ++row) {
+      std::uint64_t bits = 0;
+      for (std::size_t i = 0; i < 64; ++i) {
+        const std::size_t p = row * 64 + i;
+        bits |= std::uint64_t{is_junction(static_cast<LatticePlace>(p), peeled_[p])} << i;
+        cells[r.first / row_grain] += (peeled_[p] & peel_bit::edges) != 0 ? 1U : 0U;
+      }
+      bits_[row] = bits;
+      first_[row] = static_cast<std::uint32_t>(std::popcount(bits));
+    }
+  });
+  for (const std::uint64_t part : cells) graph_.core_cells += part;
+  const std::uint64_t count = exclusive_scan(first_, execution_);
+  if (count >= (std::uint64_t{1} << 30) || graph_.core_cells >= (std::uint64_t{1} << 30)) {
+    throw InputError("route index", "takes less than 2^30 cells that lie on loops");
+  }
+  execution_.reserve(count * 36);
+  graph_.place.resize(count);
+  graph_.twin.resize(4 * count);
+  graph_.length.resize(4 * count);
+}
+
+void CoreWalk::walk_chains() {
+  for_chunks(bits_.size(), row_grain, execution_, [&](Range r) {
+    for (std::size_t row = r.first; row < r.last; ++row) {
+      JunctionId v = first_[row];
+      for (std::uint64_t left = bits_[row]; left != 0; left &= left - 1, ++v) {
+        graph_.place[v] = static_cast<LatticePlace>(row * 64 + static_cast<std::size_t>(std::countr_zero(left)));
+        for (unsigned d = 0; d < 4; ++d) walk(v, d);
+      }
+    }
+  });
+}
+
+/// To the next junction. An edge of a core cell that isn't in the nibble leads to a tree.
+void CoreWalk::walk(JunctionId from, unsigned direction) {
+  const HalfEdge slot = 4 * from + direction;
+  LatticePlace at = graph_.place[from];
+  graph_.twin[slot] = no_half_edge;
+  if ((peeled_[at] >> direction & 1U) == 0) return;
+  std::uint32_t length = 0;
+  for (;;) {
+    at = places_.step(at, direction);
+    ++length;
+    const unsigned back = direction ^ 2U;
+    if ((bits_[at / 64] >> at % 64 & 1U) != 0) {
+      graph_.twin[slot] = 4 * junction_at(at) + back;
+      graph_.length[slot] = length;
+      return;
+    }
+    direction = static_cast<unsigned>(std::countr_zero(peeled_[at] & peel_bit::edges & ~(1U << back)));
+  }
+}
+
+/// Both ends of a chain come to the same answer.
+bool CoreWalk::is_useless(JunctionId v, unsigned slot) const {
+  const HalfEdge h = 4 * v + slot;
+  const HalfEdge twin = graph_.twin[h];
+  if (twin == no_half_edge) return false;
+  if (twin / 4 == v) return true;
+  for (unsigned other = 0; other < 4; ++other) {
+    const HalfEdge rival = graph_.twin[4 * v + other];
+    if (other == slot || rival == no_half_edge || rival / 4 != twin / 4) continue;
+    const std::uint32_t its = graph_.length[4 * v + other];
+    const std::uint32_t own = graph_.length[h];
+    if (its < own || (its == own && std::min(rival, 4 * v + other) < std::min(twin, h))) return true;
+  }
+  return false;
+}
+
+void CoreWalk::drop_useless() {
+  const std::size_t count = graph_.size();
+  RawVector<std::uint8_t> useless(count);
+  for_chunks(count, junction_grain, execution_, [&](Range r) {
+    for (std::size_t v = r.first; v < r.last; ++v) {
+      unsigned slots = 0;
+      for (unsigned s = 0; s < 4; ++s) slots |= is_useless(static_cast<JunctionId>(v), s) ? 1U << s : 0;
+      useless[v] = static_cast<std::uint8_t>(slots);
+    }
+  });
+  for_chunks(count, junction_grain, execution_, [&](Range r) {
+    for (std::size_t h = 4 * r.first; h < 4 * r.last; ++h) {
+      if ((useless[h / 4] >> h % 4 & 1U) != 0) graph_.twin[h] = no_half_edge;
+    }
+  });
+}
+
+}  // namespace
+
+CoreGraph core_graph(const RawVector<std::uint8_t>& peeled, const LatticePlaces& places, const Execution& execution) {
+  return CoreWalk(peeled, places, execution).run();
+}
+
+namespace {
+
+class CoreReduction {
+ public:
+  CoreReduction(CoreGraph& graph, const LatticePlaces& places, RawVector<std::uint8_t>& peeled,
+                const Execution& execution)
+      : graph_(graph), places_(places), peeled_(peeled), execution_(execution) {}
+
+  void run() {
+    execution_.reserve(graph_.size() * 8);
+    gone_.assign(graph_.size(), 0);
+    for (JunctionId v = 0; v < graph_.size(); ++v) {
+      if (v % (1U << 16) == 0) execution_.check();
+      todo_.push_back(v);
+      while (!todo_.empty()) {
+        const JunctionId next = todo_.back();
+        todo_.pop_back();
+        visit(next);
+      }
+    }
+    renumber();
+    for_chunks(graph_.size(), 4096, execution_, [&](Range r) {
+      for (std::size_t v = r.first; v < r.last; ++v) mark_chains(static_cast<JunctionId>(v));
+    });
+  }
+
+ private:
+  void visit(JunctionId v);
+  void join(HalfEdge a, HalfEdge b, std::uint32_t length);
+  void drop(HalfEdge h);
+  void renumber();
+  void mark_chains(JunctionId v);
+
+  CoreGraph& graph_;
+  const LatticePlaces& places_;
+  RawVector<std::uint8_t>& peeled_;
+  const Execution& execution_;
+  RawVector<std::uint8_t> gone_;
+  RawVector<JunctionId> todo_;  // whoever has lost a chain
+};
+
+/// Of at most two chains: takes the junction out.
+void CoreReduction::visit(JunctionId v) {
+  if (gone_[v] != 0 || is_post(graph_.place[v])) return;
+  std::array<HalfEdge, 2> chain{};
+  std::size_t count = 0;
+  for (HalfEdge h = 4 * v; h < 4 * v + 4; ++h) {
+    if (graph_.twin[h] == no_half_edge) continue;
+    if (count == 2) return;
+    chain[count++] = h;
+  }
+  gone_[v] = 1;
+  if (count == 1) drop(chain[0]);
+  if (count < 2) return;
+  std::uint8_t& byte = peeled_[graph_.place[v]];
+  byte = static_cast<std::uint8_t>((byte & ~peel_bit::edges) | 1U << chain[0] % 4 | 1U << chain[1] % 4);
+  const HalfEdge a = graph_.twin[chain[0]];
+  const HalfEdge b = graph_.twin[chain[1]];
+  const std::uint32_t length = graph_.length[chain[0]] + graph_.length[chain[1]];
+  graph_.twin[chain[0]] = graph_.twin[chain[1]] = no_half_edge;
+  join(a, b, length);
+}
+
+/// A chain between two slots, unless it leads back to its junction or is no shorter than one that is there.
+void CoreReduction::join(HalfEdge a, HalfEdge b, std::uint32_t length) {
+  graph_.twin[a] = b;
+  graph_.twin[b] = a;
+  graph_.length[a] = graph_.length[b] = length;
+  if (a / 4 == b / 4) return drop(a);
+  for (HalfEdge h = a & ~HalfEdge{3}; h < (a & ~HalfEdge{3}) + 4; ++h) {
+    if (h == a || graph_.twin[h] == no_half_edge || graph_.twin[h] / 4 != b / 4) continue;
+    return drop(graph_.length[h] <= length ? a : h);
+  }
+}
+
+void CoreReduction::drop(HalfEdge h) {
+  const HalfEdge twin = graph_.twin[h];
+  graph_.twin[h] = graph_.twin[twin] = no_half_edge;
+  todo_.push_back(h / 4);
+  todo_.push_back(twin / 4);
+}
+
+void CoreReduction::renumber() {
+  RawVector<JunctionId> number(graph_.size());
+  JunctionId next = 0;
+  for (JunctionId v = 0; v < graph_.size(); ++v) {
+    number[v] = next;
+    next += gone_[v] == 0 ? 1 : 0;
+  }
+  for (JunctionId v = 0; v < graph_.size(); ++v) {
+    if (v % (1U << 16) == 0) execution_.check();
+    if (gone_[v] != 0) continue;
+    graph_.place[number[v]] = graph_.place[v];
+    for (HalfEdge slot = 0; slot < 4; ++slot) {
+      const HalfEdge twin = graph_.twin[4 * v + slot];
+      graph_.twin[4 * number[v] + slot] = twin == no_half_edge ? no_half_edge : 4 * number[twin / 4] + twin % 4;
+      graph_.length[4 * number[v] + slot] = graph_.length[4 * v + slot];
+    }
+  }
+  graph_.place.resize(next);
+  graph_.twin.resize(4 * std::size_t{next});
+  graph_.length.resize(4 * std::size_t{next});
+}
+
+/// A junction, and the cells of its chains to junctions with larger numbers: each cell is written to once.
+void CoreReduction::mark_chains(JunctionId v) {
+  constexpr unsigned right_and_up = 3;
+  const auto mark = [&](LatticePlace p, unsigned edges) {
+    peeled_[p] = static_cast<std::uint8_t>(peeled_[p] | (edges & right_and_up) << peel_bit::direction_shift);
+  };
+  mark(graph_.place[v], slots_of(graph_, v));
+  for (unsigned slot = 0; slot < 4; ++slot) {
+    const HalfEdge twin = graph_.twin[4 * v + slot];
+    if (twin == no_half_edge || twin / 4 < v) continue;
+    unsigned direction = slot;
+    LatticePlace at = graph_.place[v];
+    for (std::uint32_t left = graph_.length[4 * v + slot]; left > 1; --left) {
+      at = places_.step(at, direction);
+      const unsigned edges = peeled_[at] & peel_bit::edges;
+      mark(at, edges);
+      direction = static_cast<unsigned>(std::countr_zero(edges & ~(1U << (direction ^ 2U))));
+    }
+  }
+}
+
+}  // namespace
+
+void reduce_core(CoreGraph& graph, const LatticePlaces& places, RawVector<std::uint8_t>& peeled,
+                 const Execution& execution) {
+  CoreReduction(graph, places, peeled, execution).run();
+}
+
+}  // namespace warren

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/lengths/lattice_passages.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "parallel/chunks.hpp"
+#include "planners/mazes/tile_grid.hpp"
+#include "planners/mazes/tile_plane.hpp"
+#include "planners/mazes/wall_marking.hpp"
+#include "planners/mazes/wall_partition.hpp"
+
+namespace warren {
+
+LatticePassages::LatticePassages(LatticeSize size, PassageWords words)
+    : size_(size), stride_(words_a_row(size.cols)), right_(std::move(words.right)), up_(std::move(words.up)) {
+  check();
+}
+
+LatticePassages::LatticePassages(LatticeSize size, std::span<const std::uint64_t> right,
+                                 std::span<const std::uint64_t> up)
+    : size_(size), stride_(words_a_row(size.cols)), right_(right), up_(up) {
+  check();
+}
+
+void LatticePassages::check_size(LatticeSize size) {
+  const std::uint64_t tiles = words_a_row(size.cols) * words_a_row(size.rows);
+  if (size.rows >= 1 && size.cols >= 1 && tiles < (std::uint64_t{1} << 20)) return;
+  throw InputError("lattice", "needs rows and columns, and less than 2^20 tiles of 64 x 64 cells",
+                   std::to_string(size.rows) + " x " + std::to_string(size.cols));
+}
+
+PassageWords LatticePassages::closed(LatticeSize size, const Execution& execution) {
+  check_size(size);
+  const std::size_t words = words_a_row(size.cols) * size.rows;
+  execution.reserve(2 * words * sizeof(std::uint64_t));
+  PassageWords planes;
+  const auto poll = [&] { execution.check(); };
+  assign_polled(planes.right, words, std::uint64_t{0}, poll);
+  assign_polled(planes.up, words, std::uint64_t{0}, poll);
+  return planes;
+}
+
+std::array<std::uint64_t, 4> LatticePassages::open_words(std::uint32_t col, std::uint32_t row) const {
+  const std::size_t word = row * stride_ + col / 64;
+  const std::uint64_t before = col > 0 ? right_[word - 1] >> 63 : 0;
+  return {right_[word], up_[word], right_[word] << 1 | before, row > 0 ? up_[word - stride_] : 0};
+}
+
+void LatticePassages::check() const {
+  check_size(size_);
+  const std::size_t words = stride_ * size_.rows;
+  if (right_.size() != words || up_.size() != words) {
+    throw InputError("passages", "need " + std::to_string(words) + " words a plane, rows in whole words",
+                     std::to_string(right_.size()) + " and " + std::to_string(up_.size()));
+  }
+  const std::uint64_t last = size_.cols % 64 == 0 ? ~std::uint64_t{0} : (std::uint64_t{1} << size_.cols % 64) - 1;
+  for (std::uint32_t row = 0; row < size_.rows; ++row) {
+    const std::size_t end = (row + std::size_t{1}) * stride_ - 1;
+    if ((right_[end] & ~(last >> 1)) == 0 && (up_[end] & ~last) == 0) continue;
+    throw InputError("passages", "a motion to the right leaves the lattice in row", std::to_string(row));
+  }
+  for (std::size_t word = words - stride_; word < words; ++word) {
+    if (up_[word] != 0) throw InputError("passages", "a motion upwards leaves the lattice in its last row");
+  }
+}
+
+namespace {
+
+/// The lowest bits of eight bytes, the first byte's lowest.
+std::uint64_t lowest_bits(std::uint64_t eight) { return (eight & 0x0101010101010101U) * 0x0102040810204080U >> 56; }
+
+/// Bits 0 and 1 of up to 64 bytes, as two words.
+std::pair<std::uint64_t, std::uint64_t> right_and_up(const std::uint8_t* bytes, std::size_t count) {
+  std::array<std::uint8_t, 64> line{};
+  std::memcpy(line.data(), bytes, count);
+  std::uint64_t right = 0;
+  std::uint64_t up = 0;
+  for (unsigned i = 0; i < 64; i += 8) {
+    std::uint64_t eight;
+    std::memcpy(&eight, line.data() + i, 8);
+    right |= lowest_bits(eight) << i;
+    up |= lowest_bits(eight >> 1) << i;
+  }
+  return {right, up};
+}
+
+/// Tiles are whole words wide, so each word belongs to one of them.
+void pack(const TilePlane& plane, const TileGrid& grid, PassageWords& words) {
+  static_assert(plane_bit::right == 1 && plane_bit::up == 2);
+  const std::size_t stride = LatticePassages::words_a_row(grid.cols);
+  const std::uint32_t first_col = grid.first_col(plane.tile());
+  for (int row = 0; row < plane.height(); ++row) {
+    std::size_t word = (grid.first_row(plane.tile()) + static_cast<std::size_t>(row)) * stride + first_col / 64;
+    for (int col = 0; col < plane.width(); col += 64, ++word) {
+      const auto count = static_cast<std::size_t>(std::min(64, plane.width() - col));
+      std::tie(words.right[word], words.up[word]) = right_and_up(plane.at(col, row), count);
+    }
+  }
+}
+
+}  // namespace
+
+LatticePassages wall_passages(const WalledLattice& world, const Execution& execution) {
+  if (!(world.clearance >= 0.0 && world.clearance <= WallMarker::largest_clearance)) {
+    throw InputError("clearance", "must be a number from 0 to 8, in steps of the lattice");
+  }
+  PassageWords words = LatticePassages::closed(world.lattice, execution);
+  const TileGrid grid = TileGrid::of(world.lattice);
+  const double clearance = world.clearance * (1 + 1e-9);
+  const double halo = 1.0 + clearance * (1 + 1e-9) + 0.01;  // an edge's length, its clearance, and rounding
+  const WallPartition partition(world.walls, world.more_walls, grid, halo, execution);
+  const Box box = world.box.value_or(partition.box());
+  for_chunks(grid.count(), 1, execution, [&](Range r) {
+    WallMarker marker(clearance);
+    TilePlane plane(grid, marker.margin());
+    plane.reset(r.first, box);
+    marker.mark(partition.of(r.first), plane);
+    pack(plane, grid, words);
+  });
+  return {world.lattice, std::move(words)};
+}
+
+}  // namespace warren

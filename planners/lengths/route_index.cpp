@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/lengths/route_index.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "core/base/let_go.hpp"
+#include "core/base/page_pool.hpp"
+#include "parallel/chunks.hpp"
+#include "parallel/scan.hpp"
+#include "planners/lengths/core_graph.hpp"
+#include "planners/lengths/dissection.hpp"
+#include "planners/lengths/min_plus.hpp"
+
+namespace warren {
+namespace {
+
+/// About 200 cells: a search of them takes a few microseconds, and larger leaves save little memory.
+std::size_t leaf_size(const CoreGraph& graph) {
+  const std::uint64_t junctions = 200 * graph.size() / std::max<std::uint64_t>(1, graph.core_cells);
+  return std::clamp<std::uint64_t>(junctions, 4, 32);
+}
+
+}  // namespace
+
+void RouteIndexOptions::validate() const {
+  if (leaf <= most_leaf_junctions) return;
+  throw InputError("leaf", "must be at most " + std::to_string(most_leaf_junctions), std::to_string(leaf));
+}
+
+bool route_index_pays(std::uint64_t junctions, std::uint64_t cells) { return junctions * 10 <= cells * 3; }
+
+RouteIndex::RouteIndex(LatticePassages passages, const RouteIndexOptions& options, const Execution& execution)
+    : passages_(std::move(passages)), places_(passages_.size()) {
+  options.validate();
+  const PagePool pages;  // what one stage leaves is warm for the next
+  RawVector<std::uint8_t> peeled = peel(passages_, places_, execution);
+  CoreGraph graph = core_graph(peeled, places_, execution);
+  reduce_core(graph, places_, peeled, execution);
+  if (!options.open_space && !route_index_pays(graph.size(), passages_.cell_count())) {
+    throw InputError(
+        "route index",
+        "doesn't pay in open space, where more than 3 of 10 cells are junctions with a choice: search the grid",
+        std::to_string(graph.size()) + " of " + std::to_string(passages_.cell_count()));
+  }
+  RawVector<std::uint64_t> marks = mark_words(peeled, places_, execution);
+  let_go(peeled);
+  arrays_.pieces = build_pieces(places_, CellMarks(marks.data()), execution);
+  arrays_.fronts =
+      build_fronts(graph, dissect(graph, options.leaf == 0 ? leaf_size(graph) : options.leaf, execution), execution);
+  arrays_.marks = ArrayOrView<std::uint64_t>(std::move(marks));
+  mark_gates(execution);
+  find_fronts();
+  sound_ = LastingMarks(arrays_.fronts.fronts.size());
+}
+
+RouteIndex::RouteIndex(LatticePassages passages, RouteArrays arrays)
+    : passages_(std::move(passages)),
+      places_(passages_.size()),
+      arrays_(std::move(arrays)),
+      sound_(arrays_.fronts.fronts.size()) {
+  check_route_sizes(places_, arrays_);
+  find_fronts();
+}
+
+GateRank RouteIndex::gate_at(LatticePlace p) const {
+  const std::size_t at = number_of_gate(p);
+  const std::size_t gates = arrays_.gate_rank.size();
+  if (at < gates && arrays_.gate_rank[at] < gates) return arrays_.gate_rank[at];
+  throw InputError("route index", "its gates contradict each other: build it again");
+}
+
+LatticePlace RouteIndex::gate_place(GateRank rank) const {
+  const LatticePlace p = arrays_.fronts.gate_place[rank];
+  if (p < places_.place_count()) return p;
+  throw InputError("route index", "a gate of it stands nowhere: build it again");
+}
+
+void RouteIndex::check_front(FrontId number) const {
+  check_front_arrays(arrays_.fronts, arrays_.fronts.fronts[number]);
+  sound_.set(number);
+}
+
+void RouteIndex::find_fronts() {
+  const std::span<const Front> fronts = arrays_.fronts.fronts.span();
+  front_near_.resize((arrays_.fronts.gate_place.size() + gates_a_look - 1) / gates_a_look);
+  FrontId front = 0;
+  for (std::size_t i = 0; i < front_near_.size(); ++i) {
+    while (front + 1 < fronts.size() && fronts[front + 1].first <= i * gates_a_look) ++front;
+    front_near_[i] = front;
+  }
+}
+
+void RouteIndex::mark_gates(const Execution& execution) {
+  const ArrayOrView<LatticePlace>& gate_place = arrays_.fronts.gate_place;
+  if (gate_place.empty()) return;
+  const std::size_t rows = places_.place_count() / 64;
+  execution.reserve(rows * (sizeof(std::uint64_t) + sizeof(std::uint32_t)) + gate_place.size() * sizeof(GateRank));
+  RawVector<std::uint64_t> gates;
+  assign_polled(gates, rows, std::uint64_t{0}, [&] { execution.check(); });
+  for (std::size_t rank = 0; rank < gate_place.size(); ++rank) {
+    if (rank % (1U << 16) == 0) execution.check();
+    const LatticePlace p = gate_place[rank];
+    gates[p / 64] |= std::uint64_t{1} << p % 64;
+  }
+  RawVector<std::uint32_t> before(rows);
+  for_chunks(rows, 4096, execution, [&](Range r) {
+    for (std::size_t row = r.first; row < r.last; ++row) {
+      before[row] = static_cast<std::uint32_t>(std::popcount(gates[row]));
+    }
+  });
+  exclusive_scan(before, execution);
+  RawVector<GateRank> ranks(gate_place.size());
+  arrays_.gates = ArrayOrView<std::uint64_t>(std::move(gates));
+  arrays_.gates_before = ArrayOrView<std::uint32_t>(std::move(before));
+  for (std::size_t rank = 0; rank < gate_place.size(); ++rank) {
+    if (rank % (1U << 16) == 0) execution.check();
+    ranks[number_of_gate(gate_place[rank])] = static_cast<GateRank>(rank);
+  }
+  arrays_.gate_rank = ArrayOrView<GateRank>(std::move(ranks));
+}
+
+std::size_t RouteIndex::bytes() const {
+  std::size_t sum = 0;
+  for (const RouteSection& section : route_sections(*this)) sum += section.bytes.size();
+  return sum;
+}
+
+namespace {
+
+/// Calls visit(name, array) for every array of the index but the passages.
+template <class Arrays, class Visit>
+void for_each_array(Arrays& arrays, const Visit& visit) {
+  visit("marks", arrays.marks);
+  visit("exits", arrays.pieces.exits);
+  visit("exit.first", arrays.pieces.first_exit);
+  visit("exit.piece", arrays.pieces.piece);
+  visit("pieces", arrays.pieces.pieces);
+  visit("gates", arrays.gates);
+  visit("gates.before", arrays.gates_before);
+  visit("gate.rank", arrays.gate_rank);
+  visit("gate.place", arrays.fronts.gate_place);
+  visit("fronts", arrays.fronts.fronts);
+  visit("front.bounds", arrays.fronts.bounds);
+  visit("front.lengths", arrays.fronts.lengths);
+  visit("front.shorts", arrays.fronts.short_lengths);
+  visit("front.ways", arrays.fronts.ways);
+}
+
+template <class T>
+ArrayOrView<T> elements(std::span<const RouteSection> sections, std::string_view name) {
+  const auto found =
+      std::find_if(sections.begin(), sections.end(), [&](const RouteSection& s) { return s.name == name; });
+  if (found == sections.end()) throw InputError("route index", "a section is missing", name);
+  if (found->bytes.size() % sizeof(T) != 0 || found->element_bytes != sizeof(T)) {
+    throw InputError("route index", "elements of a section need " + std::to_string(sizeof(T)) + " bytes", name);
+  }
+  const std::span all(reinterpret_cast<const T*>(found->bytes.data()), found->bytes.size() / sizeof(T));
+  return ArrayOrView<T>(all, found->first_look);
+}
+
+void require(bool holds, std::string_view what) {
+  if (!holds) throw InputError("route index", "a section contradicts the others: build the index again", what);
+}
+
+template <class T, class Test>
+bool every(const ArrayOrView<T>& array, const Test& test) {
+  return std::all_of(array.span().begin(), array.span().end(), test);
+}
+
+/// Exits are those that the marks say, and none leaves the lattice.
+void check_exits(const LatticePlaces& places, CellMarks marks, const ArrayOrView<std::uint64_t>& exits) {
+  for (std::uint32_t tile = 0; tile < places.tile_count(); ++tile) {
+    const std::uint32_t col = tile % places.tile_cols();
+    const std::uint32_t row = tile / places.tile_cols();
+    const bool at_rim[] = {col + 1 == places.tile_cols(), row + 1 == places.tile_rows(), col == 0, row == 0};
+    for (unsigned d = 0; d < 4; ++d) {
+      const std::uint64_t word = exits[4 * std::size_t{tile} + d];
+      require(word == exits_of(marks, tile, d) && (!at_rim[d] || word == 0), "exits");
+    }
+  }
+}
+
+void check_pieces(const LatticePlaces& places, const PieceArrays& pieces) {
+  const std::size_t count = pieces.pieces.size();
+  for (std::size_t tile = 0; tile < places.tile_count(); ++tile) {
+    std::uint32_t exits = 0;
+    for (std::size_t d = 0; d < 4; ++d) exits += static_cast<std::uint32_t>(std::popcount(pieces.exits[4 * tile + d]));
+    require(pieces.first_exit[tile + 1] == pieces.first_exit[tile] + exits, "exit.first");
+  }
+  for (PieceId p = 0; p < count; ++p) {
+    const TreePiece& piece = pieces.pieces[p];
+    require(pieces.piece[p] < count && piece.head <= p && piece.door < places.place_count(), "pieces");
+    const TreePiece& head = pieces.pieces[piece.head];
+    require(head.head == piece.head && head.up == piece.up, "pieces");
+    require(piece.up == no_piece || piece.up < piece.head, "pieces");
+  }
+}
+
+/// Fronts follow each other without gaps in all that they have.
+void check_fronts(const FrontArrays& arrays) {
+  const std::size_t gates = arrays.gate_place.size();
+  std::uint64_t first = 0;
+  std::uint64_t bound = 0;
+  std::uint64_t wide = 0;
+  std::uint64_t narrow = 0;
+  std::uint64_t way = 0;
+  for (std::size_t i = 0; i < arrays.fronts.size(); ++i) {
+    const Front& f = arrays.fronts[i];
+    std::uint64_t& length = f.is_short() ? narrow : wide;
+    const std::uint64_t entries = row_offset(f.gates, f.gates, f.bounds);
+    require(f.first == first && f.first_bound == bound && f.first_length() == length && f.gates >= 1, "fronts");
+    require(f.first_way() == way && f.way_elements() <= 4, "fronts");
+    first += f.gates;
+    bound += f.bounds;
+    length += entries;
+    way += entries * f.way_elements();
+    require(first <= gates && bound <= arrays.bounds.size() && wide <= arrays.lengths.size(), "fronts");
+    require(narrow <= arrays.short_lengths.size() && way <= arrays.ways.size(), "fronts");
+    require(f.parent == no_front || (f.parent > i && f.parent < arrays.fronts.size()), "fronts");
+  }
+  require(first == gates && bound == arrays.bounds.size() && wide == arrays.lengths.size(), "fronts");
+  require(narrow == arrays.short_lengths.size() && way == arrays.ways.size(), "fronts");
+}
+
+/// The gates that ways go over have lower ranks.
+void check_ways(const FrontArrays& arrays, const Front& f) {
+  std::uint64_t at = 0;
+  for (std::uint32_t i = 0; i < f.gates; ++i) {
+    for (std::uint64_t j = i + std::uint64_t{1}; j < std::uint64_t{f.gates} + f.bounds; ++j, ++at) {
+      const std::uint64_t way = front_way(arrays, f, at);
+      require((way & 1U) != 0 || way / 2 <= f.first + i, "front.ways");
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<RouteSection> route_sections(const RouteIndex& index) {
+  std::vector<RouteSection> sections{
+      {"passages.right", 8, std::as_bytes(index.passages().right_words())},
+      {"passages.up", 8, std::as_bytes(index.passages().up_words())},
+  };
+  for_each_array(index.arrays(), [&]<class T>(std::string_view name, const ArrayOrView<T>& array) {
+    sections.push_back({name, sizeof(T), std::as_bytes(array.span())});
+  });
+  return sections;
+}
+
+std::vector<RouteSection> route_section_kinds() {
+  std::vector<RouteSection> kinds{{"passages.right", 8, {}}, {"passages.up", 8, {}}};
+  const RouteArrays none;
+  for_each_array(none, [&]<class T>(std::string_view name, const ArrayOrView<T>&) {
+    kinds.push_back({name, sizeof(T), {}});
+  });
+  return kinds;
+}
+
+RouteIndex route_index_of(LatticeSize size, std::span<const RouteSection> sections) {
+  RouteArrays arrays;
+  for_each_array(arrays,
+                 [&]<class T>(std::string_view name, ArrayOrView<T>& array) { array = elements<T>(sections, name); });
+  return {LatticePassages(size, elements<std::uint64_t>(sections, "passages.right").span(),
+                          elements<std::uint64_t>(sections, "passages.up").span()),
+          std::move(arrays)};
+}
+
+bool is_read_in_parts(std::string_view section) {
+  constexpr std::array parts{"marks",         "exit.piece",   "pieces",    "front.bounds",
+                             "front.lengths", "front.shorts", "front.ways"};
+  return std::find(parts.begin(), parts.end(), section) != parts.end();
+}
+
+void check_route_sizes(const LatticePlaces& places, const RouteArrays& arrays) {
+  const std::size_t rows = places.place_count() / 64;
+  const PieceArrays& pieces = arrays.pieces;
+  const std::size_t gates = arrays.fronts.gate_place.size();
+  require(arrays.marks.size() == rows * mark_word::count, "marks");
+  require(pieces.exits.size() == 4 * places.tile_count(), "exits");
+  require(pieces.first_exit.size() == places.tile_count() + 1 && pieces.first_exit[0] == 0, "exit.first");
+  require(pieces.first_exit[places.tile_count()] == pieces.pieces.size(), "exit.first");
+  require(pieces.piece.size() == pieces.pieces.size(), "exit.piece");
+  require(arrays.gates.size() == (gates == 0 ? 0 : rows), "gates");
+  require(arrays.gates_before.size() == arrays.gates.size() && arrays.gate_rank.size() == gates, "gates.before");
+  check_fronts(arrays.fronts);
+}
+
+void check_front_arrays(const FrontArrays& arrays, const Front& f) {
+  const std::uint64_t count = row_offset(f.gates, f.gates, f.bounds);
+  arrays.bounds.look(f.first_bound, f.bounds);
+  GateRank least = f.first + f.gates;
+  for (const GateRank bound : arrays.bounds.span().subspan(f.first_bound, f.bounds)) {
+    require(bound >= least && bound < arrays.gate_place.size(), "front.bounds");
+    least = bound + 1;
+  }
+  if (f.is_short()) {
+    arrays.short_lengths.look(f.first_length(), count);
+    const auto lengths = arrays.short_lengths.span().subspan(f.first_length(), count);
+    require(std::all_of(lengths.begin(), lengths.end(), [](std::uint16_t length) { return length >= 1; }),
+            "front.shorts");
+  } else {
+    arrays.lengths.look(f.first_length(), count);
+    const auto lengths = arrays.lengths.span().subspan(f.first_length(), count);
+    const auto is_length = [](std::uint32_t length) { return length >= 1 && length <= no_way; };
+    require(std::all_of(lengths.begin(), lengths.end(), is_length), "front.lengths");
+  }
+}
+
+void check_route_arrays(const LatticePlaces& places, const RouteArrays& arrays) {
+  const std::size_t gates = arrays.fronts.gate_place.size();
+  check_route_sizes(places, arrays);
+  check_pieces(places, arrays.pieces);
+  check_exits(places, CellMarks(arrays.marks.data()), arrays.pieces.exits);
+  for (const Front& front : arrays.fronts.fronts.span()) {
+    check_front_arrays(arrays.fronts, front);
+    check_ways(arrays.fronts, front);
+  }
+  require(every(arrays.fronts.gate_place, [&](LatticePlace p) { return p < places.place_count(); }), "gate.place");
+  require(every(arrays.gate_rank, [&](GateRank rank) { return rank < gates; }), "gate.rank");
+  std::uint32_t before = 0;
+  for (std::size_t row = 0; row < arrays.gates.size(); ++row) {
+    require(arrays.gates_before[row] == before, "gates.before");
+    require((arrays.gates[row] & ~arrays.marks[row * mark_word::count + mark_word::core]) == 0, "gates");
+    before += static_cast<std::uint32_t>(std::popcount(arrays.gates[row]));
+  }
+  require(before == gates, "gates");
+}
+
+}  // namespace warren

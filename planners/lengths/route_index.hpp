@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The route index of a lattice roadmap: made once, it answers the shortest length between any two cells, and the path,
+// exactly, thousands of times faster than a search of the roadmap. For mazes: what is tree is climbed, what has no
+// choice is walked, and only where loops meet is there something to decide.
+//
+//   peeling            which cells are tree, and which way their core is           (planners/lengths/core_graph)
+//   pieces             trees cut at the borders of tiles, with heavy paths         (piece_forest)
+//   core graph         junctions of the core, joined by chains                     (core_graph)
+//   reduction          junctions without choice leave it; chains are marked      (core_reduction)
+//   dissection         the core cut by few junctions again and again               (planar_region, dissection)
+//   fronts             lengths and ways between the junctions of cuts, the gates   (separator_fronts)
+//
+// All of it is plain arrays, which a file may hold (route_index.hpp), and the same bytes for any thread count. In
+// open space nearly every cell is a junction and cuts are as long as the lattice is wide: there a search of the grid is
+// better, and the index is refused by counting.
+// A backtracker's maze of 10^8 cells on two busy cores (bench/roadmaps/route_phases.cpp; passages in memory before):
+//   walls left that are taken out        none     1 %    10 %
+//   seconds to build                      1.6     3.0      32
+//   bytes a cell, passages included      0.95    1.26    4.74
+//   length of random pairs, median us        4      60     850
+//   the same, 99 of 100                      9     124    1220
+//   path beyond its length, ns a cell        7     9.5      40
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "parallel/execution.hpp"
+#include "parallel/lasting_marks.hpp"
+#include "planners/lengths/cell_marks.hpp"
+#include "planners/lengths/lattice_passages.hpp"
+#include "planners/lengths/piece_forest.hpp"
+#include "planners/lengths/separator_fronts.hpp"
+
+namespace warren {
+
+struct RouteIndexOptions {
+  std::uint32_t leaf =
+      0;  ///< most junctions between cuts that are searched cell by cell, to most_leaf_junctions; 0: by counting
+  bool open_space = false;  ///< build it where it doesn't pay, too
+  void validate() const;
+};
+
+/// Does the index pay? Where no more than 3 of 10 cells are junctions with a choice: mazes of which up to a
+/// fifth of the walls left are taken out.
+bool route_index_pays(std::uint64_t junctions, std::uint64_t cells);
+
+/// What an index is made of, but for the passages.
+struct RouteArrays {
+  ArrayOrView<std::uint64_t> marks;  ///< of all cells, see cell_marks.hpp
+  PieceArrays pieces;
+  ArrayOrView<std::uint64_t> gates;         ///< a bit a place; empty if there is no gate
+  ArrayOrView<std::uint32_t> gates_before;  ///< before each row of 64 places; empty if there is no gate
+  ArrayOrView<GateRank> gate_rank;          ///< of a gate in the order of places
+  FrontArrays fronts;
+};
+
+/// Immutable; any number of threads may read.
+class RouteIndex {
+ public:
+  /// Throws InputError where it doesn't pay and open_space isn't set, and Stopped.
+  RouteIndex(LatticePassages passages, const RouteIndexOptions& options, const Execution& execution);
+  /// From arrays made before, owned or views. Whatever their numbers are, no question leaves the arrays or turns in a
+  /// circle: what is looked at is checked where it is met, a front as a whole when it is first met, and questions throw
+  /// InputError. Throws InputError itself for arrays of the wrong size and fronts that lead out of them.
+  RouteIndex(LatticePassages passages, RouteArrays arrays);
+
+  const LatticePassages& passages() const { return passages_; }
+  const LatticePlaces& places() const { return places_; }
+  const RouteArrays& arrays() const { return arrays_; }
+  CellMarks marks() const { return CellMarks(arrays_.marks.data()); }
+  PieceForest pieces() const { return {places_, marks(), arrays_.pieces}; }
+  /// Before marks of the tile of a place are read.
+  void look_at_tile(LatticePlace p) const {
+    constexpr std::size_t words = LatticePlaces::side * mark_word::count;
+    arrays_.marks.look(LatticePlaces::tile_of(p) * words, words);
+  }
+  bool is_gate(LatticePlace p) const { return !arrays_.gates.empty() && (arrays_.gates[p / 64] >> p % 64 & 1U) != 0; }
+  /// The rank of a cell that is a gate.
+  GateRank gate_at(LatticePlace p) const;
+  /// The cell of a gate.
+  LatticePlace gate_place(GateRank rank) const;
+  /// The front that a gate is in.
+  FrontId front_of(GateRank rank) const {
+    const std::span<const Front> fronts = arrays_.fronts.fronts.span();
+    FrontId front = front_near_[rank / gates_a_look];
+    while (front + 1 < fronts.size() && fronts[front + 1].first <= rank) ++front;
+    return front;
+  }
+  void prefetch_front_of(GateRank rank) const {
+    __builtin_prefetch(arrays_.fronts.fronts.data() + front_near_[rank / gates_a_look]);
+    __builtin_prefetch(arrays_.fronts.fronts.data() + front_near_[rank / gates_a_look] + 1);
+  }
+  /// A front whose bounds and rows may be read.
+  const Front& front(FrontId number) const {
+    if (!sound_.test(number)) [[unlikely]]
+      check_front(number);
+    return arrays_.fronts.fronts[number];
+  }
+  /// Of all arrays, passages included.
+  std::size_t bytes() const;
+
+ private:
+  static constexpr std::size_t gates_a_look = 4;
+
+  /// Of a gate, in the order of places.
+  std::size_t number_of_gate(LatticePlace p) const {
+    const std::uint64_t below = (std::uint64_t{1} << p % 64) - 1;
+    return std::size_t{arrays_.gates_before[p / 64]} +
+           static_cast<std::size_t>(std::popcount(arrays_.gates[p / 64] & below));
+  }
+
+  void mark_gates(const Execution& execution);
+  void find_fronts();
+  void check_front(FrontId number) const;
+
+  LatticePassages passages_;
+  LatticePlaces places_;
+  RouteArrays arrays_;
+  RawVector<FrontId> front_near_;  // of every 4th gate
+  mutable LastingMarks sound_{0};  // fronts that have been checked
+};
+
+// A route index as named arrays of bytes, for whoever writes files, and back: the arrays of a mapped file are looked at
+// where they are. Numbers lie in the machine's own order; elements have the widths that route_index.hpp says.
+
+struct RouteSection {
+  std::string_view name;      ///< a literal, at most 15 letters
+  std::size_t element_bytes;  ///< of one element; for structs, their size
+  std::span<const std::byte> bytes;
+  FirstLook first_look = {};  ///< before its bytes are read
+};
+
+/// All arrays, in a fixed order; they live as long as the index.
+std::vector<RouteSection> route_sections(const RouteIndex& index);
+
+/// Their names and widths alone, without bytes.
+std::vector<RouteSection> route_section_kinds();
+
+/// An index that looks at the sections' bytes, which must outlive it and be aligned to 8 bytes. Sections with other
+/// names are left alone. Throws InputError for one that is missing, has half an element, or contradicts another.
+RouteIndex route_index_of(LatticeSize size, std::span<const RouteSection> sections);
+
+/// May its bytes be looked at one by one, when they are needed? Else whoever makes an index of it looks at all of them.
+bool is_read_in_parts(std::string_view section);
+
+/// What an index of views relies on: throws InputError unless arrays have the sizes that the lattice and the others ask
+/// for, and fronts lie in theirs. O(fronts).
+void check_route_sizes(const LatticePlaces& places, const RouteArrays& arrays);
+
+/// The bounds and lengths of a front whose place in the arrays is right, each in its range.
+void check_front_arrays(const FrontArrays& arrays, const Front& front);
+
+/// Throws InputError unless every number in the arrays is in its range; what is wrong nevertheless gives wrong answers
+/// and nothing worse. O(bytes).
+void check_route_arrays(const LatticePlaces& places, const RouteArrays& arrays);
+
+}  // namespace warren

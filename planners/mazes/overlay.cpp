@@ -1,0 +1,460 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/mazes/overlay.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/search/graph.hpp"
+#include "parallel/chunks.hpp"
+#include "planners/mazes/tile_reduction.hpp"
+#include "planners/mazes/wall_marking.hpp"
+
+namespace warren {
+namespace {
+
+/// The tile beyond a side (0 right, 1 above, 2 left, 3 below).
+std::size_t neighbour(const TileGrid& grid, std::size_t tile, unsigned side) {
+  const std::size_t across = side == 0 || side == 2 ? 1 : grid.tile_cols;
+  return side < 2 ? tile + across : tile - across;
+}
+
+/// Tiles are peeled in ranges of so many: at most 32 ranges.
+std::size_t peel_grain(std::size_t tiles) { return std::max<std::size_t>(8, (tiles + 31) / 32); }
+
+/// Tiles whose rows are written at once: 65 536 lattice points.
+std::size_t fill_grain(const TileGrid& grid) { return std::size_t{1} << (16 - 2 * std::min(grid.side_log2, 8U)); }
+
+}  // namespace
+
+Overlay::Overlay(const TileGrid& grid, std::span<const TileSummary> tiles, const OverlayEnds& ends,
+                 const Execution& execution) {
+  number_keys(tiles);
+  execution.reserve(vertex_count() * (sizeof(rows_[0]) + 1));
+  rows_.resize(start());
+  left_.resize(vertex_count());
+  std::vector<std::uint32_t> longest(tile_count(), 1);
+  for_chunks(tile_count(), fill_grain(grid), execution, [&](Range r) {
+    for (std::size_t tile = r.first; tile < r.last; ++tile) longest[tile] = fill_tile(grid, tiles, tile);
+  });
+  longest_ = *std::max_element(longest.begin(), longest.end());
+  fill_ends(grid, tiles, ends);
+}
+
+std::span<const OverlayEnd> Overlay::ends(VertexId v) const {
+  if (!is_key(v)) return links_[v - start()];
+  const std::array<OverlayEnd, 4>& row = rows_[v];
+  std::size_t count = row.size();
+  while (count > 0 && row[count - 1].target == v) --count;
+  return {row.data(), count};
+}
+
+std::uint32_t Overlay::steps_between(VertexId v, VertexId w) const {
+  std::uint32_t least = no_vertex;
+  for (const OverlayEnd& end : ends(v)) {
+    if (end.target == w) least = std::min(least, end.steps);
+  }
+  assert(least != no_vertex);
+  return least;
+}
+
+void Overlay::number_keys(std::span<const TileSummary> tiles) {
+  first_key_.assign(tiles.size() + 1, 0);
+  std::uint64_t keys = 0;
+  for (std::size_t t = 0; t < tiles.size(); ++t) {
+    first_key_[t] = static_cast<VertexId>(keys);
+    keys += tiles[t].keys.size();
+    if (keys > no_vertex - 4U) throw InputError("roadmap", "has more than 2^32 overlay vertices");
+  }
+  first_key_.back() = static_cast<VertexId>(keys);
+}
+
+VertexId Overlay::key_at(const TileGrid& grid, std::span<const TileSummary> tiles, const EndLink& link) const {
+  const std::size_t tile = grid.tile_at(link.col, link.row);
+  const std::uint32_t local = (link.row - grid.first_row(tile)) * grid.side() + (link.col - grid.first_col(tile));
+  const auto& keys = tiles[tile].keys;
+  const auto found = std::lower_bound(keys.begin(), keys.end(), local);
+  assert(found != keys.end() && *found == local);  // linked vertices are kept by the reduction
+  return first_key_[tile] + static_cast<VertexId>(found - keys.begin());
+}
+
+/// Writes the rows of one tile's keys. Returns the steps of the longest edge.
+std::uint32_t Overlay::fill_tile(const TileGrid& grid, std::span<const TileSummary> tiles, std::size_t tile) {
+  const TileSummary& own = tiles[tile];
+  const VertexId first = first_key_[tile];
+  for (VertexId v = first; v < first_key_[tile + 1]; ++v) {
+    rows_[v].fill({v, 0});
+    left_[v] = 0;
+  }
+  std::uint32_t longest = 1;
+  for (const Chain& chain : own.chains) {
+    longest = std::max(longest, chain.length);
+    add_end(first + chain.from, first + chain.to, chain.length);
+    add_end(first + chain.to, first + chain.from, chain.length);
+  }
+  for (unsigned side = 0; side < 4; ++side) {
+    if (own.crossings[side].empty()) continue;
+    const std::size_t other = neighbour(grid, tile, side);
+    const auto& theirs = tiles[other].crossings[side ^ 2];
+    assert(theirs.size() == own.crossings[side].size());
+    for (std::size_t i = 0; i < theirs.size(); ++i) {
+      add_end(first + own.crossings[side][i], first_key_[other] + theirs[i], 1);
+    }
+  }
+  return longest;
+}
+
+/// A link counts as two edges of its key: what start and goal join is never peeled.
+void Overlay::fill_ends(const TileGrid& grid, std::span<const TileSummary> tiles, const OverlayEnds& ends) {
+  for (const EndLinks* end : {&ends.start, &ends.goal}) {
+    std::vector<OverlayEnd>& row = links_[end == &ends.start ? 0 : 1];
+    for (const EndLink& link : end->links) {
+      const VertexId key = key_at(grid, tiles, link);
+      row.push_back({key, 0});
+      left_[key] = static_cast<std::uint8_t>(left_[key] + 2);
+    }
+    if (ends.direct) row.push_back({end == &ends.start ? goal() : start(), 0});
+  }
+  left_[start()] = left_[goal()] = 2;
+}
+
+std::size_t Overlay::tile_of(VertexId v) const {
+  return static_cast<std::size_t>(std::upper_bound(first_key_.begin(), first_key_.end(), v) - first_key_.begin()) - 1;
+}
+
+std::uint64_t Overlay::peel(const Execution& execution) {
+  const std::size_t grain = peel_grain(tile_count());
+  std::vector<std::uint64_t> closed(chunk_count(tile_count(), grain) + 1, 0);
+  std::vector<std::vector<VertexId>> stops(closed.size() - 1);
+  for_chunks(tile_count(), grain, execution, [&](Range r) {
+    const VertexId first = first_key_[r.first];
+    const VertexId last = first_key_[r.last];
+    std::vector<VertexId> stopped_at;
+    std::uint64_t alone = 0;
+    for (VertexId v = first; v < last; ++v) {
+      if (left_[v] > 1) continue;
+      const VertexId stop = peel_from(v, first, last, alone);
+      if (stop != no_vertex) stopped_at.push_back(stop);
+    }
+    closed[r.first / grain] = alone;
+    stops[r.first / grain] = std::move(stopped_at);
+  });
+  for (const auto& part : stops) {
+    execution.check();
+    for (const VertexId v : part) peel_from(v, 0, start(), closed.back());
+  }
+  std::uint64_t total = 0;
+  for (const std::uint64_t count : closed) total += count;
+  return total;
+}
+
+void Overlay::peel_after(VertexId gone) {
+  left_[gone] = peeled;
+  std::uint64_t closed = 0;
+  for (const OverlayEnd& end : ends(gone)) {
+    if (is_peeled(end.target)) continue;
+    --left_[end.target];
+    peel_from(end.target, 0, start(), closed);
+  }
+}
+
+/// Follows the dead end that begins at v, if one does, as long as it stays among first .. last - 1. Edges that leave
+/// the range count as not peeled, and they are not: whatever has one is peeled by no other range either. Returns the
+/// dead end's vertex whose last edge leaves the range, or no_vertex; counts `closed` if the whole component was a tree
+/// and is gone now.
+VertexId Overlay::peel_from(VertexId v, VertexId first, VertexId last, std::uint64_t& closed) {
+  while (left_[v] <= 1) {
+    if (left_[v] == 0) {
+      left_[v] = peeled;
+      ++closed;
+      return no_vertex;
+    }
+    const auto row = ends(v);
+    const auto out = std::find_if(row.begin(), row.end(), [&](const OverlayEnd& end) {
+      return end.target < first || end.target >= last || !is_peeled(end.target);
+    });
+    assert(out != row.end());
+    const VertexId next = out->target;
+    if (next < first || next >= last) return v;
+    left_[v] = peeled;
+    --left_[next];
+    v = next;
+  }
+  return no_vertex;
+}
+
+VertexId OverlayComponents::root(VertexId v) const {
+  while (parent_[v - first_] != v) v = parent_[v - first_];
+  return v;
+}
+
+/// Were they two components until now?
+bool OverlayComponents::join(VertexId v, VertexId w) {
+  const auto halved = [this](VertexId u) {
+    const auto parent = [this](VertexId of) -> VertexId& { return parent_[of - first_]; };
+    while (parent(u) != u) u = parent(u) = parent(parent(u));
+    return u;
+  };
+  const VertexId a = halved(v);
+  const VertexId b = halved(w);
+  parent_[std::max(a, b) - first_] = std::min(a, b);
+  return a != b;
+}
+
+OverlayComponents::OverlayComponents(const Overlay& overlay, Range vertices, const Execution& execution)
+    : first_(static_cast<VertexId>(vertices.first)) {
+  constexpr std::size_t grain = std::size_t{1} << 14;
+  struct Part {
+    std::size_t members = 0;
+    std::size_t joins = 0;
+    std::vector<Edge> across;  // to vertices before the chunk
+  };
+  execution.reserve(vertices.size() * sizeof(VertexId));
+  parent_.resize(vertices.size());
+  std::vector<Part> parts(chunk_count(vertices.size(), grain));
+  for_chunks(vertices.size(), grain, execution, [&](Range r) {
+    Part part;
+    const auto first = static_cast<VertexId>(vertices.first + r.first);
+    for (VertexId v = first; v < vertices.first + r.last; ++v) {
+      parent_[v - first_] = v;
+      if (overlay.is_peeled(v)) continue;
+      ++part.members;
+      for (const OverlayEnd& end : overlay.ends(v)) {
+        if (end.target > v || end.target < first_ || overlay.is_peeled(end.target)) continue;  // each edge once
+        if (end.target < first) {
+          part.across.push_back({v, end.target});
+        } else {
+          part.joins += join(v, end.target) ? 1 : 0;
+        }
+      }
+    }
+    parts[r.first / grain] = std::move(part);
+  });
+  for (const Part& part : parts) {
+    execution.check();
+    count_ += part.members - part.joins;
+    for (const Edge& edge : part.across) count_ -= join(edge.from, edge.to) ? 1 : 0;
+  }
+}
+
+CoreComponents core_components(const Overlay& overlay, const Execution& execution) {
+  const OverlayComponents components(overlay, {0, overlay.vertex_count()}, execution);
+  return {components.count(), components.root(overlay.start()) == components.root(overlay.goal())};
+}
+
+namespace {
+
+using Crossings = std::array<std::vector<std::uint16_t>, 4>;
+
+/// The band as a lattice of its own.
+class PeeledBand {
+ public:
+  PeeledBand(const TileGrid& grid, std::size_t first_row, std::size_t last_row, std::span<TileSummary> tiles)
+      : band_(grid), first_row_(static_cast<std::uint32_t>(first_row << grid.side_log2)), tiles_(tiles) {
+    band_.tile_rows = static_cast<std::uint32_t>(last_row - first_row);
+    band_.rows = std::min(grid.rows, static_cast<std::uint32_t>(last_row << grid.side_log2)) - first_row_;
+  }
+
+  void run(const OverlayEnds& ends, const Execution& execution) {
+    const OverlayEnds kept = kept_cells(ends);
+    take_away_rims();
+    check_borders(band_, tiles_, execution);
+    Overlay overlay(band_, tiles_, kept, execution);
+    tiles_.front().closed_components += overlay.peel(execution);
+    std::vector<Crossings> crossings(tiles_.size());
+    constexpr std::size_t grain = 64;
+    for_chunks(tiles_.size(), grain, execution, [&](Range r) {
+      for (std::size_t t = r.first; t < r.last; ++t) crossings[t] = crossings_left(overlay, t);
+    });
+    for_chunks(tiles_.size(), grain, execution, [&](Range r) {
+      for (std::size_t t = r.first; t < r.last; ++t) prune(overlay, t, std::move(crossings[t]));
+    });
+  }
+
+ private:
+  bool is_lowest(std::size_t tile) const { return tile < band_.tile_cols; }
+  bool is_highest(std::size_t tile) const { return tile + band_.tile_cols >= tiles_.size(); }
+
+  /// Whatever leaves the band, and what start and goal join in it, as if they were linked.
+  OverlayEnds kept_cells(const OverlayEnds& ends) const {
+    OverlayEnds kept;
+    const auto add = [&](std::size_t tile, std::span<const std::uint16_t> keys) {
+      for (const std::uint16_t key : keys) {
+        const std::uint32_t place = tiles_[tile].keys[key];
+        kept.start.links.push_back(
+            {band_.first_col(tile) + place % band_.side(), band_.first_row(tile) + place / band_.side(), 0.0});
+      }
+    };
+    for (std::size_t t = 0; t < tiles_.size(); ++t) {
+      if (is_lowest(t)) add(t, tiles_[t].crossings[3]);
+      if (is_highest(t)) add(t, tiles_[t].crossings[1]);
+    }
+    for (const EndLinks* end : {&ends.start, &ends.goal}) {
+      for (const EndLink& link : end->links) {
+        if (link.row < first_row_ || link.row - first_row_ >= band_.rows) continue;
+        kept.goal.links.push_back({link.col, link.row - first_row_, link.length});
+      }
+    }
+    return kept;
+  }
+
+  void take_away_rims() {
+    for (std::size_t t = 0; t < tiles_.size(); ++t) {
+      if (is_lowest(t)) std::swap(lowest_.emplace_back(), tiles_[t].crossings[3]);
+      if (is_highest(t)) std::swap(highest_.emplace_back(), tiles_[t].crossings[1]);
+    }
+  }
+
+  /// Both ends of a crossing are left, or it goes.
+  Crossings crossings_left(const Overlay& overlay, std::size_t tile) const {
+    const std::array<std::size_t, 4> beyond{tile + 1, tile + band_.tile_cols, tile - 1, tile - band_.tile_cols};
+    Crossings left;
+    for (unsigned side = 0; side < 4; ++side) {
+      const auto& own = tiles_[tile].crossings[side];
+      for (std::size_t i = 0; i < own.size(); ++i) {
+        const std::uint16_t theirs = tiles_[beyond[side]].crossings[side ^ 2U][i];
+        if (overlay.is_peeled(overlay.first_key(tile) + own[i])) continue;
+        if (overlay.is_peeled(overlay.first_key(beyond[side]) + theirs)) continue;
+        left[side].push_back(own[i]);
+      }
+    }
+    return left;
+  }
+
+  void prune(const Overlay& overlay, std::size_t t, Crossings crossings) {
+    TileSummary& tile = tiles_[t];
+    if (is_lowest(t)) crossings[3] = lowest_[t];
+    if (is_highest(t)) crossings[1] = highest_[t + band_.tile_cols - tiles_.size()];
+    const auto is_left = [&](std::size_t key) {
+      return !overlay.is_peeled(overlay.first_key(t) + static_cast<VertexId>(key));
+    };
+    std::vector<std::uint16_t> number(tile.keys.size());
+    std::vector<std::uint16_t> keys;
+    for (std::size_t k = 0; k < tile.keys.size(); ++k) {
+      number[k] = static_cast<std::uint16_t>(keys.size());
+      if (is_left(k)) keys.push_back(tile.keys[k]);
+    }
+    std::vector<Chain> chains;
+    for (const Chain& chain : tile.chains) {
+      if (is_left(chain.from) && is_left(chain.to)) {
+        chains.push_back({number[chain.from], number[chain.to], chain.first_step, chain.length});
+      }
+    }
+    for (auto& side : crossings) {
+      for (std::uint16_t& key : side) key = number[key];
+    }
+    tile.keys = std::move(keys);
+    tile.chains = std::move(chains);
+    tile.crossings = std::move(crossings);
+  }
+
+  TileGrid band_;
+  const std::uint32_t first_row_;
+  std::span<TileSummary> tiles_;
+  std::vector<std::vector<std::uint16_t>> lowest_, highest_;  // crossings out of the band, by column of tiles
+};
+
+}  // namespace
+
+void peel_band(const TileGrid& grid, std::size_t first_row, std::size_t last_row, const OverlayEnds& ends,
+               std::span<TileSummary> tiles, const Execution& execution) {
+  PeeledBand(grid, first_row, last_row, tiles).run(ends, execution);
+}
+
+namespace {
+
+constexpr double step = 1.0;         // the longest edge
+constexpr double first_look = 20.0;  // where nothing is within a step: a corner's 256 nearest stand within this,
+constexpr double last_look = 80.0;   // unless milestones are blocked; with fewer than 256 within this, that is all
+constexpr std::size_t most_looked_at = 256;
+
+/// The walls that may touch an edge of at most `reach` from `at`.
+std::vector<Segment> walls_around(const LatticeWorld& world, Vec2 at, double reach) {
+  const Box around = Box{at, at}.grown(reach + world.clearance * (1 + 1e-9) + 1e-6);
+  std::vector<Segment> near;
+  const auto take = [&](const Segment& wall) {
+    if (around.meets(box_of(wall))) near.push_back(wall);
+  };
+  if (reach == step && world.grid.area().contains(at)) {
+    const auto index = [](double x, std::uint32_t count) {
+      return static_cast<std::uint32_t>(std::clamp(std::floor(x - 0.5), 0.0, count - 1.0));
+    };
+    const std::size_t tile = world.grid.tile_at(index(at.x, world.grid.cols), index(at.y, world.grid.rows));
+    world.tiles.reader()->read(tile).for_each_around(world.grid, tile, around, take);
+    return near;
+  }
+  world.tiles.for_each_near(around, take);
+  return near;
+}
+
+bool is_free(std::span<const Segment> walls, const Segment& edge, double clearance) {
+  return std::none_of(walls.begin(), walls.end(),
+                      [&](const Segment& wall) { return blocks_edge(wall, edge, clearance); });
+}
+
+/// The milestones within `reach` of `at`, nearest first.
+std::vector<EndLink> milestones_around(const LatticeWorld& world, std::span<const Segment> walls, Vec2 at,
+                                       double reach) {
+  std::vector<EndLink> found;
+  const auto first = [&](double x) { return static_cast<std::int64_t>(std::max(0.0, std::ceil(x - reach) - 1)); };
+  const auto last = [&](double x, std::uint32_t count) {
+    return static_cast<std::int64_t>(std::min(count - 1.0, std::floor(x + reach) - 1));
+  };
+  for (std::int64_t row = first(at.y); row <= last(at.y, world.grid.rows); ++row) {
+    for (std::int64_t col = first(at.x); col <= last(at.x, world.grid.cols); ++col) {
+      const Vec2 point = TileGrid::point(col, row);
+      const double length = distance(at, point);
+      if (length > reach || !world.box.contains(point)) continue;
+      if (!is_free(walls, {point, point}, world.clearance)) continue;
+      found.push_back({static_cast<std::uint32_t>(col), static_cast<std::uint32_t>(row), length});
+    }
+  }
+  std::stable_sort(found.begin(), found.end(), [](const EndLink& a, const EndLink& b) { return a.length < b.length; });
+  return found;
+}
+
+/// Puts the edges to the candidates to the walls; keeps the free ones, or only the first.
+void try_links(const LatticeWorld& world, std::span<const Segment> walls, std::span<const EndLink> candidates,
+               bool first_only, EndLinks& result) {
+  ++result.queries;
+  for (const EndLink& link : candidates) {
+    ++result.checked;
+    if (!is_free(walls, {result.at, TileGrid::point(link.col, link.row)}, world.clearance)) continue;
+    result.links.push_back(link);
+    if (first_only) return;
+  }
+}
+
+}  // namespace
+
+EndLinks end_links(const LatticeWorld& world, Vec2 at) {
+  EndLinks result{at, false, {}, 0, 0};
+  if (!world.box.contains(at)) return result;
+  const std::vector<Segment> near = walls_around(world, at, step);
+  result.free = is_free(near, {at, at}, world.clearance);
+  if (!result.free) return result;
+  try_links(world, near, milestones_around(world, near, at, step), false, result);
+  if (!result.links.empty()) return result;
+  for (double reach = first_look; reach <= last_look; reach *= 2) {
+    const std::vector<Segment> wide = walls_around(world, at, reach);
+    std::vector<EndLink> candidates = milestones_around(world, wide, at, reach);
+    if (candidates.size() < most_looked_at && reach < last_look) continue;
+    candidates.resize(std::min(candidates.size(), most_looked_at));
+    try_links(world, wide, candidates, true, result);
+    break;
+  }
+  return result;
+}
+
+bool is_direct_candidate(Vec2 a, Vec2 b) { return distance(a, b) <= step; }
+
+bool is_direct_edge_free(const LatticeWorld& world, Vec2 a, Vec2 b) {
+  return is_free(walls_around(world, a, step), {a, b}, world.clearance);
+}
+
+}  // namespace warren

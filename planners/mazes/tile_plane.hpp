@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The roadmap of one tile as a plane of bytes: a byte a lattice point, a bit for each of its four edges, one for the
+// milestone itself. Around the tile lies one ring of the neighbours' points, so that edges over the border are known on
+// both sides, and a margin that is never looked at, so that writers need no bounds checks. About one byte a cell:
+// plane, walls and results of a tile stay in the second-level cache.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "planners/mazes/tile_grid.hpp"
+
+namespace warren {
+
+/// Bits of a point. Directions d are 0 right, 1 up, 2 left, 3 down; the opposite of d is d ^ 2.
+namespace plane_bit {
+inline constexpr std::uint8_t right = 1, up = 2, left = 4, down = 8;
+inline constexpr std::uint8_t edges = 15;      ///< the four edges
+inline constexpr std::uint8_t milestone = 16;  ///< stands free
+inline constexpr std::uint8_t kept =
+    32;  ///< must survive the reduction: an edge leaves the tile, or start or goal joins
+inline constexpr std::uint8_t key = 64;  ///< vertex of the overlay
+}  // namespace plane_bit
+
+constexpr std::uint8_t opposite_bit(unsigned direction) { return static_cast<std::uint8_t>(1U << (direction ^ 2)); }
+constexpr unsigned first_direction(unsigned bits) { return static_cast<unsigned>(std::countr_zero(bits)); }
+constexpr bool is_single_bit(unsigned bits) { return bits != 0 && (bits & (bits - 1)) == 0; }
+
+class TilePlane {
+ public:
+  /// margin: points around the tile that writers may touch; at least 1.
+  TilePlane(const TileGrid& grid, int margin)
+      : grid_(grid),
+        margin_(margin),
+        stride_(static_cast<int>(grid.side()) + 2 * margin),
+        bytes_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(stride_)) {}
+
+  /// Every lattice point of the tile and its ring stands free, with all edges to lattice points. Points outside `box`
+  /// don't stand.
+  void reset(std::size_t tile, const Box& box);
+
+  const TileGrid& grid() const { return grid_; }
+  std::size_t tile() const { return tile_; }
+  int width() const { return static_cast<int>(grid_.width(tile_)); }
+  int height() const { return static_cast<int>(grid_.height(tile_)); }
+  int margin() const { return margin_; }
+  int stride() const { return stride_; }
+  /// Of the point (col, row) of the tile; the ring has -1 and width() or height().
+  std::uint8_t* at(int col, int row) { return bytes_.data() + index(col, row); }
+  const std::uint8_t* at(int col, int row) const { return bytes_.data() + index(col, row); }
+  /// Where a point's neighbours lie.
+  std::array<int, 4> offsets() const { return {1, stride_, -1, -stride_}; }
+
+ private:
+  std::ptrdiff_t index(int col, int row) const {
+    return static_cast<std::ptrdiff_t>(row + margin_) * stride_ + (col + margin_);
+  }
+  TileGrid grid_;
+  int margin_;
+  int stride_;
+  std::size_t tile_ = 0;
+  std::vector<std::uint8_t> bytes_;
+};
+
+// What is done to every point of a row of a tile's plane, many points an instruction. Integers only, so every
+// instruction set gives the same bytes; which one is used is asked of the processor once.
+
+/// A row of a plane, the rows above and below it, and a row of scratch with a free byte before and after it.
+struct PlaneRow {
+  std::uint8_t* row;
+  std::uint8_t* above;
+  std::uint8_t* below;
+  std::uint8_t* found;
+  int width;
+};
+
+/// The same work for one instruction set.
+struct PlaneRowWork {
+  const char* name;
+  /// Takes the row's dead ends off (points with one edge that are not kept become 0), and their edges from the
+  /// neighbours in it, above and below. Of two dead ends that are all of their component the left one keeps standing
+  /// without edges.
+  void (*peel)(const PlaneRow&);
+  /// found[i] becomes nonzero where point i is a dead end, else 0.
+  void (*find_dead_ends)(const PlaneRow&);
+  /// found[i] becomes nonzero where point i stands but for those with two edges that are not kept, else 0.
+  void (*find_keys)(const PlaneRow&);
+};
+
+/// What this processor can run, the fastest last; the first needs nothing special.
+struct PlaneRowVariants {
+  std::array<PlaneRowWork, 3> list;
+  std::size_t count;
+};
+PlaneRowVariants plane_row_variants();
+
+/// The fastest.
+const PlaneRowWork& plane_row_work();
+
+}  // namespace warren

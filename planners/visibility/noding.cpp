@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/visibility/noding.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "core/plane/geometry.hpp"
+#include "parallel/asked_growth.hpp"
+#include "parallel/polled_sort.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::size_t pieces_per_poll = 4096;
+
+/// The pieces' neighbourhoods: each is filed under the squares that its box meets, column by column along itself.
+class PieceGrid {
+ public:
+  PieceGrid(const std::vector<IntegerPiece>& pieces, const Execution& execution) : pieces_(pieces) {
+    for (const IntegerPiece& p : pieces) box_.include(box_of({p.a, p.b}));
+    const double side = std::max({box_.width(), box_.height(), 1.0});
+    columns_ = static_cast<std::size_t>(std::clamp(std::sqrt(static_cast<double>(pieces.size())), 1.0, 4096.0));
+    square_ = side / static_cast<double>(columns_) * (1.0 + 1e-12);
+    const std::size_t squares = columns_ * columns_;
+    execution.reserve((2 * squares + 1) * sizeof(std::size_t));
+    assign_polled(first_, squares + 1, std::size_t{0}, [&] { execution.check(); });
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      if (i % pieces_per_poll == 0) execution.check();
+      for_each_square(pieces[i], [&](std::size_t s) { ++first_[s + 1]; });
+    }
+    RawVector<std::size_t> next(squares);
+    for (std::size_t s = 0; s < squares; ++s) {
+      if (s % pieces_per_poll == 0) execution.check();
+      next[s] = first_[s];
+      first_[s + 1] += first_[s];
+    }
+    execution.reserve(first_.back() * sizeof(std::uint32_t));
+    filed_.resize(first_.back());
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      if (i % pieces_per_poll == 0) execution.check();
+      for_each_square(pieces[i], [&](std::size_t s) { filed_[next[s]++] = static_cast<std::uint32_t>(i); });
+    }
+  }
+
+  /// Calls visit(i, j) for pieces i < j that share a square and whose boxes meet, some pairs more than once.
+  template <class Visit>
+  void for_each_pair(const Execution& execution, const Visit& visit) const {
+    constexpr std::size_t looks_per_poll = 4096;  // exact ones take microseconds
+    std::size_t looks = 0;
+    for (std::size_t s = 0; s + 1 < first_.size(); ++s) {
+      for (std::size_t k = first_[s]; k < first_[s + 1]; ++k) {
+        const Box box = box_of({pieces_[filed_[k]].a, pieces_[filed_[k]].b});
+        for (std::size_t l = k + 1; l < first_[s + 1]; ++l) {
+          if (++looks % looks_per_poll == 0) execution.check();
+          if (box.meets(box_of({pieces_[filed_[l]].a, pieces_[filed_[l]].b}))) visit(filed_[k], filed_[l]);
+        }
+      }
+    }
+  }
+
+ private:
+  std::size_t index(double from_edge) const {
+    return std::min(columns_ - 1, static_cast<std::size_t>(std::max(0.0, from_edge / square_)));
+  }
+  template <class Visit>
+  void for_each_square(const IntegerPiece& piece, const Visit& visit) const {
+    const Vec2 a = is_before(piece.b, piece.a) ? piece.b : piece.a;
+    const Vec2 b = is_before(piece.b, piece.a) ? piece.a : piece.b;
+    const std::size_t last = index(b.x - box_.min.x);
+    for (std::size_t column = index(a.x - box_.min.x); column <= last; ++column) {
+      const auto height_at = [&](double x) {
+        if (x <= a.x) return a.y;
+        return x >= b.x ? b.y : a.y + (x - a.x) / (b.x - a.x) * (b.y - a.y);
+      };
+      const double left = box_.min.x + square_ * static_cast<double>(column);
+      const double y1 = a.x == b.x ? a.y : height_at(left);
+      const double y2 = a.x == b.x ? b.y : height_at(left + square_);
+      const std::size_t top = index(std::max(y1, y2) + 1.0 - box_.min.y);
+      for (std::size_t row = index(std::min(y1, y2) - 1.0 - box_.min.y); row <= top; ++row) {
+        visit(row * columns_ + column);
+      }
+    }
+  }
+
+  const std::vector<IntegerPiece>& pieces_;
+  Box box_;
+  std::size_t columns_ = 1;
+  double square_ = 1.0;
+  RawVector<std::size_t> first_;
+  RawVector<std::uint32_t> filed_;
+};
+
+Vec2 rounded_crossing(const IntegerPiece& p, const IntegerPiece& q) {
+  const Vec2 along = p.b - p.a;
+  const Vec2 other = q.b - q.a;
+  const double t = std::clamp(cross(q.a - p.a, other) / cross(along, other), 0.0, 1.0);
+  return {std::nearbyint(p.a.x + t * along.x), std::nearbyint(p.a.y + t * along.y)};
+}
+
+/// Where do two pieces have to be split? Ends that lie inside the other, and the rounded point of a crossing.
+void cut_pair(const std::vector<IntegerPiece>& pieces, std::uint32_t i, std::uint32_t j, CrossingCuts& found,
+              const Execution& execution) {
+  const IntegerPiece& p = pieces[i];
+  const IntegerPiece& q = pieces[j];
+  const auto cut = [&](std::uint32_t number, const IntegerPiece& piece, Vec2 at) {
+    if (!(at == piece.a) && !(at == piece.b)) push_asked(found.cuts, {number, at}, execution);
+  };
+  if (segments_cross({p.a, p.b}, {q.a, q.b})) {
+    const Vec2 at = rounded_crossing(p, q);
+    const std::size_t before = found.cuts.size();
+    cut(i, p, at);
+    cut(j, q, at);
+    found.crossed = found.crossed || found.cuts.size() > before;
+    return;
+  }
+  for (const Vec2 end : {q.a, q.b}) {
+    if (on_segment(end, {p.a, p.b})) cut(i, p, end);
+  }
+  for (const Vec2 end : {p.a, p.b}) {
+    if (on_segment(end, {q.a, q.b})) cut(j, q, end);
+  }
+}
+
+}  // namespace
+
+CrossingCuts find_cuts(const std::vector<IntegerPiece>& pieces, const Execution& execution) {
+  CrossingCuts found;
+  const PieceGrid grid(pieces, execution);
+  grid.for_each_pair(execution, [&](std::uint32_t i, std::uint32_t j) { cut_pair(pieces, i, j, found, execution); });
+  return found;
+}
+
+namespace {
+
+constexpr double largest_snapped = 0x1.0p29;
+constexpr int most_rounds = 24;
+constexpr std::size_t snapped_per_poll = 1 << 14;
+
+SnapGrid grid_of(std::span<const Segment> segments) {
+  Box box;
+  for (const Segment& s : segments) box.include(box_of(s));
+  SnapGrid grid;
+  if (box.empty()) return grid;
+  const double half = 0.5 * std::max(box.width(), box.height());
+  int exponent = 0;
+  if (half > 0.0) std::frexp(half / largest_snapped, &exponent);  // half <= largest_snapped * 2^exponent
+  grid.unit = std::ldexp(1.0, exponent);
+  const auto rounded = [&](double c) { return std::nearbyint(c / grid.unit) * grid.unit; };
+  grid.origin = {rounded(0.5 * box.min.x + 0.5 * box.max.x), rounded(0.5 * box.min.y + 0.5 * box.max.y)};
+  return grid;
+}
+
+Vec2 snapped(const SnapGrid& grid, Vec2 p) {
+  return {std::nearbyint((p.x - grid.origin.x) / grid.unit), std::nearbyint((p.y - grid.origin.y) / grid.unit)};
+}
+
+/// Splits the pieces at their cuts, in order along each.
+std::vector<IntegerPiece> split(const std::vector<IntegerPiece>& pieces, RawVector<Cut>& cuts,
+                                const Execution& execution) {
+  polled_sort(cuts.begin(), cuts.end(), execution, [](const Cut& c, const Cut& d) {
+    return c.piece != d.piece ? c.piece < d.piece : is_before(c.at, d.at);
+  });
+  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
+  std::vector<IntegerPiece> parts;
+  execution.reserve((pieces.size() + cuts.size()) * sizeof(IntegerPiece));
+  parts.reserve(pieces.size() + cuts.size());
+  auto cut = cuts.begin();
+  for (std::uint32_t i = 0; i < pieces.size(); ++i) {
+    if (i % snapped_per_poll == 0) execution.check();
+    Vec2 from = pieces[i].a;
+    for (; cut != cuts.end() && cut->piece == i; ++cut) {
+      parts.push_back({from, cut->at, pieces[i].source});
+      from = cut->at;
+    }
+    parts.push_back({from, pieces[i].b, pieces[i].source});
+  }
+  return parts;
+}
+
+/// Turns pieces to run from left to right and drops doubles (the lowest source stays).
+void tidy(std::vector<IntegerPiece>& pieces, const Execution& execution) {
+  for (IntegerPiece& p : pieces) {
+    if (is_before(p.b, p.a)) std::swap(p.a, p.b);
+  }
+  polled_sort(pieces.begin(), pieces.end(), execution, [](const IntegerPiece& p, const IntegerPiece& q) {
+    if (!(p.a == q.a)) return is_before(p.a, q.a);
+    return p.b == q.b ? p.source < q.source : is_before(p.b, q.b);
+  });
+  const auto same = [](const IntegerPiece& p, const IntegerPiece& q) { return p.a == q.a && p.b == q.b; };
+  pieces.erase(std::unique(pieces.begin(), pieces.end(), same), pieces.end());
+}
+
+}  // namespace
+
+SnappedSegments snap_segments(std::span<const Segment> segments, const Execution& execution) {
+  if (segments.size() >= std::size_t{1} << 31) throw InputError("medial axis", "expected fewer than 2^31 segments");
+  execution.reserve(segments.size() * (sizeof(IntegerPiece) + sizeof(SnappedSegment) + 16));
+  SnappedSegments result{grid_of(segments), {}, 0.0};
+  std::vector<IntegerPiece> pieces;
+  pieces.reserve(segments.size());
+  bool is_exact = true;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    if (i % snapped_per_poll == 0) execution.check();
+    const Vec2 a = snapped(result.grid, segments[i].a);
+    const Vec2 b = snapped(result.grid, segments[i].b);
+    is_exact = is_exact && result.grid.at(a.x, a.y) == segments[i].a && result.grid.at(b.x, b.y) == segments[i].b;
+    pieces.push_back({a, b, static_cast<std::uint32_t>(i)});
+  }
+  result.error = is_exact ? 0.0 : rounding_units * result.grid.unit;
+  for (int round = 0;; ++round) {
+    tidy(pieces, execution);
+    CrossingCuts found = find_cuts(pieces, execution);
+    if (found.cuts.empty()) break;
+    if (round == most_rounds) throw InputError("medial axis", "obstacles cross too often within a rounding unit");
+    if (found.crossed) result.error += rounding_units * result.grid.unit;
+    pieces = split(pieces, found.cuts, execution);
+  }
+  result.segments.reserve(pieces.size());
+  for (const IntegerPiece& p : pieces) {
+    result.segments.push_back({static_cast<std::int32_t>(p.a.x), static_cast<std::int32_t>(p.a.y),
+                               static_cast<std::int32_t>(p.b.x), static_cast<std::int32_t>(p.b.y), p.source});
+  }
+  return result;
+}
+
+namespace {
+
+constexpr double largest_integer = 0x1.0p45;
+
+double unit_for(std::span<const Vec2> corners) {
+  double largest = 0.0;
+  for (const Vec2 p : corners) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+  int exponent = 0;
+  if (largest > 0.0) std::frexp(largest / largest_integer, &exponent);  // largest <= largest_integer * 2^exponent
+  return std::ldexp(1.0, exponent);
+}
+
+/// Appends the ring without corners that equal the one before; a ring that has no room is left empty.
+void add_ring(std::vector<Vec2> ring, PolygonSet& to) {
+  ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+  while (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
+  if (ring.size() < 3) ring.clear();
+  to.add(ring);
+}
+
+PolygonSet rounded(const PolygonSet& polygons, double unit) {
+  PolygonSet result;
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    std::vector<Vec2> ring;
+    for (const Vec2 p : polygons[i]) ring.push_back({std::nearbyint(p.x / unit), std::nearbyint(p.y / unit)});
+    add_ring(std::move(ring), result);
+  }
+  return result;
+}
+
+/// Piece i is the side that begins at corner i.
+std::vector<IntegerPiece> sides_of(const PolygonSet& polygons) {
+  std::vector<IntegerPiece> sides;
+  sides.reserve(polygons.corners.size());
+  for (std::size_t p = 0; p < polygons.size(); ++p) {
+    const std::span<const Vec2> ring = polygons[p];
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      sides.push_back({ring[i], ring[i + 1 == ring.size() ? 0 : i + 1], static_cast<std::uint32_t>(sides.size())});
+    }
+  }
+  return sides;
+}
+
+/// Puts the cuts, in the order along their sides, between the sides' ends.
+PolygonSet with_cuts(const PolygonSet& polygons, const std::vector<IntegerPiece>& sides, RawVector<Cut>& cuts,
+                     const Execution& execution) {
+  const auto along = [&](const Cut& c) { return dot(c.at - sides[c.piece].a, sides[c.piece].b - sides[c.piece].a); };
+  polled_sort(cuts.begin(), cuts.end(), execution,
+              [&](const Cut& c, const Cut& d) { return c.piece != d.piece ? c.piece < d.piece : along(c) < along(d); });
+  PolygonSet result;
+  auto cut = cuts.begin();
+  for (std::size_t p = 0; p < polygons.size(); ++p) {
+    std::vector<Vec2> ring;
+    for (std::uint32_t i = polygons.first[p]; i < polygons.first[p + 1]; ++i) {
+      ring.push_back(polygons.corners[i]);
+      for (; cut != cuts.end() && cut->piece == i; ++cut) ring.push_back(cut->at);
+    }
+    add_ring(std::move(ring), result);
+  }
+  return result;
+}
+
+}  // namespace
+
+NodedPolygons node_polygons(const PolygonSet& polygons, const Execution& execution) {
+  if (polygons.corners.size() >= std::size_t{1} << 31) throw InputError("union", "expected fewer than 2^31 sides");
+  const double unit = unit_for(polygons.corners);
+  NodedPolygons result{rounded(polygons, unit), rounding_units * unit};
+  for (int round = 0;; ++round) {
+    const std::vector<IntegerPiece> sides = sides_of(result.polygons);
+    execution.reserve(sides.size() * (sizeof(IntegerPiece) + sizeof(Vec2)));
+    CrossingCuts found = find_cuts(sides, execution);
+    if (found.cuts.empty()) break;
+    if (round == most_rounds) throw InputError("union", "outlines cross too often within a rounding unit");
+    if (found.crossed) result.error += rounding_units * unit;
+    result.polygons = with_cuts(result.polygons, sides, found.cuts, execution);
+  }
+  for (Vec2& corner : result.polygons.corners) corner = unit * corner;  // exact: a power of two
+  return result;
+}
+
+}  // namespace warren

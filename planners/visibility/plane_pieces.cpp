@@ -1,0 +1,454 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/visibility/plane_pieces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "core/plane/geometry.hpp"
+#include "parallel/asked_growth.hpp"
+#include "parallel/polled_sort.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::size_t items_per_poll = 1 << 14;
+constexpr std::size_t looks_per_poll = 1 << 12;  // exact predicates can take microseconds
+
+/// All sides and walls as segments between numbered points, as they are given.
+struct Sides {
+  std::vector<Vec2> ends;          // two a side
+  std::vector<std::int32_t> rise;  // one a side
+  std::size_t corner_ends = 0;     // the first ends, without those of the bounds
+
+  void add(Vec2 a, Vec2 b, std::int32_t change) {
+    if (a == b) return;
+    ends.push_back(a);
+    ends.push_back(b);
+    rise.push_back(change);
+  }
+};
+
+bool has_area(const Box& box) { return box.width() > 0.0 && box.height() > 0.0; }
+
+Sides sides_of(const PlaneObstacles& obstacles) {
+  Sides sides;
+  for (std::size_t p = 0; p < obstacles.polygons.size(); ++p) {
+    const std::span<const Vec2> corners = obstacles.polygons[p];
+    for (std::size_t i = 0; i < corners.size(); ++i) sides.add(corners[i], corners[(i + 1) % corners.size()], 1);
+  }
+  for (const Segment& wall : obstacles.walls) sides.add(wall.a, wall.b, 0);
+  sides.corner_ends = sides.ends.size();
+  if (obstacles.bounds) {
+    const Box& box = *obstacles.bounds;
+    const Vec2 corners[] = {box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}};
+    const int change = has_area(box) ? -1 : 0;  // outside, on the right, counts as a polygon
+    for (std::size_t i = 0; i < 4; ++i) sides.add(corners[i], corners[(i + 1) % 4], change);
+  }
+  if (sides.ends.size() >= (std::size_t{1} << 32)) throw InputError("obstacles", "more than 2^31 sides and walls");
+  return sides;
+}
+
+/// Numbers equal ends alike, in the order in which they first appear; `points` receives the different ones.
+std::vector<PointId> number_points(std::span<const Vec2> ends, std::vector<Vec2>& points, const Execution& execution) {
+  std::vector<std::uint32_t> order(ends.size());
+  std::iota(order.begin(), order.end(), 0U);
+  polled_sort(order.begin(), order.end(), execution, [&](std::uint32_t i, std::uint32_t j) {
+    if (ends[i].x != ends[j].x) return ends[i].x < ends[j].x;
+    if (ends[i].y != ends[j].y) return ends[i].y < ends[j].y;
+    return i < j;
+  });
+  std::vector<PointId> number(ends.size());  // first of all the first end at the same place
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    if (k % items_per_poll == 0) execution.check();
+    const bool again = k > 0 && ends[order[k]] == ends[order[k - 1]];
+    number[order[k]] = again ? number[order[k - 1]] : order[k];
+  }
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    if (i % items_per_poll == 0) execution.check();
+    if (number[i] == i) {
+      number[i] = static_cast<PointId>(points.size());
+      points.push_back(ends[i]);
+    } else {
+      number[i] = number[number[i]];
+    }
+  }
+  return number;
+}
+
+/// Is the point (at.x + d, at.y + d^2), for all small d > 0, left of a -> b?
+bool is_left(const Segment& s, Vec2 at) {
+  const int side = orient2d(s.a, s.b, at);
+  if (side != 0) return side > 0;
+  if (s.a.y != s.b.y) return s.b.y < s.a.y;
+  return s.b.x > s.a.x;
+}
+
+}  // namespace
+
+PlanePieces::PlanePieces(const PlaneObstacles& obstacles, const Execution& execution) {
+  const Sides sides = sides_of(obstacles);
+  outside_depth_ = obstacles.bounds && has_area(*obstacles.bounds) ? 1 : 0;
+  execution.reserve(sides.rise.size() * 150);
+  const std::vector<PointId> number = number_points(sides.ends, points_, execution);
+  corner_count_ = 0;
+  for (std::size_t i = 0; i < sides.corner_ends; ++i)
+    corner_count_ = std::max<std::size_t>(corner_count_, number[i] + 1);
+  cut(number, sides.rise, execution);
+  list_at_points(execution);
+  std::vector<Segment> segments(pieces_.size());
+  for (std::size_t i = 0; i < segments.size(); ++i) segments[i] = segment(static_cast<std::uint32_t>(i));
+  grid_ = SegmentGrid(segments, execution);
+  find_crossings(execution);
+  sound_depths(execution);
+}
+
+/// The places at which segments have to be cut: (segment, point inside it).
+RawVector<PlanePieces::Cut> PlanePieces::cuts_of(std::span<const Segment> segments, const Execution& execution) const {
+  const SegmentGrid grid(segments, execution);
+  RawVector<Cut> cuts;
+  std::size_t looks = 0;
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    const Vec2 at = points_[p];
+    for (const std::uint32_t i : grid.in_cell(grid.cell_of(at))) {
+      if (++looks % looks_per_poll == 0) execution.check();
+      if (segments[i].a == at || segments[i].b == at || !on_segment(at, segments[i])) continue;
+      push_asked(cuts, {i, static_cast<PointId>(p)}, execution);
+    }
+  }
+  const auto is_earlier = [&](const Cut& c, const Cut& d) {
+    if (c.segment != d.segment) return c.segment < d.segment;
+    const Segment& s = segments[c.segment];
+    const Vec2 p = points_[c.at];
+    const Vec2 q = points_[d.at];
+    if (p.x != q.x) return (p.x < q.x) == (s.a.x < s.b.x);
+    return p.y != q.y && (p.y < q.y) == (s.a.y < s.b.y);
+  };
+  polled_sort(cuts.begin(), cuts.end(), execution, is_earlier);
+  return cuts;
+}
+
+void PlanePieces::cut(std::span<const PointId> ends, std::span<const std::int32_t> rises, const Execution& execution) {
+  std::vector<Segment> segments(rises.size());
+  for (std::size_t i = 0; i < segments.size(); ++i) segments[i] = {points_[ends[2 * i]], points_[ends[2 * i + 1]]};
+  const RawVector<Cut> cuts = cuts_of(segments, execution);
+  RawVector<Piece> pieces;
+  execution.reserve((segments.size() + cuts.size()) * sizeof(Piece));
+  pieces.reserve(segments.size() + cuts.size());
+  auto cut = cuts.begin();
+  for (std::uint32_t i = 0; i < segments.size(); ++i) {
+    if (i % items_per_poll == 0) execution.check();
+    PointId last = ends[2 * i];
+    for (; cut != cuts.end() && cut->segment == i; ++cut) {
+      pieces.push_back({last, cut->at, rises[i]});
+      last = cut->at;
+    }
+    pieces.push_back({last, ends[2 * i + 1], rises[i]});
+  }
+  merge(pieces, execution);
+}
+
+void PlanePieces::merge(RawVector<Piece>& pieces, const Execution& execution) {
+  for (Piece& p : pieces) {
+    if (p.a > p.b) p = {p.b, p.a, -p.rise};
+  }
+  polled_sort(pieces.begin(), pieces.end(), execution,
+              [](const Piece& p, const Piece& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
+  for (const Piece& p : pieces) {
+    if (!pieces_.empty() && pieces_.back().a == p.a && pieces_.back().b == p.b) {
+      pieces_.back().rise += p.rise;
+    } else {
+      push_asked(pieces_, p, execution);
+    }
+  }
+}
+
+void PlanePieces::list_at_points(const Execution& execution) {
+  execution.reserve((points_.size() + 2 * pieces_.size()) * sizeof(std::uint32_t));
+  assign_polled(first_at_point_, points_.size() + 1, std::uint32_t{0}, [&] { execution.check(); });
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    if (i % items_per_poll == 0) execution.check();
+    ++first_at_point_[pieces_[i].a];
+    ++first_at_point_[pieces_[i].b];
+  }
+  std::uint32_t sum = 0;
+  for (std::uint32_t& first : first_at_point_) sum += first, first = sum;
+  at_point_.resize(sum);
+  for (std::size_t i = pieces_.size(); i-- > 0;) {
+    if (i % items_per_poll == 0) execution.check();
+    at_point_[--first_at_point_[pieces_[i].a]] = static_cast<std::uint32_t>(i);
+    at_point_[--first_at_point_[pieces_[i].b]] = static_cast<std::uint32_t>(i);
+  }
+}
+
+void PlanePieces::find_crossings(const Execution& execution) {
+  std::size_t looks = 0;
+  for (std::uint32_t row = 0; row < grid_.rows(); ++row) {
+    execution.check();
+    for (std::uint32_t col = 0; col < grid_.cols(); ++col) {
+      const std::span<const std::uint32_t> here = grid_.in_cell({col, row});
+      for (std::size_t i = 0; i < here.size(); ++i) {
+        const Segment s = segment(here[i]);
+        const Box box = box_of(s);
+        for (std::size_t j = i + 1; j < here.size(); ++j) {
+          if (++looks % looks_per_poll == 0) execution.check();
+          const Segment t = segment(here[j]);
+          if (!box.meets(box_of(t)) || !segments_cross(s, t)) continue;
+          crosses_ = true;
+          return;
+        }
+      }
+    }
+  }
+}
+
+int PlanePieces::rise_across(std::uint32_t piece, Vec2 from, Vec2 to) const {
+  const Segment s = segment(piece);
+  const bool meets = from.x == to.x ? (s.a.x <= from.x) != (s.b.x <= from.x) : (s.a.y <= from.y) != (s.b.y <= from.y);
+  if (!meets) return 0;
+  const bool was_left = is_left(s, from);
+  if (was_left == is_left(s, to)) return 0;
+  return was_left ? -pieces_[piece].rise : pieces_[piece].rise;
+}
+
+int PlanePieces::rise_in_cell(SegmentGrid::Cell cell, Vec2 from, Vec2 to) const {
+  if (from == to) return 0;
+  int rise = 0;
+  for (const std::uint32_t piece : grid_.in_cell(cell)) {
+    if (pieces_[piece].rise != 0) rise += rise_across(piece, from, to);
+  }
+  return rise;
+}
+
+void PlanePieces::sound_depths(const Execution& execution) {
+  depth_.resize(grid_.cell_count());
+  for (std::uint32_t row = 0; row < grid_.rows(); ++row) {
+    execution.check();
+    std::int32_t depth = outside_depth_;
+    for (std::uint32_t col = 0; col < grid_.cols(); ++col) {
+      depth_[grid_.index({col, row})] = depth;
+      const double y = grid_.y_line(row);
+      depth += rise_in_cell({col, row}, {grid_.x_line(col), y}, {grid_.x_line(col + 1), y});
+    }
+  }
+}
+
+int PlanePieces::depth_beside(Vec2 p) const {
+  if (!grid_.box().contains(p)) return outside_depth_;
+  const SegmentGrid::Cell cell = grid_.cell_of(p);
+  const Vec2 corner{grid_.x_line(cell.col), grid_.y_line(cell.row)};
+  const Vec2 below{corner.x, p.y};
+  return depth_[grid_.index(cell)] + rise_in_cell(cell, corner, below) + rise_in_cell(cell, below, p);
+}
+
+namespace {
+
+constexpr double open_sight = std::numeric_limits<double>::infinity();
+constexpr double margin = 1e-9;          // of places: far above their rounding, far below a range's width
+constexpr double shallow = 1e-6;         // sines below this: a distance along the ray is not to be trusted
+constexpr double outwards = 1.0 + 1e-9;  // distances are rounded up by this
+constexpr double bent = 0.999;           // a chord of a range of directions, at its middle, and rounding
+
+Vec2 direction_at(double place) {
+  if (place < 1.0) return {1.0 - place, place};
+  if (place < 2.0) return {1.0 - place, 2.0 - place};
+  if (place < 3.0) return {place - 3.0, 2.0 - place};
+  return {place - 3.0, place - 4.0};
+}
+
+/// The first and the last direction, anticlockwise, in which the box lies; the origin is not in it.
+struct BoxView {
+  Vec2 first;
+  Vec2 last;
+};
+BoxView view_of(const Box& b) {
+  if (b.min.x > 0.0) {
+    if (b.min.y > 0.0) return {{b.max.x, b.min.y}, {b.min.x, b.max.y}};
+    if (b.max.y < 0.0) return {b.min, b.max};
+    return {b.min, {b.min.x, b.max.y}};
+  }
+  if (b.max.x < 0.0) {
+    if (b.min.y > 0.0) return {b.max, b.min};
+    if (b.max.y < 0.0) return {{b.min.x, b.max.y}, {b.max.x, b.min.y}};
+    return {b.max, {b.max.x, b.min.y}};
+  }
+  if (b.min.y > 0.0) return {{b.max.x, b.min.y}, b.min};
+  return {{b.min.x, b.max.y}, b.max};
+}
+
+}  // namespace
+
+double direction_place(Vec2 d) {
+  const double sum = std::abs(d.x) + std::abs(d.y);
+  if (d.y >= 0.0) return d.x >= 0.0 ? d.y / sum : 1.0 - d.x / sum;
+  return d.x < 0.0 ? 2.0 - d.y / sum : 3.0 + d.x / sum;
+}
+
+NearPieces::NearPieces(const PlanePieces& pieces, const Execution& execution)
+    : pieces_(pieces),
+      execution_(execution),
+      cell_epoch_(pieces.grid().cell_count(), 0),
+      piece_epoch_(pieces.pieces().size(), 0) {
+  for (std::size_t i = 0; i < directions; ++i) {
+    const Vec2 d = direction_at(4.0 * static_cast<double>(i) / static_cast<double>(directions));
+    unit_[i] = (1.0 / norm(d)) * d;
+  }
+}
+
+void NearPieces::open(std::span<const PlaceRange> ranges) {
+  constexpr double scale = static_cast<double>(directions) / 4.0;
+  sight_.fill(0.0);
+  for (const PlaceRange& r : ranges) {
+    const double end = r.last >= r.first ? r.last : r.last + 4.0;
+    if (end - r.first >= 4.0 - 2.0 / scale) return sight_.fill(open_sight);
+    const auto first = static_cast<std::size_t>((r.first + 4.0 - margin) * scale);
+    const auto last = static_cast<std::size_t>((end + 4.0 + margin) * scale);
+    for (std::size_t i = first; i <= last; ++i) sight_[i % directions] = open_sight;
+  }
+}
+
+/// But for the range that begins at place 2: directions just before it may be rounded to it.
+void NearPieces::close_downwards() { std::fill(sight_.begin() + directions / 2 + 1, sight_.end(), 0.0); }
+
+void NearPieces::next_epoch() {
+  if (++epoch_ != 0) return;
+  std::fill(cell_epoch_.begin(), cell_epoch_.end(), 0);
+  std::fill(piece_epoch_.begin(), piece_epoch_.end(), 0);
+  epoch_ = 1;
+}
+
+bool NearPieces::is_hidden(const View& v) const {
+  if (!v.steep) return false;
+  // A piece is nowhere nearer in a range than at both its borders, but for what the range bends.
+  const double least = v.to_line * bent;
+  const auto behind = [&](std::size_t i, std::size_t border) { return sight_[i] * sine(v, border) < least; };
+  for (std::size_t i = v.begin; i < v.end; ++i) {
+    if (!behind(i % directions, i) || !behind(i % directions, i + 1)) return false;
+  }
+  // Ranges that the piece's ends lie in: by its least distance.
+  const double nearest = std::sqrt(distance_sq(Vec2{}, {v.first, v.last})) * bent;
+  for (std::size_t i = v.outer_begin; i < v.begin; ++i) {
+    if (sight_[i % directions] >= nearest) return false;
+  }
+  for (std::size_t i = v.end; i < v.outer_end; ++i) {
+    if (sight_[i % directions] >= nearest) return false;
+  }
+  return true;
+}
+
+void NearPieces::hide_behind(const View& v) {
+  const double length = norm(v.last - v.first);
+  const double farthest = std::max(norm(v.first), norm(v.last));
+  const auto distance_at = [&](std::size_t border) {
+    const double s = sine(v, border);
+    return v.steep && s > shallow * length ? std::min(v.to_line / s, farthest) : farthest;
+  };
+  double here = distance_at(v.begin);
+  for (std::size_t i = v.begin; i < v.end; ++i) {
+    const double next = distance_at(i + 1);
+    double& sight = sight_[i % directions];
+    sight = std::min(sight, std::max(here, next) * outwards);
+    here = next;
+  }
+}
+
+void NearPieces::see(std::uint32_t piece) {
+  constexpr double scale = static_cast<double>(directions) / 4.0;
+  if (piece_epoch_[piece] == epoch_) return;
+  piece_epoch_[piece] = epoch_;
+  const Segment s = pieces_.segment(piece);
+  View v{s.a - eye_, s.b - eye_, 0.0, true, 0, 0, 0, 0};
+  v.to_line = cross(v.first, v.last);
+  if (v.to_line < 0.0) {
+    std::swap(v.first, v.last);
+    v.to_line = -v.to_line;
+  }
+  const double size = norm(v.first) * norm(v.last);
+  if (!(v.to_line > 1e-12 * size)) {  // seen end on, or the eye is its end
+    seen_.push_back(piece);
+    return;
+  }
+  v.steep = v.to_line > shallow * norm(v.first) * norm(v.last - v.first);
+  const double first = direction_place(v.first) + 4.0;  // so that a margin before place 0 stays positive
+  double last = direction_place(v.last) + 4.0;
+  if (last < first) last += 4.0;
+  v.outer_begin = static_cast<std::size_t>((first - margin) * scale);
+  v.outer_end = static_cast<std::size_t>((last + margin) * scale) + 1;
+  v.begin = static_cast<std::size_t>(std::ceil((first + margin) * scale));
+  v.end = static_cast<std::size_t>(std::floor((last - margin) * scale));
+  if (v.begin >= v.end) {  // too narrow to hide anything
+    seen_.push_back(piece);
+    return;
+  }
+  if (is_hidden(v)) return;
+  seen_.push_back(piece);
+  hide_behind(v);
+}
+
+bool NearPieces::is_hidden(SegmentGrid::Cell cell) const {
+  constexpr double scale = static_cast<double>(directions) / 4.0;
+  const Box at = pieces_.grid().box_of_cell(cell);
+  const Box box{at.min - eye_, at.max - eye_};
+  const Vec2 nearest{std::max({box.min.x, -box.max.x, 0.0}), std::max({box.min.y, -box.max.y, 0.0})};
+  const double distance = norm(nearest);
+  if (!(distance > 0.0)) return false;
+  const BoxView view = view_of(box);
+  const double first = direction_place(view.first) + 4.0 - margin;
+  double last = direction_place(view.last) + 4.0 + margin;
+  if (last < first) last += 4.0;
+  const auto end = static_cast<std::size_t>(last * scale);
+  for (auto i = static_cast<std::size_t>(first * scale); i <= end; ++i) {
+    if (sight_[i % directions] >= distance) return false;
+  }
+  return true;
+}
+
+void NearPieces::propose(SegmentGrid::Cell cell) {
+  if (cell.col >= pieces_.grid().cols() || cell.row >= pieces_.grid().rows()) return;  // below 0 wraps
+  std::uint32_t& epoch = cell_epoch_[pieces_.grid().index(cell)];
+  if (epoch == epoch_) return;
+  epoch = epoch_;
+  next_.push_back(cell);
+}
+
+void NearPieces::propose_beyond(SegmentGrid::Cell from) {
+  if (from.col >= home_.col) propose({from.col + 1, from.row});
+  if (from.col <= home_.col) propose({from.col - 1, from.row});
+  if (from.row >= home_.row) propose({from.col, from.row + 1});
+  if (from.row <= home_.row) propose({from.col, from.row - 1});
+}
+
+void NearPieces::enter(SegmentGrid::Cell cell) {
+  if (++entered_ % 64 == 0) execution_.check();
+  if (is_hidden(cell)) return;
+  for (const std::uint32_t piece : pieces_.grid().in_cell(cell)) see(piece);
+  propose_beyond(cell);
+}
+
+std::span<const std::uint32_t> NearPieces::look(Vec2 p, std::span<const PlaceRange> ranges, bool upwards) {
+  const SegmentGrid& grid = pieces_.grid();
+  seen_.clear();
+  if (!grid.box().contains(p)) {
+    seen_.resize(pieces_.pieces().size());
+    std::iota(seen_.begin(), seen_.end(), 0U);
+    return seen_;
+  }
+  next_epoch();
+  open(ranges);
+  if (upwards) close_downwards();
+  eye_ = p;
+  home_ = grid.cell_of(p);
+  next_.clear();
+  propose(home_);
+  while (!next_.empty()) {
+    now_.swap(next_);
+    next_.clear();
+    for (const SegmentGrid::Cell cell : now_) enter(cell);
+  }
+  return seen_;
+}
+
+}  // namespace warren

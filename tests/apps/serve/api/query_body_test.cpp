@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+
+#include "apps/serve/api/query_body_io.hpp"
+#include "apps/serve/http/http_message.hpp"
+
+namespace warren::serve {
+namespace {
+
+TEST(QueryBody, SaysWhatIsAsked) {
+  const QueryBody body = read_query_body(
+      "{\"start\": [1, 2.5], \"goal\": [-3e2, 4, 0.5],\n \"optimise\": true, \"planner\": \"lazy-prm\", \"budget_ms\": "
+      "250, \"path\": false, \"robot\": \"disc 0.5\", \"clearance\": 0.25}");
+  EXPECT_EQ(body.question.robot->radius, 0.5);
+  EXPECT_EQ(body.question.clearance, 0.25);
+  EXPECT_EQ(body.question.start, (std::vector<double>{1.0, 2.5}));
+  EXPECT_EQ(body.question.goal, (std::vector<double>{-300.0, 4.0, 0.5}));
+  EXPECT_TRUE(body.question.optimise);
+  EXPECT_EQ(body.question.planner, PlannerKind::lazy_prm);
+  EXPECT_EQ(body.question.budget_s, 0.25);
+  EXPECT_FALSE(body.tells_path);
+  EXPECT_TRUE(read_query_body("{}").tells_path);
+}
+
+TEST(QueryBody, RefusesEverythingElse) {
+  for (const std::string& text : {std::string(),
+                                  std::string("[]"),
+                                  std::string("1"),
+                                  std::string("{"),
+                                  std::string("{}{}"),
+                                  std::string("nul"),
+                                  std::string("{\"start\": 1}"),
+                                  std::string("{\"start\": [\"1\"]}"),
+                                  std::string("{\"start\": [null]}"),
+                                  std::string("{\"start\": [1e999]}"),
+                                  std::string("{\"start\": [NaN]}"),
+                                  std::string("{\"start\": [1,2,3,4,5,6,7]}"),
+                                  std::string("{\"optimise\": 1}"),
+                                  std::string("{\"planner\": \"magic\"}"),
+                                  std::string("{\"planner\": 1}"),
+                                  std::string("{\"budget_ms\": 0}"),
+                                  std::string("{\"budget_ms\": -1}"),
+                                  std::string("{\"budget_ms\": \"1\"}"),
+                                  std::string("{\"file\": \"/etc/passwd\"}"),
+                                  std::string("{\"start\": [1,2], }"),
+                                  std::string("{\"start\": [1,2], \"start\": [3,4]}"),
+                                  std::string("\xff\xfe{}"),
+                                  std::string("{\"a\": ") + std::string(9, '[') + std::string(9, ']') + "}",
+                                  std::string(60'000, '[')}) {
+    SCOPED_TRACE(text.substr(0, 40));
+    EXPECT_THROW(read_query_body(text), HttpError);
+  }
+}
+
+TEST(QueryBody, ARefusalSaysWhatIsExpected) {
+  const std::pair<const char*, std::string> cases[] = {
+      {"{\"start\": [1, 2],\n\"goal\": [1, 2}", "line 2: expected JSON"},
+      {"{\"start\": [1e400, 2]}", "body: expected JSON whose numbers a double can hold"},
+      {"{\"start\": [1, 2], \"start\": [3, 4]}", "body: expected each key of an object once"},
+      {"{\"start\": [1, 2, 3, 4, 5, 6, 7]}", "start: expected a list of at most 6 numbers"},
+  };
+  for (const auto& [text, said] : cases) {
+    try {
+      read_query_body(text);
+      ADD_FAILURE() << text;
+    } catch (const HttpError& error) {
+      EXPECT_EQ(error.what(), said);
+    }
+  }
+}
+
+TEST(QueryBody, NestingIsOfTheDeepestLineAndNotOfTexts) {
+  EXPECT_EQ(nesting_of(""), 0U);
+  EXPECT_EQ(nesting_of("{\"a\": [1]}"), 2U);
+  EXPECT_EQ(nesting_of("{\"[[[[\": 1}"), 1U);
+  EXPECT_EQ(nesting_of("{\"\\\"[[[[\": 1}"), 1U);
+  EXPECT_EQ(nesting_of("]]]]{}"), 1U);
+  EXPECT_EQ(nesting_of("[\n[[\n\"[\n[[["), 3U);
+  EXPECT_EQ(nesting_of(std::string(100'000, '[')), 100'000U);
+}
+
+}  // namespace
+}  // namespace warren::serve

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/serve/api/world_service.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "scenes/mazes/maze_generator.hpp"
+#include "scenes/text/human_units.hpp"
+#include "solve/solve.hpp"
+#include "tests/apps/serve/town.hpp"
+
+namespace warren::serve {
+namespace {
+
+using Json = nlohmann::json;
+
+/// What a client sees of a world that may be changed.
+class Writable {
+ public:
+  explicit Writable(const std::string& scene = town, const std::string& token = {}, bool writable = true)
+      : service_(std::make_unique<ServedWorld>(scene_of(scene), Question{}, Execution{}), {.writable = writable},
+                 token) {}
+  explicit Writable(Scene scene)
+      : service_(std::make_unique<ServedWorld>(std::move(scene), Question{}, Execution{}), {.writable = true}, {}) {}
+  explicit Writable(Roadmap roadmap)
+      : service_(std::make_unique<ServedWorld>(std::move(roadmap), Execution{}), {.writable = true}, {}) {}
+
+  HttpResponse asked(const HttpRequest& request) {
+    try {
+      if (request.body.size() > service_.most_body(request)) return error_response(413, "body_too_large", "body", "");
+      if (auto said = service_.at_once(request, {})) return *said;
+    } catch (const HttpError& error) {
+      return error_response(error);
+    }
+    const SignalFlag flag{0};
+    return answer_of(service_, request, flag);
+  }
+  HttpResponse post(const std::string& path, const Json& body, const std::string& authorization = {}) {
+    return asked({.method = "POST", .path = path, .authorization = authorization, .body = body.dump()});
+  }
+  HttpResponse update(const Json& body) { return post("/api/update", body); }
+  Json query() { return Json::parse(post("/api/query", Json::object()).body); }
+  std::string scene() { return asked({.path = "/api/scene"}).body; }
+  std::string hash() { return Json::parse(asked({.path = "/api/world"}).body).at("hash"); }
+
+ private:
+  WritableService service_;
+};
+
+const Json wall_across = {{"add", {{"walls", {{55, 0, 55, 59}}}}}};
+
+TEST(WritableService, AWallThatIsDrawnIsGoneAround) {
+  Writable served;
+  const Json before = served.query();
+  const HttpResponse said = served.update(wall_across);
+  ASSERT_EQ(said.status, 200U) << said.body;
+  EXPECT_EQ(Json::parse(said.body).at("before"), before.at("world").at("hash"));
+  EXPECT_EQ(Json::parse(said.body).at("hash"), served.hash());
+  const Json after = served.query();
+  EXPECT_GT(after.at("length").get<double>(), before.at("length").get<double>());
+  EXPECT_EQ(after.at("world").at("hash"), served.hash());
+  const Answer expected = solve(scene_of(served.scene()));
+  EXPECT_EQ(after.at("length").get<double>(), expected.length);
+  EXPECT_EQ(after.at("path").size(), expected.path.size());
+}
+
+TEST(WritableService, WhatIsTakenBackIsTheOldWorld) {
+  Writable served;
+  const std::string before = served.hash();
+  const std::string scene = served.scene();
+  const Json change = {{"add", {{"polygons", {{{51, 1}, {58, 1}, {55, 30}}}}, {"walls", {{1, 1, 2, 2}}}}}};
+  ASSERT_EQ(served.update(change).status, 200U);
+  EXPECT_NE(served.hash(), before);
+  const HttpResponse back = served.update({{"remove", change.at("add")}});
+  ASSERT_EQ(back.status, 200U) << back.body;
+  EXPECT_EQ(served.hash(), before);
+  EXPECT_EQ(served.scene(), scene);
+}
+
+/// Off the grid it is a maze no more; where that is taken back it is one again.
+TEST(WritableService, AWallAnywhereInAMazeIsGoneAround) {
+  Writable served(maze_scene({12, 12, 3}, false, {}));
+  const std::string before = served.hash();
+  const std::string scene = served.scene();
+  for (const Json& wall :
+       {Json{2.1, 2.2, 2.6, 2.9}, Json{3, 3, 3.4, 3}, Json{-5, 1, -4, 1}, Json{0.5, 3.5, 1.5, 3.5}}) {
+    SCOPED_TRACE(wall.dump());
+    const Json drawn = {{"walls", {wall}}};
+    ASSERT_EQ(served.update({{"add", drawn}}).status, 200U);
+    const Json now = served.query();
+    ASSERT_TRUE(now.contains("status")) << now;
+    EXPECT_EQ(now.at("status"),
+              solve(scene_of(served.scene())).outcome == Outcome::solved ? "solved" : "not_connected");
+    ASSERT_EQ(served.update({{"remove", drawn}}).status, 200U);
+    EXPECT_EQ(served.hash(), before);
+    EXPECT_EQ(served.scene(), scene);
+  }
+}
+
+TEST(WritableService, OldTilesAreGoneAndNewOnesShowTheChange) {
+  Writable served;
+  const std::string old = "/v/" + served.hash() + "/tiles/0/0/0.png";
+  const std::string bytes = served.asked({.path = old}).body;
+  ASSERT_EQ(served.update(wall_across).status, 200U);
+  EXPECT_EQ(served.asked({.path = old}).status, 404U);
+  const HttpResponse now = served.asked({.path = "/v/" + served.hash() + "/tiles/0/0/0.png"});
+  EXPECT_EQ(now.status, 200U);
+  EXPECT_NE(now.body, bytes);
+}
+
+TEST(WritableService, ErasingTakesWhatIsNearest) {
+  Writable served;
+  const Json wall = Json::parse(served.update({{"erase", {{30, 26, 2}}}}).body);
+  EXPECT_EQ(wall.at("removed"), Json::parse(R"({"walls":[[10.0,10.0,50.0,40.0]],"polygons":[]})"));
+  const Json polygon = Json::parse(served.update({{"erase", {{75, 30, 2}}}}).body);
+  EXPECT_EQ(polygon.at("removed").at("polygons").size(), 1U);
+  const Json nothing = Json::parse(served.update({{"erase", {{75, 30, 2}}}}).body);
+  EXPECT_EQ(nothing.at("removed").at("polygons").size(), 0U);
+  EXPECT_EQ(nothing.at("before"), nothing.at("hash"));
+}
+
+TEST(WritableService, ARoadmapIsUpdatedAsUpdateDoes) {
+  const SolveOptions options{.planner = PlannerKind::prm, .roadmap = {.samples = 500}};
+  Writable served(build(scene_of(town), {}, options));
+  ASSERT_EQ(served.update(wall_across).status, 200U);
+  const Roadmap expected = build(scene_of(std::string(town) + "wall 55 0 55 59\n"), {}, options);
+  EXPECT_EQ(served.hash(), expected.world_hash);
+  EXPECT_EQ(served.query().at("length").get<double>(),
+            RoadmapQuery(expected, Execution{}, Questions::one).ask({}, {}).length);
+}
+
+TEST(WritableService, WhatCanNotBeDrawnIsRefusedAndChangesNothing) {
+  Writable served;
+  const std::string before = served.hash();
+  struct Case {
+    std::string body;
+    unsigned status;
+    std::string said;
+  };
+  std::string many = "{\"add\":{\"walls\":[";
+  for (int i = 0; i < 20'000; ++i) many += "[0,0,1,1],";
+  many += "[0,0,1,1]]}}";
+  for (const Case& c : {
+           Case{R"({"add":{"polygons":[[[1,1],[3,3],[3,1],[1,3]]]}})", 400, "polygon 1"},
+           Case{R"({"add":{"polygons":[[[1,1],[3,3]]]}})", 400, "three corners or more"},
+           Case{R"({"add":{"walls":[[1,1,1,1]]}})", 400, "two different ends"},
+           Case{R"({"add":{"walls":[[1,1,1]]}})", 400, "add.walls[0]: expected 4 numbers"},
+           Case{R"({"add":{"walls":[[1,1,1,1e61]]}})", 400, "at most 1e60"},
+           Case{R"({"add":{"walls":[[1,1,1,NaN]]}})", 400, "expected JSON"},
+           Case{R"({"add":{"walls":[[1,1,1,1e999]]}})", 400, "double"},
+           Case{R"({"remove":{"walls":[[1,1,2,2]]}})", 400, "not in the world"},
+           Case{R"({"wall":[]})", 400, "the keys add, remove, erase"},
+           Case{R"({"add":{"walls":[[50,5,50,55]]},"add":{"walls":[]}})", 400, "each key of an object once"},
+           Case{R"({"add":{"walls":[[50,5,50,55]],"walls":[]}})", 400, "each key of an object once"},
+           Case{R"({"erase":[[30,26,-2]]})", 400, "erase[0]: expected x, y and a reach of 0 or more"},
+           Case{"{\"add\":" + std::string(10'000, '[') + "}", 400, "nested"},
+           Case{many, 400, "a list of at most " + grouped(10'000)},
+       }) {
+    SCOPED_TRACE(c.said);
+    const HttpResponse said = served.asked({.method = "POST", .path = "/api/update", .body = c.body});
+    EXPECT_EQ(said.status, c.status) << said.body;
+    EXPECT_NE(said.body.find(c.said), std::string::npos) << said.body;
+  }
+  EXPECT_EQ(served.hash(), before);
+  EXPECT_EQ(served.asked({.method = "POST", .path = "/api/update", .body = std::string(5'000'000, ' ')}).status, 413U);
+}
+
+TEST(WritableService, NoSceneIsWrittenThatNobodyCouldRead) {
+  Writable served;
+  const HttpResponse said = served.asked({.path = "/api/scene", .query = {{"start", "1e300,1"}}});
+  EXPECT_EQ(said.status, 400U);
+  EXPECT_NE(said.body.find("start: coordinates are numbers of at most 1e60"), std::string::npos) << said.body;
+}
+
+TEST(WritableService, LargeMazesAndReadersAreToldWhy) {
+  Writable maze(read_world("maze:300x300,seed=1", {}));
+  EXPECT_NE(maze.update(wall_across).body.find("warren update"), std::string::npos);
+  EXPECT_EQ(Json::parse(maze.asked({.path = "/api/world"}).body).at("writable"), false);
+  Writable reader(town, {}, false);
+  const HttpResponse said = reader.update(wall_across);
+  EXPECT_EQ(said.status, 403U);
+  EXPECT_EQ(Json::parse(said.body).at("error").at("code"), "read_only");
+}
+
+TEST(WritableService, WallsOfALargeMazeAreNotMadeForAChangeThatIsRefused) {
+  auto world = std::make_unique<ServedWorld>(read_world("maze:1500x1500,seed=1", {}), Question{}, Execution{});
+  WritableService service(std::move(world), {.writable = true, .scene_bytes = 1000}, {});
+  const SignalFlag flag{0};
+  const std::size_t held = resident_bytes();
+  const HttpResponse change =
+      answer_of(service, {.method = "POST", .path = "/api/update", .body = wall_across.dump()}, flag);
+  EXPECT_EQ(change.status, 400U) << change.body;
+  const HttpResponse scene = answer_of(service, {.path = "/api/scene"}, flag);
+  EXPECT_EQ(scene.status, 413U) << scene.body;
+  EXPECT_LT(resident_bytes(), held + (std::size_t{4} << 20U));
+}
+
+TEST(WritableService, OnlyWhoKnowsTheTokenChanges) {
+  Writable served(town, "0123456789abcdef");
+  EXPECT_EQ(served.update(wall_across).status, 401U);
+  for (const char* wrong : {"0123456789abcdef", "Bearer 0123456789abcdeF", "Bearer ", "Bearer 0123456789abcdef0"}) {
+    EXPECT_EQ(served.post("/api/update", wall_across, wrong).status, 403U) << wrong;
+  }
+  EXPECT_EQ(served.post("/api/update", wall_across, "Bearer 0123456789abcdef").status, 200U);
+  EXPECT_EQ(served.query().at("status"), "solved");
+}
+
+TEST(WritableService, WhoAsksMeanwhileIsAnsweredInOneWorldOrTheOther) {
+  Writable served;
+  std::vector<std::pair<std::string, double>> known{{served.hash(), served.query().at("length")}};
+  served.update(wall_across);
+  known.emplace_back(served.hash(), served.query().at("length"));
+  std::atomic<bool> done{false};
+  std::atomic<int> wrong{0};
+  std::vector<std::thread> clients;
+  for (int i = 0; i < 4; ++i) {
+    clients.emplace_back([&] {
+      while (!done) {
+        const Json answer = served.query();
+        const bool fits = std::any_of(known.begin(), known.end(), [&](const auto& world) {
+          return answer.at("world").at("hash") == world.first && answer.at("length") == world.second;
+        });
+        if (!fits) ++wrong;
+      }
+    });
+  }
+  for (int i = 0; i < 20; ++i) {
+    served.update({{i % 2 == 0 ? "remove" : "add", wall_across.at("add")}});
+  }
+  done = true;
+  for (std::thread& client : clients) client.join();
+  EXPECT_EQ(wrong, 0);
+}
+
+}  // namespace
+}  // namespace warren::serve

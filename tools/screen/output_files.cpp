@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/screen/output_files.hpp"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <functional>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/base/printable.hpp"
+#include "parallel/deadline.hpp"
+#include "pictures/formats/write_picture.hpp"
+#include "roadmaps/exports/export_roadmap.hpp"
+#include "scenes/formats/read_world_io.hpp"
+#include "scenes/formats/ros_map_io.hpp"
+#include "scenes/text/output_file_io.hpp"
+#include "tools/screen/exit_code.hpp"
+#include "tools/words/option_values.hpp"
+
+namespace warren::tools {
+namespace {
+
+[[noreturn]] void fail(const std::string& path, int error) {
+  throw WriteError(path, std::generic_category().message(error));
+}
+
+/// "-runs-solved" of "runs solved"
+std::string file_words(std::string_view title) {
+  std::string words;
+  for (const char c : title) {
+    const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0;
+    if (is_plain || !(words.empty() || words.ends_with('-'))) words += is_plain ? c : '-';
+  }
+  return '-' + words.substr(0, words.find_last_not_of('-') + 1);
+}
+
+/// "k-length.pdf" of "k.pdf" and "maze:5x7: length"; where several titles end so, of whole titles, then with a number.
+std::vector<std::string> figure_files(const std::string& file, const std::vector<PlotSheet>& sheets) {
+  const std::string ending = ending_of(file);
+  std::map<std::string, std::size_t> count;
+  const auto end_of = [](const std::string& title) { return file_words(title.substr(title.rfind(": ") + 1)); };
+  for (const PlotSheet& sheet : sheets) ++count[end_of(sheet.title())];
+  std::set<std::string> names;
+  std::vector<std::string> files;
+  for (const PlotSheet& sheet : sheets) {
+    const bool is_alone = count[end_of(sheet.title())] == 1;
+    const std::string words = is_alone ? end_of(sheet.title()) : file_words(sheet.title());
+    std::string name = words;
+    for (std::size_t n = 2; !names.insert(name).second; ++n) name = fmt::format("{}-{}", words, n);
+    files.push_back(file.substr(0, file.size() - ending.size()) + name + ending);
+  }
+  return files;
+}
+
+}  // namespace
+
+std::string folder_of(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  if (slash == std::string::npos) return ".";
+  return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+void check_writable(const std::string& path) {
+  if (path == "-") return;
+  if (path.empty()) fail("''", ENOENT);
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0) {
+    if (S_ISDIR(status.st_mode)) fail(path, EISDIR);
+    if (::access(path.c_str(), W_OK) != 0) fail(path, errno);
+    if (!S_ISREG(status.st_mode)) return;  // devices and pipes are written straight
+  } else if (errno != ENOENT) {
+    fail(path, errno);
+  }
+  if (::access(folder_of(behind_links(path)).c_str(), W_OK | X_OK) != 0) fail(path, errno);
+}
+
+void check_picture(std::string_view option, const std::string& file) {
+  check_picture_ending(option, file, picture_endings);
+  if (ending_of(file) == ".pdf" && !can_write_pdf()) {
+    throw UsageError(fmt::format("{}: this warren was built without libharu and writes no .pdf; say .svg", option));
+  }
+}
+
+void say_of_picture(const Arguments& arguments, const std::string& file, const std::vector<std::string>& notes) {
+  if (notes.empty() || arguments.has("--quiet")) return;
+  say_on_standard_error(fmt::format("warren: note: {}: drawn {}\n", printable(file), fmt::join(notes, "; ")));
+}
+
+void check_picture_ending(std::string_view option, const std::string& file, std::string_view endings) {
+  const std::string ending = ending_of(file);
+  if (ending.empty() || fmt::format(" {} ", endings).find(" " + ending + " ") != std::string::npos) return;
+  throw UsageError(fmt::format("{}: a picture here ends in one of: {} (found: '{}')", option, endings, file));
+}
+
+std::optional<std::string> output_file(const Arguments& arguments, std::string_view option) {
+  std::optional<std::string> file = arguments.value(option);
+  if (file) check_writable(*file);
+  return file;
+}
+
+bool check_reports(const Arguments& arguments, std::initializer_list<std::string_view> options) {
+  bool taken = false;
+  for (const std::string_view option : options) taken = output_file(arguments, option) == "-" || taken;
+  return taken;
+}
+
+void write_report(const Arguments& arguments, std::string_view option, const std::function<std::string()>& text) {
+  if (const auto file = arguments.value(option)) write_file(*file, text(), Execution{});
+}
+
+void check_plots(const Arguments& arguments) {
+  for (const std::string_view option : {"--picture", "--figures"}) {
+    const std::string file = arguments.value(option).value_or("");
+    check_picture_ending(option, file, plot_endings);
+    check_picture(option, file);
+  }
+  if (arguments.has("--figures") && ending_of(*arguments.value("--figures")).empty()) {
+    throw UsageError("--figures: expected a name that ends in .svg, .png or .pdf, such as k.pdf for k-length.pdf");
+  }
+}
+
+void write_plots(const Arguments& arguments, const Execution& execution, bool was_stopped,
+                 const std::function<PlotsPage()>& plots) {
+  const auto file = arguments.value("--picture");
+  const auto figures = arguments.value("--figures");
+  if (!file && !figures) return;
+  const Deadline memory_alone(std::numeric_limits<double>::infinity(), execution.deadline->memory_bytes());
+  Execution within = execution;
+  if (was_stopped) within.deadline = &memory_alone;
+  const PlotsPage page = plots();
+  if (file) page.write(*file, arguments.command_line(), within);
+  if (!figures) return;
+  const std::vector<std::string> files = figure_files(*figures, page.sheets);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    PlotsPage{{page.sheets[i]}}.write(files[i], arguments.command_line(), within);
+  }
+}
+
+namespace {
+
+/// Of all verbs: the options whose values are files that are written, and that are read. Operands are read.
+constexpr std::array<std::string_view, 14> output_options{"--path", "--json",   "--picture",      "--table", "--html",
+                                                          "--csv",  "--runs",   "--log",          "--trace", "--output",
+                                                          "--keep", "--report", "--save-roadmap", "--resume"};
+constexpr std::array<std::string_view, 5> input_options{"--answer", "--map", "--batch", "--matrix", "--world"};
+
+/// Where a file is, or will be: two are the same file exactly if their places are equal.
+struct Place {
+  dev_t device = 0;
+  ino_t inode = 0;   ///< the file's, or while there is none its folder's
+  std::string name;  ///< empty where the file exists
+  bool operator==(const Place&) const = default;
+};
+
+struct NamedFile {
+  std::string option;  ///< what named it, for people
+  std::string path;
+};
+
+std::optional<Place> place_of(const struct stat& status) {
+  // Nothing is lost on a device; folders are refused elsewhere.
+  if (S_ISCHR(status.st_mode) || S_ISDIR(status.st_mode)) return std::nullopt;
+  return Place{status.st_dev, status.st_ino, {}};
+}
+
+std::string name_in_folder(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+
+std::optional<Place> place_of(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0) return place_of(status);
+  const std::string real = behind_links(path);
+  if (::stat(folder_of(real).c_str(), &status) != 0) return std::nullopt;
+  return Place{status.st_dev, status.st_ino, name_in_folder(real)};
+}
+
+/// The file that standard input or output is redirected to; a pipe or terminal may well be both.
+std::optional<Place> place_of_descriptor(int descriptor) {
+  struct stat status {};
+  if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+  return place_of(status);
+}
+
+std::optional<Place> place_of_output(const std::string& path) {
+  return path == "-" ? place_of_descriptor(STDOUT_FILENO) : place_of(path);
+}
+
+/// What is not there can't be overwritten.
+std::optional<Place> place_of_input(const std::string& path) {
+  if (path == "-") return place_of_descriptor(STDIN_FILENO);
+  const std::optional<Place> place = is_made_source(path) ? std::nullopt : place_of(path);
+  return place && place->name.empty() ? place : std::nullopt;
+}
+
+std::vector<NamedFile> outputs_of(const Arguments& arguments) {
+  std::vector<NamedFile> files;
+  for (const std::string_view option : output_options) {
+    const auto path = arguments.value(option);
+    if (!path || path->empty()) continue;  // as a flag, --csv names no file
+    files.push_back({std::string{option}, is_standard_output(*path) ? "-" : *path});
+    if (option != "--output") continue;
+    const std::string ending = ending_of(*path);
+    if (ending == ".yaml") files.push_back({"its image", map_image_of(*path)});
+    if (ending == ".gr" || ending == ".csv") files.push_back({"its second file", files_of_export(*path).back()});
+  }
+  for (const char* many : {"--batch", "--matrix"}) {
+    if (!arguments.has(many)) continue;
+    files.push_back({fmt::format("the answers to {}", many), "-"});
+    break;  // both are refused by name
+  }
+  return files;
+}
+
+std::vector<NamedFile> inputs_of(const Arguments& arguments) {
+  std::vector<NamedFile> files;
+  for (std::size_t i = 0; i < arguments.operand_count(); ++i) files.push_back({"an operand", arguments.operand(i)});
+  for (const std::string_view option : input_options) {
+    for (std::string& path : arguments.values(option)) files.push_back({std::string{option}, std::move(path)});
+  }
+  return files;
+}
+
+void check_standard_output(const std::vector<NamedFile>& outputs) {
+  std::string taker;
+  for (const NamedFile& output : outputs) {
+    if (output.path != "-") continue;
+    if (!taker.empty()) {
+      throw UsageError(fmt::format("standard output takes one of them: {} or {}", taker, output.option));
+    }
+    taker = output.option;
+  }
+}
+
+void check_standard_input(const std::vector<NamedFile>& inputs) {
+  std::string taker;
+  for (const NamedFile& input : inputs) {
+    if (input.path != "-") continue;
+    if (!taker.empty()) {
+      throw UsageError(fmt::format("{} and {} can't both come from standard input", taker, input.option));
+    }
+    taker = input.option;
+  }
+}
+
+/// Is that the name of a picture that `compare --pictures` may write? They begin with the planner's.
+bool is_picture_name(const Arguments& arguments, std::string_view name) {
+  if (!name.ends_with(".svg")) return false;
+  if (name == "paths.svg") return true;
+  for (const std::string& planner : given_list(arguments, "--planners")) {
+    if (!name.starts_with(planner) || name.size() == planner.size()) continue;
+    const char next = name[planner.size()];
+    if (next == '.' || next == '_') return true;
+  }
+  return false;
+}
+
+/// Is that the name of a figure that `compare --figures FILE` may write?
+bool is_figure_name(const std::string& file, std::string_view name) {
+  const std::string ending = ending_of(file);
+  const std::string own = name_in_folder(file);
+  return name.ends_with(ending) && name.starts_with(own.substr(0, own.size() - ending.size()) + "-");
+}
+
+/// No picture that `option` writes into `folder` may take the place of any of these files.
+void check_many(std::string_view option, const std::string& folder, const std::vector<NamedFile>& files,
+                const std::function<bool(std::string_view)>& may_be_written) {
+  struct stat pictures {};
+  if (::stat(folder.c_str(), &pictures) != 0) return;
+  for (const NamedFile& file : files) {
+    const std::string real = behind_links(file.path);
+    struct stat its {};
+    if (::stat(folder_of(real).c_str(), &its) != 0) continue;
+    const bool beside = its.st_dev == pictures.st_dev && its.st_ino == pictures.st_ino;
+    if (beside && may_be_written(name_in_folder(real))) {
+      throw UsageError(fmt::format("{}: {} may be the name of one of the pictures", option, file.path));
+    }
+  }
+}
+
+void check_pictures(const Arguments& arguments, const std::vector<NamedFile>& files) {
+  if (const auto folder = arguments.value("--pictures")) {
+    check_many("--pictures", *folder, files, [&](std::string_view name) { return is_picture_name(arguments, name); });
+  }
+  if (const auto file = arguments.value("--figures")) {
+    check_many("--figures", folder_of(*file), files,
+               [&](std::string_view name) { return is_figure_name(*file, name); });
+  }
+}
+
+}  // namespace
+
+void check_outputs(const Arguments& arguments) {
+  std::vector<NamedFile> files = outputs_of(arguments);
+  check_standard_output(files);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const auto place = place_of_output(files[i].path);
+    for (std::size_t j = 0; place && j < i; ++j) {
+      if (place_of_output(files[j].path) == place) {
+        throw UsageError(fmt::format("{} and {} would both write {}", files[j].option, files[i].option, files[i].path));
+      }
+    }
+  }
+  const std::vector<NamedFile> inputs = inputs_of(arguments);
+  check_standard_input(inputs);
+  for (const NamedFile& input : inputs) check_not_written(arguments, input.path);
+  files.insert(files.end(), inputs.begin(), inputs.end());
+  check_pictures(arguments, files);
+}
+
+void check_not_written(const Arguments& arguments, const std::string& input) {
+  const auto place = input.empty() ? std::nullopt : place_of_input(input);
+  if (!place) return;
+  for (const NamedFile& output : outputs_of(arguments)) {
+    if (place_of_output(output.path) == place) {
+      throw UsageError(fmt::format("{}: {} would overwrite {}, which is read", output.option, output.path, input));
+    }
+  }
+}
+
+void check_not_written(const Arguments& arguments, const std::optional<RobotSpec>& robot) {
+  if (robot) check_not_written(arguments, robot->table);
+}
+
+}  // namespace warren::tools

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/words/command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+#include "core/base/error.hpp"
+#include "tools/words/unknown_words.hpp"
+
+namespace warren::tools {
+namespace {
+
+[[noreturn]] void refuse_unknown(const Command& command, std::string_view name) {
+  for (const auto& [option, why] : command.foreign) {
+    if (own_spelling(name) == option) throw UsageError(fmt::format("{}: {}", name, why));
+  }
+  std::vector<std::string_view> known{"--help"};
+  for (const OptionSpec& option : command.options) known.push_back(option.name);
+  throw UsageError("unknown option " + std::string{name} + suggestion(name, known));
+}
+
+bool is_choice(const OptionSpec& option, std::string_view word) {
+  const std::vector<std::string> choices = words_of(option.choices);
+  return std::find(choices.begin(), choices.end(), word) != choices.end();
+}
+
+}  // namespace
+
+const OptionSpec* option_named(const Command& command, std::string_view name) {
+  name = own_spelling(name);
+  const auto found = std::find_if(command.options.begin(), command.options.end(), [&](const OptionSpec& option) {
+    return name == option.name || (!option.short_name.empty() && name == option.short_name);
+  });
+  return found == command.options.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> words_of(std::string_view text) {
+  std::vector<std::string> words;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    words.emplace_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return words;
+}
+
+Arguments::Arguments(const Command& command, std::span<const std::string> words) {
+  command_line_ = "warren " + std::string{command.name};
+  for (const std::string& word : words) command_line_ += ' ' + word;
+  bool options_ended = false;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    const bool is_help = word == "--help" || word == "-h";
+    if (options_ended || word.size() < 2 || word[0] != '-' || (command.takes_any_word && !is_help)) {
+      operands_.push_back(word);
+    } else if (word == "--") {
+      options_ended = true;
+    } else {
+      take_option(command, words, i);
+    }
+  }
+  if (!wants_help_) check_operands(command);
+}
+
+void Arguments::take_option(const Command& command, std::span<const std::string> words, std::size_t& i) {
+  const std::string& word = words[i];
+  const std::size_t equals = word.starts_with("--") ? word.find('=') : std::string::npos;
+  const std::string name = word.substr(0, equals);
+  if (name == "--help" || name == "-h") {
+    wants_help_ = true;
+    wants_all_help_ = word == "--help=all" || (i + 1 < words.size() && words[i + 1] == "all");
+    return;
+  }
+  const OptionSpec* option = option_named(command, name);
+  if (option == nullptr) refuse_unknown(command, name);
+  if (has(option->name) && !option->may_repeat) throw UsageError(std::string{option->name} + ": given twice");
+  if (option->value.empty() || option->value_optional) {
+    if (option->value.empty() && equals != std::string::npos) {
+      throw UsageError(std::string{option->name} + ": takes no value");
+    }
+    std::string value = equals != std::string::npos ? word.substr(equals + 1) : "";
+    const bool is_gone = option->name == "--lazy" && i + 1 < words.size() && words[i + 1] == "path";  // refused by name
+    const bool is_next = i + 1 < words.size() && (is_gone || is_choice(*option, words[i + 1]));
+    if (equals == std::string::npos && is_next) value = words[++i];
+    options_.emplace_back(option->name, std::move(value));
+    return;
+  }
+  const std::vector<std::string> expected = words_of(option->value);
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    const bool is_inside = k == 0 && equals != std::string::npos;
+    if (!is_inside && i + 1 == words.size()) {
+      throw UsageError(std::string{option->name} + ": " + expected[k] + " is missing");
+    }
+    options_.emplace_back(option->name, is_inside ? word.substr(equals + 1) : words[++i]);
+  }
+}
+
+void Arguments::check_operands(const Command& command) const {
+  const std::vector<std::string> needed = words_of(command.operands);
+  const bool complete = operands_.size() >= needed.size() || needed[operands_.size()].starts_with('[');
+  if (!complete) throw UsageError(needed[operands_.size()] + " is missing");
+  if (operands_.size() > needed.size()) throw UsageError("unexpected argument '" + operands_[needed.size()] + "'");
+}
+
+bool Arguments::has(std::string_view option) const {
+  return std::any_of(options_.begin(), options_.end(), [&](const auto& given) { return given.first == option; });
+}
+
+std::optional<std::string> Arguments::value(std::string_view option) const {
+  for (const auto& [name, text] : options_) {
+    if (name == option) return text;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> Arguments::values(std::string_view option) const {
+  std::vector<std::string> all;
+  for (const auto& [name, text] : options_) {
+    if (name == option) all.push_back(text);
+  }
+  return all;
+}
+
+Arguments Arguments::of(std::string_view option, std::string value) {
+  Arguments one;
+  one.options_.emplace_back(option, std::move(value));
+  return one;
+}
+
+Arguments Arguments::without(std::span<const std::string_view> options) const {
+  Arguments others = *this;
+  std::erase_if(others.options_, [&](const auto& given) {
+    return std::find(options.begin(), options.end(), given.first) != options.end();
+  });
+  return others;
+}
+
+// The verbs of the program; main.cpp dispatches to them.
+
+const std::vector<Command>& command_table() {
+  static const std::vector<Command> table{
+      solve_command(),    verify_command(),     render_command(),  compare_command(), build_command(),
+      query_command(),    update_command(),     export_command(),  serve_command(),   example_command(),
+      generate_command(), info_command(),       convert_command(), largest_command(), scale_command(),
+      profile_command(),  bench_scen_command(), help_command(),    man_command(),     completion_command()};
+  return table;
+}
+
+const Command* find_command(std::string_view name) {
+  for (const Command& command : command_table()) {
+    if (command.name == name) return &command;
+  }
+  return nullptr;
+}
+
+const Command& command_named(std::string_view name) {
+  if (const Command* command = find_command(name)) return *command;
+  std::vector<std::string_view> names{"--help", "--version"};
+  for (const Command& command : command_table()) names.push_back(command.name);
+  const std::string_view what = name.starts_with('-') ? "unknown option " : "unknown command ";
+  throw UsageError(std::string{what} + std::string{name} + suggestion(name, names));
+}
+
+}  // namespace warren::tools

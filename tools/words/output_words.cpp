@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/words/output_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "tools/words/option_values.hpp"
+
+namespace warren::tools {
+namespace {
+
+constexpr OptionSpec picture_specs[] = {
+    {"--show", "LIST",
+     "what a picture shows, of world, roadmap, search, path, body, axes, legend, apart by commas (default: all)"},
+    {"--heading", "ANGLE",
+     "of a body that turns, radians or as 45deg: show where it has no room at that heading, and states as arrows"},
+    {"--size", "WxH", "size of a picture in pixels, or in millimetres as 180x120mm (default: as the world asks)"},
+    {"--dpi", "N", "pixels an inch of a picture, 10 to 2400 (default: 96, or what a .png's world asks)"},
+    {"--title", "TEXT", "title of a picture; an empty one leaves it out (default: the world and how it was solved)"},
+};
+
+PageSize page_size_value(std::string_view option, std::string_view text) {
+  PageSize size;
+  std::string_view numbers = text;
+  if (numbers.ends_with("mm")) size.unit = LengthUnit::mm;
+  if (numbers.ends_with("mm") || numbers.ends_with("px")) numbers.remove_suffix(2);
+  const std::size_t cross = numbers.find('x');
+  const auto width = number_in(numbers.substr(0, cross));
+  const auto height = cross < numbers.size() ? number_in(numbers.substr(cross + 1)) : std::nullopt;
+  if (!width || !height) {
+    throw UsageError(fmt::format("{}: expected WxH in pixels or WxHmm (found: '{}')", option, text));
+  }
+  size.width = *width;
+  size.height = *height;
+  return size;
+}
+
+}  // namespace
+
+std::span<const OptionSpec> picture_option_specs() { return picture_specs; }
+
+PictureOptions picture_words(const Arguments& arguments, bool is_drawn, std::string_view draws, std::string_view file) {
+  PictureOptions options;
+  if (!is_drawn) {
+    for (const OptionSpec& spec : picture_specs) {
+      if (arguments.has(spec.name)) throw UsageError(fmt::format("{}: goes with {}", spec.name, draws));
+    }
+    return options;
+  }
+  if (file.ends_with(".html")) {
+    for (const char* option : {"--size", "--dpi"}) {
+      if (arguments.has(option))
+        throw UsageError(fmt::format("{}: a page fills its window; say .svg, .png or .pdf", option));
+    }
+  }
+  if (arguments.has("--show")) {
+    options.parts = Parts::none();
+    for (const Part part : given_values(arguments, "--show", "--show", choice_value<Part>)) {
+      options.parts = options.parts.with(part);
+    }
+  }
+  constexpr double least_dpi = 10.0;
+  constexpr double most_dpi = 2400.0;
+  options.size = given_value(arguments, "--size", page_size_value);
+  options.dpi = given_value(arguments, "--dpi", number_value, least_dpi, most_dpi);
+  options.heading = given_value(arguments, "--heading", angle_value);
+  options.title = arguments.value("--title");
+  options.validate();
+  return options;
+}
+
+namespace {
+
+constexpr OptionSpec path_specs[] = {
+    {"--path", "FILE", "write the path: .csv, .yaml (ROS nav_msgs/Path), .geojson or .npy by ending"},
+    {"--every", "D|TIME",
+     "with --path: places at most D apart beside the path's own, or moments, such as 100ms (default: its own places "
+     "alone, arcs as chords of at most 5 degrees)"},
+    {"--speed", "V", "with --path: say when, at most so fast, in units of length a second; stops at corners"},
+    {"--acceleration", "A", "with --speed: speeding up and braking (default: at once)"},
+    {"--lateral-acceleration", "A", "with --speed: of a car on arcs (default: any)"},
+    {"--joint-speed", "W[,...]", "with --path, arms: say when, at most so fast, in rad/s, all joints or each"},
+    {"--joint-acceleration", "A[,...]", "with --joint-speed: in rad/s^2, all joints or each (default: at once)"},
+    {"--frame", "NAME", "with --path: the frame that .yaml and .geojson name (default: map)"},
+};
+
+std::vector<double> joint_values(std::string_view option, std::string_view text) {
+  if (number_in(text)) return {positive_value(option, text)};
+  std::vector<double> values = state_value(option, text);
+  if (values.size() == 6 && std::all_of(values.begin(), values.end(), [](double x) { return x > 0.0; })) return values;
+  throw UsageError(fmt::format("{}: expected one number above 0, or six apart by commas (found: '{}')", option, text));
+}
+
+}  // namespace
+
+std::span<const OptionSpec> path_option_specs() { return path_specs; }
+
+PathFileOptions path_words(const Arguments& arguments) {
+  if (!arguments.has("--path")) {
+    for (const OptionSpec& spec : path_specs) {
+      if (arguments.has(spec.name)) throw UsageError(fmt::format("{}: goes with --path FILE", spec.name));
+    }
+    return {};
+  }
+  path_format(std::string(*arguments.value("--path")));
+  PathFileOptions options;
+  if (const auto every = arguments.value("--every")) {
+    const bool is_time = !number_in(*every);
+    (is_time ? options.every_s : options.every) =
+        is_time ? duration_value("--every", *every) : positive_value("--every", *every);
+  }
+  options.frame = arguments.value("--frame").value_or("map");
+  TravelLimits limits;
+  const auto speed = given_value(arguments, "--speed", positive_value);
+  if (speed) limits.speed = *speed;
+  const auto set = [&](double& limit, std::string_view option) {
+    if (const auto given = given_value(arguments, option, positive_value)) limit = *given;
+    if (arguments.has(option) && !speed) throw UsageError(fmt::format("{}: goes with --speed", option));
+  };
+  set(limits.acceleration, "--acceleration");
+  set(limits.lateral_acceleration, "--lateral-acceleration");
+  limits.joint_speed = given_value(arguments, "--joint-speed", joint_values).value_or(std::vector<double>{});
+  limits.joint_acceleration =
+      given_value(arguments, "--joint-acceleration", joint_values).value_or(std::vector<double>{});
+  if (!limits.joint_acceleration.empty() && limits.joint_speed.empty()) {
+    throw UsageError("--joint-acceleration: goes with --joint-speed");
+  }
+  if (speed && !limits.joint_speed.empty()) throw UsageError("--speed: an arm has --joint-speed, other bodies --speed");
+  if (speed || !limits.joint_speed.empty()) options.limits = limits;
+  return options;
+}
+
+}  // namespace warren::tools
