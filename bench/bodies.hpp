@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/base/rng.hpp"
-#include "core/plane/polygon_distance.hpp"
+#include "core/plane/polygon.hpp"
 #include "worlds/arms/arm_world.hpp"
 #include "worlds/arms/puma560.hpp"
 #include "worlds/poses/car_world.hpp"

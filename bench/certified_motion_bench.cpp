@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bench/bodies.hpp"
-#include "spatial/points/growing_tree.hpp"
+#include "spatial/points/kd_tree.hpp"
 
 namespace {
 

@@ -8,9 +8,9 @@
 
 #include "bench/report.hpp"
 #include "bench/test_graphs.hpp"
-#include "parallel/assemble_graph.hpp"
-#include "parallel/components.hpp"
-#include "parallel/reduce_graph.hpp"
+#include "planners/graph/assemble_graph.hpp"
+#include "planners/graph/components.hpp"
+#include "planners/graph/reduce_graph.hpp"
 
 namespace warren::bench {
 namespace {

@@ -10,9 +10,9 @@
 #include <string>
 
 #include "bench/report.hpp"
-#include "scenes/formats/npy_io.hpp"
-#include "scenes/formats/read_world_io.hpp"
-#include "scenes/formats/scene_io.hpp"
+#include "scenes/files/npy_io.hpp"
+#include "scenes/files/read_world_io.hpp"
+#include "scenes/files/scene_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 
 namespace warren::bench {

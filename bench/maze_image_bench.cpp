@@ -18,8 +18,8 @@
 #include "planners/grid/skeleton_planner.hpp"
 #include "planners/roadmap/lazy_prm.hpp"
 #include "planners/roadmap/prm.hpp"
-#include "scenes/formats/maze_image_io.hpp"
-#include "scenes/images/pgm_io.hpp"
+#include "scenes/files/image_io.hpp"
+#include "scenes/files/maze_image_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "worlds/plane/grid_world.hpp"
 

@@ -13,8 +13,8 @@
 #include "bench/report.hpp"
 #include "bench/test_graphs.hpp"
 #include "core/search/search.hpp"
-#include "parallel/bidirectional_search.hpp"
-#include "parallel/reduce_graph.hpp"
+#include "planners/graph/both_ends.hpp"
+#include "planners/graph/reduce_graph.hpp"
 
 namespace warren::bench {
 namespace {

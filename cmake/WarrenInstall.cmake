@@ -5,7 +5,7 @@
 # program, "program" and "documents" are the rest.
 include(CMakePackageConfigHelpers)
 
-set(warren_libraries core parallel spatial scenes worlds verify planners roadmaps solve pictures)
+set(warren_libraries core parallel spatial scenes worlds verify planners solve pictures)
 set(warren_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/warren)
 
 add_library(warren_all INTERFACE)

@@ -2,14 +2,24 @@
 #include "parallel/execution.hpp"
 
 #include <sched.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
 #include <thread>
 
-#include "parallel/stage_account.hpp"
+#include "core/base/page_pool.hpp"
 #include "parallel/trace.hpp"
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace warren {
 namespace {
@@ -62,6 +72,113 @@ StageTimer::~StageTimer() {
   if (trace_ == nullptr) return;
   trace_->enter(before_);
   trace_->record(stage_, begin_, end, true, items_);
+}
+
+namespace {
+
+struct CloseFile {
+  void operator()(std::FILE* f) const { std::fclose(f); }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
+
+/// The first number of a small file, or nothing ("max" counts as nothing).
+std::optional<std::size_t> number_in(const char* path) {
+  const File file(std::fopen(path, "r"));
+  unsigned long long value = 0;
+  if (!file || std::fscanf(file.get(), "%llu", &value) != 1) return std::nullopt;
+  return static_cast<std::size_t>(value);
+}
+
+std::size_t machine_available_bytes() {
+  const File file(std::fopen("/proc/meminfo", "r"));
+  char line[128];
+  while (file && std::fgets(line, sizeof line, file.get()) != nullptr) {
+    unsigned long long kilobytes = 0;
+    if (std::sscanf(line, "MemAvailable: %llu", &kilobytes) == 1) return static_cast<std::size_t>(kilobytes) * 1024;
+  }
+  return std::numeric_limits<std::size_t>::max();
+}
+
+StopReason reason_of_signal(int number) {
+  if (number == SIGTERM) return StopReason::terminate;
+  return number == SIGHUP ? StopReason::hang_up : StopReason::interrupt;
+}
+
+}  // namespace
+
+void give_freed_pages_back() noexcept {
+#ifdef __GLIBC__
+  // The first call sets up glibc's allocator where another one stands before it (a sanitizer's, one that is preloaded),
+  // and two threads must not do that at once.
+  static const int first = ::malloc_trim(0);
+  static_cast<void>(first);
+  ::malloc_trim(0);
+#endif
+}
+
+Deadline::Deadline(double seconds, std::size_t memory_bytes, const SignalFlag* signal)
+    : memory_bytes_(memory_bytes), signal_(signal) {
+  constexpr double longest_s = 1e9;  // about thirty years: beyond it the clock's own type would overflow
+  if (std::isfinite(seconds) && seconds < longest_s) {
+    end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  }
+}
+
+Deadline::Deadline(const Deadline* whole, double seconds) : Deadline(seconds) {
+  if (whole == nullptr) return;
+  memory_bytes_ = whole->memory_bytes_;
+  signal_ = whole->signal_;
+  if (whole->end_ && (!end_ || *whole->end_ < *end_)) end_ = whole->end_;
+}
+
+std::optional<StopReason> Deadline::reached() const noexcept {
+  if (signal_ != nullptr) {
+    const int number = signal_->load(std::memory_order_relaxed);
+    if (number != 0) return reason_of_signal(number);
+  }
+  if (end_ && Clock::now() >= *end_) return StopReason::time;
+  return std::nullopt;
+}
+
+void Deadline::reserve(std::size_t bytes) const {
+  check();
+  if (memory_bytes_ == std::numeric_limits<std::size_t>::max()) return;
+  std::size_t unasked = unasked_.load(std::memory_order_relaxed);
+  while (bytes < unasked) {
+    if (unasked_.compare_exchange_weak(unasked, unasked - bytes, std::memory_order_relaxed)) return;
+  }
+  const auto fits = [&](std::size_t held) { return held < memory_bytes_ && bytes <= memory_bytes_ - held; };
+  std::size_t held = resident_bytes();
+  if (!fits(held)) {
+    give_freed_pages_back();
+    held = resident_bytes();
+  }
+  if (!fits(held)) throw Stopped{StopReason::memory};
+  unasked_.store((memory_bytes_ - held - bytes) / 64, std::memory_order_relaxed);
+}
+
+std::size_t resident_bytes() {
+  const File file(std::fopen("/proc/self/statm", "r"));
+  unsigned long long total = 0;
+  unsigned long long resident = 0;
+  if (!file || std::fscanf(file.get(), "%llu %llu", &total, &resident) != 2) return 0;
+  const auto bytes = static_cast<std::size_t>(resident) * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  return bytes - std::min(bytes, PagePool::idle_bytes());
+}
+
+std::size_t peak_resident_bytes() {
+  rusage usage{};
+  if (::getrusage(RUSAGE_SELF, &usage) != 0) return 0;
+  const std::size_t bytes = static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+  return bytes - std::min(bytes, PagePool::least_idle_bytes());
+}
+
+std::size_t available_bytes() {
+  const std::size_t free = machine_available_bytes();
+  std::size_t bytes = free - free / 16 + resident_bytes();  // who takes all of it is killed for it
+  if (const auto limit = number_in("/sys/fs/cgroup/memory.max")) bytes = std::min(bytes, *limit);
+  if (const auto limit = number_in("/sys/fs/cgroup/memory/memory.limit_in_bytes")) bytes = std::min(bytes, *limit);
+  return bytes;
 }
 
 }  // namespace warren

@@ -8,14 +8,17 @@
 // Cost O(n + keys); 8 bytes an item of scratch where there are more than 512 keys.
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/base/raw_vector.hpp"
+#include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/first_touch.hpp"
+#include "parallel/execution.hpp"
 
 namespace warren {
 
@@ -129,6 +132,47 @@ KeyOrder counting_sort(std::size_t n, std::size_t keys, const Execution& executi
     }
   });
   return order;
+}
+
+// std::sort that looks at the deadline between comparisons: sorting ten million edges takes a second. The look is at a
+// counter in all comparisons but one of 2^12, for exact ones can take microseconds.
+
+/// Sorts first .. last by less. Throws Stopped: the elements are then in some
+/// order, and one of them may have been moved from.
+template <class Iterator, class Less = std::less<>>
+void polled_sort(Iterator first, Iterator last, const Execution& execution, const Less& less = {}) {
+  constexpr std::uint32_t comparisons_per_poll = 1U << 12;
+  std::uint32_t comparisons = 0;
+  std::sort(first, last, [&](const auto& a, const auto& b) {
+    if (++comparisons % comparisons_per_poll == 0) execution.check();
+    return less(a, b);
+  });
+}
+
+// Exclusive prefix sums in parallel: two passes over the data, chunk sums between them. Integers only, so the result
+// does not depend on the chunks.
+
+/// Replaces values[i] by the sum of values[0 .. i - 1] and returns the total. O(n), 2 reads and 1 write an element.
+template <class Vector>
+std::uint64_t exclusive_scan(Vector& values, const Execution& execution) {
+  using Value = typename Vector::value_type;
+  constexpr std::size_t grain = std::size_t{1} << 16;
+  std::vector<std::uint64_t> sums(chunk_count(values.size(), grain) + 1, 0);
+  for_chunks(values.size(), grain, execution, [&](Range r) {
+    std::uint64_t sum = 0;
+    for (std::size_t i = r.first; i < r.last; ++i) sum += values[i];
+    sums[r.first / grain + 1] = sum;
+  });
+  for (std::size_t c = 1; c < sums.size(); ++c) sums[c] += sums[c - 1];
+  for_chunks(values.size(), grain, execution, [&](Range r) {
+    std::uint64_t sum = sums[r.first / grain];
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      const std::uint64_t value = values[i];
+      values[i] = static_cast<Value>(sum);
+      sum += value;
+    }
+  });
+  return sums.back();
 }
 
 }  // namespace warren

@@ -10,8 +10,8 @@
 #include <numbers>
 
 #include "core/base/printable.hpp"
-#include "scenes/scene/unit_of.hpp"
-#include "scenes/text/human_units.hpp"
+#include "scenes/files/human_units.hpp"
+#include "scenes/scene/scene.hpp"
 #include "solve/answer/stage_lines.hpp"
 
 namespace warren {

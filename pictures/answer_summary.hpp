@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "scenes/text/palette.hpp"
+#include "scenes/files/human_units.hpp"
 #include "solve/answer/answer.hpp"
 
 namespace warren {

@@ -13,13 +13,13 @@
 #include "pictures/layers/draw_arm.hpp"
 #include "pictures/layers/draw_bodies.hpp"
 #include "pictures/layers/draw_cells.hpp"
-#include "scenes/scene/unit_of.hpp"
-#include "scenes/text/human_units.hpp"
+#include "scenes/files/human_units.hpp"
+#include "scenes/scene/scene.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/question/question_of_arm.hpp"
 #include "solve/question/solve_options.hpp"
 #include "worlds/poses/steering_curve.hpp"
-#include "worlds/rasters/map_borders.hpp"
+#include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren {
 namespace {

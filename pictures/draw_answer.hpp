@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/base/path.hpp"
+#include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
 #include "pictures/model/picture.hpp"

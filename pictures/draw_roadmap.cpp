@@ -15,11 +15,11 @@
 #include "pictures/layers/draw_arm.hpp"
 #include "pictures/layers/draw_bodies.hpp"
 #include "pictures/layers/draw_cells.hpp"
-#include "scenes/text/human_units.hpp"
+#include "scenes/files/human_units.hpp"
 #include "solve/answer/world_account.hpp"
+#include "solve/kept/export_roadmap.hpp"
 #include "solve/question/question_of_arm.hpp"
-#include "solve/roadmaps/export_of_roadmap.hpp"
-#include "worlds/rasters/map_borders.hpp"
+#include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren {
 namespace {

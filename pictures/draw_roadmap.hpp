@@ -10,7 +10,7 @@
 
 #include "parallel/execution.hpp"
 #include "pictures/draw_answer.hpp"
-#include "solve/roadmaps/roadmap.hpp"
+#include "solve/kept/roadmap.hpp"
 
 namespace warren {
 

@@ -7,11 +7,11 @@
 #include <optional>
 #include <utility>
 
-#include "parallel/stage_account.hpp"
-#include "solve/steps/blocked_end.hpp"
-#include "solve/steps/heuristic_price.hpp"
-#include "solve/steps/kind_of_problem.hpp"
-#include "solve/steps/planned_scene.hpp"
+#include "parallel/trace.hpp"
+#include "solve/explain/blocked_end.hpp"
+#include "solve/explain/heuristic_price.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
+#include "solve/kinds/planned_scene.hpp"
 
 namespace warren {
 namespace {

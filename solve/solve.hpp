@@ -3,13 +3,12 @@
 // program links for; the other headers are the parts that this one joins.
 #pragma once
 
-#include "core/base/path_taker.hpp"
+#include "core/base/solution.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/answer/by_products.hpp"
 #include "solve/answer/read_answer_io.hpp"
-#include "solve/answer/verdict.hpp"
 #include "solve/question/limits.hpp"
 #include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"
@@ -44,7 +43,7 @@ Verdict verify_within(const Scene& scene, const Question& question, const Record
 Answer solve_explained(const Scene& scene, const Question& question, const SolveOptions& options,
                        const Execution& execution, ByProducts* keep = nullptr, PathTaker* taker = nullptr);
 
-/// Says what an estimate of options cost, where it is not the straight line (solve/steps/heuristic_price.hpp).
+/// Says what an estimate of options cost, where it is not the straight line (solve/explain/heuristic_price.hpp).
 void price_heuristic(const Scene& scene, const Question& question, const SolveOptions& options,
                      const Execution& execution, Answer& answer);
 

@@ -3,10 +3,9 @@
 
 #include <utility>
 
-#include "solve/roadmaps/blocked_end_of_roadmap.hpp"
-#include "solve/roadmaps/roadmap_query.hpp"
+#include "solve/kept/roadmap_query.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
 #include "solve/solve.hpp"
-#include "solve/steps/kind_of_problem.hpp"
 
 namespace warren {
 namespace {

@@ -10,7 +10,7 @@
 #include "parallel/execution.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/answer/by_products.hpp"
-#include "solve/roadmaps/roadmap.hpp"
+#include "solve/kept/roadmap.hpp"
 
 namespace warren {
 

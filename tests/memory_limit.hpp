@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "parallel/deadline.hpp"
+#include "parallel/execution.hpp"
 
 namespace warren::test {
 

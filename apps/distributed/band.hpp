@@ -19,9 +19,9 @@
 #include "planners/mazes/tiled_prm_lattice.hpp"
 #include "scenes/mazes/spanning_maze.hpp"
 #include "scenes/scene/scene.hpp"
-#include "solve/mazes/streamed_walls.hpp"
 #include "solve/question/question.hpp"
-#include "verify/cells/verify_cells.hpp"
+#include "solve/streamed/streamed_walls.hpp"
+#include "verify/streamed/verify_cells.hpp"
 
 namespace warren::distributed {
 

@@ -17,10 +17,10 @@
 #include "apps/distributed/transport.hpp"
 #include "core/base/enum_names.hpp"
 #include "core/base/error.hpp"
-#include "core/base/let_go.hpp"
+#include "core/base/raw_vector.hpp"
 #include "parallel/ticker.hpp"
 #include "planners/mazes/tile_reduction.hpp"
-#include "scenes/mazes/joined_parts.hpp"
+#include "scenes/mazes/spanning_maze.hpp"
 
 namespace warren::distributed {
 

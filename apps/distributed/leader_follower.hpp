@@ -26,12 +26,11 @@
 #include "apps/distributed/shared_search.hpp"
 #include "apps/distributed/transport.hpp"
 #include "core/plane/cell_walls.hpp"
-#include "parallel/deadline.hpp"
 #include "parallel/execution.hpp"
-#include "parallel/one_at_a_time.hpp"
+#include "parallel/once.hpp"
 #include "planners/mazes/tiled_prm_lattice.hpp"
-#include "solve/mazes/streamed_team.hpp"
-#include "verify/cells/verify_cells.hpp"
+#include "solve/streamed/streamed_walls.hpp"
+#include "verify/streamed/verify_cells.hpp"
 
 namespace warren::distributed {
 

@@ -13,7 +13,7 @@
 #include "apps/studies/machine.hpp"
 #include "core/base/error.hpp"
 #include "scenes/mazes/maze_generator.hpp"
-#include "solve/mazes/solve_streamed.hpp"
+#include "solve/streamed/solve_streamed.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"

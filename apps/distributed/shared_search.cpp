@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "core/base/let_go.hpp"
+#include "core/base/raw_vector.hpp"
 #include "core/search/bidirectional_search.hpp"
 #include "core/search/union_find.hpp"
 #include "planners/mazes/overlay.hpp"

@@ -7,7 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
-#include "solve/roadmaps/export_of_roadmap.hpp"
+#include "solve/kept/export_roadmap.hpp"
 
 namespace warren::python {
 namespace {

@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "apps/python/arrays.hpp"
-#include "parallel/made_once.hpp"
-#include "solve/roadmaps/roadmap_query.hpp"
+#include "parallel/once.hpp"
+#include "solve/kept/roadmap_query.hpp"
 
 namespace warren::python {
 

@@ -12,7 +12,7 @@
 #include <string_view>
 
 #include "core/base/error.hpp"
-#include "parallel/deadline.hpp"
+#include "parallel/execution.hpp"
 
 namespace warren::python {
 namespace py = pybind11;

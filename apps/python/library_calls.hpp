@@ -13,8 +13,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "core/base/stop_reason.hpp"
-#include "parallel/deadline.hpp"
+#include "core/base/solution.hpp"
+#include "parallel/execution.hpp"
 #include "solve/question/limits.hpp"
 
 namespace warren::python {

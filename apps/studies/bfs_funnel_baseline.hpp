@@ -6,7 +6,7 @@
 // cell, 1 a step and 16 a bend.
 #pragma once
 
-#include "core/base/path.hpp"
+#include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "apps/studies/statistics.hpp"
-#include "core/base/counters.hpp"
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "solve/question/figure.hpp"

@@ -25,10 +25,10 @@
 #include "pictures/layers/lines_side_by_side.hpp"
 #include "pictures/model/picture.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
+#include "scenes/files/human_units.hpp"
 #include "scenes/scene/scene.hpp"
-#include "scenes/text/human_units.hpp"
 #include "solve/answer/world_account.hpp"
-#include "worlds/rasters/map_borders.hpp"
+#include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren::studies {
 // One figure of several paths through a world, each in a colour of its own with its name in the legend; where paths run

@@ -4,13 +4,13 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/studies/machine.hpp"
-#include "parallel/stage_account.hpp"
+#include "parallel/trace.hpp"
 #include "solve/answer/stage_lines.hpp"
 #include "solve/answer/write_answer_io.hpp"
-#include "solve/mazes/solve_streamed.hpp"
-#include "solve/mazes/solve_walls.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "solve/question/question.hpp"
+#include "solve/streamed/solve_streamed.hpp"
+#include "solve/streamed/solve_walls.hpp"
 
 namespace warren::studies {
 Scene generate_trial(const MazeOptions& maze, const SolveOptions& options, const Execution& execution,

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "core/base/counters.hpp"
 #include "core/base/solution.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/mazes/maze_generator.hpp"

@@ -13,11 +13,11 @@
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
-#include "scenes/scene/unit_of.hpp"
+#include "scenes/scene/scene.hpp"
 #include "solve/answer/write_answer_io.hpp"
-#include "solve/question/grid_choice.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
+#include "solve/question/planner_choice.hpp"
 #include "solve/solve.hpp"
-#include "solve/steps/kind_of_problem.hpp"
 
 namespace warren::studies {
 namespace {

@@ -15,7 +15,7 @@
 #include "apps/studies/study_report.hpp"
 #include "pictures/formats/markup.hpp"
 #include "pictures/plots/plot.hpp"
-#include "scenes/text/human_units.hpp"
+#include "scenes/files/human_units.hpp"
 
 namespace warren::studies {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "apps/studies/scaling_study.hpp"
 #include "apps/studies/study_report.hpp"
-#include "scenes/text/palette.hpp"
+#include "scenes/files/human_units.hpp"
 
 namespace warren::studies {
 

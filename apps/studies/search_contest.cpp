@@ -14,8 +14,8 @@
 #include "core/base/error.hpp"
 #include "pictures/layers/draw_bodies.hpp"
 #include "planners/graph/roadmap_options.hpp"
-#include "scenes/scene/unit_of.hpp"
-#include "solve/steps/kind_of_problem.hpp"
+#include "scenes/scene/scene.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
 
 namespace warren::studies {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "core/base/rng.hpp"
 #include "core/search/search_queues.hpp"
-#include "parallel/assemble_graph.hpp"
-#include "parallel/components.hpp"
+#include "planners/graph/assemble_graph.hpp"
+#include "planners/graph/components.hpp"
 #include "spatial/points/point_grid.hpp"
 #include "spatial/points/tile_order.hpp"
 

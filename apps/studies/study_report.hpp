@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/text/palette.hpp"
+#include "scenes/files/human_units.hpp"
 
 namespace warren::studies {
 // A table for the terminal, with columns as wide as their widest cell, and for documents.

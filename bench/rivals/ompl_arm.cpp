@@ -36,7 +36,7 @@
 #include "bench/rivals/stopwatch.hpp"
 #include "planners/roadmap/prm.hpp"
 #include "planners/trees/rrt_connect.hpp"
-#include "scenes/formats/read_world_io.hpp"
+#include "scenes/files/read_world_io.hpp"
 #include "verify/judges/verify_arm.hpp"
 #include "worlds/arms/arm_world.hpp"
 #include "worlds/arms/puma560.hpp"

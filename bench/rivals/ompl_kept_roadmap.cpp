@@ -30,7 +30,7 @@
 #include "core/base/rng.hpp"
 #include "planners/roadmap/prm.hpp"
 #include "scenes/mazes/maze_generator.hpp"
-#include "solve/roadmaps/roadmap_query.hpp"
+#include "solve/kept/roadmap_query.hpp"
 
 namespace warren {
 namespace {

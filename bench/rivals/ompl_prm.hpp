@@ -25,8 +25,8 @@
 #include <vector>
 
 #include "bench/rivals/stopwatch.hpp"
-#include "core/base/path.hpp"
 #include "core/base/rng.hpp"
+#include "core/base/solution.hpp"
 #include "planners/graph/roadmap_options.hpp"
 #include "worlds/plane/maze_world.hpp"
 

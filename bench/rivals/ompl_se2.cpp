@@ -34,7 +34,7 @@
 
 #include "bench/rivals/stopwatch.hpp"
 #include "planners/trees/rrt_connect.hpp"
-#include "scenes/formats/read_world_io.hpp"
+#include "scenes/files/read_world_io.hpp"
 #include "worlds/poses/car_world.hpp"
 #include "worlds/poses/se2_world.hpp"
 

@@ -11,7 +11,7 @@
 
 #include "bench/report.hpp"
 #include "core/base/rng.hpp"
-#include "roadmaps/exports/export_roadmap.hpp"
+#include "solve/kept/export_roadmap.hpp"
 
 namespace warren::bench {
 namespace {

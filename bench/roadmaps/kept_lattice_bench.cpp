@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "bench/report.hpp"
-#include "scenes/formats/read_world_io.hpp"
-#include "solve/roadmaps/roadmap_file_io.hpp"
-#include "solve/roadmaps/roadmap_query.hpp"
+#include "scenes/files/read_world_io.hpp"
+#include "solve/kept/roadmap_file_io.hpp"
+#include "solve/kept/roadmap_query.hpp"
 
 namespace warren::bench {
 namespace {

@@ -14,10 +14,10 @@
 
 #include "bench/report.hpp"
 #include "core/base/rng.hpp"
+#include "scenes/files/output_file_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
-#include "scenes/text/output_file_io.hpp"
-#include "solve/batches/ask_batch_io.hpp"
-#include "solve/roadmaps/roadmap_file_io.hpp"
+#include "solve/kept/ask_batch_io.hpp"
+#include "solve/kept/roadmap_file_io.hpp"
 
 namespace warren::bench {
 namespace {

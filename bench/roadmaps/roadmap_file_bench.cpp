@@ -12,8 +12,7 @@
 
 #include "bench/report.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
-#include "roadmaps/file/roadmap_file.hpp"
-#include "roadmaps/file/write_roadmap_file.hpp"
+#include "solve/kept/roadmap_file.hpp"
 
 namespace warren::bench {
 namespace {

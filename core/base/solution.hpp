@@ -3,17 +3,105 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <ranges>
+#include <span>
 #include <string>
 #include <string_view>
 
-#include "core/base/counters.hpp"
 #include "core/base/enum_names.hpp"
-#include "core/base/path.hpp"
-#include "core/base/stop_reason.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/base/types.hpp"
 
 namespace warren {
+// What was done: exact counts, the same for any number of threads, and how long each stage took.
+
+/// What a planner has done: exact, the same for any number of threads.
+struct Counters {
+  std::uint64_t samples = 0;  ///< states drawn
+  std::uint64_t kept = 0;     ///< of samples, the states that became milestones: free, and as the sampler wants
+  std::uint64_t neighbour_queries = 0;  ///< k-nearest or radius queries
+  std::uint64_t edges_checked = 0;      ///< motions tested for collision
+  std::uint64_t edges_free = 0;         ///< of edges_checked, those that nothing blocks
+  std::uint64_t expanded = 0;           ///< vertices settled by the search
+  std::uint64_t rounds = 0;             ///< roadmaps built, lazy repairs or batches of trees made
+  std::uint64_t refused = 0;            ///< motions that were neither proved free nor blocked, of edges_checked
+  std::uint64_t pushes = 0;     ///< vertices that came into the search's queue; of planners that join samples alone
+  std::uint64_t decreases = 0;  ///< times that one in the queue got a shorter way; the same
+  std::uint64_t row_bytes = 0;  ///< of the CSR rows that were assembled; the same
+  /// Adds all of them.
+  Counters& operator+=(const Counters& o) {
+    samples += o.samples;
+    kept += o.kept;
+    neighbour_queries += o.neighbour_queries;
+    edges_checked += o.edges_checked;
+    edges_free += o.edges_free;
+    expanded += o.expanded;
+    rounds += o.rounds;
+    refused += o.refused;
+    pushes += o.pushes;
+    decreases += o.decreases;
+    row_bytes += o.row_bytes;
+    return *this;
+  }
+  friend bool operator==(const Counters&, const Counters&) = default;
+};
+
+/// Wall-clock seconds of each stage.
+struct StageTimes {
+  double generate = 0.0;    ///< making a maze
+  double read = 0.0;        ///< reading a file
+  double index = 0.0;       ///< indexes over obstacles and free cells
+  double sample = 0.0;      ///< drawing states
+  double neighbours = 0.0;  ///< finding each state's neighbours
+  double connect = 0.0;     ///< checking motions
+  double graph = 0.0;       ///< joining edges to a graph, or cells to a decomposition
+  double reduce = 0.0;      ///< taking what no path needs out of a lattice's graph
+  double search = 0.0;      ///< searching; of trees, growing them
+  double optimise = 0.0;    ///< pulling the path taut
+  double verify = 0.0;      ///< judging the path
+};
+
+/// What a stage cost in all its rounds. Where one stage has several links of a chain, each has its own.
+struct StageCost {
+  std::string name;     ///< of the link
+  double wall_s = 0.0;  ///< by the clock
+  double cpu_s = 0.0;   ///< of all threads of the process
+};
+
+// A path is the list of its states, start to goal.
+
+/// A long one is made of pooled pages (core/base/page_pool.hpp): where one run follows another, the first touch of
+/// fresh pages took more time than to find the states.
+template <class State>
+using Path = RawVector<State>;
+
+/// Sum of the motions' lengths, in the path's order. States: a contiguous list of them.
+template <std::ranges::contiguous_range States, class Distance>
+double path_length(const States& path, Distance&& distance_between) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) length += distance_between(path[i - 1], path[i]);
+  return length;
+}
+
+/// Why a computation was stopped before its end.
+enum class StopReason : std::uint8_t { time, memory, interrupt, terminate, hang_up };
+/// As answers say it.
+constexpr auto enum_names(StopReason) {
+  return std::array<std::string_view, 5>{"budget", "memory", "SIGINT", "SIGTERM", "SIGHUP"};
+}
+
+/// As people are told it.
+constexpr std::string_view text_of(StopReason reason) {
+  constexpr std::array<std::string_view, 5> texts{"the time budget ended", "it needs more memory than it may hold",
+                                                  "interrupted", "terminated", "the terminal was closed"};
+  return texts[static_cast<std::size_t>(reason)];
+}
+
+/// Was it a signal?
+constexpr bool is_signal(StopReason reason) { return reason >= StopReason::interrupt; }
 
 /// How a plan ended. An answer, never an error.
 enum class Outcome : std::uint8_t { solved, start_blocked, goal_blocked, not_connected, infeasible, stopped };
@@ -59,6 +147,20 @@ struct Solution {
   Separation separation;                      ///< only for not_connected
   Counters counters;                          ///< exact, the same for any thread count
   StageTimes seconds;                         ///< wall-clock
+};
+
+// Where the points of a path go that is too long to be held: they are handed on as they are made.
+
+class PathTaker {
+ public:
+  PathTaker() = default;
+  virtual ~PathTaker() = default;
+  PathTaker(const PathTaker&) = delete;
+  PathTaker& operator=(const PathTaker&) = delete;
+  /// Once, before the first piece: the number of points in all, at least one.
+  virtual void begin(std::uint64_t points) = 0;
+  /// The points that follow; each piece but the first begins with the last point of the one before.
+  virtual void add(std::span<const Vec2> piece) = 0;
 };
 
 }  // namespace warren

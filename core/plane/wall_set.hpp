@@ -3,6 +3,7 @@
 // grid maze in 8 bytes each, others in floats (16) or doubles (32).
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -10,9 +11,98 @@
 
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
-#include "core/plane/packed_wall.hpp"
 
 namespace warren {
+// A level or upright wall in one word of 64 bits: what walls of grids are, at half of what floats take. Coordinates are
+// multiples of 1/4 below 2^18. Bits 0 to 20 are x of the first end, bits 32 to 52 its y, in quarters and 2^20 more, so
+// that they are never below 0; bits 21 to 31, and above them 53 to 62, say how far the second end lies to the right, as
+// x does; bit 63 says that it lies above instead. One wall has one word: a wall of length zero is level. The halves are
+// read alike, by shifts and masks of 32 bits without a branch, so loops over walls become vector code.
+
+/// A wall of 8 bytes.
+class PackedWall {
+ public:
+  using Number = float;                                ///< in which its coordinates are exact
+  static constexpr std::int32_t per_unit = 4;          ///< steps of the coordinates
+  static constexpr std::int32_t most = (1 << 20) - 1;  ///< steps that a coordinate may have, and a length
+
+  /// Its ends in steps.
+  struct Ends {
+    std::int32_t x1, y1, x2, y2;
+  };
+
+  PackedWall() = default;
+  /// Of a wall that fits, in steps.
+  static constexpr PackedWall level(std::int32_t x, std::int32_t y, std::int32_t length) {
+    const std::uint64_t far = field(length);
+    return PackedWall(field(x) | far % (1U << low_bits) << field_bits | field(y) << 32 |
+                      far >> low_bits << (32 + field_bits));
+  }
+  /// As level(), upwards.
+  static constexpr PackedWall upright(std::int32_t x, std::int32_t y, std::int32_t length) {
+    return PackedWall(level(x, y, length).word_ | std::uint64_t{length != 0} << 63);
+  }
+  /// Is there a word for this wall, to the sign of each zero?
+  template <class T>
+  static bool fits(T x1, T y1, T x2, T y2) {
+    const unsigned all_steps =
+        unsigned{is_step(x1)} & unsigned{is_step(y1)} & unsigned{is_step(x2)} & unsigned{is_step(y2)};
+    return all_steps != 0 && (x1 == x2 || y1 == y2) && std::abs(x1 - x2) + std::abs(y1 - y2) <= T{most} / per_unit;
+  }
+  /// Of a wall that fits().
+  template <class T>
+  static PackedWall of(T x1, T y1, T x2, T y2) {
+    const auto steps = [](T x) { return static_cast<std::int32_t>(x * per_unit); };
+    return y1 == y2 ? level(steps(x1), steps(y1), steps(x2 - x1)) : upright(steps(x1), steps(y1), steps(y2 - y1));
+  }
+
+  /// The whole wall.
+  std::uint64_t word() const { return word_; }
+  /// The first end, x in the lower half and y in the upper one, each in steps and `most` + 1 more.
+  std::uint64_t raised_end() const { return word_ & (std::uint64_t{field_mask} << 32 | field_mask); }
+  /// Steps from the first end to the second, to the right or upwards.
+  std::int32_t length() const {
+    const auto low = static_cast<std::uint32_t>(word_);
+    const auto high = static_cast<std::uint32_t>(word_ >> 32);
+    return signed_of(low >> field_bits | (high >> (field_bits - low_bits) & high_mask));
+  }
+  /// Is the second end above or below the first?
+  bool is_upright() const { return word_ >> 63 != 0; }
+  /// Exact.
+  Ends ends() const {
+    const auto high = static_cast<std::uint32_t>(word_ >> 32);
+    const std::int32_t x = signed_of(static_cast<std::uint32_t>(word_) & field_mask);
+    const std::int32_t y = signed_of(high & field_mask);
+    const std::int32_t up = static_cast<std::int32_t>(high) >> 31;
+    return {x, y, x + (length() & ~up), y + (length() & up)};
+  }
+  /// As doubles; exact.
+  Segment segment() const {
+    constexpr double step = 1.0 / per_unit;
+    const Ends e = ends();
+    return {{step * e.x1, step * e.y1}, {step * e.x2, step * e.y2}};
+  }
+  friend bool operator==(const PackedWall&, const PackedWall&) = default;
+
+ private:
+  static constexpr unsigned field_bits = 21;             // of a coordinate, and of the length
+  static constexpr unsigned low_bits = 32 - field_bits;  // of the length, beside x; the others are beside y
+  static constexpr std::uint32_t field_mask = (1U << field_bits) - 1;
+  static constexpr std::uint32_t high_mask = field_mask & ~((1U << low_bits) - 1);
+
+  explicit constexpr PackedWall(std::uint64_t word) : word_(word) {}
+  static constexpr std::uint64_t field(std::int32_t steps) { return static_cast<std::uint32_t>(steps + most + 1); }
+  static constexpr std::int32_t signed_of(std::uint32_t field) { return static_cast<std::int32_t>(field) - (most + 1); }
+  template <class T>
+  static bool is_step(T x) {
+    const T steps = x * per_unit;
+    const bool is_small = std::abs(steps) <= T{most};
+    const auto whole = static_cast<std::int32_t>(is_small ? steps : T{0});
+    return is_small && static_cast<T>(whole) == steps && !(whole == 0 && std::signbit(x));
+  }
+
+  std::uint64_t word_;
+};
 
 /// One wall as files hold it: four numbers.
 template <class T>

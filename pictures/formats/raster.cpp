@@ -12,7 +12,7 @@
 #include "pictures/formats/painter.hpp"
 #include "pictures/formats/surface.hpp"
 #include "pictures/model/letters.hpp"
-#include "scenes/images/png_writer_io.hpp"
+#include "scenes/files/png_io.hpp"
 
 namespace warren {
 

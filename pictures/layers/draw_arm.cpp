@@ -19,7 +19,7 @@
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
 #include "pictures/model/axis.hpp"
-#include "scenes/scene/dh_table.hpp"
+#include "scenes/scene/scene.hpp"
 #include "worlds/arms/arm_world.hpp"
 #include "worlds/arms/serial_chain.hpp"
 

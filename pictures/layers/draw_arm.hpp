@@ -9,7 +9,6 @@
 
 #include "parallel/execution.hpp"
 #include "pictures/model/picture.hpp"
-#include "scenes/scene/dh_table.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace warren {

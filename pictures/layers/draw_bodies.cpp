@@ -12,13 +12,12 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "parallel/assemble_graph.hpp"
 #include "pictures/layers/draw_cells.hpp"
+#include "planners/graph/assemble_graph.hpp"
 #include "worlds/poses/dubins_curve.hpp"
 #include "worlds/poses/reeds_shepp_curve.hpp"
 #include "worlds/poses/steering_curve.hpp"
-#include "worlds/rasters/heading_layers_of_map.hpp"
-#include "worlds/rasters/heading_layers_of_scene.hpp"
+#include "worlds/rasters/heading_layers.hpp"
 
 namespace warren {
 namespace {

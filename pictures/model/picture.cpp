@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "core/base/trigonometry.hpp"
-#include "parallel/components.hpp"
+#include "planners/graph/components.hpp"
 
 namespace warren {
 

@@ -19,7 +19,6 @@
 #include "pictures/model/colors.hpp"
 #include "pictures/model/picture_options.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
-#include "scenes/scene/dh_table.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "scenes/scene/scene.hpp"
 

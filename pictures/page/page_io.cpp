@@ -23,7 +23,7 @@
 #include "pictures/model/picture.hpp"
 #include "pictures/page/page_files.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
-#include "scenes/scene/unit_of.hpp"
+#include "scenes/scene/scene.hpp"
 
 namespace warren {
 // Numbers as pages hold them: {"type": "f32", "data": base64}, little-endian, written in pieces.

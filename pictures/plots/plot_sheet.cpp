@@ -12,7 +12,7 @@
 #include "core/base/trigonometry.hpp"
 #include "pictures/formats/markup.hpp"
 #include "pictures/formats/surface.hpp"
-#include "scenes/text/output_file_io.hpp"
+#include "scenes/files/output_file_io.hpp"
 
 namespace warren {
 namespace {

@@ -12,7 +12,6 @@
 #include "core/base/rng.hpp"
 #include "core/search/indexed_heap.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/scan.hpp"
 #include "parallel/sort.hpp"
 #include "planners/graph/hierarchy_query.hpp"
 

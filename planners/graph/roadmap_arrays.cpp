@@ -12,7 +12,7 @@
 #include "core/base/raw_vector.hpp"
 #include "core/plane/se2.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/union_forest.hpp"
+#include "planners/graph/components.hpp"
 
 namespace warren {
 namespace {

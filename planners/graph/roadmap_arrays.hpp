@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A roadmap as plain arrays that it owns, and what building it took: whoever builds one gives these, and knows nothing
-// of the roadmap as a value that is asked, updated and kept in a file (solve/roadmaps/roadmap.hpp).
+// of the roadmap as a value that is asked, updated and kept in a file (solve/kept/roadmap.hpp).
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "core/base/counters.hpp"
 #include "core/base/raw_vector.hpp"
+#include "core/base/solution.hpp"
 #include "core/base/types.hpp"
-#include "core/search/edge_states.hpp"
 #include "core/search/graph.hpp"
 #include "parallel/execution.hpp"
 #include "planners/graph/hierarchy.hpp"
@@ -27,7 +26,7 @@ struct RoadmapParts {
   std::span<const double> states;              ///< `dimension` finite numbers a vertex
   std::span<const EdgeEnd> first;              ///< vertex_count + 1: the ends of vertex v are first[v] .. first[v + 1]
   std::span<const VertexId> to;                ///< where each edge end leads; the ends of a vertex ascend
-  std::span<const std::uint64_t> edge_states;  ///< edge_states.hpp
+  std::span<const std::uint64_t> edge_states;  ///< graph.hpp
   std::span<const VertexId> component;         ///< smallest vertex that free edges join each vertex with, any direction
 
   std::size_t vertex_count() const { return first.empty() ? 0 : first.size() - 1; }
@@ -43,7 +42,7 @@ struct RoadmapArrays {
   bool directed = false;                 ///< do edges lead one way?
   RawVector<double> states;              ///< `dimension` numbers each
   Graph candidates;                      ///< edges that are free, blocked or unchecked
-  RawVector<std::uint64_t> edge_states;  ///< two bits an edge end (core/search/edge_states.hpp)
+  RawVector<std::uint64_t> edge_states;  ///< two bits an edge end (core/search/graph.hpp)
   RawVector<VertexId> component;         ///< a number each state: the same where free edges join them
   Hierarchy hierarchy;                   ///< of the free edges; empty: there is none
 

@@ -8,8 +8,8 @@
 #include <type_traits>
 
 #include "core/search/search.hpp"
-#include "parallel/bidirectional_search.hpp"
 #include "parallel/chunks.hpp"
+#include "planners/graph/both_ends.hpp"
 #include "planners/graph/queue_choice.hpp"
 
 namespace warren {

@@ -3,9 +3,10 @@
 // worlds: what a search asks of the world is a distance between two vertices.
 //
 // A* and Dijkstra, from 50,000 vertices on: where most vertices are dead ends or links of chains (lattices) the roadmap
-// is reduced first (parallel/reduce_graph.hpp) and its keys are searched; the expanded path is as long as the plain
-// one. Else (uniform sampling, where every doorway is crossed by several edges and next to nothing could be peeled) the
-// search runs from both ends. Smaller roadmaps, and breadth- and depth-first search: plainly, on one thread.
+// is reduced first (planners/graph/reduce_graph.hpp) and its keys are searched; the expanded path is as long as the
+// plain one. Else (uniform sampling, where every doorway is crossed by several edges and next to nothing could be
+// peeled) the search runs from both ends. Smaller roadmaps, and breadth- and depth-first search: plainly, on one
+// thread.
 #pragma once
 
 #include <array>
@@ -16,7 +17,7 @@
 #include "core/search/graph.hpp"
 #include "core/search/search.hpp"
 #include "parallel/execution.hpp"
-#include "parallel/reduce_graph.hpp"
+#include "planners/graph/reduce_graph.hpp"
 #include "planners/graph/roadmap_options.hpp"
 
 namespace warren {

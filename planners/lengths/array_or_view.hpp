@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/base/raw_vector.hpp"
-#include "parallel/first_look.hpp"
+#include "parallel/once.hpp"
 
 namespace warren {
 

@@ -7,9 +7,9 @@
 #include <cstring>
 
 #include "core/base/error.hpp"
+#include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/first_touch.hpp"
-#include "parallel/scan.hpp"
+#include "parallel/sort.hpp"
 
 namespace warren {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/scan.hpp"
+#include "parallel/sort.hpp"
 #include "planners/lengths/cell_marks.hpp"
 
 namespace warren {

@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "core/base/let_go.hpp"
 #include "core/base/page_pool.hpp"
+#include "core/base/raw_vector.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/scan.hpp"
+#include "parallel/sort.hpp"
 #include "planners/lengths/core_graph.hpp"
 #include "planners/lengths/dissection.hpp"
 #include "planners/lengths/min_plus.hpp"

@@ -30,7 +30,7 @@
 #include <vector>
 
 #include "parallel/execution.hpp"
-#include "parallel/lasting_marks.hpp"
+#include "parallel/once.hpp"
 #include "planners/lengths/cell_marks.hpp"
 #include "planners/lengths/lattice_passages.hpp"
 #include "planners/lengths/piece_forest.hpp"

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "core/base/error.hpp"
-#include "parallel/first_touch.hpp"
+#include "parallel/asked_memory.hpp"
 
 namespace warren {
 namespace {

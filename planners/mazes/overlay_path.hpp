@@ -8,13 +8,12 @@
 #include <span>
 #include <vector>
 
-#include "core/base/path.hpp"
-#include "core/base/path_taker.hpp"
 #include "core/base/raw_vector.hpp"
+#include "core/base/solution.hpp"
 #include "core/base/types.hpp"
+#include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/execution.hpp"
-#include "parallel/first_touch.hpp"
 #include "planners/mazes/overlay.hpp"
 #include "planners/mazes/tile_grid.hpp"
 #include "planners/mazes/tile_reduction.hpp"

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <utility>
 
-#include "parallel/asked_growth.hpp"
-#include "parallel/bidirectional_search.hpp"
+#include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
+#include "planners/graph/both_ends.hpp"
 
 namespace warren {
 namespace {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/base/let_go.hpp"
-#include "parallel/asked_growth.hpp"
+#include "core/base/raw_vector.hpp"
+#include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/graph/no_path.hpp"
 #include "planners/mazes/overlay.hpp"

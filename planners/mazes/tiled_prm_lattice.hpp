@@ -25,8 +25,7 @@
 #include <span>
 #include <vector>
 
-#include "core/base/kept_parts.hpp"
-#include "core/base/path_taker.hpp"
+#include "core/base/packed_values.hpp"
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "core/plane/cell_walls.hpp"

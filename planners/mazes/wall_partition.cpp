@@ -5,8 +5,8 @@
 #include <type_traits>
 
 #include "core/base/error.hpp"
-#include "core/base/let_go.hpp"
-#include "parallel/first_touch.hpp"
+#include "core/base/raw_vector.hpp"
+#include "parallel/asked_memory.hpp"
 #include "planners/mazes/wall_steps.hpp"
 
 namespace warren {

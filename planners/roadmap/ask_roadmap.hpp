@@ -19,12 +19,12 @@
 
 #include "core/base/solution.hpp"
 #include "core/base/world.hpp"
-#include "parallel/components.hpp"
-#include "parallel/shared_edge_states.hpp"
+#include "planners/graph/components.hpp"
 #include "planners/graph/hierarchy.hpp"
 #include "planners/graph/hierarchy_query.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
 #include "planners/graph/roadmap_search.hpp"
+#include "planners/graph/shared_edge_states.hpp"
 #include "planners/roadmap/build_roadmap.hpp"
 #include "planners/roadmap/plan_in_rounds.hpp"
 

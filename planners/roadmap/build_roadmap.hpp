@@ -16,15 +16,13 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/counters.hpp"
 #include "core/base/raw_vector.hpp"
 #include "core/base/solution.hpp"
 #include "core/base/world.hpp"
-#include "core/search/edge_states.hpp"
 #include "core/search/graph.hpp"
-#include "parallel/assemble_graph.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/components.hpp"
+#include "planners/graph/assemble_graph.hpp"
+#include "planners/graph/components.hpp"
 #include "planners/graph/roadmap_options.hpp"
 #include "planners/graph/roadmap_search.hpp"
 #include "planners/roadmap/connection.hpp"
@@ -117,7 +115,7 @@ inline RawVector<std::uint64_t> packed(std::span<const std::uint8_t> states, con
 
 }  // namespace detail
 
-/// The states of all edges, as edge_states.hpp packs them: the same for any number of threads. `known`, and what
+/// The states of all edges, as graph.hpp packs them: the same for any number of threads. `known`, and what
 /// `before` says where it is given, is not asked. Throws Stopped.
 template <World W>
 RawVector<std::uint64_t> check_edges(const W& world, std::span<const typename W::State> states, const Graph& graph,
@@ -158,7 +156,7 @@ template <class State>
 struct BuiltRoadmap {
   RawVector<State> states;               ///< milestones in tile order
   Graph candidates;                      ///< all edges; where edges lead one way: w in the row of v, from v to w
-  RawVector<std::uint64_t> edge_states;  ///< core/search/edge_states.hpp
+  RawVector<std::uint64_t> edge_states;  ///< core/search/graph.hpp
   std::uint64_t samples = 0;             ///< drawn in the last round
   ConnectionRule rule;                   ///< by which the milestones were joined, and start and goal will be
   Counters counters;

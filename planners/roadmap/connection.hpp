@@ -12,13 +12,13 @@
 #include <span>
 #include <vector>
 
-#include "core/base/counters.hpp"
+#include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "core/base/world.hpp"
 #include "core/search/graph.hpp"
-#include "parallel/asked_growth.hpp"
+#include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/stage_account.hpp"
+#include "parallel/trace.hpp"
 #include "planners/graph/state_index.hpp"
 #include "planners/roadmap/roadmap_growth.hpp"
 

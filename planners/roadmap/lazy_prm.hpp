@@ -20,16 +20,16 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/counters.hpp"
 #include "core/base/raw_vector.hpp"
+#include "core/base/solution.hpp"
 #include "core/base/world.hpp"
-#include "core/plane/cell_sides.hpp"
+#include "core/plane/cell_walls.hpp"
 #include "core/search/bidirectional_search.hpp"
 #include "core/search/graph.hpp"
 #include "core/search/search.hpp"
-#include "parallel/assemble_graph.hpp"
 #include "parallel/execution.hpp"
-#include "parallel/polled_sort.hpp"
+#include "parallel/sort.hpp"
+#include "planners/graph/assemble_graph.hpp"
 #include "planners/graph/roadmap_search.hpp"
 #include "planners/roadmap/connection.hpp"
 #include "planners/roadmap/plan_in_rounds.hpp"

@@ -69,7 +69,7 @@ class OneWayPlan : public Rounds<W> {
   bool lazy_;
   bool keep_;
   Graph candidates_;
-  RawVector<std::uint64_t> known_;  // of each edge: core/search/edge_states.hpp
+  RawVector<std::uint64_t> known_;  // of each edge: core/search/graph.hpp
   std::vector<Edge> tree_;
 };
 

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "parallel/assemble_graph.hpp"
-#include "parallel/components.hpp"
+#include "planners/graph/assemble_graph.hpp"
+#include "planners/graph/components.hpp"
 #include "planners/graph/roadmap_search.hpp"
 #include "planners/roadmap/plan_in_rounds.hpp"
 

@@ -16,9 +16,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/counters.hpp"
-#include "core/base/path.hpp"
 #include "core/base/rng.hpp"
+#include "core/base/solution.hpp"
 #include "core/base/world.hpp"
 #include "parallel/execution.hpp"
 
@@ -31,7 +30,7 @@ struct RedriveOptions {
 
 namespace detail {
 
-/// Driver: a body that drives in gears 1 and -1 (worlds/poses/priced_car.hpp).
+/// Driver: a body that drives in gears 1 and -1 (worlds/poses/car_world.hpp).
 template <class Driver>
 class Redriving {
  public:

@@ -16,9 +16,8 @@
 #include <functional>
 #include <vector>
 
-#include "core/base/counters.hpp"
-#include "core/base/path.hpp"
 #include "core/base/rng.hpp"
+#include "core/base/solution.hpp"
 #include "core/base/world.hpp"
 #include "parallel/chunks.hpp"
 

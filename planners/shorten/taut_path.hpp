@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "core/base/path.hpp"
+#include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
 #include "spatial/obstacles/wall_index.hpp"

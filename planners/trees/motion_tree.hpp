@@ -13,18 +13,16 @@
 #include <span>
 #include <vector>
 
-#include "core/base/counters.hpp"
-#include "core/base/path.hpp"
 #include "core/base/solution.hpp"
 #include "core/base/world.hpp"
-#include "parallel/assemble_graph.hpp"
 #include "parallel/chunks.hpp"
+#include "planners/graph/assemble_graph.hpp"
 #include "planners/graph/no_path.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
 #include "planners/graph/state_index.hpp"
 #include "planners/roadmap/sampler.hpp"
 #include "planners/trees/rrt_options.hpp"
-#include "spatial/points/growing_tree.hpp"
+#include "spatial/points/kd_tree.hpp"
 
 namespace warren {
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/base/place_grid.hpp"
+#include "core/base/world.hpp"
 
 namespace warren {
 

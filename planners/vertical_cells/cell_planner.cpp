@@ -10,7 +10,7 @@
 #include "core/search/graph.hpp"
 #include "core/search/search.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/components.hpp"
+#include "planners/graph/components.hpp"
 #include "planners/graph/no_path.hpp"
 #include "planners/graph/queue_choice.hpp"
 #include "planners/vertical_cells/cell_decomposition.hpp"

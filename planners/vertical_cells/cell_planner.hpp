@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "core/base/enum_names.hpp"
-#include "core/base/path.hpp"
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"

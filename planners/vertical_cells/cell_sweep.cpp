@@ -5,7 +5,7 @@
 #include <cassert>
 
 #include "core/plane/geometry.hpp"
-#include "parallel/polled_sort.hpp"
+#include "parallel/sort.hpp"
 #include "planners/vertical_cells/cell_decomposition.hpp"
 
 namespace warren {

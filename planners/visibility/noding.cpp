@@ -6,8 +6,8 @@
 
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
-#include "parallel/asked_growth.hpp"
-#include "parallel/polled_sort.hpp"
+#include "parallel/asked_memory.hpp"
+#include "parallel/sort.hpp"
 
 namespace warren {
 namespace {

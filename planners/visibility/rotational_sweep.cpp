@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "parallel/polled_sort.hpp"
+#include "parallel/sort.hpp"
 #include "planners/visibility/plane_pieces.hpp"
 
 namespace warren {

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "core/plane/polygon_distance.hpp"
+#include "core/plane/polygon.hpp"
+#include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/first_touch.hpp"
 
 namespace warren {
 namespace {

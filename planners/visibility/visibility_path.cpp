@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "parallel/assemble_graph.hpp"
-#include "parallel/components.hpp"
-#include "parallel/polled_sort.hpp"
+#include "parallel/sort.hpp"
+#include "planners/graph/assemble_graph.hpp"
+#include "planners/graph/components.hpp"
 #include "planners/graph/no_path.hpp"
 #include "planners/graph/queue_choice.hpp"
 #include "planners/graph/roadmap_search.hpp"

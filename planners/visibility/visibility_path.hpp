@@ -5,7 +5,6 @@
 
 #include <vector>
 
-#include "core/base/counters.hpp"
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"

@@ -7,6 +7,12 @@
 #include <cassert>
 #include <cstring>
 #include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "parallel/chunks.hpp"
+#include "scenes/scene/scene.hpp"
 
 namespace warren {
 namespace {
@@ -79,5 +85,203 @@ class CellBits::Reader : public CellWallReader {
 };
 
 std::unique_ptr<CellWallReader> CellBits::reader() const { return std::make_unique<Reader>(*this); }
+
+// Strips of columns are looked at twice: how many walls each has says where the chunks of the hash begin in it. The
+// walls that a part has before its first chunk are those of its neighbour's last one, which they end.
+
+namespace {
+
+constexpr std::size_t grain = WallsHash::grain;
+constexpr std::size_t most_parts = 16;  // each holds up to a chunk of walls
+
+/// Two bits of each of 8 bytes, side by side.
+std::uint64_t pairs_of(std::uint64_t bytes) {
+  bytes = (bytes | bytes >> 6U) & 0x000f000f000f000fU;
+  bytes = (bytes | bytes >> 12U) & 0x000000ff000000ffU;
+  return (bytes | bytes >> 24U) & 0xffffU;
+}
+
+/// One column of tiles.
+class Strip {
+ public:
+  explicit Strip(const CellWallSource& cells) : cells_(cells), reader_(cells.reader()) {}
+
+  std::size_t wall_count(std::size_t number, const Execution& execution) {
+    std::size_t count = 0;
+    for_each_tile(number, execution, [&] {
+      for (std::uint32_t row = 0; row < tile_.height; ++row) {
+        const std::uint8_t* const walls = tile_.walls.data() + tile_.index(0, row);
+        for (std::uint32_t col = 0; col < tile_.width; ++col) count += (walls[col] & 1U) + (walls[col] >> 1U & 1U);
+      }
+    });
+    return count;
+  }
+  /// A byte a cell, column by column.
+  void read(std::size_t number, const Execution& execution) {
+    const std::size_t rows = cells_.rows();
+    for_each_tile(number, execution, [&] {
+      bytes_.resize(tile_.width * rows);
+      for (std::uint32_t row = 0; row < tile_.height; ++row) {
+        const std::uint8_t* from = tile_.walls.data() + tile_.index(0, row);
+        std::uint8_t* to = bytes_.data() + tile_.first_row + row;
+        for (std::uint32_t col = 0; col < tile_.width; ++col) to[col * rows] = from[col];
+      }
+    });
+  }
+  /// Calls take(x, first row, bits) for each column's cells of what was read, 32 at a time, in the course's order: the
+  /// bits are the right and the upper wall of a cell, of the next one, and so on; the right ones stand at x.
+  template <class Take>
+  void for_each_word(const Take& take) const {
+    const std::size_t rows = cells_.rows();
+    for (std::size_t first = 0; first < bytes_.size(); first += rows) {
+      const double x = static_cast<double>(tile_.first_col + first / rows) + 1.5;
+      for (std::size_t row = 0; row < rows; row += 32)
+        take(x, row, word_at(first + row, std::min<std::size_t>(32, rows - row)));
+    }
+  }
+
+ private:
+  template <class See>
+  void for_each_tile(std::size_t number, const Execution& execution, const See& see) {
+    for (std::size_t place = number; place < cells_.tile_count(); place += cells_.tile_cols()) {
+      execution.check();
+      reader_->read(place, tile_);
+      leave_out_the_outline();
+      see();
+    }
+  }
+  void leave_out_the_outline() {
+    const auto keep = [&](std::uint32_t col, std::uint32_t row, std::uint8_t kept) {
+      tile_.walls[tile_.index(col, row)] &= kept;
+    };
+    if (tile_.first_row + tile_.height == cells_.rows()) {
+      for (std::uint32_t col = 0; col < tile_.width; ++col) keep(col, tile_.height - 1, CellTile::right_wall);
+    }
+    if (tile_.first_col + tile_.width < cells_.cols()) return;
+    for (std::uint32_t row = 0; row < tile_.height; ++row) keep(tile_.width - 1, row, CellTile::upper_wall);
+  }
+  std::uint64_t word_at(std::size_t at, std::size_t cells) const {
+    std::uint8_t bytes[32] = {};
+    std::memcpy(bytes, bytes_.data() + at, cells);
+    std::uint64_t word = 0;
+    for (unsigned i = 0; i < 4; ++i) {
+      std::uint64_t eight = 0;
+      for (unsigned k = 0; k < 8; ++k) eight |= std::uint64_t{bytes[8 * i + k]} << (8 * k);
+      word |= pairs_of(eight) << (16 * i);
+    }
+    return word;
+  }
+
+  const CellWallSource& cells_;
+  std::unique_ptr<CellWallReader> reader_;
+  CellTile tile_;
+  std::vector<std::uint8_t> bytes_;
+};
+
+/// The wall of a bit that for_each_word() gave.
+Segment wall_of(double x, std::size_t first_row, unsigned bit) {
+  const double upper = static_cast<double>(bit & 1U);
+  const double high = static_cast<double>(first_row + (bit >> 1U)) + 1.5;
+  return {{x - upper, high - 1.0 + upper}, {x, high}};
+}
+
+/// Chunks of the hash, wall by wall.
+struct Chunks {
+  std::vector<std::uint64_t> whole;
+  WallFold open;  ///< the last one
+  std::size_t open_walls = 0;
+
+  void add(const Segment& wall) {
+    open.add(wall);
+    if (++open_walls == grain) close();
+  }
+  /// As add() for each of the bits, from the lowest.
+  void add(double x, std::size_t first_row, std::uint64_t bits) {
+    const auto count = static_cast<std::size_t>(std::popcount(bits));
+    if (open_walls + count >= grain) {
+      for (; bits != 0; bits &= bits - 1) add(wall_of(x, first_row, static_cast<unsigned>(std::countr_zero(bits))));
+      return;
+    }
+    WallFold fold = open;  // in registers
+    for (; bits != 0; bits &= bits - 1) fold.add(wall_of(x, first_row, static_cast<unsigned>(std::countr_zero(bits))));
+    open = fold;
+    open_walls += count;
+  }
+  void close() {
+    whole.push_back(open.value(open_walls));
+    open = {};
+    open_walls = 0;
+  }
+};
+
+/// The walls of some strips: those before the first chunk that begins in them, and chunks.
+struct Part {
+  std::vector<Segment> head;
+  Chunks chunks;
+
+  /// first: the number of its first wall among all.
+  void add(Strip& strip, std::size_t first) {
+    const std::size_t before = (grain - first % grain) % grain;
+    head.reserve(before);
+    strip.for_each_word([&](double x, std::size_t row, std::uint64_t bits) {
+      for (; bits != 0 && head.size() < before; bits &= bits - 1) {
+        head.push_back(wall_of(x, row, static_cast<unsigned>(std::countr_zero(bits))));
+      }
+      chunks.add(x, row, bits);
+    });
+  }
+};
+
+std::vector<Segment> outline(const CellWallSource& cells) {
+  const double right = cells.cols() + 0.5;
+  const double top = cells.rows() + 0.5;
+  return {{{0.5, 0.5}, {right, 0.5}},
+          {{0.5, top}, {right, top}},
+          {{0.5, 1.5}, {0.5, top}},
+          {{right, 0.5}, {right, top - 1}}};
+}
+
+std::string joined(std::size_t walls, const std::vector<Segment>& frame, const std::vector<Part>& parts) {
+  WallsHash hash(walls);
+  Chunks all;
+  const auto add = [&](const std::vector<Segment>& some) {
+    for (const Segment& wall : some) all.add(wall);
+  };
+  add(frame);
+  for (const Part& part : parts) {
+    add(part.head);
+    if (part.chunks.whole.empty() && part.chunks.open_walls == 0) continue;
+    all.whole.insert(all.whole.end(), part.chunks.whole.begin(), part.chunks.whole.end());
+    all.open = part.chunks.open;
+    all.open_walls = part.chunks.open_walls;
+  }
+  if (all.open_walls > 0) all.close();
+  for (const std::uint64_t chunk : all.whole) hash.add(chunk);
+  return hash.text();
+}
+
+}  // namespace
+
+HashedCells hash_of_cells(const CellWallSource& cells, const Execution& execution) {
+  const std::size_t strips = cells.tile_cols();
+  const std::size_t size = std::max<std::size_t>(1, (strips + most_parts - 1) / most_parts);
+  execution.reserve(most_parts * grain * sizeof(Segment));
+  const std::vector<Segment> frame = outline(cells);
+  std::vector<std::size_t> first(strips + 1, frame.size());
+  for_chunks(strips, size, execution, [&](Range r) {
+    Strip strip(cells);
+    for (std::size_t i = r.first; i < r.last; ++i) first[i + 1] = strip.wall_count(i, execution);
+  });
+  for (std::size_t i = 0; i < strips; ++i) first[i + 1] += first[i];
+  std::vector<Part> parts(chunk_count(strips, size));
+  for_chunks(strips, size, execution, [&](Range r) {
+    Strip strip(cells);
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      strip.read(i, execution);
+      parts[r.first / size].add(strip, first[r.first]);
+    }
+  });
+  return {joined(first.back(), frame, parts), first.back()};
+}
 
 }  // namespace warren

@@ -3,17 +3,20 @@
 // point (c, r), c in 1..cols, r in 1..rows; the outline opens at the left of (1, 1) and at the right of (cols, rows).
 // Carving is serial by nature and needs, cells included, 1 byte a cell for backtracker and wilson, 1 and the frontier
 // for prim, 13 for kruskal and 5 for course; mst (spanning_maze.hpp) and all else is parallel. One file an algorithm:
-// maze_backtracker.cpp, ...
+// maze_walks.cpp, ...
 #pragma once
 
 #include <cassert>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
 
 #include "core/base/raw_vector.hpp"
+#include "core/plane/cell_walls.hpp"
+#include "core/plane/wall_set.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
 
@@ -122,5 +125,58 @@ MazeCells cells_of_walls(const WallSet& walls, MazeHint hint, const Execution& e
 /// proof behind Outcome::infeasible. Throws InputError for cells outside the maze.
 bool flood_connects(const MazeCells& cells, std::pair<std::uint32_t, std::uint32_t> a,
                     std::pair<std::uint32_t, std::uint32_t> b, const Execution& execution);
+
+// Tells a maze by its walls alone, in whatever order and direction they come, whole or in pieces: for files that have
+// no place to say what they hold.
+
+/// The size of the maze of the course: all walls on its grid, and its outline closed but for the entrance in the first
+/// row of the left side and the exit in the last row of the right one. Nothing for other walls. Two passes over the
+/// walls, and a sort of those on the outline. Throws Stopped.
+std::optional<MazeHint> maze_of_walls(const WallSet& walls, const Execution& execution);
+
+// A maze that is held, given tile by tile: what makes every maze of the generators a world whose walls are made when
+// they are asked for. And the way back.
+
+class HeldCells : public CellWallSource {
+ public:
+  HeldCells(MazeCells cells, unsigned side_log2)
+      : CellWallSource(cells.rows(), cells.cols(), side_log2), cells_(std::move(cells)) {}
+  std::unique_ptr<CellWallReader> reader() const override { return std::make_unique<Reader>(*this); }
+
+ private:
+  class Reader : public CellWallReader {
+   public:
+    explicit Reader(const HeldCells& held) : held_(held) {}
+    void read(std::size_t number, CellTile& tile) override {
+      held_.place(number, tile);
+      for (std::ptrdiff_t row = -1; row < std::ptrdiff_t{tile.height}; ++row) {
+        for (std::ptrdiff_t col = -1; col < std::ptrdiff_t{tile.width}; ++col) {
+          const std::ptrdiff_t at_col = std::ptrdiff_t{tile.first_col} + col;
+          const std::ptrdiff_t at_row = std::ptrdiff_t{tile.first_row} + row;
+          tile.walls[tile.index(col, row)] = walls(at_col, at_row);
+        }
+      }
+    }
+
+   private:
+    /// The outline opens left of the first cell and right of the last.
+    std::uint8_t walls(std::ptrdiff_t col, std::ptrdiff_t row) const {
+      const MazeCells& cells = held_.cells_;
+      if (col < 0) return row == 0 ? 0 : CellTile::right_wall;
+      if (row < 0) return CellTile::upper_wall;
+      const auto c = static_cast<std::uint32_t>(col);
+      const auto r = static_cast<std::uint32_t>(row);
+      const bool is_last = c + 1 == cells.cols() && r + 1 == cells.rows();
+      const bool right = cells.wall_right(c, r) && !is_last;
+      return static_cast<std::uint8_t>((right ? 1 : 0) | (cells.wall_above(c, r) ? 2 : 0));
+    }
+    const HeldCells& held_;
+  };
+
+  MazeCells cells_;
+};
+
+/// All cells of a source. Throws InputError for 2^32 cells and more, Stopped.
+MazeCells cells_from(const CellWallSource& source, const Execution& execution);
 
 }  // namespace warren

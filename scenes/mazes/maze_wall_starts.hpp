@@ -2,7 +2,7 @@
 // Walls of a maze from its bits. Cells are cut into runs of 65536 in storage order (column by column); one pass counts
 // the walls that each run owns, sums give its place in the output, a second pass writes. Unit walls are written without
 // branches through a small buffer that stays in the first cache: about 1.5 ns a wall, bound by the memory written to.
-// For whoever makes all walls (maze_walls.cpp), and who makes some columns after the other (wall_strips.cpp).
+// For whoever makes all walls (maze_walls.cpp), and who makes some columns after the other (maze_walls.cpp).
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The maze of the algorithm mst: the minimum spanning tree of the unit grid with the weights of grid_edges.hpp, and the
-// walls of any tile of it by itself. The same maze whatever the tiles and threads.
+// The maze of the algorithm mst: the minimum spanning tree of the unit grid with the weights of spanning_tile.hpp, and
+// the walls of any tile of it by itself. The same maze whatever the tiles and threads.
 //
 // Made in levels. A tile's tree (spanning_tile.hpp) is said in edges between cells of its rim; 8 x 8 neighbours are
 // joined by Kruskal's algorithm over these and the edges between them, then 8 x 8 such groups, until one is left. An
@@ -11,15 +11,41 @@
 // Cost: as SpanningTile, and 2 ns of CPU a cell for the levels; 8 ns of CPU a cell to make a tile again.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
-#include "core/base/kept_parts.hpp"
+#include "core/base/packed_values.hpp"
 #include "core/plane/cell_walls.hpp"
 #include "parallel/execution.hpp"
-#include "scenes/mazes/grid_edges.hpp"
-#include "scenes/mazes/joined_parts.hpp"
 #include "scenes/mazes/spanning_tile.hpp"
+
+namespace warren::maze {
+// Rectangles of the unit grid that are decided but for what their rims stand for, joined to larger ones: a step of
+// spanning_maze.hpp. Kruskal's algorithm over the parts' rim edges and the edges between the parts.
+
+/// A rectangle of tiles whose inner edges are decided but for those that its rim stands for.
+struct RimPart {
+  GridPiece at{};
+  std::vector<RimEdge> edges;
+
+  void pack(ValuePacker& to) const;
+  static RimPart unpack(ValueUnpacker& from);
+};
+
+struct JoinedParts {
+  RimPart whole;
+  /// Edges that are decided now, and in which the whole maze differs from its tiles' trees: those inside a tile that
+  /// are out, and those between tiles that are in.
+  std::vector<std::uint64_t> turned;
+};
+
+/// parts: a rectangle of them, `cols` a row; their edges are used up. side_log2: of the tiles. Throws Stopped.
+JoinedParts join_parts(std::uint64_t seed, std::span<RimPart> parts, std::size_t cols, unsigned side_log2,
+                       const Execution& execution);
+
+}  // namespace warren::maze
 
 namespace warren {
 

@@ -11,7 +11,7 @@
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
 #include "parallel/chunks.hpp"
-#include "scenes/scene/is_simple_outline.hpp"
+#include "scenes/scene/rings.hpp"
 
 namespace warren {
 namespace {

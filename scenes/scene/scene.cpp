@@ -14,7 +14,6 @@
 
 #include "core/base/rng.hpp"
 #include "parallel/chunks.hpp"
-#include "scenes/scene/wall_fold.hpp"
 
 namespace warren {
 namespace {

@@ -2,7 +2,11 @@
 // Everything that a world file can say, as plain data: the common ground of readers, writers, generator and worlds.
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -158,5 +162,78 @@ std::vector<Segment> bounds_walls(const Scene& scene);
 
 /// The clearance, if it is one that a body can keep: throws InputError where it is not from 0 to largest_coordinate.
 double checked_clearance(double clearance);
+
+// What a unit of a scene's coordinates is called, where its file says so.
+
+/// "cells" of mazes, of Moving AI's maps and of images, "m" of maps of map_server; "": nobody says.
+inline std::string_view unit_of(const Scene& scene) {
+  if (scene.maze) return "cells";
+  if (!scene.map) return {};
+  return scene.map->format == MapFormat::ros ? "m" : "cells";
+}
+
+/// " m" behind lengths that are metres; nothing behind others, whose unit is that of all coordinates.
+inline std::string_view metres_behind(std::string_view unit) { return unit == "m" ? " m" : ""; }
+
+// The hash of walls that follow each other, wall by wall: a chunk of scene_hash()'s, also for whoever holds no walls.
+
+/// Two words in one: the halves of their product.
+inline std::uint64_t folded_words(std::uint64_t a, std::uint64_t b) {
+  __extension__ using Wide = unsigned __int128;
+  const Wide product = static_cast<Wide>(a) * b;
+  return static_cast<std::uint64_t>(product) ^ static_cast<std::uint64_t>(product >> 64);
+}
+/// The words of a double, where -0 is 0; never equal to a secret, which are no doubles of a sane size.
+inline std::uint64_t hashed_word(double x) { return std::bit_cast<std::uint64_t>(x + 0.0); }
+
+inline constexpr std::uint64_t fold_secret_a = 0xa0761d6478bd642fU;
+inline constexpr std::uint64_t fold_secret_b = 0xe7037ed1a0b428dbU;
+
+/// One chunk of walls.
+class WallFold {
+ public:
+  void add(const Segment& s) {
+    first_ = folded_words(hashed_word(s.a.x) ^ fold_secret_a, hashed_word(s.a.y) ^ first_);
+    second_ = folded_words(hashed_word(s.b.x) ^ fold_secret_b, hashed_word(s.b.y) ^ second_);
+  }
+  /// walls: how many were added.
+  std::uint64_t value(std::size_t walls) const {
+    return folded_words(first_ ^ fold_secret_b, second_ ^ fold_secret_a ^ walls);
+  }
+
+ private:
+  std::uint64_t first_ = fold_secret_a;
+  std::uint64_t second_ = fold_secret_b;
+};
+
+// A Denavit-Hartenberg table of a serial chain of revolute joints, as plain data: what planners and judges of arms have
+// in common. What it means is said in worlds/arms/serial_chain.hpp.
+
+using Vec3 = Eigen::Vector3d;  ///< a point or vector of space; units of the world
+
+/// Joints that an arm may have.
+inline constexpr std::size_t most_joints = 6;
+/// Joint angles in radians; those that a shorter chain lacks are 0.
+using JointState = std::array<double, most_joints>;
+
+/// Where a joint's frame stands: at its far end (standard), or at its near one (modified, as Craig has it).
+enum class DhConvention : std::uint8_t { standard, modified };
+
+/// A row of the table: lengths in the world's unit, angles in radians. Limits are of q, without the offset.
+struct DhJoint {
+  double d = 0.0;           ///< along the joint's axis
+  double a = 0.0;           ///< length of the link
+  double alpha_rad = 0.0;   ///< twist of the link
+  double low_rad = 0.0;     ///< finite
+  double high_rad = 0.0;    ///< >= low_rad
+  double offset_rad = 0.0;  ///< is added to q
+};
+
+/// A serial chain of revolute joints.
+struct DhTable {
+  DhConvention convention = DhConvention::standard;        ///< how its rows are read
+  std::vector<DhJoint> joints;                             ///< 1 .. 6
+  Eigen::Isometry3d tool = Eigen::Isometry3d::Identity();  ///< from the last frame
+};
 
 }  // namespace warren

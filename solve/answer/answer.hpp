@@ -2,23 +2,85 @@
 // The account of one solve: the answer, what it means, and what it took. Plain data; write_answer_io.hpp writes it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "core/base/path.hpp"
 #include "core/base/solution.hpp"
-#include "parallel/deadline.hpp"
-#include "solve/answer/explanation.hpp"
-#include "solve/answer/state_list.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/se2.hpp"
+#include "parallel/execution.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/question/figure.hpp"
 #include "solve/question/question.hpp"
 #include "verify/judges/verification.hpp"
 
 namespace warren {
+// What became of the work of a solve beyond what its answer tells anyhow: which stage lost what, where it is narrow,
+// and what would likely help. Plain data; exact, and the same for any number of threads.
+
+/// Of the graph of a roadmap all of whose edges were checked; start and goal count as milestones.
+struct ComponentFacts {
+  std::uint64_t count = 0;       ///< components
+  std::uint64_t milestones = 0;  ///< in all of them
+  std::uint64_t largest = 0;     ///< milestones in the largest
+  std::uint64_t alone = 0;       ///< components of one milestone
+  std::uint64_t of_start = 0;    ///< milestones in the one of the start
+  std::uint64_t of_goal = 0;     ///< milestones in the one of the goal
+  bool joined = false;           ///< are start and goal in one?
+};
+
+/// Where the body has least room along the path.
+struct NarrowPlace {
+  std::uint64_t leg = 0;      ///< from this state of the path to the next, from 0
+  std::optional<Vec2> place;  ///< of the reference point; of bodies that turn where the leg begins, of arms none
+  double clearance = 0.0;     ///< room around the body there, world units
+  /// Of so many uniform samples one falls into a square as wide as that room; of paths over samples alone.
+  std::optional<double> one_sample_in;
+};
+
+/// What would likely help, as words of the command that was given or of another one.
+struct Hint {
+  std::string verb;                ///< whose options they are; empty: of the command that gave this answer
+  std::vector<std::string> words;  ///< options to add or to replace; empty: it takes more than an option
+  std::string why;                 ///< what they would do
+};
+
+/// What an answer means: what became of the roadmap, where it is narrow, what would help.
+struct Explanation {
+  std::optional<ComponentFacts> components;  ///< of prm, where the graph is there and its edges lead both ways
+  std::optional<NarrowPlace> narrowest;      ///< of a path that keeps a distance
+  std::vector<Hint> hints;                   ///< where there is no path, the likeliest first; this world takes them
+  std::optional<StopReason> stopped;         ///< why what is missing here is
+};
+
+// The states of a path, whatever the body: so many numbers each, one after the other.
+
+/// States of any body, one after the other.
+struct StateList {
+  std::size_t width = 2;        ///< numbers a state: 2, 3 or 6
+  std::vector<double> numbers;  ///< width * size() of them
+
+  /// States.
+  std::size_t size() const { return numbers.size() / width; }
+  /// Are there none?
+  bool empty() const { return numbers.empty(); }
+  /// The numbers of state i; i < size().
+  std::span<const double> operator[](std::size_t i) const { return std::span(numbers).subspan(i * width, width); }
+  /// state has `width` numbers.
+  void add(std::span<const double> state) { numbers.insert(numbers.end(), state.begin(), state.end()); }
+};
+
+/// Of states of three numbers.
+inline std::vector<Se2> poses_of(const StateList& states) {
+  std::vector<Se2> poses;
+  for (std::size_t i = 0; i < states.size(); ++i) poses.push_back({states[i][0], states[i][1], states[i][2]});
+  return poses;
+}
 
 /// Size of a decomposition.
 struct CellCount {
@@ -50,7 +112,7 @@ struct BlockedEnd {
   std::optional<double> depth = {};
 };
 
-/// What is left to say of a path whose points were handed on as they were made (core/base/path_taker.hpp).
+/// What is left to say of a path whose points were handed on as they were made (core/base/solution.hpp).
 struct HandedPath {
   std::uint64_t points = 0;  ///< their number
   std::string hash;          ///< solve/answer/path_hash.hpp
@@ -103,5 +165,11 @@ inline std::uint64_t path_points(const Answer& answer) {
 
 /// Stages with the names that JSON and summary give them, in the order of the work.
 std::vector<std::pair<const char*, double>> named_stages(const StageTimes& seconds);
+
+/// What a judge says of a path, and about which question: the members of Verification (verified, length, min_clearance
+/// around the body, first_violation, …) and the problem that was judged.
+struct Verdict : Verification {
+  Problem problem;  ///< that was judged
+};
 
 }  // namespace warren

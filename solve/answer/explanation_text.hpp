@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "scenes/text/palette.hpp"
+#include "scenes/files/human_units.hpp"
 #include "solve/answer/answer.hpp"
 
 namespace warren {
@@ -18,5 +18,11 @@ std::string text_of(const NarrowPlace& narrow);
 std::string narrowest_json(const std::optional<NarrowPlace>& narrow);
 /// The value of the key "explained".
 std::string explanation_json(const Answer& answer);
+
+// What a summary's figures leave open unless somebody says it: samples that were dropped, edges that nobody asked
+// about, what an estimate cost, that another option would find the shortest way.
+
+/// Lines of a name and a text, each with its end; empty where there is nothing to note.
+std::string notes_text(const Answer& answer, const Palette& palette);
 
 }  // namespace warren

@@ -8,12 +8,12 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/path.hpp"
+#include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
+#include "scenes/files/input_file_io.hpp"
 #include "scenes/scene/scene.hpp"
-#include "scenes/text/input_file_io.hpp"
-#include "solve/answer/state_list.hpp"
+#include "solve/answer/answer.hpp"
 #include "solve/question/question.hpp"
 
 namespace warren {

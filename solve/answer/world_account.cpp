@@ -3,11 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
-#include "scenes/formats/scene_io.hpp"
-#include "scenes/scene/unit_of.hpp"
-#include "scenes/text/human_units.hpp"
+#include "scenes/files/human_units.hpp"
+#include "scenes/files/json_text.hpp"
+#include "scenes/files/scene_io.hpp"
+#include "scenes/scene/scene.hpp"
+#include "solve/question/question.hpp"
 
 namespace warren {
 
@@ -49,6 +52,113 @@ std::string description_of(const Scene& scene) {
   add_solids(scene.spheres.size(), "sphere", "spheres");
   add_solids(scene.boxes.size(), "box", "boxes");
   return text;
+}
+
+namespace {
+
+std::string numbers_json(const std::vector<double>& numbers) {
+  std::string text = "[";
+  for (const double value : numbers) text += (text.size() > 1 ? ", " : "") + json_number(value);
+  return text + "]";
+}
+
+/// Without what the last digits of a double may be by rounding.
+std::string rounded_text(double number) {
+  constexpr double most_plain = 1e12;
+  return std::abs(number) < most_plain ? fmt::format("{:.12g}", number) : fmt::format("{}", number);
+}
+
+Fact text_fact(const char* name, const std::string& text) { return {name, text, json_string(text)}; }
+Fact number_fact(const char* name, double number) { return {name, rounded_text(number), json_number(number)}; }
+Fact count_fact(const char* name, std::size_t count) { return {name, grouped(count), std::to_string(count)}; }
+Fact state_fact(const char* name, const std::vector<double>& state) {
+  std::string text;
+  for (const double number : state) text += (text.empty() ? "" : ", ") + rounded_text(number);
+  return {name, std::move(text), numbers_json(state)};
+}
+Fact box_fact(const char* name, const Box& box) {
+  return {name,
+          fmt::format("{} to {}, {} to {}", rounded_text(box.min.x), rounded_text(box.max.x), rounded_text(box.min.y),
+                      rounded_text(box.max.y)),
+          numbers_json({box.min.x, box.min.y, box.max.x, box.max.y})};
+}
+
+std::vector<Fact> map_facts(const Scene& scene, const WorldAccount& world, const Execution& execution) {
+  constexpr const char* formats[] = {"Moving AI map", "map server", "image"};
+  const OccupancyMap& map = *scene.map;
+  std::vector<Fact> facts{text_fact("source", world.source),
+                          text_fact("kind", world.kind),
+                          text_fact("format", formats[static_cast<std::size_t>(map.format)]),
+                          count_fact("width", map.width()),
+                          count_fact("height", map.height()),
+                          count_fact("free", map.free),
+                          count_fact("occupied", map.occupied)};
+  if (map.format == MapFormat::ros) {
+    facts.push_back(count_fact("unknown", map.unknown_count));
+    facts.push_back(count_fact("between", map.between));
+    facts.push_back({"origin",
+                     fmt::format("{}, {}, yaw {}", rounded_text(map.origin.x), rounded_text(map.origin.y),
+                                 rounded_text(map.yaw_rad)),
+                     numbers_json({map.origin.x, map.origin.y, map.yaw_rad})});
+  }
+  if (!map.water.empty()) facts.push_back(count_fact("water", map.water.count()));
+  facts.push_back(number_fact("resolution", map.cell));
+  facts.push_back(box_fact("box", obstacle_box(scene, execution)));
+  facts.push_back(text_fact("hash", world.hash));
+  return facts;
+}
+
+std::string held_as(const WallSet& walls) {
+  if (walls.holds_packed()) return "packed";
+  return walls.holds_floats() ? "float" : "double";
+}
+
+std::vector<Fact> obstacle_facts(const Scene& scene, const WorldAccount& world, const Execution& execution) {
+  if (scene.map) return map_facts(scene, world, execution);
+  std::vector<Fact> facts{text_fact("source", world.source), text_fact("kind", world.kind),
+                          count_fact("walls", scene.walls.size())};
+  if (scene.walls.size() > 0) facts.push_back(text_fact("held as", held_as(scene.walls)));
+  if (!scene.polygons.empty()) {
+    facts.push_back(count_fact("polygons", scene.polygons.size()));
+    std::size_t corners = 0;
+    for (const ScenePolygon& polygon : scene.polygons) corners += polygon.corners.size();
+    facts.push_back(count_fact("corners", corners));
+  }
+  if (!scene.spheres.empty()) facts.push_back(count_fact("spheres", scene.spheres.size()));
+  if (!scene.boxes.empty()) facts.push_back(count_fact("boxes", scene.boxes.size()));
+  if (const Box box = obstacle_box(scene, execution); !box.empty()) facts.push_back(box_fact("box", box));
+  if (scene.bounds) facts.push_back(box_fact("bounds", *scene.bounds));
+  facts.push_back(text_fact("hash", world.hash));
+  return facts;
+}
+
+void add_problem_facts(const Scene& scene, std::vector<Fact>& facts) {
+  if (scene.maze) {
+    facts.push_back({"maze", fmt::format("{} rows, {} columns", scene.maze->rows, scene.maze->cols),
+                     fmt::format("[{}, {}]", scene.maze->rows, scene.maze->cols)});
+  }
+  if (scene.clearance) facts.push_back(number_fact("clearance", *scene.clearance));
+  if (scene.robot) facts.push_back(text_fact("robot", robot_text(*scene.robot)));
+  if (!scene.start.empty()) facts.push_back(state_fact("start", scene.start));
+  if (!scene.goal.empty()) facts.push_back(state_fact("goal", scene.goal));
+  if (scene.grid) {
+    facts.push_back({"grid", fmt::format("cell {}, {} angles", rounded_text(scene.grid->cell), scene.grid->angles),
+                     fmt::format("[{}, {}]", json_number(scene.grid->cell), scene.grid->angles)});
+  }
+}
+
+}  // namespace
+
+std::vector<Fact> facts_of(const Scene& scene, const Execution& execution) {
+  std::vector<Fact> facts = obstacle_facts(scene, account_of(scene, execution), execution);
+  add_problem_facts(scene, facts);
+  return facts;
+}
+
+std::string facts_json(const std::vector<Fact>& facts) {
+  std::string text = R"({"schema": "warren.info/1")";
+  for (const Fact& fact : facts) text += ",\n " + json_string(fact.name) + ": " + fact.json;
+  return text + "}\n";
 }
 
 }  // namespace warren

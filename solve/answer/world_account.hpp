@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
@@ -33,5 +34,17 @@ WorldAccount account_of(const Scene& scene, std::string hash, std::size_t walls)
 
 /// "41 x 41 maze, 1,604 walls": what a person wants to know first.
 std::string description_of(const Scene& scene);
+
+// What is in a world, line by line, for people and as JSON (warren.info/1).
+
+struct Fact {
+  std::string name;
+  std::string text;  ///< for people
+  std::string json;
+};
+
+/// Throws Stopped. O(size of the scene), for its hash.
+std::vector<Fact> facts_of(const Scene& scene, const Execution& execution);
+std::string facts_json(const std::vector<Fact>& facts);
 
 }  // namespace warren

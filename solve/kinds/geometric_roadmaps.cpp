@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "parallel/assemble_graph.hpp"
-#include "parallel/polled_sort.hpp"
+#include "parallel/sort.hpp"
 #include "planners/axis/medial_axis_planner.hpp"
+#include "planners/graph/assemble_graph.hpp"
 #include "planners/grid/skeleton_planner.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "solve/kinds/map_steps.hpp"

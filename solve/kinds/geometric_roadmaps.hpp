@@ -14,7 +14,7 @@
 #include "planners/grid/skeleton_planner.hpp"
 #include "planners/vertical_cells/cell_planner.hpp"
 #include "planners/visibility/visibility_path.hpp"
-#include "solve/steps/kind_of_problem.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
 
 namespace warren {
 

@@ -3,9 +3,8 @@
 
 #include "core/base/error.hpp"
 #include "planners/grid/grid_search.hpp"
-#include "scenes/formats/moving_ai_io.hpp"
-#include "solve/steps/settled_ends.hpp"
-#include "solve/steps/solve_steps.hpp"
+#include "scenes/files/moving_ai_io.hpp"
+#include "solve/kinds/solve_steps.hpp"
 #include "spatial/maps/distance_field.hpp"
 #include "verify/judges/verify_map.hpp"
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "core/base/bitmap.hpp"
-#include "core/base/path.hpp"
+#include "core/base/solution.hpp"
 #include "core/plane/se2.hpp"
 #include "scenes/scene/occupancy_map.hpp"
-#include "solve/steps/kind_of_problem.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
 #include "verify/judges/verify_point.hpp"
 
 namespace warren {
@@ -33,7 +33,7 @@ Bitmap closed_cells(const OccupancyMap& map, Vec2 start);
 bool stands_free_on_map(const OccupancyMap& map, const WallProblem& problem, Vec2 p, const Execution& execution);
 /// Then its goal may lie there, too.
 bool starts_on_water(const OccupancyMap& map, Vec2 start);
-/// What is said of the ends where one is called blocked (solve/steps/settled_ends.hpp): by the verification.
+/// What is said of the ends where one is called blocked (solve/kinds/solve_steps.hpp): by the verification.
 Outcome settled_on_map(Outcome outcome, const OccupancyMap& map, const WallProblem& problem,
                        const Execution& execution);
 

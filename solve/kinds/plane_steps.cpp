@@ -7,8 +7,8 @@
 
 #include "core/base/error.hpp"
 #include "planners/vertical_cells/cell_decomposition.hpp"
-#include "scenes/scene/holes_cut_open.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
+#include "scenes/scene/rings.hpp"
 
 namespace warren {
 namespace {

@@ -13,7 +13,7 @@
 #include "planners/axis/medial_axis_planner.hpp"
 #include "planners/vertical_cells/cell_planner.hpp"
 #include "solve/answer/by_products.hpp"
-#include "solve/steps/kind_of_problem.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
 
 namespace warren {
 

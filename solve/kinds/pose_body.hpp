@@ -13,8 +13,8 @@
 
 #include "planners/shorten/shortcut.hpp"
 #include "solve/kinds/map_steps.hpp"
-#include "solve/steps/question_of_pose.hpp"
-#include "solve/steps/sampled_solve.hpp"
+#include "solve/kinds/question_of_pose.hpp"
+#include "solve/kinds/sampled_solve.hpp"
 #include "verify/judges/verify_turning.hpp"
 
 namespace warren {

@@ -13,12 +13,12 @@
 
 #include "core/base/error.hpp"
 #include "planners/shorten/shortcut.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
+#include "solve/kinds/sampled_roadmap.hpp"
+#include "solve/kinds/sampled_solve.hpp"
+#include "solve/kinds/solve_steps.hpp"
+#include "solve/question/planner_choice.hpp"
 #include "solve/question/question_of_arm.hpp"
-#include "solve/question/tree_choice.hpp"
-#include "solve/steps/kind_of_problem.hpp"
-#include "solve/steps/sampled_roadmap.hpp"
-#include "solve/steps/sampled_solve.hpp"
-#include "solve/steps/solve_steps.hpp"
 #include "worlds/arms/arm_world.hpp"
 #include "worlds/arms/tool_postures.hpp"
 

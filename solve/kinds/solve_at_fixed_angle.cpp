@@ -15,8 +15,8 @@
 #include "core/base/error.hpp"
 #include "planners/visibility/visibility_path.hpp"
 #include "solve/kinds/plane_steps.hpp"
+#include "solve/kinds/solve_steps.hpp"
 #include "solve/kinds/turning_judge.hpp"
-#include "solve/steps/solve_steps.hpp"
 #include "worlds/plane/obstacles_at_fixed_angle.hpp"
 
 namespace warren {

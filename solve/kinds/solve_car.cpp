@@ -13,16 +13,15 @@
 
 #include "core/base/error.hpp"
 #include "planners/shorten/redrive.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/pose_body.hpp"
-#include "solve/question/tree_choice.hpp"
-#include "solve/steps/kind_of_problem.hpp"
-#include "solve/steps/question_of_pose.hpp"
-#include "solve/steps/sampled_roadmap.hpp"
-#include "solve/steps/sampled_solve.hpp"
-#include "solve/steps/solve_steps.hpp"
+#include "solve/kinds/question_of_pose.hpp"
+#include "solve/kinds/sampled_roadmap.hpp"
+#include "solve/kinds/sampled_solve.hpp"
+#include "solve/kinds/solve_steps.hpp"
+#include "solve/question/planner_choice.hpp"
 #include "verify/judges/verify_car.hpp"
 #include "worlds/poses/car_world.hpp"
-#include "worlds/poses/priced_car.hpp"
 
 namespace warren {
 namespace {

@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A point or disc among polygons and walls: joins worlds/plane/polygon_world with the planners that sample it.
+
+#include <fmt/format.h>
+
+#include <array>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 #include "core/base/error.hpp"
+#include "planners/axis/medial_axis_planner.hpp"
 #include "planners/shorten/taut_path.hpp"
+#include "planners/vertical_cells/cell_planner.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "solve/kinds/geometric_roadmaps.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/plane_steps.hpp"
-#include "solve/steps/kind_of_problem.hpp"
-#include "solve/steps/sampled_roadmap.hpp"
-#include "solve/steps/sampled_solve.hpp"
-#include "solve/steps/solve_steps.hpp"
+#include "solve/kinds/sampled_roadmap.hpp"
+#include "solve/kinds/sampled_solve.hpp"
+#include "solve/kinds/solve_steps.hpp"
 #include "worlds/plane/polygon_world.hpp"
 
 namespace warren {
@@ -116,6 +124,139 @@ SolveKind plane_kind() {
           recheck_plane,
           build_on_plane,
           open_on_plane};
+}
+
+// The planner cells: vertical cells, a route through them, and a path through its doors. That there is no route proves
+// that there is no path.
+
+CellOptions cell_options(const SolveOptions& asked, const SearchChoice& search) {
+  const CellOptions options{
+      .doors = asked.cells.doors.value_or(DoorKind::midpoint), .search = search.search, .queue = search.queue};
+  if (options.doors == DoorKind::funnel && asked.queue) {
+    throw UsageError("@queue: @doors funnel searches with a queue of its own; @doors midpoint takes others");
+  }
+  return options;
+}
+
+NamedFigure doors_option(const CellOptions& options) { return {"doors", std::string(name_of(options.doors))}; }
+
+NamedLines doors_of(const CellDecomposition& cells) {
+  NamedLines doors{"cells", {}};
+  for (std::uint32_t door = 0; door < cells.doors.size(); ++door) {
+    const Segment line = cells.door_line(door);
+    doors.lines.add(std::array{line.a, line.b});
+  }
+  return doors;
+}
+
+Answer solve_by_cells(const SolveRequest& request) {
+  const WallProblem problem = touching_problem(request);
+  const SearchChoice search = search_choice(request.options);
+  const CellOptions options = cell_options(request.options, search);
+  Answer answer;
+  describe_plane_planner(answer, request, problem, search);
+  answer.options.push_back(doors_option(options));
+  answer_within_limits(answer, [&] {
+    const CellRoadmap* known = asked_roadmap<CellRoadmap>(request);
+    PlaneObstacles obstacles;
+    if (known == nullptr) obstacles = indexed_obstacles(request, answer);
+    if (stand_on_seams(request, problem, answer)) return;
+    CellPlan plan;
+    Solution<Vec2> solution;
+    without_clashes(request, [&] {
+      const auto& [start, goal] = std::tie(problem.start, problem.goal);
+      solution = known != nullptr ? plan_through_cells(*known, start, goal, options, request.execution)
+                                  : plan_through_cells(obstacles, start, goal, options, request.execution, &plan);
+    });
+    take_solution(answer, std::move(solution));
+    const CellDecomposition& cells = known != nullptr ? known->cells : plan.cells;
+    answer.cells = CellCount{cells.cells.size(), cells.doors.size()};
+    if (answer.outcome == Outcome::not_connected) answer.outcome = Outcome::infeasible;  // cells miss no way
+    if (request.keep != nullptr) request.keep->lines.push_back(doors_of(cells));
+    verify_solved(answer, request.scene, problem, request.execution, request.asked.judged());
+  });
+  return answer;
+}
+
+// The planner voronoi: along the medial axis, as far from all obstacles as a path can be. min_clearance of the answer
+// is measured on the path by the verification.
+
+namespace {
+
+MedialAxisOptions options_of(const SolveRequest& request, const WallProblem& problem, const SearchChoice& search) {
+  MedialAxisOptions options;
+  options.clearance = axis_clearance(problem);
+  options.search = search.search;
+  options.queue = search.queue;
+  options.objective = request.options.axis.objective.value_or(AxisObjective::length);
+  return options;
+}
+
+Solution<Vec2> plan_from_nothing(const SolveRequest& request, const WallProblem& problem,
+                                 const MedialAxisOptions& options, Answer& answer, MedialAxisPlan& plan) {
+  check_axis_box(request.scene);
+  const PlaneObstacles obstacles = indexed_obstacles(request, answer);
+  Solution<Vec2> solution;
+  without_clashes(request, [&] {
+    solution = plan_on_medial_axis(obstacles, problem.start, problem.goal, options, request.execution, &plan);
+  });
+  return solution;
+}
+
+NamedLines lines_of(const MedialAxis& axis) {
+  NamedLines lines{"medial_axis", {}};
+  std::vector<Vec2> points;
+  for (const AxisEdge& edge : axis.edges()) {
+    points.assign(1, axis.vertices()[edge.from]);
+    axis.curve(edge).append_polyline(points);
+    lines.lines.add(points);
+  }
+  return lines;
+}
+
+}  // namespace
+
+WallProblem voronoi_problem(const Scene& scene, const Question& question) {
+  return keeping_off(scene, question, "voronoi keeps off the obstacles");
+}
+
+double axis_clearance(const WallProblem& problem) {
+  constexpr double planning_room = 1 + 1e-9;
+  return problem.reach() * planning_room;
+}
+
+void check_axis_box(const Scene& scene) {
+  const Box box = scene.bounds ? *scene.bounds : obstacle_box(scene);
+  if (box.empty() || (box.width() > 0.0 && box.height() > 0.0)) return;
+  throw InputError(scene.source, "voronoi needs bounds, or obstacles, that span an area",
+                   fmt::format("{} x {}", box.width(), box.height()));
+}
+
+Answer solve_on_medial_axis(const SolveRequest& request) {
+  const WallProblem problem = voronoi_problem(request.scene, request.question);
+  const SearchChoice search = search_choice(request.options);
+  const MedialAxisOptions options = options_of(request, problem, search);
+  Answer answer;
+  describe_plane_planner(answer, request, problem, search);
+  answer.options.push_back({"objective", std::string(name_of(options.objective))});
+  answer_within_limits(answer, [&] {
+    MedialAxisPlan plan;
+    const AxisRoadmap* known = asked_roadmap<AxisRoadmap>(request);
+    take_solution(answer, known != nullptr ? plan_on_medial_axis(*known, problem.start, problem.goal, options,
+                                                                 request.execution, &plan)
+                                           : plan_from_nothing(request, problem, options, answer, plan));
+    settle_blocked_ends(answer, request.scene, problem, request.execution, request.asked.judged());
+    if (problem.start == problem.goal && !is_blocked(answer.outcome) && answer.outcome != Outcome::stopped) {
+      stay(answer, problem);
+    } else if (answer.outcome == Outcome::solved) {
+      answer.path_figures.push_back({"axis_length", plan.axis_length});
+      answer.path_figures.push_back({"axis_clearance", plan.axis_clearance});
+    }
+    const MedialAxis* axis = known != nullptr ? &known->axis : plan.axis ? &*plan.axis : nullptr;
+    if (request.keep != nullptr && axis != nullptr) request.keep->lines.push_back(lines_of(*axis));
+    verify_solved(answer, request.scene, problem, request.execution, request.asked.judged());
+  });
+  return answer;
 }
 
 }  // namespace warren

@@ -1,14 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Joins Se2World with the planners that take it: a polygon that turns among walls, polygons and bounds, or on a map.
+
+#include <algorithm>
 #include <cmath>
+#include <memory>
+#include <numbers>
 #include <optional>
 #include <utility>
 
+#include "core/base/error.hpp"
+#include "core/plane/se2.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+#include "solve/kinds/geometric_roadmaps.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
+#include "solve/kinds/map_steps.hpp"
+#include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/pose_body.hpp"
+#include "solve/kinds/question_of_pose.hpp"
+#include "solve/kinds/sampled_roadmap.hpp"
+#include "solve/kinds/sampled_solve.hpp"
+#include "solve/kinds/solve_steps.hpp"
 #include "solve/kinds/turning_judge.hpp"
-#include "solve/steps/kind_of_problem.hpp"
-#include "solve/steps/sampled_roadmap.hpp"
-#include "solve/steps/sampled_solve.hpp"
 #include "worlds/poses/se2_world.hpp"
 
 namespace warren {
@@ -63,6 +75,131 @@ SolveKind turning_kind() {
           recheck_turning,
           build_sampled<TurningPolygon>,
           open_sampled<TurningPolygon>};
+}
+
+// The planner voronoi for a polygon that could turn: along the medial axis of the scene, or the skeleton of a map, with
+// the disc that holds the body in any heading, so the heading of the start serves all the way; where the goal names
+// another, the body turns when it is there. A body that fits only in some headings is not found a way: not_connected.
+
+namespace {
+
+constexpr PlannerChoice turning_axis_planners[] = {
+    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue}}};
+
+PlannerKind usual_turning_axis_planner(const SolveOptions&, const Scene&, const Question&) {
+  return PlannerKind::voronoi;
+}
+
+/// The same question for the disc that holds the body.
+Question question_of_disc(const PoseProblem& problem) {
+  Question options;
+  options.robot = RobotSpec{.kind = RobotKind::disc, .outline = {}};
+  for (const Vec2 p : problem.robot.outline) options.robot->radius = std::max(options.robot->radius, norm(p));
+  options.start = {problem.start.x, problem.start.y};
+  options.goal = {problem.goal[0], problem.goal[1]};
+  options.clearance = problem.clearance;
+  return options;
+}
+
+class AxisSolve {
+ public:
+  explicit AxisSolve(const SolveRequest& request)
+      : request_(request), problem_(pose_problem(request.scene, request.question, turning_body)) {}
+
+  Answer run() {
+    const Question disc = question_of_disc(problem_);
+    const SolveRequest of_disc{request_.options,   request_.scene, disc,          request_.planner,
+                               request_.execution, request_.keep,  request_.asked};
+    answer_ = request_.scene.map ? solve_on_skeleton(of_disc) : solve_on_medial_axis(of_disc);
+    answer_.problem = problem_.general();
+    const double seconds = answer_.solve_s;
+    const Outcome outcome = answer_.outcome;
+    if (outcome != Outcome::stopped) answer_within_limits(answer_, [&] { finish(); });
+    if (outcome != Outcome::stopped) answer_.solve_s += seconds;
+    return std::move(answer_);
+  }
+
+ private:
+  void finish() {
+    if (answer_.outcome != Outcome::solved) settle_blocked_ends();
+    if (answer_.outcome != Outcome::solved) return;
+    for (const Vec2 p : answer_.path) poses_.push_back({p.x, p.y, problem_.start.theta});
+    turn_at_the_goal();
+    judge_turning(request_.scene, problem_, poses_, request_.execution, answer_, request_.asked.judged());
+  }
+
+  /// In steps of at most a third of a turn, so that the way round is never in doubt.
+  void turn_at_the_goal() {
+    if (problem_.any_heading()) return;
+    constexpr double most_rad = 2.0 * std::numbers::pi / 3.0;
+    const double turn = turn_between(problem_.start.theta, problem_.goal[2]);
+    const auto steps = static_cast<int>(std::ceil(std::abs(turn) / most_rad));
+    for (int i = 1; i <= steps; ++i) {
+      const double theta = i == steps ? problem_.goal[2] : problem_.start.theta + turn * i / steps;
+      poses_.push_back({problem_.goal[0], problem_.goal[1], theta});
+    }
+  }
+
+  /// The disc doesn't fit; the body may.
+  void settle_blocked_ends() {
+    const bool at_start = answer_.outcome == Outcome::start_blocked;
+    const bool is_settled = !is_blocked(answer_.outcome);
+    settle_blocked_poses(answer_, request_.scene, problem_, request_.execution, [&](const Se2& pose) {
+      return turning_stands_free(request_.scene, problem_, pose, request_.execution, request_.asked.judged());
+    });
+    if (is_settled || is_blocked(answer_.outcome)) return;
+    if (is_there()) return stay();
+    answer_.figures.push_back({"cause", std::string(at_start ? "disc_blocked_at_start" : "disc_blocked_at_goal")});
+  }
+
+  bool is_there() const {
+    const Se2 goal = problem_.goal_pose();
+    return problem_.start.position() == goal.position() &&
+           (problem_.any_heading() || problem_.start.theta == goal.theta);
+  }
+  void stay() {
+    answer_.outcome = Outcome::solved;
+    answer_.path = {problem_.start.position(), problem_.goal_pose().position()};
+  }
+
+  const SolveRequest& request_;
+  PoseProblem problem_;
+  Path<Se2> poses_;
+  Answer answer_;
+};
+
+Answer solve_turning_axis(const SolveRequest& request) { return AxisSolve(request).run(); }
+
+/// The disc's roadmap.
+SolveRequest request_of_disc(const SolveRequest& request, const Question& disc) {
+  SolveRequest of_disc{request.options, request.scene, disc, request.planner, request.execution};
+  of_disc.many = request.many;
+  return of_disc;
+}
+
+BuiltArrays build_turning_axis(const SolveRequest& request) {
+  const Question disc = question_of_disc(pose_problem(request.scene, request.question, turning_body));
+  return build_geometric(request_of_disc(request, disc));
+}
+
+std::unique_ptr<RoadmapSession> open_turning_axis(const SolveRequest& request, const RoadmapArrays& arrays,
+                                                  const ConnectionRule& rule) {
+  const Question disc = question_of_disc(pose_problem(request.scene, request.question, turning_body));
+  return open_geometric(request_of_disc(request, disc), arrays, rule);
+}
+
+}  // namespace
+
+SolveKind turning_axis_kind() {
+  return {"a polygon along the medial axis",
+          fits_turning,
+          turning_axis_planners,
+          usual_turning_axis_planner,
+          solve_turning_axis,
+          nullptr,
+          nullptr,
+          build_turning_axis,
+          open_turning_axis};
 }
 
 }  // namespace warren

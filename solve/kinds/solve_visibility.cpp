@@ -11,13 +11,13 @@
 #include "core/base/error.hpp"
 #include "core/search/graph.hpp"
 #include "core/search/search.hpp"
-#include "parallel/assemble_graph.hpp"
+#include "planners/graph/assemble_graph.hpp"
 #include "planners/graph/queue_choice.hpp"
 #include "planners/visibility/sampled_visibility.hpp"
 #include "planners/visibility/visibility_path.hpp"
 #include "solve/kinds/geometric_roadmaps.hpp"
 #include "solve/kinds/plane_steps.hpp"
-#include "solve/steps/solve_steps.hpp"
+#include "solve/kinds/solve_steps.hpp"
 
 namespace warren {
 namespace {

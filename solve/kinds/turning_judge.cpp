@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "solve/steps/solve_steps.hpp"
+#include "solve/kinds/solve_steps.hpp"
 #include "verify/judges/verify_turning.hpp"
 
 namespace warren {

@@ -6,8 +6,7 @@
 
 #include "solve/answer/answer.hpp"
 #include "solve/answer/read_answer_io.hpp"
-#include "solve/answer/verdict.hpp"
-#include "solve/steps/question_of_pose.hpp"
+#include "solve/kinds/question_of_pose.hpp"
 
 namespace warren {
 

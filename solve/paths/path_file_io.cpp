@@ -13,8 +13,8 @@
 
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
-#include "scenes/text/json_text.hpp"
-#include "scenes/text/npy_header.hpp"
+#include "scenes/files/json_text.hpp"
+#include "scenes/files/npy_io.hpp"
 
 namespace warren {
 namespace {

@@ -2,8 +2,13 @@
 #include "solve/question/planner_choice.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "planners/mazes/tiled_prm_lattice.hpp"
@@ -172,6 +177,111 @@ PlannerOptions planner_options(const SolveOptions& asked, const Scene& scene, co
   options.optimise = asked.optimise;
   options.given = given_options(asked, options);
   return options;
+}
+
+namespace {
+
+/// The world must have room for a cell each way; a world without extent has none for any.
+void refuse_wide_cell(double cell, const Scene& scene) {
+  const Box box = scene.bounds ? *scene.bounds : obstacle_box(scene);
+  constexpr double rounding = 1e-9;
+  const double side = std::min(box.width(), box.height());
+  if (box.empty() || side == 0.0 || side / cell + rounding >= 1.0) return;
+  throw UsageError(
+      fmt::format("@cell: {} is too large: the world has {:.6g} x {:.6g}", cell, box.width(), box.height()));
+}
+
+}  // namespace
+
+void check_cell(double cell, const Scene& scene) {
+  const Box box = scene.bounds ? *scene.bounds : obstacle_box(scene);
+  if (box.empty()) return;
+  const double width = std::max(1.0, std::ceil(box.width() / cell));
+  const double height = std::max(1.0, std::ceil(box.height() / cell));
+  constexpr double too_many = 4294967296.0;
+  if (width * height < too_many) return;
+  throw UsageError(
+      fmt::format("@cell: {} is too small: the world has {:.6g} x {:.6g} such cells, and 2^32 - 1 are the most", cell,
+                  width, height));
+}
+
+GridSpec grid_spec(const GridFields& options, const Scene& scene) {
+  constexpr std::uint32_t usual_angles = 72;
+  constexpr double cells_a_side = 400.0;
+  GridSpec grid = scene.grid.value_or(GridSpec{.cell = scene.map ? scene.map->cell : 0.0, .angles = usual_angles});
+  if (options.cell) {
+    check_cell(*options.cell, scene);
+    refuse_wide_cell(*options.cell, scene);
+  }
+  grid.cell = options.cell.value_or(grid.cell);
+  grid.angles = options.angles.value_or(grid.angles);
+  if (grid.cell == 0.0) {
+    const Box box = scene.bounds ? *scene.bounds : obstacle_box(scene);
+    grid.cell = box.empty() ? 0.0 : std::max(box.width(), box.height()) / cells_a_side;
+    if (!(grid.cell > 0.0)) throw UsageError("@cell: is missing, and the world has no extent to divide");
+  }
+  return grid;
+}
+
+GridMethod grid_method(const SolveOptions& options, GridMethod usual) {
+  if (!options.search) return usual;
+  switch (*options.search) {
+    case SearchMethod::astar:
+      return GridMethod::astar;
+    case SearchMethod::dijkstra:
+      return GridMethod::dijkstra;
+    case SearchMethod::bfs:
+      return GridMethod::bfs;
+    case SearchMethod::jump_points:
+      return GridMethod::jump_points;
+    case SearchMethod::dfs:
+      break;
+  }
+  throw UsageError("@search: grid takes astar, dijkstra and bfs; the planner prm takes dfs");
+}
+
+namespace {
+
+/// "1,2;3,4,0.5"
+std::string way_points_text(const std::vector<std::vector<double>>& via) {
+  std::string text;
+  for (const std::vector<double>& state : via)
+    text += fmt::format("{}{}", text.empty() ? "" : ";", fmt::join(state, ","));
+  return text;
+}
+
+}  // namespace
+
+RrtOptions tree_options(const SolveOptions& asked) {
+  RrtOptions options;
+  if (asked.sampler && takes_all_places(*asked.sampler)) {
+    throw UsageError(fmt::format("@sampler: {} is for roadmaps; trees take the others", name_of(*asked.sampler)));
+  }
+  options.sampler = asked.sampler;
+  options.places = !asked.optimise;  // trees find ways of more kinds, of which the best is wanted
+  options.step = asked.trees.step;
+  options.goal_bias = asked.trees.goal_bias.value_or(options.goal_bias);
+  options.nodes = asked.trees.nodes.value_or(options.nodes);
+  options.trees = asked.trees.trees.value_or(options.trees);
+  options.seed = asked.seed;
+  return options;
+}
+
+std::string_view sampler_name(const RrtOptions& options) {
+  return options.sampler ? name_of(*options.sampler) : "uniform-gaussian";
+}
+
+std::vector<NamedFigure> given_tree_options(const SolveOptions& asked) {
+  std::vector<NamedFigure> given;
+  const auto add = [&](const char* name, auto value) { given.push_back({name, Figure(std::move(value))}); };
+  const TreeFields& trees = asked.trees;
+  if (trees.step) add("step", *trees.step);
+  if (trees.goal_bias) add("goal_bias", *trees.goal_bias);
+  if (trees.nodes) add("nodes", *trees.nodes);
+  if (trees.trees) add("trees", std::uint64_t{*trees.trees});
+  if (!trees.via.empty()) add("via", way_points_text(trees.via));
+  if (asked.optimise) add("optimise", true);
+  return given;
 }
 
 }  // namespace warren

@@ -4,10 +4,13 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "planners/graph/roadmap_options.hpp"
+#include "planners/grid/grid_search.hpp"
+#include "planners/trees/rrt_options.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/question/figure.hpp"
 #include "solve/question/question.hpp"
@@ -44,5 +47,32 @@ void check_planner_options(const SolveOptions& options);
 PlannerKind usual_roadmap_planner(const SolveOptions& options, const Scene& scene);
 /// Fills in the defaults that depend on the world; throws UsageError.
 PlannerOptions planner_options(const SolveOptions& options, const Scene& scene, const WallProblem& problem);
+
+// What the grid planner is told: the options that maps and lattices of scenes share.
+
+/// Throws UsageError for dfs; `usual` where nothing is said.
+GridMethod grid_method(const SolveOptions& options, GridMethod usual);
+
+/// Throws UsageError where the world has more cells of that size than any grid or map may have.
+void check_cell(double cell, const Scene& scene);
+
+/// The raster of a scene: cell and angles of the options, else the file's grid line, else a four-hundredth of the
+/// longer side of the bounds (or of the obstacles' box) and 72 headings. A map's cells are its own. Throws UsageError
+/// for a world without extent and for values out of range.
+GridSpec grid_spec(const GridFields& options, const Scene& scene);
+
+// How rrt and rrt-connect are told what to do, whatever the body.
+
+/// What each planner of trees takes.
+inline constexpr OptionSet rrt_connect_options{Option::sampler, Option::step, Option::nodes,
+                                               Option::trees,   Option::via,  Option::optimise};
+inline constexpr OptionSet rrt_options = rrt_connect_options | OptionSet{Option::goal_bias};
+
+/// Throws UsageError for samplers that trees have no use for.
+RrtOptions tree_options(const SolveOptions& options);
+/// What the answer calls the trees' sampler.
+std::string_view sampler_name(const RrtOptions& options);
+/// What was asked for, as Answer::options repeats it.
+std::vector<NamedFigure> given_tree_options(const SolveOptions& options);
 
 }  // namespace warren

@@ -85,4 +85,10 @@ RobotSpec robot_value(const std::string& where, std::string_view text);
 /// Where a state stands in the plane; none where there is no state.
 std::optional<Vec2> plane_point(const std::vector<double>& state);
 
+// Which worlds a body can be planned and judged in at all. All verbs ask here, so that they refuse alike.
+
+/// Arms plan among spheres and boxes or in free space; all others among walls, polygons, bounds or on a map; nobody
+/// where both are mixed, and no body of the plane where nothing confines it. Throws UsageError, saying what would do.
+void check_plannable(const Scene& scene, const Question& problem);
+
 }  // namespace warren

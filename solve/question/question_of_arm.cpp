@@ -9,9 +9,9 @@
 #include <numbers>
 
 #include "core/base/error.hpp"
-#include "scenes/formats/dh_table_io.hpp"
+#include "scenes/files/dh_table_io.hpp"
 #include "worlds/arms/puma560.hpp"
-#include "worlds/arms/solid_distance.hpp"
+#include "worlds/arms/solid_index.hpp"
 
 namespace warren {
 namespace {

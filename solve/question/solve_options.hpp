@@ -18,7 +18,7 @@
 #include "planners/grid/grid_search.hpp"
 #include "planners/vertical_cells/cell_planner.hpp"
 #include "scenes/scene/scene.hpp"
-#include "worlds/rasters/heading_layers_of_scene.hpp"
+#include "worlds/rasters/heading_layers.hpp"
 
 namespace warren {
 

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "spatial/maps/free_cells.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <limits>
+#include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/whole.hpp"
+#include "parallel/chunks.hpp"
 
 namespace warren {
 namespace {
@@ -64,6 +70,84 @@ const std::array<std::uint8_t, 512>& allowed_steps(StepRule rule) {
   static constexpr std::array<std::uint8_t, 512> tables[] = {steps_of(StepRule::four), steps_of(StepRule::eight),
                                                              steps_of(StepRule::eight_squeezing)};
   return tables[as_whole<std::size_t>(rule)];
+}
+
+namespace {
+
+constexpr std::uint32_t tile = 64;
+constexpr double least_drop = 0.6;
+
+class Ridges {
+ public:
+  Ridges(const DistanceField& field, double least) : field_(field), least_(least) {}
+
+  bool is_ridge(std::uint32_t x, std::uint32_t y) const {
+    const double here = field_.distance(x, y);
+    if (!(here > 0.0 && here >= least_)) return false;
+    constexpr std::array<std::array<int, 2>, 4> axes{{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};
+    return std::any_of(axes.begin(), axes.end(), [&](const std::array<int, 2>& axis) {
+      const double way = axis[1] == 0 || axis[0] == 0 ? 1.0 : std::sqrt(2.0);
+      const double before = here - at(x - axis[0], y - axis[1]);
+      const double after = here - at(x + axis[0], y + axis[1]);
+      return before >= 0.0 && after >= 0.0 && before + after >= least_drop * way;
+    });
+  }
+
+ private:
+  /// What lies outside of the map is blocked.
+  double at(std::int64_t x, std::int64_t y) const {
+    if (x < 0 || y < 0 || x >= field_.width() || y >= field_.height()) return 0.0;
+    return field_.distance(as_whole<std::uint32_t>(x), as_whole<std::uint32_t>(y));
+  }
+
+  const DistanceField& field_;
+  double least_;
+};
+
+/// The ridge cells of a band of rows, tile by tile.
+std::vector<std::uint32_t> places_of(const DistanceField& field, const Ridges& ridges, std::uint32_t first_row) {
+  std::vector<std::uint32_t> places;
+  const std::uint32_t last_row = std::min(first_row + tile, field.height());
+  for (std::uint32_t first = 0; first < field.width(); first += tile) {
+    const std::uint32_t last = std::min(first + tile, field.width());
+    for (std::uint32_t y = first_row; y < last_row; ++y) {
+      for (std::uint32_t x = first; x < last; ++x) {
+        if (ridges.is_ridge(x, y)) places.push_back(y * field.width() + x);
+      }
+    }
+  }
+  return places;
+}
+
+}  // namespace
+
+CorridorCells::CorridorCells(const DistanceField& field, double least, const Execution& execution)
+    : width_(field.width()), ridge_(field.width(), field.height()) {
+  const Ridges ridges(field, least);
+  std::vector<std::vector<std::uint32_t>> bands((field.height() + tile - 1) / tile);
+  for_chunks(bands.size(), 1, execution,
+             [&](Range r) { bands[r.first] = places_of(field, ridges, as_whole<std::uint32_t>(r.first) * tile); });
+  std::size_t count = 0;
+  for (const auto& band : bands) count += band.size();
+  execution.reserve(count * (sizeof(std::uint32_t) + sizeof(double)));
+  places_.reserve(count);
+  weight_sums_.reserve(count);
+  double sum = 0.0;
+  for (const auto& band : bands) {
+    for (const std::uint32_t place : band) {
+      sum += 1.0 / field.distance(place % width_, place / width_);
+      places_.push_back(place);
+      ridge_.set(place % width_, place / width_);
+      weight_sums_.push_back(sum);
+    }
+  }
+}
+
+CorridorCells::Place CorridorCells::at(double share) const {
+  const auto found = std::upper_bound(weight_sums_.begin(), weight_sums_.end(), share * weight_sums_.back());
+  const auto i = std::min<std::size_t>(as_whole<std::size_t>(found - weight_sums_.begin()), places_.size() - 1);
+  const double weight = i == 0 ? weight_sums_[0] : weight_sums_[i] - weight_sums_[i - 1];
+  return {{places_[i] % width_, places_[i] / width_}, 1.0 / weight};
 }
 
 }  // namespace warren

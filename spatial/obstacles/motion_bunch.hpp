@@ -16,7 +16,7 @@
 #include "core/base/types.hpp"
 #include "core/base/whole.hpp"
 #include "core/plane/wall_set.hpp"
-#include "spatial/obstacles/box_screen.hpp"
+#include "spatial/obstacles/wall_grid.hpp"
 #include "spatial/points/disc_points.hpp"
 
 namespace warren::detail {

@@ -13,9 +13,9 @@
 
 #include "core/base/rng.hpp"
 #include "parallel/chunks.hpp"
-#include "roadmaps/exports/export_roadmap.hpp"
-#include "roadmaps/exports/stored_zip_io.hpp"
-#include "tests/roadmaps/exports/listed_roadmap.hpp"
+#include "solve/kept/export_roadmap.hpp"
+#include "solve/kept/stored_zip_io.hpp"
+#include "tests/solve/kept/listed_roadmap.hpp"
 
 namespace warren {
 namespace {

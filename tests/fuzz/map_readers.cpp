@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 
-#include "scenes/formats/maze_image_io.hpp"
-#include "scenes/formats/moving_ai_io.hpp"
-#include "scenes/formats/read_world_io.hpp"
-#include "scenes/formats/ros_map_io.hpp"
+#include "scenes/files/maze_image_io.hpp"
+#include "scenes/files/moving_ai_io.hpp"
+#include "scenes/files/read_world_io.hpp"
+#include "scenes/files/ros_map_io.hpp"
 #include "tests/fuzz/fuzz_reader.hpp"
 #include "tests/fuzz/properties.hpp"
 #include "tests/fuzz/scratch_folder.hpp"

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/base/types.hpp"
-#include "scenes/formats/dh_table_io.hpp"
-#include "scenes/formats/read_world_io.hpp"
+#include "scenes/files/dh_table_io.hpp"
+#include "scenes/files/read_world_io.hpp"
 #include "solve/answer/read_answer_io.hpp"
 #include "solve/question/question.hpp"
 #include "tests/fuzz/fuzz_reader.hpp"

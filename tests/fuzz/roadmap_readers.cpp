@@ -9,12 +9,11 @@
 #include <vector>
 
 #include "planners/graph/roadmap_arrays.hpp"
-#include "roadmaps/file/roadmap_file.hpp"
-#include "roadmaps/file/write_roadmap_file.hpp"
+#include "solve/kept/roadmap_file.hpp"
 #include "tests/fuzz/fuzz_reader.hpp"
 #include "tests/fuzz/properties.hpp"
 #include "tests/fuzz/scratch_folder.hpp"
-#include "tests/roadmaps/file/mend_checksums.hpp"
+#include "tests/solve/kept/mend_checksums.hpp"
 
 namespace warren::fuzz {
 namespace {

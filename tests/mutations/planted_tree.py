@@ -7,7 +7,7 @@ import subprocess
 
 from fault_table import planted
 
-FOLDERS = ("cmake", "core", "parallel", "spatial", "scenes", "worlds", "verify", "planners", "roadmaps", "solve", "pictures",
+FOLDERS = ("cmake", "core", "parallel", "spatial", "scenes", "worlds", "verify", "planners", "solve", "pictures",
            "apps", "tools", "tests", "bench", "docs", "examples")
 VARIABLE = "WARREN_PLANTED_FAULT"
 

@@ -12,7 +12,7 @@ import time
 
 from planted_tree import VARIABLE
 
-PROGRAMS = ("core", "spatial", "scenes", "worlds", "verify", "planners", "roadmaps", "solve", "pictures", "studies",
+PROGRAMS = ("core", "spatial", "scenes", "worlds", "verify", "planners", "solve", "pictures", "studies",
             "tools", "program", "matrix")  # those that there are, the last ones last
 QUICK_S = 0.2  # tests up to this long are asked before the others
 MOST_MEMORY = 6 << 30

@@ -19,7 +19,7 @@
 
 #include "core/base/rng.hpp"
 #include "parallel/plain_chunks.hpp"
-#include "parallel/scan.hpp"
+#include "parallel/sort.hpp"
 #include "parallel/trace.hpp"
 #include "tests/parallel/on_threads.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "parallel/deadline.hpp"
+#include "parallel/execution.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,6 @@
 #include <limits>
 #include <thread>
 #include <vector>
-
-#include "parallel/execution.hpp"
 
 namespace warren {
 namespace {

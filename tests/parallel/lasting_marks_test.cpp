@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "parallel/lasting_marks.hpp"
+#include "parallel/once.hpp"
 
 #include <gtest/gtest.h>
 

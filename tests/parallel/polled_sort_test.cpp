@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "parallel/polled_sort.hpp"
+#include "parallel/sort.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/rng.hpp"
-#include "parallel/asked_growth.hpp"
+#include "parallel/asked_memory.hpp"
 #include "tests/memory_limit.hpp"
 
 namespace warren {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "parallel/stage_account.hpp"
+#include "parallel/trace.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "parallel/chunks.hpp"
-#include "parallel/trace.hpp"
 
 namespace warren {
 namespace {

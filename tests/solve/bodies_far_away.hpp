@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/base/rng.hpp"
+#include "solve/kinds/solve_steps.hpp"
 #include "solve/solve.hpp"
-#include "solve/steps/solve_steps.hpp"
 
 namespace warren::test {
 

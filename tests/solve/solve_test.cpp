@@ -11,7 +11,7 @@
 #include <string>
 
 #include "core/base/error.hpp"
-#include "scenes/formats/read_world_io.hpp"
+#include "scenes/files/read_world_io.hpp"
 #include "tests/paths.hpp"
 #include "tests/seeds.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tests/scenes/images/test_images.hpp"
+#include "tests/scenes/files/test_images.hpp"
 #include "tests/tools/process.hpp"
 
 namespace warren::test {

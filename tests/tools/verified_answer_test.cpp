@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What an answer claims: a path that was verified, or nothing.
-#include "solve/steps/solve_steps.hpp"
+#include "solve/kinds/solve_steps.hpp"
 
 #include <gtest/gtest.h>
 

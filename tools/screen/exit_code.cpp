@@ -16,7 +16,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/printable.hpp"
-#include "parallel/deadline.hpp"
+#include "parallel/execution.hpp"
 #include "solve/question/limits.hpp"
 #include "tools/screen/run_of_verb.hpp"
 

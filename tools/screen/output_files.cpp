@@ -19,12 +19,12 @@
 
 #include "core/base/error.hpp"
 #include "core/base/printable.hpp"
-#include "parallel/deadline.hpp"
+#include "parallel/execution.hpp"
 #include "pictures/formats/write_picture.hpp"
-#include "roadmaps/exports/export_roadmap.hpp"
-#include "scenes/formats/read_world_io.hpp"
-#include "scenes/formats/ros_map_io.hpp"
-#include "scenes/text/output_file_io.hpp"
+#include "scenes/files/output_file_io.hpp"
+#include "scenes/files/read_world_io.hpp"
+#include "scenes/files/ros_map_io.hpp"
+#include "solve/kept/export_roadmap.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/words/option_values.hpp"
 

@@ -5,7 +5,7 @@
 // can't be written. SIGPIPE ends the program quietly, SIGQUIT at once, with a core where the system keeps one.
 #pragma once
 
-#include "parallel/deadline.hpp"
+#include "parallel/execution.hpp"
 
 namespace warren::tools {
 

@@ -7,13 +7,13 @@
 #include <string>
 #include <string_view>
 
-#include "core/base/counters.hpp"
+#include "core/base/solution.hpp"
 #include "parallel/execution.hpp"
 #include "pictures/model/picture_options.hpp"
+#include "scenes/files/input_file_io.hpp"
 #include "scenes/scene/scene.hpp"
-#include "scenes/text/input_file_io.hpp"
+#include "solve/kept/roadmap.hpp"
 #include "solve/question/solve_options.hpp"
-#include "solve/roadmaps/roadmap.hpp"
 #include "tools/words/command.hpp"
 
 namespace warren::tools {

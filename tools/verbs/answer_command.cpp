@@ -11,16 +11,15 @@
 #include "pictures/draw_answer.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/layers/draw_bodies.hpp"
-#include "solve/answer/answer_notes.hpp"
 #include "solve/answer/explanation_text.hpp"
 #include "solve/answer/write_answer_io.hpp"
-#include "solve/explain/explain_answer.hpp"
-#include "solve/roadmaps/roadmap_file_io.hpp"
-#include "solve/steps/solve_steps.hpp"
+#include "solve/explain_answer.hpp"
+#include "solve/kept/roadmap_file_io.hpp"
+#include "solve/kinds/solve_steps.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/words/output_words.hpp"
-#include "worlds/rasters/map_borders.hpp"
+#include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren::tools {
 namespace {

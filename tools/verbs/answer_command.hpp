@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "pictures/model/picture_options.hpp"
+#include "scenes/files/output_file_io.hpp"
 #include "scenes/scene/scene.hpp"
-#include "scenes/text/output_file_io.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/answer/by_products.hpp"
+#include "solve/kept/roadmap.hpp"
 #include "solve/paths/path_file_io.hpp"
-#include "solve/roadmaps/roadmap.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/words/command.hpp"
 

@@ -7,10 +7,10 @@
 #include <string>
 
 #include "core/base/error.hpp"
-#include "scenes/text/human_units.hpp"
+#include "scenes/files/human_units.hpp"
 #include "solve/answer/world_account.hpp"
-#include "solve/roadmaps/roadmap_file_io.hpp"
-#include "solve/steps/kind_of_problem.hpp"
+#include "solve/kept/roadmap_file_io.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"

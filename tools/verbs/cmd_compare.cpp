@@ -27,7 +27,7 @@
 #include "core/base/error.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/layers/draw_bodies.hpp"
-#include "solve/steps/kind_of_problem.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
@@ -38,7 +38,7 @@
 #include "tools/words/output_words.hpp"
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
-#include "worlds/rasters/map_borders.hpp"
+#include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren::tools {
 namespace {

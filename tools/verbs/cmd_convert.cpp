@@ -9,10 +9,10 @@
 
 #include "core/base/error.hpp"
 #include "pictures/formats/write_picture.hpp"
-#include "scenes/formats/read_world_io.hpp"
-#include "scenes/formats/ros_map_io.hpp"
+#include "scenes/files/read_world_io.hpp"
+#include "scenes/files/ros_map_io.hpp"
 #include "solve/answer/world_account.hpp"
-#include "solve/question/grid_choice.hpp"
+#include "solve/question/planner_choice.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
@@ -21,7 +21,7 @@
 #include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"
 #include "tools/words/output_words.hpp"
-#include "worlds/rasters/map_borders.hpp"
+#include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren::tools {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "core/base/error.hpp"
 #include "pictures/formats/write_picture.hpp"
-#include "scenes/text/human_units.hpp"
-#include "solve/roadmaps/export_of_roadmap.hpp"
+#include "scenes/files/human_units.hpp"
+#include "solve/kept/export_roadmap.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"

@@ -11,11 +11,10 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "scenes/text/human_units.hpp"
-#include "solve/batches/ask_batch_io.hpp"
-#include "solve/batches/ask_matrix_io.hpp"
-#include "solve/explain/explain_answer.hpp"
-#include "solve/roadmaps/roadmap_file_io.hpp"
+#include "scenes/files/human_units.hpp"
+#include "solve/explain_answer.hpp"
+#include "solve/kept/ask_batch_io.hpp"
+#include "solve/kept/roadmap_file_io.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/terminal.hpp"

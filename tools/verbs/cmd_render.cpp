@@ -7,7 +7,7 @@
 #include "pictures/formats/write_picture.hpp"
 #include "solve/answer/read_answer_io.hpp"
 #include "solve/answer/world_account.hpp"
-#include "solve/question/plannable.hpp"
+#include "solve/question/question.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
@@ -15,7 +15,7 @@
 #include "tools/screen/world_files.hpp"
 #include "tools/words/command.hpp"
 #include "tools/words/output_words.hpp"
-#include "worlds/rasters/map_borders.hpp"
+#include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren::tools {
 namespace {

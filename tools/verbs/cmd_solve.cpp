@@ -7,13 +7,13 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "scenes/formats/read_world_io.hpp"
-#include "solve/explain/explain_answer.hpp"
-#include "solve/mazes/resume_file_io.hpp"
-#include "solve/mazes/solve_streamed.hpp"
+#include "scenes/files/read_world_io.hpp"
+#include "solve/explain_answer.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
 #include "solve/solve.hpp"
 #include "solve/solve_and_keep.hpp"
-#include "solve/steps/kind_of_problem.hpp"
+#include "solve/streamed/resume_file_io.hpp"
+#include "solve/streamed/solve_streamed.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/verbs/answer_command.hpp"

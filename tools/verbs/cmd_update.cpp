@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "core/base/error.hpp"
-#include "scenes/text/human_units.hpp"
-#include "scenes/text/output_file_io.hpp"
-#include "solve/roadmaps/roadmap_file_io.hpp"
+#include "scenes/files/human_units.hpp"
+#include "scenes/files/output_file_io.hpp"
+#include "solve/kept/roadmap_file_io.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"

@@ -8,13 +8,13 @@
 #include <string_view>
 
 #include "core/base/error.hpp"
-#include "scenes/scene/unit_of.hpp"
-#include "scenes/text/human_units.hpp"
-#include "scenes/text/output_file_io.hpp"
+#include "scenes/files/human_units.hpp"
+#include "scenes/files/output_file_io.hpp"
+#include "scenes/scene/scene.hpp"
 #include "solve/answer/explanation_text.hpp"
 #include "solve/answer/read_answer_io.hpp"
 #include "solve/answer/write_answer_io.hpp"
-#include "solve/explain/explain_answer.hpp"
+#include "solve/explain_answer.hpp"
 #include "solve/solve.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/base/error.hpp"
-#include "solve/steps/kind_of_problem.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
 #include "tools/words/option_values.hpp"
 
 namespace warren::tools {

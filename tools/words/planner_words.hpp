@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "solve/kept/roadmap_query.hpp"
 #include "solve/question/solve_options.hpp"
-#include "solve/roadmaps/roadmap_query.hpp"
 #include "tools/words/command.hpp"
 
 namespace warren::tools {

@@ -5,7 +5,7 @@
 #include <cctype>
 #include <utility>
 
-#include "core/base/edit_distance.hpp"
+#include "core/base/printable.hpp"
 
 namespace warren::tools {
 namespace {

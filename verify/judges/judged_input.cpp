@@ -68,7 +68,7 @@ bool runs_along_blocked(const OccupancyMap& map, const Segment& wall) {
   return true;
 }
 
-/// Walls beside a map are its borders and no obstacles more (worlds/rasters/map_borders.hpp).
+/// Walls beside a map are its borders and no obstacles more (worlds/rasters/lattice_polygons.hpp).
 void check_walls_of_map(const Scene& scene, const Execution& execution) {
   constexpr std::size_t grain = std::size_t{1} << 12;
   Execution quiet = execution;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace warren {
 
@@ -25,6 +26,106 @@ Verification verdict_on(const LegReport& legs, const std::optional<Violation>& s
   verdict.first_violation = start ? start : legs.violation ? legs.violation : goal;
   verdict.verified = !verdict.first_violation;
   return verdict;
+}
+
+void Tally::join(Tally&& other) {
+  least = std::min(least, other.least);
+  violation = std::min(violation, other.violation);
+  contacts.insert(contacts.end(), other.contacts.begin(), other.contacts.end());
+  box.include(other.box);
+}
+
+Comparison::Comparison(const LegBoxes& legs, const VerifyOptions& options, double at_most)
+    : legs_(legs), options_(options), at_most_(at_most) {
+  narrow();
+}
+
+void Comparison::with_near_legs(const LegIndex& index, const Segment& obstacle, std::size_t number) {
+  const Box box = box_of(obstacle);
+  tally_.box.include(box);
+  std::size_t seen_first = 1;  // neighbouring cells hold the same legs: these have just been compared
+  std::size_t seen_last = 0;
+  index.for_each_near(obstacle, [&](std::size_t first, std::size_t last) {
+    if (seen_first > seen_last || first > seen_last + 1 || last + 1 < seen_first) {
+      seen_first = first;
+      seen_last = last;
+      return compare(obstacle, box, number, first, last);
+    }
+    if (first < seen_first) {
+      compare(obstacle, box, number, first, seen_first - 1);
+      seen_first = first;
+    }
+    if (last > seen_last) {
+      compare(obstacle, box, number, seen_last + 1, last);
+      seen_last = last;
+    }
+  });
+}
+
+void Comparison::with_all_legs(const Segment& obstacle, std::size_t number) {
+  compare(obstacle, box_of(obstacle), number, 0, legs_.leg_count() - 1);
+}
+
+/// Does the whole box lie farther from the obstacle's line than is of interest?
+bool Comparison::beside(const Segment& obstacle, const Box& box) const {
+  const Vec2 along = obstacle.b - obstacle.a;
+  const Vec2 low = box.min - obstacle.a;  // the box's middle itself would be rounded as its coordinates are
+  const Vec2 high = box.max - obstacle.a;
+  const Vec2 to = 0.5 * (low + high);
+  const double spread = 0.5 * (std::abs(along.x) * box.height() + std::abs(along.y) * box.width());
+  const Vec2 most{std::abs(low.x) + std::abs(high.x), std::abs(low.y) + std::abs(high.y)};
+  const double error = 1e-15 * (std::abs(along.x) * most.y + std::abs(along.y) * most.x);
+  const double room = std::abs(cross(along, to)) - spread - 8.0 * error;
+  return room > 0.0 && room * room > near_sq_ * dot(along, along) * (1.0 + 4.0 * exact::distance_error);
+}
+
+void Comparison::compare(const Segment& obstacle, const Box& box, std::size_t number, std::size_t first,
+                         std::size_t last) {
+  legs_.for_each_in(
+      first, last, [&](const Box& legs_box) { return too_far(legs_box, box) || beside(obstacle, legs_box); },
+      [&](std::size_t leg) {
+        const Segment s = legs_.leg(leg);
+        if (!too_far(box_of(s), box)) compare(s, leg, obstacle, number);
+      });
+}
+
+void Comparison::compare(const Segment& s, std::size_t leg, const Segment& obstacle, std::size_t number) {
+  const double r = options_.reach();
+  const double d = exact::distance(s, obstacle);
+  if (d < tally_.least) {
+    tally_.least = d;
+    narrow();
+  }
+  if (r > 0.0) {
+    if (d <= r * (1.0 + 1e-12) || is_doubtful(d, s, obstacle)) {
+      if (exact::closer_than(s, obstacle, r)) forbid(leg, number);
+    }
+  } else if (d == 0.0 && exact::touch(s, obstacle)) {
+    touch(s, leg, obstacle, number);
+  }
+}
+
+/// Is d within its own rounding of the clearance?
+bool Comparison::is_doubtful(double d, const Segment& s, const Segment& obstacle) const {
+  Box both = box_of(s);
+  both.include(box_of(obstacle));
+  return d <= options_.reach() + 1e-14 * std::max(both.width(), both.height());
+}
+
+void Comparison::touch(const Segment& s, std::size_t leg, const Segment& obstacle, std::size_t number) {
+  if (options_.contact == Contact::blocked || exact::cross_inside(s, obstacle)) return forbid(leg, number);
+  const LegContact contact{leg, number};
+  if (tally_.contacts.empty() || tally_.contacts.back() != contact) tally_.contacts.push_back(contact);
+}
+
+void Comparison::forbid(std::size_t leg, std::size_t number) {
+  tally_.violation = std::min(tally_.violation, LegContact{leg, number});
+}
+
+void Comparison::narrow() {
+  const double r = options_.reach();
+  const double least = std::min(at_most_, tally_.least);
+  near_sq_ = std::max(least * least, r * r * (1.0 + 1e-12));
 }
 
 }  // namespace warren

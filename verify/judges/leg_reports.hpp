@@ -10,9 +10,15 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/types.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/execution.hpp"
+#include "verify/exact/exact_segments.hpp"
+#include "verify/judges/contact.hpp"
 #include "verify/judges/verification.hpp"
+#include "verify/judges/verify_point.hpp"
+#include "verify/near/leg_boxes.hpp"
+#include "verify/near/leg_index.hpp"
 
 namespace warren {
 
@@ -48,5 +54,71 @@ Violation elsewhere(std::string_view which, std::span<const double> wanted, doub
 /// Start before all legs, the goal after them. Leaves it to the caller to measure the path.
 Verification verdict_on(const LegReport& legs, const std::optional<Violation>& start,
                         const std::optional<Violation>& goal);
+
+// What obstacles say about a path, one pair of leg and obstacle after the other: the least distance, the first
+// violation, the contacts. Pairs that are too far apart to matter are left out by their boxes; the others go to
+// verify/exact/exact_segments. Parts of the obstacles may be compared by different threads, each with a Comparison of
+// its own, and their tallies joined in any order.
+
+/// Later than every violation.
+inline constexpr LegContact no_violation{std::numeric_limits<std::size_t>::max(), 0};
+
+/// What a part of the obstacles says about the path.
+struct Tally {
+  double least = std::numeric_limits<double>::infinity();  ///< least distance met
+  LegContact violation = no_violation;                     ///< the first
+  std::vector<LegContact> contacts;                        ///< only where contact is allowed
+  Box box;                                                 ///< of the obstacles
+
+  void join(Tally&& other);
+};
+
+/// A leg, or an obstacle, that is compared with many.
+struct BoxedSegment {
+  BoxedSegment(const Segment& s, std::size_t of) : segment(s), box(box_of(s)), number(of) {}
+  Segment segment;
+  Box box;
+  std::size_t number;
+};
+
+/// Refers to legs and options, which must outlive it.
+class Comparison {
+ public:
+  /// Distances at or above `at_most` are of no interest.
+  Comparison(const LegBoxes& legs, const VerifyOptions& options, double at_most);
+
+  /// With the legs within the reach of the index, which is one of these legs.
+  void with_near_legs(const LegIndex& index, const Segment& obstacle, std::size_t number);
+  /// By the boxes of legs: about log(legs), plus what is near; O(legs) at worst.
+  void with_all_legs(const Segment& obstacle, std::size_t number);
+  /// Is all that lies in the box too far from the leg, or from all legs in a box, to matter?
+  bool skips(const BoxedSegment& leg, const Box& obstacles) const {
+    return too_far(leg.box, obstacles) || beside(leg.segment, obstacles);
+  }
+  bool skips(const Box& legs, const Box& obstacles) const { return too_far(legs, obstacles); }
+  void with_leg(const BoxedSegment& leg, const BoxedSegment& side) {
+    if (!too_far(leg.box, side.box)) compare(leg.segment, leg.number, side.segment, side.number);
+  }
+  Tally take() { return std::move(tally_); }
+
+ private:
+  bool too_far(const Box& a, const Box& b) const {
+    const double gap = exact::gap_sq(a, b);
+    return gap >= near_sq_ && gap > 0.0;
+  }
+  bool beside(const Segment& obstacle, const Box& box) const;
+  void compare(const Segment& obstacle, const Box& box, std::size_t number, std::size_t first, std::size_t last);
+  void compare(const Segment& s, std::size_t leg, const Segment& obstacle, std::size_t number);
+  bool is_doubtful(double d, const Segment& s, const Segment& obstacle) const;
+  void touch(const Segment& s, std::size_t leg, const Segment& obstacle, std::size_t number);
+  void forbid(std::size_t leg, std::size_t number);
+  void narrow();
+
+  const LegBoxes& legs_;
+  const VerifyOptions& options_;
+  double at_most_;
+  double near_sq_ = 0.0;  ///< legs at this distance (squared) and above are left out
+  Tally tally_;
+};
 
 }  // namespace warren

@@ -13,7 +13,6 @@
 #include <span>
 
 #include "parallel/execution.hpp"
-#include "scenes/scene/dh_table.hpp"
 #include "scenes/scene/scene.hpp"
 #include "verify/judges/verification.hpp"
 

@@ -1,21 +1,139 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the judges of bodies in the plane keep of a scene for which they are asked again and again: walls, sides and
-// polygons in blocks of boxes (verify/near/box_blocks), so that a verdict takes as long as its path, however many walls
-// there are. The judges' own: nothing of it is shared with planners and their worlds. A verdict is the same bits with
-// it and without.
+// polygons in blocks of boxes (verify/near/obstacle_index), so that a verdict takes as long as its path, however many
+// walls there are. The judges' own: nothing of it is shared with planners and their worlds. A verdict is the same bits
+// with it and without.
 //
 // Built in O(n log n), some seconds for 10^7 walls; 9 bytes a wall or side, and the polygons' corners.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
+#include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
+#include "core/base/whole.hpp"
+#include "parallel/chunks.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
-#include "verify/near/box_blocks.hpp"
 #include "verify/near/obstacle_sides.hpp"
 
 namespace warren {
+// Boxes in blocks: one box around eight that lie near each other, one around eight of these, and so on up to all. Made
+// once for many questions of one kind: which boxes may be near this?
+//
+// The boxes are sorted by the x of their middles into about sqrt(n / 8) stripes, each stripe by y (Leutenegger,
+// Lopez and Edgington 1997, "STR: a simple and efficient algorithm for R-tree packing"): only the order of coordinates
+// counts, so neither scale nor crowding nor a few boxes far away matter. A question passes over blocks that a test of
+// its own leaves out; as a block's box holds its members', a test that is monotone leaves out no more than it would one
+// by one. Where few boxes are near a question takes O(log n) looks.
+//
+// Building: two sorts, 28 bytes a box while it lasts; 9 bytes a box stay.
+
+/// Holds nothing of what the boxes are around. Immutable: any number of threads may ask.
+class BoxBlocks {
+ public:
+  /// Boxes 0 .. count - 1, fewer than 2^32; box_of(i) may be called by any thread. Throws Stopped.
+  template <class BoxOf>
+  BoxBlocks(std::size_t count, const BoxOf& box_of, const Execution& execution);
+
+  std::size_t size() const { return order_.size(); }
+
+  /// Calls visit(number) for all boxes but those in blocks whose box skip(box) says to leave out.
+  template <class Skip, class Visit>
+  void for_each(const Skip& skip, const Visit& visit) const;
+
+  /// The same in two steps, for who asks several questions of one neighbourhood: visit(block) for blocks of eight boxes
+  /// that skip() doesn't leave out, and visit(number) for the boxes of one of them.
+  template <class Skip, class Visit>
+  void for_each_block(const Skip& skip, const Visit& visit) const {
+    if (!levels_.empty()) visit_block(levels_.size() - 1, 0, skip, visit);
+  }
+  const Box& block_box(std::size_t block) const { return levels_.front()[block]; }
+  template <class Visit>
+  void for_each_in(std::size_t block, const Visit& visit) const {
+    visit_members(block, visit);
+  }
+
+  /// Calls visit(number) for some boxes that are rather near: a start for who looks for the nearest.
+  template <class Visit>
+  void for_some_near(const Box& place, const Visit& visit) const;
+
+ private:
+  struct Middle {
+    double x, y;  ///< doubled
+    std::uint32_t number;
+  };
+  static constexpr std::size_t block_size = 8;
+  static constexpr std::size_t grain = std::size_t{1} << 13;  ///< boxes: a multiple of block_size
+
+  void put_in_order(RawVector<Middle>& middles, const Execution& execution);
+  void add_wholes();
+  std::size_t nearest_part(std::size_t level, std::size_t first, std::size_t last, const Box& place) const;
+  template <class Skip, class Visit>
+  void visit_block(std::size_t level, std::size_t block, const Skip& skip, const Visit& visit) const;
+  template <class Visit>
+  void visit_members(std::size_t block, const Visit& visit) const;
+
+  RawVector<std::uint32_t> order_;      ///< numbers of the boxes, block by block
+  std::vector<RawVector<Box>> levels_;  ///< levels_[k][i]: of boxes order_[i * 8^(k+1)] and the 8^(k+1) - 1 after it
+};
+
+template <class BoxOf>
+BoxBlocks::BoxBlocks(std::size_t count, const BoxOf& box_of, const Execution& execution) {
+  if (count == 0) return;
+  execution.reserve(count * (sizeof(Middle) + sizeof(std::uint32_t)) + count / (block_size - 1) * sizeof(Box));
+  RawVector<Middle> middles(count);
+  for_chunks(count, grain, execution, [&](Range r) {
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      const Box box = box_of(i);
+      middles[i] = {box.min.x + box.max.x, box.min.y + box.max.y, as_whole<std::uint32_t>(i)};
+    }
+  });
+  put_in_order(middles, execution);
+  RawVector<Box> blocks(chunk_count(count, block_size));
+  for_chunks(count, grain, execution, [&](Range r) {
+    for (std::size_t i = r.first; i < r.last; i += block_size) {
+      Box box;
+      visit_members(i / block_size, [&](std::size_t number) { box.include(box_of(number)); });
+      blocks[i / block_size] = box;
+    }
+  });
+  levels_.push_back(std::move(blocks));
+  add_wholes();
+}
+
+template <class Skip, class Visit>
+void BoxBlocks::for_each(const Skip& skip, const Visit& visit) const {
+  for_each_block(skip, [&](std::size_t block) { visit_members(block, visit); });
+}
+
+template <class Visit>
+void BoxBlocks::for_some_near(const Box& place, const Visit& visit) const {
+  if (levels_.empty()) return;
+  std::size_t block = 0;
+  for (std::size_t level = levels_.size() - 1; level-- > 0;) {
+    const std::size_t first = block_size * block;
+    block = nearest_part(level, first, std::min(first + block_size, levels_[level].size()), place);
+  }
+  visit_members(block, visit);
+}
+
+template <class Skip, class Visit>
+void BoxBlocks::visit_block(std::size_t level, std::size_t block, const Skip& skip, const Visit& visit) const {
+  if (skip(levels_[level][block])) return;
+  if (level == 0) return visit(block);
+  const std::size_t end = std::min(block_size * (block + 1), levels_[level - 1].size());
+  for (std::size_t part = block_size * block; part < end; ++part) visit_block(level - 1, part, skip, visit);
+}
+
+template <class Visit>
+void BoxBlocks::visit_members(std::size_t block, const Visit& visit) const {
+  const std::size_t end = std::min(block_size * (block + 1), order_.size());
+  for (std::size_t i = block_size * block; i < end; ++i) visit(std::size_t{order_[i]});
+}
 
 /// Refers to the scene, which must outlive it and stay as it is. Immutable: any number of threads may ask.
 class ObstacleIndex {

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "core/base/whole.hpp"
-#include "parallel/asked_growth.hpp"
+#include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {

@@ -26,7 +26,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/base/path.hpp"
+#include "core/base/solution.hpp"
 #include "core/base/world.hpp"
 #include "scenes/scene/scene.hpp"
 #include "worlds/arms/serial_chain.hpp"

@@ -13,7 +13,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "scenes/scene/dh_table.hpp"
+#include "scenes/scene/scene.hpp"
 
 namespace warren {
 

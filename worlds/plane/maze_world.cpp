@@ -8,9 +8,10 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/whole.hpp"
 #include "core/plane/geometry.hpp"
+#include "parallel/chunks.hpp"
 #include "worlds/plane/corridor_width.hpp"
-#include "worlds/plane/open_sides.hpp"
 
 namespace warren {
 namespace {
@@ -56,6 +57,132 @@ double MazeWorld::suggested_samples(const Execution& execution) const {
   const double width = typical_width(index_, box_, is_outside, execution);
   return std::min(samples_for_width(width, sampled_area(), clearance_),
                   most_samples_for(box_, width, clearance_, index_.wall_count()));
+}
+
+namespace {
+
+constexpr double least_clearance = 1e-3;
+constexpr double largest_place = 1e9;
+// Of the clearance: so near, all tests say so, and a free point beside a closed side is a millionth of a cell away from
+// it at least, which is more than cell_of() may round at the largest place.
+constexpr double surely_near = 0.999;
+
+/// Cells that are looked at together. The index gives a wall for each of its pieces near them, so that they bound what
+/// a long wall costs, too.
+struct Block {
+  static constexpr std::size_t side = 32;
+  Range rows;
+  Range cols;
+};
+
+/// What a wall closes in a block. Axis 0: sides that stand, between columns, left of the block's columns; 1: sides that
+/// lie, between rows, of the block's cells alone.
+class ClosedBy {
+ public:
+  ClosedBy(CellSides& cells, const Block& block, double r) : cells_(cells), block_(block), r_(r * surely_near) {}
+
+  void close(const Segment& wall) const {
+    if (std::abs(wall.a.x - wall.b.x) < 2.0 * r_) close_along(wall, wall.a.x, wall.b.x, wall.a.y, wall.b.y, 0);
+    if (std::abs(wall.a.y - wall.b.y) < 2.0 * r_) close_along(wall, wall.a.y, wall.b.y, wall.a.x, wall.b.x, 1);
+  }
+
+ private:
+  /// across: coordinates of the ends on the axis on which the sides lie apart; along: on the other one.
+  void close_along(const Segment& wall, double across_a, double across_b, double along_a, double along_b,
+                   int axis) const {
+    const double origin = axis == 0 ? cells_.corner.x : cells_.corner.y;
+    const double start = axis == 0 ? cells_.corner.y : cells_.corner.x;
+    const double line = std::round(0.5 * (across_a + across_b) - origin);
+    const double lines = axis == 0 ? cells_.cols : cells_.rows;
+    const Range& across = axis == 0 ? block_.cols : block_.rows;
+    const Range& along = axis == 0 ? block_.rows : block_.cols;
+    if (line < 1.0 || line > lines - 1.0) return;
+    if (line < static_cast<double>(across.first) || line > static_cast<double>(across.last)) return;
+    const double from = std::max(std::min(along_a, along_b) - r_ - start, static_cast<double>(along.first));
+    const double to = std::min(std::max(along_a, along_b) + r_ - start, static_cast<double>(along.last));
+    bool was_near = false;
+    for (double place = std::ceil(from); place <= to; place += 1.0) {
+      const Vec2 end = axis == 0 ? cells_.corner + Vec2{line, place} : cells_.corner + Vec2{place, line};
+      const bool is_near = distance_sq(end, wall) < r_ * r_;
+      if (is_near && was_near)
+        close_side(axis, bounded_whole<std::size_t>(line), bounded_whole<std::size_t>(place) - 1);
+      was_near = is_near;
+    }
+  }
+  /// The side on line `line`, >= 1, at place `place` of it.
+  void close_side(int axis, std::size_t line, std::size_t place) const {
+    const std::size_t col = axis == 0 ? line : place;
+    const std::size_t row = axis == 0 ? place : line;
+    const std::size_t cell = row * cells_.cols + col;
+    if (axis == 0) {
+      clear(cell, CellSides::left);
+      clear(cell - 1, CellSides::right);
+      return;
+    }
+    const auto is_ours = [&](std::size_t r) { return r >= block_.rows.first && r < block_.rows.last; };
+    if (is_ours(row)) clear(cell, CellSides::down);
+    if (is_ours(row - 1)) clear(cell - cells_.cols, CellSides::up);
+  }
+  void clear(std::size_t cell, std::uint8_t side) const {
+    cells_.open[cell] &= as_whole<std::uint8_t>(CellSides::all - side);
+  }
+
+  CellSides& cells_;
+  Block block_;
+  double r_;
+};
+
+/// All sides but those of the rim.
+void open_all(CellSides& cells, Range rows) {
+  for (std::size_t row = rows.first; row < rows.last; ++row) {
+    std::uint8_t sides = CellSides::all;
+    if (row == 0) sides &= CellSides::all - CellSides::down;
+    if (row + 1 == cells.rows) sides &= CellSides::all - CellSides::up;
+    std::uint8_t* const its = cells.open.data() + row * cells.cols;
+    std::fill_n(its, cells.cols, sides);
+    its[0] &= CellSides::all - CellSides::left;
+    its[cells.cols - 1] &= CellSides::all - CellSides::right;
+  }
+}
+
+void close_sides(const WallIndex& walls, const Block& block, double clearance, CellSides& cells) {
+  const ClosedBy closed(cells, block, clearance);
+  const auto corner = [&](std::size_t col, std::size_t row) {
+    return cells.corner + Vec2{static_cast<double>(col), static_cast<double>(row)};
+  };
+  const Box box{corner(block.cols.first, block.rows.first), corner(block.cols.last, block.rows.last)};
+  walls.for_each_near(box.grown(clearance), [&](const Segment& wall) {
+    closed.close(wall);
+    return true;
+  });
+}
+
+}  // namespace
+
+CellSides open_sides(const WallIndex& walls, const Box& box, double clearance, std::size_t most_cells,
+                     const Execution& execution) {
+  const double largest = std::max(std::max(-box.min.x, -box.min.y), std::max(box.max.x, box.max.y));
+  if (box.empty() || !(clearance >= least_clearance) || !(largest <= largest_place)) return {};
+  const Vec2 first{std::floor(box.min.x + 0.5), std::floor(box.min.y + 0.5)};
+  const double cols = std::max(std::ceil(box.max.x - 0.5) - first.x, 0.0) + 1.0;
+  const double rows = std::max(std::ceil(box.max.y - 0.5) - first.y, 0.0) + 1.0;
+  if (cols * rows > static_cast<double>(most_cells)) return {};
+  CellSides cells{first - Vec2{0.5, 0.5}, bounded_whole<std::uint32_t>(cols), bounded_whole<std::uint32_t>(rows), {}};
+  execution.reserve(std::size_t{cells.cols} * cells.rows);
+  cells.open.resize(std::size_t{cells.cols} * cells.rows);
+  const std::size_t grain = (std::size_t{1} << 16) / cells.cols + 16;
+  for_chunks(cells.rows, grain, execution, [&](Range range) {
+    open_all(cells, range);
+    for (std::size_t row = range.first; row < range.last; row += Block::side) {
+      for (std::size_t col = 0; col < cells.cols; col += Block::side) {
+        execution.check();
+        const Block block{{row, std::min(row + Block::side, range.last)},
+                          {col, std::min<std::size_t>(col + Block::side, cells.cols)}};
+        close_sides(walls, block, clearance, cells);
+      }
+    }
+  });
+  return cells;
 }
 
 }  // namespace warren

@@ -4,8 +4,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/plane/convex_decomposition.hpp"
-#include "core/plane/minkowski.hpp"
+#include "core/plane/convex_polygons.hpp"
 #include "core/plane/se2.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 

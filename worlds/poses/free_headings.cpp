@@ -9,7 +9,7 @@
 
 #include "core/base/whole.hpp"
 #include "core/plane/geometry.hpp"
-#include "parallel/asked_growth.hpp"
+#include "parallel/asked_memory.hpp"
 
 namespace warren {
 namespace {

@@ -11,7 +11,7 @@
 #include "core/base/whole.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
-#include "worlds/rasters/blocked_places.hpp"
+#include "worlds/rasters/convex_pieces.hpp"
 
 namespace warren {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How far is a polygon from the obstacles of the plane? Three box trees: convex polygons of up to 16 sides; the sides
-// of the other polygons and the walls; those other polygons. Distances are those of core/plane/polygon_distance, less a
+// of the other polygons and the walls; those other polygons. Distances are those of core/plane/polygon, less a
 // bound of their rounding; only obstacles nearer than the best so far are looked at, so the cost grows with their
 // density around the body, not with their number. A pair of sides costs 15 ns. Of a convex polygon a side that has the
 // whole body farther before it than asked for settles it, for a product a corner; else only the sides that have a
@@ -12,8 +12,8 @@
 #include <span>
 #include <vector>
 
-#include "core/base/place_grid.hpp"
 #include "core/base/types.hpp"
+#include "core/base/world.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "spatial/obstacles/box_tree.hpp"
@@ -78,7 +78,7 @@ class ObstacleTree {
   /// Convex obstacles, and sides of the others.
   std::size_t piece_count() const { return convex_.size() + sides_.size(); }
   /// Takes the bits of places away at which a convex body, mirrored at its reference point, would come nearer than
-  /// `reach` to an obstacle (worlds/rasters/blocked_places.hpp); of polygons that aren't convex, to a side.
+  /// `reach` to an obstacle (worlds/rasters/convex_pieces.hpp); of polygons that aren't convex, to a side.
   void take_blocked_places(std::span<const Vec2> mirrored_body, double reach, PlaceGrid& free) const;
 
   const std::optional<Box>& bounds() const { return bounds_; }

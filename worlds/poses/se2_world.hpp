@@ -12,8 +12,8 @@
 // Planning widens the clearance by the factor 1 + 1e-9 plus rounding, so that a verification can't fail by rounding.
 //
 // On a map the body moves among the borders between free and blocked cells, which the scene has as walls
-// (worlds/rasters/map_borders.hpp). A body that touches none of them is wholly among free cells or wholly among blocked
-// ones: one of its corners tells which.
+// (worlds/rasters/lattice_polygons.hpp). A body that touches none of them is wholly among free cells or wholly among
+// blocked ones: one of its corners tells which.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random points in the middles of a map's corridors, in world coordinates: spatial/maps/corridor_cells drawn from by a
+// Random points in the middles of a map's corridors, in world coordinates: spatial/maps/free_cells drawn from by a
 // Kronecker sequence, so that any first n points are spread evenly over the corridors; each up to half the way towards
 // one of the ridge cells beside it, so that the points fill the corridor's whole length, and a little to the side where
 // there is room for it.
@@ -10,7 +10,7 @@
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/scene/occupancy_map.hpp"
-#include "spatial/maps/corridor_cells.hpp"
+#include "spatial/maps/free_cells.hpp"
 
 namespace warren {
 

@@ -11,11 +11,11 @@
 #include <span>
 #include <vector>
 
-#include "core/base/path.hpp"
+#include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
 #include "solve/answer/answer.hpp"
-#include "solve/paths/path_legs.hpp"
+#include "solve/paths/timed_path.hpp"
 
 namespace warren::serve {
 

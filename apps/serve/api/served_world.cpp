@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "solve/explain/explain_answer.hpp"
-#include "solve/question/plannable.hpp"
-#include "solve/roadmaps/kept_cells.hpp"
-#include "solve/roadmaps/walls_let_go.hpp"
+#include "solve/explain_answer.hpp"
+#include "solve/kept/kept_cells.hpp"
+#include "solve/kept/roadmap.hpp"
+#include "solve/question/question.hpp"
 #include "solve/solve.hpp"
 
 namespace warren::serve {

@@ -16,12 +16,12 @@
 #include "apps/serve/graphs/edge_judge.hpp"
 #include "apps/serve/tiles/world_tiles.hpp"
 #include "parallel/execution.hpp"
-#include "parallel/made_once.hpp"
+#include "parallel/once.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
+#include "solve/kept/roadmap.hpp"
+#include "solve/kept/roadmap_query.hpp"
 #include "solve/question/solve_options.hpp"
-#include "solve/roadmaps/roadmap.hpp"
-#include "solve/roadmaps/roadmap_query.hpp"
 
 namespace warren::serve {
 

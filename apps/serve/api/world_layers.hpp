@@ -14,7 +14,7 @@
 #include "apps/serve/tiles/distance_layers.hpp"
 #include "apps/serve/tiles/roadmap_layer.hpp"
 #include "parallel/execution.hpp"
-#include "parallel/made_once.hpp"
+#include "parallel/once.hpp"
 
 namespace warren::serve {
 

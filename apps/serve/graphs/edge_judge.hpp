@@ -13,7 +13,7 @@
 
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
-#include "parallel/made_once.hpp"
+#include "parallel/once.hpp"
 #include "scenes/scene/scene.hpp"
 #include "verify/near/obstacle_index.hpp"
 

@@ -10,8 +10,8 @@
 #include "apps/serve/graphs/edge_judge.hpp"
 #include "apps/serve/http/http_message.hpp"
 #include "core/base/error.hpp"
-#include "scenes/text/human_units.hpp"
-#include "solve/roadmaps/export_of_roadmap.hpp"
+#include "scenes/files/human_units.hpp"
+#include "solve/kept/export_roadmap.hpp"
 
 namespace warren::serve {
 namespace {

@@ -14,7 +14,7 @@
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
-#include "solve/roadmaps/roadmap.hpp"
+#include "solve/kept/roadmap.hpp"
 
 namespace warren::serve {
 

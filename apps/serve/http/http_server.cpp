@@ -31,7 +31,7 @@
 #include "apps/serve/http/http_message.hpp"
 #include "apps/serve/http/task_crew.hpp"
 #include "core/base/error.hpp"
-#include "parallel/deadline.hpp"
+#include "parallel/execution.hpp"
 
 namespace warren::serve {
 // One connection of the server, and what is worked on for it: data of the server's own thread, but for what a job's

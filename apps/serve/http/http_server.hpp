@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "apps/serve/http/http_message.hpp"
-#include "parallel/deadline.hpp"
+#include "parallel/execution.hpp"
 
 namespace warren::serve {
 // What a server asks of whom it serves: the whole of an interface, without sockets.

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "parallel/execution.hpp"
-#include "parallel/made_once.hpp"
+#include "parallel/once.hpp"
 
 namespace warren::serve {
 

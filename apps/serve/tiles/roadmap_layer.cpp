@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "pictures/formats/raster.hpp"
-#include "scenes/images/png_writer_io.hpp"
+#include "scenes/files/png_io.hpp"
 
 namespace warren::serve {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "scenes/images/png_writer_io.hpp"
+#include "scenes/files/png_io.hpp"
 
 namespace warren::serve {
 namespace {

@@ -13,9 +13,9 @@
 #include "apps/serve/tiles/web_tile.hpp"
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
-#include "parallel/polled_sort.hpp"
+#include "parallel/sort.hpp"
 #include "pictures/formats/raster.hpp"
-#include "solve/roadmaps/maze_bits.hpp"
+#include "solve/kept/maze_bits.hpp"
 #include "spatial/maps/distance_field.hpp"
 #include "spatial/obstacles/box_tree.hpp"
 

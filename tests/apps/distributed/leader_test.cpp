@@ -19,7 +19,7 @@
 #include "tests/apps/distributed/solved_by_ranks.hpp"
 #include "tests/seeds.hpp"
 #include "tests/solve/answer_bytes.hpp"
-#include "verify/cells/verify_cells.hpp"
+#include "verify/streamed/verify_cells.hpp"
 
 namespace warren::distributed {
 namespace {

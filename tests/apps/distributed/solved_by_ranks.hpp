@@ -9,7 +9,7 @@
 
 #include "apps/distributed/leader_follower.hpp"
 #include "apps/distributed/rank_protocol.hpp"
-#include "solve/mazes/solve_streamed.hpp"
+#include "solve/streamed/solve_streamed.hpp"
 #include "tests/apps/distributed/thread_ranks.hpp"
 #include "tests/seeds.hpp"
 

@@ -6,9 +6,9 @@
 #include <iterator>
 
 #include "core/base/error.hpp"
-#include "scenes/formats/read_world_io.hpp"
+#include "scenes/files/read_world_io.hpp"
 #include "tests/paths.hpp"
-#include "worlds/rasters/map_borders.hpp"
+#include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren::studies {
 namespace {

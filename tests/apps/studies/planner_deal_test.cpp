@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "solve/steps/kind_of_problem.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
 
 namespace warren::studies {
 namespace {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/base/let_go.hpp"
+#include "core/base/raw_vector.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
-
-#include "core/base/raw_vector.hpp"
 
 namespace warren {
 namespace {

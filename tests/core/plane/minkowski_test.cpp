@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/plane/minkowski.hpp"
+#include "core/plane/convex_polygons.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "core/base/rng.hpp"
-#include "core/plane/convex_decomposition.hpp"
 #include "core/plane/geometry.hpp"
-#include "core/plane/polygon_distance.hpp"
+#include "core/plane/polygon.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/plane/polygon_distance.hpp"
+#include "core/plane/polygon.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/search/edge_states.hpp"
+#include "core/search/graph.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include "core/base/error.hpp"
 #include "pictures/model/letters.hpp"
 #include "scenes/mazes/maze_generator.hpp"
-#include "scenes/scene/unit_of.hpp"
+#include "scenes/scene/scene.hpp"
 
 namespace warren {
 namespace {

@@ -14,7 +14,7 @@
 #include "tests/planners/grid/grid_oracle.hpp"
 #include "tests/seeds.hpp"
 #include "verify/judges/verify_turning.hpp"
-#include "worlds/rasters/heading_layers_of_scene.hpp"
+#include "worlds/rasters/heading_layers.hpp"
 
 namespace warren {
 namespace {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/base/rng.hpp"
-#include "parallel/assemble_graph.hpp"
-#include "parallel/components.hpp"
+#include "planners/graph/assemble_graph.hpp"
+#include "planners/graph/components.hpp"
 #include "planners/grid/map_skeleton.hpp"
 
 namespace warren {

@@ -10,7 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
-#include "parallel/deadline.hpp"
+#include "parallel/execution.hpp"
 #include "parallel/trace.hpp"
 #include "planners/lengths/tree_routes.hpp"
 #include "tests/planners/lengths/lattice_mazes.hpp"

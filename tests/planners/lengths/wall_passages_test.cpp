@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/base/path.hpp"
 #include "core/base/rng.hpp"
+#include "core/base/solution.hpp"
 #include "planners/lengths/route_query.hpp"
 #include "planners/mazes/tiled_prm_lattice.hpp"
 #include "scenes/mazes/maze_generator.hpp"

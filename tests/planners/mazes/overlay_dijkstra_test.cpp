@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/base/rng.hpp"
-#include "parallel/deadline.hpp"
+#include "parallel/execution.hpp"
 
 namespace warren {
 namespace {

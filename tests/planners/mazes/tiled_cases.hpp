@@ -10,7 +10,7 @@
 
 #include "planners/mazes/tiled_prm_lattice.hpp"
 #include "scenes/mazes/maze_generator.hpp"
-#include "solve/steps/planned_worlds.hpp"
+#include "solve/kinds/planned_worlds.hpp"
 #include "tests/planners/visibility/plane_worlds.hpp"
 #include "verify/judges/verify_point.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "scenes/mazes/held_cells.hpp"
+#include "scenes/mazes/maze_generator.hpp"
 #include "scenes/mazes/spanning_maze.hpp"
 #include "tests/planners/mazes/tiled_cases.hpp"
 #include "tests/seeds.hpp"

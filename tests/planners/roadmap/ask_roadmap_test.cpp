@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "scenes/mazes/maze_generator.hpp"
-#include "solve/steps/planned_worlds.hpp"
+#include "solve/kinds/planned_worlds.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
 
 namespace warren {

@@ -11,7 +11,7 @@
 
 #include "core/base/rng.hpp"
 #include "scenes/mazes/maze_generator.hpp"
-#include "solve/steps/planned_worlds.hpp"
+#include "solve/kinds/planned_worlds.hpp"
 #include "tests/planners/visibility/plane_worlds.hpp"
 #include "tests/seeds.hpp"
 

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "planners/shorten/shortcut.hpp"
-#include "solve/steps/planned_worlds.hpp"
+#include "solve/kinds/planned_worlds.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
 #include "verify/judges/verify_car.hpp"
 

@@ -11,7 +11,7 @@
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
 #include "scenes/mazes/maze_generator.hpp"
-#include "solve/steps/planned_worlds.hpp"
+#include "solve/kinds/planned_worlds.hpp"
 #include "tests/planners/visibility/plane_worlds.hpp"
 
 namespace warren {

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "solve/steps/planned_worlds.hpp"
+#include "solve/kinds/planned_worlds.hpp"
 #include "tests/planners/visibility/plane_worlds.hpp"
 
 namespace warren {

@@ -7,8 +7,8 @@
 
 #include "core/base/error.hpp"
 #include "planners/shorten/shortcut.hpp"
-#include "scenes/formats/read_world_io.hpp"
-#include "solve/steps/planned_worlds.hpp"
+#include "scenes/files/read_world_io.hpp"
+#include "solve/kinds/planned_worlds.hpp"
 #include "tests/paths.hpp"
 #include "tests/seeds.hpp"
 #include "verify/judges/verify_arm.hpp"

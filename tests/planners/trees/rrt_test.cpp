@@ -10,7 +10,7 @@
 #include "core/base/error.hpp"
 #include "planners/shorten/shortcut.hpp"
 #include "scenes/mazes/maze_generator.hpp"
-#include "solve/steps/planned_worlds.hpp"
+#include "solve/kinds/planned_worlds.hpp"
 #include "tests/seeds.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
 #include "verify/judges/verify_point.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/plane/geometry.hpp"
-#include "scenes/formats/read_world_io.hpp"
+#include "scenes/files/read_world_io.hpp"
 #include "tests/paths.hpp"
 #include "tests/planners/visibility/plane_worlds.hpp"
 

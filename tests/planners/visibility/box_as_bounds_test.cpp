@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "core/plane/polygon_distance.hpp"
+#include "core/plane/polygon.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenes/mazes/hash_of_cells.hpp"
+#include "scenes/mazes/cell_bits.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "scenes/mazes/held_cells.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 
 namespace warren {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The oracle holds the maze: maze_walls() of the same cells as floats, byte for byte, however wide the strips are.
-#include "scenes/mazes/wall_strips.hpp"
+#include "scenes/mazes/maze_walls.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "scenes/mazes/held_cells.hpp"
+#include "scenes/mazes/maze_generator.hpp"
 #include "tests/scenes/mazes/mazes.hpp"
 
 namespace warren {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenes/scene/holes_cut_open.hpp"
+#include "scenes/scene/rings.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
 #include "core/plane/geometry.hpp"
-#include "core/plane/polygon_distance.hpp"
+#include "core/plane/polygon.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 
 namespace warren {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "scenes/formats/read_world_io.hpp"
+#include "scenes/files/read_world_io.hpp"
 #include "solve/paths/timed_path.hpp"
 #include "solve/solve.hpp"
 #include "tests/paths.hpp"

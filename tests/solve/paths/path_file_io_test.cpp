@@ -14,7 +14,7 @@
 
 #include "core/base/error.hpp"
 #include "core/plane/se2.hpp"
-#include "scenes/formats/read_world_io.hpp"
+#include "scenes/files/read_world_io.hpp"
 #include "solve/solve.hpp"
 #include "tests/paths.hpp"
 

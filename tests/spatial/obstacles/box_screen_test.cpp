@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "spatial/obstacles/box_screen.hpp"
+#include "spatial/obstacles/wall_grid.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "spatial/points/growing_tree.hpp"
+#include "spatial/points/kd_tree.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "spatial/points/near_bits.hpp"
+#include "spatial/points/point_grid.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/base/rng.hpp"
-#include "verify/exact/dyadic.hpp"
 
 namespace warren {
 namespace {

@@ -16,7 +16,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
-#include "parallel/deadline.hpp"
+#include "parallel/execution.hpp"
 #include "tests/seeds.hpp"
 #include "tests/verify/judges/bounding_judge.hpp"
 #include "verify/judges/verify_arm.hpp"

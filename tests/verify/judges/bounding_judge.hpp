@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "core/plane/se2.hpp"
-#include "scenes/scene/dh_table.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace warren::test {

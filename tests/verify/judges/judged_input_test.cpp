@@ -12,7 +12,7 @@
 #include "verify/judges/verify_point.hpp"
 #include "verify/judges/verify_turning.hpp"
 #include "worlds/arms/puma560.hpp"
-#include "worlds/rasters/map_borders.hpp"
+#include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren {
 namespace {

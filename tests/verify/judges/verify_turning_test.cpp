@@ -7,7 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
-#include "core/plane/polygon_distance.hpp"
+#include "core/plane/polygon.hpp"
 #include "tests/seeds.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
 #include "worlds/poses/se2_world.hpp"

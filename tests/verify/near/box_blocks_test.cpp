@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "verify/near/box_blocks.hpp"
+#include "verify/near/obstacle_index.hpp"
 
 #include <gtest/gtest.h>
 

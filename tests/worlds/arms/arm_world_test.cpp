@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/base/error.hpp"
-#include "scenes/formats/read_world_io.hpp"
+#include "scenes/files/read_world_io.hpp"
 #include "tests/seeds.hpp"
 #include "tests/worlds/arms/arm_oracle.hpp"
 #include "worlds/arms/puma560.hpp"

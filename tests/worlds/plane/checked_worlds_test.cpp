@@ -7,7 +7,7 @@
 #include "worlds/poses/car_world.hpp"
 #include "worlds/poses/obstacle_tree.hpp"
 #include "worlds/poses/se2_world.hpp"
-#include "worlds/rasters/map_borders.hpp"
+#include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren {
 namespace {

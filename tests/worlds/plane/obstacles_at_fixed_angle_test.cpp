@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
-#include "core/plane/polygon_distance.hpp"
+#include "core/plane/polygon.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
 
 namespace warren {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/plane/open_sides.hpp"
+#include "worlds/plane/maze_world.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,6 @@
 #include "core/base/rng.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "tests/seeds.hpp"
-#include "worlds/plane/maze_world.hpp"
 
 namespace warren {
 namespace {

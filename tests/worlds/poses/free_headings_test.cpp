@@ -10,7 +10,7 @@
 #include "core/plane/geometry.hpp"
 #include "tests/seeds.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
-#include "worlds/rasters/map_borders.hpp"
+#include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren {
 namespace {

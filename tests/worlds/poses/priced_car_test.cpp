@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/poses/priced_car.hpp"
+#include "worlds/poses/car_world.hpp"
 
 #include <gtest/gtest.h>
 

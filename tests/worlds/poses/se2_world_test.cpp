@@ -8,11 +8,11 @@
 #include <string>
 
 #include "core/base/error.hpp"
-#include "core/plane/polygon_distance.hpp"
+#include "core/plane/polygon.hpp"
 #include "tests/seeds.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
 #include "verify/judges/verify_turning.hpp"
-#include "worlds/rasters/map_borders.hpp"
+#include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/rasters/blocked_places.hpp"
+#include "worlds/rasters/convex_pieces.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,6 @@
 #include "core/base/rng.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
 #include "worlds/poses/se2_world.hpp"
-#include "worlds/rasters/convex_pieces.hpp"
 
 namespace warren {
 namespace {

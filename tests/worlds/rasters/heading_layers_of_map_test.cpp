@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/rasters/heading_layers_of_map.hpp"
+#include "worlds/rasters/heading_layers.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "scenes/scene/scene.hpp"
 #include "tests/seeds.hpp"
 #include "verify/judges/verify_turning.hpp"
-#include "worlds/rasters/map_borders.hpp"
+#include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/rasters/heading_layers_of_scene.hpp"
+#include "worlds/rasters/heading_layers.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "verify/judges/verify_point.hpp"
 #include "verify/judges/verify_turning.hpp"
 #include "worlds/rasters/convex_pieces.hpp"
-#include "worlds/rasters/polygons_on_lattice.hpp"
+#include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren {
 namespace {

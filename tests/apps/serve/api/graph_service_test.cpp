@@ -8,9 +8,9 @@
 #include <set>
 #include <string>
 
-#include "solve/roadmaps/export_of_roadmap.hpp"
+#include "solve/kept/export_roadmap.hpp"
 #include "tests/apps/serve/town.hpp"
-#include "tests/scenes/text/temporary_directory.hpp"
+#include "tests/scenes/files/temporary_directory.hpp"
 
 namespace warren::serve {
 namespace {

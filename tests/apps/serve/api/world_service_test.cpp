@@ -14,7 +14,7 @@
 #include "solve/answer/path_hash.hpp"
 #include "solve/solve.hpp"
 #include "tests/apps/serve/town.hpp"
-#include "tests/scenes/text/temporary_directory.hpp"
+#include "tests/scenes/files/temporary_directory.hpp"
 
 namespace warren::serve {
 namespace {

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/graph/assemble_graph.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "parallel/asked_memory.hpp"
+
+namespace warren {
+namespace {
+
+using Parts = std::span<const std::span<const Edge>>;
+
+constexpr unsigned smallest_block_bits = 14;  // a block's rows stay in a second-level cache
+constexpr std::size_t most_blocks = 2048;     // bounds the table of counts
+constexpr std::size_t smallest_run = std::size_t{1} << 17;
+
+/// A half of an edge on its way to the block of its row.
+struct RoutedHalf {
+  VertexId row;
+  VertexId target;
+};
+
+/// What the check of one part found.
+struct PartShape {
+  bool ordered = true;  // from ascending, from < to
+  VertexId first = 0;
+  VertexId last = 0;
+};
+
+PartShape check_part(std::size_t vertex_count, std::span<const Edge> part) {
+  PartShape shape;
+  VertexId largest = 0;
+  VertexId before = 0;
+  bool loop = false;
+  for (const Edge& e : part) {
+    largest = std::max(largest, std::max(e.from, e.to));
+    loop |= e.from == e.to;
+    shape.ordered &= e.from >= before && e.from < e.to;
+    before = e.from;
+  }
+  if (loop) throw InputError("graph", "an edge joins a vertex to itself");
+  if (!part.empty()) {
+    if (largest >= vertex_count) throw InputError("graph", "an edge's end is not a vertex", std::to_string(largest));
+    shape.first = part.front().from;
+    shape.last = part.back().from;
+  }
+  return shape;
+}
+
+/// Place of the edge in front of which a block begins: part and position in it.
+struct Cut {
+  std::size_t part;
+  std::size_t at;
+};
+
+class Assembly {
+ public:
+  Assembly(std::size_t vertex_count, Parts parts, const Execution& execution)
+      : vertex_count_(vertex_count), parts_(parts), execution_(execution) {
+    while (chunk_count(vertex_count_, std::size_t{1} << bits_) > most_blocks) ++bits_;
+    blocks_ = chunk_count(vertex_count_, std::size_t{1} << bits_);
+  }
+
+  GraphRows run() {
+    check_parts();
+    if (vertex_count_ == 0) return {RawVector<EdgeEnd>(1, 0), {}};
+    cut_ordered_parts();
+    cut_loose_parts();
+    count_halves();
+    place_routed_halves();
+    return fill_rows();
+  }
+
+ private:
+  std::size_t block_of(VertexId v) const { return v >> bits_; }
+  VertexId begin_of(std::size_t block) const { return static_cast<VertexId>(block << bits_); }
+
+  void check_parts() {
+    std::size_t edges = 0;
+    for (const auto& part : parts_) edges += part.size();
+    if (edges > std::numeric_limits<EdgeEnd>::max() / 2) {
+      throw InputError("graph", "too many edges for 32-bit positions; use fewer samples or neighbours",
+                       std::to_string(edges));
+    }
+    if (vertex_count_ > no_vertex) throw InputError("graph", "too many vertices", std::to_string(vertex_count_));
+    edge_count_ = edges;
+    std::vector<PartShape> shapes(parts_.size());
+    for_chunks(parts_.size(), part_grain(), quiet(), [&](Range r) {
+      for (std::size_t p = r.first; p < r.last; ++p) shapes[p] = check_part(vertex_count_, parts_[p]);
+    });
+    VertexId last = 0;
+    for (ordered_ = 0; ordered_ < parts_.size(); ++ordered_) {
+      if (parts_[ordered_].empty()) continue;
+      if (!shapes[ordered_].ordered || shapes[ordered_].first < last) break;
+      last = shapes[ordered_].last;
+    }
+  }
+  std::size_t part_grain() const { return std::max<std::size_t>(1, parts_.size() / 1024); }
+  /// Progress counts vertices, once, in fill_rows.
+  Execution quiet() const {
+    Execution execution = execution_;
+    execution.progress = nullptr;
+    return execution;
+  }
+
+  void cut_ordered_parts() {
+    cuts_.resize(blocks_ + 1, {ordered_, 0});
+    std::size_t block = 0;  // the first one whose cut is not known
+    for (std::size_t p = 0; p < ordered_ && block < blocks_; ++p) {
+      const auto& part = parts_[p];
+      for (; block < blocks_ && !part.empty() && begin_of(block) <= part.back().from; ++block) {
+        const auto from_below = [](const Edge& e, VertexId v) { return e.from < v; };
+        const auto at = std::lower_bound(part.begin(), part.end(), begin_of(block), from_below);
+        cuts_[block] = {p, static_cast<std::size_t>(at - part.begin())};
+      }
+    }
+  }
+  /// Calls visit(edge) for each edge from one cut to another.
+  template <class Visit>
+  void for_edges(Cut at, Cut end, const Visit& visit) const {
+    for (; at.part < parts_.size() && at.part <= end.part; at = {at.part + 1, 0}) {
+      const auto& part = parts_[at.part];
+      const std::size_t last = at.part == end.part ? end.at : part.size();
+      for (std::size_t i = at.at; i < last; ++i) visit(part[i]);
+    }
+  }
+  template <class Visit>
+  void for_block_edges(std::size_t block, const Visit& visit) const {
+    for_edges(cuts_[block], cuts_[block + 1], visit);
+  }
+
+  /// Cuts the unordered parts into at most most_blocks runs of about the same size.
+  void cut_loose_parts() {
+    std::size_t edges = 0;
+    for (std::size_t p = ordered_; p < parts_.size(); ++p) edges += parts_[p].size();
+    const std::size_t grain = std::max(smallest_run, edges / most_blocks + 1);
+    std::size_t taken = 0;
+    loose_.push_back({ordered_, 0});
+    for (std::size_t p = ordered_; p < parts_.size(); ++p) {
+      for (std::size_t at = 0; at < parts_[p].size();) {
+        const std::size_t step = std::min(parts_[p].size() - at, grain - taken);
+        at += step;
+        taken = (taken + step) % grain;
+        if (taken == 0) loose_.push_back({p, at});
+      }
+    }
+    if (taken > 0) loose_.push_back({parts_.size(), 0});
+  }
+
+  /// Sources of routed halves: the blocks, then the runs of unordered edges.
+  std::size_t source_count() const { return blocks_ + loose_.size() - 1; }
+  /// Calls visit(row, target) for each half that a source sends to rows of other blocks.
+  template <class Visit>
+  void for_routed_halves(std::size_t source, const Visit& visit) const {
+    if (source < blocks_) {
+      const VertexId last = begin_of(source + 1) - 1;
+      for_block_edges(source, [&](const Edge& e) {
+        if (e.to > last) visit(e.to, e.from);
+      });
+    } else {
+      for_edges(loose_[source - blocks_], loose_[source - blocks_ + 1], [&](const Edge& e) {
+        visit(e.from, e.to);
+        visit(e.to, e.from);
+      });
+    }
+  }
+  std::span<std::uint32_t> counts_of(std::size_t source) { return {counts_.data() + source * blocks_, blocks_}; }
+
+  /// counts_: routed halves by source and block; ends_: of each block, the edge ends of its own edges in its own rows.
+  void count_halves() {
+    counts_.assign(blocks_ * source_count(), 0);
+    ends_.assign(blocks_ + 1, 0);
+    for_chunks(source_count(), 1, quiet(), [&](Range r) {
+      const std::span<std::uint32_t> sent = counts_of(r.first);
+      for_routed_halves(r.first, [&](VertexId row, VertexId) { ++sent[block_of(row)]; });
+      if (r.first >= blocks_) return;
+      std::uint64_t halves = 0;
+      for_block_edges(r.first, [&](const Edge&) { halves += 2; });
+      ends_[r.first] = halves - std::accumulate(sent.begin(), sent.end(), std::uint64_t{0});
+    });
+  }
+
+  /// Turns counts into places: routed halves lie block by block, in each in the order of the sources.
+  void place_routed_halves() {
+    std::vector<std::uint32_t> received(blocks_, 0);
+    for (std::size_t s = 0; s < source_count(); ++s) {
+      for (std::size_t block = 0; block < blocks_; ++block) received[block] += counts_of(s)[block];
+    }
+    routed_begin_.assign(blocks_ + 1, 0);
+    std::uint64_t ends = 0;
+    for (std::size_t block = 0; block < blocks_; ++block) {
+      routed_begin_[block + 1] = routed_begin_[block] + received[block];
+      ends += std::exchange(ends_[block], ends) + received[block];
+    }
+    std::vector<std::uint32_t> next(routed_begin_.begin(), routed_begin_.end() - 1);
+    for (std::size_t s = 0; s < source_count(); ++s) {
+      for (std::size_t block = 0; block < blocks_; ++block) {
+        next[block] += std::exchange(counts_of(s)[block], next[block]);
+      }
+    }
+    execution_.reserve(routed_begin_.back() * sizeof(RoutedHalf));
+    routed_.resize(routed_begin_.back());
+    touch_first(routed_, execution_);
+    for_chunks(source_count(), 1, quiet(), [&](Range r) {
+      const std::span<std::uint32_t> place = counts_of(r.first);
+      for_routed_halves(r.first, [&](VertexId row, VertexId target) {
+        routed_[place[block_of(row)]++] = {row, target};
+      });
+    });
+  }
+  std::span<const RoutedHalf> routed_to(std::size_t block) const {
+    return {routed_.data() + routed_begin_[block], routed_.data() + routed_begin_[block + 1]};
+  }
+
+  GraphRows fill_rows() {
+    execution_.reserve((vertex_count_ + 2 * edge_count_) * sizeof(VertexId));
+    GraphRows rows{RawVector<EdgeEnd>(vertex_count_ + 1), RawVector<VertexId>(2 * edge_count_)};
+    rows.offsets[vertex_count_] = static_cast<EdgeEnd>(2 * edge_count_);
+    for_chunks(vertex_count_, std::size_t{1} << bits_, execution_,
+               [&](Range r) { fill_block(r.first >> bits_, r, rows); });
+    return rows;
+  }
+  void fill_block(std::size_t block, Range r, GraphRows& rows) const {
+    std::vector<EdgeEnd> next(r.size() + 1, 0);  // row v's cursor is next[v - r.first]
+    const auto first = static_cast<VertexId>(r.first);
+    const auto size = static_cast<VertexId>(r.size());
+    for (const RoutedHalf& h : routed_to(block)) ++next[h.row - first];
+    for_block_edges(block, [&](const Edge& e) {
+      ++next[e.from - first];
+      if (e.to - first < size) ++next[e.to - first];
+    });
+    auto at = static_cast<EdgeEnd>(ends_[block]);
+    for (std::size_t i = 0; i < size; ++i) {
+      rows.offsets[r.first + i] = at;
+      at += std::exchange(next[i], at);
+    }
+    for (const RoutedHalf& h : routed_to(block)) rows.targets[next[h.row - first]++] = h.target;
+    for_block_edges(block, [&](const Edge& e) {
+      rows.targets[next[e.from - first]++] = e.to;
+      if (e.to - first < size) rows.targets[next[e.to - first]++] = e.from;
+    });
+    EdgeEnd begin = static_cast<EdgeEnd>(ends_[block]);
+    for (std::size_t i = 0; i < size; begin = next[i++]) {
+      VertexId* const row = rows.targets.data() + begin;
+      VertexId* const row_end = rows.targets.data() + next[i];
+      if (!std::is_sorted(row, row_end)) std::sort(row, row_end);
+    }
+  }
+
+  std::size_t vertex_count_;
+  Parts parts_;
+  const Execution& execution_;
+  unsigned bits_ = smallest_block_bits;
+  std::size_t blocks_ = 0;
+  std::size_t edge_count_ = 0;
+  std::size_t ordered_ = 0;                  // leading parts that are in order
+  std::vector<Cut> cuts_;                    // one a block, and the end
+  std::vector<Cut> loose_;                   // borders of the runs of unordered edges
+  std::vector<std::uint32_t> counts_;        // by source, then block: halves sent; later the place of the next
+  std::vector<std::uint64_t> ends_;          // edge ends of each block's rows; later the position of the first
+  std::vector<std::uint32_t> routed_begin_;  // of each block in routed_
+  RawVector<RoutedHalf> routed_;
+};
+
+}  // namespace
+
+GraphRows assemble_rows(std::size_t vertex_count, std::span<const RawVector<Edge>> parts, const Execution& execution) {
+  const std::vector<std::span<const Edge>> spans(parts.begin(), parts.end());
+  return Assembly(vertex_count, spans, execution).run();
+}
+
+Graph assemble_graph(std::size_t vertex_count, std::span<const RawVector<Edge>> parts, const Execution& execution) {
+  GraphRows rows = assemble_rows(vertex_count, parts, execution);
+  return Graph(std::move(rows.offsets), std::move(rows.targets));
+}
+
+Graph assemble_graph(std::size_t vertex_count, std::span<const Edge> edges, const Execution& execution) {
+  std::vector<std::span<const Edge>> parts;
+  for (std::size_t i = 0; i < edges.size(); i += smallest_run) {
+    parts.push_back(edges.subspan(i, std::min(smallest_run, edges.size() - i)));
+  }
+  GraphRows rows = Assembly(vertex_count, parts, execution).run();
+  return Graph(std::move(rows.offsets), std::move(rows.targets));
+}
+
+}  // namespace warren

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Connected components on all cores. Blocks of vertices are joined serially inside (union-find with path halving, the
+// smaller root wins), then the edges between blocks by a lock-free union that hangs the larger root under the smaller
+// one with compare-and-swap, then every vertex is pointed at its root. A root is the smallest vertex of its tree at all
+// times, so the labels are the smallest vertices of the components whatever the order of the unions.
+//
+// O(E α(V)), reads each row once and the rows that leave their block twice; memory: the labels. core's serial
+// components() is the oracle.
+#pragma once
+
+#include <atomic>
+#include <span>
+#include <utility>
+
+#include "core/base/types.hpp"
+#include "core/search/graph.hpp"
+#include "parallel/execution.hpp"
+
+namespace warren {
+
+/// label[v] is the smallest vertex of v's component: the same as the serial components(graph).
+Components components(const Graph& graph, const Execution& execution);
+
+/// Vertices in v's component.
+std::size_t component_size(const Components& components, VertexId v, const Execution& execution);
+
+// Union-find that many threads work on at once without a lock: the larger root is hung under the smaller one with
+// compare-and-swap, and whoever looks for a root halves the path to it. Invariants: parent[v] <= v, and a vertex that
+// is no root never becomes one again. So the root of a tree is its smallest vertex at all times, whatever the order of
+// unions. Only the parents pass between threads, no other memory depends on them: relaxed order is enough.
+
+/// Refers to parents that live elsewhere, where each vertex is its own at first. Any threads may call all of it.
+class UnionForest {
+ public:
+  explicit UnionForest(std::span<VertexId> parent) : parent_(parent) {}
+
+  VertexId parent(VertexId v) const { return std::atomic_ref(parent_[v]).load(std::memory_order_relaxed); }
+  VertexId root(VertexId v) const {
+    for (VertexId p = parent(v); p != v; p = parent(v)) {
+      const VertexId above = parent(p);
+      if (above == p) return p;
+      std::atomic_ref(parent_[v]).store(above, std::memory_order_relaxed);  // path halving: an ancestor stays one
+      v = above;
+    }
+    return v;
+  }
+  /// The root without writing on the way: another vertex may hold its final label already.
+  VertexId root_of(VertexId v) const {
+    for (VertexId p = parent(v); p != v; p = parent(v)) v = p;
+    return v;
+  }
+  void join(VertexId a, VertexId b) const {
+    if (parent(a) == parent(b)) return;  // most edges of a graph join what is one tree already
+    for (;;) {
+      a = root(a);
+      b = root(b);
+      if (a == b) return;
+      if (a < b) std::swap(a, b);
+      VertexId expected = a;  // fails when another thread has hung this root meanwhile: look again
+      if (std::atomic_ref(parent_[a]).compare_exchange_strong(expected, b, std::memory_order_relaxed)) return;
+    }
+  }
+
+ private:
+  std::span<VertexId> parent_;
+};
+
+}  // namespace warren

@@ -1,0 +1,443 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The reader takes the parser's events: an object that has a "type" and "coordinates" is a geometry, whatever the order
+// of its keys; coordinates are collected as chains of points with the depth of their nesting, and interpreted when the
+// object ends.
+
+#include "scenes/files/geojson_io.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/base/types.hpp"
+#include "parallel/asked_memory.hpp"
+#include "scenes/files/json_text.hpp"
+#include "scenes/files/output_file_io.hpp"
+#include "scenes/files/scene_text.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+#include "scenes/scene/rings.hpp"
+
+namespace warren {
+namespace {
+
+// What GeoJSON's geometries mean for a world: outlines are obstacles, lines walls, points nothing, unless the feature
+// around them says that they are start, goal or bounds. That is known when the feature ends, so geometries wait here.
+// Polygons with holes are cut (scenes/scene/rings.hpp).
+
+/// Refers to the file's name, which must outlive it. All that is wrong throws InputError with file and line.
+class GeojsonPieces {
+ public:
+  enum class Kind : std::uint8_t { polygon, wall, point };
+
+  GeojsonPieces(const std::string& file, const Execution& execution)
+      : file_(file), execution_(execution), walls_(execution) {}
+
+  /// How many wait.
+  std::size_t size() const { return waiting_.size(); }
+  /// Rings are not closed.
+  void add(Kind kind, std::vector<Vec2> points, std::size_t line) {
+    push_asked(waiting_, {kind, std::move(points), line, {}}, execution_);
+  }
+  /// Of the polygon that was added last.
+  void add_hole(std::vector<Vec2> ring) { push_asked(waiting_.back().holes, std::move(ring), execution_); }
+  /// Takes those that wait, from the one of that number on, into the world. role: "start", "goal", "bounds", or else
+  /// they are obstacles.
+  void settle(std::size_t first, const std::string& role);
+  /// The world; once.
+  Scene finish();
+
+ private:
+  struct Piece {
+    Kind kind;
+    std::vector<Vec2> points;
+    std::size_t line;
+    std::vector<std::vector<Vec2>> holes;
+  };
+
+  [[noreturn]] void fail_at(std::size_t line, std::string_view what) const;
+  void settle_role(const Piece& piece, const std::string& role);
+  void settle_obstacle(Piece& piece);
+
+  const std::string& file_;
+  const Execution& execution_;
+  Scene scene_;
+  WallCollector walls_;
+  std::vector<Piece> waiting_;
+};
+
+void GeojsonPieces::fail_at(std::size_t line, std::string_view what) const {
+  scene_text::Place{file_, line}.fail(what, {});
+}
+
+void GeojsonPieces::settle(std::size_t first, const std::string& role) {
+  for (std::size_t i = first; i < waiting_.size(); ++i) {
+    if (role == "start" || role == "goal" || role == "bounds") {
+      settle_role(waiting_[i], role);
+    } else {
+      settle_obstacle(waiting_[i]);
+    }
+  }
+  waiting_.resize(first);
+}
+
+void GeojsonPieces::settle_role(const Piece& piece, const std::string& role) {
+  const bool wants_point = role != "bounds";
+  if ((piece.kind == Kind::point) != wants_point || piece.kind == Kind::wall) {
+    fail_at(piece.line, fmt::format("the role \"{}\" is that of a {}", role, wants_point ? "Point" : "Polygon"));
+  }
+  if (wants_point) {
+    std::vector<double>& state = role == "start" ? scene_.start : scene_.goal;
+    if (!state.empty() || piece.points.size() != 1) fail_at(piece.line, fmt::format("a second \"{}\"", role));
+    state = {piece.points[0].x, piece.points[0].y};
+    return;
+  }
+  if (scene_.bounds) fail_at(piece.line, "a second \"bounds\"");
+  Box box;
+  for (const Vec2 p : piece.points) box.include(p);
+  if (!(box.width() > 0.0) || !(box.height() > 0.0)) fail_at(piece.line, "the bounds have no area");
+  scene_.bounds = box;
+}
+
+void GeojsonPieces::settle_obstacle(Piece& piece) {
+  if (piece.kind == Kind::point) return;  // a mark on a map blocks nothing
+  if (piece.kind == Kind::wall) {
+    for (std::size_t i = 1; i < piece.points.size(); ++i) {
+      walls_.add(piece.points[i - 1].x, piece.points[i - 1].y, piece.points[i].x, piece.points[i].y);
+    }
+    return;
+  }
+  if (piece.holes.empty()) {
+    push_asked(scene_.polygons, {std::move(piece.points), piece.line}, execution_);
+  } else if (!add_without_holes(scene_, piece.line, piece.points, piece.holes, execution_)) {
+    fail_at(piece.line, misplaced_hole);
+  }
+}
+
+Scene GeojsonPieces::finish() {
+  scene_.walls = walls_.take();
+  scene_.source = file_;
+  if (scene_.walls.size() == 0 && scene_.polygons.empty() && !scene_.bounds) {
+    throw InputError(file_, "there is no polygon and no line in it; expected GeoJSON with some");
+  }
+  return std::move(scene_);
+}
+
+using Json = nlohmann::json;
+
+constexpr std::size_t deepest = 64;       // objects in objects: more is no map
+constexpr std::size_t longest_word = 32;  // of those that mean something: longer ones are cut off
+
+/// Nested lists of points: chains, and the groups of chains.
+struct Coordinates {
+  std::vector<std::vector<Vec2>> chains;
+  std::vector<std::size_t> lines;   ///< where each chain begins
+  std::vector<std::size_t> groups;  ///< the first chain of each group
+  int depth = 0;                    ///< of the positions; 1: a point; 2: a chain; 3: chains; 4: groups
+  bool given = false;
+};
+
+/// What one JSON object has said so far.
+struct Object {
+  std::string type;
+  std::string role;  ///< of its properties
+  Coordinates coordinates;
+  bool in_properties = false;  ///< it or an object around it is a feature's "properties"
+  int lists = 0;               ///< open arrays that hold no coordinates
+};
+
+class Reader {
+ public:
+  Reader(const std::string& file, const std::size_t& line, const Execution& execution)
+      : file_(file), line_(line), execution_(execution), pieces_(file, execution) {}
+
+  bool null() { return scalar("null"); }
+  bool boolean(bool) { return scalar("true or false"); }
+  bool number_integer(Json::number_integer_t value) { return number(static_cast<double>(value)); }
+  bool number_unsigned(Json::number_unsigned_t value) { return number(static_cast<double>(value)); }
+  bool number_float(Json::number_float_t value, const std::string&) { return number(value); }
+  bool binary(Json::binary_t&) { return false; }
+  bool string(std::string& text);
+  bool start_object(std::size_t);
+  bool end_object();
+  bool key(std::string& name);
+  bool start_array(std::size_t);
+  bool end_array();
+  [[noreturn]] bool parse_error(std::size_t, const std::string& token, const nlohmann::detail::exception&) {
+    fail("this is not JSON from here on", token);
+  }
+
+  Scene finish() { return pieces_.finish(); }
+
+ private:
+  [[noreturn]] void fail(std::string_view what, std::string_view found = {}) const { fail_at(line_, what, found); }
+  [[noreturn]] void fail_at(std::size_t line, std::string_view what, std::string_view found = {}) const {
+    scene_text::Place{file_, line}.fail(what, found);
+  }
+  bool in_coordinates() const { return list_depth_ > 0; }
+  Object& object() { return objects_.back(); }
+  void look() {
+    constexpr std::size_t batch = 1 << 14;
+    if (++looks_ % batch == 0) execution_.check();
+  }
+  bool scalar(const char* found);
+  bool number(double value);
+  void end_position();
+  void end_geometry(Object& ended);
+  void add_rings(const Coordinates& coordinates);
+
+  const std::string& file_;
+  const std::size_t& line_;
+  const Execution& execution_;
+  GeojsonPieces pieces_;
+  std::vector<Object> objects_;
+  std::vector<std::size_t> first_piece_;  // of each open object
+  std::string key_;
+  int list_depth_ = 0;  // inside "coordinates", or the array of rings
+  std::vector<double> position_;
+  bool chain_open_ = false;
+  bool bare_ = false;  // an array of rings
+  bool began_ = false;
+  std::size_t looks_ = 0;
+};
+
+bool Reader::start_object(std::size_t) {
+  if (in_coordinates()) fail("expected numbers in \"coordinates\"", "an object");
+  if (objects_.size() >= deepest) fail("objects are nested too deeply for a map");
+  began_ = true;
+  Object opened;
+  opened.in_properties = !objects_.empty() && (object().in_properties || key_ == "properties");
+  objects_.push_back(std::move(opened));
+  first_piece_.push_back(pieces_.size());
+  key_.clear();
+  return true;
+}
+
+bool Reader::key(std::string& name) {
+  key_ = name.substr(0, longest_word);
+  look();
+  return true;
+}
+
+bool Reader::string(std::string& text) {
+  if (in_coordinates()) fail("expected numbers in \"coordinates\"", text);
+  if (objects_.empty()) fail("expected a GeoJSON object or an array of rings", text);
+  if (object().lists > 0) return true;
+  if (key_ == "type" && !object().in_properties) object().type = text.substr(0, longest_word);
+  if (key_ == "role" && object().in_properties && objects_.size() > 1)
+    objects_[objects_.size() - 2].role = text.substr(0, longest_word);
+  return true;
+}
+
+bool Reader::scalar(const char* found) {
+  if (in_coordinates()) fail("expected numbers in \"coordinates\"", found);
+  if (!began_) fail("expected a GeoJSON object or an array of rings", found);
+  return true;
+}
+
+bool Reader::number(double value) {
+  if (!in_coordinates()) return scalar("a number");
+  if (!(std::abs(value) <= largest_coordinate)) fail("numbers must be finite and not exceed 1e60 in magnitude");
+  position_.push_back(std::abs(value) < smallest_coordinate ? 0.0 : value);
+  return true;
+}
+
+bool Reader::start_array(std::size_t) {
+  constexpr int most_nested = 4;
+  if (!began_) {
+    bare_ = began_ = true;
+    objects_.push_back({});
+    first_piece_.push_back(0);
+    key_ = "coordinates";
+    object().type = "Polygon";
+  }
+  if (list_depth_ == 0 && (key_ != "coordinates" || object().in_properties || object().lists > 0)) {
+    ++object().lists;
+    return true;
+  }
+  if (!position_.empty()) fail("expected a position of two or three numbers", "a list in it");
+  Coordinates& c = object().coordinates;
+  if (list_depth_ == 0 && c.given) fail("\"coordinates\" stands twice");
+  c.given = true;
+  if (++list_depth_ > most_nested) fail("\"coordinates\" are nested too deeply");
+  if (list_depth_ == 2) push_asked(c.groups, c.chains.size(), execution_);
+  return true;
+}
+
+bool Reader::end_array() {
+  if (list_depth_ == 0) {
+    --object().lists;
+    return true;
+  }
+  if (!position_.empty()) {
+    end_position();
+  } else {
+    chain_open_ = false;
+  }
+  if (--list_depth_ == 0) chain_open_ = false;
+  if (bare_ && list_depth_ == 0) {
+    end_geometry(object());
+    pieces_.settle(0, {});
+    objects_.pop_back();
+  }
+  return true;
+}
+
+void Reader::end_position() {
+  if (position_.size() < 2) fail("expected a position of two or three numbers", "1 number");
+  Coordinates& c = object().coordinates;
+  if (c.depth != 0 && c.depth != list_depth_) fail("\"coordinates\" are nested unevenly");
+  c.depth = list_depth_;
+  if (!chain_open_) {
+    push_asked(c.chains, {}, execution_);
+    push_asked(c.lines, line_, execution_);
+    chain_open_ = true;
+  }
+  push_asked(c.chains.back(), {position_[0], position_[1]}, execution_);
+  position_.clear();
+  look();
+}
+
+bool Reader::end_object() {
+  Object ended = std::move(objects_.back());
+  const std::size_t first = first_piece_.back();
+  objects_.pop_back();
+  first_piece_.pop_back();
+  end_geometry(ended);
+  if (ended.type == "Feature" || objects_.empty()) pieces_.settle(first, ended.role);
+  key_.clear();
+  return true;
+}
+
+/// The nesting that each type of geometry has; 0: no geometry.
+int depth_of(const std::string& type) {
+  if (type == "Point") return 1;
+  if (type == "LineString" || type == "MultiPoint") return 2;
+  if (type == "Polygon" || type == "MultiLineString") return 3;
+  return type == "MultiPolygon" ? 4 : 0;
+}
+
+void Reader::end_geometry(Object& ended) {
+  const int depth = depth_of(ended.type);
+  const Coordinates& c = ended.coordinates;
+  if (!c.given) {
+    if (depth > 0) fail(fmt::format("a {} needs \"coordinates\"", ended.type));
+    return;
+  }
+  if (depth == 0) return;        // some other object's key of that name
+  if (c.chains.empty()) return;  // "coordinates": [] is an empty geometry
+  if (c.depth != depth)
+    fail(fmt::format("the \"coordinates\" of a {} are nested {} deep", ended.type, depth), std::to_string(c.depth));
+  if (depth >= 3 && ended.type != "MultiLineString") return add_rings(c);
+  const bool points = ended.type == "Point" || ended.type == "MultiPoint";
+  for (std::size_t i = 0; i < c.chains.size(); ++i) {
+    if (!points && c.chains[i].size() < 2) fail_at(c.lines[i], "a LineString needs two positions or more");
+    pieces_.add(points ? GeojsonPieces::Kind::point : GeojsonPieces::Kind::wall, c.chains[i], c.lines[i]);
+  }
+}
+
+/// The first ring of each polygon; the ones after it are its holes. In a bare array each ring is a polygon.
+void Reader::add_rings(const Coordinates& c) {
+  for (std::size_t i = 0; i < c.chains.size(); ++i) {
+    std::vector<Vec2> ring = c.chains[i];
+    const bool closed = ring.size() > 1 && ring.front() == ring.back();
+    if (!bare_ && (!closed || ring.size() < 4)) {
+      fail_at(c.lines[i], "a ring needs four positions or more, the last one equal to the first",
+              closed ? fmt::format("{} positions", ring.size()) : "an open ring");
+    }
+    const bool outer = bare_ || (c.depth == 3 ? i == 0 : std::binary_search(c.groups.begin(), c.groups.end(), i));
+    if (!bare_) ring.pop_back();
+    if (outer) {
+      pieces_.add(GeojsonPieces::Kind::polygon, std::move(ring), c.lines[i]);
+    } else {
+      pieces_.add_hole(std::move(ring));
+    }
+  }
+}
+
+}  // namespace
+
+bool is_geojson(std::string_view bytes) {
+  bytes = bytes.substr(0, bytes_that_tell);
+  if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
+  const std::size_t at = bytes.find_first_not_of(" \t\r\n");
+  return at != std::string_view::npos && (bytes[at] == '{' || bytes[at] == '[');
+}
+
+Scene read_geojson(const InputFile& file, const Execution& execution) {
+  JsonBytes bytes(file, execution);
+  Reader reader(file.name(), bytes.line(), execution);
+  Json::sax_parse(bytes.begin(), bytes.end(), &reader);
+  return reader.finish();
+}
+
+namespace {
+
+std::string position(Vec2 p) { return fmt::format("[{}, {}]", p.x + 0.0, p.y + 0.0); }
+
+/// Writes features, one a line.
+class Writer {
+ public:
+  Writer(const std::string& path, const Execution& execution) : file_(path, execution), execution_(execution) {
+    file_.write("{\"type\": \"FeatureCollection\", \"features\": [");
+  }
+  void feature(std::string_view role, std::string_view type, std::string_view coordinates) {
+    constexpr std::size_t batch = 1 << 10;
+    if (++written_ % batch == 0) execution_.check();
+    const std::string properties = role.empty() ? "{}" : fmt::format("{{\"role\": \"{}\"}}", role);
+    file_.write(
+        fmt::format("{}\n{{\"type\": \"Feature\", \"properties\": {}, \"geometry\": {{\"type\": \"{}\", "
+                    "\"coordinates\": {}}}}}",
+                    written_ == 1 ? "" : ",", properties, type, coordinates));
+  }
+  void ring(std::string_view role, const std::vector<Vec2>& corners) {
+    std::string text = "[[";
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (i % 4096 == 4095) execution_.check();
+      text += position(corners[i]) + ", ";
+    }
+    feature(role, "Polygon", text + position(corners.front()) + "]]");
+  }
+  void commit() {
+    file_.write("\n]}\n");
+    file_.commit();
+  }
+
+ private:
+  OutputFile file_;
+  const Execution& execution_;
+  std::size_t written_ = 0;
+};
+
+}  // namespace
+
+void write_geojson(const Scene& scene, const std::string& path, const Execution& execution) {
+  if (has_solids(scene)) throw InputError(path, "GeoJSON holds no spheres or boxes; write them to a .scene file");
+  if (scene.start.size() > 2 || scene.goal.size() > 2) {
+    throw InputError(path, "GeoJSON holds places X Y, no states with angles; write them to a .scene file");
+  }
+  Writer writer(path, execution);
+  if (scene.bounds) {
+    const auto [low, high] = *scene.bounds;
+    writer.ring("bounds", {low, {high.x, low.y}, high, {low.x, high.y}});
+  }
+  if (!scene.start.empty()) writer.feature("start", "Point", position({scene.start[0], scene.start[1]}));
+  if (!scene.goal.empty()) writer.feature("goal", "Point", position({scene.goal[0], scene.goal[1]}));
+  for (const ScenePolygon& polygon : scene.polygons) writer.ring({}, anticlockwise(polygon.corners));
+  scene.walls.visit([&](auto walls) {
+    for (const auto& wall : walls) {
+      const Segment s = wall.segment();
+      writer.feature({}, "LineString", "[" + position(s.a) + ", " + position(s.b) + "]");
+    }
+  });
+  writer.commit();
+}
+
+}  // namespace warren

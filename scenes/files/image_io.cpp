@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scenes/files/image_io.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <string_view>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "scenes/files/output_file_io.hpp"
+#include "scenes/files/png_io.hpp"
+#include "scenes/files/scene_text.hpp"
+#include "scenes/scene/occupancy_map.hpp"
+
+namespace warren {
+
+bool is_png(std::string_view bytes) { return bytes.starts_with("\x89PNG"); }
+
+bool is_bmp(std::string_view bytes) {
+  return bytes.size() > 17 && bytes.starts_with("BM") && bytes.substr(15, 3) == std::string_view("\0\0\0", 3);
+}
+
+bool is_pgm(std::string_view bytes) {
+  return bytes.size() > 2 && (bytes.starts_with("P5") || bytes.starts_with("P2")) &&
+         std::string_view(" \t\r\n#").find(bytes[2]) != std::string_view::npos;
+}
+
+void read_image(const InputFile& file, const ImageSink& sink, const Execution& execution) {
+  if (is_png(file.bytes())) return read_png(file, sink, execution);
+  if (is_pgm(file.bytes())) return read_pgm(file, sink, execution);
+  if (is_bmp(file.bytes())) return read_bmp(file, sink, execution);
+  throw InputError(file.name(), "expected a PNG, PGM (magic P5 or P2) or BMP image");
+}
+
+// Offsets are those of BITMAPFILEHEADER (14 bytes) and BITMAPINFOHEADER (40 and more); numbers are little-endian. A row
+// is as many whole words of 32 bits as its pixels need, the lowest row first unless the height is negative.
+
+namespace {
+
+constexpr std::size_t file_header_bytes = 14;
+
+std::uint32_t number_at(std::string_view bytes, std::size_t at, unsigned size = 4) {
+  std::uint32_t number = 0;
+  while (size-- > 0) number = number << 8U | static_cast<unsigned char>(bytes[at + size]);
+  return number;
+}
+
+struct Layout {
+  ImageHeader header;
+  unsigned bits = 0;  ///< of a pixel
+  bool is_top_down = false;
+  std::string_view palette;  ///< four bytes a colour: blue, green, red, nothing
+  std::size_t row_bytes = 0;
+  std::string_view rows;
+};
+
+/// What the bits of a pixel are; false: another kind of BMP.
+bool read_kind(std::string_view bytes, Layout& layout) {
+  const std::uint32_t coding = number_at(bytes, 30);
+  layout.bits = number_at(bytes, 28, 2);
+  bool has_alpha = layout.bits == 32;
+  if (coding == 3 && layout.bits == 32 && bytes.size() >= 70) {  // its masks must be those of blue, green, red, alpha
+    has_alpha = number_at(bytes, 14) >= 56 && number_at(bytes, 66) == 0xff000000;
+    if (number_at(bytes, 54) != 0xff0000 || number_at(bytes, 58) != 0xff00 || number_at(bytes, 62) != 0xff)
+      return false;
+  } else if (coding != 0) {
+    return false;
+  }
+  layout.header.channels = has_alpha ? 4 : 3;
+  return layout.bits == 1 || layout.bits == 4 || layout.bits == 8 || layout.bits == 24 || layout.bits == 32;
+}
+
+/// Without masks the fourth byte of pixels means nothing, and is 0, but where a writer has put alpha there.
+bool has_fourth_bytes(const Layout& layout, const Execution& execution) {
+  constexpr std::size_t bytes_a_look = 1 << 16;
+  for (std::size_t at = 3; at < layout.row_bytes * layout.header.height; at += 4) {
+    if (at % bytes_a_look == 3) execution.check();
+    if (layout.rows[at] != 0) return true;
+  }
+  return false;
+}
+
+Layout layout_of(const InputFile& file, const Execution& execution) {
+  const std::string_view bytes = file.bytes();
+  Layout layout;
+  if (bytes.size() < file_header_bytes + 40 || number_at(bytes, 14) < 40 || !read_kind(bytes, layout)) {
+    throw InputError(file.name(), "expected a BMP of 1, 4, 8, 24 or 32 bits a pixel that is not compressed");
+  }
+  const auto width = static_cast<std::int32_t>(number_at(bytes, 18));
+  const std::int64_t height = static_cast<std::int32_t>(number_at(bytes, 22));
+  layout.is_top_down = height < 0;
+  check_map_size(file.name(), static_cast<std::uint64_t>(std::max(width, 0)),
+                 static_cast<std::uint64_t>(std::abs(height)));
+  layout.header.width = static_cast<std::uint32_t>(width);
+  layout.header.height = static_cast<std::uint32_t>(std::abs(height));
+  layout.row_bytes = (std::size_t{layout.bits} * layout.header.width + 31) / 32 * 4;
+  const std::size_t first = std::min<std::size_t>(number_at(bytes, 10), bytes.size());
+  layout.rows = bytes.substr(first);
+  if (layout.rows.size() / layout.row_bytes < layout.header.height) {
+    throw InputError(file.name(),
+                     fmt::format("expected {} x {} pixels, {} bytes after the header", layout.header.width,
+                                 layout.header.height, layout.row_bytes * layout.header.height),
+                     fmt::format("{} bytes", layout.rows.size()));
+  }
+  const bool has_masks = number_at(bytes, 30) != 0;
+  if (layout.bits == 32 && !has_masks && !has_fourth_bytes(layout, execution)) layout.header.channels = 3;
+  if (layout.bits > 8) return layout;
+  const std::size_t head = file_header_bytes + std::size_t{number_at(bytes, 14)};
+  const std::size_t colours = number_at(bytes, 46) == 0 ? std::size_t{1} << layout.bits : number_at(bytes, 46);
+  layout.palette = head < first ? bytes.substr(head, std::min(4 * colours, first - head)) : std::string_view();
+  return layout;
+}
+
+/// Blue, green, red and, where there is alpha, alpha of a pixel.
+std::string_view pixel_of(const Layout& layout, std::string_view row, std::size_t x, const InputFile& file) {
+  if (layout.bits > 8) return row.substr(x * layout.bits / 8, layout.bits / 8);
+  const std::size_t bit = x * layout.bits;
+  const unsigned shift = 8U - layout.bits - static_cast<unsigned>(bit % 8);  // the leftmost pixel stands highest
+  const std::size_t colour = (number_at(row, bit / 8, 1) >> shift) & ((1U << layout.bits) - 1U);
+  if (4 * colour + 4 > layout.palette.size()) {
+    throw InputError(file.name(), fmt::format("expected pixels of the palette's {} colours", layout.palette.size() / 4),
+                     fmt::format("{}", colour));
+  }
+  return layout.palette.substr(4 * colour, 4);
+}
+
+}  // namespace
+
+void read_bmp(const InputFile& file, const ImageSink& sink, const Execution& execution) {
+  constexpr std::size_t pixels_a_look = 1 << 14;
+  const Layout layout = layout_of(file, execution);
+  const auto& [width, height, channels, maximum] = layout.header;
+  sink.begin(layout.header);
+  execution.reserve(sizeof(std::uint16_t) * channels * width);
+  std::vector<std::uint16_t> samples(std::size_t{channels} * width);
+  for (std::uint32_t i = 0; i < height; ++i) {
+    const std::string_view row = layout.rows.substr(i * layout.row_bytes, layout.row_bytes);
+    for (std::size_t x = 0; x < width; ++x) {
+      if (x % pixels_a_look == 0) execution.check();
+      const std::string_view pixel = pixel_of(layout, row, x, file);
+      std::uint16_t* const to = samples.data() + channels * x;
+      for (const unsigned c : {0U, 1U, 2U}) to[c] = static_cast<unsigned char>(pixel[2 - c]);
+      if (channels == 4) to[3] = static_cast<unsigned char>(pixel[3]);
+    }
+    sink.row({layout.is_top_down ? i : height - 1 - i, 0, 1, samples});
+  }
+}
+
+namespace {
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f'; }
+
+/// Tokens between white space; `#` starts a comment to the end of the line. Runs of blanks look at the deadline.
+class PgmTokens {
+ public:
+  PgmTokens(const InputFile& file, const Execution& execution)
+      : name_(file.name()), rest_(file.bytes()), execution_(execution) {}
+
+  std::uint32_t number(std::string_view what, std::uint32_t least, std::uint32_t most) {
+    skip();
+    const std::string_view word = rest_.substr(0, word_length());
+    std::uint32_t value = 0;
+    const auto [last, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (word.empty() || error != std::errc() || last != word.data() + word.size() || value < least || value > most) {
+      scene_text::Place{name_, line_}.fail(fmt::format("expected {}, {} to {}", what, least, most),
+                                           word.empty() ? "the end of the file" : word);
+    }
+    rest_.remove_prefix(word.size());
+    return value;
+  }
+  std::string_view rest() const { return rest_; }
+  void magic() { rest_.remove_prefix(2); }
+  /// Exactly one byte stands between header and binary pixels.
+  std::string_view pixels() const { return rest_.substr(std::min<std::size_t>(1, rest_.size())); }
+
+ private:
+  void skip() {
+    constexpr std::size_t batch = 1 << 16;
+    for (std::size_t steps = 1; !rest_.empty(); ++steps) {
+      if (steps % batch == 0) execution_.check();
+      if (rest_.front() == '#') {
+        rest_.remove_prefix(std::min(rest_.find('\n'), rest_.size()));
+      } else if (is_space(rest_.front())) {
+        line_ += rest_.front() == '\n' ? 1 : 0;
+        rest_.remove_prefix(1);
+      } else {
+        return;
+      }
+    }
+  }
+  /// No number is longer than that, and a message shows no more.
+  std::size_t word_length() const {
+    constexpr std::size_t longest = 64;
+    std::size_t n = 0;
+    while (n < std::min(rest_.size(), longest) && !is_space(rest_[n]) && rest_[n] != '#') ++n;
+    return n;
+  }
+
+  const std::string& name_;
+  std::string_view rest_;
+  const Execution& execution_;
+  std::size_t line_ = 1;
+};
+
+/// Gives back what was read, so that a large image is never held as a whole.
+class Forgetting {
+ public:
+  explicit Forgetting(const InputFile& file) : file_(file) {}
+  /// All before these last bytes of the file was read.
+  void but(std::string_view rest) {
+    constexpr std::size_t piece = std::size_t{1} << 22;
+    const std::size_t read = file_.bytes().size() - rest.size();
+    if (read - forgotten_ < piece) return;
+    file_.forget(forgotten_, read);
+    forgotten_ = read;
+  }
+
+ private:
+  const InputFile& file_;
+  std::size_t forgotten_ = 0;
+};
+
+/// One sample of a binary row; two bytes, the high one first, where maxval is beyond 255.
+std::uint16_t sample(std::string_view bytes, std::size_t i, bool wide) {
+  const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(bytes[at]); };
+  return static_cast<std::uint16_t>(wide ? byte(2 * i) << 8 | byte(2 * i + 1) : byte(i));
+}
+
+/// Before anybody makes room for many pixels: `bytes_a_pixel` is the least that one takes.
+void check_pixels_are_there(const InputFile& file, const ImageHeader& header, std::size_t bytes_a_pixel,
+                            std::size_t bytes) {
+  const std::size_t row_bytes = bytes_a_pixel * header.width;
+  if (bytes / row_bytes >= header.height) return;
+  throw InputError(file.name(),
+                   fmt::format("expected {} x {} pixels, {} bytes{} after the header", header.width, header.height,
+                               row_bytes * header.height, file.bytes()[1] == '5' ? "" : " or more"),
+                   fmt::format("{} bytes", bytes));
+}
+
+void read_binary(const InputFile& file, const ImageHeader& header, std::string_view pixels, const ImageSink& sink,
+                 const Execution& execution) {
+  const bool wide = header.maximum > 255;
+  const std::size_t row_bytes = std::size_t{header.width} * (wide ? 2 : 1);
+  check_pixels_are_there(file, header, wide ? 2 : 1, pixels.size());
+  sink.begin(header);
+  execution.reserve(sizeof(std::uint16_t) * header.width);
+  std::vector<std::uint16_t> samples(header.width);
+  Forgetting forgetting(file);
+  for (std::uint32_t y = 0; y < header.height; ++y) {
+    execution.check();
+    forgetting.but(pixels.substr(y * row_bytes));
+    const std::string_view row = pixels.substr(y * row_bytes, row_bytes);
+    unsigned highest = 0;
+    for (std::uint32_t x = 0; x < header.width; ++x) {
+      samples[x] = sample(row, x, wide);
+      highest = std::max<unsigned>(highest, samples[x]);
+    }
+    if (highest > header.maximum) {
+      throw InputError(file.name(),
+                       fmt::format("expected pixels of at most {}, the maxval, in row {}", header.maximum, y),
+                       fmt::format("{}", highest));
+    }
+    sink.row({y, 0, 1, samples});
+  }
+}
+
+void read_ascii(const InputFile& file, const ImageHeader& header, PgmTokens& tokens, const ImageSink& sink,
+                const Execution& execution) {
+  constexpr std::uint32_t pixels_a_look = 1 << 14;
+  constexpr std::uint64_t few_pixels = 1 << 20;  // of these the message names the line where they end
+  if (std::uint64_t{header.width} * header.height > few_pixels) {
+    check_pixels_are_there(file, header, 2, tokens.rest().size());
+  }
+  sink.begin(header);
+  execution.reserve(sizeof(std::uint16_t) * header.width);
+  std::vector<std::uint16_t> samples(header.width);
+  Forgetting forgetting(file);
+  for (std::uint32_t y = 0; y < header.height; ++y) {
+    for (std::uint32_t x = 0; x < header.width; ++x) {
+      if (x % pixels_a_look == 0) {
+        execution.check();
+        forgetting.but(tokens.rest());
+      }
+      samples[x] = static_cast<std::uint16_t>(tokens.number("a pixel", 0, header.maximum));
+    }
+    sink.row({y, 0, 1, samples});
+  }
+}
+
+}  // namespace
+
+void read_pgm(const InputFile& file, const ImageSink& sink, const Execution& execution) {
+  constexpr std::uint32_t most_side = 0x7fffffff;
+  PgmTokens tokens(file, execution);
+  tokens.magic();
+  ImageHeader header;
+  header.width = tokens.number("the width of a PGM image", 1, most_side);
+  header.height = tokens.number("the height of a PGM image", 1, most_side);
+  header.maximum = tokens.number("the maxval of a PGM image", 1, 65535);
+  check_map_size(file.name(), header.width, header.height);
+  if (file.bytes()[1] == '5') return read_binary(file, header, tokens.pixels(), sink, execution);
+  read_ascii(file, header, tokens, sink, execution);
+}
+
+void write_map_pgm(const OccupancyMap& map, const std::string& path, UnknownCells unknown, const Execution& execution) {
+  constexpr char free = static_cast<char>(254);
+  const char grey = unknown == UnknownCells::grey ? static_cast<char>(205) : '\0';
+  OutputFile file(path, execution);
+  file.write(fmt::format("P5\n# CREATOR: warren {:.3f} m/pix\n{} {}\n255\n", map.cell, map.width(), map.height()));
+  std::string row(map.width(), free);
+  for (std::uint32_t y = map.height(); y-- > 0;) {
+    for (std::uint32_t x = 0; x < map.width(); ++x) {
+      row[x] = map.unknown.holds(x, y) ? grey : map.blocked.test(x, y) ? '\0' : free;
+    }
+    file.write(row);
+  }
+  file.commit();
+}
+
+}  // namespace warren

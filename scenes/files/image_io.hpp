@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Images as occupancy maps need them: PNG (all colour types and depths, interlaced or not), PGM (binary and ASCII, 8
+// and 16 bits) and BMP (not compressed), handed over a run of pixels at a time, so that nothing but a row is ever held.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+
+#include "parallel/execution.hpp"
+#include "scenes/files/input_file_io.hpp"
+#include "scenes/scene/occupancy_map.hpp"
+
+namespace warren {
+
+/// What is known before the first pixel.
+struct ImageHeader {
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+  unsigned channels = 1;   ///< 1 grey, 2 grey and alpha, 3 colours, 4 colours and alpha
+  unsigned maximum = 255;  ///< samples run from 0 to this: 255, 65535, or what a PGM says
+
+  bool has_alpha() const { return channels % 2 == 0; }
+};
+
+/// Pixels first_x, first_x + step_x, … of row y, counted from the top. Palettes are expanded, fewer bits than 8 are
+/// stretched to 8, transparent colours have become alpha.
+struct PixelRun {
+  std::uint32_t y = 0;
+  std::uint32_t first_x = 0;
+  std::uint32_t step_x = 1;
+  std::span<const std::uint16_t> samples;  ///< channels a pixel
+};
+
+struct ImageSink {
+  std::function<void(const ImageHeader&)> begin;
+  std::function<void(const PixelRun&)> row;
+};
+
+/// Reads a PNG, PGM or BMP, by its first bytes. Every pixel is given once. Throws InputError naming the file (for ASCII
+/// PGM also the line), Stopped, and what the sink throws.
+void read_image(const InputFile& file, const ImageSink& sink, const Execution& execution);
+
+bool is_png(std::string_view bytes);
+bool is_pgm(std::string_view bytes);
+bool is_bmp(std::string_view bytes);
+
+// BMP in: uncompressed, of 1, 4 or 8 bits with a palette, 24, or 32 whose fourth byte is alpha, as Nav2's map saver
+// writes them and its server reads them.
+
+/// As read_image, for a BMP.
+void read_bmp(const InputFile& file, const ImageSink& sink, const Execution& execution);
+
+// PGM in and out: P5 (binary) and P2 (ASCII) in, maxval up to 65535, comments anywhere in the header; P5 out.
+
+/// As read_image, for a PGM. What follows the pixels is ignored.
+void read_pgm(const InputFile& file, const ImageSink& sink, const Execution& execution);
+
+/// What a cell of which a map server knew nothing becomes.
+enum class UnknownCells : std::uint8_t {
+  grey,   ///< 205, as map servers write and read it
+  black,  ///< a wall, so that an image without YAML holds the same free cells
+};
+
+/// A map in binary: free 254, blocked 0. Throws as OutputFile does.
+void write_map_pgm(const OccupancyMap& map, const std::string& path, UnknownCells unknown, const Execution& execution);
+
+}  // namespace warren

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scenes/files/maze_file_io.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cstddef>
+#include <cstring>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/base/raw_vector.hpp"
+#include "scenes/files/output_file_io.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+
+namespace warren {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie in the file");
+
+constexpr std::string_view magic = "\x89WRMAZE\n";
+constexpr std::uint32_t version = 1;
+constexpr std::uint32_t rows_a_band = 1U << CellBits::usual_side_log2;
+constexpr std::size_t header_bytes = 64;
+
+std::size_t bands_of(std::uint64_t rows) { return static_cast<std::size_t>((rows - 1) / rows_a_band + 1); }
+
+/// As it lies in the file.
+struct FileHeader {
+  std::array<char, 8> magic;
+  std::uint32_t version;
+  std::uint32_t band;  ///< rows that have a checksum together
+  std::uint64_t rows;
+  std::uint64_t cols;
+  std::uint64_t row_bytes;
+  std::uint64_t sums;  ///< where the checksums begin
+  std::array<char, 12> nothing;
+  std::uint32_t sum;  ///< of the bytes before
+};
+static_assert(sizeof(FileHeader) == header_bytes);
+
+std::string_view bytes_of(const FileHeader& header) {
+  return {reinterpret_cast<const char*>(&header), sizeof header};  // NOLINT: the header's bytes
+}
+std::uint32_t sum_of(const FileHeader& header) { return crc32(bytes_of(header).substr(0, header_bytes - 4)); }
+
+FileHeader header_for(std::uint32_t rows, std::uint32_t cols) {
+  FileHeader header{};
+  std::copy(magic.begin(), magic.end(), header.magic.begin());
+  header.version = version;
+  header.band = rows_a_band;
+  header.rows = rows;
+  header.cols = cols;
+  header.row_bytes = bytes_a_row(cols);
+  header.sums = header_bytes + header.rows * header.row_bytes;
+  header.sum = sum_of(header);
+  return header;
+}
+
+/// A maze's description, but for the walls.
+Scene scene_of(const MazeFile& maze, const std::string& name) {
+  Scene scene;
+  scene.maze = MazeHint{maze.rows(), maze.cols()};
+  scene.start = {0.5, 1.0};
+  scene.goal = {maze.cols() + 0.5, static_cast<double>(maze.rows())};
+  scene.source = name;
+  scene.packed = PackedMaze{name, maze.hash()};
+  return scene;
+}
+
+}  // namespace
+
+struct MazeFile::Header {
+  std::uint32_t rows, cols;
+};
+
+bool is_maze_file(std::string_view bytes) { return bytes.starts_with(magic); }
+
+MazeFile::Header MazeFile::header_of(const InputFile& file) {
+  const std::string_view bytes = file.bytes();
+  const auto refuse = [&](const std::string& what, const std::string& found) {
+    throw InputError(file.name(), what, found);
+  };
+  if (!is_maze_file(bytes)) {
+    refuse("expected a .maze file, which begins with \\x89WRMAZE", std::string(bytes.substr(0, magic.size())));
+  }
+  FileHeader header{};
+  if (bytes.size() < sizeof header) refuse("the file ends within its header", fmt::format("{} bytes", bytes.size()));
+  std::memcpy(&header, bytes.data(), sizeof header);
+  if (header.sum != sum_of(header)) {
+    refuse("the header is damaged: its checksum is another", fmt::format("{:08x}", header.sum));
+  }
+  if (header.version != version) refuse("expected a .maze file of version 1", fmt::format("{}", header.version));
+  if (header.rows < 1 || header.cols < 1 || header.rows > most_side || header.cols > most_side) {
+    refuse(fmt::format("rows and columns must be from 1 to {}", most_side),
+           fmt::format("{} x {}", header.rows, header.cols));
+  }
+  const auto rows = static_cast<std::uint32_t>(header.rows);
+  const auto cols = static_cast<std::uint32_t>(header.cols);
+  const FileHeader expected = header_for(rows, cols);
+  if (bytes_of(header) != bytes_of(expected)) {
+    refuse(fmt::format("the header of a maze of {} x {} cells contradicts itself", rows, cols), "");
+  }
+  const std::uint64_t size = header.sums + 4 * bands_of(rows);
+  if (bytes.size() != size) {
+    refuse(fmt::format("expected {} bytes for {} x {} cells", size, rows, cols), fmt::format("{} bytes", bytes.size()));
+  }
+  return {rows, cols};
+}
+
+MazeFile::MazeFile(const InputFile& file) : MazeFile(file, header_of(file)) {}
+
+MazeFile::MazeFile(const InputFile& file, const Header& header)
+    : CellBits(
+          header.rows, header.cols,
+          reinterpret_cast<const std::uint8_t*>(file.bytes().data()) + header_bytes,  // NOLINT: the cells' bytes
+          [&file](std::size_t first, std::size_t last) { file.forget(header_bytes + first, header_bytes + last); }),
+      file_(file) {}
+
+std::string_view MazeFile::band(std::size_t number) const {
+  const std::size_t bytes = rows_a_band * bytes_a_row(cols());
+  const std::size_t end = std::size_t{rows()} * bytes_a_row(cols());
+  return file_.bytes().substr(header_bytes + number * bytes, std::min(bytes, end - number * bytes));
+}
+
+std::uint32_t MazeFile::sum_of_band(std::size_t number) const {
+  std::uint32_t sum = 0;
+  std::memcpy(&sum, file_.bytes().data() + file_.bytes().size() - 4 * (bands_of(rows()) - number), sizeof sum);
+  return sum;
+}
+
+/// Rows first_row .. last_row - 1: does the outline stand, but for the doors, and is nothing behind the last cell?
+bool MazeFile::has_outline(std::uint32_t first_row, std::uint32_t last_row) const {
+  const std::size_t stride = bytes_a_row(cols());
+  const unsigned place = 2 * ((cols() - 1) % 4);  // of the last cell in its byte
+  bool stands = true;
+  for (std::uint32_t row = first_row; row < last_row; ++row) {
+    const std::string_view line = file_.bytes().substr(header_bytes + row * stride, stride);
+    const unsigned last = static_cast<unsigned char>(line.back()) >> place;
+    const bool is_door = row + 1 == rows();
+    stands = stands && (last & 1U) == (is_door ? 0U : 1U) && last < 4;
+    for (std::uint32_t col = 0; is_door && col < cols(); ++col) {
+      stands = stands && (static_cast<unsigned char>(line[col / 4]) >> (2 * (col % 4)) & 2U) != 0;
+    }
+  }
+  return stands;
+}
+
+void MazeFile::check(Range tile_rows, const Execution& execution) const {
+  static_assert(rows_a_band == 1U << CellBits::usual_side_log2, "a row of tiles has a checksum");
+  if (execution.progress != nullptr) execution.progress->begin("read", tile_rows.size());
+  enum : std::uint8_t { good, damaged, open };
+  std::vector<std::uint8_t> found(tile_rows.size(), good);
+  for_chunks(found.size(), 1, execution, [&](Range r) {
+    const std::size_t number = tile_rows.first + r.first;
+    const auto first_row = static_cast<std::uint32_t>(number * rows_a_band);
+    const std::string_view bytes = band(number);
+    if (crc32(bytes) != sum_of_band(number)) {
+      found[r.first] = damaged;
+    } else if (!has_outline(first_row, std::min(rows(), first_row + rows_a_band))) {
+      found[r.first] = open;
+    }
+    const auto at = static_cast<std::size_t>(bytes.data() - file_.bytes().data());
+    file_.forget(at, at + bytes.size());
+  });
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found[i] == good) continue;
+    const std::uint64_t first = (tile_rows.first + i) * std::uint64_t{rows_a_band};
+    const std::string where =
+        fmt::format("{}: rows {} to {}", file_.name(), first, std::min<std::uint64_t>(rows(), first + rows_a_band) - 1);
+    throw InputError(where, found[i] == damaged
+                                ? "are damaged: their checksum is another"
+                                : "do not close the maze's outline, which is open left of the first cell and right of "
+                                  "the last one alone");
+  }
+}
+
+std::uint64_t MazeFile::wall_count(const Execution& execution) const {
+  std::vector<std::uint64_t> parts(bands_of(rows()), 0);
+  for_chunks(parts.size(), 1, execution, [&](Range r) {
+    const std::string_view bytes = band(r.first);
+    for (const char byte : bytes)
+      parts[r.first] += static_cast<unsigned>(std::popcount(static_cast<unsigned char>(byte)));
+    const auto at = static_cast<std::size_t>(bytes.data() - file_.bytes().data());
+    file_.forget(at, at + bytes.size());
+  });
+  std::uint64_t standing = 0;
+  for (const std::uint64_t part : parts) standing += part;
+  return 4 + standing - (rows() - 1) - cols();  // the outline stands in the bits as well, but for the door
+}
+
+std::uint64_t MazeFile::hash() const {
+  const std::string_view bytes = file_.bytes();
+  const std::size_t sums = 4 * bands_of(rows());
+  std::uint64_t hash = 0xcbf29ce484222325U;  // FNV-1a
+  const auto add = [&](std::string_view part) {
+    for (const char byte : part) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
+  };
+  add(bytes.substr(0, header_bytes));
+  add(bytes.substr(bytes.size() - sums));
+  return hash;
+}
+
+Scene read_maze_file(const InputFile& file, const Execution& execution) {
+  const MazeFile maze(file);
+  maze.check(execution);
+  Scene scene = scene_of(maze, file.name());
+  const std::uint64_t cells = std::uint64_t{maze.rows()} * maze.cols();
+  execution.reserve(cells + (maze.rows() - std::size_t{1}) * (maze.cols() - std::size_t{1}) *
+                                maze_wall_bytes(maze.rows(), maze.cols()));
+  scene.walls = maze_walls(cells_from(maze, execution), false, execution);
+  return scene;
+}
+
+Scene unmade_maze_file(const InputFile& file) { return scene_of(MazeFile(file), file.name()); }
+
+void write_maze_file(const CellWallSource& cells, const std::string& path, const Execution& execution) {
+  assert(cells.side_log2() == CellBits::usual_side_log2);
+  constexpr std::size_t grain = 8;  // a reader's scratch is large
+  const FileHeader header = header_for(cells.rows(), cells.cols());
+  const std::size_t band_bytes = std::min(rows_a_band, cells.rows()) * bytes_a_row(cells.cols());
+  execution.reserve(band_bytes + 4 * bands_of(cells.rows()));
+  RawVector<std::uint8_t> band(band_bytes);
+  std::vector<std::uint32_t> sums;
+  OutputFile file(path, execution);
+  file.write(bytes_of(header));
+  if (execution.progress != nullptr) execution.progress->begin("write", cells.tile_count());
+  for (std::size_t number = 0; number < bands_of(cells.rows()); ++number) {
+    std::uint32_t height = 0;
+    for_chunks(cells.tile_cols(), grain, execution, [&](Range r) {
+      const auto reader = cells.reader();
+      CellTile tile;
+      for (std::size_t col = r.first; col < r.last; ++col) {
+        reader->read(number * cells.tile_cols() + col, tile);
+        pack_tile(tile, bytes_a_row(cells.cols()), band.data());
+      }
+      if (r.first == 0) height = tile.height;
+    });
+    const std::string_view bytes(reinterpret_cast<const char*>(band.data()),  // NOLINT: the cells' bytes
+                                 height * bytes_a_row(cells.cols()));
+    sums.push_back(crc32(bytes));
+    file.write(bytes);
+  }
+  file.write({reinterpret_cast<const char*>(sums.data()), 4 * sums.size()});  // NOLINT: the numbers' bytes
+  file.commit();
+}
+
+void write_maze_file(const Scene& scene, const std::string& path, const Execution& execution) {
+  const bool is_alone = scene.polygons.empty() && !has_solids(scene) && !scene.bounds && !scene.map;
+  const auto maze = is_alone && scene.walls.size() > 0 ? maze_of_walls(scene.walls, execution) : std::nullopt;
+  if (!maze) {
+    throw InputError(path,
+                     "a .maze file holds a maze alone, closed but for its two doors, whose walls are all on the unit "
+                     "grid; write other worlds to .npy, .walls or .scene");
+  }
+  const HeldCells cells(cells_of_walls(scene.walls, *maze, execution), CellBits::usual_side_log2);
+  write_maze_file(cells, path, execution);
+}
+
+namespace {
+
+using Table = std::array<std::array<std::uint32_t, 256>, 8>;
+
+/// Of a byte that so many bytes follow.
+constexpr Table make_table() {
+  Table table{};
+  for (std::uint32_t byte = 0; byte < 256; ++byte) {
+    std::uint32_t sum = byte;
+    for (int bit = 0; bit < 8; ++bit) sum = sum >> 1U ^ ((sum & 1U) != 0 ? 0xEDB88320U : 0U);
+    table[0][byte] = sum;
+  }
+  for (std::size_t behind = 1; behind < 8; ++behind) {
+    for (std::size_t byte = 0; byte < 256; ++byte) {
+      const std::uint32_t before = table[behind - 1][byte];
+      table[behind][byte] = before >> 8U ^ table[0][before & 0xffU];
+    }
+  }
+  return table;
+}
+constexpr Table crc_table = make_table();
+
+}  // namespace
+
+std::uint32_t crc32(std::string_view bytes) noexcept {
+  std::uint32_t sum = 0xffffffffU;
+  const auto* at = reinterpret_cast<const unsigned char*>(bytes.data());  // NOLINT: numbers of the bytes
+  std::size_t left = bytes.size();
+  for (; left >= 8; left -= 8, at += 8) {
+    const std::uint32_t low = sum ^ (at[0] | at[1] << 8U | at[2] << 16U | std::uint32_t{at[3]} << 24U);
+    sum = crc_table[7][low & 0xffU] ^ crc_table[6][low >> 8U & 0xffU] ^ crc_table[5][low >> 16U & 0xffU] ^
+          crc_table[4][low >> 24U] ^ crc_table[3][at[4]] ^ crc_table[2][at[5]] ^ crc_table[1][at[6]] ^
+          crc_table[0][at[7]];
+  }
+  for (; left > 0; --left) sum = sum >> 8U ^ crc_table[0][(sum ^ *at++) & 0xffU];
+  return ~sum;
+}
+
+}  // namespace warren

@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The header is a Python literal, {'descr': '<f4', 'fortran_order': False, 'shape': (28, 4), }, padded so that the
+// numbers begin on a multiple of 64.
+
+#include "scenes/files/npy_io.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "parallel/chunks.hpp"
+#include "scenes/files/output_file_io.hpp"
+#include "scenes/files/scene_text.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+
+namespace warren {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie in the file");
+
+constexpr std::string_view magic = "\x93NUMPY";
+constexpr std::size_t longest_header = 65535;  // all that version 1 can say, and a hundred times what walls need
+constexpr std::size_t npy_grain = std::size_t{1} << 16;
+
+/// Reads the header's dictionary.
+class HeaderParser {
+ public:
+  explicit HeaderParser(const InputFile& file) : name_(file.name()), bytes_(file.bytes()) {}
+
+  NpyWalls parse() {
+    if (!is_npy(bytes_)) fail("expected a .npy file, which begins with \\x93NUMPY", bytes_.substr(0, 8));
+    NpyWalls header;
+    rest_ = dictionary(header.data);
+    parse_entries(header);
+    if (!has_type_ || !has_order_ || !has_shape_) fail("the header must have descr, fortran_order and shape", rest_);
+    return header;
+  }
+
+ private:
+  [[noreturn]] void fail(std::string_view what, std::string_view found) const {
+    scene_text::Place{name_, 0}.fail(what, found);
+  }
+  std::size_t little_endian(std::size_t at, std::size_t count) const {
+    std::size_t value = 0;
+    for (std::size_t i = count; i > 0; --i) value = value << 8U | static_cast<unsigned char>(bytes_[at + i - 1]);
+    return value;
+  }
+  std::string_view dictionary(std::size_t& data) const {
+    const std::size_t version = bytes_.size() > magic.size() ? static_cast<unsigned char>(bytes_[magic.size()]) : 0;
+    if (version < 1 || version > 3) fail("expected .npy version 1, 2 or 3", fmt::format("version {}", version));
+    const std::size_t length_bytes = version == 1 ? 2 : 4;
+    const std::size_t begin = magic.size() + 2 + length_bytes;
+    const std::size_t length = bytes_.size() < begin ? 0 : little_endian(begin - length_bytes, length_bytes);
+    if (length > longest_header) {
+      fail("expected a header of at most 65535 bytes", fmt::format("{} bytes", length));
+    }
+    if (bytes_.size() < begin || bytes_.size() - begin < length) {
+      fail("the file ends within its header", fmt::format("{} bytes", bytes_.size()));
+    }
+    data = begin + length;
+    return bytes_.substr(begin, length);
+  }
+
+  void parse_entries(NpyWalls& header) {
+    expect('{');
+    while (!accept('}')) {
+      const std::string_view key = quoted();
+      expect(':');
+      if (key == "descr") {
+        parse_type(header);
+      } else if (key == "fortran_order") {
+        parse_order();
+      } else if (key == "shape") {
+        parse_shape(header);
+      } else {
+        fail("unknown entry in the header", key);
+      }
+      if (!accept(',') && !rest_.starts_with('}')) fail("expected `,` or `}` in the header", rest_);
+    }
+  }
+  void parse_type(NpyWalls& header) {
+    skip_blanks();
+    if (!rest_.starts_with('\'') && !rest_.starts_with('"')) fail("expected numbers of type <f4 or <f8", rest_);
+    const std::string_view type = quoted();
+    if (type != "<f4" && type != "<f8") fail("expected numbers of type <f4 or <f8", type);
+    header.is_float = type == "<f4";
+    has_type_ = true;
+  }
+  void parse_order() {
+    skip_blanks();
+    if (rest_.starts_with("True"))
+      fail("expected C order, not Fortran order: save numpy.ascontiguousarray(walls)", rest_);
+    if (!rest_.starts_with("False")) fail("expected fortran_order False", rest_);
+    rest_.remove_prefix(5);
+    has_order_ = true;
+  }
+  void parse_shape(NpyWalls& header) {
+    const std::string_view shown = rest_.substr(0, rest_.find(')') + 1);
+    std::vector<std::size_t> shape;
+    expect('(');
+    while (!accept(')')) {
+      shape.push_back(whole_number());
+      if (!accept(',') && !rest_.starts_with(')')) fail("expected a shape like (28, 4)", shown);
+    }
+    if (shape.size() != 2 || shape[1] != 4) fail("expected shape (n, 4), a wall x1 y1 x2 y2 a row", shown);
+    header.walls = shape[0];
+    has_shape_ = true;
+  }
+
+  void skip_blanks() {
+    while (!rest_.empty() && (rest_.front() == ' ' || rest_.front() == '\n')) rest_.remove_prefix(1);
+  }
+  bool accept(char c) {
+    skip_blanks();
+    if (!rest_.starts_with(c)) return false;
+    rest_.remove_prefix(1);
+    skip_blanks();
+    return true;
+  }
+  void expect(char c) {
+    if (!accept(c)) fail(fmt::format("expected `{}` in the header", c), rest_);
+  }
+  std::string_view quoted() {
+    skip_blanks();
+    const char quote = rest_.empty() ? '\0' : rest_.front();
+    const std::size_t end = quote == '\'' || quote == '"' ? rest_.find(quote, 1) : std::string_view::npos;
+    if (end == std::string_view::npos) fail("expected a quoted word in the header", rest_);
+    const std::string_view word = rest_.substr(1, end - 1);
+    rest_.remove_prefix(end + 1);
+    return word;
+  }
+  std::size_t whole_number() {
+    std::size_t value = 0;
+    const auto [last, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
+    if (error != std::errc()) fail("expected a whole number in the shape", rest_);
+    rest_.remove_prefix(static_cast<std::size_t>(last - rest_.data()));
+    return value;
+  }
+
+  const std::string& name_;
+  std::string_view bytes_;
+  std::string_view rest_;
+  bool has_type_ = false;
+  bool has_order_ = false;
+  bool has_shape_ = false;
+};
+
+NpyWalls checked_header(const InputFile& file) {
+  const NpyWalls header = HeaderParser(file).parse();
+  const std::size_t wall_bytes = header.is_float ? sizeof(FloatWall) : sizeof(DoubleWall);
+  const std::size_t held = file.bytes().size() - header.data;
+  if (header.walls == 0) throw InputError(file.name(), "the array has no rows; expected at least one wall");
+  if (held / wall_bytes != header.walls || held % wall_bytes != 0) {
+    throw InputError(file.name(),
+                     fmt::format("expected {} bytes for each of {} rows behind the header", wall_bytes, header.walls),
+                     fmt::format("{} bytes", held));
+  }
+  return header;
+}
+
+/// Copies rows out of the file; In is what the file holds.
+template <class In>
+class Rows {
+ public:
+  Rows(const InputFile& file, const NpyWalls& header, const Execution& execution)
+      : file_(file), header_(header), execution_(execution), bad_(chunk_count(header.walls, npy_grain), header.walls) {}
+
+  template <class Wall>
+  WallSet copy() {
+    execution_.reserve(header_.walls * sizeof(Wall));
+    RawVector<Wall> walls(header_.walls);
+    for_chunks(header_.walls, npy_grain, execution_, [&](Range r) {
+      bool good = true;
+      for (std::size_t i = r.first; i < r.last; ++i) {
+        const WallOf<In> w = row(i);
+        good = good && is_sane(w) && holds<Wall>(w);  // the file may have changed since it was looked at
+        walls[i] = as<Wall>(w);
+      }
+      if (!good) bad_[r.first / npy_grain] = first_bad(r);
+      forget(r);
+    });
+    for (const std::size_t bad : bad_) {
+      if (bad < header_.walls) refuse(bad);
+    }
+    return WallSet(std::move(walls));
+  }
+  bool fit_floats() const {
+    return all([](const WallOf<In>& w) {
+      return fits_float(w.x1) && fits_float(w.y1) && fits_float(w.x2) && fits_float(w.y2);
+    });
+  }
+  /// A word for each row that differs from the file's in nothing but by as().
+  bool can_be_packed() const {
+    return all([](const WallOf<In>& w) { return PackedWall::fits(w.x1, w.y1, w.x2, w.y2); });
+  }
+
+ private:
+  WallOf<In> row(std::size_t i) const {
+    WallOf<In> wall;
+    std::memcpy(&wall, file_.bytes().data() + header_.data + i * sizeof wall, sizeof wall);
+    return wall;
+  }
+  static bool is_sane(In x) {
+    return std::abs(x) <= static_cast<In>(std::min<double>(largest_coordinate, std::numeric_limits<In>::max()));
+  }
+  static bool is_sane(const WallOf<In>& w) { return is_sane(w.x1) && is_sane(w.y1) && is_sane(w.x2) && is_sane(w.y2); }
+  /// Ends at the first row of each chunk that says no.
+  template <class Test>
+  bool all(const Test& test) const {
+    std::vector<std::uint8_t> passed(bad_.size(), 0);
+    for_chunks(header_.walls, npy_grain, {execution_.threads, execution_.deadline}, [&](Range r) {
+      bool every = true;
+      for (std::size_t i = r.first; i < r.last && every; ++i) every = test(row(i));
+      passed[r.first / npy_grain] = every ? 1 : 0;
+      forget(r);
+    });
+    return std::all_of(passed.begin(), passed.end(), [](std::uint8_t every) { return every == 1; });
+  }
+  static bool fits_float(In x) {
+    return !(std::abs(x) > std::numeric_limits<float>::max()) && static_cast<In>(static_cast<float>(x)) == x;
+  }
+  template <class Out>
+  static Out number(In x) {
+    return std::abs(static_cast<double>(x)) < smallest_coordinate ? Out{0} : static_cast<Out>(x);
+  }
+  template <class Wall>
+  static bool holds(const WallOf<In>& w) {
+    return !std::is_same_v<Wall, PackedWall> || PackedWall::fits(w.x1, w.y1, w.x2, w.y2);
+  }
+  template <class Wall>
+  static Wall as(const WallOf<In>& w) {
+    if constexpr (std::is_same_v<Wall, PackedWall>) {
+      return holds<Wall>(w) ? PackedWall::of(w.x1, w.y1, w.x2, w.y2) : PackedWall::level(0, 0, 0);
+    } else {
+      using Out = typename Wall::Number;
+      return {number<Out>(w.x1), number<Out>(w.y1), number<Out>(w.x2), number<Out>(w.y2)};
+    }
+  }
+  std::size_t first_bad(Range r) const {
+    std::size_t i = r.first;
+    while (i + 1 < r.last && is_sane(row(i))) ++i;  // the file may change meanwhile
+    return i;
+  }
+  [[noreturn]] void refuse(std::size_t i) const {
+    const Segment s = row(i).segment();
+    throw InputError(fmt::format("{}: row {}", file_.name(), i), "numbers must be finite and at most 1e60 in magnitude",
+                     fmt::format("{} {} {} {}", s.a.x, s.a.y, s.b.x, s.b.y));
+  }
+  void forget(Range r) const {
+    file_.forget(header_.data + r.first * sizeof(WallOf<In>), header_.data + r.last * sizeof(WallOf<In>));
+  }
+
+  const InputFile& file_;
+  const NpyWalls& header_;
+  const Execution& execution_;
+  std::vector<std::size_t> bad_;  ///< a slot a chunk: its first row that is refused
+};
+
+WallSet walls_of(const InputFile& file, const NpyWalls& header, const Execution& execution) {
+  const auto floats_of = [](auto& rows) {
+    return rows.can_be_packed() ? rows.template copy<PackedWall>() : rows.template copy<FloatWall>();
+  };
+  if (header.is_float) {
+    Rows<float> rows(file, header, execution);
+    return floats_of(rows);
+  }
+  Rows<double> rows(file, header, execution);
+  return rows.fit_floats() ? floats_of(rows) : rows.copy<DoubleWall>();
+}
+
+template <class T>
+std::string header_of(std::uint64_t walls) {
+  return npy_header(sizeof(T) == sizeof(float) ? "<f4" : "<f8", std::array<std::uint64_t, 2>{walls, 4});
+}
+
+}  // namespace
+
+bool is_npy(std::string_view bytes) { return bytes.starts_with(magic); }
+
+NpyWalls npy_walls(const InputFile& file) { return checked_header(file); }
+
+Scene read_npy(const InputFile& file, const Execution& execution) {
+  const NpyWalls header = checked_header(file);
+  if (execution.progress != nullptr) execution.progress->begin("read", header.walls);
+  Scene scene;
+  scene.walls = walls_of(file, header, execution);
+  scene.source = file.name();
+  if (const auto hint = maze_of_walls(scene.walls, {execution.threads, execution.deadline})) {
+    scene.maze = hint;
+    scene.start = {0.5, 1.0};
+    scene.goal = {hint->cols + 0.5, static_cast<double>(hint->rows)};
+  }
+  return scene;
+}
+
+void write_npy(const WallStrips& walls, const std::string& path, const Execution& execution) {
+  OutputFile file(path, execution);
+  file.write(walls.holds_floats() ? header_of<float>(walls.wall_count()) : header_of<double>(walls.wall_count()));
+  walls.write([&](std::string_view bytes) { file.write(bytes); }, execution);
+  file.commit();
+}
+
+void write_npy(const Scene& scene, const std::string& path, const Execution& execution) {
+  if (!scene.polygons.empty() || has_solids(scene) || scene.bounds) {
+    throw InputError(path, "a .npy file holds walls alone; write polygons, spheres and bounds to a .scene file");
+  }
+  constexpr std::size_t block = std::size_t{1} << 16;  // walls
+  if (execution.progress != nullptr) execution.progress->begin("write", scene.walls.size());
+  OutputFile file(path, execution);
+  scene.walls.visit([&]<class Wall>(std::span<const Wall> walls) {
+    using Row = WallOf<typename Wall::Number>;
+    file.write(header_of<typename Wall::Number>(walls.size()));
+    std::vector<Row> rows;
+    for (std::size_t first = 0; first < walls.size(); first += rows.size()) {
+      const auto some = walls.subspan(first, std::min(block, walls.size() - first));
+      rows.resize(some.size());
+      std::transform(some.begin(), some.end(), rows.begin(), [](const Wall& wall) { return unpacked(wall); });
+      file.write({reinterpret_cast<const char*>(rows.data()), rows.size() * sizeof(Row)});  // NOLINT: the rows' bytes
+      execution.advance(rows.size());
+    }
+  });
+  file.commit();
+}
+
+namespace {
+
+/// As Python writes a tuple: "()", "(28,)", "(28, 4)".
+std::string tuple_text(std::span<const std::uint64_t> numbers) {
+  std::string text = "(";
+  for (const std::uint64_t number : numbers) fmt::format_to(std::back_inserter(text), "{}, ", number);
+  if (numbers.size() == 1) text.pop_back();
+  if (numbers.size() > 1) text.resize(text.size() - 2);
+  return text + ")";
+}
+
+}  // namespace
+
+std::string npy_header(std::string_view type, std::span<const std::uint64_t> shape) {
+  constexpr std::size_t alignment = 64;
+  std::string dictionary =
+      fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': {}, }}", type, tuple_text(shape));
+  std::string header("\x93NUMPY\1\0", 8);
+  const std::size_t unpadded = header.size() + 2 + dictionary.size() + 1;
+  dictionary.append((alignment - unpadded % alignment) % alignment, ' ').push_back('\n');
+  header.append({static_cast<char>(dictionary.size() & 0xffU), static_cast<char>(dictionary.size() >> 8U)});
+  return header + dictionary;
+}
+
+}  // namespace warren

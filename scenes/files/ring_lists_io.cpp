@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scenes/files/ring_lists_io.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "parallel/asked_memory.hpp"
+#include "scenes/files/scene_text.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+#include "scenes/scene/rings.hpp"
+#include "spatial/obstacles/polygon_index.hpp"
+
+namespace warren {
+namespace {
+
+using scene_text::Fields;
+
+/// The first bytes without a byte order mark.
+std::string_view head_of(std::string_view bytes) {
+  if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
+  return bytes.substr(0, bytes_that_tell);
+}
+
+bool is_environment(std::string_view bytes) {
+  bytes = head_of(bytes);
+  const std::size_t at = bytes.find_first_not_of(" \t\r\n");
+  return at != std::string_view::npos && bytes.substr(at).starts_with("//");
+}
+
+bool is_polymap(std::string_view bytes) {
+  bytes = head_of(bytes);
+  return bytes.starts_with("poly\n") || bytes.starts_with("poly\r") || bytes.starts_with("poly ");
+}
+
+using Rings = std::vector<ScenePolygon>;
+
+/// Lines of two numbers; others end a ring.
+Rings rings_of_lines(const InputFile& file, const Execution& execution) {
+  Rings rings;
+  bool open = false;
+  TextLines lines(file, execution);
+  while (lines.next()) {
+    Fields fields = lines.fields();
+    const bool goes_on = std::exchange(open, fields.number_follows());
+    if (!open) continue;
+    if (!goes_on) push_asked(rings, {{}, lines.number()}, execution);
+    const double x = fields.number();
+    push_asked(rings.back().corners, {x, fields.number()}, execution);
+    if (!fields.done()) fields.place().fail("expected two numbers a line", lines.line());
+  }
+  return rings;
+}
+
+/// Numbers one after the other, wherever the lines end.
+class NumberStream {
+ public:
+  NumberStream(const InputFile& file, const Execution& execution) : lines_(file, execution) {}
+  std::size_t line() const { return lines_.number(); }
+  std::string_view word() { return fields().word(); }
+  double number() { return fields().number(); }
+  std::size_t count(std::string_view what, double least) {
+    const double value = number();
+    if (!(value >= least && value < 4294967296.0) || value != std::floor(value)) {
+      fail(fmt::format("expected {}, a whole number of at least {}", what, least), fmt::format("{}", value));
+    }
+    return static_cast<std::size_t>(value);
+  }
+  [[noreturn]] void fail(std::string_view what, std::string_view found) const { lines_.place().fail(what, found); }
+  bool done() { return !next_line(); }
+
+ private:
+  Fields& fields() {
+    if (!next_line()) fail("expected more numbers", "the end of the file");
+    return *fields_;
+  }
+  bool next_line() {
+    while (!fields_ || fields_->done()) {
+      if (!lines_.next()) return false;
+      fields_.emplace(lines_.fields());
+    }
+    return true;
+  }
+
+  TextLines lines_;
+  std::optional<Fields> fields_;
+};
+
+Rings rings_of_polymap(const InputFile& file, const Execution& execution) {
+  NumberStream numbers(file, execution);
+  numbers.word();
+  if (numbers.count("the version 1", 1) != 1) numbers.fail("expected the version 1 of a polymap", "another");
+  const std::size_t count = numbers.count("the number of rings", 1);
+  constexpr std::size_t corners_a_look = 1 << 14;
+  Rings rings;
+  while (rings.size() < count) {
+    const std::size_t corners = numbers.count("the number of a ring's corners", 3);
+    push_asked(rings, {{}, numbers.line()}, execution);
+    for (std::size_t i = 0; i < corners; ++i) {
+      if (i % corners_a_look == 0) execution.check();
+      const double x = numbers.number();
+      push_asked(rings.back().corners, {x, numbers.number()}, execution);
+    }
+  }
+  if (!numbers.done()) numbers.fail(fmt::format("expected the end after {} rings", count), "more");
+  return rings;
+}
+
+/// The side of the box that p lies on, anticlockwise from the lower one, without that side's end.
+std::optional<int> side_of(const Box& box, Vec2 p) {
+  if (p.y == box.min.y && p.x < box.max.x) return 0;
+  if (p.x == box.max.x && p.y < box.max.y) return 1;
+  if (p.y == box.max.y && p.x > box.min.x) return 2;
+  if (p.x == box.min.x) return 3;
+  return std::nullopt;
+}
+
+/// What is free lies inside the ring alone: its sides along its box are walls, and what the others leave of the box are
+/// obstacles, each between two corners of the ring that lie on the box. O(corners).
+void confine(Scene& scene, const ScenePolygon& ring, const Execution& execution) {
+  const std::vector<Vec2> corners = anticlockwise(ring.corners);
+  const std::size_t n = corners.size();
+  Box box;
+  for (const Vec2 p : corners) box.include(p);
+  const Vec2 box_corners[] = {{box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}, box.min};
+  WallCollector walls(execution);
+  std::size_t first = 0;
+  while (!side_of(box, corners[first])) ++first;
+  for (std::size_t from = first, to = first; from < first + n; from = to) {
+    while (!side_of(box, corners[++to % n])) continue;
+    const Vec2 a = corners[from % n];
+    const Vec2 b = corners[to % n];
+    ScenePolygon rest{{a}, ring.line};
+    for (int side = *side_of(box, a); side != *side_of(box, b); side = (side + 1) % 4) {
+      if (!(box_corners[side] == b)) rest.corners.push_back(box_corners[side]);
+    }
+    const bool is_along = to == from + 1 && rest.corners.size() == 1;
+    for (std::size_t i = to; i > from; --i) push_asked(rest.corners, corners[i % n], execution);
+    if (is_along) {
+      walls.add(a.x, a.y, b.x, b.y);
+    } else {
+      push_asked(scene.polygons, std::move(rest), execution);
+    }
+  }
+  scene.walls = walls.take();
+}
+
+/// Calls f with each ring that a corner lies in; false: the corner is on the outline of one.
+template <class F>
+bool for_each_around(const PolygonIndex& rings, std::size_t ring, Vec2 corner, const F& f) {
+  bool on_outline = false;
+  rings.for_each_polygon_near({corner, corner}, [&](std::uint32_t other) {
+    const PolygonSide side = other == ring ? PolygonSide::outside : rings.side_of(other, corner);
+    if (side == PolygonSide::inside) f(other);
+    on_outline = on_outline || side == PolygonSide::on_outline;
+    return true;
+  });
+  return !on_outline;
+}
+
+/// In how many rings does a corner lie that is on no other ring's outline? All corners of a ring must agree.
+std::size_t depth_of(const PolygonIndex& rings, std::size_t ring, const Scene& scene) {
+  std::optional<std::size_t> depth;
+  for (const Vec2 p : rings.polygons()[ring]) {
+    std::size_t around = 0;
+    if (!for_each_around(rings, ring, p, [&](std::uint32_t) { ++around; })) continue;
+    if (depth && *depth != around) throw InputError(place_of_polygon(scene, ring), "this ring crosses another one");
+    depth = around;
+  }
+  return depth.value_or(0);
+}
+
+/// Rings and how deep they lie in one another; in which ring the holes of what is blocked are.
+class SortedRings {
+ public:
+  SortedRings(const Scene& scene, const Execution& execution)
+      : rings_(plane_obstacles(scene, execution).polygons, execution) {
+    for (std::size_t i = 0; i < scene.polygons.size(); ++i) {
+      if (i % 256 == 0) execution.check();
+      push_asked(depth_, depth_of(rings_, i, scene), execution);
+    }
+    holes_.resize(depth_.size());
+    for (std::size_t i = 0; i < depth_.size(); ++i) {
+      if (i % 256 == 0) execution.check();
+      if (depth_[i] % 2 == 0 && depth_[i] > 0) push_asked(holes_[parent_of(i)], scene.polygons[i].corners, execution);
+    }
+  }
+  std::size_t depth(std::size_t ring) const { return depth_[ring]; }
+  const std::vector<std::vector<Vec2>>& holes(std::size_t ring) const { return holes_[ring]; }
+
+ private:
+  std::size_t parent_of(std::size_t ring) const {
+    std::size_t parent = ring;
+    for (const Vec2 p : rings_.polygons()[ring]) {
+      const auto take = [&](std::uint32_t other) { parent = depth_[other] + 1 == depth_[ring] ? other : parent; };
+      if (for_each_around(rings_, ring, p, take)) break;
+    }
+    return parent;
+  }
+
+  PolygonIndex rings_;
+  std::vector<std::size_t> depth_;
+  std::vector<std::vector<std::vector<Vec2>>> holes_;
+};
+
+void add_blocked(Scene& scene, const ScenePolygon& ring, std::span<const std::vector<Vec2>> holes,
+                 const Execution& execution) {
+  if (holes.empty()) return push_asked(scene.polygons, ring, execution);
+  if (add_without_holes(scene, ring.line, ring.corners, holes, execution)) return;
+  throw InputError(fmt::format("{}:{}", scene.source, ring.line), std::string(misplaced_hole));
+}
+
+/// The outermost rings confine: one alone, or else what is around them is an obstacle with these as its holes.
+void confine_to(Scene& scene, std::span<const ScenePolygon> outermost, const Execution& execution) {
+  if (outermost.size() == 1) return confine(scene, outermost.front(), execution);
+  Box box;
+  std::vector<std::vector<Vec2>> holes;
+  for (const ScenePolygon& ring : outermost) {
+    for (const Vec2 p : ring.corners) box.include(p);
+    push_asked(holes, ring.corners, execution);
+  }
+  box = box.grown(std::max(box.width(), box.height()) / 64.0);
+  const ScenePolygon around{{box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}}, outermost[0].line};
+  add_blocked(scene, around, holes, execution);
+}
+
+/// Free is inside an odd number of rings.
+void sort_by_depth(Scene& scene, const Execution& execution) {
+  const SortedRings sorted(scene, execution);
+  const Rings rings = std::exchange(scene.polygons, {});
+  Rings outermost;
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    if (sorted.depth(i) == 0) push_asked(outermost, rings[i], execution);
+    if (sorted.depth(i) % 2 == 1) add_blocked(scene, rings[i], sorted.holes(i), execution);
+  }
+  confine_to(scene, outermost, execution);
+}
+
+}  // namespace
+
+bool is_ring_list(std::string_view bytes) { return is_environment(bytes) || is_polymap(bytes); }
+
+Scene read_ring_list(const InputFile& file, const Execution& execution) {
+  Scene scene;
+  scene.source = file.name();
+  const bool polymap = is_polymap(file.bytes());
+  scene.polygons = polymap ? rings_of_polymap(file, execution) : rings_of_lines(file, execution);
+  if (scene.polygons.empty()) throw InputError(file.name(), "there is no ring in it; expected lines `X Y`");
+  if (polymap) {
+    sort_by_depth(scene, execution);
+  } else if (is_environment(file.bytes())) {
+    check_polygons(scene, execution);
+    const ScenePolygon outer = std::move(scene.polygons.front());
+    scene.polygons.erase(scene.polygons.begin());
+    confine(scene, outer, execution);
+  }
+  return scene;
+}
+
+}  // namespace warren

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Maps of ROS's map_server: a YAML file with resolution, origin (yaw included), thresholds, negate and mode, and the
+// PGM or PNG image that it names. A cell is free, occupied, unknown, or (modes scale and raw) between; only free cells
+// may be driven on. Cells that are not free are blocked. The rules differ between ROS 1 and Nav2 at equality and for
+// pictures with alpha, so they are an option.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "parallel/execution.hpp"
+#include "scenes/files/input_file_io.hpp"
+#include "scenes/scene/occupancy_map.hpp"
+
+namespace warren {
+
+/// nav2: p >= occupied_thresh is occupied, p <= free_thresh free, a transparent pixel unknown. ros1: strictly beyond
+/// the thresholds; in trinary mode alpha counts as one more colour, in scale mode a fully transparent pixel is unknown.
+enum class MapServerRules : std::uint8_t { nav2, ros1 };
+
+/// Reads the YAML and its image (absolute, ~/…, or relative to the YAML file). Throws InputError naming file and line,
+/// ReadError naming the image and who asks for it, Stopped.
+OccupancyMap read_ros_map(const InputFile& yaml, const Execution& execution,
+                          MapServerRules rules = MapServerRules::nav2);
+
+/// NAME.pgm, the image that write_ros_map writes beside NAME.yaml.
+std::string map_image_of(const std::string& yaml);
+
+/// Writes NAME.yaml and, beside it, NAME.pgm: the YAML only where its image is whole. Throws as OutputFile does.
+void write_ros_map(const OccupancyMap& map, const std::string& path, const Execution& execution);
+
+}  // namespace warren

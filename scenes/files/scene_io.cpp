@@ -1,0 +1,428 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The reader: a table of items, each with its usage line and the member that reads it. Contradictions between items are
+// looked for at the end, when all lines are known.
+
+#include "scenes/files/scene_io.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "parallel/asked_memory.hpp"
+#include "parallel/chunks.hpp"
+#include "scenes/files/output_file_io.hpp"
+#include "scenes/files/scene_text.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+
+namespace warren {
+namespace {
+
+using scene_text::Fields;
+using scene_text::Place;
+
+class SceneReader {
+ public:
+  SceneReader(const InputFile& file, const Execution& execution)
+      : file_(file), execution_(execution), walls_(execution) {}
+
+  Scene read() {
+    refuse_other_encodings();
+    TextLines lines(file_, execution_);
+    while (lines.next()) read_line(lines.fields(), lines.line());
+    last_line_ = lines.number();
+    scene_.walls = walls_.take();
+    scene_.source = file_.name();
+    check_whole();
+    return std::move(scene_);
+  }
+
+ private:
+  struct Item {
+    std::string_view name;
+    std::string_view usage;
+    bool once;
+    void (SceneReader::*read)(Fields&);
+  };
+  static constexpr std::size_t item_count = 11;
+  static constexpr std::size_t numbers_per_look = 4096;
+  static const std::array<Item, item_count> items;
+  enum ItemNumber : std::size_t { maze_item = 6, robot_item = 7, start_item = 8, goal_item = 9 };
+
+  void refuse_other_encodings() const {
+    const std::string_view all = file_.bytes();
+    if (all.starts_with("\xff\xfe") || all.starts_with("\xfe\xff")) {
+      Place{file_.name(), 1}.fail("expected UTF-8 text, not UTF-16", all.substr(0, 2));
+    }
+    if (all.empty()) Place{file_.name(), 1}.fail("the file is empty; expected walls, polygons or spheres");
+  }
+
+  void read_line(Fields fields, std::string_view line) {
+    if (fields.done()) return;
+    if (fields.number_follows()) {
+      item_ = &items[0];
+      return read_wall(fields);
+    }
+    const std::string_view name = fields.word();
+    item_ = std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.name == name; });
+    if (item_ == items.end()) refuse_word(fields.place(), name, line);
+    std::size_t& first = first_lines_[static_cast<std::size_t>(item_ - items.begin())];
+    if (item_->once && first != 0) {
+      fields.place().fail(fmt::format("a second `{}` line; the first is line {}", name, first), line);
+    }
+    first = fields.place().line;
+    (this->*item_->read)(fields);
+  }
+
+  [[noreturn]] static void refuse_word(const Place& place, std::string_view name, std::string_view line) {
+    const auto is_control = [](unsigned char c) { return c < 0x20 && !scene_text::is_blank(static_cast<char>(c)); };
+    if (std::any_of(name.begin(), name.end(), is_control)) place.fail("this is not a text file", line);
+    std::array<std::string_view, item_count> names;
+    std::transform(items.begin(), items.end(), names.begin(), [](const Item& item) { return item.name; });
+    const std::string_view nearest = scene_text::nearest_word(name, names);
+    if (!nearest.empty()) place.fail(fmt::format("unknown item; did you mean `{}`?", nearest), name);
+    place.fail(fmt::format("unknown item; expected four numbers or one of {}", fmt::join(names, ", ")), name);
+  }
+
+  /// The numbers that are left in the line; their count is checked against the item's usage.
+  const std::vector<double>& numbers(Fields& fields, std::size_t least, std::size_t most) {
+    numbers_.clear();
+    while (!fields.done()) {
+      push_asked(numbers_, fields.number(), execution_);
+      if (numbers_.size() % numbers_per_look == 0) execution_.check();
+    }
+    if (numbers_.size() < least || numbers_.size() > most) refuse_count(fields.place(), numbers_.size());
+    return numbers_;
+  }
+  [[noreturn]] void refuse_count(const Place& place, std::size_t count) const {
+    place.fail(fmt::format("expected `{}`", item_->usage), fmt::format("{} number{}", count, count == 1 ? "" : "s"));
+  }
+  [[noreturn]] void refuse(const Place& place, std::string_view what, double value) const {
+    place.fail(fmt::format("`{}`: {}", item_->name, what), fmt::format("{}", value));
+  }
+
+  void read_wall(Fields& fields) {
+    const std::vector<double>& n = numbers(fields, 4, 4);
+    walls_.add(n[0], n[1], n[2], n[3]);
+  }
+  std::vector<Vec2> corners(Fields& fields) {
+    const std::vector<double>& n = numbers(fields, 6, std::numeric_limits<std::size_t>::max());
+    if (n.size() % 2 != 0) refuse_count(fields.place(), n.size());
+    execution_.reserve(n.size() * sizeof(double));
+    std::vector<Vec2> points;
+    points.reserve(n.size() / 2);
+    for (std::size_t i = 0; i < n.size(); i += 2) points.push_back({n[i], n[i + 1]});
+    return points;
+  }
+  void read_polygon(Fields& fields) { push_asked(scene_.polygons, {corners(fields), fields.place().line}, execution_); }
+  void read_sphere(Fields& fields) {
+    const std::vector<double>& n = numbers(fields, 4, 4);
+    if (n[3] < 0.0) refuse(fields.place(), "the radius must be at least 0", n[3]);
+    push_asked(scene_.spheres, {n[0], n[1], n[2], n[3]}, execution_);
+  }
+  /// Any two opposite corners.
+  void read_box(Fields& fields) {
+    const std::vector<double>& n = numbers(fields, 6, 6);
+    SolidBox box{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      box.low[axis] = std::min(n[axis], n[axis + 3]);
+      box.high[axis] = std::max(n[axis], n[axis + 3]);
+    }
+    push_asked(scene_.boxes, box, execution_);
+  }
+  void read_bounds(Fields& fields) {
+    const std::vector<double>& n = numbers(fields, 4, 4);
+    if (!(n[0] < n[2])) refuse(fields.place(), fmt::format("XMIN must be less than XMAX = {}", n[2]), n[0]);
+    if (!(n[1] < n[3])) refuse(fields.place(), fmt::format("YMIN must be less than YMAX = {}", n[3]), n[1]);
+    scene_.bounds = Box{{n[0], n[1]}, {n[2], n[3]}};
+  }
+  void read_clearance(Fields& fields) {
+    scene_.clearance = not_negative(fields.place(), "R", numbers(fields, 1, 1)[0]);
+  }
+  void read_maze(Fields& fields) {
+    const std::vector<double>& n = numbers(fields, 2, 2);
+    scene_.maze = MazeHint{count(fields.place(), "ROWS", n[0]), count(fields.place(), "COLS", n[1])};
+    if (std::uint64_t{scene_.maze->rows} * scene_.maze->cols > std::numeric_limits<std::uint32_t>::max()) {
+      fields.place().fail("`maze`: ROWS x COLS must be below 2^32", fmt::format("{}x{}", n[0], n[1]));
+    }
+  }
+  void read_start(Fields& fields) { scene_.start = state(fields); }
+  void read_goal(Fields& fields) { scene_.goal = state(fields); }
+  std::vector<double> state(Fields& fields) {
+    const std::vector<double>& n = numbers(fields, 2, 6);
+    if (n.size() != 2 && n.size() != 3 && n.size() != 6) refuse_count(fields.place(), n.size());
+    return n;
+  }
+  void read_grid(Fields& fields) {
+    const std::vector<double>& n = numbers(fields, 2, 2);
+    scene_.grid = GridSpec{positive(fields.place(), "CELL", n[0]), count(fields.place(), "ANGLES", n[1])};
+  }
+
+  double positive(const Place& place, std::string_view name, double value) const {
+    if (!(value > 0.0)) refuse(place, fmt::format("{} must be greater than 0", name), value);
+    return value;
+  }
+  double not_negative(const Place& place, std::string_view name, double value) const {
+    if (!(value >= 0.0)) refuse(place, fmt::format("{} must be at least 0", name), value);
+    return value;
+  }
+  std::uint32_t count(const Place& place, std::string_view name, double value) const {
+    if (!(value >= 1.0 && value <= std::numeric_limits<std::uint32_t>::max()) || value != std::floor(value)) {
+      refuse(place, fmt::format("{} must be a whole number, at least 1 and below 2^32", name), value);
+    }
+    return static_cast<std::uint32_t>(value);
+  }
+
+  void read_robot(Fields& fields) { scene_.robot = warren::read_robot(fields, execution_); }
+
+  void check_whole() const;
+  void check_state(const std::vector<double>& given, ItemNumber item) const;
+  void check_maze() const;
+  Place place_of(ItemNumber item) const { return {file_.name(), first_lines_[item]}; }
+
+  const InputFile& file_;
+  const Execution& execution_;
+  Scene scene_;
+  WallCollector walls_;
+  std::vector<double> numbers_;
+  std::array<std::size_t, item_count> first_lines_{};  ///< 0: no such line
+  std::size_t last_line_ = 1;
+  const Item* item_ = nullptr;  ///< of the line that is being read
+};
+
+const std::array<SceneReader::Item, SceneReader::item_count> SceneReader::items = {{
+    {"wall", "wall X1 Y1 X2 Y2", false, &SceneReader::read_wall},
+    {"polygon", "polygon X Y X Y X Y ...", false, &SceneReader::read_polygon},
+    {"sphere", "sphere X Y Z R", false, &SceneReader::read_sphere},
+    {"box", "box X1 Y1 Z1 X2 Y2 Z2", false, &SceneReader::read_box},
+    {"bounds", "bounds XMIN YMIN XMAX YMAX", true, &SceneReader::read_bounds},
+    {"clearance", "clearance R", true, &SceneReader::read_clearance},
+    {"maze", "maze ROWS COLS", true, &SceneReader::read_maze},
+    {"robot", robot_usage, true, &SceneReader::read_robot},
+    {"start", "start X Y [THETA] or six joint angles", true, &SceneReader::read_start},
+    {"goal", "goal X Y [THETA] or six joint angles", true, &SceneReader::read_goal},
+    {"grid", "grid CELL ANGLES", true, &SceneReader::read_grid},
+}};
+
+void SceneReader::check_whole() const {
+  const bool has_lines = std::any_of(first_lines_.begin(), first_lines_.end(), [](std::size_t n) { return n > 0; });
+  if (scene_.walls.size() == 0 && !has_lines) {
+    Place{file_.name(), last_line_}.fail("the file ends without any wall, polygon, sphere, box or bounds");
+  }
+  if (scene_.robot) {
+    check_state(scene_.start, start_item);
+    check_state(scene_.goal, goal_item);
+  }
+  if (scene_.maze) check_maze();
+}
+
+void SceneReader::check_state(const std::vector<double>& given, ItemNumber item) const {
+  if (given.empty()) return;
+  const std::size_t wanted = state_size(*scene_.robot);
+  const bool any_heading = item == goal_item && wanted == 3 && given.size() == 2;
+  const bool place_of_tool = item == goal_item && wanted == 6 && given.size() == 3;
+  if (given.size() == wanted || any_heading || place_of_tool) return;
+  place_of(item).fail(fmt::format("`{}` must be {} numbers for the robot of line {}", items[item].name, wanted,
+                                  first_lines_[robot_item]),
+                      fmt::format("{} numbers", given.size()));
+}
+
+void SceneReader::check_maze() const {
+  const auto off = first_wall_off_grid(scene_.walls, *scene_.maze, execution_);
+  if (!off) return;
+  std::size_t walls = 0;
+  TextLines lines(file_, execution_);
+  while (lines.next()) {
+    Fields fields = lines.fields();
+    if (!fields.number_follows() && fields.word() != "wall") continue;
+    if (walls++ < *off) continue;
+    fields.place().fail(fmt::format("this wall is not on the unit grid of the {}x{} maze of line {}", scene_.maze->rows,
+                                    scene_.maze->cols, first_lines_[maze_item]),
+                        lines.line());
+  }
+}
+
+}  // namespace
+
+Scene read_scene_text(const InputFile& file, const Execution& execution) { return SceneReader(file, execution).read(); }
+
+// The writer of scene text: shortest decimal numbers that read back the same, half-integers (mazes) by integer digits.
+// Walls are formatted in parallel, a batch of chunks at a time, and written in their order.
+
+namespace {
+
+constexpr std::size_t line_grain = 8192;
+constexpr std::size_t chunks_a_batch = 64;
+
+void append_number(std::string& text, double x) {
+  constexpr double largest_quick = 1e9;
+  const double doubled = 2.0 * x;
+  if (std::abs(x) < largest_quick && doubled == static_cast<double>(static_cast<std::int64_t>(doubled)) &&
+      doubled > 0.0) {
+    const auto halves = static_cast<std::int64_t>(doubled);
+    const fmt::format_int digits(halves / 2);
+    text.append(digits.data(), digits.size());
+    if (halves % 2 != 0) text.append(".5");
+    return;
+  }
+  fmt::format_to(std::back_inserter(text), "{}", x + 0.0);  // no negative zeros
+}
+
+/// An item and its numbers, one line.
+template <class... Numbers>
+void append_line(std::string& text, std::string_view item, Numbers... numbers) {
+  text.append(item);
+  const auto append = [&](double x) {
+    text.push_back(' ');
+    append_number(text, x);
+  };
+  (append(numbers), ...);
+  text.push_back('\n');
+}
+
+void append_points(std::string& text, std::string_view item, const std::vector<Vec2>& points,
+                   const Execution& execution) {
+  constexpr std::size_t points_per_poll = 4096;
+  text.append(item);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (i % points_per_poll == points_per_poll - 1) execution.check();
+    for (const double x : {points[i].x, points[i].y}) {
+      text.push_back(' ');
+      append_number(text, x);
+    }
+  }
+  text.push_back('\n');
+}
+
+void append_state(std::string& text, std::string_view item, const std::vector<double>& state) {
+  if (state.empty()) return;
+  text.append(item);
+  for (const double x : state) {
+    text.push_back(' ');
+    append_number(text, x);
+  }
+  text.push_back('\n');
+}
+
+std::string number(double x) {
+  std::string digits;
+  append_number(digits, x);
+  return digits;
+}
+
+/// The steering only where it is not the usual one.
+void append_car(std::string& text, const RobotSpec& robot) {
+  if (robot.outline.empty()) {
+    text += fmt::format("robot car radius {}", number(robot.radius));
+  } else {
+    text += "robot car polygon";
+    for (const Vec2 p : robot.outline) text += fmt::format(" {} {}", number(p.x), number(p.y));
+  }
+  text += fmt::format(" turning {}", number(robot.turning_radius));
+  if (robot.steering != SteeringKind::dubins) text += fmt::format(" steering {}", name_of(robot.steering));
+  text += '\n';
+}
+
+void append_robot(std::string& text, const RobotSpec& robot) {
+  switch (robot.kind) {
+    case RobotKind::point:
+      text.append("robot point\n");
+      break;
+    case RobotKind::disc:
+      append_line(text, "robot disc", robot.radius);
+      break;
+    case RobotKind::polygon:
+      append_points(text, "robot polygon", robot.outline, {});
+      break;
+    case RobotKind::car:
+      append_car(text, robot);
+      break;
+    case RobotKind::puma560:
+    case RobotKind::arm:
+      text +=
+          fmt::format("robot {} radius {} tool {}{}\n", robot.kind == RobotKind::arm ? "arm " + robot.table : "puma560",
+                      number(robot.radius), number(robot.tool), arm_words(robot));
+      break;
+  }
+}
+
+std::string head_of(const Scene& scene) {
+  std::string text;
+  if (scene.maze) append_line(text, "maze", scene.maze->rows, scene.maze->cols);
+  if (scene.bounds) {
+    const Box& b = *scene.bounds;
+    append_line(text, "bounds", b.min.x, b.min.y, b.max.x, b.max.y);
+  }
+  if (scene.clearance) append_line(text, "clearance", *scene.clearance);
+  if (scene.robot) append_robot(text, *scene.robot);
+  append_state(text, "start", scene.start);
+  append_state(text, "goal", scene.goal);
+  if (scene.grid) append_line(text, "grid", scene.grid->cell, scene.grid->angles);
+  return text;
+}
+
+std::string solids_of(const Scene& scene) {
+  std::string text;
+  for (const Sphere& s : scene.spheres) append_line(text, "sphere", s.x, s.y, s.z, s.radius);
+  for (const auto& [low, high] : scene.boxes)
+    append_line(text, "box", low[0], low[1], low[2], high[0], high[1], high[2]);
+  return text;
+}
+
+void append_wall(std::string& text, const Segment& s) {
+  for (const double x : {s.a.x, s.a.y, s.b.x}) {
+    append_number(text, x);
+    text.push_back(' ');
+  }
+  append_number(text, s.b.y);
+  text.push_back('\n');
+}
+
+/// append(text, item) writes one of `count` items' lines; a batch of chunks at a time, in their order.
+template <class Append>
+void write_items(std::size_t count, std::size_t chunk, const SceneTextSink& write, const Execution& execution,
+                 const Append& append) {
+  std::vector<std::string> parts(chunks_a_batch);
+  for (std::size_t first = 0; first < count; first += chunks_a_batch * chunk) {
+    const std::size_t some = std::min(chunks_a_batch * chunk, count - first);
+    for_chunks(some, chunk, execution, [&](Range r) {
+      std::string& text = parts[r.first / chunk];
+      text.clear();
+      for (std::size_t i = r.first; i < r.last; ++i) append(text, first + i);
+    });
+    for (std::size_t c = 0; c < chunk_count(some, chunk); ++c) write(parts[c]);
+  }
+}
+
+}  // namespace
+
+void write_scene_text(const Scene& scene, const SceneTextSink& write, const Execution& execution) {
+  write(head_of(scene));
+  write_items(scene.polygons.size(), line_grain / 16, write, execution, [&](std::string& text, std::size_t i) {
+    append_points(text, "polygon", scene.polygons[i].corners, execution);
+  });
+  write(solids_of(scene));
+  scene.walls.visit([&](auto walls) {
+    write_items(walls.size(), line_grain, write, execution,
+                [&](std::string& text, std::size_t i) { append_wall(text, walls[i].segment()); });
+  });
+}
+
+void write_scene_text(const Scene& scene, const std::string& path, const Execution& execution) {
+  if (execution.progress != nullptr) execution.progress->begin("write", scene.polygons.size() + scene.walls.size());
+  OutputFile file(path, execution);
+  write_scene_text(
+      scene, [&](std::string_view text) { file.write(text); }, execution);
+  file.commit();
+}
+
+}  // namespace warren

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scenes/files/scene_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/base/printable.hpp"
+#include "core/base/types.hpp"
+#include "parallel/asked_memory.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+
+namespace warren::scene_text {
+
+std::string Place::text() const { return line == 0 ? file : fmt::format("{}:{}", file, line); }
+
+void Place::fail(std::string_view what, std::string_view found) const {
+  constexpr std::size_t longest = 40;
+  throw InputError(text(), what, printable(found, longest));
+}
+
+std::string_view Fields::word() {
+  const char* begin = at_;
+  skip_while([](char c) { return !is_blank(c) && c != '#'; });
+  const std::string_view field(begin, static_cast<std::size_t>(at_ - begin));
+  skip_blanks();
+  return field;
+}
+
+double Fields::number() {
+  const char* begin = at_;
+  double value = 0.0;
+  const bool plus = at_ != end_ && *at_ == '+' && at_ + 1 != end_ && at_[1] != '-';
+  const char* limit = at_ + std::min(longest_run, end_ - at_);
+  const auto [last, error] = std::from_chars(plus ? at_ + 1 : at_, limit, value);
+  if (error == std::errc() && std::abs(value) <= largest_coordinate &&
+      (last == end_ || is_blank(*last) || *last == '#')) {
+    at_ = last;
+    skip_blanks();
+    return std::abs(value) < smallest_coordinate ? 0.0 : value;
+  }
+  const std::string_view field = word();
+  if (field.empty()) place_.fail("a number is missing");
+  if (last == limit && last != begin + field.size()) {
+    place_.fail("expected numbers of at most 65536 characters", field);
+  }
+  if (last != begin + field.size() || error == std::errc::invalid_argument) place_.fail("expected a number", field);
+  if (error == std::errc::result_out_of_range) return out_of_range(field);
+  if (!std::isfinite(value)) place_.fail("numbers must be finite", field);
+  place_.fail("numbers must not exceed 1e60 in magnitude", field);
+}
+
+/// A number that no double holds: too near to zero, which is read as zero, or too large.
+double Fields::out_of_range(std::string_view field) const {
+  const std::size_t exponent = field.find_first_of("eE");
+  const bool tiny = exponent != std::string_view::npos ? field.substr(exponent + 1).starts_with('-')
+                                                       : field.find_first_of("123456789") > field.find('.');
+  if (tiny) return 0.0;
+  place_.fail("numbers must not exceed 1e60 in magnitude", field);
+}
+
+std::string_view nearest_word(std::string_view written, std::span<const std::string_view> known) {
+  constexpr std::size_t longest_word = 32;
+  if (written.size() > longest_word) return {};
+  std::string_view best;
+  std::size_t best_distance = std::max<std::size_t>(2, written.size() / 2) + 1;
+  for (const std::string_view word : known) {
+    const std::size_t distance = edit_distance(written, word);
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = word;
+    }
+  }
+  return best;
+}
+
+}  // namespace warren::scene_text
+
+namespace warren {
+namespace {
+
+using scene_text::Fields;
+
+/// Reads one body.
+class RobotReader {
+ public:
+  RobotReader(Fields& fields, const Execution& execution) : fields_(fields), execution_(execution) {}
+
+  RobotSpec read() {
+    RobotSpec robot;
+    const std::string_view kind = fields_.word();
+    if (kind == "point") {
+      numbers(0, 0);
+    } else if (kind == "disc") {
+      robot.kind = RobotKind::disc;
+      robot.radius = not_negative("R", numbers(1, 1)[0]);
+    } else if (kind == "polygon") {
+      robot.kind = RobotKind::polygon;
+      robot.outline = corners();
+    } else if (kind == "car") {
+      robot.kind = RobotKind::car;
+      read_car(robot);
+    } else if (kind == "puma560" || kind == "arm") {
+      robot.kind = kind == "arm" ? RobotKind::arm : RobotKind::puma560;
+      if (robot.kind == RobotKind::arm) robot.table = fields_.word();
+      if (robot.kind == RobotKind::arm && robot.table.empty()) refuse_usage("no file");
+      read_sizes(robot);
+    } else {
+      refuse_usage(kind.empty() ? "nothing" : kind);
+    }
+    if (!robot.outline.empty()) check_body(robot.outline, fields_.place().text(), execution_);
+    return robot;
+  }
+
+ private:
+  [[noreturn]] void refuse_usage(std::string_view found) const {
+    const bool is_option = fields_.place().line == 0;
+    fields_.place().fail(fmt::format("expected `{}`", is_option ? robot_option : robot_usage), found);
+  }
+  [[noreturn]] void refuse_count(std::size_t count) const {
+    refuse_usage(fmt::format("{} number{}", count, count == 1 ? "" : "s"));
+  }
+  [[noreturn]] void refuse(std::string_view what, double value) const {
+    fields_.place().fail(fmt::format("`robot`: {}", what), fmt::format("{}", value));
+  }
+  double not_negative(std::string_view name, double value) const {
+    if (!(value >= 0.0)) refuse(fmt::format("{} must be at least 0", name), value);
+    return value;
+  }
+  double positive(std::string_view name, double value) const {
+    if (!(value > 0.0)) refuse(fmt::format("{} must be greater than 0", name), value);
+    return value;
+  }
+
+  std::vector<double> numbers(std::size_t least, std::size_t most) {
+    std::vector<double> read;
+    while (!fields_.done()) {
+      push_asked(read, fields_.number(), execution_);
+      if (read.size() % numbers_per_look == 0) execution_.check();
+    }
+    if (read.size() < least || read.size() > most) refuse_count(read.size());
+    return read;
+  }
+
+  std::vector<Vec2> corners() {
+    const std::vector<double> n = numbers(6, std::numeric_limits<std::size_t>::max());
+    if (n.size() % 2 != 0) refuse_count(n.size());
+    std::vector<Vec2> points;
+    execution_.reserve(n.size() * sizeof(double));
+    for (std::size_t i = 0; i < n.size(); i += 2) points.push_back({n[i], n[i + 1]});
+    return points;
+  }
+
+  /// Named numbers, `radius R` and the like: each once, in any order.
+  void read_sizes(RobotSpec& robot) {
+    bool has_radius = false;
+    bool has_tool = false;
+    while (!fields_.done()) {
+      const std::string_view name = fields_.word();
+      if (read_arm_word(robot, name)) continue;
+      bool& seen = name == "radius" ? has_radius : has_tool;
+      if ((name != "radius" && name != "tool") || seen) refuse_usage(name);
+      seen = true;
+      const double value = fields_.number();
+      if (name == "radius") robot.radius = not_negative("radius", value);
+      if (name == "tool") robot.tool = not_negative("tool", value);
+    }
+    if (!has_radius) refuse_usage("no radius");
+  }
+
+  [[noreturn]] void refuse_car(std::string_view found) const {
+    const std::size_t word = fields_.place().line == 0 ? car_usage.find(' ') + 1 : 0;
+    fields_.place().fail(fmt::format("expected `{}`", car_usage.substr(word)), found);
+  }
+  SteeringKind steering() {
+    const std::string_view name = fields_.word();
+    for (const SteeringKind kind : {SteeringKind::dubins, SteeringKind::reeds_shepp}) {
+      if (name == name_of(kind)) return kind;
+    }
+    refuse_car(name.empty() ? "no steering" : name);
+  }
+  std::vector<Vec2> car_corners() {
+    std::vector<Vec2> points;
+    while (fields_.number_follows()) {
+      const double x = fields_.number();
+      if (!fields_.number_follows()) refuse_car("an x without its y");
+      push_asked(points, {x, fields_.number()}, execution_);
+      if (points.size() % numbers_per_look == 0) execution_.check();
+    }
+    if (points.size() < 3) refuse_car(fmt::format("{} corners", points.size()));
+    return points;
+  }
+  /// Its words in any order, each once.
+  void read_car(RobotSpec& robot) {
+    std::vector<std::string_view> seen;
+    while (!fields_.done()) {
+      const std::string_view name = fields_.word();
+      if (std::find(seen.begin(), seen.end(), name) != seen.end()) refuse_car(name);
+      seen.push_back(name);
+      if (name == "radius") {
+        robot.radius = not_negative("radius", fields_.number());
+      } else if (name == "polygon") {
+        robot.outline = car_corners();
+      } else if (name == "turning") {
+        robot.turning_radius = positive("turning", fields_.number());
+      } else if (name == "steering") {
+        robot.steering = steering();
+      } else {
+        refuse_car(name);
+      }
+    }
+    const auto has = [&](std::string_view name) { return std::find(seen.begin(), seen.end(), name) != seen.end(); };
+    if (has("radius") == has("polygon")) refuse_car(has("radius") ? "radius and polygon" : "no radius");
+    if (!has("turning")) refuse_car("no turning radius");
+  }
+
+  /// Words of arms that are no numbers: was this one?
+  bool read_arm_word(RobotSpec& robot, std::string_view name) {
+    if (name == "self-collision" && !robot.self_collision) return robot.self_collision = true;
+    if (name != "limits" || robot.kind != RobotKind::puma560 || !robot.limits.empty()) return false;
+    const std::string_view which = fields_.word();
+    if (which != "classic" && which != "symmetric") refuse_usage(which.empty() ? "nothing" : which);
+    robot.limits = which;
+    return true;
+  }
+
+  static constexpr std::size_t numbers_per_look = 4096;
+
+  Fields& fields_;
+  const Execution& execution_;
+};
+
+}  // namespace
+
+std::string arm_words(const RobotSpec& robot) {
+  std::string words;
+  if (!robot.limits.empty()) words += " limits " + robot.limits;
+  if (robot.self_collision) words += " self-collision";
+  return words;
+}
+
+RobotSpec read_robot(Fields& fields, const Execution& execution) { return RobotReader(fields, execution).read(); }
+
+namespace {
+
+constexpr std::size_t bytes_a_look = std::size_t{1} << 18;
+
+}  // namespace
+
+TextLines::TextLines(const InputFile& file, const Execution& execution) : file_(file), execution_(execution) {
+  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+  if (execution.progress != nullptr) execution.progress->begin("read", file.bytes().size());
+  if (file.bytes().starts_with(byte_order_mark)) at_ = byte_order_mark.size();
+}
+
+bool TextLines::next() {
+  const std::string_view all = file_.bytes();
+  if (at_ >= all.size()) return false;
+  if (at_ - forgotten_ >= bytes_a_look) look();
+  const std::size_t end = std::min(all.find('\n', at_), all.size());
+  line_ = all.substr(at_, end - at_);
+  at_ = end + 1;
+  ++number_;
+  return true;
+}
+
+void TextLines::look() {
+  constexpr std::size_t small_blocks_a_byte = 32;
+  execution_.reserve(std::min(bytes_a_look, file_.bytes().size() - at_) * small_blocks_a_byte);
+  execution_.advance(at_ - forgotten_);
+  file_.forget(forgotten_, at_);
+  forgotten_ = at_;
+}
+
+}  // namespace warren

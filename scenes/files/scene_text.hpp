@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The words of one line of a scene file: fields between blanks or commas up to a `#`, numbers as the C locale writes
+// them, and errors that name file and line. Numbers that are not finite or beyond largest_coordinate are refused,
+// numbers nearer to zero than smallest_coordinate are zero.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+#include "core/plane/wall_set.hpp"
+#include "parallel/execution.hpp"
+#include "scenes/files/input_file_io.hpp"
+#include "scenes/scene/scene.hpp"
+
+namespace warren::scene_text {
+
+/// Where an error is: "file:line"; line 0 is no line: an option, a key.
+struct Place {
+  const std::string& file;
+  std::size_t line;
+  std::string text() const;
+  /// Throws InputError; `found` is shortened and made printable.
+  [[noreturn]] void fail(std::string_view what, std::string_view found = {}) const;
+};
+
+inline bool is_blank(char c) { return c == ' ' || c == ',' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
+
+/// Walks over the fields of one line. With an execution, runs of blanks or letters look at the deadline every 64 KiB.
+class Fields {
+ public:
+  Fields(std::string_view line, Place place, const Execution* execution = nullptr)
+      : at_(line.data()), end_(line.data() + line.size()), place_(place), execution_(execution) {
+    skip_blanks();
+  }
+  bool done() const { return at_ == end_; }
+  /// Does a number come next, by its first character?
+  bool number_follows() const {
+    return !done() && ((*at_ >= '0' && *at_ <= '9') || *at_ == '-' || *at_ == '+' || *at_ == '.');
+  }
+  /// The next field as it stands; empty at the end.
+  std::string_view word();
+  /// The next field as a number. Throws InputError if it is none, or longer than 65,536 characters.
+  double number();
+  const Place& place() const { return place_; }
+
+ private:
+  static constexpr std::ptrdiff_t longest_run = 1 << 16;  // of letters without a look, and of a number's
+
+  template <class Wanted>
+  void skip_while(const Wanted& wanted) {
+    const char* look = at_ + std::min(longest_run, end_ - at_);
+    while (at_ != end_ && wanted(*at_)) {
+      if (++at_ != look || look == end_) continue;
+      if (execution_ != nullptr) execution_->check();
+      look += std::min(longest_run, end_ - at_);
+    }
+  }
+  void skip_blanks() {
+    skip_while(is_blank);
+    if (at_ != end_ && *at_ == '#') at_ = end_;
+  }
+  double out_of_range(std::string_view field) const;
+
+  const char* at_;
+  const char* end_;
+  Place place_;
+  const Execution* execution_;
+};
+
+/// The known word that is nearest to what was written, by edit distance; empty if none is near.
+std::string_view nearest_word(std::string_view written, std::span<const std::string_view> known);
+
+}  // namespace warren::scene_text
+
+namespace warren {
+// The body of a `robot` line, read: the same words in a scene, on a command line and in an answer.
+
+inline constexpr std::string_view robot_usage =
+    "robot point|disc R|polygon X Y X Y X Y ...|car radius R turning RHO|"
+    "puma560 radius R [tool T] [limits classic|symmetric] [self-collision]|arm FILE radius R [tool T] [self-collision]";
+inline constexpr std::string_view car_usage =
+    "robot car radius R|polygon X Y X Y X Y ... turning RHO [steering dubins|reeds-shepp]";
+
+/// The same as options take it.
+inline constexpr std::string_view robot_option =
+    "point, disc R, [[X, Y], [X, Y], [X, Y], ...], polygon X Y X Y X Y ..., car radius R turning RHO, "
+    "car polygon X Y X Y X Y ... turning RHO, puma560 radius R or arm FILE radius R";
+
+/// What a puma560's or arm's line says behind its tool: empty for the defaults, else with a blank before each word.
+std::string arm_words(const RobotSpec& robot);
+
+/// Reads what follows the word `robot`, to the line's end. Throws InputError naming the fields' place, Stopped.
+RobotSpec read_robot(scene_text::Fields& fields, const Execution& execution);
+
+// The lines of a text file, one after the other: the deadline is looked at and the memory for what follows is asked for
+// every 256 KiB, and the pages behind are given back. Lines may be as long as the file; what is in them polls by
+// itself.
+
+class TextLines {
+ public:
+  /// Begins before the first line, behind a byte order mark. Both must outlive it.
+  TextLines(const InputFile& file, const Execution& execution);
+
+  /// Goes to the next line; false if there is none. Throws Stopped.
+  bool next();
+  /// Without its end, "\n"; a "\r" before it is still there.
+  std::string_view line() const { return line_; }
+  /// 1 for the first line; 0 before it.
+  std::size_t number() const { return number_; }
+  scene_text::Place place() const { return {file_.name(), number_}; }
+  /// The words of this line.
+  scene_text::Fields fields() const { return {line_, place(), &execution_}; }
+
+ private:
+  void look();
+
+  const InputFile& file_;
+  const Execution& execution_;
+  std::string_view line_;
+  std::size_t number_ = 0;
+  std::size_t at_ = 0;         // where the next line begins
+  std::size_t forgotten_ = 0;  // what lies before was given back
+};
+
+// Collects walls one by one when their number is not known: packed until the first that doesn't fit, as floats until
+// the first that no float holds, as doubles from then on. Growing asks for memory first.
+
+class WallCollector {
+ public:
+  explicit WallCollector(const Execution& execution) : execution_(execution) {}
+
+  void add(double x1, double y1, double x2, double y2) {
+    if (auto* packed = std::get_if<RawVector<PackedWall>>(&walls_)) {
+      if (PackedWall::fits(x1, y1, x2, y2)) return push(*packed, PackedWall::of(x1, y1, x2, y2));
+      widen<float>(*packed);
+    }
+    if (auto* floats = std::get_if<RawVector<FloatWall>>(&walls_)) {
+      if (fit_floats(x1, y1, x2, y2)) return push(*floats, wall<float>(x1, y1, x2, y2));
+      widen<double>(*floats);
+    }
+    push(std::get<RawVector<DoubleWall>>(walls_), {x1, y1, x2, y2});
+  }
+  std::size_t size() const {
+    return std::visit([](const auto& walls) { return walls.size(); }, walls_);
+  }
+  WallSet take() {
+    return std::visit([](auto& walls) { return WallSet(std::move(walls)); }, walls_);
+  }
+
+ private:
+  template <class... Numbers>
+  static bool fit_floats(Numbers... xs) {
+    const auto fits = [](double x) {
+      return std::abs(x) <= std::numeric_limits<float>::max() && static_cast<double>(static_cast<float>(x)) == x;
+    };
+    return (fits(xs) && ...);
+  }
+  template <class T, class... Numbers>
+  static WallOf<T> wall(Numbers... xs) {
+    return {static_cast<T>(xs)...};
+  }
+  template <class Wall>
+  void push(RawVector<Wall>& walls, const Wall& wall) {
+    if (walls.size() == walls.capacity()) execution_.reserve(2 * walls.capacity() * sizeof(Wall));
+    walls.push_back(wall);
+  }
+  /// `narrow` ends with the call.
+  template <class T, class Wall>
+  void widen(const RawVector<Wall>& narrow) {
+    execution_.reserve(narrow.size() * sizeof(WallOf<T>));
+    RawVector<WallOf<T>> wide;
+    wide.reserve(narrow.size());
+    std::transform(narrow.begin(), narrow.end(), std::back_inserter(wide), [](const Wall& packed) {
+      const auto [x1, y1, x2, y2] = unpacked(packed);
+      return wall<T>(x1, y1, x2, y2);
+    });
+    walls_ = std::move(wide);
+  }
+
+  const Execution& execution_;
+  std::variant<RawVector<PackedWall>, RawVector<FloatWall>, RawVector<DoubleWall>> walls_;
+};
+
+}  // namespace warren

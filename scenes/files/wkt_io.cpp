@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scenes/files/wkt_io.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "parallel/asked_memory.hpp"
+#include "scenes/files/output_file_io.hpp"
+#include "scenes/files/scene_text.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+#include "scenes/scene/rings.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::array<std::string_view, 7> type_names{
+    "POINT", "LINESTRING", "POLYGON", "MULTIPOINT", "MULTIPOLYGON", "MULTILINESTRING", "GEOMETRYCOLLECTION"};
+enum class Type : std::uint8_t { point, line, polygon, points, polygons, lines, collection };
+
+bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
+
+/// Words, numbers and marks, with their lines.
+class Tokens {
+ public:
+  Tokens(const InputFile& file, const Execution& execution)
+      : name_(file.name()), text_(file.bytes()), execution_(execution) {
+    if (text_.starts_with("\xef\xbb\xbf")) text_.remove_prefix(3);
+  }
+  std::size_t line() const { return line_; }
+  [[noreturn]] void fail(std::string_view expected) const {
+    const std::string_view found = text_.substr(0, text_.find_first_of("\r\n"));
+    scene_text::Place{name_, line_}.fail(fmt::format("expected {}", expected), found.empty() ? "the end" : found);
+  }
+  bool done() {
+    skip();
+    return text_.empty();
+  }
+  bool next_is(char c) {
+    skip();
+    return !text_.empty() && text_.front() == c;
+  }
+  bool take(char c) {
+    if (!next_is(c)) return false;
+    text_.remove_prefix(1);
+    return true;
+  }
+  void expect(char c) {
+    if (!take(c)) fail(fmt::format("`{}`", c));
+  }
+  /// The next word in capitals; empty if none follows, cut off where it is longer than any that means something.
+  std::string word() {
+    constexpr std::size_t longest = 32;
+    skip();
+    std::string word;
+    while (!text_.empty() && is_letter(text_.front()) && word.size() < longest) {
+      word += upper(text_.front());
+      text_.remove_prefix(1);
+    }
+    return word;
+  }
+  bool take_word(std::string_view wanted) {
+    const Tokens before = *this;
+    if (word() == wanted) return true;
+    text_ = before.text_;
+    line_ = before.line_;
+    return false;
+  }
+  bool number_follows() {
+    skip();
+    return !text_.empty() && ((text_.front() >= '0' && text_.front() <= '9') ||
+                              std::string_view("+-.").find(text_.front()) != std::string_view::npos);
+  }
+  double number() {
+    if (!number_follows()) fail("a number");
+    double value = 0.0;
+    constexpr std::size_t longest = 1 << 16;
+    const char* begin = text_.data() + (text_.front() == '+' ? 1 : 0);
+    const auto [end, error] = std::from_chars(begin, text_.data() + std::min(longest, text_.size()), value);
+    if (end == text_.data() + longest) fail("a number of at most 65536 characters");
+    const bool tiny = error == std::errc::result_out_of_range && std::abs(value) < 1.0;
+    if ((error != std::errc() && !tiny) || !(std::abs(value) <= largest_coordinate))
+      fail("a finite number of at most 1e60");
+    text_.remove_prefix(static_cast<std::size_t>(end - text_.data()));
+    return std::abs(value) < smallest_coordinate ? 0.0 : value;
+  }
+  /// Looks at the deadline now and then, and asks for the memory of what small rings follow.
+  void look() {
+    constexpr std::size_t batch = 1 << 14;
+    constexpr std::size_t bytes_an_item = 128;
+    if (++looks_ % batch == 0) execution_.reserve(batch * bytes_an_item);
+  }
+
+ private:
+  void skip() {
+    constexpr std::size_t batch = 1 << 16;
+    for (std::size_t steps = 1; !text_.empty() && is_space(text_.front()); ++steps) {
+      if (steps % batch == 0) execution_.check();
+      if (text_.front() == '\n') ++line_;
+      text_.remove_prefix(1);
+    }
+  }
+
+  const std::string& name_;
+  std::string_view text_;
+  const Execution& execution_;
+  std::size_t line_ = 1;
+  std::size_t looks_ = 0;
+};
+
+class Reader {
+ public:
+  Reader(const InputFile& file, const Execution& execution)
+      : name_(file.name()), execution_(execution), tokens_(file, execution), walls_(execution) {}
+
+  Scene read() {
+    while (!tokens_.done()) {
+      if (tokens_.take(';')) continue;
+      read_srid();
+      geometry(0);
+    }
+    scene_.walls = walls_.take();
+    scene_.source = name_;
+    if (scene_.walls.size() == 0 && scene_.polygons.empty()) {
+      throw InputError(name_, "there is no polygon and no line in it; expected WKT with some");
+    }
+    return std::move(scene_);
+  }
+
+ private:
+  struct Chain {
+    std::vector<Vec2> points;
+    std::size_t line;
+  };
+
+  void read_srid() {
+    if (!tokens_.take_word("SRID")) return;
+    tokens_.expect('=');
+    tokens_.number();
+    tokens_.expect(';');
+  }
+
+  void geometry(int depth) {
+    constexpr int deepest = 64;
+    if (depth > deepest) tokens_.fail("geometry collections that are nested less deeply");
+    const Type type = read_type();
+    if (tokens_.take_word("EMPTY")) return;
+    switch (type) {
+      case Type::point:
+        chain();
+        break;
+      case Type::points:
+        list([&] { tokens_.next_is('(') ? static_cast<void>(chain()) : static_cast<void>(position()); });
+        break;
+      case Type::line:
+        line();
+        break;
+      case Type::lines:
+        list([&] { line(); });
+        break;
+      case Type::polygon:
+        polygon();
+        break;
+      case Type::polygons:
+        list([&] { polygon(); });
+        break;
+      case Type::collection:
+        list([&] { geometry(depth + 1); });
+        break;
+    }
+  }
+
+  Type read_type() {
+    const Tokens before = tokens_;
+    std::string word = tokens_.word();
+    for (const std::string_view tail : {"", "Z", "M", "ZM"}) {
+      for (std::size_t i = 0; i < type_names.size(); ++i) {
+        if (word != std::string{type_names[i]} + std::string{tail}) continue;
+        if (tail.empty()) {
+          for (const std::string_view tag : {"ZM", "Z", "M"}) {
+            if (tokens_.take_word(tag)) break;
+          }
+        }
+        return static_cast<Type>(i);
+      }
+    }
+    before.fail(fmt::format("one of {}", fmt::join(type_names, ", ")));
+  }
+
+  /// ( item , item , ... )
+  template <class Item>
+  void list(const Item& item) {
+    tokens_.expect('(');
+    do {
+      tokens_.look();
+      item();
+    } while (tokens_.take(','));
+    tokens_.expect(')');
+  }
+
+  Vec2 position() {
+    const double x = tokens_.number();
+    const double y = tokens_.number();
+    for (int more = 0; more < 2 && tokens_.number_follows(); ++more) tokens_.number();
+    return {x, y};
+  }
+  Chain chain() {
+    Chain chain{{}, tokens_.line()};
+    if (tokens_.take_word("EMPTY")) return chain;
+    list([&] {
+      if (chain.points.empty()) chain.line = tokens_.line();
+      push_asked(chain.points, position(), execution_);
+    });
+    return chain;
+  }
+  void line() {
+    const Chain read = chain();
+    if (read.points.size() == 1) fail_at(read.line, "a LINESTRING needs two positions or more");
+    for (std::size_t i = 1; i < read.points.size(); ++i) {
+      walls_.add(read.points[i - 1].x, read.points[i - 1].y, read.points[i].x, read.points[i].y);
+    }
+  }
+  /// The first ring; the others are its holes.
+  void polygon() {
+    if (tokens_.take_word("EMPTY")) return;
+    Chain outline{{}, tokens_.line()};
+    std::vector<std::vector<Vec2>> holes;
+    list([&] {
+      Chain ring = chain();
+      if (ring.points.empty()) return;
+      const bool closed = ring.points.front() == ring.points.back();
+      if (ring.points.size() < 4 || !closed) {
+        fail_at(ring.line, "a ring needs four positions or more, the last one equal to the first",
+                closed ? fmt::format("{} positions", ring.points.size()) : "an open ring");
+      }
+      ring.points.pop_back();
+      if (outline.points.empty()) {
+        outline = std::move(ring);
+      } else {
+        push_asked(holes, std::move(ring.points), execution_);
+      }
+    });
+    if (outline.points.empty()) return;
+    if (holes.empty()) {
+      push_asked(scene_.polygons, {std::move(outline.points), outline.line}, execution_);
+      return;
+    }
+    if (!add_without_holes(scene_, outline.line, outline.points, holes, execution_)) {
+      fail_at(outline.line, misplaced_hole);
+    }
+  }
+  [[noreturn]] void fail_at(std::size_t line, std::string_view what, std::string_view found = {}) const {
+    scene_text::Place{name_, line}.fail(what, found);
+  }
+
+  const std::string& name_;
+  const Execution& execution_;
+  Tokens tokens_;
+  WallCollector walls_;
+  Scene scene_;
+};
+
+std::string position_text(Vec2 p) { return fmt::format("{} {}", p.x + 0.0, p.y + 0.0); }
+
+}  // namespace
+
+bool is_wkt(std::string_view bytes) {
+  bytes = bytes.substr(0, bytes_that_tell);
+  if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
+  const auto skip = [&] {
+    while (!bytes.empty() && is_space(bytes.front())) bytes.remove_prefix(1);
+  };
+  const auto word = [&] {
+    std::string text;
+    for (skip(); !bytes.empty() && is_letter(bytes.front()) && text.size() < 24; bytes.remove_prefix(1))
+      text += upper(bytes.front());
+    return text;
+  };
+  std::string first = word();
+  if (first == "SRID") return bytes.starts_with('=');
+  while (first.ends_with('Z') || first.ends_with('M')) first.pop_back();
+  if (std::find(type_names.begin(), type_names.end(), first) == type_names.end()) return false;
+  std::string second = word();
+  if (second == "Z" || second == "M" || second == "ZM") second = word();
+  skip();
+  return second == "EMPTY" || (second.empty() && bytes.starts_with('('));
+}
+
+Scene read_wkt(const InputFile& file, const Execution& execution) { return Reader(file, execution).read(); }
+
+void write_wkt(const Scene& scene, const std::string& path, const Execution& execution) {
+  if (has_solids(scene) || scene.bounds) {
+    throw InputError(path, "WKT holds polygons and walls alone; write bounds and spheres to a .scene or .geojson file");
+  }
+  constexpr std::size_t batch = 1 << 10;
+  OutputFile file(path, execution);
+  std::size_t written = 0;
+  for (const ScenePolygon& polygon : scene.polygons) {
+    if (++written % batch == 0) execution.check();
+    std::string text = "POLYGON ((";
+    const std::vector<Vec2> corners = anticlockwise(polygon.corners);
+    for (const Vec2 p : corners) {
+      if (++written % batch == 0) execution.check();
+      text += position_text(p) + ", ";
+    }
+    file.write(text + position_text(corners.front()) + "))\n");
+  }
+  scene.walls.visit([&](auto walls) {
+    for (const auto& wall : walls) {
+      if (++written % batch == 0) execution.check();
+      const Segment s = wall.segment();
+      file.write("LINESTRING (" + position_text(s.a) + ", " + position_text(s.b) + ")\n");
+    }
+  });
+  file.commit();
+}
+
+}  // namespace warren

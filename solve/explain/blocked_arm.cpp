@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/explain/blocked_arm.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/base/trigonometry.hpp"
+#include "scenes/files/human_units.hpp"
+#include "solve/explain/nearest_free.hpp"
+#include "solve/kinds/solve_steps.hpp"
+#include "solve/question/question_of_arm.hpp"
+#include "worlds/arms/arm_world.hpp"
+#include "worlds/arms/serial_chain.hpp"
+#include "worlds/arms/solid_index.hpp"
+#include "worlds/arms/tool_postures.hpp"
+
+namespace warren {
+namespace {
+
+double norm_between(std::span<const double> a, std::span<const double> b) {
+  double square = 0.0;
+  for (std::size_t k = 0; k < a.size(); ++k) square += (a[k] - b[k]) * (a[k] - b[k]);
+  return std::sqrt(square);
+}
+
+class BlockedArm {
+ public:
+  BlockedArm(const Scene& scene, const Problem& problem, const Execution& execution)
+      : scene_(scene), execution_(execution), chain_(table_of(problem.robot, execution)) {
+    problem_.robot = problem.robot;
+    problem_.table = chain_.table();
+    problem_.start = joint_state(problem.start);
+    problem_.goal = problem.goal;
+    problem_.clearance = problem.clearance;
+    margin_ = end_margin(scene, problem.robot, problem.clearance, chain_.reach(), execution);
+  }
+
+  const SerialChain& chain() const { return chain_; }
+  /// What ends have beyond the clearance.
+  double margin() const { return margin_; }
+  /// With so much more room than is asked for.
+  std::optional<Violation> met(const JointState& q, double more) const {
+    execution_.check();
+    const ArmVerifyOptions options{.radius = problem_.robot.radius,
+                                   .clearance = problem_.clearance + more,
+                                   .self_collision = problem_.robot.self_collision};
+    return verify_arm(scene_, problem_.table, std::span(&q, 1), options, execution_).first_violation;
+  }
+  /// Of the deepest link in the solid that is named, or of two links in one another.
+  std::optional<double> depth_in(const Violation& violation, const JointState& q) const;
+  std::optional<JointState> free_posture(const JointState& q) const;
+  /// Postures with the tool there; empty: out of reach.
+  std::vector<JointState> postures(const Vec3& place) const {
+    ArmProblem there = problem_;
+    there.goal = {place.x(), place.y(), place.z()};
+    return goal_states(there, chain_);
+  }
+  /// One of them, sought where the quickly found ones are none.
+  std::optional<JointState> posture(const Vec3& place) const {
+    std::vector<JointState> states = postures(place);
+    if (states.empty()) states = tool_postures(chain_, place, problem_.start[5], 1, execution_).states;
+    return states.empty() ? std::nullopt : std::optional(states.front());
+  }
+  /// Which some posture reaches that is free.
+  std::optional<Numbers<3>> free_tool_place(const Vec3& place) const;
+
+ private:
+  template <class DepthOfLink>
+  double deepest(const JointState& q, const DepthOfLink& depth_of) const {
+    ChainPosture posture;
+    chain_.place(q, posture);
+    double most = -std::numeric_limits<double>::infinity();
+    for (const ArmLink& link : links_of(chain_)) {
+      most = std::max(most, depth_of(posture.points[link.from], posture.points[link.to]) + problem_.robot.radius);
+    }
+    return most;
+  }
+
+  const Scene& scene_;
+  const Execution& execution_;
+  SerialChain chain_;
+  ArmProblem problem_;
+  double margin_ = 0.0;
+};
+
+std::optional<double> BlockedArm::depth_in(const Violation& violation, const JointState& q) const {
+  const std::string_view name = violation.obstacle;
+  const auto numbered = [&](std::string_view word, std::size_t count) -> std::optional<std::size_t> {
+    if (!name.starts_with(word)) return std::nullopt;
+    std::size_t number = count;
+    std::from_chars(name.data() + word.size(), name.data() + name.size(), number);
+    return number < count ? std::optional(number) : std::nullopt;
+  };
+  double depth = 0.0;
+  if (const auto i = numbered("sphere ", scene_.spheres.size())) {
+    const Sphere& s = scene_.spheres[*i];
+    depth = deepest(q, [&](const Vec3& a, const Vec3& b) {
+      return s.radius - std::sqrt(distance_square(Spine(a, b), Vec3(s.x, s.y, s.z)));
+    });
+  } else if (const auto k = numbered("box ", scene_.boxes.size())) {
+    const SolidBox& box = scene_.boxes[*k];
+    depth = deepest(q, [&](const Vec3& a, const Vec3& b) {
+      const double inside = depth_in_box(a, b, box);
+      return inside > 0.0 ? inside : -std::sqrt(distance_square(Spine(a, b), box));
+    });
+  } else if (name.starts_with("link ")) {
+    depth = -violation.distance;
+  }
+  return depth > 0.0 ? std::optional(depth) : std::nullopt;
+}
+
+std::optional<JointState> BlockedArm::free_posture(const JointState& q) const {
+  constexpr std::size_t random_directions = 180;
+  static const std::vector<Numbers<most_joints>> directions = directions_around<most_joints>(random_directions);
+  constexpr double digits = 1e3;
+  JointState within = q;
+  for (std::size_t k = 0; k < most_joints; ++k) {
+    const double low = std::ceil(chain_.low(k) * digits) / digits;
+    const double high = std::floor(chain_.high(k) * digits) / digits;
+    if (low <= high && (q[k] < chain_.low(k) || q[k] > chain_.high(k))) within[k] = std::clamp(q[k], low, high);
+  }
+  const auto is_free = [this](const JointState& state, double spare) {
+    return chain_.joint_outside_limits(state) == most_joints && !met(state, margin_ + spare);
+  };
+  const double size = std::max(problem_.robot.radius, 0.1 * chain_.reach());
+  if (is_free(within, 1e-2 * size)) return within;
+  const FreeSearchRange range{1e-3, 2.0 * std::numbers::pi, 1e-3 * norm_between(q, within)};
+  return nearest_free_in_few_digits<most_joints>(within, directions, range, size, is_free);
+}
+
+std::optional<Numbers<3>> BlockedArm::free_tool_place(const Vec3& place) const {
+  static const std::vector<Numbers<3>> directions = directions_around<3>(60);
+  const auto is_free = [this](const Numbers<3>& p, double spare) {
+    const std::vector<JointState> states = postures({p[0], p[1], p[2]});
+    return std::any_of(states.begin(), states.end(), [&](const JointState& q) { return !met(q, margin_ + spare); });
+  };
+  const FreeSearchRange range{1e-3 * chain_.reach(), chain_.reach()};
+  return nearest_free_in_few_digits<3>({place.x(), place.y(), place.z()}, directions, range, 0.1 * chain_.reach(),
+                                       is_free);
+}
+
+/// Of a place that no posture brings the tool to: how far it is from the base, and how far all links would reach in a
+/// line.
+void explain_reach(Answer& answer, const Vec3& place, const DhTable& table) {
+  double reach = table.tool.translation().norm();
+  for (const DhJoint& joint : table.joints) reach += portable::hypot(joint.a, joint.d);
+  answer.blocked = BlockedEnd{.is_start = false, .by = "outside of what the tool reaches within the joints' limits"};
+  answer.blocked->hint = fmt::format("it is {} from the base, and all links in a line are {} long",
+                                     human_number(place.norm()), human_number(reach));
+}
+
+/// Angles that no joint has: degrees are meant.
+std::string degrees_hint(std::span<const double> angles) {
+  constexpr double a_turn_and_a_bit = 6.3;
+  const auto large =
+      std::find_if(angles.begin(), angles.end(), [](double a) { return std::abs(a) > a_turn_and_a_bit; });
+  return large == angles.end() ? "" : fmt::format("angles are in radians: {0} degrees are {0}deg", *large);
+}
+
+void tell(Answer& answer, bool is_start, const Violation& met, const BlockedArm& arm, const JointState& q) {
+  answer.blocked = BlockedEnd{.is_start = is_start, .by = met.obstacle};
+  answer.blocked->room = met.distance;
+  answer.blocked->needed = answer.problem.clearance;
+  answer.blocked->depth = arm.depth_in(met, q);
+}
+
+template <std::size_t n>
+void tell_free(Answer& answer, const std::optional<Numbers<n>>& free, std::span<const double> asked) {
+  if (!free) return;
+  answer.blocked->free_place.assign(free->begin(), free->end());
+  answer.blocked->distance = norm_between(*free, asked);
+}
+
+/// Of all postures there, the one that the tool's place is asked about is as good as any: the first.
+void explain_tool_place(Answer& answer, const BlockedArm& arm, const Vec3& place) {
+  const std::optional<JointState> posture = arm.posture(place);
+  if (!posture) return explain_reach(answer, place, arm.chain().table());
+  const auto met = arm.met(*posture, arm.margin());
+  if (!met) return;
+  tell(answer, false, *met, arm, *posture);
+  tell_free(answer, arm.free_tool_place(place), answer.problem.goal);
+}
+
+}  // namespace
+
+double depth_in_box(const Vec3& a, const Vec3& b, const SolidBox& box) {
+  // A box and a segment are apart along one of six directions, or not at all: the box's axes, and what is square to one
+  // of them and the segment.
+  const Vec3 low(box.low[0], box.low[1], box.low[2]);
+  const Vec3 half = 0.5 * (Vec3(box.high[0], box.high[1], box.high[2]) - low);
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 axis = Vec3::Unit(k);
+    for (const Vec3& square : {axis, Vec3(axis.cross(b - a))}) {
+      const double size = square.norm();
+      if (!(size > 1e-12 * (b - a).norm())) continue;
+      const Vec3 normal = square / size;
+      const double from = normal.dot(a - low - half);
+      const double to = normal.dot(b - low - half);
+      const double reach = half.dot(normal.cwiseAbs());
+      least = std::min({least, std::max(from, to) + reach, reach - std::min(from, to)});
+    }
+  }
+  return least;
+}
+
+void explain_blocked_arm(const Scene& scene, Answer& answer, const Execution& execution) {
+  const bool is_start = answer.outcome == Outcome::start_blocked;
+  const std::vector<double>& asked = is_start ? answer.problem.start : answer.problem.goal;
+  const BlockedArm arm(scene, answer.problem, execution);
+  if (asked.size() == 3) return explain_tool_place(answer, arm, {asked[0], asked[1], asked[2]});
+  const JointState q = joint_state(asked);
+  auto met = arm.met(q, 0.0);
+  const bool only_touches = !met;
+  if (only_touches) met = arm.met(q, arm.margin());
+  if (!met) return;
+  tell(answer, is_start, *met, arm, q);
+  answer.blocked->hint = only_touches ? std::string(touching_hint) : degrees_hint(asked);
+  tell_free(answer, arm.free_posture(q), q);
+}
+
+}  // namespace warren

@@ -1,0 +1,508 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/explain/blocked_end.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/base/trigonometry.hpp"
+#include "core/plane/geometry.hpp"
+#include "core/plane/se2.hpp"
+#include "scenes/files/human_units.hpp"
+#include "solve/explain/blocked_arm.hpp"
+#include "solve/explain/nearest_free.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
+#include "solve/kinds/question_of_pose.hpp"
+#include "solve/kinds/solve_steps.hpp"
+#include "spatial/maps/distance_field.hpp"
+#include "verify/near/leg_boxes.hpp"
+
+namespace warren {
+namespace {
+
+// One obstacle of a scene of the plane, with nothing else around: how deep a body stands in it is asked there.
+
+/// The 17 of "wall 17: ...", after the word "wall ".
+std::optional<std::size_t> number_after(std::string_view name, std::string_view word) {
+  if (!name.starts_with(word)) return std::nullopt;
+  name.remove_prefix(word.size());
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  return error == std::errc() && end != name.data() ? std::optional(number) : std::nullopt;
+}
+
+bool is_same_side(const Segment& s, const Segment& t) {
+  return (s.a == t.a && s.b == t.b) || (s.a == t.b && s.b == t.a);
+}
+
+/// The polygon and those that seams part from it or from one another.
+class PiecesOfOne {
+ public:
+  PiecesOfOne(const Scene& scene, const Execution& execution) : scene_(scene), execution_(execution) {}
+
+  std::vector<ScenePolygon> with(std::size_t first) {
+    std::vector<std::size_t> pieces{first};
+    std::vector<bool> taken(scene_.polygons.size(), false);
+    taken[first] = true;
+    for (std::size_t i = 0; i < pieces.size() && !scene_.seams.empty(); ++i) {
+      for (const Segment& seam : seams_of(scene_.polygons[pieces[i]])) {
+        for (std::size_t k = 0; k < taken.size(); ++k) {
+          if (taken[k] || !has(scene_.polygons[k], seam)) continue;
+          taken[k] = true;
+          pieces.push_back(k);
+        }
+      }
+    }
+    std::vector<ScenePolygon> polygons;
+    for (const std::size_t i : pieces) polygons.push_back(scene_.polygons[i]);
+    return polygons;
+  }
+
+ private:
+  bool has(const ScenePolygon& polygon, const Segment& side) const {
+    execution_.check();
+    const std::vector<Vec2>& corners = polygon.corners;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (is_same_side({corners[i], corners[(i + 1) % corners.size()]}, side)) return true;
+    }
+    return false;
+  }
+  std::vector<Segment> seams_of(const ScenePolygon& polygon) const {
+    std::vector<Segment> seams;
+    for (const Segment& seam : scene_.seams) {
+      if (has(polygon, seam)) seams.push_back(seam);
+    }
+    return seams;
+  }
+
+  const Scene& scene_;
+  const Execution& execution_;
+};
+
+/// name: as Violation::obstacle. A wall, or a polygon with all that were cut from the same one, within bounds that
+/// leave `room` around it; the bounds without what lies in them; of a cell the whole map. None for all others, such as
+/// what is outside. Throws Stopped.
+std::optional<Scene> obstacle_alone(const Scene& scene, std::string_view name, double room,
+                                    const Execution& execution) {
+  if (name.starts_with("cell ")) return scene;
+  Scene alone;
+  if (name.starts_with("bounds: ") && scene.bounds) {
+    alone.bounds = scene.bounds;
+    return alone;
+  }
+  Box box;
+  if (const auto wall = number_after(name, "wall "); wall && *wall < scene.walls.size()) {
+    const Segment segment = scene.walls.segment(*wall);
+    alone.walls = WallSet::narrowest(std::vector{segment});
+    box = box_of(segment);
+  } else if (const auto polygon = number_after(name, "polygon "); polygon && *polygon < scene.polygons.size()) {
+    alone.polygons = PiecesOfOne(scene, execution).with(*polygon);
+    for (const ScenePolygon& piece : alone.polygons) {
+      for (const Vec2 corner : piece.corners) box.include(corner);
+    }
+  } else {
+    return std::nullopt;
+  }
+  alone.bounds = box.grown(box.width() + box.height() + room);
+  return alone;
+}
+
+/// Evenly all around, both ways along each axis first.
+std::vector<Numbers<2>> directions_in_the_plane() {
+  constexpr int quarter = 12;
+  std::vector<Numbers<2>> directions;
+  for (int first = 0; first < quarter; ++first) {
+    for (int k = 0; k < 4; ++k) {
+      const double angle = 0.5 * std::numbers::pi * (k + static_cast<double>(first) / quarter);
+      const auto [sine, cosine] = portable::sin_and_cos(angle);
+      directions.push_back({cosine, sine});
+    }
+  }
+  return directions;
+}
+
+class BlockedEndSearch {
+ public:
+  BlockedEndSearch(const Scene& scene, const Problem& problem, std::vector<double> state, const Execution& execution)
+      : scene_(scene),
+        problem_(problem),
+        kind_(verifying_kind(scene, question_at(state))),
+        state_(std::move(state)),
+        execution_(execution),
+        middle_(at()) {
+    reach_ = problem.clearance + extent_of(problem.robot);
+    margin_ = end_margin(scene, problem.robot, problem.clearance, extent_of(problem.robot), execution);
+  }
+
+  /// What the judge meets there with so much more room than is asked for; nothing where the body fits after all.
+  std::optional<Violation> met(double more) const { return judged(scene_, state_, more).first_violation; }
+  /// What ends have beyond the clearance.
+  double margin() const { return margin_; }
+
+  /// Where the reference point may be at all; of obstacles without bounds, the box that they fill.
+  Box room() const { return room_of(scene_, execution_); }
+
+  /// The nearest free place with the same heading, from the room's rim where the end lies outside.
+  std::optional<std::vector<double>> free_place() {
+    const Box box = room();
+    if (box.empty()) return std::nullopt;
+    const double margin = std::min({reach_ * 1.01, 0.5 * box.width(), 0.5 * box.height()});
+    middle_ = {std::clamp(at().x, box.min.x + margin, box.max.x - margin),
+               std::clamp(at().y, box.min.y + margin, box.max.y - margin)};
+    if (box.contains(at())) middle_ = at();
+    const double farthest = portable::hypot(box.width(), box.height());
+    const FreeSearchRange range{1e-4 * farthest, farthest, 1e-3 * norm(middle_ - at())};
+    auto place = place_near_middle(range);
+    if (!place) {
+      const auto somewhere = free_somewhere(box);
+      if (!somewhere) return std::nullopt;
+      middle_ = *somewhere;
+      near_reach_ = 0.0;
+      place = place_near_middle({range.first, range.farthest, 1e-3 * norm(middle_ - at())});
+      if (!place) place = rounded(*somewhere);
+    }
+    std::vector<double> state = state_;
+    std::copy(place->begin(), place->end(), state.begin());
+    return state;
+  }
+
+  /// How far the body must go to be out of what is named, if there were nothing else; none where it only touches it or
+  /// comes too near.
+  std::optional<double> depth_in(const std::string& name) const {
+    const auto alone = obstacle_alone(scene_, name, 4.0 * reach_, execution_);
+    if (!alone) return std::nullopt;
+    Problem bare = problem_;
+    bare.clearance = 0.0;
+    BlockedEndSearch there(*alone, bare, state_, execution_);
+    if (!there.met(0.0)) return std::nullopt;
+    return there.way_out();
+  }
+
+  /// With so much more room than is asked for.
+  bool is_free(Vec2 place, double more) {
+    execution_.check();
+    const double distance = norm(place - middle_);
+    if (!scene_.map && distance + reach_ > near_reach_) {
+      near_reach_ = 2.0 * (distance + reach_);
+      near_ = obstacles_near(scene_, std::array{middle_}, near_reach_, execution_);
+    }
+    std::vector<double> state = state_;
+    state[0] = place.x;
+    state[1] = place.y;
+    return judged(scene_.map ? scene_ : near_, state, more).verified;
+  }
+  Vec2 at() const { return {state_[0], state_[1]}; }
+
+ private:
+  Question question_at(const std::vector<double>& state, double more = 0.0) const {
+    Question question = problem_.question();
+    question.start = question.goal = state;
+    if (more > 0.0) {
+      question.clearance = problem_.clearance + more;
+      question.contact = Contact::blocked;
+    }
+    return question;
+  }
+  /// What room is measured by: the body, a cell, and for a point else the world.
+  double size() const {
+    if (reach_ > 0.0) return reach_;
+    return scene_.map ? scene_.map->cell : 1e-2 * portable::hypot(room().width(), room().height());
+  }
+  Verdict judged(const Scene& scene, const std::vector<double>& state, double more) const {
+    RecordedAnswer stay;
+    stay.file = "answer";
+    if (state.size() == 2) {
+      stay.path.push_back({state[0], state[1]});
+    } else {
+      stay.states.width = state.size();
+      stay.states.add(state);
+    }
+    return kind_.verify(scene, question_at(state, more), stay, execution_);
+  }
+  std::optional<Numbers<2>> place_near_middle(const FreeSearchRange& range) {
+    return nearest_free_in_few_digits(Numbers<2>{middle_.x, middle_.y}, std::span<const Numbers<2>>(directions_), range,
+                                      size(), [this](const Numbers<2>& p, double spare) {
+                                        return is_free({p[0], p[1]}, margin_ + spare);
+                                      });
+  }
+  /// A free place, to few digits where it is free there, too.
+  Numbers<2> rounded(Vec2 place) {
+    const double size = this->size();
+    for (double scale = size; scale > least_spare * size; scale *= 0.1) {
+      const Vec2 near{in_few_digits(place.x, scale), in_few_digits(place.y, scale)};
+      if (is_free(near, margin_ + 0.5 * least_spare * size)) return {near.x, near.y};
+    }
+    return {place.x, place.y};
+  }
+  /// Where all directions miss what is free: the nearest of places all over; of a map first of those at the middles of
+  /// its cells. At most 20,000.
+  std::optional<Vec2> free_somewhere(const Box& box) {
+    const double spare = margin_ + least_spare * size();
+    const auto first_free = [&](const std::vector<Vec2>& places) {
+      const auto found = std::find_if(places.begin(), places.end(), [&](Vec2 p) { return is_free(p, spare); });
+      return found != places.end() ? std::optional(*found) : std::nullopt;
+    };
+    if (scene_.map) {
+      if (const auto found = first_free(places_over_cells(*scene_.map, spare))) return found;
+    }
+    return first_free(places_all_over(box));
+  }
+  /// Where a disc in its middle, or else the first corner of the body, is at the middle of a cell and has its room
+  /// there: the nearest. One pass over the cells.
+  std::vector<Vec2> places_over_cells(const OccupancyMap& map, double spare) const {
+    constexpr std::size_t most = 3000;
+    const RobotSpec& robot = problem_.robot;
+    const bool is_disc = robot.outline.empty();
+    const Vec2 corner = is_disc ? Vec2{} : Rotation(state_[2])(robot.outline.front());
+    const double radius = problem_.clearance + spare + (is_disc ? robot.radius : 0.0);
+    const Bitmap blocked = blocked_for_disc(map.blocked, radius / map.cell, execution_);
+    const auto place_over = [&](std::uint64_t cell) {
+      return cell_centre(map, {static_cast<std::uint32_t>(cell % map.width()),
+                               static_cast<std::uint32_t>(cell / map.width())}) -
+             corner;
+    };
+    std::vector<std::pair<double, std::uint64_t>> nearest;  // distances and cells
+    for (std::uint32_t y = 0; y < map.height(); ++y) {
+      execution_.check();
+      for (std::uint32_t x = 0; x < map.width(); ++x) {
+        if (blocked.test(x, y)) continue;
+        const std::uint64_t cell = std::uint64_t{y} * map.width() + x;
+        nearest.emplace_back(norm(place_over(cell) - middle_), cell);
+        if (nearest.size() < 2 * most) continue;
+        std::nth_element(nearest.begin(), nearest.begin() + most, nearest.end());
+        nearest.resize(most);
+      }
+    }
+    std::sort(nearest.begin(), nearest.end());
+    nearest.resize(std::min(nearest.size(), most));
+    std::vector<Vec2> places;
+    for (const auto& [distance, cell] : nearest) places.push_back(place_over(cell));
+    return places;
+  }
+  /// Evenly over the room, the nearest first: of a map of at most 64 cells a side its half cells; among many obstacles
+  /// fewer, for each is looked at from each place.
+  std::vector<Vec2> places_all_over(const Box& box) const {
+    constexpr std::uint32_t most = 128;
+    constexpr double most_looks = 2e7;
+    double obstacles = 1.0 + static_cast<double>(scene_.walls.size());
+    for (const ScenePolygon& polygon : scene_.polygons) obstacles += static_cast<double>(polygon.corners.size());
+    const double a_side = std::clamp(std::sqrt(most_looks / obstacles) - 1.0, 1.0, 0.5 * most);
+    const OccupancyMap* map = scene_.map ? &*scene_.map : nullptr;
+    const auto few = static_cast<std::uint32_t>(a_side);
+    const std::uint32_t columns = map != nullptr ? std::min(2 * map->width(), most) : few;
+    const std::uint32_t rows = map != nullptr ? std::min(2 * map->height(), most) : few;
+    std::vector<Vec2> places;
+    for (std::uint32_t y = 0; y <= rows; ++y) {
+      for (std::uint32_t x = 0; x <= columns; ++x) {
+        const Vec2 share{static_cast<double>(x) / columns, static_cast<double>(y) / rows};
+        places.push_back(map != nullptr ? world_point(*map, {share.x * map->width(), share.y * map->height()})
+                                        : box.min + Vec2{share.x * box.width(), share.y * box.height()});
+      }
+    }
+    std::stable_sort(places.begin(), places.end(),
+                     [this](Vec2 a, Vec2 b) { return norm(a - middle_) < norm(b - middle_); });
+    return places;
+  }
+  std::optional<double> way_out() {
+    const Box box = room();
+    const double farthest = portable::hypot(box.width(), box.height());
+    const auto is_out = [this](const Numbers<2>& p) { return is_free({p[0], p[1]}, 0.0); };
+    NearestFree<2, decltype(is_out)> search({at().x, at().y}, directions_, is_out);
+    const double touching = 1e-6 * farthest;
+    const auto found = search.find({touching, farthest});
+    return found && found->distance > touching ? std::optional(found->distance) : std::nullopt;
+  }
+
+  const Scene& scene_;
+  const Problem& problem_;
+  const SolveKind& kind_;
+  std::vector<double> state_;
+  const Execution& execution_;
+  double reach_ = 0.0;  // of the body, around its reference point
+  double margin_ = 0.0;
+  Vec2 middle_;  // around which places are looked at
+  std::vector<Numbers<2>> directions_ = directions_in_the_plane();
+  Scene near_;  // what is within near_reach_ of it
+  double near_reach_ = 0.0;
+};
+
+std::string numbers(const Box& box) {
+  return fmt::format("{} {} {} {}", human_number(box.min.x), human_number(box.min.y), human_number(box.max.x),
+                     human_number(box.max.y));
+}
+
+/// Of a map of metres, where the cell is, and whether anything is known of it; empty of all others.
+std::string cell_in_words(const Scene& scene, const std::string& name) {
+  const auto x = number_after(name, "cell ");
+  if (!x || !scene.map || scene.map->format != MapFormat::ros) return {};
+  const OccupancyMap& map = *scene.map;
+  const Cell cell{static_cast<std::uint32_t>(*x),
+                  static_cast<std::uint32_t>(*number_after(std::string_view(name).substr(name.rfind(' ')), " "))};
+  const Vec2 middle = cell_centre(map, cell);
+  const bool is_unknown = map.unknown_count > 0 && map.unknown.test(cell.x, cell.y);
+  return fmt::format("the cell is {}at {}, {} m", is_unknown ? "unknown, " : "", human_number(middle.x),
+                     human_number(middle.y));
+}
+
+/// Outside of all that there is, or what the judge met.
+std::string in_the_way(const Scene& scene, const Violation& met, const BlockedEndSearch& search) {
+  const bool is_outside = !search.room().contains(search.at());
+  if (!is_outside) return met.obstacle;
+  return fmt::format("outside of the {} {}",
+                     scene.map      ? "map"
+                     : scene.bounds ? "bounds"
+                                    : "box of the obstacles",
+                     numbers(search.room()));
+}
+
+/// What may have been meant.
+std::string hint_of(const std::vector<double>& state, BlockedEndSearch& search) {
+  if (!search.room().contains(search.at()) && search.is_free({state[1], state[0]}, search.margin()))
+    return fmt::format("x comes before y: {},{} is free", state[1], state[0]);
+  return {};
+}
+
+}  // namespace
+
+void explain_blocked_end(const Scene& scene, Answer& answer, const Execution& execution) {
+  if (!is_blocked(answer.outcome) || is_unmade(scene)) return;
+  const bool is_start = answer.outcome == Outcome::start_blocked;
+  std::vector<double> state = is_start ? answer.problem.start : answer.problem.goal;
+  const std::size_t width = state_size(answer.problem.robot);
+  const bool any_heading = state.size() == 2 && width == 3;
+  if (any_heading) state.push_back(0.0);  // one of them tells enough
+  try {
+    if (width == 6) return explain_blocked_arm(scene, answer, execution);
+    if (state.size() != width) return;
+    BlockedEndSearch search(scene, answer.problem, state, execution);
+    auto met = search.met(0.0);
+    const bool only_touches = !met;
+    if (only_touches) met = search.met(search.margin());
+    if (!met) return;
+    answer.blocked = BlockedEnd{.is_start = is_start, .by = in_the_way(scene, *met, search)};
+    answer.blocked->hint = only_touches ? std::string(touching_hint) : hint_of(state, search);
+    if (any_heading && answer.blocked->hint.empty()) answer.blocked->hint = "it fits at no heading: all are looked at";
+    answer.blocked->room = met->distance;
+    answer.blocked->needed = answer.problem.clearance + answer.problem.robot.radius;
+    answer.blocked->depth = search.depth_in(answer.blocked->by);
+    const bool is_in_it = answer.blocked->depth || !search.room().contains(search.at());
+    if (answer.blocked->hint.empty() && !is_in_it && answer.blocked->needed == 0.0) {
+      answer.blocked->hint = "it only touches it there, and with contact blocked what touches is not free";
+    }
+    if (answer.blocked->hint.empty()) answer.blocked->hint = cell_in_words(scene, answer.blocked->by);
+    if (auto place = search.free_place()) {
+      answer.blocked->distance = norm(Vec2{(*place)[0], (*place)[1]} - search.at());
+      answer.blocked->free_place = std::move(*place);
+    }
+  } catch (const Stopped&) {
+  } catch (const InputError&) {  // a goal of another kind, which the judge does not take as a state
+  }
+}
+
+namespace {
+
+/// The nearest place of the nearest cell, of the lines from 1 to `count`, with a hundredth of the room to spare.
+double free_beside(double x, std::uint32_t count, double reach) {
+  constexpr double digits = 1000.0;
+  const double middle = std::clamp(std::round(x), 1.0, static_cast<double>(count));
+  const double room = std::max(0.0, std::floor(0.99 * (0.5 - reach) * digits));
+  if (std::abs(x - middle) * digits <= room) return x;
+  return (middle * digits + std::copysign(room, x - middle)) / digits;
+}
+
+}  // namespace
+
+void explain_blocked_cell(const WallProblem& problem, MazeHint maze, Answer& answer, const MetAt& met_at) {
+  if (!is_blocked(answer.outcome)) return;
+  const bool is_start = answer.outcome == Outcome::start_blocked;
+  const Vec2 at = is_start ? problem.start : problem.goal;
+  const auto met = met_at(at);
+  if (!met) return;
+  const Vec2 place{free_beside(at.x, maze.cols, problem.reach()), free_beside(at.y, maze.rows, problem.reach())};
+  const bool is_outside = met->obstacle.starts_with("box: ");
+  answer.blocked = BlockedEnd{.is_start = is_start,
+                              .by = is_outside ? "outside of the bounds " + met->obstacle.substr(5) : met->obstacle,
+                              .room = met->distance,
+                              .needed = problem.reach()};
+  if (!met_at(place)) {
+    answer.blocked->free_place = {place.x, place.y};
+    answer.blocked->distance = norm(place - at);
+  }
+  if (is_outside) {
+    if (!met_at({at.y, at.x})) answer.blocked->hint = fmt::format("x comes before y: {},{} is free", at.y, at.x);
+  } else if (met->distance >= problem.reach()) {
+    answer.blocked->hint = touching_hint;
+  } else if (const double depth = problem.robot.radius - met->distance; depth > 0.0) {
+    answer.blocked->depth = depth;
+  }
+}
+
+namespace {
+
+constexpr std::size_t obstacles_a_poll = 1U << 14U;
+
+class NearPath {
+ public:
+  NearPath(const Scene& scene, std::span<const Vec2> path, double reach, const Execution& execution)
+      : all_(obstacle_box(scene, execution)), legs_(path, execution), reach_(reach) {}
+
+  bool keeps(const Box& box) const {
+    if (box.min.x == all_.min.x || box.min.y == all_.min.y || box.max.x == all_.max.x || box.max.y == all_.max.y) {
+      return true;
+    }
+    const Box around = box.grown(reach_);
+    const auto is_apart = [&](const Box& legs) { return !meet(legs, around); };
+    bool is_near = false;
+    legs_.for_each_in(
+        0, legs_.leg_count() - 1, [&](const Box& legs) { return is_near || is_apart(legs); },
+        [&](std::size_t leg) { is_near = is_near || meet(box_of(legs_.leg(leg)), around); });
+    return is_near;
+  }
+
+ private:
+  static bool meet(const Box& a, const Box& b) {
+    return a.min.x <= b.max.x && a.max.x >= b.min.x && a.min.y <= b.max.y && a.max.y >= b.min.y;
+  }
+
+  Box all_;
+  LegBoxes legs_;
+  double reach_;
+};
+
+}  // namespace
+
+Scene obstacles_near(const Scene& scene, std::span<const Vec2> path, double reach, const Execution& execution) {
+  if (scene.map || is_unmade(scene)) return scene;
+  const Vec2 twice[] = {path.front(), path.front()};
+  const NearPath places(scene, path.size() > 1 ? path : std::span<const Vec2>(twice), reach, execution);
+  Scene near = without_arrays(scene);
+  std::vector<Segment> walls;
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    if (i % obstacles_a_poll == 0) execution.check();
+    const Segment wall = scene.walls.segment(i);
+    if (places.keeps(box_of(wall))) walls.push_back(wall);
+  }
+  near.walls = WallSet::narrowest(walls);
+  std::erase_if(near.polygons, [&](const ScenePolygon& polygon) {
+    execution.check();
+    Box box;
+    for (const Vec2 corner : polygon.corners) box.include(corner);
+    return !places.keeps(box);
+  });
+  return near;
+}
+
+}  // namespace warren

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/kept/lattice_roadmap.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "parallel/chunks.hpp"
+#include "planners/lengths/lattice_passages.hpp"
+#include "planners/mazes/tiled_prm_lattice.hpp"
+#include "planners/roadmap/milestones.hpp"
+#include "solve/kept/maze_bits.hpp"
+#include "solve/question/planner_choice.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::uint32_t most_passes = 32;
+
+}  // namespace
+
+const WallsNearEnds::Indexed* WallsNearEnds::index(const Execution& execution) const {
+  return indexed_.get_after(most_passes, execution, [&] {
+    auto indexed = std::make_unique<Indexed>();
+    try {
+      indexed->world.emplace(world_.whole(execution), reach_, execution);
+    } catch (const Stopped& stopped) {
+      if (stopped.reason != StopReason::memory) throw;
+    }
+    return indexed;
+  });
+}
+
+/// The walls that motions of a few cells around a place can meet, and those that reach farthest: the box of all walls,
+/// which the reference point stays in, is theirs too.
+Scene WallsNearEnds::around(const Scene& scene, Vec2 p, const Execution& execution) const {
+  constexpr std::size_t polled = std::size_t{1} << 20;
+  const Box near = room_of_motions(p);
+  std::vector<Segment> walls;
+  Box all;
+  std::array<Segment, 4> farthest{};
+  scene.walls.visit([&](auto held) {
+    for (std::size_t i = 0; i < held.size(); ++i) {
+      if (i % polled == 0) execution.check();
+      const Segment s = held[i].segment();
+      const Box box = box_of(s);
+      if (near.meets(box)) walls.push_back(s);
+      if (box.min.x < all.min.x) farthest[0] = s;
+      if (box.min.y < all.min.y) farthest[1] = s;
+      if (box.max.x > all.max.x) farthest[2] = s;
+      if (box.max.y > all.max.y) farthest[3] = s;
+      all.include(box);
+    }
+  });
+  if (!all.empty()) walls.insert(walls.end(), farthest.begin(), farthest.end());
+  Scene local;
+  local.bounds = scene.bounds;
+  local.walls = WallSet::narrowest(walls);
+  return local;
+}
+
+namespace {
+
+LatticePassages passages_of(const Scene& scene, double reach, const Execution& execution) {
+  if (auto passages = passages_of_maze(scene, reach, execution)) return std::move(*passages);
+  const std::vector<Segment> bounds = bounds_walls(scene);
+  return wall_passages({scene.walls, bounds, scene.bounds, reach, {scene.maze->rows, scene.maze->cols}}, execution);
+}
+
+}  // namespace
+
+std::unique_ptr<RouteIndex> lattice_index(const Scene& scene, const Question& body, const SolveOptions& options,
+                                          const Execution& execution) {
+  const RobotSpec robot = robot_of(scene, body);
+  const bool is_maze = scene.maze && scene.polygons.empty() && !scene.map && !has_solids(scene) &&
+                       (robot.kind == RobotKind::point || robot.kind == RobotKind::disc);
+  if (!is_maze || options.planner != PlannerKind::prm) return nullptr;
+  const double reach = clearance_of(scene, body) + robot.radius;
+  const RoadmapOptions roadmap = planner_options(options, scene, WallProblem{}).roadmap;
+  const std::uint64_t cells = std::uint64_t{scene.maze->rows} * scene.maze->cols;
+  if (cells < fewest_indexed_cells || !tiled_prm_applies(roadmap, reach)) return nullptr;
+  try {
+    return std::make_unique<RouteIndex>(passages_of(scene, reach, execution), RouteIndexOptions{}, execution);
+  } catch (const InputError&) {  // it doesn't pay
+    return nullptr;
+  }
+}
+
+LatticeQuestion::LatticeQuestion(const WallsNearEnds& near, const WallProblem& problem, const RouteIndex& index,
+                                 RouteQuery& query, const Execution& execution)
+    : near_(near), problem_(problem), index_(index), query_(query), execution_(execution) {
+  if (!link(0, problem.start)) {
+    outcome_ = Outcome::start_blocked;
+  } else if (!link(1, problem.goal)) {
+    outcome_ = Outcome::goal_blocked;
+  } else {
+    join();
+  }
+}
+
+std::optional<CellId> lattice_cell(const RouteIndex& index, Vec2 p) {
+  const LatticeSize size = index.passages().size();
+  const bool inside = p.x >= 1.0 && p.y >= 1.0 && p.x <= size.cols && p.y <= size.rows;
+  if (!inside || std::floor(p.x) != p.x || std::floor(p.y) != p.y) return std::nullopt;
+  const auto col = static_cast<std::uint32_t>(p.x) - 1;
+  const auto row = static_cast<std::uint32_t>(p.y) - 1;
+  return index.passages().open_at(col, row) != 0 ? std::optional(row * size.cols + col) : std::nullopt;
+}
+
+/// False where the body does not fit there.
+bool LatticeQuestion::link(std::size_t end, Vec2 p) {
+  if (const auto cell = lattice_cell(index_, p)) {  // every other link leads over a longer way
+    links_[end].push_back({*cell, 0.0});
+    return true;
+  }
+  bool is_free = false;
+  near_.look(p, execution_, [&](const MazeWorld& world) { is_free = link_among(world, end, p); });
+  return is_free;
+}
+
+bool LatticeQuestion::link_among(const MazeWorld& world, std::size_t end, Vec2 p) {
+  auto query = world.make_query();
+  if (!world.is_free(p, query)) return false;
+  const LatticeSize size = index_.passages().size();
+  std::vector<std::pair<double, CellId>> near;
+  const auto middle_x = static_cast<std::int64_t>(std::clamp(std::round(p.x), 1.0, static_cast<double>(size.cols)));
+  const auto middle_y = static_cast<std::int64_t>(std::clamp(std::round(p.y), 1.0, static_cast<double>(size.rows)));
+  for (std::int64_t y = std::max<std::int64_t>(1, middle_y - widest_look);
+       y <= std::min<std::int64_t>(size.rows, middle_y + widest_look); ++y) {
+    for (std::int64_t x = std::max<std::int64_t>(1, middle_x - widest_look);
+         x <= std::min<std::int64_t>(size.cols, middle_x + widest_look); ++x) {
+      const Vec2 at{static_cast<double>(x), static_cast<double>(y)};
+      if (!world.is_free(at, query)) continue;
+      near.emplace_back(distance(p, at), static_cast<CellId>((y - 1) * size.cols + (x - 1)));
+    }
+  }
+  std::sort(near.begin(), near.end());
+  constexpr std::size_t farthest = 256;
+  for (std::size_t i = 0; i < std::min(near.size(), farthest); ++i) {
+    const auto [length, cell] = near[i];
+    if (length > 1.0 && !links_[end].empty()) break;
+    const Vec2 at = lattice_point(size, cell);
+    if (world.is_free_motion(p, at, query)) links_[end].push_back({cell, length});
+  }
+  return true;
+}
+
+void LatticeQuestion::join() {
+  double best = std::numeric_limits<double>::infinity();
+  for (const Link& from : links_[0]) {
+    for (const Link& to : links_[1]) {
+      const auto steps = query_.length(from.cell, to.cell);
+      if (!steps || from.length + *steps + to.length >= best) continue;
+      best = from.length + *steps + to.length;
+      from_ = from.cell;
+      to_ = to.cell;
+    }
+  }
+  const double straight = distance(problem_.start, problem_.goal);
+  if (straight <= 1.0 && straight < best) {
+    near_.look(problem_.start, execution_, [&](const MazeWorld& world) {
+      auto query = world.make_query();
+      direct_ = world.is_free_motion(problem_.start, problem_.goal, query);
+    });
+    if (direct_) best = straight;
+  }
+  if (!std::isfinite(best)) return;
+  outcome_ = Outcome::solved;
+  length_ = best;
+}
+
+Path<Vec2> LatticeQuestion::path() const {
+  if (direct_) return {problem_.start, problem_.goal};
+  const RawVector<CellId> cells = query_.path(from_, to_, execution_);
+  execution_.reserve((cells.size() + 2) * sizeof(Vec2));
+  const LatticeSize size = index_.passages().size();
+  const std::size_t before = lattice_point(size, cells.front()) != problem_.start ? 1 : 0;
+  const bool ends_there = lattice_point(size, cells.back()) == problem_.goal && before + cells.size() > 1;
+  const std::size_t behind = ends_there ? 0 : 1;
+  Path<Vec2> path(before + cells.size() + behind);
+  for_chunks(cells.size(), std::size_t{1} << 14, execution_, [&](Range r) {
+    for (std::size_t i = r.first; i < r.last; ++i) path[before + i] = lattice_point(size, cells[i]);
+  });
+  path.front() = problem_.start;
+  path.back() = problem_.goal;
+  return path;
+}
+
+}  // namespace warren

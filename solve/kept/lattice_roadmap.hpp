@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The roadmap of a maze's lattice, held as a route index (planners/lengths) instead of states and edges: two bits a
+// cell for its edges, and about one byte a cell by which any question is answered exactly without a search.
+//
+// Ends are joined to the lattice as solve() joins them: to the milestones within a step that they reach freely, and
+// where there is none to the nearest of the 256 nearest that they do. An end on a milestone that has an edge needs no
+// look at the walls; others have one (WallsNearEnds), and the walls of a file are made first.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/base/solution.hpp"
+#include "core/base/types.hpp"
+#include "parallel/execution.hpp"
+#include "parallel/once.hpp"
+#include "planners/lengths/route_index.hpp"
+#include "planners/lengths/route_query.hpp"
+#include "scenes/scene/scene.hpp"
+#include "solve/kept/kept_cells.hpp"
+#include "solve/question/question.hpp"
+#include "solve/question/solve_options.hpp"
+#include "worlds/plane/maze_world.hpp"
+
+namespace warren {
+// The world of a roadmap. Whoever asks a lattice in a file for a length needs none of its walls, and making those of
+// 10^8 cells takes a second and 1.6 GB: there they are made when a picture or an explanation first needs them. A judge
+// and ends off the lattice look them up one by one, where bits say them.
+
+/// Moves leave references to scenes valid only where the whole was made later. Any number of threads may ask.
+class KeptWorld {
+ public:
+  using Make = std::function<Scene(const Execution&)>;
+  using LookUp = std::function<std::unique_ptr<KeptCells>(const Execution&)>;
+
+  KeptWorld() = default;
+  explicit KeptWorld(Scene whole) : outline_(std::move(whole)) {}
+  /// `outline`: all but the walls; make() gives the whole, or throws what whole() shall.
+  /// look_up: what looked_up() shall give, or nothing.
+  KeptWorld(Scene outline, Make make, LookUp look_up = {})
+      : outline_(std::move(outline)), later_(std::make_unique<Later>(std::move(make), std::move(look_up))) {}
+
+  /// Name, maze, bounds, body and what else a world says in a few words; its walls may be missing.
+  const Scene& outline() const { return outline_; }
+  /// Throws InputError for a world that is not what its file promises, Stopped; the next call then tries again.
+  const Scene& whole(const Execution& execution) const {
+    if (later_ == nullptr) return outline_;
+    return later_->whole.get(execution, [&] { return std::make_unique<Scene>(later_->make(execution)); });
+  }
+  /// The same, which nobody keeps: for what is seldom asked. Throws as whole() does.
+  Scene copy_of_whole(const Execution& execution) const {
+    return later_ == nullptr ? outline_ : later_->make(execution);
+  }
+  /// Can its walls be looked up without being made?
+  bool is_looked_up() const { return later_ != nullptr && later_->look_up; }
+  /// Its walls as they can be looked up without being made, which are all that there is; nullptr: they can't be. Throws
+  /// as whole() does.
+  const KeptCells* looked_up(const Execution& execution) const {
+    if (!is_looked_up()) return nullptr;
+    return &later_->cells.get(execution, [&] { return later_->look_up(execution); });
+  }
+
+ private:
+  struct Later {
+    Later(Make how, LookUp look) : make(std::move(how)), look_up(std::move(look)) {}
+    Make make;
+    LookUp look_up;
+    MadeOnce<Scene> whole;
+    MadeOnce<KeptCells> cells;
+  };
+  Scene outline_;
+  std::unique_ptr<Later> later_;  // nullptr: the outline is the whole
+};
+
+// The walls near ends that are no milestones of a lattice. Where they can be looked up, that is all there is to it;
+// else the first few such ends cost a pass over all walls each; from then on an index of them all is asked, which takes
+// as long as some forty passes and 20 to 40 bytes a wall. Where the memory does not hold it, each end goes on costing a
+// pass.
+
+/// Cells each way that an end looks at: the 256 nearest lie within 10.
+inline constexpr int widest_look = 11;
+
+/// Refers to the world. Any number of threads may ask.
+class WallsNearEnds {
+ public:
+  /// `reach`: what the body's reference point keeps from all walls.
+  WallsNearEnds(const KeptWorld& world, double reach) : world_(world), reach_(reach) {}
+
+  /// Calls look(const MazeWorld&) with a world that is the whole one for all motions within the widest look of p.
+  /// Throws Stopped, InputError.
+  template <class Look>
+  void look(Vec2 p, const Execution& execution, const Look& look) const {
+    if (const KeptCells* cells = world_.looked_up(execution); cells != nullptr) {
+      return look(MazeWorld(cells->walls_in(room_of_motions(p)), reach_, execution));
+    }
+    const Scene& whole = world_.whole(execution);
+    if (const Indexed* indexed = index(execution); indexed != nullptr && indexed->world) return look(*indexed->world);
+    look(MazeWorld(around(whole, p, execution), reach_, execution));
+  }
+  /// An end will be looked at: the index is made now, on the execution's threads, if its turn has come.
+  void expect(const Execution& execution) const {
+    if (world_.looked_up(execution) == nullptr) index(execution);
+  }
+
+ private:
+  struct Indexed {
+    std::optional<MazeWorld> world;  // none: too large
+  };
+  const Indexed* index(const Execution& execution) const;
+  Box room_of_motions(Vec2 p) const {
+    Box near;
+    near.include(p);
+    return near.grown(widest_look + 1.0 + 2.0 * reach_);
+  }
+  Scene around(const Scene& whole, Vec2 p, const Execution& execution) const;
+
+  const KeptWorld& world_;
+  double reach_;
+  MadeOnce<Indexed> indexed_;
+};
+
+/// where_it_pays ("auto"): of large lattices that are no open space; none: never.
+enum class IndexChoice : std::uint8_t { where_it_pays, none };
+constexpr auto enum_names(IndexChoice) { return std::array<std::string_view, 2>{"auto", "none"}; }
+
+/// Lattices below are searched in less time than a person notices, and their roadmap is one that all can read.
+inline constexpr std::uint64_t fewest_indexed_cells = 65'536;
+
+/// The index of a maze whose lattice is the roadmap, where that is to be had: nullptr for other worlds and options, for
+/// small lattices, and where the index doesn't pay. Throws InputError, Stopped.
+std::unique_ptr<RouteIndex> lattice_index(const Scene& scene, const Question& body, const SolveOptions& options,
+                                          const Execution& execution);
+
+/// The cell whose milestone stands at p and has an edge.
+std::optional<CellId> lattice_cell(const RouteIndex& index, Vec2 p);
+
+/// The shortest way over the lattice between any two places.
+class LatticeQuestion {
+ public:
+  /// `query`: of the index. All are referred to. Throws Stopped.
+  LatticeQuestion(const WallsNearEnds& near, const WallProblem& problem, const RouteIndex& index, RouteQuery& query,
+                  const Execution& execution);
+
+  Outcome outcome() const { return outcome_; }
+  /// Only for solved.
+  double length() const { return length_; }
+  /// Start, cells, goal.
+  Path<Vec2> path() const;
+  std::uint64_t links() const { return links_[0].size() + links_[1].size(); }
+
+ private:
+  struct Link {
+    CellId cell;
+    double length;
+  };
+  bool link(std::size_t end, Vec2 p);
+  bool link_among(const MazeWorld& world, std::size_t end, Vec2 p);
+  void join();
+
+  const WallsNearEnds& near_;
+  const WallProblem& problem_;
+  const RouteIndex& index_;
+  RouteQuery& query_;
+  const Execution& execution_;
+  std::vector<Link> links_[2];
+  Outcome outcome_ = Outcome::not_connected;
+  double length_ = 0.0;
+  bool direct_ = false;
+  CellId from_ = 0;
+  CellId to_ = 0;
+};
+
+}  // namespace warren

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/kept/roadmap.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "parallel/sort.hpp"
+#include "planners/graph/roadmap_arrays.hpp"
+#include "solve/kept/kept_cells.hpp"
+#include "solve/kept/maze_bits.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
+#include "solve/kinds/planned_scene.hpp"
+#include "solve/kinds/sampled_roadmap.hpp"
+
+namespace warren {
+namespace {
+
+/// What says how a roadmap is searched or how its planner works while it searches means nothing to one that is kept.
+void refuse_what_is_asked_later(const SolveOptions& options) {
+  const OptionSet all = given(options);
+  for (const Option option :
+       {Option::search, Option::queue, Option::optimise, Option::cusp_cost, Option::reverse_cost, Option::heuristic}) {
+    if (!all.has(option)) continue;
+    throw UsageError(fmt::format("@{}: is for a question; say it when the roadmap is asked", name_of(option)));
+  }
+  for (const Option option : {Option::lazy, Option::pipeline, Option::sampled_edges, Option::neighbour_index}) {
+    if (!all.has(option)) continue;
+    throw UsageError(fmt::format("@{}: a roadmap that is kept is made in one way; leave it out", name_of(option)));
+  }
+}
+
+/// Any start and goal: what is built does not depend on them.
+Question without_ends(const Scene& scene, Question question) {
+  const std::size_t width = state_size(robot_of(scene, question));
+  question.start.assign(width, 0.0);
+  question.goal.assign(width, 0.0);
+  return question;
+}
+
+EdgeCounts edges_of(const LatticePassages& passages, const Execution& execution) {
+  const auto bits_in = [&](std::span<const std::uint64_t> words) {
+    constexpr std::size_t polled = std::size_t{1} << 16;
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      if (i % polled == 0) execution.check();
+      bits += static_cast<std::uint64_t>(std::popcount(words[i]));
+    }
+    return bits;
+  };
+  const auto [rows, cols] = passages.size();
+  const std::uint64_t free = bits_in(passages.right_words()) + bits_in(passages.up_words());
+  const std::uint64_t all = std::uint64_t{rows} * (cols - 1) + std::uint64_t{cols} * (rows - 1);
+  return {0, free, all - free};
+}
+
+/// All six numbers that a state can have, zeros for those that it lacks.
+using StateKey = std::array<double, 6>;
+
+std::vector<StateKey> sorted_states(const RoadmapParts& parts, const Execution& execution) {
+  constexpr std::size_t polled = std::size_t{1} << 16;
+  execution.reserve(parts.vertex_count() * sizeof(StateKey));
+  std::vector<StateKey> states(parts.vertex_count());
+  for (VertexId v = 0; v < states.size(); ++v) {
+    if (v % polled == 0) execution.check();
+    states[v].fill(0.0);
+    std::copy(parts.state(v).begin(), parts.state(v).end(), states[v].begin());
+  }
+  polled_sort(states.begin(), states.end(), execution);
+  return states;
+}
+
+/// How many states only one of the two has.
+void compare_states(const RoadmapParts& before, const RoadmapParts& now, const Execution& execution,
+                    UpdateAccount& account) {
+  constexpr std::size_t polled = std::size_t{1} << 16;
+  const std::vector<StateKey> old_states = sorted_states(before, execution);
+  const std::vector<StateKey> new_states = sorted_states(now, execution);
+  std::size_t i = 0;
+  std::size_t k = 0;
+  std::uint64_t both = 0;
+  for (std::size_t steps = 0; i < old_states.size() && k < new_states.size(); ++steps) {
+    if (steps % polled == 0) execution.check();
+    if (old_states[i] == new_states[k]) {
+      ++both, ++i, ++k;
+    } else {
+      ++(old_states[i] < new_states[k] ? i : k);
+    }
+  }
+  account.states_added = new_states.size() - both;
+  account.states_dropped = old_states.size() - both;
+}
+
+/// Two lattices share the smaller one's rows and columns; another roadmap shares nothing with a lattice.
+void compare_lattices(const Roadmap& before, const Roadmap& now, UpdateAccount& account) {
+  std::uint64_t both = 0;
+  if (before.world.outline().maze && now.world.outline().maze) {
+    const MazeHint& a = *before.world.outline().maze;
+    const MazeHint& b = *now.world.outline().maze;
+    both = std::uint64_t{std::min(a.rows, b.rows)} * std::min(a.cols, b.cols);
+  }
+  account.states_added = count_states(now) - both;
+  account.states_dropped = count_states(before) - both;
+}
+
+std::string_view why_nothing_is_kept(PlannerKind planner) {
+  if (keeps_roadmap(planner)) return "a body that doesn't turn meets other obstacles at each start's heading";
+  return planner == PlannerKind::grid ? "it searches the world's cells themselves" : "its trees grow from a start";
+}
+
+ChosenSolver builder_of(const SolveOptions& options, const Scene& scene, const Question& question) {
+  const ChosenSolver solver = choose_solver(options, scene, question);
+  if (solver.kind->build == nullptr || !keeps_roadmap(solver.planner)) {
+    throw UsageError(fmt::format("@planner: {} makes no roadmap that is kept: {}; prm and lazy-prm do",
+                                 name_of(solver.planner), why_nothing_is_kept(solver.planner)));
+  }
+  if (scene.map && !scene.map->water.empty()) {
+    throw UsageError(
+        fmt::format("{}: on a map with water the free cells follow from the start, so there is no roadmap "
+                    "for all questions",
+                    scene.source));
+  }
+  return solver;
+}
+
+}  // namespace
+
+bool grows(const SolveOptions& options, const Scene& scene, const RobotSpec& robot) {
+  if (options.roadmap.samples || options.sampler == SamplerKind::lattice) return false;
+  const bool is_round = robot.kind == RobotKind::point || robot.kind == RobotKind::disc;
+  return options.sampler || !scene.maze || !is_round;
+}
+
+EdgeCounts count_edges(const Roadmap& roadmap, const Execution& execution) {
+  if (roadmap.lattice != nullptr) return edges_of(roadmap.lattice->passages(), execution);
+  const RoadmapArrays& arrays = roadmap.arrays;
+  constexpr std::size_t polled = std::size_t{1} << 20;
+  EdgeCounts counts;
+  const std::size_t ends = arrays.candidates.targets().size();
+  for (std::size_t end = 0; end < ends; ++end) {
+    if (end % polled == 0) execution.check();
+    const EdgeState state = edge_state(arrays.edge_states, end);
+    ++(state == EdgeState::free ? counts.free : state == EdgeState::blocked ? counts.blocked : counts.unchecked);
+  }
+  if (arrays.directed) return counts;
+  return {counts.unchecked / 2, counts.free / 2, counts.blocked / 2};
+}
+
+std::uint64_t count_states(const Roadmap& roadmap) {
+  return roadmap.lattice != nullptr ? roadmap.lattice->passages().cell_count() : roadmap.arrays.parts().vertex_count();
+}
+
+void check_buildable(const Scene& scene, const Question& question, const SolveOptions& options) {
+  question.validate();
+  options.validate();
+  refuse_what_is_asked_later(options);
+  check_solver_options(options);
+  builder_of(options, scene, without_ends(scene, question));
+}
+
+Roadmap build_within(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,
+                     IndexChoice index, BuildAccount* account, const OldRoadmap* old) {
+  Roadmap roadmap;
+  roadmap.world = KeptWorld(std::move(scene));
+  const Scene& world = roadmap.world.outline();  // all of it
+  roadmap.index = index;
+  roadmap.options = options;
+  roadmap.options.planner = options.planner.value_or(PlannerKind::prm);
+  check_buildable(world, question, roadmap.options);
+  const Question asked = without_ends(world, question);
+  const ChosenSolver solver = builder_of(roadmap.options, world, asked);
+  roadmap.robot = robot_of(world, asked);
+  roadmap.clearance = clearance_of(world, asked);
+  roadmap.world_hash = scene_hash(world, execution);
+  if (index == IndexChoice::where_it_pays) roadmap.lattice = lattice_index(world, asked, roadmap.options, execution);
+  if (roadmap.lattice != nullptr) {
+    roadmap.samples = roadmap.lattice->passages().cell_count();
+    roadmap.rule = {1.0, 0};
+    return roadmap;
+  }
+  const PlannedScene planned(world, asked, solver.planner, execution);
+  SolveRequest request{roadmap.options, planned.get(), asked, solver.planner, execution, nullptr, {}, old};
+  request.index = index == IndexChoice::where_it_pays;
+  BuiltArrays built = solver.kind->build(request);
+  roadmap.samples = built.samples;
+  roadmap.rule = built.rule;
+  roadmap.arrays = std::move(built.arrays);
+  roadmap.arrays.component = free_components(roadmap.arrays.parts(), execution);
+  if (account != nullptr) *account = built.account;
+  return roadmap;
+}
+
+Roadmap update(const Roadmap& roadmap, Scene now, const Execution& execution, UpdateAccount* account) {
+  std::optional<OldRoadmap> old;
+  const bool drawn = is_roadmap_planner(*roadmap.options.planner);
+  if (drawn && !grows(roadmap.options, roadmap.world.outline(), roadmap.robot) && roadmap.lattice == nullptr &&
+      roadmap.robot.kind != RobotKind::puma560 && roadmap.robot.kind != RobotKind::arm) {
+    if (auto places = changed_places(roadmap.world.whole(execution), now, execution)) {
+      old = {&roadmap.arrays, std::move(*places)};
+    }
+  }
+  BuildAccount built;
+  Roadmap next = build_within(std::move(now), roadmap.question(), roadmap.options, execution, roadmap.index, &built,
+                              old ? &*old : nullptr);
+  if (account == nullptr) return next;
+  const EdgeCounts edges = count_edges(next, execution);
+  account->built_anew = !old || next.lattice != nullptr;
+  account->edges = edges.free + edges.blocked + edges.unchecked;
+  account->edges_checked = built.counters.edges_checked;
+  if (next.lattice != nullptr || !drawn) {
+    account->edges_checked = account->edges;  // all of them were made anew
+  }
+  if (roadmap.lattice != nullptr || next.lattice != nullptr) {
+    compare_lattices(roadmap, next, *account);
+  } else {
+    compare_states(roadmap.arrays.parts(), next.arrays.parts(), execution, *account);
+  }
+  return next;
+}
+
+Roadmap build(Scene scene, const Question& question, const SolveOptions& options, const Limits& limits,
+              IndexChoice index) {
+  const LimitedExecution limited(limits);
+  return build_within(std::move(scene), question, options, limited.execution(), index);
+}
+
+void let_walls_go(Roadmap& roadmap, const Execution& execution) {
+  if (roadmap.lattice == nullptr || !is_nothing_but_maze(roadmap.world.outline())) return;
+  const LatticePassages& lattice = roadmap.lattice->passages();
+  const Scene outline = without_arrays(roadmap.world.outline());
+  auto make = [&lattice, outline](const Execution& on) {
+    Scene scene = outline;
+    scene.walls = walls_of_lattice(lattice, on);
+    return scene;
+  };
+  auto look_up = [&lattice, maze = *outline.maze, hash = roadmap.world_hash](const Execution& on) {
+    return cells_of_words("the lattice", maze, lattice.right_words(), lattice.up_words(), hash, on);
+  };
+  KeptWorld bits(outline, std::move(make), std::move(look_up));
+  try {
+    bits.looked_up(execution);
+    roadmap.world = std::move(bits);
+  } catch (const InputError&) {  // the walls are others, or in another order
+  }
+}
+
+}  // namespace warren

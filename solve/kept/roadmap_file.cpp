@@ -1,0 +1,404 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/kept/roadmap_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstring>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "parallel/chunks.hpp"
+#include "scenes/files/output_file_io.hpp"
+#include "solve/kept/checksum.hpp"
+
+namespace warren {
+namespace {
+
+bool all_zero(std::span<const std::byte> bytes) {
+  return std::all_of(bytes.begin(), bytes.end(), [](std::byte b) { return b == std::byte{0}; });
+}
+
+class HeaderReader {
+ public:
+  HeaderReader(const std::string& name, std::span<const std::byte> bytes) : name_(name), bytes_(bytes) {}
+
+  CheckedHeader read() {
+    read_fixed();
+    check_size();
+    for (std::size_t i = 0; i < fixed_.sections; ++i)
+      read_entry(at<SectionEntry>(sizeof fixed_ + i * sizeof(SectionEntry)));
+    check_places();
+    result_.header = {fixed_.world_hash, fixed_.recipe_hash, std::string{text_of(fixed_.writer)}};
+    return std::move(result_);
+  }
+
+ private:
+  static std::string number(std::uint64_t n) { return std::to_string(n); }
+  [[noreturn]] void fail(std::string_view what, std::string_view found = {}) const {
+    throw InputError(name_, what, found);
+  }
+  [[noreturn]] void fail_in(const SectionPlace& section, std::string_view what, std::string_view found) const {
+    fail("section `" + section.name + "` " + std::string{what}, found);
+  }
+  template <class T>
+  T at(std::size_t offset) const {
+    T value;
+    std::memcpy(&value, bytes_.data() + offset, sizeof value);
+    return value;
+  }
+  std::string_view text(std::size_t size) const {
+    return {reinterpret_cast<const char*>(bytes_.data()), std::min(size, bytes_.size())};
+  }
+  [[noreturn]] void fail_cut_off(std::uint64_t expected) const {
+    fail("the roadmap file is cut off: expected " + number(expected) + " bytes; make or copy it again",
+         number(bytes_.size()) + " bytes");
+  }
+
+  void read_fixed() {
+    if (!text(roadmap_magic.size()).starts_with(roadmap_magic)) {
+      fail("expected a roadmap file, which begins with \\x89WRRMAP and a line feed", text(roadmap_magic.size()));
+    }
+    if (bytes_.size() < sizeof fixed_) fail_cut_off(sizeof fixed_);
+    fixed_ = at<FixedHeader>(0);
+    if (fixed_.byte_order == __builtin_bswap32(byte_order_mark)) {
+      fail("this roadmap file is big-endian: expected little-endian numbers; make it again", writer());
+    }
+    if (fixed_.major_version != roadmap_major) {
+      fail("this roadmap file has format version " + number(fixed_.major_version) + "." + number(fixed_.minor_version) +
+               " and expected is " + number(roadmap_major) + ": read it with its writer or make it again",
+           writer());
+    }
+  }
+  std::string writer() const { return "written by `" + std::string{text_of(fixed_.writer)} + "`"; }
+
+  /// The checksum comes before all that the header says, so that damage is called damage.
+  void check_size() const {
+    const std::size_t size = fixed_.header_bytes;
+    if (size > bytes_.size()) fail_cut_off(std::max<std::uint64_t>(size, fixed_.file_bytes));
+    const std::size_t end = size - sizeof(std::uint64_t);
+    if (size < header_bytes(0, 0) || size % section_alignment != 0 ||
+        checksum(bytes_.first(end)) != at<std::uint64_t>(end)) {
+      fail("the header of this roadmap file is damaged: its checksum is another one; make or copy it again");
+    }
+    if (fixed_.byte_order != byte_order_mark) fail("the header has no mark of byte order", number(fixed_.byte_order));
+    if (bytes_.size() < fixed_.file_bytes) fail_cut_off(fixed_.file_bytes);
+    if (bytes_.size() > fixed_.file_bytes) {
+      fail("bytes follow the end of this roadmap file: expected " + number(fixed_.file_bytes) + " bytes",
+           number(bytes_.size()) + " bytes");
+    }
+    if (fixed_.sections > most_sections) fail("a roadmap file has at most 64 sections", number(fixed_.sections));
+    if (block_table(fixed_.sections) > end) fail("the header has no room for its sections", number(fixed_.sections));
+    check_text(fixed_.writer, "the writer");
+  }
+  void check_text(std::span<const char> field, const std::string& what) const {
+    const std::size_t size = text_of(field).size();
+    if (!all_zero(std::as_bytes(field).subspan(size))) fail(what + " must be followed by zeros alone");
+  }
+
+  void read_entry(const SectionEntry& entry) {
+    SectionPlace s{std::string{text_of(entry.name)},
+                   entry.type,
+                   entry.flags == optional_flag,
+                   entry.offset,
+                   entry.elements,
+                   result_.blocks};
+    if (!is_section_name(s.name)) fail("a section's name must be 1 to 16 of a-z, 0-9, dot and underscore", s.name);
+    check_text(entry.name, "the name of section `" + s.name + "`");
+    const auto has_name = [&](const SectionPlace& other) { return other.name == s.name; };
+    if (std::any_of(result_.sections.begin(), result_.sections.end(), has_name)) fail_in(s, "stands twice", {});
+    if (!s.type.is_legal()) fail_in(s, "must have elements of a type like <u4 or <f8", text_of(entry.type.code));
+    if (entry.flags > optional_flag) fail_in(s, "has flags that are not known", number(entry.flags));
+    if (!all_zero(std::as_bytes(std::span(entry.reserved)))) fail_in(s, "must have zeros in its reserved bytes", {});
+    if (s.elements > bytes_.size() / s.type.bytes()) {
+      fail_in(s, "has more elements than a file of " + number(bytes_.size()) + " bytes can hold", number(s.elements));
+    }
+    result_.blocks += s.blocks();
+    result_.sections.push_back(std::move(s));
+  }
+
+  void check_places() const {
+    const std::size_t head = header_bytes(fixed_.sections, result_.blocks);
+    if (head != fixed_.header_bytes) {
+      fail("the header must have " + number(head) + " bytes for its sections", number(fixed_.header_bytes));
+    }
+    std::size_t used = block_table(fixed_.sections) + result_.blocks * sizeof(std::uint64_t);
+    check_zeros(used, head - sizeof(std::uint64_t), "the header");
+    std::size_t end = head;
+    for (const SectionPlace& s : result_.sections) {
+      if (s.offset != end)
+        fail_in(s, "must begin at byte " + number(end) + ", after what is before it", number(s.offset));
+      used = end + s.bytes();
+      end = aligned(used);
+      if (end > bytes_.size())
+        fail_in(s, "ends beyond the file, at byte " + number(used), number(bytes_.size()) + " bytes");
+      check_zeros(used, end, "section `" + s.name + "`");
+    }
+    if (end != bytes_.size()) fail("the sections end at byte " + number(end), number(bytes_.size()) + " bytes");
+  }
+  void check_zeros(std::size_t first, std::size_t last, const std::string& what) const {
+    if (!all_zero(bytes_.subspan(first, last - first))) {
+      fail("the bytes behind " + what + " must be zeros, bytes " + number(first) + " to " + number(last - 1));
+    }
+  }
+
+  const std::string& name_;
+  std::span<const std::byte> bytes_;
+  FixedHeader fixed_{};
+  CheckedHeader result_;
+};
+
+}  // namespace
+
+CheckedHeader read_header(const std::string& name, std::span<const std::byte> bytes) {
+  return HeaderReader(name, bytes).read();
+}
+
+namespace {
+
+constexpr std::size_t most_checked_whole = std::size_t{64} << 20;  // a few milliseconds
+
+Execution without_progress(const Execution& execution) { return {execution.threads, execution.deadline}; }
+
+}  // namespace
+
+RoadmapFile::RoadmapFile(const std::string& path, const Execution& execution)
+    : file_(path, execution), head_(read_header(file_.name(), bytes())), checked_(head_.blocks) {
+  check_opened(execution);
+}
+
+RoadmapFile::RoadmapFile(const std::string& name, std::string_view bytes_in_memory, const Execution& execution)
+    : file_(InputFile::of_bytes(name, bytes_in_memory)),
+      head_(read_header(file_.name(), bytes())),
+      checked_(head_.blocks) {
+  check_opened(execution);
+}
+
+void RoadmapFile::check_opened(const Execution& execution) const {
+  if (is_small()) {
+    check_blocks({0, head_.blocks}, without_progress(execution));
+    return;
+  }
+  for (const SectionPlace& place : head_.sections) {
+    if (place.blocks() == 1) check_block(place.first_block);
+  }
+}
+
+bool RoadmapFile::is_small() const { return bytes().size() <= most_checked_whole; }
+
+FirstLook RoadmapFile::first_look(const SectionPlace& place) const {
+  const auto look = [](const void* file, std::size_t block) {
+    static_cast<const RoadmapFile*>(file)->check_block(block);
+  };
+  return {&checked_, place.first_block, checked_block, this, look};
+}
+
+const SectionPlace* RoadmapFile::find(std::string_view name) const {
+  const auto found = std::find_if(head_.sections.begin(), head_.sections.end(),
+                                  [name](const SectionPlace& place) { return place.name == name; });
+  return found == head_.sections.end() ? nullptr : &*found;
+}
+
+void RoadmapFile::refuse_unknown(std::span<const std::string_view> known) const {
+  for (const SectionPlace& place : head_.sections) {
+    if (place.optional || std::find(known.begin(), known.end(), place.name) != known.end()) continue;
+    throw InputError(name(),
+                     "this program doesn't know section `" + place.name + "`, without which the others can't " +
+                         "be read: use the program that wrote it",
+                     head_.header.writer);
+  }
+}
+
+const SectionPlace& RoadmapFile::required(std::string_view section, ElementType type) const {
+  const SectionPlace* const place = find(section);
+  const std::string quoted = "section `" + std::string{section} + "` ";
+  if (place == nullptr) throw InputError(name(), quoted + "is missing");
+  if (place->type != type) {
+    throw InputError(name(), quoted + "must have elements of type " + std::string{type.name()}, place->type.name());
+  }
+  return *place;
+}
+
+void RoadmapFile::check_all(const Execution& execution) const {
+  if (execution.progress != nullptr) execution.progress->begin("check", head_.blocks);
+  check_blocks({0, head_.blocks}, execution);
+}
+
+/// The first damaged block is named whichever thread finds which.
+void RoadmapFile::check_blocks(Range blocks, const Execution& execution) const {
+  std::vector<std::uint8_t> damaged(blocks.size(), 0);
+  for_chunks(blocks.size(), 1, execution, [&](Range r) {
+    const std::size_t block = blocks.first + r.first;
+    if (checked_.test(block)) return;
+    if (is_sound(block)) {
+      checked_.set(block);
+    } else {
+      damaged[r.first] = 1;
+    }
+  });
+  const auto first = std::find(damaged.begin(), damaged.end(), 1);
+  if (first != damaged.end()) refuse(blocks.first + static_cast<std::size_t>(first - damaged.begin()));
+}
+
+void RoadmapFile::check_block(std::size_t block) const {
+  if (!is_sound(block)) refuse(block);
+  checked_.set(block);
+}
+
+bool RoadmapFile::is_sound(std::size_t block) const {
+  std::uint64_t wanted = 0;
+  const std::size_t at = block_table(head_.sections.size()) + block * sizeof wanted;
+  std::memcpy(&wanted, bytes().data() + at, sizeof wanted);
+  return checksum(bytes_of(place_of(block), block)) == wanted;
+}
+
+/// The last section that begins at this block: empty ones have none and come before it.
+const SectionPlace& RoadmapFile::place_of(std::size_t block) const {
+  const auto behind = std::upper_bound(head_.sections.begin(), head_.sections.end(), block,
+                                       [](std::size_t b, const SectionPlace& place) { return b < place.first_block; });
+  return *(behind - 1);
+}
+
+std::span<const std::byte> RoadmapFile::bytes_of(const SectionPlace& place, std::size_t block) const {
+  const std::size_t first = (block - place.first_block) * checked_block;
+  return bytes().subspan(place.offset + first, std::min(checked_block, place.bytes() - first));
+}
+
+void RoadmapFile::refuse(std::size_t block) const {
+  const SectionPlace& place = place_of(block);
+  const std::span<const std::byte> found = bytes_of(place, block);
+  const auto first = static_cast<std::size_t>(found.data() - bytes().data());
+  throw InputError(name(), "section `" + place.name + "` is damaged within bytes " + std::to_string(first) + " to " +
+                               std::to_string(first + found.size() - 1) +
+                               ": their checksum is another one; make or copy the roadmap again");
+}
+
+namespace {
+
+constexpr std::array<char, section_alignment> zeros{};
+
+void check_writable(const std::string& path, const RoadmapFileHeader& header,
+                    std::span<const RoadmapSection> sections) {
+  const auto is_printable = [](char c) { return c >= ' ' && c <= '~'; };
+  if (header.writer.size() > sizeof(FixedHeader::writer) ||
+      !std::all_of(header.writer.begin(), header.writer.end(), is_printable)) {
+    throw InputError(path, "the writer must be at most 16 printable characters", header.writer);
+  }
+  if (sections.size() > most_sections) {
+    throw InputError(path, "a roadmap file has at most 64 sections", std::to_string(sections.size()));
+  }
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    const std::string_view name = sections[i].name;
+    if (!is_section_name(name)) {
+      throw InputError(path, "a section's name must be 1 to 16 of a-z, 0-9, dot and underscore", name);
+    }
+    const auto before = sections.first(i);
+    if (std::any_of(before.begin(), before.end(), [&](const RoadmapSection& s) { return s.name == name; })) {
+      throw InputError(path, "a section's name may stand once", name);
+    }
+    assert(sections[i].type.is_legal() && sections[i].bytes.size() % sections[i].type.bytes() == 0);
+  }
+}
+
+std::vector<SectionPlace> places_of(std::span<const RoadmapSection> sections) {
+  std::vector<SectionPlace> places;
+  std::size_t blocks = 0;
+  for (const RoadmapSection& s : sections) {
+    places.push_back({std::string{s.name}, s.type, s.optional, 0, s.bytes.size() / s.type.bytes(), blocks});
+    blocks += places.back().blocks();
+  }
+  std::size_t offset = header_bytes(sections.size(), blocks);
+  for (SectionPlace& place : places) {
+    place.offset = offset;
+    offset = aligned(offset + place.bytes());
+  }
+  return places;
+}
+
+std::vector<std::uint64_t> checksums_of(std::span<const RoadmapSection> sections, const Execution& execution) {
+  std::vector<std::span<const std::byte>> blocks;
+  for (const RoadmapSection& s : sections) {
+    for (std::size_t at = 0; at < s.bytes.size(); at += checked_block) {
+      blocks.push_back(s.bytes.subspan(at, std::min(checked_block, s.bytes.size() - at)));
+    }
+  }
+  std::vector<std::uint64_t> sums(blocks.size());
+  const Execution quiet{execution.threads, execution.deadline};
+  for_chunks(blocks.size(), 1, quiet, [&](Range r) { sums[r.first] = checksum(blocks[r.first]); });
+  return sums;
+}
+
+template <class T>
+void put(std::string& bytes, std::size_t at, const T& value) {
+  std::memcpy(bytes.data() + at, &value, sizeof value);
+}
+
+SectionEntry entry_of(const SectionPlace& place) {
+  SectionEntry entry{};
+  place.name.copy(entry.name.data(), entry.name.size());
+  entry.type = place.type;
+  entry.flags = place.optional ? optional_flag : 0;
+  entry.offset = place.offset;
+  entry.elements = place.elements;
+  return entry;
+}
+
+std::string header_of(const RoadmapFileHeader& header, std::span<const SectionPlace> places,
+                      std::span<const std::uint64_t> sums) {
+  std::string bytes(header_bytes(places.size(), sums.size()), '\0');
+  FixedHeader fixed{};
+  roadmap_magic.copy(fixed.magic.data(), fixed.magic.size());
+  fixed.major_version = roadmap_major;
+  fixed.minor_version = roadmap_minor;
+  fixed.byte_order = byte_order_mark;
+  fixed.file_bytes = places.empty() ? bytes.size() : aligned(places.back().offset + places.back().bytes());
+  fixed.sections = static_cast<std::uint32_t>(places.size());
+  fixed.header_bytes = static_cast<std::uint32_t>(bytes.size());
+  fixed.world_hash = header.world_hash;
+  fixed.recipe_hash = header.recipe_hash;
+  header.writer.copy(fixed.writer.data(), fixed.writer.size());
+  put(bytes, 0, fixed);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    put(bytes, sizeof fixed + i * sizeof(SectionEntry), entry_of(places[i]));
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i) put(bytes, block_table(places.size()) + i * sizeof sums[i], sums[i]);
+  const std::size_t end = bytes.size() - sizeof(std::uint64_t);
+  put(bytes, end, checksum(std::as_bytes(std::span(bytes)).first(end)));
+  return bytes;
+}
+
+void write_section(OutputFile& file, std::span<const std::byte> bytes, const Execution& execution) {
+  constexpr std::size_t piece = std::size_t{4} << 20;
+  std::string_view rest(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  for (; !rest.empty(); rest.remove_prefix(std::min(piece, rest.size()))) {
+    const std::string_view some = rest.substr(0, piece);
+    file.write(some);
+    execution.advance(some.size());
+  }
+  file.write({zeros.data(), aligned(bytes.size()) - bytes.size()});
+}
+
+}  // namespace
+
+void write_roadmap_file(const std::string& path, const RoadmapFileHeader& header,
+                        std::span<const RoadmapSection> sections, const Execution& execution) {
+  check_writable(path, header, sections);
+  OutputFile file(path, execution);  // first: a place that can't be written is known before the work
+  write_roadmap_file(file, path, header, sections, execution);
+  file.commit();
+}
+
+void write_roadmap_file(OutputFile& file, const std::string& path, const RoadmapFileHeader& header,
+                        std::span<const RoadmapSection> sections, const Execution& execution) {
+  check_writable(path, header, sections);
+  const std::vector<SectionPlace> places = places_of(sections);
+  const std::string head = header_of(header, places, checksums_of(sections, execution));
+  std::size_t bytes = head.size();
+  for (const SectionPlace& place : places) bytes += place.bytes();
+  if (execution.progress != nullptr) execution.progress->begin("write", bytes);
+  file.write(head);
+  execution.advance(head.size());
+  for (const RoadmapSection& section : sections) write_section(file, section.bytes, execution);
+}
+
+}  // namespace warren

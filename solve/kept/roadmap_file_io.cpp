@@ -1,0 +1,476 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/kept/roadmap_file_io.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <charconv>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "planners/graph/roadmap_arrays.hpp"
+#include "scenes/files/input_file_io.hpp"
+#include "scenes/files/json_text.hpp"
+#include "solve/kept/checksum.hpp"
+#include "solve/kept/roadmap_file.hpp"
+#include "solve/kept/roadmap_sections.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
+#include "solve/question/question.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::array graph_section_names{std::string_view("meta"),       std::string_view("states"),
+                                         std::string_view("edge.first"), std::string_view("edge.to"),
+                                         std::string_view("edge.state"), std::string_view("component"),
+                                         std::string_view("up.first"),   std::string_view("up.to"),
+                                         std::string_view("up.middle"),  std::string_view("up.length")};
+constexpr std::size_t longest_meta = std::size_t{1} << 20;
+
+std::uint64_t hash_number(std::string_view digits) {
+  std::uint64_t number = 0;
+  std::from_chars(digits.data(), digits.data() + digits.size(), number, 16);
+  return number;
+}
+
+std::uint64_t hash_of(std::string_view text) { return checksum(std::as_bytes(std::span(text))); }
+
+void refuse_unknown_sections(const RoadmapFile& file) {
+  std::vector<std::string_view> known(graph_section_names.begin(), graph_section_names.end());
+  known.insert(known.end(), world_section_names.begin(), world_section_names.end());
+  for (const SectionPlace& place : file.sections()) {
+    if (is_lattice_section(place.name)) known.push_back(place.name);
+  }
+  file.refuse_unknown(known);
+}
+
+template <class T>
+RawVector<T> copied(std::span<const T> numbers, const Execution& execution) {
+  execution.reserve(numbers.size_bytes());
+  return {numbers.begin(), numbers.end()};
+}
+
+/// The file's arrays where they are, checked.
+RoadmapParts checked_parts(const RoadmapFile& file, const Roadmap& roadmap, const Execution& execution) {
+  const RoadmapParts parts{.dimension = roadmap.arrays.dimension,
+                           .directed = roadmap.arrays.directed,
+                           .states = file.section<double>("states", execution),
+                           .first = file.section<EdgeEnd>("edge.first", execution),
+                           .to = file.section<VertexId>("edge.to", execution),
+                           .edge_states = file.section<std::uint64_t>("edge.state", execution),
+                           .component = file.section<VertexId>("component", execution)};
+  check_parts(parts, file.name(), execution);
+  return parts;
+}
+
+RoadmapArrays read_arrays(const RoadmapFile& file, const Roadmap& roadmap, const Execution& execution) {
+  const RoadmapParts parts = checked_parts(file, roadmap, execution);
+  RoadmapArrays arrays;
+  arrays.dimension = parts.dimension;
+  arrays.directed = parts.directed;
+  arrays.states = copied(parts.states, execution);
+  arrays.candidates = Graph(copied(parts.first, execution), copied(parts.to, execution));
+  arrays.edge_states = copied(parts.edge_states, execution);
+  arrays.component = copied(parts.component, execution);
+  arrays.hierarchy = read_hierarchy(file, parts.vertex_count(), execution);
+  return arrays;
+}
+
+KeptWorld given_world(const RoadmapFile& file, Scene given, const std::string& hash, const Execution& execution) {
+  const std::string found = scene_hash(given, execution);
+  if (found == hash) return KeptWorld(std::move(given));
+  throw InputError(file.name(), fmt::format("was built for the world {}, and {} is another one", hash, given.source),
+                   found);
+}
+
+/// The body can be in the world, and has such a roadmap there.
+void check_world_of(const Scene& scene, const SolveOptions& options, const Question& question,
+                    const std::string& name) {
+  try {
+    check_plannable(scene, question);
+    if (choose_solver(options, scene, question).kind->open == nullptr) {
+      throw InputError(name, "its planner keeps no roadmap of its body");
+    }
+  } catch (const UsageError& error) {
+    throw InputError(name, error.what());
+  }
+}
+
+/// The world inside. A lattice's walls are made when they are needed: what of it refers to the file and the lattice
+/// lives as long as they do.
+KeptWorld world_inside(const RoadmapFile& file, const Roadmap& roadmap, const Execution& execution) {
+  if (!has_world(file)) {
+    throw InputError(file.name(), "has no world inside; name the world that it was built for");
+  }
+  Scene outline = read_world_outline(file, execution);
+  outline.source = roadmap.world.outline().source;
+  const LatticePassages* lattice = roadmap.lattice != nullptr ? &roadmap.lattice->passages() : nullptr;
+  auto make = [&file, lattice, outline, options = roadmap.options, question = roadmap.question(),
+               hash = roadmap.world_hash](const Execution& on) {
+    Scene scene = outline;
+    scene.walls = read_world_walls(file, outline, lattice, on);
+    const std::string found = scene_hash(scene, on);
+    if (found != hash) throw InputError(file.name(), fmt::format("the world inside is not its own, {}", hash), found);
+    check_world_of(scene, options, question, file.name());
+    return scene;
+  };
+  if (lattice == nullptr) return KeptWorld(make(execution));
+  KeptWorld::LookUp look_up;
+  if (walls_are_passages(file, outline)) {
+    look_up = [&file, maze = *outline.maze, hash = roadmap.world_hash](const Execution& on) {
+      return cells_of_file(file, maze, hash, on);
+    };
+  }
+  return {std::move(outline), std::move(make), std::move(look_up)};
+}
+
+void append_graph(const RoadmapParts& parts, std::vector<RoadmapSection>& sections) {
+  sections.push_back(roadmap_section("states", parts.states));
+  sections.push_back(roadmap_section("edge.first", parts.first));
+  sections.push_back(roadmap_section("edge.to", parts.to));
+  sections.push_back(roadmap_section("edge.state", parts.edge_states));
+  sections.push_back(roadmap_section("component", parts.component));
+}
+
+LatticeSize lattice_of(const RoadmapFile& file, const Execution& execution) {
+  return lattice_in_meta(fmt::format("{}: section meta", file.name()), roadmap_meta(file, execution));
+}
+
+/// All that meta says.
+Roadmap described(const RoadmapFile& file, const Execution& execution) {
+  refuse_unknown_sections(file);
+  Roadmap roadmap;
+  read_meta(fmt::format("{}: section meta", file.name()), roadmap_meta(file, execution), roadmap, execution);
+  if (hash_number(roadmap.world_hash) == file.header().world_hash) return roadmap;
+  throw InputError(file.name(), "header and meta name different worlds");
+}
+
+/// The lattice is that of the maze, of prm, and of a body that plans on it.
+void check_lattice_of(const Roadmap& roadmap, const std::string& name) {
+  const auto& maze = roadmap.world.outline().maze;
+  const LatticeSize size = roadmap.lattice->passages().size();
+  const bool is_round = roadmap.robot.kind == RobotKind::point || roadmap.robot.kind == RobotKind::disc;
+  const bool is_its = maze && maze->rows == size.rows && maze->cols == size.cols;
+  if (is_round && is_its && roadmap.options.planner == PlannerKind::prm) return;
+  throw InputError(name, "its lattice is none of its world and body");
+}
+
+}  // namespace
+
+bool is_roadmap_file(std::string_view first_bytes) { return first_bytes.starts_with(roadmap_magic); }
+
+std::string roadmap_meta(const RoadmapFile& file, const Execution& execution) {
+  const SectionPlace* place = file.find("meta");
+  if (place != nullptr && place->elements > longest_meta) {
+    throw InputError(fmt::format("{}: section meta", file.name()), "expected at most 1 MiB");
+  }
+  const auto bytes = file.section<std::byte>("meta", execution);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+void write_roadmap(const Roadmap& roadmap, const std::string& path, const Execution& execution, bool with_world) {
+  OutputFile file(path, execution);  // first: a place that can't be written is known before the work
+  write_roadmap(roadmap, file, path, execution, with_world);
+  file.commit();
+}
+
+void write_roadmap(const Roadmap& roadmap, OutputFile& file, const std::string& path, const Execution& execution,
+                   bool with_world) {
+  if (roadmap.file != nullptr) roadmap.file->check_all(execution);  // nothing is copied that nobody looked at
+  const std::string meta = meta_json(roadmap, execution);
+  const RoadmapParts parts = roadmap.arrays.parts();
+  const LatticePassages* lattice = roadmap.lattice != nullptr ? &roadmap.lattice->passages() : nullptr;
+  std::optional<WorldSections> world;
+  if (with_world) world.emplace(roadmap.world.whole(execution), lattice, execution);
+  std::vector<RoadmapSection> sections{roadmap_section("meta", std::span<const char>(meta))};
+  if (world) world->append_to(sections);
+  roadmap.lattice != nullptr ? append_lattice_sections(*roadmap.lattice, sections) : append_graph(parts, sections);
+  const HierarchySections index(roadmap.arrays.hierarchy, execution);
+  index.append_to(sections);
+  const RoadmapFileHeader header{.world_hash = hash_number(roadmap.world_hash),
+                                 .recipe_hash = hash_of(recipe_json(roadmap, execution)),
+                                 .writer = "warren " WARREN_VERSION};
+  write_roadmap_file(file, path, header, sections, execution);
+}
+
+void check_roadmap(const RoadmapFile& file, const Execution& execution) {
+  const Roadmap roadmap = described(file, execution);
+  if (has_lattice(file)) {
+    check_lattice(file, *read_lattice(file, lattice_of(file, execution), execution), execution);
+  } else {
+    read_hierarchy(file, checked_parts(file, roadmap, execution).vertex_count(), execution);
+  }
+}
+
+Roadmap read_roadmap(const std::string& path, const Execution& execution, std::optional<Scene> world) {
+  return read_roadmap(std::make_unique<RoadmapFile>(path, execution), execution, std::move(world));
+}
+
+Roadmap read_roadmap(std::unique_ptr<RoadmapFile> opened, const Execution& execution, std::optional<Scene> world) {
+  const RoadmapFile& file = *opened;
+  Roadmap roadmap = described(file, execution);
+  if (has_lattice(file)) roadmap.lattice = read_lattice(file, lattice_of(file, execution), execution);
+  roadmap.world = world ? given_world(file, std::move(*world), roadmap.world_hash, execution)
+                        : world_inside(file, roadmap, execution);
+  if (file.header().recipe_hash != hash_of(recipe_json(roadmap, execution))) {
+    throw InputError(file.name(), "header and meta name different bodies or options");
+  }
+  if (roadmap.lattice == nullptr) {
+    check_world_of(roadmap.world.outline(), roadmap.options, roadmap.question(), file.name());
+    roadmap.arrays = read_arrays(file, roadmap, execution);
+  } else {
+    check_lattice_of(roadmap, file.name());
+    roadmap.file = std::move(opened);
+  }
+  return roadmap;
+}
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::string_view schema = "warren.roadmap/1";
+
+template <class T>
+void add_some(JsonObject& object, std::string_view name, const std::optional<T>& value) {
+  if (value) object.add(name, *value);
+}
+
+std::string attach_json(const GrowingAttach& attach) {
+  JsonObject object(", ", ": ");
+  add_some(object, "radius", attach.radius);
+  add_some(object, "step", attach.step);
+  object.add("tries", attach.tries);
+  return object.closed();
+}
+
+std::string rule_json(const ConnectionRule& rule) {
+  JsonObject object(", ", ": ");
+  object.add("radius", rule.radius);
+  object.add("neighbours", rule.neighbours);
+  if (rule.attach) object.add_json("attach", attach_json(*rule.attach));
+  return object.closed();
+}
+
+/// A table in a file is a part of the body: its bytes' hash, 16 hex digits.
+std::string table_hash(const RobotSpec& robot, const Execution& execution) {
+  const InputFile table(robot.table, execution);
+  return fmt::format("{:016x}", checksum(std::as_bytes(std::span(table.bytes()))));
+}
+
+std::uint64_t component_count(const RoadmapArrays& arrays) {
+  std::uint64_t count = 0;
+  for (VertexId v = 0; v < arrays.component.size(); ++v) count += arrays.component[v] == v ? 1 : 0;
+  return count;
+}
+
+void add_recipe(JsonObject& object, const Roadmap& roadmap, const Execution& execution) {
+  const SolveOptions& o = roadmap.options;
+  object.add("robot", std::string_view(robot_text(roadmap.robot)));
+  if (roadmap.robot.kind == RobotKind::arm) {
+    object.add("table_hash", std::string_view(table_hash(roadmap.robot, execution)));
+  }
+  object.add("clearance", roadmap.clearance);
+  object.add("planner", name_of(o.planner.value_or(PlannerKind::prm)));
+  if (o.sampler) object.add("sampler", name_of(*o.sampler));
+  object.add("seed", o.seed);
+  add_some(object, "samples", o.roadmap.samples);
+  add_some(object, "neighbours", o.roadmap.neighbours);
+  add_some(object, "radius", o.roadmap.radius);
+  if (o.roadmap.star != StarRule::none) {
+    object.add("star", std::string_view(o.roadmap.star == StarRule::radius ? "radius" : "neighbours"));
+  }
+  if (o.roadmap.attach) object.add_json("attach", attach_json(*o.roadmap.attach));
+  if (o.visibility.full) object.add("full", true);
+  if (o.cells.doors) object.add("doors", name_of(*o.cells.doors));
+  if (o.axis.objective) object.add("objective", name_of(*o.axis.objective));
+  if (o.car.steering) object.add("steering", name_of(*o.car.steering));
+  add_some(object, "turning_radius", o.car.turning_radius);
+}
+
+/// Reads one object of meta; every failure names the key.
+class MetaReader {
+ public:
+  MetaReader(const std::string& where, const Json& json) : where_(where), json_(json) {}
+
+  bool has(const char* key) const { return json_.contains(key); }
+  MetaReader object(const char* key) const {
+    const Json& value = at(key);
+    if (!value.is_object()) fail(key, "an object");
+    return {where_, value};
+  }
+  double number(const char* key) const {
+    const Json& value = at(key);
+    if (!value.is_number() || !std::isfinite(value.get<double>())) fail(key, "a number");
+    return value.get<double>();
+  }
+  std::uint64_t whole(const char* key) const {
+    const Json& value = at(key);
+    if (!value.is_number_unsigned()) fail(key, "a whole number");
+    return value.get<std::uint64_t>();
+  }
+  std::uint32_t small(const char* key) const {
+    const std::uint64_t value = whole(key);
+    if (value > 1'000'000'000) fail(key, "a number of at most 10^9");
+    return static_cast<std::uint32_t>(value);
+  }
+  bool truth(const char* key) const {
+    const Json& value = at(key);
+    if (!value.is_boolean()) fail(key, "true or false");
+    return value.get<bool>();
+  }
+  std::string text(const char* key) const {
+    const Json& value = at(key);
+    if (!value.is_string()) fail(key, "a text");
+    return value.get<std::string>();
+  }
+  template <class E>
+  E named(const char* key) const {
+    const auto value = enum_named<E>(text(key));
+    if (!value) fail(key, "a name that this version knows");
+    return *value;
+  }
+  [[noreturn]] void fail(const char* key, std::string_view expected) const {
+    throw InputError(fmt::format("{}: key \"{}\"", where_, key), fmt::format("expected {}", expected));
+  }
+
+ private:
+  const Json& at(const char* key) const {
+    const auto found = json_.find(key);
+    if (found == json_.end()) fail(key, "it to be there");
+    return *found;
+  }
+  const std::string& where_;
+  const Json& json_;
+};
+
+GrowingAttach read_attach(const MetaReader& meta) {
+  GrowingAttach attach;
+  if (meta.has("radius")) attach.radius = meta.number("radius");
+  if (meta.has("step")) attach.step = meta.number("step");
+  attach.tries = meta.small("tries");
+  return attach;
+}
+
+void read_options(const MetaReader& meta, SolveOptions& o) {
+  o.planner = meta.named<PlannerKind>("planner");
+  if (!keeps_roadmap(*o.planner)) meta.fail("planner", "one that makes roadmaps");
+  if (meta.has("sampler")) o.sampler = meta.named<SamplerKind>("sampler");
+  o.seed = meta.whole("seed");
+  if (meta.has("samples")) o.roadmap.samples = meta.whole("samples");
+  if (meta.has("neighbours")) o.roadmap.neighbours = meta.small("neighbours");
+  if (meta.has("radius")) o.roadmap.radius = meta.number("radius");
+  if (meta.has("star")) {
+    const std::string star = meta.text("star");
+    if (star != "radius" && star != "neighbours") meta.fail("star", "radius or neighbours");
+    o.roadmap.star = star == "radius" ? StarRule::radius : StarRule::neighbours;
+  }
+  if (meta.has("attach")) o.roadmap.attach = read_attach(meta.object("attach"));
+  if (meta.has("full")) o.visibility.full = meta.truth("full");
+  if (meta.has("doors")) o.cells.doors = meta.named<DoorKind>("doors");
+  if (meta.has("objective")) o.axis.objective = meta.named<AxisObjective>("objective");
+  if (meta.has("steering")) o.car.steering = meta.named<SteeringKind>("steering");
+  if (meta.has("turning_radius")) o.car.turning_radius = meta.number("turning_radius");
+}
+
+ConnectionRule read_rule(const MetaReader& meta) {
+  ConnectionRule rule{meta.number("radius"), meta.small("neighbours")};
+  if (!(rule.radius >= 0.0)) meta.fail("radius", "a number of at least 0");
+  if (meta.has("attach")) rule.attach = read_attach(meta.object("attach"));
+  if (rule.attach && rule.attach->tries == 0) meta.fail("attach", "at least one try");
+  return rule;
+}
+
+Json parsed(const std::string& where, std::string_view text) {
+  try {
+    Json json = Json::parse(text);
+    if (json.is_object()) return json;
+  } catch (const Json::exception&) {  // told below
+  }
+  throw InputError(where, "expected one JSON object");
+}
+
+}  // namespace
+
+std::string recipe_json(const Roadmap& roadmap, const Execution& execution) {
+  JsonObject object(",\n ", ": ");
+  add_recipe(object, roadmap, execution);
+  return object.closed();
+}
+
+std::string meta_json(const Roadmap& roadmap, const Execution& execution) {
+  const EdgeCounts edges = count_edges(roadmap, execution);
+  JsonObject counts(", ", ": ");
+  counts.add("unchecked", edges.unchecked);
+  counts.add("free", edges.free);
+  counts.add("blocked", edges.blocked);
+  JsonObject object(",\n ", ": ");
+  object.add("schema", schema);
+  object.add("source", std::string_view(roadmap.world.outline().source));
+  object.add("world_hash", std::string_view(roadmap.world_hash));
+  add_recipe(object, roadmap, execution);
+  if (roadmap.index == IndexChoice::none) object.add("asked_index", name_of(roadmap.index));
+  object.add_json("rule", rule_json(roadmap.rule));
+  object.add("drawn", roadmap.samples);
+  object.add("dimension", roadmap.arrays.dimension);
+  object.add("directed", roadmap.arrays.directed);
+  object.add("states", count_states(roadmap));
+  object.add_json("edges", counts.closed());
+  object.add("index", roadmap.lattice != nullptr         ? std::string_view("route")
+                      : roadmap.arrays.hierarchy.empty() ? std::string_view("none")
+                                                         : std::string_view("contraction"));
+  if (roadmap.lattice != nullptr) {
+    const LatticeSize size = roadmap.lattice->passages().size();
+    object.add_json("lattice", json_list(std::span<const std::uint32_t>(std::array{size.rows, size.cols})));
+  } else {
+    object.add("components", component_count(roadmap.arrays));
+  }
+  return object.closed() + "\n";
+}
+
+LatticeSize lattice_in_meta(const std::string& where, std::string_view text) {
+  const Json json = parsed(where, text);
+  const auto found = json.find("lattice");
+  if (found == json.end()) return {};
+  const bool two =
+      found->is_array() && found->size() == 2 && (*found)[0].is_number_unsigned() && (*found)[1].is_number_unsigned();
+  constexpr std::uint64_t most = 0xffffffff;
+  if (!two || (*found)[0].get<std::uint64_t>() > most || (*found)[1].get<std::uint64_t>() > most) {
+    throw InputError(where + ": key \"lattice\"", "expected rows and columns");
+  }
+  return {(*found)[0].get<std::uint32_t>(), (*found)[1].get<std::uint32_t>()};
+}
+
+void read_meta(const std::string& where, std::string_view text, Roadmap& roadmap, const Execution& execution) {
+  const Json json = parsed(where, text);
+  const MetaReader meta(where, json);
+  if (meta.text("schema") != schema) meta.fail("schema", schema);
+  Scene named;
+  named.source = meta.text("source");
+  roadmap.world = KeptWorld(std::move(named));
+  roadmap.world_hash = meta.text("world_hash");
+  roadmap.robot = robot_value(fmt::format("{}: key \"robot\"", where), meta.text("robot"));
+  if (roadmap.robot.kind == RobotKind::arm && table_hash(roadmap.robot, execution) != meta.text("table_hash")) {
+    throw InputError(where,
+                     fmt::format("was made for another arm than {} has now; build it anew", roadmap.robot.table));
+  }
+  roadmap.clearance = meta.number("clearance");
+  if (!(roadmap.clearance >= 0.0 && roadmap.clearance <= largest_coordinate)) {
+    meta.fail("clearance", "a number from 0 to 1e60");
+  }
+  read_options(meta, roadmap.options);
+  try {
+    roadmap.options.validate();
+  } catch (const UsageError& error) {
+    throw InputError(where, error.what());
+  }
+  if (meta.has("asked_index")) roadmap.index = meta.named<IndexChoice>("asked_index");
+  roadmap.rule = read_rule(meta.object("rule"));
+  roadmap.samples = meta.whole("drawn");
+  roadmap.arrays.dimension = meta.small("dimension");
+  roadmap.arrays.directed = json.value("directed", Json(false)) == Json(true);
+}
+
+}  // namespace warren

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Roadmaps in files, as docs/file_formats.md describes them: sections of plain numbers, and `meta`, which says in JSON
+// what the roadmap is. The same roadmap gives the same bytes, whatever threads, compiler and machine.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "parallel/execution.hpp"
+#include "scenes/files/output_file_io.hpp"
+#include "solve/kept/roadmap.hpp"
+#include "solve/kept/roadmap_file.hpp"
+
+namespace warren {
+
+/// Writes the file beside its place and renames it. `with_world`: whoever asks needs no second file then. Throws
+/// WriteError, Stopped.
+void write_roadmap(const Roadmap& roadmap, const std::string& path, const Execution& execution = {},
+                   bool with_world = true);
+/// The same into a file that the caller completes and puts in its place, `path`.
+void write_roadmap(const Roadmap& roadmap, OutputFile& file, const std::string& path, const Execution& execution,
+                   bool with_world = true);
+
+/// Reads a whole roadmap and holds all of it against what it promises, but for the walls of a lattice: these are looked
+/// at when Roadmap::world is first asked for the whole. `world`: for a file that has none, or to make
+/// sure that it is for this one. Throws ReadError, InputError (cut off, damaged, of another version, world or body, or
+/// without a world where none is given), Stopped.
+Roadmap read_roadmap(const std::string& path, const Execution& execution = {}, std::optional<Scene> world = {});
+/// The same of a file that is open already.
+Roadmap read_roadmap(std::unique_ptr<RoadmapFile> opened, const Execution& execution, std::optional<Scene> world = {});
+
+/// Does the file begin as a .roadmap does?
+bool is_roadmap_file(std::string_view first_bytes);
+
+/// Holds all of a roadmap but its world against what it promises. Throws InputError, Stopped.
+void check_roadmap(const RoadmapFile& file, const Execution& execution);
+
+/// `meta` of the file: one JSON object.
+std::string roadmap_meta(const RoadmapFile& file, const Execution& execution);
+
+// The section `meta` of a .roadmap file: what a roadmap is, as one JSON object with its keys in their documented order.
+// Numbers read back as the same doubles.
+
+/// What shapes a roadmap beside its world: body, options and seed. A part of meta, of which the header keeps a hash.
+std::string recipe_json(const Roadmap& roadmap, const Execution& execution);
+/// The whole of meta.
+std::string meta_json(const Roadmap& roadmap, const Execution& execution);
+/// Fills in all of the roadmap but scene and arrays, which tell their sizes. Throws InputError that names `where`.
+void read_meta(const std::string& where, std::string_view text, Roadmap& roadmap, const Execution& execution);
+/// The lattice that meta names; 0 x 0 where it names none.
+LatticeSize lattice_in_meta(const std::string& where, std::string_view text);
+
+}  // namespace warren

@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/kept/roadmap_query.hpp"
+
+#include <fmt/format.h>
+
+#include <new>
+#include <span>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "core/plane/cell_walls.hpp"
+#include "parallel/chunks.hpp"
+#include "planners/graph/roadmap_arrays.hpp"
+#include "planners/shorten/taut_path.hpp"
+#include "solve/explain/blocked_end.hpp"
+#include "solve/explain/heuristic_price.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
+#include "solve/kinds/planned_scene.hpp"
+#include "solve/kinds/solve_steps.hpp"
+#include "solve/question/planner_choice.hpp"
+#include "verify/streamed/verify_steps.hpp"
+#include "worlds/plane/maze_world.hpp"
+
+namespace warren {
+namespace {
+
+Question question_of(const Roadmap& roadmap, const std::vector<double>& start, const std::vector<double>& goal) {
+  Question question = roadmap.question();
+  question.start = start;
+  question.goal = goal;
+  return question;
+}
+
+/// The answer with what does not depend on the question.
+Answer finished(Answer answer, const Execution& execution) {
+  answer.threads = thread_count(execution.threads);
+  answer.peak_memory_bytes = peak_resident_bytes();
+  return answer;
+}
+
+/// Above, the judge's index would take longer to make than some hundred passes over the walls.
+constexpr std::size_t most_indexed_walls = std::size_t{1} << 23;
+
+/// An index is not searched.
+void refuse_search(const RoadmapSearchFields& how) {
+  if (how.search || how.queue || how.attach || how.heuristic) {
+    throw UsageError(fmt::format("@{}: this roadmap is asked by its index; build it with @index none to search it",
+                                 how.search      ? "search"
+                                 : how.queue     ? "queue"
+                                 : how.heuristic ? "heuristic"
+                                                 : "attach"));
+  }
+}
+
+/// Who says that an edge is free which is not: the roadmap, for its world has been looked at by nobody else.
+[[noreturn]] void refuse_roadmap(const Roadmap& roadmap, const RefutedPathError& error) {
+  throw InputError(fmt::format("the roadmap of {}", roadmap.world.outline().source),
+                   fmt::format("leads through an obstacle; build it anew: {}", error.what()));
+}
+
+void shorten(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution) {
+  const StageTimer timer(execution, "optimise", answer.seconds.optimise, answer.path.size());
+  const MazeWorld world(scene, problem.reach(), execution);
+  answer.raw_length = path_length(answer.path, MazeWorld::distance);
+  answer.path = taut_path(world.walls(), answer.path, world.planning_clearance(), execution);
+}
+
+/// What judge() says, while something else is done with the same answer, which is not changed meanwhile. seconds: those
+/// of the judge alone are added.
+template <class Judge>
+Verification judged_beside(const std::function<void(const Answer&)>& beside, const Answer& answer,
+                           const Execution& execution, double& seconds, const Judge& judge) {
+  const auto timed = [&] {
+    const StageTimer timer(execution, "verify", seconds, answer.path.size());
+    return judge();
+  };
+  if (!beside) return timed();
+  Verification verdict;
+  Execution quiet = execution;
+  quiet.progress = nullptr;
+  for_chunks(2, 1, quiet, [&](Range r) {
+    if (r.first == 0) {
+      beside(answer);
+    } else {
+      verdict = timed();
+    }
+  });
+  return verdict;
+}
+
+std::vector<double> anywhere(const Roadmap& roadmap) { return std::vector<double>(state_size(roadmap.robot), 0.0); }
+
+}  // namespace
+
+/// Of states and edges.
+struct RoadmapQuery::Opened {
+  Opened(const Roadmap& roadmap, const Execution& execution, Questions questions)
+      : any(question_of(roadmap, anywhere(roadmap), anywhere(roadmap))),
+        solver(choose_solver(roadmap.options, roadmap.world.whole(execution), any)),
+        planned(roadmap.world.whole(execution), any, solver.planner, execution),
+        session(solver.kind->open(request_of(roadmap, execution, questions), roadmap.arrays, roadmap.rule)) {}
+  SolveRequest request_of(const Roadmap& roadmap, const Execution& execution, Questions questions) const {
+    SolveRequest request{roadmap.options, planned.get(), any, solver.planner, execution};
+    request.many = questions != Questions::one;
+    request.samples = roadmap.samples;
+    return request;
+  }
+  Question any;
+  ChosenSolver solver;
+  PlannedScene planned;
+  std::unique_ptr<RoadmapSession> session;
+};
+
+/// Of a lattice: what looks at its walls, for ends that are no milestones and for the judge of paths.
+struct RoadmapQuery::Walls {
+  explicit Walls(const Roadmap& roadmap)
+      : near_ends(
+            roadmap.world,
+            wall_problem(roadmap.world.outline(), question_of(roadmap, anywhere(roadmap), anywhere(roadmap))).reach()) {
+  }
+  WallsNearEnds near_ends;
+  MadeOnce<std::unique_ptr<KeptCells>> cells;  // of walls that are held
+  MadeOnce<ObstacleIndex> judged;
+};
+
+RoadmapQuery::RoadmapQuery(const Roadmap& roadmap, const Limits& limits)
+    : RoadmapQuery(roadmap, LimitedExecution(limits).execution()) {}
+
+RoadmapQuery::RoadmapQuery(const Roadmap& roadmap, const Execution& execution, Questions questions)
+    : roadmap_(roadmap),
+      questions_(questions),
+      opened_(roadmap.lattice != nullptr ? nullptr : std::make_unique<Opened>(roadmap, execution, questions)),
+      walls_(roadmap.lattice != nullptr ? std::make_unique<Walls>(roadmap) : nullptr) {}
+
+RoadmapQuery::~RoadmapQuery() = default;
+
+Answer RoadmapQuery::ask(const std::vector<double>& start, const std::vector<double>& goal,
+                         const RoadmapSearchFields& how, const Limits& limits, ByProducts* keep) const {
+  const LimitedExecution limited(limits);
+  QuestionScratch scratch;
+  return ask_explained(start, goal, how, limited.execution(), scratch, keep);
+}
+
+Answer RoadmapQuery::ask_explained(const std::vector<double>& start, const std::vector<double>& goal,
+                                   const RoadmapSearchFields& how, const Execution& execution, QuestionScratch& scratch,
+                                   ByProducts* keep) const {
+  Answer answer = ask_within(start, goal, how, execution, scratch, keep);
+  price_heuristic(answer, how.heuristic, [&](HeuristicKind exact) {
+    RoadmapSearchFields again = how;
+    again.heuristic = exact;
+    again.optimise = false;
+    return ask_within(start, goal, again, execution, scratch);
+  });
+  explain_blocked_end(roadmap_, answer, execution);
+  return finished(std::move(answer), execution);
+}
+
+Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vector<double>& goal,
+                                const RoadmapSearchFields& how, const Execution& execution, QuestionScratch& scratch,
+                                ByProducts* keep) const {
+  const Question question = question_of(roadmap_, start, goal);
+  question.validate();
+  if (roadmap_.lattice != nullptr) return ask_lattice(question, how, execution, scratch);
+  SolveOptions options = roadmap_.options;
+  options.search = how.search;
+  options.queue = how.queue;
+  options.heuristic = how.heuristic;
+  options.optimise = how.optimise;
+  options.car.cusp_cost = how.cusp_cost;
+  options.car.reverse_cost = how.reverse_cost;
+  if (how.attach) options.roadmap.attach = how.attach;
+  options.validate();
+  check_solver_options(options);
+  const Scene& scene = roadmap_.world.whole(execution);
+  const ChosenSolver solver = choose_solver(options, scene, question);
+  Answer answer;
+  scratch.search.by_hierarchy = !how.search && !how.queue && !how.heuristic;
+  try {
+    answer = solver.kind->solve({options,
+                                 opened_->planned.get(),
+                                 question,
+                                 solver.planner,
+                                 execution,
+                                 keep,
+                                 {opened_->session.get(), &scratch.search}});
+  } catch (const Stopped& stopped) {
+    answer.stop_reason = stopped.reason;
+  } catch (const std::bad_alloc&) {
+    answer.stop_reason = StopReason::memory;
+  } catch (const RefutedPathError& error) {
+    refuse_roadmap(roadmap_, error);
+  }
+  if (scratch.search.by_hierarchy && !roadmap_.arrays.hierarchy.empty()) {
+    answer.search.clear();
+    answer.figures.push_back({"index", std::string("contraction")});
+  }
+  answer.world = account_of(scene, roadmap_.world_hash);
+  return finished(std::move(answer), execution);
+}
+
+const KeptCells* RoadmapQuery::cells_of_lattice(const Execution& execution) const {
+  if (const KeptCells* cells = roadmap_.world.looked_up(execution); cells != nullptr) return cells;
+  if (questions_ == Questions::one) return nullptr;
+  const auto make = [&] {
+    return std::make_unique<std::unique_ptr<KeptCells>>(cells_of_scene(roadmap_.world.whole(execution), execution));
+  };
+  return walls_->cells.get(execution, make).get();
+}
+
+const ObstacleIndex* RoadmapQuery::judge_of_lattice(const Execution& execution) const {
+  const Scene& scene = roadmap_.world.whole(execution);
+  if (questions_ == Questions::one || scene.walls.size() > most_indexed_walls) return nullptr;
+  return &walls_->judged.get(execution, [&] { return std::make_unique<ObstacleIndex>(scene, execution); });
+}
+
+void RoadmapQuery::prepare_paths(const Execution& execution) const {
+  if (roadmap_.lattice == nullptr || cells_of_lattice(execution) != nullptr) return;
+  judge_of_lattice(execution);
+}
+
+double RoadmapQuery::clearance_at(Vec2 place, const Execution& execution) const {
+  const VerifyOptions options{.radius = roadmap_.robot.radius, .clearance = roadmap_.clearance};
+  if (const KeptCells* cells = cells_of_lattice(execution)) {
+    return verify_steps(*cells->walls, {&place, 1}, options, execution).min_clearance;
+  }
+  const ObstacleIndex* judged = judge_of_lattice(execution);
+  return verify_path(roadmap_.world.whole(execution), {&place, 1}, options, execution, judged).min_clearance;
+}
+
+void RoadmapQuery::expect(const std::vector<double>& place, const Execution& execution) const {
+  if (roadmap_.lattice == nullptr || place.size() != 2) return;
+  if (!lattice_cell(*roadmap_.lattice, {place[0], place[1]})) walls_->near_ends.expect(execution);
+}
+
+Answer RoadmapQuery::ask_lattice(const Question& question, const RoadmapSearchFields& how, const Execution& execution,
+                                 QuestionScratch& scratch) const {
+  refuse_search(how);
+  const WallProblem problem = wall_problem(roadmap_.world.outline(), question);
+  Answer answer;
+  describe_roadmap_planner(answer, problem, planner_options(roadmap_.options, roadmap_.world.outline(), problem));
+  answer.search.clear();
+  answer.pipeline.clear();
+  answer.figures.push_back({"index", std::string("route")});
+  if (!scratch.route) scratch.route.emplace(*roadmap_.lattice);
+  try {
+    answer_within_limits(answer, [&] {
+      {
+        const StageTimer timer(execution, "search", answer.seconds.search);
+        const LatticeQuestion asked(walls_->near_ends, problem, *roadmap_.lattice, *scratch.route, execution);
+        answer.outcome = asked.outcome();
+        answer.roadmap.milestones = count_states(roadmap_) + 2;
+        if (answer.outcome == Outcome::solved) answer.path = asked.path();
+      }
+      settle_and_verify(answer, problem, how.optimise, execution, scratch);
+    });
+  } catch (const RefutedPathError& error) {
+    refuse_roadmap(roadmap_, error);
+  }
+  return finished(std::move(answer), execution);
+}
+
+void RoadmapQuery::settle_and_verify(Answer& answer, const WallProblem& problem, bool optimise,
+                                     const Execution& execution, const QuestionScratch& scratch) const {
+  const KeptCells* cells = cells_of_lattice(execution);
+  const Scene& outline = roadmap_.world.outline();
+  answer.world = cells != nullptr ? account_of(outline, roadmap_.world_hash, cells->wall_count)
+                                  : account_of(roadmap_.world.whole(execution), roadmap_.world_hash);
+  if (optimise && answer.outcome == Outcome::solved) {
+    shorten(answer, roadmap_.world.whole(execution), problem, execution);
+  }
+  if (cells == nullptr) {
+    const Scene& scene = roadmap_.world.whole(execution);
+    const ObstacleIndex* judged = judge_of_lattice(execution);
+    settle_blocked_ends(answer, scene, problem, execution, judged);
+    return verify_solved(answer, scene, problem, execution, judged);
+  }
+  const auto stands_free = [&](Vec2 p) {
+    const VerifyOptions options{.radius = problem.robot.radius,
+                                .clearance = problem.clearance + end_margin(problem.reach())};
+    return verify_steps(*cells->walls, std::span(&p, 1), options, execution).verified;
+  };
+  answer.outcome = settled_ends(
+      answer.outcome, [&] { return stands_free(problem.start); }, [&] { return stands_free(problem.goal); });
+  if (answer.outcome != Outcome::solved) return;
+  double seconds = 0.0;
+  const Verification verdict = judged_beside(scratch.beside_judge, answer, execution, seconds, [&] {
+    return verify_steps(*cells->walls, answer.path, verify_options(problem), execution);
+  });
+  answer.seconds.verify += seconds;
+  take_verdict(answer, verdict);
+}
+
+LengthAnswer RoadmapQuery::length_within(const std::vector<double>& start, const std::vector<double>& goal,
+                                         const RoadmapSearchFields& how, const Execution& execution,
+                                         QuestionScratch& scratch) const {
+  if (roadmap_.lattice == nullptr || how.optimise) {
+    scratch.search.tells_separation = false;
+    const Answer answer = ask_within(start, goal, how, execution, scratch);
+    if (answer.outcome == Outcome::stopped) throw Stopped(answer.stop_reason.value_or(StopReason::time));
+    return {answer.outcome, answer.length};
+  }
+  refuse_search(how);
+  const Question question = question_of(roadmap_, start, goal);
+  question.validate();
+  if (!scratch.route) scratch.route.emplace(*roadmap_.lattice);
+  const WallProblem problem = wall_problem(roadmap_.world.outline(), question);
+  const LatticeQuestion asked(walls_->near_ends, problem, *roadmap_.lattice, *scratch.route, execution);
+  return {asked.outcome(), asked.length()};
+}
+
+std::span<const std::uint64_t> RoadmapQuery::edge_states() const { return opened_->session->edge_states(); }
+
+double RoadmapQuery::distance(VertexId from, VertexId to) const { return opened_->session->distance(from, to); }
+
+void learn(Roadmap& roadmap, const RoadmapQuery& query, const Execution& execution) {
+  if (roadmap.options.planner != PlannerKind::lazy_prm) return;  // all its edges are known
+  const std::span<const std::uint64_t> known = query.edge_states();
+  roadmap.arrays.edge_states.assign(known.begin(), known.end());
+  roadmap.arrays.component = free_components(roadmap.arrays.parts(), execution);
+}
+
+void explain_blocked_end(const Roadmap& roadmap, Answer& answer, const Execution& execution) {
+  if (!is_blocked(answer.outcome)) return;
+  const Scene& outline = roadmap.world.outline();
+  const KeptCells* cells = roadmap.world.looked_up(execution);
+  if (cells == nullptr) return explain_blocked_end(roadmap.world.whole(execution), answer, execution);
+  const double margin = end_margin(roadmap.robot.radius + roadmap.clearance);
+  const VerifyOptions options{.radius = roadmap.robot.radius, .clearance = roadmap.clearance + margin};
+  const auto met_at = [&](Vec2 p) {
+    return verify_steps(*cells->walls, std::span(&p, 1), options, execution).first_violation;
+  };
+  try {
+    explain_blocked_cell(wall_problem(outline, answer.problem.question()), *outline.maze, answer, met_at);
+  } catch (const Stopped&) {  // it stays as it is
+  }
+}
+
+}  // namespace warren

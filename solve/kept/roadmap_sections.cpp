@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/kept/roadmap_sections.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "parallel/chunks.hpp"
+#include "planners/lengths/route_index.hpp"
+#include "scenes/files/input_file_io.hpp"
+#include "scenes/files/scene_io.hpp"
+#include "solve/kept/maze_bits.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::size_t arc_grain = std::size_t{1} << 16;
+
+}  // namespace
+
+Hierarchy read_hierarchy(const RoadmapFile& file, std::size_t vertex_count, const Execution& execution) {
+  if (file.find("up.first") == nullptr) return {};
+  const auto first = file.section<EdgeEnd>("up.first", execution);
+  const auto to = file.section<VertexId>("up.to", execution);
+  const auto middle = file.section<VertexId>("up.middle", execution);
+  const auto length = file.section<double>("up.length", execution);
+  if (middle.size() != to.size() || length.size() != to.size()) {
+    throw InputError(file.name(), "its index contradicts itself; build it anew", "up.middle, up.length");
+  }
+  execution.reserve(first.size_bytes() + to.size() * sizeof(HierarchyArc));
+  Hierarchy hierarchy{.first = {first.begin(), first.end()}, .arcs = {}};
+  hierarchy.arcs.resize(to.size());
+  for_chunks(to.size(), arc_grain, execution, [&](Range r) {
+    for (std::size_t i = r.first; i < r.last; ++i) hierarchy.arcs[i] = {to[i], middle[i], length[i]};
+  });
+  check_hierarchy(hierarchy, vertex_count, file.name(), execution);
+  return hierarchy;
+}
+
+HierarchySections::HierarchySections(const Hierarchy& hierarchy, const Execution& execution) : hierarchy_(hierarchy) {
+  const std::size_t arcs = hierarchy.arcs.size();
+  execution.reserve(arcs * sizeof(HierarchyArc));
+  to_.resize(arcs);
+  middle_.resize(arcs);
+  length_.resize(arcs);
+  for_chunks(arcs, arc_grain, execution, [&](Range r) {
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      to_[i] = hierarchy.arcs[i].to;
+      middle_[i] = hierarchy.arcs[i].middle;
+      length_[i] = hierarchy.arcs[i].length;
+    }
+  });
+}
+
+void HierarchySections::append_to(std::vector<RoadmapSection>& sections) const {
+  if (hierarchy_.empty()) return;
+  const auto add = [&]<class T>(std::string_view name, const RawVector<T>& numbers) {
+    sections.push_back(roadmap_section(name, std::span<const T>(numbers), true));
+  };
+  add("up.first", hierarchy_.first);
+  add("up.to", to_);
+  add("up.middle", middle_);
+  add("up.length", length_);
+}
+
+namespace {
+
+/// Elements of other widths are bytes.
+ElementType type_of(std::size_t bytes) {
+  switch (bytes) {
+    case 2:
+      return element_type<std::uint16_t>();
+    case 4:
+      return element_type<std::uint32_t>();
+    case 8:
+      return element_type<std::uint64_t>();
+    default:
+      return element_type<std::byte>();
+  }
+}
+
+/// The bytes of a section of whatever type.
+std::span<const std::byte> bytes_of(const RoadmapFile& file, const SectionPlace& place) {
+  switch (place.type.bytes()) {
+    case 2:
+      return std::as_bytes(file.unchecked_section<std::uint16_t>(place.name));
+    case 4:
+      return std::as_bytes(file.unchecked_section<std::uint32_t>(place.name));
+    case 8:
+      return std::as_bytes(file.unchecked_section<std::uint64_t>(place.name));
+    default:
+      return file.unchecked_section<std::byte>(place.name);
+  }
+}
+
+/// What call() gives; its failures name the file.
+template <class Call>
+auto named_by(const RoadmapFile& file, const Call& call) {
+  try {
+    return call();
+  } catch (const InputError& error) {
+    throw InputError(file.name(), error.what());
+  }
+}
+
+}  // namespace
+
+void append_lattice_sections(const RouteIndex& index, std::vector<RoadmapSection>& sections) {
+  for (const RouteSection& s : route_sections(index)) {
+    sections.push_back({s.name, type_of(s.element_bytes), s.bytes});
+  }
+}
+
+bool has_lattice(const RoadmapFile& file) { return file.find("passages.right") != nullptr; }
+
+bool is_lattice_section(std::string_view name) {
+  const std::vector<RouteSection> kinds = route_section_kinds();
+  return std::any_of(kinds.begin(), kinds.end(), [&](const RouteSection& kind) { return kind.name == name; });
+}
+
+std::unique_ptr<RouteIndex> read_lattice(const RoadmapFile& file, LatticeSize size, const Execution& execution) {
+  std::vector<RouteSection> sections = route_section_kinds();
+  for (RouteSection& section : sections) {
+    const SectionPlace* place = file.find(section.name);
+    if (place == nullptr || place->type != type_of(section.element_bytes)) {
+      throw InputError(file.name(), "a section of its index is missing or of another type", section.name);
+    }
+    section.bytes = bytes_of(file, *place);
+    section.first_look = file.first_look(*place);
+    if (!is_read_in_parts(section.name)) file.check_section(*place, execution);
+  }
+  return named_by(file, [&] {
+    LatticePassages::check_size(size);
+    auto index = std::make_unique<RouteIndex>(route_index_of(size, sections));
+    if (file.is_small()) check_route_arrays(index->places(), index->arrays());
+    return index;
+  });
+}
+
+void check_lattice(const RoadmapFile& file, const RouteIndex& index, const Execution& execution) {
+  file.check_all(execution);
+  named_by(file, [&] { check_route_arrays(index.places(), index.arrays()); });
+}
+
+namespace {
+
+constexpr std::size_t wall_grain = std::size_t{1} << 16;
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+void add_point(std::vector<double>& numbers, const std::optional<Vec2>& point) {
+  numbers.push_back(point ? point->x : none);
+  numbers.push_back(point ? point->y : none);
+}
+
+std::optional<Vec2> point_of(double x, double y) { return x == x && y == y ? std::optional(Vec2{x, y}) : std::nullopt; }
+
+/// As walls of this kind.
+template <class Wall, class T>
+WallSet walls_as(std::span<const T> numbers, const Execution& execution) {
+  execution.reserve(numbers.size() / 4 * sizeof(Wall));
+  RawVector<Wall> walls(numbers.size() / 4);
+  for_chunks(walls.size(), wall_grain, execution, [&](Range r) {
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      const T* const x = &numbers[4 * i];
+      if constexpr (std::is_same_v<Wall, PackedWall>) {
+        walls[i] = PackedWall::of(x[0], x[1], x[2], x[3]);
+      } else {
+        walls[i] = {x[0], x[1], x[2], x[3]};
+      }
+    }
+  });
+  return WallSet(std::move(walls));
+}
+
+template <class T>
+bool can_be_packed(std::span<const T> numbers, const Execution& execution) {
+  const std::size_t count = numbers.size() / 4;
+  std::vector<std::uint8_t> fit(chunk_count(count, wall_grain), 1);
+  for_chunks(count, wall_grain, execution, [&](Range r) {
+    for (std::size_t i = 4 * r.first; i < 4 * r.last; i += 4) {
+      if (PackedWall::fits(numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3])) continue;
+      fit[r.first / wall_grain] = 0;
+      return;
+    }
+  });
+  return std::find(fit.begin(), fit.end(), 0) == fit.end();
+}
+
+[[noreturn]] void refuse(const RoadmapFile& file, std::string_view section, std::string_view what) {
+  throw InputError(fmt::format("{}: section {}", file.name(), section), what);
+}
+
+/// Coordinates as the readers of worlds take them.
+template <class T>
+void check_walls(const RoadmapFile& file, std::string_view section, std::span<const T> numbers,
+                 const Execution& execution) {
+  if (numbers.size() % 4 != 0) refuse(file, section, "expected four numbers a wall");
+  std::vector<std::uint8_t> good(chunk_count(numbers.size(), wall_grain), 1);
+  for_chunks(numbers.size(), wall_grain, execution, [&](Range r) {
+    const auto part = numbers.subspan(r.first, r.size());
+    const auto is_coordinate = [](T x) { return std::abs(static_cast<double>(x)) <= largest_coordinate; };
+    good[r.first / wall_grain] = std::all_of(part.begin(), part.end(), is_coordinate) ? 1 : 0;
+  });
+  if (std::find(good.begin(), good.end(), 0) == good.end()) return;
+  refuse(file, section, "expected numbers of at most 1e60");
+}
+
+template <class T>
+WallSet read_walls(const RoadmapFile& file, const Execution& execution) {
+  const auto numbers = file.section<T>("world.walls", execution);
+  check_walls(file, "world.walls", numbers, execution);
+  return std::is_same_v<T, float> && can_be_packed(numbers, execution) ? walls_as<PackedWall>(numbers, execution)
+                                                                       : walls_as<WallOf<T>>(numbers, execution);
+}
+
+Bitmap read_bits(const RoadmapFile& file, std::string_view name, std::uint32_t width, std::uint32_t height,
+                 const Execution& execution) {
+  const auto words = file.optional_section<std::uint64_t>(name, execution);
+  if (!words) return {};
+  Bitmap bits = cell_bitmap(width, height, execution);
+  if (words->size() != bits.words().size()) refuse(file, name, "expected a bit for each cell of the map");
+  const std::size_t stride = height == 0 ? 0 : words->size() / height;
+  for (std::uint32_t y = 0; y < height; ++y) {
+    std::copy_n(words->begin() + static_cast<std::ptrdiff_t>(y * stride), stride, bits.row(y).begin());
+    if (width % Bitmap::word_bits == 0) continue;
+    if (bits.row(y).back() >> (width % Bitmap::word_bits) != 0) refuse(file, name, "expected zeros beyond each row");
+  }
+  return bits;
+}
+
+OccupancyMap read_map(const RoadmapFile& file, const Execution& execution) {
+  const auto place = file.section<double>("map.place", execution);
+  const auto size = file.section<std::uint64_t>("map.size", execution);
+  if (place.size() != 8 || size.size() != 7 || size[2] > 2) refuse(file, "map.size", "expected a map's numbers");
+  check_map_size(fmt::format("{}: section map.size", file.name()), size[0], size[1]);
+  OccupancyMap map;
+  map.format = static_cast<MapFormat>(size[2]);
+  const auto width = static_cast<std::uint32_t>(size[0]);
+  const auto height = static_cast<std::uint32_t>(size[1]);
+  map.blocked = read_bits(file, "map.blocked", width, height, execution);
+  if (map.blocked.empty()) refuse(file, "map.blocked", "expected a bit for each cell of the map");
+  map.unknown = read_bits(file, "map.unknown", width, height, execution);
+  map.water = read_bits(file, "map.water", width, height, execution);
+  map.free = size[3];
+  map.occupied = size[4];
+  map.unknown_count = size[5];
+  map.between = size[6];
+  const auto is_coordinate = [](double x) { return std::abs(x) <= largest_coordinate; };
+  if (!(place[0] > 0.0) || !std::all_of(place.begin(), place.begin() + 4, is_coordinate)) {
+    refuse(file, "map.place", "expected a cell above 0 and numbers of at most 1e60");
+  }
+  map.cell = place[0];
+  map.origin = {place[1], place[2]};
+  map.yaw_rad = place[3];
+  map.start = point_of(place[4], place[5]);
+  map.goal = point_of(place[6], place[7]);
+  return map;
+}
+
+}  // namespace
+
+WorldSections::WorldSections(const Scene& scene, const LatticePassages* lattice, const Execution& execution)
+    : scene_(scene) {
+  write_scene_text(
+      without_arrays(scene), [&](std::string_view text) { text_.append(text); }, execution);
+  in_lattice_ = lattice != nullptr && has_walls_of(*lattice, scene, execution);
+  if (!in_lattice_) maze_ = maze_bits(scene, execution);
+  if (!in_lattice_ && !maze_ && scene.walls.holds_packed()) unpack_walls(execution);
+  for (const Segment& s : scene.seams) seams_.insert(seams_.end(), {s.a.x, s.a.y, s.b.x, s.b.y});
+  if (!scene.map) return;
+  const OccupancyMap& map = *scene.map;
+  map_place_ = {map.cell, map.origin.x, map.origin.y, map.yaw_rad};
+  add_point(map_place_, map.start);
+  add_point(map_place_, map.goal);
+  map_size_ = {map.width(),       map.height(), static_cast<std::uint64_t>(map.format), map.free, map.occupied,
+               map.unknown_count, map.between};
+}
+
+void WorldSections::append_to(std::vector<RoadmapSection>& sections) const {
+  sections.push_back(roadmap_section("world.text", std::span<const char>(text_)));
+  if (maze_) {
+    sections.push_back(roadmap_section("maze.walls", std::span<const std::uint64_t>(*maze_)));
+  } else if (!in_lattice_) {
+    append_walls(sections);
+  }
+  sections.push_back(roadmap_section("world.seams", std::span<const double>(seams_)));
+  if (!scene_.map) return;
+  sections.push_back(roadmap_section("map.place", std::span<const double>(map_place_)));
+  sections.push_back(roadmap_section("map.size", std::span<const std::uint64_t>(map_size_)));
+  sections.push_back(roadmap_section("map.blocked", scene_.map->blocked.words()));
+  if (!scene_.map->unknown.empty()) sections.push_back(roadmap_section("map.unknown", scene_.map->unknown.words()));
+  if (!scene_.map->water.empty()) sections.push_back(roadmap_section("map.water", scene_.map->water.words()));
+}
+
+void WorldSections::unpack_walls(const Execution& execution) {
+  execution.reserve(scene_.walls.size() * sizeof(FloatWall));
+  unpacked_.resize(scene_.walls.size());
+  scene_.walls.visit([&](auto walls) {
+    for_chunks(walls.size(), wall_grain, execution, [&](Range r) {
+      if constexpr (std::is_same_v<decltype(walls), std::span<const PackedWall>>) {
+        for (std::size_t i = r.first; i < r.last; ++i) unpacked_[i] = unpacked(walls[i]);
+      }
+    });
+  });
+}
+
+void WorldSections::append_walls(std::vector<RoadmapSection>& sections) const {
+  const auto append = [&]<class T>(std::span<const WallOf<T>> walls) {
+    const T* const numbers = walls.empty() ? nullptr : &walls.front().x1;
+    sections.push_back(roadmap_section("world.walls", std::span<const T>(numbers, 4 * walls.size())));
+  };
+  scene_.walls.visit([&](auto walls) {
+    if constexpr (std::is_same_v<decltype(walls), std::span<const PackedWall>>) {
+      append(std::span<const FloatWall>(unpacked_));
+    } else {
+      append(walls);
+    }
+  });
+}
+
+bool has_world(const RoadmapFile& file) { return file.find("world.text") != nullptr; }
+
+Scene read_world_outline(const RoadmapFile& file, const Execution& execution) {
+  const auto text = file.section<std::byte>("world.text", execution);
+  const std::string_view words(reinterpret_cast<const char*>(text.data()), text.size());
+  Scene scene;
+  if (!words.empty()) {
+    scene = read_scene_text(InputFile::of_bytes(file.name() + ": section world.text", words), execution);
+  }
+  if (scene.walls.size() != 0) refuse(file, "world.text", "expected walls in section world.walls alone");
+  if (const auto seams = file.optional_section<double>("world.seams", execution)) {
+    check_walls(file, "world.seams", *seams, execution);
+    for (std::size_t i = 0; i + 3 < seams->size(); i += 4) {
+      scene.seams.push_back({{(*seams)[i], (*seams)[i + 1]}, {(*seams)[i + 2], (*seams)[i + 3]}});
+    }
+  }
+  if (file.find("map.size") != nullptr) scene.map = read_map(file, execution);
+  return scene;
+}
+
+WallSet read_world_walls(const RoadmapFile& file, const Scene& outline, const LatticePassages* lattice,
+                         const Execution& execution) {
+  if (outline.maze && file.find("maze.walls") != nullptr) {
+    return walls_of_maze_bits(file.name() + ": section maze.walls", *outline.maze,
+                              file.section<std::uint64_t>("maze.walls", execution), execution);
+  }
+  const SectionPlace* walls = file.find("world.walls");
+  if (walls == nullptr && outline.maze && lattice != nullptr) return walls_of_lattice(*lattice, execution);
+  if (walls == nullptr) refuse(file, "world.walls", "expected the walls of the world");
+  return walls->type == element_type<float>() ? read_walls<float>(file, execution)
+                                              : read_walls<double>(file, execution);
+}
+
+}  // namespace warren

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/kinds/kind_of_problem.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+
+#include "core/base/error.hpp"
+#include "solve/question/question.hpp"
+
+namespace warren {
+namespace {
+
+const PlannerChoice* choice_in(const SolveKind& kind, PlannerKind planner) {
+  const auto found = std::find_if(kind.planners.begin(), kind.planners.end(),
+                                  [&](const PlannerChoice& choice) { return choice.planner == planner; });
+  return found == kind.planners.end() ? nullptr : &*found;
+}
+
+/// "a", "a and b", "a, b and c".
+std::string listed(const std::vector<std::string_view>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ");
+    text += words[i];
+  }
+  return text;
+}
+
+/// The planners of all kinds for which `holds` is true of some choice, in their order.
+template <class Holds>
+std::vector<std::string_view> planners_where(const Holds& holds) {
+  std::vector<std::string_view> names;
+  for (const PlannerKind planner : all_planners) {
+    const bool any = std::any_of(solve_kinds().begin(), solve_kinds().end(), [&](const SolveKind& kind) {
+      const PlannerChoice* choice = choice_in(kind, planner);
+      return choice != nullptr && holds(kind, *choice);
+    });
+    if (any) names.push_back(name_of(planner));
+  }
+  return names;
+}
+
+/// Of the kinds that fit a problem, each planner once.
+std::vector<std::string_view> planners_of(const std::vector<const SolveKind*>& kinds) {
+  std::vector<std::string_view> names;
+  for (const SolveKind* kind : kinds) {
+    for (const PlannerChoice& choice : kind->planners) {
+      const std::string_view name = name_of(choice.planner);
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  }
+  return names;
+}
+
+std::string takers_text(const std::vector<std::string_view>& takers) {
+  return fmt::format("{} {} it", listed(takers), takers.size() == 1 ? "takes" : "take");
+}
+
+/// Refuses an option where the problem is known: others of its planners take the option, or the option is for other
+/// problems.
+[[noreturn]] void refuse_for_problem(Option option, PlannerKind planner, const std::vector<const SolveKind*>& fitting) {
+  const auto takes = [&](const PlannerChoice& choice) { return choice.options.has(option); };
+  const auto is_here = [&](const SolveKind& kind) {
+    return std::find(fitting.begin(), fitting.end(), &kind) != fitting.end();
+  };
+  const auto here = planners_where(
+      [&](const SolveKind& kind, const PlannerChoice& choice) { return is_here(kind) && takes(choice); });
+  std::string taken = takers_text(here);
+  if (here.empty()) {
+    std::vector<std::string_view> problems;
+    for (const SolveKind& kind : solve_kinds()) {
+      if (std::any_of(kind.planners.begin(), kind.planners.end(), takes)) problems.push_back(kind.problem);
+    }
+    const auto all = planners_where([&](const SolveKind&, const PlannerChoice& choice) { return takes(choice); });
+    taken = fmt::format("{} for {}", takers_text(all), listed(problems));
+  }
+  throw UsageError(fmt::format("@{}: {} would ignore it for {}; {}", name_of(option), name_of(planner),
+                               fitting.front()->problem, taken));
+}
+
+/// Refuses the options that none of `choices` takes; `fitting` are the kinds of the problem, where that is known.
+void refuse_ignored(const SolveOptions& options, PlannerKind planner, const std::vector<PlannerChoice>& choices,
+                    const std::vector<const SolveKind*>& fitting = {}) {
+  const OptionSet asked = given(options);
+  for (std::size_t i = 0; i < option_count; ++i) {
+    const auto option = static_cast<Option>(i);
+    if (!asked.has(option)) continue;
+    const auto takes = [&](const PlannerChoice& choice) { return choice.options.has(option); };
+    if (std::any_of(choices.begin(), choices.end(), takes)) continue;
+    if (!fitting.empty()) refuse_for_problem(option, planner, fitting);
+    const auto takers = planners_where([&](const SolveKind&, const PlannerChoice& choice) { return takes(choice); });
+    throw UsageError(
+        fmt::format("@{}: {} would ignore it; {}", name_of(option), name_of(planner), takers_text(takers)));
+  }
+}
+
+std::vector<const SolveKind*> fitting_kinds(const Scene& scene, const RobotSpec& robot) {
+  std::vector<const SolveKind*> fitting;
+  for (const SolveKind& kind : solve_kinds()) {
+    if (kind.unmade == is_unmade(scene) && kind.fits(scene, robot)) fitting.push_back(&kind);
+  }
+  return fitting;
+}
+
+/// Every body has planners in every world that check_plannable takes.
+const SolveKind& first_kind(const std::vector<const SolveKind*>& fitting) {
+  const auto found =
+      std::find_if(fitting.begin(), fitting.end(), [](const SolveKind* kind) { return !kind->planners.empty(); });
+  if (found == fitting.end()) throw std::logic_error("no planner fits a world that is planned in");
+  return **found;
+}
+
+/// Only maps have corridors and cells that are known.
+void check_corridors(const SolveOptions& options, const Scene& scene) {
+  const auto asked = options.sampler;
+  if (scene.map || (asked != SamplerKind::corridor && asked != SamplerKind::cell_centres)) return;
+  throw UsageError(fmt::format("@sampler: {} is for occupancy maps, and {} is none; the others take any world",
+                               name_of(*asked), scene.source));
+}
+
+[[noreturn]] void refuse_planner(PlannerKind planner, const std::vector<const SolveKind*>& fitting) {
+  const std::vector<std::string_view> others = planners_of(fitting);
+  throw UsageError(fmt::format("@planner: {} does not solve {}; {} {}", name_of(planner), fitting.front()->problem,
+                               listed(others), others.size() == 1 ? "does" : "do"));
+}
+
+}  // namespace
+
+const std::vector<SolveKind>& solve_kinds() {
+  static const std::vector<SolveKind> kinds{occupancy_kind(),   walls_kind(),        plane_kind(), turning_kind(),
+                                            fixed_angle_kind(), turning_axis_kind(), car_kind(),   arm_kind(),
+                                            lattice_kind(),     streamed_kind()};
+  return kinds;
+}
+
+void check_solver_options(const SolveOptions& options) {
+  const std::optional<PlannerKind> asked = options.planner;
+  if (asked) {
+    std::vector<PlannerChoice> choices;
+    for (const SolveKind& kind : solve_kinds()) {
+      if (const PlannerChoice* choice = choice_in(kind, *asked)) choices.push_back(*choice);
+    }
+    if (choices.empty()) {
+      const auto all = planners_where([](const SolveKind&, const PlannerChoice&) { return true; });
+      throw UsageError(
+          fmt::format("@planner: {} is none that this version has; it has {}", name_of(*asked), listed(all)));
+    }
+    refuse_ignored(options, *asked, choices);
+  }
+  if (!asked || is_roadmap_planner(*asked)) check_planner_options(options);
+}
+
+ChosenSolver choose_solver(const SolveOptions& options, const Scene& scene, const Question& question) {
+  check_plannable(scene, question);
+  const std::vector<const SolveKind*> fitting = fitting_kinds(scene, robot_of(scene, question));
+  const SolveKind& first = first_kind(fitting);
+  const std::optional<PlannerKind> asked = options.planner;
+  ChosenSolver chosen{&first, asked ? *asked : first.usual_planner(options, scene, question)};
+  const auto has_it = [&](const SolveKind* kind) { return choice_in(*kind, chosen.planner) != nullptr; };
+  const auto found = std::find_if(fitting.begin(), fitting.end(), has_it);
+  if (found == fitting.end()) refuse_planner(chosen.planner, fitting);
+  chosen.kind = *found;
+  refuse_ignored(options, chosen.planner, {*choice_in(*chosen.kind, chosen.planner)}, fitting);
+  check_corridors(options, scene);
+  return chosen;
+}
+
+const SolveKind& verifying_kind(const Scene& scene, const Question& question) {
+  check_plannable(scene, question);
+  const std::vector<const SolveKind*> fitting = fitting_kinds(scene, robot_of(scene, question));
+  const auto found =
+      std::find_if(fitting.begin(), fitting.end(), [](const SolveKind* kind) { return kind->verify != nullptr; });
+  if (found == fitting.end()) throw std::logic_error("no judge fits a world that is planned in");
+  return **found;
+}
+
+bool planner_takes(PlannerKind planner, Option option) {
+  return std::any_of(solve_kinds().begin(), solve_kinds().end(), [&](const SolveKind& kind) {
+    const PlannerChoice* choice = choice_in(kind, planner);
+    return choice != nullptr && choice->options.has(option);
+  });
+}
+
+std::vector<PlannerKind> planners_there_are() {
+  std::vector<PlannerKind> planners;
+  for (const PlannerKind planner : all_planners) {
+    const auto has_it = [&](const SolveKind& kind) { return choice_in(kind, planner) != nullptr; };
+    if (std::any_of(solve_kinds().begin(), solve_kinds().end(), has_it)) planners.push_back(planner);
+  }
+  return planners;
+}
+
+}  // namespace warren

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the kinds share whose states are poses (x, y, theta), turning polygons and cars: the question, its options, and
+// how the planners are asked. A goal X,Y without a heading is met in any: trees have it as 16 goals, evenly turned, or
+// where the body fits at none of these as those between at which it does; roadmaps take the one with the most room.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/base/solution.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/se2.hpp"
+#include "solve/answer/answer.hpp"
+#include "solve/answer/read_answer_io.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
+#include "solve/kinds/solve_steps.hpp"
+#include "solve/question/question.hpp"
+
+namespace warren {
+
+struct PoseProblem {
+  RobotSpec robot;
+  Se2 start;
+  std::vector<double> goal;  ///< 2 or 3 numbers
+  double clearance = 0.0;
+
+  bool any_heading() const { return goal.size() == 2; }
+  Se2 goal_pose() const { return {goal[0], goal[1], any_heading() ? 0.0 : goal[2]}; }
+  Problem general() const { return {robot, {start.x, start.y, start.theta}, goal, clearance, Contact::blocked}; }
+};
+
+/// `body`: "a turning body", for messages. Throws UsageError where start or goal are missing or have the wrong size,
+/// and for contact that is allowed.
+PoseProblem pose_problem(const Scene& scene, const Question& options, std::string_view body);
+
+/// The poses that will do for a state of 2 or 3 numbers: of 2 those of 16 headings, evenly turned.
+std::vector<Se2> poses_of(const std::vector<double>& state);
+/// At each interval of headings at which an outline fits there as an end, but for obstacles around all of it, the
+/// middle.
+std::vector<Se2> poses_of_intervals(const Scene& scene, const PoseProblem& problem, Vec2 place,
+                                    const Execution& execution);
+/// poses_of(), and where none of several is free those of the intervals: where all of these are blocked, every heading
+/// is.
+template <class IsFree>
+std::vector<Se2> poses_to_meet(const Scene& scene, const PoseProblem& problem, const std::vector<double>& state,
+                               const Execution& execution, const IsFree& is_free) {
+  std::vector<Se2> poses = poses_of(state);
+  if (state.size() == 3 || std::any_of(poses.begin(), poses.end(), is_free)) return poses;
+  const std::vector<Se2> more = poses_of_intervals(scene, problem, {state[0], state[1]}, execution);
+  poses.insert(poses.end(), more.begin(), more.end());
+  return poses;
+}
+
+/// How far the body reaches from its reference point.
+double extent_of(const RobotSpec& robot);
+/// What an end has beyond its clearance (solve/kinds/solve_steps.hpp).
+double end_margin(const Scene& scene, const PoseProblem& problem, const Execution& execution);
+/// The path of an answer whose states have three numbers; throws InputError for others.
+std::vector<Se2> recorded_poses(const RecordedAnswer& answer, std::string_view body);
+
+/// Throws UsageError for samplers that only points and discs have.
+void check_pose_sampler(std::optional<SamplerKind> sampler);
+
+/// The path, as the answer gives it.
+void record_poses(Answer& answer, std::span<const Se2> path);
+
+/// What is said of the ends where one is called blocked. stands_free(pose): by the verification, as an end.
+template <class StandsFree>
+void settle_blocked_poses(Answer& answer, const Scene& scene, const PoseProblem& problem, const Execution& execution,
+                          const StandsFree& stands_free) {
+  answer.outcome = settled_ends(
+      answer.outcome, [&] { return stands_free(problem.start); },
+      [&] {
+        const std::vector<Se2> goals = poses_to_meet(scene, problem, problem.goal, execution, stands_free);
+        return std::any_of(goals.begin(), goals.end(), stands_free);
+      });
+}
+
+}  // namespace warren

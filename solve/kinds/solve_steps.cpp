@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/kinds/solve_steps.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "verify/judges/verify_point.hpp"
+
+namespace warren {
+namespace {
+
+void add(StageTimes& to, const StageTimes& more) {
+  to.index += more.index;
+  to.sample += more.sample;
+  to.neighbours += more.neighbours;
+  to.connect += more.connect;
+  to.graph += more.graph;
+  to.reduce += more.reduce;
+  to.search += more.search;
+}
+
+}  // namespace
+
+VerifyOptions verify_options(const WallProblem& problem) {
+  return {.radius = problem.robot.radius,
+          .clearance = problem.clearance,
+          .contact = problem.contact,
+          .start = problem.start,
+          .goal = problem.goal};
+}
+
+void describe_roadmap_planner(Answer& answer, const WallProblem& problem, const PlannerOptions& options) {
+  answer.problem = problem.general();
+  answer.planner = name_of(options.planner);
+  if (options.planner == PlannerKind::prm) answer.pipeline = name_of(options.pipeline);
+  answer.sampler = name_of(options.roadmap.sampler);
+  answer.search = name_of(options.roadmap.search);
+  answer.seed = options.roadmap.seed;
+  answer.options = options.given;
+}
+
+void take_account(Answer& answer, Outcome outcome, StopReason stop_reason, const RoadmapSize& roadmap,
+                  const Separation& separation, const Counters& counters, const StageTimes& seconds) {
+  answer.outcome = outcome;
+  answer.roadmap = roadmap;
+  answer.separation = separation;
+  answer.counters = counters;
+  if (outcome == Outcome::stopped) answer.stop_reason = stop_reason;
+  add(answer.seconds, seconds);
+}
+
+void take_solution(Answer& answer, Solution<Vec2> solution) {
+  answer.path = std::move(solution.path);
+  take_account(answer, solution);
+}
+
+bool stands_free(const Scene& scene, const WallProblem& problem, Vec2 p, const Execution& execution,
+                 const ObstacleIndex* judged) {
+  const VerifyOptions options{.radius = problem.robot.radius,
+                              .clearance = problem.clearance + end_margin(problem.reach()),
+                              .contact = problem.contact};
+  return verify_path(scene, std::span(&p, 1), options, execution, judged).verified;
+}
+
+void settle_blocked_ends(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution,
+                         const ObstacleIndex* judged) {
+  answer.outcome = settled_ends(
+      answer.outcome, [&] { return stands_free(scene, problem, problem.start, execution, judged); },
+      [&] { return stands_free(scene, problem, problem.goal, execution, judged); });
+}
+
+std::string_view cause_of_separation(const Answer& answer, bool by_roadmap) {
+  if (by_roadmap && answer.roadmap.milestones <= 2) return "no_free_sample";
+  if (!answer.separation.is_known()) return {};
+  if (answer.separation.start_size <= 1) return "start_unconnected";
+  return answer.separation.goal_size <= 1 ? "goal_unconnected" : "different_components";
+}
+
+void claim_nothing(Answer& answer) {
+  answer.verified = false;
+  answer.optimal = false;
+  answer.length = 0.0;
+  answer.min_clearance = 0.0;
+  answer.raw_length.reset();
+  answer.cost.reset();
+  answer.turn_rad.reset();
+  answer.path_figures.clear();
+  answer.path.clear();
+  answer.handed.reset();
+  answer.states = {};
+}
+
+void refute(Answer& answer, const Verification& found) {
+  answer.refuted = RefutedPath{.violation = found.first_violation.value_or(Violation{}),
+                               .length = found.length,
+                               .cost = answer.cost,
+                               .path = std::move(answer.path),
+                               .states = std::move(answer.states)};
+  answer.outcome = Outcome::not_connected;
+  claim_nothing(answer);
+}
+
+void fail_verification(const Answer& answer, const std::optional<Violation>& found) {
+  const Violation violation = found.value_or(Violation{});
+  throw RefutedPathError(fmt::format("the path of {} fails its verification at leg {}: {} is {} away", answer.planner,
+                                     violation.leg, violation.obstacle, violation.distance));
+}
+
+void verify_solved(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution,
+                   const ObstacleIndex* judged) {
+  if (answer.outcome != Outcome::solved) return;
+  const StageTimer timer(execution, "verify", answer.seconds.verify, answer.path.size() + scene.walls.size());
+  take_verdict(answer, verify_path(scene, answer.path, verify_options(problem), execution, judged));
+}
+
+void take_verdict(Answer& answer, const Verification& verdict) {
+  if (!verdict.verified) fail_verification(answer, verdict.first_violation);
+  answer.verified = true;
+  answer.length = verdict.length;
+  answer.min_clearance = verdict.min_clearance;
+}
+
+Verdict verify_plane_answer(const Scene& scene, const WallProblem& problem, const RecordedAnswer& answer,
+                            const Execution& execution) {
+  check_state_width(answer, 2, "a point or disc");
+  return {verify_path(scene, answer.path, verify_options(problem), execution), problem.general()};
+}
+
+Box room_of(const Scene& scene, const Execution& execution) {
+  if (!scene.map) return scene.bounds ? *scene.bounds : obstacle_box(scene, execution);
+  const Box cells{{0.0, 0.0}, {static_cast<double>(scene.map->width()), static_cast<double>(scene.map->height())}};
+  Box box;
+  for (const double x : {cells.min.x, cells.max.x}) {
+    for (const double y : {cells.min.y, cells.max.y}) box.include(world_point(*scene.map, {x, y}));
+  }
+  return box;
+}
+
+namespace {
+
+double largest_coordinate_of(const Scene& scene, const Execution& execution) {
+  double largest = 0.0;
+  if (const Box box = room_of(scene, execution); !box.empty()) {
+    for (const double c : {box.min.x, box.min.y, box.max.x, box.max.y}) largest = std::max(largest, std::abs(c));
+  }
+  for (const Sphere& s : scene.spheres) {
+    largest = std::max({largest, std::abs(s.x) + s.radius, std::abs(s.y) + s.radius, std::abs(s.z) + s.radius});
+  }
+  for (const SolidBox& box : scene.boxes) {
+    for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(box.low[k]), std::abs(box.high[k])});
+  }
+  return largest;
+}
+
+}  // namespace
+
+double end_margin(const Scene& scene, const RobotSpec& robot, double clearance, double extent,
+                  const Execution& execution) {
+  const double round = end_margin(clearance + robot.radius, scene.map ? scene.map->cell : 0.0);
+  if (robot.kind == RobotKind::point || robot.kind == RobotKind::disc) return round;
+  constexpr double rounding = 4e-12;  // of coordinates
+  return 2.0 * round + 2e-9 * extent + rounding * largest_coordinate_of(scene, execution);
+}
+
+}  // namespace warren

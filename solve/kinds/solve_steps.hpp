@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From what a planner found to what the program answers, for points and discs of the plane: the solution is taken over,
+// its path verified, and a stop is made an answer.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+
+#include "core/base/solution.hpp"
+#include "parallel/execution.hpp"
+#include "scenes/scene/scene.hpp"
+#include "solve/answer/answer.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
+#include "solve/question/planner_choice.hpp"
+#include "solve/question/question.hpp"
+#include "verify/judges/verify_point.hpp"
+
+namespace warren {
+
+/// Problem, planner and options, as the answer repeats them; for planners that build roadmaps of samples.
+void describe_roadmap_planner(Answer& answer, const WallProblem& problem, const PlannerOptions& options);
+
+/// Outcome, path, sizes, counters and times of a solution.
+void take_solution(Answer& answer, Solution<Vec2> solution);
+
+/// The same without the path, for states of any kind.
+void take_account(Answer& answer, Outcome outcome, StopReason stop_reason, const RoadmapSize& roadmap,
+                  const Separation& separation, const Counters& counters, const StageTimes& seconds);
+template <class State>
+void take_account(Answer& answer, const Solution<State>& s) {
+  take_account(answer, s.outcome, s.stop_reason, s.roadmap, s.separation, s.counters, s.seconds);
+}
+
+/// Does the body fit there as an end, as the verification sees it? `judged`, here and below: of the scene, or nullptr.
+bool stands_free(const Scene& scene, const WallProblem& problem, Vec2 p, const Execution& execution,
+                 const ObstacleIndex* judged = nullptr);
+
+/// What is said of the ends where one is called blocked: by the verification.
+void settle_blocked_ends(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution,
+                         const ObstacleIndex* judged = nullptr);
+
+/// Why a roadmap or trees do not join start and goal, one word a cause; empty where nobody measured how far they are
+/// apart.
+std::string_view cause_of_separation(const Answer& answer, bool by_roadmap);
+
+/// Forgets all that an answer says of a path: only what a judge has verified is claimed.
+void claim_nothing(Answer& answer);
+
+/// The path of a method that promises nothing has failed its verification: it is told as refuted, and as nothing else.
+void refute(Answer& answer, const Verification& found);
+
+/// A path that its judge refuses.
+struct RefutedPathError : std::logic_error {
+  using std::logic_error::logic_error;
+};
+
+/// A planner's path that its judge refuses is a bug: throws RefutedPathError with what the judge found.
+[[noreturn]] void fail_verification(const Answer& answer, const std::optional<Violation>& found);
+
+/// Verifies the path of a solved answer and fills in length and clearance. A path that fails is a bug: throws
+/// std::logic_error.
+void verify_solved(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution,
+                   const ObstacleIndex* judged = nullptr);
+
+/// What the judge of points is asked for the problem.
+VerifyOptions verify_options(const WallProblem& problem);
+/// The judge's word on the path of a solved answer: as verify_solved().
+void take_verdict(Answer& answer, const Verification& verdict);
+
+/// verify_path for the problem: all of it, or of one point only.
+Verdict verify_plane_answer(const Scene& scene, const WallProblem& problem, const RecordedAnswer& answer,
+                            const Execution& execution);
+
+/// Runs `solve`, which fills in `answer`; its seconds are solve_s, and whatever stops it is an answer. One that is not
+/// verified claims nothing.
+template <class Solve>
+void answer_within_limits(Answer& answer, const Solve& solve) {
+  const auto begin = std::chrono::steady_clock::now();
+  const auto stop = [&](StopReason reason) {
+    answer.outcome = Outcome::stopped;
+    answer.stop_reason = reason;
+    answer.refuted.reset();
+    claim_nothing(answer);
+  };
+  try {
+    solve();
+  } catch (const Stopped& stopped) {
+    stop(stopped.reason);
+  } catch (const std::bad_alloc&) {
+    stop(StopReason::memory);
+  }
+  if (!answer.verified) claim_nothing(answer);
+  answer.solve_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// What is said of start and goal where a planner calls one of them blocked. A planner may take a disc for the body that
+// it holds; so the verification decides: an end that it takes is not blocked, the start comes first, and where both
+// stand free nobody has proved anything. Planning keeps a little more room than a path must, and so must ends: the
+// verification is asked with end_margin() more, so that all planners say the same of an end that only touches.
+
+/// Of an end that has its room, but none to spare.
+inline constexpr std::string_view touching_hint =
+    "the body has its room there but only just: an end needs a billionth to spare, as planning keeps it";
+
+/// Of a point or disc that keeps `reach`; on a map `cell` is a cell's side. Above what planning keeps there
+/// (worlds/plane): a billionth.
+inline double end_margin(double reach, double cell = 0.0) { return 2e-9 * std::max(reach, cell); }
+
+/// Of any body that reaches as far as `extent` from its reference point, an arm's base: above what planning keeps
+/// (worlds/poses/obstacle_tree, worlds/arms/arm_world). Of bodies that turn and arms one pass over the obstacles.
+/// Throws Stopped.
+double end_margin(const Scene& scene, const RobotSpec& robot, double clearance, double extent,
+                  const Execution& execution);
+
+/// start_stands_free(), goal_stands_free(): by the verification; asked only where the outcome is about an end.
+template <class StartStandsFree, class GoalStandsFree>
+Outcome settled_ends(Outcome outcome, const StartStandsFree& start_stands_free,
+                     const GoalStandsFree& goal_stands_free) {
+  if (!is_blocked(outcome)) return outcome;
+  if (!start_stands_free()) return Outcome::start_blocked;
+  return goal_stands_free() ? Outcome::not_connected : Outcome::goal_blocked;
+}
+
+/// The box in which reference points of bodies of the plane may be: map, bounds, or what the obstacles fill. Throws
+/// Stopped.
+Box room_of(const Scene& scene, const Execution& execution);
+
+}  // namespace warren

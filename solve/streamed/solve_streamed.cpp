@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A point or disc in a maze whose walls are not held: prm on its lattice, whose tiles are made, reduced and forgotten;
+// those of the path are made again to expand it piece by piece, and once more for the judge. solve_s includes all of
+// it.
+#include "solve/streamed/solve_streamed.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "planners/mazes/overlay_path.hpp"
+#include "planners/mazes/tile_source.hpp"
+#include "planners/mazes/tiled_prm_lattice.hpp"
+#include "solve/answer/path_hash.hpp"
+#include "solve/answer/world_account.hpp"
+#include "solve/explain/blocked_end.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
+#include "solve/kinds/solve_steps.hpp"
+#include "solve/question/planner_choice.hpp"
+#include "solve/streamed/streamed_walls.hpp"
+#include "verify/streamed/verify_cells.hpp"
+
+namespace warren {
+namespace {
+
+VerifyOptions judged_as(const WallProblem& problem) {
+  return {.radius = problem.robot.radius, .clearance = problem.clearance, .start = problem.start, .goal = problem.goal};
+}
+
+/// Judges a path as it comes, and hands it on.
+class JudgedPath : public PathTaker {
+ public:
+  JudgedPath(JudgeAmongCells judge, PathTaker& next, StageTimes& seconds, const Execution& execution)
+      : judge_(std::move(judge)), next_(next), seconds_(seconds), execution_(execution) {}
+
+  void begin(std::uint64_t points) override {
+    points_ = points;
+    next_.begin(points);
+  }
+  void add(std::span<const Vec2> piece) override {
+    {
+      const StageTimer timer(execution_, "verify", seconds_.verify);
+      judge_.add(piece);
+    }
+    for (const Vec2 p : is_first_ ? piece : piece.subspan(1)) {
+      hash_.add(p.x);
+      hash_.add(p.y);
+    }
+    is_first_ = false;
+    next_.add(piece);
+  }
+  Verification verdict() const { return judge_.verdict(); }
+  HandedPath handed() const { return {points_, hash_.text()}; }
+
+ private:
+  JudgeAmongCells judge_;
+  PathTaker& next_;
+  StageTimes& seconds_;
+  const Execution& execution_;
+  PathHash hash_;
+  std::uint64_t points_ = 0;
+  bool is_first_ = true;
+};
+
+/// One solve: the steps share the question and fill in the answer.
+class StreamedSolve {
+ public:
+  StreamedSolve(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
+                const Execution& execution, const StreamedHelp& help)
+      : scene_(scene), problem_(problem), options_(options), execution_(execution), help_(help) {
+    if (options.optimise) throw UsageError("@optimise: pulls no path taut among walls that are not held");
+    if (!(problem.reach() < most_cell_clearance * (1 - 1e-8))) {
+      throw UsageError(
+          "@clearance: with the body's radius it must be below half a cell where walls are made tile by tile");
+    }
+    describe_roadmap_planner(answer_, problem, options);
+  }
+
+  void run() {
+    open_walls();
+    plan_and_verify();
+    answer_.outcome = settled_ends(
+        answer_.outcome, [&] { return stands_free(problem_.start); }, [&] { return stands_free(problem_.goal); });
+    explain_blocked_cell(problem_, *scene_.maze, answer_, [&](Vec2 p) { return met_at(p); });
+    count_walls();
+  }
+  Answer& answer() { return answer_; }
+
+ private:
+  void open_walls() {
+    const std::uint64_t groups = (std::uint64_t{scene_.maze->rows} * scene_.maze->cols >> 22U) + 1;
+    double& seconds = scene_.packed ? answer_.seconds.index : answer_.seconds.generate;
+    const StageTimer timer(execution_, scene_.packed ? "index" : "generate", seconds, groups);
+    const std::string hash = unmade_hash(scene_);
+    if (help_.kept != nullptr && !hash.empty()) help_.kept->begin(work(hash));
+    walls_ = help_.team != nullptr ? help_.team->make(execution_) : streamed_walls(scene_, execution_, help_.kept);
+    if (help_.kept != nullptr && hash.empty()) help_.kept->begin(work(walls_->hash().value()));
+  }
+  /// All that the tiles' reductions depend on.
+  std::string work(const std::string& hash) const {
+    return fmt::format("warren {}, {} x {} cells with hash {}, {} {} to {} {}, keeping {} off the walls",
+                       WARREN_VERSION, scene_.maze->rows, scene_.maze->cols, hash, problem_.start.x, problem_.start.y,
+                       problem_.goal.x, problem_.goal.y, problem_.reach());
+  }
+  /// Piece by piece: what the path is made of, its judge sees before the next is made.
+  void plan_and_verify() {
+    const WallSet none;
+    Path<Vec2> kept;
+    PathKeeper keeper(kept, execution_);
+    JudgesElsewhere* const judges = help_.team != nullptr ? &help_.team->judges() : nullptr;
+    JudgedPath judged({walls_->judged(), judged_as(problem_), execution_, judges},
+                      help_.taker != nullptr ? *help_.taker : keeper, answer_.seconds, execution_);
+    take_solution(answer_, tiled_prm({none,
+                                      {},
+                                      {},
+                                      problem_.reach(),
+                                      problem_.start,
+                                      problem_.goal,
+                                      &walls_->planned(),
+                                      true,
+                                      &judged,
+                                      help_.kept,
+                                      help_.team != nullptr ? &help_.team->tiles() : nullptr},
+                                     options_.roadmap, execution_));
+    if (answer_.outcome != Outcome::solved) return;
+    const Verification found = judged.verdict();
+    if (!found.verified) fail_verification(answer_, found.first_violation);
+    answer_.path = std::move(kept);
+    if (help_.taker != nullptr) answer_.handed = judged.handed();
+    answer_.verified = true;
+    answer_.length = found.length;
+    answer_.min_clearance = found.min_clearance;
+  }
+  std::optional<Violation> met_at(Vec2 p) const {
+    const VerifyOptions options{.radius = problem_.robot.radius,
+                                .clearance = problem_.clearance + end_margin(problem_.reach())};
+    return verify_among_cells(walls_->judged(), std::span(&p, 1), options, execution_).first_violation;
+  }
+  bool stands_free(Vec2 p) const { return !met_at(p); }
+  /// Below half a cell nothing but a wall between two cells blocks a step, so the steps that are free say how many
+  /// walls stand; the outline counts as four, as in maze_walls.
+  void count_walls() {
+    answer_.world = account_of(scene_, walls_->hash().value_or(unmade_hash(scene_)));
+    if (walls_->wall_count()) {
+      answer_.world.walls = *walls_->wall_count();
+      return;
+    }
+    const RoadmapSize& roadmap = answer_.roadmap;
+    const std::uint64_t rows = scene_.maze->rows;
+    const std::uint64_t cols = scene_.maze->cols;
+    if (roadmap.milestones == rows * cols + 2) {
+      answer_.world.walls = 4 + 2 * rows * cols - rows - cols - (roadmap.edges - roadmap.end_edges);
+    }
+  }
+
+  const Scene& scene_;
+  const WallProblem& problem_;
+  const PlannerOptions& options_;
+  const Execution& execution_;
+  const StreamedHelp& help_;
+  std::unique_ptr<StreamedWalls> walls_;
+  Answer answer_;
+};
+
+constexpr PlannerChoice streamed_planners[] = {{PlannerKind::prm, prm_takes | OptionSet{Option::pipeline}}};
+
+bool fits_streamed(const Scene& scene, const RobotSpec& robot) {
+  return is_unmade(scene) && (robot.kind == RobotKind::point || robot.kind == RobotKind::disc);
+}
+
+PlannerKind usual_streamed_planner(const SolveOptions&, const Scene&, const Question&) { return PlannerKind::prm; }
+
+Answer solve_request(const SolveRequest& request) {
+  const WallProblem problem = keeping_off(request.scene, request.question, "prm keeps off the walls");
+  return solve_streamed(request.scene, problem, planner_options(request.options, request.scene, problem),
+                        request.execution, {.taker = request.taker});
+}
+
+Verdict recheck_streamed(const Scene& scene, const Question& question, const RecordedAnswer& answer,
+                         const Execution& execution) {
+  const WallProblem problem = wall_problem(scene, question);
+  check_state_width(answer, 2, "a point or disc");
+  const auto walls = streamed_walls(scene, execution);
+  if (walls->hash() && answer.world_hash && *walls->hash() != *answer.world_hash) {
+    refuse_other_world(answer, answer.file, scene, *walls->hash());
+  }
+  return {verify_among_cells(walls->judged(), answer.path, judged_as(problem), execution), problem.general()};
+}
+
+}  // namespace
+
+Answer solve_streamed(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
+                      const Execution& execution, const StreamedHelp& help) {
+  StreamedSolve solve(scene, problem, options, execution, help);
+  answer_within_limits(solve.answer(), [&] { solve.run(); });
+  return std::move(solve.answer());
+}
+
+Answer solve_streamed_within(const Scene& scene, const Question& question, const SolveOptions& options,
+                             const Execution& execution, const StreamedHelp& help) {
+  question.validate();
+  options.validate();
+  check_solver_options(options);
+  if (!choose_solver(options, scene, question).kind->unmade) throw UsageError("@pipeline: these walls are held");
+  const WallProblem problem = keeping_off(scene, question, "prm keeps off the walls");
+  Answer answer = solve_streamed(scene, problem, planner_options(options, scene, problem), execution, help);
+  answer.threads = thread_count(execution.threads);
+  answer.peak_memory_bytes = peak_resident_bytes();
+  return answer;
+}
+
+SolveKind streamed_kind() {
+  SolveKind kind{"a point or disc in a maze made tile by tile",
+                 fits_streamed,
+                 streamed_planners,
+                 usual_streamed_planner,
+                 solve_request,
+                 nullptr,
+                 recheck_streamed};
+  kind.unmade = true;
+  return kind;
+}
+
+}  // namespace warren

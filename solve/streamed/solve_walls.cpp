@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/streamed/solve_walls.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "planners/mazes/tiled_prm_lattice.hpp"
+#include "planners/shorten/taut_path.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
+#include "solve/kinds/sampled_roadmap.hpp"
+#include "solve/kinds/sampled_solve.hpp"
+#include "solve/kinds/solve_steps.hpp"
+#include "worlds/plane/maze_world.hpp"
+
+namespace warren {
+namespace {
+
+// The proof behind "infeasible": where all walls lie on the unit grid, a body of any size that keeps off the walls can
+// pass from cell to cell only through open sides (a grid point without walls is the corner of four open sides), so
+// cells that a flood does not join are not joined by any path. Claims nothing where bounds reach beyond the maze's box,
+// since a path could leave by the entrance and come in again by the exit. O(walls + cells).
+
+/// Zero-based {col, row} of a cell whose closed square holds p, a point of the maze's box. On a side between two cells
+/// either will do: p is free, so the side is open.
+std::pair<std::uint32_t, std::uint32_t> cell_of(Vec2 p, MazeHint maze) {
+  const auto at = [](double x, std::uint32_t count) {
+    return static_cast<std::uint32_t>(std::clamp(std::floor(x - 0.5), 0.0, static_cast<double>(count - 1)));
+  };
+  return {at(p.x, maze.cols), at(p.y, maze.rows)};
+}
+
+bool holds(const Box& outer, const Box& inner) { return outer.contains(inner.min) && outer.contains(inner.max); }
+
+/// Is it proved that no path joins start and goal? Both are free points of the scene, which has the maze hint.
+bool proves_infeasible(const Scene& scene, Vec2 start, Vec2 goal, const Execution& execution) {
+  const MazeHint maze = *scene.maze;
+  const Box box{{0.5, 0.5}, {maze.cols + 0.5, maze.rows + 0.5}};
+  if (!box.contains(start) || !box.contains(goal)) return false;
+  if (scene.bounds && !holds(box, *scene.bounds)) return false;
+  const MazeCells cells = cells_of_walls(scene.walls, maze, execution);
+  return !flood_connects(cells, cell_of(start, maze), cell_of(goal, maze), execution);
+}
+
+/// One solve: the steps share the question and fill in the answer.
+class WallSolve {
+ public:
+  WallSolve(const Scene& scene, const WallProblem& problem, const PlannerOptions& options, const Execution& execution,
+            const RoadmapAsked& asked)
+      : scene_(scene), problem_(problem), options_(options), execution_(execution), asked_(asked) {
+    describe_roadmap_planner(answer_, problem, options);
+    if (asked.session != nullptr && options.planner == PlannerKind::prm)
+      answer_.pipeline = name_of(PipelineKind::plain);
+  }
+
+  void run(PlannedRoadmap<Vec2>* keep) {
+    plan(keep);
+    settle_blocked_ends(answer_, scene_, problem_, execution_, asked_.judged());
+    if (answer_.outcome == Outcome::not_connected) proved_infeasible();
+    tell_cause();
+    if (options_.optimise && answer_.outcome == Outcome::solved) optimise();
+    verify_solved(answer_, scene_, problem_, execution_, asked_.judged());
+  }
+  Answer& answer() { return answer_; }
+
+ private:
+  const MazeWorld& indexed_world();
+  void plan(PlannedRoadmap<Vec2>* keep);
+  Solution<Vec2> plan_tiles();
+  bool grows() const;
+  bool ends_are_free(const MazeWorld& world) const;
+  bool proved_infeasible();
+  void tell_cause();
+  void optimise();
+
+  const Scene& scene_;
+  const WallProblem& problem_;
+  const PlannerOptions& options_;
+  const Execution& execution_;
+  RoadmapAsked asked_;
+  std::optional<MazeWorld> world_;  // tiles need none; made where it is first asked for
+  Answer answer_;
+};
+
+const MazeWorld& WallSolve::indexed_world() {
+  if (asked_.session != nullptr) return *static_cast<const SessionIn<MazeWorld>&>(*asked_.session).world;
+  if (!world_) {
+    const StageTimer timer(execution_, "index", answer_.seconds.index, scene_.walls.size());
+    world_.emplace(scene_, problem_.reach(), execution_);
+  }
+  return *world_;
+}
+
+void WallSolve::plan(PlannedRoadmap<Vec2>* keep) {
+  if (asked_.session != nullptr) {
+    const auto& session = static_cast<const SessionIn<MazeWorld>&>(*asked_.session);
+    take_solution(answer_, ask_roadmap(*session.roadmap, problem_.start, problem_.goal, options_.roadmap, execution_,
+                                       *asked_.scratch, keep));
+    return;
+  }
+  if (options_.pipeline != PipelineKind::plain) {
+    take_solution(answer_, plan_tiles());
+    return;
+  }
+  const MazeWorld& world = indexed_world();
+  if (grows() && ends_are_free(world) && proved_infeasible()) return;
+  const auto planner = options_.planner == PlannerKind::prm ? prm<MazeWorld> : lazy_prm<MazeWorld>;
+  take_solution(answer_, planner(world, problem_.start, problem_.goal, options_.roadmap, execution_, keep));
+}
+
+Solution<Vec2> WallSolve::plan_tiles() {
+  const std::vector<Segment> bounds = bounds_walls(scene_);
+  const TiledProblem problem{scene_.walls,   bounds,        scene_.bounds, problem_.reach(),
+                             problem_.start, problem_.goal, nullptr,       options_.pipeline == PipelineKind::streamed};
+  return tiled_prm(problem, options_.roadmap, execution_);
+}
+
+/// Does the roadmap grow until start and goal connect? Then one asks first whether they ever can.
+bool WallSolve::grows() const { return options_.roadmap.sampler != SamplerKind::lattice && !options_.roadmap.samples; }
+
+bool WallSolve::ends_are_free(const MazeWorld& world) const {
+  auto query = world.make_query();
+  return world.is_free(problem_.start, query) && world.is_free(problem_.goal, query);
+}
+
+bool WallSolve::proved_infeasible() {
+  if (!scene_.maze) return false;
+  const StageTimer timer(execution_, "proof", answer_.seconds.search);
+  if (!proves_infeasible(scene_, problem_.start, problem_.goal, execution_)) return false;
+  answer_.outcome = Outcome::infeasible;
+  return true;
+}
+
+/// As SampledSolve says it of other bodies.
+void WallSolve::tell_cause() {
+  const auto tell = [&](std::string_view cause) {
+    if (!cause.empty()) answer_.figures.push_back({"cause", std::string(cause)});
+  };
+  if (answer_.outcome == Outcome::start_blocked) tell("start_in_collision");
+  if (answer_.outcome == Outcome::goal_blocked) tell("goal_in_collision");
+  if (answer_.outcome == Outcome::not_connected) tell(cause_of_separation(answer_, true));
+}
+
+void WallSolve::optimise() {
+  const MazeWorld& world = indexed_world();
+  const StageTimer timer(execution_, "optimise", answer_.seconds.optimise, answer_.path.size());
+  answer_.raw_length = path_length(answer_.path, MazeWorld::distance);
+  answer_.path = taut_path(world.walls(), answer_.path, world.planning_clearance(), execution_);
+}
+
+/// As a body of sampled_roadmap.hpp.
+class PointAmongWalls : public UsualBody {
+ public:
+  using World = MazeWorld;
+  static constexpr bool judged_by_index = true;
+
+  explicit PointAmongWalls(const SolveRequest& request)
+      : scene_(request.scene), execution_(request.execution), problem_(problem_of(request)) {}
+  Problem problem() const { return problem_.general(); }
+  static SamplerKind choose_sampler(const SolveOptions&, const RoadmapOptions& roadmap) { return roadmap.sampler; }
+  void index(std::optional<World>& world, SamplerKind) const { world.emplace(scene_, problem_.reach(), execution_); }
+
+ private:
+  static WallProblem problem_of(const SolveRequest& request) {
+    return keeping_off(request.scene, request.question, "prm and lazy-prm keep off the walls");
+  }
+  const Scene& scene_;
+  const Execution& execution_;
+  WallProblem problem_;
+};
+
+constexpr OptionSet shared_options =
+    prm_takes | OptionSet{Option::lazy, Option::pipeline, Option::heuristic, Option::neighbour_index};
+constexpr PlannerChoice walls_planners[] = {{PlannerKind::prm, shared_options},
+                                            {PlannerKind::lazy_prm, shared_options}};
+
+bool fits_walls(const Scene& scene, const RobotSpec& robot) {
+  const bool plain = robot.kind == RobotKind::point || robot.kind == RobotKind::disc;
+  return plain && scene.polygons.empty();
+}
+
+PlannerKind usual_walls_planner(const SolveOptions& options, const Scene& scene, const Question&) {
+  return usual_roadmap_planner(options, scene);
+}
+
+WallProblem problem_of(const SolveRequest& request) {
+  return keeping_off(request.scene, request.question, "prm and lazy-prm keep off the walls");
+}
+
+Answer solve_walls(const SolveRequest& request) {
+  const WallProblem problem = problem_of(request);
+  const PlannerOptions options = planner_options(request.options, request.scene, problem);
+  PlannedRoadmap<Vec2>* keep = request.keep != nullptr ? &request.keep->roadmap : nullptr;
+  return solve_walls(request.scene, problem, options, request.execution, keep, request.asked);
+}
+
+constexpr std::uint64_t most_drawn = 40'000;  // cells: beyond, a picture's edges would merge
+
+/// Tiles keep no roadmap.
+void make_roadmap(const SolveRequest& request) {
+  const WallProblem problem = problem_of(request);
+  const PlannerOptions options = planner_options(request.options, request.scene, problem);
+  if (options.planner != PlannerKind::prm || options.pipeline == PipelineKind::plain) return;
+  draw_roadmap(request.scene, problem, options, request.execution, request.keep->roadmap);
+}
+
+Verdict recheck_walls(const Scene& scene, const Question& question, const RecordedAnswer& answer,
+                      const Execution& execution) {
+  return verify_plane_answer(scene, wall_problem(scene, question), answer, execution);
+}
+
+}  // namespace
+
+Answer solve_walls(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
+                   const Execution& execution, PlannedRoadmap<Vec2>* keep, const RoadmapAsked& asked) {
+  WallSolve solve(scene, problem, options, execution, asked);
+  answer_within_limits(solve.answer(), [&] { solve.run(keep); });
+  return std::move(solve.answer());
+}
+
+void draw_roadmap(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
+                  const Execution& execution, PlannedRoadmap<Vec2>& roadmap) {
+  const LatticeSize size = options.roadmap.lattice;
+  if (std::uint64_t{size.rows} * size.cols > most_drawn) return;
+  const MazeWorld world(scene, problem.reach(), execution);
+  prm(world, problem.start, problem.goal, options.roadmap, execution, &roadmap);
+}
+
+SolveKind walls_kind() {
+  return {"a point or disc among walls",
+          fits_walls,
+          walls_planners,
+          usual_walls_planner,
+          solve_walls,
+          make_roadmap,
+          recheck_walls,
+          build_sampled<PointAmongWalls>,
+          open_sampled<PointAmongWalls>};
+}
+
+}  // namespace warren

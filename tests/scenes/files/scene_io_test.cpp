@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scenes/files/scene_io.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/base/rng.hpp"
+#include "scenes/mazes/maze_generator.hpp"
+#include "tests/scenes/files/temporary_directory.hpp"
+
+namespace warren {
+namespace {
+
+Scene read(const TemporaryDirectory& directory, std::string_view text) {
+  return read_scene_text(InputFile(directory.write("a.scene", text), {}), {});
+}
+
+TEST(SceneText, ReadsEveryItemOfTheFormat) {
+  const TemporaryDirectory directory;
+  const Scene scene = read(directory,
+                           "\xef\xbb\xbf# every item\r\n"
+                           "wall 1 2 3 4\r\n"
+                           "  5,6 , 7\t8  # a bare wall\n"
+                           "polygon 0 0 1 0 1 1 0 1\n"
+                           "sphere 1 2 3 0.5\n"
+                           "bounds -1 -2 10 20\n"
+                           "clearance .25\n"
+                           "robot car radius 0.5 turning +1\n"
+                           "start 0 0 -1.5e0\n"
+                           "goal 4 5\n"
+                           "grid 0.5 36\n"
+                           "\n"
+                           "-1 -2 -3 -4");
+  ASSERT_EQ(scene.walls.size(), 3U);
+  EXPECT_EQ(scene.walls.segment(0), (Segment{{1, 2}, {3, 4}}));
+  EXPECT_EQ(scene.walls.segment(1), (Segment{{5, 6}, {7, 8}}));
+  EXPECT_EQ(scene.walls.segment(2), (Segment{{-1, -2}, {-3, -4}}));
+  EXPECT_TRUE(scene.walls.holds_floats());
+  ASSERT_EQ(scene.polygons.size(), 1U);
+  EXPECT_EQ(scene.polygons[0].corners, (std::vector<Vec2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
+  EXPECT_EQ(scene.polygons[0].line, 4U);
+  ASSERT_EQ(scene.spheres.size(), 1U);
+  EXPECT_EQ(scene.spheres[0].z, 3.0);
+  EXPECT_EQ(scene.spheres[0].radius, 0.5);
+  EXPECT_EQ(scene.bounds->max, (Vec2{10, 20}));
+  EXPECT_EQ(scene.clearance, 0.25);
+  EXPECT_EQ(scene.robot->kind, RobotKind::car);
+  EXPECT_EQ(scene.robot->radius, 0.5);
+  EXPECT_EQ(scene.robot->turning_radius, 1.0);
+  EXPECT_EQ(scene.start, (std::vector<double>{0, 0, -1.5}));
+  EXPECT_EQ(scene.goal, (std::vector<double>{4, 5}));
+  EXPECT_EQ(scene.grid->cell, 0.5);
+  EXPECT_EQ(scene.grid->angles, 36U);
+  EXPECT_FALSE(scene.maze.has_value());
+}
+
+TEST(SceneText, ReadsEveryRobot) {
+  const TemporaryDirectory directory;
+  const auto robot = [&](const std::string& line) { return *read(directory, "robot " + line + "\n0 0 1 1\n").robot; };
+  EXPECT_EQ(robot("point").kind, RobotKind::point);
+  EXPECT_EQ(robot("disc 0.3").radius, 0.3);
+  EXPECT_EQ(robot("polygon -1 -1 1 -1 0 1").outline, (std::vector<Vec2>{{-1, -1}, {1, -1}, {0, 1}}));
+  EXPECT_EQ(robot("puma560 radius 0.05").tool, 0.0);
+  EXPECT_EQ(robot("puma560 radius 0.05 tool 0.2").tool, 0.2);
+  EXPECT_EQ(robot("car turning 2 radius 0").turning_radius, 2.0);
+  EXPECT_EQ(robot("puma560 limits symmetric radius 0.05 self-collision").limits, "symmetric");
+  EXPECT_TRUE(robot("puma560 self-collision radius 0.05").self_collision);
+  EXPECT_EQ(robot("arm my.dh radius 0.05 tool 0.1").kind, RobotKind::arm);
+  EXPECT_EQ(robot("arm my.dh radius 0.05 tool 0.1").table, "my.dh");
+}
+
+TEST(SceneText, TakesWallsAsTheyAre) {
+  const TemporaryDirectory directory;
+  const Scene scene = read(directory,
+                           "0 0 0 0\n0 0 1 1\n0 1 1 0\n0 0 1 1\n0.25 0.25 2 2\n1e6 1e-9 3 0.1\n"
+                           "1e-101 -1e-200 1e-400 -0.0000000000000000000001\n1e60 -1e60 0 0\n");
+  ASSERT_EQ(scene.walls.size(), 8U);
+  EXPECT_FALSE(scene.walls.holds_floats());
+  EXPECT_EQ(scene.walls.segment(5), (Segment{{1e6, 1e-9}, {3, 0.1}}));
+  EXPECT_EQ(scene.walls.segment(6), (Segment{{0, 0}, {0, -1e-22}}));  // below 1e-100 is zero
+  EXPECT_EQ(scene.walls.segment(7).a, (Vec2{1e60, -1e60}));
+  EXPECT_EQ(scene.walls.segment(4), (Segment{{0.25, 0.25}, {2, 2}}));
+}
+
+TEST(SceneText, OfARobotAloneIsFreeSpace) {
+  const TemporaryDirectory directory;
+  const Scene scene = read(directory, "robot puma560 radius 0.05\nstart 0 0 0 0 0 0\n");
+  EXPECT_TRUE(scene.robot.has_value());
+  EXPECT_EQ(scene.walls.size(), 0U);
+}
+
+struct BadScene {
+  const char* name;
+  std::string content;
+  const char* expected;  ///< ":line: " and part of the message
+};
+
+TEST(SceneText, RefusesBadInputInOneLineThatNamesFileAndLine) {
+  const std::string nul("0 0 1 1\n\0\0\1 binary\n", 19);
+  const BadScene cases[] = {
+      {"empty", "", ":1: the file is empty"},
+      {"comments only", "# nothing\n\n", ":2: the file ends without any wall, polygon, sphere, box or bounds"},
+      {"three numbers", "0 0 1 1\n1 2 3\n", ":2: expected `wall X1 Y1 X2 Y2` (found: 3 numbers)"},
+      {"one number", "17", ":1: expected `wall X1 Y1 X2 Y2` (found: 1 number)"},
+      {"five numbers", "1 2 3 4 5\n", ":1: expected `wall X1 Y1 X2 Y2` (found: 5 numbers)"},
+      {"wall without numbers", "wall\n", ":1: expected `wall X1 Y1 X2 Y2` (found: 0 numbers)"},
+      {"nan", "0 0 nan 1\n", ":1: numbers must be finite (found: nan)"},
+      {"infinity", "0 0 1 1\n0 0 -inf 1\n", ":2: numbers must be finite (found: -inf)"},
+      {"1e308", "0 0 1 1e308\n", ":1: numbers must not exceed 1e60 in magnitude (found: 1e308)"},
+      {"1e999", "0 0 1 -1e999\n", ":1: numbers must not exceed 1e60 in magnitude (found: -1e999)"},
+      {"1e61", "wall 0 1e61 1 1\n", ":1: numbers must not exceed 1e60 in magnitude (found: 1e61)"},
+      {"long integer", "0 0 1 1" + std::string(400, '0') + "\n", ":1: numbers must not exceed 1e60"},
+      {"word among numbers", "0 0 one 1\n", ":1: expected a number (found: one)"},
+      {"digits then letters", "0 0 1m 1\n", ":1: expected a number (found: 1m)"},
+      {"comma as decimal point", "0;5 0 1 1\n", ":1: expected a number (found: 0;5)"},
+      {"hexadecimal", "0x10 0 1 1\n", ":1: expected a number (found: 0x10)"},
+      {"two signs", "+-1 0 1 1\n", ":1: expected a number (found: +-1)"},
+      {"lone minus", "- 0 1 1\n", ":1: expected a number (found: -)"},
+      {"unknown item", "0 0 1 1\nwals 0 0 1 1\n", ":2: unknown item; did you mean `wall`? (found: wals)"},
+      {"capitals", "POLYGON ((0 0))\n", ":1: unknown item; expected four numbers or one of wall, polygon"},
+      {"far word", "obstruction 1 2\n", ":1: unknown item; expected four numbers or one of wall"},
+      {"JSON", "{\"walls\": []}\n", ":1: unknown item"},
+      {"two corners", "polygon 0 0 1 1\n", ":1: expected `polygon X Y X Y X Y ...` (found: 4 numbers)"},
+      {"odd corners", "polygon 0 0 1 1 2 0 3\n", ":1: expected `polygon X Y X Y X Y ...` (found: 7 numbers)"},
+      {"sphere without radius", "sphere 0 0 0\n", ":1: expected `sphere X Y Z R` (found: 3 numbers)"},
+      {"negative radius", "sphere 0 0 0 -1\n", ":1: `sphere`: the radius must be at least 0 (found: -1)"},
+      {"bounds inverted", "bounds 5 0 1 9\n", ":1: `bounds`: XMIN must be less than XMAX = 1 (found: 5)"},
+      {"bounds empty", "bounds 0 3 1 3\n", ":1: `bounds`: YMIN must be less than YMAX = 3 (found: 3)"},
+      {"bounds short", "bounds 0 3 1\n", ":1: expected `bounds XMIN YMIN XMAX YMAX` (found: 3 numbers)"},
+      {"clearance negative", "clearance -0.1\n0 0 1 1\n", ":1: `clearance`: R must be at least 0 (found: -0.1)"},
+      {"clearance missing", "clearance\n0 0 1 1\n", ":1: expected `clearance R` (found: 0 numbers)"},
+      {"maze of no rows", "maze 0 5\n", ":1: `maze`: ROWS must be a whole number, at least 1"},
+      {"maze of negative columns", "maze 5 -5\n", ":1: `maze`: COLS must be a whole number, at least 1"},
+      {"maze of half a row", "maze 2.5 5\n", ":1: `maze`: ROWS must be a whole number"},
+      {"huge maze", "maze 65536 65536\n", ":1: `maze`: ROWS x COLS must be below 2^32 (found: 65536x65536)"},
+      {"huge side", "maze 1e20 1\n", ":1: `maze`: ROWS must be a whole number, at least 1 and below 2^32"},
+      {"wall off the grid", "maze 2 2\n# so\n1.5 0.5 1.5 1.5\nwall 1 0.5 1 1.5\n",
+       ":4: this wall is not on the unit grid of the 2x2 maze of line 1 (found: wall 1 0.5 1 1.5)"},
+      {"wall outside the maze", "1.5 0.5 1.5 1.5\n2.5 0.5 2.5 3.5\nmaze 2 2\n",
+       ":2: this wall is not on the unit grid of the 2x2 maze of line 3"},
+      {"oblique wall in a maze", "maze 2 2\n0.5 0.5 1.5 1.5\n", ":2: this wall is not on the unit grid"},
+      {"unknown robot", "robot cube 1\n", ":1: expected `robot point|disc R|polygon"},
+      {"no robot", "robot\n", ":1: expected `robot point|disc R|polygon X Y X Y X Y ...|car radius R turning RHO|"},
+      {"point with a size", "robot point 1\n0 0 1 1\n", ":1: expected `robot point|"},
+      {"disc negative", "robot disc -1\n0 0 1 1\n", ":1: `robot`: R must be at least 0 (found: -1)"},
+      {"disc without radius", "robot disc\n0 0 1 1\n", ":1: expected `robot point|"},
+      {"car without turning", "robot car radius 1\n", ":1: expected `robot car radius R|polygon"},
+      {"car with two bodies", "robot car radius 1 polygon 0 0 1 0 0 1 turning 1\n",
+       ":1: expected `robot car radius R|polygon"},
+      {"car of two corners", "robot car polygon 0 0 1 0 turning 1\n", ":1: expected `robot car radius R|polygon"},
+      {"car with half a corner", "robot car polygon 0 0 1 0 0 turning 1\n", ":1: expected `robot car radius R|polygon"},
+      {"car that steers otherwise", "robot car radius 1 turning 1 steering ackermann\n",
+       ":1: expected `robot car radius R|polygon"},
+      {"car without a steering", "robot car radius 1 turning 1 steering\n", ":1: expected `robot car radius R|polygon"},
+      {"car turning on the spot", "robot car radius 1 turning 0\n", ":1: `robot`: turning must be greater than 0"},
+      {"car with two radii", "robot car radius 1 radius 1 turning 1\n", ":1: expected `robot car radius R|polygon"},
+      {"car radius missing", "robot car radius turning 1\n", ":1: expected a number (found: turning)"},
+      {"car radius ends", "robot car turning 1 radius\n", ":1: a number is missing"},
+      {"puma with turning", "robot puma560 radius 1 turning 1\n", ":1: expected `robot point|"},
+      {"puma with unknown limits", "robot puma560 radius 1 limits wide\n", ":1: expected `robot point|"},
+      {"puma with limits twice", "robot puma560 radius 1 limits classic limits classic\n",
+       ":1: expected `robot point|"},
+      {"arm without a file", "robot arm\n", ":1: expected `robot point|"},
+      {"arm with limits", "robot arm a.dh radius 1 limits classic\n", ":1: expected `robot point|"},
+      {"box of five numbers", "box 0 0 0 1 1\n", ":1: expected `box X1 Y1 Z1 X2 Y2 Z2` (found: 5 numbers)"},
+      {"robot outline of two corners", "robot polygon 0 0 1 1\n", ":1: expected `robot point|"},
+      {"two starts", "0 0 1 1\nstart 1 1\nstart 1 2\n", ":3: a second `start` line; the first is line 2"},
+      {"two bounds", "bounds 0 0 1 1\n\nbounds 0 0 1 1\n", ":3: a second `bounds` line; the first is line 1"},
+      {"two robots", "robot point\nrobot point\n0 0 1 1\n", ":2: a second `robot` line; the first is line 1"},
+      {"start of four numbers", "0 0 1 1\nstart 1 2 3 4\n", ":2: expected `start X Y [THETA] or six joint angles`"},
+      {"goal of one number", "0 0 1 1\ngoal 1\n",
+       ":2: expected `goal X Y [THETA] or six joint angles` (found: 1 number)"},
+      {"start that turns for a point", "robot point\n0 0 1 1\nstart 1 2 3\n",
+       ":3: `start` must be 2 numbers for the robot of line 1 (found: 3 numbers)"},
+      {"start without heading for a car", "start 1 2\n0 0 1 1\nrobot car radius 1 turning 1\n",
+       ":1: `start` must be 3 numbers for the robot of line 3 (found: 2 numbers)"},
+      {"planar goal for an arm", "robot puma560 radius 1\nsphere 0 0 0 1\ngoal 1 2\n",
+       ":3: `goal` must be 6 numbers for the robot of line 1 (found: 2 numbers)"},
+      {"grid of no cell", "grid 0 4\n0 0 1 1\n", ":1: `grid`: CELL must be greater than 0 (found: 0)"},
+      {"grid of no angle", "grid 1 0\n0 0 1 1\n", ":1: `grid`: ANGLES must be a whole number, at least 1"},
+      {"grid of half an angle", "grid 1 0.5\n0 0 1 1\n", ":1: `grid`: ANGLES must be a whole number, at least 1"},
+      {"binary", nul, ":2: this is not a text file (found: \\x00\\x00\\x01 binary)"},
+      {"UTF-16",
+       std::string("\xff\xfe"
+                   "0\0 \0",
+                   6),
+       ":1: expected UTF-8 text, not UTF-16 (found: \\xff\\xfe)"},
+      {"huge word", "0 0 1 " + std::string(10'000'000, 'x') + "\n",
+       ":1: expected a number (found: xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx...)"},
+      {"huge line",
+       [] {
+         std::string line;
+         for (int i = 0; i < 200'000; ++i) line += "1 2 3 ";
+         return line;
+       }(),
+       ":1: expected `wall X1 Y1 X2 Y2` (found: 600000 numbers)"},
+  };
+  const TemporaryDirectory directory;
+  for (const BadScene& bad : cases) {
+    SCOPED_TRACE(bad.name);
+    try {
+      read(directory, bad.content);
+      ADD_FAILURE() << "accepted";
+    } catch (const InputError& error) {
+      const std::string expected = directory.file("a.scene") + bad.expected;
+      EXPECT_EQ(std::string(error.what()).substr(0, expected.size()), expected);
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+      EXPECT_LT(std::string(error.what()).size(), directory.path().size() + 300);
+    }
+  }
+}
+
+TEST(SceneText, AnyHeadingIsAGoalForATurningBody) {
+  const TemporaryDirectory directory;
+  const Scene scene = read(directory, "robot polygon 0 0 1 0 0 1\nstart 0 0 1\ngoal 1 1\nbounds -9 -9 9 9\n");
+  EXPECT_EQ(scene.goal.size(), 2U);
+}
+
+void expect_same(const Scene& a, const Scene& b) {
+  EXPECT_EQ(scene_hash(a), scene_hash(b));
+  ASSERT_EQ(a.walls.size(), b.walls.size());
+  EXPECT_EQ(a.walls.holds_floats(), b.walls.holds_floats());
+  for (std::size_t i = 0; i < a.walls.size(); ++i) ASSERT_EQ(a.walls.segment(i), b.walls.segment(i)) << i;
+  EXPECT_EQ(a.maze, b.maze);
+  EXPECT_EQ(a.clearance, b.clearance);
+  EXPECT_EQ(a.start, b.start);
+  EXPECT_EQ(a.goal, b.goal);
+  EXPECT_EQ(a.bounds.has_value(), b.bounds.has_value());
+  ASSERT_EQ(a.robot.has_value(), b.robot.has_value());
+  if (a.robot) {
+    EXPECT_EQ(a.robot->kind, b.robot->kind);
+    EXPECT_EQ(a.robot->radius, b.robot->radius);
+    EXPECT_EQ(a.robot->turning_radius, b.robot->turning_radius);
+    EXPECT_EQ(a.robot->steering, b.robot->steering);
+    EXPECT_EQ(a.robot->tool, b.robot->tool);
+    EXPECT_EQ(a.robot->outline, b.robot->outline);
+    EXPECT_EQ(a.robot->limits, b.robot->limits);
+    EXPECT_EQ(a.robot->table, b.robot->table);
+    EXPECT_EQ(a.robot->self_collision, b.robot->self_collision);
+  }
+  ASSERT_EQ(a.grid.has_value(), b.grid.has_value());
+  if (a.grid) {
+    EXPECT_EQ(a.grid->cell, b.grid->cell);
+    EXPECT_EQ(a.grid->angles, b.grid->angles);
+  }
+}
+
+TEST(SceneText, WhatIsWrittenReadsBackTheSame) {
+  const TemporaryDirectory directory;
+  const RobotSpec robots[] = {
+      {RobotKind::point, 0, 0, 0, {}},
+      {RobotKind::disc, 0.1, 0, 0, {}},
+      {RobotKind::polygon, 0, 0, 0, {{-0.1, 0}, {1. / 3, 0}, {0, 1}}},
+      {RobotKind::car, 0.5, 1.7, 0, {}},
+      {RobotKind::car, 0, 1. / 3, 0, {{-0.1, 0}, {1. / 3, 0}, {0, 1}}, SteeringKind::reeds_shepp},
+      {RobotKind::puma560, 0.05, 0, 0.123, {}},
+      {RobotKind::puma560, 0.05, 0, 0, {}, SteeringKind::dubins, "symmetric", {}, true},
+      {RobotKind::arm, 0.05, 0, 0, {}, SteeringKind::dubins, {}, "a/b.dh", false}};
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    SequentialRng rng(seed);
+    const auto number = [&] {
+      const double scale = std::pow(10.0, static_cast<double>(rng.below(40)) - 20.0);
+      return (static_cast<double>(rng.below(2'000'001)) - 1e6) / 3.0 * scale;
+    };
+    Scene scene;
+    std::vector<Segment> walls(1 + rng.below(20'000));  // up to three chunks
+    for (Segment& s : walls) s = {{number(), number()}, {number(), number()}};
+    walls.front() = {{0.0, -0.0}, {8388607.5, -1.0}};
+    scene.walls = WallSet::narrowest(walls);
+    scene.polygons.push_back({{{number(), number()}, {number(), number()}, {number(), number()}}, 0});
+    scene.spheres.push_back({number(), number(), number(), std::abs(number())});
+    SolidBox box{{number(), number(), number()}, {}};
+    for (std::size_t axis = 0; axis < 3; ++axis) box.high[axis] = box.low[axis] + std::abs(number());
+    scene.boxes.push_back(box);
+    scene.bounds = Box{{-std::abs(number()), -1}, {1e20, 1. / 3}};
+    scene.clearance = std::abs(number());
+    scene.robot = robots[seed % std::size(robots)];
+    scene.start.assign(state_size(*scene.robot), number());
+    scene.goal.assign(state_size(*scene.robot), number());
+    scene.grid = GridSpec{0.1, 72};
+    write_scene_text(scene, directory.file("b.scene"), {.threads = static_cast<unsigned>(1 + seed % 3)});
+    expect_same(scene, read_scene_text(InputFile(directory.file("b.scene"), {}), {}));
+  }
+}
+
+TEST(SceneText, MazesReadBackWithHintStartAndGoal) {
+  const TemporaryDirectory directory;
+  for (const bool merged : {false, true}) {
+    const Scene maze = maze_scene({130, 170, 5, MazeAlgorithm::kruskal, 0.1}, merged, {});
+    write_scene_text(maze, directory.file("m.walls"), {});
+    expect_same(maze, read_scene_text(InputFile(directory.file("m.walls"), {}), {}));
+  }
+  const Scene small = maze_scene({1, 2, 1}, false, {});
+  write_scene_text(small, directory.file("s.walls"), {});
+  EXPECT_EQ(directory.read("s.walls"),
+            "maze 1 2\nstart 0.5 1\ngoal 2.5 1\n0.5 0.5 2.5 0.5\n0.5 1.5 2.5 1.5\n0.5 1.5 0.5 1.5\n2.5 0.5 2.5 0.5\n");
+}
+
+TEST(SceneText, ReadingAndWritingStopAtTheDeadline) {
+  const TemporaryDirectory directory;
+  const Scene maze = maze_scene({100, 100}, false, {});
+  write_scene_text(maze, directory.file("m.walls"), {});
+  const Deadline over(0.0);
+  const InputFile file(directory.file("m.walls"), {});
+  EXPECT_THROW(read_scene_text(file, {.deadline = &over}), Stopped);
+  EXPECT_THROW(write_scene_text(maze, directory.file("n.walls"), {.deadline = &over}), Stopped);
+  EXPECT_EQ(directory.entries(), 1U);
+  const InputFile line(directory.write(
+                           "line.scene", "polygon" +
+                                             [] {
+                                               std::string numbers;
+                                               for (int i = 0; i < 100'000; ++i) numbers += " 1";
+                                               return numbers;
+                                             }()),
+                       {});
+  EXPECT_THROW(read_scene_text(line, {.deadline = &over}), Stopped);
+}
+
+}  // namespace
+}  // namespace warren

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "verify/streamed/verify_cells.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/base/whole.hpp"
+#include "parallel/asked_memory.hpp"
+#include "parallel/chunks.hpp"
+#include "parallel/sort.hpp"
+#include "verify/exact/exact_segments.hpp"
+#include "verify/judges/judged_input.hpp"
+#include "verify/judges/leg_reports.hpp"
+#include "verify/near/leg_boxes.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::size_t bounds_number = std::numeric_limits<std::size_t>::max() - 2;  // on one leg reported after walls
+
+/// Walls have numbers by their place: the cell left of or below them, and on which side of it they stand.
+std::size_t number_of(std::uint32_t col_and_one, std::uint32_t row_and_one, bool is_upper) {
+  return std::size_t{row_and_one} << 33U | std::size_t{col_and_one} << 1U | (is_upper ? 1U : 0U);
+}
+Segment wall_of(std::size_t number) {
+  const double x = static_cast<double>(number >> 1U & 0xffffffffU) + 0.5;
+  const double y = static_cast<double>(number >> 33U) + 0.5;
+  return (number & 1U) != 0 ? Segment{{x - 1, y}, {x, y}} : Segment{{x, y - 1}, {x, y}};
+}
+
+/// A rectangle of cells or tiles: low .. high, both counted.
+struct Cells {
+  std::uint32_t low_col, low_row, high_col, high_row;
+};
+
+/// Legs first .. last, in a row, that come near a tile.
+struct Run {
+  std::size_t tile, first, last;
+};
+
+/// One look at all legs, as far as `reach` around each.
+class LegsAmongCells {
+ public:
+  LegsAmongCells(const CellWallSource& cells, Range tiles, const LegBoxes& legs, const VerifyOptions& options,
+                 double reach, const Execution& execution)
+      : cells_(cells), tiles_(tiles), legs_(legs), options_(options), reach_(reach), execution_(execution) {
+    file_legs();
+  }
+
+  Tally compare() const {
+    constexpr std::size_t grain = 4;  // a reader's scratch is large
+    std::vector<Tally> parts(chunk_count(passed_.size(), grain));
+    for_chunks(passed_.size(), grain, execution_, [&](Range r) {
+      const auto reader = cells_.reader();
+      CellTile tile;
+      Comparison comparison(legs_, options_, std::numeric_limits<double>::infinity());
+      for (std::size_t i = r.first; i < r.last; ++i) {
+        execution_.check();
+        reader->read(runs_[passed_[i].first].tile, tile);
+        compare_in(tile, passed_[i], comparison);
+      }
+      parts[r.first / grain] = comparison.take();
+    });
+    Tally whole;
+    for (Tally& part : parts) whole.join(std::move(part));
+    return whole;
+  }
+
+ private:
+  /// The cells around a leg.
+  Cells around(std::size_t leg) const {
+    const Box box = box_of(legs_.leg(leg)).grown(reach_);
+    const auto cell = [](double x, std::uint32_t count) {
+      return bounded_whole<std::uint32_t>(x - 0.5, 0.0, count - 1.0);
+    };
+    return {cell(box.min.x, cells_.cols()), cell(box.min.y, cells_.rows()), cell(box.max.x, cells_.cols()),
+            cell(box.max.y, cells_.rows())};
+  }
+
+  /// A leg lengthens the runs of the leg before it where both come near few tiles; where they come near many, each has
+  /// runs of its own.
+  void add_runs(std::size_t leg, RawVector<Run>& runs) const {
+    constexpr std::size_t few = 4;
+    const Cells near = around(leg);
+    const unsigned shift = cells_.side_log2();
+    const std::size_t recent = runs.size() - std::min(runs.size(), few);
+    for (std::size_t row = near.low_row >> shift; row <= near.high_row >> shift; ++row) {
+      for (std::size_t col = near.low_col >> shift; col <= near.high_col >> shift; ++col) {
+        const std::size_t tile = row * cells_.tile_cols() + col;
+        if (tile < tiles_.first || tile >= tiles_.last) continue;
+        std::size_t i = runs.size();
+        while (i > recent && !(runs[i - 1].tile == tile && runs[i - 1].last + 1 == leg)) --i;
+        if (i > recent) {
+          runs[i - 1].last = leg;
+        } else {
+          push_asked(runs, Run{tile, leg, leg}, execution_);
+        }
+      }
+    }
+  }
+
+  /// Runs by tile, in the order of the path within each.
+  void file_legs() {
+    constexpr std::size_t grain = std::size_t{1} << 14;
+    std::vector<RawVector<Run>> parts(chunk_count(legs_.leg_count(), grain));
+    Execution quiet = execution_;
+    quiet.progress = nullptr;
+    for_chunks(legs_.leg_count(), grain, quiet, [&](Range r) {
+      for (std::size_t leg = r.first; leg < r.last; ++leg) add_runs(leg, parts[r.first / grain]);
+    });
+    std::size_t total = 0;
+    for (const RawVector<Run>& part : parts) total += part.size();
+    execution_.reserve(total * (sizeof(Run) + sizeof(Range)));
+    runs_.reserve(total);
+    for (RawVector<Run>& part : parts) {
+      runs_.insert(runs_.end(), part.begin(), part.end());
+      let_go(part);
+    }
+    const auto before = [](const Run& a, const Run& b) {
+      return std::tie(a.tile, a.first) < std::tie(b.tile, b.first);
+    };
+    polled_sort(runs_.begin(), runs_.end(), execution_, before);
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      if (i == 0 || runs_[i].tile != runs_[i - 1].tile) push_asked(passed_, {i, i}, execution_);
+      passed_.back().last = i + 1;
+    }
+  }
+
+  void compare_in(const CellTile& tile, Range runs, Comparison& comparison) const {
+    for (std::size_t i = runs.first; i < runs.last; ++i) {
+      for (std::size_t leg = runs_[i].first; leg <= runs_[i].last; ++leg) compare_leg(tile, leg, comparison);
+    }
+  }
+  void compare_leg(const CellTile& tile, std::size_t number, Comparison& comparison) const {
+    const BoxedSegment leg(legs_.leg(number), number);
+    const Cells near = around(leg.number);
+    const auto local = [](std::uint32_t x, std::uint32_t first, std::uint32_t size) {
+      return std::clamp(std::ptrdiff_t{x} - std::ptrdiff_t{first}, std::ptrdiff_t{-1}, std::ptrdiff_t{size} - 1);
+    };
+    const std::ptrdiff_t last_row = local(near.high_row, tile.first_row, tile.height);
+    const std::ptrdiff_t last_col = local(near.high_col, tile.first_col, tile.width);
+    for (std::ptrdiff_t row = local(near.low_row, tile.first_row, tile.height) - 1; row <= last_row; ++row) {
+      for (std::ptrdiff_t col = local(near.low_col, tile.first_col, tile.width) - 1; col <= last_col; ++col) {
+        if (row >= -1 && col >= -1) compare_at(tile, col, row, leg, comparison);
+      }
+    }
+  }
+  static void compare_at(const CellTile& tile, std::ptrdiff_t col, std::ptrdiff_t row, const BoxedSegment& leg,
+                         Comparison& comparison) {
+    const unsigned walls = tile.walls[tile.index(col, row)];
+    const auto place = [&](bool is_upper) {
+      return number_of(as_whole<std::uint32_t>(std::ptrdiff_t{tile.first_col} + col + 1),
+                       as_whole<std::uint32_t>(std::ptrdiff_t{tile.first_row} + row + 1), is_upper);
+    };
+    const auto with = [&](std::size_t wall) { comparison.with_leg(leg, {wall_of(wall), wall}); };
+    if ((walls & CellTile::right_wall) != 0 && row >= 0) with(place(false));
+    if ((walls & CellTile::upper_wall) != 0 && col >= 0) with(place(true));
+  }
+
+  const CellWallSource& cells_;
+  const Range tiles_;
+  const LegBoxes& legs_;
+  const VerifyOptions& options_;
+  const double reach_;
+  const Execution& execution_;
+  RawVector<Run> runs_;        // by tile
+  std::vector<Range> passed_;  // the runs of each tile that has some
+};
+
+/// The first leg that leaves the box.
+void check_box(const Box& box, const LegBoxes& legs, std::span<const Vec2> path, Tally& tally) {
+  if (box.contains(legs.box().min) && box.contains(legs.box().max)) return;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (box.contains(path[i])) continue;
+    tally.violation = std::min(tally.violation, LegContact{i == 0 ? 0 : i - 1, bounds_number});
+    return;
+  }
+}
+
+Violation described(const LegContact& found, const LegBoxes& legs, const Box& box) {
+  if (found.obstacle == bounds_number) {
+    return {found.leg, 0.0, fmt::format("box: {} {} {} {}", box.min.x, box.min.y, box.max.x, box.max.y)};
+  }
+  const Segment wall = wall_of(found.obstacle);
+  return {found.leg, exact::distance(legs.leg(found.leg), wall),
+          fmt::format("wall: {} {} {} {}", wall.a.x, wall.a.y, wall.b.x, wall.b.y)};
+}
+
+Tally within(const CellWallSource& cells, const LegBoxes& legs, const VerifyOptions& options, double reach,
+             std::span<const Vec2> path, JudgesElsewhere* others, const Execution& execution) {
+  if (others == nullptr)
+    return LegsAmongCells(cells, {0, cells.tile_count()}, legs, options, reach, execution).compare();
+  others->begin(path, reach);
+  Tally tally = LegsAmongCells(cells, others->own_tiles(), legs, options, reach, execution).compare();
+  for (const NearestWalls& found : others->take()) {
+    tally.least = std::min(tally.least, found.least);
+    tally.violation = std::min(tally.violation, LegContact{found.leg, found.wall});
+  }
+  return tally;
+}
+
+/// Looks farther where nothing came as near as was looked, or as something else did: the least distance, if it is below
+/// `least`, is then the true one.
+Tally compared(const CellWallSource& cells, const LegBoxes& legs, const VerifyOptions& options, double least,
+               std::span<const Vec2> path, JudgesElsewhere* others, const Execution& execution) {
+  const double farthest = static_cast<double>(cells.rows()) + cells.cols();
+  for (double reach = std::max(1.0, std::ceil(options.reach() + 1e-6));; reach *= 2) {
+    Tally tally = within(cells, legs, options, reach, path, others, execution);
+    if (std::min(tally.least, least) <= reach || reach > farthest) return tally;
+  }
+}
+
+}  // namespace
+
+NearestWalls nearest_among_cells(const CellWallSource& cells, Range tiles, std::span<const Vec2> path,
+                                 const VerifyOptions& options, double reach, const Execution& execution) {
+  const LegBoxes legs(path, execution);
+  const Tally tally = LegsAmongCells(cells, tiles, legs, options, reach, execution).compare();
+  return {tally.least, tally.violation.leg, tally.violation.obstacle};
+}
+
+JudgeAmongCells::JudgeAmongCells(const CellWallSource& cells, const VerifyOptions& options, const Execution& execution,
+                                 JudgesElsewhere* others)
+    : cells_(cells), options_(options), execution_(execution), others_(others) {
+  if (options.contact == Contact::allowed)
+    throw InputError("contact", "is not judged where walls are made tile by tile");
+}
+
+void JudgeAmongCells::add(std::span<const Vec2> piece) {
+  check_judged_path(piece, options_, execution_);
+  assert(points_ == 0 || piece.front() == ends_[1]);
+  const Vec2 twice[] = {piece.front(), piece.front()};
+  const std::span<const Vec2> path = piece.size() > 1 ? piece : std::span<const Vec2>(twice);
+  const LegBoxes legs(path, execution_);
+  Tally tally = compared(cells_, legs, options_, report_.least, path, others_, execution_);
+  check_box(cells_.box(), legs, path, tally);
+  LegReport report{.least = tally.least};
+  if (tally.violation != no_violation) {
+    report.violation = described(tally.violation, legs, cells_.box());
+    report.violation->leg += points_ == 0 ? 0 : points_ - 1;
+  }
+  report_.add(report);
+  length_ += legs.length();
+  if (points_ == 0) ends_[0] = piece.front();
+  ends_[1] = piece.back();
+  points_ += piece.size() - (points_ == 0 ? 0 : 1);
+}
+
+Verification JudgeAmongCells::verdict() const {
+  assert(points_ > 0);
+  std::optional<Violation> goal = wrong_goal(ends_, options_);
+  if (goal) goal->leg = legs_of(points_) - 1;
+  Verification verdict = verdict_on(report_, wrong_start(ends_, options_), goal);
+  verdict.length = length_;
+  verdict.min_clearance -= options_.radius;
+  return verdict;
+}
+
+Verification verify_among_cells(const CellWallSource& cells, std::span<const Vec2> path, const VerifyOptions& options,
+                                const Execution& execution) {
+  JudgeAmongCells judge(cells, options, execution);
+  judge.add(path);
+  return judge.verdict();
+}
+
+}  // namespace warren

@@ -1,0 +1,496 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/rasters/heading_layers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/base/whole.hpp"
+#include "core/plane/convex_polygons.hpp"
+#include "core/plane/se2.hpp"
+#include "parallel/chunks.hpp"
+#include "spatial/maps/distance_field.hpp"
+#include "worlds/rasters/convex_pieces.hpp"
+#include "worlds/rasters/lattice_polygons.hpp"
+
+namespace warren {
+namespace {
+
+/// Where positions lie, without any layer.
+HeadingLayers empty_lattice(const Scene& scene, const RobotSpec& robot, const LayerOptions& options,
+                            const Execution& execution) {
+  const GridSpec& grid = options.grid;
+  const Box box = options.region ? *options.region : scene.bounds ? *scene.bounds : obstacle_box(scene, execution);
+  if (box.empty()) throw InputError("world", "has neither walls nor bounds: nothing confines the grid");
+  constexpr double rounding = 1e-9;
+  const double width = std::floor(box.width() / grid.cell + rounding);
+  const double height = std::floor(box.height() / grid.cell + rounding);
+  const std::uint32_t angles = robot.kind == RobotKind::polygon ? grid.angles : 1;
+  constexpr auto most_states = static_cast<double>(HeadingLayers::most_states);
+  if (width < 1.0 || height < 1.0) {
+    throw InputError(scene.source.empty() ? "world" : scene.source,
+                     fmt::format("a grid needs bounds, or obstacles, that span a cell of {} each way", grid.cell),
+                     fmt::format("{} x {}", box.width(), box.height()));
+  }
+  if (!(width * height * angles <= most_states)) {
+    throw InputError("grid", "must have from 1 to 2^32 - 4 states: cells across the bounds, times headings",
+                     fmt::format("{} x {} x {}", width, height, angles));
+  }
+  HeadingLayers layers;
+  layers.origin = box.min;
+  layers.cell = grid.cell;
+  layers.width = bounded_whole<std::uint32_t>(width);
+  layers.height = bounded_whole<std::uint32_t>(height);
+  layers.angles = angles;
+  return layers;
+}
+
+/// The exact layers: a list of jobs, then all of them at once.
+class ExactLayers {
+ public:
+  ExactLayers(const Scene& scene, const RobotSpec& robot, const LayerOptions& options, const Execution& execution)
+      : scene_(scene),
+        execution_(execution),
+        outline_(robot.kind == RobotKind::polygon ? robot.outline : std::vector<Vec2>{{0.0, 0.0}}),
+        radius_((robot.kind == RobotKind::disc ? robot.radius : 0.0) + options.clearance),
+        layers_(empty_lattice(scene, robot, options, execution)) {
+    for (const ScenePolygon& polygon : scene.polygons) {
+      for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
+        sides_.push_back({polygon.corners[i], polygon.corners[(i + 1) % polygon.corners.size()]});
+      }
+    }
+  }
+
+  HeadingLayers make() {
+    const std::vector<LayerJob> jobs = list_layer_jobs(outline_, layers_);
+    execution_.reserve(jobs.size() * (layers_.width / 8 + 8) * std::size_t{layers_.height});
+    layers_.bitmaps.resize(jobs.size());
+    for_chunks(jobs.size(), 1, execution_, [&](Range r) { layers_.bitmaps[r.first] = made(jobs[r.first]); });
+    return std::move(layers_);
+  }
+
+ private:
+  Bitmap made(const LayerJob& job) const {
+    constexpr std::size_t walls_per_poll = 64;  // each may meet all rows
+    LatticeMarking marking(layers_.origin, layers_.cell, layers_.width, layers_.height);
+    for (const ConvexPiece& piece : job.pieces) {
+      if (scene_.bounds) marking.mark_outside(piece, radius_, *scene_.bounds);
+      for (std::size_t i = 0; i < scene_.walls.size(); ++i) {
+        if (i % walls_per_poll == 0) execution_.check();
+        mark(piece, scene_.walls.segment(i), marking);
+      }
+      for (std::size_t i = 0; i < sides_.size(); ++i) {
+        if (i % walls_per_poll == 0) execution_.check();
+        mark(piece, sides_[i], marking);
+      }
+    }
+    if (job.is_standing) {
+      for (std::size_t i = 0; i < scene_.polygons.size(); ++i) {
+        if (i % walls_per_poll == 0) execution_.check();
+        marking.mark_inside(scene_.polygons[i].corners, job.pieces.front().front(), execution_);
+      }
+    }
+    return marking.take();
+  }
+  void mark(const ConvexPiece& piece, const Segment& wall, LatticeMarking& marking) const {
+    marking.mark_near(touching_positions(piece, wall), radius_);
+  }
+
+  const Scene& scene_;
+  const Execution& execution_;
+  std::vector<Vec2> outline_;
+  double radius_;
+  std::vector<Segment> sides_;  // of polygons
+  HeadingLayers layers_;
+};
+
+// ---- as in report 004 -----------------------------------------------------------------------------------------------
+
+/// The report's drawing, found from its figures: a wall covers the cells on both sides of it, a level one also the cell
+/// before its first; an upright one begins and ends with the cells of its ends.
+void draw_two_cells_thick(const Segment& wall, const HeadingLayers& lattice, Bitmap& drawn) {
+  const auto set = [&](double i, double j) {
+    if (i >= 0.0 && j >= 0.0 && i < lattice.width && j < lattice.height) {
+      drawn.set(bounded_whole<std::uint32_t>(i), bounded_whole<std::uint32_t>(j));
+    }
+  };
+  const Vec2 a = (1.0 / lattice.cell) * (wall.a - lattice.origin);
+  const Vec2 b = (1.0 / lattice.cell) * (wall.b - lattice.origin);
+  const bool steep = std::abs(b.y - a.y) > std::abs(b.x - a.x);
+  const double from = std::floor(steep ? a.y : a.x);
+  const double to = std::floor(steep ? b.y : b.x);
+  const double length = std::abs(to - from);
+  for (double step = 0.0; step <= length; ++step) {
+    const double t = length == 0.0 ? 0.0 : step / length;
+    const double along = from + std::copysign(step, to - from);
+    const double across = std::floor(steep ? a.x + t * (b.x - a.x) : a.y + t * (b.y - a.y));
+    const double i = steep ? across : along;
+    const double j = steep ? along : across;
+    for (const double left : {i - 1.0, i}) {
+      set(left, j);
+      if (!steep) set(left, j - 1.0);
+    }
+  }
+}
+
+/// Half of the body's projection on the axes at one heading, in cells, rounded up.
+std::uint32_t disc_cells(const RobotSpec& robot, const HeadingLayers& lattice, std::uint32_t k) {
+  double reach = robot.radius;
+  for (const Vec2 p : turned(robot.outline, k, lattice.angles)) {
+    reach = std::max({reach, std::abs(p.x), std::abs(p.y)});
+  }
+  constexpr double rounding = 1e-9;
+  return bounded_whole<std::uint32_t>(std::ceil(reach / lattice.cell - rounding));
+}
+
+Bitmap drawn_walls(const Scene& scene, const HeadingLayers& lattice, const Execution& execution) {
+  Bitmap drawn(lattice.width, lattice.height);
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    if (i % 64 == 0) execution.check();
+    draw_two_cells_thick(scene.walls.segment(i), lattice, drawn);
+  }
+  for (const ScenePolygon& polygon : scene.polygons) {
+    execution.check();
+    for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
+      draw_two_cells_thick({polygon.corners[i], polygon.corners[(i + 1) % polygon.corners.size()]}, lattice, drawn);
+    }
+  }
+  drawn.set_run(0, 0, lattice.width);
+  drawn.set_run(lattice.height - 1, 0, lattice.width);
+  for (std::uint32_t j = 0; j < lattice.height; ++j) {
+    drawn.set(0, j);
+    drawn.set(lattice.width - 1, j);
+  }
+  return drawn;
+}
+
+HeadingLayers report_layers(const Scene& scene, const RobotSpec& robot, const LayerOptions& options,
+                            const Execution& execution) {
+  HeadingLayers layers = empty_lattice(scene, robot, options, execution);
+  const DistanceField field(drawn_walls(scene, layers, execution), CellDistance::centres, false, execution);
+  std::map<std::uint32_t, std::uint32_t> bitmap_of;  // by the disc's radius
+  for (std::uint32_t k = 0; k < layers.angles; ++k) {
+    const std::uint32_t radius = disc_cells(robot, layers, k);
+    const auto [at, is_new] = bitmap_of.emplace(radius, as_whole<std::uint32_t>(layers.bitmaps.size()));
+    layers.standing.push_back(at->second);
+    if (!is_new) continue;
+    Bitmap blocked(layers.width, layers.height);
+    for (std::uint32_t j = 0; j < layers.height; ++j) {
+      if (j % 64 == 0) execution.check();
+      for (std::uint32_t i = 0; i < layers.width; ++i) {
+        if (field.squared(i, j) <= std::uint64_t{radius} * radius) blocked.set(i, j);
+      }
+    }
+    layers.bitmaps.push_back(std::move(blocked));
+  }
+  return layers;
+}
+
+}  // namespace
+
+HeadingLayers orientation_layers(const Scene& scene, const RobotSpec& robot, const LayerOptions& options,
+                                 const Execution& execution) {
+  if (robot.kind != RobotKind::point && robot.kind != RobotKind::disc && robot.kind != RobotKind::polygon) {
+    throw InputError("robot", "must be a point, a disc or a polygon for a grid");
+  }
+  if (!(options.grid.cell > 0.0) || options.grid.angles < 1) {
+    throw InputError("grid", "needs a cell above 0 and at least one heading");
+  }
+  if (options.kind == LayerKind::report004) return report_layers(scene, robot, options, execution);
+  return ExactLayers(scene, robot, options, execution).make();
+}
+
+namespace {
+
+/// Cells at row dy and columns first .. last from a position.
+struct StampRun {
+  int dy;
+  int first;
+  int last;
+};
+
+/// Which cells, as offsets from the position, a body touches.
+struct Stamp {
+  std::vector<StampRun> runs;
+  int least_x = 0;  // of all cells
+  int most_x = 0;
+  int least_y = 0;
+  int most_y = 0;
+
+  void add(const StampRun& run) {
+    runs.push_back(run);
+    least_x = std::min(least_x, run.first);
+    most_x = std::max(most_x, run.last);
+    least_y = std::min(least_y, run.dy);
+    most_y = std::max(most_y, run.dy);
+  }
+  int widest() const {
+    int most = 0;
+    for (const StampRun& run : runs) most = std::max(most, run.last - run.first + 1);
+    return most;
+  }
+};
+
+/// to[w] |= the bits of `from` beginning at `first`, for all words of `to`.
+void or_from(std::span<const std::uint64_t> from, std::size_t first, std::span<std::uint64_t> to) {
+  const std::uint64_t* words = from.data() + first / 64;
+  const unsigned shift = first % 64;
+  if (shift == 0) {
+    for (std::size_t w = 0; w < to.size(); ++w) to[w] |= words[w];
+    return;
+  }
+  for (std::size_t w = 0; w < to.size(); ++w) to[w] |= words[w] >> shift | words[w + 1] << (64 - shift);
+}
+
+/// Widens a bitmap by a stamp.
+class Widening {
+ public:
+  Widening(const Bitmap& blocked, const Stamp& stamp)
+      : blocked_(blocked), stamp_(stamp), result_(blocked.width(), blocked.height()) {
+    const int reach = std::max({-stamp.least_x, stamp.most_x, stamp.widest()});
+    margin_ = (as_whole<std::size_t>(reach) / 64 + 1) * 64;
+    const std::size_t words = blocked.row(0).size() + 2 * (margin_ / 64) + 2;
+    const auto widest = as_whole<unsigned>(stamp.widest());
+    doubled_.assign(as_whole<std::size_t>(std::bit_width(widest)), std::vector<std::uint64_t>(words, 0));
+  }
+
+  Bitmap run(const Execution& execution) {
+    for (std::uint32_t y = 0; y < blocked_.height(); ++y) {
+      execution.check();
+      const auto row = blocked_.row(y);
+      if (std::any_of(row.begin(), row.end(), [](std::uint64_t word) { return word != 0; })) widen_row(y);
+    }
+    clear_beyond_width();
+    block_border();
+    return std::move(result_);
+  }
+
+ private:
+  /// doubled_[n] bit t: is any of the row's bits t .. t + 2^n - 1 set? The row begins at bit margin_.
+  void double_row(std::uint32_t y) {
+    const auto row = blocked_.row(y);
+    std::copy(row.begin(), row.end(), doubled_[0].begin() + as_whole<std::ptrdiff_t>(margin_ / 64));
+    for (std::size_t n = 1; n < doubled_.size(); ++n) {
+      std::vector<std::uint64_t>& wide = doubled_[n];
+      wide = doubled_[n - 1];
+      const std::size_t by = std::size_t{1} << (n - 1);
+      const std::size_t words = wide.size() - by / 64 - 1;
+      or_from(doubled_[n - 1], by, std::span(wide).first(words));
+    }
+  }
+
+  void widen_row(std::uint32_t y) {
+    double_row(y);
+    for (const StampRun& run : stamp_.runs) {
+      const std::int64_t to = std::int64_t{y} - run.dy;
+      if (to < 0 || to >= blocked_.height()) continue;
+      const auto length = as_whole<unsigned>(run.last - run.first + 1);
+      const auto n = as_whole<std::size_t>(std::bit_width(length) - 1);
+      const auto out = result_.row(as_whole<std::uint32_t>(to));
+      const auto at = [&](int dx) { return as_whole<std::size_t>(as_whole<std::int64_t>(margin_) + dx); };
+      or_from(doubled_[n], at(run.first), out);
+      or_from(doubled_[n], at(run.last + 1 - (1 << n)), out);
+    }
+  }
+
+  void clear_beyond_width() {
+    if (blocked_.width() % 64 == 0) return;
+    const std::uint64_t mask = (std::uint64_t{1} << blocked_.width() % 64) - 1;
+    for (std::uint32_t y = 0; y < blocked_.height(); ++y) result_.row(y).back() &= mask;
+  }
+
+  /// Positions from which the stamp reaches beyond the map.
+  void block_border() {
+    const std::int64_t width = blocked_.width();
+    const std::int64_t height = blocked_.height();
+    const auto column = [&](std::int64_t x) { return as_whole<std::uint32_t>(std::clamp<std::int64_t>(x, 0, width)); };
+    for (std::int64_t y = 0; y < height; ++y) {
+      const auto row = as_whole<std::uint32_t>(y);
+      if (y + stamp_.least_y < 0 || y + stamp_.most_y >= height) {
+        result_.set_run(row, 0, column(width));
+        continue;
+      }
+      result_.set_run(row, 0, column(-stamp_.least_x));
+      result_.set_run(row, column(width - stamp_.most_x), column(width));
+    }
+  }
+
+  const Bitmap& blocked_;
+  const Stamp& stamp_;
+  Bitmap result_;
+  std::size_t margin_;  // bits before a row's first, a multiple of 64
+  std::vector<std::vector<std::uint64_t>> doubled_;
+};
+
+class MapLayers {
+ public:
+  MapLayers(const OccupancyMap& map, double clearance, const Execution& execution)
+      : map_(map), execution_(execution), room_(clearance) {
+    // The world's coordinates are rounded: what is free here shall be free there.
+    constexpr double rounding = 1e-13;
+    const double size = map.cell * (double{1} * map.width() + map.height());
+    room_ += rounding * (std::abs(map.origin.x) + std::abs(map.origin.y) + size);
+  }
+
+  void make(const std::vector<LayerJob>& jobs, std::vector<Bitmap>& bitmaps) const {
+    execution_.reserve(jobs.size() * map_.blocked.bytes());
+    bitmaps.resize(jobs.size());
+    for_chunks(jobs.size(), 1, execution_, [&](Range r) {
+      const Stamp stamp = stamp_of(jobs[r.first]);
+      bitmaps[r.first] = Widening(map_.blocked, stamp).run(execution_);
+    });
+  }
+
+ private:
+  /// A position touches the square around a point exactly if the point is in the sum of body and square.
+  Stamp stamp_of(const LayerJob& job) const {
+    constexpr double most_reach = 1 << 29;  // cells: wider than all that memory holds
+    const double half = map_.cell / 2;
+    const std::vector<Vec2> square{{-half, -half}, {half, -half}, {half, half}, {-half, half}};
+    double reach = 0.0;
+    for (const ConvexPiece& piece : job.pieces) {
+      for (const Vec2 p : piece) reach = std::max({reach, std::abs(p.x), std::abs(p.y)});
+    }
+    const auto most = bounded_whole<int>(std::ceil((reach + room_ + half) / map_.cell), 0.0, most_reach) + 1;
+    const double corner = -most * map_.cell;
+    const auto side = as_whole<std::uint32_t>(2 * most + 1);
+    execution_.reserve(Bitmap::bytes_for(side, side));
+    LatticeMarking marking({corner, corner}, map_.cell, side, side);
+    for (const ConvexPiece& piece : job.pieces) marking.mark_near(minkowski_sum(piece, square), room_);
+    return runs_of(marking.take(), most);
+  }
+
+  static Stamp runs_of(const Bitmap& marked, int most) {
+    Stamp stamp;
+    const auto side = as_whole<int>(marked.width());
+    for (int j = 0; j < side; ++j) {
+      for (int i = 0; i < side; ++i) {
+        if (!marked.holds(i, j)) continue;
+        const int first = i;
+        while (marked.holds(i + 1, j)) ++i;
+        stamp.add({j - most, first - most, i - most});
+      }
+    }
+    return stamp;
+  }
+
+  const OccupancyMap& map_;
+  const Execution& execution_;
+  double room_;
+};
+
+}  // namespace
+
+HeadingLayers map_layers(const OccupancyMap& map, std::span<const Vec2> outline, std::uint32_t angles, double clearance,
+                         const Execution& execution) {
+  if (outline.size() < 3) throw InputError("robot", "a polygon needs three corners or more");
+  if (!(clearance >= 0.0)) throw InputError("clearance", "must be a number from 0", std::to_string(clearance));
+  HeadingLayers layers;
+  layers.origin = {0.5 * map.cell, 0.5 * map.cell};
+  layers.cell = map.cell;
+  layers.width = map.width();
+  layers.height = map.height();
+  layers.angles = angles;
+  if (angles < 1 || map.blocked.size() > HeadingLayers::most_states / angles) {
+    throw InputError(
+        "grid", "must have from 1 to 2^32 - 4 states: the map's cells times headings",
+        std::to_string(map.width()) + " x " + std::to_string(map.height()) + " x " + std::to_string(angles));
+  }
+  constexpr double widest = 4096.0;  // cells: half a stamp, which has 8 MB then
+  double reach = clearance;
+  for (const Vec2 p : outline) reach = std::max(reach, clearance + norm(p));
+  if (!(reach / map.cell < widest)) {
+    throw InputError("robot", "reaches over more than 4096 cells of the map", std::to_string(reach));
+  }
+  const std::vector<LayerJob> jobs = list_layer_jobs(outline, layers);
+  MapLayers(map, clearance, execution).make(jobs, layers.bitmaps);
+  return layers;
+}
+
+namespace {
+
+/// Corners in order from the least: the same for every heading that covers the same set.
+ConvexPiece key_of(ConvexPiece corners) {
+  const auto less = [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); };
+  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end(), less), corners.end());
+  return corners;
+}
+
+/// The turn to the next heading, larger ones in parts, so that arcs stay near their tangents.
+LayerJob turn_job(const std::vector<ConvexPiece>& pieces, std::uint32_t angles) {
+  LayerJob job;
+  const double angle_rad = 2.0 * std::numbers::pi / angles;
+  constexpr double widest = std::numbers::pi / 24;
+  const int parts = bounded_whole<int>(std::ceil(angle_rad / widest));
+  for (const ConvexPiece& piece : pieces) {
+    for (int part = 0; part < parts; ++part) {
+      ConvexPiece from;
+      for (const Vec2 p : piece) from.push_back(Rotation(part * angle_rad / parts)(p));
+      for (ConvexPiece& swept : swept_by_turn(from, angle_rad / parts)) job.pieces.push_back(std::move(swept));
+    }
+  }
+  return job;
+}
+
+class JobList {
+ public:
+  explicit JobList(HeadingLayers& layers) : layers_(layers) {}
+
+  void add_heading(const std::vector<ConvexPiece>& pieces) {
+    layers_.standing.push_back(add({pieces, true}));
+    std::array<std::uint32_t, 4> moving{};
+    for (std::size_t s = 0; s < moving.size(); ++s) {
+      const auto [dx, dy] = HeadingLayers::steps[s];
+      LayerJob job;
+      for (const ConvexPiece& piece : pieces) {
+        job.pieces.push_back(swept_by_step(piece, {dx * layers_.cell, dy * layers_.cell}));
+      }
+      moving[s] = add(std::move(job));
+    }
+    layers_.moving.push_back(moving);
+    if (layers_.angles > 1) layers_.turning.push_back(add(turn_job(pieces, layers_.angles)));
+  }
+  void repeat_heading(std::size_t same) {
+    layers_.standing.push_back(layers_.standing[same]);
+    layers_.moving.push_back(layers_.moving[same]);
+    if (layers_.angles > 1) layers_.turning.push_back(layers_.turning[same]);
+  }
+  std::vector<LayerJob> take() { return std::move(jobs_); }
+
+ private:
+  std::uint32_t add(LayerJob job) {
+    jobs_.push_back(std::move(job));
+    return as_whole<std::uint32_t>(jobs_.size() - 1);
+  }
+
+  HeadingLayers& layers_;
+  std::vector<LayerJob> jobs_;
+};
+
+}  // namespace
+
+std::vector<LayerJob> list_layer_jobs(std::span<const Vec2> outline, HeadingLayers& layers) {
+  JobList jobs(layers);
+  std::vector<ConvexPiece> keys;
+  for (std::uint32_t k = 0; k < layers.angles; ++k) {
+    keys.push_back(key_of(turned(outline, k, layers.angles)));
+    const auto same = as_whole<std::size_t>(std::find(keys.begin(), keys.end(), keys.back()) - keys.begin());
+    if (same < k) {
+      jobs.repeat_heading(same);
+    } else {
+      jobs.add_heading(outline_pieces(turned(outline, k, layers.angles)));
+    }
+  }
+  return jobs.take();
+}
+
+}  // namespace warren

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Marks lattice points that lie in, or near, convex and simple polygons: row by row, an interval each. Doubt is
+// resolved towards marking: a point within a billionth of the lattice's size of an edge counts as in.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/base/bitmap.hpp"
+#include "core/base/types.hpp"
+#include "parallel/execution.hpp"
+#include "scenes/scene/occupancy_map.hpp"
+#include "scenes/scene/scene.hpp"
+
+namespace warren {
+
+/// Point (i, j) lies at origin + cell (i, j).
+class LatticeMarking {
+ public:
+  LatticeMarking(Vec2 origin, double cell, std::uint32_t width, std::uint32_t height);
+
+  /// The points nearer than `radius` to a convex polygon (counter-clockwise; a point or two corners too), those on it
+  /// included. O(corners * rows).
+  void mark_near(std::span<const Vec2> convex, double radius);
+  /// The positions at which a piece, widened by `radius`, touches or leaves the bounds.
+  void mark_outside(std::span<const Vec2> piece, double radius, const Box& bounds);
+  /// The positions p for which p + `offset` lies inside a simple polygon. O(corners * rows that it meets). Throws
+  /// Stopped.
+  void mark_inside(std::span<const Vec2> polygon, Vec2 offset, const Execution& execution);
+
+  Bitmap take() { return std::move(marked_); }
+
+ private:
+  void mark_run(std::int64_t row, double from, double to);
+  double row_y(std::int64_t j) const { return origin_.y + static_cast<double>(j) * cell_; }
+
+  Vec2 origin_;
+  double cell_;
+  double rounding_;  // world units
+  Bitmap marked_;
+};
+
+// From cells to walls and back: the borders between blocked and free cells as segments, the longest that there are, and
+// the cells that walls and polygons touch.
+
+/// In world coordinates, horizontal ones first, row by row; what lies outside of the map is blocked. A point that does
+/// not touch them stays among free cells, or among blocked ones. O(cells / 64 + segments). Throws
+/// Stopped.
+std::vector<Segment> border_walls(const OccupancyMap& map, const Execution& execution);
+
+/// Gives a scene that is a map its border walls, for planners and pictures of walls; does nothing to other scenes.
+void add_map_walls(Scene& scene, const Execution& execution);
+
+/// The scene as cells of a given side from the lower corner of its bounds, or of its obstacles' box: a cell is blocked
+/// if its closed square touches a wall or a polygon (its inside too). Throws InputError for cells beside 0 or more than
+/// 2^32 of them, and for scenes without extent; Stopped.
+OccupancyMap map_of_scene(const Scene& scene, double cell, const Execution& execution);
+
+}  // namespace warren
