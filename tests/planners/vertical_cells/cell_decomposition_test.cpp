@@ -39,7 +39,7 @@ void expect_formula(const PlaneObstacles& obstacles) {
 }
 
 /// Is p strictly inside the polygon? By winding, without the sweep.
-bool strictly_inside(std::span<const Vec2> corners, Vec2 p) {
+bool inside_by_crossings(std::span<const Vec2> corners, Vec2 p) {
   bool inside = false;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec2 a = corners[i];
@@ -53,7 +53,7 @@ bool strictly_inside(std::span<const Vec2> corners, Vec2 p) {
 
 bool inside_any(const PlaneObstacles& obstacles, Vec2 p) {
   for (std::size_t i = 0; i < obstacles.polygons.size(); ++i) {
-    if (strictly_inside(obstacles.polygons[i], p)) return true;
+    if (inside_by_crossings(obstacles.polygons[i], p)) return true;
   }
   return false;
 }
