@@ -130,7 +130,7 @@ only(eigen_angles "AngleAxis|Rotation2D|eulerAngles|angularDistance|[.]slerp[(]"
 # Doubles become whole numbers by core/base/whole.hpp alone, whose other function takes none: so every such cast has bounds.
 set(wholes "int|unsigned|(u?int[a-z0-9_]*|size|ptrdiff)_t")
 only(casts "static_cast<[a-zA-Z:]*(${wholes}|signed|short|long|char|VertexId|Int|Index|__mmask[0-9]*)[a-z ]*>|[^_a-zA-Z0-9](${wholes})[(]|[^_a-z]ll?(round|rint) *[(]"
-     "^(core|parallel|scenes|planners|roadmaps|solve|pictures|apps|tools|bench|tests)/")
+     "^(core|parallel|scenes|planners|solve|pictures|apps|tools|bench|tests)/")
 # Where a table is only looked up, the line says so: its order differs between libraries, so nobody may walk through it.
 only(unordered_tables_unless_lookups_only "unordered_(map|set|multimap|multiset)<[^\n]*" "${above}")
 
