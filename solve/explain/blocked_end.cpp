@@ -466,9 +466,8 @@ class NearPath {
     const Box around = box.grown(reach_);
     const auto is_apart = [&](const Box& legs) { return !meet(legs, around); };
     bool is_near = false;
-    legs_.for_each_in(
-        0, legs_.leg_count() - 1, [&](const Box& legs) { return is_near || is_apart(legs); },
-        [&](std::size_t leg) { is_near = is_near || meet(box_of(legs_.leg(leg)), around); });
+    legs_.for_each([&](const Box& legs) { return is_near || is_apart(legs); },
+                   [&](std::size_t leg) { is_near = is_near || meet(box_of(legs_.leg(leg)), around); });
     return is_near;
   }
 

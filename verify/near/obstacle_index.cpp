@@ -68,15 +68,6 @@ void BoxBlocks::put_in_order(RawVector<Middle>& middles, const Execution& execut
   });
 }
 
-void BoxBlocks::add_wholes() {
-  while (levels_.back().size() > 1) {
-    const RawVector<Box>& parts = levels_.back();
-    RawVector<Box> wholes(chunk_count(parts.size(), block_size));
-    for (std::size_t i = 0; i < parts.size(); ++i) wholes[i / block_size].include(parts[i]);
-    levels_.push_back(std::move(wholes));
-  }
-}
-
 /// Of those that hold the place, the one whose middle is nearest.
 std::size_t BoxBlocks::nearest_part(std::size_t level, std::size_t first, std::size_t last, const Box& place) const {
   const auto distance = [&](std::size_t part) {
