@@ -189,7 +189,7 @@ void PathScreen::choose_cell(const LegBoxes& legs, const Plan& plan) {
   const double by_length = legs.length() / (screen_pieces_per_leg * count + 0.25 * free);
   const double by_area =
       std::sqrt(box.width()) * std::sqrt(box.height()) / std::sqrt(screen_cells_per_leg * count + free);
-  const double by_reach = std::min(plan.reach / cells_a_reach, 1e100);  // far beyond it the screen is of no use
+  const double by_reach = plan.reach / cells_a_reach;
   const double least = std::max({by_length, by_area, by_reach, std::max(box.width(), box.height()) / most_side});
   cell_ = plan.typical_wall > 0.0 ? power_of_two_below(plan.typical_wall) : 0.0;
   if (cell_ < least) cell_ = power_of_two_above(least);
