@@ -181,26 +181,17 @@ class ObstaclePass {
     return *middle;
   }
 
-  /// Some runs of obstacles: a 64th of a few, a 1024th of many.
-  std::vector<Range> some() const {
-    constexpr std::size_t most_runs = 64;
-    constexpr std::size_t run = 64;  // obstacles in a row
-    const std::size_t count = obstacles_.size();
-    const std::size_t runs = std::clamp<std::size_t>(count / (1024 * run), std::min<std::size_t>(count, 1), most_runs);
-    const std::size_t length = std::min(run, count / 64 + 1);
-    std::vector<Range> ranges;
-    for (std::size_t i = 0; i < runs; ++i) ranges.push_back({count / runs * i, count / runs * i + length});
-    return ranges;
-  }
-
-  /// A distance from the path that some obstacle has: nothing beyond it matters for the least one.
+  /// A distance from the path that some obstacle has: nothing beyond it matters for the least one. Asked are runs in a
+  /// row, a 64th of a few obstacles, a 1024th of many.
   double least_of_some() const {
-    const std::vector<Range> runs = some();
-    const double bound =  // so that every chunk starts with a good one
-        tally_of(std::min<std::size_t>(runs[0].size(), 8), 8, boundless, [](std::size_t i) { return i; }).least;
-    const std::size_t length = runs[0].size();
-    const auto number = [&](std::size_t i) { return runs[i / length].first + i % length; };
-    return std::min(bound, tally_of(runs.size() * length, 128, bound, number).least);
+    constexpr std::size_t most_runs = 64;
+    constexpr std::size_t most_in_a_run = 64;
+    const std::size_t count = obstacles_.size();
+    const std::size_t runs = std::clamp<std::size_t>(count / (1024 * most_in_a_run), 1, most_runs);
+    const std::size_t length = std::min(most_in_a_run, count / 64 + 1);
+    const auto number = [&](std::size_t i) { return count / runs * (i / length) + i % length; };
+    const double bound = tally_of(std::min<std::size_t>(length, 8), 8, boundless, number).least;  // each chunk's first
+    return std::min(bound, tally_of(runs * length, 128, bound, number).least);
   }
 
   static DoubleWall wall_of(const Segment& s) { return {s.a.x, s.a.y, s.b.x, s.b.y}; }
@@ -217,7 +208,9 @@ class ObstaclePass {
     };
     const PathScreen::Rest sides = screened(screen, obstacles_.sides().size(), obstacles_.wall_count(), sides_in);
     all.doubtful.insert(all.doubtful.end(), sides.doubtful.begin(), sides.doubtful.end());
-    for (const Ring& ring : obstacles_.rings()) include_corners(ring, all.box);
+    for (const Ring& ring : obstacles_.rings()) {
+      if (ring.polygon != Ring::none) all.box.include(ring.box());  // the bounds are no obstacle in this sense
+    }
     return all;
   }
 
@@ -236,12 +229,6 @@ class ObstaclePass {
       all.box.include(part.box);
     }
     return all;
-  }
-
-  /// The bounds are no obstacle in this sense.
-  static void include_corners(const Ring& ring, Box& box) {
-    if (ring.polygon == Ring::none) return;
-    for (const Vec2 p : ring.corners) box.include(p);
   }
 
   const Scene& scene_;

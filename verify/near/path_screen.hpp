@@ -73,8 +73,6 @@ class PathScreen {
   };
   PathScreen(const LegBoxes& legs, const Plan& plan, const Execution& execution);
 
-  double cell() const { return cell_; }
-
   /// From now on walls at `least` and at r (1 + 1e-12) are far enough. At most some cells, or the screen is slow.
   void set_reach(double least, double r);
 
