@@ -464,19 +464,14 @@ class NearPath {
       return true;
     }
     const Box around = box.grown(reach_);
-    const auto is_apart = [&](const Box& legs) { return !meet(legs, around); };
+    const auto is_apart = [&](const Box& legs) { return !legs.meets(around); };
     bool is_near = false;
-    legs_.for_each_in(
-        0, legs_.leg_count() - 1, [&](const Box& legs) { return is_near || is_apart(legs); },
-        [&](std::size_t leg) { is_near = is_near || meet(box_of(legs_.leg(leg)), around); });
+    legs_.for_each([&](const Box& legs) { return is_near || is_apart(legs); },
+                   [&](std::size_t leg) { is_near = is_near || around.meets(box_of(legs_.leg(leg))); });
     return is_near;
   }
 
  private:
-  static bool meet(const Box& a, const Box& b) {
-    return a.min.x <= b.max.x && a.max.x >= b.min.x && a.min.y <= b.max.y && a.max.y >= b.min.y;
-  }
-
   Box all_;
   LegBoxes legs_;
   double reach_;

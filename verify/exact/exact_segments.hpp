@@ -39,8 +39,8 @@ double distance(const Segment& s, const Segment& t) noexcept;
 
 /// Square of the distance of two boxes.
 inline double gap_sq(const Box& a, const Box& b) noexcept {
-  const double dx = std::max({0.0, a.min.x - b.max.x, b.min.x - a.max.x});
-  const double dy = std::max({0.0, a.min.y - b.max.y, b.min.y - a.max.y});
+  const double dx = std::max(std::max(0.0, a.min.x - b.max.x), b.min.x - a.max.x);
+  const double dy = std::max(std::max(0.0, a.min.y - b.max.y), b.min.y - a.max.y);
   return dx * dx + dy * dy;
 }
 

@@ -40,11 +40,7 @@ BodyVerifier::BodyVerifier(const Scene& scene, std::span<const Vec2> outline, do
   finest_ = std::max(1e-9 * radius_, 0.1 * rounding_);  // so no leg is halved more than some 50 times
   close_ = 1e-3 * radius_;
   if (index_ != nullptr) return;
-  for (const Ring& ring : obstacles_.rings()) {
-    Box box;
-    for (const Vec2 p : ring.corners) box.include(p);
-    ring_boxes_.push_back(box);
-  }
+  for (const Ring& ring : obstacles_.rings()) ring_boxes_.push_back(ring.box());
 }
 
 /// Around the body and its reach on parts of the leg, which are about as long as the boxes are wide. Ends are in the

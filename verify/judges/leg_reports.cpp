@@ -35,35 +35,8 @@ void Tally::join(Tally&& other) {
   box.include(other.box);
 }
 
-Comparison::Comparison(const LegBoxes& legs, const VerifyOptions& options, double at_most)
-    : legs_(legs), options_(options), at_most_(at_most) {
+Comparison::Comparison(const VerifyOptions& options, double at_most) : options_(options), at_most_(at_most) {
   narrow();
-}
-
-void Comparison::with_near_legs(const LegIndex& index, const Segment& obstacle, std::size_t number) {
-  const Box box = box_of(obstacle);
-  tally_.box.include(box);
-  std::size_t seen_first = 1;  // neighbouring cells hold the same legs: these have just been compared
-  std::size_t seen_last = 0;
-  index.for_each_near(obstacle, [&](std::size_t first, std::size_t last) {
-    if (seen_first > seen_last || first > seen_last + 1 || last + 1 < seen_first) {
-      seen_first = first;
-      seen_last = last;
-      return compare(obstacle, box, number, first, last);
-    }
-    if (first < seen_first) {
-      compare(obstacle, box, number, first, seen_first - 1);
-      seen_first = first;
-    }
-    if (last > seen_last) {
-      compare(obstacle, box, number, seen_last + 1, last);
-      seen_last = last;
-    }
-  });
-}
-
-void Comparison::with_all_legs(const Segment& obstacle, std::size_t number) {
-  compare(obstacle, box_of(obstacle), number, 0, legs_.leg_count() - 1);
 }
 
 /// Does the whole box lie farther from the obstacle's line than is of interest?
@@ -76,17 +49,8 @@ bool Comparison::beside(const Segment& obstacle, const Box& box) const {
   const Vec2 most{std::abs(low.x) + std::abs(high.x), std::abs(low.y) + std::abs(high.y)};
   const double error = 1e-15 * (std::abs(along.x) * most.y + std::abs(along.y) * most.x);
   const double room = std::abs(cross(along, to)) - spread - 8.0 * error;
-  return room > 0.0 && room * room > near_sq_ * dot(along, along) * (1.0 + 4.0 * exact::distance_error);
-}
-
-void Comparison::compare(const Segment& obstacle, const Box& box, std::size_t number, std::size_t first,
-                         std::size_t last) {
-  legs_.for_each_in(
-      first, last, [&](const Box& legs_box) { return too_far(legs_box, box) || beside(obstacle, legs_box); },
-      [&](std::size_t leg) {
-        const Segment s = legs_.leg(leg);
-        if (!too_far(box_of(s), box)) compare(s, leg, obstacle, number);
-      });
+  constexpr double least_room = 1e-140;  // so that its square is no rounded trifle
+  return room > least_room && room * room > near_sq_ * dot(along, along) * (1.0 + 4.0 * exact::distance_error);
 }
 
 void Comparison::compare(const Segment& s, std::size_t leg, const Segment& obstacle, std::size_t number) {

@@ -17,8 +17,6 @@
 #include "verify/judges/contact.hpp"
 #include "verify/judges/verification.hpp"
 #include "verify/judges/verify_point.hpp"
-#include "verify/near/leg_boxes.hpp"
-#include "verify/near/leg_index.hpp"
 
 namespace warren {
 
@@ -81,23 +79,19 @@ struct BoxedSegment {
   std::size_t number;
 };
 
-/// Refers to legs and options, which must outlive it.
+/// Refers to the options, which must outlive it.
 class Comparison {
  public:
   /// Distances at or above `at_most` are of no interest.
-  Comparison(const LegBoxes& legs, const VerifyOptions& options, double at_most);
+  Comparison(const VerifyOptions& options, double at_most);
 
-  /// With the legs within the reach of the index, which is one of these legs.
-  void with_near_legs(const LegIndex& index, const Segment& obstacle, std::size_t number);
-  /// By the boxes of legs: about log(legs), plus what is near; O(legs) at worst.
-  void with_all_legs(const Segment& obstacle, std::size_t number);
-  /// Is all that lies in the box too far from the leg, or from all legs in a box, to matter?
-  bool skips(const BoxedSegment& leg, const Box& obstacles) const {
-    return too_far(leg.box, obstacles) || beside(leg.segment, obstacles);
+  /// Is all that lies in the box too far from the leg or obstacle, or from all in a box, to matter?
+  bool skips(const BoxedSegment& one, const Box& others) const {
+    return too_far(one.box, others) || beside(one.segment, others);
   }
-  bool skips(const Box& legs, const Box& obstacles) const { return too_far(legs, obstacles); }
+  bool skips(const Box& some, const Box& others) const { return too_far(some, others); }
   void with_leg(const BoxedSegment& leg, const BoxedSegment& side) {
-    if (!too_far(leg.box, side.box)) compare(leg.segment, leg.number, side.segment, side.number);
+    if (!skips(leg, side.box)) compare(leg.segment, leg.number, side.segment, side.number);
   }
   Tally take() { return std::move(tally_); }
 
@@ -106,15 +100,13 @@ class Comparison {
     const double gap = exact::gap_sq(a, b);
     return gap >= near_sq_ && gap > 0.0;
   }
-  bool beside(const Segment& obstacle, const Box& box) const;
-  void compare(const Segment& obstacle, const Box& box, std::size_t number, std::size_t first, std::size_t last);
+  bool beside(const Segment& one, const Box& others) const;
   void compare(const Segment& s, std::size_t leg, const Segment& obstacle, std::size_t number);
   bool is_doubtful(double d, const Segment& s, const Segment& obstacle) const;
   void touch(const Segment& s, std::size_t leg, const Segment& obstacle, std::size_t number);
   void forbid(std::size_t leg, std::size_t number);
   void narrow();
 
-  const LegBoxes& legs_;
   const VerifyOptions& options_;
   double at_most_;
   double near_sq_ = 0.0;  ///< legs at this distance (squared) and above are left out

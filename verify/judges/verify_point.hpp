@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Is this path free? Independent of everything that found it: nothing from spatial/ and no predicate of
 // core/plane/geometry is used; distances and orientations are computed by verify/exact/exact_segments, exact where they
-// decide. The legs of the path are binned (verify/near/leg_index) and the obstacles are streamed past them, so that
-// millions of legs among hundreds of millions of walls take seconds: O(walls + legs), memory of the order of the legs.
-// One pass over the walls and a sample of them; a second pass only where no wall comes within some leg lengths of the
-// path.
+// decide. The obstacles are streamed past the path (verify/judges/legs_against_obstacles), so that millions of legs
+// among hundreds of millions of walls take seconds: O(walls + legs) on paths as planners find them, memory of the order
+// of the legs. Where long legs cross most of the scene it is O(walls * legs) at worst.
 #pragma once
 
 #include <array>

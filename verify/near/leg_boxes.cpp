@@ -16,6 +16,16 @@ bool is_skew(Vec2 way) {
 
 }  // namespace
 
+BoxLevels::BoxLevels(RawVector<Box> blocks) {
+  levels_.push_back(std::move(blocks));
+  while (levels_.back().size() > 1) {
+    const RawVector<Box>& parts = levels_.back();
+    RawVector<Box> wholes((parts.size() + 7) / 8);
+    for (std::size_t i = 0; i < parts.size(); ++i) wholes[i / 8].include(parts[i]);
+    levels_.push_back(std::move(wholes));
+  }
+}
+
 LegBoxes::LegBoxes(std::span<const Vec2> path, const Execution& execution) : path_(path) {
   constexpr std::size_t grain = legs_a_sum / 8;  // blocks: so that long paths fill all threads
   const std::size_t block_count = (leg_count() + 7) / 8;
@@ -43,13 +53,7 @@ LegBoxes::LegBoxes(std::span<const Vec2> path, const Execution& execution) : pat
   });
   for (const double length : lengths) length_ += length;
   has_skew_ = std::find(skews.begin(), skews.end(), 1) != skews.end();
-  levels_.push_back(std::move(blocks));
-  while (levels_.back().size() > 1) {
-    const RawVector<Box>& parts = levels_.back();
-    RawVector<Box> wholes((parts.size() + 7) / 8);
-    for (std::size_t i = 0; i < parts.size(); ++i) wholes[i / 8].include(parts[i]);
-    levels_.push_back(std::move(wholes));
-  }
+  levels_ = BoxLevels(std::move(blocks));
 }
 
 }  // namespace warren

@@ -3,9 +3,11 @@
 // each other, so a search by boxes finds the legs near a place without any index of the plane.
 //
 // Built in one pass over the path by all threads, 4.6 bytes a leg. A search for what is near a wall looks at some tens
-// to hundreds of boxes: dearer than a lookup in verify/near/leg_index, but nothing needs to be built for it.
+// to hundreds of boxes, unless those near several walls in a row are looked for once
+// (verify/judges/legs_against_obstacles).
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -15,6 +17,34 @@
 #include "parallel/execution.hpp"
 
 namespace warren {
+
+/// Boxes in blocks of eight in a row, eight of these in one above, and so on up to one around all.
+class BoxLevels {
+ public:
+  BoxLevels() = default;
+  explicit BoxLevels(RawVector<Box> blocks);
+
+  bool empty() const { return levels_.empty(); }
+  std::size_t count() const { return levels_.size(); }
+  const RawVector<Box>& operator[](std::size_t level) const { return levels_[level]; }
+
+  /// Calls visit(block) for blocks of the lowest level, leaving out those in blocks for whose box skip(box) is true.
+  template <class Skip, class Visit>
+  void for_each_block(const Skip& skip, const Visit& visit) const {
+    if (!levels_.empty()) visit_block(levels_.size() - 1, 0, skip, visit);
+  }
+
+ private:
+  template <class Skip, class Visit>
+  void visit_block(std::size_t level, std::size_t block, const Skip& skip, const Visit& visit) const {
+    if (skip(levels_[level][block])) return;
+    if (level == 0) return visit(block);
+    const std::size_t end = std::min(8 * (block + 1), levels_[level - 1].size());
+    for (std::size_t part = 8 * block; part < end; ++part) visit_block(level - 1, part, skip, visit);
+  }
+
+  std::vector<RawVector<Box>> levels_;
+};
 
 /// Refers to the path, which must outlive it. Immutable: any number of threads may ask.
 class LegBoxes {
@@ -26,53 +56,34 @@ class LegBoxes {
   std::span<const Vec2> path() const { return path_; }
   std::size_t leg_count() const { return path_.size() - 1; }
   Segment leg(std::size_t i) const { return {path_[i], path_[i + 1]}; }
-  Box box() const { return levels_.back().front(); }  ///< of the whole path
-  double length() const { return length_; }           ///< of the path: sums of legs_a_sum legs in a row, added up
+  Box box() const { return levels_[levels_.count() - 1].front(); }  ///< of the whole path
+  double length() const { return length_; }  ///< of the path: sums of legs_a_sum legs in a row, added up
   /// Does some leg run along an axis but for a millionth of its length?
   bool has_skew() const { return has_skew_; }
 
-  /// Calls visit(leg) for legs first .. last, leaving out blocks of them where skip(box of the block) is true.
+  /// Calls visit(leg) for all legs but those in blocks whose box skip(box) says to leave out.
   template <class Skip, class Visit>
-  void for_each_in(std::size_t first, std::size_t last, const Skip& skip, const Visit& visit) const;
+  void for_each(const Skip& skip, const Visit& visit) const {
+    for_each_block(skip, [&](std::size_t block) { for_each_in(block, visit); });
+  }
+
+  /// The same in two steps, for who asks several questions of one neighbourhood.
+  template <class Skip, class Visit>
+  void for_each_block(const Skip& skip, const Visit& visit) const {
+    levels_.for_each_block(skip, visit);
+  }
+  const Box& block_box(std::size_t block) const { return levels_[0][block]; }
+  template <class Visit>
+  void for_each_in(std::size_t block, const Visit& visit) const {
+    const std::size_t end = std::min(8 * (block + 1), leg_count());
+    for (std::size_t leg = 8 * block; leg < end; ++leg) visit(leg);
+  }
 
  private:
-  template <class Skip, class Visit>
-  void visit_block(std::size_t level, std::size_t block, std::size_t first, std::size_t last, const Skip& skip,
-                   const Visit& visit) const;
-
   std::span<const Vec2> path_;
   double length_ = 0.0;
   bool has_skew_ = false;
-  std::vector<RawVector<Box>> levels_;  ///< levels_[k][i]: of legs i * 8^(k+1) and the 8^(k+1) - 1 after it
+  BoxLevels levels_;
 };
-
-template <class Skip, class Visit>
-void LegBoxes::for_each_in(std::size_t first, std::size_t last, const Skip& skip, const Visit& visit) const {
-  if (last - first < 16) {
-    for (std::size_t i = first; i <= last; ++i) visit(i);
-    return;
-  }
-  const std::size_t top = levels_.size() - 1;
-  const std::size_t shift = 3 * (top + 1);
-  for (std::size_t block = first >> shift; block <= last >> shift; ++block) {
-    visit_block(top, block, first, last, skip, visit);
-  }
-}
-
-template <class Skip, class Visit>
-void LegBoxes::visit_block(std::size_t level, std::size_t block, std::size_t first, std::size_t last, const Skip& skip,
-                           const Visit& visit) const {
-  if (skip(levels_[level][block])) return;
-  const std::size_t shift = 3 * level;  // of this block's eight parts
-  const std::size_t from = std::max(first >> shift, 8 * block);
-  const std::size_t to = std::min(last >> shift, 8 * block + 7);
-  for (std::size_t part = from; part <= to; ++part) {
-    if (level == 0) {
-      visit(part);
-    } else {
-      visit_block(level - 1, part, first, last, skip, visit);
-    }
-  }
-}
 
 }  // namespace warren

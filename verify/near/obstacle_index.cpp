@@ -18,12 +18,6 @@ std::size_t numbered(std::size_t count) {
   throw InputError("world", "has 2^32 walls and sides or more: too many to be indexed for its judge");
 }
 
-Box box_of_ring(const Ring& ring) {
-  Box box;
-  for (const Vec2 p : ring.corners) box.include(p);
-  return box;
-}
-
 Box box_of_all(const Obstacles& obstacles, const Execution& execution) {
   constexpr std::size_t walls_a_poll = std::size_t{1} << 16;
   Box box;
@@ -32,7 +26,7 @@ Box box_of_all(const Obstacles& obstacles, const Execution& execution) {
     box.include(box_of(obstacles.segment(i)));
   }
   for (const Ring& ring : obstacles.rings()) {
-    if (ring.polygon != Ring::none) box.include(box_of_ring(ring));
+    if (ring.polygon != Ring::none) box.include(ring.box());
   }
   return box;
 }
@@ -45,7 +39,7 @@ ObstacleIndex::ObstacleIndex(const Scene& scene, const Execution& execution)
       sides_(
           numbered(obstacles_.size()), [&](std::size_t i) { return box_of(obstacles_.segment(i)); }, execution),
       rings_(
-          obstacles_.rings().size(), [&](std::size_t i) { return box_of_ring(obstacles_.rings()[i]); }, execution),
+          obstacles_.rings().size(), [&](std::size_t i) { return obstacles_.rings()[i].box(); }, execution),
       box_(box_of_all(obstacles_, execution)) {
   Box all = box_;
   if (scene.bounds) all.include(*scene.bounds);
@@ -66,15 +60,6 @@ void BoxBlocks::put_in_order(RawVector<Middle>& middles, const Execution& execut
                 [](const Middle& a, const Middle& b) { return a.y != b.y ? a.y < b.y : a.number < b.number; });
     for (std::size_t i = r.first; i < r.last; ++i) order_[i] = middles[i].number;
   });
-}
-
-void BoxBlocks::add_wholes() {
-  while (levels_.back().size() > 1) {
-    const RawVector<Box>& parts = levels_.back();
-    RawVector<Box> wholes(chunk_count(parts.size(), block_size));
-    for (std::size_t i = 0; i < parts.size(); ++i) wholes[i / block_size].include(parts[i]);
-    levels_.push_back(std::move(wholes));
-  }
 }
 
 /// Of those that hold the place, the one whose middle is nearest.

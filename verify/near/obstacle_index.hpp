@@ -18,6 +18,7 @@
 #include "parallel/chunks.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
+#include "verify/near/leg_boxes.hpp"
 #include "verify/near/obstacle_sides.hpp"
 
 namespace warren {
@@ -49,12 +50,13 @@ class BoxBlocks {
   /// that skip() doesn't leave out, and visit(number) for the boxes of one of them.
   template <class Skip, class Visit>
   void for_each_block(const Skip& skip, const Visit& visit) const {
-    if (!levels_.empty()) visit_block(levels_.size() - 1, 0, skip, visit);
+    levels_.for_each_block(skip, visit);
   }
-  const Box& block_box(std::size_t block) const { return levels_.front()[block]; }
+  const Box& block_box(std::size_t block) const { return levels_[0][block]; }
   template <class Visit>
   void for_each_in(std::size_t block, const Visit& visit) const {
-    visit_members(block, visit);
+    const std::size_t end = std::min(block_size * (block + 1), order_.size());
+    for (std::size_t i = block_size * block; i < end; ++i) visit(std::size_t{order_[i]});
   }
 
   /// Calls visit(number) for some boxes that are rather near: a start for who looks for the nearest.
@@ -70,15 +72,10 @@ class BoxBlocks {
   static constexpr std::size_t grain = std::size_t{1} << 13;  ///< boxes: a multiple of block_size
 
   void put_in_order(RawVector<Middle>& middles, const Execution& execution);
-  void add_wholes();
   std::size_t nearest_part(std::size_t level, std::size_t first, std::size_t last, const Box& place) const;
-  template <class Skip, class Visit>
-  void visit_block(std::size_t level, std::size_t block, const Skip& skip, const Visit& visit) const;
-  template <class Visit>
-  void visit_members(std::size_t block, const Visit& visit) const;
 
-  RawVector<std::uint32_t> order_;      ///< numbers of the boxes, block by block
-  std::vector<RawVector<Box>> levels_;  ///< levels_[k][i]: of boxes order_[i * 8^(k+1)] and the 8^(k+1) - 1 after it
+  RawVector<std::uint32_t> order_;  ///< numbers of the boxes, block by block
+  BoxLevels levels_;
 };
 
 template <class BoxOf>
@@ -97,42 +94,27 @@ BoxBlocks::BoxBlocks(std::size_t count, const BoxOf& box_of, const Execution& ex
   for_chunks(count, grain, execution, [&](Range r) {
     for (std::size_t i = r.first; i < r.last; i += block_size) {
       Box box;
-      visit_members(i / block_size, [&](std::size_t number) { box.include(box_of(number)); });
+      for_each_in(i / block_size, [&](std::size_t number) { box.include(box_of(number)); });
       blocks[i / block_size] = box;
     }
   });
-  levels_.push_back(std::move(blocks));
-  add_wholes();
+  levels_ = BoxLevels(std::move(blocks));
 }
 
 template <class Skip, class Visit>
 void BoxBlocks::for_each(const Skip& skip, const Visit& visit) const {
-  for_each_block(skip, [&](std::size_t block) { visit_members(block, visit); });
+  for_each_block(skip, [&](std::size_t block) { for_each_in(block, visit); });
 }
 
 template <class Visit>
 void BoxBlocks::for_some_near(const Box& place, const Visit& visit) const {
   if (levels_.empty()) return;
   std::size_t block = 0;
-  for (std::size_t level = levels_.size() - 1; level-- > 0;) {
+  for (std::size_t level = levels_.count() - 1; level-- > 0;) {
     const std::size_t first = block_size * block;
     block = nearest_part(level, first, std::min(first + block_size, levels_[level].size()), place);
   }
-  visit_members(block, visit);
-}
-
-template <class Skip, class Visit>
-void BoxBlocks::visit_block(std::size_t level, std::size_t block, const Skip& skip, const Visit& visit) const {
-  if (skip(levels_[level][block])) return;
-  if (level == 0) return visit(block);
-  const std::size_t end = std::min(block_size * (block + 1), levels_[level - 1].size());
-  for (std::size_t part = block_size * block; part < end; ++part) visit_block(level - 1, part, skip, visit);
-}
-
-template <class Visit>
-void BoxBlocks::visit_members(std::size_t block, const Visit& visit) const {
-  const std::size_t end = std::min(block_size * (block + 1), order_.size());
-  for (std::size_t i = block_size * block; i < end; ++i) visit(std::size_t{order_[i]});
+  for_each_in(block, visit);
 }
 
 /// Refers to the scene, which must outlive it and stay as it is. Immutable: any number of threads may ask.

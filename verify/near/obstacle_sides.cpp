@@ -32,6 +32,12 @@ std::string numbers(const Segment& s) { return fmt::format("{} {} {} {}", s.a.x,
 
 }  // namespace
 
+Box Ring::box() const {
+  Box box;
+  for (const Vec2 p : corners) box.include(p);
+  return box;
+}
+
 Obstacles::Obstacles(const Scene& scene) : scene_(scene) {
   if (scene.bounds) {
     const Box& b = *scene.bounds;

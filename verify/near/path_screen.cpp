@@ -144,6 +144,7 @@ namespace {
 constexpr double screen_cells_per_leg = 64;
 constexpr double screen_pieces_per_leg = 4;
 constexpr double most_free_cells = 1 << 20;  // for a path of few legs among many walls
+constexpr double cells_a_reach = 4.0;        // more make a wall's window wide
 constexpr unsigned up = 0;
 constexpr unsigned right = 1;
 
@@ -188,7 +189,8 @@ void PathScreen::choose_cell(const LegBoxes& legs, const Plan& plan) {
   const double by_length = legs.length() / (screen_pieces_per_leg * count + 0.25 * free);
   const double by_area =
       std::sqrt(box.width()) * std::sqrt(box.height()) / std::sqrt(screen_cells_per_leg * count + free);
-  const double least = std::max({by_length, by_area, std::max(box.width(), box.height()) / most_side});
+  const double by_reach = plan.reach / cells_a_reach;
+  const double least = std::max({by_length, by_area, by_reach, std::max(box.width(), box.height()) / most_side});
   cell_ = plan.typical_wall > 0.0 ? power_of_two_below(plan.typical_wall) : 0.0;
   if (cell_ < least) cell_ = power_of_two_above(least);
   if (cell_ == 0.0) cell_ = 1.0;
@@ -219,9 +221,8 @@ void PathScreen::mark(const LegBoxes& legs, const Stripe& stripe, const Executio
   execution.check();
   const double left = (first_column_ + stripe.first - 2) * cell_;
   const double right_end = (first_column_ + stripe.last + 2) * cell_;
-  legs.for_each_in(
-      0, legs.leg_count() - 1, [&](const Box& box) { return box.max.x < left || box.min.x > right_end; },
-      [&](std::size_t leg) { mark_leg(legs.leg(leg), stripe); });
+  legs.for_each([&](const Box& box) { return box.max.x < left || box.min.x > right_end; },
+                [&](std::size_t leg) { mark_leg(legs.leg(leg), stripe); });
 }
 
 void PathScreen::mark_leg(const Segment& leg, const Stripe& stripe) {

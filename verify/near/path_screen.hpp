@@ -53,7 +53,7 @@ struct CellStepAxis {
 [[gnu::always_inline]] inline double whole_below(double u) {
   constexpr double magic = 6755399441055744.0;
   const double near = (u + magic) - magic;
-  return near - (near > u ? 1.0 : 0.0);
+  return near + (near > u ? -1.0 : 0.0);  // "- 0.0" would be a jump, not a lane
 }
 [[gnu::always_inline]] inline double whole_above(double u) {
   constexpr double magic = 6755399441055744.0;
@@ -68,11 +68,10 @@ class PathScreen {
   struct Plan {
     std::size_t walls = 0;
     double typical_wall = 0.0;  ///< the extent of most, 0 if not known
+    double reach = 0.0;         ///< the largest that will be set, 0 if not known
     bool plain = false;         ///< without what this processor can do beyond the baseline
   };
   PathScreen(const LegBoxes& legs, const Plan& plan, const Execution& execution);
-
-  double cell() const { return cell_; }
 
   /// From now on walls at `least` and at r (1 + 1e-12) are far enough. At most some cells, or the screen is slow.
   void set_reach(double least, double r);

@@ -17,14 +17,6 @@ namespace {
 constexpr std::size_t surroundings_grain = std::size_t{1} << 14;
 constexpr std::uint64_t most_cells_a_side = 64;
 
-bool apart(const Box& a, const Box& b) {
-  return a.max.x < b.min.x || b.max.x < a.min.x || a.max.y < b.min.y || b.max.y < a.min.y;
-}
-
-Box box_of_ends(const Segment& s) {
-  return {{std::min(s.a.x, s.b.x), std::min(s.a.y, s.b.y)}, {std::max(s.a.x, s.b.x), std::max(s.a.y, s.b.y)}};
-}
-
 double largest_of(const Segment& s) {
   return std::max({std::abs(s.a.x), std::abs(s.a.y), std::abs(s.b.x), std::abs(s.b.y)});
 }
@@ -102,7 +94,7 @@ void PathSurroundings::lay_grid(std::span<const Box> boxes, const Execution& exe
 }
 
 PathSurroundings::Range PathSurroundings::range_of(const Box& box) const {
-  if (apart(box, grid_)) return {1, 1, 0, 0};
+  if (!box.meets(grid_)) return {1, 1, 0, 0};
   const auto index = [&](double x, double low, std::uint32_t count) {
     return bounded_whole<std::uint32_t>((x - low) / side_, 0.0, count - 1.0);
   };
@@ -179,7 +171,7 @@ void PathSurroundings::sift(std::size_t count, const Number& number, const Execu
     Part& part = parts[r.first / surroundings_grain];
     for (std::size_t i = r.first; i < r.last; ++i) {
       const NearSide side{obstacles_.segment(number(i)), number(i)};
-      const Range range = range_of(box_of_ends(side.segment));
+      const Range range = range_of(box_of(side.segment));
       if (range.first_x > range.last_x) continue;
       if (range.count() > most_cells_a_side) {
         part.far_across.push_back(side);
@@ -202,7 +194,7 @@ void PathSurroundings::file_in_cells(const Execution& execution) {
   const auto for_each_place = [&](const auto& visit) {
     for (std::size_t n = 0; n < near_.size(); ++n) {
       if (n % obstacles_a_poll == 0) execution.check();
-      for_each_cell(range_of(box_of_ends(near_[n].segment)), [&](std::size_t cell) {
+      for_each_cell(range_of(box_of(near_[n].segment)), [&](std::size_t cell) {
         if (marked_[cell]) visit(cell, as_whole<std::uint32_t>(n));
       });
     }
@@ -234,8 +226,8 @@ void PathSurroundings::gather(std::span<const Box> boxes, std::vector<NearSide>&
   }
   sort_once_each(found);
   const auto meets = [&](const NearSide& side) {
-    const Box around = box_of_ends(side.segment);
-    return std::any_of(boxes.begin(), boxes.end(), [&](const Box& box) { return !apart(box, around); });
+    const Box around = box_of(side.segment);
+    return std::any_of(boxes.begin(), boxes.end(), [&](const Box& box) { return box.meets(around); });
   };
   for (const std::uint32_t n : found) push_asked(sides, near_[n], execution);
   for (const NearSide& side : long_) {

@@ -61,7 +61,7 @@ class LegsAmongCells {
     for_chunks(passed_.size(), grain, execution_, [&](Range r) {
       const auto reader = cells_.reader();
       CellTile tile;
-      Comparison comparison(legs_, options_, std::numeric_limits<double>::infinity());
+      Comparison comparison(options_, std::numeric_limits<double>::infinity());
       for (std::size_t i = r.first; i < r.last; ++i) {
         execution_.check();
         reader->read(runs_[passed_[i].first].tile, tile);

@@ -263,6 +263,18 @@ TEST(Verify, HugeWallsAndTinyLegsMeet) {
   EXPECT_FALSE(verified(scene, {{0.001, 0.002}, {0.0015, 0.0016}}, 1e-3).verified);
 }
 
+TEST(Verify, AnyClearanceIsKeptOrNot) {
+  const Scene scene = scene_of(with_far_box({{{2.0, 3.0}, {3.0, 3.0}}, {{400.0, 1.0}, {900.0, 9.0}}}, -1e6, 1e6));
+  const std::vector<Vec2> path{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}};
+  for (double clearance = 4.0; clearance < 1e60; clearance *= 16.0) {
+    SCOPED_TRACE(clearance);
+    const Verification v = verified(scene, path, clearance);
+    EXPECT_FALSE(v.verified);
+    EXPECT_EQ(v.min_clearance, std::hypot(1.0, 2.0));
+  }
+  EXPECT_FALSE(verified(scene, path, 1e60).verified);
+}
+
 TEST(Verify, ThePathStaysInTheBox) {
   const Scene scene = scene_of({{{0.0, 0.0}, {1.0, 0.0}}, {{10.0, 10.0}, {9.0, 10.0}}});
   EXPECT_TRUE(verified(scene, {{0.0, 1.0}, {10.0, 5.0}}, 0.5).verified);  // on its border
