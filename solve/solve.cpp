@@ -9,9 +9,9 @@
 
 #include "parallel/trace.hpp"
 #include "solve/explain/blocked_end.hpp"
-#include "solve/explain/heuristic_price.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
-#include "solve/kinds/planned_scene.hpp"
+#include "solve/kinds/question_of_pose.hpp"
+#include "solve/kinds/solve_steps.hpp"
 
 namespace warren {
 namespace {

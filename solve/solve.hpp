@@ -43,7 +43,7 @@ Verdict verify_within(const Scene& scene, const Question& question, const Record
 Answer solve_explained(const Scene& scene, const Question& question, const SolveOptions& options,
                        const Execution& execution, ByProducts* keep = nullptr, PathTaker* taker = nullptr);
 
-/// Says what an estimate of options cost, where it is not the straight line (solve/explain/heuristic_price.hpp).
+/// Says what an estimate of options cost, where it is not the straight line (solve/kinds/solve_steps.hpp).
 void price_heuristic(const Scene& scene, const Question& question, const SolveOptions& options,
                      const Execution& execution, Answer& answer);
 

@@ -101,11 +101,6 @@ py::array components_of(KeptRoadmap& kept) {
   return array_of<VertexId>(std::move(component), size);
 }
 
-}  // namespace
-
-namespace py = pybind11;
-namespace {
-
 using Kept = std::unique_ptr<KeptRoadmap>;
 
 /// Of one of the program's verbs the options that `keeps` chooses.
@@ -256,6 +251,8 @@ void learn_from_questions(KeptRoadmap& kept) {
 }
 
 }  // namespace
+
+namespace py = pybind11;
 
 void bind_roadmaps(py::module_& module) {
   py::class_<KeptRoadmap>(module, "Roadmap")

@@ -228,33 +228,6 @@ void bind_what_is_seen(py::class_<Scene>& scene) {
       });
 }
 
-}  // namespace
-
-void bind_worlds(py::module_& module) {
-  py::class_<Scene> scene(module, "Scene");
-  bind_what_is_seen(scene);
-  scene
-      .def("facts",
-           [](const Scene& s) {
-             return CallLimits().run([&](const Execution& on) { return facts_json(facts_of(s, on)); });
-           })
-      .def("hash",
-           [](const Scene& s) { return CallLimits().run([&](const Execution& on) { return account_of(s, on).hash; }); })
-      .def("with_other_walls", &with_other_walls)
-      .def("write", &write_by_ending)
-      .def(py::pickle([](const Scene& s) { return bytes_of(s); },
-                      [](const py::bytes& b) { return from_bytes<Scene>(b); }));
-  module.def("read_world", &read_named);
-  module.def("read_text", &read_text);
-  module.def("scene", &made_of_arrays);
-  module.def("cells", &made_of_cells);
-  module.def("body", [](const std::string& text) { return robot_value("robot", text), text; });
-  module.def("reading_keywords", [] { return keyword_table(made_once<reading>()); });
-}
-
-namespace py = pybind11;
-namespace {
-
 [[noreturn]] void refuse_part(std::string_view part, std::string_view expected, py::handle found) {
   throw py::type_error(fmt::format("{}: expected {} (found: {})", part, expected, py::repr(found).cast<std::string>()));
 }
@@ -376,6 +349,30 @@ MazeHint read_maze(py::handle value) {
 }
 
 }  // namespace
+
+void bind_worlds(py::module_& module) {
+  py::class_<Scene> scene(module, "Scene");
+  bind_what_is_seen(scene);
+  scene
+      .def("facts",
+           [](const Scene& s) {
+             return CallLimits().run([&](const Execution& on) { return facts_json(facts_of(s, on)); });
+           })
+      .def("hash",
+           [](const Scene& s) { return CallLimits().run([&](const Execution& on) { return account_of(s, on).hash; }); })
+      .def("with_other_walls", &with_other_walls)
+      .def("write", &write_by_ending)
+      .def(py::pickle([](const Scene& s) { return bytes_of(s); },
+                      [](const py::bytes& b) { return from_bytes<Scene>(b); }));
+  module.def("read_world", &read_named);
+  module.def("read_text", &read_text);
+  module.def("scene", &made_of_arrays);
+  module.def("cells", &made_of_cells);
+  module.def("body", [](const std::string& text) { return robot_value("robot", text), text; });
+  module.def("reading_keywords", [] { return keyword_table(made_once<reading>()); });
+}
+
+namespace py = pybind11;
 
 Scene scene_of_arrays(const py::dict& parts) {
   const auto part = [&](const char* name) -> py::object {

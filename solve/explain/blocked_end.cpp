@@ -375,6 +375,45 @@ std::string hint_of(const std::vector<double>& state, BlockedEndSearch& search) 
   return {};
 }
 
+/// The nearest place of the nearest cell, of the lines from 1 to `count`, with a hundredth of the room to spare.
+double free_beside(double x, std::uint32_t count, double reach) {
+  constexpr double digits = 1000.0;
+  const double middle = std::clamp(std::round(x), 1.0, static_cast<double>(count));
+  const double room = std::max(0.0, std::floor(0.99 * (0.5 - reach) * digits));
+  if (std::abs(x - middle) * digits <= room) return x;
+  return (middle * digits + std::copysign(room, x - middle)) / digits;
+}
+
+constexpr std::size_t obstacles_a_poll = 1U << 14U;
+
+class NearPath {
+ public:
+  NearPath(const Scene& scene, std::span<const Vec2> path, double reach, const Execution& execution)
+      : all_(obstacle_box(scene, execution)), legs_(path, execution), reach_(reach) {}
+
+  bool keeps(const Box& box) const {
+    if (box.min.x == all_.min.x || box.min.y == all_.min.y || box.max.x == all_.max.x || box.max.y == all_.max.y) {
+      return true;
+    }
+    const Box around = box.grown(reach_);
+    const auto is_apart = [&](const Box& legs) { return !meet(legs, around); };
+    bool is_near = false;
+    legs_.for_each_in(
+        0, legs_.leg_count() - 1, [&](const Box& legs) { return is_near || is_apart(legs); },
+        [&](std::size_t leg) { is_near = is_near || meet(box_of(legs_.leg(leg)), around); });
+    return is_near;
+  }
+
+ private:
+  static bool meet(const Box& a, const Box& b) {
+    return a.min.x <= b.max.x && a.max.x >= b.min.x && a.min.y <= b.max.y && a.max.y >= b.min.y;
+  }
+
+  Box all_;
+  LegBoxes legs_;
+  double reach_;
+};
+
 }  // namespace
 
 void explain_blocked_end(const Scene& scene, Answer& answer, const Execution& execution) {
@@ -412,19 +451,6 @@ void explain_blocked_end(const Scene& scene, Answer& answer, const Execution& ex
   }
 }
 
-namespace {
-
-/// The nearest place of the nearest cell, of the lines from 1 to `count`, with a hundredth of the room to spare.
-double free_beside(double x, std::uint32_t count, double reach) {
-  constexpr double digits = 1000.0;
-  const double middle = std::clamp(std::round(x), 1.0, static_cast<double>(count));
-  const double room = std::max(0.0, std::floor(0.99 * (0.5 - reach) * digits));
-  if (std::abs(x - middle) * digits <= room) return x;
-  return (middle * digits + std::copysign(room, x - middle)) / digits;
-}
-
-}  // namespace
-
 void explain_blocked_cell(const WallProblem& problem, MazeHint maze, Answer& answer, const MetAt& met_at) {
   if (!is_blocked(answer.outcome)) return;
   const bool is_start = answer.outcome == Outcome::start_blocked;
@@ -449,40 +475,6 @@ void explain_blocked_cell(const WallProblem& problem, MazeHint maze, Answer& ans
     answer.blocked->depth = depth;
   }
 }
-
-namespace {
-
-constexpr std::size_t obstacles_a_poll = 1U << 14U;
-
-class NearPath {
- public:
-  NearPath(const Scene& scene, std::span<const Vec2> path, double reach, const Execution& execution)
-      : all_(obstacle_box(scene, execution)), legs_(path, execution), reach_(reach) {}
-
-  bool keeps(const Box& box) const {
-    if (box.min.x == all_.min.x || box.min.y == all_.min.y || box.max.x == all_.max.x || box.max.y == all_.max.y) {
-      return true;
-    }
-    const Box around = box.grown(reach_);
-    const auto is_apart = [&](const Box& legs) { return !meet(legs, around); };
-    bool is_near = false;
-    legs_.for_each_in(
-        0, legs_.leg_count() - 1, [&](const Box& legs) { return is_near || is_apart(legs); },
-        [&](std::size_t leg) { is_near = is_near || meet(box_of(legs_.leg(leg)), around); });
-    return is_near;
-  }
-
- private:
-  static bool meet(const Box& a, const Box& b) {
-    return a.min.x <= b.max.x && a.max.x >= b.min.x && a.min.y <= b.max.y && a.max.y >= b.min.y;
-  }
-
-  Box all_;
-  LegBoxes legs_;
-  double reach_;
-};
-
-}  // namespace
 
 Scene obstacles_near(const Scene& scene, std::span<const Vec2> path, double reach, const Execution& execution) {
   if (scene.map || is_unmade(scene)) return scene;

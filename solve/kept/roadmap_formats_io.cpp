@@ -36,27 +36,7 @@ void write_edge_table(const ExportedEdgesView& edges, OutputFile& file, const Ex
   });
 }
 
-}  // namespace
-
-ExportAccount write_roadmap_csv(const ExportedRoadmapView& roadmap, const std::string& vertex_path,
-                                const std::string& edge_path, const Execution& execution) {
-  const ExportedEdgesView edges(roadmap, EdgeWays::once, execution);
-  OutputFile vertex_file(vertex_path, execution);
-  OutputFile edge_file(edge_path, execution);
-  write_vertex_table(roadmap.parts, vertex_file, execution);
-  write_edge_table(edges, edge_file, execution);
-  vertex_file.complete();
-  edge_file.complete();
-  FirstOfTwoFiles first(vertex_path);
-  vertex_file.commit();
-  edge_file.commit();
-  first.keep();
-  return edges.account();
-}
-
 // Numbers are quoted: a bare numeral of the language has no exponent.
-
-namespace {
 
 void write_dot_vertices(const RoadmapParts& parts, OutputFile& file, const Execution& execution) {
   const std::vector<std::string> names = state_names(parts.dimension);
@@ -84,23 +64,6 @@ void write_dot_edges(const ExportedEdgesView& edges, std::string_view arrow, Out
     });
   });
 }
-
-}  // namespace
-
-ExportAccount write_roadmap_dot(const ExportedRoadmapView& roadmap, const std::string& path,
-                                const Execution& execution) {
-  const ExportedEdgesView edges(roadmap, EdgeWays::once, execution);
-  OutputFile file(path, execution);
-  file.write(roadmap.parts.directed ? "digraph roadmap {\n" : "graph roadmap {\n");
-  file.write("node [shape=point];\n");
-  write_dot_vertices(roadmap.parts, file, execution);
-  write_dot_edges(edges, roadmap.parts.directed ? "->" : "--", file, execution);
-  file.write("}\n");
-  file.commit();
-  return edges.account();
-}
-
-namespace {
 
 void write_arcs(const ExportedEdgesView& edges, std::size_t vertices, OutputFile& file, const Execution& execution) {
   const BinaryUnit unit(edges.longest(execution));
@@ -143,26 +106,6 @@ void write_coordinates(const RoadmapParts& parts, OutputFile& file, const Execut
     }
   });
 }
-
-}  // namespace
-
-ExportAccount write_roadmap_dimacs(const ExportedRoadmapView& roadmap, const std::string& arc_path,
-                                   const std::string& coordinate_path, const Execution& execution) {
-  const ExportedEdgesView edges(roadmap, EdgeWays::both, execution);
-  OutputFile arc_file(arc_path, execution);
-  OutputFile coordinate_file(coordinate_path, execution);
-  write_arcs(edges, roadmap.parts.vertex_count(), arc_file, execution);
-  write_coordinates(roadmap.parts, coordinate_file, execution);
-  arc_file.complete();
-  coordinate_file.complete();
-  FirstOfTwoFiles first(arc_path);
-  arc_file.commit();
-  coordinate_file.commit();
-  first.keep();
-  return edges.account();
-}
-
-namespace {
 
 void check_loadable(const ExportedRoadmapView& roadmap, const ExportedEdgesView& edges, const std::string& path) {
   constexpr std::uint64_t most_ids = std::numeric_limits<std::uint32_t>::max();  // the last one means "none" there
@@ -217,23 +160,6 @@ void write_lines(const RoadmapParts& parts, const ExportedEdgesView& edges, Outp
   });
 }
 
-}  // namespace
-
-ExportAccount write_roadmap_geojson(const ExportedRoadmapView& roadmap, const std::string& path,
-                                    const Execution& execution) {
-  const ExportedEdgesView edges(roadmap, EdgeWays::both, execution);
-  check_loadable(roadmap, edges, path);
-  OutputFile file(path, execution);
-  file.write("{\"type\":\"FeatureCollection\",\"name\":\"graph\",\"features\":[\n");
-  write_points(roadmap, file, execution);
-  write_lines(roadmap.parts, edges, file, execution);
-  file.write("]}\n");
-  file.commit();
-  return edges.account();
-}
-
-namespace {
-
 std::string key_line(std::string_view name, std::string_view of, std::string_view type) {
   return fmt::format("<key id=\"{0}\" for=\"{1}\" attr.name=\"{0}\" attr.type=\"{2}\"/>\n", name, of, type);
 }
@@ -275,6 +201,64 @@ void write_edges(const ExportedEdgesView& edges, OutputFile& file, const Executi
 }
 
 }  // namespace
+
+ExportAccount write_roadmap_csv(const ExportedRoadmapView& roadmap, const std::string& vertex_path,
+                                const std::string& edge_path, const Execution& execution) {
+  const ExportedEdgesView edges(roadmap, EdgeWays::once, execution);
+  OutputFile vertex_file(vertex_path, execution);
+  OutputFile edge_file(edge_path, execution);
+  write_vertex_table(roadmap.parts, vertex_file, execution);
+  write_edge_table(edges, edge_file, execution);
+  vertex_file.complete();
+  edge_file.complete();
+  FirstOfTwoFiles first(vertex_path);
+  vertex_file.commit();
+  edge_file.commit();
+  first.keep();
+  return edges.account();
+}
+
+ExportAccount write_roadmap_dot(const ExportedRoadmapView& roadmap, const std::string& path,
+                                const Execution& execution) {
+  const ExportedEdgesView edges(roadmap, EdgeWays::once, execution);
+  OutputFile file(path, execution);
+  file.write(roadmap.parts.directed ? "digraph roadmap {\n" : "graph roadmap {\n");
+  file.write("node [shape=point];\n");
+  write_dot_vertices(roadmap.parts, file, execution);
+  write_dot_edges(edges, roadmap.parts.directed ? "->" : "--", file, execution);
+  file.write("}\n");
+  file.commit();
+  return edges.account();
+}
+
+ExportAccount write_roadmap_dimacs(const ExportedRoadmapView& roadmap, const std::string& arc_path,
+                                   const std::string& coordinate_path, const Execution& execution) {
+  const ExportedEdgesView edges(roadmap, EdgeWays::both, execution);
+  OutputFile arc_file(arc_path, execution);
+  OutputFile coordinate_file(coordinate_path, execution);
+  write_arcs(edges, roadmap.parts.vertex_count(), arc_file, execution);
+  write_coordinates(roadmap.parts, coordinate_file, execution);
+  arc_file.complete();
+  coordinate_file.complete();
+  FirstOfTwoFiles first(arc_path);
+  arc_file.commit();
+  coordinate_file.commit();
+  first.keep();
+  return edges.account();
+}
+
+ExportAccount write_roadmap_geojson(const ExportedRoadmapView& roadmap, const std::string& path,
+                                    const Execution& execution) {
+  const ExportedEdgesView edges(roadmap, EdgeWays::both, execution);
+  check_loadable(roadmap, edges, path);
+  OutputFile file(path, execution);
+  file.write("{\"type\":\"FeatureCollection\",\"name\":\"graph\",\"features\":[\n");
+  write_points(roadmap, file, execution);
+  write_lines(roadmap.parts, edges, file, execution);
+  file.write("]}\n");
+  file.commit();
+  return edges.account();
+}
 
 ExportAccount write_roadmap_graphml(const ExportedRoadmapView& roadmap, const std::string& path,
                                     const Execution& execution) {

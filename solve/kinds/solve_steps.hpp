@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <new>
 #include <optional>
 #include <stdexcept>
@@ -20,6 +21,12 @@
 #include "verify/judges/verify_point.hpp"
 
 namespace warren {
+
+/// SolveKind::usual of a kind whose questions all have the same usual planner.
+template <PlannerKind planner>
+PlannerKind usually(const SolveOptions&, const Scene&, const Question&) {
+  return planner;
+}
 
 /// Problem, planner and options, as the answer repeats them; for planners that build roadmaps of samples.
 void describe_roadmap_planner(Answer& answer, const WallProblem& problem, const PlannerOptions& options);
@@ -46,6 +53,14 @@ void settle_blocked_ends(Answer& answer, const Scene& scene, const WallProblem& 
 /// Why a roadmap or trees do not join start and goal, one word a cause; empty where nobody measured how far they are
 /// apart.
 std::string_view cause_of_separation(const Answer& answer, bool by_roadmap);
+
+/// What an estimate that was asked for costs in length: the same question is answered once more by A* with the straight
+/// line, which finds the shortest path of the same roadmap. Adds to the path's figures `searched_length` (before
+/// shortening), `shortest_length` and `shortest_expanded` of the straight line, where another estimate was asked for
+/// and a path was found. `ask` answers with the estimate that it is given, without shortening. What stops meanwhile
+/// adds nothing.
+void price_heuristic(Answer& answer, std::optional<HeuristicKind> asked,
+                     const std::function<Answer(HeuristicKind)>& ask);
 
 /// Forgets all that an answer says of a path: only what a judge has verified is claimed.
 void claim_nothing(Answer& answer);

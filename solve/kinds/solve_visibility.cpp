@@ -158,9 +158,7 @@ class SampledVisibilitySolve {
         .problem = {}, .world_hash = {}, .length = {}, .file = {}, .path = answer.path, .states = {}};
     const Verification judged = verify_plane_answer(request_.scene, problem_, found, request_.execution);
     if (!judged.verified) return refute(answer, judged);
-    answer.verified = true;
-    answer.length = judged.length;
-    answer.min_clearance = judged.min_clearance;
+    take_verdict(answer, judged);
   }
 
   const SolveRequest& request_;

@@ -21,6 +21,22 @@ double of_joint(const std::vector<double>& limits, std::size_t k) {
   return limits[limits.size() == 1 ? 0 : k];
 }
 
+LegShape shape_of(RobotKind kind) {
+  switch (kind) {
+    case RobotKind::point:
+    case RobotKind::disc:
+      return LegShape::straight;
+    case RobotKind::polygon:
+      return LegShape::turning;
+    case RobotKind::car:
+      return LegShape::driven;
+    case RobotKind::puma560:
+    case RobotKind::arm:
+      return LegShape::joints;
+  }
+  return LegShape::straight;
+}
+
 }  // namespace
 
 auto TimedPath::limits_of(std::size_t leg) const -> LegLimits {
@@ -145,26 +161,6 @@ PathMoment TimedPath::at_share(std::size_t leg, double share, double& time_s) co
   time_s += r.up_s + r.level_s + (r.top - speed) / r.rate;
   return {leg, share, gear * speed};
 }
-
-namespace {
-
-LegShape shape_of(RobotKind kind) {
-  switch (kind) {
-    case RobotKind::point:
-    case RobotKind::disc:
-      return LegShape::straight;
-    case RobotKind::polygon:
-      return LegShape::turning;
-    case RobotKind::car:
-      return LegShape::driven;
-    case RobotKind::puma560:
-    case RobotKind::arm:
-      return LegShape::joints;
-  }
-  return LegShape::straight;
-}
-
-}  // namespace
 
 PathLegs::PathLegs(const Answer& answer)
     : answer_(&answer),

@@ -69,14 +69,65 @@ class WallSolve {
   Answer& answer() { return answer_; }
 
  private:
-  const MazeWorld& indexed_world();
-  void plan(PlannedRoadmap<Vec2>* keep);
-  Solution<Vec2> plan_tiles();
-  bool grows() const;
-  bool ends_are_free(const MazeWorld& world) const;
-  bool proved_infeasible();
-  void tell_cause();
-  void optimise();
+  const MazeWorld& indexed_world() {
+    if (asked_.session != nullptr) return *static_cast<const SessionIn<MazeWorld>&>(*asked_.session).world;
+    if (!world_) {
+      const StageTimer timer(execution_, "index", answer_.seconds.index, scene_.walls.size());
+      world_.emplace(scene_, problem_.reach(), execution_);
+    }
+    return *world_;
+  }
+  void plan(PlannedRoadmap<Vec2>* keep) {
+    if (asked_.session != nullptr) {
+      const auto& session = static_cast<const SessionIn<MazeWorld>&>(*asked_.session);
+      take_solution(answer_, ask_roadmap(*session.roadmap, problem_.start, problem_.goal, options_.roadmap, execution_,
+                                         *asked_.scratch, keep));
+      return;
+    }
+    if (options_.pipeline != PipelineKind::plain) {
+      take_solution(answer_, plan_tiles());
+      return;
+    }
+    const MazeWorld& world = indexed_world();
+    if (grows() && ends_are_free(world) && proved_infeasible()) return;
+    const auto planner = options_.planner == PlannerKind::prm ? prm<MazeWorld> : lazy_prm<MazeWorld>;
+    take_solution(answer_, planner(world, problem_.start, problem_.goal, options_.roadmap, execution_, keep));
+  }
+  Solution<Vec2> plan_tiles() {
+    const std::vector<Segment> bounds = bounds_walls(scene_);
+    const TiledProblem problem{
+        scene_.walls,   bounds,        scene_.bounds, problem_.reach(),
+        problem_.start, problem_.goal, nullptr,       options_.pipeline == PipelineKind::streamed};
+    return tiled_prm(problem, options_.roadmap, execution_);
+  }
+  /// Does the roadmap grow until start and goal connect? Then one asks first whether they ever can.
+  bool grows() const { return options_.roadmap.sampler != SamplerKind::lattice && !options_.roadmap.samples; }
+  bool ends_are_free(const MazeWorld& world) const {
+    auto query = world.make_query();
+    return world.is_free(problem_.start, query) && world.is_free(problem_.goal, query);
+  }
+  bool proved_infeasible() {
+    if (!scene_.maze) return false;
+    const StageTimer timer(execution_, "proof", answer_.seconds.search);
+    if (!proves_infeasible(scene_, problem_.start, problem_.goal, execution_)) return false;
+    answer_.outcome = Outcome::infeasible;
+    return true;
+  }
+  /// As SampledSolve says it of other bodies.
+  void tell_cause() {
+    const auto tell = [&](std::string_view cause) {
+      if (!cause.empty()) answer_.figures.push_back({"cause", std::string(cause)});
+    };
+    if (answer_.outcome == Outcome::start_blocked) tell("start_in_collision");
+    if (answer_.outcome == Outcome::goal_blocked) tell("goal_in_collision");
+    if (answer_.outcome == Outcome::not_connected) tell(cause_of_separation(answer_, true));
+  }
+  void optimise() {
+    const MazeWorld& world = indexed_world();
+    const StageTimer timer(execution_, "optimise", answer_.seconds.optimise, answer_.path.size());
+    answer_.raw_length = path_length(answer_.path, MazeWorld::distance);
+    answer_.path = taut_path(world.walls(), answer_.path, world.planning_clearance(), execution_);
+  }
 
   const Scene& scene_;
   const WallProblem& problem_;
@@ -86,72 +137,6 @@ class WallSolve {
   std::optional<MazeWorld> world_;  // tiles need none; made where it is first asked for
   Answer answer_;
 };
-
-const MazeWorld& WallSolve::indexed_world() {
-  if (asked_.session != nullptr) return *static_cast<const SessionIn<MazeWorld>&>(*asked_.session).world;
-  if (!world_) {
-    const StageTimer timer(execution_, "index", answer_.seconds.index, scene_.walls.size());
-    world_.emplace(scene_, problem_.reach(), execution_);
-  }
-  return *world_;
-}
-
-void WallSolve::plan(PlannedRoadmap<Vec2>* keep) {
-  if (asked_.session != nullptr) {
-    const auto& session = static_cast<const SessionIn<MazeWorld>&>(*asked_.session);
-    take_solution(answer_, ask_roadmap(*session.roadmap, problem_.start, problem_.goal, options_.roadmap, execution_,
-                                       *asked_.scratch, keep));
-    return;
-  }
-  if (options_.pipeline != PipelineKind::plain) {
-    take_solution(answer_, plan_tiles());
-    return;
-  }
-  const MazeWorld& world = indexed_world();
-  if (grows() && ends_are_free(world) && proved_infeasible()) return;
-  const auto planner = options_.planner == PlannerKind::prm ? prm<MazeWorld> : lazy_prm<MazeWorld>;
-  take_solution(answer_, planner(world, problem_.start, problem_.goal, options_.roadmap, execution_, keep));
-}
-
-Solution<Vec2> WallSolve::plan_tiles() {
-  const std::vector<Segment> bounds = bounds_walls(scene_);
-  const TiledProblem problem{scene_.walls,   bounds,        scene_.bounds, problem_.reach(),
-                             problem_.start, problem_.goal, nullptr,       options_.pipeline == PipelineKind::streamed};
-  return tiled_prm(problem, options_.roadmap, execution_);
-}
-
-/// Does the roadmap grow until start and goal connect? Then one asks first whether they ever can.
-bool WallSolve::grows() const { return options_.roadmap.sampler != SamplerKind::lattice && !options_.roadmap.samples; }
-
-bool WallSolve::ends_are_free(const MazeWorld& world) const {
-  auto query = world.make_query();
-  return world.is_free(problem_.start, query) && world.is_free(problem_.goal, query);
-}
-
-bool WallSolve::proved_infeasible() {
-  if (!scene_.maze) return false;
-  const StageTimer timer(execution_, "proof", answer_.seconds.search);
-  if (!proves_infeasible(scene_, problem_.start, problem_.goal, execution_)) return false;
-  answer_.outcome = Outcome::infeasible;
-  return true;
-}
-
-/// As SampledSolve says it of other bodies.
-void WallSolve::tell_cause() {
-  const auto tell = [&](std::string_view cause) {
-    if (!cause.empty()) answer_.figures.push_back({"cause", std::string(cause)});
-  };
-  if (answer_.outcome == Outcome::start_blocked) tell("start_in_collision");
-  if (answer_.outcome == Outcome::goal_blocked) tell("goal_in_collision");
-  if (answer_.outcome == Outcome::not_connected) tell(cause_of_separation(answer_, true));
-}
-
-void WallSolve::optimise() {
-  const MazeWorld& world = indexed_world();
-  const StageTimer timer(execution_, "optimise", answer_.seconds.optimise, answer_.path.size());
-  answer_.raw_length = path_length(answer_.path, MazeWorld::distance);
-  answer_.path = taut_path(world.walls(), answer_.path, world.planning_clearance(), execution_);
-}
 
 /// As a body of sampled_roadmap.hpp.
 class PointAmongWalls : public UsualBody {

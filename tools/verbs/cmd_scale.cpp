@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "apps/studies/scaling_report.hpp"
 #include "apps/studies/scaling_study.hpp"
 #include "core/base/error.hpp"
 #include "solve/question/planner_choice.hpp"

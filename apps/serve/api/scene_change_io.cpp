@@ -65,54 +65,8 @@ DrawnShapes shapes_of(const OrderedJson& json, const std::string& where) {
   return shapes;
 }
 
-}  // namespace
-
-SceneChange read_scene_change(std::string_view text, const Execution& execution) {
-  SceneChange change;
-  const OrderedJson json = json_object_of(text, deepest_json, execution);
-  for (const auto& [key, value] : json.items()) {
-    if (key == "add") {
-      change.add = shapes_of(value, "add");
-    } else if (key == "remove") {
-      change.remove = shapes_of(value, "remove");
-    } else if (key == "erase") {
-      for_each_in(value, "erase", most_changed_shapes, [&](const OrderedJson& item, const std::string& place) {
-        const auto [x, y, reach] = numbers_of<3>(item, place);
-        if (reach < 0.0) refuse_json(place, "x, y and a reach of 0 or more");
-        change.erase.push_back({{x, y}, reach});
-      });
-    } else {
-      refuse_json("body", "the keys add, remove, erase");
-    }
-  }
-  return change;
-}
-
-std::string shapes_json(const DrawnShapes& shapes) {
-  std::string walls = "[";
-  for (const Segment& wall : shapes.walls) {
-    if (walls.size() > 1) walls += ',';
-    append_json_list(walls, std::array{wall.a.x, wall.a.y, wall.b.x, wall.b.y});
-  }
-  std::string polygons = "[";
-  for (const std::vector<Vec2>& corners : shapes.polygons) {
-    polygons += polygons.size() > 1 ? ",[" : "[";
-    for (const Vec2 corner : corners) {
-      if (polygons.back() == ']') polygons += ',';
-      append_json_list(polygons, std::array{corner.x, corner.y});
-    }
-    polygons += ']';
-  }
-  JsonObject json;
-  json.add_json("walls", walls + "]");
-  json.add_json("polygons", polygons + "]");
-  return json.closed();
-}
-
 // Polygons are few beside walls and are looked through; of walls, those to remove are sorted, so a change costs
 // O(n log k) for n walls and k shapes.
-
-namespace {
 
 constexpr std::size_t a_poll = 4096;
 
@@ -233,6 +187,53 @@ void check(const Scene& scene, const SceneChange& change) {
 }
 
 }  // namespace
+
+SceneChange read_scene_change(std::string_view text, const Execution& execution) {
+  SceneChange change;
+  const OrderedJson json = json_object_of(text, deepest_json, execution);
+  for (const auto& [key, value] : json.items()) {
+    if (key == "add") {
+      change.add = shapes_of(value, "add");
+    } else if (key == "remove") {
+      change.remove = shapes_of(value, "remove");
+    } else if (key == "erase") {
+      for_each_in(value, "erase", most_changed_shapes, [&](const OrderedJson& item, const std::string& place) {
+        const auto [x, y, reach] = numbers_of<3>(item, place);
+        if (reach < 0.0) refuse_json(place, "x, y and a reach of 0 or more");
+        change.erase.push_back({{x, y}, reach});
+      });
+    } else {
+      refuse_json("body", "the keys add, remove, erase");
+    }
+  }
+  return change;
+}
+
+std::string json_chains(const std::vector<std::vector<Vec2>>& chains, const Execution& execution) {
+  std::string text = "[";
+  for (const std::vector<Vec2>& chain : chains) {
+    execution.check();
+    text += text.size() > 1 ? ",[" : "[";
+    for (const Vec2 p : chain) {
+      if (text.back() == ']') text += ',';
+      append_json_list(text, std::array{p.x, p.y});
+    }
+    text += ']';
+  }
+  return text + "]";
+}
+
+std::string shapes_json(const DrawnShapes& shapes) {
+  std::string walls = "[";
+  for (const Segment& wall : shapes.walls) {
+    if (walls.size() > 1) walls += ',';
+    append_json_list(walls, std::array{wall.a.x, wall.a.y, wall.b.x, wall.b.y});
+  }
+  JsonObject json;
+  json.add_json("walls", walls + "]");
+  json.add_json("polygons", json_chains(shapes.polygons, Execution()));
+  return json.closed();
+}
 
 ChangedScene changed(const Scene& scene, const SceneChange& change, const std::optional<MazeHint>& maze,
                      const Execution& execution) {

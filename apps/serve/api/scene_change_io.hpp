@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Changes of a world as JSON: {"add": {"walls": [[x, y, x, y], ...], "polygons": [[[x, y], ...], ...]}, "remove": the
+// What people draw into a world and take out of it, and the world that comes of it. A change has an inverse, so that it
+// can be taken back. As JSON: {"add": {"walls": [[x, y, x, y], ...], "polygons": [[[x, y], ...], ...]}, "remove": the
 // same, "erase": [[x, y, reach], ...]}.
 #pragma once
 
@@ -14,8 +15,6 @@
 #include "scenes/scene/scene.hpp"
 
 namespace warren::serve {
-// What people draw into a world and take out of it, and the world that comes of it. A change has an inverse, so that it
-// can be taken back.
 
 struct DrawnShapes {
   std::vector<Segment> walls = {};
@@ -52,6 +51,8 @@ ChangedScene changed(const Scene& scene, const SceneChange& change, const std::o
 
 /// Throws HttpError with the place of what is none, Stopped.
 SceneChange read_scene_change(std::string_view json, const Execution& execution);
+/// [[[x, y], ...], ...]. Throws Stopped.
+std::string json_chains(const std::vector<std::vector<Vec2>>& chains, const Execution& execution);
 /// {"walls": ..., "polygons": ...}
 std::string shapes_json(const DrawnShapes& shapes);
 

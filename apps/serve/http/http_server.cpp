@@ -84,12 +84,27 @@ namespace {
 class ConnectionPlaces {
  public:
   Connection& add(boost::asio::ip::tcp::socket socket, const boost::asio::ip::address& address,
-                  std::size_t buffer_bytes);
+                  std::size_t buffer_bytes) {
+    const std::uint64_t id = next_id_++;
+    auto& place = connections_[id] = std::make_unique<Connection>(id, std::move(socket), buffer_bytes);
+    place->address = address;
+    return *place;
+  }
   void forget(const Connection& connection) { connections_.erase(connection.id); }
   std::size_t size() const { return connections_.size(); }
-  std::size_t of_address(const boost::asio::ip::address& address) const;
+  std::size_t of_address(const boost::asio::ip::address& address) const {
+    const auto same = [&](const auto& other) { return other.second->address == address; };
+    return static_cast<std::size_t>(std::count_if(connections_.begin(), connections_.end(), same));
+  }
   /// Who has waited longest without a whole request; nullptr: all are worked on or answered.
-  Connection* longest_waiting() const;
+  Connection* longest_waiting() const {
+    Connection* longest = nullptr;
+    for (const auto& [id, other] : connections_) {
+      const bool waits = !other->closed && (other->stage <= Stage::body || other->stage == Stage::linger);
+      if (waits && (longest == nullptr || other->waits_since < longest->waits_since)) longest = other.get();
+    }
+    return longest;
+  }
   /// Calls visit with each; it may forget the one that it is given.
   template <class Visit>
   void each(const Visit& visit) {
@@ -100,28 +115,6 @@ class ConnectionPlaces {
   std::uint64_t next_id_ = 0;
   std::map<std::uint64_t, std::unique_ptr<Connection>> connections_;
 };
-
-Connection& ConnectionPlaces::add(boost::asio::ip::tcp::socket socket, const boost::asio::ip::address& address,
-                                  std::size_t buffer_bytes) {
-  const std::uint64_t id = next_id_++;
-  auto& place = connections_[id] = std::make_unique<Connection>(id, std::move(socket), buffer_bytes);
-  place->address = address;
-  return *place;
-}
-
-std::size_t ConnectionPlaces::of_address(const boost::asio::ip::address& address) const {
-  const auto same = [&](const auto& other) { return other.second->address == address; };
-  return static_cast<std::size_t>(std::count_if(connections_.begin(), connections_.end(), same));
-}
-
-Connection* ConnectionPlaces::longest_waiting() const {
-  Connection* longest = nullptr;
-  for (const auto& [id, other] : connections_) {
-    const bool waits = !other->closed && (other->stage <= Stage::body || other->stage == Stage::linger);
-    if (waits && (longest == nullptr || other->waits_since < longest->waits_since)) longest = other.get();
-  }
-  return longest;
-}
 
 // Where a server listens.
 
@@ -176,6 +169,31 @@ bool has_gone(Tcp::socket& socket) {
   socklen_t size = sizeof info;
   return ::getsockopt(socket.native_handle(), IPPROTO_TCP, TCP_INFO, &info, &size) == 0 &&
          info.tcpi_state != TCP_ESTABLISHED;
+}
+
+HttpResponse said_of(const Stopped& stopped) {
+  if (stopped.reason == StopReason::memory) {
+    return error_response(503, "memory", "", "this needs more memory than there is");
+  }
+  return error_response(504, "budget", "budget_ms", "this takes longer than it may");
+}
+
+HttpResponse said_of_what_is_thrown() {
+  try {
+    throw;
+  } catch (const HttpError& error) {
+    return error_response(error);
+  } catch (const UsageError& error) {
+    return error_response(400, "usage", "", error.what());
+  } catch (const InputError& error) {
+    return error_response(400, "bad_data", error.where(), error.what());
+  } catch (const Stopped& stopped) {
+    return said_of(stopped);
+  } catch (const std::bad_alloc&) {
+    return error_response(503, "memory", "", "memory is out");
+  } catch (const std::exception& error) {
+    return error_response(500, "internal", "", error.what());
+  }
 }
 
 }  // namespace
@@ -501,35 +519,6 @@ std::string HttpServer::address() const { return connections_->address(); }
 std::uint16_t HttpServer::port() const { return connections_->names().port; }
 bool HttpServer::is_loopback() const { return connections_->names().is_loopback; }
 void HttpServer::run(const SignalFlag& stop) { connections_->run(stop); }
-
-namespace {
-
-HttpResponse said_of(const Stopped& stopped) {
-  if (stopped.reason == StopReason::memory) {
-    return error_response(503, "memory", "", "this needs more memory than there is");
-  }
-  return error_response(504, "budget", "budget_ms", "this takes longer than it may");
-}
-
-HttpResponse said_of_what_is_thrown() {
-  try {
-    throw;
-  } catch (const HttpError& error) {
-    return error_response(error);
-  } catch (const UsageError& error) {
-    return error_response(400, "usage", "", error.what());
-  } catch (const InputError& error) {
-    return error_response(400, "bad_data", error.where(), error.what());
-  } catch (const Stopped& stopped) {
-    return said_of(stopped);
-  } catch (const std::bad_alloc&) {
-    return error_response(503, "memory", "", "memory is out");
-  } catch (const std::exception& error) {
-    return error_response(500, "internal", "", error.what());
-  }
-}
-
-}  // namespace
 
 HttpResponse answer_of(HttpService& service, const HttpRequest& request, const SignalFlag& gone) noexcept {
   try {

@@ -21,6 +21,19 @@ std::optional<std::uint32_t> number_below(std::uint32_t end, std::string_view di
   return is_plain && error == std::errc() && read == last && number < end ? std::optional(number) : std::nullopt;
 }
 
+/// The least of 1, 2, 2.5 and 5 times a power of ten that is not below.
+double round_number_from(double least) {
+  double times_ten = 1.0;
+  while (least >= 10.0 * times_ten) times_ten *= 10.0;
+  double parts = 1.0;
+  while (least * parts < 1.0) parts *= 10.0;
+  const double power = least < 1.0 ? 1.0 / parts : times_ten;
+  for (const double times : {1.0, 2.0, 2.5, 5.0}) {
+    if (times * power >= least) return times * power;
+  }
+  return 10.0 * power;
+}
+
 }  // namespace
 
 Box TileGrid::box_of(const TilePlace& tile) const {
@@ -57,23 +70,6 @@ TileGrid grid_around(const Box& box) {
   const double span = extent * margin;
   return {.corner = {middle.x - 0.5 * span, middle.y + 0.5 * span}, .span = span, .levels = levels};
 }
-
-namespace {
-
-/// The least of 1, 2, 2.5 and 5 times a power of ten that is not below.
-double round_number_from(double least) {
-  double times_ten = 1.0;
-  while (least >= 10.0 * times_ten) times_ten *= 10.0;
-  double parts = 1.0;
-  while (least * parts < 1.0) parts *= 10.0;
-  const double power = least < 1.0 ? 1.0 / parts : times_ten;
-  for (const double times : {1.0, 2.0, 2.5, 5.0}) {
-    if (times * power >= least) return times * power;
-  }
-  return 10.0 * power;
-}
-
-}  // namespace
 
 Steps Steps::up_to(double usual, double most) {
   constexpr double with_an_end = step_inks.size() - 1.0;
