@@ -83,20 +83,10 @@ class PathParts {
   }
   double clearance(const std::vector<std::vector<double>>& states) const {
     execution_.check();
-    RecordedAnswer part;
-    part.file = "answer";
-    for (const std::vector<double>& each : states) {
-      if (in_plane()) {
-        part.path.push_back({each[0], each[1]});
-      } else {
-        part.states.width = each.size();
-        part.states.add(each);
-      }
-    }
     Question question = question_;
     question.start = states.front();
     question.goal = states.back();
-    return kind_.verify(near_, question, part, execution_).min_clearance;
+    return kind_.verify(near_, question, recorded(states), execution_).min_clearance;
   }
 
  private:
@@ -353,11 +343,8 @@ void explain_answer(const Scene& scene, const AskedWith& asked, Answer& answer, 
     if (const Graph* graph = graph_of(made, answer)) explained.components = facts_of(*graph, execution);
   }
   if (!answer.verified) return;
-  RecordedAnswer path;
-  path.file = "answer";
-  path.path = answer.path;
-  path.states = answer.states;
-  explained.narrowest = narrowest_place(scene, answer.problem.question(), path, answer.min_clearance, execution);
+  explained.narrowest =
+      narrowest_place(scene, answer.problem.question(), recorded(answer), answer.min_clearance, execution);
   if (explained.narrowest) explained.narrowest->one_sample_in = one_sample_in(scene, answer, execution);
 }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "parallel/trace.hpp"
@@ -37,17 +36,6 @@ void check_length(Verdict& verdict, const RecordedAnswer& answer) {
       Violation{.leg = 0,
                 .distance = 0.0,
                 .obstacle = fmt::format("length: the answer says {}, its path has {}", *answer.length, verdict.length)};
-}
-
-RecordedAnswer recorded(const Answer& answer) {
-  RecordedAnswer record;
-  record.problem = answer.problem.question();
-  record.world_hash = answer.world.hash;
-  record.length = answer.length;
-  record.file = "answer";
-  record.path = answer.path;
-  record.states = answer.states;
-  return record;
 }
 
 }  // namespace

@@ -3,21 +3,17 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
-#include <optional>
-#include <utility>
 
 #include "apps/distributed/leader_follower.hpp"
 #include "apps/distributed/rank_protocol.hpp"
 #include "apps/distributed/ranks_report_io.hpp"
 #include "apps/distributed/shared_solve.hpp"
 #include "apps/studies/machine.hpp"
-#include "core/base/error.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "solve/streamed/solve_streamed.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
-#include "tools/screen/signals.hpp"
 #include "tools/screen/terminal.hpp"
 #include "tools/words/option_values.hpp"
 #include "tools/words/planner_words.hpp"

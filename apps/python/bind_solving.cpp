@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// solve() and verify(), with the program's options as keywords.
+// solve(), verify() and compare(), with the program's options as keywords.
 
 #include <pybind11/stl.h>
 
@@ -167,10 +167,6 @@ void bind_solving(py::module_& module) {
   module.def("solve_keywords", [] { return keyword_table(made_once<solving>()); });
   module.def("verify_keywords", [] { return keyword_table(made_once<verifying>()); });
 }
-
-// Planners compared in a world and searches on graphs, as `warren compare` does.
-
-namespace py = pybind11;
 
 void bind_studies(py::module_& module) {
   py::class_<studies::Comparison>(module, "Comparison")

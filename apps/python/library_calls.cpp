@@ -163,8 +163,6 @@ void CallLimits::raise_what_stopped(StopReason reason) {
   if (is_signal(reason)) let_python_handle_signals();
 }
 
-namespace py = pybind11;
-
 std::string with_keywords(std::string text) {
   std::string said;
   for (std::size_t i = 0; i < text.size(); ++i) {

@@ -9,8 +9,6 @@
 #include <iterator>
 #include <map>
 #include <numeric>
-#include <stdexcept>
-#include <variant>
 
 #include "apps/studies/search_graph.hpp"
 #include "core/base/rng.hpp"

@@ -13,7 +13,6 @@
 #include "apps/studies/machine.hpp"
 #include "apps/studies/scaling_study.hpp"
 #include "apps/studies/study_report.hpp"
-#include "pictures/formats/markup.hpp"
 #include "pictures/plots/plot.hpp"
 #include "scenes/files/human_units.hpp"
 

@@ -11,7 +11,6 @@
 #include <span>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "core/base/printable.hpp"
 #include "scenes/files/human_units.hpp"

@@ -155,6 +155,31 @@ class AnswerReader {
 
 }  // namespace
 
+RecordedAnswer recorded(const Answer& answer) {
+  RecordedAnswer record;
+  record.problem = answer.problem.question();
+  record.world_hash = answer.world.hash;
+  record.length = answer.length;
+  record.file = "answer";
+  record.path = answer.path;
+  record.states = answer.states;
+  return record;
+}
+
+RecordedAnswer recorded(std::span<const std::vector<double>> states) {
+  RecordedAnswer record;
+  record.file = "answer";
+  for (const std::vector<double>& state : states) {
+    if (state.size() == 2) {
+      record.path.push_back({state[0], state[1]});
+    } else {
+      record.states.width = state.size();
+      record.states.add(state);
+    }
+  }
+  return record;
+}
+
 RecordedAnswer read_answer(const std::string& file, const Execution& execution) {
   return read_answer(InputFile(file, execution), execution);
 }

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solve/explain/blocked_arm.hpp"
+// Why an arm does not fit where it shall start or end.
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -17,6 +15,7 @@
 
 #include "core/base/trigonometry.hpp"
 #include "scenes/files/human_units.hpp"
+#include "solve/explain/blocked_end.hpp"
 #include "solve/explain/nearest_free.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/question/question_of_arm.hpp"
@@ -60,11 +59,9 @@ class BlockedArm {
   /// Of the deepest link in the solid that is named, or of two links in one another.
   std::optional<double> depth_in(const Violation& violation, const JointState& q) const {
     const std::string_view name = violation.obstacle;
-    const auto numbered = [&](std::string_view word, std::size_t count) -> std::optional<std::size_t> {
-      if (!name.starts_with(word)) return std::nullopt;
-      std::size_t number = count;
-      std::from_chars(name.data() + word.size(), name.data() + name.size(), number);
-      return number < count ? std::optional(number) : std::nullopt;
+    const auto numbered = [&](std::string_view word, std::size_t count) {
+      const auto number = number_after(name, word);
+      return number && *number < count ? number : std::nullopt;
     };
     double depth = 0.0;
     if (const auto i = numbered("sphere ", scene_.spheres.size())) {

@@ -22,7 +22,6 @@
 #include "core/plane/geometry.hpp"
 #include "core/plane/se2.hpp"
 #include "scenes/files/human_units.hpp"
-#include "solve/explain/blocked_arm.hpp"
 #include "solve/explain/nearest_free.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/question_of_pose.hpp"
@@ -32,17 +31,6 @@
 
 namespace warren {
 namespace {
-
-// One obstacle of a scene of the plane, with nothing else around: how deep a body stands in it is asked there.
-
-/// The 17 of "wall 17: ...", after the word "wall ".
-std::optional<std::size_t> number_after(std::string_view name, std::string_view word) {
-  if (!name.starts_with(word)) return std::nullopt;
-  name.remove_prefix(word.size());
-  std::size_t number = 0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
-  return error == std::errc() && end != name.data() ? std::optional(number) : std::nullopt;
-}
 
 bool is_same_side(const Segment& s, const Segment& t) {
   return (s.a == t.a && s.b == t.b) || (s.a == t.b && s.b == t.a);
@@ -92,9 +80,10 @@ class PiecesOfOne {
   const Execution& execution_;
 };
 
-/// name: as Violation::obstacle. A wall, or a polygon with all that were cut from the same one, within bounds that
-/// leave `room` around it; the bounds without what lies in them; of a cell the whole map. None for all others, such as
-/// what is outside. Throws Stopped.
+/// One obstacle of a scene of the plane, with nothing else around: how deep a body stands in it is asked there. name:
+/// as Violation::obstacle. A wall, or a polygon with all that were cut from the same one, within bounds that leave
+/// `room` around it; the bounds without what lies in them; of a cell the whole map. None for all others, such as what
+/// is outside. Throws Stopped.
 std::optional<Scene> obstacle_alone(const Scene& scene, std::string_view name, double room,
                                     const Execution& execution) {
   if (name.starts_with("cell ")) return scene;
@@ -222,15 +211,7 @@ class BlockedEndSearch {
     return scene_.map ? scene_.map->cell : 1e-2 * portable::hypot(room().width(), room().height());
   }
   Verdict judged(const Scene& scene, const std::vector<double>& state, double more) const {
-    RecordedAnswer stay;
-    stay.file = "answer";
-    if (state.size() == 2) {
-      stay.path.push_back({state[0], state[1]});
-    } else {
-      stay.states.width = state.size();
-      stay.states.add(state);
-    }
-    return kind_.verify(scene, question_at(state, more), stay, execution_);
+    return kind_.verify(scene, question_at(state, more), recorded(std::span(&state, 1)), execution_);
   }
   std::optional<Numbers<2>> place_near_middle(const FreeSearchRange& range) {
     return nearest_free_in_few_digits(Numbers<2>{middle_.x, middle_.y}, std::span<const Numbers<2>>(directions_), range,
@@ -415,6 +396,14 @@ class NearPath {
 };
 
 }  // namespace
+
+std::optional<std::size_t> number_after(std::string_view name, std::string_view word) {
+  if (!name.starts_with(word)) return std::nullopt;
+  name.remove_prefix(word.size());
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  return error == std::errc() && end != name.data() ? std::optional(number) : std::nullopt;
+}
 
 void explain_blocked_end(const Scene& scene, Answer& answer, const Execution& execution) {
   if (!is_blocked(answer.outcome) || is_unmade(scene)) return;

@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "solve/kinds/solve_steps.hpp"
-#include "solve/question/planner_choice.hpp"
 #include "worlds/poses/free_headings.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
 

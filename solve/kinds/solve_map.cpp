@@ -2,8 +2,6 @@
 // A point or disc on an occupancy map: grid over its cells, voronoi along the skeleton of those that are free, and the
 // planners that sample. Polygons on maps turn among the map's border walls (solve/kinds/solve_turning).
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <optional>

@@ -8,9 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/base/error.hpp"
 #include "core/plane/se2.hpp"
-#include "scenes/scene/plane_obstacles.hpp"
 #include "solve/kinds/geometric_roadmaps.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/map_steps.hpp"

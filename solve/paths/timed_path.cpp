@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "core/base/trigonometry.hpp"
-#include "core/plane/geometry.hpp"
 #include "core/plane/se2.hpp"
 #include "worlds/poses/steering_curve.hpp"
 

@@ -8,7 +8,6 @@
 #include <string_view>
 #include <utility>
 
-#include "core/base/error.hpp"
 #include "planners/mazes/tiled_prm_lattice.hpp"
 #include "planners/shorten/taut_path.hpp"
 #include "scenes/mazes/maze_generator.hpp"

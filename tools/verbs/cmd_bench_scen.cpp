@@ -15,7 +15,6 @@
 #include <string>
 #include <vector>
 
-#include "apps/studies/study_report.hpp"
 #include "core/base/error.hpp"
 #include "core/base/printable.hpp"
 #include "parallel/chunks.hpp"

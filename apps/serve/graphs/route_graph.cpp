@@ -9,7 +9,6 @@
 
 #include "apps/serve/graphs/edge_judge.hpp"
 #include "apps/serve/http/http_message.hpp"
-#include "core/base/error.hpp"
 #include "scenes/files/human_units.hpp"
 #include "solve/kept/export_roadmap.hpp"
 

@@ -34,11 +34,19 @@
 #include "parallel/execution.hpp"
 
 namespace warren::serve {
+namespace {
+
+namespace asio = boost::asio;
+namespace http = boost::beast::http;
+using Tcp = asio::ip::tcp;
+using Code = boost::system::error_code;
+using Clock = std::chrono::steady_clock;
+
+constexpr auto never = Clock::time_point::max();
+constexpr auto between_looks = std::chrono::milliseconds(50);
+
 // One connection of the server, and what is worked on for it: data of the server's own thread, but for what a job's
 // task fills in.
-
-using ServerClock = std::chrono::steady_clock;
-inline constexpr auto never = ServerClock::time_point::max();
 
 /// Where a connection is with its request: in the first three it still waits for a whole one.
 enum class Stage : std::uint8_t { idle, head, body, work, write, linger };
@@ -51,40 +59,35 @@ struct Job {
   HttpRequest request;
   HttpResponse response = {};
   SignalFlag gone{0};
-  ServerClock::time_point offered = ServerClock::now();
-  ServerClock::time_point begun = {};
+  Clock::time_point offered = Clock::now();
+  Clock::time_point begun = {};
 };
 
 struct Connection {
-  Connection(std::uint64_t number, boost::asio::ip::tcp::socket&& its_socket, std::size_t buffer_bytes)
+  Connection(std::uint64_t number, Tcp::socket&& its_socket, std::size_t buffer_bytes)
       : id(number), socket(std::move(its_socket)), buffer(buffer_bytes) {}
   std::uint64_t id;
-  boost::asio::ip::tcp::socket socket;
-  boost::asio::ip::address address = {};
+  Tcp::socket socket;
+  asio::ip::address address = {};
   boost::beast::flat_buffer buffer;
   std::optional<RequestParser> parser = {};
   std::optional<BeastResponse> response = {};
   HttpRequest request = {};
   Job* job = nullptr;
   Stage stage = Stage::idle;
-  ServerClock::time_point waits_since = ServerClock::now();  ///< for a whole request
-  ServerClock::time_point end = never;                       ///< of the stage
-  unsigned pending = 0;                                      ///< operations that will call back
+  Clock::time_point waits_since = Clock::now();  ///< for a whole request
+  Clock::time_point end = never;                 ///< of the stage
+  unsigned pending = 0;                          ///< operations that will call back
   bool closed = false;
   bool keep_alive = true;
   bool has_large_body = false;
   std::size_t unsent_bytes = 0;  ///< of a large answer on its way
 };
 
-namespace {
-
-// Who is connected, and who gives way where all places are taken.
-
-/// Owns the connections.
+/// Who is connected, and who gives way where all places are taken. Owns the connections.
 class ConnectionPlaces {
  public:
-  Connection& add(boost::asio::ip::tcp::socket socket, const boost::asio::ip::address& address,
-                  std::size_t buffer_bytes) {
+  Connection& add(Tcp::socket socket, const asio::ip::address& address, std::size_t buffer_bytes) {
     const std::uint64_t id = next_id_++;
     auto& place = connections_[id] = std::make_unique<Connection>(id, std::move(socket), buffer_bytes);
     place->address = address;
@@ -92,7 +95,7 @@ class ConnectionPlaces {
   }
   void forget(const Connection& connection) { connections_.erase(connection.id); }
   std::size_t size() const { return connections_.size(); }
-  std::size_t of_address(const boost::asio::ip::address& address) const {
+  std::size_t of_address(const asio::ip::address& address) const {
     const auto same = [&](const auto& other) { return other.second->address == address; };
     return static_cast<std::size_t>(std::count_if(connections_.begin(), connections_.end(), same));
   }
@@ -116,14 +119,7 @@ class ConnectionPlaces {
   std::map<std::uint64_t, std::unique_ptr<Connection>> connections_;
 };
 
-// Where a server listens.
-
 /// Listens at all addresses that the machine has, at the first one's port. Throws UsageError where the first can't be.
-std::vector<boost::asio::ip::tcp::acceptor> acceptors_at(const HttpPlace& place, boost::asio::io_context& io);
-
-namespace asio = boost::asio;
-using Tcp = asio::ip::tcp;
-
 std::vector<Tcp::acceptor> acceptors_at(const HttpPlace& place, asio::io_context& io) {
   std::vector<Tcp::acceptor> acceptors;
   std::uint16_t port = place.port;
@@ -147,14 +143,6 @@ std::vector<Tcp::acceptor> acceptors_at(const HttpPlace& place, asio::io_context
   }
   return acceptors;
 }
-
-namespace asio = boost::asio;
-namespace http = boost::beast::http;
-using Tcp = asio::ip::tcp;
-using Code = boost::system::error_code;
-using Clock = ServerClock;
-
-constexpr auto between_looks = std::chrono::milliseconds(50);
 
 Clock::time_point in(double seconds) {
   return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
