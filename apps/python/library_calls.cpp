@@ -79,10 +79,10 @@ void set_usage(std::string_view line) {
   set("UsageError", where, what, value);
 }
 
-void set_stopped(StopReason reason, const py::object& answer) {
+void set_stopped(StopReason reason) {
   const py::object type = error_class("Stopped");
   const std::string_view name = name_of(reason);
-  PyErr_SetObject(type.ptr(), type(std::string(name), std::string(text_of(reason)), answer).ptr());
+  PyErr_SetObject(type.ptr(), type(std::string(name), std::string(text_of(reason)), py::none()).ptr());
 }
 
 }  // namespace
@@ -180,11 +180,6 @@ std::string with_keywords(std::string text) {
   return said;
 }
 
-void raise_stopped(StopReason reason, const py::object& answer) {
-  set_stopped(reason, answer);
-  throw py::error_already_set();
-}
-
 void translate_errors() {
   py::register_exception_translator([](std::exception_ptr thrown) {
     try {
@@ -198,7 +193,7 @@ void translate_errors() {
     } catch (const WriteError& error) {
       set("WriteError", error);
     } catch (const Stopped& stopped) {
-      set_stopped(stopped.reason, py::none());
+      set_stopped(stopped.reason);
     }
   });
 }

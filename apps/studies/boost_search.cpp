@@ -59,38 +59,29 @@ class Watch {
   std::uint64_t* settled_;
 };
 
-struct AStarVisitor : boost::default_astar_visitor {
-  explicit AStarVisitor(Watch w) : watch(w) {}
+template <class Base>
+struct Settling : Base {
+  explicit Settling(Watch w) : watch(w) {}
   void examine_vertex(BoostVertex v, const BoostGraph&) const { watch.settle(v); }
   Watch watch;
 };
+using AStarVisitor = Settling<boost::default_astar_visitor>;
+using DijkstraVisitor = Settling<boost::default_dijkstra_visitor>;
 
-struct DijkstraVisitor : boost::default_dijkstra_visitor {
-  explicit DijkstraVisitor(Watch w) : watch(w) {}
-  void examine_vertex(BoostVertex v, const BoostGraph&) const { watch.settle(v); }
-  Watch watch;
-};
-
-struct BreadthVisitor : boost::default_bfs_visitor {
-  BreadthVisitor(Watch w, std::vector<BoostVertex>& p) : watch(w), parent(&p) {}
-  void examine_vertex(BoostVertex v, const BoostGraph&) const { watch.settle(v); }
+/// For searches that take no map of predecessors.
+template <class Base>
+struct NotingParents : Settling<Base> {
+  NotingParents(Watch w, std::vector<BoostVertex>& p) : Settling<Base>(w), parent(&p) {}
   template <class BoostEdge>
   void tree_edge(const BoostEdge& e, const BoostGraph& graph) const {
     (*parent)[target(e, graph)] = source(e, graph);
   }
-  Watch watch;
   std::vector<BoostVertex>* parent;
 };
-
-struct DepthVisitor : boost::default_dfs_visitor {
-  DepthVisitor(Watch w, std::vector<BoostVertex>& p) : watch(w), parent(&p) {}
+using BreadthVisitor = NotingParents<boost::default_bfs_visitor>;
+struct DepthVisitor : NotingParents<boost::default_dfs_visitor> {
+  using NotingParents::NotingParents;
   void discover_vertex(BoostVertex v, const BoostGraph&) const { watch.settle(v); }
-  template <class BoostEdge>
-  void tree_edge(const BoostEdge& e, const BoostGraph& graph) const {
-    (*parent)[target(e, graph)] = source(e, graph);
-  }
-  Watch watch;
-  std::vector<BoostVertex>* parent;
 };
 
 class StraightDistance : public boost::astar_heuristic<BoostGraph, double> {

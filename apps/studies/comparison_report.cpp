@@ -167,8 +167,7 @@ std::string crossing_text(const QueueCrossing& c) {
   return text;
 }
 
-}  // namespace
-
+/// The tables of the summary.
 std::vector<ReportTable> comparison_tables(const Comparison& comparison) {
   std::vector<ReportTable> tables;
   for (std::size_t problem = 0; problem < comparison.problems.size(); ++problem) {
@@ -184,6 +183,8 @@ std::vector<ReportTable> comparison_tables(const Comparison& comparison) {
   for (ReportTable& table : sweep_tables(comparison)) tables.push_back(std::move(table));
   return tables;
 }
+
+}  // namespace
 
 std::string comparison_document(const Comparison& comparison, std::string_view ending) {
   const bool is_latex = ending == ".tex";

@@ -19,9 +19,7 @@ namespace warren::studies {
 
 /// A table a problem (random graphs: one for all sizes), the crossings, notes, the machine.
 std::string comparison_summary(const Comparison& comparison, const Palette& palette);
-/// The tables of the summary.
-std::vector<ReportTable> comparison_tables(const Comparison& comparison);
-/// They for a document, with their titles: .tex by the file's ending, else Markdown.
+/// Its tables for a document, with their titles: .tex by the file's ending, else Markdown.
 std::string comparison_document(const Comparison& comparison, std::string_view ending);
 /// All of it as a page: tables and the plots of comparison_plots().
 std::string comparison_page(const Comparison& comparison, const std::string& command_line);

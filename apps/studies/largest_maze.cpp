@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <new>
 #include <numbers>
 
 #include "apps/studies/bfs_funnel_baseline.hpp"
@@ -87,20 +86,19 @@ class LargestSearch {
   }
   std::optional<MazeTrial> trial(const MazeOptions& maze, bool last) {
     if (!has_memory_for(maze)) return std::nullopt;
-    try {
+    std::optional<MazeTrial> tried;
+    const bool fits = memory_holds([&] {
       double generate_s = 0.0;
       const Scene scene = generate_trial(maze, options_.planner, execution_, generate_s);
-      MazeTrial ran = solve_trial(scene, maze, options_.question, options_.planner, options_.budget_s, execution_);
+      tried = solve_trial(scene, maze, options_.question, options_.planner, options_.budget_s, execution_);
+      MazeTrial& ran = *tried;
       ran.generate_s = generate_s;
       if (ran.outcome == Outcome::solved) bytes_a_cell_ = static_cast<double>(ran.peak_memory_bytes) / ran.cells();
       result_.trials.push_back(ran);
       say(ran);
       if (last && within_budget(ran) && !is_unmade(scene)) measure_bar(scene);
-      return ran;
-    } catch (const Stopped& stopped) {
-      if (stopped.reason != StopReason::memory) throw;
-    } catch (const std::bad_alloc&) {
-    }
+    });
+    if (fits) return tried;
     result_.unbegun.push_back({maze.rows, maze.cols, execution_.deadline->memory_bytes()});
     note_(fmt::format("{:>6} x {:<6} too little memory to generate it", maze.rows, maze.cols));
     return std::nullopt;
@@ -123,16 +121,13 @@ class LargestSearch {
   /// On the maze that was just solved, while its walls are in memory.
   void measure_bar(const Scene& scene) {
     const auto begin = std::chrono::steady_clock::now();
-    try {
+    memory_holds([&] {  // or there is no bar
       const Path<Vec2> path = bfs_funnel(scene, execution_);
       HonestBar bar;
       bar.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       for (std::size_t i = 1; i < path.size(); ++i) bar.length += distance(path[i - 1], path[i]);
       result_.bar = bar;
-    } catch (const Stopped& stopped) {
-      if (stopped.reason != StopReason::memory) throw;
-    } catch (const std::bad_alloc&) {  // then there is no bar
-    }
+    });
   }
   void say(const MazeTrial& t) const {
     const std::string_view verdict =

@@ -47,13 +47,10 @@ class ScalingStudy {
     say(maze, first_run);
   }
   std::optional<Scene> generated(const MazeOptions& maze, double& seconds) {
-    try {
-      const bool alone = options_.planners.size() == 1;
-      return generate_trial(maze, alone ? options_.planners.front() : SolveOptions{}, execution_, seconds);
-    } catch (const Stopped& stopped) {
-      if (stopped.reason != StopReason::memory) throw;
-    } catch (const std::bad_alloc&) {
-    }
+    const bool alone = options_.planners.size() == 1;
+    const SolveOptions& planner = alone ? options_.planners.front() : SolveOptions{};
+    std::optional<Scene> scene;
+    if (memory_holds([&] { scene = generate_trial(maze, planner, execution_, seconds); })) return scene;
     result_.ungenerated.emplace_back(maze.rows, maze.cols);
     note_(fmt::format("{:>6} x {:<6} too little memory to generate it", maze.rows, maze.cols));
     return std::nullopt;

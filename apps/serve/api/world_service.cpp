@@ -182,6 +182,14 @@ HttpResponse layer_response(const HttpRequest& request, const std::string& bytes
 
 bool is_update(const HttpRequest& request) { return request.path == "/api/update" && request.method == "POST"; }
 
+/// Takes the same time for any wrong guess of the right length.
+bool is_same_secret(std::string_view a, std::string_view b) {
+  if (a.size() != b.size()) return false;
+  unsigned differing = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) differing |= static_cast<unsigned char>(a[i] ^ b[i]);
+  return differing == 0;
+}
+
 }  // namespace
 
 void PathService::keep(const std::string& name, Answer answer, const Execution& execution) {
@@ -468,13 +476,6 @@ HttpResponse WorldService::scene(const HttpRequest& request, const Execution& ex
 HttpResponse WorldService::metrics(const HttpFigures& figures) const {
   return {.type = "text/plain; version=0.0.4",
           .body = metrics_text(figures, {.tile_bytes = tiles_.bytes(), .path_bytes = paths_.bytes()})};
-}
-
-bool is_same_secret(std::string_view a, std::string_view b) {
-  if (a.size() != b.size()) return false;
-  unsigned differing = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) differing |= static_cast<unsigned char>(a[i] ^ b[i]);
-  return differing == 0;
 }
 
 WritableService::WritableService(std::unique_ptr<ServedWorld> world, const ServiceLimits& limits, std::string token)

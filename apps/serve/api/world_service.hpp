@@ -107,9 +107,6 @@ class WorldService : public HttpService {
 // A service whose world may be changed while it is asked (docs/service.md): each change makes a new world with a
 // service of its own, and requests that have begun go on in the one that they began in. One change at a time.
 
-/// Takes the same time for any wrong guess of the right length.
-bool is_same_secret(std::string_view a, std::string_view b);
-
 class WritableService : public HttpService {
  public:
   /// Changes are refused where limits.writable is false. token: who sends it as `Authorization: Bearer TOKEN` may

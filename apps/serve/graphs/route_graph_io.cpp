@@ -76,6 +76,36 @@ std::string edge_json(const RouteEdge& edge) {
   return json.closed();
 }
 
+bool is_plain(const OrderedJson& value) { return value.is_number() || value.is_boolean() || value.is_string(); }
+
+void check_metadata(const OrderedJson& metadata, const std::string& where) {
+  if (!metadata.is_object()) refuse_json(where, "an object");
+  for (const auto& [key, value] : metadata.items()) {
+    const std::string place = where + "." + key;
+    if (value.is_object()) {
+      check_metadata(value, place);
+    } else if (value.is_array() ? !std::all_of(value.begin(), value.end(), is_plain) : !is_plain(value)) {
+      refuse_json(place, "a number, a text, true, false, a list of them or an object; Nav2 loads nothing else");
+    }
+  }
+}
+
+/// Does Nav2 take these properties' metadata and operations? Throws HttpError (400) for the first that it would not.
+void check_properties(const OrderedJson& properties, const std::string& where) {
+  const auto says = [&](const char* key) { return properties.contains(key) && !properties[key].is_null(); };
+  if (says("metadata")) check_metadata(properties["metadata"], where + ": metadata");
+  if (!says("operations")) return;
+  for (const OrderedJson& operation : properties["operations"]) {
+    const std::string place = where + ": operations";
+    for (const char* key : {"type", "trigger"}) {
+      if (!operation.is_object() || !operation.contains(key) || !operation[key].is_string()) {
+        refuse_json(place, fmt::format("{} as a text in each of them", key));
+      }
+    }
+    if (operation.contains("metadata")) check_metadata(operation["metadata"], place + ".metadata");
+  }
+}
+
 std::uint32_t id_of(const OrderedJson& json, const char* key, const std::string& where) {
   const OrderedJson* id = member(json, key);
   if (id == nullptr) refuse_json(where + ": " + key, "a whole number");
@@ -230,20 +260,6 @@ std::string with_heading(const RouteNode& node) {
 
 void append_place(std::string& text, Vec2 at) { append_json_list(text, std::array{at.x, at.y}); }
 
-bool is_plain(const OrderedJson& value) { return value.is_number() || value.is_boolean() || value.is_string(); }
-
-void check_metadata(const OrderedJson& metadata, const std::string& where) {
-  if (!metadata.is_object()) refuse_json(where, "an object");
-  for (const auto& [key, value] : metadata.items()) {
-    const std::string place = where + "." + key;
-    if (value.is_object()) {
-      check_metadata(value, place);
-    } else if (value.is_array() ? !std::all_of(value.begin(), value.end(), is_plain) : !is_plain(value)) {
-      refuse_json(place, "a number, a text, true, false, a list of them or an object; Nav2 loads nothing else");
-    }
-  }
-}
-
 }  // namespace
 
 GraphOptions read_graph_options(std::string_view text) {
@@ -325,21 +341,6 @@ RouteGraph read_graph_json(std::string_view text, const Execution& execution) {
     graph.edges.push_back(edge_of(edge, fmt::format("edges[{}]", number++), execution));
   }
   return graph;
-}
-
-void check_properties(const OrderedJson& properties, const std::string& where) {
-  const auto says = [&](const char* key) { return properties.contains(key) && !properties[key].is_null(); };
-  if (says("metadata")) check_metadata(properties["metadata"], where + ": metadata");
-  if (!says("operations")) return;
-  for (const OrderedJson& operation : properties["operations"]) {
-    const std::string place = where + ": operations";
-    for (const char* key : {"type", "trigger"}) {
-      if (!operation.is_object() || !operation.contains(key) || !operation[key].is_string()) {
-        refuse_json(place, fmt::format("{} as a text in each of them", key));
-      }
-    }
-    if (operation.contains("metadata")) check_metadata(operation["metadata"], place + ".metadata");
-  }
 }
 
 RouteGraph read_nav2_graph(std::string_view geojson, const Execution& execution) {

@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "pictures/formats/raster.hpp"
-#include "scenes/files/png_io.hpp"
 
 namespace warren::serve {
 namespace {
@@ -54,15 +53,7 @@ class InkTile {
       }
       return static_cast<const std::uint8_t*>(row.data());
     };
-    std::string bytes;
-    write_png({.width = TileGrid::pixels,
-               .height = TileGrid::pixels,
-               .palette = palette,
-               .alphas = alphas,
-               .compression = 1,
-               .row = row_of},
-              execution_, [&](std::string_view piece) { bytes += piece; });
-    return bytes;
+    return png_of_rows(palette, alphas, row_of, execution_);
   }
 
  private:

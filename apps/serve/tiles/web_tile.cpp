@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "scenes/files/png_io.hpp"
 
@@ -84,6 +85,19 @@ std::size_t Steps::of(double value) const {
   return static_cast<std::size_t>(std::min(value / each, static_cast<double>(count - 1)));
 }
 
+std::string png_of_rows(std::vector<std::array<std::uint8_t, 3>> palette, std::vector<std::uint8_t> alphas,
+                        const std::function<const std::uint8_t*(std::size_t)>& row, const Execution& execution) {
+  std::string bytes;
+  write_png({.width = TileGrid::pixels,
+             .height = TileGrid::pixels,
+             .palette = std::move(palette),
+             .alphas = std::move(alphas),
+             .compression = 1,
+             .row = row},
+            execution, [&](std::string_view piece) { bytes += piece; });
+  return bytes;
+}
+
 std::string png_of(const StepTile& tile, std::span<const Rgb> inks, const Execution& execution) {
   std::vector<std::array<std::uint8_t, 3>> palette{{0, 0, 0}};
   std::vector<std::uint8_t> alphas{0};
@@ -91,15 +105,8 @@ std::string png_of(const StepTile& tile, std::span<const Rgb> inks, const Execut
     palette.push_back({ink.red, ink.green, ink.blue});
     alphas.push_back(step_opacity);
   }
-  std::string bytes;
-  write_png({.width = TileGrid::pixels,
-             .height = TileGrid::pixels,
-             .palette = palette,
-             .alphas = alphas,
-             .compression = 1,
-             .row = [&](std::size_t y) { return tile.steps.data() + y * TileGrid::pixels; }},
-            execution, [&](std::string_view piece) { bytes += piece; });
-  return bytes;
+  const auto row = [&](std::size_t y) { return tile.steps.data() + y * TileGrid::pixels; };
+  return png_of_rows(palette, alphas, row, execution);
 }
 
 std::string png_of(const ShadeTile& tile, Rgb ink, const Execution& execution) {
@@ -110,19 +117,12 @@ std::string png_of(const ShadeTile& tile, Rgb ink, const Execution& execution) {
     palette.push_back({color.red, color.green, color.blue});
   }
   std::vector<std::uint8_t> row(TileGrid::pixels);
-  std::string bytes;
-  write_png({.width = TileGrid::pixels,
-             .height = TileGrid::pixels,
-             .palette = palette,
-             .compression = 1,
-             .row =
-                 [&](std::size_t y) {
-                   const std::uint8_t* from = tile.shades.data() + y * TileGrid::pixels;
-                   for (std::size_t x = 0; x < row.size(); ++x) row[x] = static_cast<std::uint8_t>(from[x] >> 4U);
-                   return static_cast<const std::uint8_t*>(row.data());
-                 }},
-            execution, [&](std::string_view piece) { bytes += piece; });
-  return bytes;
+  const auto row_of = [&](std::size_t y) {
+    const std::uint8_t* from = tile.shades.data() + y * TileGrid::pixels;
+    for (std::size_t x = 0; x < row.size(); ++x) row[x] = static_cast<std::uint8_t>(from[x] >> 4U);
+    return static_cast<const std::uint8_t*>(row.data());
+  };
+  return png_of_rows(palette, {}, row_of, execution);
 }
 
 }  // namespace warren::serve

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -83,6 +84,10 @@ struct StepTile {
   std::vector<std::uint8_t> steps = std::vector<std::uint8_t>(std::size_t{TileGrid::pixels} * TileGrid::pixels, 0);
   std::uint8_t& at(std::size_t x, std::size_t y) { return steps[y * TileGrid::pixels + x]; }
 };
+
+/// A tile as a PNG: row(y) has the number of a colour a pixel. alphas: of the first colours. Throws Stopped.
+std::string png_of_rows(std::vector<std::array<std::uint8_t, 3>> palette, std::vector<std::uint8_t> alphas,
+                        const std::function<const std::uint8_t*(std::size_t)>& row, const Execution& execution);
 
 /// At most 255 inks. Throws Stopped.
 std::string png_of(const StepTile& tile, std::span<const Rgb> inks, const Execution& execution);
