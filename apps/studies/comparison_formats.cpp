@@ -171,9 +171,7 @@ std::string csv_row(const Comparison& comparison, const Contender& c) {
 std::vector<std::string> option_names(const Comparison& comparison) {
   std::vector<std::string> names;
   for (const Contender& c : comparison.contenders) {
-    for (const auto& [name, value] : c.options) {
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-    }
+    for (const auto& [name, value] : c.options) add_once(names, name);
   }
   return names;
 }
@@ -192,9 +190,7 @@ std::vector<std::string> cost_names(const Comparison& comparison) {
   std::vector<std::string> names;
   for (const Contender& c : comparison.contenders) {
     for (const ComparedRun& run : c.runs) {
-      for (const StageCost& cost : run.costs) {
-        if (std::find(names.begin(), names.end(), cost.name) == names.end()) names.emplace_back(cost.name);
-      }
+      for (const StageCost& cost : run.costs) add_once(names, std::string(cost.name));
     }
   }
   return names;

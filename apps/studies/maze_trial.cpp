@@ -9,7 +9,6 @@
 #include "solve/question/planner_choice.hpp"
 #include "solve/question/question.hpp"
 #include "solve/streamed/solve_streamed.hpp"
-#include "solve/streamed/solve_walls.hpp"
 
 namespace warren::studies {
 Scene generate_trial(const MazeOptions& maze, const SolveOptions& options, const Execution& execution,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solve/streamed/solve_walls.hpp"
+// Joins the worlds of walls with the roadmap planners: scene and options in, verified answer out.
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +15,7 @@
 #include "solve/kinds/sampled_roadmap.hpp"
 #include "solve/kinds/sampled_solve.hpp"
 #include "solve/kinds/solve_steps.hpp"
+#include "solve/streamed/solve_streamed.hpp"
 #include "worlds/plane/maze_world.hpp"
 
 namespace warren {
@@ -137,6 +138,10 @@ class WallSolve {
   Answer answer_;
 };
 
+WallProblem problem_of(const SolveRequest& request) {
+  return keeping_off(request.scene, request.question, "prm and lazy-prm keep off the walls");
+}
+
 /// As a body of sampled_roadmap.hpp.
 class PointAmongWalls : public UsualBody {
  public:
@@ -150,9 +155,6 @@ class PointAmongWalls : public UsualBody {
   void index(std::optional<World>& world, SamplerKind) const { world.emplace(scene_, problem_.reach(), execution_); }
 
  private:
-  static WallProblem problem_of(const SolveRequest& request) {
-    return keeping_off(request.scene, request.question, "prm and lazy-prm keep off the walls");
-  }
   const Scene& scene_;
   const Execution& execution_;
   WallProblem problem_;
@@ -172,10 +174,6 @@ PlannerKind usual_walls_planner(const SolveOptions& options, const Scene& scene,
   return usual_roadmap_planner(options, scene);
 }
 
-WallProblem problem_of(const SolveRequest& request) {
-  return keeping_off(request.scene, request.question, "prm and lazy-prm keep off the walls");
-}
-
 Answer solve_walls(const SolveRequest& request) {
   const WallProblem problem = problem_of(request);
   const PlannerOptions options = planner_options(request.options, request.scene, problem);
@@ -183,14 +181,17 @@ Answer solve_walls(const SolveRequest& request) {
   return solve_walls(request.scene, problem, options, request.execution, keep, request.asked);
 }
 
-constexpr std::uint64_t most_drawn = 40'000;  // cells: beyond, a picture's edges would merge
-
-/// Tiles keep no roadmap.
+/// The roadmap of the tiled pipeline, for a picture: tiles keep none, so the plain stages build it again, for mazes
+/// whose edges can be told apart in a picture.
 void make_roadmap(const SolveRequest& request) {
+  constexpr std::uint64_t most_drawn = 40'000;  // cells
   const WallProblem problem = problem_of(request);
   const PlannerOptions options = planner_options(request.options, request.scene, problem);
   if (options.planner != PlannerKind::prm || options.pipeline == PipelineKind::plain) return;
-  draw_roadmap(request.scene, problem, options, request.execution, request.keep->roadmap);
+  const LatticeSize size = options.roadmap.lattice;
+  if (std::uint64_t{size.rows} * size.cols > most_drawn) return;
+  const MazeWorld world(request.scene, problem.reach(), request.execution);
+  prm(world, problem.start, problem.goal, options.roadmap, request.execution, &request.keep->roadmap);
 }
 
 Verdict recheck_walls(const Scene& scene, const Question& question, const RecordedAnswer& answer,
@@ -205,14 +206,6 @@ Answer solve_walls(const Scene& scene, const WallProblem& problem, const Planner
   WallSolve solve(scene, problem, options, execution, asked);
   answer_within_limits(solve.answer(), [&] { solve.run(keep); });
   return std::move(solve.answer());
-}
-
-void draw_roadmap(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
-                  const Execution& execution, PlannedRoadmap<Vec2>& roadmap) {
-  const LatticeSize size = options.roadmap.lattice;
-  if (std::uint64_t{size.rows} * size.cols > most_drawn) return;
-  const MazeWorld world(scene, problem.reach(), execution);
-  prm(world, problem.start, problem.goal, options.roadmap, execution, &roadmap);
 }
 
 SolveKind walls_kind() {
