@@ -54,11 +54,10 @@ class WarmMemory {
   MemoryTouch touch_;
 };
 
-// What a run cost beside its time: CPU seconds, page faults and involuntary switches of the process, and the
-// processor's own counts where the kernel hands them out (perf_event_open; many virtual machines and containers don't).
-// Read before and after a run and subtracted. Cost of a reading: a few microseconds.
-
-/// Counts since some beginning, or between two readings.
+/// What a run cost beside its time: CPU seconds, page faults and involuntary switches of the process, and the
+/// processor's own counts where the kernel hands them out (perf_event_open; many virtual machines and containers
+/// don't). Read before and after a run and subtracted. Cost of a reading: a few microseconds. Counts since some
+/// beginning, or between two readings.
 struct RunCounts {
   static constexpr std::array<std::string_view, 4> hardware_names{"cycles", "instructions", "cache_misses",
                                                                   "branch_misses"};

@@ -85,11 +85,10 @@ std::vector<std::string> all_stages();
 /// The seconds of one stage, of one link, or of "solve".
 double seconds_of(const MazeTrial& trial, std::string_view stage);
 
-// What more threads gain, run against run: each run is held against the one of fewest threads of the same repeat, and
-// beside it stands what arithmetic in registers gained in the same moment (apps/studies/machine.hpp).
-
-/// Medians over the pairs of one size, planner, sampler, pipeline and number of threads. Gains are times, scaled so
-/// that the fewest threads gain their own number.
+/// What more threads gain, run against run: each run is held against the one of fewest threads of the same repeat, and
+/// beside it stands what arithmetic in registers gained in the same moment (apps/studies/machine.hpp). Medians over the
+/// pairs of one size, planner, sampler, pipeline and number of threads. Gains are times, scaled so that the fewest
+/// threads gain their own number.
 struct ThreadGain {
   MazeTrial first;          ///< of the pairs' runs with more threads
   std::size_t pairs = 0;    ///< >= 1

@@ -49,8 +49,7 @@
 #include "solve/question/solve_options.hpp"
 
 namespace warren {
-// What most bodies of sampled_solve.hpp and sampled_roadmap.hpp have in common.
-
+/// What most bodies of sampled_solve.hpp and sampled_roadmap.hpp have in common.
 struct UsualBody {
   static constexpr bool has_trees = true;
   static constexpr bool names_pipeline = false;

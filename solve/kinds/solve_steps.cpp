@@ -118,6 +118,13 @@ void claim_nothing(Answer& answer) {
   answer.states = {};
 }
 
+void make_stopped(Answer& answer, StopReason reason) {
+  answer.outcome = Outcome::stopped;
+  answer.stop_reason = reason;
+  answer.refuted.reset();
+  claim_nothing(answer);
+}
+
 void refute(Answer& answer, const Verification& found) {
   answer.refuted = RefutedPath{.violation = found.first_violation.value_or(Violation{}),
                                .length = found.length,

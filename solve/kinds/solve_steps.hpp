@@ -65,6 +65,9 @@ void price_heuristic(Answer& answer, std::optional<HeuristicKind> asked,
 /// Forgets all that an answer says of a path: only what a judge has verified is claimed.
 void claim_nothing(Answer& answer);
 
+/// What stops the work on an answer, or on what is told of it, makes it a stopped one, which claims nothing.
+void make_stopped(Answer& answer, StopReason reason);
+
 /// The path of a method that promises nothing has failed its verification: it is told as refuted, and as nothing else.
 void refute(Answer& answer, const Verification& found);
 
@@ -95,18 +98,12 @@ Verdict verify_plane_answer(const Scene& scene, const WallProblem& problem, cons
 template <class Solve>
 void answer_within_limits(Answer& answer, const Solve& solve) {
   const auto begin = std::chrono::steady_clock::now();
-  const auto stop = [&](StopReason reason) {
-    answer.outcome = Outcome::stopped;
-    answer.stop_reason = reason;
-    answer.refuted.reset();
-    claim_nothing(answer);
-  };
   try {
     solve();
   } catch (const Stopped& stopped) {
-    stop(stopped.reason);
+    make_stopped(answer, stopped.reason);
   } catch (const std::bad_alloc&) {
-    stop(StopReason::memory);
+    make_stopped(answer, StopReason::memory);
   }
   if (!answer.verified) claim_nothing(answer);
   answer.solve_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
