@@ -13,8 +13,7 @@
 #include <vector>
 
 #include "apps/serve/api/kept_path.hpp"
-#include "apps/serve/api/query_body_io.hpp"
-#include "apps/serve/api/scene_change_io.hpp"
+#include "apps/serve/api/request_bodies_io.hpp"
 #include "apps/serve/page/served_files.hpp"
 #include "core/base/error.hpp"
 #include "parallel/execution.hpp"
