@@ -83,20 +83,10 @@ class PathParts {
   }
   double clearance(const std::vector<std::vector<double>>& states) const {
     execution_.check();
-    RecordedAnswer part;
-    part.file = "answer";
-    for (const std::vector<double>& each : states) {
-      if (in_plane()) {
-        part.path.push_back({each[0], each[1]});
-      } else {
-        part.states.width = each.size();
-        part.states.add(each);
-      }
-    }
     Question question = question_;
     question.start = states.front();
     question.goal = states.back();
-    return kind_.verify(near_, question, part, execution_).min_clearance;
+    return kind_.verify(near_, question, recorded(states), execution_).min_clearance;
   }
 
  private:
@@ -164,56 +154,6 @@ std::optional<double> one_sample_in(const Scene& scene, const Answer& answer, co
   return std::max(1.0, box.width() * box.height() / (free * free));
 }
 
-}  // namespace
-
-std::optional<NarrowPlace> narrowest_place(const Scene& scene, const Question& question, const RecordedAnswer& answer,
-                                           double min_clearance, const Execution& execution) {
-  const std::size_t states = std::max(answer.path.size(), answer.states.size());
-  if (states < 2 || !(min_clearance > 0.0) || !std::isfinite(min_clearance)) return std::nullopt;
-  PathParts parts(scene, question, answer, min_clearance, execution);
-  NarrowPlace narrow{
-      .leg = narrowest_leg(parts, min_clearance), .place = {}, .clearance = min_clearance, .one_sample_in = {}};
-  if (parts.state(0).size() <= 3) narrow.place = narrowest_on(parts, narrow.leg);
-  return narrow;
-}
-
-void explain_answer(const Scene& scene, const AskedWith& asked, Answer& answer, const ByProducts& made,
-                    const Execution& execution) {
-  Explanation& explained = answer.explained.emplace();
-  explained.hints = hints_for(scene, asked, answer);
-  const auto planner = enum_named<PlannerKind>(answer.planner);
-  if (planner == PlannerKind::prm && answer.outcome != Outcome::stopped) {
-    if (const Graph* graph = graph_of(made, answer)) explained.components = facts_of(*graph, execution);
-  }
-  if (!answer.verified) return;
-  RecordedAnswer path;
-  path.file = "answer";
-  path.path = answer.path;
-  path.states = answer.states;
-  explained.narrowest = narrowest_place(scene, answer.problem.question(), path, answer.min_clearance, execution);
-  if (explained.narrowest) explained.narrowest->one_sample_in = one_sample_in(scene, answer, execution);
-}
-
-void explain_stop(Answer& answer) {
-  answer.explained.emplace().hints = hints_for(Scene(), {.options = SolveOptions()}, answer);
-}
-
-void explain_in_time(Answer& answer, const std::function<void()>& explain) {
-  const auto stop = [&](StopReason reason) {
-    if (!answer.explained) answer.explained.emplace();
-    answer.explained->stopped = reason;
-  };
-  try {
-    explain();
-  } catch (const Stopped& stopped) {
-    stop(stopped.reason);
-  } catch (const std::bad_alloc&) {
-    stop(StopReason::memory);
-  }
-}
-
-namespace {
-
 constexpr std::uint64_t most_milestones = std::uint64_t{1} << 31;  // as samples and nodes may be
 
 std::uint64_t four_times(std::uint64_t n) { return n > most_milestones / 4 ? most_milestones : 4 * n; }
@@ -263,10 +203,92 @@ class Hints {
     add_planners();
   }
 
-  void add_for_roadmaps();
-  void add_for_trees();
-  void add_for_grids();
-  void add_planners();
+  void add_for_roadmaps() {
+    const auto sampler = enum_named<SamplerKind>(answer_.sampler);
+    const bool all_places = sampler && takes_all_places(*sampler);
+    const bool seeks = sampler == SamplerKind::bridge || sampler == SamplerKind::gaussian;
+    const bool none_kept = answer_.counters.samples > 0 && answer_.counters.kept == 0;
+    const bool some_dropped = answer_.counters.samples > answer_.counters.kept;
+    const auto take = [](SamplerKind kind) { return [kind](SolveOptions& options) { options.sampler = kind; }; };
+    if (all_places || seeks || none_kept) {
+      offer({"--sampler", "uniform"},
+            all_places ? "milestones between the middles of cells, too" : "milestones everywhere",
+            take(SamplerKind::uniform));
+    }
+    if (!all_places) {
+      const std::uint64_t drawn = asked_.samples > 0 ? asked_.samples : answer_.roadmap.samples;
+      const std::uint64_t more = four_times(std::max<std::uint64_t>(drawn, options_.roadmap.samples.value_or(1)));
+      const bool any_drawn = drawn > 0 || answer_.counters.samples > 0;
+      if (any_drawn && more > drawn) {
+        offer({"--samples", fmt::format("{}", more)},
+              options_.roadmap.samples ? "without --samples the roadmap grows until start and goal connect"
+                                       : "the roadmap gave up at a fourth of that",
+              [&](SolveOptions& options) { options.roadmap.samples = more; });
+      }
+    }
+    if (!all_places && !seeks && some_dropped) {
+      offer({"--sampler", "bridge"}, "milestones in narrow passages", take(SamplerKind::bridge));
+    }
+    if (options_.roadmap.radius) {
+      const double gap = answer_.separation.nearest_gap;
+      const bool too_far = gap > *options_.roadmap.radius;
+      const std::string text = fmt::format("{:.3g}", 2.0 * (too_far ? gap : *options_.roadmap.radius));
+      offer({"--radius", text},
+            too_far ? "the gap is wider than the one asked for" : "each milestone is joined to more",
+            [&](SolveOptions& options) { options.roadmap.radius = 2.0 * *options_.roadmap.radius; });
+    }
+    if (options_.roadmap.neighbours) {
+      const std::uint32_t more = 2 * *options_.roadmap.neighbours;
+      offer({"--neighbours", fmt::format("{}", more)}, "each milestone is joined to more",
+            [&](SolveOptions& options) { options.roadmap.neighbours = more; });
+    }
+  }
+  void add_for_trees() {
+    constexpr std::uint64_t usual_nodes = 100'000;
+    const std::uint64_t nodes = options_.trees.nodes.value_or(usual_nodes);
+    if (four_times(nodes) > nodes) {
+      offer({"--nodes", fmt::format("{}", four_times(nodes))}, "the trees gave up at a fourth of that",
+            [&](SolveOptions& options) { options.trees.nodes = four_times(nodes); });
+    }
+    if (options_.trees.step) {
+      const double step = 0.5 * *options_.trees.step;
+      offer({"--step", fmt::format("{:.3g}", step)}, "shorter motions squeeze through narrower passages",
+            [&](SolveOptions& options) { options.trees.step = step; });
+    }
+    if (!options_.trees.trees) {
+      offer({"--trees", "4"}, "the first of them to arrive answers", [](SolveOptions& o) { o.trees.trees = 4; });
+    }
+  }
+  void add_for_grids() {
+    try {
+      const GridSpec grid = grid_spec(options_.grid, scene_);
+      offer({"--cell", fmt::format("{:.3g}", 0.5 * grid.cell)}, "what is narrower than a cell is not seen",
+            [&](SolveOptions& options) { options.grid.cell = 0.5 * grid.cell; });
+      if (answer_.problem.robot.outline.empty()) return;
+      const auto angles = static_cast<std::uint32_t>(2 * grid.angles);
+      offer({"--angles", fmt::format("{}", angles)}, "the body turns in smaller steps",
+            [&](SolveOptions& options) { options.grid.angles = angles; });
+    } catch (const UsageError&) {  // a map has no raster but its own
+    }
+  }
+  /// One that proves what it says, else one of another kind.
+  void add_planners() {
+    const bool in_plane =
+        !scene_.map && answer_.problem.robot.kind == RobotKind::point && answer_.problem.clearance == 0.0;
+    const auto offer_planner = [&](PlannerKind planner, std::string_view why) {
+      if (planner == options_.planner) return false;
+      const auto change = [&](SolveOptions& options) { options.planner = planner; };
+      return offer({"--planner", std::string{name_of(planner)}}, why, change);
+    };
+    if (in_plane && offer_planner(PlannerKind::visibility, "finds every way that there is, or proves that none is"))
+      return;
+    if (scene_.map && offer_planner(PlannerKind::grid, "finds what the map's cells allow, or proves that none is"))
+      return;
+    for (const PlannerKind other : {PlannerKind::lazy_prm, PlannerKind::rrt_connect, PlannerKind::prm}) {
+      if (is_roadmap_planner(other) && is_roadmap_planner(*options_.planner)) continue;
+      if (offer_planner(other, "looks for a way by other means")) return;
+    }
+  }
 
   /// Where this world takes the options as `change` makes them.
   template <class Change>
@@ -299,96 +321,50 @@ class Hints {
   std::vector<Hint> hints_;
 };
 
-void Hints::add_for_roadmaps() {
-  const auto sampler = enum_named<SamplerKind>(answer_.sampler);
-  const bool all_places = sampler && takes_all_places(*sampler);
-  const bool seeks = sampler == SamplerKind::bridge || sampler == SamplerKind::gaussian;
-  const bool none_kept = answer_.counters.samples > 0 && answer_.counters.kept == 0;
-  const bool some_dropped = answer_.counters.samples > answer_.counters.kept;
-  const auto take = [](SamplerKind kind) { return [kind](SolveOptions& options) { options.sampler = kind; }; };
-  if (all_places || seeks || none_kept) {
-    offer({"--sampler", "uniform"},
-          all_places ? "milestones between the middles of cells, too" : "milestones everywhere",
-          take(SamplerKind::uniform));
-  }
-  if (!all_places) {
-    const std::uint64_t drawn = asked_.samples > 0 ? asked_.samples : answer_.roadmap.samples;
-    const std::uint64_t more = four_times(std::max<std::uint64_t>(drawn, options_.roadmap.samples.value_or(1)));
-    const bool any_drawn = drawn > 0 || answer_.counters.samples > 0;
-    if (any_drawn && more > drawn) {
-      offer({"--samples", fmt::format("{}", more)},
-            options_.roadmap.samples ? "without --samples the roadmap grows until start and goal connect"
-                                     : "the roadmap gave up at a fourth of that",
-            [&](SolveOptions& options) { options.roadmap.samples = more; });
-    }
-  }
-  if (!all_places && !seeks && some_dropped) {
-    offer({"--sampler", "bridge"}, "milestones in narrow passages", take(SamplerKind::bridge));
-  }
-  if (options_.roadmap.radius) {
-    const double gap = answer_.separation.nearest_gap;
-    const bool too_far = gap > *options_.roadmap.radius;
-    const std::string text = fmt::format("{:.3g}", 2.0 * (too_far ? gap : *options_.roadmap.radius));
-    offer({"--radius", text}, too_far ? "the gap is wider than the one asked for" : "each milestone is joined to more",
-          [&](SolveOptions& options) { options.roadmap.radius = 2.0 * *options_.roadmap.radius; });
-  }
-  if (options_.roadmap.neighbours) {
-    const std::uint32_t more = 2 * *options_.roadmap.neighbours;
-    offer({"--neighbours", fmt::format("{}", more)}, "each milestone is joined to more",
-          [&](SolveOptions& options) { options.roadmap.neighbours = more; });
-  }
-}
-
-void Hints::add_for_trees() {
-  constexpr std::uint64_t usual_nodes = 100'000;
-  const std::uint64_t nodes = options_.trees.nodes.value_or(usual_nodes);
-  if (four_times(nodes) > nodes) {
-    offer({"--nodes", fmt::format("{}", four_times(nodes))}, "the trees gave up at a fourth of that",
-          [&](SolveOptions& options) { options.trees.nodes = four_times(nodes); });
-  }
-  if (options_.trees.step) {
-    const double step = 0.5 * *options_.trees.step;
-    offer({"--step", fmt::format("{:.3g}", step)}, "shorter motions squeeze through narrower passages",
-          [&](SolveOptions& options) { options.trees.step = step; });
-  }
-  if (!options_.trees.trees) {
-    offer({"--trees", "4"}, "the first of them to arrive answers", [](SolveOptions& o) { o.trees.trees = 4; });
-  }
-}
-
-void Hints::add_for_grids() {
-  try {
-    const GridSpec grid = grid_spec(options_.grid, scene_);
-    offer({"--cell", fmt::format("{:.3g}", 0.5 * grid.cell)}, "what is narrower than a cell is not seen",
-          [&](SolveOptions& options) { options.grid.cell = 0.5 * grid.cell; });
-    if (answer_.problem.robot.outline.empty()) return;
-    const auto angles = static_cast<std::uint32_t>(2 * grid.angles);
-    offer({"--angles", fmt::format("{}", angles)}, "the body turns in smaller steps",
-          [&](SolveOptions& options) { options.grid.angles = angles; });
-  } catch (const UsageError&) {  // a map has no raster but its own
-  }
-}
-
-/// One that proves what it says, else one of another kind.
-void Hints::add_planners() {
-  const bool in_plane =
-      !scene_.map && answer_.problem.robot.kind == RobotKind::point && answer_.problem.clearance == 0.0;
-  const auto offer_planner = [&](PlannerKind planner, std::string_view why) {
-    if (planner == options_.planner) return false;
-    const auto change = [&](SolveOptions& options) { options.planner = planner; };
-    return offer({"--planner", std::string{name_of(planner)}}, why, change);
-  };
-  if (in_plane && offer_planner(PlannerKind::visibility, "finds every way that there is, or proves that none is"))
-    return;
-  if (scene_.map && offer_planner(PlannerKind::grid, "finds what the map's cells allow, or proves that none is"))
-    return;
-  for (const PlannerKind other : {PlannerKind::lazy_prm, PlannerKind::rrt_connect, PlannerKind::prm}) {
-    if (is_roadmap_planner(other) && is_roadmap_planner(*options_.planner)) continue;
-    if (offer_planner(other, "looks for a way by other means")) return;
-  }
-}
-
 }  // namespace
+
+std::optional<NarrowPlace> narrowest_place(const Scene& scene, const Question& question, const RecordedAnswer& answer,
+                                           double min_clearance, const Execution& execution) {
+  const std::size_t states = std::max(answer.path.size(), answer.states.size());
+  if (states < 2 || !(min_clearance > 0.0) || !std::isfinite(min_clearance)) return std::nullopt;
+  PathParts parts(scene, question, answer, min_clearance, execution);
+  NarrowPlace narrow{
+      .leg = narrowest_leg(parts, min_clearance), .place = {}, .clearance = min_clearance, .one_sample_in = {}};
+  if (parts.state(0).size() <= 3) narrow.place = narrowest_on(parts, narrow.leg);
+  return narrow;
+}
+
+void explain_answer(const Scene& scene, const AskedWith& asked, Answer& answer, const ByProducts& made,
+                    const Execution& execution) {
+  Explanation& explained = answer.explained.emplace();
+  explained.hints = hints_for(scene, asked, answer);
+  const auto planner = enum_named<PlannerKind>(answer.planner);
+  if (planner == PlannerKind::prm && answer.outcome != Outcome::stopped) {
+    if (const Graph* graph = graph_of(made, answer)) explained.components = facts_of(*graph, execution);
+  }
+  if (!answer.verified) return;
+  explained.narrowest =
+      narrowest_place(scene, answer.problem.question(), recorded(answer), answer.min_clearance, execution);
+  if (explained.narrowest) explained.narrowest->one_sample_in = one_sample_in(scene, answer, execution);
+}
+
+void explain_stop(Answer& answer) {
+  answer.explained.emplace().hints = hints_for(Scene(), {.options = SolveOptions()}, answer);
+}
+
+void explain_in_time(Answer& answer, const std::function<void()>& explain) {
+  const auto stop = [&](StopReason reason) {
+    if (!answer.explained) answer.explained.emplace();
+    answer.explained->stopped = reason;
+  };
+  try {
+    explain();
+  } catch (const Stopped& stopped) {
+    stop(stopped.reason);
+  } catch (const std::bad_alloc&) {
+    stop(StopReason::memory);
+  }
+}
 
 std::vector<Hint> hints_for(const Scene& scene, const AskedWith& asked, const Answer& answer) {
   return Hints(scene, asked, answer).all();

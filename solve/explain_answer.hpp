@@ -17,8 +17,6 @@
 #include "solve/question/solve_options.hpp"
 
 namespace warren {
-// What would likely help where there is no path: options that this world, body and planner take, with numbers, so that
-// they can be tried as they stand.
 
 /// How the answer was asked for.
 struct AskedWith {
@@ -27,7 +25,9 @@ struct AskedWith {
   bool is_kept = false;         ///< of a kept roadmap: another one takes `warren build`
 };
 
-/// Hints for an answer without a path, the likeliest first. O(1) but for the world's box.
+/// What would likely help where there is no path: options that this world, body and planner take, with numbers, so that
+/// they can be tried as they stand, the likeliest first. O(1) but for the world's
+/// box.
 std::vector<Hint> hints_for(const Scene& scene, const AskedWith& asked, const Answer& answer);
 
 /// Fills in answer.explained, hints first: what stops it leaves the rest out. `made`: what solve() and

@@ -15,6 +15,8 @@
 
 namespace warren {
 
+struct Roadmap;  // solve/kept/roadmap.hpp
+
 /// Finds a path and verifies it, by code that shares nothing with the planner. What neither question nor options say is
 /// as the world's file says, and else what is fastest and most honest for the problem. No path is an answer, and so is
 /// a stop: see Answer::outcome. `keep`, where given, receives what the planner made on its way; what of it the limits
@@ -43,12 +45,21 @@ Verdict verify_within(const Scene& scene, const Question& question, const Record
 Answer solve_explained(const Scene& scene, const Question& question, const SolveOptions& options,
                        const Execution& execution, ByProducts* keep = nullptr, PathTaker* taker = nullptr);
 
-/// Says what an estimate of options cost, where it is not the straight line (solve/explain/heuristic_price.hpp).
+/// Says what an estimate of options cost, where it is not the straight line (solve/kinds/solve_steps.hpp).
 void price_heuristic(const Scene& scene, const Question& question, const SolveOptions& options,
                      const Execution& execution, Answer& answer);
 
 /// Adds the by-products that solving leaves out because they cost: the roadmap of tiles. Throws Stopped.
 void make_by_products(const Scene& scene, const Question& question, const SolveOptions& options,
                       const Execution& execution, ByProducts& keep);
+
+/// A question whose roadmap outlives it: the roadmap that build() makes by the same options, and the answer by it.
+/// Where the samples are left open, solve() grows them until start and goal connect: then the answer is solve()'s and
+/// the roadmap has as many samples as its last round. A lazy roadmap keeps what the question has learnt of its edges.
+/// Asked the question again, it gives the same path. Takes the scene. `roadmap` is whole unless the answer is
+/// `stopped`. `keep`: as for solve_explained(). Throws as that and build_within() do, UsageError where the planner
+/// makes no roadmap that is kept, Stopped. Cost: one build and one search; where the samples grow, solve() too.
+Answer solve_and_keep(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,
+                      Roadmap& roadmap, ByProducts* keep = nullptr);
 
 }  // namespace warren

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rank 0 of a streamed run over several: it spreads what is done tile by tile, joins what comes back, and does itself
-// what one process does best. Reductions are of integers and lexicographic minima, so that the answer is that of one
-// process.
+// Rank 0 of a streamed run over several, and the ranks that follow it. Rank 0 spreads what is done tile by tile, joins
+// what comes back, and does itself what one process does best. Reductions are of integers and lexicographic minima, so
+// that the answer is that of one process.
 //
 //   generate  each rank makes its band's trees; the bands' rims are joined here           16 bytes a cell of a rim
-//   index     or each reads what a file has of its band
-//   there connect   each rank reduces its tiles and peels its band; what is left comes here     about 0.05 bytes a cell
+//   index     or each reads what a file has of its band there
+//   connect   each rank reduces its tiles and peels its band; what is left comes here     about 0.05 bytes a cell
 //   search    here, by the code of one process; where this rank can't hold what would come, by all ranks in rounds
 //   expand    chains of the path by their tiles' ranks                                    a byte a step
 //   verify    every rank looks at the walls of its own tiles                              16 bytes a point near them
@@ -34,13 +34,11 @@
 
 namespace warren::distributed {
 
-// The whole maze as rank 0 sees it: its own tiles are made here, others by their ranks, when they are asked for. For
-// the few tiles that no rank's share is about: those around start and goal; and for those of two components that are
-// apart.
-
 class Leader;
 
-/// Refers to both, which must outlive it.
+/// The whole maze as rank 0 sees it: its own tiles are made here, others by their ranks, when they are asked for. For
+/// the few tiles that no rank's share is about: those around start and goal; and for those of two components that are
+/// apart. Refers to both, which must outlive it.
 class RemoteCells : public CellWallSource {
  public:
   RemoteCells(const Band& band, Leader& leader, WallsFor who);
@@ -112,9 +110,7 @@ class Leader : public StreamedTeam, private OtherTiles, private JudgesElsewhere 
   std::optional<SharedSearch> search_;
 };
 
-// Every rank but 0: does what rank 0 asks for, until it says that this is the end.
-
-/// How a follower runs. It has no time limit of its own: rank 0's ends it.
+/// How every rank but 0 runs, which does what rank 0 asks for. It has no time limit of its own: rank 0's ends it.
 struct FollowerLimits {
   unsigned threads = 0;
   std::size_t memory_bytes = 0;

@@ -13,7 +13,6 @@
 
 #include "apps/distributed/mpi_transport.hpp"
 #include "apps/distributed/rank_protocol.hpp"
-#include "apps/distributed/shared_scale.hpp"
 #include "apps/distributed/shared_solve.hpp"
 #include "core/base/error.hpp"
 #include "parallel/execution.hpp"
@@ -127,7 +126,7 @@ int main(int argc, char** argv) {
   try {
     const std::vector<std::string> words(argv + (argc > 0 ? 1 : 0), argv + argc);
     return transport.rank() == 0 ? warren::distributed::run_rank_0(words, transport)
-                                 : warren::run_follower(words, transport);
+                                 : warren::distributed::run_follower(words, transport);
   } catch (const std::bad_alloc&) {  // also of those who told of another error
     transport.end_all(warren::tools::say_memory_is_out());
   }

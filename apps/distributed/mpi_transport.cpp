@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <exception>
 #include <stdexcept>
-#include <utility>
 
 #include "apps/distributed/transport.hpp"
 

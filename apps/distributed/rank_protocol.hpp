@@ -28,8 +28,7 @@ constexpr auto enum_names(Request) {
 /// answer to Request::end, and what a rank says last of all.
 enum class Reply : std::uint32_t { done, stopped, refused, ended, gone };
 
-// Rank 0's side of the conversation: it asks, the others answer, and what keeps one of them from it is thrown here.
-
+/// Rank 0's side of the conversation: it asks, the others answer, and what keeps one of them from it is thrown here.
 /// Refers to the transport, whose rank is 0.
 class Requests {
  public:

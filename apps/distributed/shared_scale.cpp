@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/distributed/shared_scale.hpp"
-
+// `warren-mpi scale`: the same maze by more and more ranks (strong), and mazes that grow with them (weak).
 #include <algorithm>
 #include <chrono>
 #include <limits>
-#include <optional>
-#include <utility>
 
 #include "apps/distributed/leader_follower.hpp"
 #include "apps/distributed/rank_protocol.hpp"
 #include "apps/distributed/ranks_report_io.hpp"
+#include "apps/distributed/shared_solve.hpp"
 #include "apps/studies/machine.hpp"
-#include "core/base/error.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "solve/streamed/solve_streamed.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
-#include "tools/screen/signals.hpp"
 #include "tools/screen/terminal.hpp"
 #include "tools/words/option_values.hpp"
 #include "tools/words/planner_words.hpp"
@@ -185,11 +181,7 @@ int follow_runs(const tools::Arguments& arguments, Transport& transport) {
   const Mazes mazes(arguments);
   ranks_asked(arguments, transport.ranks());
   Progress progress;
-  const auto memory = tools::given_value(arguments, "--memory", tools::memory_value);
-  const FollowerLimits limits{.threads = tools::given_value(arguments, "--threads", tools::threads_value).value_or(0),
-                              .memory_bytes = memory ? *memory : available_bytes(),
-                              .signal = &tools::signal_flag(),
-                              .progress = &progress};
+  const FollowerLimits limits = follower_limits(arguments, progress);
   telling_where_stopped(transport, progress, [&] { follow_until_end(transport, mazes, limits); });
   return tools::exit_code::success;
 }

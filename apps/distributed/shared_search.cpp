@@ -7,7 +7,6 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
-#include <string>
 #include <tuple>
 #include <utility>
 
@@ -51,6 +50,18 @@ void join_bands(const std::vector<HeldBand>& bands, bool direct, const Execution
   }
   route.joined = root_of(parent, std::size_t{0}) == root_of(parent, std::size_t{1});
 }
+
+constexpr Border borders[] = {Border::below, Border::above};
+
+constexpr std::size_t number(Border border) { return static_cast<std::size_t>(border); }
+
+/// The side of a tile at that border, and that of the tile beyond it.
+constexpr unsigned tile_side(Border border) { return border == Border::above ? 1 : 3; }
+
+constexpr double nothing_open = std::numeric_limits<double>::infinity();
+
+/// Row, count, parent, two labels.
+constexpr std::size_t bytes_of_key = 32 + 1 + sizeof(VertexId) + 2 * sizeof(double);
 
 }  // namespace
 
@@ -290,22 +301,6 @@ std::vector<RouteKey> SharedSearch::trace(std::size_t side) {
     from = {static_cast<std::uint32_t>(side), 1, is_below ? Border::above : Border::below, 0, end.crossing};
   }
 }
-
-namespace {
-
-constexpr Border borders[] = {Border::below, Border::above};
-
-constexpr std::size_t number(Border border) { return static_cast<std::size_t>(border); }
-
-/// The side of a tile at that border, and that of the tile beyond it.
-constexpr unsigned tile_side(Border border) { return border == Border::above ? 1 : 3; }
-
-constexpr double nothing_open = std::numeric_limits<double>::infinity();
-
-/// Row, count, parent, two labels.
-constexpr std::size_t bytes_of_key = 32 + 1 + sizeof(VertexId) + 2 * sizeof(double);
-
-}  // namespace
 
 void ToldLabels::pack(ValuePacker& to) const {
   for (const auto& side : of) {

@@ -166,7 +166,6 @@ class SharedSearch {
   const std::optional<Lack>& lack() const { return lack_; }
 
  private:
-  static constexpr double nothing_open = std::numeric_limits<double>::infinity();
   struct Side {
     double least = 0.0;  // open label, those on their way included
     double told = 0.0;   // least, as agreed at the last exchange

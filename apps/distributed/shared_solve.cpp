@@ -130,13 +130,8 @@ class SharedSolve : public tools::AnswerCommand {
 int follow_words(const tools::Arguments& arguments, Transport& transport) {
   SharedQuestion asked(arguments);
   Progress progress;
-  const auto memory = tools::given_value(arguments, "--memory", tools::memory_value);
-  const auto threads = tools::given_value(arguments, "--threads", tools::threads_value);
+  const FollowerLimits limits = follower_limits(arguments, progress);
   const Deadline looking(std::numeric_limits<double>::infinity(), available_bytes(), &tools::signal_flag());
-  const FollowerLimits limits{.threads = threads.value_or(0),
-                              .memory_bytes = memory ? *memory : available_bytes(),
-                              .signal = &tools::signal_flag(),
-                              .progress = &progress};
   telling_where_stopped(transport, progress, [&] {
     double seconds = 0.0;
     if (asked.open(transport, {.deadline = &looking, .progress = &progress}, seconds)) {
@@ -144,6 +139,21 @@ int follow_words(const tools::Arguments& arguments, Transport& transport) {
     }
   });
   return tools::exit_code::success;
+}
+
+[[noreturn]] void refuse() {
+  throw UsageError(
+      "WORLD: ranks share mazes named maze:ROWSxCOLS,algorithm=mst, whose tiles any of them can make, and files .maze "
+      "and .npy of mazes, of which each reads its part");
+}
+
+/// What a file says of the walls beside their number of rows and columns.
+std::string facts_of(const InputFile& file, const Scene& scene) {
+  if (is_maze_file(file.bytes())) {
+    return fmt::format("{} bytes with checksums {:016x}", file.bytes().size(), *scene.packed->hash);
+  }
+  return fmt::format("{} walls of {} x {} cells in {} bytes", npy_walls(file).walls, scene.maze->rows, scene.maze->cols,
+                     file.bytes().size());
 }
 
 }  // namespace
@@ -162,24 +172,14 @@ tools::Command shared_solve_command(Transport& transport) {
   return command;
 }
 
-namespace {
-
-[[noreturn]] void refuse() {
-  throw UsageError(
-      "WORLD: ranks share mazes named maze:ROWSxCOLS,algorithm=mst, whose tiles any of them can make, and files .maze "
-      "and .npy of mazes, of which each reads its part");
+FollowerLimits follower_limits(const tools::Arguments& arguments, Progress& progress) {
+  const auto memory = tools::given_value(arguments, "--memory", tools::memory_value);
+  const auto threads = tools::given_value(arguments, "--threads", tools::threads_value);
+  return {.threads = threads.value_or(0),
+          .memory_bytes = memory ? *memory : available_bytes(),
+          .signal = &tools::signal_flag(),
+          .progress = &progress};
 }
-
-/// What a file says of the walls beside their number of rows and columns.
-std::string facts_of(const InputFile& file, const Scene& scene) {
-  if (is_maze_file(file.bytes())) {
-    return fmt::format("{} bytes with checksums {:016x}", file.bytes().size(), *scene.packed->hash);
-  }
-  return fmt::format("{} walls of {} x {} cells in {} bytes", npy_walls(file).walls, scene.maze->rows, scene.maze->cols,
-                     file.bytes().size());
-}
-
-}  // namespace
 
 SharedWorld shared_world(const std::string& source, const Execution& execution) {
   if (is_maze_source(source)) {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `warren-mpi solve`: the words of `warren solve`, for mazes of mst that are made tile by tile, by all ranks together.
+// What `warren-mpi` does on each rank. `solve`: the words of `warren solve`, for mazes of mst that are made tile by
+// tile, by all ranks together. `scale` (shared_scale.cpp): what the clock, the processors, the wire and each rank's
+// memory take of it.
 #pragma once
 
 #include <string>
 
+#include "apps/distributed/leader_follower.hpp"
 #include "apps/distributed/transport.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
@@ -11,12 +14,15 @@
 
 namespace warren::distributed {
 
-/// The command of this rank: rank 0 answers, the others follow it. Refers to the transport.
+/// The commands of this rank: rank 0 answers or measures, the others follow it. They refer to the transport.
 tools::Command shared_solve_command(Transport& transport);
+tools::Command shared_scale_command(Transport& transport);
 
-// The world that ranks share: a maze whose tiles any of them can make, or a file of which each reads its part. Files of
-// different hosts may have one name and other walls, so the ranks compare what they see before they begin.
+/// As --threads and --memory say; it refers to `progress`.
+FollowerLimits follower_limits(const tools::Arguments& arguments, Progress& progress);
 
+/// The world that ranks share: a maze whose tiles any of them can make, or a file of which each reads its part. Files
+/// of different hosts may have one name and other walls, so the ranks compare what they see before they begin.
 struct SharedWorld {
   Scene scene;        ///< without its walls (is_unmade)
   std::string facts;  ///< what all ranks must see of it; of a .maze all its checksums, of a .npy its size and outline

@@ -38,8 +38,7 @@ class Transport {
   std::uint64_t bytes_sent_ = 0;
 };
 
-// Waiting for another process: sleeps, so that whoever shares the core can work, 50 us first and 2 ms at most.
-
+/// Waiting for another process: sleeps, so that whoever shares the core can work, 50 us first and 2 ms at most.
 class Patience {
  public:
   /// Throws Stopped.

@@ -12,7 +12,6 @@
 #include "apps/python/kept_roadmap.hpp"
 #include "apps/python/keywords.hpp"
 #include "apps/python/library_calls.hpp"
-#include "core/base/error.hpp"
 #include "core/search/graph.hpp"
 #include "parallel/execution.hpp"
 #include "solve/explain_answer.hpp"
@@ -23,28 +22,15 @@
 #include "tools/words/question_words.hpp"
 
 namespace warren::python {
-namespace {
-
-// States and edges of a roadmap as NumPy's arrays.
-
-/// indptr, indices and lengths of all edges: views that keep the roadmap, `self`, alive.
-pybind11::tuple all_rows(const pybind11::object& self);
-/// The same of the free edges, in arrays of their own.
-pybind11::tuple free_rows_of(KeptRoadmap& kept);
-/// 0 unchecked, 1 free, 2 blocked: of each edge end.
-pybind11::array edge_states(KeptRoadmap& kept);
-/// (n, numbers of a state): a view that keeps the roadmap, `self`, alive.
-pybind11::array states_of(const pybind11::object& self);
-/// A copy: what is learnt changes it.
-pybind11::array components_of(KeptRoadmap& kept);
-
 namespace py = pybind11;
+namespace {
 
 template <class List>
 Shape size_of(const List& list) {
   return {static_cast<py::ssize_t>(list.size())};
 }
 
+/// indptr, indices and lengths of all edges: views that keep the roadmap, `self`, alive.
 py::tuple all_rows(const py::object& self) {
   auto& kept = self.cast<KeptRoadmap&>();
   const Asking asking(kept);
@@ -62,6 +48,7 @@ py::tuple all_rows(const py::object& self) {
                         view_of(lengths->data(), size_of(*lengths), self));
 }
 
+/// The same of the free edges, in arrays of their own.
 py::tuple free_rows_of(KeptRoadmap& kept) {
   const Asking asking(kept);
   EdgeRows rows = CallLimits().run([&](const Execution& execution) { return free_rows(kept, execution); });
@@ -72,6 +59,7 @@ py::tuple free_rows_of(KeptRoadmap& kept) {
                         array_of<double>(std::move(rows.lengths), ends));
 }
 
+/// 0 unchecked, 1 free, 2 blocked: of each edge end.
 py::array edge_states(KeptRoadmap& kept) {
   const Asking asking(kept);
   const RoadmapArrays* arrays = nullptr;
@@ -84,6 +72,7 @@ py::array edge_states(KeptRoadmap& kept) {
   return read_only(std::move(states));
 }
 
+/// (n, numbers of a state): a view that keeps the roadmap, `self`, alive.
 py::array states_of(const py::object& self) {
   auto& kept = self.cast<KeptRoadmap&>();
   const Asking asking(kept);
@@ -93,6 +82,7 @@ py::array states_of(const py::object& self) {
   return view_of(arrays->states.data(), {static_cast<py::ssize_t>(arrays->states.size()) / width, width}, self);
 }
 
+/// A copy: what is learnt changes it.
 py::array components_of(KeptRoadmap& kept) {
   const Asking asking(kept);
   RawVector<VertexId> component =
@@ -100,11 +90,6 @@ py::array components_of(KeptRoadmap& kept) {
   const Shape size = size_of(component);
   return array_of<VertexId>(std::move(component), size);
 }
-
-}  // namespace
-
-namespace py = pybind11;
-namespace {
 
 using Kept = std::unique_ptr<KeptRoadmap>;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// solve() and verify(), with the program's options as keywords.
+// solve(), verify() and compare(), with the program's options as keywords.
 
 #include <pybind11/stl.h>
 
@@ -110,37 +110,6 @@ RecordedAnswer recorded(const InputFile& file) {
   return CallLimits().run([&](const Execution& execution) { return read_answer(file, execution); });
 }
 
-}  // namespace
-
-KeptAnswer finished(KeptAnswer said, bool keep, CallLimits& limits) {
-  const auto& explained = said.answer.explained;
-  for (const auto& reason : {said.answer.stop_reason, explained ? explained->stopped : std::nullopt}) {
-    if (reason) limits.raise_what_stopped(*reason);
-  }
-  if (!keep) said.made = {};
-  return said;
-}
-
-void bind_solving(py::module_& module) {
-  module.def("solve", &solve_scene);
-  module.def("verify_states", &judge_states);
-  module.def("verify_json", [](const Scene& scene, const std::string& json, const py::dict& keywords) {
-    return judge(scene, recorded(InputFile::of_bytes("answer", json)), keywords);
-  });
-  module.def("verify_file", [](const Scene& scene, const std::string& file, const py::dict& keywords) {
-    CallLimits limits;
-    const RecordedAnswer answer = limits.run([&](const Execution& execution) { return read_answer(file, execution); });
-    return judge(scene, answer, keywords);
-  });
-  module.def("solve_keywords", [] { return keyword_table(made_once<solving>()); });
-  module.def("verify_keywords", [] { return keyword_table(made_once<verifying>()); });
-}
-
-// Planners compared in a world and searches on graphs, as `warren compare` does.
-
-namespace py = pybind11;
-namespace {
-
 tools::Command comparing() {
   tools::Command command =
       command_of("compare", {tools::compare_option_specs()}, {"--pictures", "--show", "--size", "--dpi", "--title"});
@@ -174,6 +143,30 @@ studies::Comparison compare(const Scene* scene, py::dict keywords) {
 }
 
 }  // namespace
+
+KeptAnswer finished(KeptAnswer said, bool keep, CallLimits& limits) {
+  const auto& explained = said.answer.explained;
+  for (const auto& reason : {said.answer.stop_reason, explained ? explained->stopped : std::nullopt}) {
+    if (reason) limits.raise_what_stopped(*reason);
+  }
+  if (!keep) said.made = {};
+  return said;
+}
+
+void bind_solving(py::module_& module) {
+  module.def("solve", &solve_scene);
+  module.def("verify_states", &judge_states);
+  module.def("verify_json", [](const Scene& scene, const std::string& json, const py::dict& keywords) {
+    return judge(scene, recorded(InputFile::of_bytes("answer", json)), keywords);
+  });
+  module.def("verify_file", [](const Scene& scene, const std::string& file, const py::dict& keywords) {
+    CallLimits limits;
+    const RecordedAnswer answer = limits.run([&](const Execution& execution) { return read_answer(file, execution); });
+    return judge(scene, answer, keywords);
+  });
+  module.def("solve_keywords", [] { return keyword_table(made_once<solving>()); });
+  module.def("verify_keywords", [] { return keyword_table(made_once<verifying>()); });
+}
 
 void bind_studies(py::module_& module) {
   py::class_<studies::Comparison>(module, "Comparison")

@@ -101,13 +101,8 @@ class CallLimits {
   std::optional<pybind11::error_already_set> failure_;  // of the progress function
 };
 
-// What the library throws, as Python's exceptions of warren/_errors.py: each with where, what and value.
-
-/// From now on what the library throws becomes an exception of warren._errors.
+/// From now on what the library throws becomes an exception of warren._errors: each with where, what and value.
 void translate_errors();
-
-/// Throws warren.Stopped with the answer, or None, that it has so far.
-[[noreturn]] void raise_stopped(StopReason reason, const pybind11::object& answer);
 
 /// "--goal-bias: ..." as Python says it: "goal_bias: ...".
 std::string with_keywords(std::string text);

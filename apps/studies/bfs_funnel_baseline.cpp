@@ -30,9 +30,31 @@ class CellWalk {
   CellWalk(MazeCells& cells, const Execution& execution)
       : bytes_(cells.bytes()), stride_(cells.stride()), execution_(execution) {}
 
-  bool reaches(std::size_t start, std::size_t goal);
+  bool reaches(std::size_t start, std::size_t goal) {
+    std::vector<std::size_t> frontier{start};
+    std::vector<std::size_t> next;
+    bytes_[start] |= reached;
+    for (std::size_t expanded = 0; !frontier.empty() && (bytes_[goal] & reached) == 0; std::swap(frontier, next)) {
+      next.clear();
+      for (const std::size_t i : frontier) {
+        if (++expanded % poll_every == 0) execution_.check();
+        expand(i, next);
+      }
+    }
+    return (bytes_[goal] & reached) != 0;
+  }
   /// The steps that lead from start to goal.
-  RawVector<Direction> steps(std::size_t start, std::size_t goal) const;
+  RawVector<Direction> steps(std::size_t start, std::size_t goal) const {
+    RawVector<Direction> steps;
+    for (std::size_t i = goal; i != start;) {
+      if (steps.size() % poll_every == 0) execution_.check();
+      const auto came_by = static_cast<Direction>((bytes_[i] >> came_by_shift) & 3);
+      append(came_by, steps, execution_);
+      i = beyond(i, static_cast<Direction>(came_by ^ 2));
+    }
+    std::reverse(steps.begin(), steps.end());
+    return steps;
+  }
 
  private:
   bool open(std::size_t i, Direction d) const {
@@ -51,48 +73,20 @@ class CellWalk {
     const std::array<std::size_t, 4> at{i + 1, i + stride_, i - 1, i - stride_};
     return at[d];
   }
-  void expand(std::size_t i, std::vector<std::size_t>& next);
+  void expand(std::size_t i, std::vector<std::size_t>& next) {
+    for (const Direction d : {up, right, down, left}) {
+      if (!open(i, d)) continue;
+      const std::size_t to = beyond(i, d);
+      if ((bytes_[to] & reached) != 0) continue;
+      bytes_[to] = static_cast<std::uint8_t>(bytes_[to] | reached | (d << came_by_shift));
+      next.push_back(to);
+    }
+  }
 
   std::span<std::uint8_t> bytes_;
   std::size_t stride_;
   const Execution& execution_;
 };
-
-void CellWalk::expand(std::size_t i, std::vector<std::size_t>& next) {
-  for (const Direction d : {up, right, down, left}) {
-    if (!open(i, d)) continue;
-    const std::size_t to = beyond(i, d);
-    if ((bytes_[to] & reached) != 0) continue;
-    bytes_[to] = static_cast<std::uint8_t>(bytes_[to] | reached | (d << came_by_shift));
-    next.push_back(to);
-  }
-}
-
-bool CellWalk::reaches(std::size_t start, std::size_t goal) {
-  std::vector<std::size_t> frontier{start};
-  std::vector<std::size_t> next;
-  bytes_[start] |= reached;
-  for (std::size_t expanded = 0; !frontier.empty() && (bytes_[goal] & reached) == 0; std::swap(frontier, next)) {
-    next.clear();
-    for (const std::size_t i : frontier) {
-      if (++expanded % poll_every == 0) execution_.check();
-      expand(i, next);
-    }
-  }
-  return (bytes_[goal] & reached) != 0;
-}
-
-RawVector<Direction> CellWalk::steps(std::size_t start, std::size_t goal) const {
-  RawVector<Direction> steps;
-  for (std::size_t i = goal; i != start;) {
-    if (steps.size() % poll_every == 0) execution_.check();
-    const auto came_by = static_cast<Direction>((bytes_[i] >> came_by_shift) & 3);
-    append(came_by, steps, execution_);
-    i = beyond(i, static_cast<Direction>(came_by ^ 2));
-  }
-  std::reverse(steps.begin(), steps.end());
-  return steps;
-}
 
 /// The side between two cells, as one sees it in walking through.
 struct Gate {

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Boost.Graph's searches on the same graph with the same numbering, the peer of `warren compare --peer boost`: its
 // compressed rows, edge lengths in an array, maps allocated once. A visitor ends each search at the goal by throwing,
-// as Boost's own example of A* does; its priority queue is Boost's indirect 4-ary heap.
+// as Boost's own example of A* does; its priority queue is Boost's indirect 4-ary heap. A build without Boost.Graph has
+// no such peer.
+#include "apps/studies/search_graph.hpp"
+
+#if __has_include(<boost/graph/astar_search.hpp>)
 #include <algorithm>
 #include <boost/graph/astar_search.hpp>
 #include <boost/graph/breadth_first_search.hpp>
 #include <boost/graph/compressed_sparse_row_graph.hpp>
 #include <boost/graph/depth_first_search.hpp>
 #include <boost/graph/dijkstra_shortest_paths.hpp>
-
-#include "apps/studies/search_graph.hpp"
 
 namespace warren::studies {
 namespace {
@@ -57,38 +59,29 @@ class Watch {
   std::uint64_t* settled_;
 };
 
-struct AStarVisitor : boost::default_astar_visitor {
-  explicit AStarVisitor(Watch w) : watch(w) {}
+template <class Base>
+struct Settling : Base {
+  explicit Settling(Watch w) : watch(w) {}
   void examine_vertex(BoostVertex v, const BoostGraph&) const { watch.settle(v); }
   Watch watch;
 };
+using AStarVisitor = Settling<boost::default_astar_visitor>;
+using DijkstraVisitor = Settling<boost::default_dijkstra_visitor>;
 
-struct DijkstraVisitor : boost::default_dijkstra_visitor {
-  explicit DijkstraVisitor(Watch w) : watch(w) {}
-  void examine_vertex(BoostVertex v, const BoostGraph&) const { watch.settle(v); }
-  Watch watch;
-};
-
-struct BreadthVisitor : boost::default_bfs_visitor {
-  BreadthVisitor(Watch w, std::vector<BoostVertex>& p) : watch(w), parent(&p) {}
-  void examine_vertex(BoostVertex v, const BoostGraph&) const { watch.settle(v); }
+/// For searches that take no map of predecessors.
+template <class Base>
+struct NotingParents : Settling<Base> {
+  NotingParents(Watch w, std::vector<BoostVertex>& p) : Settling<Base>(w), parent(&p) {}
   template <class BoostEdge>
   void tree_edge(const BoostEdge& e, const BoostGraph& graph) const {
     (*parent)[target(e, graph)] = source(e, graph);
   }
-  Watch watch;
   std::vector<BoostVertex>* parent;
 };
-
-struct DepthVisitor : boost::default_dfs_visitor {
-  DepthVisitor(Watch w, std::vector<BoostVertex>& p) : watch(w), parent(&p) {}
+using BreadthVisitor = NotingParents<boost::default_bfs_visitor>;
+struct DepthVisitor : NotingParents<boost::default_dfs_visitor> {
+  using NotingParents::NotingParents;
   void discover_vertex(BoostVertex v, const BoostGraph&) const { watch.settle(v); }
-  template <class BoostEdge>
-  void tree_edge(const BoostEdge& e, const BoostGraph& graph) const {
-    (*parent)[target(e, graph)] = source(e, graph);
-  }
-  Watch watch;
-  std::vector<BoostVertex>* parent;
 };
 
 class StraightDistance : public boost::astar_heuristic<BoostGraph, double> {
@@ -184,3 +177,16 @@ std::unique_ptr<GraphSearch> boost_search(const SearchGraph& graph, SearchKind s
 }
 
 }  // namespace warren::studies
+#else
+#include "core/base/error.hpp"
+
+namespace warren::studies {
+
+bool has_boost_graph() { return false; }
+
+std::unique_ptr<GraphSearch> boost_search(const SearchGraph&, SearchKind) {
+  throw UsageError("@peer: this program was built without Boost.Graph (install libboost-dev and build it again)");
+}
+
+}  // namespace warren::studies
+#endif

@@ -9,8 +9,6 @@
 #include <iterator>
 #include <map>
 #include <numeric>
-#include <stdexcept>
-#include <variant>
 
 #include "apps/studies/search_graph.hpp"
 #include "core/base/rng.hpp"
@@ -70,6 +68,69 @@ std::vector<std::string> name_parts(const Contender& c, bool with_planner) {
   }
   if (with_planner) std::ranges::copy(option_parts(c), std::back_inserter(parts));
   return parts;
+}
+
+constexpr double least_s = 1e-9;  // a time that the clock's cost has eaten up
+
+bool same_way(const SweepCurve& curve, const Contender& c) {
+  return curve.search == c.search && curve.queue == c.queue && curve.library == c.library;
+}
+
+/// The line y = level + slope · x of least squares; none where all x are alike.
+struct Line {
+  double level;
+  double slope;
+};
+std::optional<Line> fitted_line(const std::vector<Vec2>& points) {
+  Vec2 mean;
+  for (const Vec2 p : points) mean = mean + p;
+  mean = 1.0 / static_cast<double>(points.size()) * mean;
+  double xx = 0.0;
+  double xy = 0.0;
+  for (const Vec2 p : points) {
+    xx += (p.x - mean.x) * (p.x - mean.x);
+    xy += (p.x - mean.x) * (p.y - mean.y);
+  }
+  if (xx <= 0.0) return std::nullopt;
+  return Line{mean.y - xy / xx * mean.x, xy / xx};
+}
+
+/// Where the line through these points, both axes as logarithms, rises through 1.
+std::optional<double> rise_through_one(const std::vector<Vec2>& points) {
+  std::vector<Vec2> logarithms;
+  for (const Vec2 p : points) logarithms.push_back({std::log(p.x), std::log(p.y)});
+  const std::optional<Line> line = fitted_line(logarithms);
+  if (!line || line->slope <= 0.0) return std::nullopt;
+  const double size = std::exp(-line->level / line->slope);
+  return std::isfinite(size) ? std::optional(size) : std::nullopt;
+}
+
+std::vector<Vec2> ratios_of(const SweepCurve& array, const SweepCurve& heap) {
+  std::vector<Vec2> ratios;
+  for (const Vec2 a : array.points) {
+    for (const Vec2 h : heap.points) {
+      if (a.x == h.x) ratios.push_back({a.x, a.y / h.y});
+    }
+  }
+  return ratios;
+}
+
+QueueCrossing crossing_of(const SweepCurve& array, const SweepCurve& heap) {
+  QueueCrossing c;
+  c.search = array.search;
+  c.array = array.queue;
+  c.heap = heap.queue;
+  c.ratios = ratios_of(array, heap);
+  const auto last_not_slower = std::find_if(c.ratios.rbegin(), c.ratios.rend(), [](Vec2 r) { return r.y <= 1.0; });
+  if (last_not_slower != c.ratios.rend()) c.not_slower_at = last_not_slower->x;
+  if (last_not_slower != c.ratios.rbegin()) c.slower_from = std::prev(last_not_slower)->x;
+  if (c.not_slower_at && c.slower_from) c.crossing = rise_through_one({*last_not_slower, *std::prev(last_not_slower)});
+  if (!c.ratios.empty()) c.fitted = rise_through_one(c.ratios);
+  return c;
+}
+
+bool is_heap(const SweepCurve& curve) {
+  return curve.queue == name_of(QueuePolicy::heap) || curve.queue == name_of(QueuePolicy::lazy_heap);
 }
 
 }  // namespace
@@ -156,73 +217,6 @@ std::vector<std::size_t> turns(std::size_t count, std::uint64_t round) {
   for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[rng.below(i)]);
   return order;
 }
-
-namespace {
-
-constexpr double least_s = 1e-9;  // a time that the clock's cost has eaten up
-
-bool same_way(const SweepCurve& curve, const Contender& c) {
-  return curve.search == c.search && curve.queue == c.queue && curve.library == c.library;
-}
-
-/// The line y = level + slope · x of least squares; none where all x are alike.
-struct Line {
-  double level;
-  double slope;
-};
-std::optional<Line> fitted_line(const std::vector<Vec2>& points) {
-  Vec2 mean;
-  for (const Vec2 p : points) mean = mean + p;
-  mean = 1.0 / static_cast<double>(points.size()) * mean;
-  double xx = 0.0;
-  double xy = 0.0;
-  for (const Vec2 p : points) {
-    xx += (p.x - mean.x) * (p.x - mean.x);
-    xy += (p.x - mean.x) * (p.y - mean.y);
-  }
-  if (xx <= 0.0) return std::nullopt;
-  return Line{mean.y - xy / xx * mean.x, xy / xx};
-}
-
-/// Where the line through these points, both axes as logarithms, rises through 1.
-std::optional<double> rise_through_one(const std::vector<Vec2>& points) {
-  std::vector<Vec2> logarithms;
-  for (const Vec2 p : points) logarithms.push_back({std::log(p.x), std::log(p.y)});
-  const std::optional<Line> line = fitted_line(logarithms);
-  if (!line || line->slope <= 0.0) return std::nullopt;
-  const double size = std::exp(-line->level / line->slope);
-  return std::isfinite(size) ? std::optional(size) : std::nullopt;
-}
-
-std::vector<Vec2> ratios_of(const SweepCurve& array, const SweepCurve& heap) {
-  std::vector<Vec2> ratios;
-  for (const Vec2 a : array.points) {
-    for (const Vec2 h : heap.points) {
-      if (a.x == h.x) ratios.push_back({a.x, a.y / h.y});
-    }
-  }
-  return ratios;
-}
-
-QueueCrossing crossing_of(const SweepCurve& array, const SweepCurve& heap) {
-  QueueCrossing c;
-  c.search = array.search;
-  c.array = array.queue;
-  c.heap = heap.queue;
-  c.ratios = ratios_of(array, heap);
-  const auto last_not_slower = std::find_if(c.ratios.rbegin(), c.ratios.rend(), [](Vec2 r) { return r.y <= 1.0; });
-  if (last_not_slower != c.ratios.rend()) c.not_slower_at = last_not_slower->x;
-  if (last_not_slower != c.ratios.rbegin()) c.slower_from = std::prev(last_not_slower)->x;
-  if (c.not_slower_at && c.slower_from) c.crossing = rise_through_one({*last_not_slower, *std::prev(last_not_slower)});
-  if (!c.ratios.empty()) c.fitted = rise_through_one(c.ratios);
-  return c;
-}
-
-bool is_heap(const SweepCurve& curve) {
-  return curve.queue == name_of(QueuePolicy::heap) || curve.queue == name_of(QueuePolicy::lazy_heap);
-}
-
-}  // namespace
 
 std::vector<SweepCurve> sweep_curves(const Comparison& comparison) {
   std::vector<SweepCurve> curves;

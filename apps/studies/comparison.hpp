@@ -113,9 +113,6 @@ std::string options_text(const Contender& contender);
 /// follows the same one and whatever else the machine does meets all alike.
 std::vector<std::size_t> turns(std::size_t count, std::uint64_t round);
 
-// Where arrays and heaps cross: the size of graph from which on a search with an array as its queue is slower than the
-// same search with a heap, from measured times at several sizes.
-
 /// Times of one way to search random graphs, against their size.
 struct SweepCurve {
   std::string search;
@@ -128,6 +125,8 @@ struct SweepCurve {
 /// over the graphs of that size. Only contenders on geometric graphs that were solved.
 std::vector<SweepCurve> sweep_curves(const Comparison& comparison);
 
+/// Where arrays and heaps cross: the size of graph from which on a search with an array as its queue is slower than the
+/// same search with a heap, from measured times at several sizes.
 struct QueueCrossing {
   std::string search;
   std::string array;

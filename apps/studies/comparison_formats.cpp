@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A comparison as warren.compare/1: a row a contender, null where nothing is known.
+// A comparison in files: as warren.compare/1 (a row a contender, null where nothing is known), as CSV, and as the log
+// that OMPL's benchmarks write.
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -115,23 +116,7 @@ Json crossings_json(const Comparison& comparison) {
   return json;
 }
 
-}  // namespace
-
-std::string comparison_json(const Comparison& comparison) {
-  Json json{{"schema", "warren.compare/1"}, {"warren_version", WARREN_VERSION}};
-  json["machine"] = machine_json(this_machine());
-  if (comparison.clock_s > 0.0) json["clock_s"] = comparison.clock_s;
-  if (comparison.stopped) json["stopped_by"] = name_of(*comparison.stopped);
-  json["rows"] = Json::array();
-  for (const Contender& c : comparison.contenders) json["rows"].push_back(row_json(comparison, c));
-  if (Json crossings = crossings_json(comparison); !crossings.empty()) json["crossings"] = std::move(crossings);
-  json["notes"] = comparison.notes;
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
 // A comparison as CSV (RFC 4180): a line a contender, or a line a run; empty where nothing is known.
-
-namespace {
 
 std::string csv_line(const std::vector<std::string>& fields) {
   std::string line;
@@ -186,9 +171,7 @@ std::string csv_row(const Comparison& comparison, const Contender& c) {
 std::vector<std::string> option_names(const Comparison& comparison) {
   std::vector<std::string> names;
   for (const Contender& c : comparison.contenders) {
-    for (const auto& [name, value] : c.options) {
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-    }
+    for (const auto& [name, value] : c.options) add_once(names, name);
   }
   return names;
 }
@@ -207,9 +190,7 @@ std::vector<std::string> cost_names(const Comparison& comparison) {
   std::vector<std::string> names;
   for (const Contender& c : comparison.contenders) {
     for (const ComparedRun& run : c.runs) {
-      for (const StageCost& cost : run.costs) {
-        if (std::find(names.begin(), names.end(), cost.name) == names.end()) names.emplace_back(cost.name);
-      }
+      for (const StageCost& cost : run.costs) add_once(names, std::string(cost.name));
     }
   }
   return names;
@@ -242,53 +223,8 @@ std::vector<std::string> run_fields(const ComparedRun& run, bool is_planner) {
   return fields;
 }
 
-}  // namespace
-
-std::string comparison_csv(const Comparison& comparison) {
-  std::string text =
-      "source,vertices,edges,planner,search,queue,library,options,runs,solved,success_low,success_high,length_median,"
-      "length_q1,length_q3,hops,expanded,min_clearance,time_median_s,time_q1_s,time_q3_s,time_mean_s,"
-      "time_mean_low_s,time_mean_high_s,cells,turn_rad,deterministic\n";
-  for (const Contender& c : comparison.contenders) text += csv_row(comparison, c);
-  return text;
-}
-
-std::string comparison_runs(const Comparison& comparison) {
-  const std::vector<std::string> options = option_names(comparison);
-  std::vector<std::string> head{"source", "planner", "search", "queue", "library"};
-  for (const std::string& name : options) head.push_back("option_" + name);
-  for (const char* name :
-       {"seed",          "status", "time_s",   "search_s",      "length",   "raw_length", "cost",
-        "hops",          "cells",  "turn_rad", "min_clearance", "expanded", "samples",    "neighbour_queries",
-        "edges_checked", "rounds", "refused",  "milestones",    "edges",    "components"}) {
-    head.emplace_back(name);
-  }
-  const std::vector<std::string> costs = cost_names(comparison);
-  for (std::string name : costs) {
-    std::replace(name.begin(), name.end(), ' ', '_');
-    head.push_back("stage_" + name + "_s");
-    head.push_back("stage_" + name + "_cpu_s");
-  }
-  std::string text = csv_line(head);
-  for (const Contender& c : comparison.contenders) {
-    const ComparedProblem& problem = comparison.problems[c.problem];
-    std::vector<std::string> contender{problem.source, c.planner, c.search, c.queue, c.library};
-    for (const std::string& name : options) contender.push_back(option_value(c, name));
-    for (const ComparedRun& run : c.runs) {
-      std::vector<std::string> fields = contender;
-      const std::vector<std::string> figures = run_fields(run, problem.kind.empty());
-      fields.insert(fields.end(), figures.begin(), figures.end());
-      add_costs(fields, run, costs);
-      text += csv_line(fields);
-    }
-  }
-  return text;
-}
-
 // The log that OMPL's benchmarks write, line by line as ompl_benchmark_statistics.py reads it: run lines are split at
 // "; ", so each value is followed by one, and an empty value is NULL. One status more than OMPL knows stands last.
-
-namespace {
 
 constexpr std::string_view statuses =
     "status|Unknown status|Invalid start|Invalid goal|Unrecognized goal type|Timeout|Approximate solution|"
@@ -341,6 +277,59 @@ std::string planner_block(const Contender& contender) {
 }
 
 }  // namespace
+
+std::string comparison_json(const Comparison& comparison) {
+  Json json{{"schema", "warren.compare/1"}, {"warren_version", WARREN_VERSION}};
+  json["machine"] = machine_json(this_machine());
+  if (comparison.clock_s > 0.0) json["clock_s"] = comparison.clock_s;
+  if (comparison.stopped) json["stopped_by"] = name_of(*comparison.stopped);
+  json["rows"] = Json::array();
+  for (const Contender& c : comparison.contenders) json["rows"].push_back(row_json(comparison, c));
+  if (Json crossings = crossings_json(comparison); !crossings.empty()) json["crossings"] = std::move(crossings);
+  json["notes"] = comparison.notes;
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string comparison_csv(const Comparison& comparison) {
+  std::string text =
+      "source,vertices,edges,planner,search,queue,library,options,runs,solved,success_low,success_high,length_median,"
+      "length_q1,length_q3,hops,expanded,min_clearance,time_median_s,time_q1_s,time_q3_s,time_mean_s,"
+      "time_mean_low_s,time_mean_high_s,cells,turn_rad,deterministic\n";
+  for (const Contender& c : comparison.contenders) text += csv_row(comparison, c);
+  return text;
+}
+
+std::string comparison_runs(const Comparison& comparison) {
+  const std::vector<std::string> options = option_names(comparison);
+  std::vector<std::string> head{"source", "planner", "search", "queue", "library"};
+  for (const std::string& name : options) head.push_back("option_" + name);
+  for (const char* name :
+       {"seed",          "status", "time_s",   "search_s",      "length",   "raw_length", "cost",
+        "hops",          "cells",  "turn_rad", "min_clearance", "expanded", "samples",    "neighbour_queries",
+        "edges_checked", "rounds", "refused",  "milestones",    "edges",    "components"}) {
+    head.emplace_back(name);
+  }
+  const std::vector<std::string> costs = cost_names(comparison);
+  for (std::string name : costs) {
+    std::replace(name.begin(), name.end(), ' ', '_');
+    head.push_back("stage_" + name + "_s");
+    head.push_back("stage_" + name + "_cpu_s");
+  }
+  std::string text = csv_line(head);
+  for (const Contender& c : comparison.contenders) {
+    const ComparedProblem& problem = comparison.problems[c.problem];
+    std::vector<std::string> contender{problem.source, c.planner, c.search, c.queue, c.library};
+    for (const std::string& name : options) contender.push_back(option_value(c, name));
+    for (const ComparedRun& run : c.runs) {
+      std::vector<std::string> fields = contender;
+      const std::vector<std::string> figures = run_fields(run, problem.kind.empty());
+      fields.insert(fields.end(), figures.begin(), figures.end());
+      add_costs(fields, run, costs);
+      text += csv_line(fields);
+    }
+  }
+  return text;
+}
 
 std::string ompl_log(const Comparison& comparison, const OmplExperiment& experiment) {
   std::size_t most_runs = 0;

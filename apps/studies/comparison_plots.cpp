@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Plots of a comparison. Random graphs: for each search that takes a queue, times against size, and beside them the
 // ratios to the heap, whose crossing of 1 is where array and heap cross. Else: what options that were dealt out do
-// (comparison_plots.cpp), for each contender the share of its runs that had found a path, against time, and how its
-// lengths, times and clearances are spread (comparison_plots.cpp).
+// for each contender the share of its runs that had found a path, against time, and how its lengths, times and
+// clearances are spread.
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <map>
 #include <utility>
@@ -117,31 +116,8 @@ std::vector<Plot> share_plots(const Comparison& comparison) {
   return plots;
 }
 
-}  // namespace
-
-std::vector<PlotSheet> comparison_panels(const Comparison& comparison) {
-  std::vector<PlotSheet> panels = list_panels(comparison);
-  const std::vector<SweepCurve> curves = sweep_curves(comparison);
-  const bool is_alone = panels.empty();
-  for (const Plot& plot : curves.empty() ? share_plots(comparison) : sweep_plots(curves)) {
-    if (!curves.empty() || is_alone || plot.series.size() <= colors::series.size()) panels.push_back(sheet_of(plot));
-  }
-  if (curves.empty()) {
-    for (PlotSheet& panel : box_panels(comparison)) panels.push_back(std::move(panel));
-  }
-  return panels;
-}
-
-PlotsPage comparison_plots(const Comparison& comparison) {
-  constexpr std::size_t side_by_side = 2;
-  constexpr std::size_t figures = 3;
-  return {comparison_panels(comparison), list_panels(comparison).empty() ? side_by_side : figures};
-}
-
-// Box plots of a comparison: how lengths, times and clearances of each contender's runs are spread, how many runs there
-// were and how many of them found a path.
-
-namespace {
+// Box plots: how lengths, times and clearances of each contender's runs are spread, how many runs there were and how
+// many of them found a path.
 
 /// One of the figures that are drawn.
 struct BoxedFigure {
@@ -211,51 +187,10 @@ std::optional<BoxPlot> box_plot(const Comparison& comparison, std::size_t proble
   return any_differ ? std::optional(std::move(plot)) : std::nullopt;
 }
 
-}  // namespace
-
-std::optional<BoxFigures> box_figures_of(std::vector<double> values) {
-  if (values.empty()) return std::nullopt;
-  std::sort(values.begin(), values.end());
-  BoxFigures box{
-      .q1 = sorted_quantile(values, 0.25), .median = sorted_quantile(values, 0.5), .q3 = sorted_quantile(values, 0.75)};
-  const double reach = 1.5 * (box.q3 - box.q1);
-  const auto first = std::lower_bound(values.begin(), values.end(), box.q1 - reach);
-  const auto last = std::upper_bound(first, values.end(), box.q3 + reach);
-  box.low = std::min(*first, box.q1);
-  box.high = std::max(*(last - 1), box.q3);
-  box.outliers.assign(values.begin(), first);
-  box.outliers.insert(box.outliers.end(), last, values.end());
-  return box;
-}
-
-std::vector<PlotSheet> box_panels(const Comparison& comparison) {
-  std::vector<PlotSheet> panels;
-  for (std::size_t problem = 0; problem < comparison.problems.size(); ++problem) {
-    if (contenders_of(comparison, problem).size() > most_boxes) continue;
-    for (const BoxedFigure& figure : boxed_figures) {
-      if (const auto plot = box_plot(comparison, problem, figure)) panels.push_back(sheet_of(*plot));
-    }
-  }
-  return panels;
-}
-
-std::string note_on_box_plots(const Comparison& comparison) {
-  if (!sweep_tables(comparison).empty()) return {};
-  for (std::size_t problem = 0; problem < comparison.problems.size(); ++problem) {
-    const std::size_t count = contenders_of(comparison, problem).size();
-    if (count > most_boxes) {
-      return fmt::format("no box plots: they show at most {} planners or searches, and here are {}", most_boxes, count);
-    }
-  }
-  return {};
-}
-
 // Plots of what options that were dealt out do. Where a planner takes the values of one option in turn: success with
 // its interval, lengths and times with their quartiles, against its value. Where it takes those of more: the same as
 // heat maps over the two options with most values, one row of maps for each way to take the others, and as lines over
 // one of the two, one line a value of the other.
-
-namespace {
 
 using Words = std::vector<std::pair<std::string, std::string>>;
 
@@ -447,6 +382,62 @@ std::vector<PlotSheet> line_panels(const std::vector<Family>& families) {
 }
 
 }  // namespace
+
+std::vector<PlotSheet> comparison_panels(const Comparison& comparison) {
+  std::vector<PlotSheet> panels = list_panels(comparison);
+  const std::vector<SweepCurve> curves = sweep_curves(comparison);
+  const bool is_alone = panels.empty();
+  for (const Plot& plot : curves.empty() ? share_plots(comparison) : sweep_plots(curves)) {
+    if (!curves.empty() || is_alone || plot.series.size() <= colors::series.size()) panels.push_back(sheet_of(plot));
+  }
+  if (curves.empty()) {
+    for (PlotSheet& panel : box_panels(comparison)) panels.push_back(std::move(panel));
+  }
+  return panels;
+}
+
+PlotsPage comparison_plots(const Comparison& comparison) {
+  constexpr std::size_t side_by_side = 2;
+  constexpr std::size_t figures = 3;
+  return {comparison_panels(comparison), list_panels(comparison).empty() ? side_by_side : figures};
+}
+
+std::optional<BoxFigures> box_figures_of(std::vector<double> values) {
+  if (values.empty()) return std::nullopt;
+  std::sort(values.begin(), values.end());
+  BoxFigures box{
+      .q1 = sorted_quantile(values, 0.25), .median = sorted_quantile(values, 0.5), .q3 = sorted_quantile(values, 0.75)};
+  const double reach = 1.5 * (box.q3 - box.q1);
+  const auto first = std::lower_bound(values.begin(), values.end(), box.q1 - reach);
+  const auto last = std::upper_bound(first, values.end(), box.q3 + reach);
+  box.low = std::min(*first, box.q1);
+  box.high = std::max(*(last - 1), box.q3);
+  box.outliers.assign(values.begin(), first);
+  box.outliers.insert(box.outliers.end(), last, values.end());
+  return box;
+}
+
+std::vector<PlotSheet> box_panels(const Comparison& comparison) {
+  std::vector<PlotSheet> panels;
+  for (std::size_t problem = 0; problem < comparison.problems.size(); ++problem) {
+    if (contenders_of(comparison, problem).size() > most_boxes) continue;
+    for (const BoxedFigure& figure : boxed_figures) {
+      if (const auto plot = box_plot(comparison, problem, figure)) panels.push_back(sheet_of(*plot));
+    }
+  }
+  return panels;
+}
+
+std::string note_on_box_plots(const Comparison& comparison) {
+  if (!sweep_tables(comparison).empty()) return {};
+  for (std::size_t problem = 0; problem < comparison.problems.size(); ++problem) {
+    const std::size_t count = contenders_of(comparison, problem).size();
+    if (count > most_boxes) {
+      return fmt::format("no box plots: they show at most {} planners or searches, and here are {}", most_boxes, count);
+    }
+  }
+  return {};
+}
 
 std::string note_on_heat_maps(const Comparison& comparison) {
   const std::vector<Family> families = families_of(comparison);

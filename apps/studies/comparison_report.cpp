@@ -107,55 +107,7 @@ TextTable planner_table(const Comparison& comparison, std::size_t problem) {
   return table;
 }
 
-}  // namespace
-
-std::vector<ReportTable> comparison_tables(const Comparison& comparison) {
-  std::vector<ReportTable> tables;
-  for (std::size_t problem = 0; problem < comparison.problems.size(); ++problem) {
-    const ComparedProblem& p = comparison.problems[problem];
-    if (p.kind.empty()) {
-      tables.push_back({"", planner_table(comparison, problem)});
-    } else if (!is_sweep(comparison, problem)) {
-      tables.push_back(
-          {fmt::format("{}: graph of {}, {} vertices, {} edges", printable(p.source), p.kind, p.vertices, p.edges),
-           search_table(comparison, problem)});
-    }
-  }
-  for (ReportTable& table : sweep_tables(comparison)) tables.push_back(std::move(table));
-  return tables;
-}
-
-std::string comparison_document(const Comparison& comparison, std::string_view ending) {
-  const bool is_latex = ending == ".tex";
-  std::string text;
-  for (const ReportTable& table : comparison_tables(comparison)) {
-    text += text.empty() ? "" : "\n";
-    if (!table.title.empty()) text += fmt::format("{}{}\n{}", is_latex ? "% " : "", table.title, is_latex ? "" : "\n");
-    text += is_latex ? table.table.latex() : table.table.markdown();
-  }
-  return text;
-}
-
-std::string comparison_summary(const Comparison& comparison, const Palette& palette) {
-  std::string text;
-  for (const ReportTable& table : comparison_tables(comparison)) {
-    if (!text.empty()) text += '\n';
-    if (!table.title.empty()) text += table.title + '\n';
-    text += table.table.text(palette);
-  }
-  const auto line = [&](std::string_view name, const std::string& what) {
-    text += fmt::format("{}{}\n", palette.faint(fmt::format("{:<11}", name)), what);
-  };
-  for (const std::string& note : comparison.notes) line("note", printable(note));
-  if (comparison.clock_s > 0.0) line("clock", precise_seconds(comparison.clock_s) + " a reading, taken off each time");
-  line("machine", text_of(this_machine()));
-  if (comparison.stopped) text += palette.doubtful(text_of(*comparison.stopped)) + ": these are the runs so far\n";
-  return text;
-}
-
 // Random graphs of many sizes as text: a table a search, sizes down, queues across, and the crossings.
-
-namespace {
 
 std::vector<std::string> searches_of(const std::vector<SweepCurve>& curves) {
   std::vector<std::string> searches;
@@ -215,7 +167,52 @@ std::string crossing_text(const QueueCrossing& c) {
   return text;
 }
 
+/// The tables of the summary.
+std::vector<ReportTable> comparison_tables(const Comparison& comparison) {
+  std::vector<ReportTable> tables;
+  for (std::size_t problem = 0; problem < comparison.problems.size(); ++problem) {
+    const ComparedProblem& p = comparison.problems[problem];
+    if (p.kind.empty()) {
+      tables.push_back({"", planner_table(comparison, problem)});
+    } else if (!is_sweep(comparison, problem)) {
+      tables.push_back(
+          {fmt::format("{}: graph of {}, {} vertices, {} edges", printable(p.source), p.kind, p.vertices, p.edges),
+           search_table(comparison, problem)});
+    }
+  }
+  for (ReportTable& table : sweep_tables(comparison)) tables.push_back(std::move(table));
+  return tables;
+}
+
 }  // namespace
+
+std::string comparison_document(const Comparison& comparison, std::string_view ending) {
+  const bool is_latex = ending == ".tex";
+  std::string text;
+  for (const ReportTable& table : comparison_tables(comparison)) {
+    text += text.empty() ? "" : "\n";
+    if (!table.title.empty()) text += fmt::format("{}{}\n{}", is_latex ? "% " : "", table.title, is_latex ? "" : "\n");
+    text += is_latex ? table.table.latex() : table.table.markdown();
+  }
+  return text;
+}
+
+std::string comparison_summary(const Comparison& comparison, const Palette& palette) {
+  std::string text;
+  for (const ReportTable& table : comparison_tables(comparison)) {
+    if (!text.empty()) text += '\n';
+    if (!table.title.empty()) text += table.title + '\n';
+    text += table.table.text(palette);
+  }
+  const auto line = [&](std::string_view name, const std::string& what) {
+    text += fmt::format("{}{}\n", palette.faint(fmt::format("{:<11}", name)), what);
+  };
+  for (const std::string& note : comparison.notes) line("note", printable(note));
+  if (comparison.clock_s > 0.0) line("clock", precise_seconds(comparison.clock_s) + " a reading, taken off each time");
+  line("machine", text_of(this_machine()));
+  if (comparison.stopped) text += palette.doubtful(text_of(*comparison.stopped)) + ": these are the runs so far\n";
+  return text;
+}
 
 std::vector<ReportTable> sweep_tables(const Comparison& comparison) {
   const std::vector<SweepCurve> curves = sweep_curves(comparison);

@@ -17,17 +17,15 @@
 
 namespace warren::studies {
 
-/// A table a problem (random graphs: one for all sizes, comparison_report.cpp), the crossings, notes, the machine.
+/// A table a problem (random graphs: one for all sizes), the crossings, notes, the machine.
 std::string comparison_summary(const Comparison& comparison, const Palette& palette);
-/// The tables of the summary.
-std::vector<ReportTable> comparison_tables(const Comparison& comparison);
-/// They for a document, with their titles: .tex by the file's ending, else Markdown.
+/// Its tables for a document, with their titles: .tex by the file's ending, else Markdown.
 std::string comparison_document(const Comparison& comparison, std::string_view ending);
-/// All of it as a page (comparison_report.cpp): tables and the plots of comparison_plots().
+/// All of it as a page: tables and the plots of comparison_plots().
 std::string comparison_page(const Comparison& comparison, const std::string& command_line);
 std::string comparison_json(const Comparison& comparison);
 std::string comparison_csv(const Comparison& comparison);
-/// A line a run, with each option in a column of its own (comparison_formats.cpp).
+/// A line a run, with each option in a column of its own.
 std::string comparison_runs(const Comparison& comparison);
 
 /// Median times against size, a line a size, and where arrays and heaps cross; none without random graphs.
@@ -39,13 +37,13 @@ std::vector<PlotSheet> comparison_panels(const Comparison& comparison);
 /// The same plots on one page.
 PlotsPage comparison_plots(const Comparison& comparison);
 
-/// Success, lengths and times against the options that were dealt out, as lines or heat maps (comparison_plots.cpp);
-/// none where none was. At most 60.
+/// Success, lengths and times against the options that were dealt out, as lines or heat maps; none where none was. At
+/// most 60.
 std::vector<PlotSheet> list_panels(const Comparison& comparison);
 /// How many heat maps list_panels() leaves out; empty: none.
 std::string note_on_heat_maps(const Comparison& comparison);
 
-/// Lengths, times and clearances of each problem's contenders as box plots (comparison_plots.cpp), those that differ
+/// Lengths, times and clearances of each problem's contenders as box plots, those that differ
 /// from run to run. None of a problem with more than most_boxes contenders.
 std::vector<PlotSheet> box_panels(const Comparison& comparison);
 /// Whiskers end at the last values within 1.5 times the quartiles' distance from the quartiles, the others are outliers
@@ -67,7 +65,7 @@ struct OmplExperiment {
 };
 
 /// The text format of OMPL's benchmarks (ompl_benchmark_statistics.py and Planner Arena read it), with OMPL's names of
-/// properties (comparison_formats.cpp).
+/// properties.
 std::string ompl_log(const Comparison& comparison, const OmplExperiment& experiment);
 
 }  // namespace warren::studies

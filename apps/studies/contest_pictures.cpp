@@ -31,8 +31,7 @@
 #include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren::studies {
-// One figure of several paths through a world, each in a colour of its own with its name in the legend; where paths run
-// along the same stretches they take turns in dashes.
+namespace {
 
 struct NamedPath {
   std::string label;         ///< in the legend
@@ -50,13 +49,49 @@ struct PathsFigure {
 /// Writes FOLDER/NAME. Returns what is drawn otherwise than usual, a line each that begins with the name. Throws
 /// WriteError, Stopped.
 std::vector<std::string> write_named(const std::string& folder, const std::string& name, const Picture& picture,
-                                     const PictureOptions& look, const Execution& execution);
+                                     const PictureOptions& look, const Execution& execution) {
+  std::vector<std::string> notes = write_picture(folder + "/" + name, picture, look, execution);
+  for (std::string& note : notes) note = fmt::format("{}: drawn {}", name, note);
+  return notes;
+}
 
-/// The same of the figure. A map's scene has its border walls.
+/// Some sixty dashes across all that is drawn.
+double dash_of(const std::vector<std::vector<Vec2>>& paths) {
+  Box box;
+  for (const std::vector<Vec2>& path : paths) {
+    for (const Vec2 p : path) box.include(p);
+  }
+  const double extent = box.empty() ? 0.0 : std::max(box.width(), box.height());
+  return extent > 0.0 ? extent / 60.0 : 1.0;
+}
+
+/// The same of one figure of several paths, each in a colour of its own with its name in the legend; where paths run
+/// along the same stretches they take turns in dashes. A map's scene has its border walls.
 std::vector<std::string> draw_paths(const std::string& folder, const std::string& name, const Scene& scene,
-                                    const PathsFigure& figure, const PictureOptions& look, const Execution& execution);
-
-namespace {
+                                    const PathsFigure& figure, const PictureOptions& look, const Execution& execution) {
+  std::vector<PictureLayer> layers;
+  if (scene.map) layers = cells_of_map(*scene.map, execution);
+  std::vector<std::vector<Vec2>> points;
+  for (const NamedPath& path : figure.paths) points.push_back(path.points);
+  std::vector<PolygonSet> lines = lines_side_by_side(points, dash_of(points), execution);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    layers.push_back({.id = fmt::format("path_{}", i + 1),
+                      .label = figure.paths[i].label,
+                      .part = Part::path,
+                      .color = colors::series[i % colors::series.size()],
+                      .width = 0.8 * widths::path,
+                      .lines = std::move(lines[i])});
+  }
+  const Picture picture{.scene = scene,
+                        .roadmap = figure.roadmap,
+                        .layers = layers,
+                        .start = figure.start,
+                        .goal = figure.goal,
+                        .title = title_of(scene),
+                        .subtitle = figure.subtitle,
+                        .description = description_of(scene)};
+  return write_named(folder, name, picture, look, execution);
+}
 
 /// Of the runs that were solved, the one whose path is of median length; nullptr where none was.
 const ComparedRun* median_run(const Contender& contender) {
@@ -150,79 +185,6 @@ class ContestPictures {
   std::vector<std::string> notes_;
 };
 
-}  // namespace
-
-std::vector<std::string> draw_contest(const Scene& scene, const PlannerContestOptions& options,
-                                      const Comparison& comparison, const std::string& folder,
-                                      const Execution& execution) {
-  ContestPictures pictures(scene, options, folder, execution);
-  for (std::size_t i = 0; i < options.contenders.size(); ++i) {
-    execution.check();
-    pictures.draw(comparison.contenders[i], options.contenders[i]);
-  }
-  pictures.draw_paths();
-  return pictures.take_notes();
-}
-
-void make_folder(const std::string& folder) {
-  constexpr mode_t all_that_the_mask_leaves = 0777;
-  const bool made = ::mkdir(folder.c_str(), all_that_the_mask_leaves) == 0;
-  const int error = errno;
-  struct stat status {};
-  const bool is_folder = ::stat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode);
-  if (!is_folder) throw WriteError(folder, std::generic_category().message(made ? ENOTDIR : error));
-  if (::access(folder.c_str(), W_OK | X_OK) != 0) throw WriteError(folder, std::generic_category().message(errno));
-}
-
-namespace {
-
-/// Some sixty dashes across all that is drawn.
-double dash_of(const std::vector<std::vector<Vec2>>& paths) {
-  Box box;
-  for (const std::vector<Vec2>& path : paths) {
-    for (const Vec2 p : path) box.include(p);
-  }
-  const double extent = box.empty() ? 0.0 : std::max(box.width(), box.height());
-  return extent > 0.0 ? extent / 60.0 : 1.0;
-}
-
-}  // namespace
-
-std::vector<std::string> write_named(const std::string& folder, const std::string& name, const Picture& picture,
-                                     const PictureOptions& look, const Execution& execution) {
-  std::vector<std::string> notes = write_picture(folder + "/" + name, picture, look, execution);
-  for (std::string& note : notes) note = fmt::format("{}: drawn {}", name, note);
-  return notes;
-}
-
-std::vector<std::string> draw_paths(const std::string& folder, const std::string& name, const Scene& scene,
-                                    const PathsFigure& figure, const PictureOptions& look, const Execution& execution) {
-  std::vector<PictureLayer> layers;
-  if (scene.map) layers = cells_of_map(*scene.map, execution);
-  std::vector<std::vector<Vec2>> points;
-  for (const NamedPath& path : figure.paths) points.push_back(path.points);
-  std::vector<PolygonSet> lines = lines_side_by_side(points, dash_of(points), execution);
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    layers.push_back({.id = fmt::format("path_{}", i + 1),
-                      .label = figure.paths[i].label,
-                      .part = Part::path,
-                      .color = colors::series[i % colors::series.size()],
-                      .width = 0.8 * widths::path,
-                      .lines = std::move(lines[i])});
-  }
-  const Picture picture{.scene = scene,
-                        .roadmap = figure.roadmap,
-                        .layers = layers,
-                        .start = figure.start,
-                        .goal = figure.goal,
-                        .title = title_of(scene),
-                        .subtitle = figure.subtitle,
-                        .description = description_of(scene)};
-  return write_named(folder, name, picture, look, execution);
-}
-
-namespace {
-
 /// A path that one or more variants of a search found.
 struct FoundPath {
   SearchVariant first;
@@ -269,6 +231,28 @@ std::string label_of(const FoundPath& found, const std::vector<FoundPath>& all, 
 }
 
 }  // namespace
+
+std::vector<std::string> draw_contest(const Scene& scene, const PlannerContestOptions& options,
+                                      const Comparison& comparison, const std::string& folder,
+                                      const Execution& execution) {
+  ContestPictures pictures(scene, options, folder, execution);
+  for (std::size_t i = 0; i < options.contenders.size(); ++i) {
+    execution.check();
+    pictures.draw(comparison.contenders[i], options.contenders[i]);
+  }
+  pictures.draw_paths();
+  return pictures.take_notes();
+}
+
+void make_folder(const std::string& folder) {
+  constexpr mode_t all_that_the_mask_leaves = 0777;
+  const bool made = ::mkdir(folder.c_str(), all_that_the_mask_leaves) == 0;
+  const int error = errno;
+  struct stat status {};
+  const bool is_folder = ::stat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode);
+  if (!is_folder) throw WriteError(folder, std::generic_category().message(made ? ENOTDIR : error));
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) throw WriteError(folder, std::generic_category().message(errno));
+}
 
 std::vector<std::string> draw_searches(const Scene& world, const SearchGraph& graph,
                                        const SearchContestOptions& options, const std::string& folder,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The search behind `warren largest`: which mazes are tried, what came out, and what stands when it ends or is broken
-// off. largest_maze.hpp writes it.
+// The search behind `warren largest`: which mazes are tried, what stands when it ends or is broken off, and what is
+// said of it.
 #pragma once
 
 #include <cstdint>
@@ -66,16 +66,12 @@ struct LargestResult {
   std::optional<StopReason> signal;  ///< the search was broken off
 };
 
-/// The run of median solve_s (the upper one of two). best is not empty.
-const MazeTrial& median_trial(const LargestResult& result);
-
 /// Searches, and tells `note` a line a trial. The execution has a deadline, whose memory is the limit; its signal ends
 /// the search with what there is. Never throws Stopped; throws UsageError for what can't be asked of mazes.
 LargestResult find_largest(const LargestOptions& options, const Execution& execution,
                            const std::function<void(std::string_view)>& note);
 
-// What `warren largest` says: to a person, as warren.largest/1, and as a plot of time against cells.
-
+/// What `warren largest` says: to a person, as warren.largest/1, and as a plot of time against cells.
 std::string largest_summary(const LargestOptions& options, const LargestResult& result, const Palette& palette);
 std::string largest_json(const LargestOptions& options, const LargestResult& result);
 /// Every run that came to its end, the runs at the largest size, and the budget's line.

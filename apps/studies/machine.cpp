@@ -52,42 +52,6 @@ double touch_once(std::size_t bytes, const Execution& execution) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-}  // namespace
-
-Machine this_machine() { return {.cpu = cpu_model(), .cores = thread_count(0), .memory_bytes = machine_bytes()}; }
-
-std::string text_of(const Machine& machine) {
-  return fmt::format("{}, {} {}, {}", machine.cpu, machine.cores, machine.cores == 1 ? "core" : "cores",
-                     human_bytes(static_cast<double>(machine.memory_bytes)));
-}
-
-nlohmann::ordered_json machine_json(const Machine& machine) {
-  return {{"cpu", machine.cpu}, {"cores", machine.cores}, {"memory_bytes", machine.memory_bytes}};
-}
-
-void restart_peak_memory() {
-  give_freed_pages_back();  // what earlier runs have freed is no part of this one's peak
-  std::ofstream("/proc/self/clear_refs") << "5";
-  PagePool::watch_idle_bytes();
-}
-
-void WarmMemory::prepare(std::size_t bytes, const Execution& execution) {
-  constexpr std::size_t least = std::size_t{64} << 20;
-  if (execution.deadline != nullptr) {
-    const std::size_t limit = execution.deadline->memory_bytes();
-    const std::size_t held = resident_bytes();
-    bytes = std::min(bytes, limit > held ? limit - held : 0);
-  }
-  if (bytes < least || bytes <= touch_.bytes) return;
-  const double first_s = touch_once(bytes, execution);
-  const double again_s = touch_once(bytes, execution);
-  // The part that an earlier call touched was warm in the first pass too: what the colds cost more is added up.
-  const double earlier_excess_s = touch_.cold_s - touch_.warm_s;
-  touch_ = {.bytes = bytes, .cold_s = again_s + std::max(0.0, first_s - again_s) + earlier_excess_s, .warm_s = again_s};
-}
-
-namespace {
-
 constexpr std::array<PerfEvent, 4> hardware_events{{{PERF_TYPE_HARDWARE, PERF_COUNT_HW_CPU_CYCLES},
                                                     {PERF_TYPE_HARDWARE, PERF_COUNT_HW_INSTRUCTIONS},
                                                     {PERF_TYPE_HARDWARE, PERF_COUNT_HW_CACHE_MISSES},
@@ -126,7 +90,66 @@ double seconds_of(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
+constexpr std::size_t probe_parts = 64;
+constexpr std::uint64_t rounds = 120'000;  // of each part: some 150 us
+
+/// One number that doesn't wait for the others. Opaque to the compiler, which would put several into one register.
+inline void step(std::uint64_t round, std::uint64_t& x) {
+  x ^= round;
+  x += x;
+  asm volatile("" : "+r"(x));
+}
+
+/// Numbers enough to keep all units for whole numbers of a core busy.
+std::uint64_t run_part(std::uint64_t seed) {
+  std::uint64_t a = seed, b = seed + 1, c = seed + 2, d = seed + 3;
+  std::uint64_t e = seed + 4, f = seed + 5, g = seed + 6, h = seed + 7;
+  for (std::uint64_t round = 0; round < rounds; ++round) {
+    step(round, a);
+    step(round, b);
+    step(round, c);
+    step(round, d);
+    step(round, e);
+    step(round, f);
+    step(round, g);
+    step(round, h);
+  }
+  return a ^ b ^ c ^ d ^ e ^ f ^ g ^ h;
+}
+
 }  // namespace
+
+Machine this_machine() { return {.cpu = cpu_model(), .cores = thread_count(0), .memory_bytes = machine_bytes()}; }
+
+std::string text_of(const Machine& machine) {
+  return fmt::format("{}, {} {}, {}", machine.cpu, machine.cores, machine.cores == 1 ? "core" : "cores",
+                     human_bytes(static_cast<double>(machine.memory_bytes)));
+}
+
+nlohmann::ordered_json machine_json(const Machine& machine) {
+  return {{"cpu", machine.cpu}, {"cores", machine.cores}, {"memory_bytes", machine.memory_bytes}};
+}
+
+void restart_peak_memory() {
+  give_freed_pages_back();  // what earlier runs have freed is no part of this one's peak
+  std::ofstream("/proc/self/clear_refs") << "5";
+  PagePool::watch_idle_bytes();
+}
+
+void WarmMemory::prepare(std::size_t bytes, const Execution& execution) {
+  constexpr std::size_t least = std::size_t{64} << 20;
+  if (execution.deadline != nullptr) {
+    const std::size_t limit = execution.deadline->memory_bytes();
+    const std::size_t held = resident_bytes();
+    bytes = std::min(bytes, limit > held ? limit - held : 0);
+  }
+  if (bytes < least || bytes <= touch_.bytes) return;
+  const double first_s = touch_once(bytes, execution);
+  const double again_s = touch_once(bytes, execution);
+  // The part that an earlier call touched was warm in the first pass too: what the colds cost more is added up.
+  const double earlier_excess_s = touch_.cold_s - touch_.warm_s;
+  touch_ = {.bytes = bytes, .cold_s = again_s + std::max(0.0, first_s - again_s) + earlier_excess_s, .warm_s = again_s};
+}
 
 RunCounts operator-(const RunCounts& after, const RunCounts& before) {
   RunCounts between{after.cpu_s - before.cpu_s, after.page_faults - before.page_faults,
@@ -182,37 +205,6 @@ RunCounts RunCounters::read() const {
   for (const int file : files_) counts.hardware.push_back(read_event(file));
   return counts;
 }
-
-namespace {
-
-constexpr std::size_t probe_parts = 64;
-constexpr std::uint64_t rounds = 120'000;  // of each part: some 150 us
-
-/// One number that doesn't wait for the others. Opaque to the compiler, which would put several into one register.
-inline void step(std::uint64_t round, std::uint64_t& x) {
-  x ^= round;
-  x += x;
-  asm volatile("" : "+r"(x));
-}
-
-/// Numbers enough to keep all units for whole numbers of a core busy.
-std::uint64_t run_part(std::uint64_t seed) {
-  std::uint64_t a = seed, b = seed + 1, c = seed + 2, d = seed + 3;
-  std::uint64_t e = seed + 4, f = seed + 5, g = seed + 6, h = seed + 7;
-  for (std::uint64_t round = 0; round < rounds; ++round) {
-    step(round, a);
-    step(round, b);
-    step(round, c);
-    step(round, d);
-    step(round, e);
-    step(round, f);
-    step(round, g);
-    step(round, h);
-  }
-  return a ^ b ^ c ^ d ^ e ^ f ^ g ^ h;
-}
-
-}  // namespace
 
 double arithmetic_per_second(const Execution& execution) {
   Execution own = execution;

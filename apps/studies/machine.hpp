@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <new>
 #include <optional>
 #include <span>
 #include <string>
@@ -53,11 +54,10 @@ class WarmMemory {
   MemoryTouch touch_;
 };
 
-// What a run cost beside its time: CPU seconds, page faults and involuntary switches of the process, and the
-// processor's own counts where the kernel hands them out (perf_event_open; many virtual machines and containers don't).
-// Read before and after a run and subtracted. Cost of a reading: a few microseconds.
-
-/// Counts since some beginning, or between two readings.
+/// What a run cost beside its time: CPU seconds, page faults and involuntary switches of the process, and the
+/// processor's own counts where the kernel hands them out (perf_event_open; many virtual machines and containers
+/// don't). Read before and after a run and subtracted. Cost of a reading: a few microseconds. Counts since some
+/// beginning, or between two readings.
 struct RunCounts {
   static constexpr std::array<std::string_view, 4> hardware_names{"cycles", "instructions", "cache_misses",
                                                                   "branch_misses"};
@@ -107,5 +107,18 @@ class RunCounters {
 /// to fill a core: latency leaves no room for another thread on the same core. Timed in each thread, so that waking
 /// threads and sharing out the work cost nothing. Takes some 10 ms of CPU. Throws Stopped.
 double arithmetic_per_second(const Execution& execution);
+
+/// Does `work` find the memory that it takes? Throws its other stops.
+template <class Work>
+bool memory_holds(const Work& work) {
+  try {
+    work();
+    return true;
+  } catch (const Stopped& stopped) {
+    if (stopped.reason != StopReason::memory) throw;
+  } catch (const std::bad_alloc&) {
+  }
+  return false;
+}
 
 }  // namespace warren::studies

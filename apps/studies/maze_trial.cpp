@@ -6,11 +6,9 @@
 #include "apps/studies/machine.hpp"
 #include "parallel/trace.hpp"
 #include "solve/answer/stage_lines.hpp"
-#include "solve/answer/write_answer_io.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "solve/question/question.hpp"
 #include "solve/streamed/solve_streamed.hpp"
-#include "solve/streamed/solve_walls.hpp"
 
 namespace warren::studies {
 Scene generate_trial(const MazeOptions& maze, const SolveOptions& options, const Execution& execution,

@@ -29,121 +29,6 @@ struct Turn {
   std::optional<ComparedRun> run = {};  ///< none: a signal came first
 };
 
-class PlannerContest {
- public:
-  PlannerContest(const Scene& scene, const PlannerContestOptions& options, const Execution& execution,
-                 Comparison& comparison)
-      : scene_(scene), options_(options), execution_(execution), comparison_(comparison) {}
-
-  void run();
-
- private:
-  void enter();
-  std::uint64_t turns_in_all() const;
-  std::vector<Turn> turns_of(std::uint64_t round) const;
-  void take(std::vector<Turn> turns);
-  ComparedRun run_once(const Turn& turn);
-  Answer solve(const PlannerContender& contender, std::uint64_t seed) const;
-  void describe(Contender& contender, const PlannerContender& asked, const Answer& answer) const;
-  Contender& contender(std::size_t i) { return comparison_.contenders[first_contender_ + i]; }
-  const Contender& contender(std::size_t i) const { return comparison_.contenders[first_contender_ + i]; }
-
-  const Scene& scene_;
-  const PlannerContestOptions& options_;
-  const Execution& execution_;
-  Comparison& comparison_;
-  std::size_t first_contender_ = 0;
-  std::optional<GridFields> raster_;  ///< of the contender on whose raster cells are counted
-};
-
-/// The first round tells who needs others. Rounds beside each other are as many as keep all threads busy.
-void PlannerContest::run() {
-  constexpr std::size_t turns_at_once = 256;
-  enter();
-  double seconds = 0.0;
-  const StageTimer timer(execution_, "compare", seconds, options_.runs * options_.contenders.size());
-  take(turns_of(0));
-  if (execution_.progress != nullptr) execution_.progress->set_total(turns_in_all());
-  std::vector<Turn> turns;
-  for (std::uint64_t round = 1; round < options_.runs; ++round) {
-    const std::vector<Turn> more = turns_of(round);
-    if (more.empty()) return;
-    turns.insert(turns.end(), more.begin(), more.end());
-    const bool more_fit = options_.parallel && turns.size() < turns_at_once && round + 1 < options_.runs;
-    if (!more_fit) take(std::exchange(turns, {}));
-  }
-}
-
-/// Asks every planner, before the first run, whether it can solve this world with these options.
-void PlannerContest::enter() {
-  comparison_.problems.push_back({.source = scene_.source, .kind = "", .unit = std::string(unit_of(scene_))});
-  if (options_.parallel) {
-    comparison_.notes.push_back(fmt::format("times are of runs beside each other, up to {} at once, on a thread each",
-                                            thread_count(execution_.threads)));
-  }
-  first_contender_ = comparison_.contenders.size();
-  for (const PlannerContender& asked : options_.contenders) {
-    const SolveOptions& options = asked.options;
-    if (!raster_ && options.planner == PlannerKind::grid) raster_ = options.grid;
-    Contender contender;
-    contender.dealt = asked.dealt;
-    contender.problem = comparison_.problems.size() - 1;
-    contender.planner = name_of(choose_solver(options, scene_, asked.question).planner);
-    if (options.search) contender.search = name_of(*options.search);
-    if (options.queue) contender.queue = name_of(*options.queue);
-    contender.library = "warren";
-    comparison_.contenders.push_back(std::move(contender));
-  }
-}
-
-/// Of all rounds together, when the first has told who needs others.
-std::uint64_t PlannerContest::turns_in_all() const {
-  std::uint64_t count = options_.contenders.size();
-  for (std::size_t i = 0; i < options_.contenders.size(); ++i) {
-    if (options_.repeat_all || !contender(i).deterministic) count += options_.runs - 1;
-  }
-  return count;
-}
-
-std::vector<Turn> PlannerContest::turns_of(std::uint64_t round) const {
-  std::vector<Turn> all;
-  for (const std::size_t i : turns(options_.contenders.size(), round)) {
-    const bool sits_out = round > 0 && !options_.repeat_all && contender(i).deterministic;
-    if (!sits_out) all.push_back({i, options_.first_seed + round});
-  }
-  return all;
-}
-
-/// Runs are kept in the order of the turns, whichever end first.
-void PlannerContest::take(std::vector<Turn> turns) {
-  Execution side_by_side = execution_;
-  if (!options_.parallel) side_by_side.threads = 1;
-  const auto keep = [&] {
-    for (const Turn& turn : turns) {
-      if (turn.run) contender(turn.contender).runs.push_back(*turn.run);
-    }
-  };
-  try {
-    for_chunks(turns.size(), 1, side_by_side, [&](Range r) { turns[r.first].run = run_once(turns[r.first]); });
-  } catch (...) {
-    keep();
-    throw;
-  }
-  keep();
-}
-
-Answer PlannerContest::solve(const PlannerContender& contender, std::uint64_t seed) const {
-  execution_.check();
-  const Deadline deadline(execution_.deadline, options_.budget_s);
-  Execution within = execution_;
-  within.deadline = &deadline;
-  within.progress = nullptr;  // the bar shows the runs, not the stages of each
-  if (options_.parallel) within.threads = 1;
-  Answer answer = solve_contender(scene_, contender, seed, within);
-  if (answer.outcome == Outcome::stopped) execution_.check();
-  return answer;
-}
-
 /// Where the world has a raster, or somebody plans on one.
 std::optional<std::uint64_t> cells_of(const Answer& answer, const Scene& scene,
                                       const std::optional<GridFields>& raster) {
@@ -170,72 +55,142 @@ std::size_t state_count(const Answer& answer) {
   return answer.states.empty() ? answer.path.size() : answer.states.size();
 }
 
-/// What was dealt out is an option, whether or not the answer repeats it.
-void PlannerContest::describe(Contender& contender, const PlannerContender& asked, const Answer& answer) const {
-  contender.search = answer.search;
-  contender.deterministic = !depends_on_seed(answer, asked.options, scene_);
-  auto& options = contender.options;
-  options = json_options(answer.options);
-  if (!answer.sampler.empty()) options.insert(options.begin(), {"sampler", json_string(answer.sampler)});
-  for (const auto& [name, word] : asked.dealt) {
-    const bool has_column = name == name_of(Option::search) || name == name_of(Option::queue);
-    const auto is_it = [&, &name = name](const auto& option) { return option.first == name; };
-    if (!has_column && std::none_of(options.begin(), options.end(), is_it)) options.emplace_back(name, word_json(word));
+class PlannerContest {
+ public:
+  PlannerContest(const Scene& scene, const PlannerContestOptions& options, const Execution& execution,
+                 Comparison& comparison)
+      : scene_(scene), options_(options), execution_(execution), comparison_(comparison) {}
+
+  /// The first round tells who needs others. Rounds beside each other are as many as keep all threads busy.
+  void run() {
+    constexpr std::size_t turns_at_once = 256;
+    enter();
+    double seconds = 0.0;
+    const StageTimer timer(execution_, "compare", seconds, options_.runs * options_.contenders.size());
+    take(turns_of(0));
+    if (execution_.progress != nullptr) execution_.progress->set_total(turns_in_all());
+    std::vector<Turn> turns;
+    for (std::uint64_t round = 1; round < options_.runs; ++round) {
+      const std::vector<Turn> more = turns_of(round);
+      if (more.empty()) return;
+      turns.insert(turns.end(), more.begin(), more.end());
+      const bool more_fit = options_.parallel && turns.size() < turns_at_once && round + 1 < options_.runs;
+      if (!more_fit) take(std::exchange(turns, {}));
+    }
   }
-  std::erase_if(options, [](const auto& option) { return option.first == "queue"; });  // has a column
-}
 
-ComparedRun PlannerContest::run_once(const Turn& turn) {
-  const PlannerContender& asked = options_.contenders[turn.contender];
-  const Answer answer = solve(asked, turn.seed);
-  if (turn.seed == options_.first_seed) describe(contender(turn.contender), asked, answer);
-  ComparedRun run{.seed = turn.seed,
-                  .outcome = answer.outcome,
-                  .time_s = answer.solve_s,
-                  .length = answer.length,
-                  .hops = state_count(answer) > 0 ? state_count(answer) - 1 : 0,
-                  .expanded = expanded_by(answer)};
-  if (answer.verified) run.min_clearance = answer.min_clearance;
-  run.cells = cells_of(answer, scene_, raster_);
-  run.turn_rad = answer.turn_rad;
-  if (answer.seconds.search > 0.0) run.search_s = answer.seconds.search;
-  run.raw_length = answer.raw_length;
-  run.cost = answer.cost;
-  run.counters = answer.counters;
-  run.costs = answer.costs;
-  run.roadmap = answer.roadmap;
-  return run;
-}
-
-}  // namespace
-
-bool depends_on_seed(const Answer& answer, const SolveOptions& options, const Scene& scene) {
-  const auto planner = enum_named<PlannerKind>(answer.planner);
-  if (!planner || *planner == PlannerKind::rrt || *planner == PlannerKind::rrt_connect) return true;
-  if (is_roadmap_planner(*planner)) {
-    const auto sampler = enum_named<SamplerKind>(answer.sampler);
-    if (!sampler || !takes_all_places(*sampler)) return true;
+ private:
+  /// Asks every planner, before the first run, whether it can solve this world with these options.
+  void enter() {
+    comparison_.problems.push_back({.source = scene_.source, .kind = "", .unit = std::string(unit_of(scene_))});
+    if (options_.parallel) {
+      comparison_.notes.push_back(fmt::format("times are of runs beside each other, up to {} at once, on a thread each",
+                                              thread_count(execution_.threads)));
+    }
+    first_contender_ = comparison_.contenders.size();
+    for (const PlannerContender& asked : options_.contenders) {
+      const SolveOptions& options = asked.options;
+      if (!raster_ && options.planner == PlannerKind::grid) raster_ = options.grid;
+      Contender contender;
+      contender.dealt = asked.dealt;
+      contender.problem = comparison_.problems.size() - 1;
+      contender.planner = name_of(choose_solver(options, scene_, asked.question).planner);
+      if (options.search) contender.search = name_of(*options.search);
+      if (options.queue) contender.queue = name_of(*options.queue);
+      contender.library = "warren";
+      comparison_.contenders.push_back(std::move(contender));
+    }
   }
-  const RobotKind body = answer.problem.robot.kind;
-  const bool taut = !scene.map && (body == RobotKind::point || body == RobotKind::disc);
-  return options.optimise && !taut;
-}
+  /// Of all rounds together, when the first has told who needs others.
+  std::uint64_t turns_in_all() const {
+    std::uint64_t count = options_.contenders.size();
+    for (std::size_t i = 0; i < options_.contenders.size(); ++i) {
+      if (options_.repeat_all || !contender(i).deterministic) count += options_.runs - 1;
+    }
+    return count;
+  }
+  std::vector<Turn> turns_of(std::uint64_t round) const {
+    std::vector<Turn> all;
+    for (const std::size_t i : turns(options_.contenders.size(), round)) {
+      const bool sits_out = round > 0 && !options_.repeat_all && contender(i).deterministic;
+      if (!sits_out) all.push_back({i, options_.first_seed + round});
+    }
+    return all;
+  }
+  /// Runs are kept in the order of the turns, whichever end first.
+  void take(std::vector<Turn> turns) {
+    Execution side_by_side = execution_;
+    if (!options_.parallel) side_by_side.threads = 1;
+    const auto keep = [&] {
+      for (const Turn& turn : turns) {
+        if (turn.run) contender(turn.contender).runs.push_back(*turn.run);
+      }
+    };
+    try {
+      for_chunks(turns.size(), 1, side_by_side, [&](Range r) { turns[r.first].run = run_once(turns[r.first]); });
+    } catch (...) {
+      keep();
+      throw;
+    }
+    keep();
+  }
+  ComparedRun run_once(const Turn& turn) {
+    const PlannerContender& asked = options_.contenders[turn.contender];
+    const Answer answer = solve(asked, turn.seed);
+    if (turn.seed == options_.first_seed) describe(contender(turn.contender), asked, answer);
+    ComparedRun run{.seed = turn.seed,
+                    .outcome = answer.outcome,
+                    .time_s = answer.solve_s,
+                    .length = answer.length,
+                    .hops = state_count(answer) > 0 ? state_count(answer) - 1 : 0,
+                    .expanded = expanded_by(answer)};
+    if (answer.verified) run.min_clearance = answer.min_clearance;
+    run.cells = cells_of(answer, scene_, raster_);
+    run.turn_rad = answer.turn_rad;
+    if (answer.seconds.search > 0.0) run.search_s = answer.seconds.search;
+    run.raw_length = answer.raw_length;
+    run.cost = answer.cost;
+    run.counters = answer.counters;
+    run.costs = answer.costs;
+    run.roadmap = answer.roadmap;
+    return run;
+  }
+  Answer solve(const PlannerContender& contender, std::uint64_t seed) const {
+    execution_.check();
+    const Deadline deadline(execution_.deadline, options_.budget_s);
+    Execution within = execution_;
+    within.deadline = &deadline;
+    within.progress = nullptr;  // the bar shows the runs, not the stages of each
+    if (options_.parallel) within.threads = 1;
+    Answer answer = solve_contender(scene_, contender, seed, within);
+    if (answer.outcome == Outcome::stopped) execution_.check();
+    return answer;
+  }
+  /// What was dealt out is an option, whether or not the answer repeats it.
+  void describe(Contender& contender, const PlannerContender& asked, const Answer& answer) const {
+    contender.search = answer.search;
+    contender.deterministic = !depends_on_seed(answer, asked.options, scene_);
+    auto& options = contender.options;
+    options = json_options(answer.options);
+    if (!answer.sampler.empty()) options.insert(options.begin(), {"sampler", json_string(answer.sampler)});
+    for (const auto& [name, word] : asked.dealt) {
+      const bool has_column = name == name_of(Option::search) || name == name_of(Option::queue);
+      const auto is_it = [&, &name = name](const auto& option) { return option.first == name; };
+      if (!has_column && std::none_of(options.begin(), options.end(), is_it))
+        options.emplace_back(name, word_json(word));
+    }
+    std::erase_if(options, [](const auto& option) { return option.first == "queue"; });  // has a column
+  }
+  Contender& contender(std::size_t i) { return comparison_.contenders[first_contender_ + i]; }
+  const Contender& contender(std::size_t i) const { return comparison_.contenders[first_contender_ + i]; }
 
-Answer solve_contender(const Scene& scene, const PlannerContender& contender, std::uint64_t seed,
-                       const Execution& execution, ByProducts* keep) {
-  SolveOptions options = contender.options;
-  options.seed = seed;
-  Answer answer = solve_within(scene, contender.question, options, execution, keep);
-  if (keep != nullptr) make_by_products(scene, contender.question, options, execution, *keep);
-  return answer;
-}
-
-void run_planner_contest(const Scene& scene, const PlannerContestOptions& options, const Execution& execution,
-                         Comparison& comparison) {
-  PlannerContest(scene, options, execution, comparison).run();
-}
-
-namespace {
+  const Scene& scene_;
+  const PlannerContestOptions& options_;
+  const Execution& execution_;
+  Comparison& comparison_;
+  std::size_t first_contender_ = 0;
+  std::optional<GridFields> raster_;  ///< of the contender on whose raster cells are counted
+};
 
 /// Gives one option the value that it has in `from`.
 using Copy = void (*)(SolveOptions& to, const SolveOptions& from);
@@ -389,6 +344,32 @@ std::vector<PlannerContender> contenders_of(const PlannerDeal& deal, PlannerKind
 }
 
 }  // namespace
+
+bool depends_on_seed(const Answer& answer, const SolveOptions& options, const Scene& scene) {
+  const auto planner = enum_named<PlannerKind>(answer.planner);
+  if (!planner || *planner == PlannerKind::rrt || *planner == PlannerKind::rrt_connect) return true;
+  if (is_roadmap_planner(*planner)) {
+    const auto sampler = enum_named<SamplerKind>(answer.sampler);
+    if (!sampler || !takes_all_places(*sampler)) return true;
+  }
+  const RobotKind body = answer.problem.robot.kind;
+  const bool taut = !scene.map && (body == RobotKind::point || body == RobotKind::disc);
+  return options.optimise && !taut;
+}
+
+Answer solve_contender(const Scene& scene, const PlannerContender& contender, std::uint64_t seed,
+                       const Execution& execution, ByProducts* keep) {
+  SolveOptions options = contender.options;
+  options.seed = seed;
+  Answer answer = solve_within(scene, contender.question, options, execution, keep);
+  if (keep != nullptr) make_by_products(scene, contender.question, options, execution, *keep);
+  return answer;
+}
+
+void run_planner_contest(const Scene& scene, const PlannerContestOptions& options, const Execution& execution,
+                         Comparison& comparison) {
+  PlannerContest(scene, options, execution, comparison).run();
+}
 
 void copy_option(Option option, SolveOptions& to, const SolveOptions& from) {
   copies[static_cast<std::size_t>(option)](to, from);

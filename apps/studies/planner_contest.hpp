@@ -22,8 +22,6 @@
 #include "solve/question/solve_options.hpp"
 
 namespace warren::studies {
-// Contenders dealt out: from planners, options that all of them shall have, and lists of which each value makes a
-// contender of its own, to one question and one SolveOptions a contender: every way to take one value of each list.
 
 /// One value of a list: an option that is given, and the word that says which.
 struct DealtValue {
@@ -56,6 +54,8 @@ struct PlannerDeal {
   std::vector<double> clearances = {};  ///< dealt to all, in place of the question's
 };
 
+/// Contenders dealt out: from planners, options that all of them shall have, and lists of which each value makes a
+/// contender of its own, to one question and one SolveOptions a contender: every way to take one value of each list.
 /// All contenders, planner by planner. Each gets of the options and of the lists' values those that it takes; what none
 /// of the planners takes is refused with UsageError, and so are more than 10,000 contenders. A queue goes only to
 /// searches that have one.
@@ -90,16 +90,15 @@ Answer solve_contender(const Scene& scene, const PlannerContender& contender, st
 void run_planner_contest(const Scene& scene, const PlannerContestOptions& options, const Execution& execution,
                          Comparison& comparison);
 
-// How many cells of a raster a path passes, as course reports count a path's length.
-
 /// Where a raster's cell (0, 0) has its middle, and how far apart middles are.
 struct Raster {
   Vec2 origin;
   double cell = 1.0;
 };
 
-/// Ends of legs are rounded to cells; a leg takes as many steps as its longer side has cells, diagonal ones count as
-/// one; and the first cell. A path of one cell passes one, an empty path none.
+/// How many cells of a raster a path passes, as course reports count a path's length. Ends of legs are rounded to
+/// cells; a leg takes as many steps as its longer side has cells, diagonal ones count as one; and the first cell. A
+/// path of one cell passes one, an empty path none.
 std::uint64_t cells_passed(std::span<const Vec2> path, const Raster& raster);
 
 /// The same on a map's own cells.

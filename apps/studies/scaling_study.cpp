@@ -34,10 +34,52 @@ class ScalingStudy {
   ScalingResult& result() { return result_; }
 
  private:
-  void run_maze(std::uint32_t rows, std::uint32_t cols, std::uint64_t seed);
-  std::optional<Scene> generated(const MazeOptions& maze, double& seconds);
-  void run_once(const Scene& scene, const MazeOptions& maze, double generate_s, unsigned repeat);
-  void say(const MazeOptions& maze, std::size_t first_run) const;
+  void run_maze(std::uint32_t rows, std::uint32_t cols, std::uint64_t seed) {
+    MazeOptions maze = options_.maze;
+    maze.rows = rows;
+    maze.cols = cols;
+    maze.seed = seed;
+    double generate_s = 0.0;
+    const std::optional<Scene> scene = generated(maze, generate_s);
+    if (!scene) return;
+    const std::size_t first_run = result_.runs.size();
+    for (unsigned repeat = 0; repeat < options_.repeats; ++repeat) run_once(*scene, maze, generate_s, repeat);
+    say(maze, first_run);
+  }
+  std::optional<Scene> generated(const MazeOptions& maze, double& seconds) {
+    const bool alone = options_.planners.size() == 1;
+    const SolveOptions& planner = alone ? options_.planners.front() : SolveOptions{};
+    std::optional<Scene> scene;
+    if (memory_holds([&] { scene = generate_trial(maze, planner, execution_, seconds); })) return scene;
+    result_.ungenerated.emplace_back(maze.rows, maze.cols);
+    note_(fmt::format("{:>6} x {:<6} too little memory to generate it", maze.rows, maze.cols));
+    return std::nullopt;
+  }
+  void run_once(const Scene& scene, const MazeOptions& maze, double generate_s, unsigned repeat) {
+    for (const SolveOptions& planner : options_.planners) {
+      for (const unsigned threads : options_.threads) {
+        Execution execution = execution_;
+        execution.threads = threads;
+        const double arithmetic_before = arithmetic_per_second(execution);
+        const RunCounts before = counters_.read();
+        MazeTrial trial = solve_trial(scene, maze, options_.question, planner, options_.budget_s, execution);
+        const RunCounts counts = counters_.read() - before;
+        trial.generate_s = generate_s;
+        result_.runs.push_back({std::move(trial), repeat, counts});
+        result_.runs.back().arithmetic_per_s = 0.5 * (arithmetic_before + arithmetic_per_second(execution));
+      }
+    }
+  }
+  void say(const MazeOptions& maze, std::size_t first_run) const {
+    const MazeTrial* fastest = nullptr;
+    for (std::size_t i = first_run; i < result_.runs.size(); ++i) {
+      const MazeTrial& t = result_.runs[i].trial;
+      if (t.verified && (fastest == nullptr || t.solve_s < fastest->solve_s)) fastest = &t;
+    }
+    note_(fmt::format("{:>6} x {:<6} seed {}: {} runs, {}", maze.rows, maze.cols, maze.seed,
+                      result_.runs.size() - first_run,
+                      fastest == nullptr ? "none solved" : "fastest " + human_seconds(fastest->solve_s)));
+  }
 
   const ScalingOptions& options_;
   const Execution& execution_;
@@ -45,59 +87,6 @@ class ScalingStudy {
   const RunCounters counters_;  // made before any thread that works
   ScalingResult result_;
 };
-
-void ScalingStudy::run_maze(std::uint32_t rows, std::uint32_t cols, std::uint64_t seed) {
-  MazeOptions maze = options_.maze;
-  maze.rows = rows;
-  maze.cols = cols;
-  maze.seed = seed;
-  double generate_s = 0.0;
-  const std::optional<Scene> scene = generated(maze, generate_s);
-  if (!scene) return;
-  const std::size_t first_run = result_.runs.size();
-  for (unsigned repeat = 0; repeat < options_.repeats; ++repeat) run_once(*scene, maze, generate_s, repeat);
-  say(maze, first_run);
-}
-
-std::optional<Scene> ScalingStudy::generated(const MazeOptions& maze, double& seconds) {
-  try {
-    const bool alone = options_.planners.size() == 1;
-    return generate_trial(maze, alone ? options_.planners.front() : SolveOptions{}, execution_, seconds);
-  } catch (const Stopped& stopped) {
-    if (stopped.reason != StopReason::memory) throw;
-  } catch (const std::bad_alloc&) {
-  }
-  result_.ungenerated.emplace_back(maze.rows, maze.cols);
-  note_(fmt::format("{:>6} x {:<6} too little memory to generate it", maze.rows, maze.cols));
-  return std::nullopt;
-}
-
-void ScalingStudy::run_once(const Scene& scene, const MazeOptions& maze, double generate_s, unsigned repeat) {
-  for (const SolveOptions& planner : options_.planners) {
-    for (const unsigned threads : options_.threads) {
-      Execution execution = execution_;
-      execution.threads = threads;
-      const double arithmetic_before = arithmetic_per_second(execution);
-      const RunCounts before = counters_.read();
-      MazeTrial trial = solve_trial(scene, maze, options_.question, planner, options_.budget_s, execution);
-      const RunCounts counts = counters_.read() - before;
-      trial.generate_s = generate_s;
-      result_.runs.push_back({std::move(trial), repeat, counts});
-      result_.runs.back().arithmetic_per_s = 0.5 * (arithmetic_before + arithmetic_per_second(execution));
-    }
-  }
-}
-
-void ScalingStudy::say(const MazeOptions& maze, std::size_t first_run) const {
-  const MazeTrial* fastest = nullptr;
-  for (std::size_t i = first_run; i < result_.runs.size(); ++i) {
-    const MazeTrial& t = result_.runs[i].trial;
-    if (t.verified && (fastest == nullptr || t.solve_s < fastest->solve_s)) fastest = &t;
-  }
-  note_(fmt::format("{:>6} x {:<6} seed {}: {} runs, {}", maze.rows, maze.cols, maze.seed,
-                    result_.runs.size() - first_run,
-                    fastest == nullptr ? "none solved" : "fastest " + human_seconds(fastest->solve_s)));
-}
 
 /// What a row has in common.
 using RowKey = std::tuple<std::string, std::string, std::uint32_t, std::uint32_t, unsigned>;
@@ -161,6 +150,60 @@ void add_speed_ups(std::vector<ScalingRow>& rows) {
     }
     row.speed_up = base->fastest.threads * base->fastest.solve_s / row.fastest.solve_s;
   }
+}
+
+struct Pair {
+  const ScalingRun* fewer;
+  const ScalingRun* more;
+
+  double scaled(double ratio) const { return ratio * fewer->trial.threads; }
+  double gain() const { return scaled(fewer->trial.solve_s / more->trial.solve_s); }
+  double arithmetic() const { return scaled(more->arithmetic_per_s / fewer->arithmetic_per_s); }
+  bool is_quiet(unsigned cores) const {
+    const double all = std::min(more->trial.threads, cores);
+    return std::abs(arithmetic() - all) <= 0.05 * all;  // more: the other run was disturbed
+  }
+};
+
+/// Was it solved, and the arithmetic beside it timed?
+bool counts(const ScalingRun& run) { return run.trial.verified && run.arithmetic_per_s > 0.0; }
+
+/// What the runs of a repeat have in common.
+auto repeat_of(const ScalingRun& run) {
+  const MazeTrial& t = run.trial;
+  return std::make_tuple(t.planner, t.sampler, t.pipeline, t.rows, t.cols, t.seed, run.repeat);
+}
+
+template <class Value>
+double median(const std::vector<Pair>& pairs, const Value& value) {
+  std::vector<double> values;
+  for (const Pair& pair : pairs) values.push_back(value(pair));
+  return median_of(values);
+}
+
+std::vector<std::pair<std::string, double>> stage_gains(const std::vector<Pair>& pairs) {
+  constexpr double least_s = 2e-4;
+  std::vector<std::pair<std::string, double>> gains;
+  for (const std::string& stage : stage_names()) {
+    const auto fewer = [&](const Pair& p) { return seconds_of(p.fewer->trial, stage); };
+    if (median(pairs, fewer) < least_s) continue;
+    const auto gain = [&](const Pair& p) { return p.scaled(fewer(p) / seconds_of(p.more->trial, stage)); };
+    gains.emplace_back(stage, median(pairs, gain));
+  }
+  return gains;
+}
+
+ThreadGain gain_of(const std::vector<Pair>& pairs, unsigned cores) {
+  ThreadGain gain{.first = pairs.front().more->trial, .pairs = pairs.size()};
+  gain.gain = median(pairs, [](const Pair& p) { return p.gain(); });
+  gain.arithmetic = median(pairs, [](const Pair& p) { return p.arithmetic(); });
+  std::vector<Pair> quiet;
+  std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(quiet), [&](const Pair& p) { return p.is_quiet(cores); });
+  gain.quiet_pairs = quiet.size();
+  if (quiet.empty()) return gain;
+  gain.quiet_gain = median(quiet, [](const Pair& p) { return p.gain(); });
+  gain.quiet_stages = stage_gains(quiet);
+  return gain;
 }
 
 }  // namespace
@@ -254,64 +297,6 @@ double seconds_of(const MazeTrial& trial, std::string_view stage) {
   }
   return 0.0;
 }
-
-namespace {
-
-struct Pair {
-  const ScalingRun* fewer;
-  const ScalingRun* more;
-
-  double scaled(double ratio) const { return ratio * fewer->trial.threads; }
-  double gain() const { return scaled(fewer->trial.solve_s / more->trial.solve_s); }
-  double arithmetic() const { return scaled(more->arithmetic_per_s / fewer->arithmetic_per_s); }
-  bool is_quiet(unsigned cores) const {
-    const double all = std::min(more->trial.threads, cores);
-    return std::abs(arithmetic() - all) <= 0.05 * all;  // more: the other run was disturbed
-  }
-};
-
-/// Was it solved, and the arithmetic beside it timed?
-bool counts(const ScalingRun& run) { return run.trial.verified && run.arithmetic_per_s > 0.0; }
-
-/// What the runs of a repeat have in common.
-auto repeat_of(const ScalingRun& run) {
-  const MazeTrial& t = run.trial;
-  return std::make_tuple(t.planner, t.sampler, t.pipeline, t.rows, t.cols, t.seed, run.repeat);
-}
-
-template <class Value>
-double median(const std::vector<Pair>& pairs, const Value& value) {
-  std::vector<double> values;
-  for (const Pair& pair : pairs) values.push_back(value(pair));
-  return median_of(values);
-}
-
-std::vector<std::pair<std::string, double>> stage_gains(const std::vector<Pair>& pairs) {
-  constexpr double least_s = 2e-4;
-  std::vector<std::pair<std::string, double>> gains;
-  for (const std::string& stage : stage_names()) {
-    const auto fewer = [&](const Pair& p) { return seconds_of(p.fewer->trial, stage); };
-    if (median(pairs, fewer) < least_s) continue;
-    const auto gain = [&](const Pair& p) { return p.scaled(fewer(p) / seconds_of(p.more->trial, stage)); };
-    gains.emplace_back(stage, median(pairs, gain));
-  }
-  return gains;
-}
-
-ThreadGain gain_of(const std::vector<Pair>& pairs, unsigned cores) {
-  ThreadGain gain{.first = pairs.front().more->trial, .pairs = pairs.size()};
-  gain.gain = median(pairs, [](const Pair& p) { return p.gain(); });
-  gain.arithmetic = median(pairs, [](const Pair& p) { return p.arithmetic(); });
-  std::vector<Pair> quiet;
-  std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(quiet), [&](const Pair& p) { return p.is_quiet(cores); });
-  gain.quiet_pairs = quiet.size();
-  if (quiet.empty()) return gain;
-  gain.quiet_gain = median(quiet, [](const Pair& p) { return p.gain(); });
-  gain.quiet_stages = stage_gains(quiet);
-  return gain;
-}
-
-}  // namespace
 
 std::vector<ThreadGain> thread_gains(const ScalingResult& result, unsigned cores) {
   std::map<decltype(repeat_of(result.runs.front())), const ScalingRun*> fewest;

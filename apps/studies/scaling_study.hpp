@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sizes x seeds x planners x threads, each solved several times: the runs behind `warren scale`, and what they say.
+// Sizes x seeds x planners x threads, each solved several times: the runs behind `warren scale`, what they say, and how
+// it is told (scaling_report.cpp).
 //
 // A maze is generated once; its runs are interleaved (all planners and thread counts, then all of them again), so that
 // whatever else the machine does meanwhile meets every one of them alike. The first round of a size is also the one
@@ -19,6 +20,7 @@
 #include "apps/studies/machine.hpp"
 #include "apps/studies/maze_trial.hpp"
 #include "core/base/types.hpp"
+#include "scenes/files/human_units.hpp"
 
 namespace warren::studies {
 
@@ -83,11 +85,10 @@ std::vector<std::string> all_stages();
 /// The seconds of one stage, of one link, or of "solve".
 double seconds_of(const MazeTrial& trial, std::string_view stage);
 
-// What more threads gain, run against run: each run is held against the one of fewest threads of the same repeat, and
-// beside it stands what arithmetic in registers gained in the same moment (apps/studies/machine.hpp).
-
-/// Medians over the pairs of one size, planner, sampler, pipeline and number of threads. Gains are times, scaled so
-/// that the fewest threads gain their own number.
+/// What more threads gain, run against run: each run is held against the one of fewest threads of the same repeat, and
+/// beside it stands what arithmetic in registers gained in the same moment (apps/studies/machine.hpp). Medians over the
+/// pairs of one size, planner, sampler, pipeline and number of threads. Gains are times, scaled so that the fewest
+/// threads gain their own number.
 struct ThreadGain {
   MazeTrial first;          ///< of the pairs' runs with more threads
   std::size_t pairs = 0;    ///< >= 1
@@ -105,5 +106,12 @@ std::vector<ThreadGain> thread_gains(const ScalingResult& result, unsigned cores
 /// "1000 x 1000, prm, tiled, lattice sampler, 2 threads: 1.85 times in the median of 15 pairs, arithmetic alone 1.97;
 /// ..."
 std::string text_of(const ThreadGain& gain);
+
+/// A table, warren.scale/1, and CSV with a run a line.
+std::string scaling_summary(const ScalingResult& result, const Palette& palette);
+std::string scaling_json(const ScalingOptions& options, const ScalingResult& result);
+std::string scaling_csv(const ScalingResult& result);
+/// A self-contained HTML page: plots drawn in it, no script, nothing loaded from anywhere.
+std::string scaling_page(const ScalingResult& result, const std::string& command_line);
 
 }  // namespace warren::studies

@@ -68,13 +68,100 @@ class SearchContest {
   }
 
  private:
-  void enter();
-  void check_all();
-  ComparedRun run_once(Entrant& entrant) const;
-  std::uint64_t trials_for(const ComparedRun& first) const;
-  void measure();
-  void measure_round(std::uint64_t round, std::uint64_t rounds);
-  void take_clock_off(double clock_before);
+  void enter() {
+    comparison_.problems.push_back(
+        {graph_.source, graph_.kind, graph_.graph.vertex_count(), graph_.graph.edge_count(), graph_.unit});
+    first_contender_ = comparison_.contenders.size();
+    for (const SearchVariant& v : options_.variants) {
+      entrants_.push_back({v, graph_search(graph_, v), {}, 0});
+      comparison_.contenders.push_back({.problem = comparison_.problems.size() - 1,
+                                        .planner = graph_.kind,
+                                        .search = std::string{name_of(v.search)},
+                                        .queue = v.queue ? std::string{name_of(*v.queue)} : std::string{},
+                                        .library = std::string{name_of(v.library)},
+                                        .options = graph_.options,
+                                        .runs = {}});
+    }
+  }
+  /// One run of each, compared before anything is measured.
+  void check_all() {
+    std::vector<SearchClaim> claims;
+    for (std::size_t i = 0; i < entrants_.size(); ++i) {
+      Entrant& entrant = entrants_[i];
+      entrant.first = run_once(entrant);
+      if (entrant.first.outcome == Outcome::stopped) {
+        contender(i).runs.push_back(entrant.first);
+        comparison_.notes.push_back(fmt::format("{} on {}: cut by the budget, and measured no further",
+                                                text_of(entrant.variant), graph_.source));
+        continue;
+      }
+      entrant.trials = trials_for(entrant.first);
+      claims.push_back(
+          {entrant.variant, entrant.first.solved(), entrant.first.length, entrant.first.hops, entrant.first.expanded});
+    }
+    if (const auto contradiction = contradiction_in(claims)) {
+      throw std::logic_error(fmt::format("searches of {} contradict each other: {}", graph_.source, *contradiction));
+    }
+  }
+  /// Throws Stopped at a signal; a budget that ends gives Outcome::stopped.
+  ComparedRun run_once(Entrant& entrant) const {
+    execution_.check();
+    const Deadline deadline(execution_.deadline, options_.budget_s);
+    Execution within = execution_;
+    within.deadline = &deadline;
+    const auto begin = Clock::now();
+    SearchResult result = entrant.search->run(within);
+    const double seconds = seconds_since(begin);
+    if (result.status == SearchStatus::stopped) execution_.check();
+    ComparedRun run{.outcome = outcome_of(result.status), .time_s = seconds, .expanded = result.expanded};
+    if (seconds > options_.budget_s) run.outcome = Outcome::stopped;
+    if (run.solved()) {
+      run.length = path_length(graph_, result.path);
+      run.hops = result.path.size() - 1;
+    }
+    return run;
+  }
+  std::uint64_t trials_for(const ComparedRun& first) const {
+    if (options_.trials) return *options_.trials;
+    const double fitting = std::ceil(seconds_each / std::max(first.time_s, 1e-9));
+    return std::clamp(static_cast<std::uint64_t>(std::min(fitting, 1e9)), fewest_trials, most_trials);
+  }
+  void measure() {
+    std::uint64_t rounds = 0;
+    for (const Entrant& entrant : entrants_) rounds = std::max(rounds, entrant.trials);
+    double seconds = 0.0;
+    const StageTimer timer(execution_, "compare", seconds, rounds);
+    for (std::uint64_t round = 0; round < rounds; ++round) {
+      measure_round(round, rounds);
+      execution_.advance(1);
+    }
+  }
+  /// Those with fewer trials than rounds sit some out, evenly.
+  void measure_round(std::uint64_t round, std::uint64_t rounds) {
+    for (const std::size_t i : turns(entrants_.size(), round)) {
+      Entrant& entrant = entrants_[i];
+      if (round * entrant.trials / rounds == (round + 1) * entrant.trials / rounds) continue;
+      ComparedRun run = run_once(entrant);
+      run.seed = contender(i).runs.size() + 1;
+      const bool same = run.solved() == entrant.first.solved() && run.expanded == entrant.first.expanded &&
+                        run.length == entrant.first.length;
+      if (!same && run.outcome != Outcome::stopped) {
+        throw std::logic_error(
+            fmt::format("{} of {} gives another answer the second time", text_of(entrant.variant), graph_.source));
+      }
+      contender(i).runs.push_back(run);
+    }
+    const auto begin = Clock::now();
+    clock_s_.push_back(seconds_since(begin));
+  }
+  void take_clock_off(double clock_before) {
+    if (clock_s_.empty()) return;
+    const double clock = median_of(clock_s_);
+    comparison_.clock_s = std::max(clock_before, clock);
+    for (std::size_t i = 0; i < entrants_.size(); ++i) {
+      for (ComparedRun& run : contender(i).runs) run.time_s = std::max(0.0, run.time_s - clock);
+    }
+  }
   Contender& contender(std::size_t i) { return comparison_.contenders[first_contender_ + i]; }
 
   const SearchGraph& graph_;
@@ -85,107 +172,6 @@ class SearchContest {
   std::size_t first_contender_ = 0;
   std::vector<double> clock_s_;
 };
-
-void SearchContest::enter() {
-  comparison_.problems.push_back(
-      {graph_.source, graph_.kind, graph_.graph.vertex_count(), graph_.graph.edge_count(), graph_.unit});
-  first_contender_ = comparison_.contenders.size();
-  for (const SearchVariant& v : options_.variants) {
-    entrants_.push_back({v, graph_search(graph_, v), {}, 0});
-    comparison_.contenders.push_back({.problem = comparison_.problems.size() - 1,
-                                      .planner = graph_.kind,
-                                      .search = std::string{name_of(v.search)},
-                                      .queue = v.queue ? std::string{name_of(*v.queue)} : std::string{},
-                                      .library = std::string{name_of(v.library)},
-                                      .options = graph_.options,
-                                      .runs = {}});
-  }
-}
-
-/// Throws Stopped at a signal; a budget that ends gives Outcome::stopped.
-ComparedRun SearchContest::run_once(Entrant& entrant) const {
-  execution_.check();
-  const Deadline deadline(execution_.deadline, options_.budget_s);
-  Execution within = execution_;
-  within.deadline = &deadline;
-  const auto begin = Clock::now();
-  SearchResult result = entrant.search->run(within);
-  const double seconds = seconds_since(begin);
-  if (result.status == SearchStatus::stopped) execution_.check();
-  ComparedRun run{.outcome = outcome_of(result.status), .time_s = seconds, .expanded = result.expanded};
-  if (seconds > options_.budget_s) run.outcome = Outcome::stopped;
-  if (run.solved()) {
-    run.length = path_length(graph_, result.path);
-    run.hops = result.path.size() - 1;
-  }
-  return run;
-}
-
-std::uint64_t SearchContest::trials_for(const ComparedRun& first) const {
-  if (options_.trials) return *options_.trials;
-  const double fitting = std::ceil(seconds_each / std::max(first.time_s, 1e-9));
-  return std::clamp(static_cast<std::uint64_t>(std::min(fitting, 1e9)), fewest_trials, most_trials);
-}
-
-/// One run of each, compared before anything is measured.
-void SearchContest::check_all() {
-  std::vector<SearchClaim> claims;
-  for (std::size_t i = 0; i < entrants_.size(); ++i) {
-    Entrant& entrant = entrants_[i];
-    entrant.first = run_once(entrant);
-    if (entrant.first.outcome == Outcome::stopped) {
-      contender(i).runs.push_back(entrant.first);
-      comparison_.notes.push_back(
-          fmt::format("{} on {}: cut by the budget, and measured no further", text_of(entrant.variant), graph_.source));
-      continue;
-    }
-    entrant.trials = trials_for(entrant.first);
-    claims.push_back(
-        {entrant.variant, entrant.first.solved(), entrant.first.length, entrant.first.hops, entrant.first.expanded});
-  }
-  if (const auto contradiction = contradiction_in(claims)) {
-    throw std::logic_error(fmt::format("searches of {} contradict each other: {}", graph_.source, *contradiction));
-  }
-}
-
-void SearchContest::measure() {
-  std::uint64_t rounds = 0;
-  for (const Entrant& entrant : entrants_) rounds = std::max(rounds, entrant.trials);
-  double seconds = 0.0;
-  const StageTimer timer(execution_, "compare", seconds, rounds);
-  for (std::uint64_t round = 0; round < rounds; ++round) {
-    measure_round(round, rounds);
-    execution_.advance(1);
-  }
-}
-
-/// Those with fewer trials than rounds sit some out, evenly.
-void SearchContest::measure_round(std::uint64_t round, std::uint64_t rounds) {
-  for (const std::size_t i : turns(entrants_.size(), round)) {
-    Entrant& entrant = entrants_[i];
-    if (round * entrant.trials / rounds == (round + 1) * entrant.trials / rounds) continue;
-    ComparedRun run = run_once(entrant);
-    run.seed = contender(i).runs.size() + 1;
-    const bool same = run.solved() == entrant.first.solved() && run.expanded == entrant.first.expanded &&
-                      run.length == entrant.first.length;
-    if (!same && run.outcome != Outcome::stopped) {
-      throw std::logic_error(
-          fmt::format("{} of {} gives another answer the second time", text_of(entrant.variant), graph_.source));
-    }
-    contender(i).runs.push_back(run);
-  }
-  const auto begin = Clock::now();
-  clock_s_.push_back(seconds_since(begin));
-}
-
-void SearchContest::take_clock_off(double clock_before) {
-  if (clock_s_.empty()) return;
-  const double clock = median_of(clock_s_);
-  comparison_.clock_s = std::max(clock_before, clock);
-  for (std::size_t i = 0; i < entrants_.size(); ++i) {
-    for (ComparedRun& run : contender(i).runs) run.time_s = std::max(0.0, run.time_s - clock);
-  }
-}
 
 bool differ(double a, double b) { return std::abs(a - b) > 1e-9 * std::max(std::abs(a), std::abs(b)); }
 
@@ -213,24 +199,6 @@ std::optional<std::string> contradiction_between(const SearchClaim& a, const Sea
   return std::nullopt;
 }
 
-}  // namespace
-
-std::optional<std::string> contradiction_in(std::span<const SearchClaim> claims) {
-  for (const SearchClaim& a : claims) {
-    for (const SearchClaim& b : claims) {
-      if (auto contradiction = contradiction_between(a, b)) return contradiction;
-    }
-  }
-  return std::nullopt;
-}
-
-void run_search_contest(const SearchGraph& graph, const SearchContestOptions& options, const Execution& execution,
-                        Comparison& comparison) {
-  SearchContest(graph, options, execution, comparison).run();
-}
-
-namespace {
-
 constexpr double longest_search_s = 2.0;
 
 /// Drops the variants of which one of the contenders from `first` on took too long in the median.
@@ -246,26 +214,6 @@ void drop_slow_variants(std::vector<SearchVariant>& variants, std::size_t first,
     variants.erase(variants.begin() + static_cast<std::ptrdiff_t>(i));
   }
 }
-
-}  // namespace
-
-void run_size_sweep(const SizeSweepOptions& options, const Execution& execution, Comparison& comparison,
-                    const std::function<void(std::string_view)>& say) {
-  SearchContestOptions contest = options.contest;
-  for (const std::uint32_t size : options.sizes) {
-    for (std::uint64_t seed = options.first_seed; seed < options.first_seed + options.seeds; ++seed) {
-      if (contest.variants.empty()) return;
-      const SearchGraph graph = geometric_graph(size, options.degree, seed, execution);
-      const std::size_t first = comparison.contenders.size();
-      run_search_contest(graph, contest, execution, comparison);
-      say(fmt::format("{} vertices, seed {}: {} edges, {} searches", size, seed, graph.graph.edge_count(),
-                      contest.variants.size()));
-      if (!contest.trials) drop_slow_variants(contest.variants, first, size, comparison);
-    }
-  }
-}
-
-namespace {
 
 /// The roadmap that the planner leaves.
 WorldGraph roadmap_graph(SolveRequest request, const ChosenSolver& solver) {
@@ -292,6 +240,36 @@ WorldGraph roadmap_graph(SolveRequest request, const ChosenSolver& solver) {
 }
 
 }  // namespace
+
+std::optional<std::string> contradiction_in(std::span<const SearchClaim> claims) {
+  for (const SearchClaim& a : claims) {
+    for (const SearchClaim& b : claims) {
+      if (auto contradiction = contradiction_between(a, b)) return contradiction;
+    }
+  }
+  return std::nullopt;
+}
+
+void run_search_contest(const SearchGraph& graph, const SearchContestOptions& options, const Execution& execution,
+                        Comparison& comparison) {
+  SearchContest(graph, options, execution, comparison).run();
+}
+
+void run_size_sweep(const SizeSweepOptions& options, const Execution& execution, Comparison& comparison,
+                    const std::function<void(std::string_view)>& say) {
+  SearchContestOptions contest = options.contest;
+  for (const std::uint32_t size : options.sizes) {
+    for (std::uint64_t seed = options.first_seed; seed < options.first_seed + options.seeds; ++seed) {
+      if (contest.variants.empty()) return;
+      const SearchGraph graph = geometric_graph(size, options.degree, seed, execution);
+      const std::size_t first = comparison.contenders.size();
+      run_search_contest(graph, contest, execution, comparison);
+      say(fmt::format("{} vertices, seed {}: {} edges, {} searches", size, seed, graph.graph.edge_count(),
+                      contest.variants.size()));
+      if (!contest.trials) drop_slow_variants(contest.variants, first, size, comparison);
+    }
+  }
+}
 
 PlannerKind usual_graph_planner(const Scene& scene, const Question& question, const SolveOptions& options) {
   const PlannerKind usual = choose_solver(options, scene, question).planner;

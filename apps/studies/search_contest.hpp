@@ -53,8 +53,7 @@ struct SearchClaim {
 /// settles no more with our queues than there are.
 std::optional<std::string> contradiction_in(std::span<const SearchClaim> claims);
 
-// The same searches on random geometric graphs of several sizes: what `warren compare --sizes` measures.
-
+/// The same searches on random geometric graphs of several sizes: what `warren compare --sizes` measures.
 struct SizeSweepOptions {
   std::vector<std::uint32_t> sizes;  ///< ascending, each >= 2
   double degree = 20.0;              ///< of a vertex, on average

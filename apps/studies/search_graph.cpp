@@ -65,48 +65,6 @@ VertexId nearest_in(const std::vector<Vec2>& at, const Components& components, V
   return nearest;
 }
 
-}  // namespace
-
-Graph with_plane_lengths(const Graph& graph, const std::vector<Vec2>& at) {
-  RawVector<EdgeEnd> offsets(1, 0);
-  RawVector<VertexId> targets;
-  RawVector<double> lengths;
-  targets.reserve(2 * graph.edge_count());
-  lengths.reserve(2 * graph.edge_count());
-  for (VertexId v = 0; v < graph.vertex_count(); ++v) {
-    for (const VertexId w : graph.neighbours(v)) {
-      targets.push_back(w);
-      lengths.push_back(distance(at[v], at[w]));
-    }
-    offsets.push_back(static_cast<EdgeEnd>(targets.size()));
-  }
-  return {std::move(offsets), std::move(targets), std::move(lengths)};
-}
-
-SearchGraph geometric_graph(std::uint32_t size, double degree, std::uint64_t seed, const Execution& execution) {
-  constexpr double bytes_a_vertex = 80.0;
-  constexpr double bytes_an_end = 24.0;
-  const double ends = std::min(degree, static_cast<double>(size));
-  execution.reserve(static_cast<std::size_t>(size * (bytes_a_vertex + bytes_an_end * ends)));
-  SearchGraph made;
-  made.source = fmt::format("geometric:{}", size);
-  made.kind = "geometric";
-  made.options = {{"degree", fmt::format("{}", degree)}, {"seed", std::to_string(seed)}};
-  made.at = drawn_points(size, seed, execution);
-  const double radius = std::sqrt(degree / std::numbers::pi);
-  const std::array<RawVector<Edge>, 1> edges{edges_within(made.at, radius, execution)};
-  const auto length = [&](VertexId v, VertexId w) { return distance(made.at[v], made.at[w]); };
-  made.graph = assemble_graph(size, edges, execution, length);
-  const Components parts = components(made.graph, execution);
-  const VertexId largest = largest_component(parts);
-  const double side = std::sqrt(static_cast<double>(size));
-  made.start = nearest_in(made.at, parts, largest, {0.0, 0.0});
-  made.goal = nearest_in(made.at, parts, largest, {side, side});
-  return made;
-}
-
-namespace {
-
 /// A* (with the straight distance as heuristic) or Dijkstra. An array that is sorted at each push can take a second for
 /// the expansions between two looks at the deadline, so there it is looked at more often.
 template <class Queue, bool Informed>
@@ -202,6 +160,44 @@ std::unique_ptr<GraphSearch> best_first_search(const SearchGraph& graph, SearchK
 }
 
 }  // namespace
+
+Graph with_plane_lengths(const Graph& graph, const std::vector<Vec2>& at) {
+  RawVector<EdgeEnd> offsets(1, 0);
+  RawVector<VertexId> targets;
+  RawVector<double> lengths;
+  targets.reserve(2 * graph.edge_count());
+  lengths.reserve(2 * graph.edge_count());
+  for (VertexId v = 0; v < graph.vertex_count(); ++v) {
+    for (const VertexId w : graph.neighbours(v)) {
+      targets.push_back(w);
+      lengths.push_back(distance(at[v], at[w]));
+    }
+    offsets.push_back(static_cast<EdgeEnd>(targets.size()));
+  }
+  return {std::move(offsets), std::move(targets), std::move(lengths)};
+}
+
+SearchGraph geometric_graph(std::uint32_t size, double degree, std::uint64_t seed, const Execution& execution) {
+  constexpr double bytes_a_vertex = 80.0;
+  constexpr double bytes_an_end = 24.0;
+  const double ends = std::min(degree, static_cast<double>(size));
+  execution.reserve(static_cast<std::size_t>(size * (bytes_a_vertex + bytes_an_end * ends)));
+  SearchGraph made;
+  made.source = fmt::format("geometric:{}", size);
+  made.kind = "geometric";
+  made.options = {{"degree", fmt::format("{}", degree)}, {"seed", std::to_string(seed)}};
+  made.at = drawn_points(size, seed, execution);
+  const double radius = std::sqrt(degree / std::numbers::pi);
+  const std::array<RawVector<Edge>, 1> edges{edges_within(made.at, radius, execution)};
+  const auto length = [&](VertexId v, VertexId w) { return distance(made.at[v], made.at[w]); };
+  made.graph = assemble_graph(size, edges, execution, length);
+  const Components parts = components(made.graph, execution);
+  const VertexId largest = largest_component(parts);
+  const double side = std::sqrt(static_cast<double>(size));
+  made.start = nearest_in(made.at, parts, largest, {0.0, 0.0});
+  made.goal = nearest_in(made.at, parts, largest, {side, side});
+  return made;
+}
 
 std::unique_ptr<GraphSearch> graph_search(const SearchGraph& graph, const SearchVariant& variant) {
   if (variant.library == SearchLibrary::boost) return boost_search(graph, variant.search);

@@ -78,7 +78,7 @@ class GraphSearch {
 /// The graph must outlive it. Throws UsageError for a library that this build does not have.
 std::unique_ptr<GraphSearch> graph_search(const SearchGraph& graph, const SearchVariant& variant);
 
-/// Was the program built where Boost.Graph was found? (boost_search.cpp, boost_search_absent.cpp)
+/// Was the program built where Boost.Graph was found? (boost_search.cpp)
 bool has_boost_graph();
 std::unique_ptr<GraphSearch> boost_search(const SearchGraph& graph, SearchKind search);
 

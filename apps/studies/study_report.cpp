@@ -38,23 +38,6 @@ std::string paragraphs(const std::vector<std::string>& all) {
   return text;
 }
 
-}  // namespace
-
-std::string ReportPage::html() const {
-  static constexpr std::string_view script = "report.js";
-  std::string page = head_of_page(title, page_file("report.css"), std::span(&script, 1));
-  page += "<body>\n<h1>" + xml_text(title) + "</h1>\n<p><code>" + xml_text(command_line) + "</code></p>\n";
-  page += paragraphs(notes);
-  if (!plots.empty()) page += "<div class=\"plots\">\n";
-  for (const std::string& plot : plots) page += plot + "\n";
-  if (!plots.empty()) page += "</div>\n";
-  for (const ReportTable& table : tables) page += html_of(table);
-  page += paragraphs(remarks);
-  return page + script_element(script) + "</body>\n</html>\n";
-}
-
-namespace {
-
 /// Of each column the width of its widest cell, the head included; 0 where no row says anything.
 std::vector<std::size_t> widths_of(const TextTable& table) {
   std::vector<std::size_t> widths(table.head.size(), 0);
@@ -106,6 +89,19 @@ std::string joined_cells(const std::vector<std::string>& cells, std::string_view
 }
 
 }  // namespace
+
+std::string ReportPage::html() const {
+  static constexpr std::string_view script = "report.js";
+  std::string page = head_of_page(title, page_file("report.css"), std::span(&script, 1));
+  page += "<body>\n<h1>" + xml_text(title) + "</h1>\n<p><code>" + xml_text(command_line) + "</code></p>\n";
+  page += paragraphs(notes);
+  if (!plots.empty()) page += "<div class=\"plots\">\n";
+  for (const std::string& plot : plots) page += plot + "\n";
+  if (!plots.empty()) page += "</div>\n";
+  for (const ReportTable& table : tables) page += html_of(table);
+  page += paragraphs(remarks);
+  return page + script_element(script) + "</body>\n</html>\n";
+}
 
 std::string TextTable::markdown() const {
   const TextTable table = without_empty_columns();

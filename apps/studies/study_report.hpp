@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A study as a page that needs nothing but itself: tables that a click on a head sorts, plots whose marks tell what
-// they stand for, light and dark, wide and narrow.
+// What a study says: as tables for the terminal and for documents, and as a page that needs nothing but itself, with
+// tables that a click on a head sorts, plots whose marks tell what they stand for, light and dark, wide and narrow.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 #include "scenes/files/human_units.hpp"
 
 namespace warren::studies {
-// A table for the terminal, with columns as wide as their widest cell, and for documents.
 
+/// Its columns are as wide as their widest cell.
 struct TextTable {
   std::vector<std::string> head;
   std::size_t words = 0;  ///< so many columns from the left stand to the left, the others to the right

@@ -15,6 +15,12 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr std::string_view point_expected = "[X, Y], two finite numbers (three or six for other bodies)";
+constexpr std::string_view path_expected = "a list of points [X, Y]";
+
+constexpr std::size_t longest_state = 6;
+constexpr bool is_state_size(std::size_t n) { return n == 2 || n == 3 || n == 6; }
+
 /// Takes the events of the parser. Keys that matter stand at depth 1 (the answer itself) and in "world"; all others are
 /// passed over at any depth.
 class AnswerReader {
@@ -26,26 +32,114 @@ class AnswerReader {
   bool number_integer(Json::number_integer_t value) { return number(static_cast<double>(value)); }
   bool number_unsigned(Json::number_unsigned_t value) { return number(static_cast<double>(value)); }
   bool number_float(Json::number_float_t value, const std::string&) { return number(value); }
-  bool string(std::string& text);
+  bool string(std::string& text) {
+    if (in("contact")) {
+      if (text != "allowed" && text != "blocked") refuse("\"allowed\" or \"blocked\"", text);
+      answer_.problem.contact = text == "allowed" ? Contact::allowed : Contact::blocked;
+    } else if (in("robot")) {
+      answer_.problem.robot = robot_value(fmt::format("{}: key \"robot\"", file_), text);
+    } else if (objects_ == 2 && key_ == "world" && inner_key_ == "hash") {
+      answer_.world_hash = text;
+    } else {
+      return other("a text");
+    }
+    return true;
+  }
   bool binary(Json::binary_t&) { return false; }
-  bool start_object(std::size_t);
-  bool end_object();
-  bool key(std::string& name);
-  bool start_array(std::size_t);
-  bool end_array();
-  bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& error);
+  bool start_object(std::size_t) {
+    if (in("path")) refuse(path_expected, "an object");
+    if (in("start") || in("goal")) refuse(point_expected, "an object");
+    ++objects_;
+    began_ = true;
+    return true;
+  }
+  bool end_object() {
+    --objects_;
+    return true;
+  }
+  bool key(std::string& name) {
+    if (objects_ == 1) {
+      key_ = name;
+      if (name == "path") {
+        if (has_path_) refuse("it once", "twice");
+        has_path_ = true;
+      }
+    } else if (objects_ == 2) {
+      inner_key_ = name;
+    }
+    return true;
+  }
+  bool start_array(std::size_t) {
+    if (objects_ == 0) refuse_kind();
+    if (in("path") && arrays_ >= 2) refuse(path_expected, "a deeper list");
+    if (in("clearance") || in("length")) refuse("a number", "a list");
+    ++arrays_;
+    numbers_.clear();
+    return true;
+  }
+  bool end_array() {
+    --arrays_;
+    if (in("path") && arrays_ == 1) end_point();
+    if (in("start") && arrays_ == 0) answer_.problem.start = numbers_;
+    if (in("goal") && arrays_ == 0) answer_.problem.goal = numbers_;
+    if ((in("start") || in("goal")) && !is_state_size(numbers_.size())) refuse(point_expected);
+    return true;
+  }
+  bool parse_error(std::size_t position, const std::string& token, const nlohmann::detail::exception&) {
+    scene_text::Place{file_, 0}.fail(fmt::format("this is not JSON from byte {} on", position), token);
+  }
 
-  RecordedAnswer finish();
+  RecordedAnswer finish() {
+    if (!has_path_) throw InputError(file_, "the answer has no key \"path\"");
+    if (answer_.path.empty()) throw InputError(file_, "key \"path\" has no points: there is nothing to check");
+    return std::move(answer_);
+  }
 
  private:
-  bool number(double value);
-  bool other(const char* found);
+  bool number(double value) {
+    if (!began_) refuse_kind();
+    const bool wanted = in("path") || in("start") || in("goal") || in("clearance") || in("length");
+    if (wanted && !(std::abs(value) <= largest_coordinate)) refuse("finite numbers of at most 1e60");
+    if (in("path") && arrays_ != 2) refuse(path_expected, "a number");
+    if ((in("start") || in("goal")) && arrays_ != 1) refuse(point_expected, "a number");
+    if (in("clearance")) {
+      if (value < 0.0) refuse("a number of at least 0", fmt::format("{}", value));
+      answer_.problem.clearance = value;
+    }
+    if (in("length")) answer_.length = value;
+    if (wanted && arrays_ > 0) {
+      if (numbers_.size() >= longest_state) refuse(in("path") ? path_expected : point_expected, "more numbers");
+      numbers_.push_back(value);
+    }
+    return true;
+  }
+  /// null is as good as a key that isn't there.
+  bool other(const char* found) {
+    if (in("path")) refuse(path_expected, found);
+    const bool missing = std::string_view(found) == "null" && arrays_ == 0;
+    if ((in("start") || in("goal")) && !missing) refuse(point_expected, found);
+    if ((in("clearance") || in("length")) && !missing) refuse("a number", found);
+    if (in("contact") && !missing) refuse("\"allowed\" or \"blocked\"", found);
+    if (!began_) refuse_kind();
+    return true;
+  }
   [[noreturn]] void refuse(std::string_view expected, std::string_view found = {}) const {
     scene_text::Place{fmt::format("{}: key \"{}\"", file_, key_), 0}.fail(fmt::format("expected {}", expected), found);
   }
   [[noreturn]] void refuse_kind() const { throw InputError(file_, "expected one JSON object: an answer"); }
   bool in(std::string_view name) const { return objects_ == 1 && key_ == name; }
-  void end_point();
+  void end_point() {
+    constexpr std::size_t batch = 1 << 14;
+    const std::size_t width = answer_.path.empty() ? numbers_.size() : answer_.state_width();
+    if (!is_state_size(numbers_.size()) || numbers_.size() != width) {
+      refuse(path_expected, fmt::format("{} numbers in point {}", numbers_.size(), answer_.path.size()));
+    }
+    if (answer_.path.size() % batch == 0) execution_.check();
+    answer_.path.push_back({numbers_[0], numbers_[1]});
+    if (width == 2) return;
+    answer_.states.width = width;
+    answer_.states.add(numbers_);
+  }
 
   const std::string& file_;
   const Execution& execution_;
@@ -59,123 +153,32 @@ class AnswerReader {
   bool began_ = false;
 };
 
-constexpr std::string_view point_expected = "[X, Y], two finite numbers (three or six for other bodies)";
-constexpr std::string_view path_expected = "a list of points [X, Y]";
-
-constexpr std::size_t longest_state = 6;
-constexpr bool is_state_size(std::size_t n) { return n == 2 || n == 3 || n == 6; }
-
-bool AnswerReader::start_object(std::size_t) {
-  if (in("path")) refuse(path_expected, "an object");
-  if (in("start") || in("goal")) refuse(point_expected, "an object");
-  ++objects_;
-  began_ = true;
-  return true;
-}
-
-bool AnswerReader::end_object() {
-  --objects_;
-  return true;
-}
-
-bool AnswerReader::key(std::string& name) {
-  if (objects_ == 1) {
-    key_ = name;
-    if (name == "path") {
-      if (has_path_) refuse("it once", "twice");
-      has_path_ = true;
-    }
-  } else if (objects_ == 2) {
-    inner_key_ = name;
-  }
-  return true;
-}
-
-bool AnswerReader::start_array(std::size_t) {
-  if (objects_ == 0) refuse_kind();
-  if (in("path") && arrays_ >= 2) refuse(path_expected, "a deeper list");
-  if (in("clearance") || in("length")) refuse("a number", "a list");
-  ++arrays_;
-  numbers_.clear();
-  return true;
-}
-
-bool AnswerReader::end_array() {
-  --arrays_;
-  if (in("path") && arrays_ == 1) end_point();
-  if (in("start") && arrays_ == 0) answer_.problem.start = numbers_;
-  if (in("goal") && arrays_ == 0) answer_.problem.goal = numbers_;
-  if ((in("start") || in("goal")) && !is_state_size(numbers_.size())) refuse(point_expected);
-  return true;
-}
-
-void AnswerReader::end_point() {
-  constexpr std::size_t batch = 1 << 14;
-  const std::size_t width = answer_.path.empty() ? numbers_.size() : answer_.state_width();
-  if (!is_state_size(numbers_.size()) || numbers_.size() != width) {
-    refuse(path_expected, fmt::format("{} numbers in point {}", numbers_.size(), answer_.path.size()));
-  }
-  if (answer_.path.size() % batch == 0) execution_.check();
-  answer_.path.push_back({numbers_[0], numbers_[1]});
-  if (width == 2) return;
-  answer_.states.width = width;
-  answer_.states.add(numbers_);
-}
-
-bool AnswerReader::number(double value) {
-  if (!began_) refuse_kind();
-  const bool wanted = in("path") || in("start") || in("goal") || in("clearance") || in("length");
-  if (wanted && !(std::abs(value) <= largest_coordinate)) refuse("finite numbers of at most 1e60");
-  if (in("path") && arrays_ != 2) refuse(path_expected, "a number");
-  if ((in("start") || in("goal")) && arrays_ != 1) refuse(point_expected, "a number");
-  if (in("clearance")) {
-    if (value < 0.0) refuse("a number of at least 0", fmt::format("{}", value));
-    answer_.problem.clearance = value;
-  }
-  if (in("length")) answer_.length = value;
-  if (wanted && arrays_ > 0) {
-    if (numbers_.size() >= longest_state) refuse(in("path") ? path_expected : point_expected, "more numbers");
-    numbers_.push_back(value);
-  }
-  return true;
-}
-
-bool AnswerReader::string(std::string& text) {
-  if (in("contact")) {
-    if (text != "allowed" && text != "blocked") refuse("\"allowed\" or \"blocked\"", text);
-    answer_.problem.contact = text == "allowed" ? Contact::allowed : Contact::blocked;
-  } else if (in("robot")) {
-    answer_.problem.robot = robot_value(fmt::format("{}: key \"robot\"", file_), text);
-  } else if (objects_ == 2 && key_ == "world" && inner_key_ == "hash") {
-    answer_.world_hash = text;
-  } else {
-    return other("a text");
-  }
-  return true;
-}
-
-/// null is as good as a key that isn't there.
-bool AnswerReader::other(const char* found) {
-  if (in("path")) refuse(path_expected, found);
-  const bool missing = std::string_view(found) == "null" && arrays_ == 0;
-  if ((in("start") || in("goal")) && !missing) refuse(point_expected, found);
-  if ((in("clearance") || in("length")) && !missing) refuse("a number", found);
-  if (in("contact") && !missing) refuse("\"allowed\" or \"blocked\"", found);
-  if (!began_) refuse_kind();
-  return true;
-}
-
-bool AnswerReader::parse_error(std::size_t position, const std::string& token, const nlohmann::detail::exception&) {
-  scene_text::Place{file_, 0}.fail(fmt::format("this is not JSON from byte {} on", position), token);
-}
-
-RecordedAnswer AnswerReader::finish() {
-  if (!has_path_) throw InputError(file_, "the answer has no key \"path\"");
-  if (answer_.path.empty()) throw InputError(file_, "key \"path\" has no points: there is nothing to check");
-  return std::move(answer_);
-}
-
 }  // namespace
+
+RecordedAnswer recorded(const Answer& answer) {
+  RecordedAnswer record;
+  record.problem = answer.problem.question();
+  record.world_hash = answer.world.hash;
+  record.length = answer.length;
+  record.file = "answer";
+  record.path = answer.path;
+  record.states = answer.states;
+  return record;
+}
+
+RecordedAnswer recorded(std::span<const std::vector<double>> states) {
+  RecordedAnswer record;
+  record.file = "answer";
+  for (const std::vector<double>& state : states) {
+    if (state.size() == 2) {
+      record.path.push_back({state[0], state[1]});
+    } else {
+      record.states.width = state.size();
+      record.states.add(state);
+    }
+  }
+  return record;
+}
 
 RecordedAnswer read_answer(const std::string& file, const Execution& execution) {
   return read_answer(InputFile(file, execution), execution);

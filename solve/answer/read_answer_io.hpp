@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,6 +31,10 @@ struct RecordedAnswer {
   /// Numbers a state.
   std::size_t state_width() const { return states.empty() ? 2 : states.width; }
 };
+
+/// What a file "answer" would hold: an answer, or a path of these states alone.
+RecordedAnswer recorded(const Answer& answer);
+RecordedAnswer recorded(std::span<const std::vector<double>> states);
 
 /// "-" is standard input. Throws ReadError, InputError naming file and key, Stopped.
 RecordedAnswer read_answer(const std::string& file, const Execution& execution);

@@ -35,8 +35,7 @@ WorldAccount account_of(const Scene& scene, std::string hash, std::size_t walls)
 /// "41 x 41 maze, 1,604 walls": what a person wants to know first.
 std::string description_of(const Scene& scene);
 
-// What is in a world, line by line, for people and as JSON (warren.info/1).
-
+/// What is in a world, line by line, for people and as JSON (warren.info/1).
 struct Fact {
   std::string name;
   std::string text;  ///< for people

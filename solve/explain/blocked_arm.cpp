@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solve/explain/blocked_arm.hpp"
+// Why an arm does not fit where it shall start or end.
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -17,6 +15,7 @@
 
 #include "core/base/trigonometry.hpp"
 #include "scenes/files/human_units.hpp"
+#include "solve/explain/blocked_end.hpp"
 #include "solve/explain/nearest_free.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/question/question_of_arm.hpp"
@@ -58,8 +57,47 @@ class BlockedArm {
     return verify_arm(scene_, problem_.table, std::span(&q, 1), options, execution_).first_violation;
   }
   /// Of the deepest link in the solid that is named, or of two links in one another.
-  std::optional<double> depth_in(const Violation& violation, const JointState& q) const;
-  std::optional<JointState> free_posture(const JointState& q) const;
+  std::optional<double> depth_in(const Violation& violation, const JointState& q) const {
+    const std::string_view name = violation.obstacle;
+    const auto numbered = [&](std::string_view word, std::size_t count) {
+      const auto number = number_after(name, word);
+      return number && *number < count ? number : std::nullopt;
+    };
+    double depth = 0.0;
+    if (const auto i = numbered("sphere ", scene_.spheres.size())) {
+      const Sphere& s = scene_.spheres[*i];
+      depth = deepest(q, [&](const Vec3& a, const Vec3& b) {
+        return s.radius - std::sqrt(distance_square(Spine(a, b), Vec3(s.x, s.y, s.z)));
+      });
+    } else if (const auto k = numbered("box ", scene_.boxes.size())) {
+      const SolidBox& box = scene_.boxes[*k];
+      depth = deepest(q, [&](const Vec3& a, const Vec3& b) {
+        const double inside = depth_in_box(a, b, box);
+        return inside > 0.0 ? inside : -std::sqrt(distance_square(Spine(a, b), box));
+      });
+    } else if (name.starts_with("link ")) {
+      depth = -violation.distance;
+    }
+    return depth > 0.0 ? std::optional(depth) : std::nullopt;
+  }
+  std::optional<JointState> free_posture(const JointState& q) const {
+    constexpr std::size_t random_directions = 180;
+    static const std::vector<Numbers<most_joints>> directions = directions_around<most_joints>(random_directions);
+    constexpr double digits = 1e3;
+    JointState within = q;
+    for (std::size_t k = 0; k < most_joints; ++k) {
+      const double low = std::ceil(chain_.low(k) * digits) / digits;
+      const double high = std::floor(chain_.high(k) * digits) / digits;
+      if (low <= high && (q[k] < chain_.low(k) || q[k] > chain_.high(k))) within[k] = std::clamp(q[k], low, high);
+    }
+    const auto is_free = [this](const JointState& state, double spare) {
+      return chain_.joint_outside_limits(state) == most_joints && !met(state, margin_ + spare);
+    };
+    const double size = std::max(problem_.robot.radius, 0.1 * chain_.reach());
+    if (is_free(within, 1e-2 * size)) return within;
+    const FreeSearchRange range{1e-3, 2.0 * std::numbers::pi, 1e-3 * norm_between(q, within)};
+    return nearest_free_in_few_digits<most_joints>(within, directions, range, size, is_free);
+  }
   /// Postures with the tool there; empty: out of reach.
   std::vector<JointState> postures(const Vec3& place) const {
     ArmProblem there = problem_;
@@ -73,7 +111,16 @@ class BlockedArm {
     return states.empty() ? std::nullopt : std::optional(states.front());
   }
   /// Which some posture reaches that is free.
-  std::optional<Numbers<3>> free_tool_place(const Vec3& place) const;
+  std::optional<Numbers<3>> free_tool_place(const Vec3& place) const {
+    static const std::vector<Numbers<3>> directions = directions_around<3>(60);
+    const auto is_free = [this](const Numbers<3>& p, double spare) {
+      const std::vector<JointState> states = postures({p[0], p[1], p[2]});
+      return std::any_of(states.begin(), states.end(), [&](const JointState& q) { return !met(q, margin_ + spare); });
+    };
+    const FreeSearchRange range{1e-3 * chain_.reach(), chain_.reach()};
+    return nearest_free_in_few_digits<3>({place.x(), place.y(), place.z()}, directions, range, 0.1 * chain_.reach(),
+                                         is_free);
+  }
 
  private:
   template <class DepthOfLink>
@@ -93,62 +140,6 @@ class BlockedArm {
   ArmProblem problem_;
   double margin_ = 0.0;
 };
-
-std::optional<double> BlockedArm::depth_in(const Violation& violation, const JointState& q) const {
-  const std::string_view name = violation.obstacle;
-  const auto numbered = [&](std::string_view word, std::size_t count) -> std::optional<std::size_t> {
-    if (!name.starts_with(word)) return std::nullopt;
-    std::size_t number = count;
-    std::from_chars(name.data() + word.size(), name.data() + name.size(), number);
-    return number < count ? std::optional(number) : std::nullopt;
-  };
-  double depth = 0.0;
-  if (const auto i = numbered("sphere ", scene_.spheres.size())) {
-    const Sphere& s = scene_.spheres[*i];
-    depth = deepest(q, [&](const Vec3& a, const Vec3& b) {
-      return s.radius - std::sqrt(distance_square(Spine(a, b), Vec3(s.x, s.y, s.z)));
-    });
-  } else if (const auto k = numbered("box ", scene_.boxes.size())) {
-    const SolidBox& box = scene_.boxes[*k];
-    depth = deepest(q, [&](const Vec3& a, const Vec3& b) {
-      const double inside = depth_in_box(a, b, box);
-      return inside > 0.0 ? inside : -std::sqrt(distance_square(Spine(a, b), box));
-    });
-  } else if (name.starts_with("link ")) {
-    depth = -violation.distance;
-  }
-  return depth > 0.0 ? std::optional(depth) : std::nullopt;
-}
-
-std::optional<JointState> BlockedArm::free_posture(const JointState& q) const {
-  constexpr std::size_t random_directions = 180;
-  static const std::vector<Numbers<most_joints>> directions = directions_around<most_joints>(random_directions);
-  constexpr double digits = 1e3;
-  JointState within = q;
-  for (std::size_t k = 0; k < most_joints; ++k) {
-    const double low = std::ceil(chain_.low(k) * digits) / digits;
-    const double high = std::floor(chain_.high(k) * digits) / digits;
-    if (low <= high && (q[k] < chain_.low(k) || q[k] > chain_.high(k))) within[k] = std::clamp(q[k], low, high);
-  }
-  const auto is_free = [this](const JointState& state, double spare) {
-    return chain_.joint_outside_limits(state) == most_joints && !met(state, margin_ + spare);
-  };
-  const double size = std::max(problem_.robot.radius, 0.1 * chain_.reach());
-  if (is_free(within, 1e-2 * size)) return within;
-  const FreeSearchRange range{1e-3, 2.0 * std::numbers::pi, 1e-3 * norm_between(q, within)};
-  return nearest_free_in_few_digits<most_joints>(within, directions, range, size, is_free);
-}
-
-std::optional<Numbers<3>> BlockedArm::free_tool_place(const Vec3& place) const {
-  static const std::vector<Numbers<3>> directions = directions_around<3>(60);
-  const auto is_free = [this](const Numbers<3>& p, double spare) {
-    const std::vector<JointState> states = postures({p[0], p[1], p[2]});
-    return std::any_of(states.begin(), states.end(), [&](const JointState& q) { return !met(q, margin_ + spare); });
-  };
-  const FreeSearchRange range{1e-3 * chain_.reach(), chain_.reach()};
-  return nearest_free_in_few_digits<3>({place.x(), place.y(), place.z()}, directions, range, 0.1 * chain_.reach(),
-                                       is_free);
-}
 
 /// Of a place that no posture brings the tool to: how far it is from the base, and how far all links would reach in a
 /// line.

@@ -22,7 +22,6 @@
 #include "core/plane/geometry.hpp"
 #include "core/plane/se2.hpp"
 #include "scenes/files/human_units.hpp"
-#include "solve/explain/blocked_arm.hpp"
 #include "solve/explain/nearest_free.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/question_of_pose.hpp"
@@ -32,17 +31,6 @@
 
 namespace warren {
 namespace {
-
-// One obstacle of a scene of the plane, with nothing else around: how deep a body stands in it is asked there.
-
-/// The 17 of "wall 17: ...", after the word "wall ".
-std::optional<std::size_t> number_after(std::string_view name, std::string_view word) {
-  if (!name.starts_with(word)) return std::nullopt;
-  name.remove_prefix(word.size());
-  std::size_t number = 0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
-  return error == std::errc() && end != name.data() ? std::optional(number) : std::nullopt;
-}
 
 bool is_same_side(const Segment& s, const Segment& t) {
   return (s.a == t.a && s.b == t.b) || (s.a == t.b && s.b == t.a);
@@ -92,9 +80,10 @@ class PiecesOfOne {
   const Execution& execution_;
 };
 
-/// name: as Violation::obstacle. A wall, or a polygon with all that were cut from the same one, within bounds that
-/// leave `room` around it; the bounds without what lies in them; of a cell the whole map. None for all others, such as
-/// what is outside. Throws Stopped.
+/// One obstacle of a scene of the plane, with nothing else around: how deep a body stands in it is asked there. name:
+/// as Violation::obstacle. A wall, or a polygon with all that were cut from the same one, within bounds that leave
+/// `room` around it; the bounds without what lies in them; of a cell the whole map. None for all others, such as what
+/// is outside. Throws Stopped.
 std::optional<Scene> obstacle_alone(const Scene& scene, std::string_view name, double room,
                                     const Execution& execution) {
   if (name.starts_with("cell ")) return scene;
@@ -222,15 +211,7 @@ class BlockedEndSearch {
     return scene_.map ? scene_.map->cell : 1e-2 * portable::hypot(room().width(), room().height());
   }
   Verdict judged(const Scene& scene, const std::vector<double>& state, double more) const {
-    RecordedAnswer stay;
-    stay.file = "answer";
-    if (state.size() == 2) {
-      stay.path.push_back({state[0], state[1]});
-    } else {
-      stay.states.width = state.size();
-      stay.states.add(state);
-    }
-    return kind_.verify(scene, question_at(state, more), stay, execution_);
+    return kind_.verify(scene, question_at(state, more), recorded(std::span(&state, 1)), execution_);
   }
   std::optional<Numbers<2>> place_near_middle(const FreeSearchRange& range) {
     return nearest_free_in_few_digits(Numbers<2>{middle_.x, middle_.y}, std::span<const Numbers<2>>(directions_), range,
@@ -375,7 +356,49 @@ std::string hint_of(const std::vector<double>& state, BlockedEndSearch& search) 
   return {};
 }
 
+/// The nearest place of the nearest cell, of the lines from 1 to `count`, with a hundredth of the room to spare.
+double free_beside(double x, std::uint32_t count, double reach) {
+  constexpr double digits = 1000.0;
+  const double middle = std::clamp(std::round(x), 1.0, static_cast<double>(count));
+  const double room = std::max(0.0, std::floor(0.99 * (0.5 - reach) * digits));
+  if (std::abs(x - middle) * digits <= room) return x;
+  return (middle * digits + std::copysign(room, x - middle)) / digits;
+}
+
+constexpr std::size_t obstacles_a_poll = 1U << 14U;
+
+class NearPath {
+ public:
+  NearPath(const Scene& scene, std::span<const Vec2> path, double reach, const Execution& execution)
+      : all_(obstacle_box(scene, execution)), legs_(path, execution), reach_(reach) {}
+
+  bool keeps(const Box& box) const {
+    if (box.min.x == all_.min.x || box.min.y == all_.min.y || box.max.x == all_.max.x || box.max.y == all_.max.y) {
+      return true;
+    }
+    const Box around = box.grown(reach_);
+    const auto is_apart = [&](const Box& legs) { return !legs.meets(around); };
+    bool is_near = false;
+    legs_.for_each([&](const Box& legs) { return is_near || is_apart(legs); },
+                   [&](std::size_t leg) { is_near = is_near || around.meets(box_of(legs_.leg(leg))); });
+    return is_near;
+  }
+
+ private:
+  Box all_;
+  LegBoxes legs_;
+  double reach_;
+};
+
 }  // namespace
+
+std::optional<std::size_t> number_after(std::string_view name, std::string_view word) {
+  if (!name.starts_with(word)) return std::nullopt;
+  name.remove_prefix(word.size());
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  return error == std::errc() && end != name.data() ? std::optional(number) : std::nullopt;
+}
 
 void explain_blocked_end(const Scene& scene, Answer& answer, const Execution& execution) {
   if (!is_blocked(answer.outcome) || is_unmade(scene)) return;
@@ -412,19 +435,6 @@ void explain_blocked_end(const Scene& scene, Answer& answer, const Execution& ex
   }
 }
 
-namespace {
-
-/// The nearest place of the nearest cell, of the lines from 1 to `count`, with a hundredth of the room to spare.
-double free_beside(double x, std::uint32_t count, double reach) {
-  constexpr double digits = 1000.0;
-  const double middle = std::clamp(std::round(x), 1.0, static_cast<double>(count));
-  const double room = std::max(0.0, std::floor(0.99 * (0.5 - reach) * digits));
-  if (std::abs(x - middle) * digits <= room) return x;
-  return (middle * digits + std::copysign(room, x - middle)) / digits;
-}
-
-}  // namespace
-
 void explain_blocked_cell(const WallProblem& problem, MazeHint maze, Answer& answer, const MetAt& met_at) {
   if (!is_blocked(answer.outcome)) return;
   const bool is_start = answer.outcome == Outcome::start_blocked;
@@ -449,35 +459,6 @@ void explain_blocked_cell(const WallProblem& problem, MazeHint maze, Answer& ans
     answer.blocked->depth = depth;
   }
 }
-
-namespace {
-
-constexpr std::size_t obstacles_a_poll = 1U << 14U;
-
-class NearPath {
- public:
-  NearPath(const Scene& scene, std::span<const Vec2> path, double reach, const Execution& execution)
-      : all_(obstacle_box(scene, execution)), legs_(path, execution), reach_(reach) {}
-
-  bool keeps(const Box& box) const {
-    if (box.min.x == all_.min.x || box.min.y == all_.min.y || box.max.x == all_.max.x || box.max.y == all_.max.y) {
-      return true;
-    }
-    const Box around = box.grown(reach_);
-    const auto is_apart = [&](const Box& legs) { return !legs.meets(around); };
-    bool is_near = false;
-    legs_.for_each([&](const Box& legs) { return is_near || is_apart(legs); },
-                   [&](std::size_t leg) { is_near = is_near || around.meets(box_of(legs_.leg(leg))); });
-    return is_near;
-  }
-
- private:
-  Box all_;
-  LegBoxes legs_;
-  double reach_;
-};
-
-}  // namespace
 
 Scene obstacles_near(const Scene& scene, std::span<const Vec2> path, double reach, const Execution& execution) {
   if (scene.map || is_unmade(scene)) return scene;

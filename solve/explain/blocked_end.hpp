@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
@@ -21,18 +22,26 @@ namespace warren {
 /// Fills in answer.blocked where start or goal is blocked. What stops meanwhile leaves it as far as it has come.
 void explain_blocked_end(const Scene& scene, Answer& answer, const Execution& execution);
 
-// Why a point or disc does not fit at a place of a maze whose walls are looked up cell by cell: as
-// explain_blocked_end() says it where walls are held, by a few looks, for in the middle of each cell the body fits.
+/// The same of an arm (blocked_arm.cpp): the limit, solid or link in the way by the judge's word, how deep a link
+/// stands in it, and a free posture nearby; of a place of the tool, a place nearby that some posture reaches. Some ten
+/// thousand postures, each judged by itself. Throws Stopped.
+void explain_blocked_arm(const Scene& scene, Answer& answer, const Execution& execution);
+/// How far the straight segment from a to b must go to be out of a closed box; 0 or less: it is.
+double depth_in_box(const Vec3& a, const Vec3& b, const SolidBox& box);
+
+/// The 17 of "wall 17: ...", what a judge calls an obstacle, after the word "wall ".
+std::optional<std::size_t> number_after(std::string_view name, std::string_view word);
 
 /// What the judge meets at a place, with the margin of ends; nothing where the body fits.
 using MetAt = std::function<std::optional<Violation>(Vec2)>;
 
-/// Fills in answer.blocked where an end is blocked. The problem's reach is below half a cell.
+/// Why a point or disc does not fit at a place of a maze whose walls are looked up cell by cell: as
+/// explain_blocked_end() says it where walls are held, by a few looks, for in the middle of each cell the body fits.
+/// The problem's reach is below half a cell.
 void explain_blocked_cell(const WallProblem& problem, MazeHint maze, Answer& answer, const MetAt& met_at);
 
-// The part of a scene that a judge needs for what is near a path, so that asking many times costs little.
-
-/// The scene without the walls and polygons whose boxes are farther than `reach` from those of all legs. Those that the
+/// The part of a scene that a judge needs for what is near a path, so that asking many times costs little: the scene
+/// without the walls and polygons whose boxes are farther than `reach` from those of all legs. Those that the
 /// box of all obstacles rests on stay, since it confines bodies where there are no bounds; maps and solids stay whole.
 /// `path`: one point or more. One pass over the obstacles, about log(legs) each. Throws Stopped.
 Scene obstacles_near(const Scene& scene, std::span<const Vec2> path, double reach, const Execution& execution);

@@ -31,10 +31,6 @@ struct BatchAccount {
 BatchAccount ask_batch(const RoadmapQuery& query, const InputFile& questions, const BatchOptions& options,
                        const Execution& execution, const std::function<void(std::string_view)>& write);
 
-// A table of lengths: from each of some starts to each of some goals, a line a start (docs/file_formats.md). Each pair
-// is a question of its own: a search for all goals at once could take another of two ways of equal length, and the last
-// digits with it. A place that can't be read is an error in its line or column, the others go on.
-
 struct MatrixAccount {
   std::uint64_t starts = 0;
   std::uint64_t goals = 0;
@@ -42,9 +38,12 @@ struct MatrixAccount {
   std::uint64_t wrong = 0;   ///< places that can't be read, and pairs of others that can't be asked
 };
 
-/// Hands the table to `write`, some lines at a time. The same for any number of threads, and the same lengths as
-/// ask_batch. options.lengths_only means nothing. Throws InputError for a CSV whose header says nothing, Stopped: then
-/// what was written are the first lines, whole.
+/// A table of lengths: from each of some starts to each of some goals, a line a start (docs/file_formats.md). Each pair
+/// is a question of its own: a search for all goals at once could take another of two ways of equal length, and the
+/// last digits with it. A place that can't be read is an error in its line or column, the others go on. Hands the table
+/// to `write`, some lines at a time. The same for any number of threads, and the same lengths as ask_batch.
+/// options.lengths_only means nothing. Throws InputError for a CSV whose header says nothing, Stopped: then what was
+/// written are the first lines, whole.
 MatrixAccount ask_matrix(const RoadmapQuery& query, const InputFile& starts, const InputFile& goals,
                          const BatchOptions& options, const Execution& execution,
                          const std::function<void(std::string_view)>& write);

@@ -53,6 +53,8 @@ const ExportFormat& format_of(const std::string& path) {
                    ", and drawn by .svg .png .pdf .html");
 }
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 }  // namespace
 
 std::vector<std::string> files_of_export(const std::string& path) {
@@ -70,12 +72,6 @@ ExportAccount export_roadmap(const std::string& path, const RoadmapParts& parts,
   if (execution.progress != nullptr) execution.progress->begin("export", parts.vertex_count() + 2 * parts.to.size());
   return format_of(path).write({parts, length, options}, files, execution);
 }
-
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 ExportedEdgesView::ExportedEdgesView(const ExportedRoadmapView& roadmap, EdgeWays ways, const Execution& execution)
     : parts_(roadmap.parts),

@@ -14,11 +14,6 @@
 #include "solve/kept/roadmap.hpp"
 
 namespace warren {
-// The edges that an export writes, in the order of their rows, numbered from 0: what the formats share. A first pass
-// over the states of the ends counts them in blocks, so that heads can say how many follow, and any block can be
-// written without those before it, on any thread.
-//
-// O(E) time a pass; memory: 24 bytes for 4096 edge ends.
 
 struct ExportOptions {
   bool with_unchecked = false;  ///< edges that nobody has asked about, too; else free ones alone
@@ -51,7 +46,10 @@ struct ExportedEdge {
   EdgeState state;
 };
 
-/// Any number of threads may ask.
+/// The edges that an export writes, in the order of their rows, numbered from 0: what the formats share. A first pass
+/// over the states of the ends counts them in blocks, so that heads can say how many follow, and any block can be
+/// written without those before it, on any thread: any number of them may ask. O(E) time a pass; memory: 24 bytes for
+/// 4096 edge ends.
 class ExportedEdgesView {
  public:
   static constexpr std::size_t grain = 4096;  ///< edge ends a block: less than a megabyte of text
@@ -106,7 +104,13 @@ class ExportedEdgesView {
   }
   double length_or_infinity(const ExportedEdge& edge) const;
   template <class Body>
-  void visit_ends(Range ends, const Body& body) const;
+  void visit_ends(Range ends, const Body& body) const {
+    VertexId from = 0;
+    for (std::size_t end = ends.first; end < ends.last; ++end) {
+      from = row_of(end, from);
+      body(from, parts_.to[end], parts_.state_of_end(end));
+    }
+  }
   /// The first vertex, not before v, whose ends reach beyond this one.
   VertexId row_of(std::size_t end, VertexId v) const {
     if (end < parts_.first[v + 1]) return v;
@@ -124,15 +128,6 @@ class ExportedEdgesView {
   ExportAccount account_;
 };
 
-template <class Body>
-void ExportedEdgesView::visit_ends(Range ends, const Body& body) const {
-  VertexId from = 0;
-  for (std::size_t end = ends.first; end < ends.last; ++end) {
-    from = row_of(end, from);
-    body(from, parts_.to[end], parts_.state_of_end(end));
-  }
-}
-
 /// The files that an export to this path writes: the path, and beside X.gr X.co, beside X.csv X.edges.csv. Throws
 /// UsageError, which names the endings, for others than .geojson .graphml .gr .csv .npz .dot.
 std::vector<std::string> files_of_export(const std::string& path);
@@ -143,10 +138,8 @@ std::vector<std::string> files_of_export(const std::string& path);
 ExportAccount export_roadmap(const std::string& path, const RoadmapParts& parts, const VertexDistance& length,
                              const ExportOptions& options, const Execution& execution);
 
-// A roadmap in the words of other programs (roadmaps/exports), with the lengths that its world's metric gives its
-// edges.
-
-/// By the file's ending. Throws UsageError for other endings and for what a format can't hold, WriteError, Stopped.
+/// With the lengths that its world's metric gives its edges, by the file's ending. Throws UsageError for other endings
+/// and for what a format can't hold, WriteError, Stopped.
 ExportAccount export_of_roadmap(const Roadmap& roadmap, const std::string& path, const ExportOptions& options = {},
                                 const Execution& execution = {});
 

@@ -20,6 +20,12 @@ namespace {
 
 constexpr std::uint32_t most_passes = 32;
 
+LatticePassages passages_of(const Scene& scene, double reach, const Execution& execution) {
+  if (auto passages = passages_of_maze(scene, reach, execution)) return std::move(*passages);
+  const std::vector<Segment> bounds = bounds_walls(scene);
+  return wall_passages({scene.walls, bounds, scene.bounds, reach, {scene.maze->rows, scene.maze->cols}}, execution);
+}
+
 }  // namespace
 
 const WallsNearEnds::Indexed* WallsNearEnds::index(const Execution& execution) const {
@@ -61,16 +67,6 @@ Scene WallsNearEnds::around(const Scene& scene, Vec2 p, const Execution& executi
   local.walls = WallSet::narrowest(walls);
   return local;
 }
-
-namespace {
-
-LatticePassages passages_of(const Scene& scene, double reach, const Execution& execution) {
-  if (auto passages = passages_of_maze(scene, reach, execution)) return std::move(*passages);
-  const std::vector<Segment> bounds = bounds_walls(scene);
-  return wall_passages({scene.walls, bounds, scene.bounds, reach, {scene.maze->rows, scene.maze->cols}}, execution);
-}
-
-}  // namespace
 
 std::unique_ptr<RouteIndex> lattice_index(const Scene& scene, const Question& body, const SolveOptions& options,
                                           const Execution& execution) {

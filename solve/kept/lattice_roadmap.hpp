@@ -26,11 +26,10 @@
 #include "worlds/plane/maze_world.hpp"
 
 namespace warren {
-// The world of a roadmap. Whoever asks a lattice in a file for a length needs none of its walls, and making those of
-// 10^8 cells takes a second and 1.6 GB: there they are made when a picture or an explanation first needs them. A judge
-// and ends off the lattice look them up one by one, where bits say them.
-
-/// Moves leave references to scenes valid only where the whole was made later. Any number of threads may ask.
+/// The world of a roadmap. Whoever asks a lattice in a file for a length needs none of its walls, and making those of
+/// 10^8 cells takes a second and 1.6 GB: there they are made when a picture or an explanation first needs them. A judge
+/// and ends off the lattice look them up one by one, where bits say them. Moves leave references to scenes valid only
+/// where the whole was made later. Any number of threads may ask.
 class KeptWorld {
  public:
   using Make = std::function<Scene(const Execution&)>;

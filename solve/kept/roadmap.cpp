@@ -16,7 +16,7 @@
 #include "solve/kept/kept_cells.hpp"
 #include "solve/kept/maze_bits.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
-#include "solve/kinds/planned_scene.hpp"
+#include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/sampled_roadmap.hpp"
 
 namespace warren {

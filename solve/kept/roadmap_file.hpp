@@ -146,8 +146,7 @@ constexpr std::string_view text_of(std::span<const char> field) {
   return all.substr(0, all.find('\0'));
 }
 
-// What a .roadmap file says of itself, whatever is in it.
-
+/// What a .roadmap file says of itself, whatever is in it.
 struct RoadmapFileHeader {
   std::uint64_t world_hash = 0;   ///< of the world that it was made for
   std::uint64_t recipe_hash = 0;  ///< of body, options and seed

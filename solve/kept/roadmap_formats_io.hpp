@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The formats of exported roadmaps, one a file roadmap_FORMAT_io.cpp. All throw InputError for a length that is no
-// number, and as OutputFile; where there are two files, both are put in place when both are whole.
+// The formats of exported roadmaps (.npz has a file of its own, roadmap_npz_io.cpp). All throw InputError for a length
+// that is no number, and as OutputFile; where there are two files, both are put in place when both are whole.
 #pragma once
 
 #include <algorithm>
@@ -54,14 +54,13 @@ ExportAccount write_roadmap_npz(const ExportedRoadmapView& roadmap, const std::s
 ExportAccount write_roadmap_dot(const ExportedRoadmapView& roadmap, const std::string& path,
                                 const Execution& execution);
 
-// Long texts, made piece by piece on all cores and written in their order: a file of any size goes through 16 pieces of
-// memory, and its bytes are the same for any number of threads.
-
 /// Vertices in a piece: at most half a megabyte of text.
 inline constexpr std::size_t vertices_a_piece = 2048;
 
-/// Calls make(Range, std::string&), which appends, for each piece of `grain` indices of 0 .. n - 1, and sink.write()
-/// with what it made, one after the other. Throws Stopped, and as make and the sink do.
+/// Long texts, made piece by piece on all cores and written in their order: a file of any size goes through 16 pieces
+/// of memory, and its bytes are the same for any number of threads. Calls make(Range, std::string&), which appends, for
+/// each piece of `grain` indices of 0 .. n - 1, and sink.write() with what it made, one after the other. Throws
+/// Stopped, and as make and the sink do.
 template <class Sink, class Make>
 void write_in_pieces(Sink& sink, std::size_t n, std::size_t grain, const Execution& execution, const Make& make) {
   constexpr std::size_t pieces_at_once = 16;
@@ -85,18 +84,9 @@ void write_in_pieces(Sink& sink, std::size_t n, std::size_t grain, const Executi
   }
 }
 
-// What the numbers of a state are called in files: x, y, theta, or the joints of an arm.
-
-/// "x", "y" of two numbers, "theta" (radians) with them of three; else "q1", "q2" and so on (radians).
-std::vector<std::string> state_names(unsigned dimension);
-
-/// Do the first two numbers of a state say a place in the plane?
-constexpr bool is_in_plane(unsigned dimension) { return dimension == 2 || dimension == 3; }
-
-// Real numbers as whole ones, for formats that have no others: multiples of a power of two, the finest that lets the
-// largest number stay below 2^31, which is what most readers' integers hold. A power of two, because scaling by it is
-// exact: the only error is that of rounding, at most half a unit.
-
+/// Real numbers as whole ones, for formats that have no others: multiples of a power of two, the finest that lets the
+/// largest number stay below 2^31, which is what most readers' integers hold. A power of two, because scaling by it is
+/// exact: the only error is that of rounding, at most half a unit.
 class BinaryUnit {
  public:
   /// For numbers of magnitude 0 .. `largest`, which is finite. Without any but 0 the unit is 1.

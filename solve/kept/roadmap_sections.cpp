@@ -21,55 +21,6 @@ namespace {
 
 constexpr std::size_t arc_grain = std::size_t{1} << 16;
 
-}  // namespace
-
-Hierarchy read_hierarchy(const RoadmapFile& file, std::size_t vertex_count, const Execution& execution) {
-  if (file.find("up.first") == nullptr) return {};
-  const auto first = file.section<EdgeEnd>("up.first", execution);
-  const auto to = file.section<VertexId>("up.to", execution);
-  const auto middle = file.section<VertexId>("up.middle", execution);
-  const auto length = file.section<double>("up.length", execution);
-  if (middle.size() != to.size() || length.size() != to.size()) {
-    throw InputError(file.name(), "its index contradicts itself; build it anew", "up.middle, up.length");
-  }
-  execution.reserve(first.size_bytes() + to.size() * sizeof(HierarchyArc));
-  Hierarchy hierarchy{.first = {first.begin(), first.end()}, .arcs = {}};
-  hierarchy.arcs.resize(to.size());
-  for_chunks(to.size(), arc_grain, execution, [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; ++i) hierarchy.arcs[i] = {to[i], middle[i], length[i]};
-  });
-  check_hierarchy(hierarchy, vertex_count, file.name(), execution);
-  return hierarchy;
-}
-
-HierarchySections::HierarchySections(const Hierarchy& hierarchy, const Execution& execution) : hierarchy_(hierarchy) {
-  const std::size_t arcs = hierarchy.arcs.size();
-  execution.reserve(arcs * sizeof(HierarchyArc));
-  to_.resize(arcs);
-  middle_.resize(arcs);
-  length_.resize(arcs);
-  for_chunks(arcs, arc_grain, execution, [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; ++i) {
-      to_[i] = hierarchy.arcs[i].to;
-      middle_[i] = hierarchy.arcs[i].middle;
-      length_[i] = hierarchy.arcs[i].length;
-    }
-  });
-}
-
-void HierarchySections::append_to(std::vector<RoadmapSection>& sections) const {
-  if (hierarchy_.empty()) return;
-  const auto add = [&]<class T>(std::string_view name, const RawVector<T>& numbers) {
-    sections.push_back(roadmap_section(name, std::span<const T>(numbers), true));
-  };
-  add("up.first", hierarchy_.first);
-  add("up.to", to_);
-  add("up.middle", middle_);
-  add("up.length", length_);
-}
-
-namespace {
-
 /// Elements of other widths are bytes.
 ElementType type_of(std::size_t bytes) {
   switch (bytes) {
@@ -107,47 +58,6 @@ auto named_by(const RoadmapFile& file, const Call& call) {
     throw InputError(file.name(), error.what());
   }
 }
-
-}  // namespace
-
-void append_lattice_sections(const RouteIndex& index, std::vector<RoadmapSection>& sections) {
-  for (const RouteSection& s : route_sections(index)) {
-    sections.push_back({s.name, type_of(s.element_bytes), s.bytes});
-  }
-}
-
-bool has_lattice(const RoadmapFile& file) { return file.find("passages.right") != nullptr; }
-
-bool is_lattice_section(std::string_view name) {
-  const std::vector<RouteSection> kinds = route_section_kinds();
-  return std::any_of(kinds.begin(), kinds.end(), [&](const RouteSection& kind) { return kind.name == name; });
-}
-
-std::unique_ptr<RouteIndex> read_lattice(const RoadmapFile& file, LatticeSize size, const Execution& execution) {
-  std::vector<RouteSection> sections = route_section_kinds();
-  for (RouteSection& section : sections) {
-    const SectionPlace* place = file.find(section.name);
-    if (place == nullptr || place->type != type_of(section.element_bytes)) {
-      throw InputError(file.name(), "a section of its index is missing or of another type", section.name);
-    }
-    section.bytes = bytes_of(file, *place);
-    section.first_look = file.first_look(*place);
-    if (!is_read_in_parts(section.name)) file.check_section(*place, execution);
-  }
-  return named_by(file, [&] {
-    LatticePassages::check_size(size);
-    auto index = std::make_unique<RouteIndex>(route_index_of(size, sections));
-    if (file.is_small()) check_route_arrays(index->places(), index->arrays());
-    return index;
-  });
-}
-
-void check_lattice(const RoadmapFile& file, const RouteIndex& index, const Execution& execution) {
-  file.check_all(execution);
-  named_by(file, [&] { check_route_arrays(index.places(), index.arrays()); });
-}
-
-namespace {
 
 constexpr std::size_t wall_grain = std::size_t{1} << 16;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -263,6 +173,88 @@ OccupancyMap read_map(const RoadmapFile& file, const Execution& execution) {
 }
 
 }  // namespace
+
+Hierarchy read_hierarchy(const RoadmapFile& file, std::size_t vertex_count, const Execution& execution) {
+  if (file.find("up.first") == nullptr) return {};
+  const auto first = file.section<EdgeEnd>("up.first", execution);
+  const auto to = file.section<VertexId>("up.to", execution);
+  const auto middle = file.section<VertexId>("up.middle", execution);
+  const auto length = file.section<double>("up.length", execution);
+  if (middle.size() != to.size() || length.size() != to.size()) {
+    throw InputError(file.name(), "its index contradicts itself; build it anew", "up.middle, up.length");
+  }
+  execution.reserve(first.size_bytes() + to.size() * sizeof(HierarchyArc));
+  Hierarchy hierarchy{.first = {first.begin(), first.end()}, .arcs = {}};
+  hierarchy.arcs.resize(to.size());
+  for_chunks(to.size(), arc_grain, execution, [&](Range r) {
+    for (std::size_t i = r.first; i < r.last; ++i) hierarchy.arcs[i] = {to[i], middle[i], length[i]};
+  });
+  check_hierarchy(hierarchy, vertex_count, file.name(), execution);
+  return hierarchy;
+}
+
+HierarchySections::HierarchySections(const Hierarchy& hierarchy, const Execution& execution) : hierarchy_(hierarchy) {
+  const std::size_t arcs = hierarchy.arcs.size();
+  execution.reserve(arcs * sizeof(HierarchyArc));
+  to_.resize(arcs);
+  middle_.resize(arcs);
+  length_.resize(arcs);
+  for_chunks(arcs, arc_grain, execution, [&](Range r) {
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      to_[i] = hierarchy.arcs[i].to;
+      middle_[i] = hierarchy.arcs[i].middle;
+      length_[i] = hierarchy.arcs[i].length;
+    }
+  });
+}
+
+void HierarchySections::append_to(std::vector<RoadmapSection>& sections) const {
+  if (hierarchy_.empty()) return;
+  const auto add = [&]<class T>(std::string_view name, const RawVector<T>& numbers) {
+    sections.push_back(roadmap_section(name, std::span<const T>(numbers), true));
+  };
+  add("up.first", hierarchy_.first);
+  add("up.to", to_);
+  add("up.middle", middle_);
+  add("up.length", length_);
+}
+
+void append_lattice_sections(const RouteIndex& index, std::vector<RoadmapSection>& sections) {
+  for (const RouteSection& s : route_sections(index)) {
+    sections.push_back({s.name, type_of(s.element_bytes), s.bytes});
+  }
+}
+
+bool has_lattice(const RoadmapFile& file) { return file.find("passages.right") != nullptr; }
+
+bool is_lattice_section(std::string_view name) {
+  const std::vector<RouteSection> kinds = route_section_kinds();
+  return std::any_of(kinds.begin(), kinds.end(), [&](const RouteSection& kind) { return kind.name == name; });
+}
+
+std::unique_ptr<RouteIndex> read_lattice(const RoadmapFile& file, LatticeSize size, const Execution& execution) {
+  std::vector<RouteSection> sections = route_section_kinds();
+  for (RouteSection& section : sections) {
+    const SectionPlace* place = file.find(section.name);
+    if (place == nullptr || place->type != type_of(section.element_bytes)) {
+      throw InputError(file.name(), "a section of its index is missing or of another type", section.name);
+    }
+    section.bytes = bytes_of(file, *place);
+    section.first_look = file.first_look(*place);
+    if (!is_read_in_parts(section.name)) file.check_section(*place, execution);
+  }
+  return named_by(file, [&] {
+    LatticePassages::check_size(size);
+    auto index = std::make_unique<RouteIndex>(route_index_of(size, sections));
+    if (file.is_small()) check_route_arrays(index->places(), index->arrays());
+    return index;
+  });
+}
+
+void check_lattice(const RoadmapFile& file, const RouteIndex& index, const Execution& execution) {
+  file.check_all(execution);
+  named_by(file, [&] { check_route_arrays(index.places(), index.arrays()); });
+}
 
 WorldSections::WorldSections(const Scene& scene, const LatticePassages* lattice, const Execution& execution)
     : scene_(scene) {

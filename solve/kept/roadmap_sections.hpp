@@ -51,11 +51,10 @@ std::unique_ptr<RouteIndex> read_lattice(const RoadmapFile& file, LatticeSize si
 /// Checks all of a large file's index, too. Throws InputError, Stopped.
 void check_lattice(const RoadmapFile& file, const RouteIndex& index, const Execution& execution);
 
-// The world of a roadmap as sections of its file (docs/file_formats.md): walls as numbers or as a maze's bits, a map as
-// bits, all else as scene text, so that what is read back has the same hash as what was written. A maze's walls that
-// stand wherever its lattice has no passage are said by the lattice alone.
-
-/// Refers to the scene; holds what has to be put together.
+/// The world of a roadmap as sections of its file (docs/file_formats.md): walls as numbers or as a maze's bits, a map
+/// as bits, all else as scene text, so that what is read back has the same hash as what was written. A maze's walls
+/// that stand wherever its lattice has no passage are said by the lattice alone. Refers to the scene; holds what has to
+/// be put together.
 class WorldSections {
  public:
   /// `lattice`: of the same file, or nullptr. Throws Stopped.

@@ -99,9 +99,7 @@ void verify_solved_on_map(Answer& answer, const OccupancyMap& map, const WallPro
     answer.path.clear();
     return;
   }
-  answer.verified = true;
-  answer.length = verification.length;
-  answer.min_clearance = verification.min_clearance;
+  take_verdict(answer, verification);
 }
 
 }  // namespace warren

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The planners for a point or disc on an occupancy map, one a file solve_map_NAME.cpp, and what they share: the
-// question, paths over cells, and the verification against closed cells.
+// What the planners for a point or disc on an occupancy map share (solve_map.cpp): the question, paths over cells, and
+// the verification against closed cells.
 #pragma once
 
 #include <span>
@@ -16,12 +16,8 @@
 
 namespace warren {
 
-Answer solve_by_cells_of_map(const SolveRequest& request);  ///< grid
-Answer solve_on_skeleton(const SolveRequest& request);      ///< voronoi
-Answer solve_sampled_on_map(const SolveRequest& request);
-BuiltArrays build_on_map(const SolveRequest& request);
-std::unique_ptr<RoadmapSession> open_on_map(const SolveRequest& request, const RoadmapArrays& arrays,
-                                            const ConnectionRule& rule);  ///< prm, lazy-prm, rrt, rrt-connect
+/// The planner voronoi on a map.
+Answer solve_on_skeleton(const SolveRequest& request);
 
 /// Throws UsageError where contact is to be allowed, and as wall_problem does.
 WallProblem map_problem(const Scene& scene, const Question& options);

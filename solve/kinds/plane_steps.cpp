@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
-
 #include "core/base/error.hpp"
 #include "planners/vertical_cells/cell_decomposition.hpp"
 #include "scenes/scene/plane_obstacles.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The planners for a point or disc among polygons and walls, one a file solve_NAME.cpp: each resolves its options, runs
-// its method, and verifies what comes out. All take a SolveRequest and answer as SolveKind::solve does.
+// What the planners for a point or disc among polygons and walls share (solve_plane.cpp, solve_visibility.cpp): the
+// question, and how their answers tell it.
 #pragma once
 
 #include <functional>
@@ -17,8 +17,8 @@
 
 namespace warren {
 
+/// The planners visibility and voronoi, as SolveKind::solve.
 Answer solve_by_visibility(const SolveRequest& request);
-Answer solve_by_cells(const SolveRequest& request);
 Answer solve_on_medial_axis(const SolveRequest& request);
 
 /// The problem of a planner that plans for a point which may touch obstacles. Throws UsageError for bodies and

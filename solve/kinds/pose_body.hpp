@@ -15,7 +15,6 @@
 #include "solve/kinds/map_steps.hpp"
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/sampled_solve.hpp"
-#include "verify/judges/verify_turning.hpp"
 
 namespace warren {
 
@@ -51,7 +50,11 @@ class PoseBody : public UsualBody {
     return poses_of(point);
   }
   static SamplerKind choose_sampler(const SolveOptions& options, const RoadmapOptions& roadmap) {
-    check_pose_sampler(options.sampler);
+    if (options.sampler && takes_all_places(*options.sampler)) {
+      throw UsageError(
+          fmt::format("@sampler: {} is for points and discs in mazes and on maps; a turning body takes the others",
+                      name_of(*options.sampler)));
+    }
     return roadmap.sampler == SamplerKind::lattice ? SamplerKind::uniform : roadmap.sampler;
   }
   template <class World>
@@ -82,12 +85,6 @@ class PoseBody : public UsualBody {
   const Execution& execution() const { return execution_; }
   const ObstacleIndex* judged() const { return judged_; }
   const PoseProblem& question() const { return problem_; }
-  PoseVerifyOptions verify_options() const {
-    return {.clearance = problem_.clearance,
-            .start = problem_.start,
-            .goal = problem_.goal_pose(),
-            .any_heading = problem_.any_heading()};
-  }
   template <class World, class Length>
   Path<Se2> shortcut(const World& world, Path<Se2> path, const Length& length, Answer& answer) const {
     return shortcut_path(world, std::move(path), length, {.seed = answer.seed}, execution_, answer.counters);

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include "solve/kinds/solve_steps.hpp"
-#include "solve/question/planner_choice.hpp"
 #include "worlds/poses/free_headings.hpp"
+#include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren {
 namespace {
@@ -21,7 +22,34 @@ std::vector<double> state_of(std::string_view option, const std::vector<double>&
                                fewest == 2 ? ", or X,Y for any heading" : "", state.size()));
 }
 
+bool wants_borders(const Scene& scene, const Question& question, PlannerKind planner) {
+  if (!scene.map || scene.walls.size() > 0) return false;
+  if (planner == PlannerKind::grid || planner == PlannerKind::voronoi) return false;
+  const RobotKind body = robot_of(scene, question).kind;
+  return body != RobotKind::point && body != RobotKind::disc;
+}
+
+Path<Se2> without_half_turns(const Path<Se2>& path) {
+  constexpr double most_rad = 3.0;
+  Path<Se2> cut;
+  for (const Se2& pose : path) {
+    if (!cut.empty() && std::abs(turn_between(cut.back().theta, pose.theta)) > most_rad) {
+      cut.push_back(interpolate(Se2(cut.back()), pose, 0.5));
+    }
+    cut.push_back(pose);
+  }
+  return cut;
+}
+
 }  // namespace
+
+PlannedScene::PlannedScene(const Scene& scene, const Question& question, PlannerKind planner,
+                           const Execution& execution)
+    : scene_(scene) {
+  if (!wants_borders(scene, question, planner)) return;
+  copy_ = scene;
+  add_map_walls(*copy_, execution);
+}
 
 PoseProblem pose_problem(const Scene& scene, const Question& options, std::string_view body) {
   if (options.contact == Contact::allowed) {
@@ -80,18 +108,44 @@ std::vector<Se2> recorded_poses(const RecordedAnswer& answer, std::string_view b
   return path;
 }
 
-void check_pose_sampler(std::optional<SamplerKind> sampler) {
-  if (!sampler || !takes_all_places(*sampler)) return;
-  throw UsageError(fmt::format(
-      "@sampler: {} is for points and discs in mazes and on maps; a turning body takes the others", name_of(*sampler)));
+PoseVerifyOptions verify_options(const PoseProblem& problem) {
+  return {.clearance = problem.clearance,
+          .start = problem.start,
+          .goal = problem.goal_pose(),
+          .any_heading = problem.any_heading()};
 }
 
-void record_poses(Answer& answer, std::span<const Se2> path) {
+void take_poses(Answer& answer, const Verification& verdict, std::span<const Se2> path) {
+  take_verdict(answer, verdict);
+  answer.turn_rad = verdict.turn_rad;
   answer.states.width = 3;
+  answer.path.clear();
   for (const Se2& pose : path) {
     answer.path.push_back(pose.position());
     answer.states.add(std::array{pose.x, pose.y, pose.theta});
   }
+}
+
+bool turning_stands_free(const Scene& scene, const PoseProblem& problem, const Se2& pose, const Execution& execution,
+                         const ObstacleIndex* judged) {
+  const PoseVerifyOptions options{.clearance = problem.clearance + end_margin(scene, problem, execution)};
+  return verify_se2(scene, problem.robot.outline, std::span(&pose, 1), options, execution, judged).verified;
+}
+
+void judge_turning(const Scene& scene, const PoseProblem& problem, const Path<Se2>& path, const Execution& execution,
+                   Answer& answer, const ObstacleIndex* judged) {
+  const Path<Se2> poses = without_half_turns(path);
+  const StageTimer timer(execution, "verify", answer.seconds.verify, poses.size());
+  const Verification found =
+      verify_se2(scene, problem.robot.outline, poses, verify_options(problem), execution, judged);
+  take_poses(answer, found, poses);
+}
+
+Verdict recheck_turning(const Scene& scene, const Question& question, const RecordedAnswer& answer,
+                        const Execution& execution) {
+  const PoseProblem problem = pose_problem(scene, question, turning_body);
+  const std::vector<Se2> path = recorded_poses(answer, turning_body);
+  return {verify_se2(scene, problem.robot.outline, path, verify_options(problem), execution), problem.general()};
 }
 
 }  // namespace warren

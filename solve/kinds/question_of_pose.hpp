@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the kinds share whose states are poses (x, y, theta), turning polygons and cars: the question, its options, and
-// how the planners are asked. A goal X,Y without a heading is met in any: trees have it as 16 goals, evenly turned, or
-// where the body fits at none of these as those between at which it does; roadmaps take the one with the most room.
+// What the kinds share whose states are poses (x, y, theta), turning polygons and cars: the scene that they are planned
+// in, the question, its options, how the planners are asked, and how their paths are judged. A goal X,Y without a
+// heading is met in any: trees have it as 16 goals, evenly turned, or where the body fits at none of these as those
+// between at which it does; roadmaps take the one with the most room.
 #pragma once
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -20,8 +22,23 @@
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/question/question.hpp"
+#include "verify/judges/verify_turning.hpp"
 
 namespace warren {
+
+/// The scene as it is planned in: itself, or a copy with a map's borders as walls. Bodies that are planned among walls
+/// see a map so; the others look at the cells. Refers to the scene.
+class PlannedScene {
+ public:
+  PlannedScene(const Scene& scene, const Question& question, PlannerKind planner, const Execution& execution);
+  const Scene& get() const { return copy_ ? *copy_ : scene_; }
+
+ private:
+  const Scene& scene_;
+  std::optional<Scene> copy_;
+};
+
+inline constexpr std::string_view turning_body = "a turning body";
 
 struct PoseProblem {
   RobotSpec robot;
@@ -63,11 +80,10 @@ double end_margin(const Scene& scene, const PoseProblem& problem, const Executio
 /// The path of an answer whose states have three numbers; throws InputError for others.
 std::vector<Se2> recorded_poses(const RecordedAnswer& answer, std::string_view body);
 
-/// Throws UsageError for samplers that only points and discs have.
-void check_pose_sampler(std::optional<SamplerKind> sampler);
-
-/// The path, as the answer gives it.
-void record_poses(Answer& answer, std::span<const Se2> path);
+/// What the judge of a turning body or a car is asked for the problem.
+PoseVerifyOptions verify_options(const PoseProblem& problem);
+/// The judge's word on a path, and the path as the answer gives it. Throws as take_verdict().
+void take_poses(Answer& answer, const Verification& verdict, std::span<const Se2> path);
 
 /// What is said of the ends where one is called blocked. stands_free(pose): by the verification, as an end.
 template <class StandsFree>
@@ -80,5 +96,20 @@ void settle_blocked_poses(Answer& answer, const Scene& scene, const PoseProblem&
         return std::any_of(goals.begin(), goals.end(), stands_free);
       });
 }
+
+/// Does a polygon that may turn stand free at the pose as an end, with its clearance? `judged`, here and below: of the
+/// scene, or nullptr.
+bool turning_stands_free(const Scene& scene, const PoseProblem& problem, const Se2& pose, const Execution& execution,
+                         const ObstacleIndex* judged = nullptr);
+
+/// Verifies its path, whichever planner found it, and fills it into the answer with what is said of it. A leg of about
+/// half a turn, which could be read either way, gets a pose in its middle. A path that fails is a bug: throws
+/// std::logic_error.
+void judge_turning(const Scene& scene, const PoseProblem& problem, const Path<Se2>& path, const Execution& execution,
+                   Answer& answer, const ObstacleIndex* judged = nullptr);
+
+/// SolveKind::verify for a polygon that may turn.
+Verdict recheck_turning(const Scene& scene, const Question& question, const RecordedAnswer& answer,
+                        const Execution& execution);
 
 }  // namespace warren

@@ -49,8 +49,7 @@
 #include "solve/question/solve_options.hpp"
 
 namespace warren {
-// What most bodies of sampled_solve.hpp and sampled_roadmap.hpp have in common.
-
+/// What most bodies of sampled_solve.hpp and sampled_roadmap.hpp have in common.
 struct UsualBody {
   static constexpr bool has_trees = true;
   static constexpr bool names_pipeline = false;
@@ -109,23 +108,194 @@ class SampledSolve {
  private:
   const Execution& execution() const { return request_.execution; }
   bool by_roadmap() const { return is_roadmap_planner(request_.planner); }
-  void describe_roadmap();
-  void describe_trees();
-  void index();
-  void bound_growth();
-  void plan_roadmaps();
-  Solution<State> plan_roadmap(const State& goal);
-  void plan_trees();
-  Solution<State> grow_through_stops();
-  Solution<State> grow_trees(const State& start, std::span<const State> goals);
-  std::vector<std::vector<State>> stops() const;
-  PlannedRoadmap<State>* kept();
-  void take(Solution<State> solution);
-  void settle_ends();
-  bool ends_touch();
-  void choose_path();
-  void finish();
-  std::string_view cause() const;
+  void describe_roadmap() {
+    const PlannerOptions options = planner_options(request_.options, request_.scene, WallProblem{});
+    roadmap_options_ = options.roadmap;
+    roadmap_options_.sampler = body_.choose_sampler(request_.options, roadmap_options_);
+    roadmap_options_.attach = body_.attach(request_.options);
+    if (body_.names_pipeline && request_.planner == PlannerKind::prm) answer_.pipeline = name_of(PipelineKind::plain);
+    answer_.sampler = name_of(roadmap_options_.sampler);
+    answer_.search = name_of(roadmap_options_.search);
+    answer_.seed = roadmap_options_.seed;
+    answer_.options = options.given;
+  }
+  void describe_trees() {
+    tree_options_ = tree_options(request_.options);
+    if (!tree_options_.sampler) tree_options_.sampler = body_.tree_sampler;
+    for (const std::vector<double>& point : request_.options.trees.via)
+      body_.stop_at(point);  // refused before the work
+    answer_.sampler = sampler_name(tree_options_);
+    answer_.seed = tree_options_.seed;
+    answer_.options = given_tree_options(request_.options);
+  }
+  void index() {
+    const StageTimer timer(execution(), "index", answer_.seconds.index);
+    if (request_.asked.session != nullptr) {
+      const auto& session = static_cast<const SessionIn<World>&>(*request_.asked.session);
+      world_ = &*session.world;
+      asked_ = &*session.roadmap;
+    } else {
+      body_.index(own_world_, roadmap_options_.sampler);
+      world_ = &*own_world_;
+    }
+    goals_ = body_.goals(*world_);
+  }
+  /// What grows until start and goal connect, where they never can: a roadmap for one round and trees for a few nodes.
+  void bound_growth() {
+    if (asked_ != nullptr) return;
+    const bool grows = by_roadmap() ? !roadmap_options_.samples && !takes_all_places(roadmap_options_.sampler)
+                                    : !request_.options.trees.nodes;
+    if (!grows || !request_.scene.map) return;
+    const StageTimer timer(execution(), "proof", answer_.seconds.search);
+    if (!body_.provably_apart(*world_, goals_)) return;
+    apart_ = true;
+    if (by_roadmap()) {
+      roadmap_options_.samples = first_samples(*world_, roadmap_options_, execution());
+    } else {
+      tree_options_.nodes = nodes_where_apart;
+    }
+  }
+  /// The counts are those of all goals that were tried.
+  void plan_roadmaps() {
+    const std::vector<State> in_order = body_.best_first(*world_, goals_);
+    std::vector<State> goals = detail::free_states(*world_, std::span<const State>(in_order));
+    if (goals.empty()) goals.push_back(in_order.front());
+    Counters before;
+    for (const State& goal : goals) {
+      take(plan_roadmap(goal));
+      answer_.counters += before;
+      before = answer_.counters;
+      if (answer_.outcome != Outcome::not_connected || apart_) break;
+    }
+  }
+  Solution<State> plan_roadmap(const State& goal) {
+    const bool lazy = request_.planner == PlannerKind::lazy_prm;
+    if (asked_ != nullptr) {
+      return ask_roadmap(*asked_, body_.start(), goal, roadmap_options_, execution(), *request_.asked.scratch, kept());
+    }
+    if constexpr (requires { requires World::one_way; }) {
+      return one_way_prm(*world_, body_.start(), goal, roadmap_options_, lazy, execution(), kept());
+    } else {
+      const auto planner = lazy ? lazy_prm<World> : prm<World>;
+      return planner(*world_, body_.start(), goal, roadmap_options_, execution(), kept());
+    }
+  }
+  void plan_trees() { take(grow_through_stops()); }
+  Solution<State> grow_through_stops() {
+    const auto plan = [&](const State& start, std::span<const State> goals, std::size_t) {
+      return grow_trees(start, goals);
+    };
+    return plan_through<State>(body_.start(), stops(), plan);
+  }
+  Solution<State> grow_trees(const State& start, std::span<const State> goals) {
+    if constexpr (Body::has_trees) {
+      const auto planner = request_.planner == PlannerKind::rrt ? rrt<World> : rrt_connect<World>;
+      return planner(*world_, start, goals, tree_options_, execution(), kept());
+    } else {
+      throw std::logic_error("this body has no trees");
+    }
+  }
+  /// Way-points and goal, each as the states that will do.
+  std::vector<std::vector<State>> stops() const {
+    std::vector<std::vector<State>> stops;
+    for (const std::vector<double>& point : request_.options.trees.via) {
+      const std::vector<State> states = [&] {
+        if constexpr (requires { body_.stop_in(*world_, point); }) {
+          return body_.stop_in(*world_, point);
+        } else {
+          return body_.stop_at(point);
+        }
+      }();
+      stops.push_back(detail::free_states(*world_, std::span<const State>(states)));
+      if (!stops.back().empty()) continue;
+      throw UsageError(fmt::format("@via: the {} does not fit at way-point {}", Body::noun, stops.size()));
+    }
+    stops.push_back(goals_);
+    return stops;
+  }
+  /// A roadmap takes the place of the one before; trees stand beside each other.
+  PlannedRoadmap<State>* kept() {
+    if (request_.keep == nullptr) return nullptr;
+    if constexpr (std::is_same_v<State, Vec2>) {
+      return by_roadmap() ? &request_.keep->roadmap : &request_.keep->trees.emplace_back();
+    } else if constexpr (std::is_same_v<State, Se2>) {
+      if (by_roadmap()) request_.keep->pose_roadmaps.clear();
+      return &request_.keep->pose_roadmaps.emplace_back();
+    } else {
+      return by_roadmap() ? &request_.keep->joint_roadmap : nullptr;
+    }
+  }
+  void take(Solution<State> solution) {
+    path_ = std::move(solution.path);
+    take_account(answer_, solution);
+  }
+  void settle_ends() {
+    const bool has_none = std::is_same_v<State, Se2> && asked_ != nullptr && answer_.outcome == Outcome::not_connected;
+    if (has_none) answer_.outcome = Outcome::start_blocked;
+    answer_.outcome = settled_ends(
+        answer_.outcome, [this] { return body_.start_stands_free(); },
+        [this] {
+          return std::any_of(goals_.begin(), goals_.end(),
+                             [this](const State& goal) { return body_.goal_stands_free(goal); });
+        });
+  }
+  /// A world of poses takes ends with less to spare than others do, from which then nothing leads. Of a roadmap that is
+  /// asked they are looked at where it has no way.
+  bool ends_touch() {
+    if (!std::is_same_v<State, Se2> || asked_ != nullptr) return false;
+    answer_.outcome = Outcome::start_blocked;
+    settle_ends();
+    return is_blocked(answer_.outcome);
+  }
+  /// Of bodies whose ways have a price beyond their length: the cheapest of several trees' paths, each shortened a
+  /// little; what is told of work and sizes is of all trees. What is dear then stays so, since one that wanders is made
+  /// better only near where it goes.
+  void choose_path() {
+    const std::size_t count = by_roadmap() ? 1 : body_.paths_weighed();
+    if (count < 2) return;
+    double least = body_.price_once_shorter(*world_, path_, answer_);
+    constexpr double as_cheap = 1e-6;  // rounding does not choose
+    const std::uint64_t seed = tree_options_.seed;
+    for (std::size_t i = 1; i < count; ++i) {
+      tree_options_.seed = random_bits(seed, i);
+      Solution<State> other = grow_through_stops();
+      execution().check();
+      answer_.counters += other.counters;
+      answer_.roadmap.milestones += other.roadmap.milestones;
+      answer_.roadmap.edges += other.roadmap.edges;
+      if (other.outcome != Outcome::solved) continue;
+      const double price = body_.price_once_shorter(*world_, other.path, answer_);
+      if (!(price < least * (1.0 - as_cheap))) continue;
+      least = price;
+      path_ = std::move(other.path);
+    }
+    tree_options_.seed = seed;
+  }
+  void finish() {
+    if (answer_.outcome == Outcome::stopped) return;
+    if (answer_.outcome != Outcome::solved) {
+      if (const std::string_view why = cause(); !why.empty()) answer_.figures.push_back({"cause", std::string(why)});
+      if (goals_.empty() && answer_.outcome == Outcome::not_connected)
+        answer_.figures.push_back({"goals_tried", body_.goals_tried()});
+      return;
+    }
+    if (request_.options.optimise) {
+      const StageTimer timer(execution(), "optimise", answer_.seconds.optimise, path_.size());
+      if constexpr (requires { body_.paths_weighed(); }) choose_path();
+      answer_.raw_length =
+          path_length(path_, [this](const State& a, const State& b) { return body_.length(*world_, a, b); });
+      path_ = body_.shortened(*world_, std::move(path_), answer_);
+    }
+    body_.judge(*world_, std::move(path_), answer_);
+  }
+  /// Why there is no path, one word a cause.
+  std::string_view cause() const {
+    if (answer_.outcome == Outcome::start_blocked || answer_.outcome == Outcome::goal_blocked) {
+      return body_.cause_of_blocked(*world_, answer_.outcome, goals_);
+    }
+    if (goals_.empty()) return "goal_not_found";
+    return cause_of_separation(answer_, by_roadmap());
+  }
 
   const SolveRequest& request_;
   Body body_;
@@ -140,228 +310,10 @@ class SampledSolve {
   Answer answer_;
 };
 
+/// SolveKind::solve for a body.
 template <class Body>
-void SampledSolve<Body>::describe_roadmap() {
-  const PlannerOptions options = planner_options(request_.options, request_.scene, WallProblem{});
-  roadmap_options_ = options.roadmap;
-  roadmap_options_.sampler = body_.choose_sampler(request_.options, roadmap_options_);
-  roadmap_options_.attach = body_.attach(request_.options);
-  if (body_.names_pipeline && request_.planner == PlannerKind::prm) answer_.pipeline = name_of(PipelineKind::plain);
-  answer_.sampler = name_of(roadmap_options_.sampler);
-  answer_.search = name_of(roadmap_options_.search);
-  answer_.seed = roadmap_options_.seed;
-  answer_.options = options.given;
-}
-
-template <class Body>
-void SampledSolve<Body>::describe_trees() {
-  tree_options_ = tree_options(request_.options);
-  if (!tree_options_.sampler) tree_options_.sampler = body_.tree_sampler;
-  for (const std::vector<double>& point : request_.options.trees.via) body_.stop_at(point);  // refused before the work
-  answer_.sampler = sampler_name(tree_options_);
-  answer_.seed = tree_options_.seed;
-  answer_.options = given_tree_options(request_.options);
-}
-
-template <class Body>
-void SampledSolve<Body>::index() {
-  const StageTimer timer(execution(), "index", answer_.seconds.index);
-  if (request_.asked.session != nullptr) {
-    const auto& session = static_cast<const SessionIn<World>&>(*request_.asked.session);
-    world_ = &*session.world;
-    asked_ = &*session.roadmap;
-  } else {
-    body_.index(own_world_, roadmap_options_.sampler);
-    world_ = &*own_world_;
-  }
-  goals_ = body_.goals(*world_);
-}
-
-/// What grows until start and goal connect, where they never can: a roadmap for one round and trees for a few nodes.
-template <class Body>
-void SampledSolve<Body>::bound_growth() {
-  if (asked_ != nullptr) return;
-  const bool grows = by_roadmap() ? !roadmap_options_.samples && !takes_all_places(roadmap_options_.sampler)
-                                  : !request_.options.trees.nodes;
-  if (!grows || !request_.scene.map) return;
-  const StageTimer timer(execution(), "proof", answer_.seconds.search);
-  if (!body_.provably_apart(*world_, goals_)) return;
-  apart_ = true;
-  if (by_roadmap()) {
-    roadmap_options_.samples = first_samples(*world_, roadmap_options_, execution());
-  } else {
-    tree_options_.nodes = nodes_where_apart;
-  }
-}
-
-/// The counts are those of all goals that were tried.
-template <class Body>
-void SampledSolve<Body>::plan_roadmaps() {
-  const std::vector<State> in_order = body_.best_first(*world_, goals_);
-  std::vector<State> goals = detail::free_states(*world_, std::span<const State>(in_order));
-  if (goals.empty()) goals.push_back(in_order.front());
-  Counters before;
-  for (const State& goal : goals) {
-    take(plan_roadmap(goal));
-    answer_.counters += before;
-    before = answer_.counters;
-    if (answer_.outcome != Outcome::not_connected || apart_) break;
-  }
-}
-
-template <class Body>
-Solution<typename SampledSolve<Body>::State> SampledSolve<Body>::plan_roadmap(const State& goal) {
-  const bool lazy = request_.planner == PlannerKind::lazy_prm;
-  if (asked_ != nullptr) {
-    return ask_roadmap(*asked_, body_.start(), goal, roadmap_options_, execution(), *request_.asked.scratch, kept());
-  }
-  if constexpr (requires { requires World::one_way; }) {
-    return one_way_prm(*world_, body_.start(), goal, roadmap_options_, lazy, execution(), kept());
-  } else {
-    const auto planner = lazy ? lazy_prm<World> : prm<World>;
-    return planner(*world_, body_.start(), goal, roadmap_options_, execution(), kept());
-  }
-}
-
-template <class Body>
-void SampledSolve<Body>::plan_trees() {
-  take(grow_through_stops());
-}
-
-template <class Body>
-Solution<typename SampledSolve<Body>::State> SampledSolve<Body>::grow_through_stops() {
-  const auto plan = [&](const State& start, std::span<const State> goals, std::size_t) {
-    return grow_trees(start, goals);
-  };
-  return plan_through<State>(body_.start(), stops(), plan);
-}
-
-template <class Body>
-Solution<typename SampledSolve<Body>::State> SampledSolve<Body>::grow_trees(const State& start,
-                                                                            std::span<const State> goals) {
-  if constexpr (Body::has_trees) {
-    const auto planner = request_.planner == PlannerKind::rrt ? rrt<World> : rrt_connect<World>;
-    return planner(*world_, start, goals, tree_options_, execution(), kept());
-  } else {
-    throw std::logic_error("this body has no trees");
-  }
-}
-
-/// Way-points and goal, each as the states that will do.
-template <class Body>
-std::vector<std::vector<typename SampledSolve<Body>::State>> SampledSolve<Body>::stops() const {
-  std::vector<std::vector<State>> stops;
-  for (const std::vector<double>& point : request_.options.trees.via) {
-    const std::vector<State> states = [&] {
-      if constexpr (requires { body_.stop_in(*world_, point); }) {
-        return body_.stop_in(*world_, point);
-      } else {
-        return body_.stop_at(point);
-      }
-    }();
-    stops.push_back(detail::free_states(*world_, std::span<const State>(states)));
-    if (!stops.back().empty()) continue;
-    throw UsageError(fmt::format("@via: the {} does not fit at way-point {}", Body::noun, stops.size()));
-  }
-  stops.push_back(goals_);
-  return stops;
-}
-
-/// A roadmap takes the place of the one before; trees stand beside each other.
-template <class Body>
-PlannedRoadmap<typename SampledSolve<Body>::State>* SampledSolve<Body>::kept() {
-  if (request_.keep == nullptr) return nullptr;
-  if constexpr (std::is_same_v<State, Vec2>) {
-    return by_roadmap() ? &request_.keep->roadmap : &request_.keep->trees.emplace_back();
-  } else if constexpr (std::is_same_v<State, Se2>) {
-    if (by_roadmap()) request_.keep->pose_roadmaps.clear();
-    return &request_.keep->pose_roadmaps.emplace_back();
-  } else {
-    return by_roadmap() ? &request_.keep->joint_roadmap : nullptr;
-  }
-}
-
-template <class Body>
-void SampledSolve<Body>::take(Solution<State> solution) {
-  path_ = std::move(solution.path);
-  take_account(answer_, solution);
-}
-
-template <class Body>
-void SampledSolve<Body>::settle_ends() {
-  const bool has_none = std::is_same_v<State, Se2> && asked_ != nullptr && answer_.outcome == Outcome::not_connected;
-  if (has_none) answer_.outcome = Outcome::start_blocked;
-  answer_.outcome = settled_ends(
-      answer_.outcome, [this] { return body_.start_stands_free(); },
-      [this] {
-        return std::any_of(goals_.begin(), goals_.end(),
-                           [this](const State& goal) { return body_.goal_stands_free(goal); });
-      });
-}
-
-/// A world of poses takes ends with less to spare than others do, from which then nothing leads. Of a roadmap that is
-/// asked they are looked at where it has no way.
-template <class Body>
-bool SampledSolve<Body>::ends_touch() {
-  if (!std::is_same_v<State, Se2> || asked_ != nullptr) return false;
-  answer_.outcome = Outcome::start_blocked;
-  settle_ends();
-  return is_blocked(answer_.outcome);
-}
-
-/// Of bodies whose ways have a price beyond their length: the cheapest of several trees' paths, each shortened a
-/// little; what is told of work and sizes is of all trees. What is dear then stays so, since one that wanders is made
-/// better only near where it goes.
-template <class Body>
-void SampledSolve<Body>::choose_path() {
-  const std::size_t count = by_roadmap() ? 1 : body_.paths_weighed();
-  if (count < 2) return;
-  double least = body_.price_once_shorter(*world_, path_, answer_);
-  constexpr double as_cheap = 1e-6;  // rounding does not choose
-  const std::uint64_t seed = tree_options_.seed;
-  for (std::size_t i = 1; i < count; ++i) {
-    tree_options_.seed = random_bits(seed, i);
-    Solution<State> other = grow_through_stops();
-    execution().check();
-    answer_.counters += other.counters;
-    answer_.roadmap.milestones += other.roadmap.milestones;
-    answer_.roadmap.edges += other.roadmap.edges;
-    if (other.outcome != Outcome::solved) continue;
-    const double price = body_.price_once_shorter(*world_, other.path, answer_);
-    if (!(price < least * (1.0 - as_cheap))) continue;
-    least = price;
-    path_ = std::move(other.path);
-  }
-  tree_options_.seed = seed;
-}
-
-template <class Body>
-void SampledSolve<Body>::finish() {
-  if (answer_.outcome == Outcome::stopped) return;
-  if (answer_.outcome != Outcome::solved) {
-    if (const std::string_view why = cause(); !why.empty()) answer_.figures.push_back({"cause", std::string(why)});
-    if (goals_.empty() && answer_.outcome == Outcome::not_connected)
-      answer_.figures.push_back({"goals_tried", body_.goals_tried()});
-    return;
-  }
-  if (request_.options.optimise) {
-    const StageTimer timer(execution(), "optimise", answer_.seconds.optimise, path_.size());
-    if constexpr (requires { body_.paths_weighed(); }) choose_path();
-    answer_.raw_length =
-        path_length(path_, [this](const State& a, const State& b) { return body_.length(*world_, a, b); });
-    path_ = body_.shortened(*world_, std::move(path_), answer_);
-  }
-  body_.judge(*world_, std::move(path_), answer_);
-}
-
-/// Why there is no path, one word a cause.
-template <class Body>
-std::string_view SampledSolve<Body>::cause() const {
-  if (answer_.outcome == Outcome::start_blocked || answer_.outcome == Outcome::goal_blocked) {
-    return body_.cause_of_blocked(*world_, answer_.outcome, goals_);
-  }
-  if (goals_.empty()) return "goal_not_found";
-  return cause_of_separation(answer_, by_roadmap());
+Answer solve_sampled(const SolveRequest& request) {
+  return SampledSolve(request, Body(request)).run();
 }
 
 }  // namespace warren

@@ -79,14 +79,67 @@ class Arm : public UsualBody {
   }
   static bool provably_apart(const World&, const std::vector<JointState>&) { return false; }
   bool start_stands_free() const { return goal_stands_free(problem_.start); }
-  bool goal_stands_free(const JointState& q) const;
+  bool goal_stands_free(const JointState& q) const {
+    ArmVerifyOptions options = problem_.verify_options();
+    options.start.reset();
+    options.goal.reset();
+    options.goal_place.reset();
+    options.clearance +=
+        end_margin(scene_, problem_.robot, problem_.clearance, SerialChain(problem_.table).reach(), execution_);
+    return verify_arm(scene_, problem_.table, std::span(&q, 1), options, execution_).verified;
+  }
   static double length(const World& world, const JointState& a, const JointState& b) { return world.distance(a, b); }
-  Path<JointState> shortened(const World& world, Path<JointState> path, Answer& answer) const;
-  void judge(const World& world, const Path<JointState>& path, Answer& answer) const;
-  std::string_view cause_of_blocked(const World& world, Outcome outcome, const std::vector<JointState>& goals) const;
+  Path<JointState> shortened(const World& world, Path<JointState> path, Answer& answer) const {
+    const auto length_of = [&](const JointState& a, const JointState& b) { return length(world, a, b); };
+    return with_even_idle_joints(
+        world, shortcut_path(world, std::move(path), length_of, {.seed = answer.seed}, execution_, answer.counters));
+  }
+  void judge(const World& world, const Path<JointState>& path, Answer& answer) const {
+    const StageTimer timer(execution_, "verify", answer.seconds.verify, path.size());
+    const Verification found = verify_arm(scene_, problem_.table, path, problem_.verify_options(), execution_);
+    take_verdict(answer, found);
+    answer.states.width = most_joints;
+    for (const JointState& q : path) {
+      const Vec3 tool = world.chain().tool_pose(q).translation();
+      answer.path.push_back({tool.x(), tool.y()});
+      answer.states.add(q);
+    }
+  }
+  std::string_view cause_of_blocked(const World& world, Outcome outcome, const std::vector<JointState>& goals) const {
+    const auto is_outside = [&](const JointState& q) { return world.chain().joint_outside_limits(q) != most_joints; };
+    if (outcome == Outcome::start_blocked) {
+      return is_outside(problem_.start) ? "start_outside_limits" : "start_in_collision";
+    }
+    if (goals.empty() && !tip_is_blocked(scene_, problem_)) return "goal_out_of_reach";
+    return std::all_of(goals.begin(), goals.end(), is_outside) ? "goal_outside_limits" : "goal_in_collision";
+  }
 
  private:
-  std::vector<JointState> postures(const World& world);
+  /// A few that are quickly found, and where none of these is free others: first those of large pieces of the wrist's
+  /// turns, then of smaller ones.
+  std::vector<JointState> postures(const World& world) {
+    std::vector<JointState> states = goal_states(problem_, world.chain());
+    auto query = world.make_query();
+    const auto free_of = [&](const std::vector<JointState>& all) {
+      std::vector<JointState> free;
+      std::ranges::copy_if(all, std::back_inserter(free), [&](const JointState& q) {
+        execution_.check();
+        return world.is_free(q, query);
+      });
+      return free;
+    };
+    if (!problem_.any_posture() || !world.chain().moves(4) || !free_of(states).empty()) return states;
+    if (tip_is_blocked(scene_, problem_)) return states;
+    for (const std::size_t enough : {std::size_t{64}, std::size_t{16'384}}) {
+      const ToolPostures more =
+          tool_postures(world.chain(), problem_.goal_place(), problem_.start[5], enough, execution_);
+      if (more.none_is_left) return {};
+      tried_ = states.size() + more.states.size();
+      if (std::vector<JointState> free = free_of(more.states); !free.empty()) return free;
+    }
+    knows_all_ = false;
+    return {};
+  }
 
   const Scene& scene_;
   const Execution& execution_;
@@ -96,73 +149,6 @@ class Arm : public UsualBody {
   bool knows_all_ = true;  // is every posture blocked where none of the goals is free?
 };
 
-/// A few that are quickly found, and where none of these is free others: first those of large pieces of the wrist's
-/// turns, then of smaller ones.
-std::vector<JointState> Arm::postures(const World& world) {
-  std::vector<JointState> states = goal_states(problem_, world.chain());
-  auto query = world.make_query();
-  const auto free_of = [&](const std::vector<JointState>& all) {
-    std::vector<JointState> free;
-    std::ranges::copy_if(all, std::back_inserter(free), [&](const JointState& q) {
-      execution_.check();
-      return world.is_free(q, query);
-    });
-    return free;
-  };
-  if (!problem_.any_posture() || !world.chain().moves(4) || !free_of(states).empty()) return states;
-  if (tip_is_blocked(scene_, problem_)) return states;
-  for (const std::size_t enough : {std::size_t{64}, std::size_t{16'384}}) {
-    const ToolPostures more =
-        tool_postures(world.chain(), problem_.goal_place(), problem_.start[5], enough, execution_);
-    if (more.none_is_left) return {};
-    tried_ = states.size() + more.states.size();
-    if (std::vector<JointState> free = free_of(more.states); !free.empty()) return free;
-  }
-  knows_all_ = false;
-  return {};
-}
-
-bool Arm::goal_stands_free(const JointState& q) const {
-  ArmVerifyOptions options = problem_.verify_options();
-  options.start.reset();
-  options.goal.reset();
-  options.goal_place.reset();
-  options.clearance +=
-      end_margin(scene_, problem_.robot, problem_.clearance, SerialChain(problem_.table).reach(), execution_);
-  return verify_arm(scene_, problem_.table, std::span(&q, 1), options, execution_).verified;
-}
-
-Path<JointState> Arm::shortened(const World& world, Path<JointState> path, Answer& answer) const {
-  const auto length_of = [&](const JointState& a, const JointState& b) { return length(world, a, b); };
-  return with_even_idle_joints(
-      world, shortcut_path(world, std::move(path), length_of, {.seed = answer.seed}, execution_, answer.counters));
-}
-
-void Arm::judge(const World& world, const Path<JointState>& path, Answer& answer) const {
-  const StageTimer timer(execution_, "verify", answer.seconds.verify, path.size());
-  const Verification found = verify_arm(scene_, problem_.table, path, problem_.verify_options(), execution_);
-  if (!found.verified) fail_verification(answer, found.first_violation);
-  answer.verified = true;
-  answer.length = found.length;
-  answer.min_clearance = found.min_clearance;
-  answer.states.width = most_joints;
-  for (const JointState& q : path) {
-    const Vec3 tool = world.chain().tool_pose(q).translation();
-    answer.path.push_back({tool.x(), tool.y()});
-    answer.states.add(q);
-  }
-}
-
-std::string_view Arm::cause_of_blocked(const World& world, Outcome outcome,
-                                       const std::vector<JointState>& goals) const {
-  const auto is_outside = [&](const JointState& q) { return world.chain().joint_outside_limits(q) != most_joints; };
-  if (outcome == Outcome::start_blocked) {
-    return is_outside(problem_.start) ? "start_outside_limits" : "start_in_collision";
-  }
-  if (goals.empty() && !tip_is_blocked(scene_, problem_)) return "goal_out_of_reach";
-  return std::all_of(goals.begin(), goals.end(), is_outside) ? "goal_outside_limits" : "goal_in_collision";
-}
-
 constexpr OptionSet attach_option{Option::attach};
 constexpr PlannerChoice arm_planners[] = {{PlannerKind::rrt_connect, rrt_connect_options},
                                           {PlannerKind::rrt, rrt_options},
@@ -170,10 +156,6 @@ constexpr PlannerChoice arm_planners[] = {{PlannerKind::rrt_connect, rrt_connect
                                           {PlannerKind::lazy_prm, lazy_prm_takes | attach_option}};
 
 bool fits_arm(const Scene&, const RobotSpec& robot) { return is_arm(robot); }
-
-PlannerKind usual_arm_planner(const SolveOptions&, const Scene&, const Question&) { return PlannerKind::rrt_connect; }
-
-Answer solve_arm(const SolveRequest& request) { return SampledSolve(request, Arm(request)).run(); }
 
 Verdict recheck_arm(const Scene& scene, const Question& question, const RecordedAnswer& answer,
                     const Execution& execution) {
@@ -188,8 +170,9 @@ Verdict recheck_arm(const Scene& scene, const Question& question, const Recorded
 }  // namespace
 
 SolveKind arm_kind() {
-  return {"an arm", fits_arm,    arm_planners,       usual_arm_planner, solve_arm,
-          nullptr,  recheck_arm, build_sampled<Arm>, open_sampled<Arm>};
+  return {"an arm",           fits_arm, arm_planners, usually<PlannerKind::rrt_connect>,
+          solve_sampled<Arm>, nullptr,  recheck_arm,  build_sampled<Arm>,
+          open_sampled<Arm>};
 }
 
 }  // namespace warren

@@ -15,8 +15,8 @@
 #include "core/base/error.hpp"
 #include "planners/visibility/visibility_path.hpp"
 #include "solve/kinds/plane_steps.hpp"
+#include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/solve_steps.hpp"
-#include "solve/kinds/turning_judge.hpp"
 #include "worlds/plane/obstacles_at_fixed_angle.hpp"
 
 namespace warren {
@@ -144,10 +144,6 @@ bool fits_fixed_angle(const Scene& scene, const RobotSpec& robot) {
   return robot.kind == RobotKind::polygon && !scene.map;
 }
 
-PlannerKind usual_fixed_angle_planner(const SolveOptions&, const Scene&, const Question&) {
-  return PlannerKind::visibility;
-}
-
 Answer solve_fixed_angle(const SolveRequest& request) { return FixedAngleSolve(request).run(); }
 
 }  // namespace
@@ -156,7 +152,7 @@ SolveKind fixed_angle_kind() {
   return {"a polygon at a fixed angle",
           fits_fixed_angle,
           fixed_angle_planners,
-          usual_fixed_angle_planner,
+          usually<PlannerKind::visibility>,
           solve_fixed_angle,
           nullptr,
           nullptr};

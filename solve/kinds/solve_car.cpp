@@ -86,7 +86,17 @@ class Car : public PoseBody {
     if constexpr (!Curve::one_way) path = redriven(world, std::move(path), answer);
     return path;
   }
-  void judge(const World& world, const Path<Se2>& path, Answer& answer) const;
+  void judge(const World& world, const Path<Se2>& path, Answer& answer) const {
+    std::vector<Se2> poses = {path.front()};
+    for (std::size_t i = 1; i < path.size(); ++i) append_joints(poses, world.curve(path[i - 1], path[i]));
+    const StageTimer timer(execution(), "verify", answer.seconds.verify, poses.size());
+    const Verification found =
+        verify_car(scene(), verified_car(question().robot), poses, verify_options(question()), execution(), judged());
+    take_poses(answer, found, poses);
+    answer.path_figures.push_back({"steering", std::string(name_of(question().robot.steering))});
+    answer.path_figures.push_back({"cusps", std::uint64_t{found.cusps}});
+    answer.path_figures.push_back({"reversed_length", found.reversed});
+  }
   /// Of how many trees.
   std::size_t paths_weighed() const { return is_length_alone() ? 1 : 4; }
   double price_once_shorter(const World& world, Path<Se2> path, Answer& answer) const {
@@ -113,24 +123,6 @@ class Car : public PoseBody {
   CarFields asked_;
 };
 
-template <class Curve>
-void Car<Curve>::judge(const World& world, const Path<Se2>& path, Answer& answer) const {
-  std::vector<Se2> poses = {path.front()};
-  for (std::size_t i = 1; i < path.size(); ++i) append_joints(poses, world.curve(path[i - 1], path[i]));
-  const StageTimer timer(execution(), "verify", answer.seconds.verify, poses.size());
-  const Verification found =
-      verify_car(scene(), verified_car(question().robot), poses, this->verify_options(), execution(), judged());
-  if (!found.verified) fail_verification(answer, found.first_violation);
-  answer.verified = true;
-  answer.length = found.length;
-  answer.turn_rad = found.turn_rad;
-  answer.min_clearance = found.min_clearance;
-  answer.path_figures.push_back({"steering", std::string(name_of(question().robot.steering))});
-  answer.path_figures.push_back({"cusps", std::uint64_t{found.cusps}});
-  answer.path_figures.push_back({"reversed_length", found.reversed});
-  record_poses(answer, poses);
-}
-
 constexpr OptionSet curve_options{Option::steering, Option::turning_radius, Option::cusp_cost, Option::reverse_cost};
 constexpr PlannerChoice car_planners[] = {{PlannerKind::rrt_connect, rrt_connect_options | curve_options},
                                           {PlannerKind::rrt, rrt_options | curve_options},
@@ -139,15 +131,13 @@ constexpr PlannerChoice car_planners[] = {{PlannerKind::rrt_connect, rrt_connect
 
 bool fits_car(const Scene&, const RobotSpec& robot) { return robot.kind == RobotKind::car; }
 
-PlannerKind usual_car_planner(const SolveOptions&, const Scene&, const Question&) { return PlannerKind::rrt_connect; }
-
 bool only_forwards(const SolveRequest& request) {
   return car_problem(request.scene, request.question, request.options.car).robot.steering == SteeringKind::dubins;
 }
 
 Answer solve_car(const SolveRequest& request) {
-  if (only_forwards(request)) return SampledSolve(request, Car<DubinsCurve>(request)).run();
-  return SampledSolve(request, Car<ReedsSheppCurve>(request)).run();
+  const auto solve = only_forwards(request) ? solve_sampled<Car<DubinsCurve>> : solve_sampled<Car<ReedsSheppCurve>>;
+  return solve(request);
 }
 
 BuiltArrays build_for_car(const SolveRequest& request) {
@@ -165,19 +155,14 @@ Verdict recheck_car(const Scene& scene, const Question& question, const Recorded
                     const Execution& execution) {
   const PoseProblem problem = pose_problem(scene, question, body_words);
   const std::vector<Se2> path = recorded_poses(answer, body_words);
-  const PoseVerifyOptions options{.clearance = problem.clearance,
-                                  .start = problem.start,
-                                  .goal = problem.goal_pose(),
-                                  .any_heading = problem.any_heading()};
-  const Verification found = verify_car(scene, verified_car(problem.robot), path, options, execution);
-  return {found, problem.general()};
+  return {verify_car(scene, verified_car(problem.robot), path, verify_options(problem), execution), problem.general()};
 }
 
 }  // namespace
 
 SolveKind car_kind() {
-  return {body_words, fits_car,    car_planners,  usual_car_planner, solve_car,
-          nullptr,    recheck_car, build_for_car, open_for_car};
+  return {body_words,  fits_car,      car_planners, usually<PlannerKind::rrt_connect>, solve_car, nullptr,
+          recheck_car, build_for_car, open_for_car};
 }
 
 }  // namespace warren

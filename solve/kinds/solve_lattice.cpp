@@ -39,44 +39,10 @@ namespace {
 // state. Any other is joined to the free states around it, as a roadmap would join it: by motions that are certified
 // against the obstacles themselves, at the cost of their way and turn in steps.
 
-/// Where a lattice's coordinates lie in the world: those of a scene are the world's own, those of a map begin in its
-/// corner and turn with it.
-class LatticeFrame {
- public:
-  explicit LatticeFrame(const Scene& scene);
-  Se2 in_world(const Se2& pose) const;
-  Se2 in_lattice(const Se2& pose) const;
-
- private:
-  bool is_moved_ = false;
-  Vec2 origin_;
-  double yaw_rad_ = 0.0;
-};
-
 /// A start or a goal, in the lattice's coordinates.
 struct LatticeEnd {
   Se2 pose;
   bool any_heading = false;  ///< pose.theta does not matter
-};
-
-/// The robot around one end, for motions between it and the lattice.
-class EndWorld {
- public:
-  /// Of a map only what the body may reach from the end. Throws what the worlds throw.
-  EndWorld(const Scene& scene, const Problem& problem, const HeadingLayers& layers, const LatticeEnd& end,
-           const Execution& execution);
-
-  /// The free states near the end to which its motion is certified, with what it costs; none if the end is not free.
-  std::vector<LayerEnd> joined(const LayerSearchOptions& costs) const;
-
- private:
-  std::vector<LayerEnd> joined_within(std::int64_t reach, const LayerSearchOptions& costs) const;
-  bool is_free_motion(const Se2& from, const Se2& to) const;
-
-  const HeadingLayers& layers_;
-  LatticeEnd end_;
-  const Execution& execution_;
-  std::variant<std::monostate, MazeWorld, PolygonWorld, Se2World> world_;
 };
 
 constexpr double full_turn = 2.0 * std::numbers::pi;
@@ -153,24 +119,33 @@ Se2World turning_world(const Scene& scene, const Problem& problem, const Se2& po
   return {around, problem.robot.outline, options, execution};
 }
 
-LatticeFrame::LatticeFrame(const Scene& scene) {
-  if (!scene.map) return;
-  origin_ = scene.map->origin;
-  yaw_rad_ = scene.map->yaw_rad;
-  is_moved_ = !(origin_ == Vec2{}) || yaw_rad_ != 0.0;
-}
+/// Where a lattice's coordinates lie in the world: those of a scene are the world's own, those of a map begin in its
+/// corner and turn with it.
+class LatticeFrame {
+ public:
+  explicit LatticeFrame(const Scene& scene) {
+    if (!scene.map) return;
+    origin_ = scene.map->origin;
+    yaw_rad_ = scene.map->yaw_rad;
+    is_moved_ = !(origin_ == Vec2{}) || yaw_rad_ != 0.0;
+  }
+  Se2 in_world(const Se2& pose) const {
+    if (!is_moved_) return pose;
+    const Vec2 p = origin_ + Rotation(yaw_rad_)(pose.position());
+    return {p.x, p.y, pose.theta + yaw_rad_};
+  }
+  Se2 in_lattice(const Se2& pose) const {
+    if (!is_moved_) return pose;
+    const Vec2 p = Rotation(-yaw_rad_)(pose.position() - origin_);
+    return {p.x, p.y, pose.theta - yaw_rad_};
+  }
 
-Se2 LatticeFrame::in_world(const Se2& pose) const {
-  if (!is_moved_) return pose;
-  const Vec2 p = origin_ + Rotation(yaw_rad_)(pose.position());
-  return {p.x, p.y, pose.theta + yaw_rad_};
-}
+ private:
+  bool is_moved_ = false;
+  Vec2 origin_;
+  double yaw_rad_ = 0.0;
+};
 
-Se2 LatticeFrame::in_lattice(const Se2& pose) const {
-  if (!is_moved_) return pose;
-  const Vec2 p = Rotation(-yaw_rad_)(pose.position() - origin_);
-  return {p.x, p.y, pose.theta - yaw_rad_};
-}
 /// The pose of a state, in the lattice's coordinates.
 Se2 pose_of(const HeadingLayers& layers, const LayerState& state) {
   return {layers.origin.x + layers.cell * state.i, layers.origin.y + layers.cell * state.j,
@@ -193,60 +168,71 @@ std::vector<LayerEnd> states_at(const HeadingLayers& layers, const LatticeEnd& e
   return states;
 }
 
-EndWorld::EndWorld(const Scene& scene, const Problem& problem, const HeadingLayers& layers, const LatticeEnd& end,
-                   const Execution& execution)
-    : layers_(layers), end_(end), execution_(execution) {
-  const double radius = problem.robot.radius + problem.clearance;
-  if (problem.robot.kind == RobotKind::polygon) {
-    world_.emplace<Se2World>(turning_world(scene, problem, end.pose, execution));
-  } else if (scene.polygons.empty()) {
-    world_.emplace<MazeWorld>(scene, radius, execution);
-  } else {
-    world_.emplace<PolygonWorld>(scene, radius, execution);
-  }
-}
-
-std::vector<LayerEnd> EndWorld::joined(const LayerSearchOptions& costs) const {
-  constexpr std::int64_t usual_join = 2;
-  std::vector<LayerEnd> ends = joined_within(usual_join, costs);
-  return ends.empty() ? joined_within(widest_join, costs) : ends;
-}
-
-std::vector<LayerEnd> EndWorld::joined_within(std::int64_t reach, const LayerSearchOptions& costs) const {
-  const Around columns((end_.pose.x - layers_.origin.x) / layers_.cell, reach);
-  const Around rows((end_.pose.y - layers_.origin.y) / layers_.cell, reach);
-  const std::vector<std::uint32_t> headings = headings_around(layers_, end_);
-  std::vector<LayerEnd> ends;
-  for (std::int64_t j = std::max<std::int64_t>(rows.first, 0);
-       j <= std::min<std::int64_t>(rows.last, layers_.height - 1); ++j) {
-    for (std::int64_t i = std::max<std::int64_t>(columns.first, 0);
-         i <= std::min<std::int64_t>(columns.last, layers_.width - 1); ++i) {
-      execution_.check();
-      for (const std::uint32_t k : headings) {
-        const LayerState state{static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), k};
-        if (!layers_.is_free(state.i, state.j, k)) continue;
-        const Se2 to = pose_of(layers_, state);
-        const Se2 from{end_.pose.x, end_.pose.y, end_.any_heading ? to.theta : end_.pose.theta};
-        if (!is_free_motion(from, to)) continue;
-        const double turn = layers_.angles > 1 ? std::abs(turn_between(from.theta, to.theta)) : 0.0;
-        ends.push_back({state, costs.step_cost * distance(from.position(), to.position()) / layers_.cell +
-                                   costs.turn_cost * turn / heading_step(layers_)});
-      }
+/// The robot around one end, for motions between it and the lattice.
+class EndWorld {
+ public:
+  /// Of a map only what the body may reach from the end. Throws what the worlds throw.
+  EndWorld(const Scene& scene, const Problem& problem, const HeadingLayers& layers, const LatticeEnd& end,
+           const Execution& execution)
+      : layers_(layers), end_(end), execution_(execution) {
+    const double radius = problem.robot.radius + problem.clearance;
+    if (problem.robot.kind == RobotKind::polygon) {
+      world_.emplace<Se2World>(turning_world(scene, problem, end.pose, execution));
+    } else if (scene.polygons.empty()) {
+      world_.emplace<MazeWorld>(scene, radius, execution);
+    } else {
+      world_.emplace<PolygonWorld>(scene, radius, execution);
     }
   }
-  return ends;
-}
 
-bool EndWorld::is_free_motion(const Se2& from, const Se2& to) const {
-  const auto is_free = [&](const auto& world, const auto& a, const auto& b) {
-    auto query = world.make_query();
-    return world.is_free(a, query) && world.is_free_motion(a, b, query);
-  };
-  if (const auto* turning = std::get_if<Se2World>(&world_)) return is_free(*turning, from, to);
-  if (const auto* walls = std::get_if<MazeWorld>(&world_)) return is_free(*walls, from.position(), to.position());
-  if (const auto* plane = std::get_if<PolygonWorld>(&world_)) return is_free(*plane, from.position(), to.position());
-  return false;
-}
+  /// The free states near the end to which its motion is certified, with what it costs; none if the end is not free.
+  std::vector<LayerEnd> joined(const LayerSearchOptions& costs) const {
+    constexpr std::int64_t usual_join = 2;
+    std::vector<LayerEnd> ends = joined_within(usual_join, costs);
+    return ends.empty() ? joined_within(widest_join, costs) : ends;
+  }
+
+ private:
+  std::vector<LayerEnd> joined_within(std::int64_t reach, const LayerSearchOptions& costs) const {
+    const Around columns((end_.pose.x - layers_.origin.x) / layers_.cell, reach);
+    const Around rows((end_.pose.y - layers_.origin.y) / layers_.cell, reach);
+    const std::vector<std::uint32_t> headings = headings_around(layers_, end_);
+    std::vector<LayerEnd> ends;
+    for (std::int64_t j = std::max<std::int64_t>(rows.first, 0);
+         j <= std::min<std::int64_t>(rows.last, layers_.height - 1); ++j) {
+      for (std::int64_t i = std::max<std::int64_t>(columns.first, 0);
+           i <= std::min<std::int64_t>(columns.last, layers_.width - 1); ++i) {
+        execution_.check();
+        for (const std::uint32_t k : headings) {
+          const LayerState state{static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), k};
+          if (!layers_.is_free(state.i, state.j, k)) continue;
+          const Se2 to = pose_of(layers_, state);
+          const Se2 from{end_.pose.x, end_.pose.y, end_.any_heading ? to.theta : end_.pose.theta};
+          if (!is_free_motion(from, to)) continue;
+          const double turn = layers_.angles > 1 ? std::abs(turn_between(from.theta, to.theta)) : 0.0;
+          ends.push_back({state, costs.step_cost * distance(from.position(), to.position()) / layers_.cell +
+                                     costs.turn_cost * turn / heading_step(layers_)});
+        }
+      }
+    }
+    return ends;
+  }
+  bool is_free_motion(const Se2& from, const Se2& to) const {
+    const auto is_free = [&](const auto& world, const auto& a, const auto& b) {
+      auto query = world.make_query();
+      return world.is_free(a, query) && world.is_free_motion(a, b, query);
+    };
+    if (const auto* turning = std::get_if<Se2World>(&world_)) return is_free(*turning, from, to);
+    if (const auto* walls = std::get_if<MazeWorld>(&world_)) return is_free(*walls, from.position(), to.position());
+    if (const auto* plane = std::get_if<PolygonWorld>(&world_)) return is_free(*plane, from.position(), to.position());
+    return false;
+  }
+
+  const HeadingLayers& layers_;
+  LatticeEnd end_;
+  const Execution& execution_;
+  std::variant<std::monostate, MazeWorld, PolygonWorld, Se2World> world_;
+};
 
 constexpr PlannerChoice lattice_planners[] = {
     {PlannerKind::grid, OptionSet{Option::cell, Option::angles, Option::face_motion, Option::step_cost,
@@ -256,8 +242,6 @@ bool fits_lattice(const Scene& scene, const RobotSpec& robot) {
   const bool fits = robot.kind == RobotKind::point || robot.kind == RobotKind::disc || robot.kind == RobotKind::polygon;
   return fits && (!scene.map || robot.kind == RobotKind::polygon);
 }
-
-PlannerKind usual_lattice_planner(const SolveOptions&, const Scene&, const Question&) { return PlannerKind::grid; }
 
 Problem problem_of(const Scene& scene, const Question& options) {
   if (options.contact == Contact::allowed) throw UsageError("@contact: grid keeps off walls and polygons");
@@ -487,14 +471,10 @@ class LatticeSolve {
   void verify() {
     const StageTimer timer(request_.execution, "verify", answer_.seconds.verify, answer_.path.size());
     const Verification verification = judged(poses_, layer_options_.kind == LayerKind::exact);
-    if (!verification.verified) {
-      if (layer_options_.kind == LayerKind::exact) fail_verification(answer_, verification.first_violation);
-      return refute(answer_, verification);  // report 004's discs are no promise
-    }
-    answer_.verified = true;
+    const bool is_promised = layer_options_.kind == LayerKind::exact;  // report 004's discs are none
+    if (!verification.verified && !is_promised) return refute(answer_, verification);
+    take_verdict(answer_, verification);
     if (turns()) answer_.turn_rad = verification.turn_rad;
-    answer_.length = verification.length;
-    answer_.min_clearance = verification.min_clearance;
   }
 
   /// The layers nearest to some headings, which course reports show.
@@ -535,7 +515,7 @@ SolveKind lattice_kind() {
   return {"a body on a grid in a scene",
           fits_lattice,
           lattice_planners,
-          usual_lattice_planner,
+          usually<PlannerKind::grid>,
           solve_lattice,
           nullptr,
           nullptr};

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A point or disc on an occupancy map: which planners there are. Polygons on maps turn among the map's border walls
-// (solve/kinds/solve_turning).
-
-#include <fmt/format.h>
+// A point or disc on an occupancy map: grid over its cells, voronoi along the skeleton of those that are free, and the
+// planners that sample. Polygons on maps turn among the map's border walls (solve/kinds/solve_turning).
 
 #include <algorithm>
 #include <array>
@@ -28,69 +26,7 @@
 namespace warren {
 namespace {
 
-constexpr OptionSet occupancy_roadmap_options = prm_takes | OptionSet{Option::heuristic, Option::neighbour_index};
-constexpr OptionSet lazy_options = lazy_prm_takes | OptionSet{Option::heuristic, Option::neighbour_index};
-constexpr PlannerChoice occupancy_planners[] = {
-    {PlannerKind::grid, OptionSet{Option::search, Option::diagonal, Option::optimise}},
-    {PlannerKind::prm, occupancy_roadmap_options},
-    {PlannerKind::lazy_prm, lazy_options},
-    {PlannerKind::rrt, rrt_options},
-    {PlannerKind::rrt_connect, rrt_connect_options},
-    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue}}};
-
-bool fits_occupancy(const Scene& scene, const RobotSpec& robot) {
-  return scene.map && (robot.kind == RobotKind::point || robot.kind == RobotKind::disc);
-}
-
-PlannerKind usual_occupancy_planner(const SolveOptions&, const Scene&, const Question&) { return PlannerKind::grid; }
-
-Answer solve_occupancy(const SolveRequest& request) {
-  switch (request.planner) {
-    case PlannerKind::grid:
-      return solve_by_cells_of_map(request);
-    case PlannerKind::voronoi:
-      return solve_on_skeleton(request);
-    default:
-      return solve_sampled_on_map(request);
-  }
-}
-
-BuiltArrays build_occupancy(const SolveRequest& request) {
-  return is_roadmap_planner(request.planner) ? build_on_map(request) : build_geometric(request);
-}
-
-std::unique_ptr<RoadmapSession> open_occupancy(const SolveRequest& request, const RoadmapArrays& arrays,
-                                               const ConnectionRule& rule) {
-  const auto open = is_roadmap_planner(request.planner) ? open_on_map : open_geometric;
-  return open(request, arrays, rule);
-}
-
-Verdict recheck_occupancy(const Scene& scene, const Question& question, const RecordedAnswer& answer,
-                          const Execution& execution) {
-  check_state_width(answer, 2, "a point or disc");
-  const WallProblem problem = map_problem(scene, question);
-  return {verify_map_path(*scene.map, problem, answer.path, execution), problem.general()};
-}
-
-}  // namespace
-
-SolveKind occupancy_kind() {
-  return {"a point or disc on an occupancy map",
-          fits_occupancy,
-          occupancy_planners,
-          usual_occupancy_planner,
-          solve_occupancy,
-          nullptr,
-          recheck_occupancy,
-          build_occupancy,
-          open_occupancy};
-}
-
-// The planner grid on an occupancy map: over its cells. What it does not find it may prove infeasible.
-
-namespace {
-
-/// One solve: the steps share the question and fill in the answer.
+/// One solve by grid: the steps share the question and fill in the answer. What is not found may be proved infeasible.
 class CellSolve {
  public:
   CellSolve(const SolveRequest& request, const WallProblem& problem)
@@ -235,20 +171,14 @@ class CellSolve {
   Answer answer_;
 };
 
-}  // namespace
-
-Answer solve_by_cells_of_map(const SolveRequest& request) {
+Answer solve_over_cells(const SolveRequest& request) {
   CellSolve solve(request, map_problem(request.scene, request.question));
   answer_within_limits(solve.answer(), [&] { solve.run(); });
   return std::move(solve.answer());
 }
 
-// prm, lazy-prm, rrt and rrt-connect for a point or disc on an occupancy map: joins worlds/plane/grid_world with the
-// planners that sample it. Motions are certified against the closed squares of blocked cells, wherever between them
-// they lead.
-
-namespace {
-
+/// For prm, lazy-prm, rrt and rrt-connect. Motions are certified against the closed squares of blocked cells, wherever
+/// between them they lead.
 class BodyOnMap : public UsualBody {
  public:
   using World = GridWorld;
@@ -270,7 +200,18 @@ class BodyOnMap : public UsualBody {
     const bool free_choice = !options.sampler && !roadmap.samples;
     return free_choice && is_narrow(map_.blocked) ? SamplerKind::cell_centres : roadmap.sampler;
   }
-  void index(std::optional<World>& world, SamplerKind sampler) const;
+  void index(std::optional<World>& world, SamplerKind sampler) const {
+    const MapMilestones milestones = sampler == SamplerKind::corridor       ? MapMilestones::corridors
+                                     : sampler == SamplerKind::cell_centres ? MapMilestones::cell_centres
+                                                                            : MapMilestones::anywhere;
+    if (map_.water.empty()) {
+      world.emplace(map_, problem_.reach(), execution_, milestones);
+      return;
+    }
+    OccupancyMap map = map_;
+    map.blocked = closed_cells(map_, problem_.start);
+    world.emplace(map, problem_.reach(), execution_, milestones);
+  }
   bool provably_apart(const World& world, const std::vector<Vec2>&) const {
     return warren::provably_apart(world.map(), world.map().blocked, problem_, execution_);
   }
@@ -293,42 +234,14 @@ class BodyOnMap : public UsualBody {
   WallProblem problem_;
 };
 
-void BodyOnMap::index(std::optional<World>& world, SamplerKind sampler) const {
-  const MapMilestones milestones = sampler == SamplerKind::corridor       ? MapMilestones::corridors
-                                   : sampler == SamplerKind::cell_centres ? MapMilestones::cell_centres
-                                                                          : MapMilestones::anywhere;
-  if (map_.water.empty()) {
-    world.emplace(map_, problem_.reach(), execution_, milestones);
-    return;
-  }
-  OccupancyMap map = map_;
-  map.blocked = closed_cells(map_, problem_.start);
-  world.emplace(map, problem_.reach(), execution_, milestones);
-}
-
-}  // namespace
-
-Answer solve_sampled_on_map(const SolveRequest& request) { return SampledSolve(request, BodyOnMap(request)).run(); }
-
-BuiltArrays build_on_map(const SolveRequest& request) { return build_sampled<BodyOnMap>(request); }
-
-std::unique_ptr<RoadmapSession> open_on_map(const SolveRequest& request, const RoadmapArrays& arrays,
-                                            const ConnectionRule& rule) {
-  return open_sampled<BodyOnMap>(request, arrays, rule);
-}
-
-// The planner voronoi on an occupancy map: along the skeleton of its free cells, as far from what is blocked as a path
-// can be. min_clearance of the answer is measured on the path by the verification.
-
-namespace {
-
 NamedLines lines_of(const OccupancyMap& map, const std::vector<std::pair<Cell, Cell>>& steps) {
   NamedLines lines{"medial_axis", {}};
   for (const auto& [from, to] : steps) lines.lines.add(std::array{cell_centre(map, from), cell_centre(map, to)});
   return lines;
 }
 
-/// One solve: the steps share the question and fill in the answer.
+/// One solve by voronoi, as far from what is blocked as a path can be. min_clearance of the answer is measured on the
+/// path by the verification.
 class SkeletonSolve {
  public:
   SkeletonSolve(const SolveRequest& request, const WallProblem& problem)
@@ -390,12 +303,66 @@ class SkeletonSolve {
   Answer answer_;
 };
 
+constexpr OptionSet occupancy_roadmap_options = prm_takes | OptionSet{Option::heuristic, Option::neighbour_index};
+constexpr OptionSet lazy_options = lazy_prm_takes | OptionSet{Option::heuristic, Option::neighbour_index};
+constexpr PlannerChoice occupancy_planners[] = {
+    {PlannerKind::grid, OptionSet{Option::search, Option::diagonal, Option::optimise}},
+    {PlannerKind::prm, occupancy_roadmap_options},
+    {PlannerKind::lazy_prm, lazy_options},
+    {PlannerKind::rrt, rrt_options},
+    {PlannerKind::rrt_connect, rrt_connect_options},
+    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue}}};
+
+bool fits_occupancy(const Scene& scene, const RobotSpec& robot) {
+  return scene.map && (robot.kind == RobotKind::point || robot.kind == RobotKind::disc);
+}
+
+Answer solve_occupancy(const SolveRequest& request) {
+  switch (request.planner) {
+    case PlannerKind::grid:
+      return solve_over_cells(request);
+    case PlannerKind::voronoi:
+      return solve_on_skeleton(request);
+    default:
+      return solve_sampled<BodyOnMap>(request);
+  }
+}
+
+BuiltArrays build_occupancy(const SolveRequest& request) {
+  return is_roadmap_planner(request.planner) ? build_sampled<BodyOnMap>(request) : build_geometric(request);
+}
+
+std::unique_ptr<RoadmapSession> open_occupancy(const SolveRequest& request, const RoadmapArrays& arrays,
+                                               const ConnectionRule& rule) {
+  const auto open = is_roadmap_planner(request.planner) ? open_sampled<BodyOnMap> : open_geometric;
+  return open(request, arrays, rule);
+}
+
+Verdict recheck_occupancy(const Scene& scene, const Question& question, const RecordedAnswer& answer,
+                          const Execution& execution) {
+  check_state_width(answer, 2, "a point or disc");
+  const WallProblem problem = map_problem(scene, question);
+  return {verify_map_path(*scene.map, problem, answer.path, execution), problem.general()};
+}
+
 }  // namespace
 
 Answer solve_on_skeleton(const SolveRequest& request) {
   SkeletonSolve solve(request, map_problem(request.scene, request.question));
   answer_within_limits(solve.answer(), [&] { solve.run(); });
   return std::move(solve.answer());
+}
+
+SolveKind occupancy_kind() {
+  return {"a point or disc on an occupancy map",
+          fits_occupancy,
+          occupancy_planners,
+          usually<PlannerKind::grid>,
+          solve_occupancy,
+          nullptr,
+          recheck_occupancy,
+          build_occupancy,
+          open_occupancy};
 }
 
 }  // namespace warren

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A point or disc among polygons and walls: joins worlds/plane/polygon_world with the planners that sample it.
+// A point or disc among polygons and walls: joins worlds/plane/polygon_world with the planners that sample it, the
+// planner cells (a route through vertical cells, and a path through its doors; that there is no route proves that there
+// is no path) and the planner voronoi (along the medial axis, as far from all obstacles as a path can be; min_clearance
+// of the answer is measured on the path by the verification). The planner visibility is solve_visibility.cpp's.
 
 #include <fmt/format.h>
 
@@ -23,6 +26,66 @@
 
 namespace warren {
 namespace {
+
+Answer solve_by_cells(const SolveRequest& request) {
+  const WallProblem problem = touching_problem(request);
+  const SearchChoice search = search_choice(request.options);
+  const CellOptions options = cell_options(request.options, search);
+  Answer answer;
+  describe_plane_planner(answer, request, problem, search);
+  answer.options.push_back(doors_option(options));
+  answer_within_limits(answer, [&] {
+    const CellRoadmap* known = asked_roadmap<CellRoadmap>(request);
+    PlaneObstacles obstacles;
+    if (known == nullptr) obstacles = indexed_obstacles(request, answer);
+    if (stand_on_seams(request, problem, answer)) return;
+    CellPlan plan;
+    Solution<Vec2> solution;
+    without_clashes(request, [&] {
+      const auto& [start, goal] = std::tie(problem.start, problem.goal);
+      solution = known != nullptr ? plan_through_cells(*known, start, goal, options, request.execution)
+                                  : plan_through_cells(obstacles, start, goal, options, request.execution, &plan);
+    });
+    take_solution(answer, std::move(solution));
+    const CellDecomposition& cells = known != nullptr ? known->cells : plan.cells;
+    answer.cells = CellCount{cells.cells.size(), cells.doors.size()};
+    if (answer.outcome == Outcome::not_connected) answer.outcome = Outcome::infeasible;  // cells miss no way
+    if (request.keep != nullptr) request.keep->lines.push_back(doors_of(cells));
+    verify_solved(answer, request.scene, problem, request.execution, request.asked.judged());
+  });
+  return answer;
+}
+
+MedialAxisOptions options_of(const SolveRequest& request, const WallProblem& problem, const SearchChoice& search) {
+  MedialAxisOptions options;
+  options.clearance = axis_clearance(problem);
+  options.search = search.search;
+  options.queue = search.queue;
+  options.objective = request.options.axis.objective.value_or(AxisObjective::length);
+  return options;
+}
+
+Solution<Vec2> plan_from_nothing(const SolveRequest& request, const WallProblem& problem,
+                                 const MedialAxisOptions& options, Answer& answer, MedialAxisPlan& plan) {
+  check_axis_box(request.scene);
+  const PlaneObstacles obstacles = indexed_obstacles(request, answer);
+  Solution<Vec2> solution;
+  without_clashes(request, [&] {
+    solution = plan_on_medial_axis(obstacles, problem.start, problem.goal, options, request.execution, &plan);
+  });
+  return solution;
+}
+
+NamedLines lines_of(const MedialAxis& axis) {
+  NamedLines lines{"medial_axis", {}};
+  std::vector<Vec2> points;
+  for (const AxisEdge& edge : axis.edges()) {
+    points.assign(1, axis.vertices()[edge.from]);
+    axis.curve(edge).append_polyline(points);
+    lines.lines.add(points);
+  }
+  return lines;
+}
 
 constexpr OptionSet plane_roadmap_options =
     prm_takes | OptionSet{Option::lazy, Option::pipeline, Option::heuristic, Option::neighbour_index};
@@ -114,21 +177,6 @@ Verdict recheck_plane(const Scene& scene, const Question& question, const Record
 
 }  // namespace
 
-SolveKind plane_kind() {
-  return {"a point or disc among polygons",
-          fits_plane,
-          plane_planners,
-          usual_plane_planner,
-          solve_plane,
-          nullptr,
-          recheck_plane,
-          build_on_plane,
-          open_on_plane};
-}
-
-// The planner cells: vertical cells, a route through them, and a path through its doors. That there is no route proves
-// that there is no path.
-
 CellOptions cell_options(const SolveOptions& asked, const SearchChoice& search) {
   const CellOptions options{
       .doors = asked.cells.doors.value_or(DoorKind::midpoint), .search = search.search, .queue = search.queue};
@@ -148,73 +196,6 @@ NamedLines doors_of(const CellDecomposition& cells) {
   }
   return doors;
 }
-
-Answer solve_by_cells(const SolveRequest& request) {
-  const WallProblem problem = touching_problem(request);
-  const SearchChoice search = search_choice(request.options);
-  const CellOptions options = cell_options(request.options, search);
-  Answer answer;
-  describe_plane_planner(answer, request, problem, search);
-  answer.options.push_back(doors_option(options));
-  answer_within_limits(answer, [&] {
-    const CellRoadmap* known = asked_roadmap<CellRoadmap>(request);
-    PlaneObstacles obstacles;
-    if (known == nullptr) obstacles = indexed_obstacles(request, answer);
-    if (stand_on_seams(request, problem, answer)) return;
-    CellPlan plan;
-    Solution<Vec2> solution;
-    without_clashes(request, [&] {
-      const auto& [start, goal] = std::tie(problem.start, problem.goal);
-      solution = known != nullptr ? plan_through_cells(*known, start, goal, options, request.execution)
-                                  : plan_through_cells(obstacles, start, goal, options, request.execution, &plan);
-    });
-    take_solution(answer, std::move(solution));
-    const CellDecomposition& cells = known != nullptr ? known->cells : plan.cells;
-    answer.cells = CellCount{cells.cells.size(), cells.doors.size()};
-    if (answer.outcome == Outcome::not_connected) answer.outcome = Outcome::infeasible;  // cells miss no way
-    if (request.keep != nullptr) request.keep->lines.push_back(doors_of(cells));
-    verify_solved(answer, request.scene, problem, request.execution, request.asked.judged());
-  });
-  return answer;
-}
-
-// The planner voronoi: along the medial axis, as far from all obstacles as a path can be. min_clearance of the answer
-// is measured on the path by the verification.
-
-namespace {
-
-MedialAxisOptions options_of(const SolveRequest& request, const WallProblem& problem, const SearchChoice& search) {
-  MedialAxisOptions options;
-  options.clearance = axis_clearance(problem);
-  options.search = search.search;
-  options.queue = search.queue;
-  options.objective = request.options.axis.objective.value_or(AxisObjective::length);
-  return options;
-}
-
-Solution<Vec2> plan_from_nothing(const SolveRequest& request, const WallProblem& problem,
-                                 const MedialAxisOptions& options, Answer& answer, MedialAxisPlan& plan) {
-  check_axis_box(request.scene);
-  const PlaneObstacles obstacles = indexed_obstacles(request, answer);
-  Solution<Vec2> solution;
-  without_clashes(request, [&] {
-    solution = plan_on_medial_axis(obstacles, problem.start, problem.goal, options, request.execution, &plan);
-  });
-  return solution;
-}
-
-NamedLines lines_of(const MedialAxis& axis) {
-  NamedLines lines{"medial_axis", {}};
-  std::vector<Vec2> points;
-  for (const AxisEdge& edge : axis.edges()) {
-    points.assign(1, axis.vertices()[edge.from]);
-    axis.curve(edge).append_polyline(points);
-    lines.lines.add(points);
-  }
-  return lines;
-}
-
-}  // namespace
 
 WallProblem voronoi_problem(const Scene& scene, const Question& question) {
   return keeping_off(scene, question, "voronoi keeps off the obstacles");
@@ -257,6 +238,18 @@ Answer solve_on_medial_axis(const SolveRequest& request) {
     verify_solved(answer, request.scene, problem, request.execution, request.asked.judged());
   });
   return answer;
+}
+
+SolveKind plane_kind() {
+  return {"a point or disc among polygons",
+          fits_plane,
+          plane_planners,
+          usual_plane_planner,
+          solve_plane,
+          nullptr,
+          recheck_plane,
+          build_on_plane,
+          open_on_plane};
 }
 
 }  // namespace warren

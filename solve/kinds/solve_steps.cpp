@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <stdexcept>
 
 #include "verify/judges/verify_point.hpp"
 
@@ -19,6 +18,20 @@ void add(StageTimes& to, const StageTimes& more) {
   to.graph += more.graph;
   to.reduce += more.reduce;
   to.search += more.search;
+}
+
+double largest_coordinate_of(const Scene& scene, const Execution& execution) {
+  double largest = 0.0;
+  if (const Box box = room_of(scene, execution); !box.empty()) {
+    for (const double c : {box.min.x, box.min.y, box.max.x, box.max.y}) largest = std::max(largest, std::abs(c));
+  }
+  for (const Sphere& s : scene.spheres) {
+    largest = std::max({largest, std::abs(s.x) + s.radius, std::abs(s.y) + s.radius, std::abs(s.z) + s.radius});
+  }
+  for (const SolidBox& box : scene.boxes) {
+    for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(box.low[k]), std::abs(box.high[k])});
+  }
+  return largest;
 }
 
 }  // namespace
@@ -78,6 +91,19 @@ std::string_view cause_of_separation(const Answer& answer, bool by_roadmap) {
   return answer.separation.goal_size <= 1 ? "goal_unconnected" : "different_components";
 }
 
+void price_heuristic(Answer& answer, std::optional<HeuristicKind> asked,
+                     const std::function<Answer(HeuristicKind)>& ask) {
+  if (!asked || asked == HeuristicKind::euclidean || !answer.verified) return;
+  try {
+    const Answer exact = ask(HeuristicKind::euclidean);
+    if (!exact.verified) return;
+    answer.path_figures.push_back({"searched_length", answer.raw_length.value_or(answer.length)});
+    answer.path_figures.push_back({"shortest_length", exact.length});
+    answer.path_figures.push_back({"shortest_expanded", exact.counters.expanded});
+  } catch (const Stopped&) {
+  }
+}
+
 void claim_nothing(Answer& answer) {
   answer.verified = false;
   answer.optimal = false;
@@ -90,6 +116,13 @@ void claim_nothing(Answer& answer) {
   answer.path.clear();
   answer.handed.reset();
   answer.states = {};
+}
+
+void make_stopped(Answer& answer, StopReason reason) {
+  answer.outcome = Outcome::stopped;
+  answer.stop_reason = reason;
+  answer.refuted.reset();
+  claim_nothing(answer);
 }
 
 void refute(Answer& answer, const Verification& found) {
@@ -137,24 +170,6 @@ Box room_of(const Scene& scene, const Execution& execution) {
   }
   return box;
 }
-
-namespace {
-
-double largest_coordinate_of(const Scene& scene, const Execution& execution) {
-  double largest = 0.0;
-  if (const Box box = room_of(scene, execution); !box.empty()) {
-    for (const double c : {box.min.x, box.min.y, box.max.x, box.max.y}) largest = std::max(largest, std::abs(c));
-  }
-  for (const Sphere& s : scene.spheres) {
-    largest = std::max({largest, std::abs(s.x) + s.radius, std::abs(s.y) + s.radius, std::abs(s.z) + s.radius});
-  }
-  for (const SolidBox& box : scene.boxes) {
-    for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(box.low[k]), std::abs(box.high[k])});
-  }
-  return largest;
-}
-
-}  // namespace
 
 double end_margin(const Scene& scene, const RobotSpec& robot, double clearance, double extent,
                   const Execution& execution) {

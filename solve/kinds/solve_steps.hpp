@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <new>
 #include <optional>
 #include <stdexcept>
@@ -20,6 +21,12 @@
 #include "verify/judges/verify_point.hpp"
 
 namespace warren {
+
+/// SolveKind::usual of a kind whose questions all have the same usual planner.
+template <PlannerKind planner>
+PlannerKind usually(const SolveOptions&, const Scene&, const Question&) {
+  return planner;
+}
 
 /// Problem, planner and options, as the answer repeats them; for planners that build roadmaps of samples.
 void describe_roadmap_planner(Answer& answer, const WallProblem& problem, const PlannerOptions& options);
@@ -47,8 +54,19 @@ void settle_blocked_ends(Answer& answer, const Scene& scene, const WallProblem& 
 /// apart.
 std::string_view cause_of_separation(const Answer& answer, bool by_roadmap);
 
+/// What an estimate that was asked for costs in length: the same question is answered once more by A* with the straight
+/// line, which finds the shortest path of the same roadmap. Adds to the path's figures `searched_length` (before
+/// shortening), `shortest_length` and `shortest_expanded` of the straight line, where another estimate was asked for
+/// and a path was found. `ask` answers with the estimate that it is given, without shortening. What stops meanwhile
+/// adds nothing.
+void price_heuristic(Answer& answer, std::optional<HeuristicKind> asked,
+                     const std::function<Answer(HeuristicKind)>& ask);
+
 /// Forgets all that an answer says of a path: only what a judge has verified is claimed.
 void claim_nothing(Answer& answer);
+
+/// What stops the work on an answer, or on what is told of it, makes it a stopped one, which claims nothing.
+void make_stopped(Answer& answer, StopReason reason);
 
 /// The path of a method that promises nothing has failed its verification: it is told as refuted, and as nothing else.
 void refute(Answer& answer, const Verification& found);
@@ -80,18 +98,12 @@ Verdict verify_plane_answer(const Scene& scene, const WallProblem& problem, cons
 template <class Solve>
 void answer_within_limits(Answer& answer, const Solve& solve) {
   const auto begin = std::chrono::steady_clock::now();
-  const auto stop = [&](StopReason reason) {
-    answer.outcome = Outcome::stopped;
-    answer.stop_reason = reason;
-    answer.refuted.reset();
-    claim_nothing(answer);
-  };
   try {
     solve();
   } catch (const Stopped& stopped) {
-    stop(stopped.reason);
+    make_stopped(answer, stopped.reason);
   } catch (const std::bad_alloc&) {
-    stop(StopReason::memory);
+    make_stopped(answer, StopReason::memory);
   }
   if (!answer.verified) claim_nothing(answer);
   answer.solve_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -8,9 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/base/error.hpp"
 #include "core/plane/se2.hpp"
-#include "scenes/scene/plane_obstacles.hpp"
 #include "solve/kinds/geometric_roadmaps.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/map_steps.hpp"
@@ -20,7 +18,6 @@
 #include "solve/kinds/sampled_roadmap.hpp"
 #include "solve/kinds/sampled_solve.hpp"
 #include "solve/kinds/solve_steps.hpp"
-#include "solve/kinds/turning_judge.hpp"
 #include "worlds/poses/se2_world.hpp"
 
 namespace warren {
@@ -57,38 +54,12 @@ constexpr PlannerChoice turning_planners[] = {{PlannerKind::rrt_connect, rrt_con
 
 bool fits_turning(const Scene&, const RobotSpec& robot) { return robot.kind == RobotKind::polygon; }
 
-PlannerKind usual_turning_planner(const SolveOptions&, const Scene&, const Question&) {
-  return PlannerKind::rrt_connect;
-}
-
-Answer solve_turning(const SolveRequest& request) { return SampledSolve(request, TurningPolygon(request)).run(); }
-
-}  // namespace
-
-SolveKind turning_kind() {
-  return {"a polygon that turns",
-          fits_turning,
-          turning_planners,
-          usual_turning_planner,
-          solve_turning,
-          nullptr,
-          recheck_turning,
-          build_sampled<TurningPolygon>,
-          open_sampled<TurningPolygon>};
-}
-
 // The planner voronoi for a polygon that could turn: along the medial axis of the scene, or the skeleton of a map, with
 // the disc that holds the body in any heading, so the heading of the start serves all the way; where the goal names
 // another, the body turns when it is there. A body that fits only in some headings is not found a way: not_connected.
 
-namespace {
-
 constexpr PlannerChoice turning_axis_planners[] = {
     {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue}}};
-
-PlannerKind usual_turning_axis_planner(const SolveOptions&, const Scene&, const Question&) {
-  return PlannerKind::voronoi;
-}
 
 /// The same question for the disc that holds the body.
 Question question_of_disc(const PoseProblem& problem) {
@@ -190,11 +161,17 @@ std::unique_ptr<RoadmapSession> open_turning_axis(const SolveRequest& request, c
 
 }  // namespace
 
+SolveKind turning_kind() {
+  return {"a polygon that turns",        fits_turning, turning_planners, usually<PlannerKind::rrt_connect>,
+          solve_sampled<TurningPolygon>, nullptr,      recheck_turning,  build_sampled<TurningPolygon>,
+          open_sampled<TurningPolygon>};
+}
+
 SolveKind turning_axis_kind() {
   return {"a polygon along the medial axis",
           fits_turning,
           turning_axis_planners,
-          usual_turning_axis_planner,
+          usually<PlannerKind::voronoi>,
           solve_turning_axis,
           nullptr,
           nullptr,

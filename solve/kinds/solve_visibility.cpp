@@ -2,7 +2,6 @@
 // The planner visibility: the shortest path of a point, and that it is the shortest is said. Worlds with very many
 // corners are searched lazily, unless something is asked for that needs the whole graph. With --sampled-edges the graph
 // is made as the report made it, and the answer says which of its edges are wrong.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -154,13 +153,9 @@ class SampledVisibilitySolve {
   void judge(Answer& answer) const {
     if (answer.outcome != Outcome::solved) return;
     const StageTimer timer(request_.execution, "verify", answer.seconds.verify);
-    const RecordedAnswer found{
-        .problem = {}, .world_hash = {}, .length = {}, .file = {}, .path = answer.path, .states = {}};
-    const Verification judged = verify_plane_answer(request_.scene, problem_, found, request_.execution);
+    const Verification judged = verify_plane_answer(request_.scene, problem_, recorded(answer), request_.execution);
     if (!judged.verified) return refute(answer, judged);
-    answer.verified = true;
-    answer.length = judged.length;
-    answer.min_clearance = judged.min_clearance;
+    take_verdict(answer, judged);
   }
 
   const SolveRequest& request_;

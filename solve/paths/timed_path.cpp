@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "core/base/trigonometry.hpp"
-#include "core/plane/geometry.hpp"
 #include "core/plane/se2.hpp"
 #include "worlds/poses/steering_curve.hpp"
 
@@ -19,6 +18,22 @@ constexpr std::size_t legs_a_poll = 1U << 14U;
 double of_joint(const std::vector<double>& limits, std::size_t k) {
   if (limits.empty()) return std::numeric_limits<double>::infinity();
   return limits[limits.size() == 1 ? 0 : k];
+}
+
+LegShape shape_of(RobotKind kind) {
+  switch (kind) {
+    case RobotKind::point:
+    case RobotKind::disc:
+      return LegShape::straight;
+    case RobotKind::polygon:
+      return LegShape::turning;
+    case RobotKind::car:
+      return LegShape::driven;
+    case RobotKind::puma560:
+    case RobotKind::arm:
+      return LegShape::joints;
+  }
+  return LegShape::straight;
 }
 
 }  // namespace
@@ -145,26 +160,6 @@ PathMoment TimedPath::at_share(std::size_t leg, double share, double& time_s) co
   time_s += r.up_s + r.level_s + (r.top - speed) / r.rate;
   return {leg, share, gear * speed};
 }
-
-namespace {
-
-LegShape shape_of(RobotKind kind) {
-  switch (kind) {
-    case RobotKind::point:
-    case RobotKind::disc:
-      return LegShape::straight;
-    case RobotKind::polygon:
-      return LegShape::turning;
-    case RobotKind::car:
-      return LegShape::driven;
-    case RobotKind::puma560:
-    case RobotKind::arm:
-      return LegShape::joints;
-  }
-  return LegShape::straight;
-}
-
-}  // namespace
 
 PathLegs::PathLegs(const Answer& answer)
     : answer_(&answer),

@@ -1,18 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// prm in a maze whose walls are left out (is_unmade), for those who have a problem and options already.
+// prm and lazy-prm among walls, held (solve_walls.cpp) or left out of the scene (is_unmade), for those who have a
+// problem and options already.
 #pragma once
 
 #include "core/base/packed_values.hpp"
 #include "core/base/solution.hpp"
 #include "parallel/execution.hpp"
+#include "planners/graph/roadmap_arrays.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"
 #include "solve/streamed/streamed_walls.hpp"
 
 namespace warren {
+
+/// Solves from walls in memory to path verified; the seconds are solve_s. Never throws Stopped. A path that fails its
+/// verification is a bug and throws std::logic_error. `keep` receives the roadmap for pictures; nullptr: not wanted.
+/// `asked`: a roadmap that is there already. Fills in what belongs to the work; world and threads are the caller's.
+Answer solve_walls(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
+                   const Execution& execution, PlannedRoadmap<Vec2>* keep, const RoadmapAsked& asked = {});
 
 /// What a streamed solve may be given beside the question; none of it changes the answer.
 struct StreamedHelp {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solve/streamed/solve_walls.hpp"
+// Joins the worlds of walls with the roadmap planners: scene and options in, verified answer out.
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,6 @@
 #include <string_view>
 #include <utility>
 
-#include "core/base/error.hpp"
 #include "planners/mazes/tiled_prm_lattice.hpp"
 #include "planners/shorten/taut_path.hpp"
 #include "scenes/mazes/maze_generator.hpp"
@@ -16,6 +15,7 @@
 #include "solve/kinds/sampled_roadmap.hpp"
 #include "solve/kinds/sampled_solve.hpp"
 #include "solve/kinds/solve_steps.hpp"
+#include "solve/streamed/solve_streamed.hpp"
 #include "worlds/plane/maze_world.hpp"
 
 namespace warren {
@@ -69,14 +69,65 @@ class WallSolve {
   Answer& answer() { return answer_; }
 
  private:
-  const MazeWorld& indexed_world();
-  void plan(PlannedRoadmap<Vec2>* keep);
-  Solution<Vec2> plan_tiles();
-  bool grows() const;
-  bool ends_are_free(const MazeWorld& world) const;
-  bool proved_infeasible();
-  void tell_cause();
-  void optimise();
+  const MazeWorld& indexed_world() {
+    if (asked_.session != nullptr) return *static_cast<const SessionIn<MazeWorld>&>(*asked_.session).world;
+    if (!world_) {
+      const StageTimer timer(execution_, "index", answer_.seconds.index, scene_.walls.size());
+      world_.emplace(scene_, problem_.reach(), execution_);
+    }
+    return *world_;
+  }
+  void plan(PlannedRoadmap<Vec2>* keep) {
+    if (asked_.session != nullptr) {
+      const auto& session = static_cast<const SessionIn<MazeWorld>&>(*asked_.session);
+      take_solution(answer_, ask_roadmap(*session.roadmap, problem_.start, problem_.goal, options_.roadmap, execution_,
+                                         *asked_.scratch, keep));
+      return;
+    }
+    if (options_.pipeline != PipelineKind::plain) {
+      take_solution(answer_, plan_tiles());
+      return;
+    }
+    const MazeWorld& world = indexed_world();
+    if (grows() && ends_are_free(world) && proved_infeasible()) return;
+    const auto planner = options_.planner == PlannerKind::prm ? prm<MazeWorld> : lazy_prm<MazeWorld>;
+    take_solution(answer_, planner(world, problem_.start, problem_.goal, options_.roadmap, execution_, keep));
+  }
+  Solution<Vec2> plan_tiles() {
+    const std::vector<Segment> bounds = bounds_walls(scene_);
+    const TiledProblem problem{
+        scene_.walls,   bounds,        scene_.bounds, problem_.reach(),
+        problem_.start, problem_.goal, nullptr,       options_.pipeline == PipelineKind::streamed};
+    return tiled_prm(problem, options_.roadmap, execution_);
+  }
+  /// Does the roadmap grow until start and goal connect? Then one asks first whether they ever can.
+  bool grows() const { return options_.roadmap.sampler != SamplerKind::lattice && !options_.roadmap.samples; }
+  bool ends_are_free(const MazeWorld& world) const {
+    auto query = world.make_query();
+    return world.is_free(problem_.start, query) && world.is_free(problem_.goal, query);
+  }
+  bool proved_infeasible() {
+    if (!scene_.maze) return false;
+    const StageTimer timer(execution_, "proof", answer_.seconds.search);
+    if (!proves_infeasible(scene_, problem_.start, problem_.goal, execution_)) return false;
+    answer_.outcome = Outcome::infeasible;
+    return true;
+  }
+  /// As SampledSolve says it of other bodies.
+  void tell_cause() {
+    const auto tell = [&](std::string_view cause) {
+      if (!cause.empty()) answer_.figures.push_back({"cause", std::string(cause)});
+    };
+    if (answer_.outcome == Outcome::start_blocked) tell("start_in_collision");
+    if (answer_.outcome == Outcome::goal_blocked) tell("goal_in_collision");
+    if (answer_.outcome == Outcome::not_connected) tell(cause_of_separation(answer_, true));
+  }
+  void optimise() {
+    const MazeWorld& world = indexed_world();
+    const StageTimer timer(execution_, "optimise", answer_.seconds.optimise, answer_.path.size());
+    answer_.raw_length = path_length(answer_.path, MazeWorld::distance);
+    answer_.path = taut_path(world.walls(), answer_.path, world.planning_clearance(), execution_);
+  }
 
   const Scene& scene_;
   const WallProblem& problem_;
@@ -87,70 +138,8 @@ class WallSolve {
   Answer answer_;
 };
 
-const MazeWorld& WallSolve::indexed_world() {
-  if (asked_.session != nullptr) return *static_cast<const SessionIn<MazeWorld>&>(*asked_.session).world;
-  if (!world_) {
-    const StageTimer timer(execution_, "index", answer_.seconds.index, scene_.walls.size());
-    world_.emplace(scene_, problem_.reach(), execution_);
-  }
-  return *world_;
-}
-
-void WallSolve::plan(PlannedRoadmap<Vec2>* keep) {
-  if (asked_.session != nullptr) {
-    const auto& session = static_cast<const SessionIn<MazeWorld>&>(*asked_.session);
-    take_solution(answer_, ask_roadmap(*session.roadmap, problem_.start, problem_.goal, options_.roadmap, execution_,
-                                       *asked_.scratch, keep));
-    return;
-  }
-  if (options_.pipeline != PipelineKind::plain) {
-    take_solution(answer_, plan_tiles());
-    return;
-  }
-  const MazeWorld& world = indexed_world();
-  if (grows() && ends_are_free(world) && proved_infeasible()) return;
-  const auto planner = options_.planner == PlannerKind::prm ? prm<MazeWorld> : lazy_prm<MazeWorld>;
-  take_solution(answer_, planner(world, problem_.start, problem_.goal, options_.roadmap, execution_, keep));
-}
-
-Solution<Vec2> WallSolve::plan_tiles() {
-  const std::vector<Segment> bounds = bounds_walls(scene_);
-  const TiledProblem problem{scene_.walls,   bounds,        scene_.bounds, problem_.reach(),
-                             problem_.start, problem_.goal, nullptr,       options_.pipeline == PipelineKind::streamed};
-  return tiled_prm(problem, options_.roadmap, execution_);
-}
-
-/// Does the roadmap grow until start and goal connect? Then one asks first whether they ever can.
-bool WallSolve::grows() const { return options_.roadmap.sampler != SamplerKind::lattice && !options_.roadmap.samples; }
-
-bool WallSolve::ends_are_free(const MazeWorld& world) const {
-  auto query = world.make_query();
-  return world.is_free(problem_.start, query) && world.is_free(problem_.goal, query);
-}
-
-bool WallSolve::proved_infeasible() {
-  if (!scene_.maze) return false;
-  const StageTimer timer(execution_, "proof", answer_.seconds.search);
-  if (!proves_infeasible(scene_, problem_.start, problem_.goal, execution_)) return false;
-  answer_.outcome = Outcome::infeasible;
-  return true;
-}
-
-/// As SampledSolve says it of other bodies.
-void WallSolve::tell_cause() {
-  const auto tell = [&](std::string_view cause) {
-    if (!cause.empty()) answer_.figures.push_back({"cause", std::string(cause)});
-  };
-  if (answer_.outcome == Outcome::start_blocked) tell("start_in_collision");
-  if (answer_.outcome == Outcome::goal_blocked) tell("goal_in_collision");
-  if (answer_.outcome == Outcome::not_connected) tell(cause_of_separation(answer_, true));
-}
-
-void WallSolve::optimise() {
-  const MazeWorld& world = indexed_world();
-  const StageTimer timer(execution_, "optimise", answer_.seconds.optimise, answer_.path.size());
-  answer_.raw_length = path_length(answer_.path, MazeWorld::distance);
-  answer_.path = taut_path(world.walls(), answer_.path, world.planning_clearance(), execution_);
+WallProblem problem_of(const SolveRequest& request) {
+  return keeping_off(request.scene, request.question, "prm and lazy-prm keep off the walls");
 }
 
 /// As a body of sampled_roadmap.hpp.
@@ -166,9 +155,6 @@ class PointAmongWalls : public UsualBody {
   void index(std::optional<World>& world, SamplerKind) const { world.emplace(scene_, problem_.reach(), execution_); }
 
  private:
-  static WallProblem problem_of(const SolveRequest& request) {
-    return keeping_off(request.scene, request.question, "prm and lazy-prm keep off the walls");
-  }
   const Scene& scene_;
   const Execution& execution_;
   WallProblem problem_;
@@ -188,10 +174,6 @@ PlannerKind usual_walls_planner(const SolveOptions& options, const Scene& scene,
   return usual_roadmap_planner(options, scene);
 }
 
-WallProblem problem_of(const SolveRequest& request) {
-  return keeping_off(request.scene, request.question, "prm and lazy-prm keep off the walls");
-}
-
 Answer solve_walls(const SolveRequest& request) {
   const WallProblem problem = problem_of(request);
   const PlannerOptions options = planner_options(request.options, request.scene, problem);
@@ -199,14 +181,17 @@ Answer solve_walls(const SolveRequest& request) {
   return solve_walls(request.scene, problem, options, request.execution, keep, request.asked);
 }
 
-constexpr std::uint64_t most_drawn = 40'000;  // cells: beyond, a picture's edges would merge
-
-/// Tiles keep no roadmap.
+/// The roadmap of the tiled pipeline, for a picture: tiles keep none, so the plain stages build it again, for mazes
+/// whose edges can be told apart in a picture.
 void make_roadmap(const SolveRequest& request) {
+  constexpr std::uint64_t most_drawn = 40'000;  // cells
   const WallProblem problem = problem_of(request);
   const PlannerOptions options = planner_options(request.options, request.scene, problem);
   if (options.planner != PlannerKind::prm || options.pipeline == PipelineKind::plain) return;
-  draw_roadmap(request.scene, problem, options, request.execution, request.keep->roadmap);
+  const LatticeSize size = options.roadmap.lattice;
+  if (std::uint64_t{size.rows} * size.cols > most_drawn) return;
+  const MazeWorld world(request.scene, problem.reach(), request.execution);
+  prm(world, problem.start, problem.goal, options.roadmap, request.execution, &request.keep->roadmap);
 }
 
 Verdict recheck_walls(const Scene& scene, const Question& question, const RecordedAnswer& answer,
@@ -221,14 +206,6 @@ Answer solve_walls(const Scene& scene, const WallProblem& problem, const Planner
   WallSolve solve(scene, problem, options, execution, asked);
   answer_within_limits(solve.answer(), [&] { solve.run(keep); });
   return std::move(solve.answer());
-}
-
-void draw_roadmap(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
-                  const Execution& execution, PlannedRoadmap<Vec2>& roadmap) {
-  const LatticeSize size = options.roadmap.lattice;
-  if (std::uint64_t{size.rows} * size.cols > most_drawn) return;
-  const MazeWorld world(scene, problem.reach(), execution);
-  prm(world, problem.start, problem.goal, options.roadmap, execution, &roadmap);
 }
 
 SolveKind walls_kind() {

@@ -43,9 +43,8 @@ std::unique_ptr<StreamedWalls> streamed_walls(const Scene& unmade, const Executi
 /// has no order that could be relied on, so all of it is, and these walls stay.
 std::unique_ptr<StreamedWalls> streamed_walls(const Scene& unmade, TileRows own, const Execution& execution);
 
-// Several processes that share the work of a streamed solve, as the one that asks for the answer sees them
-// (apps/distributed/leader_follower.hpp).
-
+/// Several processes that share the work of a streamed solve, as the one that asks for the answer sees them
+/// (apps/distributed/leader_follower.hpp).
 class StreamedTeam {
  public:
   StreamedTeam() = default;

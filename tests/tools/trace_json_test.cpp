@@ -58,7 +58,7 @@ TEST(TraceJson, ChunksLieInTheirStagesAfterRounding) {
     trace.record("inner", begin + nanoseconds(1), begin + nanoseconds(999), false);
     trace.record("outer", begin, begin + nanoseconds(1000), true);
   }
-  const Json json = Json::parse(studies::trace_json(trace));
+  const Json json = Json::parse(tools::trace_json(trace));
   const auto slices = slices_by_thread(json);
   ASSERT_EQ(slices.size(), 1U);
   EXPECT_EQ(slices.at(0).size(), 400U);
@@ -70,7 +70,7 @@ TEST(TraceJson, EveryThreadHasItsNameAndEvents) {
   const auto now = Trace::Clock::now();
   trace.record("stage", now, now + nanoseconds(50), true);
   std::thread([&] { trace.record("chunk", now, now + nanoseconds(20), false); }).join();
-  const Json json = Json::parse(studies::trace_json(trace));
+  const Json json = Json::parse(tools::trace_json(trace));
   std::set<int> named;
   for (const Json& event : json["traceEvents"]) {
     if (event["name"] == "thread_name") named.insert(event["tid"].get<int>());

@@ -37,6 +37,18 @@ void die_if_unheard() {
   if (::poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0) std::raise(SIGPIPE);
 }
 
+/// For std::terminate: what was thrown where nothing may be thrown?
+[[noreturn]] void end_at_once() {
+  try {
+    if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    ::_exit(say_memory_is_out());
+  } catch (...) {
+    say_on_standard_error("warren: internal error: an exception where there may be none\n");
+  }
+  std::abort();
+}
+
 }  // namespace
 
 int complain(std::string_view program, int code, std::string_view text) {
@@ -67,22 +79,6 @@ int run_with_errors_told(std::string_view program, std::string_view hint, const 
     return report_bug(program, error.what());
   }
 }
-
-namespace {
-
-/// For std::terminate: what was thrown where nothing may be thrown?
-[[noreturn]] void end_at_once() {
-  try {
-    if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
-  } catch (const std::bad_alloc&) {
-    ::_exit(say_memory_is_out());
-  } catch (...) {
-    say_on_standard_error("warren: internal error: an exception where there may be none\n");
-  }
-  std::abort();
-}
-
-}  // namespace
 
 void hold_standard_descriptors() {
   for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor) {

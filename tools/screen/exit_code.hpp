@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the program's exit code says: the table of docs/file_formats.md.
+// How the program ends: its exit code, the table of docs/file_formats.md, and the one line on standard error that says
+// what went wrong, here and nowhere else; also where nothing else works any more.
 #pragma once
 
 #include <functional>
 #include <string_view>
 
-namespace warren::tools::exit_code {
+namespace warren::tools {
+namespace exit_code {
 
 inline constexpr int success = 0;
 inline constexpr int no_path = 1;  ///< or `verify` refutes the answer
@@ -19,10 +21,7 @@ inline constexpr int hung_up = 129;
 inline constexpr int interrupted = 130;
 inline constexpr int terminated = 143;
 
-}  // namespace warren::tools::exit_code
-
-namespace warren::tools {
-// What goes wrong in a program becomes one line on standard error and an exit code, here and nowhere else.
+}  // namespace exit_code
 
 /// Runs the program of that name and gives its exit code; what it has printed is on its way then. hint: follows what is
 /// said of a command line that can't be.
@@ -30,9 +29,6 @@ int run_with_errors_told(std::string_view program, std::string_view hint, const 
 
 /// "NAME: text" on standard error; gives the code back.
 int complain(std::string_view program, int code, std::string_view text);
-
-// What still works when nothing else does: one line on standard error without a byte of memory, and descriptors that
-// are what their numbers say.
 
 /// Where the caller has closed standard input, output or error, what is opened first would take its number, and results
 /// and messages would end up in it. Such a descriptor fails from now on when it is used.

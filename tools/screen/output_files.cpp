@@ -63,91 +63,20 @@ std::vector<std::string> figure_files(const std::string& file, const std::vector
   return files;
 }
 
-}  // namespace
-
+/// "a" of "a/b.svg"; "." of "b.svg".
 std::string folder_of(const std::string& path) {
   const std::size_t slash = path.rfind('/');
   if (slash == std::string::npos) return ".";
   return slash == 0 ? "/" : path.substr(0, slash);
 }
 
-void check_writable(const std::string& path) {
-  if (path == "-") return;
-  if (path.empty()) fail("''", ENOENT);
-  struct stat status {};
-  if (::stat(path.c_str(), &status) == 0) {
-    if (S_ISDIR(status.st_mode)) fail(path, EISDIR);
-    if (::access(path.c_str(), W_OK) != 0) fail(path, errno);
-    if (!S_ISREG(status.st_mode)) return;  // devices and pipes are written straight
-  } else if (errno != ENOENT) {
-    fail(path, errno);
-  }
-  if (::access(folder_of(behind_links(path)).c_str(), W_OK | X_OK) != 0) fail(path, errno);
-}
-
-void check_picture(std::string_view option, const std::string& file) {
-  check_picture_ending(option, file, picture_endings);
-  if (ending_of(file) == ".pdf" && !can_write_pdf()) {
-    throw UsageError(fmt::format("{}: this warren was built without libharu and writes no .pdf; say .svg", option));
-  }
-}
-
-void say_of_picture(const Arguments& arguments, const std::string& file, const std::vector<std::string>& notes) {
-  if (notes.empty() || arguments.has("--quiet")) return;
-  say_on_standard_error(fmt::format("warren: note: {}: drawn {}\n", printable(file), fmt::join(notes, "; ")));
-}
-
+/// Throws UsageError where the file's ending promises another picture than one of `endings`, such as ".svg .png"; no
+/// ending promises nothing.
 void check_picture_ending(std::string_view option, const std::string& file, std::string_view endings) {
   const std::string ending = ending_of(file);
   if (ending.empty() || fmt::format(" {} ", endings).find(" " + ending + " ") != std::string::npos) return;
   throw UsageError(fmt::format("{}: a picture here ends in one of: {} (found: '{}')", option, endings, file));
 }
-
-std::optional<std::string> output_file(const Arguments& arguments, std::string_view option) {
-  std::optional<std::string> file = arguments.value(option);
-  if (file) check_writable(*file);
-  return file;
-}
-
-bool check_reports(const Arguments& arguments, std::initializer_list<std::string_view> options) {
-  bool taken = false;
-  for (const std::string_view option : options) taken = output_file(arguments, option) == "-" || taken;
-  return taken;
-}
-
-void write_report(const Arguments& arguments, std::string_view option, const std::function<std::string()>& text) {
-  if (const auto file = arguments.value(option)) write_file(*file, text(), Execution{});
-}
-
-void check_plots(const Arguments& arguments) {
-  for (const std::string_view option : {"--picture", "--figures"}) {
-    const std::string file = arguments.value(option).value_or("");
-    check_picture_ending(option, file, plot_endings);
-    check_picture(option, file);
-  }
-  if (arguments.has("--figures") && ending_of(*arguments.value("--figures")).empty()) {
-    throw UsageError("--figures: expected a name that ends in .svg, .png or .pdf, such as k.pdf for k-length.pdf");
-  }
-}
-
-void write_plots(const Arguments& arguments, const Execution& execution, bool was_stopped,
-                 const std::function<PlotsPage()>& plots) {
-  const auto file = arguments.value("--picture");
-  const auto figures = arguments.value("--figures");
-  if (!file && !figures) return;
-  const Deadline memory_alone(std::numeric_limits<double>::infinity(), execution.deadline->memory_bytes());
-  Execution within = execution;
-  if (was_stopped) within.deadline = &memory_alone;
-  const PlotsPage page = plots();
-  if (file) page.write(*file, arguments.command_line(), within);
-  if (!figures) return;
-  const std::vector<std::string> files = figure_files(*figures, page.sheets);
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    PlotsPage{{page.sheets[i]}}.write(files[i], arguments.command_line(), within);
-  }
-}
-
-namespace {
 
 /// Of all verbs: the options whose values are files that are written, and that are read. Operands are read.
 constexpr std::array<std::string_view, 14> output_options{"--path", "--json",   "--picture",      "--table", "--html",
@@ -230,25 +159,13 @@ std::vector<NamedFile> inputs_of(const Arguments& arguments) {
   return files;
 }
 
-void check_standard_output(const std::vector<NamedFile>& outputs) {
-  std::string taker;
-  for (const NamedFile& output : outputs) {
-    if (output.path != "-") continue;
-    if (!taker.empty()) {
-      throw UsageError(fmt::format("standard output takes one of them: {} or {}", taker, output.option));
-    }
-    taker = output.option;
-  }
-}
-
-void check_standard_input(const std::vector<NamedFile>& inputs) {
-  std::string taker;
-  for (const NamedFile& input : inputs) {
-    if (input.path != "-") continue;
-    if (!taker.empty()) {
-      throw UsageError(fmt::format("{} and {} can't both come from standard input", taker, input.option));
-    }
-    taker = input.option;
+/// At most one of these files is "-".
+void check_standard_stream(const std::vector<NamedFile>& files, std::string_view refusal) {
+  const NamedFile* taker = nullptr;
+  for (const NamedFile& file : files) {
+    if (file.path != "-") continue;
+    if (taker != nullptr) throw UsageError(fmt::format(fmt::runtime(refusal), taker->option, file.option));
+    taker = &file;
   }
 }
 
@@ -299,9 +216,79 @@ void check_pictures(const Arguments& arguments, const std::vector<NamedFile>& fi
 
 }  // namespace
 
+void check_writable(const std::string& path) {
+  if (path == "-") return;
+  if (path.empty()) fail("''", ENOENT);
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0) {
+    if (S_ISDIR(status.st_mode)) fail(path, EISDIR);
+    if (::access(path.c_str(), W_OK) != 0) fail(path, errno);
+    if (!S_ISREG(status.st_mode)) return;  // devices and pipes are written straight
+  } else if (errno != ENOENT) {
+    fail(path, errno);
+  }
+  if (::access(folder_of(behind_links(path)).c_str(), W_OK | X_OK) != 0) fail(path, errno);
+}
+
+void check_picture(std::string_view option, const std::string& file) {
+  check_picture_ending(option, file, picture_endings);
+  if (ending_of(file) == ".pdf" && !can_write_pdf()) {
+    throw UsageError(fmt::format("{}: this warren was built without libharu and writes no .pdf; say .svg", option));
+  }
+}
+
+void say_of_picture(const Arguments& arguments, const std::string& file, const std::vector<std::string>& notes) {
+  if (notes.empty() || arguments.has("--quiet")) return;
+  say_on_standard_error(fmt::format("warren: note: {}: drawn {}\n", printable(file), fmt::join(notes, "; ")));
+}
+
+std::optional<std::string> output_file(const Arguments& arguments, std::string_view option) {
+  std::optional<std::string> file = arguments.value(option);
+  if (file) check_writable(*file);
+  return file;
+}
+
+bool check_reports(const Arguments& arguments, std::initializer_list<std::string_view> options) {
+  bool taken = false;
+  for (const std::string_view option : options) taken = output_file(arguments, option) == "-" || taken;
+  return taken;
+}
+
+void write_report(const Arguments& arguments, std::string_view option, const std::function<std::string()>& text) {
+  if (const auto file = arguments.value(option)) write_file(*file, text(), Execution{});
+}
+
+void check_plots(const Arguments& arguments) {
+  for (const std::string_view option : {"--picture", "--figures"}) {
+    const std::string file = arguments.value(option).value_or("");
+    check_picture_ending(option, file, plot_endings);
+    check_picture(option, file);
+  }
+  if (arguments.has("--figures") && ending_of(*arguments.value("--figures")).empty()) {
+    throw UsageError("--figures: expected a name that ends in .svg, .png or .pdf, such as k.pdf for k-length.pdf");
+  }
+}
+
+void write_plots(const Arguments& arguments, const Execution& execution, bool was_stopped,
+                 const std::function<PlotsPage()>& plots) {
+  const auto file = arguments.value("--picture");
+  const auto figures = arguments.value("--figures");
+  if (!file && !figures) return;
+  const Deadline memory_alone(std::numeric_limits<double>::infinity(), execution.deadline->memory_bytes());
+  Execution within = execution;
+  if (was_stopped) within.deadline = &memory_alone;
+  const PlotsPage page = plots();
+  if (file) page.write(*file, arguments.command_line(), within);
+  if (!figures) return;
+  const std::vector<std::string> files = figure_files(*figures, page.sheets);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    PlotsPage{{page.sheets[i]}}.write(files[i], arguments.command_line(), within);
+  }
+}
+
 void check_outputs(const Arguments& arguments) {
   std::vector<NamedFile> files = outputs_of(arguments);
-  check_standard_output(files);
+  check_standard_stream(files, "standard output takes one of them: {} or {}");
   for (std::size_t i = 0; i < files.size(); ++i) {
     const auto place = place_of_output(files[i].path);
     for (std::size_t j = 0; place && j < i; ++j) {
@@ -311,7 +298,7 @@ void check_outputs(const Arguments& arguments) {
     }
   }
   const std::vector<NamedFile> inputs = inputs_of(arguments);
-  check_standard_input(inputs);
+  check_standard_stream(inputs, "{} and {} can't both come from standard input");
   for (const NamedFile& input : inputs) check_not_written(arguments, input.path);
   files.insert(files.end(), inputs.begin(), inputs.end());
   check_pictures(arguments, files);

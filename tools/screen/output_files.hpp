@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Names of output files: what their endings say, and whether they can be written, asked before a long computation.
+// The files that a verb writes. What their endings say, whether they can be written, and that none is a file which is
+// read or written otherwise, is asked before a long computation; reports and plots are written where they are asked
+// for.
 #pragma once
 
 #include <functional>
@@ -19,11 +21,8 @@ namespace warren::tools {
 /// Throws WriteError if `path` can't be written as things stand. Creates and changes nothing.
 void check_writable(const std::string& path);
 
-/// Throws UsageError where the file's ending promises another picture than one of `endings`, such as ".svg .png"; no
-/// ending promises nothing.
-void check_picture_ending(std::string_view option, const std::string& file, std::string_view endings);
-
-/// The same for a picture in any format that this build writes.
+/// Throws UsageError where the file's ending promises a picture that this build does not write; no ending promises
+/// nothing.
 void check_picture(std::string_view option, const std::string& file);
 
 /// The file that an option names, if it is given; check_writable has been asked.
@@ -41,9 +40,6 @@ void check_plots(const Arguments& arguments);
 /// becomes "k-length.pdf", by its title; of a run that was stopped, too: within its memory alone.
 void write_plots(const Arguments& arguments, const Execution& execution, bool was_stopped,
                  const std::function<PlotsPage()>& plots);
-
-/// "a" of "a/b.svg"; "." of "b.svg".
-std::string folder_of(const std::string& path);
 
 /// Says on standard error what is drawn otherwise than usual, if anything is and --quiet is not given.
 void say_of_picture(const Arguments& arguments, const std::string& file, const std::vector<std::string>& notes);

@@ -18,9 +18,6 @@
 #include "tools/screen/terminal.hpp"
 
 namespace warren::tools {
-// How long a whole run will still take, where its stages and their shares of the time are known: the time that has
-// passed tells how fast this machine is. Nothing is said where a stage comes that was not expected, where one takes
-// half as long again as its share, and before a twentieth is done.
 
 /// A stage that a run will come to, and its share of the run's time, in any unit.
 struct ExpectedStage {
@@ -37,7 +34,10 @@ struct RunMoment {
   double seconds = 0.0;     ///< since the run began
 };
 
-/// Asked in the order of time. What comes before the first of the stages is not counted.
+/// How long a whole run will still take, where its stages and their shares of the time are known: the time that has
+/// passed tells how fast this machine is. Nothing is said where a stage comes that was not expected, where one takes
+/// half as long again as its share, and before a twentieth is done. Asked in the order of time. What comes before the
+/// first of the stages is not counted.
 class WholeRun {
  public:
   /// All stages to come, in their order; they outlive it. None: nobody knows.

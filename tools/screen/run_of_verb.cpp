@@ -95,7 +95,7 @@ void Run::end() {
   bar_.reset();
   if (execution_.trace == nullptr) return;
   execution_.trace = nullptr;
-  write_file(trace_file_, studies::trace_json(*trace_), Execution{});
+  write_file(trace_file_, trace_json(*trace_), Execution{});
 }
 
 int exit_code_of(StopReason reason) {
@@ -110,10 +110,6 @@ int exit_code_of(StopReason reason) {
       return exit_code::budget;
   }
 }
-
-}  // namespace warren::tools
-
-namespace warren::studies {
 
 std::string trace_json(const Trace& trace) {
   std::string text =
@@ -141,4 +137,4 @@ std::string trace_json(const Trace& trace) {
   return text + "\n]}\n";
 }
 
-}  // namespace warren::studies
+}  // namespace warren::tools

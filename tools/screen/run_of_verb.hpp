@@ -74,11 +74,7 @@ class Run {
 /// 124 for a budget, 129, 130 and 143 for signals.
 int exit_code_of(StopReason reason);
 
-}  // namespace warren::tools
-
-namespace warren::studies {
-// A Trace as Chrome trace events, for chrome://tracing and ui.perfetto.dev: complete events ("X"), microseconds.
-
+/// A Trace as Chrome trace events, for chrome://tracing and ui.perfetto.dev: complete events ("X"), microseconds.
 std::string trace_json(const Trace& trace);
 
-}  // namespace warren::studies
+}  // namespace warren::tools

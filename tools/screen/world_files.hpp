@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Worlds in and out as the verbs need them: read or generated with its time taken, written in any format by ending.
+// Worlds and kept roadmaps in and out as the verbs need them: worlds are read or generated with their time taken and
+// written in any format by ending; ROADMAP, the first operand, is read, with the world of --world where its file has
+// none, and drawn.
 #pragma once
 
 #include <optional>
@@ -45,9 +47,6 @@ void note_left_out(const Arguments& arguments, const Scene& scene, const std::st
 
 /// Throws UsageError unless `file` has an ending that write_world knows, WriteError unless it can be written.
 void check_world_file(const std::string& file);
-
-// Roadmaps in as the verbs need them: ROADMAP, the first operand, and by --world the world of a file that has none. And
-// as a picture.
 
 inline constexpr OptionSpec roadmap_world_option{"--world", "WORLD",
                                                  "the world that the roadmap was built for, where its file has none"};

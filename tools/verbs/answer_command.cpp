@@ -106,9 +106,9 @@ void AnswerCommand::write_outputs(Run& run) {
   try {
     if (answer_.outcome != Outcome::stopped) return write_finished(run.execution_for_what_is_left());
   } catch (const Stopped& stopped) {
-    take_back_answer(stopped.reason);
+    make_stopped(answer_, stopped.reason);
   } catch (const std::bad_alloc&) {
-    take_back_answer(StopReason::memory);
+    make_stopped(answer_, StopReason::memory);
   }
   write_stopped(run.execution());
 }
@@ -182,13 +182,6 @@ void AnswerCommand::write_json(std::optional<OutputFile>& file, const Execution&
     file->write(text);
     if (execution.progress != nullptr) execution.progress->advance(text.size());
   });
-}
-
-void AnswerCommand::take_back_answer(StopReason reason) {
-  answer_.outcome = Outcome::stopped;
-  answer_.stop_reason = reason;
-  answer_.refuted.reset();
-  claim_nothing(answer_);
 }
 
 void AnswerCommand::draw(const Execution& execution) {

@@ -64,7 +64,6 @@ class AnswerCommand {
   void write_finished(const Execution& execution);
   void write_stopped(const Execution& execution);
   void write_json(std::optional<OutputFile>& file, const Execution& execution) const;
-  void take_back_answer(StopReason reason);
   void write_kept(std::optional<OutputFile>& file, const Execution& execution) const;
   void draw(const Execution& execution);
   StopReason stop_reason() const { return answer_.stop_reason.value_or(StopReason::time); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// warren bench-scen: a Moving AI scenario file, checked. Exit code 0 only if all
-// lengths agree with the published ones.
+// warren bench-scen: a Moving AI scenario file, checked. Every scenario is solved by A* and by jump points; each length
+// is compared with the published optimum, which is rounded to the digits that the file gives, and each path is walked
+// over the map again. Exit code 0 only if all lengths agree.
 
 #include <fmt/format.h>
 
@@ -14,7 +15,6 @@
 #include <string>
 #include <vector>
 
-#include "apps/studies/study_report.hpp"
 #include "core/base/error.hpp"
 #include "core/base/printable.hpp"
 #include "parallel/chunks.hpp"
@@ -31,10 +31,10 @@
 #include "tools/screen/terminal.hpp"
 #include "tools/words/command.hpp"
 
-namespace warren::studies {
-// A Moving AI scenario file checked: every scenario is solved by A* and by jump points; each length is compared with
-// the published optimum, which is rounded to the digits that the file gives, and each path is walked over the map
-// again.
+namespace warren::tools {
+namespace {
+
+constexpr double least_tolerance = 1e-3;
 
 /// One method on one scenario.
 struct ScenarioTrial {
@@ -49,7 +49,12 @@ struct CheckedScenario {
   ScenarioTrial astar = {};
   ScenarioTrial jumps = {};
   /// Are both as long as the file says?
-  bool agrees() const;
+  bool agrees() const {
+    const double rounding = 1e-12 * scenario.length;
+    const double tolerance = std::max(least_tolerance, scenario.half_unit) + rounding;
+    return astar.walked && jumps.walked && std::abs(astar.length - scenario.length) <= tolerance &&
+           std::abs(jumps.length - scenario.length) <= tolerance;
+  }
 };
 
 struct ScenarioCheck {
@@ -57,85 +62,11 @@ struct ScenarioCheck {
   std::string map;   ///< that they are on
   std::vector<CheckedScenario> scenarios;
 
-  std::size_t differing() const;
-};
-
-/// `file`: what errors name. Throws InputError for scenarios that are not on the map, Stopped.
-ScenarioCheck check_scenarios(const OccupancyMap& map, const std::vector<Scenario>& scenarios, const std::string& file,
-                              const Execution& execution);
-
-/// The scenarios that differ, at most 50 of them, and a line of totals.
-std::string scenario_summary(const ScenarioCheck& check, const Palette& palette);
-/// warren.bench-scen/1
-std::string scenario_json(const ScenarioCheck& check);
-
-}  // namespace warren::studies
-
-namespace warren::tools {
-namespace {
-
-constexpr OptionSpec bench_scen_specs[] = {
-    {"--map", "FILE", "the map, where the scenario file's own name for it leads nowhere"},
-    {"--json", "FILE", "write the figures as JSON; - is standard output"},
-};
-
-std::string folder_prefix(const std::string& file) { return file.substr(0, file.rfind('/') + 1); }
-
-/// The map beside the scenario file, by its whole name or its last part; as it stands from here; or without ".scen".
-OccupancyMap read_its_map(const Arguments& arguments, const std::string& map, const Execution& execution) {
-  const std::string& scen = arguments.operand(0);
-  const std::string last = map.substr(map.rfind('/') + 1);
-  std::vector<std::string> places{folder_prefix(scen) + map, folder_prefix(scen) + last, map};
-  if (scen.ends_with(".scen")) places.push_back(scen.substr(0, scen.size() - 5));
-  for (const std::string& place : places) {
-    std::optional<InputFile> file;
-    try {
-      file.emplace(place, execution);
-    } catch (const ReadError&) {
-      continue;
-    }
-    check_not_written(arguments, place);
-    return read_moving_ai_map(*file, execution);
+  std::size_t differing() const {
+    return static_cast<std::size_t>(
+        std::count_if(scenarios.begin(), scenarios.end(), [](const CheckedScenario& s) { return !s.agrees(); }));
   }
-  throw ReadError(scen, fmt::format("its map {} is neither beside it nor here; --map says where it is", map));
-}
-
-int bench_scen(const Arguments& arguments) {
-  const auto json = output_file(arguments, "--json");
-  static constexpr ExpectedStage searches[] = {{"scenarios", 1.0}};  // little comes before and after
-  Run run(arguments, RunScope::whole_command, searches);
-  const std::string& file = arguments.operand(0);
-  const std::vector<Scenario> scenarios = read_scenarios(InputFile(file, run.execution()), run.execution());
-  for (const Scenario& s : scenarios) {
-    if (s.map != scenarios.front().map) {
-      throw InputError(fmt::format("{}:{}", file, s.line), "expected one map in all lines", s.map);
-    }
-  }
-  const auto given = arguments.value("--map");
-  const OccupancyMap map = given ? read_moving_ai_map(InputFile(*given, run.execution()), run.execution())
-                                 : read_its_map(arguments, scenarios.front().map, run.execution());
-  const studies::ScenarioCheck check = studies::check_scenarios(map, scenarios, file, run.execution());
-  run.end();
-  if (json) write_file(*json, studies::scenario_json(check), run.execution());
-  if (!run.quiet() && json != "-") print_text(studies::scenario_summary(check, run.palette()));
-  return check.differing() == 0 ? exit_code::success : exit_code::no_path;
-}
-
-}  // namespace
-
-Command bench_scen_command() {
-  Command command{"bench-scen", "FILE.scen", "check a Moving AI scenario file against its optima", {}, bench_scen};
-  add_options(command.options, bench_scen_specs);
-  add_options(command.options, run_option_specs());
-  return command;
-}
-
-}  // namespace warren::tools
-
-namespace warren::studies {
-namespace {
-
-constexpr double least_tolerance = 1e-3;
+};
 
 /// Independent of the search: may one go from cell to cell, and what does it cost?
 bool is_walk(const Bitmap& blocked, const GridPath& path, Cell start, Cell goal) {
@@ -214,22 +145,9 @@ ScenarioTotals totals_of(const std::vector<CheckedScenario>& scenarios) {
   return totals;
 }
 
-}  // namespace
-
-bool CheckedScenario::agrees() const {
-  const double rounding = 1e-12 * scenario.length;
-  const double tolerance = std::max(least_tolerance, scenario.half_unit) + rounding;
-  return astar.walked && jumps.walked && std::abs(astar.length - scenario.length) <= tolerance &&
-         std::abs(jumps.length - scenario.length) <= tolerance;
-}
-
-std::size_t ScenarioCheck::differing() const {
-  return static_cast<std::size_t>(
-      std::count_if(scenarios.begin(), scenarios.end(), [](const CheckedScenario& s) { return !s.agrees(); }));
-}
-
-/// Lengths grow along the file, so parts are small enough that no thread is left alone with the long ones. Their size
-/// depends on the count of scenarios alone; progress counts parts.
+/// `file`: what errors name. Lengths grow along the file, so parts are small enough that no thread is left alone with
+/// the long ones. Their size depends on the count of scenarios alone; progress counts parts. Throws InputError for
+/// scenarios that are not on the map, Stopped.
 ScenarioCheck check_scenarios(const OccupancyMap& map, const std::vector<Scenario>& scenarios, const std::string& file,
                               const Execution& execution) {
   constexpr std::size_t parts = 128;
@@ -244,6 +162,7 @@ ScenarioCheck check_scenarios(const OccupancyMap& map, const std::vector<Scenari
   return check;
 }
 
+/// The scenarios that differ, at most 50 of them, and a line of totals.
 std::string scenario_summary(const ScenarioCheck& check, const Palette& palette) {
   constexpr std::size_t most_lines = 50;
   std::string text;
@@ -266,6 +185,7 @@ std::string scenario_summary(const ScenarioCheck& check, const Palette& palette)
                     grouped(t.jumps_expanded), t.jumps_s > 0.0 ? t.astar_s / t.jumps_s : 0.0, t.median_speedup);
 }
 
+/// warren.bench-scen/1
 std::string scenario_json(const ScenarioCheck& check) {
   const ScenarioTotals t = totals_of(check.scenarios);
   std::string text = fmt::format(
@@ -286,4 +206,60 @@ std::string scenario_json(const ScenarioCheck& check) {
   return text + "]}\n";
 }
 
-}  // namespace warren::studies
+constexpr OptionSpec bench_scen_specs[] = {
+    {"--map", "FILE", "the map, where the scenario file's own name for it leads nowhere"},
+    {"--json", "FILE", "write the figures as JSON; - is standard output"},
+};
+
+std::string folder_prefix(const std::string& file) { return file.substr(0, file.rfind('/') + 1); }
+
+/// The map beside the scenario file, by its whole name or its last part; as it stands from here; or without ".scen".
+OccupancyMap read_its_map(const Arguments& arguments, const std::string& map, const Execution& execution) {
+  const std::string& scen = arguments.operand(0);
+  const std::string last = map.substr(map.rfind('/') + 1);
+  std::vector<std::string> places{folder_prefix(scen) + map, folder_prefix(scen) + last, map};
+  if (scen.ends_with(".scen")) places.push_back(scen.substr(0, scen.size() - 5));
+  for (const std::string& place : places) {
+    std::optional<InputFile> file;
+    try {
+      file.emplace(place, execution);
+    } catch (const ReadError&) {
+      continue;
+    }
+    check_not_written(arguments, place);
+    return read_moving_ai_map(*file, execution);
+  }
+  throw ReadError(scen, fmt::format("its map {} is neither beside it nor here; --map says where it is", map));
+}
+
+int bench_scen(const Arguments& arguments) {
+  const auto json = output_file(arguments, "--json");
+  static constexpr ExpectedStage searches[] = {{"scenarios", 1.0}};  // little comes before and after
+  Run run(arguments, RunScope::whole_command, searches);
+  const std::string& file = arguments.operand(0);
+  const std::vector<Scenario> scenarios = read_scenarios(InputFile(file, run.execution()), run.execution());
+  for (const Scenario& s : scenarios) {
+    if (s.map != scenarios.front().map) {
+      throw InputError(fmt::format("{}:{}", file, s.line), "expected one map in all lines", s.map);
+    }
+  }
+  const auto given = arguments.value("--map");
+  const OccupancyMap map = given ? read_moving_ai_map(InputFile(*given, run.execution()), run.execution())
+                                 : read_its_map(arguments, scenarios.front().map, run.execution());
+  const ScenarioCheck check = check_scenarios(map, scenarios, file, run.execution());
+  run.end();
+  if (json) write_file(*json, scenario_json(check), run.execution());
+  if (!run.quiet() && json != "-") print_text(scenario_summary(check, run.palette()));
+  return check.differing() == 0 ? exit_code::success : exit_code::no_path;
+}
+
+}  // namespace
+
+Command bench_scen_command() {
+  Command command{"bench-scen", "FILE.scen", "check a Moving AI scenario file against its optima", {}, bench_scen};
+  add_options(command.options, bench_scen_specs);
+  add_options(command.options, run_option_specs());
+  return command;
+}
+
+}  // namespace warren::tools

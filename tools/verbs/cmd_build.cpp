@@ -14,7 +14,6 @@
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
-#include "tools/screen/terminal.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/words/option_values.hpp"
 #include "tools/words/planner_words.hpp"

@@ -15,7 +15,6 @@
 #include <cstdint>
 #include <initializer_list>
 #include <iterator>
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -31,7 +30,6 @@
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
-#include "tools/screen/terminal.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"
@@ -43,7 +41,7 @@
 namespace warren::tools {
 namespace {
 
-constexpr OptionSpec output_specs[] = {
+constexpr OptionSpec compare_output_specs[] = {
     {"--budget", "TIME", "each run, of a planner or a search, may take so long (default: none)"},
     {"--json", "FILE", "write warren.compare/1; - is standard output"},
     {"--csv", "FILE", "write a line a planner or search; - is standard output"},
@@ -95,11 +93,64 @@ class CompareCommand {
   }
 
  private:
-  ExpectedStages expected_stages() const;
-  void compare(const Run& run);
-  void write_outputs() const;
-  studies::OmplExperiment experiment() const;
-  int exit_code() const;
+  /// The runs are counted, and those of all take turns; of graphs of several sizes, and of pictures, nobody knows.
+  ExpectedStages expected_stages() const {
+    static constexpr ExpectedStage runs[] = {{"compare", 1.0}};
+    const bool more_follows = arguments_.has("--sizes") || arguments_.has("--pictures");
+    return more_follows ? ExpectedStages{} : ExpectedStages(runs);
+  }
+  void compare(const Run& run) {
+    std::optional<Scene> scene;
+    try {
+      StageTimes before;
+      if (options_.world) scene = load_world(*options_.world, arguments_, execution_, before);
+    } catch (const Stopped& stopped) {
+      comparison_.stopped = stopped.reason;
+      return;
+    }
+    no_graph_ = run_comparison(options_, scene ? &*scene : nullptr, execution_, comparison_,
+                               [&](std::string_view line) { run.note(line); });
+  }
+  void write_outputs() const {
+    write_report(arguments_, "--json", [&] { return studies::comparison_json(comparison_); });
+    write_report(arguments_, "--csv", [&] { return studies::comparison_csv(comparison_); });
+    write_report(arguments_, "--runs", [&] { return studies::comparison_runs(comparison_); });
+    write_plots(arguments_, execution_, comparison_.stopped.has_value(),
+                [&] { return studies::comparison_plots(comparison_); });
+    write_report(arguments_, "--html",
+                 [&] { return studies::comparison_page(comparison_, arguments_.command_line()); });
+    write_report(arguments_, "--table",
+                 [&] { return studies::comparison_document(comparison_, ending_of(*arguments_.value("--table"))); });
+    write_report(arguments_, "--log", [&] { return studies::ompl_log(comparison_, experiment()); });
+  }
+  studies::OmplExperiment experiment() const {
+    std::array<char, 256> host{};
+    if (::gethostname(host.data(), host.size() - 1) != 0) host.fill('\0');
+    studies::OmplExperiment e;
+    e.name = "compare_" + options_.world.value_or("");
+    for (char& c : e.name) c = c == ' ' || c == '\t' ? '_' : c;
+    e.hostname = host[0] == '\0' ? "unknown" : std::string(host.data());
+    e.date = fmt::format("{:%Y-%b-%d %H:%M:%S}", fmt::localtime(std::chrono::system_clock::to_time_t(begin_)));
+    e.setup = arguments_.command_line();
+    e.seed = options_.planners ? options_.planners->first_seed : 1;
+    e.budget_s = std::isfinite(options_.budget_s) ? options_.budget_s : 0.0;
+    e.memory_mb = execution_.deadline->memory_bytes() >> 20;
+    e.total_s = std::chrono::duration<double>(std::chrono::system_clock::now() - begin_).count();
+    return e;
+  }
+  /// A comparison in which nobody found a path has no answer; one whose planners succeed now and then is what was
+  /// asked.
+  int exit_code() const {
+    if (comparison_.stopped) return exit_code_of(*comparison_.stopped);
+    bool any_solved = false;
+    for (const studies::Contender& contender : comparison_.contenders) {
+      for (const studies::ComparedRun& run : contender.runs) {
+        if (run.outcome == Outcome::stopped) return exit_code::budget;
+        any_solved = any_solved || run.solved();
+      }
+    }
+    return any_solved && !no_graph_ ? exit_code::success : exit_code::no_path;
+  }
 
   const Arguments& arguments_;
   CompareOptions options_;
@@ -109,81 +160,6 @@ class CompareCommand {
   studies::Comparison comparison_;
   std::optional<Outcome> no_graph_;  // why the world gave none
 };
-
-/// The runs are counted, and those of all take turns; of graphs of several sizes, and of pictures, nobody knows.
-ExpectedStages CompareCommand::expected_stages() const {
-  static constexpr ExpectedStage runs[] = {{"compare", 1.0}};
-  const bool more_follows = arguments_.has("--sizes") || arguments_.has("--pictures");
-  return more_follows ? ExpectedStages{} : ExpectedStages(runs);
-}
-
-void CompareCommand::compare(const Run& run) {
-  std::optional<Scene> scene;
-  try {
-    StageTimes before;
-    if (options_.world) scene = load_world(*options_.world, arguments_, execution_, before);
-  } catch (const Stopped& stopped) {
-    comparison_.stopped = stopped.reason;
-    return;
-  }
-  no_graph_ = run_comparison(options_, scene ? &*scene : nullptr, execution_, comparison_,
-                             [&](std::string_view line) { run.note(line); });
-}
-
-void CompareCommand::write_outputs() const {
-  write_report(arguments_, "--json", [&] { return studies::comparison_json(comparison_); });
-  write_report(arguments_, "--csv", [&] { return studies::comparison_csv(comparison_); });
-  write_report(arguments_, "--runs", [&] { return studies::comparison_runs(comparison_); });
-  write_plots(arguments_, execution_, comparison_.stopped.has_value(),
-              [&] { return studies::comparison_plots(comparison_); });
-  write_report(arguments_, "--html", [&] { return studies::comparison_page(comparison_, arguments_.command_line()); });
-  write_report(arguments_, "--table",
-               [&] { return studies::comparison_document(comparison_, ending_of(*arguments_.value("--table"))); });
-  write_report(arguments_, "--log", [&] { return studies::ompl_log(comparison_, experiment()); });
-}
-
-studies::OmplExperiment CompareCommand::experiment() const {
-  std::array<char, 256> host{};
-  if (::gethostname(host.data(), host.size() - 1) != 0) host.fill('\0');
-  studies::OmplExperiment e;
-  e.name = "compare_" + options_.world.value_or("");
-  for (char& c : e.name) c = c == ' ' || c == '\t' ? '_' : c;
-  e.hostname = host[0] == '\0' ? "unknown" : std::string(host.data());
-  e.date = fmt::format("{:%Y-%b-%d %H:%M:%S}", fmt::localtime(std::chrono::system_clock::to_time_t(begin_)));
-  e.setup = arguments_.command_line();
-  e.seed = options_.planners ? options_.planners->first_seed : 1;
-  e.budget_s = std::isfinite(options_.budget_s) ? options_.budget_s : 0.0;
-  e.memory_mb = execution_.deadline->memory_bytes() >> 20;
-  e.total_s = std::chrono::duration<double>(std::chrono::system_clock::now() - begin_).count();
-  return e;
-}
-
-/// A comparison in which nobody found a path has no answer; one whose planners succeed now and then is what was asked.
-int CompareCommand::exit_code() const {
-  if (comparison_.stopped) return exit_code_of(*comparison_.stopped);
-  bool any_solved = false;
-  for (const studies::Contender& contender : comparison_.contenders) {
-    for (const studies::ComparedRun& run : contender.runs) {
-      if (run.outcome == Outcome::stopped) return exit_code::budget;
-      any_solved = any_solved || run.solved();
-    }
-  }
-  return any_solved && !no_graph_ ? exit_code::success : exit_code::no_path;
-}
-
-}  // namespace
-
-Command compare_command() {
-  Command command{"compare", "[WORLD]", "measure planners, or searches and their queues, side by side", {}, {}};
-  add_options(command.options, compare_option_specs());
-  add_options(command.options, world_option_specs());
-  add_options(command.options, output_specs);
-  add_options(command.options, run_option_specs(), {"--budget"});
-  command.run = [](const Arguments& arguments) { return CompareCommand(arguments).run(); };
-  return command;
-}
-
-namespace {
 
 // Which options of `solve` take lists in `warren compare`, and the contenders' deal that words make with them.
 
@@ -256,7 +232,6 @@ void refuse(const Arguments& arguments, std::initializer_list<std::string_view> 
     if (arguments.has(option)) throw UsageError(fmt::format("{}: {}", option, why));
   }
 }
-std::span<const ListOption> list_options() { return listed; }
 /// Options with one value go to all contenders, those with several are dealt. Throws UsageError.
 studies::PlannerDeal deal_words(const Arguments& arguments, std::vector<PlannerKind> planners, DealKind kind) {
   check_joining(arguments);
@@ -432,54 +407,6 @@ void take_graph_options(const Arguments& arguments, CompareOptions& options) {
   studies::deal_planners(deal);
 }
 
-}  // namespace
-
-std::vector<OptionSpec> compare_option_specs() {
-  std::vector<OptionSpec> specs(std::begin(own_specs), std::end(own_specs));
-  for (OptionSpec& spec : specs) {
-    if (spec.name == "--graph" || spec.name == "--planners") spec.choices = planner_names();
-    spec.is_list = spec.value == "LIST";
-  }
-  add_options(specs, picture_option_specs());
-  add_options(specs, passed_specs());
-  for (const ListOption& option : list_options()) {
-    const auto same = [&](const OptionSpec& spec) { return spec.name == option.name; };
-    std::find_if(specs.begin(), specs.end(), same)->is_list = true;
-  }
-  return specs;
-}
-
-CompareOptions compare_options(const Arguments& arguments) {
-  CompareOptions options;
-  if (arguments.operand_count() > 0) options.world = arguments.operand(0);
-  if (!options.world && (arguments.has("--planners") || !arguments.has("--sizes"))) {
-    throw UsageError("WORLD is missing; only --sizes, on random graphs, needs none");
-  }
-  options.budget_s = given_value(arguments, "--budget", duration_value).value_or(options.budget_s);
-  first_seed(arguments);
-  if (arguments.has("--planners")) {
-    options.planners = contest_options(arguments);
-    options.planners->budget_s = options.budget_s;
-    return options;
-  }
-  options.pictures = arguments.value("--pictures").value_or("");
-  options.look = picture_words(arguments, arguments.has("--pictures"), "--pictures FOLDER");
-  refuse(arguments, {"--parallel"}, "runs --planners beside each other; searches are timed one by one");
-  options.searches.variants = variants_of(arguments);
-  options.searches.trials = given_value(arguments, "--trials", auto_or_count_value, std::uint64_t{1}, most_runs);
-  options.searches.budget_s = options.budget_s;
-  options.sweep = sweep_options(arguments);
-  if (options.sweep) options.sweep->contest = options.searches;
-  if (options.world) {
-    take_graph_options(arguments, options);
-  } else {
-    refuse_world_options(arguments);
-  }
-  return options;
-}
-
-namespace {
-
 /// What is wrong with the planner of one run is wrong with the list.
 std::string about_planners(const UsageError& error) {
   std::string text = error.spelled("@", '_');
@@ -560,6 +487,60 @@ void check_heading(const CompareOptions& options, const Scene& scene) {
 }
 
 }  // namespace
+
+Command compare_command() {
+  Command command{"compare", "[WORLD]", "measure planners, or searches and their queues, side by side", {}, {}};
+  add_options(command.options, compare_option_specs());
+  add_options(command.options, world_option_specs());
+  add_options(command.options, compare_output_specs);
+  add_options(command.options, run_option_specs(), {"--budget"});
+  command.run = [](const Arguments& arguments) { return CompareCommand(arguments).run(); };
+  return command;
+}
+
+std::vector<OptionSpec> compare_option_specs() {
+  std::vector<OptionSpec> specs(std::begin(own_specs), std::end(own_specs));
+  for (OptionSpec& spec : specs) {
+    if (spec.name == "--graph" || spec.name == "--planners") spec.choices = planner_names();
+    spec.is_list = spec.value == "LIST";
+  }
+  add_options(specs, picture_option_specs());
+  add_options(specs, passed_specs());
+  for (const ListOption& option : listed) {
+    const auto same = [&](const OptionSpec& spec) { return spec.name == option.name; };
+    std::find_if(specs.begin(), specs.end(), same)->is_list = true;
+  }
+  return specs;
+}
+
+CompareOptions compare_options(const Arguments& arguments) {
+  CompareOptions options;
+  if (arguments.operand_count() > 0) options.world = arguments.operand(0);
+  if (!options.world && (arguments.has("--planners") || !arguments.has("--sizes"))) {
+    throw UsageError("WORLD is missing; only --sizes, on random graphs, needs none");
+  }
+  options.budget_s = given_value(arguments, "--budget", duration_value).value_or(options.budget_s);
+  first_seed(arguments);
+  if (arguments.has("--planners")) {
+    options.planners = contest_options(arguments);
+    options.planners->budget_s = options.budget_s;
+    return options;
+  }
+  options.pictures = arguments.value("--pictures").value_or("");
+  options.look = picture_words(arguments, arguments.has("--pictures"), "--pictures FOLDER");
+  refuse(arguments, {"--parallel"}, "runs --planners beside each other; searches are timed one by one");
+  options.searches.variants = variants_of(arguments);
+  options.searches.trials = given_value(arguments, "--trials", auto_or_count_value, std::uint64_t{1}, most_runs);
+  options.searches.budget_s = options.budget_s;
+  options.sweep = sweep_options(arguments);
+  if (options.sweep) options.sweep->contest = options.searches;
+  if (options.world) {
+    take_graph_options(arguments, options);
+  } else {
+    refuse_world_options(arguments);
+  }
+  return options;
+}
 
 std::optional<Outcome> run_comparison(const CompareOptions& options, const Scene* scene, const Execution& execution,
                                       studies::Comparison& comparison,

@@ -127,14 +127,6 @@ int completion(const Arguments& arguments) {
   return exit_code::success;
 }
 
-}  // namespace
-
-Command completion_command() {
-  return {"completion", "SHELL", "print completions for bash, zsh or fish", {}, completion};
-}
-
-namespace {
-
 struct Candidates {
   std::string typed;  ///< the word so far
   std::string lines;
@@ -269,6 +261,10 @@ void add_options_left(Candidates& to, const Command& command, const Parsed& p) {
 }
 
 }  // namespace
+
+Command completion_command() {
+  return {"completion", "SHELL", "print completions for bash, zsh or fish", {}, completion};
+}
 
 std::string completion_lines(std::span<const std::string> words) {
   Candidates to;

@@ -12,7 +12,6 @@
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
-#include "tools/screen/terminal.hpp"
 #include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"
 #include "tools/words/planner_words.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// warren profile: what each stage of a solve costs, on one thread and on all.
+// warren profile: what each stage of a solve costs. The same question is asked several times on one thread and on all,
+// in turns, so that whatever else the machine does meets both alike. Medians are told.
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -21,29 +22,30 @@
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/answer/stage_lines.hpp"
-#include "solve/question/planner_choice.hpp"
 #include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"
 #include "solve/solve.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
-#include "tools/screen/terminal.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
 
-namespace warren::studies {
-// What each stage of a solve costs: the same question several times on one thread and on all, in turns, so that
-// whatever else the machine does meets both alike. Medians are told.
+namespace warren::tools {
+namespace {
 
 /// One stage, on all threads.
 struct ProfiledStage {
   StageLine line;                      ///< medians
   std::optional<double> one_thread_s;  ///< wall-clock; none where there is one thread alone
-  std::optional<double> speed_up() const;
+  std::optional<double> speed_up() const {
+    constexpr double least_s = 20e-6;  // below it the clock and the start of threads are measured
+    if (!one_thread_s || line.wall_s < least_s) return std::nullopt;
+    return *one_thread_s / line.wall_s;
+  }
 };
 
 struct StageProfile {
@@ -52,67 +54,6 @@ struct StageProfile {
   std::vector<ProfiledStage> stages;  ///< in the order of the work, and last "rest": what is in none of them
   ProfiledStage whole;                ///< solve_s
 };
-
-/// Ends early, and says so by the answer's outcome, where a run is stopped. Throws UsageError as solve() does.
-StageProfile profile_stages(const Scene& scene, const Question& question, const SolveOptions& options, std::size_t runs,
-                            const Execution& execution);
-
-std::string profile_summary(const StageProfile& profile, const Palette& palette);
-std::string profile_json(const StageProfile& profile);
-/// Two bars a stage: one thread, and all.
-PlotSheet profile_bars(const StageProfile& profile);
-
-}  // namespace warren::studies
-
-namespace warren::tools {
-namespace {
-
-constexpr OptionSpec profile_specs[] = {
-    {"--runs", "N", "how often, on one thread and on all in turns; medians are told (default: 5)"},
-    {"--json", "FILE", "write warren.profile/1; - is standard output"},
-    {"--picture", "FILE", "a bar a stage, as .svg, .png or .pdf by ending; - is standard output"},
-};
-
-int profile(const Arguments& arguments) {
-  constexpr std::uint32_t most_runs = 1000;
-  constexpr std::uint32_t usual_runs = 5;
-  const Question question = question_words(arguments);
-  const SolveOptions options = solve_words(arguments);
-  const auto runs = given_count(arguments, "--runs", 1, most_runs).value_or(usual_runs);
-  const bool standard_output_taken = check_reports(arguments, {"--json", "--picture"});
-  check_plots(arguments);
-  Run run(arguments);
-  StageTimes before;
-  const Scene scene =
-      load_planned_world(arguments.operand(0), options.roadmap.pipeline, arguments, run.execution(), before);
-  const studies::StageProfile profile = studies::profile_stages(scene, question, options, runs, run.execution());
-  run.end();
-  const bool is_stopped = profile.answer.outcome == Outcome::stopped;
-  write_report(arguments, "--json", [&] { return studies::profile_json(profile); });
-  write_plots(arguments, run.execution_for_what_is_left(), is_stopped,
-              [&] { return PlotsPage{{studies::profile_bars(profile)}}; });
-  run.conclude(standard_output_taken, is_stopped ? profile.answer.stop_reason : std::nullopt,
-               [&] { return studies::profile_summary(profile, run.palette()); });
-  if (is_stopped) return exit_code_of(profile.answer.stop_reason.value_or(StopReason::time));
-  return profile.answer.verified ? exit_code::success : exit_code::no_path;
-}
-
-}  // namespace
-
-Command profile_command() {
-  Command command{"profile", "WORLD", "measure what each stage of a solve costs", {}, profile};
-  add_options(command.options, profile_specs);
-  add_options(command.options, solve_option_specs());
-  add_options(command.options, question_option_specs());
-  add_options(command.options, world_option_specs());
-  add_options(command.options, run_option_specs());
-  return command;
-}
-
-}  // namespace warren::tools
-
-namespace warren::studies {
-namespace {
 
 using Json = nlohmann::ordered_json;
 
@@ -147,7 +88,7 @@ struct Timed {
 
 std::optional<double> median_wall(const Timed& timed, const std::string& key) {
   const auto found = timed.wall_s.find(key);
-  return found == timed.wall_s.end() ? std::nullopt : std::optional(median_of(found->second));
+  return found == timed.wall_s.end() ? std::nullopt : std::optional(studies::median_of(found->second));
 }
 
 std::vector<std::string> row_of(const ProfiledStage& stage, double whole_s) {
@@ -173,14 +114,7 @@ Json json_of(const ProfiledStage& stage) {
   return json;
 }
 
-}  // namespace
-
-std::optional<double> ProfiledStage::speed_up() const {
-  constexpr double least_s = 20e-6;  // below it the clock and the start of threads are measured
-  if (!one_thread_s || line.wall_s < least_s) return std::nullopt;
-  return *one_thread_s / line.wall_s;
-}
-
+/// Ends early, and says so by the answer's outcome, where a run is stopped. Throws UsageError as solve() does.
 StageProfile profile_stages(const Scene& scene, const Question& question, const SolveOptions& options, std::size_t runs,
                             const Execution& execution) {
   Execution alone = execution;
@@ -203,8 +137,8 @@ StageProfile profile_stages(const Scene& scene, const Question& question, const 
   }
   for (const StageLine& line : all.lines) {
     ProfiledStage stage{line, median_wall(one, line.key)};
-    stage.line.wall_s = median_of(all.wall_s[line.key]);
-    stage.line.cpu_s = median_of(all.cpu_s[line.key]);
+    stage.line.wall_s = studies::median_of(all.wall_s[line.key]);
+    stage.line.cpu_s = studies::median_of(all.cpu_s[line.key]);
     profile.stages.push_back(std::move(stage));
   }
   if (profile.stages.empty()) return profile;
@@ -215,13 +149,14 @@ StageProfile profile_stages(const Scene& scene, const Question& question, const 
 
 std::string profile_summary(const StageProfile& profile, const Palette& palette) {
   const Answer& answer = profile.answer;
-  TextTable table{{"stage", "wall", "share", "CPU", "count", "ns each", "1 thread", "speed-up", ""}, 1, {}};
+  studies::TextTable table{{"stage", "wall", "share", "CPU", "count", "ns each", "1 thread", "speed-up", ""}, 1, {}};
   for (const ProfiledStage& stage : profile.stages) table.rows.push_back(row_of(stage, profile.whole.line.wall_s));
   if (profile.runs > 0) table.rows.push_back(row_of(profile.whole, 0.0));
   return fmt::format("{}  {}, {}{}; {} on {}, medians\n{}{} {}\n", palette.strong(answer.world.source),
                      name_of(answer.outcome), answer.planner, answer.sampler.empty() ? "" : ", " + answer.sampler,
                      counted(profile.runs, "run", "runs"), counted(answer.threads, "thread", "threads"),
-                     table.rows.empty() ? "" : table.text(palette), palette.faint("machine"), text_of(this_machine()));
+                     table.rows.empty() ? "" : table.text(palette), palette.faint("machine"),
+                     studies::text_of(studies::this_machine()));
 }
 
 std::string profile_json(const StageProfile& profile) {
@@ -231,13 +166,14 @@ std::string profile_json(const StageProfile& profile) {
             {"planner", answer.planner},    {"sampler", answer.sampler},
             {"seed", answer.seed},          {"threads", answer.threads},
             {"runs", profile.runs}};
-  json["machine"] = machine_json(this_machine());
+  json["machine"] = studies::machine_json(studies::this_machine());
   json["solve"] = profile.runs > 0 ? json_of(profile.whole) : Json(nullptr);
   json["stages"] = Json::array();
   for (const ProfiledStage& stage : profile.stages) json["stages"].push_back(json_of(stage));
   return json.dump(1) + "\n";
 }
 
+/// Two bars a stage: one thread, and all.
 PlotSheet profile_bars(const StageProfile& profile) {
   constexpr Box frame{{150.0, 48.0}, {plot_size.x - 110.0, 366.0}};
   double most_s = 1e-9;
@@ -278,4 +214,46 @@ PlotSheet profile_bars(const StageProfile& profile) {
   return sheet;
 }
 
-}  // namespace warren::studies
+constexpr OptionSpec profile_specs[] = {
+    {"--runs", "N", "how often, on one thread and on all in turns; medians are told (default: 5)"},
+    {"--json", "FILE", "write warren.profile/1; - is standard output"},
+    {"--picture", "FILE", "a bar a stage, as .svg, .png or .pdf by ending; - is standard output"},
+};
+
+int profile(const Arguments& arguments) {
+  constexpr std::uint32_t most_runs = 1000;
+  constexpr std::uint32_t usual_runs = 5;
+  const Question question = question_words(arguments);
+  const SolveOptions options = solve_words(arguments);
+  const auto runs = given_count(arguments, "--runs", 1, most_runs).value_or(usual_runs);
+  const bool standard_output_taken = check_reports(arguments, {"--json", "--picture"});
+  check_plots(arguments);
+  Run run(arguments);
+  StageTimes before;
+  const Scene scene =
+      load_planned_world(arguments.operand(0), options.roadmap.pipeline, arguments, run.execution(), before);
+  const StageProfile profile = profile_stages(scene, question, options, runs, run.execution());
+  run.end();
+  const bool is_stopped = profile.answer.outcome == Outcome::stopped;
+  write_report(arguments, "--json", [&] { return profile_json(profile); });
+  write_plots(arguments, run.execution_for_what_is_left(), is_stopped,
+              [&] { return PlotsPage{{profile_bars(profile)}}; });
+  run.conclude(standard_output_taken, is_stopped ? profile.answer.stop_reason : std::nullopt,
+               [&] { return profile_summary(profile, run.palette()); });
+  if (is_stopped) return exit_code_of(profile.answer.stop_reason.value_or(StopReason::time));
+  return profile.answer.verified ? exit_code::success : exit_code::no_path;
+}
+
+}  // namespace
+
+Command profile_command() {
+  Command command{"profile", "WORLD", "measure what each stage of a solve costs", {}, profile};
+  add_options(command.options, profile_specs);
+  add_options(command.options, solve_option_specs());
+  add_options(command.options, question_option_specs());
+  add_options(command.options, world_option_specs());
+  add_options(command.options, run_option_specs());
+  return command;
+}
+
+}  // namespace warren::tools

@@ -5,14 +5,12 @@
 #include <algorithm>
 #include <limits>
 
-#include "apps/studies/scaling_report.hpp"
 #include "apps/studies/scaling_study.hpp"
 #include "core/base/error.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
-#include "tools/screen/terminal.hpp"
 #include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"
 #include "tools/words/planner_words.hpp"

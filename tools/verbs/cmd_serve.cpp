@@ -4,9 +4,7 @@
 
 #include <csignal>
 #include <cstdio>
-#include <limits>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 

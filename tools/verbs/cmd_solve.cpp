@@ -11,7 +11,6 @@
 #include "solve/explain_answer.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/solve.hpp"
-#include "solve/solve_and_keep.hpp"
 #include "solve/streamed/resume_file_io.hpp"
 #include "solve/streamed/solve_streamed.hpp"
 #include "tools/screen/output_files.hpp"

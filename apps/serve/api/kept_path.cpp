@@ -57,101 +57,6 @@ bool pack(std::span<const Vec2> path, std::size_t first, std::size_t last, std::
   return wrong == 0;
 }
 
-}  // namespace
-
-KeptCurve::KeptCurve(Path<Vec2> path, const Execution& execution)
-    : size_(path.size()),
-      points_(std::move(path)),
-      blocks_(chunk_count(std::max<std::size_t>(size_, 2) - 1, block_points)) {
-  ends_[0] = points_.front();
-  ends_[1] = points_.back();
-  execution.reserve(size_ / 4 + blocks_.size() * sizeof(Block));
-  steps_.resize(chunk_count(size_, steps_in_word));
-  std::vector<char> are_steps(blocks_.size());
-  for_chunks(blocks_.size(), 1, execution, [&](Range r) {
-    const std::size_t first = r.first * block_points;
-    const std::size_t last = first + points_in(r.first);
-    Box box;
-    for (std::size_t i = first; i < last; ++i) box.include(points_[i]);
-    blocks_[r.first] = {.first = points_[std::min(std::max<std::size_t>(first, 1), size_ - 1)], .box = box};
-    const bool begins_well = is_lattice_point(blocks_[r.first].first) || size_ < 4;
-    are_steps[r.first] = begins_well && pack(points_, first, last - 1, steps_) ? 1 : 0;
-  });
-  if (size_ > 3 && std::ranges::count(are_steps, 0) == 0) {
-    points_ = Path<Vec2>();
-  } else {
-    steps_ = std::vector<std::uint64_t>();
-    measure_blocks(execution);
-  }
-}
-
-void KeptCurve::measure_blocks(const Execution& execution) {
-  for_chunks(blocks_.size(), 1, execution, [&](Range r) {
-    const std::size_t first = r.first * block_points;
-    double length = 0.0;
-    for (std::size_t i = first; i + 1 < first + points_in(r.first); ++i) length += distance(points_[i], points_[i + 1]);
-    if (r.last < blocks_.size()) blocks_[r.last].length_before = length;
-  });
-  for (std::size_t block = 1; block < blocks_.size(); ++block) {
-    blocks_[block].length_before += blocks_[block - 1].length_before;
-  }
-}
-
-double KeptCurve::length_before(std::size_t block) const {
-  if (steps_.empty() || block == 0) return blocks_[block].length_before;
-  return distance(ends_[0], blocks_[0].first) + static_cast<double>(block * block_points - 1);
-}
-
-std::size_t KeptCurve::bytes() const {
-  return points_.size() * sizeof(Vec2) + steps_.size() * sizeof(std::uint64_t) + blocks_.size() * sizeof(Block);
-}
-
-std::size_t KeptCurve::points_in(std::size_t block) const {
-  return std::min(block_points + 1, size_ - block * block_points);
-}
-
-void KeptCurve::unpack(std::size_t block, Vec2* to) const {
-  constexpr double motion[][2] = {{1.0, 0.0}, {0.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}};
-  const std::size_t first = block * block_points;
-  const std::size_t last = first + points_in(block);
-  Vec2 at = blocks_[block].first;
-  std::size_t leg = first;
-  if (first == 0) {
-    *to++ = ends_[0];
-    ++leg;
-  }
-  *to = at;
-  for (; leg + 1 < last; ++leg) {
-    const auto step = steps_[leg / steps_in_word] >> 2 * (leg % steps_in_word) & 3U;
-    at = {at.x + motion[step][0], at.y + motion[step][1]};
-    *++to = at;
-  }
-  if (last == size_) *to = ends_[1];
-}
-
-std::span<const Vec2> KeptCurve::points(std::size_t block, std::vector<Vec2>& room) const {
-  if (steps_.empty()) return std::span<const Vec2>(points_).subspan(block * block_points, points_in(block));
-  room.resize(points_in(block));
-  unpack(block, room.data());
-  return room;
-}
-
-Path<Vec2> KeptCurve::whole(const Execution& execution) const {
-  execution.reserve(size_ * sizeof(Vec2));
-  if (steps_.empty()) return points_;
-  Path<Vec2> path(size_);
-  for_chunks(blocks_.size(), 1, execution, [&](Range r) {
-    std::vector<Vec2> room;
-    const std::span<const Vec2> points = this->points(r.first, room);
-    // The last is the next block's, which another thread writes.
-    const std::size_t count = points.size() - (r.first + 1 < blocks_.size() ? 1 : 0);
-    std::copy_n(points.begin(), count, path.begin() + static_cast<std::ptrdiff_t>(r.first * block_points));
-  });
-  return path;
-}
-
-namespace {
-
 constexpr std::size_t points_a_poll = std::size_t{1} << 16U;
 constexpr std::size_t blocks_a_look = 64;
 /// Points in a chain that doubles, and the same again where they are joined.
@@ -217,51 +122,6 @@ class JoinedChains {
   bool ends_seen_ = false;
 };
 
-}  // namespace
-
-Path<Vec2> curve_of(const Answer& answer, const Execution& execution) {
-  constexpr double most_turn_rad = 0.0873;
-  const PathLegs legs(answer);
-  Path<Vec2> curve{answer.path.front()};
-  for (std::size_t leg = 0; leg < legs.leg_count(); ++leg) {
-    if (leg % points_a_poll == 0) execution.check();
-    const double parts = std::clamp(std::ceil(legs.length(leg) / (most_turn_rad * legs.radius(leg))), 1.0, 1000.0);
-    for (double k = 1.0; k <= parts; k += 1.0) {
-      const PathState state = legs.at(leg, k / parts);
-      curve.push_back({state.numbers[0], state.numbers[1]});
-    }
-  }
-  return curve;
-}
-
-std::vector<std::vector<Vec2>> seen_of(const KeptCurve& curve, const PathView& view, const Execution& execution) {
-  std::vector<std::size_t> blocks;
-  for (std::size_t block = 0; block < curve.block_count(); ++block) {
-    if (block % points_a_poll == 0) execution.check();
-    if (curve.box(block).meets(view.box)) blocks.push_back(block);
-  }
-  JoinedChains joined(view);
-  std::array<SeenLegs, blocks_a_look> parts;
-  for (std::size_t first = 0; first < blocks.size(); first += blocks_a_look) {
-    const std::size_t count = std::min(blocks_a_look, blocks.size() - first);
-    execution.reserve(count * bytes_a_block);
-    for_chunks(count, 4, execution, [&](Range r) {
-      std::vector<Vec2> room;
-      for (std::size_t i = r.first; i < r.last; ++i) {
-        parts[i] = seen_legs(curve.points(blocks[first + i], room), view);
-      }
-    });
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t block = blocks[first + i];
-      const bool is_next = first + i > 0 && blocks[first + i - 1] + 1 == block;
-      joined.add(std::exchange(parts[i], {}), is_next);
-    }
-  }
-  return joined.chains();
-}
-
-namespace {
-
 constexpr std::size_t legs_a_poll = std::size_t{1} << 16U;
 
 PathState only_state(const Answer& answer) {
@@ -309,27 +169,6 @@ class Walk {
   double length_ = 0.0;  // of this leg
   double way_ = 0.0;
 };
-
-}  // namespace
-
-std::vector<PathPlace> places_along(const Answer& answer, std::size_t count, const Execution& execution) {
-  const PathLegs legs(answer);
-  double length = 0.0;
-  for (std::size_t leg = 0; leg < legs.leg_count(); ++leg) {
-    if (leg % legs_a_poll == 0) execution.check();
-    length += legs.length(leg);
-  }
-  if (length == 0.0) return {{0.0, only_state(answer)}};
-  Walk walk(legs, execution);
-  std::vector<PathPlace> places;
-  for (std::size_t k = 0; k < count; ++k) {
-    places.push_back(
-        walk.at(k + 1 == count ? length : length * static_cast<double>(k) / static_cast<double>(count - 1)));
-  }
-  return places;
-}
-
-namespace {
 
 constexpr std::size_t steps_a_poll = std::size_t{1} << 12U;
 constexpr double pixels_apart = 12.0;
@@ -426,6 +265,155 @@ PathState goal_of(const Answer& way, const KeptCurve& curve) {
 }
 
 }  // namespace
+
+KeptCurve::KeptCurve(Path<Vec2> path, const Execution& execution)
+    : size_(path.size()),
+      points_(std::move(path)),
+      blocks_(chunk_count(std::max<std::size_t>(size_, 2) - 1, block_points)) {
+  ends_[0] = points_.front();
+  ends_[1] = points_.back();
+  execution.reserve(size_ / 4 + blocks_.size() * sizeof(Block));
+  steps_.resize(chunk_count(size_, steps_in_word));
+  std::vector<char> are_steps(blocks_.size());
+  for_chunks(blocks_.size(), 1, execution, [&](Range r) {
+    const std::size_t first = r.first * block_points;
+    const std::size_t last = first + points_in(r.first);
+    Box box;
+    for (std::size_t i = first; i < last; ++i) box.include(points_[i]);
+    blocks_[r.first] = {.first = points_[std::min(std::max<std::size_t>(first, 1), size_ - 1)], .box = box};
+    const bool begins_well = is_lattice_point(blocks_[r.first].first) || size_ < 4;
+    are_steps[r.first] = begins_well && pack(points_, first, last - 1, steps_) ? 1 : 0;
+  });
+  if (size_ > 3 && std::ranges::count(are_steps, 0) == 0) {
+    points_ = Path<Vec2>();
+  } else {
+    steps_ = std::vector<std::uint64_t>();
+    measure_blocks(execution);
+  }
+}
+
+void KeptCurve::measure_blocks(const Execution& execution) {
+  for_chunks(blocks_.size(), 1, execution, [&](Range r) {
+    const std::size_t first = r.first * block_points;
+    double length = 0.0;
+    for (std::size_t i = first; i + 1 < first + points_in(r.first); ++i) length += distance(points_[i], points_[i + 1]);
+    if (r.last < blocks_.size()) blocks_[r.last].length_before = length;
+  });
+  for (std::size_t block = 1; block < blocks_.size(); ++block) {
+    blocks_[block].length_before += blocks_[block - 1].length_before;
+  }
+}
+
+double KeptCurve::length_before(std::size_t block) const {
+  if (steps_.empty() || block == 0) return blocks_[block].length_before;
+  return distance(ends_[0], blocks_[0].first) + static_cast<double>(block * block_points - 1);
+}
+
+std::size_t KeptCurve::bytes() const {
+  return points_.size() * sizeof(Vec2) + steps_.size() * sizeof(std::uint64_t) + blocks_.size() * sizeof(Block);
+}
+
+std::size_t KeptCurve::points_in(std::size_t block) const {
+  return std::min(block_points + 1, size_ - block * block_points);
+}
+
+void KeptCurve::unpack(std::size_t block, Vec2* to) const {
+  constexpr double motion[][2] = {{1.0, 0.0}, {0.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}};
+  const std::size_t first = block * block_points;
+  const std::size_t last = first + points_in(block);
+  Vec2 at = blocks_[block].first;
+  std::size_t leg = first;
+  if (first == 0) {
+    *to++ = ends_[0];
+    ++leg;
+  }
+  *to = at;
+  for (; leg + 1 < last; ++leg) {
+    const auto step = steps_[leg / steps_in_word] >> 2 * (leg % steps_in_word) & 3U;
+    at = {at.x + motion[step][0], at.y + motion[step][1]};
+    *++to = at;
+  }
+  if (last == size_) *to = ends_[1];
+}
+
+std::span<const Vec2> KeptCurve::points(std::size_t block, std::vector<Vec2>& room) const {
+  if (steps_.empty()) return std::span<const Vec2>(points_).subspan(block * block_points, points_in(block));
+  room.resize(points_in(block));
+  unpack(block, room.data());
+  return room;
+}
+
+Path<Vec2> KeptCurve::whole(const Execution& execution) const {
+  execution.reserve(size_ * sizeof(Vec2));
+  if (steps_.empty()) return points_;
+  Path<Vec2> path(size_);
+  for_chunks(blocks_.size(), 1, execution, [&](Range r) {
+    std::vector<Vec2> room;
+    const std::span<const Vec2> points = this->points(r.first, room);
+    // The last is the next block's, which another thread writes.
+    const std::size_t count = points.size() - (r.first + 1 < blocks_.size() ? 1 : 0);
+    std::copy_n(points.begin(), count, path.begin() + static_cast<std::ptrdiff_t>(r.first * block_points));
+  });
+  return path;
+}
+
+Path<Vec2> curve_of(const Answer& answer, const Execution& execution) {
+  constexpr double most_turn_rad = 0.0873;
+  const PathLegs legs(answer);
+  Path<Vec2> curve{answer.path.front()};
+  for (std::size_t leg = 0; leg < legs.leg_count(); ++leg) {
+    if (leg % points_a_poll == 0) execution.check();
+    const double parts = std::clamp(std::ceil(legs.length(leg) / (most_turn_rad * legs.radius(leg))), 1.0, 1000.0);
+    for (double k = 1.0; k <= parts; k += 1.0) {
+      const PathState state = legs.at(leg, k / parts);
+      curve.push_back({state.numbers[0], state.numbers[1]});
+    }
+  }
+  return curve;
+}
+
+std::vector<std::vector<Vec2>> seen_of(const KeptCurve& curve, const PathView& view, const Execution& execution) {
+  std::vector<std::size_t> blocks;
+  for (std::size_t block = 0; block < curve.block_count(); ++block) {
+    if (block % points_a_poll == 0) execution.check();
+    if (curve.box(block).meets(view.box)) blocks.push_back(block);
+  }
+  JoinedChains joined(view);
+  std::array<SeenLegs, blocks_a_look> parts;
+  for (std::size_t first = 0; first < blocks.size(); first += blocks_a_look) {
+    const std::size_t count = std::min(blocks_a_look, blocks.size() - first);
+    execution.reserve(count * bytes_a_block);
+    for_chunks(count, 4, execution, [&](Range r) {
+      std::vector<Vec2> room;
+      for (std::size_t i = r.first; i < r.last; ++i) {
+        parts[i] = seen_legs(curve.points(blocks[first + i], room), view);
+      }
+    });
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t block = blocks[first + i];
+      const bool is_next = first + i > 0 && blocks[first + i - 1] + 1 == block;
+      joined.add(std::exchange(parts[i], {}), is_next);
+    }
+  }
+  return joined.chains();
+}
+
+std::vector<PathPlace> places_along(const Answer& answer, std::size_t count, const Execution& execution) {
+  const PathLegs legs(answer);
+  double length = 0.0;
+  for (std::size_t leg = 0; leg < legs.leg_count(); ++leg) {
+    if (leg % legs_a_poll == 0) execution.check();
+    length += legs.length(leg);
+  }
+  if (length == 0.0) return {{0.0, only_state(answer)}};
+  Walk walk(legs, execution);
+  std::vector<PathPlace> places;
+  for (std::size_t k = 0; k < count; ++k) {
+    places.push_back(
+        walk.at(k + 1 == count ? length : length * static_cast<double>(k) / static_cast<double>(count - 1)));
+  }
+  return places;
+}
 
 double reach_of(const RobotSpec& robot) {
   if (robot.outline.empty()) return robot.radius;

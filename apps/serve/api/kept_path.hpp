@@ -76,16 +76,15 @@ struct PathView {
 /// of a path that has too many is not looked at. Throws HttpError for more than view.most_points, Stopped.
 std::vector<std::vector<Vec2>> seen_of(const KeptCurve& curve, const PathView& view, const Execution& execution);
 
-// Places along a path, evenly apart: where a profile is taken.
-
 /// The body's state somewhere on a path.
 struct PathPlace {
   double along;  ///< length of the reference point's way from the start
   PathState state;
 };
 
-/// count >= 2 places, start and goal among them, even by PathLegs::length(), so that turns on the spot have some, too;
-/// of a path without length its one place. The answer has a path. O(states + count). Throws Stopped.
+/// Places along a path, evenly apart: where a profile is taken. count >= 2 places, start and goal among them, even by
+/// PathLegs::length(), so that turns on the spot have some, too; of a path without length its one place. The answer has
+/// a path. O(states + count). Throws Stopped.
 std::vector<PathPlace> places_along(const Answer& answer, std::size_t count, const Execution& execution);
 
 // The body at places along a kept path, as far as they can be seen: what the page draws as its sweep.

@@ -82,12 +82,14 @@ Route place_of(std::string_view path, const TileGrid& grid, std::string_view has
   refuse_path();
 }
 
-}  // namespace
-
-bool is_of_graphs(Place place) { return place >= Place::graph; }
+/// Is it asked by POST?
 bool is_posted(Place place) {
   return place == Place::query || place == Place::batch || place == Place::update || is_of_graphs(place);
 }
+
+}  // namespace
+
+bool is_of_graphs(Place place) { return place >= Place::graph; }
 
 Route route_of(const HttpRequest& request, const TileGrid& grid, std::string_view hash) {
   Route route = place_of(request.path, grid, hash);

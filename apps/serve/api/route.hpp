@@ -39,8 +39,6 @@ struct Route {
   bool has_its_hash = false;  ///< a tile's address names its world, so what it shows never changes
 };
 
-/// Is it asked by POST?
-bool is_posted(Place place);
 /// Is it a question about a route graph?
 bool is_of_graphs(Place place);
 

@@ -21,8 +21,7 @@
 
 namespace warren::serve {
 
-// What a service may spend on its clients.
-
+/// What a service may spend on its clients.
 struct ServiceLimits {
   double budget_s = 10.0;  ///< of each request that is worked on; questions may ask for less
   std::size_t memory_bytes = static_cast<std::size_t>(-1);  ///< that the process may hold
@@ -39,10 +38,8 @@ struct ServiceLimits {
   std::size_t batch_answers = std::size_t{32} << 20U;  ///< bytes
 };
 
-// Paths that were found, kept by name, and what is asked about them (docs/service.md): their points, the room around
-// the body along them, the body's sweep.
-
-/// Any number of threads may ask.
+/// Paths that were found, kept by name, and what is asked about them (docs/service.md): their points, the room around
+/// the body along them, the body's sweep. Any number of threads may ask.
 class PathService {
  public:
   /// Refers to the world.
@@ -104,12 +101,8 @@ class WorldService : public HttpService {
   PathService paths_;
 };
 
-// A service whose world may be changed while it is asked (docs/service.md): each change makes a new world with a
-// service of its own, and requests that have begun go on in the one that they began in. One change at a time.
-
-/// Takes the same time for any wrong guess of the right length.
-bool is_same_secret(std::string_view a, std::string_view b);
-
+/// A service whose world may be changed while it is asked (docs/service.md): each change makes a new world with a
+/// service of its own, and requests that have begun go on in the one that they began in. One change at a time.
 class WritableService : public HttpService {
  public:
   /// Changes are refused where limits.writable is false. token: who sends it as `Authorization: Bearer TOKEN` may

@@ -9,7 +9,6 @@
 
 #include "apps/serve/graphs/edge_judge.hpp"
 #include "apps/serve/http/http_message.hpp"
-#include "core/base/error.hpp"
 #include "scenes/files/human_units.hpp"
 #include "solve/kept/export_roadmap.hpp"
 
@@ -17,33 +16,6 @@ namespace warren::serve {
 namespace {
 
 [[noreturn]] void refuse(const std::string& message) { throw HttpError(400, "bad_graph", "graph", message); }
-
-}  // namespace
-
-std::vector<RouteEnds> ends_of(const RouteGraph& graph) {
-  if (graph.nodes.empty()) refuse("Nav2 loads no route graph without nodes, and this one has none");
-  if (graph.edges.empty()) refuse("Nav2 loads no route graph without edges, and this one has none");
-  if (graph.nodes.size() > most_route_nodes || graph.edges.size() > most_route_edges) {
-    throw HttpError(413, "graph_too_large", "graph",
-                    fmt::format("at most {} nodes and {} edges, each one way, are edited here",
-                                grouped(most_route_nodes), grouped(most_route_edges)));
-  }
-  std::map<std::uint32_t, std::size_t> places;
-  for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
-    const std::uint32_t id = graph.nodes[i].id;
-    if (!places.emplace(id, i).second) refuse(fmt::format("the id {} is given to two nodes", id));
-  }
-  const auto place_of = [&](std::uint32_t id, const RouteEdge& edge) {
-    const auto found = places.find(id);
-    if (found == places.end()) refuse(fmt::format("edge {}: there is no node {}", edge.id, id));
-    return found->second;
-  };
-  std::vector<RouteEnds> ends;
-  for (const RouteEdge& edge : graph.edges) ends.push_back({place_of(edge.from, edge), place_of(edge.to, edge)});
-  return ends;
-}
-
-namespace {
 
 RobotSpec disc_around(const RobotSpec& robot) {
   if (robot.kind != RobotKind::polygon) return robot;
@@ -84,6 +56,29 @@ RouteGraph graph_of(const RoadmapParts& parts, const Execution& execution) {
 }
 
 }  // namespace
+
+std::vector<RouteEnds> ends_of(const RouteGraph& graph) {
+  if (graph.nodes.empty()) refuse("Nav2 loads no route graph without nodes, and this one has none");
+  if (graph.edges.empty()) refuse("Nav2 loads no route graph without edges, and this one has none");
+  if (graph.nodes.size() > most_route_nodes || graph.edges.size() > most_route_edges) {
+    throw HttpError(413, "graph_too_large", "graph",
+                    fmt::format("at most {} nodes and {} edges, each one way, are edited here",
+                                grouped(most_route_nodes), grouped(most_route_edges)));
+  }
+  std::map<std::uint32_t, std::size_t> places;
+  for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
+    const std::uint32_t id = graph.nodes[i].id;
+    if (!places.emplace(id, i).second) refuse(fmt::format("the id {} is given to two nodes", id));
+  }
+  const auto place_of = [&](std::uint32_t id, const RouteEdge& edge) {
+    const auto found = places.find(id);
+    if (found == places.end()) refuse(fmt::format("edge {}: there is no node {}", edge.id, id));
+    return found->second;
+  };
+  std::vector<RouteEnds> ends;
+  for (const RouteEdge& edge : graph.edges) ends.push_back({place_of(edge.from, edge), place_of(edge.to, edge)});
+  return ends;
+}
 
 RouteGraph graph_of_roadmap(const Roadmap& roadmap, const Execution& execution) {
   check_drives_edges(roadmap.robot);

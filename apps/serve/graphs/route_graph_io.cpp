@@ -76,6 +76,36 @@ std::string edge_json(const RouteEdge& edge) {
   return json.closed();
 }
 
+bool is_plain(const OrderedJson& value) { return value.is_number() || value.is_boolean() || value.is_string(); }
+
+void check_metadata(const OrderedJson& metadata, const std::string& where) {
+  if (!metadata.is_object()) refuse_json(where, "an object");
+  for (const auto& [key, value] : metadata.items()) {
+    const std::string place = where + "." + key;
+    if (value.is_object()) {
+      check_metadata(value, place);
+    } else if (value.is_array() ? !std::all_of(value.begin(), value.end(), is_plain) : !is_plain(value)) {
+      refuse_json(place, "a number, a text, true, false, a list of them or an object; Nav2 loads nothing else");
+    }
+  }
+}
+
+/// Does Nav2 take these properties' metadata and operations? Throws HttpError (400) for the first that it would not.
+void check_properties(const OrderedJson& properties, const std::string& where) {
+  const auto says = [&](const char* key) { return properties.contains(key) && !properties[key].is_null(); };
+  if (says("metadata")) check_metadata(properties["metadata"], where + ": metadata");
+  if (!says("operations")) return;
+  for (const OrderedJson& operation : properties["operations"]) {
+    const std::string place = where + ": operations";
+    for (const char* key : {"type", "trigger"}) {
+      if (!operation.is_object() || !operation.contains(key) || !operation[key].is_string()) {
+        refuse_json(place, fmt::format("{} as a text in each of them", key));
+      }
+    }
+    if (operation.contains("metadata")) check_metadata(operation["metadata"], place + ".metadata");
+  }
+}
+
 std::uint32_t id_of(const OrderedJson& json, const char* key, const std::string& where) {
   const OrderedJson* id = member(json, key);
   if (id == nullptr) refuse_json(where + ": " + key, "a whole number");
@@ -113,91 +143,6 @@ RouteEdge edge_of(const OrderedJson& json, const std::string& where, const Execu
   edge.more = more_of(json, where, {"id", "startid", "endid", "cost"}, execution);
   return edge;
 }
-
-}  // namespace
-
-GraphOptions read_graph_options(std::string_view text) {
-  constexpr std::uint64_t most = std::uint64_t{1} << 31U;
-  GraphOptions options;
-  const OrderedJson json = json_object_of(text, deepest_json, {});
-  for (const auto& [key, value] : json.items()) {
-    if (key == "kind") {
-      const auto kind = value.is_string() ? enum_named<GraphKind>(value.get<std::string>()) : std::nullopt;
-      if (!kind) refuse_json("kind", "\"axis\" or \"roadmap\"");
-      options.kind = *kind;
-    } else if (key == "samples") {
-      options.samples = whole_number(value, key, most);
-    } else if (key == "neighbours") {
-      options.neighbours = static_cast<std::uint32_t>(whole_number(value, key, most));
-    } else if (key == "seed") {
-      options.seed = whole_number(value, key, std::numeric_limits<std::uint64_t>::max());
-    } else {
-      refuse_json("body", "the keys kind, samples, neighbours, seed");
-    }
-  }
-  return options;
-}
-
-std::vector<DrawnEdge> read_drawn_edges(std::string_view text, const Execution& execution) {
-  const OrderedJson json = json_object_of(text, deepest_json, execution);
-  if (json.size() != 1 || !json.contains("edges")) refuse_json("body", "the key edges");
-  const OrderedJson& list = list_of(json["edges"], "edges", most_route_edges);
-  std::vector<DrawnEdge> edges;
-  for (std::size_t i = 0; i < list.size(); ++i) edges.push_back(drawn_edge(list[i], fmt::format("edges[{}]", i)));
-  return edges;
-}
-
-std::string verdicts_json(const std::vector<EdgeVerdict>& verdicts) {
-  JsonObject json;
-  json.add_json("edges", list_of_verdicts(verdicts));
-  return json.closed() + "\n";
-}
-
-std::string graph_json(const RouteGraph& graph, const std::vector<EdgeVerdict>& verdicts, const Execution& execution) {
-  const auto list = [&](const auto& items, auto json_of_item) {
-    std::string text = "[";
-    for (const auto& item : items) {
-      execution.check();
-      text.append(text.size() > 1 ? ",\n" : "").append(json_of_item(item));
-    }
-    return text + "]";
-  };
-  JsonObject json;
-  json.add("schema", "warren.graph/1");
-  json.add("frame", std::string_view(graph.frame));
-  json.add("left_out", std::uint64_t{graph.left_out});
-  if (graph.more != "{}") json.add("more", std::string_view(graph.more));
-  json.add_json("nodes", list(graph.nodes, node_json));
-  json.add_json("edges", list(graph.edges, edge_json));
-  json.add_json("verdicts", list_of_verdicts(verdicts));
-  return json.closed() + "\n";
-}
-
-RouteGraph read_graph_json(std::string_view text, const Execution& execution) {
-  const OrderedJson json = json_object_of(text, deepest_json, execution);
-  const OrderedJson* nodes = member(json, "nodes");
-  const OrderedJson* edges = member(json, "edges");
-  if (nodes == nullptr || edges == nullptr) refuse_json("body", "the keys nodes and edges, as warren.graph/1 has them");
-  RouteGraph graph;
-  if (const OrderedJson* frame = member(json, "frame")) {
-    if (!frame->is_string()) refuse_json("frame", "a text");
-    graph.frame = *frame;
-  }
-  graph.more = more_of(json, "body", {"type", "features"}, execution);
-  std::size_t number = 0;
-  for (const OrderedJson& node : list_of(*nodes, "nodes", most_route_nodes)) {
-    execution.check();
-    graph.nodes.push_back(node_of(node, fmt::format("nodes[{}]", number++), execution));
-  }
-  number = 0;
-  for (const OrderedJson& edge : list_of(*edges, "edges", most_route_edges)) {
-    execution.check();
-    graph.edges.push_back(edge_of(edge, fmt::format("edges[{}]", number++), execution));
-  }
-  return graph;
-}
-
-namespace {
 
 constexpr std::size_t deepest_geojson = 16;
 
@@ -315,35 +260,87 @@ std::string with_heading(const RouteNode& node) {
 
 void append_place(std::string& text, Vec2 at) { append_json_list(text, std::array{at.x, at.y}); }
 
-bool is_plain(const OrderedJson& value) { return value.is_number() || value.is_boolean() || value.is_string(); }
-
-void check_metadata(const OrderedJson& metadata, const std::string& where) {
-  if (!metadata.is_object()) refuse_json(where, "an object");
-  for (const auto& [key, value] : metadata.items()) {
-    const std::string place = where + "." + key;
-    if (value.is_object()) {
-      check_metadata(value, place);
-    } else if (value.is_array() ? !std::all_of(value.begin(), value.end(), is_plain) : !is_plain(value)) {
-      refuse_json(place, "a number, a text, true, false, a list of them or an object; Nav2 loads nothing else");
-    }
-  }
-}
-
 }  // namespace
 
-void check_properties(const OrderedJson& properties, const std::string& where) {
-  const auto says = [&](const char* key) { return properties.contains(key) && !properties[key].is_null(); };
-  if (says("metadata")) check_metadata(properties["metadata"], where + ": metadata");
-  if (!says("operations")) return;
-  for (const OrderedJson& operation : properties["operations"]) {
-    const std::string place = where + ": operations";
-    for (const char* key : {"type", "trigger"}) {
-      if (!operation.is_object() || !operation.contains(key) || !operation[key].is_string()) {
-        refuse_json(place, fmt::format("{} as a text in each of them", key));
-      }
+GraphOptions read_graph_options(std::string_view text) {
+  constexpr std::uint64_t most = std::uint64_t{1} << 31U;
+  GraphOptions options;
+  const OrderedJson json = json_object_of(text, deepest_json, {});
+  for (const auto& [key, value] : json.items()) {
+    if (key == "kind") {
+      const auto kind = value.is_string() ? enum_named<GraphKind>(value.get<std::string>()) : std::nullopt;
+      if (!kind) refuse_json("kind", "\"axis\" or \"roadmap\"");
+      options.kind = *kind;
+    } else if (key == "samples") {
+      options.samples = whole_number(value, key, most);
+    } else if (key == "neighbours") {
+      options.neighbours = static_cast<std::uint32_t>(whole_number(value, key, most));
+    } else if (key == "seed") {
+      options.seed = whole_number(value, key, std::numeric_limits<std::uint64_t>::max());
+    } else {
+      refuse_json("body", "the keys kind, samples, neighbours, seed");
     }
-    if (operation.contains("metadata")) check_metadata(operation["metadata"], place + ".metadata");
   }
+  return options;
+}
+
+std::vector<DrawnEdge> read_drawn_edges(std::string_view text, const Execution& execution) {
+  const OrderedJson json = json_object_of(text, deepest_json, execution);
+  if (json.size() != 1 || !json.contains("edges")) refuse_json("body", "the key edges");
+  const OrderedJson& list = list_of(json["edges"], "edges", most_route_edges);
+  std::vector<DrawnEdge> edges;
+  for (std::size_t i = 0; i < list.size(); ++i) edges.push_back(drawn_edge(list[i], fmt::format("edges[{}]", i)));
+  return edges;
+}
+
+std::string verdicts_json(const std::vector<EdgeVerdict>& verdicts) {
+  JsonObject json;
+  json.add_json("edges", list_of_verdicts(verdicts));
+  return json.closed() + "\n";
+}
+
+std::string graph_json(const RouteGraph& graph, const std::vector<EdgeVerdict>& verdicts, const Execution& execution) {
+  const auto list = [&](const auto& items, auto json_of_item) {
+    std::string text = "[";
+    for (const auto& item : items) {
+      execution.check();
+      text.append(text.size() > 1 ? ",\n" : "").append(json_of_item(item));
+    }
+    return text + "]";
+  };
+  JsonObject json;
+  json.add("schema", "warren.graph/1");
+  json.add("frame", std::string_view(graph.frame));
+  json.add("left_out", std::uint64_t{graph.left_out});
+  if (graph.more != "{}") json.add("more", std::string_view(graph.more));
+  json.add_json("nodes", list(graph.nodes, node_json));
+  json.add_json("edges", list(graph.edges, edge_json));
+  json.add_json("verdicts", list_of_verdicts(verdicts));
+  return json.closed() + "\n";
+}
+
+RouteGraph read_graph_json(std::string_view text, const Execution& execution) {
+  const OrderedJson json = json_object_of(text, deepest_json, execution);
+  const OrderedJson* nodes = member(json, "nodes");
+  const OrderedJson* edges = member(json, "edges");
+  if (nodes == nullptr || edges == nullptr) refuse_json("body", "the keys nodes and edges, as warren.graph/1 has them");
+  RouteGraph graph;
+  if (const OrderedJson* frame = member(json, "frame")) {
+    if (!frame->is_string()) refuse_json("frame", "a text");
+    graph.frame = *frame;
+  }
+  graph.more = more_of(json, "body", {"type", "features"}, execution);
+  std::size_t number = 0;
+  for (const OrderedJson& node : list_of(*nodes, "nodes", most_route_nodes)) {
+    execution.check();
+    graph.nodes.push_back(node_of(node, fmt::format("nodes[{}]", number++), execution));
+  }
+  number = 0;
+  for (const OrderedJson& edge : list_of(*edges, "edges", most_route_edges)) {
+    execution.check();
+    graph.edges.push_back(edge_of(edge, fmt::format("edges[{}]", number++), execution));
+  }
+  return graph;
 }
 
 RouteGraph read_nav2_graph(std::string_view geojson, const Execution& execution) {

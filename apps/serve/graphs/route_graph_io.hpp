@@ -35,9 +35,6 @@ RouteGraph read_graph_json(std::string_view json, const Execution& execution);
 /// else for what it says; nodes of several frames, too, since these coordinates are of one.
 RouteGraph read_nav2_graph(std::string_view geojson, const Execution& execution);
 
-/// Does Nav2 take these properties' metadata and operations? Throws HttpError (400) for the first that it would not.
-void check_properties(const OrderedJson& properties, const std::string& where);
-
 /// One feature a line; an edge without a cost gets its length. `ends`: ends_of(graph).
 std::string nav2_graph_text(const RouteGraph& graph, const std::vector<RouteEnds>& ends, const Execution& execution);
 

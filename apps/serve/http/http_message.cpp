@@ -57,33 +57,6 @@ std::string_view taken(std::string_view& text, char mark) {
   return piece;
 }
 
-}  // namespace
-
-void read_target(std::string_view target, HttpRequest& request) {
-  if (target.size() > longest_target) {
-    throw HttpError(414, "target_too_long", "target", "at most 2,048 bytes are expected");
-  }
-  const std::size_t scheme = target.starts_with("http://") ? 7 : target.starts_with("https://") ? 8 : 0;
-  if (scheme > 0) {
-    target.remove_prefix(scheme);
-    request.host = target.substr(0, target.find_first_of("/?"));
-    target.remove_prefix(request.host.size());
-  }
-  if (scheme > 0 ? request.host.empty() : !target.starts_with('/')) {
-    throw HttpError(400, "bad_request", "target", "a path that begins with / is expected");
-  }
-  request.path = decoded(taken(target, '?'), false);
-  if (request.path.empty()) request.path = "/";
-  request.query.clear();
-  while (!target.empty()) {
-    std::string_view value = taken(target, '&');
-    const std::string_view name = taken(value, '=');
-    request.query.emplace_back(decoded(name, true), decoded(value, true));
-  }
-}
-
-namespace {
-
 std::optional<HostName> host_of(std::string_view text) {
   HostName host;
   const bool bracketed = text.starts_with('[');
@@ -145,6 +118,29 @@ bool may_ask(const std::string& origin, const HostName& host, const HttpNames& n
 }
 
 }  // namespace
+
+void read_target(std::string_view target, HttpRequest& request) {
+  if (target.size() > longest_target) {
+    throw HttpError(414, "target_too_long", "target", "at most 2,048 bytes are expected");
+  }
+  const std::size_t scheme = target.starts_with("http://") ? 7 : target.starts_with("https://") ? 8 : 0;
+  if (scheme > 0) {
+    target.remove_prefix(scheme);
+    request.host = target.substr(0, target.find_first_of("/?"));
+    target.remove_prefix(request.host.size());
+  }
+  if (scheme > 0 ? request.host.empty() : !target.starts_with('/')) {
+    throw HttpError(400, "bad_request", "target", "a path that begins with / is expected");
+  }
+  request.path = decoded(taken(target, '?'), false);
+  if (request.path.empty()) request.path = "/";
+  request.query.clear();
+  while (!target.empty()) {
+    std::string_view value = taken(target, '&');
+    const std::string_view name = taken(value, '=');
+    request.query.emplace_back(decoded(name, true), decoded(value, true));
+  }
+}
 
 std::optional<PublicUrl> public_url_of(std::string_view text) {
   std::optional<PublicUrl> url = url_of(text);

@@ -45,13 +45,12 @@ struct HttpError : TextError {
 HttpResponse error_response(unsigned status, std::string_view code, std::string_view where, std::string_view message);
 HttpResponse error_response(const HttpError& error);
 
-// What a request is for: the target of its first line, taken apart and decoded once.
-
 inline constexpr std::size_t longest_target = 2048;
 
-/// Fills in path and query, of a target that is a whole address (absolute-form) also the host. Throws HttpError: 414
-/// for more than longest_target bytes; 400 for what is no address and begins with no /, for broken escapes, and for
-/// escaped bytes that no name here has: controls, beyond ASCII.
+/// What a request is for: the target of its first line, taken apart and decoded once. Fills in path and query, of a
+/// target that is a whole address (absolute-form) also the host. Throws HttpError: 414 for more than longest_target
+/// bytes; 400 for what is no address and begins with no /, for broken escapes, and for escaped bytes that no name here
+/// has: controls, beyond ASCII.
 void read_target(std::string_view target, HttpRequest& request);
 
 // By which names a service may be asked. A page of somebody else can make a browser send requests here: under its own
@@ -91,14 +90,13 @@ void check_names(const HttpRequest& request, const HttpNames& names);
 /// A path below that of a public address, as proxies send it that do not take that away, becomes one of the service.
 void take_public_path(std::string& path, const HttpNames& names);
 
-// How deep JSON is nested, before anybody parses it: a parser's stack is not for strangers to choose.
-
 inline constexpr std::size_t deepest_json = 8;
 
 /// Is each line a text of its own, or is it the whole?
 enum class NestedIn : std::uint8_t { lines, whole };
 
-/// How deep brackets and braces lie in each other, in the deepest line or in the whole.
+/// How deep JSON is nested, before anybody parses it: a parser's stack is not for strangers to choose. How deep
+/// brackets and braces lie in each other, in the deepest line or in the whole.
 std::size_t nesting_of(std::string_view text, NestedIn what = NestedIn::lines);
 
 }  // namespace warren::serve

@@ -34,11 +34,19 @@
 #include "parallel/execution.hpp"
 
 namespace warren::serve {
+namespace {
+
+namespace asio = boost::asio;
+namespace http = boost::beast::http;
+using Tcp = asio::ip::tcp;
+using Code = boost::system::error_code;
+using Clock = std::chrono::steady_clock;
+
+constexpr auto never = Clock::time_point::max();
+constexpr auto between_looks = std::chrono::milliseconds(50);
+
 // One connection of the server, and what is worked on for it: data of the server's own thread, but for what a job's
 // task fills in.
-
-using ServerClock = std::chrono::steady_clock;
-inline constexpr auto never = ServerClock::time_point::max();
 
 /// Where a connection is with its request: in the first three it still waits for a whole one.
 enum class Stage : std::uint8_t { idle, head, body, work, write, linger };
@@ -51,45 +59,55 @@ struct Job {
   HttpRequest request;
   HttpResponse response = {};
   SignalFlag gone{0};
-  ServerClock::time_point offered = ServerClock::now();
-  ServerClock::time_point begun = {};
+  Clock::time_point offered = Clock::now();
+  Clock::time_point begun = {};
 };
 
 struct Connection {
-  Connection(std::uint64_t number, boost::asio::ip::tcp::socket&& its_socket, std::size_t buffer_bytes)
+  Connection(std::uint64_t number, Tcp::socket&& its_socket, std::size_t buffer_bytes)
       : id(number), socket(std::move(its_socket)), buffer(buffer_bytes) {}
   std::uint64_t id;
-  boost::asio::ip::tcp::socket socket;
-  boost::asio::ip::address address = {};
+  Tcp::socket socket;
+  asio::ip::address address = {};
   boost::beast::flat_buffer buffer;
   std::optional<RequestParser> parser = {};
   std::optional<BeastResponse> response = {};
   HttpRequest request = {};
   Job* job = nullptr;
   Stage stage = Stage::idle;
-  ServerClock::time_point waits_since = ServerClock::now();  ///< for a whole request
-  ServerClock::time_point end = never;                       ///< of the stage
-  unsigned pending = 0;                                      ///< operations that will call back
+  Clock::time_point waits_since = Clock::now();  ///< for a whole request
+  Clock::time_point end = never;                 ///< of the stage
+  unsigned pending = 0;                          ///< operations that will call back
   bool closed = false;
   bool keep_alive = true;
   bool has_large_body = false;
   std::size_t unsent_bytes = 0;  ///< of a large answer on its way
 };
 
-namespace {
-
-// Who is connected, and who gives way where all places are taken.
-
-/// Owns the connections.
+/// Who is connected, and who gives way where all places are taken. Owns the connections.
 class ConnectionPlaces {
  public:
-  Connection& add(boost::asio::ip::tcp::socket socket, const boost::asio::ip::address& address,
-                  std::size_t buffer_bytes);
+  Connection& add(Tcp::socket socket, const asio::ip::address& address, std::size_t buffer_bytes) {
+    const std::uint64_t id = next_id_++;
+    auto& place = connections_[id] = std::make_unique<Connection>(id, std::move(socket), buffer_bytes);
+    place->address = address;
+    return *place;
+  }
   void forget(const Connection& connection) { connections_.erase(connection.id); }
   std::size_t size() const { return connections_.size(); }
-  std::size_t of_address(const boost::asio::ip::address& address) const;
+  std::size_t of_address(const asio::ip::address& address) const {
+    const auto same = [&](const auto& other) { return other.second->address == address; };
+    return static_cast<std::size_t>(std::count_if(connections_.begin(), connections_.end(), same));
+  }
   /// Who has waited longest without a whole request; nullptr: all are worked on or answered.
-  Connection* longest_waiting() const;
+  Connection* longest_waiting() const {
+    Connection* longest = nullptr;
+    for (const auto& [id, other] : connections_) {
+      const bool waits = !other->closed && (other->stage <= Stage::body || other->stage == Stage::linger);
+      if (waits && (longest == nullptr || other->waits_since < longest->waits_since)) longest = other.get();
+    }
+    return longest;
+  }
   /// Calls visit with each; it may forget the one that it is given.
   template <class Visit>
   void each(const Visit& visit) {
@@ -101,36 +119,7 @@ class ConnectionPlaces {
   std::map<std::uint64_t, std::unique_ptr<Connection>> connections_;
 };
 
-Connection& ConnectionPlaces::add(boost::asio::ip::tcp::socket socket, const boost::asio::ip::address& address,
-                                  std::size_t buffer_bytes) {
-  const std::uint64_t id = next_id_++;
-  auto& place = connections_[id] = std::make_unique<Connection>(id, std::move(socket), buffer_bytes);
-  place->address = address;
-  return *place;
-}
-
-std::size_t ConnectionPlaces::of_address(const boost::asio::ip::address& address) const {
-  const auto same = [&](const auto& other) { return other.second->address == address; };
-  return static_cast<std::size_t>(std::count_if(connections_.begin(), connections_.end(), same));
-}
-
-Connection* ConnectionPlaces::longest_waiting() const {
-  Connection* longest = nullptr;
-  for (const auto& [id, other] : connections_) {
-    const bool waits = !other->closed && (other->stage <= Stage::body || other->stage == Stage::linger);
-    if (waits && (longest == nullptr || other->waits_since < longest->waits_since)) longest = other.get();
-  }
-  return longest;
-}
-
-// Where a server listens.
-
 /// Listens at all addresses that the machine has, at the first one's port. Throws UsageError where the first can't be.
-std::vector<boost::asio::ip::tcp::acceptor> acceptors_at(const HttpPlace& place, boost::asio::io_context& io);
-
-namespace asio = boost::asio;
-using Tcp = asio::ip::tcp;
-
 std::vector<Tcp::acceptor> acceptors_at(const HttpPlace& place, asio::io_context& io) {
   std::vector<Tcp::acceptor> acceptors;
   std::uint16_t port = place.port;
@@ -155,14 +144,6 @@ std::vector<Tcp::acceptor> acceptors_at(const HttpPlace& place, asio::io_context
   return acceptors;
 }
 
-namespace asio = boost::asio;
-namespace http = boost::beast::http;
-using Tcp = asio::ip::tcp;
-using Code = boost::system::error_code;
-using Clock = ServerClock;
-
-constexpr auto between_looks = std::chrono::milliseconds(50);
-
 Clock::time_point in(double seconds) {
   return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
@@ -176,6 +157,31 @@ bool has_gone(Tcp::socket& socket) {
   socklen_t size = sizeof info;
   return ::getsockopt(socket.native_handle(), IPPROTO_TCP, TCP_INFO, &info, &size) == 0 &&
          info.tcpi_state != TCP_ESTABLISHED;
+}
+
+HttpResponse said_of(const Stopped& stopped) {
+  if (stopped.reason == StopReason::memory) {
+    return error_response(503, "memory", "", "this needs more memory than there is");
+  }
+  return error_response(504, "budget", "budget_ms", "this takes longer than it may");
+}
+
+HttpResponse said_of_what_is_thrown() {
+  try {
+    throw;
+  } catch (const HttpError& error) {
+    return error_response(error);
+  } catch (const UsageError& error) {
+    return error_response(400, "usage", "", error.what());
+  } catch (const InputError& error) {
+    return error_response(400, "bad_data", error.where(), error.what());
+  } catch (const Stopped& stopped) {
+    return said_of(stopped);
+  } catch (const std::bad_alloc&) {
+    return error_response(503, "memory", "", "memory is out");
+  } catch (const std::exception& error) {
+    return error_response(500, "internal", "", error.what());
+  }
 }
 
 }  // namespace
@@ -501,35 +507,6 @@ std::string HttpServer::address() const { return connections_->address(); }
 std::uint16_t HttpServer::port() const { return connections_->names().port; }
 bool HttpServer::is_loopback() const { return connections_->names().is_loopback; }
 void HttpServer::run(const SignalFlag& stop) { connections_->run(stop); }
-
-namespace {
-
-HttpResponse said_of(const Stopped& stopped) {
-  if (stopped.reason == StopReason::memory) {
-    return error_response(503, "memory", "", "this needs more memory than there is");
-  }
-  return error_response(504, "budget", "budget_ms", "this takes longer than it may");
-}
-
-HttpResponse said_of_what_is_thrown() {
-  try {
-    throw;
-  } catch (const HttpError& error) {
-    return error_response(error);
-  } catch (const UsageError& error) {
-    return error_response(400, "usage", "", error.what());
-  } catch (const InputError& error) {
-    return error_response(400, "bad_data", error.where(), error.what());
-  } catch (const Stopped& stopped) {
-    return said_of(stopped);
-  } catch (const std::bad_alloc&) {
-    return error_response(503, "memory", "", "memory is out");
-  } catch (const std::exception& error) {
-    return error_response(500, "internal", "", error.what());
-  }
-}
-
-}  // namespace
 
 HttpResponse answer_of(HttpService& service, const HttpRequest& request, const SignalFlag& gone) noexcept {
   try {

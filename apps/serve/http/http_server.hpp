@@ -20,7 +20,6 @@
 #include "parallel/execution.hpp"
 
 namespace warren::serve {
-// What a server asks of whom it serves: the whole of an interface, without sockets.
 
 /// What a server has done so far, and does now.
 struct HttpFigures {
@@ -36,6 +35,7 @@ struct HttpFigures {
   double worked_s = 0.0;                ///< on them, all together
 };
 
+/// What a server asks of whom it serves: the whole of an interface, without sockets.
 class HttpService {
  public:
   HttpService() = default;

@@ -117,10 +117,9 @@ class KeptValues {
   std::atomic<std::size_t> bytes_{0};
 };
 
-// Values by name that take long to make: who asks first makes one, and who asks for the same meanwhile waits for it,
-// each within its own limits. The last used ones are kept, up to so many bytes.
-
-/// Any number of threads may call. It outlives its leases.
+/// Values by name that take long to make: who asks first makes one, and who asks for the same meanwhile waits for it,
+/// each within its own limits. The last used ones are kept, up to so many bytes. Any number of threads may call. It
+/// outlives its leases.
 template <class Value>
 class MadeByName {
   using Kept = KeptValues<std::unique_ptr<MadeOnce<Value>>>;
@@ -154,10 +153,9 @@ class MadeByName {
   Kept kept_;
 };
 
-// A value that is replaced while it is used: who took it keeps the one that was current then, and the last one to give
-// it back ends it. Values themselves never change. Nobody waits for more than a few pointers.
-
-/// Any number of threads may call. It outlives its leases.
+/// A value that is replaced while it is used: who took it keeps the one that was current then, and the last one to give
+/// it back ends it. Values themselves never change. Nobody waits for more than a few pointers. Any number of threads
+/// may call. It outlives its leases.
 template <class Value>
 class CurrentValue {
   struct Entry {

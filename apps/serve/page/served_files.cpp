@@ -43,6 +43,4 @@ const ServedFile* served_file(std::string_view name) {
   return found == files.end() ? nullptr : &found->second;
 }
 
-bool has_leaflet() { return served_file("leaflet.min.js") != nullptr; }
-
 }  // namespace warren::serve

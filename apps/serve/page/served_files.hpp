@@ -18,9 +18,6 @@ struct ServedFile {
 /// nullptr where there is none of that name. Without Leaflet, index.html says so.
 const ServedFile* served_file(std::string_view name);
 
-/// Was Leaflet there when this was built?
-bool has_leaflet();
-
 // What the build makes of folders (cmake/embed_files.cmake).
 std::span<const EmbeddedFile> service_page_files();
 std::span<const EmbeddedFile> leaflet_files();

@@ -41,11 +41,10 @@ class ClearanceLayer {
   Steps steps_;
 };
 
-// How far the milestones of a roadmap are from a start, along its free edges: what a layer of the service colours.
-
 /// Of a milestone that the start does not reach, beside the steps' own numbers.
 inline constexpr std::uint8_t unreached_ink = step_inks.size();
 
+/// How far the milestones of a roadmap are from a start, along its free edges: what a layer of the service colours.
 struct StartDistances {
   std::vector<std::uint8_t> inks;  ///< one a milestone: the step of its distance, or unreached_ink
   Steps steps;

@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "pictures/formats/raster.hpp"
-#include "scenes/files/png_io.hpp"
 
 namespace warren::serve {
 namespace {
@@ -16,66 +15,52 @@ namespace {
 // A tile that lies above the world's: lines and dots in a few inks, transparent where there are none. Where inks meet,
 // a pixel has the one that covers most of it.
 
+constexpr unsigned shades = 15;  // of an ink, beside none
+
 /// Of one thread.
 class InkTile {
  public:
   /// At most 16 inks, which outlive it. What draws asks the execution for a quarter of a MiB an ink that is used.
-  InkTile(std::span<const Rgb> inks, const Execution& execution);
+  InkTile(std::span<const Rgb> inks, const Execution& execution)
+      : inks_(inks), execution_(execution), masks_(inks.size()) {}
 
   /// The pixels of that ink.
-  Mask& of(std::size_t ink);
+  Mask& of(std::size_t ink) {
+    if (!masks_[ink]) masks_[ink].emplace(TileGrid::pixels, TileGrid::pixels, execution_);
+    return *masks_[ink];
+  }
   /// A PNG. Throws Stopped.
-  std::string png() const;
+  std::string png() const {
+    std::vector<std::array<std::uint8_t, 3>> palette{{0, 0, 0}};
+    std::vector<std::uint8_t> alphas{0};
+    for (const Rgb ink : inks_) {
+      for (unsigned shade = 1; shade <= shades; ++shade) {
+        palette.push_back({ink.red, ink.green, ink.blue});
+        alphas.push_back(static_cast<std::uint8_t>(255 * shade / shades));
+      }
+    }
+    std::vector<std::uint8_t> row(TileGrid::pixels);
+    const auto row_of = [&](std::size_t y) {
+      for (std::size_t x = 0; x < row.size(); ++x) {
+        unsigned most = 0;
+        row[x] = 0;
+        for (std::size_t ink = 0; ink < masks_.size(); ++ink) {
+          const unsigned shade = masks_[ink] ? masks_[ink]->pixels()[y * TileGrid::pixels + x] >> 4U : 0;
+          if (shade <= most) continue;
+          most = shade;
+          row[x] = static_cast<std::uint8_t>(shades * ink + shade);
+        }
+      }
+      return static_cast<const std::uint8_t*>(row.data());
+    };
+    return png_of_rows(palette, alphas, row_of, execution_);
+  }
 
  private:
   std::span<const Rgb> inks_;
   const Execution& execution_;
   std::vector<std::optional<Mask>> masks_;
 };
-
-constexpr unsigned shades = 15;  // of an ink, beside none
-
-InkTile::InkTile(std::span<const Rgb> inks, const Execution& execution)
-    : inks_(inks), execution_(execution), masks_(inks.size()) {}
-
-Mask& InkTile::of(std::size_t ink) {
-  if (!masks_[ink]) masks_[ink].emplace(TileGrid::pixels, TileGrid::pixels, execution_);
-  return *masks_[ink];
-}
-
-std::string InkTile::png() const {
-  std::vector<std::array<std::uint8_t, 3>> palette{{0, 0, 0}};
-  std::vector<std::uint8_t> alphas{0};
-  for (const Rgb ink : inks_) {
-    for (unsigned shade = 1; shade <= shades; ++shade) {
-      palette.push_back({ink.red, ink.green, ink.blue});
-      alphas.push_back(static_cast<std::uint8_t>(255 * shade / shades));
-    }
-  }
-  std::vector<std::uint8_t> row(TileGrid::pixels);
-  const auto row_of = [&](std::size_t y) {
-    for (std::size_t x = 0; x < row.size(); ++x) {
-      unsigned most = 0;
-      row[x] = 0;
-      for (std::size_t ink = 0; ink < masks_.size(); ++ink) {
-        const unsigned shade = masks_[ink] ? masks_[ink]->pixels()[y * TileGrid::pixels + x] >> 4U : 0;
-        if (shade <= most) continue;
-        most = shade;
-        row[x] = static_cast<std::uint8_t>(shades * ink + shade);
-      }
-    }
-    return static_cast<const std::uint8_t*>(row.data());
-  };
-  std::string bytes;
-  write_png({.width = TileGrid::pixels,
-             .height = TileGrid::pixels,
-             .palette = palette,
-             .alphas = alphas,
-             .compression = 1,
-             .row = row_of},
-            execution_, [&](std::string_view piece) { bytes += piece; });
-  return bytes;
-}
 
 constexpr double edge_pixels = 1.3;
 constexpr double milestone_pixels = 4.0;
@@ -88,6 +73,10 @@ struct OnTile {
   double pixel;
   Vec2 operator()(Vec2 p) const { return {(p.x - box.min.x) / pixel, (box.max.y - p.y) / pixel}; }
 };
+
+constexpr std::size_t milestones_a_poll = std::size_t{1} << 14U;
+/// One edge in so many may be in the list that each box looks at.
+constexpr std::uint64_t edges_a_long_one = 256;
 
 }  // namespace
 
@@ -185,14 +174,6 @@ std::string draw_passages(const LatticePassages& passages, const Box& box, doubl
   }
   return tile.png();
 }
-
-namespace {
-
-constexpr std::size_t milestones_a_poll = std::size_t{1} << 14U;
-/// One edge in so many may be in the list that each box looks at.
-constexpr std::uint64_t edges_a_long_one = 256;
-
-}  // namespace
 
 PlacedRoadmap::PlacedRoadmap(const RoadmapParts& parts, const Execution& execution) : parts_(parts) {
   file_milestones(execution);

@@ -16,11 +16,9 @@
 #include "planners/lengths/lattice_passages.hpp"
 
 namespace warren::serve {
-// A roadmap's milestones and free edges by place. Milestones are filed in a grid; an edge is found by its ends, which
-// are no farther from a box that it meets than it is long. The few longest are in a list of their own: one of them
-// would let each box look at all edges.
-
-/// Immutable; any number of threads may look.
+/// A roadmap's milestones and free edges by place. Milestones are filed in a grid; an edge is found by its ends, which
+/// are no farther from a box that it meets than it is long. The few longest are in a list of their own: one of them
+/// would let each box look at all edges. Immutable; any number of threads may look.
 class PlacedRoadmap {
  public:
   struct Edge {
@@ -34,10 +32,36 @@ class PlacedRoadmap {
   std::uint64_t free_edges() const { return free_edges_; }
   /// Visits milestones in the box until visit says false. Throws Stopped.
   template <class Visit>
-  void for_each_milestone(const Box& box, const Execution& execution, const Visit& visit) const;
+  void for_each_milestone(const Box& box, const Execution& execution, const Visit& visit) const {
+    const std::size_t right = column(box.max.x);
+    const std::size_t top = row(box.max.y);
+    std::size_t seen = 0;
+    for (std::size_t y = row(box.min.y); y <= top; ++y) {
+      for (std::size_t x = column(box.min.x); x <= right; ++x) {
+        if (seen++ % 256 == 0) execution.check();
+        for (std::uint32_t i = first_[y * side_ + x]; i < first_[y * side_ + x + 1]; ++i) {
+          if (seen++ % 1024 == 0) execution.check();
+          if (box.contains(at(order_[i])) && !visit(order_[i])) return;
+        }
+      }
+    }
+  }
   /// Visits each free edge that may meet the box once, until visit says false. Throws Stopped.
   template <class Visit>
-  void for_each_edge_near(const Box& box, const Execution& execution, const Visit& visit) const;
+  void for_each_edge_near(const Box& box, const Execution& execution, const Visit& visit) const {
+    for (std::size_t i = 0; i < long_edges_.size(); ++i) {
+      if (i % 1024 == 0) execution.check();
+      if (!visit(long_edges_[i])) return;
+    }
+    for_each_milestone(box.grown(reach_), execution, [&](VertexId v) {
+      for (std::size_t end = parts_.first[v]; end < parts_.first[v + 1]; ++end) {
+        if (!is_edge(v, end)) continue;
+        const Edge edge{v, parts_.to[end]};
+        if (length(edge) <= reach_ && !visit(edge)) return false;
+      }
+      return true;
+    });
+  }
 
  private:
   bool is_edge(VertexId v, std::size_t end) const {
@@ -61,38 +85,6 @@ class PlacedRoadmap {
   double reach_ = 0.0;  // the length of the longest edge that is not in long_edges_
   std::vector<Edge> long_edges_;
 };
-
-template <class Visit>
-void PlacedRoadmap::for_each_milestone(const Box& box, const Execution& execution, const Visit& visit) const {
-  const std::size_t right = column(box.max.x);
-  const std::size_t top = row(box.max.y);
-  std::size_t seen = 0;
-  for (std::size_t y = row(box.min.y); y <= top; ++y) {
-    for (std::size_t x = column(box.min.x); x <= right; ++x) {
-      if (seen++ % 256 == 0) execution.check();
-      for (std::uint32_t i = first_[y * side_ + x]; i < first_[y * side_ + x + 1]; ++i) {
-        if (seen++ % 1024 == 0) execution.check();
-        if (box.contains(at(order_[i])) && !visit(order_[i])) return;
-      }
-    }
-  }
-}
-
-template <class Visit>
-void PlacedRoadmap::for_each_edge_near(const Box& box, const Execution& execution, const Visit& visit) const {
-  for (std::size_t i = 0; i < long_edges_.size(); ++i) {
-    if (i % 1024 == 0) execution.check();
-    if (!visit(long_edges_[i])) return;
-  }
-  for_each_milestone(box.grown(reach_), execution, [&](VertexId v) {
-    for (std::size_t end = parts_.first[v]; end < parts_.first[v + 1]; ++end) {
-      if (!is_edge(v, end)) continue;
-      const Edge edge{v, parts_.to[end]};
-      if (length(edge) <= reach_ && !visit(edge)) return false;
-    }
-    return true;
-  });
-}
 
 /// A tile with more edges shows its milestones alone, each a pixel, which from afar are a shade.
 inline constexpr std::size_t most_drawn_edges = 20'000;

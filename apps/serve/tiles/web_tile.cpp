@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "scenes/files/png_io.hpp"
 
@@ -19,6 +20,19 @@ std::optional<std::uint32_t> number_below(std::uint32_t end, std::string_view di
   const auto [read, error] = std::from_chars(digits.data(), last, number);
   const bool is_plain = digits == "0" || !digits.starts_with('0');  // one name a tile
   return is_plain && error == std::errc() && read == last && number < end ? std::optional(number) : std::nullopt;
+}
+
+/// The least of 1, 2, 2.5 and 5 times a power of ten that is not below.
+double round_number_from(double least) {
+  double times_ten = 1.0;
+  while (least >= 10.0 * times_ten) times_ten *= 10.0;
+  double parts = 1.0;
+  while (least * parts < 1.0) parts *= 10.0;
+  const double power = least < 1.0 ? 1.0 / parts : times_ten;
+  for (const double times : {1.0, 2.0, 2.5, 5.0}) {
+    if (times * power >= least) return times * power;
+  }
+  return 10.0 * power;
 }
 
 }  // namespace
@@ -58,23 +72,6 @@ TileGrid grid_around(const Box& box) {
   return {.corner = {middle.x - 0.5 * span, middle.y + 0.5 * span}, .span = span, .levels = levels};
 }
 
-namespace {
-
-/// The least of 1, 2, 2.5 and 5 times a power of ten that is not below.
-double round_number_from(double least) {
-  double times_ten = 1.0;
-  while (least >= 10.0 * times_ten) times_ten *= 10.0;
-  double parts = 1.0;
-  while (least * parts < 1.0) parts *= 10.0;
-  const double power = least < 1.0 ? 1.0 / parts : times_ten;
-  for (const double times : {1.0, 2.0, 2.5, 5.0}) {
-    if (times * power >= least) return times * power;
-  }
-  return 10.0 * power;
-}
-
-}  // namespace
-
 Steps Steps::up_to(double usual, double most) {
   constexpr double with_an_end = step_inks.size() - 1.0;
   Steps steps;
@@ -88,6 +85,19 @@ std::size_t Steps::of(double value) const {
   return static_cast<std::size_t>(std::min(value / each, static_cast<double>(count - 1)));
 }
 
+std::string png_of_rows(std::vector<std::array<std::uint8_t, 3>> palette, std::vector<std::uint8_t> alphas,
+                        const std::function<const std::uint8_t*(std::size_t)>& row, const Execution& execution) {
+  std::string bytes;
+  write_png({.width = TileGrid::pixels,
+             .height = TileGrid::pixels,
+             .palette = std::move(palette),
+             .alphas = std::move(alphas),
+             .compression = 1,
+             .row = row},
+            execution, [&](std::string_view piece) { bytes += piece; });
+  return bytes;
+}
+
 std::string png_of(const StepTile& tile, std::span<const Rgb> inks, const Execution& execution) {
   std::vector<std::array<std::uint8_t, 3>> palette{{0, 0, 0}};
   std::vector<std::uint8_t> alphas{0};
@@ -95,15 +105,8 @@ std::string png_of(const StepTile& tile, std::span<const Rgb> inks, const Execut
     palette.push_back({ink.red, ink.green, ink.blue});
     alphas.push_back(step_opacity);
   }
-  std::string bytes;
-  write_png({.width = TileGrid::pixels,
-             .height = TileGrid::pixels,
-             .palette = palette,
-             .alphas = alphas,
-             .compression = 1,
-             .row = [&](std::size_t y) { return tile.steps.data() + y * TileGrid::pixels; }},
-            execution, [&](std::string_view piece) { bytes += piece; });
-  return bytes;
+  const auto row = [&](std::size_t y) { return tile.steps.data() + y * TileGrid::pixels; };
+  return png_of_rows(palette, alphas, row, execution);
 }
 
 std::string png_of(const ShadeTile& tile, Rgb ink, const Execution& execution) {
@@ -114,19 +117,12 @@ std::string png_of(const ShadeTile& tile, Rgb ink, const Execution& execution) {
     palette.push_back({color.red, color.green, color.blue});
   }
   std::vector<std::uint8_t> row(TileGrid::pixels);
-  std::string bytes;
-  write_png({.width = TileGrid::pixels,
-             .height = TileGrid::pixels,
-             .palette = palette,
-             .compression = 1,
-             .row =
-                 [&](std::size_t y) {
-                   const std::uint8_t* from = tile.shades.data() + y * TileGrid::pixels;
-                   for (std::size_t x = 0; x < row.size(); ++x) row[x] = static_cast<std::uint8_t>(from[x] >> 4U);
-                   return static_cast<const std::uint8_t*>(row.data());
-                 }},
-            execution, [&](std::string_view piece) { bytes += piece; });
-  return bytes;
+  const auto row_of = [&](std::size_t y) {
+    const std::uint8_t* from = tile.shades.data() + y * TileGrid::pixels;
+    for (std::size_t x = 0; x < row.size(); ++x) row[x] = static_cast<std::uint8_t>(from[x] >> 4U);
+    return static_cast<const std::uint8_t*>(row.data());
+  };
+  return png_of_rows(palette, {}, row_of, execution);
 }
 
 }  // namespace warren::serve

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -84,12 +85,15 @@ struct StepTile {
   std::uint8_t& at(std::size_t x, std::size_t y) { return steps[y * TileGrid::pixels + x]; }
 };
 
+/// A tile as a PNG: row(y) has the number of a colour a pixel. alphas: of the first colours. Throws Stopped.
+std::string png_of_rows(std::vector<std::array<std::uint8_t, 3>> palette, std::vector<std::uint8_t> alphas,
+                        const std::function<const std::uint8_t*(std::size_t)>& row, const Execution& execution);
+
 /// At most 255 inks. Throws Stopped.
 std::string png_of(const StepTile& tile, std::span<const Rgb> inks, const Execution& execution);
 
-// A tile in sixteen shades between paper and ink as a small PNG, made in about a millisecond.
-
-/// A byte a pixel: 0 paper, 255 ink; row 0 on top.
+/// A tile in sixteen shades between paper and ink as a small PNG, made in about a millisecond. A byte a pixel: 0 paper,
+/// 255 ink; row 0 on top.
 struct ShadeTile {
   std::vector<std::uint8_t> shades = std::vector<std::uint8_t>(std::size_t{TileGrid::pixels} * TileGrid::pixels, 0);
   std::uint8_t& at(std::size_t x, std::size_t y) { return shades[y * TileGrid::pixels + x]; }
@@ -98,11 +102,10 @@ struct ShadeTile {
 /// Throws Stopped.
 std::string png_of(const ShadeTile& tile, Rgb ink, const Execution& execution);
 
-// How dark a grid of cells is, seen from afar: level k has a byte for each square of 2^k x 2^k cells, the mean of its
-// four squares of level k - 1. Level 0, the cells themselves, is not held: whoever has them says how dark each is. A
-// third of a byte a cell, made in one pass over them on all threads.
-
-/// Immutable; any number of threads may read. What lies beyond the cells is not dark.
+/// How dark a grid of cells is, seen from afar: level k has a byte for each square of 2^k x 2^k cells, the mean of its
+/// four squares of level k - 1. Level 0, the cells themselves, is not held: whoever has them says how dark each is. A
+/// third of a byte a cell, made in one pass over them on all threads. Immutable; any number of threads may read. What
+/// lies beyond the cells is not dark.
 class ShadePyramid {
  public:
   ShadePyramid() = default;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -196,53 +195,8 @@ std::unique_ptr<PlaceDistances> MazeTiles::distances(const Execution&) const {
   return std::make_unique<MazeDistances>(*this);
 }
 
-}  // namespace
-
-MazeOutline MazeOutline::of_course(LatticeSize size) {
-  MazeOutline outline{std::vector<bool>(size.rows, true), std::vector<bool>(size.rows, true),
-                      std::vector<bool>(size.cols, true), std::vector<bool>(size.cols, true)};
-  outline.left.front() = false;
-  outline.right.back() = false;
-  return outline;
-}
-
-MazeOutline MazeOutline::of_walls(const WallSet& walls, LatticeSize size, const Execution& execution) {
-  MazeOutline outline{std::vector<bool>(size.rows), std::vector<bool>(size.rows), std::vector<bool>(size.cols),
-                      std::vector<bool>(size.cols)};
-  constexpr std::size_t walls_a_poll = std::size_t{1} << 20U;
-  const Box around{{0.5, 0.5}, {size.cols + 0.5, size.rows + 0.5}};
-  const auto mark = [](std::vector<bool>& side, double from, double to) {
-    for (double at = from + 0.5; at < to; at += 1.0) {
-      const auto cell = static_cast<std::size_t>(at - 0.5);
-      if (at > 0.5 && cell < side.size()) side[cell] = true;
-    }
-  };
-  walls.visit([&](auto all) {
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (i % walls_a_poll == 0) execution.check();
-      const Segment s = all[i].segment();
-      const BoxSide side = side_under(s, around);
-      const Box box = box_of(s);
-      if (side == BoxSide::left) mark(outline.left, box.min.y, box.max.y);
-      if (side == BoxSide::right) mark(outline.right, box.min.y, box.max.y);
-      if (side == BoxSide::bottom) mark(outline.lower, box.min.x, box.max.x);
-      if (side == BoxSide::top) mark(outline.upper, box.min.x, box.max.x);
-    }
-  });
-  return outline;
-}
-
-std::unique_ptr<WorldTiles> maze_tiles(LatticePassages passages, MazeOutline outline, const Execution& execution) {
-  CellsOnTiles cells;
-  const LatticeSize size = passages.size();
-  const TileGrid grid = grid_for_cells(size.cols, size.rows, 1.0, {0.5, size.rows + 0.5}, cells);
-  return std::make_unique<MazeTiles>(std::move(passages), std::move(outline), grid, cells, execution);
-}
-
 // Tiles of maps: a pixel takes the shade of the cell in its middle, from afar that of the pyramid's square there. Maps
 // may be turned, so each row of pixels is a line through the cells.
-
-namespace {
 
 constexpr std::uint8_t blocked_shade = 255;
 constexpr std::uint8_t unknown_shade = 80;
@@ -324,16 +278,8 @@ class MapTiles : public WorldTiles {
   ShadePyramid far_;
 };
 
-}  // namespace
-
-std::unique_ptr<WorldTiles> map_tiles(const OccupancyMap& map, const Execution& execution) {
-  return std::make_unique<MapTiles>(map, execution);
-}
-
 // Tiles of walls, polygons and bounds: the shapes whose boxes meet a tile, by a tree of boxes, drawn as they are. From
 // afar that is all of them: a tile of zoom 0 costs a fifth of a microsecond a wall.
-
-namespace {
 
 constexpr double wall_pixels = 2.0;
 constexpr double outline_pixels = 1.0;
@@ -547,6 +493,51 @@ std::unique_ptr<PlaceDistances> ShapeTiles::distances(const Execution& execution
 }
 
 }  // namespace
+
+MazeOutline MazeOutline::of_course(LatticeSize size) {
+  MazeOutline outline{std::vector<bool>(size.rows, true), std::vector<bool>(size.rows, true),
+                      std::vector<bool>(size.cols, true), std::vector<bool>(size.cols, true)};
+  outline.left.front() = false;
+  outline.right.back() = false;
+  return outline;
+}
+
+MazeOutline MazeOutline::of_walls(const WallSet& walls, LatticeSize size, const Execution& execution) {
+  MazeOutline outline{std::vector<bool>(size.rows), std::vector<bool>(size.rows), std::vector<bool>(size.cols),
+                      std::vector<bool>(size.cols)};
+  constexpr std::size_t walls_a_poll = std::size_t{1} << 20U;
+  const Box around{{0.5, 0.5}, {size.cols + 0.5, size.rows + 0.5}};
+  const auto mark = [](std::vector<bool>& side, double from, double to) {
+    for (double at = from + 0.5; at < to; at += 1.0) {
+      const auto cell = static_cast<std::size_t>(at - 0.5);
+      if (at > 0.5 && cell < side.size()) side[cell] = true;
+    }
+  };
+  walls.visit([&](auto all) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (i % walls_a_poll == 0) execution.check();
+      const Segment s = all[i].segment();
+      const BoxSide side = side_under(s, around);
+      const Box box = box_of(s);
+      if (side == BoxSide::left) mark(outline.left, box.min.y, box.max.y);
+      if (side == BoxSide::right) mark(outline.right, box.min.y, box.max.y);
+      if (side == BoxSide::bottom) mark(outline.lower, box.min.x, box.max.x);
+      if (side == BoxSide::top) mark(outline.upper, box.min.x, box.max.x);
+    }
+  });
+  return outline;
+}
+
+std::unique_ptr<WorldTiles> maze_tiles(LatticePassages passages, MazeOutline outline, const Execution& execution) {
+  CellsOnTiles cells;
+  const LatticeSize size = passages.size();
+  const TileGrid grid = grid_for_cells(size.cols, size.rows, 1.0, {0.5, size.rows + 0.5}, cells);
+  return std::make_unique<MazeTiles>(std::move(passages), std::move(outline), grid, cells, execution);
+}
+
+std::unique_ptr<WorldTiles> map_tiles(const OccupancyMap& map, const Execution& execution) {
+  return std::make_unique<MapTiles>(map, execution);
+}
 
 std::unique_ptr<WorldTiles> shape_tiles(const Scene& scene, const Execution& execution) {
   return std::make_unique<ShapeTiles>(scene, execution);

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <string>
 
-#include "apps/studies/scaling_report.hpp"
-
 namespace warren::studies {
 namespace {
 

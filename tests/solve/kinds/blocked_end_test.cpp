@@ -10,7 +10,6 @@
 
 #include "scenes/files/read_world_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
-#include "solve/explain/blocked_arm.hpp"
 #include "solve/solve.hpp"
 #include "tests/paths.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"

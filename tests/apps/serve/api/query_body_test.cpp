@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "apps/serve/api/query_body_io.hpp"
+#include "apps/serve/api/request_bodies_io.hpp"
 #include "apps/serve/http/http_message.hpp"
 
 namespace warren::serve {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Changes of a world as JSON: {"add": {"walls": [[x, y, x, y], ...], "polygons": [[[x, y], ...], ...]}, "remove": the
-// same, "erase": [[x, y, reach], ...]}.
+// What requests say in their bodies, as JSON. POST /api/query: one object, a question. POST /api/update: what people
+// draw into a world and take out of it, and the world that comes of it. A change has an inverse, so that it can be
+// taken back: {"add": {"walls": [[x, y, x, y], ...], "polygons": [[[x, y], ...], ...]}, "remove": the same,
+// "erase": [[x, y, reach], ...]}.
 #pragma once
 
 #include <cstddef>
@@ -9,13 +11,21 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/serve/api/served_world.hpp"
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace warren::serve {
-// What people draw into a world and take out of it, and the world that comes of it. A change has an inverse, so that it
-// can be taken back.
+
+/// What POST /api/query asks, and how the answer shall be told.
+struct QueryBody {
+  ServedQuestion question;
+  bool tells_path = true;  ///< else the path is kept, to be seen part by part
+};
+
+/// Throws HttpError: 400 for what is no such object, nested deeper than deepest_json or has another key.
+QueryBody read_query_body(std::string_view json);
 
 struct DrawnShapes {
   std::vector<Segment> walls = {};
@@ -52,6 +62,8 @@ ChangedScene changed(const Scene& scene, const SceneChange& change, const std::o
 
 /// Throws HttpError with the place of what is none, Stopped.
 SceneChange read_scene_change(std::string_view json, const Execution& execution);
+/// [[[x, y], ...], ...]. Throws Stopped.
+std::string json_chains(const std::vector<std::vector<Vec2>>& chains, const Execution& execution);
 /// {"walls": ..., "polygons": ...}
 std::string shapes_json(const DrawnShapes& shapes);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/serve/api/scene_change_io.hpp"
+#include "apps/serve/api/request_bodies_io.hpp"
 
 #include <fmt/format.h>
 
@@ -19,6 +19,7 @@
 #include "scenes/files/json_text.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
+#include "solve/question/question.hpp"
 
 namespace warren::serve {
 namespace {
@@ -65,54 +66,8 @@ DrawnShapes shapes_of(const OrderedJson& json, const std::string& where) {
   return shapes;
 }
 
-}  // namespace
-
-SceneChange read_scene_change(std::string_view text, const Execution& execution) {
-  SceneChange change;
-  const OrderedJson json = json_object_of(text, deepest_json, execution);
-  for (const auto& [key, value] : json.items()) {
-    if (key == "add") {
-      change.add = shapes_of(value, "add");
-    } else if (key == "remove") {
-      change.remove = shapes_of(value, "remove");
-    } else if (key == "erase") {
-      for_each_in(value, "erase", most_changed_shapes, [&](const OrderedJson& item, const std::string& place) {
-        const auto [x, y, reach] = numbers_of<3>(item, place);
-        if (reach < 0.0) refuse_json(place, "x, y and a reach of 0 or more");
-        change.erase.push_back({{x, y}, reach});
-      });
-    } else {
-      refuse_json("body", "the keys add, remove, erase");
-    }
-  }
-  return change;
-}
-
-std::string shapes_json(const DrawnShapes& shapes) {
-  std::string walls = "[";
-  for (const Segment& wall : shapes.walls) {
-    if (walls.size() > 1) walls += ',';
-    append_json_list(walls, std::array{wall.a.x, wall.a.y, wall.b.x, wall.b.y});
-  }
-  std::string polygons = "[";
-  for (const std::vector<Vec2>& corners : shapes.polygons) {
-    polygons += polygons.size() > 1 ? ",[" : "[";
-    for (const Vec2 corner : corners) {
-      if (polygons.back() == ']') polygons += ',';
-      append_json_list(polygons, std::array{corner.x, corner.y});
-    }
-    polygons += ']';
-  }
-  JsonObject json;
-  json.add_json("walls", walls + "]");
-  json.add_json("polygons", polygons + "]");
-  return json.closed();
-}
-
 // Polygons are few beside walls and are looked through; of walls, those to remove are sorted, so a change costs
 // O(n log k) for n walls and k shapes.
-
-namespace {
 
 constexpr std::size_t a_poll = 4096;
 
@@ -232,7 +187,130 @@ void check(const Scene& scene, const SceneChange& change) {
   }
 }
 
+[[noreturn]] void refuse_word(std::string_view where, std::string_view expected) {
+  throw HttpError(400, "bad_request", where, fmt::format("{}: expected {}", where, expected));
+}
+
+std::vector<double> state_of(const OrderedJson& json, std::string_view key) {
+  constexpr std::size_t most = 6;
+  std::vector<double> state;
+  if (!json.is_array() || json.size() > most) refuse_word(key, "a list of at most 6 numbers");
+  for (const OrderedJson& number : json) {
+    if (!number.is_number()) refuse_word(key, "a list of numbers");
+    state.push_back(number.get<double>());
+  }
+  return state;
+}
+
+bool flag_of(const OrderedJson& json, std::string_view key) {
+  if (!json.is_boolean()) refuse_word(key, "true or false");
+  return json.get<bool>();
+}
+
+double budget_of(const OrderedJson& json) {
+  constexpr double a_ms = 1e-3;
+  if (!json.is_number() || !(json.get<double>() > 0.0)) refuse_word("budget_ms", "a number above 0");
+  return a_ms * json.get<double>();
+}
+
+RobotSpec robot_of(const OrderedJson& json) {
+  if (!json.is_string()) refuse_word("robot", "what --robot takes");
+  return robot_value("robot", json.get<std::string>());
+}
+
+double clearance_of(const OrderedJson& json) {
+  if (!json.is_number()) refuse_word("clearance", "a number");
+  return json.get<double>();
+}
+
+PlannerKind planner_of(const OrderedJson& json) {
+  if (json.is_string()) {
+    for (const PlannerKind planner : all_planners) {
+      if (name_of(planner) == json.get<std::string>()) return planner;
+    }
+  }
+  refuse_word("planner", "the name of a planner");
+}
+
+void take(const std::string& key, const OrderedJson& value, QueryBody& body) {
+  if (key == "start") {
+    body.question.start = state_of(value, "start");
+  } else if (key == "goal") {
+    body.question.goal = state_of(value, "goal");
+  } else if (key == "robot") {
+    body.question.robot = robot_of(value);
+  } else if (key == "clearance") {
+    body.question.clearance = clearance_of(value);
+  } else if (key == "optimise") {
+    body.question.optimise = flag_of(value, "optimise");
+  } else if (key == "explain") {
+    body.question.explains = flag_of(value, "explain");
+  } else if (key == "path") {
+    body.tells_path = flag_of(value, "path");
+  } else if (key == "planner") {
+    body.question.planner = planner_of(value);
+  } else if (key == "budget_ms") {
+    body.question.budget_s = budget_of(value);
+  } else {
+    refuse_word("body", "the keys start, goal, robot, clearance, optimise, planner, budget_ms, explain, path");
+  }
+}
+
 }  // namespace
+
+QueryBody read_query_body(std::string_view text) {
+  QueryBody body;
+  const OrderedJson json = json_object_of(text, deepest_json, {});
+  for (const auto& [key, value] : json.items()) take(key, value, body);
+  return body;
+}
+
+SceneChange read_scene_change(std::string_view text, const Execution& execution) {
+  SceneChange change;
+  const OrderedJson json = json_object_of(text, deepest_json, execution);
+  for (const auto& [key, value] : json.items()) {
+    if (key == "add") {
+      change.add = shapes_of(value, "add");
+    } else if (key == "remove") {
+      change.remove = shapes_of(value, "remove");
+    } else if (key == "erase") {
+      for_each_in(value, "erase", most_changed_shapes, [&](const OrderedJson& item, const std::string& place) {
+        const auto [x, y, reach] = numbers_of<3>(item, place);
+        if (reach < 0.0) refuse_json(place, "x, y and a reach of 0 or more");
+        change.erase.push_back({{x, y}, reach});
+      });
+    } else {
+      refuse_json("body", "the keys add, remove, erase");
+    }
+  }
+  return change;
+}
+
+std::string json_chains(const std::vector<std::vector<Vec2>>& chains, const Execution& execution) {
+  std::string text = "[";
+  for (const std::vector<Vec2>& chain : chains) {
+    execution.check();
+    text += text.size() > 1 ? ",[" : "[";
+    for (const Vec2 p : chain) {
+      if (text.back() == ']') text += ',';
+      append_json_list(text, std::array{p.x, p.y});
+    }
+    text += ']';
+  }
+  return text + "]";
+}
+
+std::string shapes_json(const DrawnShapes& shapes) {
+  std::string walls = "[";
+  for (const Segment& wall : shapes.walls) {
+    if (walls.size() > 1) walls += ',';
+    append_json_list(walls, std::array{wall.a.x, wall.a.y, wall.b.x, wall.b.y});
+  }
+  JsonObject json;
+  json.add_json("walls", walls + "]");
+  json.add_json("polygons", json_chains(shapes.polygons, Execution()));
+  return json.closed();
+}
 
 ChangedScene changed(const Scene& scene, const SceneChange& change, const std::optional<MazeHint>& maze,
                      const Execution& execution) {
