@@ -2,7 +2,6 @@
 #include "core/plane/convex_polygons.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <numbers>
 

@@ -10,7 +10,6 @@
 #include <span>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"

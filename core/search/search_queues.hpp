@@ -13,7 +13,6 @@
 #include <array>
 #include <bit>
 #include <cassert>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 

@@ -6,19 +6,14 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
-#include "core/plane/polygon.hpp"
 #include "core/plane/wall_set.hpp"
-#include "core/search/graph.hpp"
 #include "core/search/search.hpp"
 #include "core/search/union_find.hpp"
 #include "parallel/sort.hpp"
-#include "planners/axis/medial_axis.hpp"
 #include "planners/graph/assemble_graph.hpp"
 #include "planners/graph/components.hpp"
 #include "planners/graph/no_path.hpp"

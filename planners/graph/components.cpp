@@ -2,7 +2,6 @@
 #include "planners/graph/components.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <numeric>
 #include <vector>
 

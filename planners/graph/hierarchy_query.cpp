@@ -2,10 +2,7 @@
 #include "planners/graph/hierarchy_query.hpp"
 
 #include <algorithm>
-#include <array>
-#include <limits>
 #include <utility>
-#include <vector>
 
 #include "core/base/error.hpp"
 

@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <string>
-#include <utility>
 
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planners/graph/roadmap_search.hpp"
 
-#include <array>
 #include <numeric>
-#include <optional>
 #include <span>
 #include <type_traits>
 
-#include "core/search/search.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/graph/both_ends.hpp"
 #include "planners/graph/queue_choice.hpp"

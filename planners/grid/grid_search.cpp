@@ -2,19 +2,15 @@
 #include "planners/grid/grid_search.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
 #include <optional>
-#include <vector>
 
-#include "core/base/bitmap.hpp"
 #include "core/base/error.hpp"
 #include "core/base/types.hpp"
 #include "core/search/search_queues.hpp"
-#include "parallel/execution.hpp"
 #include "spatial/maps/free_cells.hpp"
 
 namespace warren {

@@ -6,13 +6,9 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
-#include <utility>
-#include <vector>
 
-#include "core/base/bitmap.hpp"
 #include "core/base/trigonometry.hpp"
 #include "core/base/types.hpp"
 #include "core/search/search.hpp"

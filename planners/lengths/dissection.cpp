@@ -5,14 +5,11 @@
 #include <array>
 #include <bit>
 #include <cassert>
-#include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "core/base/page_pool.hpp"
-#include "core/base/raw_vector.hpp"
 #include "parallel/chunks.hpp"
-#include "planners/lengths/core_graph.hpp"
 
 namespace warren {
 // A part of the core's planar map by itself: junctions numbered from 0, slots around them in the order of the plane,

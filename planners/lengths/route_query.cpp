@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planners/lengths/route_query.hpp"
 
-#include <algorithm>
 #include <string>
 #include <vector>
 

@@ -5,14 +5,11 @@
 #include <array>
 #include <bit>
 #include <cassert>
-#include <cstdint>
 #include <iterator>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "parallel/chunks.hpp"
-#include "planners/lengths/dissection.hpp"
 #include "planners/lengths/min_plus.hpp"
 
 namespace warren {

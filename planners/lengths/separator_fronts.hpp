@@ -19,7 +19,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "core/base/raw_vector.hpp"
 #include "parallel/execution.hpp"

@@ -2,17 +2,12 @@
 #include "planners/mazes/overlay.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
-#include <span>
 #include <utility>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "core/search/graph.hpp"
-#include "parallel/chunks.hpp"
-#include "planners/mazes/tile_reduction.hpp"
 #include "planners/mazes/wall_marking.hpp"
 
 namespace warren {

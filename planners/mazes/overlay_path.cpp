@@ -7,7 +7,6 @@
 #include <set>
 
 #include "core/base/error.hpp"
-#include "parallel/asked_memory.hpp"
 
 namespace warren {
 namespace {

@@ -3,13 +3,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <cassert>
 #include <cstring>
-#include <functional>
 #include <string>
 
 #include "core/base/error.hpp"
-#include "planners/mazes/tile_plane.hpp"
 
 namespace warren {
 namespace {

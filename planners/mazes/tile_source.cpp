@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "core/base/raw_vector.hpp"
-#include "planners/mazes/wall_partition.hpp"
 #include "planners/mazes/wall_steps.hpp"
 
 namespace warren {

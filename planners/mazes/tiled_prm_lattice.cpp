@@ -2,25 +2,15 @@
 #include "planners/mazes/tiled_prm_lattice.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <utility>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "core/base/raw_vector.hpp"
 #include "parallel/asked_memory.hpp"
-#include "parallel/chunks.hpp"
 #include "planners/graph/no_path.hpp"
-#include "planners/mazes/overlay.hpp"
-#include "planners/mazes/overlay_path.hpp"
 #include "planners/mazes/overlay_search.hpp"
-#include "planners/mazes/tile_grid.hpp"
-#include "planners/mazes/tile_plane.hpp"
-#include "planners/mazes/tile_reduction.hpp"
-#include "planners/mazes/tile_source.hpp"
-#include "planners/mazes/wall_marking.hpp"
 
 namespace warren {
 namespace {

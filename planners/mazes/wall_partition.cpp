@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planners/mazes/wall_partition.hpp"
 
-#include <algorithm>
 #include <type_traits>
 
 #include "core/base/error.hpp"
-#include "core/base/raw_vector.hpp"
 #include "parallel/asked_memory.hpp"
-#include "planners/mazes/wall_steps.hpp"
 
 namespace warren {
 namespace {

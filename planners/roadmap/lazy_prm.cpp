@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planners/roadmap/lazy_prm.hpp"
 
-#include <algorithm>
-#include <bit>
 #include <cmath>
-#include <utility>
 
 #include "core/plane/geometry.hpp"
 

@@ -5,14 +5,9 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <span>
-#include <vector>
 
 #include "core/base/trigonometry.hpp"
-#include "core/base/types.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/execution.hpp"
-#include "spatial/obstacles/wall_index.hpp"
 
 namespace warren {
 // A string pulled taut around wall ends, each widened to a disc of one radius: the locally shortest path of the

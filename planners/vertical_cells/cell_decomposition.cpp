@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/plane/geometry.hpp"
-#include "core/plane/polygon.hpp"
 #include "planners/graph/assemble_graph.hpp"
 #include "planners/vertical_cells/cell_sweep.hpp"
 #include "planners/visibility/noding.hpp"

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "core/plane/geometry.hpp"
@@ -13,7 +12,6 @@
 #include "planners/graph/components.hpp"
 #include "planners/graph/no_path.hpp"
 #include "planners/graph/queue_choice.hpp"
-#include "planners/vertical_cells/cell_decomposition.hpp"
 #include "planners/vertical_cells/polyanya.hpp"
 
 namespace warren {

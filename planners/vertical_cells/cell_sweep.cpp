@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "core/plane/geometry.hpp"
 #include "parallel/sort.hpp"
-#include "planners/vertical_cells/cell_decomposition.hpp"
 
 namespace warren {
 namespace {

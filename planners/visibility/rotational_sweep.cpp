@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "parallel/sort.hpp"
-#include "planners/visibility/plane_pieces.hpp"
 
 namespace warren {
 namespace {

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "core/plane/polygon.hpp"
 #include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <limits>
 #include <utility>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "parallel/sort.hpp"

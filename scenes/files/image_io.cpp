@@ -11,7 +11,6 @@
 #include "scenes/files/output_file_io.hpp"
 #include "scenes/files/png_io.hpp"
 #include "scenes/files/scene_text.hpp"
-#include "scenes/scene/occupancy_map.hpp"
 
 namespace warren {
 

@@ -8,7 +8,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
 
 #include "core/base/printable.hpp"
 #include "scenes/files/scene_text.hpp"

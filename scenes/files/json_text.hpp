@@ -10,7 +10,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "parallel/execution.hpp"
 #include "scenes/files/input_file_io.hpp"

@@ -7,7 +7,6 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <string_view>
 
 #include "core/base/error.hpp"

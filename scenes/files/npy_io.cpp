@@ -11,11 +11,8 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 #include <limits>
-#include <optional>
-#include <string_view>
 #include <vector>
 
 #include "core/base/error.hpp"

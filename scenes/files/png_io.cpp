@@ -13,12 +13,9 @@
 #include <exception>
 #include <new>
 #include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "scenes/files/output_file_io.hpp"
-#include "scenes/scene/occupancy_map.hpp"
 
 namespace warren {
 namespace {

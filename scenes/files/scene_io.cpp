@@ -12,9 +12,6 @@
 #include <cstring>
 #include <iterator>
 #include <limits>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/base/error.hpp"

@@ -3,10 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
-#include <cmath>
-#include <limits>
 #include <vector>
 
 #include "core/base/error.hpp"

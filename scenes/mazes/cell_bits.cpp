@@ -7,8 +7,6 @@
 #include <cassert>
 #include <cstring>
 #include <limits>
-#include <memory>
-#include <string>
 #include <vector>
 
 #include "parallel/chunks.hpp"

@@ -7,7 +7,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
 #include "core/base/raw_vector.hpp"
 #include "core/base/rng.hpp"

@@ -5,11 +5,9 @@
 #include <array>
 #include <span>
 #include <type_traits>
-#include <vector>
 
 #include "core/base/raw_vector.hpp"
 #include "parallel/chunks.hpp"
-#include "scenes/mazes/maze_generator.hpp"
 #include "scenes/mazes/maze_wall_starts.hpp"
 
 namespace warren {

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scenes/scene/rings.hpp"
 
-#include <algorithm>
-#include <cstdint>
 #include <utility>
 
-#include "core/plane/geometry.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 
 namespace warren {

@@ -3,14 +3,9 @@
 // wall costs two 64 x 64 -> 128 bit multiplications in two independent chains, and chunks are folded in their order.
 #include "scenes/scene/scene.hpp"
 
-#include <string>
-
 #include "core/base/error.hpp"
 
 #include <fmt/format.h>
-
-#include <span>
-#include <vector>
 
 #include "core/base/rng.hpp"
 #include "parallel/chunks.hpp"

@@ -2,14 +2,12 @@
 #include "spatial/maps/free_cells.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/base/whole.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {

@@ -12,10 +12,8 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <optional>
 
 #include "core/base/raw_vector.hpp"
-#include "core/base/whole.hpp"
 #include "parallel/sort.hpp"
 
 namespace warren {

@@ -11,7 +11,6 @@
 #include <span>
 #include <vector>
 
-#include "core/base/whole.hpp"
 #include "parallel/chunks.hpp"
 #include "spatial/points/neighbour.hpp"
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "worlds/arms/solid_index.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 

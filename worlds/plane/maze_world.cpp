@@ -2,10 +2,7 @@
 #include "worlds/plane/maze_world.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <string>
-#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/base/whole.hpp"

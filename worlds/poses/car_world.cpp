@@ -6,10 +6,8 @@
 #include <string>
 
 #include "core/base/error.hpp"
-#include "core/base/whole.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "worlds/poses/pose_in_bounds.hpp"
-#include "worlds/poses/reeds_shepp_curve.hpp"
 
 namespace warren {
 namespace {

@@ -4,14 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "core/base/whole.hpp"
@@ -19,7 +17,6 @@
 #include "core/plane/se2.hpp"
 #include "parallel/chunks.hpp"
 #include "spatial/maps/distance_field.hpp"
-#include "worlds/rasters/convex_pieces.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren {
