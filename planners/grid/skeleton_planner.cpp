@@ -21,9 +21,9 @@
 #include "spatial/maps/free_cells.hpp"
 
 namespace warren {
-// The cells of a thin set, such as a map's skeleton, as vertices of a graph.
+namespace {
 
-/// The set cells of a bitmap, numbered row by row.
+/// The set cells of a bitmap, such as a map's skeleton, as vertices of a graph, numbered row by row.
 class NumberedCells {
  public:
   explicit NumberedCells(Bitmap cells) : bits_(std::move(cells)) {
@@ -57,8 +57,6 @@ class NumberedCells {
   std::vector<std::uint32_t> before_;  // set cells before each word
   std::vector<Cell> cells_;
 };
-
-namespace {
 
 constexpr double sqrt2 = 1.4142135623730951;
 
@@ -253,31 +251,6 @@ void SkeletonPlan::search() {
   plan_.clearance = 0.5 * std::sqrt(least);
 }
 
-}  // namespace
-
-SkeletonRoadmap::SkeletonRoadmap(const Bitmap& map, double radius, const Execution& execution)
-    : blocked(blocked_for_disc(map, radius, execution)), field(map, CellDistance::squares, true, execution) {}
-
-SkeletonPath plan_on_skeleton(const Bitmap& blocked, Cell start, Cell goal, const SkeletonOptions& options,
-                              const Execution& execution, std::vector<std::pair<Cell, Cell>>* steps) {
-  std::optional<SkeletonRoadmap> roadmap;
-  double index_s = 0.0;
-  {
-    const StageTimer timer(execution, "index", index_s, blocked.size());
-    roadmap.emplace(blocked, options.radius, execution);
-  }
-  SkeletonPath plan = plan_on_skeleton(*roadmap, start, goal, options, execution, steps);
-  plan.seconds.index += index_s;
-  return plan;
-}
-
-SkeletonPath plan_on_skeleton(const SkeletonRoadmap& roadmap, Cell start, Cell goal, const SkeletonOptions& options,
-                              const Execution& execution, std::vector<std::pair<Cell, Cell>>* steps) {
-  return SkeletonPlan(roadmap, start, goal, options, execution).run(steps);
-}
-
-namespace {
-
 constexpr std::size_t cells_per_poll = 4096;
 
 /// Follows the skeleton from side to side: chains of cells with two neighbours each, between those that have more or
@@ -411,6 +384,27 @@ class LinesOfSkeleton {
 };
 
 }  // namespace
+
+SkeletonRoadmap::SkeletonRoadmap(const Bitmap& map, double radius, const Execution& execution)
+    : blocked(blocked_for_disc(map, radius, execution)), field(map, CellDistance::squares, true, execution) {}
+
+SkeletonPath plan_on_skeleton(const Bitmap& blocked, Cell start, Cell goal, const SkeletonOptions& options,
+                              const Execution& execution, std::vector<std::pair<Cell, Cell>>* steps) {
+  std::optional<SkeletonRoadmap> roadmap;
+  double index_s = 0.0;
+  {
+    const StageTimer timer(execution, "index", index_s, blocked.size());
+    roadmap.emplace(blocked, options.radius, execution);
+  }
+  SkeletonPath plan = plan_on_skeleton(*roadmap, start, goal, options, execution, steps);
+  plan.seconds.index += index_s;
+  return plan;
+}
+
+SkeletonPath plan_on_skeleton(const SkeletonRoadmap& roadmap, Cell start, Cell goal, const SkeletonOptions& options,
+                              const Execution& execution, std::vector<std::pair<Cell, Cell>>* steps) {
+  return SkeletonPlan(roadmap, start, goal, options, execution).run(steps);
+}
 
 SkeletonLines skeleton_lines(const SkeletonRoadmap& roadmap, const Execution& execution) {
   return LinesOfSkeleton(roadmap, execution).run();

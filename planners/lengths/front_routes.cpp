@@ -10,7 +10,21 @@
 #include "planners/lengths/mark_walk.hpp"
 
 namespace warren {
+namespace {
 
+/// Where the entry of a front for gate i of it and column j > i, its gates, then its bounds, stands in the front.
+std::uint64_t front_place(const Front& f, std::uint64_t i, std::uint64_t j) {
+  return row_offset(i, f.gates, f.bounds) + (j - i - 1);
+}
+
+/// The length that stands there.
+std::uint32_t front_entry(const FrontArrays& fronts, const Front& f, std::uint64_t place) {
+  const std::uint64_t at = f.first_length() + place;
+  if (!f.is_short()) return fronts.lengths[at];
+  return fronts.short_lengths[at] == no_short_way ? no_way : fronts.short_lengths[at];
+}
+
+/// Column of a gate or a bound of a front, its width if it is neither.
 std::uint64_t front_column(const FrontArrays& fronts, const Front& f, GateRank rank) {
   const std::uint64_t width = std::uint64_t{f.gates} + f.bounds;
   if (rank < f.first) return width;
@@ -20,6 +34,84 @@ std::uint64_t front_column(const FrontArrays& fronts, const Front& f, GateRank r
   if (at == bounds.end() || *at != rank) return width;
   return f.gates + static_cast<std::uint64_t>(at - bounds.begin());
 }
+
+[[noreturn]] void refuse_front() {
+  throw InputError("route index", "its fronts contradict each other: build it again");
+}
+
+[[noreturn]] void refuse_hop() { throw InputError("route index", "its fronts contradict its marks: build it again"); }
+
+/// The cells of a hop (planners/lengths/separator_fronts.hpp), from marks alone: each cell of a chain says where it
+/// goes on, and at junctions the turns do. Cost: 3 to 6 ns a cell, on all threads.
+class HopWalk : public MarkWalk {
+ public:
+  using MarkWalk::MarkWalk;
+
+  void begin(const Hop& hop) {
+    hop_ = hop;
+    came_from_ = 0;
+    MarkWalk::begin(hop.from, hop.length, hop.first, hop.direction);
+    if (hop.direction > 0) write();
+  }
+  void step() {
+    unsigned onwards = exits() & ~came_from_;
+    if ((one_exit >> onwards & 1U) == 0) [[unlikely]]
+      onwards = choice(onwards);
+    const auto way = static_cast<unsigned>(std::countr_zero(onwards));
+    came_from_ = 1U << (way ^ 2U);
+    if (!go(way)) [[unlikely]]
+      refuse_hop();
+    if (hop_.direction < 0 || left() > 0) write();
+    if (left() == 0 && place() != hop_.to) refuse_hop();
+  }
+
+ private:
+  static constexpr unsigned one_exit = 1U << 1 | 1U << 2 | 1U << 4 | 1U << 8;
+
+  /// Chains that leave the cell: its own marks, and those of the neighbours to the left and below.
+  unsigned exits() const {
+    const std::uint64_t* const here = row();
+    const unsigned own = static_cast<unsigned>(here[mark_word::low] >> col() & 1U) |
+                         static_cast<unsigned>(here[mark_word::high] >> col() & 1U) << 1;
+    if (col() == 0 || is_lowest_row()) [[unlikely]]
+      return own | exits_over_the_rim();
+    const std::uint64_t* const below = here - mark_word::count;
+    return own | static_cast<unsigned>((here[mark_word::low] & here[mark_word::core]) >> (col() - 1) & 1U) << 2 |
+           static_cast<unsigned>((below[mark_word::high] & below[mark_word::core]) >> col() & 1U) << 3;
+  }
+  unsigned exits_over_the_rim() const {
+    const LatticePlace at = place();
+    const LatticePlaces& places = index_.places();
+    return static_cast<unsigned>(places.col(at) > 0 && goes_on(places.step(at, 2), mark_word::low)) << 2 |
+           static_cast<unsigned>(places.row(at) > 0 && goes_on(places.step(at, 3), mark_word::high)) << 3;
+  }
+  bool goes_on(LatticePlace p, std::size_t word) const {
+    index_.look_at_tile(p);
+    const std::uint64_t* const row = marks_.tile(0) + std::size_t{p / 64} * mark_word::count;
+    return (row[word] & row[mark_word::core] & std::uint64_t{1} << p % 64) != 0;
+  }
+  unsigned choice(unsigned onwards) {
+    if (onwards == 0) refuse_hop();
+    return next_turn(onwards, hop_.turns);
+  }
+
+  Hop hop_{};
+  unsigned came_from_ = 0;  // the motion that leads back, as a bit
+};
+
+// What a motion adds to column and row, modulo 2^32.
+constexpr std::array<std::uint32_t, 4> right{1, 0, ~std::uint32_t{0}, 0};
+constexpr std::array<std::uint32_t, 4> up{0, 1, 0, ~std::uint32_t{0}};
+
+/// Writes the cells of all hops but the last one of each, as they lie: it is the next hop's first. Throws InputError
+/// where marks lead elsewhere: after as many steps as the hops have, whatever the marks are. Throws Stopped.
+void write_hops(const RouteIndex& index, std::span<const Hop> hops, const Execution& execution) {
+  constexpr std::size_t grain = 512;
+  for_chunks(hops.size(), grain, execution,
+             [&](Range r) { walk_side_by_side<HopWalk>(index, hops.subspan(r.first, r.size())); });
+}
+
+}  // namespace
 
 FrontQuery::FrontQuery(const RouteIndex& index)
     : index_(index), fronts_(index.arrays().fronts), lessen_(lessen_row()), lessen_short_(lessen_row_short()) {
@@ -172,84 +264,8 @@ FrontStep FrontQuery::step_into(const Half& half, GateRank to) const {
       if (distance + length == half.distance[to]) return {front, f.first + i, to, length};
     }
   }
-  throw InputError("route index", "its fronts contradict each other: build it again");
+  refuse_front();
 }
-
-namespace {
-
-[[noreturn]] void refuse_hop() { throw InputError("route index", "its fronts contradict its marks: build it again"); }
-
-class HopWalk : public MarkWalk {
- public:
-  using MarkWalk::MarkWalk;
-
-  void begin(const Hop& hop) {
-    hop_ = hop;
-    came_from_ = 0;
-    MarkWalk::begin(hop.from, hop.length, hop.first, hop.direction);
-    if (hop.direction > 0) write();
-  }
-  void step() {
-    unsigned onwards = exits() & ~came_from_;
-    if ((one_exit >> onwards & 1U) == 0) [[unlikely]]
-      onwards = choice(onwards);
-    const auto way = static_cast<unsigned>(std::countr_zero(onwards));
-    came_from_ = 1U << (way ^ 2U);
-    if (!go(way)) [[unlikely]]
-      refuse_hop();
-    if (hop_.direction < 0 || left() > 0) write();
-    if (left() == 0 && place() != hop_.to) refuse_hop();
-  }
-
- private:
-  static constexpr unsigned one_exit = 1U << 1 | 1U << 2 | 1U << 4 | 1U << 8;
-
-  /// Chains that leave the cell: its own marks, and those of the neighbours to the left and below.
-  unsigned exits() const {
-    const std::uint64_t* const here = row();
-    const unsigned own = static_cast<unsigned>(here[mark_word::low] >> col() & 1U) |
-                         static_cast<unsigned>(here[mark_word::high] >> col() & 1U) << 1;
-    if (col() == 0 || is_lowest_row()) [[unlikely]]
-      return own | exits_over_the_rim();
-    const std::uint64_t* const below = here - mark_word::count;
-    return own | static_cast<unsigned>((here[mark_word::low] & here[mark_word::core]) >> (col() - 1) & 1U) << 2 |
-           static_cast<unsigned>((below[mark_word::high] & below[mark_word::core]) >> col() & 1U) << 3;
-  }
-  unsigned exits_over_the_rim() const {
-    const LatticePlace at = place();
-    const LatticePlaces& places = index_.places();
-    return static_cast<unsigned>(places.col(at) > 0 && goes_on(places.step(at, 2), mark_word::low)) << 2 |
-           static_cast<unsigned>(places.row(at) > 0 && goes_on(places.step(at, 3), mark_word::high)) << 3;
-  }
-  bool goes_on(LatticePlace p, std::size_t word) const {
-    index_.look_at_tile(p);
-    const std::uint64_t* const row = marks_.tile(0) + std::size_t{p / 64} * mark_word::count;
-    return (row[word] & row[mark_word::core] & std::uint64_t{1} << p % 64) != 0;
-  }
-  unsigned choice(unsigned onwards) {
-    if (onwards == 0) refuse_hop();
-    return next_turn(onwards, hop_.turns);
-  }
-
-  Hop hop_{};
-  unsigned came_from_ = 0;  // the motion that leads back, as a bit
-};
-
-}  // namespace
-
-void write_hops(const RouteIndex& index, std::span<const Hop> hops, const Execution& execution) {
-  constexpr std::size_t grain = 512;
-  for_chunks(hops.size(), grain, execution,
-             [&](Range r) { walk_side_by_side<HopWalk>(index, hops.subspan(r.first, r.size())); });
-}
-
-namespace {
-
-[[noreturn]] void refuse_front() {
-  throw InputError("route index", "its fronts contradict each other: build it again");
-}
-
-}  // namespace
 
 void FrontUnpacking::write(std::span<const FrontStep> steps, CellId* cells, const Execution& execution) {
   todo_.clear();
@@ -330,14 +346,6 @@ std::uint64_t FrontUnpacking::place_in(const Front& front, GateRank gate, GateRa
   if (column == std::uint64_t{front.gates} + front.bounds) refuse_front();
   return front_place(front, gate - front.first, column);
 }
-
-namespace {
-
-// What a motion adds to column and row, modulo 2^32.
-constexpr std::array<std::uint32_t, 4> right{1, 0, ~std::uint32_t{0}, 0};
-constexpr std::array<std::uint32_t, 4> up{0, 1, 0, ~std::uint32_t{0}};
-
-}  // namespace
 
 void CoreSearch::begin(LatticePlace start) {
   if (++search_ == 0) {  // after 2^32 searches

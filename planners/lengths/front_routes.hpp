@@ -16,8 +16,6 @@
 #include "planners/lengths/separator_fronts.hpp"
 
 namespace warren {
-// A breadth-first search of the core, cell by cell, that stops at gates: it sees the chain or the leaf that it begins
-// in and nothing else, some hundred cells. Gates come in the order of their distance.
 
 /// A cell that was seen. Steps and the cell it was seen from.
 struct SeenCell {
@@ -35,7 +33,8 @@ struct SeenGate {
   std::uint32_t seen;  ///< its number among the seen cells
 };
 
-/// Scratch of one thread.
+/// A breadth-first search of the core, cell by cell, that stops at gates: it sees the chain or the leaf that it begins
+/// in and nothing else, some hundred cells. Gates come in the order of their distance. Scratch of one thread.
 class CoreSearch {
  public:
   explicit CoreSearch(const RouteIndex& index) : index_(index), slots_(1024) {}
@@ -133,28 +132,6 @@ class FrontQuery {
   GateRank meeting_ = 0;
 };
 
-/// Where the entry of a front for gate i of it and column j > i, its gates, then its bounds, stands in the front.
-inline std::uint64_t front_place(const Front& f, std::uint64_t i, std::uint64_t j) {
-  return row_offset(i, f.gates, f.bounds) + (j - i - 1);
-}
-/// The length that stands there.
-inline std::uint32_t front_entry(const FrontArrays& fronts, const Front& f, std::uint64_t place) {
-  const std::uint64_t at = f.first_length() + place;
-  if (!f.is_short()) return fronts.lengths[at];
-  return fronts.short_lengths[at] == no_short_way ? no_way : fronts.short_lengths[at];
-}
-
-/// Column of a gate or a bound of a front, its width if it is neither.
-std::uint64_t front_column(const FrontArrays& fronts, const Front& f, GateRank rank);
-
-// The cells behind entries of fronts. Beside an entry stands the gate of lower rank that its way goes over, whose row
-// has both halves of it, and so on down to hops, which are then walked. Nothing is searched for. Entries
-// are opened level by level, all of a level in three rounds, each of which asks the memory for what the next one reads:
-// one by one each would wait four times.
-
-// The cells of a hop (planners/lengths/separator_fronts.hpp), from marks alone: each cell of a chain says where it goes
-// on, and at junctions the turns do. Cost: 3 to 6 ns a cell, on all threads.
-
 /// A hop, and where its cells go: from `from` to `to` = `length` steps on, the first one to `first`, each further one
 /// `direction`, 1 or -1, beside the one before it.
 struct Hop {
@@ -166,11 +143,10 @@ struct Hop {
   CellId* first;
 };
 
-/// Writes the cells of all hops but the last one of each, as they lie: it is the next hop's first. Throws InputError
-/// where marks lead elsewhere: after as many steps as the hops have, whatever the marks are. Throws Stopped.
-void write_hops(const RouteIndex& index, std::span<const Hop> hops, const Execution& execution);
-
-/// Scratch of one thread.
+/// The cells behind entries of fronts. Beside an entry stands the gate of lower rank that its way goes over, whose row
+/// has both halves of it, and so on down to hops, which are then walked. Nothing is searched for. Entries are opened
+/// level by level, all of a level in three rounds, each of which asks the memory for what the next one reads: one by
+/// one each would wait four times. Scratch of one thread.
 class FrontUnpacking {
  public:
   explicit FrontUnpacking(const RouteIndex& index) : index_(index), fronts_(index.arrays().fronts) {}

@@ -41,6 +41,65 @@ Execution quietly(const Execution& execution) {
   return quiet;
 }
 
+std::uint16_t number_of(const TileSummary& tile, std::uint32_t place) {
+  const auto found = std::lower_bound(tile.keys.begin(), tile.keys.end(), place);
+  return static_cast<std::uint16_t>(found - tile.keys.begin());
+}
+
+void sort_once(std::vector<std::uint16_t>& keys) {
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+}
+
+class RouteTiles {
+ public:
+  RouteTiles(const TileGrid& grid, std::vector<TileSummary>& tiles) : grid_(grid), tiles_(tiles) {}
+
+  void add_key(std::size_t tile, std::uint32_t place) {
+    if (tile >= tiles_.size() || place >= grid_.side() * grid_.side()) throw InputError("path", "leaves the tiles");
+    tiles_[tile].keys.push_back(static_cast<std::uint16_t>(place));
+  }
+  void add_link(const EndLink& link) {
+    const std::uint32_t in_tile = grid_.side() - 1;
+    add_key(grid_.tile_at(link.col, link.row), (link.row & in_tile) * grid_.side() + (link.col & in_tile));
+  }
+  /// After all keys, which are sorted then.
+  void add_leg(const RouteKey& from, const RouteKey& to) {
+    TileSummary& tile = tiles_[from.tile];
+    const std::uint16_t a = number_of(tile, from.place);
+    const std::uint16_t b = number_of(tiles_[to.tile], to.place);
+    if (from.tile == to.tile) {
+      tile.chains.push_back({std::min(a, b), std::max(a, b), 0, from.steps});
+      return;
+    }
+    const unsigned side = side_to(from.tile, to.tile);
+    tile.crossings[side].push_back(a);
+    tiles_[to.tile].crossings[side ^ 2U].push_back(b);
+  }
+  void sort_keys() {
+    for (TileSummary& tile : tiles_) sort_once(tile.keys);
+  }
+  void sort_edges() {
+    for (TileSummary& tile : tiles_) {
+      for (auto& crossing : tile.crossings) sort_once(crossing);
+      std::stable_sort(tile.chains.begin(), tile.chains.end(),
+                       [](const Chain& a, const Chain& b) { return a.from < b.from; });
+    }
+  }
+
+ private:
+  unsigned side_to(std::uint64_t tile, std::uint64_t other) const {
+    if (other == tile + 1) return 0;
+    if (other == tile + grid_.tile_cols) return 1;
+    if (tile == other + 1) return 2;
+    if (tile == other + grid_.tile_cols) return 3;
+    throw InputError("path", "leaps between tiles");
+  }
+
+  const TileGrid& grid_;
+  std::vector<TileSummary>& tiles_;
+};
+
 }  // namespace
 
 PathExpansion::PathExpansion(const Overlay& overlay, const TileGrid& grid, const OverlayEnds& ends,
@@ -132,69 +191,6 @@ void PathExpansion::write_leg(std::size_t leg, std::span<const TileSummary> tile
   const Chain& chain = chain_between(tiles[tile], std::min(from, to), std::max(from, to), steps);
   walk_chain(tiles[tile], chain, from < to, place_of(path_[leg], tiles), out);
 }
-
-namespace {
-
-std::uint16_t number_of(const TileSummary& tile, std::uint32_t place) {
-  const auto found = std::lower_bound(tile.keys.begin(), tile.keys.end(), place);
-  return static_cast<std::uint16_t>(found - tile.keys.begin());
-}
-
-void sort_once(std::vector<std::uint16_t>& keys) {
-  std::sort(keys.begin(), keys.end());
-  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-}
-
-class RouteTiles {
- public:
-  RouteTiles(const TileGrid& grid, std::vector<TileSummary>& tiles) : grid_(grid), tiles_(tiles) {}
-
-  void add_key(std::size_t tile, std::uint32_t place) {
-    if (tile >= tiles_.size() || place >= grid_.side() * grid_.side()) throw InputError("path", "leaves the tiles");
-    tiles_[tile].keys.push_back(static_cast<std::uint16_t>(place));
-  }
-  void add_link(const EndLink& link) {
-    const std::uint32_t in_tile = grid_.side() - 1;
-    add_key(grid_.tile_at(link.col, link.row), (link.row & in_tile) * grid_.side() + (link.col & in_tile));
-  }
-  /// After all keys, which are sorted then.
-  void add_leg(const RouteKey& from, const RouteKey& to) {
-    TileSummary& tile = tiles_[from.tile];
-    const std::uint16_t a = number_of(tile, from.place);
-    const std::uint16_t b = number_of(tiles_[to.tile], to.place);
-    if (from.tile == to.tile) {
-      tile.chains.push_back({std::min(a, b), std::max(a, b), 0, from.steps});
-      return;
-    }
-    const unsigned side = side_to(from.tile, to.tile);
-    tile.crossings[side].push_back(a);
-    tiles_[to.tile].crossings[side ^ 2U].push_back(b);
-  }
-  void sort_keys() {
-    for (TileSummary& tile : tiles_) sort_once(tile.keys);
-  }
-  void sort_edges() {
-    for (TileSummary& tile : tiles_) {
-      for (auto& crossing : tile.crossings) sort_once(crossing);
-      std::stable_sort(tile.chains.begin(), tile.chains.end(),
-                       [](const Chain& a, const Chain& b) { return a.from < b.from; });
-    }
-  }
-
- private:
-  unsigned side_to(std::uint64_t tile, std::uint64_t other) const {
-    if (other == tile + 1) return 0;
-    if (other == tile + grid_.tile_cols) return 1;
-    if (tile == other + 1) return 2;
-    if (tile == other + grid_.tile_cols) return 3;
-    throw InputError("path", "leaps between tiles");
-  }
-
-  const TileGrid& grid_;
-  std::vector<TileSummary>& tiles_;
-};
-
-}  // namespace
 
 std::vector<TileSummary> tiles_of(const ToldRoute& route, const TileGrid& grid, const OverlayEnds& ends,
                                   const Execution& execution) {

@@ -418,6 +418,22 @@ void TiledPlan::search_elsewhere() {
   measure_gap();
 }
 
+/// The parts of a run are the same for any number of threads: of so many tiles each.
+bool take_kept(KeptParts& kept, std::size_t first, std::uint32_t side, std::span<TileSummary> summaries) {
+  const auto bytes = kept.find(PartKind::tiles, first);
+  if (!bytes) return false;
+  ValueUnpacker from(*bytes, "a kept part of the tiles");
+  for (TileSummary& tile : summaries) tile = unpack_summary(from, side);
+  if (!from.is_done()) from.refuse();
+  return true;
+}
+
+void keep(KeptParts& kept, std::size_t first, std::span<const TileSummary> summaries) {
+  ValuePacker packer;
+  for (const TileSummary& tile : summaries) pack_summary(tile, packer);
+  kept.keep(PartKind::tiles, first, packer.bytes());
+}
+
 }  // namespace
 
 bool tiled_prm_applies(const RoadmapOptions& options, double clearance) {
@@ -444,26 +460,6 @@ Solution<Vec2> tiled_prm(const TiledProblem& problem, const RoadmapOptions& opti
   }
   return std::move(plan.solution());
 }
-
-namespace {
-
-/// The parts of a run are the same for any number of threads: of so many tiles each.
-bool take_kept(KeptParts& kept, std::size_t first, std::uint32_t side, std::span<TileSummary> summaries) {
-  const auto bytes = kept.find(PartKind::tiles, first);
-  if (!bytes) return false;
-  ValueUnpacker from(*bytes, "a kept part of the tiles");
-  for (TileSummary& tile : summaries) tile = unpack_summary(from, side);
-  if (!from.is_done()) from.refuse();
-  return true;
-}
-
-void keep(KeptParts& kept, std::size_t first, std::span<const TileSummary> summaries) {
-  ValuePacker packer;
-  for (const TileSummary& tile : summaries) pack_summary(tile, packer);
-  kept.keep(PartKind::tiles, first, packer.bytes());
-}
-
-}  // namespace
 
 /// The scratch of one thread.
 class LatticeTiles::Maker {

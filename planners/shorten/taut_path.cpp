@@ -10,6 +10,8 @@
 #include "parallel/chunks.hpp"
 
 namespace warren {
+namespace {
+
 // A string pulled taut around wall ends, each widened to a disc of one radius: the locally shortest path of the
 // string's homotopy class, which is the only one. It is a list of stops, joined by tangents: the two ends, discs with
 // the side on which they are passed, and in between points of the raw path that are still to be pulled away.
@@ -26,7 +28,14 @@ namespace warren {
 // (large triangles are searched part by part). Exact but for rounding; the caller checks the result.
 
 /// How far walls stand apart, roughly: the square root of the area a wall; > 0.
-double wall_spacing(const WallIndex& walls);
+double wall_spacing(const WallIndex& walls) {
+  if (walls.wall_count() == 0) return 1.0;
+  const auto count = static_cast<double>(walls.wall_count());
+  const Box& box = walls.box();
+  const double of_area = std::sqrt(box.width() / count) * std::sqrt(box.height());
+  const double of_line = std::max(box.width(), box.height()) / count;
+  return of_area > 0.0 ? of_area : of_line > 0.0 ? of_line : 1.0;
+}
 
 class TautString {
  public:
@@ -91,8 +100,6 @@ class TautString {
   std::vector<Stop> chain_;
 };
 
-namespace {
-
 constexpr double backwards = -1e-10;  // radians: a bend that is less than this the wrong way counts as straight
 
 double turn_between(Vec2 u, Vec2 v) { return portable::atan2(cross(u, v), dot(u, v)); }
@@ -103,20 +110,9 @@ bool same_disc(const TautString::Stop& a, const TautString::Stop& b) {
   return is_disc(a) && a.turn == b.turn && a.center == b.center;
 }
 
-}  // namespace
-
 TautString::TautString(const WallIndex& walls, double radius, double least, Vec2 origin)
     : walls_(walls), radius_(radius), least_(least), origin_(origin) {
   search_size_ = 4.0 * (radius + wall_spacing(walls));
-}
-
-double wall_spacing(const WallIndex& walls) {
-  if (walls.wall_count() == 0) return 1.0;
-  const auto count = static_cast<double>(walls.wall_count());
-  const Box& box = walls.box();
-  const double of_area = std::sqrt(box.width() / count) * std::sqrt(box.height());
-  const double of_line = std::max(box.width(), box.height()) / count;
-  return of_area > 0.0 ? of_area : of_line > 0.0 ? of_line : 1.0;
 }
 
 TautString::Tangent TautString::tangent(const Stop& a, const Stop& b) const {
@@ -324,8 +320,6 @@ std::vector<TautString::Stop> TautString::pull(std::span<const Vec2> points, con
   left_.insert(left_.end(), right_.rbegin(), right_.rend());
   return std::move(left_);
 }
-
-namespace {
 
 using Stop = TautString::Stop;
 

@@ -87,6 +87,39 @@ bool is_left(const Segment& s, Vec2 at) {
   return s.b.x > s.a.x;
 }
 
+constexpr double open_sight = std::numeric_limits<double>::infinity();
+constexpr double margin = 1e-9;          // of places: far above their rounding, far below a range's width
+constexpr double shallow = 1e-6;         // sines below this: a distance along the ray is not to be trusted
+constexpr double outwards = 1.0 + 1e-9;  // distances are rounded up by this
+constexpr double bent = 0.999;           // a chord of a range of directions, at its middle, and rounding
+
+Vec2 direction_at(double place) {
+  if (place < 1.0) return {1.0 - place, place};
+  if (place < 2.0) return {1.0 - place, 2.0 - place};
+  if (place < 3.0) return {place - 3.0, 2.0 - place};
+  return {place - 3.0, place - 4.0};
+}
+
+/// The first and the last direction, anticlockwise, in which the box lies; the origin is not in it.
+struct BoxView {
+  Vec2 first;
+  Vec2 last;
+};
+BoxView view_of(const Box& b) {
+  if (b.min.x > 0.0) {
+    if (b.min.y > 0.0) return {{b.max.x, b.min.y}, {b.min.x, b.max.y}};
+    if (b.max.y < 0.0) return {b.min, b.max};
+    return {b.min, {b.min.x, b.max.y}};
+  }
+  if (b.max.x < 0.0) {
+    if (b.min.y > 0.0) return {b.max, b.min};
+    if (b.max.y < 0.0) return {{b.min.x, b.max.y}, {b.max.x, b.min.y}};
+    return {b.max, {b.max.x, b.min.y}};
+  }
+  if (b.min.y > 0.0) return {{b.max.x, b.min.y}, b.min};
+  return {{b.min.x, b.max.y}, b.max};
+}
+
 }  // namespace
 
 PlanePieces::PlanePieces(const PlaneObstacles& obstacles, const Execution& execution) {
@@ -243,43 +276,6 @@ int PlanePieces::depth_beside(Vec2 p) const {
   const Vec2 below{corner.x, p.y};
   return depth_[grid_.index(cell)] + rise_in_cell(cell, corner, below) + rise_in_cell(cell, below, p);
 }
-
-namespace {
-
-constexpr double open_sight = std::numeric_limits<double>::infinity();
-constexpr double margin = 1e-9;          // of places: far above their rounding, far below a range's width
-constexpr double shallow = 1e-6;         // sines below this: a distance along the ray is not to be trusted
-constexpr double outwards = 1.0 + 1e-9;  // distances are rounded up by this
-constexpr double bent = 0.999;           // a chord of a range of directions, at its middle, and rounding
-
-Vec2 direction_at(double place) {
-  if (place < 1.0) return {1.0 - place, place};
-  if (place < 2.0) return {1.0 - place, 2.0 - place};
-  if (place < 3.0) return {place - 3.0, 2.0 - place};
-  return {place - 3.0, place - 4.0};
-}
-
-/// The first and the last direction, anticlockwise, in which the box lies; the origin is not in it.
-struct BoxView {
-  Vec2 first;
-  Vec2 last;
-};
-BoxView view_of(const Box& b) {
-  if (b.min.x > 0.0) {
-    if (b.min.y > 0.0) return {{b.max.x, b.min.y}, {b.min.x, b.max.y}};
-    if (b.max.y < 0.0) return {b.min, b.max};
-    return {b.min, {b.min.x, b.max.y}};
-  }
-  if (b.max.x < 0.0) {
-    if (b.min.y > 0.0) return {b.max, b.min};
-    if (b.max.y < 0.0) return {{b.min.x, b.max.y}, {b.max.x, b.min.y}};
-    return {b.max, {b.max.x, b.min.y}};
-  }
-  if (b.min.y > 0.0) return {{b.max.x, b.min.y}, b.min};
-  return {{b.min.x, b.max.y}, b.max};
-}
-
-}  // namespace
 
 double direction_place(Vec2 d) {
   const double sum = std::abs(d.x) + std::abs(d.y);
