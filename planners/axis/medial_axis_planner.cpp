@@ -273,13 +273,10 @@ void AxisGraph::narrow_to(double clearance) {
 }
 
 SearchResult AxisGraph::search(SearchKind search, QueueKind queue_kind) const {
-  const auto should_stop = [&] { return execution_.should_stop(); };
   SearchState state;
-  state.resize(vertex_count(), [&] { execution_.check(); });
   SearchResult found;
-  if (search == SearchKind::bfs || search == SearchKind::dfs) {
-    found = search == SearchKind::bfs ? breadth_first(graph(), start(), goal(), state, should_stop)
-                                      : depth_first(graph(), start(), goal(), state, should_stop);
+  if (is_blind(search)) {
+    found = search_blindly(search, graph(), start(), goal(), state, execution_);
   } else {
     const auto neighbours = [&](VertexId v, const auto& visit) {
       for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
@@ -289,9 +286,7 @@ SearchResult AxisGraph::search(SearchKind search, QueueKind queue_kind) const {
     };
     const bool informed = search == SearchKind::astar;
     const auto estimate = [&](VertexId v) { return informed ? distance(place(v), place(goal())) : 0.0; };
-    found = with_queue(queue_kind, vertex_count(), execution_, [&](auto& queue) {
-      return best_first(start(), goal(), neighbours, estimate, queue, state, should_stop);
-    });
+    found = search_best_first(queue_kind, vertex_count(), start(), goal(), neighbours, estimate, state, execution_);
   }
   if (found.status == SearchStatus::stopped) execution_.check();
   return found;

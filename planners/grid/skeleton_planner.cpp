@@ -215,10 +215,9 @@ std::uint32_t SkeletonPlan::widest(std::span<const std::uint32_t> widths) const 
 
 SearchResult SkeletonPlan::found(const Graph& graph) const {
   SearchState state;
-  state.resize(graph.vertex_count(), [&] { execution_.check(); });
-  const auto should_stop = [&] { return execution_.should_stop(); };
-  if (options_.search == SearchKind::bfs) return breadth_first(graph, start(), goal(), state, should_stop);
-  if (options_.search == SearchKind::dfs) return depth_first(graph, start(), goal(), state, should_stop);
+  if (is_blind(options_.search)) {
+    return search_blindly(options_.search, graph, start(), goal(), state, execution_);
+  }
   const auto neighbours = [&](VertexId v, const auto& visit) {
     for (const VertexId w : graph.neighbours(v)) visit(w, length(v, w));
   };
@@ -227,9 +226,8 @@ SearchResult SkeletonPlan::found(const Graph& graph) const {
     const Cell c = cells_->cell(v);
     return informed ? portable::hypot(static_cast<double>(c.x) - goal_.x, static_cast<double>(c.y) - goal_.y) : 0.0;
   };
-  return with_queue(options_.queue, graph.vertex_count(), execution_, [&](auto& queue) {
-    return best_first(start(), goal(), neighbours, estimate, queue, state, should_stop);
-  });
+  return search_best_first(options_.queue, graph.vertex_count(), start(), goal(), neighbours, estimate, state,
+                           execution_);
 }
 
 void SkeletonPlan::search() {

@@ -253,7 +253,7 @@ bool CellPlanning::ends_are_joined() {
 
 void CellPlanning::find_route() {
   const StageTimer timer(execution_, "search", solution_.seconds.search);
-  const bool over_cells = options_.search == SearchKind::bfs || options_.search == SearchKind::dfs;
+  const bool over_cells = is_blind(options_.search);
   plan_.route = {start_, goal_, {}, {}};
   const bool taut = !over_cells && options_.doors == DoorKind::funnel;
   if (options_.doors == DoorKind::midpoint) compute_points();
@@ -267,12 +267,8 @@ void CellPlanning::find_route() {
 }
 
 RawVector<VertexId> CellPlanning::search_cells() {
-  const auto should_stop = [&] { return execution_.should_stop(); };
   SearchState state;
-  state.resize(graph_.vertex_count(), [&] { execution_.check(); });
-  SearchResult found = options_.search == SearchKind::bfs
-                           ? breadth_first(graph_, start_vertex(), goal_vertex(), state, should_stop)
-                           : depth_first(graph_, start_vertex(), goal_vertex(), state, should_stop);
+  SearchResult found = search_blindly(options_.search, graph_, start_vertex(), goal_vertex(), state, execution_);
   solution_.counters.expanded = found.expanded;
   if (found.status == SearchStatus::stopped) execution_.check();
   return std::move(found.path);
@@ -313,10 +309,8 @@ RawVector<VertexId> CellPlanning::search_doors() {
     return distance(v == start ? start_ : points_->middle(v), goal_);
   };
   SearchState state;
-  state.resize(count + 2, [&] { execution_.check(); });
-  SearchResult found = with_queue(options_.queue, count + 2, execution_, [&](auto& queue) {
-    return best_first(start, goal, neighbours, estimate, queue, state, [&] { return execution_.should_stop(); });
-  });
+  SearchResult found =
+      search_best_first(options_.queue, count + 2, start, goal, neighbours, estimate, state, execution_);
   solution_.counters.expanded = found.expanded;
   if (found.status == SearchStatus::stopped) execution_.check();
   return std::move(found.path);

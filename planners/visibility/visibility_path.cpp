@@ -126,9 +126,8 @@ class VisibilityPlan {
     const StageTimer timer(execution_, "search", solution_.seconds.search);
     const VisibilityLinks links = visibility.link(start_, goal_, execution_);
     solution_.roadmap.edges = visibility.graph().edge_count() + links.count();
-    const bool plain = options_.search == SearchKind::bfs || options_.search == SearchKind::dfs;
+    const bool plain = is_blind(options_.search);
     SearchState state;
-    state.resize(visibility.size() + 2, [&] { execution_.check(); });
     if (plain || keep_ != nullptr) roadmap_.graph = visibility.joined(links, execution_);
     const SearchResult found = plain ? search_plainly(state) : search_best(visibility, links, state);
     if (found.status == SearchStatus::exhausted) separate(visibility, visibility.joined(links, execution_));
@@ -138,12 +137,11 @@ class VisibilityPlan {
 
   SearchResult search_plainly(SearchState& state) const {
     const auto start = static_cast<VertexId>(roadmap_.graph.vertex_count() - 2);
-    const auto should_stop = [&] { return execution_.should_stop(); };
-    return options_.search == SearchKind::bfs ? breadth_first(roadmap_.graph, start, start + 1, state, should_stop)
-                                              : depth_first(roadmap_.graph, start, start + 1, state, should_stop);
+    return search_blindly(options_.search, roadmap_.graph, start, start + 1, state, execution_);
   }
 
   SearchResult search_best(const VisibilityGraph& visibility, const VisibilityLinks& links, SearchState& state) const {
+    state.resize(visibility.size() + 2, [&] { execution_.check(); });
     return with_queue(options_.queue, visibility.size() + 2, execution_, [&](auto& queue) {
       return visibility.search(links, options_.search == SearchKind::astar, queue, state,
                                [&] { return execution_.should_stop(); });

@@ -360,24 +360,6 @@ void Reader::add_rings(const Coordinates& c) {
   }
 }
 
-}  // namespace
-
-bool is_geojson(std::string_view bytes) {
-  bytes = bytes.substr(0, bytes_that_tell);
-  if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
-  const std::size_t at = bytes.find_first_not_of(" \t\r\n");
-  return at != std::string_view::npos && (bytes[at] == '{' || bytes[at] == '[');
-}
-
-Scene read_geojson(const InputFile& file, const Execution& execution) {
-  JsonBytes bytes(file, execution);
-  Reader reader(file.name(), bytes.line(), execution);
-  Json::sax_parse(bytes.begin(), bytes.end(), &reader);
-  return reader.finish();
-}
-
-namespace {
-
 std::string position(Vec2 p) { return fmt::format("[{}, {}]", p.x + 0.0, p.y + 0.0); }
 
 /// Writes features, one a line.
@@ -415,6 +397,20 @@ class Writer {
 };
 
 }  // namespace
+
+bool is_geojson(std::string_view bytes) {
+  bytes = bytes.substr(0, bytes_that_tell);
+  if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
+  const std::size_t at = bytes.find_first_not_of(" \t\r\n");
+  return at != std::string_view::npos && (bytes[at] == '{' || bytes[at] == '[');
+}
+
+Scene read_geojson(const InputFile& file, const Execution& execution) {
+  JsonBytes bytes(file, execution);
+  Reader reader(file.name(), bytes.line(), execution);
+  Json::sax_parse(bytes.begin(), bytes.end(), &reader);
+  return reader.finish();
+}
 
 void write_geojson(const Scene& scene, const std::string& path, const Execution& execution) {
   if (has_solids(scene)) throw InputError(path, "GeoJSON holds no spheres or boxes; write them to a .scene file");

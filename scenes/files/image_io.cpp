@@ -13,7 +13,6 @@
 #include "scenes/files/scene_text.hpp"
 
 namespace warren {
-
 bool is_png(std::string_view bytes) { return bytes.starts_with("\x89PNG"); }
 
 bool is_bmp(std::string_view bytes) {
@@ -123,30 +122,6 @@ std::string_view pixel_of(const Layout& layout, std::string_view row, std::size_
   }
   return layout.palette.substr(4 * colour, 4);
 }
-
-}  // namespace
-
-void read_bmp(const InputFile& file, const ImageSink& sink, const Execution& execution) {
-  constexpr std::size_t pixels_a_look = 1 << 14;
-  const Layout layout = layout_of(file, execution);
-  const auto& [width, height, channels, maximum] = layout.header;
-  sink.begin(layout.header);
-  execution.reserve(sizeof(std::uint16_t) * channels * width);
-  std::vector<std::uint16_t> samples(std::size_t{channels} * width);
-  for (std::uint32_t i = 0; i < height; ++i) {
-    const std::string_view row = layout.rows.substr(i * layout.row_bytes, layout.row_bytes);
-    for (std::size_t x = 0; x < width; ++x) {
-      if (x % pixels_a_look == 0) execution.check();
-      const std::string_view pixel = pixel_of(layout, row, x, file);
-      std::uint16_t* const to = samples.data() + channels * x;
-      for (const unsigned c : {0U, 1U, 2U}) to[c] = static_cast<unsigned char>(pixel[2 - c]);
-      if (channels == 4) to[3] = static_cast<unsigned char>(pixel[3]);
-    }
-    sink.row({layout.is_top_down ? i : height - 1 - i, 0, 1, samples});
-  }
-}
-
-namespace {
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f'; }
 
@@ -288,6 +263,26 @@ void read_ascii(const InputFile& file, const ImageHeader& header, PgmTokens& tok
 }
 
 }  // namespace
+
+void read_bmp(const InputFile& file, const ImageSink& sink, const Execution& execution) {
+  constexpr std::size_t pixels_a_look = 1 << 14;
+  const Layout layout = layout_of(file, execution);
+  const auto& [width, height, channels, maximum] = layout.header;
+  sink.begin(layout.header);
+  execution.reserve(sizeof(std::uint16_t) * channels * width);
+  std::vector<std::uint16_t> samples(std::size_t{channels} * width);
+  for (std::uint32_t i = 0; i < height; ++i) {
+    const std::string_view row = layout.rows.substr(i * layout.row_bytes, layout.row_bytes);
+    for (std::size_t x = 0; x < width; ++x) {
+      if (x % pixels_a_look == 0) execution.check();
+      const std::string_view pixel = pixel_of(layout, row, x, file);
+      std::uint16_t* const to = samples.data() + channels * x;
+      for (const unsigned c : {0U, 1U, 2U}) to[c] = static_cast<unsigned char>(pixel[2 - c]);
+      if (channels == 4) to[3] = static_cast<unsigned char>(pixel[3]);
+    }
+    sink.row({layout.is_top_down ? i : height - 1 - i, 0, 1, samples});
+  }
+}
 
 void read_pgm(const InputFile& file, const ImageSink& sink, const Execution& execution) {
   constexpr std::uint32_t most_side = 0x7fffffff;

@@ -248,15 +248,6 @@ void SceneReader::check_maze() const {
   }
 }
 
-}  // namespace
-
-Scene read_scene_text(const InputFile& file, const Execution& execution) { return SceneReader(file, execution).read(); }
-
-// The writer of scene text: shortest decimal numbers that read back the same, half-integers (mazes) by integer digits.
-// Walls are formatted in parallel, a batch of chunks at a time, and written in their order.
-
-namespace {
-
 constexpr std::size_t line_grain = 8192;
 constexpr std::size_t chunks_a_batch = 64;
 
@@ -401,6 +392,11 @@ void write_items(std::size_t count, std::size_t chunk, const SceneTextSink& writ
 }
 
 }  // namespace
+
+Scene read_scene_text(const InputFile& file, const Execution& execution) { return SceneReader(file, execution).read(); }
+
+// The writer of scene text: shortest decimal numbers that read back the same, half-integers (mazes) by integer digits.
+// Walls are formatted in parallel, a batch of chunks at a time, and written in their order.
 
 void write_scene_text(const Scene& scene, const SceneTextSink& write, const Execution& execution) {
   write(head_of(scene));

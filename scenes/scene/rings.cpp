@@ -194,6 +194,15 @@ std::vector<Segment> shared_sides(std::span<const std::vector<Vec2>> pieces) {
   return shared;
 }
 
+std::optional<SideContact> compare_all(const RingSides& outline) {
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    for (std::size_t j = i + 1; j < outline.size(); ++j) {
+      if (outline.meet(i, j)) return SideContact{i, j};
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::vector<std::vector<Vec2>> without_holes(const std::vector<Vec2>& outer, std::span<const std::vector<Vec2>> holes,
@@ -335,19 +344,6 @@ void RingSweep::insert(std::uint32_t side) {
   if (at != order_.begin()) compare(*std::prev(at), side);
   if (std::next(at) != order_.end()) compare(side, *std::next(at));
 }
-
-namespace {
-
-std::optional<SideContact> compare_all(const RingSides& outline) {
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    for (std::size_t j = i + 1; j < outline.size(); ++j) {
-      if (outline.meet(i, j)) return SideContact{i, j};
-    }
-  }
-  return std::nullopt;
-}
-
-}  // namespace
 
 std::optional<SideContact> self_contact(std::span<const Vec2> corners, const Execution& execution) {
   constexpr std::size_t few = 24;

@@ -172,6 +172,8 @@ class NearestSet {
   double worst_ = infinity;
 };
 
+constexpr std::size_t smallest_tree = 128;
+
 }  // namespace
 
 template <int D>
@@ -331,12 +333,6 @@ template class KdTree<2>;
 template class KdTree<3>;
 template class KdTree<4>;
 template class KdTree<6>;
-
-namespace {
-
-constexpr std::size_t smallest_tree = 128;
-
-}  // namespace
 
 template <int D>
 void GrowingTree<D>::insert(const Point& p) {

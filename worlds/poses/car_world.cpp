@@ -72,6 +72,8 @@ class BodyTravel {
   std::size_t count_;
 };
 
+constexpr double as_good = 1e-9;  // in turning radii: what is shorter by less is as long
+
 }  // namespace
 
 CarBody::CarBody(const Scene& scene, const CarOptions& options, const Execution& execution)
@@ -139,12 +141,6 @@ bool CarBody::is_free_curve(const SteeringCurve& curve, Query& query) const {
   if (verdict == MotionVerdict::refused) ++query.refused;
   return verdict == MotionVerdict::free;
 }
-
-namespace {
-
-constexpr double as_good = 1e-9;  // in turning radii: what is shorter by less is as long
-
-}  // namespace
 
 struct PricedCar::Recipe {
   SteeringWord word;

@@ -192,22 +192,6 @@ HeadingLayers report_layers(const Scene& scene, const RobotSpec& robot, const La
   return layers;
 }
 
-}  // namespace
-
-HeadingLayers orientation_layers(const Scene& scene, const RobotSpec& robot, const LayerOptions& options,
-                                 const Execution& execution) {
-  if (robot.kind != RobotKind::point && robot.kind != RobotKind::disc && robot.kind != RobotKind::polygon) {
-    throw InputError("robot", "must be a point, a disc or a polygon for a grid");
-  }
-  if (!(options.grid.cell > 0.0) || options.grid.angles < 1) {
-    throw InputError("grid", "needs a cell above 0 and at least one heading");
-  }
-  if (options.kind == LayerKind::report004) return report_layers(scene, robot, options, execution);
-  return ExactLayers(scene, robot, options, execution).make();
-}
-
-namespace {
-
 /// Cells at row dy and columns first .. last from a position.
 struct StampRun {
   int dy;
@@ -385,36 +369,6 @@ class MapLayers {
   double room_;
 };
 
-}  // namespace
-
-HeadingLayers map_layers(const OccupancyMap& map, std::span<const Vec2> outline, std::uint32_t angles, double clearance,
-                         const Execution& execution) {
-  if (outline.size() < 3) throw InputError("robot", "a polygon needs three corners or more");
-  if (!(clearance >= 0.0)) throw InputError("clearance", "must be a number from 0", std::to_string(clearance));
-  HeadingLayers layers;
-  layers.origin = {0.5 * map.cell, 0.5 * map.cell};
-  layers.cell = map.cell;
-  layers.width = map.width();
-  layers.height = map.height();
-  layers.angles = angles;
-  if (angles < 1 || map.blocked.size() > HeadingLayers::most_states / angles) {
-    throw InputError(
-        "grid", "must have from 1 to 2^32 - 4 states: the map's cells times headings",
-        std::to_string(map.width()) + " x " + std::to_string(map.height()) + " x " + std::to_string(angles));
-  }
-  constexpr double widest = 4096.0;  // cells: half a stamp, which has 8 MB then
-  double reach = clearance;
-  for (const Vec2 p : outline) reach = std::max(reach, clearance + norm(p));
-  if (!(reach / map.cell < widest)) {
-    throw InputError("robot", "reaches over more than 4096 cells of the map", std::to_string(reach));
-  }
-  const std::vector<LayerJob> jobs = list_layer_jobs(outline, layers);
-  MapLayers(map, clearance, execution).make(jobs, layers.bitmaps);
-  return layers;
-}
-
-namespace {
-
 /// Corners in order from the least: the same for every heading that covers the same set.
 ConvexPiece key_of(ConvexPiece corners) {
   const auto less = [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); };
@@ -474,6 +428,44 @@ class JobList {
 };
 
 }  // namespace
+
+HeadingLayers orientation_layers(const Scene& scene, const RobotSpec& robot, const LayerOptions& options,
+                                 const Execution& execution) {
+  if (robot.kind != RobotKind::point && robot.kind != RobotKind::disc && robot.kind != RobotKind::polygon) {
+    throw InputError("robot", "must be a point, a disc or a polygon for a grid");
+  }
+  if (!(options.grid.cell > 0.0) || options.grid.angles < 1) {
+    throw InputError("grid", "needs a cell above 0 and at least one heading");
+  }
+  if (options.kind == LayerKind::report004) return report_layers(scene, robot, options, execution);
+  return ExactLayers(scene, robot, options, execution).make();
+}
+
+HeadingLayers map_layers(const OccupancyMap& map, std::span<const Vec2> outline, std::uint32_t angles, double clearance,
+                         const Execution& execution) {
+  if (outline.size() < 3) throw InputError("robot", "a polygon needs three corners or more");
+  if (!(clearance >= 0.0)) throw InputError("clearance", "must be a number from 0", std::to_string(clearance));
+  HeadingLayers layers;
+  layers.origin = {0.5 * map.cell, 0.5 * map.cell};
+  layers.cell = map.cell;
+  layers.width = map.width();
+  layers.height = map.height();
+  layers.angles = angles;
+  if (angles < 1 || map.blocked.size() > HeadingLayers::most_states / angles) {
+    throw InputError(
+        "grid", "must have from 1 to 2^32 - 4 states: the map's cells times headings",
+        std::to_string(map.width()) + " x " + std::to_string(map.height()) + " x " + std::to_string(angles));
+  }
+  constexpr double widest = 4096.0;  // cells: half a stamp, which has 8 MB then
+  double reach = clearance;
+  for (const Vec2 p : outline) reach = std::max(reach, clearance + norm(p));
+  if (!(reach / map.cell < widest)) {
+    throw InputError("robot", "reaches over more than 4096 cells of the map", std::to_string(reach));
+  }
+  const std::vector<LayerJob> jobs = list_layer_jobs(outline, layers);
+  MapLayers(map, clearance, execution).make(jobs, layers.bitmaps);
+  return layers;
+}
 
 std::vector<LayerJob> list_layer_jobs(std::span<const Vec2> outline, HeadingLayers& layers) {
   JobList jobs(layers);

@@ -69,6 +69,40 @@ Box box_around(std::span<const Vec2> points) {
   return box;
 }
 
+/// Calls add(y, from, to) for each longest run of borders between rows y - 1 and y.
+template <class Add>
+void for_borders_between_rows(const Bitmap& blocked, const Execution& execution, const Add& add) {
+  const std::size_t words = blocked.empty() ? 0 : blocked.row(0).size();
+  const auto solid = [&](std::int64_t y, std::size_t w) {
+    if (y < 0 || y >= blocked.height()) return ~std::uint64_t{0};
+    const std::uint64_t beyond =
+        w + 1 == words && blocked.width() % 64 != 0 ? ~std::uint64_t{0} << blocked.width() % 64 : 0;
+    return blocked.row(as_whole<std::uint32_t>(y))[w] | beyond;
+  };
+  for (std::int64_t y = 0; y <= blocked.height(); ++y) {
+    if (y % 16 == 0) execution.check();
+    std::int64_t first = -1;  // of the run that is open
+    for (std::size_t w = 0; w < words; ++w) {
+      std::uint64_t differs = solid(y - 1, w) ^ solid(y, w);
+      const auto base = as_whole<std::int64_t>(64 * w);
+      std::int64_t x = 0;
+      while (x < 64) {
+        const auto next = as_whole<std::int64_t>(first < 0 ? std::countr_zero(differs) : std::countr_one(differs));
+        if (x + next >= 64) break;
+        x += next;
+        differs >>= next;
+        if (first < 0) {
+          first = base + x;
+        } else {
+          add(y, first, base + x);
+          first = -1;
+        }
+      }
+    }
+    if (first >= 0) add(y, first, std::int64_t{blocked.width()});
+  }
+}
+
 }  // namespace
 
 LatticeMarking::LatticeMarking(Vec2 origin, double cell, std::uint32_t width, std::uint32_t height)
@@ -137,44 +171,6 @@ void LatticeMarking::mark_inside(std::span<const Vec2> polygon, Vec2 offset, con
     for (std::size_t c = 1; c < crossings.size(); c += 2) mark_run(j, crossings[c - 1], crossings[c]);
   }
 }
-
-namespace {
-
-/// Calls add(y, from, to) for each longest run of borders between rows y - 1 and y.
-template <class Add>
-void for_borders_between_rows(const Bitmap& blocked, const Execution& execution, const Add& add) {
-  const std::size_t words = blocked.empty() ? 0 : blocked.row(0).size();
-  const auto solid = [&](std::int64_t y, std::size_t w) {
-    if (y < 0 || y >= blocked.height()) return ~std::uint64_t{0};
-    const std::uint64_t beyond =
-        w + 1 == words && blocked.width() % 64 != 0 ? ~std::uint64_t{0} << blocked.width() % 64 : 0;
-    return blocked.row(as_whole<std::uint32_t>(y))[w] | beyond;
-  };
-  for (std::int64_t y = 0; y <= blocked.height(); ++y) {
-    if (y % 16 == 0) execution.check();
-    std::int64_t first = -1;  // of the run that is open
-    for (std::size_t w = 0; w < words; ++w) {
-      std::uint64_t differs = solid(y - 1, w) ^ solid(y, w);
-      const auto base = as_whole<std::int64_t>(64 * w);
-      std::int64_t x = 0;
-      while (x < 64) {
-        const auto next = as_whole<std::int64_t>(first < 0 ? std::countr_zero(differs) : std::countr_one(differs));
-        if (x + next >= 64) break;
-        x += next;
-        differs >>= next;
-        if (first < 0) {
-          first = base + x;
-        } else {
-          add(y, first, base + x);
-          first = -1;
-        }
-      }
-    }
-    if (first >= 0) add(y, first, std::int64_t{blocked.width()});
-  }
-}
-
-}  // namespace
 
 std::vector<Segment> border_walls(const OccupancyMap& map, const Execution& execution) {
   std::vector<Segment> walls;
