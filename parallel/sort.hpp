@@ -134,11 +134,9 @@ KeyOrder counting_sort(std::size_t n, std::size_t keys, const Execution& executi
   return order;
 }
 
-// std::sort that looks at the deadline between comparisons: sorting ten million edges takes a second. The look is at a
-// counter in all comparisons but one of 2^12, for exact ones can take microseconds.
-
-/// Sorts first .. last by less. Throws Stopped: the elements are then in some
-/// order, and one of them may have been moved from.
+/// std::sort that looks at the deadline between comparisons: sorting ten million edges takes a second. The look is at a
+/// counter in all comparisons but one of 2^12, for exact ones can take microseconds. Sorts first .. last by less.
+/// Throws Stopped: the elements are then in some order, and one of them may have been moved from.
 template <class Iterator, class Less = std::less<>>
 void polled_sort(Iterator first, Iterator last, const Execution& execution, const Less& less = {}) {
   constexpr std::uint32_t comparisons_per_poll = 1U << 12;
@@ -149,10 +147,9 @@ void polled_sort(Iterator first, Iterator last, const Execution& execution, cons
   });
 }
 
-// Exclusive prefix sums in parallel: two passes over the data, chunk sums between them. Integers only, so the result
-// does not depend on the chunks.
-
-/// Replaces values[i] by the sum of values[0 .. i - 1] and returns the total. O(n), 2 reads and 1 write an element.
+/// Exclusive prefix sums in parallel: two passes over the data, chunk sums between them. Integers only, so the result
+/// does not depend on the chunks. Replaces values[i] by the sum of values[0 .. i - 1] and returns the total. O(n), 2
+/// reads and 1 write an element.
 template <class Vector>
 std::uint64_t exclusive_scan(Vector& values, const Execution& execution) {
   using Value = typename Vector::value_type;

@@ -39,6 +39,15 @@ struct PlaneObstacles {
   std::optional<Box> bounds;   ///< the box that nothing may leave; none: the plane has no end
 };
 
+/// The bounds, or else the box of polygons and walls; empty where there is nothing.
+inline Box box_around(const PlaneObstacles& obstacles) {
+  if (obstacles.bounds) return *obstacles.bounds;
+  Box box;
+  for (const Vec2 p : obstacles.polygons.corners) box.include(p);
+  for (const Segment& wall : obstacles.walls) box.include(box_of(wall));
+  return box;
+}
+
 // Distances of closed polygons, convex or not, either orientation: every pair of sides, decided by the exact predicates
 // of core/plane/geometry. Exactly 0 where they touch, overlap or one lies in the other; else within 1e-14 of the
 // coordinate differences. O(n m): the plain form; worlds/poses/obstacle_tree is the fast one.

@@ -138,10 +138,6 @@ std::optional<AxisPlace> retract(const MedialAxis& axis, Vec2 p) {
   return found;
 }
 
-// What of a medial axis may be travelled with a clearance, as a graph between two places on it: the edges that are wide
-// enough, and the wide enough parts of the edges on which the two places lie. O(edges) to build, O(edges log edges) to
-// find the widest way.
-
 /// A stretch of one of the axis' edges between two vertices of the graph.
 struct AxisLink {
   VertexId from, to;
@@ -151,8 +147,10 @@ struct AxisLink {
   double clearance;
 };
 
-/// The axis' vertices, behind them the start and the goal. Refers to the axis and the execution; what takes longer than
-/// a path throws Stopped.
+/// What of a medial axis may be travelled with a clearance, as a graph between two places on it: the edges that are
+/// wide enough, and the wide enough parts of the edges on which the two places lie. O(edges) to build, O(edges log
+/// edges) to find the widest way. The axis' vertices, behind them the start and the goal. Refers to the axis and the
+/// execution; what takes longer than a path throws Stopped.
 class AxisGraph {
  public:
   /// Keeps what has at least this clearance and more than the axis' resolution.

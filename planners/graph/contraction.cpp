@@ -163,11 +163,10 @@ ShrinkingGraph shrunk(ShrinkingGraph before, std::span<const std::uint8_t> taken
   return after;
 }
 
-// Which shortcuts taking out a vertex needs: for each two of its neighbours one of the length of the way over it,
-// unless another way that is no longer is found by a search that looks at a few dozen vertices (a witness). Fewer looks
-// than would find all witnesses leave some shortcuts too many, which cost and harm nothing.
-
-/// Scratch of one thread. Refers to all that it is given.
+/// Which shortcuts taking out a vertex needs: for each two of its neighbours one of the length of the way over it,
+/// unless another way that is no longer is found by a search that looks at a few dozen vertices (a witness). Fewer
+/// looks than would find all witnesses leave some shortcuts too many, which cost and harm nothing. Scratch of one
+/// thread. Refers to all that it is given.
 class WitnessSearch {
  public:
   /// taken: what leaves the graph in the same round, no two of them neighbours; no witness leads over them.

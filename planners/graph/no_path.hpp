@@ -70,9 +70,7 @@ Separation separation_of(const W& world, std::span<const typename W::State> stat
   return separation_between<embedding_dimension<W>>(points_of(start), points_of(goal), execution);
 }
 
-// What a planner answers when it was stopped: why, and no path.
-
-/// Counts and times stay as they are.
+/// What a planner answers when it was stopped: why, and no path. Counts and times stay as they are.
 template <class State>
 void mark_stopped(Solution<State>& solution, const Stopped& stopped) {
   solution.outcome = Outcome::stopped;

@@ -14,13 +14,13 @@
 #include "spatial/maps/free_cells.hpp"
 
 namespace warren {
-// Jump point search (Harabor, Grastien 2011) for octile maps on which a diagonal step needs both cells beside it free:
-// the successors of a cell are the next cells where a shortest path may have to turn. Rows and columns are scanned 64
-// cells at a time (block-based scanning, Harabor, Grastien 2014), columns in a transposed copy of the map.
-//
-// With this rule only straight moves have forced neighbours: moving along +x, the cell beside is a turn where it is
-// free and the cell behind it is not; a diagonal move goes on until a straight scan from it finds a turn or the goal.
 
+/// Jump point search (Harabor, Grastien 2011) for octile maps on which a diagonal step needs both cells beside it free:
+/// the successors of a cell are the next cells where a shortest path may have to turn. Rows and columns are scanned 64
+/// cells at a time (block-based scanning, Harabor, Grastien 2014), columns in a transposed copy of the map.
+///
+/// With this rule only straight moves have forced neighbours: moving along +x, the cell beside is a turn where it is
+/// free and the cell behind it is not; a diagonal move goes on until a straight scan from it finds a turn or the goal.
 /// Refers to the cells, which must outlive it. Immutable; any number of threads may read.
 class JumpPoints {
  public:
@@ -163,7 +163,8 @@ class Steps {
   std::array<double, 8> costs_{};
 };
 
-/// How each cell was first reached: a step and one, 0 where it was not.
+/// How each cell was first reached: a step and one, 0 where it was not. A byte a cell, and no graph is made for core's
+/// breadth_first.
 class BreadthFirst {
  public:
   BreadthFirst(const FreeCells& cells, const Steps& steps, const Execution& execution)

@@ -14,16 +14,6 @@
 namespace warren {
 namespace {
 
-// How a balanced set of junctions that cuts a region in two is found. Between the chains lie faces; a closed curve
-// through faces that crosses k chains cuts the map with k junctions or fewer. Shortest curves are shortest paths in the
-// dual graph, whose vertices are the faces (Reif 1983): a breadth-first search from the longest face, which is where
-// the region was cut from the rest, or the outside, gives each face its least number of chains to cross. The chains
-// that are no edges of that search tree are a spanning tree of the junctions; each of them, put into the search tree,
-// closes one curve through the first face, and what the curve holds is the subtree below the chain (Lipton and Tarjan
-// 1979; the tree and its cotree). So one sum over the spanning tree gives the length and the balance of every such
-// curve, and the best one is taken: O(junctions) in all. Corridors of mazes make these curves far shorter than straight
-// lines. As junctions have at most four chains, some curve has a quarter of the junctions inside.
-
 /// A connected part of the map: junctions numbered from 0, slots around them in the order of the plane.
 struct PlanarRegion {
   RawVector<JunctionId> junction;  ///< of the whole map
@@ -36,7 +26,16 @@ struct PlanarRegion {
 /// Which side of a cut a junction is on.
 enum class CutSide : std::uint8_t { inside, outside, cut };
 
-/// Scratch of one thread; regions one after the other.
+/// How a balanced set of junctions that cuts a region in two is found. Between the chains lie faces; a closed curve
+/// through faces that crosses k chains cuts the map with k junctions or fewer. Shortest curves are shortest paths in
+/// the dual graph, whose vertices are the faces (Reif 1983): a breadth-first search from the longest face, which is
+/// where the region was cut from the rest, or the outside, gives each face its least number of chains to cross. The
+/// chains that are no edges of that search tree are a spanning tree of the junctions; each of them, put into the search
+/// tree, closes one curve through the first face, and what the curve holds is the subtree below the chain (Lipton and
+/// Tarjan 1979; the tree and its cotree). So one sum over the spanning tree gives the length and the balance of every
+/// such curve, and the best one is taken: O(junctions) in all. Corridors of mazes make these curves far shorter than
+/// straight lines. As junctions have at most four chains, some curve has a quarter of the junctions inside. Scratch of
+/// one thread; regions one after the other.
 class RegionCut {
  public:
   explicit RegionCut(const Execution& execution) : execution_(execution) {}

@@ -26,11 +26,11 @@
 #include "planners/lengths/dissection.hpp"
 
 namespace warren {
-// A hop is a way from a gate to another that passes no third: along one chain, or through the junctions of one leaf.
-// Its turns are one number: at each junction, the gate where it begins included, it takes one of so many exits, that by
-// which it came left out, and their numbers are the digits, the first one the lowest. Where there is one exit alone,
-// along chains, nothing is to be told. With most_leaf_junctions that is less than 4 * 3^36 < 2^60.
 
+/// A hop is a way from a gate to another that passes no third: along one chain, or through the junctions of one leaf.
+/// Its turns are one number: at each junction, the gate where it begins included, it takes one of so many exits, that
+/// by which it came left out, and their numbers are the digits, the first one the lowest. Where there is one exit
+/// alone, along chains, nothing is to be told. With most_leaf_junctions that is less than 4 * 3^36 < 2^60.
 using HopTurns = std::uint64_t;
 
 /// How many of four directions there are: processors without an instruction to count bits call a function.

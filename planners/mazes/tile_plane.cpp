@@ -24,6 +24,9 @@ using plane_bit::edges;
 using plane_bit::kept;
 using Byte = std::uint8_t;
 
+// Compilers turn the loops of these functions into vector code of the instruction set of the function that they are
+// inlined in.
+
 [[gnu::always_inline]] inline void find_dead_ends(const Byte* __restrict row, Byte* __restrict found, int width) {
   for (int i = 0; i < width; ++i) {
     const auto open = static_cast<Byte>(row[i] & edges);
@@ -95,9 +98,6 @@ void TilePlane::reset(std::size_t tile, const Box& box) {
     *at(cols.end - 1, row) &= static_cast<std::uint8_t>(~plane_bit::right);
   }
 }
-
-// Compilers turn the loops of these functions into vector code of the instruction set of the function that they are
-// inlined in.
 
 PlaneRowVariants plane_row_variants() {
   PlaneRowVariants variants{};

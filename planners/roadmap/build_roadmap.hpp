@@ -30,10 +30,6 @@
 
 namespace warren {
 
-// Asks the world about every edge of a roadmap, on all cores. An edge that leads both ways is asked from its smaller
-// vertex, as prm does; its other end copies what was answered. One byte an edge end while it runs, since threads share
-// words of two bits.
-
 enum class EdgeDirections : std::uint8_t { both, one };
 
 /// What is known of a motion without asking the world; nothing: it must be asked. Called by several threads at once.
@@ -114,8 +110,10 @@ inline RawVector<std::uint64_t> packed(std::span<const std::uint8_t> states, con
 
 }  // namespace detail
 
-/// The states of all edges, as graph.hpp packs them: the same for any number of threads. `known`, and what
-/// `before` says where it is given, is not asked. Throws Stopped.
+/// Asks the world about every edge of a roadmap, on all cores. An edge that leads both ways is asked from its smaller
+/// vertex, as prm does; its other end copies what was answered. One byte an edge end while it runs, since threads share
+/// words of two bits. The states of all edges, as graph.hpp packs them: the same for any number of threads. `known`,
+/// and what `before` says where it is given, is not asked. Throws Stopped.
 template <World W>
 RawVector<std::uint64_t> check_edges(const W& world, std::span<const typename W::State> states, const Graph& graph,
                                      EdgeDirections directions, const Execution& execution, Counters& counters,

@@ -12,21 +12,6 @@
 namespace warren {
 namespace {
 
-// A string pulled taut around wall ends, each widened to a disc of one radius: the locally shortest path of the
-// string's homotopy class, which is the only one. It is a list of stops, joined by tangents: the two ends, discs with
-// the side on which they are passed, and in between points of the raw path that are still to be pulled away.
-//
-// One sweep with two stacks. A stop that is a point, or a disc around which the string would bend backwards, is let go:
-// the string falls from the bend a-b-c onto the convex chain around the wall ends inside the bend (gift wrapping over
-// the ends that the wall index finds there), and the stop before is looked at again. Where the string would turn about
-// a disc further than it lies on it, it falls in two parts: until it comes off that disc, and on from the stop before.
-// Each release shortens the string.
-// A wall that reaches into the bend has an end in it, since it crosses neither leg; so its ends are all that counts.
-// How often a disc is wound around is kept: a string that circles a pillar goes on circling it.
-//
-// Cost: one release a raw point and a few more where stops are let go again, each the walls in the bend's triangle
-// (large triangles are searched part by part). Exact but for rounding; the caller checks the result.
-
 /// How far walls stand apart, roughly: the square root of the area a wall; > 0.
 double wall_spacing(const WallIndex& walls) {
   if (walls.wall_count() == 0) return 1.0;
@@ -37,6 +22,20 @@ double wall_spacing(const WallIndex& walls) {
   return of_area > 0.0 ? of_area : of_line > 0.0 ? of_line : 1.0;
 }
 
+/// A string pulled taut around wall ends, each widened to a disc of one radius: the locally shortest path of the
+/// string's homotopy class, which is the only one. It is a list of stops, joined by tangents: the two ends, discs with
+/// the side on which they are passed, and in between points of the raw path that are still to be pulled away.
+///
+/// One sweep with two stacks. A stop that is a point, or a disc around which the string would bend backwards, is let
+/// go: the string falls from the bend a-b-c onto the convex chain around the wall ends inside the bend (gift wrapping
+/// over the ends that the wall index finds there), and the stop before is looked at again. Where the string would turn
+/// about a disc further than it lies on it, it falls in two parts: until it comes off that disc, and on from the stop
+/// before. Each release shortens the string. A wall that reaches into the bend has an end in it, since it crosses
+/// neither leg; so its ends are all that counts. How often a disc is wound around is kept: a string that circles a
+/// pillar goes on circling it.
+///
+/// Cost: one release a raw point and a few more where stops are let go again, each the walls in the bend's triangle
+/// (large triangles are searched part by part). Exact but for rounding; the caller checks the result.
 class TautString {
  public:
   /// A place where the string may bend.

@@ -294,15 +294,9 @@ CellSweep::CellSweep(const PlaneObstacles& obstacles, std::span<const Vec2> poin
 }
 
 void CellSweep::choose_box(std::span<const Vec2> points) {
-  Box& box = result_.box;
-  if (obstacles_.bounds) {
-    box = *obstacles_.bounds;
-    return;
-  }
-  for (const Vec2 p : obstacles_.polygons.corners) box.include(p);
-  for (const Segment& s : obstacles_.walls) box.include(box_of(s));
-  if (!box.empty()) return;
-  for (const Vec2 p : points) box.include(p);
+  result_.box = box_around(obstacles_);
+  if (obstacles_.bounds || !result_.box.empty()) return;
+  for (const Vec2 p : points) result_.box.include(p);
 }
 
 /// Is the obstacle to be reckoned with? Throws ObstacleClash where it lies inside and outside the box.

@@ -16,14 +16,6 @@
 
 namespace warren {
 
-Box box_around(const PlaneObstacles& obstacles) {
-  if (obstacles.bounds) return *obstacles.bounds;
-  Box box;
-  for (const Vec2 p : obstacles.polygons.corners) box.include(p);
-  for (const Segment& wall : obstacles.walls) box.include(box_of(wall));
-  return box;
-}
-
 PlaneObstacles confined(PlaneObstacles obstacles) {
   if (obstacles.bounds) return obstacles;
   const Box box = box_around(obstacles);

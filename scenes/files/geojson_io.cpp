@@ -26,11 +26,10 @@
 namespace warren {
 namespace {
 
-// What GeoJSON's geometries mean for a world: outlines are obstacles, lines walls, points nothing, unless the feature
-// around them says that they are start, goal or bounds. That is known when the feature ends, so geometries wait here.
-// Polygons with holes are cut (scenes/scene/rings.hpp).
-
-/// Refers to the file's name, which must outlive it. All that is wrong throws InputError with file and line.
+/// What GeoJSON's geometries mean for a world: outlines are obstacles, lines walls, points nothing, unless the feature
+/// around them says that they are start, goal or bounds. That is known when the feature ends, so geometries wait here.
+/// Polygons with holes are cut (scenes/scene/rings.hpp). Refers to the file's name, which must outlive it. All that is
+/// wrong throws InputError with file and line.
 class GeojsonPieces {
  public:
   enum class Kind : std::uint8_t { polygon, wall, point };

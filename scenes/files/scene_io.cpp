@@ -395,9 +395,8 @@ void write_items(std::size_t count, std::size_t chunk, const SceneTextSink& writ
 
 Scene read_scene_text(const InputFile& file, const Execution& execution) { return SceneReader(file, execution).read(); }
 
-// The writer of scene text: shortest decimal numbers that read back the same, half-integers (mazes) by integer digits.
-// Walls are formatted in parallel, a batch of chunks at a time, and written in their order.
-
+/// The writer of scene text: shortest decimal numbers that read back the same, half-integers (mazes) by integer digits.
+/// Walls are formatted in parallel, a batch of chunks at a time, and written in their order.
 void write_scene_text(const Scene& scene, const SceneTextSink& write, const Execution& execution) {
   write(head_of(scene));
   write_items(scene.polygons.size(), line_grain / 16, write, execution, [&](std::string& text, std::size_t i) {

@@ -126,17 +126,14 @@ MazeCells cells_of_walls(const WallSet& walls, MazeHint hint, const Execution& e
 bool flood_connects(const MazeCells& cells, std::pair<std::uint32_t, std::uint32_t> a,
                     std::pair<std::uint32_t, std::uint32_t> b, const Execution& execution);
 
-// Tells a maze by its walls alone, in whatever order and direction they come, whole or in pieces: for files that have
-// no place to say what they hold.
-
-/// The size of the maze of the course: all walls on its grid, and its outline closed but for the entrance in the first
-/// row of the left side and the exit in the last row of the right one. Nothing for other walls. Two passes over the
-/// walls, and a sort of those on the outline. Throws Stopped.
+/// Tells a maze by its walls alone, in whatever order and direction they come, whole or in pieces: for files that have
+/// no place to say what they hold. The size of the maze of the course: all walls on its grid, and its outline closed
+/// but for the entrance in the first row of the left side and the exit in the last row of the right one. Nothing for
+/// other walls. Two passes over the walls, and a sort of those on the outline. Throws Stopped.
 std::optional<MazeHint> maze_of_walls(const WallSet& walls, const Execution& execution);
 
-// A maze that is held, given tile by tile: what makes every maze of the generators a world whose walls are made when
-// they are asked for. And the way back.
-
+/// A maze that is held, given tile by tile: what makes every maze of the generators a world whose walls are made when
+/// they are asked for. And the way back.
 class HeldCells : public CellWallSource {
  public:
   HeldCells(MazeCells cells, unsigned side_log2)
@@ -175,6 +172,14 @@ class HeldCells : public CellWallSource {
 
   MazeCells cells_;
 };
+
+/// Writes a tile's cells into some from column `to_col` on.
+inline void copy_tile(const CellTile& tile, MazeCells& cells, std::uint32_t to_col) {
+  for (std::uint32_t col = 0; col < tile.width; ++col) {
+    std::uint8_t* const column = cells.bytes().data() + cells.index(to_col + col, tile.first_row);
+    for (std::uint32_t row = 0; row < tile.height; ++row) column[row] = tile.walls[tile.index(col, row)];
+  }
+}
 
 /// All cells of a source. Throws InputError for 2^32 cells and more, Stopped.
 MazeCells cells_from(const CellWallSource& source, const Execution& execution);

@@ -191,27 +191,18 @@ void carve_course(MazeCells& cells, std::uint64_t seed, const Execution& executi
 
 void carve_mst(MazeCells& cells, std::uint64_t seed, const Execution& execution) {
   const SpanningMaze maze(cells.rows(), cells.cols(), seed, 0.0, {execution.threads, execution.deadline});
-  const auto open = [&](const CellTile& tile) {
-    for (std::uint32_t col = 0; col < tile.width; ++col) {
-      for (std::uint32_t row = 0; row < tile.height; ++row) {
-        const unsigned walls = tile.walls[tile.index(col, row)];
-        const std::uint32_t at_col = tile.first_col + col;
-        const std::uint32_t at_row = tile.first_row + row;
-        if ((walls & CellTile::right_wall) == 0 && at_col + 1 < cells.cols()) cells.open_right(at_col, at_row);
-        if ((walls & CellTile::upper_wall) == 0) cells.open_above(at_col, at_row);
-      }
-    }
-  };
   for_chunks(maze.tile_count(), 16, {execution.threads, execution.deadline}, [&](Range r) {
     const auto reader = maze.reader();
     CellTile tile;
     for (std::size_t t = r.first; t < r.last; ++t) {
       reader->read(t, tile);
-      open(tile);
+      copy_tile(tile, cells, tile.first_col);
       execution.advance(std::uint64_t{tile.width} * tile.height);
       execution.check();
     }
   });
+  cells.bytes()[cells.index(cells.cols() - 1, cells.rows() - 1)] |=
+      MazeCells::right_wall;  // the exit is no cell's business
 }
 
 void open_drawn_loops(MazeCells& cells, double loops, std::uint64_t seed, const Execution& execution) {

@@ -371,16 +371,12 @@ void WallStrips::go_on(Strip& strip, const Execution& execution) const {
 
 void WallStrips::read(Strip& strip, const Execution& execution) const {
   constexpr std::size_t grain = 8;  // a reader's scratch is large
-  std::uint8_t* const bytes = strip.cells.bytes().data();
   for_chunks(cells_.tile_count() / strip_count(), grain, execution, [&](Range r) {
     const auto reader = cells_.reader();
     CellTile tile;
     for (std::size_t row_of_tiles = r.first; row_of_tiles < r.last; ++row_of_tiles) {
       reader->read(row_of_tiles * strip_count() + strip.number, tile);
-      for (std::uint32_t col = 0; col < tile.width; ++col) {
-        std::uint8_t* const column = bytes + strip.cells.index(strip.lead + col, tile.first_row);
-        for (std::uint32_t row = 0; row < tile.height; ++row) column[row] = tile.walls[tile.index(col, row)];
-      }
+      copy_tile(tile, strip.cells, strip.lead);
     }
   });
 }

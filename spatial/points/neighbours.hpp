@@ -21,9 +21,8 @@
 #include "spatial/points/point_grid.hpp"
 
 namespace warren {
-// Neighbours by looking at every point: what the indices are measured against. A query costs O(n).
 
-/// As KdTree.
+/// Neighbours by looking at every point: what the indices are measured against. A query costs O(n). As KdTree.
 template <int D>
 class BruteNeighbours : public NeighboursByVisits<BruteNeighbours<D>, D> {
  public:

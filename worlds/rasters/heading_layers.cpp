@@ -22,6 +22,90 @@
 namespace warren {
 namespace {
 
+/// One bitmap to be made: positions at which the union of the pieces touches something.
+struct LayerJob {
+  std::vector<ConvexPiece> pieces;
+  bool is_standing = false;  ///< a body may also stand inside an obstacle without touching its outline
+};
+
+/// Corners in order from the least: the same for every heading that covers the same set.
+ConvexPiece key_of(ConvexPiece corners) {
+  const auto less = [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); };
+  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end(), less), corners.end());
+  return corners;
+}
+
+/// The turn to the next heading, larger ones in parts, so that arcs stay near their tangents.
+LayerJob turn_job(const std::vector<ConvexPiece>& pieces, std::uint32_t angles) {
+  LayerJob job;
+  const double angle_rad = 2.0 * std::numbers::pi / angles;
+  constexpr double widest = std::numbers::pi / 24;
+  const int parts = bounded_whole<int>(std::ceil(angle_rad / widest));
+  for (const ConvexPiece& piece : pieces) {
+    for (int part = 0; part < parts; ++part) {
+      ConvexPiece from;
+      for (const Vec2 p : piece) from.push_back(Rotation(part * angle_rad / parts)(p));
+      for (ConvexPiece& swept : swept_by_turn(from, angle_rad / parts)) job.pieces.push_back(std::move(swept));
+    }
+  }
+  return job;
+}
+
+class JobList {
+ public:
+  explicit JobList(HeadingLayers& layers) : layers_(layers) {}
+
+  void add_heading(const std::vector<ConvexPiece>& pieces) {
+    layers_.standing.push_back(add({pieces, true}));
+    std::array<std::uint32_t, 4> moving{};
+    for (std::size_t s = 0; s < moving.size(); ++s) {
+      const auto [dx, dy] = HeadingLayers::steps[s];
+      LayerJob job;
+      for (const ConvexPiece& piece : pieces) {
+        job.pieces.push_back(swept_by_step(piece, {dx * layers_.cell, dy * layers_.cell}));
+      }
+      moving[s] = add(std::move(job));
+    }
+    layers_.moving.push_back(moving);
+    if (layers_.angles > 1) layers_.turning.push_back(add(turn_job(pieces, layers_.angles)));
+  }
+  void repeat_heading(std::size_t same) {
+    layers_.standing.push_back(layers_.standing[same]);
+    layers_.moving.push_back(layers_.moving[same]);
+    if (layers_.angles > 1) layers_.turning.push_back(layers_.turning[same]);
+  }
+  std::vector<LayerJob> take() { return std::move(jobs_); }
+
+ private:
+  std::uint32_t add(LayerJob job) {
+    jobs_.push_back(std::move(job));
+    return as_whole<std::uint32_t>(jobs_.size() - 1);
+  }
+
+  HeadingLayers& layers_;
+  std::vector<LayerJob> jobs_;
+};
+
+/// Which bitmaps the layers of a turning body need, whatever it turns among: for each heading what the body covers
+/// where it stands, on each of the four steps and on the turn to the next heading, as convex pieces around the
+/// reference point. Headings at which the body covers the same set share their jobs. O(headings squared) comparisons.
+/// Job i makes bitmap i; fills in standing, moving and turning. outline: a polygon around the reference point, or that
+/// alone.
+std::vector<LayerJob> list_layer_jobs(std::span<const Vec2> outline, HeadingLayers& layers) {
+  JobList jobs(layers);
+  std::vector<ConvexPiece> keys;
+  for (std::uint32_t k = 0; k < layers.angles; ++k) {
+    keys.push_back(key_of(turned(outline, k, layers.angles)));
+    const auto same = as_whole<std::size_t>(std::find(keys.begin(), keys.end(), keys.back()) - keys.begin());
+    if (same < k) {
+      jobs.repeat_heading(same);
+    } else {
+      jobs.add_heading(outline_pieces(turned(outline, k, layers.angles)));
+    }
+  }
+  return jobs.take();
+}
+
 /// Where positions lie, without any layer.
 HeadingLayers empty_lattice(const Scene& scene, const RobotSpec& robot, const LayerOptions& options,
                             const Execution& execution) {
@@ -110,10 +194,8 @@ class ExactLayers {
   HeadingLayers layers_;
 };
 
-// ---- as in report 004 -----------------------------------------------------------------------------------------------
-
-/// The report's drawing, found from its figures: a wall covers the cells on both sides of it, a level one also the cell
-/// before its first; an upright one begins and ends with the cells of its ends.
+/// The drawing of the course's report 004, found from its figures: a wall covers the cells on both sides of it, a level
+/// one also the cell before its first; an upright one begins and ends with the cells of its ends.
 void draw_two_cells_thick(const Segment& wall, const HeadingLayers& lattice, Bitmap& drawn) {
   const auto set = [&](double i, double j) {
     if (i >= 0.0 && j >= 0.0 && i < lattice.width && j < lattice.height) {
@@ -369,64 +451,6 @@ class MapLayers {
   double room_;
 };
 
-/// Corners in order from the least: the same for every heading that covers the same set.
-ConvexPiece key_of(ConvexPiece corners) {
-  const auto less = [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); };
-  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end(), less), corners.end());
-  return corners;
-}
-
-/// The turn to the next heading, larger ones in parts, so that arcs stay near their tangents.
-LayerJob turn_job(const std::vector<ConvexPiece>& pieces, std::uint32_t angles) {
-  LayerJob job;
-  const double angle_rad = 2.0 * std::numbers::pi / angles;
-  constexpr double widest = std::numbers::pi / 24;
-  const int parts = bounded_whole<int>(std::ceil(angle_rad / widest));
-  for (const ConvexPiece& piece : pieces) {
-    for (int part = 0; part < parts; ++part) {
-      ConvexPiece from;
-      for (const Vec2 p : piece) from.push_back(Rotation(part * angle_rad / parts)(p));
-      for (ConvexPiece& swept : swept_by_turn(from, angle_rad / parts)) job.pieces.push_back(std::move(swept));
-    }
-  }
-  return job;
-}
-
-class JobList {
- public:
-  explicit JobList(HeadingLayers& layers) : layers_(layers) {}
-
-  void add_heading(const std::vector<ConvexPiece>& pieces) {
-    layers_.standing.push_back(add({pieces, true}));
-    std::array<std::uint32_t, 4> moving{};
-    for (std::size_t s = 0; s < moving.size(); ++s) {
-      const auto [dx, dy] = HeadingLayers::steps[s];
-      LayerJob job;
-      for (const ConvexPiece& piece : pieces) {
-        job.pieces.push_back(swept_by_step(piece, {dx * layers_.cell, dy * layers_.cell}));
-      }
-      moving[s] = add(std::move(job));
-    }
-    layers_.moving.push_back(moving);
-    if (layers_.angles > 1) layers_.turning.push_back(add(turn_job(pieces, layers_.angles)));
-  }
-  void repeat_heading(std::size_t same) {
-    layers_.standing.push_back(layers_.standing[same]);
-    layers_.moving.push_back(layers_.moving[same]);
-    if (layers_.angles > 1) layers_.turning.push_back(layers_.turning[same]);
-  }
-  std::vector<LayerJob> take() { return std::move(jobs_); }
-
- private:
-  std::uint32_t add(LayerJob job) {
-    jobs_.push_back(std::move(job));
-    return as_whole<std::uint32_t>(jobs_.size() - 1);
-  }
-
-  HeadingLayers& layers_;
-  std::vector<LayerJob> jobs_;
-};
-
 }  // namespace
 
 HeadingLayers orientation_layers(const Scene& scene, const RobotSpec& robot, const LayerOptions& options,
@@ -465,21 +489,6 @@ HeadingLayers map_layers(const OccupancyMap& map, std::span<const Vec2> outline,
   const std::vector<LayerJob> jobs = list_layer_jobs(outline, layers);
   MapLayers(map, clearance, execution).make(jobs, layers.bitmaps);
   return layers;
-}
-
-std::vector<LayerJob> list_layer_jobs(std::span<const Vec2> outline, HeadingLayers& layers) {
-  JobList jobs(layers);
-  std::vector<ConvexPiece> keys;
-  for (std::uint32_t k = 0; k < layers.angles; ++k) {
-    keys.push_back(key_of(turned(outline, k, layers.angles)));
-    const auto same = as_whole<std::size_t>(std::find(keys.begin(), keys.end(), keys.back()) - keys.begin());
-    if (same < k) {
-      jobs.repeat_heading(same);
-    } else {
-      jobs.add_heading(outline_pieces(turned(outline, k, layers.angles)));
-    }
-  }
-  return jobs.take();
 }
 
 }  // namespace warren
