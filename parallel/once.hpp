@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A value that is made when somebody first asks for it, by whichever thread comes first; the others wait, each within
-// its own limits. Where making it throws, nothing was made, and the next one who asks makes it. A look at what was made
-// costs one load.
+// What threads do once, whichever comes first, or one after the other.
 #pragma once
 
 #include <atomic>
@@ -18,7 +16,9 @@
 
 namespace warren {
 
-/// Any number of threads may call get().
+/// A value that is made when somebody first asks for it, by whichever thread comes first; the others wait, each within
+/// its own limits. Where making it throws, nothing was made, and the next one who asks makes it. A look at what was
+/// made costs one load. Any number of threads may call get().
 template <class T>
 class MadeOnce {
  public:

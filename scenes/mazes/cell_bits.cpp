@@ -253,9 +253,8 @@ class CellBits::Reader : public CellWallReader {
 
 std::unique_ptr<CellWallReader> CellBits::reader() const { return std::make_unique<Reader>(*this); }
 
-// Strips of columns are looked at twice: how many walls each has says where the chunks of the hash begin in it. The
-// walls that a part has before its first chunk are those of its neighbour's last one, which they end.
-
+/// Strips of columns are looked at twice: how many walls each has says where the chunks of the hash begin in it. The
+/// walls that a part has before its first chunk are those of its neighbour's last one, which they end.
 HashedCells hash_of_cells(const CellWallSource& cells, const Execution& execution) {
   const std::size_t strips = cells.tile_cols();
   const std::size_t size = std::max<std::size_t>(1, (strips + most_parts - 1) / most_parts);

@@ -2,8 +2,8 @@
 // Mazes of any size from a seed, the same bits on every machine. Cell (c, r) is the unit square around the integer
 // point (c, r), c in 1..cols, r in 1..rows; the outline opens at the left of (1, 1) and at the right of (cols, rows).
 // Carving is serial by nature and needs, cells included, 1 byte a cell for backtracker and wilson, 1 and the frontier
-// for prim, 13 for kruskal and 5 for course; mst (spanning_maze.hpp) and all else is parallel. One file an algorithm:
-// maze_walks.cpp, ...
+// for prim, 13 for kruskal and 5 for course; mst (spanning_maze.hpp) and all else is parallel.
+// The algorithms: maze_walks.cpp, maze_kruskal.cpp.
 #pragma once
 
 #include <cassert>
