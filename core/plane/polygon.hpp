@@ -57,6 +57,12 @@ inline Segment polygon_side(std::span<const Vec2> polygon, std::size_t i) {
   return {polygon[i], polygon[i + 1 == polygon.size() ? 0 : i + 1]};
 }
 
+/// Calls visit(a, b) for the corners of each side, in their order.
+template <class Visit>
+void for_each_side(std::span<const Vec2> polygon, const Visit& visit) {
+  for (std::size_t i = 0; i < polygon.size(); ++i) visit(polygon[i], polygon[i + 1 == polygon.size() ? 0 : i + 1]);
+}
+
 /// Is p in the closed polygon? Exact.
 bool contains(std::span<const Vec2> polygon, Vec2 p) noexcept;
 /// Is p in the polygon and on no side of it? Exact.

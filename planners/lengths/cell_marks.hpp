@@ -8,8 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/base/raw_vector.hpp"
-#include "parallel/execution.hpp"
 #include "planners/lengths/array_or_view.hpp"
 #include "planners/lengths/lattice_passages.hpp"
 
@@ -113,10 +111,6 @@ class CellMarks {
 
   const std::uint64_t* words_;
 };
-
-/// The words for peeled bytes (planners/lengths/core_graph.hpp), after reduce_core(). Throws Stopped.
-RawVector<std::uint64_t> mark_words(const RawVector<std::uint8_t>& peeled, const LatticePlaces& places,
-                                    const Execution& execution);
 
 /// A climb towards the core, step by step, within one tile. A step waits for the marks that the one before it led to,
 /// some fifteen cycles, and for nothing else: no branch depends on where the way turns. Looks at the marks of one tile.

@@ -79,4 +79,8 @@ CoreGraph core_graph(const RawVector<std::uint8_t>& peeled, const LatticePlaces&
 void reduce_core(CoreGraph& graph, const LatticePlaces& places, RawVector<std::uint8_t>& peeled,
                  const Execution& execution);
 
+/// The words for peeled bytes, after reduce_core(). Throws Stopped.
+RawVector<std::uint64_t> mark_words(const RawVector<std::uint8_t>& peeled, const LatticePlaces& places,
+                                    const Execution& execution);
+
 }  // namespace warren

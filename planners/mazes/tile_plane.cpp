@@ -20,8 +20,7 @@ Span standing(double low, double high, std::uint32_t count, std::uint32_t origin
   return {static_cast<int>(from), static_cast<int>(std::clamp(end - origin, from, static_cast<double>(ring_end)))};
 }
 
-using plane_bit::edges;
-using plane_bit::kept;
+using plane_bit::edges, plane_bit::kept;
 using Byte = std::uint8_t;
 
 // Compilers turn the loops of these functions into vector code of the instruction set of the function that they are

@@ -39,9 +39,7 @@ bool agree(const TileGrid& grid, const TileSummary& tile, const TileSummary& bey
                     });
 }
 
-using plane_bit::edges;
-using plane_bit::kept;
-using plane_bit::key;
+using plane_bit::edges, plane_bit::kept, plane_bit::key;
 
 /// One edge and not kept. A table of 64 answers in a word.
 constexpr std::uint64_t dead_end_set = [] {

@@ -44,8 +44,7 @@ std::uint32_t bands_by_memory(std::size_t bytes, const Execution& execution) {
   return static_cast<std::uint32_t>(std::min<std::size_t>(most_bands, bytes / std::max(left, band_bytes) + 1));
 }
 
-using detail::middle_of;
-using detail::WallSteps;
+using detail::middle_of, detail::WallSteps;
 
 /// Where the walls of each of these tiles begin; returns how many there are.
 std::size_t add_up(const ChunkCounts& counts, std::span<const std::size_t> tiles, RawVector<std::uint32_t>& first) {

@@ -249,14 +249,8 @@ class LazyPlan : public Rounds<W> {
   void finish(PlannedRoadmap<State>* keep);
 
  private:
-  using Rounds<W>::execution_;
-  using Rounds<W>::options_;
-  using Rounds<W>::solution_;
-  using Rounds<W>::states_;
-  using Rounds<W>::world_;
-  using Rounds<W>::start_vertex;
-  using Rounds<W>::goal_vertex;
-  using Rounds<W>::milestones;
+  using Rounds<W>::execution_, Rounds<W>::options_, Rounds<W>::solution_, Rounds<W>::states_, Rounds<W>::world_,
+      Rounds<W>::start_vertex, Rounds<W>::goal_vertex, Rounds<W>::milestones;
 
   void join();
   RawVector<VertexId> search_expanding();

@@ -245,10 +245,9 @@ std::vector<IntegerPiece> sides_of(const PolygonSet& polygons) {
   std::vector<IntegerPiece> sides;
   sides.reserve(polygons.corners.size());
   for (std::size_t p = 0; p < polygons.size(); ++p) {
-    const std::span<const Vec2> ring = polygons[p];
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      sides.push_back({ring[i], ring[i + 1 == ring.size() ? 0 : i + 1], static_cast<std::uint32_t>(sides.size())});
-    }
+    for_each_side(polygons[p], [&](Vec2 a, Vec2 b) {
+      sides.push_back({a, b, static_cast<std::uint32_t>(sides.size())});
+    });
   }
   return sides;
 }

@@ -37,8 +37,7 @@ bool has_area(const Box& box) { return box.width() > 0.0 && box.height() > 0.0; 
 Sides sides_of(const PlaneObstacles& obstacles) {
   Sides sides;
   for (std::size_t p = 0; p < obstacles.polygons.size(); ++p) {
-    const std::span<const Vec2> corners = obstacles.polygons[p];
-    for (std::size_t i = 0; i < corners.size(); ++i) sides.add(corners[i], corners[(i + 1) % corners.size()], 1);
+    for_each_side(obstacles.polygons[p], [&](Vec2 a, Vec2 b) { sides.add(a, b, 1); });
   }
   for (const Segment& wall : obstacles.walls) sides.add(wall.a, wall.b, 0);
   sides.corner_ends = sides.ends.size();

@@ -14,6 +14,7 @@
 #include "core/base/error.hpp"
 #include "core/base/whole.hpp"
 #include "core/plane/convex_polygons.hpp"
+#include "core/plane/polygon.hpp"
 #include "core/plane/se2.hpp"
 #include "parallel/chunks.hpp"
 #include "spatial/maps/distance_field.hpp"
@@ -145,9 +146,7 @@ class ExactLayers {
         radius_((robot.kind == RobotKind::disc ? robot.radius : 0.0) + options.clearance),
         layers_(empty_lattice(scene, robot, options, execution)) {
     for (const ScenePolygon& polygon : scene.polygons) {
-      for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
-        sides_.push_back({polygon.corners[i], polygon.corners[(i + 1) % polygon.corners.size()]});
-      }
+      for_each_side(polygon.corners, [&](Vec2 a, Vec2 b) { sides_.push_back({a, b}); });
     }
   }
 
@@ -239,9 +238,7 @@ Bitmap drawn_walls(const Scene& scene, const HeadingLayers& lattice, const Execu
   }
   for (const ScenePolygon& polygon : scene.polygons) {
     execution.check();
-    for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
-      draw_two_cells_thick({polygon.corners[i], polygon.corners[(i + 1) % polygon.corners.size()]}, lattice, drawn);
-    }
+    for_each_side(polygon.corners, [&](Vec2 a, Vec2 b) { draw_two_cells_thick({a, b}, lattice, drawn); });
   }
   drawn.set_run(0, 0, lattice.width);
   drawn.set_run(lattice.height - 1, 0, lattice.width);

@@ -9,6 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/whole.hpp"
+#include "core/plane/polygon.hpp"
 #include "spatial/maps/free_cells.hpp"
 #include "worlds/rasters/convex_pieces.hpp"
 
@@ -218,9 +219,7 @@ OccupancyMap map_of_scene(const Scene& scene, double cell, const Execution& exec
   }
   for (const ScenePolygon& polygon : scene.polygons) {
     execution.check();
-    for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
-      mark({polygon.corners[i], polygon.corners[(i + 1) % polygon.corners.size()]});
-    }
+    for_each_side(polygon.corners, [&](Vec2 a, Vec2 b) { mark({a, b}); });
     marking.mark_inside(polygon.corners, {0.0, 0.0}, execution);
   }
   map.blocked = marking.take();
