@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planners/graph/roadmap_search.hpp"
 
-#include <numeric>
 #include <span>
 #include <type_traits>
 
@@ -156,15 +155,14 @@ std::vector<Edge> search_trees(const SearchState& forward, const SearchState& ba
 bool is_stringy(const Graph& graph, const Execution& execution) {
   constexpr std::size_t grain = std::size_t{1} << 16;
   const std::size_t n = graph.vertex_count();
-  std::vector<std::size_t> counts(chunk_count(n, grain), 0);
-  for_chunks(n, grain, execution, [&](Range r) {
+  const std::size_t few = sum_of_chunks(n, grain, execution, [&](Range r) {
     std::size_t count = 0;
     for (std::size_t v = r.first; v < r.last; ++v) {
       count += static_cast<std::size_t>(graph.neighbours(static_cast<VertexId>(v)).size() <= 2);
     }
-    counts[r.first / grain] = count;
+    return count;
   });
-  return 2 * std::accumulate(counts.begin(), counts.end(), std::size_t{0}) >= n;
+  return 2 * few >= n;
 }
 
 std::optional<TwiceReducedGraphView> reduced_for_search(const Graph& graph, const RoadmapSearch& asked) {

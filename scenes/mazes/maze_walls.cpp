@@ -297,13 +297,11 @@ Execution quietly(const Execution& execution) { return {execution.threads, execu
 
 std::uint64_t interior_walls(const MazeCells& cells, const Execution& execution) {
   const WallStarts starts(cells, false);
-  std::vector<std::uint64_t> parts(chunk_count(cells.cell_count(), wall_grain));
-  for_chunks(cells.cell_count(), wall_grain, execution, [&](Range r) {
-    for_runs(cells, r, [&](const Run& run) { parts[r.first / wall_grain] += starts.count(run); });
+  return sum_of_chunks(cells.cell_count(), wall_grain, execution, [&](Range r) {
+    std::uint64_t sum = 0;
+    for_runs(cells, r, [&](const Run& run) { sum += starts.count(run); });
+    return sum;
   });
-  std::uint64_t sum = 0;
-  for (const std::uint64_t part : parts) sum += part;
-  return sum;
 }
 
 std::size_t maze_wall_bytes(std::uint32_t rows, std::uint32_t cols) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <numbers>
-#include <numeric>
 
 #include "parallel/sort.hpp"
 #include "spatial/points/disc_points.hpp"
@@ -29,16 +28,14 @@ PointGrid::PointGrid(std::span<const Vec2> points, const Execution& execution) {
 
 void PointGrid::count_crowding(const Execution& execution) {
   const std::size_t cells = frame_.cell_count();
-  std::vector<std::uint64_t> sums(chunk_count(cells, grid_grain), 0);  // of squares: below 2^64, n is below 2^32
-  for_chunks(cells, grid_grain, detail::quiet(execution), [&](Range range) {
-    std::uint64_t sum = 0;
+  const std::uint64_t sum = sum_of_chunks(cells, grid_grain, detail::quiet(execution), [&](Range range) {
+    std::uint64_t squares = 0;  // below 2^64, for n is below 2^32
     for (std::size_t cell = range.first; cell < range.last; ++cell) {
       const std::uint64_t count = begin_[cell + 1] - begin_[cell];
-      sum += count * count;
+      squares += count * count;
     }
-    sums[range.first / grid_grain] = sum;
+    return squares;
   });
-  const std::uint64_t sum = std::accumulate(sums.begin(), sums.end(), std::uint64_t{0});
   crowding_ = static_cast<double>(sum) / static_cast<double>(size());
 }
 
