@@ -118,6 +118,12 @@ struct Execution {
   void reserve(std::size_t bytes) const {
     if (deadline != nullptr) deadline->reserve(bytes);
   }
+  /// The same without telling progress: passes inside a stage are no items of it.
+  Execution quiet() const {
+    Execution inner = *this;
+    inner.progress = nullptr;
+    return inner;
+  }
   /// Tells whoever watches that so many items more are done.
   void advance(std::uint64_t items) const noexcept {
     if (progress != nullptr) progress->advance(items);

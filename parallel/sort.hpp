@@ -35,13 +35,6 @@ inline constexpr std::size_t sort_buckets = 512;
 /// Chunks of at least 16384 items, at most 64 of them: so that the histograms stay small beside the items.
 constexpr std::size_t sort_grain(std::size_t n) { return std::max<std::size_t>(std::size_t{1} << 14, (n + 63) / 64); }
 
-/// The same work without telling progress: passes inside a stage are not items of the stage.
-inline Execution quiet(const Execution& execution) {
-  Execution inner = execution;
-  inner.progress = nullptr;
-  return inner;
-}
-
 /// Turns histograms [chunk][bucket] into the first place of each (bucket, chunk); returns where each bucket begins.
 inline std::vector<std::uint32_t> places_of_buckets(std::vector<std::uint32_t>& counts, std::size_t chunks,
                                                     std::size_t buckets) {
@@ -102,7 +95,7 @@ inline void sort_bucket(const RawVector<std::uint64_t>& pairs, Range places, Ran
 template <class KeyOf>
 KeyOrder counting_sort(std::size_t n, std::size_t keys, const Execution& execution, const KeyOf& key_of) {
   assert(keys >= 1 && n < (std::uint64_t{1} << 32) && keys < (std::uint64_t{1} << 32));
-  const Execution quiet = detail::quiet(execution);
+  const Execution quiet = execution.quiet();
   unsigned shift = 0;
   while (((keys - 1) >> shift) >= detail::sort_buckets) ++shift;
   const std::size_t buckets = ((keys - 1) >> shift) + 1;

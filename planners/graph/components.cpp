@@ -31,10 +31,8 @@ Components components(const Graph& graph, const Execution& execution) {
   execution.reserve(n * sizeof(VertexId));
   result.label.resize(n);
   const UnionForest forest(result.label);
-  Execution quiet = execution;
-  quiet.progress = nullptr;
   for_chunks(n, component_grain, execution, [&](Range r) { join_inside(graph, r, result.label); });
-  for_chunks(n, component_grain, quiet, [&](Range r) {
+  for_chunks(n, component_grain, execution.quiet(), [&](Range r) {
     for (auto v = static_cast<VertexId>(r.first); v < r.last; ++v) {
       for (const VertexId w : graph.neighbours(v)) {
         if (w >= r.first) break;
@@ -42,7 +40,7 @@ Components components(const Graph& graph, const Execution& execution) {
       }
     }
   });
-  result.count = sum_of_chunks(n, component_grain, quiet, [&](Range r) {
+  result.count = sum_of_chunks(n, component_grain, execution.quiet(), [&](Range r) {
     std::size_t count = 0;
     for (auto v = static_cast<VertexId>(r.first); v < r.last; ++v) {
       const VertexId root = forest.root_of(v);

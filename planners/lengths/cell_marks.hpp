@@ -14,7 +14,6 @@
 namespace warren {
 
 using LatticePlace = std::uint32_t;
-inline constexpr LatticePlace no_place = ~LatticePlace{0};
 
 /// Where a cell lies in the index: cells are numbered tile by tile, 64 x 64 cells a tile, row by row in it, so that
 /// what is near in the plane is near in memory. A place is tile * 4096 + row in the tile * 64 + column in the tile; the

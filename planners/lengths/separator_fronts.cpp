@@ -96,9 +96,7 @@ void FrontMatrix::eliminate_block(std::size_t first, std::size_t last, GateRank 
     for (std::size_t i = last; i < size_; ++i) pass_by(i, first, last, rank);
     return;
   }
-  Execution quiet = execution;
-  quiet.progress = nullptr;
-  for_chunks(size_ - last, front_row_grain, quiet, [&](Range r) {
+  for_chunks(size_ - last, front_row_grain, execution.quiet(), [&](Range r) {
     for (std::size_t i = last + r.first; i < last + r.last; ++i) pass_by(i, first, last, rank);
   });
 }

@@ -35,12 +35,6 @@ void walk_chain(const TileSummary& tile, const Chain& chain, bool forward, Vec2 
   }
 }
 
-Execution quietly(const Execution& execution) {
-  Execution quiet = execution;
-  quiet.progress = nullptr;
-  return quiet;
-}
-
 std::uint16_t number_of(const TileSummary& tile, std::uint32_t place) {
   const auto found = std::lower_bound(tile.keys.begin(), tile.keys.end(), place);
   return static_cast<std::uint16_t>(found - tile.keys.begin());
@@ -107,7 +101,7 @@ PathExpansion::PathExpansion(const Overlay& overlay, const TileGrid& grid, const
     : overlay_(overlay), grid_(grid), ends_(ends), path_(path), execution_(execution) {
   execution.reserve((leg_count() + 1) * sizeof(std::size_t));
   first_.assign(leg_count() + 1, 1);
-  for_chunks(leg_count(), legs_a_chunk, quietly(execution), [&](Range r) {
+  for_chunks(leg_count(), legs_a_chunk, execution.quiet(), [&](Range r) {
     for (std::size_t i = r.first; i < r.last; ++i) first_[i + 1] = steps_of(i);
   });
   std::partial_sum(first_.begin(), first_.end(), first_.begin());

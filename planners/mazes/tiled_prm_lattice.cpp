@@ -196,8 +196,7 @@ void TiledPlan::partition() {
 bool TiledPlan::join_ends() {
   const LatticeWorld world{grid_, *source_, box_, clearance_};
   constexpr std::size_t many_walls = 100'000;  // as many as make a search by two threads worth it
-  Execution own = execution_;
-  own.progress = nullptr;
+  Execution own = execution_.quiet();
   if (problem_.walls.size() < many_walls) own.threads = 1;
   for_chunks(2, 1, own, [&](Range r) {
     (r.first == 0 ? ends_.start : ends_.goal) = end_links(world, r.first == 0 ? problem_.start : problem_.goal);

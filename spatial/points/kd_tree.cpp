@@ -186,7 +186,7 @@ struct KdTree<D>::Forest {
   std::vector<std::unique_ptr<Tree<D>>> trees;  // null where there is no point
 
   Forest(std::span<const Point> input, const Execution& execution) : top(input) {
-    const Execution quiet = detail::quiet(execution);
+    const Execution quiet = execution.quiet();
     quiet.reserve(input.size() * (sizeof(Point) + 16 + 12));
     KeyOrder order =
         counting_sort(input.size(), top.leaves, quiet, [&](std::size_t i) { return top.leaf_of(input[i]); });
