@@ -509,13 +509,9 @@ Solution<Vec2> plan_on(const Ground& ground, Vec2 start, Vec2 goal, const Medial
     throw InputError("clearance", "expected a finite number >= 0", std::to_string(options.clearance));
   }
   AxisPlanning planning(start, goal, options, execution);
-  try {
-    planning.run(ground);
-  } catch (const Stopped& stopped) {
-    mark_stopped(planning.solution(), stopped);
-  }
+  Solution<Vec2> solution = run_plan(planning, ground);
   if (keep != nullptr) *keep = std::move(planning.kept());
-  return std::move(planning.solution());
+  return solution;
 }
 
 constexpr std::size_t edges_per_poll = 256;

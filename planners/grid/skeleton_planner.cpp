@@ -5,11 +5,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstdint>
 #include <map>
 #include <numbers>
 #include <optional>
-#include <span>
 
 #include "core/base/trigonometry.hpp"
 #include "core/base/types.hpp"

@@ -452,12 +452,7 @@ Solution<Vec2> tiled_prm(const TiledProblem& problem, const RoadmapOptions& opti
     throw InputError("clearance", "must be below half a cell where walls are made tile by tile");
   }
   TiledPlan plan(problem, options, execution);
-  try {
-    plan.run();
-  } catch (const Stopped& stopped) {
-    mark_stopped(plan.solution(), stopped);
-  }
-  return std::move(plan.solution());
+  return run_plan(plan);
 }
 
 /// The scratch of one thread.

@@ -390,13 +390,9 @@ template <class Ground>
 Solution<Vec2> plan_on(const Ground& ground, Vec2 start, Vec2 goal, const CellOptions& options,
                        const Execution& execution, CellPlan* keep) {
   CellPlanning planning(start, goal, options, execution);
-  try {
-    planning.run(ground);
-  } catch (const Stopped& stopped) {
-    mark_stopped(planning.solution(), stopped);
-  }
+  Solution<Vec2> solution = run_plan(planning, ground);
   if (keep != nullptr) *keep = std::move(planning.plan());
-  return std::move(planning.solution());
+  return solution;
 }
 
 }  // namespace

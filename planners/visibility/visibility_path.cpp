@@ -84,12 +84,7 @@ class VisibilityPlan {
   void run(const VisibilityRoadmap& roadmap) {
     if (begin(roadmap.corners)) search(roadmap.graph);
   }
-  void stop(StopReason reason) {
-    solution_.stop_reason = reason;
-    solution_.path.clear();
-    end(Outcome::stopped);
-  }
-  Solution<Vec2> take() { return std::move(solution_); }
+  Solution<Vec2>& solution() { return solution_; }
 
  private:
   void end(Outcome outcome) { solution_.outcome = outcome; }
@@ -199,12 +194,7 @@ Solution<Vec2> plan_within(const Ground& ground, const Box& box, Vec2 start, Vec
                            const VisibilityOptions& options, const Execution& execution, PlannedRoadmap<Vec2>* keep) {
   options.validate();
   VisibilityPlan plan(box, start, goal, options, execution, keep);
-  try {
-    plan.run(ground);
-  } catch (const Stopped& stopped) {
-    plan.stop(stopped.reason);
-  }
-  return plan.take();
+  return run_plan(plan, ground);
 }
 
 /// The box that confines the point.

@@ -12,7 +12,6 @@
 #include <optional>
 #include <span>
 #include <string_view>
-#include <vector>
 
 #include "core/base/enum_names.hpp"
 #include "core/base/types.hpp"
@@ -20,7 +19,6 @@
 #include "parallel/execution.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "scenes/scene/scene.hpp"
-#include "worlds/rasters/convex_pieces.hpp"
 
 namespace warren {
 
