@@ -88,14 +88,14 @@ class PeeledBand {
 
   /// Both ends of a crossing are left, or it goes.
   Crossings crossings_left(const Overlay& overlay, std::size_t tile) const {
-    const std::array<std::size_t, 4> beyond{tile + 1, tile + band_.tile_cols, tile - 1, tile - band_.tile_cols};
     Crossings left;
     for (unsigned side = 0; side < 4; ++side) {
       const auto& own = tiles_[tile].crossings[side];
+      const std::size_t beyond = neighbour(band_, tile, side);
       for (std::size_t i = 0; i < own.size(); ++i) {
-        const std::uint16_t theirs = tiles_[beyond[side]].crossings[side ^ 2U][i];
+        const std::uint16_t theirs = tiles_[beyond].crossings[side ^ 2U][i];
         if (overlay.is_peeled(overlay.first_key(tile) + own[i])) continue;
-        if (overlay.is_peeled(overlay.first_key(beyond[side]) + theirs)) continue;
+        if (overlay.is_peeled(overlay.first_key(beyond) + theirs)) continue;
         left[side].push_back(own[i]);
       }
     }
@@ -148,10 +148,7 @@ std::vector<Segment> walls_around(const LatticeWorld& world, Vec2 at, double rea
     if (around.meets(box_of(wall))) near.push_back(wall);
   };
   if (reach == step && world.grid.area().contains(at)) {
-    const auto index = [](double x, std::uint32_t count) {
-      return static_cast<std::uint32_t>(std::clamp(std::floor(x - 0.5), 0.0, count - 1.0));
-    };
-    const std::size_t tile = world.grid.tile_at(index(at.x, world.grid.cols), index(at.y, world.grid.rows));
+    const std::size_t tile = world.grid.tile_near(at);
     world.tiles.reader()->read(tile).for_each_around(world.grid, tile, around, take);
     return near;
   }

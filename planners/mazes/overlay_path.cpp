@@ -130,14 +130,7 @@ std::vector<PathChain> PathExpansion::chains_of(Range legs) const {
   std::vector<PathChain> chains;
   for (std::size_t leg = legs.first; leg < legs.last; ++leg) {
     if (leg % legs_a_chunk == 0) execution_.check();
-    const auto steps = static_cast<std::uint32_t>(first_[leg + 1] - first_[leg]);
-    if (steps == 1) continue;
-    const std::size_t tile = overlay_.tile_of(path_[leg]);
-    const VertexId from = path_[leg] - overlay_.first_key(tile);
-    const VertexId to = path_[leg + 1] - overlay_.first_key(tile);
-    const VertexId low = std::min(from, to);
-    const VertexId high = std::max(from, to);
-    chains.push_back({tile, static_cast<std::uint16_t>(low), static_cast<std::uint16_t>(high), steps});
+    if (first_[leg + 1] - first_[leg] > 1) chains.push_back(chain_of(leg));
   }
   return chains;
 }
@@ -173,17 +166,24 @@ std::uint32_t PathExpansion::steps_of(std::size_t leg) const {
   return is_link ? 1 : overlay_.steps_between(path_[leg], path_[leg + 1]);
 }
 
+/// Of a leg of more than one step.
+PathChain PathExpansion::chain_of(std::size_t leg) const {
+  const std::size_t tile = overlay_.tile_of(path_[leg]);
+  const VertexId first = overlay_.first_key(tile);
+  const auto [low, high] = std::minmax(path_[leg], path_[leg + 1]);
+  return {tile, static_cast<std::uint16_t>(low - first), static_cast<std::uint16_t>(high - first),
+          static_cast<std::uint32_t>(first_[leg + 1] - first_[leg])};
+}
+
 void PathExpansion::write_leg(std::size_t leg, std::span<const TileSummary> tiles, Vec2* out) const {
-  const auto steps = static_cast<std::uint32_t>(first_[leg + 1] - first_[leg]);
-  if (steps == 1) {
+  if (first_[leg + 1] - first_[leg] == 1) {
     *out = place_of(path_[leg + 1], tiles);
     return;
   }
-  const std::size_t tile = overlay_.tile_of(path_[leg]);
-  const VertexId from = path_[leg] - overlay_.first_key(tile);
-  const VertexId to = path_[leg + 1] - overlay_.first_key(tile);
-  const Chain& chain = chain_between(tiles[tile], std::min(from, to), std::max(from, to), steps);
-  walk_chain(tiles[tile], chain, from < to, place_of(path_[leg], tiles), out);
+  const PathChain taken = chain_of(leg);
+  const TileSummary& tile = tiles[taken.tile];
+  const Chain& chain = chain_between(tile, taken.from, taken.to, taken.length);
+  walk_chain(tile, chain, path_[leg] < path_[leg + 1], place_of(path_[leg], tiles), out);
 }
 
 std::vector<TileSummary> tiles_of(const ToldRoute& route, const TileGrid& grid, const OverlayEnds& ends,

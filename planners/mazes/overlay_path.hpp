@@ -57,6 +57,7 @@ class PathExpansion {
  private:
   Vec2 place_of(VertexId v, std::span<const TileSummary> tiles) const;
   std::uint32_t steps_of(std::size_t leg) const;
+  PathChain chain_of(std::size_t leg) const;
   void write_leg(std::size_t leg, std::span<const TileSummary> tiles, Vec2* out) const;
 
   const Overlay& overlay_;
