@@ -44,9 +44,7 @@ void push_asked(std::vector<T, Allocator>& to, std::type_identity_t<T> item, con
 namespace detail {
 inline void touch_pages(char* bytes, std::size_t count, std::size_t grain, const Execution& execution) {
   constexpr std::size_t page = 4096;
-  Execution quiet = execution;
-  quiet.progress = nullptr;
-  for_chunks(count, grain, quiet, [&](Range r) {
+  for_chunks(count, grain, execution.quiet(), [&](Range r) {
     if (populate_pages(bytes + r.first, r.size())) return;
     volatile char* const unread = bytes;  // or the writes would be left out
     for (std::size_t i = r.first; i < r.last; i += page) unread[i] = 0;

@@ -24,7 +24,6 @@
 #include <mutex>
 #include <optional>
 #include <thread>
-#include <vector>
 #endif
 
 namespace warren::detail {

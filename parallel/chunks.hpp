@@ -7,7 +7,8 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <type_traits>
+#include <numeric>
+#include <vector>
 
 #include "parallel/execution.hpp"
 
@@ -56,6 +57,14 @@ void for_chunks(std::size_t n, std::size_t grain, const Execution& execution, co
   }
   detail::run_chunks(chunks, thread_count(execution.threads), &run,
                      [](const void* f, std::size_t chunk) { (*static_cast<const Run*>(f))(chunk); });
+}
+
+/// The sum of what count(Range) says of each chunk.
+template <class Count>
+auto sum_of_chunks(std::size_t n, std::size_t grain, const Execution& execution, const Count& count) {
+  std::vector<decltype(count(Range{}))> parts(chunk_count(n, grain));
+  for_chunks(n, grain, execution, [&](Range r) { parts[r.first / grain] = count(r); });
+  return std::accumulate(parts.begin(), parts.end(), decltype(count(Range{})){0});
 }
 
 /// Calls both, at the same time where execution.threads and the system allow it, and returns when both are done. Throws

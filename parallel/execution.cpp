@@ -9,7 +9,6 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <thread>
@@ -40,6 +39,34 @@ unsigned quota_count(unsigned fallback) {
   std::fclose(file);
   if (fields != 2 || period <= 0.0) return fallback;
   return static_cast<unsigned>(std::max(1.0, std::ceil(quota / period)));
+}
+
+struct CloseFile {
+  void operator()(std::FILE* f) const { std::fclose(f); }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
+
+/// The first number of a small file, or nothing ("max" counts as nothing).
+std::optional<std::size_t> number_in(const char* path) {
+  const File file(std::fopen(path, "r"));
+  unsigned long long value = 0;
+  if (!file || std::fscanf(file.get(), "%llu", &value) != 1) return std::nullopt;
+  return static_cast<std::size_t>(value);
+}
+
+std::size_t machine_available_bytes() {
+  const File file(std::fopen("/proc/meminfo", "r"));
+  char line[128];
+  while (file && std::fgets(line, sizeof line, file.get()) != nullptr) {
+    unsigned long long kilobytes = 0;
+    if (std::sscanf(line, "MemAvailable: %llu", &kilobytes) == 1) return static_cast<std::size_t>(kilobytes) * 1024;
+  }
+  return std::numeric_limits<std::size_t>::max();
+}
+
+StopReason reason_of_signal(int number) {
+  if (number == SIGTERM) return StopReason::terminate;
+  return number == SIGHUP ? StopReason::hang_up : StopReason::interrupt;
 }
 
 }  // namespace
@@ -73,38 +100,6 @@ StageTimer::~StageTimer() {
   trace_->enter(before_);
   trace_->record(stage_, begin_, end, true, items_);
 }
-
-namespace {
-
-struct CloseFile {
-  void operator()(std::FILE* f) const { std::fclose(f); }
-};
-using File = std::unique_ptr<std::FILE, CloseFile>;
-
-/// The first number of a small file, or nothing ("max" counts as nothing).
-std::optional<std::size_t> number_in(const char* path) {
-  const File file(std::fopen(path, "r"));
-  unsigned long long value = 0;
-  if (!file || std::fscanf(file.get(), "%llu", &value) != 1) return std::nullopt;
-  return static_cast<std::size_t>(value);
-}
-
-std::size_t machine_available_bytes() {
-  const File file(std::fopen("/proc/meminfo", "r"));
-  char line[128];
-  while (file && std::fgets(line, sizeof line, file.get()) != nullptr) {
-    unsigned long long kilobytes = 0;
-    if (std::sscanf(line, "MemAvailable: %llu", &kilobytes) == 1) return static_cast<std::size_t>(kilobytes) * 1024;
-  }
-  return std::numeric_limits<std::size_t>::max();
-}
-
-StopReason reason_of_signal(int number) {
-  if (number == SIGTERM) return StopReason::terminate;
-  return number == SIGHUP ? StopReason::hang_up : StopReason::interrupt;
-}
-
-}  // namespace
 
 void give_freed_pages_back() noexcept {
 #ifdef __GLIBC__

@@ -14,9 +14,6 @@
 #include "core/base/solution.hpp"
 
 namespace warren {
-// Time budget, memory budget and cancellation. Long loops ask between batches; the answer is an exception of its own
-// type, `Stopped`, that the caller of a whole plan turns into Outcome::stopped. Polling costs one clock read, 25 ns.
-
 /// Thrown where a budget ended or a signal came. Whoever solves makes it an answer; what() is the reason's name.
 struct Stopped : Error {
   /// For this reason.
@@ -29,6 +26,8 @@ struct Stopped : Error {
 /// Set by a signal handler, read by all threads: 0, or the signal's number.
 using SignalFlag = std::atomic<int>;
 
+/// Time budget, memory budget and cancellation. Long loops ask between batches; the answer is an exception of its own
+/// type, `Stopped`, that the caller of a whole plan turns into Outcome::stopped. Polling costs one clock read, 25 ns.
 /// Any number of threads may ask. Neither copied nor moved.
 class Deadline {
  public:
@@ -118,6 +117,12 @@ struct Execution {
   /// Throws Stopped{memory} if so many further bytes would pass the limit.
   void reserve(std::size_t bytes) const {
     if (deadline != nullptr) deadline->reserve(bytes);
+  }
+  /// The same without telling progress: passes inside a stage are no items of it.
+  Execution quiet() const {
+    Execution inner = *this;
+    inner.progress = nullptr;
+    return inner;
   }
   /// Tells whoever watches that so many items more are done.
   void advance(std::uint64_t items) const noexcept {

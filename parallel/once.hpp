@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A value that is made when somebody first asks for it, by whichever thread comes first; the others wait, each within
-// its own limits. Where making it throws, nothing was made, and the next one who asks makes it. A look at what was made
-// costs one load.
+// What threads do once, whichever comes first, or one after the other.
 #pragma once
 
 #include <atomic>
@@ -18,7 +16,9 @@
 
 namespace warren {
 
-/// Any number of threads may call get().
+/// A value that is made when somebody first asks for it, by whichever thread comes first; the others wait, each within
+/// its own limits. Where making it throws, nothing was made, and the next one who asks makes it. A look at what was
+/// made costs one load. Any number of threads may call get().
 template <class T>
 class MadeOnce {
  public:
@@ -55,8 +55,7 @@ class MadeOnce {
   mutable std::atomic<std::uint32_t> calls_{0};  // of get_after() that came too early
 };
 
-// A call that threads make one after the other, in any order. For what is short beside their work: a write, a look-up.
-
+/// A call that threads make one after the other, in any order. For what is short beside their work: a write, a look-up.
 class OneAtATime {
  public:
   template <class Call>
@@ -69,11 +68,9 @@ class OneAtATime {
   mutable std::mutex mutex_;  // guards what its owner touches in calls alone
 };
 
-// One bit for each of n things that are done once and stay done, whichever thread does them: a look costs one load.
-// What is done twice, because two threads looked at once, must do no harm. A mark passes no memory on to others: it may
-// only speak of what nobody writes.
-
-/// Any number of threads may call all of it.
+/// One bit for each of n things that are done once and stay done, whichever thread does them: a look costs one load.
+/// What is done twice, because two threads looked at once, must do no harm. A mark passes no memory on to others: it
+/// may only speak of what nobody writes. Any number of threads may call all of it.
 class LastingMarks {
  public:
   explicit LastingMarks(std::size_t n) : words_((n + word_bits - 1) / word_bits) {}
@@ -90,9 +87,8 @@ class LastingMarks {
   std::vector<std::atomic<std::uint64_t>> words_;
 };
 
-// What must be done before the bytes of a block of somebody's memory are first looked at, say to hold them against
-// their checksum: done once a block, by whichever thread comes first. A look at what was done costs a load and a test.
-
+/// What must be done before the bytes of a block of somebody's memory are first looked at, say to hold them against
+/// their checksum: done once a block, by whichever thread comes first. A look at what was done costs a load and a test.
 /// Refers to its owner. Any number of threads may call ensure().
 struct FirstLook {
   const LastingMarks* done = nullptr;  ///< a bit a block; nullptr: nothing is to be done

@@ -35,13 +35,6 @@ inline constexpr std::size_t sort_buckets = 512;
 /// Chunks of at least 16384 items, at most 64 of them: so that the histograms stay small beside the items.
 constexpr std::size_t sort_grain(std::size_t n) { return std::max<std::size_t>(std::size_t{1} << 14, (n + 63) / 64); }
 
-/// The same work without telling progress: passes inside a stage are not items of the stage.
-inline Execution quiet(const Execution& execution) {
-  Execution inner = execution;
-  inner.progress = nullptr;
-  return inner;
-}
-
 /// Turns histograms [chunk][bucket] into the first place of each (bucket, chunk); returns where each bucket begins.
 inline std::vector<std::uint32_t> places_of_buckets(std::vector<std::uint32_t>& counts, std::size_t chunks,
                                                     std::size_t buckets) {
@@ -102,7 +95,7 @@ inline void sort_bucket(const RawVector<std::uint64_t>& pairs, Range places, Ran
 template <class KeyOf>
 KeyOrder counting_sort(std::size_t n, std::size_t keys, const Execution& execution, const KeyOf& key_of) {
   assert(keys >= 1 && n < (std::uint64_t{1} << 32) && keys < (std::uint64_t{1} << 32));
-  const Execution quiet = detail::quiet(execution);
+  const Execution quiet = execution.quiet();
   unsigned shift = 0;
   while (((keys - 1) >> shift) >= detail::sort_buckets) ++shift;
   const std::size_t buckets = ((keys - 1) >> shift) + 1;
@@ -134,11 +127,9 @@ KeyOrder counting_sort(std::size_t n, std::size_t keys, const Execution& executi
   return order;
 }
 
-// std::sort that looks at the deadline between comparisons: sorting ten million edges takes a second. The look is at a
-// counter in all comparisons but one of 2^12, for exact ones can take microseconds.
-
-/// Sorts first .. last by less. Throws Stopped: the elements are then in some
-/// order, and one of them may have been moved from.
+/// std::sort that looks at the deadline between comparisons: sorting ten million edges takes a second. The look is at a
+/// counter in all comparisons but one of 2^12, for exact ones can take microseconds. Sorts first .. last by less.
+/// Throws Stopped: the elements are then in some order, and one of them may have been moved from.
 template <class Iterator, class Less = std::less<>>
 void polled_sort(Iterator first, Iterator last, const Execution& execution, const Less& less = {}) {
   constexpr std::uint32_t comparisons_per_poll = 1U << 12;
@@ -149,10 +140,9 @@ void polled_sort(Iterator first, Iterator last, const Execution& execution, cons
   });
 }
 
-// Exclusive prefix sums in parallel: two passes over the data, chunk sums between them. Integers only, so the result
-// does not depend on the chunks.
-
-/// Replaces values[i] by the sum of values[0 .. i - 1] and returns the total. O(n), 2 reads and 1 write an element.
+/// Exclusive prefix sums in parallel: two passes over the data, chunk sums between them. Integers only, so the result
+/// does not depend on the chunks. Replaces values[i] by the sum of values[0 .. i - 1] and returns the total. O(n), 2
+/// reads and 1 write an element.
 template <class Vector>
 std::uint64_t exclusive_scan(Vector& values, const Execution& execution) {
   using Value = typename Vector::value_type;

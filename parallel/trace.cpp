@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <ctime>
-#include <new>
 #include <string_view>
 
 namespace warren {

@@ -9,10 +9,8 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
-#include <memory>
 #include <mutex>
 #include <new>
-#include <span>
 #include <thread>
 #include <vector>
 

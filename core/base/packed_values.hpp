@@ -98,11 +98,10 @@ class ValueUnpacker {
   std::string where_;
 };
 
-// Where finished parts of a long work are kept, so that a later run of the same work goes on from them.
-
 enum class PartKind : std::uint32_t { maze_group = 1, tiles = 2 };
 
-/// Any number of threads may call find() and keep() at once.
+/// Where finished parts of a long work are kept, so that a later run of the same work goes on from them. Any number of
+/// threads may call find() and keep() at once.
 class KeptParts {
  public:
   KeptParts() = default;

@@ -20,9 +20,8 @@ std::string printable(std::string_view text, std::size_t longest = std::string_v
 /// Bytes of the UTF-8 character that the text, which is not empty, begins with; 0 where it begins with none.
 std::size_t utf8_bytes(std::string_view text);
 
-// How far two words are from each other: the optimal string alignment distance. O(length a × length b).
-
-/// How many characters make b of a, inserted, deleted, replaced, or swapped with the next.
+/// How far two words are from each other: the optimal string alignment distance. O(length a × length b). How many
+/// characters make b of a, inserted, deleted, replaced, or swapped with the next.
 inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::vector<std::size_t>> cost(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) cost[i][0] = i;

@@ -71,10 +71,8 @@ void assign_polled(RawVector<T>& block, std::size_t n, T value, const Poll& poll
   }
 }
 
-// Memory given back before its owner ends. `held = {}` does not do that for a std::vector: it assigns an empty list,
-// which keeps the room for the elements that were there.
-
-/// Leaves containers empty and without room.
+/// Memory given back before its owner ends. `held = {}` does not do that for a std::vector: it assigns an empty list,
+/// which keeps the room for the elements that were there. Leaves containers empty and without room.
 template <class... Containers>
 void let_go(Containers&... held) noexcept {
   (Containers().swap(held), ...);

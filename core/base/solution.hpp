@@ -16,7 +16,6 @@
 #include "core/base/types.hpp"
 
 namespace warren {
-// What was done: exact counts, the same for any number of threads, and how long each stage took.
 
 /// What a planner has done: exact, the same for any number of threads.
 struct Counters {
@@ -71,10 +70,8 @@ struct StageCost {
   double cpu_s = 0.0;   ///< of all threads of the process
 };
 
-// A path is the list of its states, start to goal.
-
-/// A long one is made of pooled pages (core/base/page_pool.hpp): where one run follows another, the first touch of
-/// fresh pages took more time than to find the states.
+/// A path is the list of its states, start to goal. A long one is made of pooled pages (core/base/page_pool.hpp): where
+/// one run follows another, the first touch of fresh pages took more time than to find the states.
 template <class State>
 using Path = RawVector<State>;
 
@@ -149,8 +146,7 @@ struct Solution {
   StageTimes seconds;                         ///< wall-clock
 };
 
-// Where the points of a path go that is too long to be held: they are handed on as they are made.
-
+/// Where the points of a path go that is too long to be held: they are handed on as they are made.
 class PathTaker {
  public:
   PathTaker() = default;

@@ -14,11 +14,11 @@
 #include "core/base/types.hpp"
 
 namespace warren {
-// A coarse grid of places in the plane, a bit each, up to 64 columns and 64 rows: small enough to be looked at for
-// every problem. A row is a word, so that whole rows are moved and compared at once. No allocation.
 
-/// Place (column, row) is at origin + step * (column, row). Bits beyond the columns are 0. What a set bit means is said
-/// by who made the grid.
+/// A coarse grid of places in the plane, a bit each, up to 64 columns and 64 rows: small enough to be looked at for
+/// every problem. A row is a word, so that whole rows are moved and compared at once. No allocation. Place (column,
+/// row) is at origin + step * (column, row). Bits beyond the columns are 0. What a set bit means is said by who made
+/// the grid.
 struct PlaceGrid {
   static constexpr std::size_t most = 64;  ///< columns, and rows
 

@@ -81,10 +81,9 @@ class CellWallSource {
   std::size_t tile_cols_;
 };
 
-// The plane cut into unit cells around whole numbers, as mazes are, and which of their sides a motion may cross.
-
-/// Cells row by row from below. No motion of a free body passes from a cell to its neighbour but over a side that is
-/// open at both; a side may be open that no motion crosses. Of points that keep off all walls cell_of() is exact.
+/// The plane cut into unit cells around whole numbers, as mazes are, and which of their sides a motion may cross. Cells
+/// row by row from below. No motion of a free body passes from a cell to its neighbour but over a side that is open at
+/// both; a side may be open that no motion crosses. Of points that keep off all walls cell_of() is exact.
 struct CellSides {
   static constexpr std::uint8_t right = 1, up = 2, left = 4, down = 8, all = 15;
 

@@ -39,6 +39,15 @@ struct PlaneObstacles {
   std::optional<Box> bounds;   ///< the box that nothing may leave; none: the plane has no end
 };
 
+/// The bounds, or else the box of polygons and walls; empty where there is nothing.
+inline Box box_around(const PlaneObstacles& obstacles) {
+  if (obstacles.bounds) return *obstacles.bounds;
+  Box box;
+  for (const Vec2 p : obstacles.polygons.corners) box.include(p);
+  for (const Segment& wall : obstacles.walls) box.include(box_of(wall));
+  return box;
+}
+
 // Distances of closed polygons, convex or not, either orientation: every pair of sides, decided by the exact predicates
 // of core/plane/geometry. Exactly 0 where they touch, overlap or one lies in the other; else within 1e-14 of the
 // coordinate differences. O(n m): the plain form; worlds/poses/obstacle_tree is the fast one.
@@ -46,6 +55,12 @@ struct PlaneObstacles {
 /// The side of a polygon from corner i to the next one.
 inline Segment polygon_side(std::span<const Vec2> polygon, std::size_t i) {
   return {polygon[i], polygon[i + 1 == polygon.size() ? 0 : i + 1]};
+}
+
+/// Calls visit(a, b) for the corners of each side, in their order.
+template <class Visit>
+void for_each_side(std::span<const Vec2> polygon, const Visit& visit) {
+  for (std::size_t i = 0; i < polygon.size(); ++i) visit(polygon[i], polygon[i + 1 == polygon.size() ? 0 : i + 1]);
 }
 
 /// Is p in the closed polygon? Exact.

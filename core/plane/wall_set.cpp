@@ -2,7 +2,6 @@
 #include "core/plane/wall_set.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace warren {

@@ -13,13 +13,12 @@
 #include "core/base/types.hpp"
 
 namespace warren {
-// A level or upright wall in one word of 64 bits: what walls of grids are, at half of what floats take. Coordinates are
-// multiples of 1/4 below 2^18. Bits 0 to 20 are x of the first end, bits 32 to 52 its y, in quarters and 2^20 more, so
-// that they are never below 0; bits 21 to 31, and above them 53 to 62, say how far the second end lies to the right, as
-// x does; bit 63 says that it lies above instead. One wall has one word: a wall of length zero is level. The halves are
-// read alike, by shifts and masks of 32 bits without a branch, so loops over walls become vector code.
 
-/// A wall of 8 bytes.
+/// A level or upright wall in one word of 64 bits: what walls of grids are, at half of what floats take. Coordinates
+/// are multiples of 1/4 below 2^18. Bits 0 to 20 are x of the first end, bits 32 to 52 its y, in quarters and 2^20
+/// more, so that they are never below 0; bits 21 to 31, and above them 53 to 62, say how far the second end lies to the
+/// right, as x does; bit 63 says that it lies above instead. One wall has one word: a wall of length zero is level. The
+/// halves are read alike, by shifts and masks of 32 bits without a branch, so loops over walls become vector code.
 class PackedWall {
  public:
   using Number = float;                                ///< in which its coordinates are exact

@@ -10,7 +10,6 @@
 #include <span>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
@@ -72,10 +71,9 @@ struct Components {
 };
 Components components(const Graph& graph);
 
-// What is known of each edge of a roadmap, two bits an edge end: the states of an edge's two ends are the same, so that
-// a search looks its edge up where it finds it.
-
-/// unchecked: a candidate that nobody has asked about. free, blocked: the world has answered.
+/// What is known of each edge of a roadmap, two bits an edge end: the states of an edge's two ends are the same, so
+/// that a search looks its edge up where it finds it. unchecked: a candidate that nobody has asked about. free,
+/// blocked: the world has answered.
 enum class EdgeState : std::uint8_t { unchecked, free, blocked };
 constexpr auto enum_names(EdgeState) { return std::array<std::string_view, 3>{"unchecked", "free", "blocked"}; }
 

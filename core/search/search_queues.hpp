@@ -13,8 +13,8 @@
 #include <array>
 #include <bit>
 #include <cassert>
-#include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/search/indexed_heap.hpp"
@@ -23,12 +23,30 @@ namespace warren {
 
 inline constexpr auto later = [](const QueueEntry& a, const QueueEntry& b) { return b < a; };
 
-class LazyHeap {
+namespace detail {
+
+/// What all queues that are one array share.
+class QueueArray {
  public:
   template <class Poll = NoPoll>
   void resize(std::size_t, const Poll& = {}) {}
   bool empty() const { return entries_.empty(); }
   void clear() { entries_.clear(); }
+
+ protected:
+  QueueEntry pop_back() {
+    const QueueEntry last = entries_.back();
+    entries_.pop_back();
+    return last;
+  }
+
+  std::vector<QueueEntry> entries_;
+};
+
+}  // namespace detail
+
+class LazyHeap : public detail::QueueArray {
+ public:
   void push(VertexId v, double key) {
     entries_.push_back({key, v});
     std::push_heap(entries_.begin(), entries_.end(), later);
@@ -36,74 +54,35 @@ class LazyHeap {
   const QueueEntry& top() const { return entries_.front(); }
   QueueEntry pop() {
     std::pop_heap(entries_.begin(), entries_.end(), later);
-    const QueueEntry top = entries_.back();
-    entries_.pop_back();
-    return top;
+    return pop_back();
   }
-
- private:
-  std::vector<QueueEntry> entries_;
 };
 
-class SortedArray {
+class SortedArray : public detail::QueueArray {  // least at the back
  public:
-  template <class Poll = NoPoll>
-  void resize(std::size_t, const Poll& = {}) {}
-  bool empty() const { return entries_.empty(); }
-  void clear() { entries_.clear(); }
   void push(VertexId v, double key) {
     const QueueEntry e{key, v};
     entries_.insert(std::upper_bound(entries_.begin(), entries_.end(), e, later), e);
   }
   const QueueEntry& top() const { return entries_.back(); }
-  QueueEntry pop() {
-    const QueueEntry last = entries_.back();
-    entries_.pop_back();
-    return last;
-  }
-
- private:
-  std::vector<QueueEntry> entries_;  // least at the back
+  QueueEntry pop() { return pop_back(); }
 };
 
-class ResortedArray {
+class ResortedArray : public SortedArray {
  public:
-  template <class Poll = NoPoll>
-  void resize(std::size_t, const Poll& = {}) {}
-  bool empty() const { return entries_.empty(); }
-  void clear() { entries_.clear(); }
   void push(VertexId v, double key) {
     entries_.push_back({key, v});
     std::sort(entries_.begin(), entries_.end(), later);
   }
-  const QueueEntry& top() const { return entries_.back(); }
-  QueueEntry pop() {
-    const QueueEntry last = entries_.back();
-    entries_.pop_back();
-    return last;
-  }
-
- private:
-  std::vector<QueueEntry> entries_;  // least at the back
 };
 
-class LinearScan {
+class LinearScan : public detail::QueueArray {
  public:
-  template <class Poll = NoPoll>
-  void resize(std::size_t, const Poll& = {}) {}
-  bool empty() const { return entries_.empty(); }
-  void clear() { entries_.clear(); }
   void push(VertexId v, double key) { entries_.push_back({key, v}); }
   QueueEntry pop() {
-    const auto least = std::min_element(entries_.begin(), entries_.end());
-    const QueueEntry top = *least;
-    *least = entries_.back();
-    entries_.pop_back();
-    return top;
+    std::swap(*std::min_element(entries_.begin(), entries_.end()), entries_.back());
+    return pop_back();
   }
-
- private:
-  std::vector<QueueEntry> entries_;
 };
 
 /// Keys of [i·width, (i + 1)·width) lie in bucket i modulo 1024; the bucket that is being emptied is a small binary

@@ -31,10 +31,7 @@ MedialAxis::MedialAxis(const PlaneObstacles& obstacles, const Execution& executi
 void MedialAxis::collect(const PlaneObstacles& obstacles) {
   obstacles_ = obstacles.walls;
   for (std::size_t p = 0; p < obstacles.polygons.size(); ++p) {
-    const auto corners = obstacles.polygons[p];
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      obstacles_.push_back({corners[i], corners[i + 1 == corners.size() ? 0 : i + 1]});
-    }
+    for_each_side(obstacles.polygons[p], [&](Vec2 a, Vec2 b) { obstacles_.push_back({a, b}); });
   }
   for (const Segment& s : obstacles_) frame_.include(box_of(s));
   if (obstacles.bounds) frame_ = *obstacles.bounds;

@@ -11,14 +11,12 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
 #include "parallel/execution.hpp"
 #include "planners/axis/voronoi_diagram.hpp"
-#include "planners/visibility/noding.hpp"
 
 namespace warren {
 

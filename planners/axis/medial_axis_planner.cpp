@@ -6,44 +6,23 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
-#include "core/plane/polygon.hpp"
 #include "core/plane/wall_set.hpp"
-#include "core/search/graph.hpp"
 #include "core/search/search.hpp"
 #include "core/search/union_find.hpp"
 #include "parallel/sort.hpp"
-#include "planners/axis/medial_axis.hpp"
 #include "planners/graph/assemble_graph.hpp"
 #include "planners/graph/components.hpp"
 #include "planners/graph/no_path.hpp"
 #include "planners/graph/queue_choice.hpp"
 
 namespace warren {
-// How a point gets onto a medial axis: straight away from its nearest obstacle until another one is as near (the
-// retraction). On the way the distance to the nearest obstacle grows, so the leg has the clearance of its first point.
-// O(axis), for a few points a plan.
-
-/// A place on the axis.
-struct AxisPlace {
-  std::uint32_t edge;  ///< its number
-  double parameter;    ///< on the edge's curve
-  Vec2 at;
-};
-
-/// Distance of the closed segment to the nearest true obstacle; infinite where there is none.
-double clearance_of_leg(const MedialAxis& axis, const Segment& leg);
-
-/// Where p, free and inside the frame, retracts to; none where rounding hides it, or where p touches an obstacle.
-std::optional<AxisPlace> retract(const MedialAxis& axis, Vec2 p);
-
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double margin = 1.0 + 1e-12;
 
 /// Is high - low >= r? Exact: the rounding error of the difference decides where it rounds to r.
@@ -60,27 +39,21 @@ bool boxes_are_apart(const Box& a, const Box& b, double r) noexcept {
          is_apart(b.max.y, a.min.y, r);
 }
 
-}  // namespace
+// How a point gets onto the axis: straight away from its nearest obstacle until another one is as near (the
+// retraction). On the way the distance to the nearest obstacle grows, so the leg has the clearance of its first point.
+// O(axis).
 
-bool certainly_keeps_clearance(const WallIndex& walls, const Segment& leg, double r) noexcept {
-  if (r == 0.0) return !walls.blocks(leg.a, leg.b);
-  if (walls.keeps_clearance(leg.a, leg.b, r * margin)) return true;
-  const Box box = box_of(leg);
-  bool keeps = true;
-  walls.for_each_near(box.grown(r * margin), [&](const Segment& wall) {
-    keeps = boxes_are_apart(box, box_of(wall), r) || segments_keep_distance(leg, wall, r * margin);
-    return keeps;
-  });
-  return keeps;
-}
-
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double tolerance = 1e-6;  // of the frame's size: how well a computed point must fit a curve
 constexpr double noise = 1e-7;      // of that: p lies on the axis
 
 double distance_to(const AxisSite& site, Vec2 p) { return distance(p, Segment{site.a, site.b}); }
+
+/// A place on the axis.
+struct AxisPlace {
+  std::uint32_t edge;  ///< its number
+  double parameter;    ///< on the edge's curve
+  Vec2 at;
+};
 
 /// Away from the nearest site, from p on.
 struct Retraction {
@@ -130,8 +103,7 @@ std::optional<Retraction> retraction_of(const MedialAxis& axis, Vec2 p) {
   return best;
 }
 
-}  // namespace
-
+/// Distance of the closed segment to the nearest true obstacle; infinite where there is none.
 double clearance_of_leg(const MedialAxis& axis, const Segment& leg) {
   double least = infinity;
   for (std::size_t i = 0; i < axis.true_obstacle_count(); ++i) {
@@ -140,6 +112,7 @@ double clearance_of_leg(const MedialAxis& axis, const Segment& leg) {
   return least;
 }
 
+/// Where p, free and inside the frame, retracts to; none where rounding hides it, or where p touches an obstacle.
 std::optional<AxisPlace> retract(const MedialAxis& axis, Vec2 p) {
   const std::optional<Retraction> ray = retraction_of(axis, p);
   if (!ray) return std::nullopt;
@@ -165,12 +138,6 @@ std::optional<AxisPlace> retract(const MedialAxis& axis, Vec2 p) {
   return found;
 }
 
-namespace {
-
-// What of a medial axis may be travelled with a clearance, as a graph between two places on it: the edges that are wide
-// enough, and the wide enough parts of the edges on which the two places lie. O(edges) to build, O(edges log edges) to
-// find the widest way.
-
 /// A stretch of one of the axis' edges between two vertices of the graph.
 struct AxisLink {
   VertexId from, to;
@@ -180,8 +147,10 @@ struct AxisLink {
   double clearance;
 };
 
-/// The axis' vertices, behind them the start and the goal. Refers to the axis and the execution; what takes longer than
-/// a path throws Stopped.
+/// What of a medial axis may be travelled with a clearance, as a graph between two places on it: the edges that are
+/// wide enough, and the wide enough parts of the edges on which the two places lie. O(edges) to build, O(edges log
+/// edges) to find the widest way. The axis' vertices, behind them the start and the goal. Refers to the axis and the
+/// execution; what takes longer than a path throws Stopped.
 class AxisGraph {
  public:
   /// Keeps what has at least this clearance and more than the axis' resolution.
@@ -302,13 +271,10 @@ void AxisGraph::narrow_to(double clearance) {
 }
 
 SearchResult AxisGraph::search(SearchKind search, QueueKind queue_kind) const {
-  const auto should_stop = [&] { return execution_.should_stop(); };
   SearchState state;
-  state.resize(vertex_count(), [&] { execution_.check(); });
   SearchResult found;
-  if (search == SearchKind::bfs || search == SearchKind::dfs) {
-    found = search == SearchKind::bfs ? breadth_first(graph(), start(), goal(), state, should_stop)
-                                      : depth_first(graph(), start(), goal(), state, should_stop);
+  if (is_blind(search)) {
+    found = search_blindly(search, graph(), start(), goal(), state, execution_);
   } else {
     const auto neighbours = [&](VertexId v, const auto& visit) {
       for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
@@ -318,9 +284,7 @@ SearchResult AxisGraph::search(SearchKind search, QueueKind queue_kind) const {
     };
     const bool informed = search == SearchKind::astar;
     const auto estimate = [&](VertexId v) { return informed ? distance(place(v), place(goal())) : 0.0; };
-    found = with_queue(queue_kind, vertex_count(), execution_, [&](auto& queue) {
-      return best_first(start(), goal(), neighbours, estimate, queue, state, should_stop);
-    });
+    found = search_best_first(queue_kind, vertex_count(), start(), goal(), neighbours, estimate, state, execution_);
   }
   if (found.status == SearchStatus::stopped) execution_.check();
   return found;
@@ -357,9 +321,9 @@ WallSet true_obstacles(const MedialAxis& axis) {
 }
 
 /// One plan: the steps share the question and fill in the solution.
-class Planning {
+class AxisPlanning {
  public:
-  Planning(Vec2 start, Vec2 goal, const MedialAxisOptions& options, const Execution& execution)
+  AxisPlanning(Vec2 start, Vec2 goal, const MedialAxisOptions& options, const Execution& execution)
       : start_(start), goal_(goal), options_(options), execution_(execution) {}
 
   void run(const PlaneObstacles& obstacles) {
@@ -411,18 +375,18 @@ class Planning {
   Solution<Vec2> solution_;
 };
 
-void Planning::go_straight() {
+void AxisPlanning::go_straight() {
   solution_.outcome = Outcome::solved;
   solution_.path = {start_, goal_};
   plan_.axis_clearance = std::numeric_limits<double>::infinity();
 }
 
-void Planning::build_axis(const PlaneObstacles& obstacles) {
+void AxisPlanning::build_axis(const PlaneObstacles& obstacles) {
   const StageTimer timer(execution_, "medial axis", solution_.seconds.graph);
   axis_ = &plan_.axis.emplace(obstacles, execution_);
 }
 
-bool Planning::ends_are_blocked(const PolygonSet& polygons) {
+bool AxisPlanning::ends_are_blocked(const PolygonSet& polygons) {
   const auto fits = [&](Vec2 p) {
     if (!axis().frame().contains(p)) return false;
     for (std::size_t i = 0; i < polygons.size(); ++i) {
@@ -441,12 +405,12 @@ bool Planning::ends_are_blocked(const PolygonSet& polygons) {
   return true;
 }
 
-bool Planning::is_clear(const Segment& leg) const {
+bool AxisPlanning::is_clear(const Segment& leg) const {
   const double room = clearance_of_leg(axis(), leg);
   return room >= options_.clearance && room > 0.0;
 }
 
-bool Planning::join_ends() {
+bool AxisPlanning::join_ends() {
   const StageTimer timer(execution_, "join", solution_.seconds.connect);
   const std::optional<AxisPlace> start = join(start_);
   const std::optional<AxisPlace> goal = join(goal_);
@@ -457,14 +421,14 @@ bool Planning::join_ends() {
   return true;
 }
 
-std::optional<AxisPlace> Planning::join(Vec2 p) const {
+std::optional<AxisPlace> AxisPlanning::join(Vec2 p) const {
   const std::optional<AxisPlace> place = retract(axis(), p);
   if (place && is_clear({p, place->at})) return place;
   return nearest_clear(p);
 }
 
 /// Where rounding hides the retraction: the nearest vertex in sight.
-std::optional<AxisPlace> Planning::nearest_clear(Vec2 p) const {
+std::optional<AxisPlace> AxisPlanning::nearest_clear(Vec2 p) const {
   std::vector<std::pair<double, std::uint32_t>> near;
   const std::vector<AxisEdge>& edges = axis().edges();
   for (std::uint32_t i = 0; i < edges.size(); ++i) near.push_back({distance(p, axis().vertices()[edges[i].from]), i});
@@ -480,7 +444,7 @@ std::optional<AxisPlace> Planning::nearest_clear(Vec2 p) const {
 }
 
 /// Searches with this clearance; true if there is a path.
-bool Planning::plan(double clearance) {
+bool AxisPlanning::plan(double clearance) {
   const StageTimer timer(execution_, "search", solution_.seconds.search);
   AxisGraph graph(axis(), start_place_, goal_place_, clearance, execution_);
   solution_.outcome = Outcome::not_connected;
@@ -507,7 +471,7 @@ bool Planning::plan(double clearance) {
   return true;
 }
 
-bool Planning::ends_are_joined(const AxisGraph& axis_graph) {
+bool AxisPlanning::ends_are_joined(const AxisGraph& axis_graph) {
   const Graph graph = axis_graph.graph();
   const Components parts = components(graph, execution_);
   std::uint64_t lonely = 0;  // vertices that only narrow curves reach
@@ -526,7 +490,7 @@ bool Planning::ends_are_joined(const AxisGraph& axis_graph) {
 }
 
 /// Does the polyline keep the clearance for sure, as an exact verification will ask?
-bool Planning::keeps_clearance() {
+bool AxisPlanning::keeps_clearance() {
   const StageTimer timer(execution_, "check", solution_.seconds.connect);
   if (obstacles_ == nullptr) obstacles_ = &own_obstacles_.emplace(true_obstacles(axis()), execution_);
   for (std::size_t i = 1; i < solution_.path.size(); ++i) {
@@ -544,32 +508,11 @@ Solution<Vec2> plan_on(const Ground& ground, Vec2 start, Vec2 goal, const Medial
   if (!(options.clearance >= 0.0) || !(options.clearance <= largest_coordinate)) {
     throw InputError("clearance", "expected a finite number >= 0", std::to_string(options.clearance));
   }
-  Planning planning(start, goal, options, execution);
-  try {
-    planning.run(ground);
-  } catch (const Stopped& stopped) {
-    mark_stopped(planning.solution(), stopped);
-  }
+  AxisPlanning planning(start, goal, options, execution);
+  Solution<Vec2> solution = run_plan(planning, ground);
   if (keep != nullptr) *keep = std::move(planning.kept());
-  return std::move(planning.solution());
+  return solution;
 }
-
-}  // namespace
-
-AxisRoadmap::AxisRoadmap(const PlaneObstacles& obstacles, const Execution& execution)
-    : polygons(obstacles.polygons), axis(obstacles, execution), index(true_obstacles(axis), execution) {}
-
-Solution<Vec2> plan_on_medial_axis(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal,
-                                   const MedialAxisOptions& options, const Execution& execution, MedialAxisPlan* keep) {
-  return plan_on(obstacles, start, goal, options, execution, keep);
-}
-
-Solution<Vec2> plan_on_medial_axis(const AxisRoadmap& roadmap, Vec2 start, Vec2 goal, const MedialAxisOptions& options,
-                                   const Execution& execution, MedialAxisPlan* keep) {
-  return plan_on(roadmap, start, goal, options, execution, keep);
-}
-
-namespace {
 
 constexpr std::size_t edges_per_poll = 256;
 
@@ -620,6 +563,31 @@ class LinesOfAxis {
 };
 
 }  // namespace
+
+bool certainly_keeps_clearance(const WallIndex& walls, const Segment& leg, double r) noexcept {
+  if (r == 0.0) return !walls.blocks(leg.a, leg.b);
+  if (walls.keeps_clearance(leg.a, leg.b, r * margin)) return true;
+  const Box box = box_of(leg);
+  bool keeps = true;
+  walls.for_each_near(box.grown(r * margin), [&](const Segment& wall) {
+    keeps = boxes_are_apart(box, box_of(wall), r) || segments_keep_distance(leg, wall, r * margin);
+    return keeps;
+  });
+  return keeps;
+}
+
+AxisRoadmap::AxisRoadmap(const PlaneObstacles& obstacles, const Execution& execution)
+    : polygons(obstacles.polygons), axis(obstacles, execution), index(true_obstacles(axis), execution) {}
+
+Solution<Vec2> plan_on_medial_axis(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal,
+                                   const MedialAxisOptions& options, const Execution& execution, MedialAxisPlan* keep) {
+  return plan_on(obstacles, start, goal, options, execution, keep);
+}
+
+Solution<Vec2> plan_on_medial_axis(const AxisRoadmap& roadmap, Vec2 start, Vec2 goal, const MedialAxisOptions& options,
+                                   const Execution& execution, MedialAxisPlan* keep) {
+  return plan_on(roadmap, start, goal, options, execution, keep);
+}
 
 StraightLines axis_lines(const AxisRoadmap& roadmap, double clearance, const Execution& execution) {
   const double least = std::max(clearance, roadmap.axis.resolution());

@@ -66,24 +66,20 @@ struct AxisRoadmap {
 Solution<Vec2> plan_on_medial_axis(const AxisRoadmap& roadmap, Vec2 start, Vec2 goal, const MedialAxisOptions& options,
                                    const Execution& execution, MedialAxisPlan* keep = nullptr);
 
-// A medial axis as straight lines, for those who know no curves: what of it is wide enough for a clearance, its
-// vertices and between them the corners of its curves' polylines (AxisCurve::append_polyline), which keep the curves'
-// clearance and are 1e-4 longer. O(edges log edges).
-
+/// What of a medial axis is wide enough for a clearance, as straight lines: its vertices and between them the corners
+/// of its curves' polylines (AxisCurve::append_polyline).
 struct StraightLines {
   std::vector<Vec2> points;
   std::vector<Edge> edges;  ///< ascending, each once, from < to
 };
 
-/// `clearance` >= 0. Left out is what rounding may keep from having it. Throws Stopped.
+/// `clearance` >= 0. Left out is what rounding may keep from having it. O(edges log edges). Throws Stopped.
 StraightLines axis_lines(const AxisRoadmap& roadmap, double clearance, const Execution& execution);
 
-// Does a leg keep a clearance beyond doubt of rounding? Yes if it does in doubles with 1e-12 to spare, or if the leg's
-// and the wall's boxes are apart by just as much on one axis, which is decided exactly: what runs in the middle of a
-// gap along an axis keeps half the gap's width, not a unit in the last place less.
-
-/// r > 0: false where the leg comes nearer than r to a wall, or where rounding leaves that open. r = 0: does the leg
-/// touch no wall? Exact.
+/// r > 0: does a leg keep the clearance r beyond doubt of rounding? Yes if it does in doubles with 1e-12 to spare, or
+/// if the leg's and the wall's boxes are apart by r on one axis, which is decided exactly: what runs in the middle of a
+/// gap along an axis keeps half the gap's width, not a unit in the last place less. r = 0: does it touch no wall?
+/// Exact.
 bool certainly_keeps_clearance(const WallIndex& walls, const Segment& leg, double r) noexcept;
 
 }  // namespace warren

@@ -19,6 +19,76 @@ Vec2 unit(Vec2 v) {
   return length > 0.0 ? (1.0 / length) * v : Vec2{1.0, 0.0};
 }
 
+namespace boost_polygon = boost::polygon;
+
+constexpr std::size_t bytes_per_segment = 1000;
+constexpr std::uint32_t questions_per_poll = 1 << 12;
+constexpr std::size_t items_per_poll = 1 << 16;
+
+/// Of the construction that runs in this thread: Boost makes its predicates itself, so they look here.
+thread_local const Execution* construction = nullptr;
+
+class ConstructionScope {
+ public:
+  explicit ConstructionScope(const Execution& execution) { construction = &execution; }
+  ~ConstructionScope() { construction = nullptr; }
+  ConstructionScope(const ConstructionScope&) = delete;
+  ConstructionScope& operator=(const ConstructionScope&) = delete;
+};
+
+/// Throws Stopped, every some thousand questions.
+void poll_sometimes() {
+  thread_local std::uint32_t questions = 0;
+  if (++questions % questions_per_poll == 0) construction->check();
+}
+
+/// Boost's own predicates; the order of events is asked for while they are sorted, queued and taken.
+struct PolledPredicates
+    : boost_polygon::detail::voronoi_predicates<boost_polygon::detail::voronoi_ctype_traits<std::int32_t>> {
+  template <class Site, class Circle>
+  class event_comparison_predicate {  // NOLINT(readability-identifier-naming): Boost's name
+   public:
+    template <class A, class B>
+    bool operator()(const A& a, const B& b) const {
+      poll_sometimes();
+      return plain_(a, b);
+    }
+
+   private:
+    using Plain = boost_polygon::detail::voronoi_predicates<
+        boost_polygon::detail::voronoi_ctype_traits<std::int32_t>>::event_comparison_predicate<Site, Circle>;
+    Plain plain_;
+  };
+};
+
+/// And the one that asks which vertices are the same, edge by edge, at the end.
+struct PolledDiagramTraits : boost_polygon::voronoi_diagram_traits<double> {
+  class vertex_equality_predicate_type {  // NOLINT(readability-identifier-naming): Boost's name
+   public:
+    bool operator()(const vertex_type& v, const vertex_type& w) const {
+      poll_sometimes();
+      return plain_(v, w);
+    }
+
+   private:
+    boost_polygon::voronoi_diagram_traits<double>::vertex_equality_predicate_type plain_;
+  };
+};
+
+using Diagram = boost_polygon::voronoi_diagram<double, PolledDiagramTraits>;
+using Builder = boost_polygon::voronoi_builder<std::int32_t, boost_polygon::detail::voronoi_ctype_traits<std::int32_t>,
+                                               PolledPredicates>;
+
+VoronoiSite site_of(const Diagram::cell_type& cell, std::span<const SnappedSegment> segments) {
+  const SnappedSegment& s = segments[cell.source_index()];
+  const auto number = static_cast<std::uint32_t>(cell.source_index());
+  const Vec2 a{static_cast<double>(s.x1), static_cast<double>(s.y1)};
+  const Vec2 b{static_cast<double>(s.x2), static_cast<double>(s.y2)};
+  if (cell.contains_segment()) return {{a, b}, number};
+  const bool is_end = cell.source_category() == boost_polygon::SOURCE_CATEGORY_SEGMENT_END_POINT;
+  return {is_end ? AxisSite{b, b} : AxisSite{a, a}, number};
+}
+
 }  // namespace
 
 AxisCurve::AxisCurve(const AxisSite& one, const AxisSite& other, Vec2 from, Vec2 to) : from_(from), to_(to) {
@@ -93,80 +163,6 @@ void AxisCurve::append_polyline(std::vector<Vec2>& path) const {
   }
   path.push_back(to_);
 }
-
-namespace {
-
-namespace boost_polygon = boost::polygon;
-
-constexpr std::size_t bytes_per_segment = 1000;
-constexpr std::uint32_t questions_per_poll = 1 << 12;
-constexpr std::size_t items_per_poll = 1 << 16;
-
-/// Of the construction that runs in this thread: Boost makes its predicates itself, so they look here.
-thread_local const Execution* construction = nullptr;
-
-class ConstructionScope {
- public:
-  explicit ConstructionScope(const Execution& execution) { construction = &execution; }
-  ~ConstructionScope() { construction = nullptr; }
-  ConstructionScope(const ConstructionScope&) = delete;
-  ConstructionScope& operator=(const ConstructionScope&) = delete;
-};
-
-/// Throws Stopped, every some thousand questions.
-void poll_sometimes() {
-  thread_local std::uint32_t questions = 0;
-  if (++questions % questions_per_poll == 0) construction->check();
-}
-
-/// Boost's own predicates; the order of events is asked for while they are sorted, queued and taken.
-struct PolledPredicates
-    : boost_polygon::detail::voronoi_predicates<boost_polygon::detail::voronoi_ctype_traits<std::int32_t>> {
-  template <class Site, class Circle>
-  class event_comparison_predicate {  // NOLINT(readability-identifier-naming): Boost's name
-   public:
-    template <class A, class B>
-    bool operator()(const A& a, const B& b) const {
-      poll_sometimes();
-      return plain_(a, b);
-    }
-
-   private:
-    using Plain = boost_polygon::detail::voronoi_predicates<
-        boost_polygon::detail::voronoi_ctype_traits<std::int32_t>>::event_comparison_predicate<Site, Circle>;
-    Plain plain_;
-  };
-};
-
-/// And the one that asks which vertices are the same, edge by edge, at the end.
-struct PolledDiagramTraits : boost_polygon::voronoi_diagram_traits<double> {
-  class vertex_equality_predicate_type {  // NOLINT(readability-identifier-naming): Boost's name
-   public:
-    bool operator()(const vertex_type& v, const vertex_type& w) const {
-      poll_sometimes();
-      return plain_(v, w);
-    }
-
-   private:
-    boost_polygon::voronoi_diagram_traits<double>::vertex_equality_predicate_type plain_;
-  };
-};
-
-using Diagram = boost_polygon::voronoi_diagram<double, PolledDiagramTraits>;
-using Builder = boost_polygon::voronoi_builder<std::int32_t, boost_polygon::detail::voronoi_ctype_traits<std::int32_t>,
-                                               PolledPredicates>;
-
-VoronoiSite site_of(const Diagram::cell_type& cell, std::span<const SnappedSegment> segments) {
-  const SnappedSegment& s = segments[cell.source_index()];
-  const auto number = static_cast<std::uint32_t>(cell.source_index());
-  const Vec2 a{static_cast<double>(s.x1), static_cast<double>(s.y1)};
-  const Vec2 b{static_cast<double>(s.x2), static_cast<double>(s.y2)};
-  if (cell.contains_segment()) return {{a, b}, number};
-  const bool is_end = cell.source_category() == boost_polygon::SOURCE_CATEGORY_SEGMENT_END_POINT;
-  return {is_end ? AxisSite{b, b} : AxisSite{a, a}, number};
-}
-
-}  // namespace
 
 VoronoiDiagram voronoi_diagram(std::span<const SnappedSegment> segments, const Execution& execution) {
   execution.check();

@@ -15,10 +15,6 @@
 #include "planners/visibility/noding.hpp"
 
 namespace warren {
-// A piece of a medial axis: the points with the same distance to two sites, each a point or a segment. Straight between
-// two points or two segments; between a point and a segment an arc of the parabola with that focus and directrix. Arcs
-// are kept as arcs: place, length and narrowest point are closed formulas of the parameter, which is the coordinate
-// along the line or along the directrix. Rounding aside, all is exact. Every operation is O(1), polylines O(points).
 
 /// A point (a == b) or an open segment, whose ends are sites of their own.
 struct AxisSite {
@@ -26,6 +22,10 @@ struct AxisSite {
   bool is_point() const { return a == b; }
 };
 
+/// An edge of the diagram: the points with the same distance to two sites. Straight between two points or two segments;
+/// between a point and a segment an arc of the parabola with that focus and directrix. Arcs are kept as arcs: place,
+/// length and narrowest point are closed formulas of the parameter, which is the coordinate along the line or along the
+/// directrix. Rounding aside, all is exact. Every operation is O(1), polylines O(points).
 class AxisCurve {
  public:
   /// Between `from` and `to`, both as far from one site as from the other.

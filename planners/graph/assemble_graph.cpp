@@ -92,7 +92,7 @@ class Assembly {
     if (vertex_count_ > no_vertex) throw InputError("graph", "too many vertices", std::to_string(vertex_count_));
     edge_count_ = edges;
     std::vector<PartShape> shapes(parts_.size());
-    for_chunks(parts_.size(), part_grain(), quiet(), [&](Range r) {
+    for_chunks(parts_.size(), part_grain(), execution_.quiet(), [&](Range r) {
       for (std::size_t p = r.first; p < r.last; ++p) shapes[p] = check_part(vertex_count_, parts_[p]);
     });
     VertexId last = 0;
@@ -103,12 +103,6 @@ class Assembly {
     }
   }
   std::size_t part_grain() const { return std::max<std::size_t>(1, parts_.size() / 1024); }
-  /// Progress counts vertices, once, in fill_rows.
-  Execution quiet() const {
-    Execution execution = execution_;
-    execution.progress = nullptr;
-    return execution;
-  }
 
   void cut_ordered_parts() {
     cuts_.resize(blocks_ + 1, {ordered_, 0});
@@ -177,7 +171,7 @@ class Assembly {
   void count_halves() {
     counts_.assign(blocks_ * source_count(), 0);
     ends_.assign(blocks_ + 1, 0);
-    for_chunks(source_count(), 1, quiet(), [&](Range r) {
+    for_chunks(source_count(), 1, execution_.quiet(), [&](Range r) {
       const std::span<std::uint32_t> sent = counts_of(r.first);
       for_routed_halves(r.first, [&](VertexId row, VertexId) { ++sent[block_of(row)]; });
       if (r.first >= blocks_) return;
@@ -208,7 +202,7 @@ class Assembly {
     execution_.reserve(routed_begin_.back() * sizeof(RoutedHalf));
     routed_.resize(routed_begin_.back());
     touch_first(routed_, execution_);
-    for_chunks(source_count(), 1, quiet(), [&](Range r) {
+    for_chunks(source_count(), 1, execution_.quiet(), [&](Range r) {
       const std::span<std::uint32_t> place = counts_of(r.first);
       for_routed_halves(r.first, [&](VertexId row, VertexId target) {
         routed_[place[block_of(row)]++] = {row, target};

@@ -2,9 +2,6 @@
 #include "planners/graph/components.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <numeric>
-#include <vector>
 
 #include "core/search/union_find.hpp"
 #include "parallel/chunks.hpp"
@@ -33,10 +30,8 @@ Components components(const Graph& graph, const Execution& execution) {
   execution.reserve(n * sizeof(VertexId));
   result.label.resize(n);
   const UnionForest forest(result.label);
-  Execution quiet = execution;
-  quiet.progress = nullptr;
   for_chunks(n, component_grain, execution, [&](Range r) { join_inside(graph, r, result.label); });
-  for_chunks(n, component_grain, quiet, [&](Range r) {
+  for_chunks(n, component_grain, execution.quiet(), [&](Range r) {
     for (auto v = static_cast<VertexId>(r.first); v < r.last; ++v) {
       for (const VertexId w : graph.neighbours(v)) {
         if (w >= r.first) break;
@@ -44,29 +39,25 @@ Components components(const Graph& graph, const Execution& execution) {
       }
     }
   });
-  std::vector<std::size_t> roots(chunk_count(n, component_grain), 0);
-  for_chunks(n, component_grain, quiet, [&](Range r) {
+  result.count = sum_of_chunks(n, component_grain, execution.quiet(), [&](Range r) {
     std::size_t count = 0;
     for (auto v = static_cast<VertexId>(r.first); v < r.last; ++v) {
       const VertexId root = forest.root_of(v);
       std::atomic_ref(result.label[v]).store(root, std::memory_order_relaxed);
       count += root == v ? 1U : 0U;
     }
-    roots[r.first / component_grain] = count;
+    return count;
   });
-  result.count = std::accumulate(roots.begin(), roots.end(), std::size_t{0});
   return result;
 }
 
 std::size_t component_size(const Components& components, VertexId v, const Execution& execution) {
   const VertexId label = components.label[v];
-  std::vector<std::size_t> sizes(chunk_count(components.label.size(), component_grain), 0);
-  for_chunks(components.label.size(), component_grain, execution, [&](Range r) {
+  return sum_of_chunks(components.label.size(), component_grain, execution, [&](Range r) {
     const auto begin = components.label.begin();
-    sizes[r.first / component_grain] = static_cast<std::size_t>(
+    return static_cast<std::size_t>(
         std::count(begin + static_cast<std::ptrdiff_t>(r.first), begin + static_cast<std::ptrdiff_t>(r.last), label));
   });
-  return std::accumulate(sizes.begin(), sizes.end(), std::size_t{0});
 }
 
 }  // namespace warren

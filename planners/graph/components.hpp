@@ -24,12 +24,11 @@ Components components(const Graph& graph, const Execution& execution);
 /// Vertices in v's component.
 std::size_t component_size(const Components& components, VertexId v, const Execution& execution);
 
-// Union-find that many threads work on at once without a lock: the larger root is hung under the smaller one with
-// compare-and-swap, and whoever looks for a root halves the path to it. Invariants: parent[v] <= v, and a vertex that
-// is no root never becomes one again. So the root of a tree is its smallest vertex at all times, whatever the order of
-// unions. Only the parents pass between threads, no other memory depends on them: relaxed order is enough.
-
-/// Refers to parents that live elsewhere, where each vertex is its own at first. Any threads may call all of it.
+/// Union-find that many threads work on at once without a lock: the larger root is hung under the smaller one with
+/// compare-and-swap, and whoever looks for a root halves the path to it. Invariants: parent[v] <= v, and a vertex that
+/// is no root never becomes one again. So the root of a tree is its smallest vertex at all times, whatever the order of
+/// unions. Only the parents pass between threads, no other memory depends on them: relaxed order is enough. Refers to
+/// parents that live elsewhere, where each vertex is its own at first. Any threads may call all of it.
 class UnionForest {
  public:
   explicit UnionForest(std::span<VertexId> parent) : parent_(parent) {}

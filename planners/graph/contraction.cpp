@@ -18,80 +18,13 @@
 namespace warren {
 namespace {
 
-// What is left may become somewhat denser than the graph was while it is large, and as dense as a few hundred vertices
-// can be in the end; a question may look at so many arcs, a fifth of a millisecond.
-constexpr double most_growth = 1.25;
-constexpr double most_density = 256.0;
-constexpr std::size_t small_rest = std::size_t{1} << 13;
-constexpr std::uint64_t most_looks = 40'000;
-
-/// Four pieces of vertices that follow each other, which lie together in the plane, and the edges within them.
-Graph sample_of(const Graph& graph) {
-  constexpr std::size_t pieces = 4;
-  const std::size_t n = graph.vertex_count();
-  const std::size_t piece = std::min<std::size_t>(n / pieces, 2048);
-  RawVector<EdgeEnd> offsets;
-  RawVector<VertexId> targets;
-  RawVector<double> lengths;
-  offsets.push_back(0);
-  for (std::size_t i = 0; i < pieces; ++i) {
-    const std::size_t begin = i * n / pieces;
-    for (std::size_t v = begin; v < begin + piece; ++v) {
-      const auto row = graph.neighbours(static_cast<VertexId>(v));
-      for (std::size_t k = 0; k < row.size(); ++k) {
-        if (row[k] < begin || row[k] >= begin + piece) continue;
-        targets.push_back(static_cast<VertexId>(row[k] - begin + i * piece));
-        lengths.push_back(graph.lengths(static_cast<VertexId>(v))[k]);
-      }
-      offsets.push_back(static_cast<EdgeEnd>(targets.size()));
-    }
-  }
-  return {std::move(offsets), std::move(targets), std::move(lengths)};
-}
-
-/// Does what is left of a sample grow denser while it shrinks to a quarter?
-bool grows_denser(const Graph& graph, const Execution& execution) {
-  ContractionRounds rounds(sample_of(graph), execution);
-  const double before = rounds.density();
-  const std::size_t last = rounds.left().size() / 4;
-  while (rounds.left().size() > last) rounds.next_round();
-  return rounds.density() > most_growth * before + 1.0;
-}
-
-/// Arcs that a question looks at, of some.
-std::uint64_t looks_of_questions(const Hierarchy& hierarchy, const Execution& execution) {
-  constexpr std::uint64_t questions = 64;
-  HierarchyScratch scratch;
-  HierarchyQuery query(hierarchy, scratch, execution);
-  SequentialRng rng(1);
-  const auto any = [&] { return HierarchyEnd{static_cast<VertexId>(rng.below(hierarchy.vertex_count())), 0.0}; };
-  std::uint64_t looks = 0;
-  for (std::uint64_t i = 0; i < questions; ++i) {
-    const HierarchyEnd start = any();
-    const HierarchyEnd goal = any();
-    query.search({&start, 1}, {&goal, 1}, std::numeric_limits<double>::infinity());
-    looks += query.looks();
-  }
-  return looks / questions;
-}
-
-}  // namespace
-
-std::optional<Hierarchy> contract(const Graph& graph, const Execution& execution) {
-  if (grows_denser(graph, execution)) return std::nullopt;
-  ContractionRounds rounds(graph, execution);
-  const double densest = 2.0 * rounds.density() + 8.0;
-  while (rounds.left().size() > 0) {
-    rounds.next_round();
-    const double limit = rounds.left().size() > small_rest ? densest : most_density;
-    if (rounds.density() > limit) return std::nullopt;
-  }
-  Hierarchy hierarchy = rounds.hierarchy();
-  if (looks_of_questions(hierarchy, execution) > most_looks) return std::nullopt;
-  return hierarchy;
-}
-
-namespace {
+/// An edge that stands for the way over a vertex that is taken out.
+struct Shortcut {
+  VertexId from;    ///< of the graph that is left
+  VertexId to;      ///< likewise
+  VertexId middle;  ///< of the whole graph
+  double length;
+};
 
 constexpr std::size_t shrinking_grain = std::size_t{1} << 12;
 
@@ -161,8 +94,8 @@ class RowMaker {
   std::vector<ShrinkingArc> row_;
 };
 
-}  // namespace
-
+/// Turns how many arcs each row has, and a zero behind the last, into where the rows begin; returns their sum. Throws
+/// Stopped, and InputError for 2^32 arcs or more.
 std::size_t scan_rows(RawVector<EdgeEnd>& counts, const Execution& execution) {
   const std::uint64_t total = exclusive_scan(counts, execution);
   if (total > std::numeric_limits<EdgeEnd>::max()) {
@@ -171,6 +104,7 @@ std::size_t scan_rows(RawVector<EdgeEnd>& counts, const Execution& execution) {
   return total;
 }
 
+/// The graph, which has lengths, before the first round. Throws Stopped.
 ShrinkingGraph shrinking_graph(const Graph& graph, const Execution& execution) {
   const std::size_t n = graph.vertex_count();
   execution.reserve(graph.targets().size() * sizeof(ShrinkingArc) + n * (sizeof(VertexId) + sizeof(EdgeEnd)));
@@ -191,6 +125,8 @@ ShrinkingGraph shrinking_graph(const Graph& graph, const Execution& execution) {
   return whole;
 }
 
+/// Without the vertices v that have taken[v] != 0, and with the shortcuts, part by part; of two arcs between the same
+/// vertices the shorter one stays. Nothing of `before` is left. Throws Stopped, and InputError for 2^32 arcs or more.
 ShrinkingGraph shrunk(ShrinkingGraph before, std::span<const std::uint8_t> taken,
                       const std::vector<RawVector<Shortcut>>& shortcuts, const Execution& execution) {
   const std::size_t n = before.size();
@@ -227,13 +163,10 @@ ShrinkingGraph shrunk(ShrinkingGraph before, std::span<const std::uint8_t> taken
   return after;
 }
 
-namespace {
-
-// Which shortcuts taking out a vertex needs: for each two of its neighbours one of the length of the way over it,
-// unless another way that is no longer is found by a search that looks at a few dozen vertices (a witness). Fewer looks
-// than would find all witnesses leave some shortcuts too many, which cost and harm nothing.
-
-/// Scratch of one thread. Refers to all that it is given.
+/// Which shortcuts taking out a vertex needs: for each two of its neighbours one of the length of the way over it,
+/// unless another way that is no longer is found by a search that looks at a few dozen vertices (a witness). Fewer
+/// looks than would find all witnesses leave some shortcuts too many, which cost and harm nothing. Scratch of one
+/// thread. Refers to all that it is given.
 class WitnessSearch {
  public:
   /// taken: what leaves the graph in the same round, no two of them neighbours; no witness leads over them.
@@ -348,6 +281,63 @@ constexpr std::size_t witness_grain = 1024;  // each chunk makes its scratch
 /// Neighbours of one degree go in any order but that of their numbers, which would take out one after the other.
 std::uint32_t scattered(VertexId v) { return static_cast<std::uint32_t>(v * std::uint64_t{0x9e3779b97f4a7c15U} >> 32); }
 
+// What is left may become somewhat denser than the graph was while it is large, and as dense as a few hundred vertices
+// can be in the end; a question may look at so many arcs, a fifth of a millisecond.
+constexpr double most_growth = 1.25;
+constexpr double most_density = 256.0;
+constexpr std::size_t small_rest = std::size_t{1} << 13;
+constexpr std::uint64_t most_looks = 40'000;
+
+/// Four pieces of vertices that follow each other, which lie together in the plane, and the edges within them.
+Graph sample_of(const Graph& graph) {
+  constexpr std::size_t pieces = 4;
+  const std::size_t n = graph.vertex_count();
+  const std::size_t piece = std::min<std::size_t>(n / pieces, 2048);
+  RawVector<EdgeEnd> offsets;
+  RawVector<VertexId> targets;
+  RawVector<double> lengths;
+  offsets.push_back(0);
+  for (std::size_t i = 0; i < pieces; ++i) {
+    const std::size_t begin = i * n / pieces;
+    for (std::size_t v = begin; v < begin + piece; ++v) {
+      const auto row = graph.neighbours(static_cast<VertexId>(v));
+      for (std::size_t k = 0; k < row.size(); ++k) {
+        if (row[k] < begin || row[k] >= begin + piece) continue;
+        targets.push_back(static_cast<VertexId>(row[k] - begin + i * piece));
+        lengths.push_back(graph.lengths(static_cast<VertexId>(v))[k]);
+      }
+      offsets.push_back(static_cast<EdgeEnd>(targets.size()));
+    }
+  }
+  return {std::move(offsets), std::move(targets), std::move(lengths)};
+}
+
+/// Does what is left of a sample grow denser while it shrinks to a quarter?
+bool grows_denser(const Graph& graph, const Execution& execution) {
+  ContractionRounds rounds(sample_of(graph), execution);
+  const double before = rounds.density();
+  const std::size_t last = rounds.left().size() / 4;
+  while (rounds.left().size() > last) rounds.next_round();
+  return rounds.density() > most_growth * before + 1.0;
+}
+
+/// Arcs that a question looks at, of some.
+std::uint64_t looks_of_questions(const Hierarchy& hierarchy, const Execution& execution) {
+  constexpr std::uint64_t questions = 64;
+  HierarchyScratch scratch;
+  HierarchyQuery query(hierarchy, scratch, execution);
+  SequentialRng rng(1);
+  const auto any = [&] { return HierarchyEnd{static_cast<VertexId>(rng.below(hierarchy.vertex_count())), 0.0}; };
+  std::uint64_t looks = 0;
+  for (std::uint64_t i = 0; i < questions; ++i) {
+    const HierarchyEnd start = any();
+    const HierarchyEnd goal = any();
+    query.search({&start, 1}, {&goal, 1}, std::numeric_limits<double>::infinity());
+    looks += query.looks();
+  }
+  return looks / questions;
+}
+
 }  // namespace
 
 ContractionRounds::ContractionRounds(const Graph& graph, const Execution& execution)
@@ -451,6 +441,20 @@ Hierarchy ContractionRounds::hierarchy() {
     for (std::size_t i = r.first; i < r.last; ++i) write_rows(gone_[i], all);
   });
   return all;
+}
+
+std::optional<Hierarchy> contract(const Graph& graph, const Execution& execution) {
+  if (grows_denser(graph, execution)) return std::nullopt;
+  ContractionRounds rounds(graph, execution);
+  const double densest = 2.0 * rounds.density() + 8.0;
+  while (rounds.left().size() > 0) {
+    rounds.next_round();
+    const double limit = rounds.left().size() > small_rest ? densest : most_density;
+    if (rounds.density() > limit) return std::nullopt;
+  }
+  Hierarchy hierarchy = rounds.hierarchy();
+  if (looks_of_questions(hierarchy, execution) > most_looks) return std::nullopt;
+  return hierarchy;
 }
 
 }  // namespace warren

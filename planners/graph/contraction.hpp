@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Makes the hierarchy (hierarchy.hpp) of an undirected graph. Vertices are taken out in rounds: in each all those whose
 // key, from their degree and how much was taken out around them, is below their neighbours', so that no two of them are
-// neighbours and all can go at once; shortcuts keep the lengths between what is left (contraction.cpp).
+// neighbours and all can go at once; shortcuts keep the lengths between what is left (witnesses say which are needed).
 // Everything is a function of the graph: the same bytes for any number of threads.
 //
 // Where ways through a place are few, as in corridors, what is left grows no denser, and a question climbs through a
@@ -27,13 +27,6 @@ namespace warren {
 /// The graph has lengths >= 0. Nothing where it doesn't pay. Throws Stopped.
 std::optional<Hierarchy> contract(const Graph& graph, const Execution& execution);
 
-// The rounds of a contraction (contraction.hpp), one at a time.
-
-// What is left of a graph while its vertices are taken out, round by round: rows like those of Graph, whose arcs know
-// their lengths and, where they are shortcuts, the vertex that they lead over. A round makes the next graph of this one
-// in a few passes over its arcs, on all threads; vertices keep their order, so that neighbours in the plane stay
-// neighbours in memory. 16 bytes an arc, twice while a round is made.
-
 /// An arc of a row; an edge stands in the rows of both its ends.
 struct ShrinkingArc {
   VertexId to;      ///< of the graph that is left
@@ -41,14 +34,10 @@ struct ShrinkingArc {
   double length;
 };
 
-/// An edge that stands for the way over a vertex that is taken out.
-struct Shortcut {
-  VertexId from;    ///< of the graph that is left
-  VertexId to;      ///< likewise
-  VertexId middle;  ///< of the whole graph
-  double length;
-};
-
+/// What is left of a graph while its vertices are taken out: rows like those of Graph, whose arcs know their lengths
+/// and, where they are shortcuts, the vertex that they lead over. A round makes the next graph of this one in a few
+/// passes over its arcs, on all threads; vertices keep their order, so that neighbours in the plane stay neighbours in
+/// memory. 16 bytes an arc, twice while a round is made.
 struct ShrinkingGraph {
   RawVector<VertexId> vertex;  ///< of the whole graph, ascending
   RawVector<EdgeEnd> first;    ///< one more than vertices
@@ -58,19 +47,7 @@ struct ShrinkingGraph {
   std::span<const ShrinkingArc> row(VertexId v) const { return {arc.data() + first[v], arc.data() + first[v + 1]}; }
 };
 
-/// The graph, which has lengths, before the first round. Throws Stopped.
-ShrinkingGraph shrinking_graph(const Graph& graph, const Execution& execution);
-
-/// Without the vertices v that have taken[v] != 0, and with the shortcuts, part by part; of two arcs between the same
-/// vertices the shorter one stays. Nothing of `before` is left. Throws Stopped, and InputError for 2^32 arcs or more.
-ShrinkingGraph shrunk(ShrinkingGraph before, std::span<const std::uint8_t> taken,
-                      const std::vector<RawVector<Shortcut>>& shortcuts, const Execution& execution);
-
-/// Turns how many arcs each row has, and a zero behind the last, into where the rows begin; returns their sum. Throws
-/// Stopped, and InputError for 2^32 arcs or more.
-std::size_t scan_rows(RawVector<EdgeEnd>& counts, const Execution& execution);
-
-/// Refers to the execution.
+/// The rounds of a contraction, one at a time. Refers to the execution.
 class ContractionRounds {
  public:
   /// The graph has lengths. Throws Stopped.

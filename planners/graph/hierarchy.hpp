@@ -6,7 +6,6 @@
 // in that of taking out: taking a way apart reads rows that lie together.
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <string>
 

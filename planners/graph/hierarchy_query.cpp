@@ -2,10 +2,7 @@
 #include "planners/graph/hierarchy_query.hpp"
 
 #include <algorithm>
-#include <array>
-#include <limits>
 #include <utility>
-#include <vector>
 
 #include "core/base/error.hpp"
 
@@ -13,6 +10,17 @@ namespace warren {
 namespace {
 
 constexpr auto later_in_queue = [](const QueueEntry& a, const QueueEntry& b) { return b < a; };
+
+const HierarchyEnd* end_at(const std::vector<HierarchyEnd>& ends, VertexId vertex) {
+  const auto found = std::find_if(ends.begin(), ends.end(), [&](const HierarchyEnd& e) { return e.vertex == vertex; });
+  return found == ends.end() ? nullptr : &*found;
+}
+
+/// Where an end stands on a vertex, is the next one joined to it, too? Then a search goes there at once.
+bool is_detour(const std::vector<HierarchyEnd>& ends, VertexId vertex, VertexId next) {
+  const HierarchyEnd* first = end_at(ends, vertex);
+  return first != nullptr && first->length == 0.0 && end_at(ends, next) != nullptr;
+}
 
 }  // namespace
 
@@ -171,21 +179,6 @@ RawVector<VertexId> HierarchyQuery::path() {
   for (std::uint32_t arc = 0; arc < arcs; ++arc) append_edges(arc, way);
   return way;
 }
-
-namespace {
-
-const HierarchyEnd* end_at(const std::vector<HierarchyEnd>& ends, VertexId vertex) {
-  const auto found = std::find_if(ends.begin(), ends.end(), [&](const HierarchyEnd& e) { return e.vertex == vertex; });
-  return found == ends.end() ? nullptr : &*found;
-}
-
-/// Where an end stands on a vertex, is the next one joined to it, too? Then a search goes there at once.
-bool is_detour(const std::vector<HierarchyEnd>& ends, VertexId vertex, VertexId next) {
-  const HierarchyEnd* first = end_at(ends, vertex);
-  return first != nullptr && first->length == 0.0 && end_at(ends, next) != nullptr;
-}
-
-}  // namespace
 
 SearchResult route_by_hierarchy(const Hierarchy& hierarchy, std::span<const Edge> ends, std::span<const double> lengths,
                                 HierarchyScratch& scratch, const Execution& execution) {

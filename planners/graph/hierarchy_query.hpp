@@ -21,11 +21,10 @@
 
 namespace warren {
 
-// What one end of a question has reached of a hierarchy: a few thousand vertices of millions. They stand in a table of
-// their own, by a hash of their numbers, so that a question touches some hundred kilobytes that stay in the nearest
-// caches, and a thread needs no array as long as the roadmap.
-
-/// One end's distances, parents and queue. Vertices leave the queue by distance, then by number.
+/// What one end of a question has reached of a hierarchy: a few thousand vertices of millions. They stand in a table of
+/// their own, by a hash of their numbers, so that a question touches some hundred kilobytes that stay in the nearest
+/// caches, and a thread needs no array as long as the roadmap. One end's distances, parents and queue. Vertices leave
+/// the queue by distance, then by number.
 class HierarchyClimb {
  public:
   /// Before each question: forgets all. O(vertices that were reached).
@@ -118,8 +117,7 @@ class HierarchyQuery {
   std::vector<std::uint32_t> todo_;  // parts
 };
 
-// The route of a question by a hierarchy: start and goal are two vertices more, which no way passes between its ends.
-
+/// The route of a question by a hierarchy: start and goal are two vertices more, which no way passes between its ends.
 /// Start has the number vertex_count() of the hierarchy, goal the next one. `ends`: their edges, from a vertex of the
 /// roadmap to one of them, or from start to goal; `lengths`: of each. The length of what is found is left 0. Throws
 /// Stopped, and InputError as HierarchyQuery::path does.

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Why start and goal are apart: the sizes of their components and the nearest gap between them. One query a milestone
-// of the smaller component against an index over the larger: O(n).
+// What a planner answers where it has no path. Why start and goal are apart: the sizes of their components and the
+// nearest gap between them, one query a milestone of the smaller component against an index over the larger, O(n). Or
+// that it was stopped.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/base/solution.hpp"
@@ -70,14 +72,23 @@ Separation separation_of(const W& world, std::span<const typename W::State> stat
   return separation_between<embedding_dimension<W>>(points_of(start), points_of(goal), execution);
 }
 
-// What a planner answers when it was stopped: why, and no path.
-
-/// Counts and times stay as they are.
+/// What a planner answers when it was stopped: why, and no path. Counts and times stay as they are.
 template <class State>
 void mark_stopped(Solution<State>& solution, const Stopped& stopped) {
   solution.outcome = Outcome::stopped;
   solution.stop_reason = stopped.reason;
   solution.path.clear();
+}
+
+/// Runs a plan; where it is stopped its solution says so.
+template <class Plan, class... Ground>
+auto run_plan(Plan& plan, const Ground&... ground) {
+  try {
+    plan.run(ground...);
+  } catch (const Stopped& stopped) {
+    mark_stopped(plan.solution(), stopped);
+  }
+  return std::move(plan.solution());
 }
 
 }  // namespace warren

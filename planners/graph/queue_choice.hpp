@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The one place where a search's queue is chosen, once a search.
+// The one place where a search of a graph and its queue are chosen, once a search.
 #pragma once
 
 #include <cstddef>
 #include <variant>
 
+#include "core/search/search.hpp"
 #include "core/search/search_queues.hpp"
 #include "parallel/execution.hpp"
 #include "planners/graph/roadmap_options.hpp"
@@ -69,6 +70,30 @@ auto with_queue(QueueKind kind, std::size_t vertex_count, const Execution& execu
   };
   if (kind == QueueKind::heap) return call(IndexedHeap<4>());
   return call(ComparedQueue(kind, execution));
+}
+
+/// A* or Dijkstra, by the estimate, over vertex_count vertices, which the state is sized for. Whether it was stopped is
+/// in the result; sizing throws Stopped.
+template <class Neighbours, class Estimate>
+SearchResult search_best_first(QueueKind kind, std::size_t vertex_count, VertexId start, VertexId goal,
+                               const Neighbours& neighbours, const Estimate& estimate, SearchState& state,
+                               const Execution& execution) {
+  state.resize(vertex_count, [&] { execution.check(); });
+  return with_queue(kind, vertex_count, execution, [&](auto& queue) {
+    return best_first(start, goal, neighbours, estimate, queue, state, [&] { return execution.should_stop(); });
+  });
+}
+
+/// Breadth- or depth-first?
+inline bool is_blind(SearchKind search) { return search == SearchKind::bfs || search == SearchKind::dfs; }
+
+/// The blind search of this kind, as search_best_first.
+inline SearchResult search_blindly(SearchKind search, const Graph& graph, VertexId start, VertexId goal,
+                                   SearchState& state, const Execution& execution) {
+  state.resize(graph.vertex_count(), [&] { execution.check(); });
+  const auto should_stop = [&] { return execution.should_stop(); };
+  return search == SearchKind::bfs ? breadth_first(graph, start, goal, state, should_stop)
+                                   : depth_first(graph, start, goal, state, should_stop);
 }
 
 }  // namespace warren

@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <string>
-#include <utility>
 
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
@@ -37,11 +36,6 @@ Left left_of(std::span<const VertexId> row, const IsLeft& is_left) {
   return left;
 }
 
-Execution without_progress(Execution execution) {
-  execution.progress = nullptr;
-  return execution;
-}
-
 }  // namespace
 
 KeyCoverView::KeyCoverView(const Graph& graph, std::span<const VertexId> keep, Peeling peeling,
@@ -52,7 +46,7 @@ KeyCoverView::KeyCoverView(const Graph& graph, std::span<const VertexId> keep, P
   left_.resize(n);
   keys_.resize(chunk_count(n, 64));
   rank_.resize(chunk_count(n, 64) + 1);
-  const Execution quiet = without_progress(execution);
+  const Execution quiet = execution.quiet();
   for_chunks(n, detail::reduce_grain, quiet,
              [&](Range r) { std::fill(left_.data() + r.first, left_.data() + r.last, std::uint8_t{1}); });
   for (const VertexId v : keep) {
@@ -142,7 +136,7 @@ ReducedGraphView::ReducedGraphView(KeyCoverView cover, const std::vector<Part>& 
   std::vector<std::size_t> begins(parts.size() + 1, 0);
   for (std::size_t p = 0; p < parts.size(); ++p) begins[p + 1] = begins[p] + parts[p].chains.size();
   for (const Part& part : parts) cycles_ += part.cycles;
-  const Execution quiet = without_progress(execution);
+  const Execution quiet = execution.quiet();
   execution.reserve(begins.back() * (2 * sizeof(VertexId) + sizeof(double)));
   exclusive_scan(degrees, quiet);
   RawVector<VertexId> targets(begins.back());
@@ -186,7 +180,7 @@ void ReducedGraphView::expand_step(VertexId from, VertexId to, RawVector<VertexI
 RawVector<VertexId> ReducedGraphView::expand(std::span<const VertexId> keys, const Execution& execution) const {
   if (keys.empty()) return {};
   constexpr std::size_t keys_a_part = 1024;
-  const Execution quiet = without_progress(execution);
+  const Execution quiet = execution.quiet();
   std::vector<RawVector<VertexId>> parts(chunk_count(keys.size() - 1, keys_a_part));
   for_chunks(keys.size() - 1, keys_a_part, quiet, [&](Range r) {
     for (std::size_t i = r.first; i < r.last; ++i) {

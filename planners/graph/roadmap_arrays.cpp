@@ -6,10 +6,8 @@
 #include <cmath>
 #include <numeric>
 #include <string_view>
-#include <vector>
 
 #include "core/base/error.hpp"
-#include "core/base/raw_vector.hpp"
 #include "core/plane/se2.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/graph/components.hpp"

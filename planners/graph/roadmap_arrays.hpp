@@ -16,10 +16,9 @@
 #include "planners/graph/hierarchy.hpp"
 
 namespace warren {
-// A roadmap as plain arrays, whoever holds them: what planners leave behind, files hold and exports write. Start and
-// goal are no part of it.
 
-/// Refers to arrays that live elsewhere. Any number of threads may read.
+/// A roadmap as plain arrays, whoever holds them: what planners leave behind, files hold and exports write. Start and
+/// goal are no part of it. Refers to arrays that live elsewhere. Any number of threads may read.
 struct RoadmapParts {
   unsigned dimension = 2;  ///< numbers a state: 2 (x, y), 3 (x, y, heading in radians), 6 (joint angles in radians)
   bool directed = false;   ///< an edge leads from its row to its target alone; else each edge stands twice
@@ -58,27 +57,24 @@ struct BuildAccount {
   StageTimes seconds;  ///< wall-clock
 };
 
-// Holds the arrays of a roadmap against what roadmap_arrays.hpp promises, so that nobody who reads them afterwards can
-// look beyond an array or go round for ever, whoever made them: right checksums prove nothing about meaning.
-//
-// First the sizes, then every element in parallel, each rule in a pass of its own and each pass only over what the ones
-// before it have found sound. An edge's other end is found by a search in its row, from the lower vertex alone: where
-// each of these has its twin and both kinds are as many, all have one. Components are computed again from the free
-// edges by a lock-free union and compared. O(V + E log degree) time; memory: 4 bytes a vertex.
-
-/// Throws InputError, which names the array, the first element that breaks its rule and what it is, as part of `where`;
-/// Stopped. The same error for any number of threads.
+/// Holds the arrays of a roadmap against what RoadmapParts promises, so that nobody who reads them afterwards can look
+/// beyond an array or go round for ever, whoever made them: right checksums prove nothing about meaning.
+///
+/// First the sizes, then every element in parallel, each rule in a pass of its own and each pass only over what the
+/// ones before it have found sound. An edge's other end is found by a search in its row, from the lower vertex alone:
+/// where each of these has its twin and both kinds are as many, all have one. Components are computed again from the
+/// free edges by a lock-free union and compared. O(V + E log degree) time; memory: 4 bytes a vertex. Throws InputError,
+/// which names the array, the first element that breaks its rule and what it is, as part of `where`; Stopped. The same
+/// error for any number of threads.
 void check_parts(const RoadmapParts& parts, const std::string& where, const Execution& execution);
 
-// Which vertices of a roadmap are joined by edges that are known to be free, whatever their direction. O(E α(V)), on
-// all threads by a lock-free union; the same labels whatever the order of the unions.
-
-/// For each vertex the smallest one of its component. `parts` needs no components of its own. Throws Stopped.
+/// Which vertices of a roadmap are joined by edges that are known to be free, whatever their direction. O(E α(V)), on
+/// all threads by a lock-free union; the same labels whatever the order of the unions. For each vertex the smallest one
+/// of its component. `parts` needs no components of its own. Throws Stopped.
 RawVector<VertexId> free_components(const RoadmapParts& parts, const Execution& execution);
 
-// A roadmap as a planner leaves it behind, for pictures and second queries: milestones in tile order with start and
-// goal as the last two, the graph over them, and the search's tree.
-
+/// A roadmap as a planner leaves it behind, for pictures and second queries: milestones in tile order with start and
+/// goal as the last two, the graph over them, and the search's tree.
 template <class State>
 struct PlannedRoadmap {
   RawVector<State> states;         ///< milestones, then start, then goal

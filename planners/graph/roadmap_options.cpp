@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planners/graph/roadmap_options.hpp"
 
-#include <cmath>
 #include <string>
 
 #include "core/base/error.hpp"

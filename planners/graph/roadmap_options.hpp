@@ -17,13 +17,12 @@
 #include "spatial/points/neighbours.hpp"
 
 namespace warren {
-// What A* takes the way to the goal for, of points of the plane. Edges are as long as they are, so an estimate that may
-// be longer than the straight line loses the shortest path: by the Manhattan distance it may come out sqrt(2) times as
-// long, by the octile one 1.083 times. Such a search goes from the start alone and never looks at a settled vertex
-// again, as those do that are programmed so.
 
-/// Of dx and dy: euclidean: the straight line. manhattan: dx + dy. octile: along axes and diagonals. chebyshev: the
-/// larger. zero: nothing, which makes A* Dijkstra's search.
+/// What A* takes the way to the goal for, of points of the plane. Edges are as long as they are, so an estimate that
+/// may be longer than the straight line loses the shortest path: by the Manhattan distance it may come out sqrt(2)
+/// times as long, by the octile one 1.083 times. Such a search goes from the start alone and never looks at a settled
+/// vertex again, as those do that are programmed so. Of dx and dy: euclidean: the straight line. manhattan: dx + dy.
+/// octile: along axes and diagonals. chebyshev: the larger. zero: nothing, which makes A* Dijkstra's search.
 enum class HeuristicKind : std::uint8_t { euclidean, manhattan, octile, chebyshev, zero };
 constexpr auto enum_names(HeuristicKind) {
   return std::array<std::string_view, 5>{"euclidean", "manhattan", "octile", "chebyshev", "zero"};

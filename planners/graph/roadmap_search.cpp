@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planners/graph/roadmap_search.hpp"
 
-#include <array>
-#include <numeric>
-#include <optional>
 #include <span>
 #include <type_traits>
 
-#include "core/search/search.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/graph/both_ends.hpp"
 #include "planners/graph/queue_choice.hpp"
@@ -81,11 +77,7 @@ SearchResult search_best(const Graph& graph, VertexId start, VertexId goal, cons
     found = search_from_both_ends<GraphEdges>(asked.queue, n, {start, goal}, {neighbours, neighbours}, estimate_to,
                                               {&states[0], &states[1]}, execution);
   } else {
-    states[0].resize(n, [&] { execution.check(); });
-    found = with_queue(asked.queue, n, execution, [&](auto& queue) {
-      return best_first(start, goal, neighbours, estimate_to(goal), queue, states[0],
-                        [&] { return execution.should_stop(); });
-    });
+    found = search_best_first(asked.queue, n, start, goal, neighbours, estimate_to(goal), states[0], execution);
   }
   if (found.status == SearchStatus::stopped) execution.check();
   if (asked.tree != nullptr) *asked.tree = search_trees(states[0], states[1]);
@@ -125,14 +117,9 @@ SearchResult search_keys(const Reduced& reduced, const RoadmapSearch& asked) {
 
 /// Breadth or depth first.
 SearchResult search_blindly(const Graph& graph, const RoadmapSearch& asked) {
-  const Execution& execution = asked.execution;
-  const auto should_stop = [&] { return execution.should_stop(); };
   SearchState state;
-  state.resize(graph.vertex_count(), [&] { execution.check(); });
-  SearchResult found = asked.search == SearchKind::bfs
-                           ? breadth_first(graph, asked.start, asked.goal, state, should_stop)
-                           : depth_first(graph, asked.start, asked.goal, state, should_stop);
-  if (found.status == SearchStatus::stopped) execution.check();
+  SearchResult found = search_blindly(asked.search, graph, asked.start, asked.goal, state, asked.execution);
+  if (found.status == SearchStatus::stopped) asked.execution.check();
   if (asked.tree != nullptr) *asked.tree = search_tree(state);
   return found;
 }
@@ -146,8 +133,6 @@ struct EstimateTo {
 EstimateTo estimate_to(const ImplicitSearch& asked, VertexId to) {
   return {asked.estimate, asked.informed ? to : no_vertex};
 }
-
-bool is_blind(SearchKind search) { return search == SearchKind::bfs || search == SearchKind::dfs; }
 
 }  // namespace
 
@@ -170,15 +155,14 @@ std::vector<Edge> search_trees(const SearchState& forward, const SearchState& ba
 bool is_stringy(const Graph& graph, const Execution& execution) {
   constexpr std::size_t grain = std::size_t{1} << 16;
   const std::size_t n = graph.vertex_count();
-  std::vector<std::size_t> counts(chunk_count(n, grain), 0);
-  for_chunks(n, grain, execution, [&](Range r) {
+  const std::size_t few = sum_of_chunks(n, grain, execution, [&](Range r) {
     std::size_t count = 0;
     for (std::size_t v = r.first; v < r.last; ++v) {
       count += static_cast<std::size_t>(graph.neighbours(static_cast<VertexId>(v)).size() <= 2);
     }
-    counts[r.first / grain] = count;
+    return count;
   });
-  return 2 * std::accumulate(counts.begin(), counts.end(), std::size_t{0}) >= n;
+  return 2 * few >= n;
 }
 
 std::optional<TwiceReducedGraphView> reduced_for_search(const Graph& graph, const RoadmapSearch& asked) {
@@ -203,12 +187,8 @@ SearchResult search_roadmap(const TwiceReducedGraphView& reduced, const RoadmapS
 
 SearchResult search_implicit(const AnyNeighbours& neighbours, VertexId from, VertexId to, const ImplicitSearch& asked,
                              SearchState& state) {
-  const Execution& execution = asked.execution;
-  state.resize(asked.vertex_count, [&] { execution.check(); });
-  return with_queue(asked.queue, asked.vertex_count, execution, [&](auto& queue) {
-    return best_first(from, to, neighbours, estimate_to(asked, to), queue, state,
-                      [&] { return execution.should_stop(); });
-  });
+  return search_best_first(asked.queue, asked.vertex_count, from, to, neighbours, estimate_to(asked, to), state,
+                           asked.execution);
 }
 
 SearchResult search_implicit_from_both_ends(const std::array<AnyNeighbours, 2>& neighbours,

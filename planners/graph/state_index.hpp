@@ -4,7 +4,6 @@
 
 #include <concepts>
 #include <span>
-#include <tuple>
 
 #include "core/base/raw_vector.hpp"
 #include "core/base/world.hpp"

@@ -2,29 +2,25 @@
 #include "planners/grid/grid_search.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
 #include <optional>
-#include <vector>
 
-#include "core/base/bitmap.hpp"
 #include "core/base/error.hpp"
 #include "core/base/types.hpp"
 #include "core/search/search_queues.hpp"
-#include "parallel/execution.hpp"
 #include "spatial/maps/free_cells.hpp"
 
 namespace warren {
-// Jump point search (Harabor, Grastien 2011) for octile maps on which a diagonal step needs both cells beside it free:
-// the successors of a cell are the next cells where a shortest path may have to turn. Rows and columns are scanned 64
-// cells at a time (block-based scanning, Harabor, Grastien 2014), columns in a transposed copy of the map.
-//
-// With this rule only straight moves have forced neighbours: moving along +x, the cell beside is a turn where it is
-// free and the cell behind it is not; a diagonal move goes on until a straight scan from it finds a turn or the goal.
 
+/// Jump point search (Harabor, Grastien 2011) for octile maps on which a diagonal step needs both cells beside it free:
+/// the successors of a cell are the next cells where a shortest path may have to turn. Rows and columns are scanned 64
+/// cells at a time (block-based scanning, Harabor, Grastien 2014), columns in a transposed copy of the map.
+///
+/// With this rule only straight moves have forced neighbours: moving along +x, the cell beside is a turn where it is
+/// free and the cell behind it is not; a diagonal move goes on until a straight scan from it finds a turn or the goal.
 /// Refers to the cells, which must outlive it. Immutable; any number of threads may read.
 class JumpPoints {
  public:
@@ -115,6 +111,108 @@ constexpr unsigned step_of(int dx, int dy) {
   return static_cast<unsigned>(nine > 4 ? nine - 1 : nine);
 }
 
+double diagonal_cost(Diagonal diagonal) { return diagonal == Diagonal::unit ? 1.0 : std::numbers::sqrt2; }
+
+StepRule rule_of(Diagonal diagonal) { return diagonal == Diagonal::none ? StepRule::four : StepRule::eight; }
+
+/// Length of a shortest path without obstacles: consistent.
+class FreeDistance {
+ public:
+  FreeDistance(const FreeCells& cells, VertexId goal, Diagonal diagonal)
+      : cells_(cells), goal_(cells.cell(goal)), diagonal_(diagonal) {}
+  double operator()(VertexId v) const {
+    const Cell c = cells_.cell(v);
+    const double dx = std::abs(static_cast<double>(c.x) - goal_.x);
+    const double dy = std::abs(static_cast<double>(c.y) - goal_.y);
+    if (diagonal_ == Diagonal::none) return dx + dy;
+    if (diagonal_ == Diagonal::unit) return std::max(dx, dy);
+    return std::max(dx, dy) + (std::numbers::sqrt2 - 1.0) * std::min(dx, dy);
+  }
+
+ private:
+  const FreeCells& cells_;
+  Cell goal_;
+  Diagonal diagonal_;
+};
+
+/// The steps of a cell, as a search asks for them.
+class Steps {
+ public:
+  Steps(const FreeCells& cells, Diagonal diagonal) : Steps(cells, diagonal, rule_of(diagonal)) {}
+  Steps(const FreeCells& cells, Diagonal diagonal, StepRule rule) : cells_(cells), allowed_(allowed_steps(rule)) {
+    const auto stride = static_cast<std::int64_t>(cells.stride());
+    for (unsigned s = 0; s < cell_steps.size(); ++s) {
+      offsets_[s] = static_cast<VertexId>(cell_steps[s][1] * stride + cell_steps[s][0]);  // wraps around for steps back
+      costs_[s] = is_diagonal(s) ? diagonal_cost(diagonal) : 1.0;
+    }
+  }
+  template <class Visit>
+  void operator()(VertexId v, const Visit& visit) const {
+    for (unsigned rest = allowed_[cells_.around(v)]; rest != 0; rest &= rest - 1) {
+      const auto s = static_cast<unsigned>(std::countr_zero(rest));
+      visit(v + offsets_[s], costs_[s]);
+    }
+  }
+  VertexId offset(unsigned step) const { return offsets_[step]; }
+  unsigned allowed(VertexId v) const { return allowed_[cells_.around(v)]; }
+
+ private:
+  const FreeCells& cells_;
+  const std::array<std::uint8_t, 512>& allowed_;
+  std::array<VertexId, 8> offsets_{};
+  std::array<double, 8> costs_{};
+};
+
+/// How each cell was first reached: a step and one, 0 where it was not. A byte a cell, and no graph is made for core's
+/// breadth_first.
+class BreadthFirst {
+ public:
+  BreadthFirst(const FreeCells& cells, const Steps& steps, const Execution& execution)
+      : steps_(steps), execution_(execution) {
+    execution.reserve(cells.number_end());
+    assign_polled(arrived_by_, cells.number_end(), std::uint8_t{0}, [&] { execution.check(); });
+  }
+
+  SearchResult find(VertexId start, VertexId goal) {
+    SearchResult result;
+    std::vector<VertexId> level{start};
+    std::vector<VertexId> next;
+    arrived_by_[start] = origin;
+    while (!level.empty() && arrived_by_[goal] == 0) {
+      if (execution_.should_stop()) {
+        result.status = SearchStatus::stopped;
+        return result;
+      }
+      next.clear();
+      for (const VertexId v : level) expand(v, next);
+      result.expanded += level.size();
+      level.swap(next);
+    }
+    if (arrived_by_[goal] == 0) return result;
+    result.status = SearchStatus::found;
+    for (VertexId v = goal; v != start; v -= steps_.offset(arrived_by_[v] - 1U)) result.path.push_back(v);
+    result.path.push_back(start);
+    std::reverse(result.path.begin(), result.path.end());
+    return result;
+  }
+
+ private:
+  static constexpr std::uint8_t origin = 9;
+  void expand(VertexId v, std::vector<VertexId>& next) {
+    for (unsigned rest = steps_.allowed(v); rest != 0; rest &= rest - 1) {
+      const auto s = static_cast<unsigned>(std::countr_zero(rest));
+      const VertexId w = v + steps_.offset(s);
+      if (arrived_by_[w] != 0) continue;
+      arrived_by_[w] = static_cast<std::uint8_t>(s + 1);
+      next.push_back(w);
+    }
+  }
+
+  const Steps& steps_;
+  const Execution& execution_;
+  RawVector<std::uint8_t> arrived_by_;
+};
+
 }  // namespace
 
 JumpPoints::JumpPoints(const FreeCells& cells, const Execution& execution)
@@ -184,111 +282,6 @@ RawVector<VertexId> JumpPoints::with_steps(std::span<const VertexId> jump_points
   }
   return path;
 }
-
-namespace {
-
-double diagonal_cost(Diagonal diagonal) { return diagonal == Diagonal::unit ? 1.0 : std::numbers::sqrt2; }
-
-StepRule rule_of(Diagonal diagonal) { return diagonal == Diagonal::none ? StepRule::four : StepRule::eight; }
-
-/// Length of a shortest path without obstacles: consistent.
-class FreeDistance {
- public:
-  FreeDistance(const FreeCells& cells, VertexId goal, Diagonal diagonal)
-      : cells_(cells), goal_(cells.cell(goal)), diagonal_(diagonal) {}
-  double operator()(VertexId v) const {
-    const Cell c = cells_.cell(v);
-    const double dx = std::abs(static_cast<double>(c.x) - goal_.x);
-    const double dy = std::abs(static_cast<double>(c.y) - goal_.y);
-    if (diagonal_ == Diagonal::none) return dx + dy;
-    if (diagonal_ == Diagonal::unit) return std::max(dx, dy);
-    return std::max(dx, dy) + (std::numbers::sqrt2 - 1.0) * std::min(dx, dy);
-  }
-
- private:
-  const FreeCells& cells_;
-  Cell goal_;
-  Diagonal diagonal_;
-};
-
-/// The steps of a cell, as a search asks for them.
-class Steps {
- public:
-  Steps(const FreeCells& cells, Diagonal diagonal) : Steps(cells, diagonal, rule_of(diagonal)) {}
-  Steps(const FreeCells& cells, Diagonal diagonal, StepRule rule) : cells_(cells), allowed_(allowed_steps(rule)) {
-    const auto stride = static_cast<std::int64_t>(cells.stride());
-    for (unsigned s = 0; s < cell_steps.size(); ++s) {
-      offsets_[s] = static_cast<VertexId>(cell_steps[s][1] * stride + cell_steps[s][0]);  // wraps around for steps back
-      costs_[s] = is_diagonal(s) ? diagonal_cost(diagonal) : 1.0;
-    }
-  }
-  template <class Visit>
-  void operator()(VertexId v, const Visit& visit) const {
-    for (unsigned rest = allowed_[cells_.around(v)]; rest != 0; rest &= rest - 1) {
-      const auto s = static_cast<unsigned>(std::countr_zero(rest));
-      visit(v + offsets_[s], costs_[s]);
-    }
-  }
-  VertexId offset(unsigned step) const { return offsets_[step]; }
-  unsigned allowed(VertexId v) const { return allowed_[cells_.around(v)]; }
-
- private:
-  const FreeCells& cells_;
-  const std::array<std::uint8_t, 512>& allowed_;
-  std::array<VertexId, 8> offsets_{};
-  std::array<double, 8> costs_{};
-};
-
-/// How each cell was first reached: a step and one, 0 where it was not.
-class BreadthFirst {
- public:
-  BreadthFirst(const FreeCells& cells, const Steps& steps, const Execution& execution)
-      : steps_(steps), execution_(execution) {
-    execution.reserve(cells.number_end());
-    assign_polled(arrived_by_, cells.number_end(), std::uint8_t{0}, [&] { execution.check(); });
-  }
-
-  SearchResult find(VertexId start, VertexId goal) {
-    SearchResult result;
-    std::vector<VertexId> level{start};
-    std::vector<VertexId> next;
-    arrived_by_[start] = origin;
-    while (!level.empty() && arrived_by_[goal] == 0) {
-      if (execution_.should_stop()) {
-        result.status = SearchStatus::stopped;
-        return result;
-      }
-      next.clear();
-      for (const VertexId v : level) expand(v, next);
-      result.expanded += level.size();
-      level.swap(next);
-    }
-    if (arrived_by_[goal] == 0) return result;
-    result.status = SearchStatus::found;
-    for (VertexId v = goal; v != start; v -= steps_.offset(arrived_by_[v] - 1U)) result.path.push_back(v);
-    result.path.push_back(start);
-    std::reverse(result.path.begin(), result.path.end());
-    return result;
-  }
-
- private:
-  static constexpr std::uint8_t origin = 9;
-  void expand(VertexId v, std::vector<VertexId>& next) {
-    for (unsigned rest = steps_.allowed(v); rest != 0; rest &= rest - 1) {
-      const auto s = static_cast<unsigned>(std::countr_zero(rest));
-      const VertexId w = v + steps_.offset(s);
-      if (arrived_by_[w] != 0) continue;
-      arrived_by_[w] = static_cast<std::uint8_t>(s + 1);
-      next.push_back(w);
-    }
-  }
-
-  const Steps& steps_;
-  const Execution& execution_;
-  RawVector<std::uint8_t> arrived_by_;
-};
-
-}  // namespace
 
 bool has_diagonal_steps(const Bitmap& blocked) {
   const FreeCells cells(blocked);

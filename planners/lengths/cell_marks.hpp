@@ -8,20 +8,17 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/base/raw_vector.hpp"
-#include "parallel/execution.hpp"
 #include "planners/lengths/array_or_view.hpp"
 #include "planners/lengths/lattice_passages.hpp"
 
 namespace warren {
-// Where a cell lies in the index: cells are numbered tile by tile, 64 x 64 cells a tile, row by row in it, so that what
-// is near in the plane is near in memory. A place is tile * 4096 + row in the tile * 64 + column in the tile; the
-// lattice is filled up to whole tiles with cells that have no passages.
 
 using LatticePlace = std::uint32_t;
-inline constexpr LatticePlace no_place = ~LatticePlace{0};
 
-/// Directions are 0 right, 1 up, 2 left, 3 down; the opposite of d is d ^ 2.
+/// Where a cell lies in the index: cells are numbered tile by tile, 64 x 64 cells a tile, row by row in it, so that
+/// what is near in the plane is near in memory. A place is tile * 4096 + row in the tile * 64 + column in the tile; the
+/// lattice is filled up to whole tiles with cells that have no passages. Directions are 0 right, 1 up, 2 left, 3 down;
+/// the opposite of d is d ^ 2.
 class LatticePlaces {
  public:
   static constexpr unsigned side = 64;
@@ -114,14 +111,8 @@ class CellMarks {
   const std::uint64_t* words_;
 };
 
-/// The words for peeled bytes (planners/lengths/core_graph.hpp), after reduce_core(). Throws Stopped.
-RawVector<std::uint64_t> mark_words(const RawVector<std::uint8_t>& peeled, const LatticePlaces& places,
-                                    const Execution& execution);
-
-// A climb towards the core, step by step, within one tile. A step waits for the marks that the one before it led to,
-// some fifteen cycles, and for nothing else: no branch depends on where the way turns.
-
-/// Looks at the marks of one tile.
+/// A climb towards the core, step by step, within one tile. A step waits for the marks that the one before it led to,
+/// some fifteen cycles, and for nothing else: no branch depends on where the way turns. Looks at the marks of one tile.
 class TileClimb {
  public:
   TileClimb(CellMarks marks, LatticePlace from)

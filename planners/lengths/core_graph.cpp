@@ -28,9 +28,9 @@ struct TileSquare {
   std::uint32_t first_col, first_row, end_col, end_row;
 };
 
-class Peeling {
+class TreePeeling {
  public:
-  Peeling(const LatticePassages& passages, const LatticePlaces& places, const Execution& execution)
+  TreePeeling(const LatticePassages& passages, const LatticePlaces& places, const Execution& execution)
       : passages_(passages), places_(places), execution_(execution) {
     execution.reserve(places.place_count());
     bytes_.resize(places.place_count());
@@ -66,14 +66,14 @@ class Peeling {
   RawVector<std::uint8_t> bytes_;
 };
 
-void Peeling::load(std::uint32_t tile) {
+void TreePeeling::load(std::uint32_t tile) {
   std::uint8_t* at = bytes_.data() + std::size_t{tile} * LatticePlaces::tile_places;
   const std::uint32_t col = tile % places_.tile_cols() * LatticePlaces::side;
   const std::uint32_t row = tile / places_.tile_cols() * LatticePlaces::side;
   for (std::uint32_t i = 0; i < LatticePlaces::side; ++i) load_row(at + i * LatticePlaces::side, col, row + i);
 }
 
-void Peeling::load_row(std::uint8_t* at, std::uint32_t col, std::uint32_t row) const {
+void TreePeeling::load_row(std::uint8_t* at, std::uint32_t col, std::uint32_t row) const {
   std::memset(at, 0, LatticePlaces::side);  // what fills up the lattice is no tree
   if (row >= places_.size().rows) return;
   const std::array<std::uint64_t, 4> open = passages_.open_words(col, row);
@@ -88,7 +88,7 @@ void Peeling::load_row(std::uint8_t* at, std::uint32_t col, std::uint32_t row) c
 }
 
 /// Dead ends of a tile whose way goes on in it.
-void Peeling::peel_tile(LatticePlace first) {
+void TreePeeling::peel_tile(LatticePlace first) {
   std::uint8_t* const tile = bytes_.data() + first;
   for (LatticePlace start = 0; start < LatticePlaces::tile_places; ++start) {
     LatticePlace at = start;
@@ -103,7 +103,7 @@ void Peeling::peel_tile(LatticePlace first) {
 }
 
 /// Squares of side x side tiles: the dead ends at the borders of the smaller squares in them.
-void Peeling::peel_squares(std::uint32_t side) {
+void TreePeeling::peel_squares(std::uint32_t side) {
   const std::uint32_t cols = (places_.tile_cols() - 1) / side + 1;
   const std::uint32_t rows = (places_.tile_rows() - 1) / side + 1;
   const std::uint32_t inner = side / growth;
@@ -125,7 +125,7 @@ void Peeling::peel_squares(std::uint32_t side) {
   });
 }
 
-void Peeling::peel_border(std::uint32_t tile, unsigned direction, const TileSquare& square) {
+void TreePeeling::peel_border(std::uint32_t tile, unsigned direction, const TileSquare& square) {
   const unsigned last = LatticePlaces::side - 1;
   const std::array<LatticePlace, 4> corner{last, last * LatticePlaces::side, 0, 0};
   const LatticePlace along = (direction & 1U) == 0 ? LatticePlaces::side : 1;
@@ -135,7 +135,7 @@ void Peeling::peel_border(std::uint32_t tile, unsigned direction, const TileSqua
   }
 }
 
-bool Peeling::leaves(std::uint32_t tile, unsigned direction, const TileSquare& square) const {
+bool TreePeeling::leaves(std::uint32_t tile, unsigned direction, const TileSquare& square) const {
   const std::uint32_t col = tile % places_.tile_cols();
   const std::uint32_t row = tile / places_.tile_cols();
   switch (direction) {
@@ -150,7 +150,7 @@ bool Peeling::leaves(std::uint32_t tile, unsigned direction, const TileSquare& s
   }
 }
 
-void Peeling::follow(LatticePlace at, const TileSquare& square) {
+void TreePeeling::follow(LatticePlace at, const TileSquare& square) {
   constexpr unsigned borders_a_poll = 1024;
   unsigned borders = 0;
   for (unsigned open = bytes_[at]; std::has_single_bit(open) && open <= peel_bit::edges; open = bytes_[at]) {
@@ -165,16 +165,8 @@ void Peeling::follow(LatticePlace at, const TileSquare& square) {
   }
 }
 
-}  // namespace
-
-RawVector<std::uint8_t> peel(const LatticePassages& passages, const LatticePlaces& places, const Execution& execution) {
-  return Peeling(passages, places, execution).run();
-}
-
-namespace {
-
 /// Junctions are found row by row of the tiles, 64 cells each.
-constexpr std::size_t row_grain = 1024;
+constexpr std::size_t core_row_grain = 1024;
 constexpr std::size_t junction_grain = 4096;
 
 /// Bit e: of nibbles of edges e, have they `least` edges or more? Processors without an instruction to count bits call
@@ -228,14 +220,14 @@ void CoreWalk::find_junctions() {
   execution_.reserve(rows * 12);
   bits_.resize(rows);
   first_.resize(rows);
-  std::vector<std::uint64_t> cells(chunk_count(rows, row_grain));
-  for_chunks(rows, row_grain, execution_, [&](Range r) {
+  std::vector<std::uint64_t> cells(chunk_count(rows, core_row_grain));
+  for_chunks(rows, core_row_grain, execution_, [&](Range r) {
     for (std::size_t row = r.first; row < r.last; ++row) {
       std::uint64_t bits = 0;
       for (std::size_t i = 0; i < 64; ++i) {
         const std::size_t p = row * 64 + i;
         bits |= std::uint64_t{is_junction(static_cast<LatticePlace>(p), peeled_[p])} << i;
-        cells[r.first / row_grain] += (peeled_[p] & peel_bit::edges) != 0 ? 1U : 0U;
+        cells[r.first / core_row_grain] += (peeled_[p] & peel_bit::edges) != 0 ? 1U : 0U;
       }
       bits_[row] = bits;
       first_[row] = static_cast<std::uint32_t>(std::popcount(bits));
@@ -253,7 +245,7 @@ void CoreWalk::find_junctions() {
 }
 
 void CoreWalk::walk_chains() {
-  for_chunks(bits_.size(), row_grain, execution_, [&](Range r) {
+  for_chunks(bits_.size(), core_row_grain, execution_, [&](Range r) {
     for (std::size_t row = r.first; row < r.last; ++row) {
       JunctionId v = first_[row];
       for (std::uint64_t left = bits_[row]; left != 0; left &= left - 1, ++v) {
@@ -316,14 +308,6 @@ void CoreWalk::drop_useless() {
     }
   });
 }
-
-}  // namespace
-
-CoreGraph core_graph(const RawVector<std::uint8_t>& peeled, const LatticePlaces& places, const Execution& execution) {
-  return CoreWalk(peeled, places, execution).run();
-}
-
-namespace {
 
 class CoreReduction {
  public:
@@ -450,9 +434,43 @@ void CoreReduction::mark_chains(JunctionId v) {
 
 }  // namespace
 
+RawVector<std::uint8_t> peel(const LatticePassages& passages, const LatticePlaces& places, const Execution& execution) {
+  return TreePeeling(passages, places, execution).run();
+}
+
+CoreGraph core_graph(const RawVector<std::uint8_t>& peeled, const LatticePlaces& places, const Execution& execution) {
+  return CoreWalk(peeled, places, execution).run();
+}
+
 void reduce_core(CoreGraph& graph, const LatticePlaces& places, RawVector<std::uint8_t>& peeled,
                  const Execution& execution) {
   CoreReduction(graph, places, peeled, execution).run();
+}
+
+RawVector<std::uint64_t> mark_words(const RawVector<std::uint8_t>& peeled, const LatticePlaces& places,
+                                    const Execution& execution) {
+  const std::size_t rows = places.place_count() / 64;
+  execution.reserve(rows * mark_word::count * sizeof(std::uint64_t));
+  RawVector<std::uint64_t> words(rows * mark_word::count);
+  constexpr std::size_t grain = 1024;
+  for_chunks(rows, grain, execution, [&](Range r) {
+    for (std::size_t row = r.first; row < r.last; ++row) {
+      const std::uint8_t* const bytes = peeled.data() + row * 64;
+      std::uint64_t low = 0;
+      std::uint64_t high = 0;
+      std::uint64_t off = 0;
+      for (unsigned i = 0; i < 64; ++i) {
+        low |= std::uint64_t{bytes[i] >> 4 & 1U} << i;
+        high |= std::uint64_t{bytes[i] >> 5 & 1U} << i;
+        off |= std::uint64_t{bytes[i] >> 6 & 1U} << i;
+      }
+      std::uint64_t* const out = words.data() + row * mark_word::count;
+      out[mark_word::low] = low;
+      out[mark_word::high] = high;
+      out[mark_word::core] = ~off;
+    }
+  });
+  return words;
 }
 
 }  // namespace warren

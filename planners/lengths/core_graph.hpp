@@ -5,7 +5,9 @@
 // junction j is half-edge 4 j + d, and `twin` is the half-edge at the other end of its chain: chains and the order of
 // slots around a junction are all that cutting the plane needs. A chain back to its own junction, and the longer one of
 // two between the same junctions, is on no shortest path between junctions and is left out.
-// Cost: each chain is walked from both ends, O(core cells); 32 bytes a junction.
+// What planners/graph/reduce_graph.hpp makes of a graph lacks the two things that lengths need: which way each cell of
+// a tree was taken off, and the order of slots. Cost: each chain is walked from both ends, O(core cells); 32 bytes a
+// junction.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +17,26 @@
 #include "planners/lengths/cell_marks.hpp"
 
 namespace warren {
+
+/// A cell's byte: bits 0 to 3 its core edges; `peeled` if it is no cell of the core, with its direction in bits 4
+/// and 5, which are 0 in the core.
+namespace peel_bit {
+inline constexpr std::uint8_t edges = 15;
+inline constexpr unsigned direction_shift = 4;
+inline constexpr std::uint8_t peeled = 64;
+}  // namespace peel_bit
+
+/// What of a lattice roadmap is tree, and which way its root is. A dead end is taken off with its only edge and points
+/// along it; what becomes a dead end by that follows, until none is left. What remains is the 2-core, where every cell
+/// has two core edges or more, and one cell of each component that is a tree: its root. So each cell that is taken off
+/// points towards the core, or to the root of its tree.
+///
+/// Each tile of 64 x 64 cells is peeled by itself, following each dead end inwards; then squares of 8 x 8 tiles,
+/// squares of 8 x 8 of these, and so on: each takes up the dead ends that point over the borders inside it. Squares of
+/// a size share nothing, and which cell becomes a tree's root follows from the order in a square, so the bytes are the
+/// same for any thread count. Cost: one byte a cell, O(cells) time; few cells are left for the large squares. A byte a
+/// place. Throws Stopped.
+RawVector<std::uint8_t> peel(const LatticePassages& passages, const LatticePlaces& places, const Execution& execution);
 
 using JunctionId = std::uint32_t;
 using HalfEdge = std::uint32_t;
@@ -39,43 +61,26 @@ inline std::uint8_t slots_of(const CoreGraph& graph, JunctionId v) {
 /// Is the place on the grid of posts, every 16th column in every 16th row?
 constexpr bool is_post(LatticePlace p) { return (p & (15U | 15U * LatticePlaces::side)) == 0; }
 
-/// peeled: planners/lengths/core_graph.hpp. Throws Stopped, and InputError where there are 2^30 junctions or more.
+/// peeled: what peel() gave. Throws Stopped, and InputError where there are 2^30 junctions or more.
 CoreGraph core_graph(const RawVector<std::uint8_t>& peeled, const LatticePlaces& places, const Execution& execution);
 
-// What of a lattice roadmap is tree, and which way its root is. A dead end is taken off with its only edge and points
-// along it; what becomes a dead end by that follows, until none is left. What remains is the 2-core, where every cell
-// has two core edges or more, and one cell of each component that is a tree: its root. So each cell that is taken off
-// points towards the core, or to the root of its tree.
-//
-// Each tile of 64 x 64 cells is peeled by itself, following each dead end inwards; then squares of 8 x 8 tiles, squares
-// of 8 x 8 of these, and so on: each takes up the dead ends that point over the borders inside it. Squares of a size
-// share nothing, and which cell becomes a tree's root follows from the order in a square, so the bytes are the same
-// for any thread count. Cost: one byte a cell, O(cells) time; few cells are left for the large squares.
-
-/// A cell's byte: bits 0 to 3 its core edges; `peeled` if it is no cell of the core, with its direction in bits 4
-/// and 5, which are 0 in the core.
-namespace peel_bit {
-inline constexpr std::uint8_t edges = 15;
-inline constexpr unsigned direction_shift = 4;
-inline constexpr std::uint8_t peeled = 64;
-}  // namespace peel_bit
-
-/// A byte a place. Throws Stopped.
-RawVector<std::uint8_t> peel(const LatticePassages& passages, const LatticePlaces& places, const Execution& execution);
-
-// Junctions without choice leave the core's map: where the longer one of two parallel chains, or a chain back to its
-// own junction, has been left out, a junction may have two chains left, which become one, or one, which goes with it;
-// that again may make chains parallel. Lengths between junctions that stay are the same. Cells of what left are not
-// lost: a search from them walks the lattice's own cells to the junctions that stay. The cells of the chains that stay
-// are told where these go on, so that whoever follows one meets a choice at junctions that stay and nowhere else.
-// Junctions on the grid of posts (core_graph.hpp) stay, so that these searches remain short. In mazes with 1 % loops
-// more than half of the junctions leave, with 10 % a fifth; cuts get shorter by as much.
-// Cost: serial, some tens of ns a junction.
-
+/// Junctions without choice leave the core's map: where the longer one of two parallel chains, or a chain back to its
+/// own junction, has been left out, a junction may have two chains left, which become one, or one, which goes with it;
+/// that again may make chains parallel. Lengths between junctions that stay are the same. Cells of what left are not
+/// lost: a search from them walks the lattice's own cells to the junctions that stay. The cells of the chains that stay
+/// are told where these go on, so that whoever follows one meets a choice at junctions that stay and nowhere else.
+/// Junctions on the grid of posts stay, so that these searches remain short. In mazes with 1 % loops
+/// more than half of the junctions leave, with 10 % a fifth; cuts get shorter by as much.
+/// Cost: serial, some tens of ns a junction.
+///
 /// peeled: as core_graph() took it. Junctions that become part of a chain have its two core edges left there, and each
 /// cell on a chain that stays gets its peel_bit::direction bits: does the chain go on to the right, and upwards; a
 /// junction has those of all its chains. Throws Stopped; the graph is then of no more use.
 void reduce_core(CoreGraph& graph, const LatticePlaces& places, RawVector<std::uint8_t>& peeled,
                  const Execution& execution);
+
+/// The words for peeled bytes, after reduce_core(). Throws Stopped.
+RawVector<std::uint64_t> mark_words(const RawVector<std::uint8_t>& peeled, const LatticePlaces& places,
+                                    const Execution& execution);
 
 }  // namespace warren

@@ -5,30 +5,16 @@
 #include <array>
 #include <bit>
 #include <cassert>
-#include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "core/base/page_pool.hpp"
-#include "core/base/raw_vector.hpp"
 #include "parallel/chunks.hpp"
-#include "planners/lengths/core_graph.hpp"
 
 namespace warren {
-// A part of the core's planar map by itself: junctions numbered from 0, slots around them in the order of the plane,
-// and how a balanced set of them that cuts it in two is found.
-//
-// Between the chains lie faces; a closed curve through faces that crosses k chains cuts the map with k junctions or
-// fewer. Shortest curves are shortest paths in the dual graph, whose vertices are the faces (Reif 1983): a
-// breadth-first search from the longest face, which is where the region was cut from the rest, or the outside, gives
-// each face its least number of chains to cross. The chains that are no edges of that search tree are a spanning tree
-// of the junctions; each of them, put into the search tree, closes one curve through the first face, and what the curve
-// holds is the subtree below the chain (Lipton and Tarjan 1979; the tree and its cotree). So one sum over the spanning
-// tree gives the length and the balance of every such curve, and the best one is taken: O(junctions) in all. Corridors
-// of mazes make these curves far shorter than straight lines. As junctions have at most four chains, some curve has a
-// quarter of the junctions inside.
+namespace {
 
-/// A connected part of the map.
+/// A connected part of the map: junctions numbered from 0, slots around them in the order of the plane.
 struct PlanarRegion {
   RawVector<JunctionId> junction;  ///< of the whole map
   RawVector<HalfEdge> twin;        ///< four slots each, within the region; any number where a slot is empty
@@ -40,7 +26,16 @@ struct PlanarRegion {
 /// Which side of a cut a junction is on.
 enum class CutSide : std::uint8_t { inside, outside, cut };
 
-/// Scratch of one thread; regions one after the other.
+/// How a balanced set of junctions that cuts a region in two is found. Between the chains lie faces; a closed curve
+/// through faces that crosses k chains cuts the map with k junctions or fewer. Shortest curves are shortest paths in
+/// the dual graph, whose vertices are the faces (Reif 1983): a breadth-first search from the longest face, which is
+/// where the region was cut from the rest, or the outside, gives each face its least number of chains to cross. The
+/// chains that are no edges of that search tree are a spanning tree of the junctions; each of them, put into the search
+/// tree, closes one curve through the first face, and what the curve holds is the subtree below the chain (Lipton and
+/// Tarjan 1979; the tree and its cotree). So one sum over the spanning tree gives the length and the balance of every
+/// such curve, and the best one is taken: O(junctions) in all. Corridors of mazes make these curves far shorter than
+/// straight lines. As junctions have at most four chains, some curve has a quarter of the junctions inside. Scratch of
+/// one thread; regions one after the other.
 class RegionCut {
  public:
   explicit RegionCut(const Execution& execution) : execution_(execution) {}
@@ -79,8 +74,6 @@ class RegionCut {
   RawVector<CutSide> side_;
 };
 
-namespace {
-
 /// [slots][slot]: the first slot that isn't empty before `slot`, going round to the right; `slot` itself comes last.
 constexpr std::array<std::array<std::uint8_t, 4>, 16> slot_before = [] {
   std::array<std::array<std::uint8_t, 4>, 16> table{};
@@ -93,8 +86,6 @@ constexpr std::array<std::array<std::uint8_t, 4>, 16> slot_before = [] {
   }
   return table;
 }();
-
-}  // namespace
 
 /// The next half-edge along the face on the left, from the one that leads back.
 HalfEdge RegionCut::next_around(HalfEdge back) const {
@@ -248,8 +239,6 @@ void RegionCut::cover_crossed() {
   const std::vector<JunctionId> outside = ends_on(CutSide::outside);
   for (const JunctionId v : inside.size() <= outside.size() ? inside : outside) side_[v] = CutSide::cut;
 }
-
-namespace {
 
 /// A region of the upper levels, and what became of it.
 struct LargeRegion {

@@ -2,7 +2,6 @@
 #include "planners/lengths/lattice_passages.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <string>
 #include <tuple>

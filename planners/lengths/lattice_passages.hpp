@@ -83,11 +83,6 @@ class LatticePassages {
   ArrayOrView<std::uint64_t> up_;
 };
 
-// The passages of the lattice roadmap among walls: bit for bit the edges that the tiled planner and the plain one with
-// the lattice sampler use. The tiles of planners/mazes make them: walls are filed by tile, each tile's plane of bytes
-// loses what they block, and its bytes are packed to bits. Cost: that of the tiled planner's first two stages, about 5
-// ns of CPU a cell in a maze, and 8 bytes a wall for the time of it.
-
 /// A world of walls and the lattice in it: point (col, row), both from 0, stands at (col + 1, row + 1). Refers to the
 /// walls.
 struct WalledLattice {
@@ -98,7 +93,11 @@ struct WalledLattice {
   LatticeSize lattice;
 };
 
-/// Throws Stopped, and InputError for a clearance or a lattice out of range.
+/// The passages of the lattice roadmap among walls: bit for bit the edges that the tiled planner and the plain one with
+/// the lattice sampler use. The tiles of planners/mazes make them: walls are filed by tile, each tile's plane of bytes
+/// loses what they block, and its bytes are packed to bits. Cost: that of the tiled planner's first two stages, about 5
+/// ns of CPU a cell in a maze, and 8 bytes a wall for the time of it. Throws Stopped, and InputError for a clearance or
+/// a lattice out of range.
 LatticePassages wall_passages(const WalledLattice& world, const Execution& execution);
 
 }  // namespace warren

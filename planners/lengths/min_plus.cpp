@@ -45,6 +45,12 @@ namespace {
                                              std::size_t count) {
   lessen(least, rest, first, count);
 }
+bool has_avx2() { return __builtin_cpu_supports("avx2") != 0; }
+#else
+constexpr auto lessen_row_by_avx2 = lessen_row_by_plain;
+constexpr auto lessen_row_short_avx2 = lessen_row_short_plain;
+constexpr auto lessen_row_avx2 = lessen_row_plain;
+constexpr bool has_avx2() { return false; }
 #endif
 
 }  // namespace
@@ -62,32 +68,8 @@ void lessen_row_by_plain(std::uint32_t* least, std::uint32_t* by, const std::uin
   lessen_by(least, by, rest, first, gate, count);
 }
 
-LessenRowBy lessen_row_by() {
-#if defined(__x86_64__) && !defined(WARREN_PLAIN)
-  static const LessenRowBy fastest = __builtin_cpu_supports("avx2") != 0 ? lessen_row_by_avx2 : lessen_row_by_plain;
-  return fastest;
-#else
-  return lessen_row_by_plain;
-#endif
-}
-
-LessenRowShort lessen_row_short() {
-#if defined(__x86_64__) && !defined(WARREN_PLAIN)
-  static const LessenRowShort fastest =
-      __builtin_cpu_supports("avx2") != 0 ? lessen_row_short_avx2 : lessen_row_short_plain;
-  return fastest;
-#else
-  return lessen_row_short_plain;
-#endif
-}
-
-LessenRow lessen_row() {
-#if defined(__x86_64__) && !defined(WARREN_PLAIN)
-  static const LessenRow fastest = __builtin_cpu_supports("avx2") != 0 ? lessen_row_avx2 : lessen_row_plain;
-  return fastest;
-#else
-  return lessen_row_plain;
-#endif
-}
+LessenRowBy lessen_row_by() { return has_avx2() ? lessen_row_by_avx2 : lessen_row_by_plain; }
+LessenRowShort lessen_row_short() { return has_avx2() ? lessen_row_short_avx2 : lessen_row_short_plain; }
+LessenRow lessen_row() { return has_avx2() ? lessen_row_avx2 : lessen_row_plain; }
 
 }  // namespace warren

@@ -7,7 +7,6 @@
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/sort.hpp"
-#include "planners/lengths/cell_marks.hpp"
 
 namespace warren {
 namespace {

@@ -125,9 +125,8 @@ class RouteIndex {
   mutable LastingMarks sound_{0};  // fronts that have been checked
 };
 
-// A route index as named arrays of bytes, for whoever writes files, and back: the arrays of a mapped file are looked at
-// where they are. Numbers lie in the machine's own order; elements have the widths that route_index.hpp says.
-
+/// A route index as named arrays of bytes, for whoever writes files, and back: the arrays of a mapped file are looked
+/// at where they are. Numbers lie in the machine's own order; elements have the widths of RouteArrays.
 struct RouteSection {
   std::string_view name;      ///< a literal, at most 15 letters
   std::size_t element_bytes;  ///< of one element; for structs, their size

@@ -2,10 +2,13 @@
 #include "planners/lengths/route_query.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <string>
-#include <vector>
 
 #include "core/base/error.hpp"
+#include "parallel/chunks.hpp"
+#include "planners/lengths/mark_walk.hpp"
 
 namespace warren {
 namespace {
@@ -14,7 +17,424 @@ namespace {
   throw InputError("route index", "a way in it is longer than the lattice, or than its parts: build it again");
 }
 
+/// Where the entry of a front for gate i of it and column j > i, its gates, then its bounds, stands in the front.
+std::uint64_t front_place(const Front& f, std::uint64_t i, std::uint64_t j) {
+  return row_offset(i, f.gates, f.bounds) + (j - i - 1);
+}
+
+/// The length that stands there.
+std::uint32_t front_entry(const FrontArrays& fronts, const Front& f, std::uint64_t place) {
+  const std::uint64_t at = f.first_length() + place;
+  if (!f.is_short()) return fronts.lengths[at];
+  return fronts.short_lengths[at] == no_short_way ? no_way : fronts.short_lengths[at];
+}
+
+/// Column of a gate or a bound of a front, its width if it is neither.
+std::uint64_t front_column(const FrontArrays& fronts, const Front& f, GateRank rank) {
+  const std::uint64_t width = std::uint64_t{f.gates} + f.bounds;
+  if (rank < f.first) return width;
+  if (rank - f.first < f.gates) return rank - f.first;
+  const std::span<const GateRank> bounds = fronts.bounds.span().subspan(f.first_bound, f.bounds);
+  const auto at = std::lower_bound(bounds.begin(), bounds.end(), rank);
+  if (at == bounds.end() || *at != rank) return width;
+  return f.gates + static_cast<std::uint64_t>(at - bounds.begin());
+}
+
+[[noreturn]] void refuse_front() {
+  throw InputError("route index", "its fronts contradict each other: build it again");
+}
+
+[[noreturn]] void refuse_hop() { throw InputError("route index", "its fronts contradict its marks: build it again"); }
+
+/// The cells of a hop (planners/lengths/separator_fronts.hpp), from marks alone: each cell of a chain says where it
+/// goes on, and at junctions the turns do. Cost: 3 to 6 ns a cell, on all threads.
+class HopWalk : public MarkWalk {
+ public:
+  using MarkWalk::MarkWalk;
+
+  void begin(const Hop& hop) {
+    hop_ = hop;
+    came_from_ = 0;
+    MarkWalk::begin(hop.from, hop.length, hop.first, hop.direction);
+    if (hop.direction > 0) write();
+  }
+  void step() {
+    unsigned onwards = exits() & ~came_from_;
+    if ((one_exit >> onwards & 1U) == 0) [[unlikely]]
+      onwards = choice(onwards);
+    const auto way = static_cast<unsigned>(std::countr_zero(onwards));
+    came_from_ = 1U << (way ^ 2U);
+    if (!go(way)) [[unlikely]]
+      refuse_hop();
+    if (hop_.direction < 0 || left() > 0) write();
+    if (left() == 0 && place() != hop_.to) refuse_hop();
+  }
+
+ private:
+  static constexpr unsigned one_exit = 1U << 1 | 1U << 2 | 1U << 4 | 1U << 8;
+
+  /// Chains that leave the cell: its own marks, and those of the neighbours to the left and below.
+  unsigned exits() const {
+    const std::uint64_t* const here = row();
+    const unsigned own = static_cast<unsigned>(here[mark_word::low] >> col() & 1U) |
+                         static_cast<unsigned>(here[mark_word::high] >> col() & 1U) << 1;
+    if (col() == 0 || is_lowest_row()) [[unlikely]]
+      return own | exits_over_the_rim();
+    const std::uint64_t* const below = here - mark_word::count;
+    return own | static_cast<unsigned>((here[mark_word::low] & here[mark_word::core]) >> (col() - 1) & 1U) << 2 |
+           static_cast<unsigned>((below[mark_word::high] & below[mark_word::core]) >> col() & 1U) << 3;
+  }
+  unsigned exits_over_the_rim() const {
+    const LatticePlace at = place();
+    const LatticePlaces& places = index_.places();
+    return static_cast<unsigned>(places.col(at) > 0 && goes_on(places.step(at, 2), mark_word::low)) << 2 |
+           static_cast<unsigned>(places.row(at) > 0 && goes_on(places.step(at, 3), mark_word::high)) << 3;
+  }
+  bool goes_on(LatticePlace p, std::size_t word) const {
+    index_.look_at_tile(p);
+    const std::uint64_t* const row = marks_.tile(0) + std::size_t{p / 64} * mark_word::count;
+    return (row[word] & row[mark_word::core] & std::uint64_t{1} << p % 64) != 0;
+  }
+  unsigned choice(unsigned onwards) {
+    if (onwards == 0) refuse_hop();
+    return next_turn(onwards, hop_.turns);
+  }
+
+  Hop hop_{};
+  unsigned came_from_ = 0;  // the motion that leads back, as a bit
+};
+
+// What a motion adds to column and row, modulo 2^32.
+constexpr std::array<std::uint32_t, 4> right{1, 0, ~std::uint32_t{0}, 0};
+constexpr std::array<std::uint32_t, 4> up{0, 1, 0, ~std::uint32_t{0}};
+
+/// Writes the cells of all hops but the last one of each, as they lie: it is the next hop's first. Throws InputError
+/// where marks lead elsewhere: after as many steps as the hops have, whatever the marks are. Throws Stopped.
+void write_hops(const RouteIndex& index, std::span<const Hop> hops, const Execution& execution) {
+  constexpr std::size_t grain = 512;
+  for_chunks(hops.size(), grain, execution,
+             [&](Range r) { walk_side_by_side<HopWalk>(index, hops.subspan(r.first, r.size())); });
+}
+
 }  // namespace
+
+FrontQuery::FrontQuery(const RouteIndex& index)
+    : index_(index), fronts_(index.arrays().fronts), lessen_(lessen_row()), lessen_short_(lessen_row_short()) {
+  forward_.distance.assign(fronts_.gate_place.size(), no_way);
+  backward_.distance.assign(fronts_.gate_place.size(), no_way);
+}
+
+FrontId FrontQuery::seed(Half& half, std::span<const SeenGate> seeds) const {
+  half.climbed.clear();
+  GateRank lowest = ~GateRank{0};
+  for (const SeenGate& gate : seeds) {
+    half.distance[gate.rank] = gate.steps;
+    lowest = std::min(lowest, gate.rank);
+  }
+  return seeds.empty() ? no_front : index_.front_of(lowest);
+}
+
+std::uint32_t FrontQuery::length(std::span<const SeenGate> starts, std::span<const SeenGate> goals,
+                                 std::uint32_t below) {
+  best_ = below;
+  climb(starts, goals);
+  clear(forward_, starts);
+  clear(backward_, goals);
+  return best_;
+}
+
+void FrontQuery::climb(std::span<const SeenGate> starts, std::span<const SeenGate> goals) {
+  FrontId up = seed(forward_, starts);
+  FrontId down = seed(backward_, goals);
+  while (up != no_front && down != no_front) {
+    const FrontId front = std::min(up, down);
+    if (up == down) {
+      settle_both(front);
+      up = down = fronts_.fronts[front].parent;
+    } else if (front == up) {
+      settle(front, forward_);
+      up = fronts_.fronts[front].parent;
+    } else {
+      settle(front, backward_);
+      down = fronts_.fronts[front].parent;
+    }
+  }
+}
+
+void FrontQuery::settle(FrontId front, Half& half) {
+  const Front& f = index_.front(front);
+  half.climbed.push_back(front);
+  load_bounds(f, half, bounds_);
+  for (std::uint32_t i = 0; i < f.gates; ++i) lessen_by(f, i, half, bounds_);
+  store_bounds(f, half, bounds_);
+}
+
+void FrontQuery::settle_both(FrontId front) {
+  const Front& f = index_.front(front);
+  forward_.climbed.push_back(front);
+  backward_.climbed.push_back(front);
+  load_bounds(f, forward_, bounds_);
+  load_bounds(f, backward_, other_bounds_);
+  for (std::uint32_t i = 0; i < f.gates; ++i) {
+    const std::uint32_t sum = forward_.distance[f.first + i] + backward_.distance[f.first + i];
+    if (sum < best_) {
+      best_ = sum;
+      meeting_ = f.first + i;
+    }
+    lessen_by(f, i, forward_, bounds_);
+    lessen_by(f, i, backward_, other_bounds_);
+  }
+  store_bounds(f, forward_, bounds_);
+  store_bounds(f, backward_, other_bounds_);
+}
+
+void FrontQuery::lessen_by(const Front& f, std::uint32_t gate, Half& half, RawVector<std::uint32_t>& bounds) const {
+  const std::uint32_t distance = half.distance[f.first + gate];
+  if (distance >= best_) return;
+  const std::uint64_t row = f.first_length() + row_offset(gate, f.gates, f.bounds);
+  std::uint32_t* const later = half.distance.data() + f.first + gate + 1;
+  const std::uint32_t count = f.gates - gate - 1;
+  if (f.is_short()) {
+    const std::uint16_t* const lengths = fronts_.short_lengths.data() + row;
+    lessen_short_(later, lengths, distance, count);
+    lessen_short_(bounds.data(), lengths + count, distance, f.bounds);
+  } else {
+    const std::uint32_t* const lengths = fronts_.lengths.data() + row;
+    lessen_(later, lengths, distance, count);
+    lessen_(bounds.data(), lengths + count, distance, f.bounds);
+  }
+}
+
+void FrontQuery::load_bounds(const Front& f, const Half& half, RawVector<std::uint32_t>& bounds) const {
+  bounds.resize(std::max<std::size_t>(bounds.size(), f.bounds));
+  const GateRank* const rank = fronts_.bounds.data() + f.first_bound;
+  for (std::uint32_t i = 0; i < f.bounds; ++i) bounds[i] = half.distance[rank[i]];
+}
+
+void FrontQuery::store_bounds(const Front& f, Half& half, const RawVector<std::uint32_t>& bounds) const {
+  const GateRank* const rank = fronts_.bounds.data() + f.first_bound;
+  for (std::uint32_t i = 0; i < f.bounds; ++i) half.distance[rank[i]] = bounds[i];
+}
+
+/// Bounds of a front are gates of fronts above it, which may not all have been climbed.
+void FrontQuery::clear(Half& half, std::span<const SeenGate> seeds) const {
+  for (const SeenGate& gate : seeds) half.distance[gate.rank] = no_way;
+  for (const FrontId front : half.climbed) {
+    const Front& f = fronts_.fronts[front];
+    std::fill_n(half.distance.begin() + f.first, f.gates, no_way);
+    const GateRank* const rank = fronts_.bounds.data() + f.first_bound;
+    for (std::uint32_t i = 0; i < f.bounds; ++i) half.distance[rank[i]] = no_way;
+  }
+}
+
+FrontQuery::Way FrontQuery::way(std::span<const SeenGate> starts, std::span<const SeenGate> goals,
+                                std::uint32_t below) {
+  best_ = below;
+  climb(starts, goals);
+  Way way{best_, 0, 0, {}};
+  if (best_ < below) {
+    way.first = trace(forward_, starts, meeting_, way.steps);
+    std::reverse(way.steps.begin(), way.steps.end());
+    std::vector<FrontStep> down;
+    way.last = trace(backward_, goals, meeting_, down);
+    for (const FrontStep& step : down) way.steps.push_back({step.front, step.to, step.from, step.length});
+  }
+  clear(forward_, starts);
+  clear(backward_, goals);
+  return way;
+}
+
+/// Back to a seed: the steps as they were climbed, the last one first. Returns the seed's index.
+std::size_t FrontQuery::trace(const Half& half, std::span<const SeenGate> seeds, GateRank from,
+                              std::vector<FrontStep>& steps) const {
+  for (;;) {
+    const auto seed = std::find_if(seeds.begin(), seeds.end(), [&](const SeenGate& gate) {
+      return gate.rank == from && gate.steps == half.distance[from];
+    });
+    if (seed != seeds.end()) return static_cast<std::size_t>(seed - seeds.begin());
+    steps.push_back(step_into(half, from));
+    from = steps.back().from;
+  }
+}
+
+FrontStep FrontQuery::step_into(const Half& half, GateRank to) const {
+  for (const FrontId front : half.climbed) {
+    const Front& f = fronts_.fronts[front];
+    const std::uint64_t column = front_column(fronts_, f, to);
+    if (column == std::uint64_t{f.gates} + f.bounds) continue;
+    for (std::uint32_t i = 0; i < f.gates && i < column; ++i) {
+      const std::uint32_t distance = half.distance[f.first + i];
+      if (distance >= half.distance[to]) continue;
+      const std::uint32_t length = front_entry(fronts_, f, front_place(f, i, column));
+      if (distance + length == half.distance[to]) return {front, f.first + i, to, length};
+    }
+  }
+  refuse_front();
+}
+
+void FrontUnpacking::write(std::span<const FrontStep> steps, CellId* cells, const Execution& execution) {
+  todo_.clear();
+  hops_.clear();
+  for (const FrontStep& step : steps) {
+    const auto [low, high] = std::minmax(step.from, step.to);
+    const Front& front = index_.front(step.front);
+    todo_.push_back({&front, place_in(front, low, high), low, high, step.length, step.from > step.to, cells});
+    cells += step.length;
+  }
+  if (!steps.empty()) *cells = index_.places().cell_of(index_.gate_place(steps.back().to));
+  while (!todo_.empty()) {  // ranks become less
+    read_ways();
+    find_halves();
+    open_halves();
+  }
+  // Along the path neighbours share tiles.
+  std::sort(hops_.begin(), hops_.end(), [](const Hop& a, const Hop& b) { return a.first < b.first; });
+  write_hops(index_, hops_, execution);
+}
+
+/// What goes over a gate becomes a middle.
+void FrontUnpacking::read_ways() {
+  middles_.clear();
+  for (const Entry& entry : todo_) {
+    if (entry.length == 0) refuse_front();  // a hop without steps would write beside its cells
+    const std::uint64_t way = front_way(fronts_, *entry.front, entry.place);
+    if ((way & 1U) != 0) {
+      hops_.push_back({index_.gate_place(entry.low), index_.gate_place(entry.high), entry.length,
+                       entry.downwards ? -1 : 1, way / 2, entry.downwards ? entry.cells + entry.length : entry.cells});
+      continue;
+    }
+    const std::uint64_t below = way / 2;
+    if (below == 0 || below > entry.low) refuse_front();
+    const GateRank gate = entry.low - static_cast<GateRank>(below);
+    index_.prefetch_front_of(gate);
+    middles_.push_back({entry, gate, nullptr, 0, 0});
+  }
+}
+
+void FrontUnpacking::find_halves() {
+  for (Middle& middle : middles_) {
+    middle.front = &index_.front(index_.front_of(middle.gate));
+    __builtin_prefetch(fronts_.bounds.data() + middle.front->first_bound);
+  }
+  for (Middle& middle : middles_) {
+    middle.low = place_in(*middle.front, middle.gate, middle.whole.low);
+    middle.high = place_in(*middle.front, middle.gate, middle.whole.high);
+    for (const std::uint64_t place : {middle.low, middle.high}) {
+      const std::uint64_t length = middle.front->first_length() + place;
+      if (middle.front->is_short()) {
+        __builtin_prefetch(fronts_.short_lengths.data() + length);
+      } else {
+        __builtin_prefetch(fronts_.lengths.data() + length);
+      }
+      __builtin_prefetch(fronts_.ways.data() + middle.front->first_way() + place * middle.front->way_elements());
+    }
+  }
+}
+
+void FrontUnpacking::open_halves() {
+  todo_.clear();
+  for (const Middle& middle : middles_) {
+    const Entry& whole = middle.whole;
+    const std::uint32_t to_low = front_entry(fronts_, *middle.front, middle.low);
+    const std::uint32_t to_high = front_entry(fronts_, *middle.front, middle.high);
+    if (to_low + to_high != whole.length) refuse_front();
+    CellId* const low_cells = whole.downwards ? whole.cells + to_high : whole.cells;
+    CellId* const high_cells = whole.downwards ? whole.cells : whole.cells + to_low;
+    todo_.push_back({middle.front, middle.low, middle.gate, whole.low, to_low, !whole.downwards, low_cells});
+    todo_.push_back({middle.front, middle.high, middle.gate, whole.high, to_high, whole.downwards, high_cells});
+  }
+}
+
+/// Of the entry between a gate of the front and a gate of higher rank.
+std::uint64_t FrontUnpacking::place_in(const Front& front, GateRank gate, GateRank other) const {
+  const std::uint64_t column = front_column(fronts_, front, other);
+  if (column == std::uint64_t{front.gates} + front.bounds) refuse_front();
+  return front_place(front, gate - front.first, column);
+}
+
+void CoreSearch::begin(LatticePlace start) {
+  if (++search_ == 0) {  // after 2^32 searches
+    std::fill(slots_.begin(), slots_.end(), Slot{});
+    search_ = 1;
+  }
+  seen_.clear();
+  gates_.clear();
+  seen_.push_back(first_cell(start));
+  enter(start, 0);
+}
+
+SeenCell CoreSearch::first_cell(LatticePlace start) const {
+  const SeenCell first{start, index_.places().col(start), index_.places().row(start), 0, 0};
+  const LatticeSize size = index_.places().size();
+  if (first.col >= size.cols || first.row >= size.rows) {
+    throw InputError("route index", "a cell of it lies outside the lattice: build it again");
+  }
+  index_.look_at_tile(start);
+  return first;
+}
+
+void CoreSearch::search(LatticePlace start) {
+  begin(start);
+  for (std::uint32_t i = 0; i < seen_.size(); ++i) {
+    if (index_.is_gate(seen_[i].place)) {
+      gates_.push_back({index_.gate_at(seen_[i].place), seen_[i].steps, i});
+    } else {
+      expand(i);
+    }
+  }
+}
+
+bool CoreSearch::is_core(LatticePlace next, LatticePlace from) const {
+  if (LatticePlaces::tile_of(next) != LatticePlaces::tile_of(from)) {
+    index_.look_at_tile(next);
+    index_.marks().prefetch_tile(LatticePlaces::tile_of(next));
+  }
+  return index_.marks().is_core(next);
+}
+
+void CoreSearch::expand(std::uint32_t number) {
+  const SeenCell at = seen_[number];
+  for (unsigned open = index_.passages().open_at(at.col, at.row); open != 0; open &= open - 1) {
+    const auto d = static_cast<unsigned>(std::countr_zero(open));
+    const LatticePlace next = index_.places().step(at.place, d);
+    if (next == seen_[at.from].place || !is_core(next, at.place)) continue;
+    if (!enter(next, static_cast<std::uint32_t>(seen_.size()))) continue;
+    seen_.push_back({next, at.col + right[d], at.row + up[d], at.steps + 1, number});
+  }
+}
+
+bool CoreSearch::enter(LatticePlace p, std::uint32_t number) {
+  if (2 * seen_.size() > slots_.size()) grow();
+  std::size_t slot = slot_of(p);
+  for (; slots_[slot].search == search_; slot = (slot + 1) & (slots_.size() - 1)) {
+    if (seen_[slots_[slot].number].place == p) return false;
+  }
+  slots_[slot] = {search_, number};
+  return true;
+}
+
+std::uint32_t CoreSearch::number_of(LatticePlace p) const {
+  for (std::size_t slot = slot_of(p); slots_[slot].search == search_; slot = (slot + 1) & (slots_.size() - 1)) {
+    if (seen_[slots_[slot].number].place == p) return slots_[slot].number;
+  }
+  return none;
+}
+
+void CoreSearch::grow() {
+  slots_.assign(2 * slots_.size(), Slot{});
+  for (std::uint32_t i = 0; i < seen_.size(); ++i) {
+    std::size_t slot = slot_of(seen_[i].place);
+    while (slots_[slot].search == search_) slot = (slot + 1) & (slots_.size() - 1);
+    slots_[slot] = {search_, i};
+  }
+}
+
+void CoreSearch::write_way(std::uint32_t to, CellId* start, int direction) const {
+  const std::uint32_t cols = index_.places().size().cols;
+  for (; to != 0; to = seen_[to].from) {
+    start[std::ptrdiff_t{direction} * seen_[to].steps] = seen_[to].row * cols + seen_[to].col;
+  }
+}
 
 LatticePlace RouteQuery::checked(CellId cell) const {
   if (cell < index_.passages().cell_count()) return index_.places().place_of(cell);

@@ -5,73 +5,62 @@
 #include <array>
 #include <bit>
 #include <cassert>
-#include <cstdint>
 #include <iterator>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "parallel/chunks.hpp"
-#include "planners/lengths/dissection.hpp"
 #include "planners/lengths/min_plus.hpp"
 
 namespace warren {
-// The lengths between the bounds of a leaf by ways through its junctions: they are eliminated one by one, the one with
-// the fewest neighbours first, each joining its neighbours pairwise. Neighbours are bits of two words, lengths a small
-// dense matrix, all in first-level cache. Who joined whom says at last by which chains the ways between bounds go.
-// About 200 ns a junction.
-
-/// What a node hands to its parent.
-struct BoundLengths {
-  std::vector<GateRank> bounds;  ///< ascending
-  FrontMatrix lengths;           ///< between them; a leaf's ways are hops
-};
-
-/// Scratch of one thread.
-class LeafElimination {
- public:
-  /// rank: of each junction, none of those in leaves.
-  LeafElimination(const CoreGraph& graph, const RawVector<GateRank>& rank) : graph_(graph), rank_(rank) {}
-
-  BoundLengths eliminate(std::span<const JunctionId> leaf, const Execution& execution);
-
- private:
-  static constexpr std::size_t most = 128;
-  static_assert(3 * most_leaf_junctions + 2 <= most, "a connected leaf of n junctions has at most 2 n + 2 bounds");
-  using Neighbours = std::array<std::uint64_t, 2>;
-
-  void find_bounds(std::span<const JunctionId> leaf);
-  void load(std::span<const JunctionId> leaf);
-  /// By a junction, or `chain`, which leaves a and b by these slots.
-  struct Join {
-    std::uint8_t by;
-    std::uint8_t from_slot;
-    std::uint8_t to_slot;
-  };
-  static constexpr std::uint8_t chain = most;
-  void join(std::size_t a, std::size_t b, std::uint32_t length, Join how);
-  void take_out(std::size_t junction);
-  HopTurns turns(std::size_t from, std::size_t to);
-
-  const CoreGraph& graph_;
-  const RawVector<GateRank>& rank_;
-  std::vector<GateRank> bounds_;
-  std::array<Neighbours, most> neighbours_{};
-  std::array<std::array<std::uint32_t, most>, most> length_{};
-  std::array<std::array<Join, most>, most> join_{};
-  std::array<std::uint8_t, most> slots_{};                   // with chains, of a junction or a bound
-  std::vector<std::pair<std::uint8_t, std::uint8_t>> todo_;  // parts of a way, the first one last
-};
-
-inline constexpr GateRank no_rank = ~GateRank{0};
-
 namespace {
 
+constexpr GateRank no_rank = ~GateRank{0};
 constexpr std::size_t block = 32;  // gates: their rows of up to some thousand entries stay in the second-level cache
-constexpr std::size_t row_grain = 32;   // rows a chunk
-constexpr std::size_t many_rows = 256;  // are worth waking other threads for
+constexpr std::size_t front_row_grain = 32;  // rows a chunk
+constexpr std::size_t many_rows = 256;       // are worth waking other threads for
 
-}  // namespace
+/// The gate that a way goes over; or hop_bit and the number of a hop.
+using WayBy = std::uint32_t;
+constexpr WayBy hop_bit = WayBy{1} << 31;
+
+/// Lengths between the gates and bounds of one front while it is made: the upper triangle of a symmetric matrix, row by
+/// row; and of each way by what it goes: over a gate of lower rank, or as a hop. Eliminating a gate makes each later
+/// pair the shorter of itself and the way by the gate; rows of gates are done in blocks, so that the rows below meet a
+/// block while it is in cache, side by side on all threads where they are many.
+class FrontMatrix {
+ public:
+  /// size x size, no ways at all. Asks `execution` for the memory.
+  FrontMatrix(std::size_t size, const Execution& execution);
+
+  std::size_t size() const { return size_; }
+  /// Entries i .. size - 1 of row i.
+  std::uint32_t* row(std::size_t i) { return lengths_.data() + i * size_ - (i > 0 ? i * (i - 1) / 2 : 0); }
+  const std::uint32_t* row(std::size_t i) const { return lengths_.data() + i * size_ - (i > 0 ? i * (i - 1) / 2 : 0); }
+  /// By what the ways of row i go, where there are any.
+  const WayBy* by(std::size_t i) const { return by_.data() + i * size_ - (i > 0 ? i * (i - 1) / 2 : 0); }
+  HopTurns hop(WayBy by) const { return hops_[by & ~hop_bit]; }
+  /// A hop from i to j > i.
+  void lessen_by_hop(std::size_t i, std::size_t j, std::uint32_t length, HopTurns turns);
+  /// The way from `from` to `to` > `from` of another matrix, here i and j > i.
+  void lessen_as(std::size_t i, std::size_t j, const FrontMatrix& other, std::size_t from, std::size_t to) {
+    const std::uint32_t length = other.row(from)[to - from];
+    if (length < row(i)[j - i]) take(i, j, length, other, other.by(from)[to - from]);
+  }
+  /// The first `gates` of all, whose ranks begin at `first`.
+  void eliminate(std::size_t gates, GateRank first, const Execution& execution);
+
+ private:
+  WayBy* by(std::size_t i) { return by_.data() + i * size_ - (i > 0 ? i * (i - 1) / 2 : 0); }
+  void take(std::size_t i, std::size_t j, std::uint32_t length, const FrontMatrix& other, WayBy by_what);
+  void eliminate_block(std::size_t first, std::size_t last, GateRank rank, const Execution& execution);
+  void pass_by(std::size_t row, std::size_t first, std::size_t last, GateRank rank);
+
+  std::size_t size_;
+  RawVector<std::uint32_t> lengths_;
+  RawVector<WayBy> by_;
+  RawVector<HopTurns> hops_;
+};
 
 FrontMatrix::FrontMatrix(std::size_t size, const Execution& execution) : size_(size) {
   const std::size_t entries = size * (size + 1) / 2;
@@ -107,9 +96,7 @@ void FrontMatrix::eliminate_block(std::size_t first, std::size_t last, GateRank 
     for (std::size_t i = last; i < size_; ++i) pass_by(i, first, last, rank);
     return;
   }
-  Execution quiet = execution;
-  quiet.progress = nullptr;
-  for_chunks(size_ - last, row_grain, quiet, [&](Range r) {
+  for_chunks(size_ - last, front_row_grain, execution.quiet(), [&](Range r) {
     for (std::size_t i = last + r.first; i < last + r.last; ++i) pass_by(i, first, last, rank);
   });
 }
@@ -124,13 +111,54 @@ void FrontMatrix::pass_by(std::size_t i, std::size_t first, std::size_t last, Ga
   }
 }
 
-namespace {
-
 std::size_t place_in(std::span<const std::uint32_t> ascending, std::uint32_t value) {
   return static_cast<std::size_t>(std::lower_bound(ascending.begin(), ascending.end(), value) - ascending.begin());
 }
 
-}  // namespace
+/// What a node hands to its parent.
+struct BoundLengths {
+  std::vector<GateRank> bounds;  ///< ascending
+  FrontMatrix lengths;           ///< between them; a leaf's ways are hops
+};
+
+/// The lengths between the bounds of a leaf by ways through its junctions: they are eliminated one by one, the one with
+/// the fewest neighbours first, each joining its neighbours pairwise. Neighbours are bits of two words, lengths a small
+/// dense matrix, all in first-level cache. Who joined whom says at last by which chains the ways between bounds go.
+/// About 200 ns a junction. Scratch of one thread.
+class LeafElimination {
+ public:
+  /// rank: of each junction, none of those in leaves.
+  LeafElimination(const CoreGraph& graph, const RawVector<GateRank>& rank) : graph_(graph), rank_(rank) {}
+
+  BoundLengths eliminate(std::span<const JunctionId> leaf, const Execution& execution);
+
+ private:
+  static constexpr std::size_t most = 128;
+  static_assert(3 * most_leaf_junctions + 2 <= most, "a connected leaf of n junctions has at most 2 n + 2 bounds");
+  using Neighbours = std::array<std::uint64_t, 2>;
+
+  void find_bounds(std::span<const JunctionId> leaf);
+  void load(std::span<const JunctionId> leaf);
+  /// By a junction, or `chain`, which leaves a and b by these slots.
+  struct Join {
+    std::uint8_t by;
+    std::uint8_t from_slot;
+    std::uint8_t to_slot;
+  };
+  static constexpr std::uint8_t chain = most;
+  void join(std::size_t a, std::size_t b, std::uint32_t length, Join how);
+  void take_out(std::size_t junction);
+  HopTurns turns(std::size_t from, std::size_t to);
+
+  const CoreGraph& graph_;
+  const RawVector<GateRank>& rank_;
+  std::vector<GateRank> bounds_;
+  std::array<Neighbours, most> neighbours_{};
+  std::array<std::array<std::uint32_t, most>, most> length_{};
+  std::array<std::array<Join, most>, most> join_{};
+  std::array<std::uint8_t, most> slots_{};                   // with chains, of a junction or a bound
+  std::vector<std::pair<std::uint8_t, std::uint8_t>> todo_;  // parts of a way, the first one last
+};
 
 BoundLengths LeafElimination::eliminate(std::span<const JunctionId> leaf, const Execution& execution) {
   find_bounds(leaf);
@@ -238,11 +266,8 @@ void LeafElimination::take_out(std::size_t junction) {
   }
 }
 
-namespace {
-
-// Fronts of consecutive nodes as they are made: offsets from their own beginning, until parts are put one behind the
-// other.
-
+/// Fronts of consecutive nodes as they are made: offsets from their own beginning, until parts are put one behind the
+/// other.
 class FrontPart {
  public:
   /// The front of gates first .. first + gates - 1: the rows that these have in the matrix, eliminated.

@@ -37,18 +37,6 @@ class ClimbWalk : public MarkWalk {
   LatticePlace to_ = 0;
 };
 
-}  // namespace
-
-void write_climbs(const RouteIndex& index, std::span<const ClimbLeg> legs, const Execution& execution) {
-  constexpr std::size_t grain = 16;
-  for_chunks(legs.size(), grain, execution,
-             [&](Range r) { walk_side_by_side<ClimbWalk>(index, legs.subspan(r.first, r.size())); });
-}
-
-namespace {
-
-[[noreturn]] void refuse() { throw InputError("route index", "its trees contradict its pieces: build it again"); }
-
 /// A bit a cell.
 using SeenInTile = std::array<std::uint64_t, LatticePlaces::tile_places / 64>;
 
@@ -74,7 +62,7 @@ class TileWalk {
   std::uint32_t steps_to(const TileWalk& other) const {
     const auto* const end = trail_.data() + steps_ + 1;
     const auto* const found = std::find(trail_.data(), end, other.at());
-    if (found == end) refuse();
+    if (found == end) refuse_climb();
     return static_cast<std::uint32_t>(found - trail_.data());
   }
 
@@ -87,6 +75,12 @@ class TileWalk {
 };
 
 }  // namespace
+
+void write_climbs(const RouteIndex& index, std::span<const ClimbLeg> legs, const Execution& execution) {
+  constexpr std::size_t grain = 16;
+  for_chunks(legs.size(), grain, execution,
+             [&](Range r) { walk_side_by_side<ClimbWalk>(index, legs.subspan(r.first, r.size())); });
+}
 
 TreeRoutes::Climber TreeRoutes::climber(LatticePlace from, const Climb& climb) const {
   Climber climber{from, climb, climb.steps, no_piece};
@@ -146,7 +140,7 @@ TreeJoin TreeRoutes::join(LatticePlace start, LatticePlace goal) const {
 
 /// Side by side until one comes where the other has been, before the exit of the piece that they are in at the latest.
 TreeJoin TreeRoutes::meet_in_piece(const Climber& start, const Climber& goal) const {
-  if (LatticePlaces::tile_of(start.at) != LatticePlaces::tile_of(goal.at)) refuse();
+  if (LatticePlaces::tile_of(start.at) != LatticePlaces::tile_of(goal.at)) refuse_climb();
   TileWalk a(marks_, start.at);
   TileWalk b(marks_, goal.at);
   SeenInTile seen{};
@@ -164,7 +158,7 @@ TreeJoin TreeRoutes::meet_in_piece(const Climber& start, const Climber& goal) co
       goes = b.mark(seen);
     }
   }
-  refuse();
+  refuse_climb();
 }
 
 /// Both have left all pieces: the core, or the root of their tree, is in the tile of each.
@@ -196,7 +190,7 @@ void TreeRoutes::cut(ClimbLeg climb, std::vector<ClimbLeg>& legs) const {
       const TreePiece& piece = pieces_.piece(number);
       const std::uint32_t at = climber.depth - piece.depth + 1;
       if (at >= climb.steps + done) break;
-      if (at <= done) refuse();
+      if (at <= done) refuse_climb();
       if (at - done >= fewest_steps) {
         legs.push_back({climb.from, piece.door, at - done, climb.direction, climb.first});
         climb.from = piece.door;

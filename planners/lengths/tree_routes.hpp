@@ -12,8 +12,6 @@
 
 namespace warren {
 
-// The cells of climbs (planners/lengths/piece_forest.hpp), from marks alone. Cost: some ns a cell, on all threads.
-
 /// Part of a way to the core, and where its cells go: from `from` to `to` = `steps` steps on, the first one to `first`,
 /// each further one `direction`, 1 or -1, beside the one before it.
 struct ClimbLeg {
@@ -24,8 +22,8 @@ struct ClimbLeg {
   CellId* first;
 };
 
-/// Writes the cells of all legs but for the one that each leads to. Throws InputError where marks lead elsewhere, after
-/// as many steps as the legs have; Stopped.
+/// Writes the cells of all legs but for the one that each leads to, from marks alone: some ns a cell, on all threads.
+/// Throws InputError where marks lead elsewhere, after as many steps as the legs have; Stopped.
 void write_climbs(const RouteIndex& index, std::span<const ClimbLeg> legs, const Execution& execution);
 
 /// How two cells get to each other, as far as trees go.

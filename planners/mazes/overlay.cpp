@@ -2,17 +2,12 @@
 #include "planners/mazes/overlay.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
-#include <span>
 #include <utility>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "core/search/graph.hpp"
-#include "parallel/chunks.hpp"
-#include "planners/mazes/tile_reduction.hpp"
 #include "planners/mazes/wall_marking.hpp"
 
 namespace warren {
@@ -29,6 +24,175 @@ std::size_t peel_grain(std::size_t tiles) { return std::max<std::size_t>(8, (til
 
 /// Tiles whose rows are written at once: 65 536 lattice points.
 std::size_t fill_grain(const TileGrid& grid) { return std::size_t{1} << (16 - 2 * std::min(grid.side_log2, 8U)); }
+
+using Crossings = std::array<std::vector<std::uint16_t>, 4>;
+
+/// The band as a lattice of its own.
+class PeeledBand {
+ public:
+  PeeledBand(const TileGrid& grid, std::size_t first_row, std::size_t last_row, std::span<TileSummary> tiles)
+      : band_(grid), first_row_(static_cast<std::uint32_t>(first_row << grid.side_log2)), tiles_(tiles) {
+    band_.tile_rows = static_cast<std::uint32_t>(last_row - first_row);
+    band_.rows = std::min(grid.rows, static_cast<std::uint32_t>(last_row << grid.side_log2)) - first_row_;
+  }
+
+  void run(const OverlayEnds& ends, const Execution& execution) {
+    const OverlayEnds kept = kept_cells(ends);
+    take_away_rims();
+    check_borders(band_, tiles_, execution);
+    Overlay overlay(band_, tiles_, kept, execution);
+    tiles_.front().closed_components += overlay.peel(execution);
+    std::vector<Crossings> crossings(tiles_.size());
+    constexpr std::size_t grain = 64;
+    for_chunks(tiles_.size(), grain, execution, [&](Range r) {
+      for (std::size_t t = r.first; t < r.last; ++t) crossings[t] = crossings_left(overlay, t);
+    });
+    for_chunks(tiles_.size(), grain, execution, [&](Range r) {
+      for (std::size_t t = r.first; t < r.last; ++t) prune(overlay, t, std::move(crossings[t]));
+    });
+  }
+
+ private:
+  bool is_lowest(std::size_t tile) const { return tile < band_.tile_cols; }
+  bool is_highest(std::size_t tile) const { return tile + band_.tile_cols >= tiles_.size(); }
+
+  /// Whatever leaves the band, and what start and goal join in it, as if they were linked.
+  OverlayEnds kept_cells(const OverlayEnds& ends) const {
+    OverlayEnds kept;
+    const auto add = [&](std::size_t tile, std::span<const std::uint16_t> keys) {
+      for (const std::uint16_t key : keys) {
+        const std::uint32_t place = tiles_[tile].keys[key];
+        kept.start.links.push_back(
+            {band_.first_col(tile) + place % band_.side(), band_.first_row(tile) + place / band_.side(), 0.0});
+      }
+    };
+    for (std::size_t t = 0; t < tiles_.size(); ++t) {
+      if (is_lowest(t)) add(t, tiles_[t].crossings[3]);
+      if (is_highest(t)) add(t, tiles_[t].crossings[1]);
+    }
+    for (const EndLinks* end : {&ends.start, &ends.goal}) {
+      for (const EndLink& link : end->links) {
+        if (link.row < first_row_ || link.row - first_row_ >= band_.rows) continue;
+        kept.goal.links.push_back({link.col, link.row - first_row_, link.length});
+      }
+    }
+    return kept;
+  }
+
+  void take_away_rims() {
+    for (std::size_t t = 0; t < tiles_.size(); ++t) {
+      if (is_lowest(t)) std::swap(lowest_.emplace_back(), tiles_[t].crossings[3]);
+      if (is_highest(t)) std::swap(highest_.emplace_back(), tiles_[t].crossings[1]);
+    }
+  }
+
+  /// Both ends of a crossing are left, or it goes.
+  Crossings crossings_left(const Overlay& overlay, std::size_t tile) const {
+    Crossings left;
+    for (unsigned side = 0; side < 4; ++side) {
+      const auto& own = tiles_[tile].crossings[side];
+      const std::size_t beyond = neighbour(band_, tile, side);
+      for (std::size_t i = 0; i < own.size(); ++i) {
+        const std::uint16_t theirs = tiles_[beyond].crossings[side ^ 2U][i];
+        if (overlay.is_peeled(overlay.first_key(tile) + own[i])) continue;
+        if (overlay.is_peeled(overlay.first_key(beyond) + theirs)) continue;
+        left[side].push_back(own[i]);
+      }
+    }
+    return left;
+  }
+
+  void prune(const Overlay& overlay, std::size_t t, Crossings crossings) {
+    TileSummary& tile = tiles_[t];
+    if (is_lowest(t)) crossings[3] = lowest_[t];
+    if (is_highest(t)) crossings[1] = highest_[t + band_.tile_cols - tiles_.size()];
+    const auto is_left = [&](std::size_t key) {
+      return !overlay.is_peeled(overlay.first_key(t) + static_cast<VertexId>(key));
+    };
+    std::vector<std::uint16_t> number(tile.keys.size());
+    std::vector<std::uint16_t> keys;
+    for (std::size_t k = 0; k < tile.keys.size(); ++k) {
+      number[k] = static_cast<std::uint16_t>(keys.size());
+      if (is_left(k)) keys.push_back(tile.keys[k]);
+    }
+    std::vector<Chain> chains;
+    for (const Chain& chain : tile.chains) {
+      if (is_left(chain.from) && is_left(chain.to)) {
+        chains.push_back({number[chain.from], number[chain.to], chain.first_step, chain.length});
+      }
+    }
+    for (auto& side : crossings) {
+      for (std::uint16_t& key : side) key = number[key];
+    }
+    tile.keys = std::move(keys);
+    tile.chains = std::move(chains);
+    tile.crossings = std::move(crossings);
+  }
+
+  TileGrid band_;
+  const std::uint32_t first_row_;
+  std::span<TileSummary> tiles_;
+  std::vector<std::vector<std::uint16_t>> lowest_, highest_;  // crossings out of the band, by column of tiles
+};
+
+constexpr double step = 1.0;         // the longest edge
+constexpr double first_look = 20.0;  // where nothing is within a step: a corner's 256 nearest stand within this,
+constexpr double last_look = 80.0;   // unless milestones are blocked; with fewer than 256 within this, that is all
+constexpr std::size_t most_looked_at = 256;
+
+/// The walls that may touch an edge of at most `reach` from `at`.
+std::vector<Segment> walls_around(const LatticeWorld& world, Vec2 at, double reach) {
+  const Box around = Box{at, at}.grown(reach + world.clearance * (1 + 1e-9) + 1e-6);
+  std::vector<Segment> near;
+  const auto take = [&](const Segment& wall) {
+    if (around.meets(box_of(wall))) near.push_back(wall);
+  };
+  if (reach == step && world.grid.area().contains(at)) {
+    const std::size_t tile = world.grid.tile_near(at);
+    world.tiles.reader()->read(tile).for_each_around(world.grid, tile, around, take);
+    return near;
+  }
+  world.tiles.for_each_near(around, take);
+  return near;
+}
+
+bool is_free(std::span<const Segment> walls, const Segment& edge, double clearance) {
+  return std::none_of(walls.begin(), walls.end(),
+                      [&](const Segment& wall) { return blocks_edge(wall, edge, clearance); });
+}
+
+/// The milestones within `reach` of `at`, nearest first.
+std::vector<EndLink> milestones_around(const LatticeWorld& world, std::span<const Segment> walls, Vec2 at,
+                                       double reach) {
+  std::vector<EndLink> found;
+  const auto first = [&](double x) { return static_cast<std::int64_t>(std::max(0.0, std::ceil(x - reach) - 1)); };
+  const auto last = [&](double x, std::uint32_t count) {
+    return static_cast<std::int64_t>(std::min(count - 1.0, std::floor(x + reach) - 1));
+  };
+  for (std::int64_t row = first(at.y); row <= last(at.y, world.grid.rows); ++row) {
+    for (std::int64_t col = first(at.x); col <= last(at.x, world.grid.cols); ++col) {
+      const Vec2 point = TileGrid::point(col, row);
+      const double length = distance(at, point);
+      if (length > reach || !world.box.contains(point)) continue;
+      if (!is_free(walls, {point, point}, world.clearance)) continue;
+      found.push_back({static_cast<std::uint32_t>(col), static_cast<std::uint32_t>(row), length});
+    }
+  }
+  std::stable_sort(found.begin(), found.end(), [](const EndLink& a, const EndLink& b) { return a.length < b.length; });
+  return found;
+}
+
+/// Puts the edges to the candidates to the walls; keeps the free ones, or only the first.
+void try_links(const LatticeWorld& world, std::span<const Segment> walls, std::span<const EndLink> candidates,
+               bool first_only, EndLinks& result) {
+  ++result.queries;
+  for (const EndLink& link : candidates) {
+    ++result.checked;
+    if (!is_free(walls, {result.at, TileGrid::point(link.col, link.row)}, world.clearance)) continue;
+    result.links.push_back(link);
+    if (first_only) return;
+  }
+}
 
 }  // namespace
 
@@ -247,190 +411,10 @@ CoreComponents core_components(const Overlay& overlay, const Execution& executio
   return {components.count(), components.root(overlay.start()) == components.root(overlay.goal())};
 }
 
-namespace {
-
-using Crossings = std::array<std::vector<std::uint16_t>, 4>;
-
-/// The band as a lattice of its own.
-class PeeledBand {
- public:
-  PeeledBand(const TileGrid& grid, std::size_t first_row, std::size_t last_row, std::span<TileSummary> tiles)
-      : band_(grid), first_row_(static_cast<std::uint32_t>(first_row << grid.side_log2)), tiles_(tiles) {
-    band_.tile_rows = static_cast<std::uint32_t>(last_row - first_row);
-    band_.rows = std::min(grid.rows, static_cast<std::uint32_t>(last_row << grid.side_log2)) - first_row_;
-  }
-
-  void run(const OverlayEnds& ends, const Execution& execution) {
-    const OverlayEnds kept = kept_cells(ends);
-    take_away_rims();
-    check_borders(band_, tiles_, execution);
-    Overlay overlay(band_, tiles_, kept, execution);
-    tiles_.front().closed_components += overlay.peel(execution);
-    std::vector<Crossings> crossings(tiles_.size());
-    constexpr std::size_t grain = 64;
-    for_chunks(tiles_.size(), grain, execution, [&](Range r) {
-      for (std::size_t t = r.first; t < r.last; ++t) crossings[t] = crossings_left(overlay, t);
-    });
-    for_chunks(tiles_.size(), grain, execution, [&](Range r) {
-      for (std::size_t t = r.first; t < r.last; ++t) prune(overlay, t, std::move(crossings[t]));
-    });
-  }
-
- private:
-  bool is_lowest(std::size_t tile) const { return tile < band_.tile_cols; }
-  bool is_highest(std::size_t tile) const { return tile + band_.tile_cols >= tiles_.size(); }
-
-  /// Whatever leaves the band, and what start and goal join in it, as if they were linked.
-  OverlayEnds kept_cells(const OverlayEnds& ends) const {
-    OverlayEnds kept;
-    const auto add = [&](std::size_t tile, std::span<const std::uint16_t> keys) {
-      for (const std::uint16_t key : keys) {
-        const std::uint32_t place = tiles_[tile].keys[key];
-        kept.start.links.push_back(
-            {band_.first_col(tile) + place % band_.side(), band_.first_row(tile) + place / band_.side(), 0.0});
-      }
-    };
-    for (std::size_t t = 0; t < tiles_.size(); ++t) {
-      if (is_lowest(t)) add(t, tiles_[t].crossings[3]);
-      if (is_highest(t)) add(t, tiles_[t].crossings[1]);
-    }
-    for (const EndLinks* end : {&ends.start, &ends.goal}) {
-      for (const EndLink& link : end->links) {
-        if (link.row < first_row_ || link.row - first_row_ >= band_.rows) continue;
-        kept.goal.links.push_back({link.col, link.row - first_row_, link.length});
-      }
-    }
-    return kept;
-  }
-
-  void take_away_rims() {
-    for (std::size_t t = 0; t < tiles_.size(); ++t) {
-      if (is_lowest(t)) std::swap(lowest_.emplace_back(), tiles_[t].crossings[3]);
-      if (is_highest(t)) std::swap(highest_.emplace_back(), tiles_[t].crossings[1]);
-    }
-  }
-
-  /// Both ends of a crossing are left, or it goes.
-  Crossings crossings_left(const Overlay& overlay, std::size_t tile) const {
-    const std::array<std::size_t, 4> beyond{tile + 1, tile + band_.tile_cols, tile - 1, tile - band_.tile_cols};
-    Crossings left;
-    for (unsigned side = 0; side < 4; ++side) {
-      const auto& own = tiles_[tile].crossings[side];
-      for (std::size_t i = 0; i < own.size(); ++i) {
-        const std::uint16_t theirs = tiles_[beyond[side]].crossings[side ^ 2U][i];
-        if (overlay.is_peeled(overlay.first_key(tile) + own[i])) continue;
-        if (overlay.is_peeled(overlay.first_key(beyond[side]) + theirs)) continue;
-        left[side].push_back(own[i]);
-      }
-    }
-    return left;
-  }
-
-  void prune(const Overlay& overlay, std::size_t t, Crossings crossings) {
-    TileSummary& tile = tiles_[t];
-    if (is_lowest(t)) crossings[3] = lowest_[t];
-    if (is_highest(t)) crossings[1] = highest_[t + band_.tile_cols - tiles_.size()];
-    const auto is_left = [&](std::size_t key) {
-      return !overlay.is_peeled(overlay.first_key(t) + static_cast<VertexId>(key));
-    };
-    std::vector<std::uint16_t> number(tile.keys.size());
-    std::vector<std::uint16_t> keys;
-    for (std::size_t k = 0; k < tile.keys.size(); ++k) {
-      number[k] = static_cast<std::uint16_t>(keys.size());
-      if (is_left(k)) keys.push_back(tile.keys[k]);
-    }
-    std::vector<Chain> chains;
-    for (const Chain& chain : tile.chains) {
-      if (is_left(chain.from) && is_left(chain.to)) {
-        chains.push_back({number[chain.from], number[chain.to], chain.first_step, chain.length});
-      }
-    }
-    for (auto& side : crossings) {
-      for (std::uint16_t& key : side) key = number[key];
-    }
-    tile.keys = std::move(keys);
-    tile.chains = std::move(chains);
-    tile.crossings = std::move(crossings);
-  }
-
-  TileGrid band_;
-  const std::uint32_t first_row_;
-  std::span<TileSummary> tiles_;
-  std::vector<std::vector<std::uint16_t>> lowest_, highest_;  // crossings out of the band, by column of tiles
-};
-
-}  // namespace
-
 void peel_band(const TileGrid& grid, std::size_t first_row, std::size_t last_row, const OverlayEnds& ends,
                std::span<TileSummary> tiles, const Execution& execution) {
   PeeledBand(grid, first_row, last_row, tiles).run(ends, execution);
 }
-
-namespace {
-
-constexpr double step = 1.0;         // the longest edge
-constexpr double first_look = 20.0;  // where nothing is within a step: a corner's 256 nearest stand within this,
-constexpr double last_look = 80.0;   // unless milestones are blocked; with fewer than 256 within this, that is all
-constexpr std::size_t most_looked_at = 256;
-
-/// The walls that may touch an edge of at most `reach` from `at`.
-std::vector<Segment> walls_around(const LatticeWorld& world, Vec2 at, double reach) {
-  const Box around = Box{at, at}.grown(reach + world.clearance * (1 + 1e-9) + 1e-6);
-  std::vector<Segment> near;
-  const auto take = [&](const Segment& wall) {
-    if (around.meets(box_of(wall))) near.push_back(wall);
-  };
-  if (reach == step && world.grid.area().contains(at)) {
-    const auto index = [](double x, std::uint32_t count) {
-      return static_cast<std::uint32_t>(std::clamp(std::floor(x - 0.5), 0.0, count - 1.0));
-    };
-    const std::size_t tile = world.grid.tile_at(index(at.x, world.grid.cols), index(at.y, world.grid.rows));
-    world.tiles.reader()->read(tile).for_each_around(world.grid, tile, around, take);
-    return near;
-  }
-  world.tiles.for_each_near(around, take);
-  return near;
-}
-
-bool is_free(std::span<const Segment> walls, const Segment& edge, double clearance) {
-  return std::none_of(walls.begin(), walls.end(),
-                      [&](const Segment& wall) { return blocks_edge(wall, edge, clearance); });
-}
-
-/// The milestones within `reach` of `at`, nearest first.
-std::vector<EndLink> milestones_around(const LatticeWorld& world, std::span<const Segment> walls, Vec2 at,
-                                       double reach) {
-  std::vector<EndLink> found;
-  const auto first = [&](double x) { return static_cast<std::int64_t>(std::max(0.0, std::ceil(x - reach) - 1)); };
-  const auto last = [&](double x, std::uint32_t count) {
-    return static_cast<std::int64_t>(std::min(count - 1.0, std::floor(x + reach) - 1));
-  };
-  for (std::int64_t row = first(at.y); row <= last(at.y, world.grid.rows); ++row) {
-    for (std::int64_t col = first(at.x); col <= last(at.x, world.grid.cols); ++col) {
-      const Vec2 point = TileGrid::point(col, row);
-      const double length = distance(at, point);
-      if (length > reach || !world.box.contains(point)) continue;
-      if (!is_free(walls, {point, point}, world.clearance)) continue;
-      found.push_back({static_cast<std::uint32_t>(col), static_cast<std::uint32_t>(row), length});
-    }
-  }
-  std::stable_sort(found.begin(), found.end(), [](const EndLink& a, const EndLink& b) { return a.length < b.length; });
-  return found;
-}
-
-/// Puts the edges to the candidates to the walls; keeps the free ones, or only the first.
-void try_links(const LatticeWorld& world, std::span<const Segment> walls, std::span<const EndLink> candidates,
-               bool first_only, EndLinks& result) {
-  ++result.queries;
-  for (const EndLink& link : candidates) {
-    ++result.checked;
-    if (!is_free(walls, {result.at, TileGrid::point(link.col, link.row)}, world.clearance)) continue;
-    result.links.push_back(link);
-    if (first_only) return;
-  }
-}
-
-}  // namespace
 
 EndLinks end_links(const LatticeWorld& world, Vec2 at) {
   EndLinks result{at, false, {}, 0, 0};

@@ -6,13 +6,14 @@
 // A key has at most four edges, as its lattice point has, so each has a row of fixed size: 32 bytes, two a cache line,
 // and nothing to look up before it. Rows are written tile by tile in parallel. Then dead ends are peeled again, now
 // across borders: first by ranges of tiles in parallel, where a range lets vertices alone that have an edge out of it,
-// so that no two ranges ever meet; then from the vertices where that had to stop. Cost: O(keys); 33 bytes a key.
+// so that no two ranges ever meet; then from the vertices where that had to stop. Keys keep their numbers, by which
+// paths and other processes know them (planners/graph/reduce_graph.hpp would number them anew). Cost: O(keys); 33 bytes
+// a key.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -25,9 +26,6 @@
 #include "planners/mazes/tile_source.hpp"
 
 namespace warren {
-// Start and goal in a lattice: are they free, and which lattice points are they joined to? Those within one step of
-// them by a free edge; where there is none, the nearest of the 256 nearest milestones that a free edge reaches. Cost:
-// the walls of the tile around them, or all walls where they stand outside the tiles or need the wider look.
 
 /// A free edge from start or goal to a lattice point.
 struct EndLink {
@@ -52,6 +50,9 @@ struct LatticeWorld {
   double clearance;  ///< of planning
 };
 
+/// Start and goal in a lattice: are they free, and which lattice points are they joined to? Those within one step of
+/// them by a free edge; where there is none, the nearest of the 256 nearest milestones that a free edge reaches. Cost:
+/// the walls of the tile around them, or all walls where they stand outside the tiles or need the wider look.
 EndLinks end_links(const LatticeWorld& world, Vec2 at);
 
 /// May start and goal be joined directly: are they within one step?
@@ -120,10 +121,9 @@ class Overlay {
   std::uint32_t longest_ = 1;
 };
 
-// Components of the overlay: of its core, the vertices that are not peeled, or of a part of them. The search is
-// planners/mazes/overlay_search.hpp.
-
-/// Union-find over the vertices of a range that are not peeled, and the edges between them. O(vertices); 4 bytes each.
+/// Components of the overlay: of its core, the vertices that are not peeled, or of a part of them. The search is
+/// planners/mazes/overlay_search.hpp. Union-find over the vertices of a range that are not peeled, and the edges
+/// between them. O(vertices); 4 bytes each.
 class OverlayComponents {
  public:
   /// Throws Stopped.
@@ -146,13 +146,12 @@ struct CoreComponents {
 };
 CoreComponents core_components(const Overlay& overlay, const Execution& execution);
 
-// The overlay of some rows of tiles, peeled by itself before it meets the others': what has an edge out of the band
-// stays, dead ends that end within it go. What is left is said as summaries again, keys and edges in their order, so
-// that the overlay of all bands is that of all tiles but for what its own peeling would have taken away.
-
-/// tiles: summaries without steps of the tile rows first_row .. last_row - 1; components that are gone are counted as
-/// closed in the first of them. ends: what they join stays. As much memory as the band's overlay. Throws Stopped,
-/// InputError where the tiles contradict each other.
+/// The overlay of some rows of tiles, peeled by itself before it meets the others': what has an edge out of the band
+/// stays, dead ends that end within it go. What is left is said as summaries again, keys and edges in their order, so
+/// that the overlay of all bands is that of all tiles but for what its own peeling would have taken away. tiles:
+/// summaries without steps of the tile rows first_row .. last_row - 1; components that are gone are counted as closed
+/// in the first of them. ends: what they join stays. As much memory as the band's overlay. Throws Stopped, InputError
+/// where the tiles contradict each other.
 void peel_band(const TileGrid& grid, std::size_t first_row, std::size_t last_row, const OverlayEnds& ends,
                std::span<TileSummary> tiles, const Execution& execution);
 

@@ -57,6 +57,7 @@ class PathExpansion {
  private:
   Vec2 place_of(VertexId v, std::span<const TileSummary> tiles) const;
   std::uint32_t steps_of(std::size_t leg) const;
+  PathChain chain_of(std::size_t leg) const;
   void write_leg(std::size_t leg, std::span<const TileSummary> tiles, Vec2* out) const;
 
   const Overlay& overlay_;
@@ -67,9 +68,8 @@ class PathExpansion {
   std::vector<std::size_t> first_;  // where the points of each leg go, its beginning not counted; and the end
 };
 
-// Holds a path that comes in pieces: the taker of those who need all of its points.
-
-/// Appends to an empty path, which must outlive it. begin() asks for the memory: Stopped.
+/// Holds a path that comes in pieces: the taker of those who need all of its points. Appends to an empty path, which
+/// must outlive it. begin() asks for the memory: Stopped.
 class PathKeeper : public PathTaker {
  public:
   PathKeeper(Path<Vec2>& path, const Execution& execution) : path_(path), execution_(execution) {}
@@ -85,9 +85,6 @@ class PathKeeper : public PathTaker {
   const Execution& execution_;
 };
 
-// A shortest path over an overlay that this process does not hold: its keys, as whoever searched tells them, made into
-// summaries of tiles that have these keys and their edges alone, so that a path is expanded in one way.
-
 /// A key by its tile and its place in it (row * side + col), and the steps to the next key of a route.
 struct RouteKey {
   std::uint64_t tile;
@@ -95,7 +92,9 @@ struct RouteKey {
   std::uint32_t steps;
 };
 
-/// What a search elsewhere found.
+/// A shortest path over an overlay that this process does not hold: its keys, as whoever searched tells them, made into
+/// summaries of tiles that have these keys and their edges alone, so that a path is expanded in one way. What a search
+/// elsewhere found.
 struct ToldRoute {
   bool joined = false;           ///< start and goal are in one component
   std::uint64_t components = 0;  ///< of the overlay, start and goal among its vertices

@@ -4,11 +4,8 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
-#include <cmath>
-#include <utility>
 
 #include "parallel/asked_memory.hpp"
-#include "parallel/chunks.hpp"
 #include "planners/graph/both_ends.hpp"
 
 namespace warren {

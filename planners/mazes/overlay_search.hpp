@@ -22,7 +22,6 @@
 // Memory: 8 bytes a vertex and side, 16 an open one; parents are found again on the way back, from the labels.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -44,6 +45,13 @@ struct TileGrid {
   std::size_t count() const { return std::size_t{tile_cols} * tile_rows; }
   std::size_t tile_at(std::uint32_t col, std::uint32_t row) const {
     return std::size_t{row >> side_log2} * tile_cols + (col >> side_log2);
+  }
+  /// The tile of the lattice point that is nearest to p.
+  std::size_t tile_near(Vec2 p) const {
+    const auto index = [](double x, std::uint32_t count) {
+      return static_cast<std::uint32_t>(std::clamp(std::floor(x - 0.5), 0.0, count - 1.0));
+    };
+    return tile_at(index(p.x, cols), index(p.y, rows));
   }
   std::uint32_t first_col(std::size_t tile) const { return static_cast<std::uint32_t>(tile % tile_cols) << side_log2; }
   std::uint32_t first_row(std::size_t tile) const { return static_cast<std::uint32_t>(tile / tile_cols) << side_log2; }

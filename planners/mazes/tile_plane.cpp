@@ -20,32 +20,11 @@ Span standing(double low, double high, std::uint32_t count, std::uint32_t origin
   return {static_cast<int>(from), static_cast<int>(std::clamp(end - origin, from, static_cast<double>(ring_end)))};
 }
 
-}  // namespace
-
-void TilePlane::reset(std::size_t tile, const Box& box) {
-  tile_ = tile;
-  std::fill(bytes_.begin(), bytes_.end(), std::uint8_t{0});
-  const Span cols = standing(box.min.x, box.max.x, grid_.cols, grid_.first_col(tile), width() + 1);
-  const Span rows = standing(box.min.y, box.max.y, grid_.rows, grid_.first_row(tile), height() + 1);
-  if (cols.first >= cols.end) return;
-  for (int row = rows.first; row < rows.end; ++row) {
-    unsigned bits = plane_bit::edges | plane_bit::milestone;
-    if (row == rows.first) bits &= ~unsigned{plane_bit::down};
-    if (row + 1 == rows.end) bits &= ~unsigned{plane_bit::up};
-    std::fill(at(cols.first, row), at(cols.end, row), static_cast<std::uint8_t>(bits));
-    *at(cols.first, row) &= static_cast<std::uint8_t>(~plane_bit::left);
-    *at(cols.end - 1, row) &= static_cast<std::uint8_t>(~plane_bit::right);
-  }
-}
+using plane_bit::edges, plane_bit::kept;
+using Byte = std::uint8_t;
 
 // Compilers turn the loops of these functions into vector code of the instruction set of the function that they are
 // inlined in.
-
-namespace {
-
-using plane_bit::edges;
-using plane_bit::kept;
-using Byte = std::uint8_t;
 
 [[gnu::always_inline]] inline void find_dead_ends(const Byte* __restrict row, Byte* __restrict found, int width) {
   for (int i = 0; i < width; ++i) {
@@ -102,6 +81,22 @@ void keys_any(const PlaneRow& r) { find_keys(r.row, r.found, r.width); }
 #endif
 
 }  // namespace
+
+void TilePlane::reset(std::size_t tile, const Box& box) {
+  tile_ = tile;
+  std::fill(bytes_.begin(), bytes_.end(), std::uint8_t{0});
+  const Span cols = standing(box.min.x, box.max.x, grid_.cols, grid_.first_col(tile), width() + 1);
+  const Span rows = standing(box.min.y, box.max.y, grid_.rows, grid_.first_row(tile), height() + 1);
+  if (cols.first >= cols.end) return;
+  for (int row = rows.first; row < rows.end; ++row) {
+    unsigned bits = plane_bit::edges | plane_bit::milestone;
+    if (row == rows.first) bits &= ~unsigned{plane_bit::down};
+    if (row + 1 == rows.end) bits &= ~unsigned{plane_bit::up};
+    std::fill(at(cols.first, row), at(cols.end, row), static_cast<std::uint8_t>(bits));
+    *at(cols.first, row) &= static_cast<std::uint8_t>(~plane_bit::left);
+    *at(cols.end - 1, row) &= static_cast<std::uint8_t>(~plane_bit::right);
+  }
+}
 
 PlaneRowVariants plane_row_variants() {
   PlaneRowVariants variants{};

@@ -65,9 +65,6 @@ class TilePlane {
   std::vector<std::uint8_t> bytes_;
 };
 
-// What is done to every point of a row of a tile's plane, many points an instruction. Integers only, so every
-// instruction set gives the same bytes; which one is used is asked of the processor once.
-
 /// A row of a plane, the rows above and below it, and a row of scratch with a free byte before and after it.
 struct PlaneRow {
   std::uint8_t* row;
@@ -77,7 +74,9 @@ struct PlaneRow {
   int width;
 };
 
-/// The same work for one instruction set.
+/// What is done to every point of a row of a tile's plane, many points an instruction. Integers only, so every
+/// instruction set gives the same bytes; which one is used is asked of the processor once. The same work for one
+/// instruction set.
 struct PlaneRowWork {
   const char* name;
   /// Takes the row's dead ends off (points with one edge that are not kept become 0), and their edges from the

@@ -3,13 +3,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <cassert>
 #include <cstring>
-#include <functional>
 #include <string>
 
 #include "core/base/error.hpp"
-#include "planners/mazes/tile_plane.hpp"
 
 namespace warren {
 namespace {
@@ -30,33 +27,6 @@ bool is_of(const TileSummary& tile, std::uint32_t side) {
   return ascends && within && chains && std::all_of(tile.crossings.begin(), tile.crossings.end(), crosses);
 }
 
-}  // namespace
-
-void pack_summary(const TileSummary& tile, ValuePacker& to) {
-  to.add_list(tile.keys);
-  to.add_list(tile.chains);
-  to.add_list(tile.steps);
-  for (const auto& crossing : tile.crossings) to.add_list(crossing);
-  for (const std::uint64_t count : {tile.milestones, tile.candidate_edges, tile.free_edges, tile.closed_components}) {
-    to.add(count);
-  }
-}
-
-TileSummary unpack_summary(ValueUnpacker& from, std::uint32_t side) {
-  TileSummary tile;
-  tile.keys = from.take_list<std::uint16_t>();
-  tile.chains = from.take_list<Chain>();
-  tile.steps = from.take_list<std::uint8_t>();
-  for (auto& crossing : tile.crossings) crossing = from.take_list<std::uint16_t>();
-  for (std::uint64_t* count : {&tile.milestones, &tile.candidate_edges, &tile.free_edges, &tile.closed_components}) {
-    *count = from.take<std::uint64_t>();
-  }
-  if (!is_of(tile, side)) from.refuse();
-  return tile;
-}
-
-namespace {
-
 /// Column or row, by the side (0 right, 1 above, 2 left, 3 below), of the points that cross it.
 bool agree(const TileGrid& grid, const TileSummary& tile, const TileSummary& beyond, unsigned side) {
   const auto place = [&](const TileSummary& of, std::uint16_t key) {
@@ -69,27 +39,7 @@ bool agree(const TileGrid& grid, const TileSummary& tile, const TileSummary& bey
                     });
 }
 
-}  // namespace
-
-void check_borders(const TileGrid& grid, std::span<const TileSummary> tiles, const Execution& execution) {
-  const TileSummary nothing;
-  for (std::size_t t = 0; t < tiles.size(); ++t) {
-    if (t % 4096 == 0) execution.check();
-    const bool is_last = t % grid.tile_cols + 1 == grid.tile_cols;
-    const bool is_top = t + grid.tile_cols >= tiles.size();
-    if (agree(grid, tiles[t], is_last ? nothing : tiles[t + 1], 0) &&
-        agree(grid, tiles[t], is_top ? nothing : tiles[t + grid.tile_cols], 1)) {
-      continue;
-    }
-    throw InputError("tiles", "neighbours do not agree about the border between them", std::to_string(t));
-  }
-}
-
-namespace {
-
-using plane_bit::edges;
-using plane_bit::kept;
-using plane_bit::key;
+using plane_bit::edges, plane_bit::kept, plane_bit::key;
 
 /// One edge and not kept. A table of 64 answers in a word.
 constexpr std::uint64_t dead_end_set = [] {
@@ -125,6 +75,43 @@ PlaneRow row_of(TilePlane& plane, int row, std::vector<std::uint8_t>& found) {
 }
 
 }  // namespace
+
+void pack_summary(const TileSummary& tile, ValuePacker& to) {
+  to.add_list(tile.keys);
+  to.add_list(tile.chains);
+  to.add_list(tile.steps);
+  for (const auto& crossing : tile.crossings) to.add_list(crossing);
+  for (const std::uint64_t count : {tile.milestones, tile.candidate_edges, tile.free_edges, tile.closed_components}) {
+    to.add(count);
+  }
+}
+
+TileSummary unpack_summary(ValueUnpacker& from, std::uint32_t side) {
+  TileSummary tile;
+  tile.keys = from.take_list<std::uint16_t>();
+  tile.chains = from.take_list<Chain>();
+  tile.steps = from.take_list<std::uint8_t>();
+  for (auto& crossing : tile.crossings) crossing = from.take_list<std::uint16_t>();
+  for (std::uint64_t* count : {&tile.milestones, &tile.candidate_edges, &tile.free_edges, &tile.closed_components}) {
+    *count = from.take<std::uint64_t>();
+  }
+  if (!is_of(tile, side)) from.refuse();
+  return tile;
+}
+
+void check_borders(const TileGrid& grid, std::span<const TileSummary> tiles, const Execution& execution) {
+  const TileSummary nothing;
+  for (std::size_t t = 0; t < tiles.size(); ++t) {
+    if (t % 4096 == 0) execution.check();
+    const bool is_last = t % grid.tile_cols + 1 == grid.tile_cols;
+    const bool is_top = t + grid.tile_cols >= tiles.size();
+    if (agree(grid, tiles[t], is_last ? nothing : tiles[t + 1], 0) &&
+        agree(grid, tiles[t], is_top ? nothing : tiles[t + grid.tile_cols], 1)) {
+      continue;
+    }
+    throw InputError("tiles", "neighbours do not agree about the border between them", std::to_string(t));
+  }
+}
 
 std::size_t TileSummary::bytes() const {
   std::size_t total = sizeof(*this) + keys.size() * 2 + chains.size() * sizeof(Chain) + steps.size();

@@ -7,7 +7,8 @@
 //
 // Peeling follows each dead end inwards as far as it goes, so one pass over the plane is enough: O(points). What is
 // left in a maze is a few per cent of the vertices, in open space nearly all. Lengths are counted in steps between
-// lattice points.
+// lattice points. planners/graph/reduce_graph.hpp does the same to a graph, which would have to be made first: 20 bytes
+// a point, where the plane has one.
 #pragma once
 
 #include <array>
@@ -78,14 +79,12 @@ class TileReduction {
   std::uint32_t step_count_ = 0;
 };
 
-// Tile summaries as bytes, for files and other processes.
-
+/// Tile summaries as bytes, for files and other processes.
 void pack_summary(const TileSummary& tile, ValuePacker& to);
 /// Throws InputError where the bytes are no summary of a tile of this side.
 TileSummary unpack_summary(ValueUnpacker& from, std::uint32_t side);
 
-// Do neighbouring tiles that were reduced elsewhere, or at another time, say the same of the border between them?
-
+/// Do neighbouring tiles that were reduced elsewhere, or at another time, say the same of the border between them?
 /// Compares the points with a free edge over each border. Throws InputError where they differ, Stopped.
 void check_borders(const TileGrid& grid, std::span<const TileSummary> tiles, const Execution& execution);
 

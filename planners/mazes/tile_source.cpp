@@ -2,11 +2,8 @@
 #include "planners/mazes/tile_source.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <vector>
 
 #include "core/base/raw_vector.hpp"
-#include "planners/mazes/wall_partition.hpp"
 #include "planners/mazes/wall_steps.hpp"
 
 namespace warren {
@@ -131,11 +128,8 @@ class CellTiles : public TileSource {
   std::unique_ptr<TileReader> reader() const override { return std::make_unique<Reader>(cells_, grid_); }
   Box box() const override { return cells_.box(); }
   void for_each_near(const Box& around, const std::function<void(const Segment&)>& visit) const override {
-    const auto cell = [](double x, std::uint32_t count) {
-      return static_cast<std::uint32_t>(std::clamp(std::floor(x - 0.5), 0.0, count - 1.0));
-    };
-    const std::size_t low = grid_.tile_at(cell(around.min.x, grid_.cols), cell(around.min.y, grid_.rows));
-    const std::size_t high = grid_.tile_at(cell(around.max.x, grid_.cols), cell(around.max.y, grid_.rows));
+    const std::size_t low = grid_.tile_near(around.min);
+    const std::size_t high = grid_.tile_near(around.max);
     Reader reader(cells_, grid_);
     for (std::size_t row = low / grid_.tile_cols; row <= high / grid_.tile_cols; ++row) {
       for (std::size_t col = low % grid_.tile_cols; col <= high % grid_.tile_cols; ++col) {

@@ -2,25 +2,15 @@
 #include "planners/mazes/tiled_prm_lattice.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <utility>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "core/base/raw_vector.hpp"
 #include "parallel/asked_memory.hpp"
-#include "parallel/chunks.hpp"
 #include "planners/graph/no_path.hpp"
-#include "planners/mazes/overlay.hpp"
-#include "planners/mazes/overlay_path.hpp"
 #include "planners/mazes/overlay_search.hpp"
-#include "planners/mazes/tile_grid.hpp"
-#include "planners/mazes/tile_plane.hpp"
-#include "planners/mazes/tile_reduction.hpp"
-#include "planners/mazes/tile_source.hpp"
-#include "planners/mazes/wall_marking.hpp"
 
 namespace warren {
 namespace {
@@ -206,8 +196,7 @@ void TiledPlan::partition() {
 bool TiledPlan::join_ends() {
   const LatticeWorld world{grid_, *source_, box_, clearance_};
   constexpr std::size_t many_walls = 100'000;  // as many as make a search by two threads worth it
-  Execution own = execution_;
-  own.progress = nullptr;
+  Execution own = execution_.quiet();
   if (problem_.walls.size() < many_walls) own.threads = 1;
   for_chunks(2, 1, own, [&](Range r) {
     (r.first == 0 ? ends_.start : ends_.goal) = end_links(world, r.first == 0 ? problem_.start : problem_.goal);
@@ -428,6 +417,22 @@ void TiledPlan::search_elsewhere() {
   measure_gap();
 }
 
+/// The parts of a run are the same for any number of threads: of so many tiles each.
+bool take_kept(KeptParts& kept, std::size_t first, std::uint32_t side, std::span<TileSummary> summaries) {
+  const auto bytes = kept.find(PartKind::tiles, first);
+  if (!bytes) return false;
+  ValueUnpacker from(*bytes, "a kept part of the tiles");
+  for (TileSummary& tile : summaries) tile = unpack_summary(from, side);
+  if (!from.is_done()) from.refuse();
+  return true;
+}
+
+void keep(KeptParts& kept, std::size_t first, std::span<const TileSummary> summaries) {
+  ValuePacker packer;
+  for (const TileSummary& tile : summaries) pack_summary(tile, packer);
+  kept.keep(PartKind::tiles, first, packer.bytes());
+}
+
 }  // namespace
 
 bool tiled_prm_applies(const RoadmapOptions& options, double clearance) {
@@ -447,33 +452,8 @@ Solution<Vec2> tiled_prm(const TiledProblem& problem, const RoadmapOptions& opti
     throw InputError("clearance", "must be below half a cell where walls are made tile by tile");
   }
   TiledPlan plan(problem, options, execution);
-  try {
-    plan.run();
-  } catch (const Stopped& stopped) {
-    mark_stopped(plan.solution(), stopped);
-  }
-  return std::move(plan.solution());
+  return run_plan(plan);
 }
-
-namespace {
-
-/// The parts of a run are the same for any number of threads: of so many tiles each.
-bool take_kept(KeptParts& kept, std::size_t first, std::uint32_t side, std::span<TileSummary> summaries) {
-  const auto bytes = kept.find(PartKind::tiles, first);
-  if (!bytes) return false;
-  ValueUnpacker from(*bytes, "a kept part of the tiles");
-  for (TileSummary& tile : summaries) tile = unpack_summary(from, side);
-  if (!from.is_done()) from.refuse();
-  return true;
-}
-
-void keep(KeptParts& kept, std::size_t first, std::span<const TileSummary> summaries) {
-  ValuePacker packer;
-  for (const TileSummary& tile : summaries) pack_summary(tile, packer);
-  kept.keep(PartKind::tiles, first, packer.bytes());
-}
-
-}  // namespace
 
 /// The scratch of one thread.
 class LatticeTiles::Maker {

@@ -98,10 +98,9 @@ bool tiled_prm_applies(const RoadmapOptions& options, double clearance);
 /// tiled_prm_applies() is false, for cells and a clearance of half a cell, or for options out of range.
 Solution<Vec2> tiled_prm(const TiledProblem& problem, const RoadmapOptions& options, const Execution& execution);
 
-// The first stages of the tiled lattice roadmap: each tile's milestones and edges, and its reduction, by all threads.
-// Tiles share nothing: any of them may be made here, in an earlier run, or by another process.
-
-/// What the tiles are made of. Refers to grid, source and ends.
+/// The first stages of the tiled lattice roadmap: each tile's milestones and edges, and its reduction, by all threads.
+/// Tiles share nothing: any of them may be made here, in an earlier run, or by another process. Refers to grid, source
+/// and ends.
 class LatticeTiles {
  public:
   /// clearance: of planning. box: the reference point stays in it. grain: tiles that a thread makes at once.

@@ -2,13 +2,11 @@
 #include "planners/mazes/wall_marking.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <cmath>
 #include <utility>
 
 #include "core/plane/geometry.hpp"
-#include "planners/mazes/wall_partition.hpp"
 #include "planners/mazes/wall_steps.hpp"
 #include "spatial/obstacles/wall_index.hpp"
 

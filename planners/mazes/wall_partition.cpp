@@ -1,19 +1,73 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planners/mazes/wall_partition.hpp"
 
-#include <algorithm>
 #include <type_traits>
 
 #include "core/base/error.hpp"
-#include "core/base/raw_vector.hpp"
 #include "parallel/asked_memory.hpp"
-#include "planners/mazes/wall_steps.hpp"
 
 namespace warren {
 namespace {
 
 /// At least 16384 walls, at most 512 chunks: so that their counts stay small beside the walls.
 std::size_t grain_of(std::size_t walls) { return std::max<std::size_t>(16384, (walls + 511) / 512); }
+
+constexpr std::size_t band_bytes = std::size_t{64} << 20;  // smaller bands are not worth their count
+constexpr std::uint32_t most_bands_in_order = 16;
+constexpr std::uint32_t most_bands = 64;
+
+std::size_t bytes_of_tile(const WallCounts& counts, std::size_t tile, std::size_t wall_bytes) {
+  return counts.narrow().of_tile(tile) * sizeof(NarrowWall) + counts.wide().of_tile(tile) * wall_bytes;
+}
+
+/// Chunks looked at for all bands together, over the number of chunks.
+double passes(const WallCounts& counts, const TileGrid& grid, const TileBands& bands) {
+  std::size_t looks = 0;
+  std::vector<std::uint8_t> met(bands.count);
+  for (std::size_t chunk = 0; chunk < counts.chunks(); ++chunk) {
+    std::fill(met.begin(), met.end(), std::uint8_t{0});
+    for (std::size_t tile = 0; tile < counts.tiles(); ++tile) {
+      if (counts.has(chunk, tile)) met[bands.of(grid, tile)] = 1;
+    }
+    looks += static_cast<std::size_t>(std::count(met.begin(), met.end(), 1));
+  }
+  return static_cast<double>(looks) / static_cast<double>(counts.chunks());
+}
+
+/// So many that a band takes half of what is left.
+std::uint32_t bands_by_memory(std::size_t bytes, const Execution& execution) {
+  if (execution.deadline == nullptr) return 1;
+  const std::size_t limit = execution.deadline->memory_bytes();
+  const std::size_t held = resident_bytes();
+  const std::size_t left = limit > held ? (limit - held) / 2 : 0;
+  if (bytes <= left) return 1;
+  return static_cast<std::uint32_t>(std::min<std::size_t>(most_bands, bytes / std::max(left, band_bytes) + 1));
+}
+
+using detail::middle_of, detail::WallSteps;
+
+/// Where the walls of each of these tiles begin; returns how many there are.
+std::size_t add_up(const ChunkCounts& counts, std::span<const std::size_t> tiles, RawVector<std::uint32_t>& first) {
+  std::uint64_t sum = 0;
+  for (const std::size_t tile : tiles) {
+    first[tile] = static_cast<std::uint32_t>(sum);
+    sum += counts.of_tile(tile);
+  }
+  if (sum >= 0xffffffffU) throw InputError("walls", "make more than 2^32 - 1 entries in the tiles that they pass");
+  return sum;
+}
+
+/// What it held is gone.
+template <class Wall>
+void resize_touched(RawVector<Wall>& walls, std::size_t count, const Execution& execution) {
+  const std::size_t room = walls.capacity();
+  if (count > room) {
+    let_go(walls);
+    execution.reserve(count * sizeof(Wall));
+  }
+  walls.resize(count);
+  if (count > room) touch_first(walls, execution);
+}
 
 }  // namespace
 
@@ -63,42 +117,6 @@ void WallCounts::count(std::span<const Wall> walls, const WallFiler& filer, cons
   any_wide_ = std::find(wide_found.begin(), wide_found.end(), 1) != wide_found.end();
 }
 
-namespace {
-
-constexpr std::size_t band_bytes = std::size_t{64} << 20;  // smaller bands are not worth their count
-constexpr std::uint32_t most_bands_in_order = 16;
-constexpr std::uint32_t most_bands = 64;
-
-std::size_t bytes_of_tile(const WallCounts& counts, std::size_t tile, std::size_t wall_bytes) {
-  return counts.narrow().of_tile(tile) * sizeof(NarrowWall) + counts.wide().of_tile(tile) * wall_bytes;
-}
-
-/// Chunks looked at for all bands together, over the number of chunks.
-double passes(const WallCounts& counts, const TileGrid& grid, const TileBands& bands) {
-  std::size_t looks = 0;
-  std::vector<std::uint8_t> met(bands.count);
-  for (std::size_t chunk = 0; chunk < counts.chunks(); ++chunk) {
-    std::fill(met.begin(), met.end(), std::uint8_t{0});
-    for (std::size_t tile = 0; tile < counts.tiles(); ++tile) {
-      if (counts.has(chunk, tile)) met[bands.of(grid, tile)] = 1;
-    }
-    looks += static_cast<std::size_t>(std::count(met.begin(), met.end(), 1));
-  }
-  return static_cast<double>(looks) / static_cast<double>(counts.chunks());
-}
-
-/// So many that a band takes half of what is left.
-std::uint32_t bands_by_memory(std::size_t bytes, const Execution& execution) {
-  if (execution.deadline == nullptr) return 1;
-  const std::size_t limit = execution.deadline->memory_bytes();
-  const std::size_t held = resident_bytes();
-  const std::size_t left = limit > held ? (limit - held) / 2 : 0;
-  if (bytes <= left) return 1;
-  return static_cast<std::uint32_t>(std::min<std::size_t>(most_bands, bytes / std::max(left, band_bytes) + 1));
-}
-
-}  // namespace
-
 std::vector<std::size_t> TileBands::tiles(const TileGrid& grid, std::uint32_t band) const {
   std::vector<std::size_t> tiles;
   for (std::size_t tile = 0; tile < grid.count(); ++tile) {
@@ -124,36 +142,6 @@ TileBands choose_bands(const WallCounts& counts, const TileGrid& grid, std::size
   }
   return bands(grid.tile_rows > grid.tile_cols, bands_by_memory(bytes, execution));
 }
-
-namespace {
-
-using detail::middle_of;
-using detail::WallSteps;
-
-/// Where the walls of each of these tiles begin; returns how many there are.
-std::size_t add_up(const ChunkCounts& counts, std::span<const std::size_t> tiles, RawVector<std::uint32_t>& first) {
-  std::uint64_t sum = 0;
-  for (const std::size_t tile : tiles) {
-    first[tile] = static_cast<std::uint32_t>(sum);
-    sum += counts.of_tile(tile);
-  }
-  if (sum >= 0xffffffffU) throw InputError("walls", "make more than 2^32 - 1 entries in the tiles that they pass");
-  return sum;
-}
-
-/// What it held is gone.
-template <class Wall>
-void resize_touched(RawVector<Wall>& walls, std::size_t count, const Execution& execution) {
-  const std::size_t room = walls.capacity();
-  if (count > room) {
-    let_go(walls);
-    execution.reserve(count * sizeof(Wall));
-  }
-  walls.resize(count);
-  if (count > room) touch_first(walls, execution);
-}
-
-}  // namespace
 
 WallPartition::WallPartition(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid, double halo,
                              const Execution& execution)

@@ -31,10 +31,9 @@
 #include "planners/mazes/wall_steps.hpp"
 
 namespace warren {
-// Which walls of a tile come near a place? Two at once, in whole steps: a look at all walls of a tile costs some
-// instructions a wall.
 
-/// A box in the steps of a tile's narrow walls.
+/// Which walls of a tile come near a place? Two at once, in whole steps: a look at all walls of a tile costs some
+/// instructions a wall. A box in the steps of a tile's narrow walls.
 class NarrowBox {
  public:
   /// Holds what narrow walls of the tile can reach of `box`; some steps wider, for rounding.
@@ -71,9 +70,8 @@ class NarrowBox {
   Ends high_;
 };
 
-// Where a wall passes a horizontal band: what keeps the cost of a long slanted wall at the cells that it passes instead
-// of all cells of its box.
-
+/// Where a wall passes a horizontal band: what keeps the cost of a long slanted wall at the cells that it passes
+/// instead of all cells of its box.
 struct BandInterval {
   double low;
   double high;
@@ -96,10 +94,8 @@ inline BandInterval x_range_in_band(const Segment& wall, double low, double high
   return {std::max(box.min.x, std::min(x1, x2) - error), std::min(box.max.x, std::max(x1, x2) + error)};
 }
 
-// Into which tiles a wall goes, and in which form: every tile that its box, grown by the halo, meets; where it is long
-// or no multiple of 1/128, row of tiles by row of tiles those that it passes.
-
-/// Refers to the grid.
+/// Into which tiles a wall goes, and in which form: every tile that its box, grown by the halo, meets; where it is long
+/// or no multiple of 1/128, row of tiles by row of tiles those that it passes. Refers to the grid.
 class WallFiler {
  public:
   WallFiler(const TileGrid& grid, double halo)
@@ -163,10 +159,9 @@ class WallFiler {
   const bool narrow_fits_;
 };
 
-// How many walls of each chunk of the list go to each tile: with that, any tiles can be filed by themselves, each wall
-// where it would stand if all were, and chunks that have nothing for them are passed over. One pass over the walls.
-// Borders of chunks depend on the number of walls alone. Memory: 4 bytes a chunk and tile, twice where walls are wide.
-
+/// How many walls of each chunk of the list go to each tile: with that, any tiles can be filed by themselves, each wall
+/// where it would stand if all were, and chunks that have nothing for them are passed over. One pass over the walls.
+/// Borders of chunks depend on the number of walls alone. Memory: 4 bytes a chunk and tile, twice where walls are wide.
 /// Of the narrow or of the wide walls. Immutable after its construction.
 class ChunkCounts {
  public:
@@ -220,12 +215,11 @@ class WallCounts {
   Box box_;
 };
 
-// Which tiles are filed together: all, or bands of tiles one after the other, so that not all walls are held twice.
-// Where the walls come in some order, a band takes but a part of the list, and many bands cost no more than one: the
-// copies then are a 16th of the walls. Where they come in no order, each band is a pass over all walls, and there are
-// as few as the memory allows. What is made of the tiles is the same for any bands.
-
-/// `count` bands of whole columns (or rows) of tiles.
+/// Which tiles are filed together: all, or bands of tiles one after the other, so that not all walls are held twice.
+/// Where the walls come in some order, a band takes but a part of the list, and many bands cost no more than one: the
+/// copies then are a 16th of the walls. Where they come in no order, each band is a pass over all walls, and there are
+/// as few as the memory allows. What is made of the tiles is the same for any bands. `count` bands of whole columns (or
+/// rows) of tiles.
 struct TileBands {
   std::uint32_t count = 1;
   bool by_rows = false;

@@ -212,9 +212,8 @@ inline std::array<WallShape, 2> wall_shapes(const NarrowWall* walls, bool single
 }  // namespace warren::detail
 
 namespace warren {
-// The box of all walls, found while they are gone through for another reason: four coordinates at once.
 
-/// The box of the walls that it has been shown.
+/// The box of all walls, found while they are gone through for another reason: four coordinates at once.
 class GrowingBox {
  public:
   void include(const PackedWall& w) { include(detail::WallSteps(w).numbers() * (1.0F / narrow_unit)); }

@@ -22,6 +22,7 @@
 #include "planners/graph/components.hpp"
 #include "planners/graph/hierarchy.hpp"
 #include "planners/graph/hierarchy_query.hpp"
+#include "planners/graph/queue_choice.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
 #include "planners/graph/roadmap_search.hpp"
 #include "planners/graph/shared_edge_states.hpp"
@@ -29,10 +30,9 @@
 #include "planners/roadmap/plan_in_rounds.hpp"
 
 namespace warren {
-// A roadmap that was built without a question (build_roadmap.hpp), ready for any number of them: with the index that
-// attaches start and goal, and with what is known of its edges, which questions add to.
 
-/// A roadmap ready to be asked. Refers to the world, and to the hierarchy where it has one.
+/// A roadmap ready to be asked: with the index that attaches start and goal, and with what is known of its edges, which
+/// questions add to. Refers to the world, and to the hierarchy where it has one.
 template <World W>
 class AskedRoadmap {
  public:
@@ -90,13 +90,11 @@ class AskedRoadmap {
   Components components_;  // by free edges
 };
 
-}  // namespace warren
+namespace detail {
 
-namespace warren::detail {
-// The neighbours that the search of a question sees (ask_roadmap.hpp): those of the roadmap, and start and goal as two
-// vertices more. What is not known of an edge is asked of the world when the search wants it, and kept.
-
-/// One a thread. Refers to all that it is given.
+/// The neighbours that the search of a question sees: those of the roadmap, and start and goal as two vertices more.
+/// What is not known of an edge is asked of the world when the search wants it, and kept. One a thread. Refers to all
+/// that it is given.
 template <World W>
 class AskedNeighbours {
  public:
@@ -182,9 +180,7 @@ class AskedNeighbours {
   std::uint64_t free_edges_ = 0;
 };
 
-}  // namespace warren::detail
-
-namespace warren {
+}  // namespace detail
 
 /// What one thread asks with: kept from one question to the next, it costs what a question touches.
 struct AskScratch {
@@ -235,7 +231,6 @@ class Ask {
   std::size_t vertex_count() const { return roadmap_.states().size() + 2; }
   /// Of a lazy roadmap it is learnt on the way.
   bool tells_separation() const { return scratch_.tells_separation || roadmap_.is_lazy(); }
-  bool blind() const { return options_.search == SearchKind::bfs || options_.search == SearchKind::dfs; }
   AskedNeighbours<W> neighbours(std::vector<Edge>* used) const {
     return {roadmap_, ends_, end_edges_, used, execution_};
   }
@@ -361,7 +356,7 @@ void Ask<W>::search() {
   SearchResult found;
   if (roadmap_.hierarchy() != nullptr && scratch_.by_hierarchy) {
     found = search_hierarchy();
-  } else if (blind() || (large && roadmap_.is_stringy())) {
+  } else if (is_blind(options_.search) || (large && roadmap_.is_stringy())) {
     found = search_copy();
   } else if (large) {
     found = search_both_ends();

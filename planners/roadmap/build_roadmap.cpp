@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planners/roadmap/build_roadmap.hpp"
 
-#include <algorithm>
 #include <limits>
-#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/search/search.hpp"

@@ -9,7 +9,6 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <functional>
 #include <optional>
 #include <span>
@@ -30,10 +29,6 @@
 #include "planners/roadmap/roadmap_growth.hpp"
 
 namespace warren {
-
-// Asks the world about every edge of a roadmap, on all cores. An edge that leads both ways is asked from its smaller
-// vertex, as prm does; its other end copies what was answered. One byte an edge end while it runs, since threads share
-// words of two bits.
 
 enum class EdgeDirections : std::uint8_t { both, one };
 
@@ -115,8 +110,10 @@ inline RawVector<std::uint64_t> packed(std::span<const std::uint8_t> states, con
 
 }  // namespace detail
 
-/// The states of all edges, as graph.hpp packs them: the same for any number of threads. `known`, and what
-/// `before` says where it is given, is not asked. Throws Stopped.
+/// Asks the world about every edge of a roadmap, on all cores. An edge that leads both ways is asked from its smaller
+/// vertex, as prm does; its other end copies what was answered. One byte an edge end while it runs, since threads share
+/// words of two bits. The states of all edges, as graph.hpp packs them: the same for any number of threads. `known`,
+/// and what `before` says where it is given, is not asked. Throws Stopped.
 template <World W>
 RawVector<std::uint64_t> check_edges(const W& world, std::span<const typename W::State> states, const Graph& graph,
                                      EdgeDirections directions, const Execution& execution, Counters& counters,

@@ -295,11 +295,6 @@ RawVector<Edge> attach_start_and_goal(const W& world, std::span<const typename W
   return edges;
 }
 
-// The candidate edges of a roadmap whose motions have a direction: from a state to its k nearest, or from the k nearest
-// to it; nearest by the world's metric, in the edge's direction. The metric may be far above the distance of the
-// embedding (a car gets sideways by a loop), so the k are chosen among the 4 k nearest of the embedding. Radius rule:
-// what is within the radius by the metric.
-
 enum class Heading : std::uint8_t { out, in };
 
 /// The other end of a candidate edge, and the edge's length.
@@ -308,8 +303,11 @@ struct OneWayCandidate {
   VertexId to;
 };
 
-/// Nearest first; of two as near, the smaller vertex. `except`: the state's own vertex, or no_vertex; `near` is
-/// scratch.
+/// The candidate edges of a roadmap whose motions have a direction: from a state to its k nearest, or from the k
+/// nearest to it; nearest by the world's metric, in the edge's direction. The metric may be far above the distance of
+/// the embedding (a car gets sideways by a loop), so the k are chosen among the 4 k nearest of the embedding. Radius
+/// rule: what is within the radius by the metric. Nearest first; of two as near, the smaller vertex. `except`: the
+/// state's own vertex, or no_vertex; `near` is scratch.
 template <World W>
 std::vector<OneWayCandidate> one_way_candidates(const W& world, std::span<const typename W::State> states,
                                                 const StateIndex<W>& index, const ConnectionRule& rule,

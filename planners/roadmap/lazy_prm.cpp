@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planners/roadmap/lazy_prm.hpp"
 
-#include <algorithm>
-#include <bit>
 #include <cmath>
-#include <utility>
 
 #include "core/plane/geometry.hpp"
 
 namespace warren {
 namespace {
 
-constexpr std::size_t cells_per_poll = std::size_t{1} << 16;
+constexpr std::size_t cells_a_look = std::size_t{1} << 16;
 constexpr std::uint8_t is_kept = 0xF0;  // more than one way out
 
 /// Closes a cell of one side after the other, while the next one has no more.
@@ -41,7 +38,7 @@ DeadEnds::DeadEnds(CellSides cells, std::span<const std::size_t> kept, const Exe
   std::copy(cells_.open.begin(), cells_.open.end(), left.begin());
   for (const std::size_t cell : kept) cells_.open[cell] |= is_kept;
   for (std::size_t cell = 0; cell < left.size(); ++cell) {
-    if (cell % cells_per_poll == 0) execution.check();
+    if (cell % cells_a_look == 0) execution.check();
     peel_from(cell, cells_, left);
   }
   for (const std::size_t cell : kept) cells_.open[cell] &= CellSides::all;

@@ -37,18 +37,6 @@
 #include "spatial/points/neighbours.hpp"
 
 namespace warren {
-// Which cells lead nowhere, and when a search need not look into them any more. A cell from which all ways to the ends
-// of the question lead over one side, the way out, lies in a dead end: peeled cell by cell from its tip, so each cell
-// of it has a way out of its own, and behind that lies all that can be reached without it. O(cells), two bytes a cell.
-//
-// A search may leave a milestone of a dead end unexpanded once all milestones that a motion over the way out can come
-// to are settled, for nothing that it would lower lies elsewhere: a motion that leaves what lies behind passes the
-// side, and no motion is longer than the radius. So labels and parents beyond the dead end are those of a search
-// without it, and the path is the same. A search from both ends may do it where its own side has settled them (the
-// argument of core/search/bidirectional_search.hpp holds: a vertex of the middle of a shortest path, in a dead end, is
-// left by a vertex that is closed by neither side or was settled by both in one round, whose labels then are right). In
-// a maze that leaves the corridor between start and goal and a cell or two of each branch: of uniform milestones among
-// 4,000 x 4,000 cells an eighth is settled instead of nine tenths (docs/performance.md).
 
 /// A world of the plane that knows which sides of unit cells no motion crosses.
 /// w.cell_sides(most_cells, execution)  nothing where that can't be said, or where the cells are more
@@ -57,7 +45,20 @@ concept CellSideWorld = World<W> && requires(const W& w, const Execution& execut
   { w.cell_sides(std::size_t{}, execution) } -> std::same_as<CellSides>;
 };
 
-/// Immutable; any number of threads may ask.
+/// Which cells lead nowhere, and when a search need not look into them any more. A cell from which all ways to the ends
+/// of the question lead over one side, the way out, lies in a dead end: peeled cell by cell from its tip, so each cell
+/// of it has a way out of its own, and behind that lies all that can be reached without it. Cells are peeled, not
+/// vertices, for no edge is known yet. O(cells), two bytes a cell.
+///
+/// A search may leave a milestone of a dead end unexpanded once all milestones that a motion over the way out can come
+/// to are settled, for nothing that it would lower lies elsewhere: a motion that leaves what lies behind passes the
+/// side, and no motion is longer than the radius. So labels and parents beyond the dead end are those of a search
+/// without it, and the path is the same. A search from both ends may do it where its own side has settled them (the
+/// argument of core/search/bidirectional_search.hpp holds: a vertex of the middle of a shortest path, in a dead end, is
+/// left by a vertex that is closed by neither side or was settled by both in one round, whose labels then are right).
+/// In a maze that leaves the corridor between start and goal and a cell or two of each branch: of uniform milestones
+/// among 4,000 x 4,000 cells an eighth is settled instead of nine tenths (docs/performance.md). Immutable; any number
+/// of threads may ask.
 class DeadEnds {
  public:
   DeadEnds() = default;  ///< none
@@ -103,14 +104,12 @@ class DeadEndSeals {
   std::vector<std::size_t> outside_;  // scratch: cells that a motion over the way out may come to
 };
 
-// A roadmap whose edges are not checked before the search needs them: a motion is checked when it would improve a
-// vertex. Radius rule: the graph isn't built either, the neighbours of a milestone are asked of the index when the
-// search expands it. k rule: the candidates are a graph, since a milestone's k nearest alone would miss those that
-// count it among theirs. Either way it is the graph that prm checks as a whole, so the path is the same; one to six
-// checks an expansion instead of one a candidate.
-
-/// Belongs to one thread; each side of a search has its own. Throws Stopped between checks. Vertices: milestones, then
-/// start, then goal (whose edges were checked by attach()).
+/// A roadmap whose edges are not checked before the search needs them: a motion is checked when it would improve a
+/// vertex. Radius rule: the graph isn't built either, the neighbours of a milestone are asked of the index when the
+/// search expands it. k rule: the candidates are a graph, since a milestone's k nearest alone would miss those that
+/// count it among theirs. Either way it is the graph that prm checks as a whole, so the path is the same; one to six
+/// checks an expansion instead of one a candidate. Belongs to one thread; each side of a search has its own. Throws
+/// Stopped between checks. Vertices: milestones, then start, then goal (whose edges were checked by attach()).
 template <World W>
 class LazyGraph {
  public:
@@ -250,14 +249,8 @@ class LazyPlan : public Rounds<W> {
   void finish(PlannedRoadmap<State>* keep);
 
  private:
-  using Rounds<W>::execution_;
-  using Rounds<W>::options_;
-  using Rounds<W>::solution_;
-  using Rounds<W>::states_;
-  using Rounds<W>::world_;
-  using Rounds<W>::start_vertex;
-  using Rounds<W>::goal_vertex;
-  using Rounds<W>::milestones;
+  using Rounds<W>::execution_, Rounds<W>::options_, Rounds<W>::solution_, Rounds<W>::states_, Rounds<W>::world_,
+      Rounds<W>::start_vertex, Rounds<W>::goal_vertex, Rounds<W>::milestones;
 
   void join();
   RawVector<VertexId> search_expanding();

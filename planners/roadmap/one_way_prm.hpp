@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "planners/graph/queue_choice.hpp"
 #include "planners/graph/roadmap_search.hpp"
 #include "planners/roadmap/build_roadmap.hpp"
 #include "planners/roadmap/plan_in_rounds.hpp"
@@ -38,13 +39,8 @@ class OneWayPlan : public Rounds<W> {
   void finish(PlannedRoadmap<State>* keep);
 
  private:
-  using Rounds<W>::execution_;
-  using Rounds<W>::options_;
-  using Rounds<W>::solution_;
-  using Rounds<W>::states_;
-  using Rounds<W>::world_;
-  using Rounds<W>::start_vertex;
-  using Rounds<W>::goal_vertex;
+  using Rounds<W>::execution_, Rounds<W>::options_, Rounds<W>::solution_, Rounds<W>::states_, Rounds<W>::world_,
+      Rounds<W>::start_vertex, Rounds<W>::goal_vertex;
 
   static constexpr std::uint64_t checks_per_poll = 64;
 
@@ -110,10 +106,10 @@ void OneWayPlan<W>::check_all() {
 
 template <World W>
 bool OneWayPlan<W>::search() {
-  const bool best = options_.search == SearchKind::astar || options_.search == SearchKind::dijkstra;
-  if (!best && lazy_) check_all();
+  const bool blind = is_blind(options_.search);
+  if (blind && lazy_) check_all();
   StageTimer timer(execution_, "expansion", solution_.seconds.search);
-  const SearchResult found = best ? search_best() : search_plainly();
+  const SearchResult found = blind ? search_plainly() : search_best();
   if (found.status == SearchStatus::stopped) execution_.check();
   timer.set_items(found.expanded);
   this->count(found);
@@ -156,12 +152,8 @@ SearchResult OneWayPlan<W>::search_best() {
 template <World W>
 SearchResult OneWayPlan<W>::search_plainly() {
   SearchState state;
-  state.resize(states_.size(), [&] { execution_.check(); });
   const Graph graph = free_part(candidates_, known_, execution_);
-  const auto should_stop = [&] { return execution_.should_stop(); };
-  const SearchResult found = options_.search == SearchKind::bfs
-                                 ? breadth_first(graph, start_vertex(), goal_vertex(), state, should_stop)
-                                 : depth_first(graph, start_vertex(), goal_vertex(), state, should_stop);
+  const SearchResult found = search_blindly(options_.search, graph, start_vertex(), goal_vertex(), state, execution_);
   if (keep_) tree_ = search_tree(state);
   return found;
 }

@@ -41,12 +41,8 @@ class PrmPlan : public Rounds<W> {
   void finish(PlannedRoadmap<State>* keep);
 
  private:
-  using Rounds<W>::execution_;
-  using Rounds<W>::solution_;
-  using Rounds<W>::states_;
-  using Rounds<W>::world_;
-  using Rounds<W>::start_vertex;
-  using Rounds<W>::goal_vertex;
+  using Rounds<W>::execution_, Rounds<W>::solution_, Rounds<W>::states_, Rounds<W>::world_, Rounds<W>::start_vertex,
+      Rounds<W>::goal_vertex;
 
   EdgeParts connect(std::uint64_t samples);
   void assemble(const EdgeParts& edges);

@@ -5,34 +5,37 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <span>
-#include <vector>
 
 #include "core/base/trigonometry.hpp"
-#include "core/base/types.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/execution.hpp"
-#include "spatial/obstacles/wall_index.hpp"
 
 namespace warren {
-// A string pulled taut around wall ends, each widened to a disc of one radius: the locally shortest path of the
-// string's homotopy class, which is the only one. It is a list of stops, joined by tangents: the two ends, discs with
-// the side on which they are passed, and in between points of the raw path that are still to be pulled away.
-//
-// One sweep with two stacks. A stop that is a point, or a disc around which the string would bend backwards, is let go:
-// the string falls from the bend a-b-c onto the convex chain around the wall ends inside the bend (gift wrapping over
-// the ends that the wall index finds there), and the stop before is looked at again. Where the string would turn about
-// a disc further than it lies on it, it falls in two parts: until it comes off that disc, and on from the stop before.
-// Each release shortens the string.
-// A wall that reaches into the bend has an end in it, since it crosses neither leg; so its ends are all that counts.
-// How often a disc is wound around is kept: a string that circles a pillar goes on circling it.
-//
-// Cost: one release a raw point and a few more where stops are let go again, each the walls in the bend's triangle
-// (large triangles are searched part by part). Exact but for rounding; the caller checks the result.
+namespace {
 
 /// How far walls stand apart, roughly: the square root of the area a wall; > 0.
-double wall_spacing(const WallIndex& walls);
+double wall_spacing(const WallIndex& walls) {
+  if (walls.wall_count() == 0) return 1.0;
+  const auto count = static_cast<double>(walls.wall_count());
+  const Box& box = walls.box();
+  const double of_area = std::sqrt(box.width() / count) * std::sqrt(box.height());
+  const double of_line = std::max(box.width(), box.height()) / count;
+  return of_area > 0.0 ? of_area : of_line > 0.0 ? of_line : 1.0;
+}
 
+/// A string pulled taut around wall ends, each widened to a disc of one radius: the locally shortest path of the
+/// string's homotopy class, which is the only one. It is a list of stops, joined by tangents: the two ends, discs with
+/// the side on which they are passed, and in between points of the raw path that are still to be pulled away.
+///
+/// One sweep with two stacks. A stop that is a point, or a disc around which the string would bend backwards, is let
+/// go: the string falls from the bend a-b-c onto the convex chain around the wall ends inside the bend (gift wrapping
+/// over the ends that the wall index finds there), and the stop before is looked at again. Where the string would turn
+/// about a disc further than it lies on it, it falls in two parts: until it comes off that disc, and on from the stop
+/// before. Each release shortens the string. A wall that reaches into the bend has an end in it, since it crosses
+/// neither leg; so its ends are all that counts. How often a disc is wound around is kept: a string that circles a
+/// pillar goes on circling it.
+///
+/// Cost: one release a raw point and a few more where stops are let go again, each the walls in the bend's triangle
+/// (large triangles are searched part by part). Exact but for rounding; the caller checks the result.
 class TautString {
  public:
   /// A place where the string may bend.
@@ -96,8 +99,6 @@ class TautString {
   std::vector<Stop> chain_;
 };
 
-namespace {
-
 constexpr double backwards = -1e-10;  // radians: a bend that is less than this the wrong way counts as straight
 
 double turn_between(Vec2 u, Vec2 v) { return portable::atan2(cross(u, v), dot(u, v)); }
@@ -108,20 +109,9 @@ bool same_disc(const TautString::Stop& a, const TautString::Stop& b) {
   return is_disc(a) && a.turn == b.turn && a.center == b.center;
 }
 
-}  // namespace
-
 TautString::TautString(const WallIndex& walls, double radius, double least, Vec2 origin)
     : walls_(walls), radius_(radius), least_(least), origin_(origin) {
   search_size_ = 4.0 * (radius + wall_spacing(walls));
-}
-
-double wall_spacing(const WallIndex& walls) {
-  if (walls.wall_count() == 0) return 1.0;
-  const auto count = static_cast<double>(walls.wall_count());
-  const Box& box = walls.box();
-  const double of_area = std::sqrt(box.width() / count) * std::sqrt(box.height());
-  const double of_line = std::max(box.width(), box.height()) / count;
-  return of_area > 0.0 ? of_area : of_line > 0.0 ? of_line : 1.0;
 }
 
 TautString::Tangent TautString::tangent(const Stop& a, const Stop& b) const {
@@ -329,8 +319,6 @@ std::vector<TautString::Stop> TautString::pull(std::span<const Vec2> points, con
   left_.insert(left_.end(), right_.rbegin(), right_.rend());
   return std::move(left_);
 }
-
-namespace {
 
 using Stop = TautString::Stop;
 

@@ -9,7 +9,6 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"

@@ -14,8 +14,6 @@
 #include <array>
 #include <optional>
 #include <span>
-#include <utility>
-#include <vector>
 
 #include "planners/graph/no_path.hpp"
 #include "planners/trees/motion_tree.hpp"

@@ -6,9 +6,8 @@
 #include <cmath>
 
 #include "core/plane/geometry.hpp"
-#include "core/plane/polygon.hpp"
+#include "parallel/sort.hpp"
 #include "planners/graph/assemble_graph.hpp"
-#include "planners/vertical_cells/cell_sweep.hpp"
 #include "planners/visibility/noding.hpp"
 
 namespace warren {
@@ -52,6 +51,534 @@ bool is_blocked(const PolygonSet& polygons, Vec2 p) {
     if (strictly_inside(polygons[i], p)) return true;
   }
   return false;
+}
+
+/// The cell is open when the sweep comes to p, or when it leaves it, and p lies between its segments or on them.
+bool holds(const CellDecomposition& cells, const VerticalCell& cell, Vec2 p) {
+  if (cell.left != no_number && is_before(p, cells.corners[cell.left])) return false;
+  if (cell.right != no_number && is_before(cells.corners[cell.right], p)) return false;
+  return cells.side(cell.lower, p) >= 0 && cells.side(cell.upper, p) <= 0;
+}
+
+/// Mixes the bits of a number (the finaliser of MurmurHash3).
+std::uint32_t mixed(std::uint32_t h) {
+  h ^= h >> 16;
+  h *= 0x85ebca6bU;
+  h ^= h >> 13;
+  h *= 0xc2b2ae35U;
+  return h ^ h >> 16;
+}
+
+constexpr std::size_t corners_per_poll = 4096;
+constexpr std::size_t bytes_per_corner = 150;
+
+Segment left_to_right(Vec2 p, Vec2 q) { return is_before(q, p) ? Segment{q, p} : Segment{p, q}; }
+
+/// A segment on the sweep line, a before b, and what lies above it up to the next one.
+struct SweepEntry {
+  Vec2 a, b;
+  std::uint32_t segment;  ///< its number
+  std::uint32_t cell;     ///< the open cell above, or none
+  std::uint32_t polygon;  ///< the polygon whose inside lies above, or none
+};
+
+/// The segments that a vertical sweep line meets, from bottom to top, as a treap (Seidel, Aragon 1996) whose nodes are
+/// also linked to their neighbours. Whoever inserts names the place, so the order compares nothing by itself; a search
+/// takes any test that is false below some place and true above it. Expected O(log n) a search, O(1) a step, an
+/// insertion or a removal at a known place. Priorities are a hash of the node's number: the same for every run.
+class SweepOrder {
+ public:
+  using Node = std::uint32_t;
+  static constexpr Node none = 0xffffffffU;
+
+  /// Starts with one entry, the lowest, which stays.
+  explicit SweepOrder(const SweepEntry& lowest) { make_node(lowest); }
+
+  static constexpr Node lowest() { return 0; }
+  Node highest() const { return highest_; }
+  SweepEntry& entry(Node n) { return nodes_[n].entry; }
+  const SweepEntry& entry(Node n) const { return nodes_[n].entry; }
+  Node above(Node n) const { return nodes_[n].above; }
+  Node below(Node n) const { return nodes_[n].below; }
+
+  /// Puts the entry right above `place`.
+  Node insert_above(Node place, const SweepEntry& entry);
+  void erase(Node n);  ///< not the lowest
+
+  /// The lowest entry for which the test is true (as it then is for all above), or none.
+  template <class Test>
+  Node first_where(const Test& test) const {
+    Node found = none;
+    for (Node n = root_; n != none;) {
+      const bool here = test(nodes_[n].entry);
+      if (here) found = n;
+      n = here ? nodes_[n].left : nodes_[n].right;
+    }
+    return found;
+  }
+
+ private:
+  struct NodeData {
+    SweepEntry entry;
+    Node left, right, parent;  // of the tree, which is a heap by priority
+    Node below, above;         // neighbours in the order
+    std::uint32_t priority;
+  };
+
+  Node make_node(const SweepEntry& entry);
+  void rotate_up(Node n);
+  Node& link_from_parent(Node n);
+
+  std::vector<NodeData> nodes_;
+  std::vector<Node> unused_;
+  Node root_ = 0;
+  Node highest_ = 0;
+};
+
+SweepOrder::Node SweepOrder::make_node(const SweepEntry& entry) {
+  Node n;
+  if (unused_.empty()) {
+    n = static_cast<Node>(nodes_.size());
+    nodes_.emplace_back();
+  } else {
+    n = unused_.back();
+    unused_.pop_back();
+  }
+  nodes_[n] = {entry, none, none, none, none, none, mixed(n + 1)};
+  return n;
+}
+
+SweepOrder::Node& SweepOrder::link_from_parent(Node n) {
+  const Node parent = nodes_[n].parent;
+  if (parent == none) return root_;
+  return nodes_[parent].left == n ? nodes_[parent].left : nodes_[parent].right;
+}
+
+void SweepOrder::rotate_up(Node n) {
+  const Node parent = nodes_[n].parent;
+  link_from_parent(parent) = n;
+  nodes_[n].parent = nodes_[parent].parent;
+  nodes_[parent].parent = n;
+  const bool was_left = nodes_[parent].left == n;
+  Node& outer = was_left ? nodes_[parent].left : nodes_[parent].right;
+  Node& inner = was_left ? nodes_[n].right : nodes_[n].left;
+  outer = inner;
+  if (inner != none) nodes_[inner].parent = parent;
+  inner = parent;
+}
+
+SweepOrder::Node SweepOrder::insert_above(Node place, const SweepEntry& entry) {
+  const Node n = make_node(entry);
+  const Node next = nodes_[place].above;
+  nodes_[n].below = place;
+  nodes_[n].above = next;
+  nodes_[place].above = n;
+  (next == none ? highest_ : nodes_[next].below) = n;
+  if (nodes_[place].right == none) {
+    nodes_[place].right = n;
+    nodes_[n].parent = place;
+  } else {  // the next one is the leftmost of that subtree, so it has no left child
+    nodes_[next].left = n;
+    nodes_[n].parent = next;
+  }
+  while (nodes_[n].parent != none && nodes_[nodes_[n].parent].priority < nodes_[n].priority) rotate_up(n);
+  return n;
+}
+
+void SweepOrder::erase(Node n) {
+  assert(n != lowest());
+  while (nodes_[n].left != none || nodes_[n].right != none) {
+    const Node left = nodes_[n].left;
+    const Node right = nodes_[n].right;
+    const bool left_up = right == none || (left != none && nodes_[left].priority > nodes_[right].priority);
+    rotate_up(left_up ? left : right);
+  }
+  link_from_parent(n) = none;
+  const Node below = nodes_[n].below;
+  const Node above = nodes_[n].above;
+  nodes_[below].above = above;
+  (above == none ? highest_ : nodes_[above].below) = below;
+  unused_.push_back(n);
+}
+
+/// At a corner the sweep takes the segments that touch it off the line (they end there, or pass through it and go on
+/// from there), sorts what goes on to the right by angle, and puts that in their place. Gaps on the left end their
+/// cells, gaps on the right begin new ones, and the lines below and above the corner become doors. Segments that lie on
+/// each other keep no gap between them. Crossings show where two segments become neighbours (Shamos, Hoey 1976),
+/// overlaps where the line would enter one polygon inside another.
+class CellSweep {
+ public:
+  CellSweep(const PlaneObstacles& obstacles, std::span<const Vec2> points, Overlaps overlaps,
+            const Execution& execution);
+  void run();
+  CellDecomposition take() { return std::move(result_); }
+
+ private:
+  using Node = SweepOrder::Node;
+  /// A corner, or behind them a point that is asked about.
+  struct Event {
+    Vec2 at;
+    std::uint32_t number;
+  };
+
+  void choose_box(std::span<const Vec2> points);
+  void add_polygons();
+  void add_walls();
+  bool stands_inside(std::span<const Vec2> corners, std::size_t obstacle) const;
+  void add_points(std::span<const Vec2> points);
+
+  void gather(std::size_t first, std::size_t last);
+  void sort_segment(std::uint32_t segment);
+  void find_touching();
+  void answer_questions(bool passed);
+  void pass_corner();
+  void close_cells();
+  void sort_starting();
+  void put_starting();
+  void open_cells(std::uint32_t upper_polygon);
+  std::uint32_t open_cell(std::uint32_t lower, Node upper_node);
+  void add_door(std::uint32_t left, std::uint32_t right, bool above, bool shut);
+  void check_neighbours(Node lower, Node upper) const;
+  std::uint32_t polygon_beyond(std::uint32_t polygon, std::uint32_t segment) const;
+  [[noreturn]] void clash(std::uint32_t segment, std::uint32_t other) const;
+
+  static int side(const SweepEntry& entry, Vec2 p) {
+    // The box's lower side is below all: what touches it is asked where that matters.
+    return entry.segment == CellDecomposition::floor_segment ? 1 : orient2d(entry.a, entry.b, p);
+  }
+  bool is_wall(std::uint32_t segment) const { return segment >= polygon_of_.size(); }
+  bool inside_is_above(std::uint32_t segment) const { return result_.segments[segment].a == result_.corners[segment]; }
+  std::size_t owner(std::uint32_t segment) const;
+  bool touches_floor(Vec2 p) const { return p.y == result_.box.min.y || p.x == result_.box.max.x; }
+  bool touches_ceiling(Vec2 p) const { return p.y == result_.box.max.y || p.x == result_.box.min.x; }
+  std::uint32_t segment_of(Node n) const {
+    return n == SweepOrder::none ? CellDecomposition::ceiling_segment : order_.entry(n).segment;
+  }
+
+  const PlaneObstacles& obstacles_;
+  const Overlaps overlaps_;
+  const Execution& execution_;
+  CellDecomposition result_;
+  std::vector<std::uint32_t> polygon_of_;   // of each side
+  std::vector<std::uint32_t> side_before_;  // of each polygon's corner: the side that ends there
+  std::vector<Node> node_of_;               // of each segment that is on the line
+  std::vector<Event> events_;
+  SweepOrder order_;
+
+  // About the corner that is being passed:
+  Vec2 at_;
+  std::uint32_t corner_ = 0;
+  std::vector<std::uint32_t> ending_, starting_, asked_;  // segments; segments; points
+  std::vector<Node> touching_;                            // from bottom to top
+  std::vector<Node> put_;                                 // where starting_ went
+  Node below_ = 0, above_ = 0;                            // the neighbours of all that; above_ may be SweepOrder::none
+};
+
+CellSweep::CellSweep(const PlaneObstacles& obstacles, std::span<const Vec2> points, Overlaps overlaps,
+                     const Execution& execution)
+    : obstacles_(obstacles),
+      overlaps_(overlaps),
+      execution_(execution),
+      order_(SweepEntry{{}, {}, CellDecomposition::floor_segment, no_number, no_number}) {
+  const std::size_t corners = obstacles.polygons.corners.size() + 2 * obstacles.walls.size();
+  if (corners + points.size() >= std::size_t{1} << 31) throw InputError("cells", "expected fewer than 2^31 corners");
+  execution.reserve(corners * bytes_per_corner);
+  choose_box(points);
+  result_.corners.reserve(corners);
+  result_.segments.reserve(corners - obstacles.walls.size());
+  events_.reserve(corners + points.size());
+  add_polygons();
+  add_walls();
+  add_points(points);
+  node_of_.assign(result_.segments.size(), SweepOrder::none);
+}
+
+void CellSweep::choose_box(std::span<const Vec2> points) {
+  result_.box = box_around(obstacles_);
+  if (obstacles_.bounds || !result_.box.empty()) return;
+  for (const Vec2 p : points) result_.box.include(p);
+}
+
+/// Is the obstacle to be reckoned with? Throws ObstacleClash where it lies inside and outside the box.
+bool CellSweep::stands_inside(std::span<const Vec2> corners, std::size_t obstacle) const {
+  const Box& box = result_.box;
+  Box own;
+  for (const Vec2 p : corners) own.include(p);
+  if (box.contains(own.min) && box.contains(own.max)) return true;
+  const bool apart =
+      own.max.x <= box.min.x || own.min.x >= box.max.x || own.max.y <= box.min.y || own.min.y >= box.max.y;
+  if (!apart) throw ObstacleClash(obstacle, ObstacleClash::bounds, obstacles_.polygons.size());
+  return false;
+}
+
+void CellSweep::add_polygons() {
+  const PolygonSet& polygons = obstacles_.polygons;
+  result_.corners = polygons.corners;
+  polygon_of_.resize(polygons.corners.size());
+  side_before_.resize(polygons.corners.size());
+  for (std::size_t p = 0; p < polygons.size(); ++p) {
+    if (p % corners_per_poll == 0) execution_.check();
+    const std::span<const Vec2> corners = polygons[p];
+    const bool inside = stands_inside(corners, p);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const auto number = static_cast<std::uint32_t>(polygons.first[p] + i);
+      polygon_of_[number] = static_cast<std::uint32_t>(p);
+      side_before_[number] = i == 0 ? polygons.first[p + 1] - 1 : number - 1;
+      result_.segments.push_back(left_to_right(corners[i], corners[i + 1 == corners.size() ? 0 : i + 1]));
+      if (inside) events_.push_back({corners[i], number});
+    }
+  }
+}
+
+void CellSweep::add_walls() {
+  for (std::size_t w = 0; w < obstacles_.walls.size(); ++w) {
+    if (w % corners_per_poll == 0) execution_.check();
+    const Segment& wall = obstacles_.walls[w];
+    const Segment s = left_to_right(wall.a, wall.b);
+    const auto number = static_cast<std::uint32_t>(result_.corners.size());
+    result_.segments.push_back(s);
+    for (const Vec2 p : {s.a, s.b}) result_.corners.push_back(p);
+    const Vec2 ends[] = {s.a, s.b};
+    if (s.a == s.b || !stands_inside(ends, obstacles_.polygons.size() + w)) continue;
+    for (const std::uint32_t end : {0U, 1U}) events_.push_back({ends[end], number + end});
+  }
+}
+
+void CellSweep::add_points(std::span<const Vec2> points) {
+  result_.places.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (i % corners_per_poll == 0) execution_.check();
+    result_.places[i].blocked = !result_.box.contains(points[i]);
+    if (result_.places[i].blocked) continue;
+    events_.push_back({points[i], static_cast<std::uint32_t>(result_.corners.size() + i)});
+  }
+}
+
+void CellSweep::run() {
+  execution_.check();
+  polled_sort(events_.begin(), events_.end(), execution_, [](const Event& e, const Event& f) {
+    return is_before(e.at, f.at) || (e.at == f.at && e.number < f.number);
+  });
+  result_.cells.reserve(events_.size() + 1);
+  result_.doors.reserve(events_.size());
+  order_.entry(SweepOrder::lowest()).cell = open_cell(CellDecomposition::floor_segment, SweepOrder::none);
+  result_.cells.front().left = no_number;
+  std::size_t polled = 0;
+  for (std::size_t first = 0, last = 0; first < events_.size(); first = last) {
+    while (last < events_.size() && events_[last].at == events_[first].at) ++last;
+    gather(first, last);
+    find_touching();
+    answer_questions(false);
+    if (!ending_.empty() || !starting_.empty()) pass_corner();
+    answer_questions(true);
+    if (last - polled < corners_per_poll) continue;
+    execution_.check();
+    execution_.advance(last - polled);
+    polled = last;
+  }
+}
+
+/// Which segments end and start in this point, and who asks about it?
+void CellSweep::gather(std::size_t first, std::size_t last) {
+  at_ = events_[first].at;
+  corner_ = events_[first].number;
+  ending_.clear();
+  starting_.clear();
+  asked_.clear();
+  const auto sides = static_cast<std::uint32_t>(polygon_of_.size());
+  for (std::size_t i = first; i < last; ++i) {
+    const std::uint32_t number = events_[i].number;
+    if (number >= result_.corners.size()) {
+      asked_.push_back(number - static_cast<std::uint32_t>(result_.corners.size()));
+    } else if (number >= sides) {
+      sort_segment(sides + (number - sides) / 2);
+    } else {
+      sort_segment(number);
+      sort_segment(side_before_[number]);
+    }
+  }
+}
+
+void CellSweep::sort_segment(std::uint32_t segment) {
+  (result_.segments[segment].a == at_ ? starting_ : ending_).push_back(segment);
+}
+
+void CellSweep::find_touching() {
+  touching_.clear();
+  Node first = SweepOrder::none;
+  if (ending_.empty()) {
+    first = order_.first_where([&](const SweepEntry& entry) { return side(entry, at_) <= 0; });
+  } else {
+    first = node_of_[ending_.front()];
+    while (side(order_.entry(order_.below(first)), at_) == 0) first = order_.below(first);
+  }
+  below_ = first == SweepOrder::none ? order_.highest() : order_.below(first);
+  above_ = first;
+  while (above_ != SweepOrder::none && side(order_.entry(above_), at_) == 0) {
+    touching_.push_back(above_);
+    above_ = order_.above(above_);
+  }
+}
+
+/// Where are the points that lie here? Asked before the corner is passed and after, for the cells left and right.
+void CellSweep::answer_questions(bool passed) {
+  if (asked_.empty()) return;
+  if (!passed) {
+    const auto is_side = [&](std::uint32_t segment) { return !is_wall(segment); };
+    const bool on_side =
+        std::any_of(starting_.begin(), starting_.end(), is_side) ||
+        std::any_of(touching_.begin(), touching_.end(), [&](Node n) { return is_side(order_.entry(n).segment); });
+    const bool blocked = !on_side && order_.entry(below_).polygon != no_number;
+    for (const std::uint32_t i : asked_) result_.places[i].blocked = blocked;
+  } else if (ending_.empty() && starting_.empty()) {
+    return;  // nothing has changed since
+  }
+  for (const std::uint32_t i : asked_) {
+    CellPlace& place = result_.places[i];
+    for (Node n = below_; n != above_; n = order_.above(n)) {
+      const std::uint32_t cell = order_.entry(n).cell;
+      if (cell != no_number && !is_flat(result_, obstacles_, result_.cells[cell])) place.cells.push_back(cell);
+    }
+    std::sort(place.cells.begin(), place.cells.end());
+    place.cells.erase(std::unique(place.cells.begin(), place.cells.end()), place.cells.end());
+  }
+}
+
+void CellSweep::pass_corner() {
+  const std::uint32_t lower_cell = order_.entry(below_).cell;
+  const Node top = touching_.empty() ? below_ : touching_.back();
+  const std::uint32_t upper_cell = order_.entry(top).cell;
+  const std::uint32_t upper_polygon = order_.entry(top).polygon;
+  close_cells();
+  sort_starting();
+  put_starting();
+  open_cells(upper_polygon);
+  const Node last = put_.empty() ? below_ : put_.back();
+  const bool on_floor = below_ == SweepOrder::lowest() && touches_floor(at_);
+  const bool on_ceiling = above_ == SweepOrder::none && touches_ceiling(at_);
+  add_door(lower_cell, order_.entry(below_).cell, false, on_floor);
+  add_door(upper_cell, order_.entry(last).cell, true, on_ceiling);
+  check_neighbours(below_, put_.empty() ? above_ : put_.front());
+  if (!put_.empty()) check_neighbours(last, above_);
+}
+
+void CellSweep::close_cells() {
+  const auto close = [&](Node n) {
+    const std::uint32_t cell = order_.entry(n).cell;
+    if (cell != no_number) result_.cells[cell].right = corner_;
+  };
+  close(below_);
+  for (const Node n : touching_) close(n);
+}
+
+/// Takes over what goes on through the corner, and sorts by angle from below; of segments that lie on each other,
+/// those that leave a polygon first, those that enter one last.
+void CellSweep::sort_starting() {
+  std::size_t ended = 0;
+  for (const Node n : touching_) {
+    const SweepEntry& entry = order_.entry(n);
+    if (entry.b == at_) {
+      ++ended;
+    } else {
+      starting_.push_back(entry.segment);
+    }
+  }
+  if (ended != ending_.size()) clash(ending_.front(), ending_.back());  // crossings are found before they show here
+  if (starting_.size() < 2) return;
+  const auto rank = [&](std::uint32_t segment) { return is_wall(segment) ? 1 : inside_is_above(segment) ? 2 : 0; };
+  polled_sort(starting_.begin(), starting_.end(), execution_, [&](std::uint32_t s, std::uint32_t t) {
+    const int turn = orient2d(at_, result_.segments[s].b, result_.segments[t].b);
+    if (turn != 0) return turn > 0;
+    return rank(s) != rank(t) ? rank(s) < rank(t) : s < t;
+  });
+}
+
+/// Puts starting_ in the place of touching_; nodes are used again.
+void CellSweep::put_starting() {
+  put_.clear();
+  Node place = below_;
+  for (std::size_t i = 0; i < starting_.size(); ++i) {
+    const std::uint32_t segment = starting_[i];
+    const Segment& s = result_.segments[segment];
+    const SweepEntry entry{s.a, s.b, segment, no_number, no_number};
+    if (i < touching_.size()) {
+      place = touching_[i];
+      order_.entry(place) = entry;
+    } else {
+      place = order_.insert_above(place, entry);
+    }
+    node_of_[segment] = place;
+    put_.push_back(place);
+  }
+  for (std::size_t i = starting_.size(); i < touching_.size(); ++i) order_.erase(touching_[i]);
+}
+
+/// Opens a cell in each free gap right of the corner. upper_polygon: what lies below above_, on both sides.
+void CellSweep::open_cells(std::uint32_t upper_polygon) {
+  std::uint32_t polygon = order_.entry(below_).polygon;
+  order_.entry(below_).cell = no_number;
+  if (polygon == no_number) {
+    order_.entry(below_).cell = open_cell(order_.entry(below_).segment, put_.empty() ? above_ : put_.front());
+  }
+  for (std::size_t i = 0; i < put_.size(); ++i) {
+    SweepEntry& entry = order_.entry(put_[i]);
+    polygon = polygon_beyond(polygon, entry.segment);
+    entry.polygon = polygon;
+    const bool is_last = i + 1 == put_.size();
+    const bool is_void = !is_last && orient2d(at_, entry.b, order_.entry(put_[i + 1]).b) == 0;
+    if (polygon == no_number && !is_void) entry.cell = open_cell(entry.segment, is_last ? above_ : put_[i + 1]);
+  }
+  if (polygon == upper_polygon) return;
+  const std::uint32_t segment = starting_.empty() ? ending_.back() : starting_.back();
+  throw ObstacleClash(owner(segment), polygon != no_number ? polygon : upper_polygon, obstacles_.polygons.size());
+}
+
+std::uint32_t CellSweep::open_cell(std::uint32_t lower, Node upper_node) {
+  constexpr std::array<std::uint32_t, 4> no_doors{no_number, no_number, no_number, no_number};
+  result_.cells.push_back({lower, segment_of(upper_node), corner_, no_number, no_doors});
+  return static_cast<std::uint32_t>(result_.cells.size() - 1);
+}
+
+void CellSweep::add_door(std::uint32_t left, std::uint32_t right, bool above, bool shut) {
+  if (left == no_number) return;  // blocked on both sides
+  if (shut && !obstacles_.bounds) {
+    shut = is_flat(result_, obstacles_, result_.cells[left]) || is_flat(result_, obstacles_, result_.cells[right]);
+  }
+  const auto door = static_cast<std::uint32_t>(result_.doors.size());
+  result_.doors.push_back({left, right, corner_, above, shut});
+  const std::size_t place = above ? 1 : 0;
+  result_.cells[left].doors[2 + place] = door;
+  result_.cells[right].doors[place] = door;
+}
+
+/// Does the upper one stay above the lower one, up to where the first of them ends?
+void CellSweep::check_neighbours(Node lower, Node upper) const {
+  if (lower == SweepOrder::lowest() || upper == SweepOrder::none) return;
+  const SweepEntry& low = order_.entry(lower);
+  const SweepEntry& high = order_.entry(upper);
+  const bool low_ends = is_before(low.b, high.b);
+  const int order = low_ends ? -side(high, low.b) : side(low, high.b);
+  if (order < 0) clash(low.segment, high.segment);
+}
+
+/// The polygon above the segment, where `polygon` is the one below it; where polygons are united, one less than the
+/// number of polygons there, which is no_number where there is none.
+std::uint32_t CellSweep::polygon_beyond(std::uint32_t polygon, std::uint32_t segment) const {
+  if (is_wall(segment)) return polygon;
+  if (overlaps_ == Overlaps::united) return inside_is_above(segment) ? polygon + 1 : polygon - 1;
+  const std::uint32_t own = polygon_of_[segment];
+  const bool enters = inside_is_above(segment);
+  if (enters ? polygon == no_number : polygon == own) return enters ? own : no_number;
+  throw ObstacleClash(own, polygon == no_number ? own : polygon, obstacles_.polygons.size());
+}
+
+std::size_t CellSweep::owner(std::uint32_t segment) const {
+  if (!is_wall(segment)) return polygon_of_[segment];
+  return obstacles_.polygons.size() + segment - polygon_of_.size();
+}
+
+void CellSweep::clash(std::uint32_t segment, std::uint32_t other) const {
+  throw ObstacleClash(owner(segment), owner(other), obstacles_.polygons.size());
 }
 
 }  // namespace
@@ -122,17 +649,6 @@ CellDecomposition decompose_united(const PlaneObstacles& obstacles, std::span<co
   }
   return cells;
 }
-
-namespace {
-
-/// The cell is open when the sweep comes to p, or when it leaves it, and p lies between its segments or on them.
-bool holds(const CellDecomposition& cells, const VerticalCell& cell, Vec2 p) {
-  if (cell.left != no_number && is_before(p, cells.corners[cell.left])) return false;
-  if (cell.right != no_number && is_before(cells.corners[cell.right], p)) return false;
-  return cells.side(cell.lower, p) >= 0 && cells.side(cell.upper, p) <= 0;
-}
-
-}  // namespace
 
 CellPlace locate(const CellDecomposition& cells, const PlaneObstacles& obstacles, Vec2 p) {
   CellPlace place;

@@ -21,7 +21,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -124,11 +123,9 @@ CellDecomposition decompose(const PlaneObstacles& obstacles, std::span<const Vec
 CellDecomposition decompose_united(const PlaneObstacles& obstacles, std::span<const Vec2> points,
                                    const Execution& execution);
 
-// Where points lie among vertical cells that are there already: the answer that the sweep gives for points that it is
-// asked about on its way (CellPlace), without sweeping again. Every decision is exact.
-// O(cells + corners) a point, a comparison or two for most of them.
-
-/// `cells` are those of decompose() for the same obstacles.
+/// Where points lie among vertical cells that are there already: the answer that the sweep gives for points that it is
+/// asked about on its way (CellPlace), without sweeping again. Every decision is exact. O(cells + corners) a point, a
+/// comparison or two for most of them. `cells` are those of decompose() for the same obstacles.
 CellPlace locate(const CellDecomposition& cells, const PlaneObstacles& obstacles, Vec2 p);
 
 /// Is the cell one between the box's side and a segment on it where nobody can move? That is so for the bounds, which

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "core/plane/geometry.hpp"
@@ -13,59 +12,9 @@
 #include "planners/graph/components.hpp"
 #include "planners/graph/no_path.hpp"
 #include "planners/graph/queue_choice.hpp"
-#include "planners/vertical_cells/cell_decomposition.hpp"
 #include "planners/vertical_cells/polyanya.hpp"
 
 namespace warren {
-
-DoorPoints::DoorPoints(const CellDecomposition& cells, const Execution& execution) : cells_(cells) {
-  execution.reserve(cells.doors.size() * sizeof(Vec2));
-  middles_.resize(cells.doors.size());
-  for_chunks(cells.doors.size(), 16384, execution, [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; ++i) middles_[i] = middle_of(static_cast<std::uint32_t>(i));
-  });
-}
-
-Vec2 DoorPoints::middle_of(std::uint32_t door) const {
-  const Door& d = cells_.doors[door];
-  const Vec2 corner = cells_.corners[d.corner];
-  const std::uint32_t far = cells_.far_segment(door);
-  const bool on_right = far == CellDecomposition::floor_segment && corner.x == cells_.box.max.x;
-  const bool on_left = far == CellDecomposition::ceiling_segment && corner.x == cells_.box.min.x;
-  if (d.above ? on_left : on_right) return corner;  // between corner and box: what lies there on the box may be a wall
-  const Vec2 middle{corner.x, 0.5 * corner.y + 0.5 * cells_.height(far, corner.x)};
-  const bool fits = d.above ? middle.y > corner.y && cells_.side(far, middle) < 0
-                            : middle.y < corner.y && cells_.side(far, middle) > 0;
-  return fits ? middle : corner;
-}
-
-bool DoorPoints::strictly_inside(const VerticalCell& cell, Vec2 p) const {
-  const double left = cell.left == no_number ? cells_.box.min.x : cells_.corners[cell.left].x;
-  const double right = cell.right == no_number ? cells_.box.max.x : cells_.corners[cell.right].x;
-  return left < p.x && p.x < right && cells_.side(cell.lower, p) > 0 && cells_.side(cell.upper, p) < 0;
-}
-
-std::optional<Vec2> DoorPoints::bend(std::uint32_t from, std::uint32_t to) const {
-  const Door& d = cells_.doors[from];
-  if (d.corner != cells_.doors[to].corner) return std::nullopt;
-  const std::uint32_t cell = cells_.shared_cell(from, to);
-  const Vec2 corner = cells_.corners[d.corner];
-  double aside = 0.25 * std::abs(middles_[to].y - middles_[from].y);
-  if (d.right != cell) aside = -aside;  // the doors are on the cell's right side
-  for (int halved = 0; halved < 16; ++halved, aside *= 0.5) {
-    const Vec2 p{corner.x + aside, corner.y};
-    if (strictly_inside(cells_.cells[cell], p)) return p;
-  }
-  return std::nullopt;
-}
-
-double DoorPoints::leg_length(std::uint32_t from, std::uint32_t to) const {
-  const Vec2 a = middles_[from];
-  const Vec2 b = middles_[to];
-  const std::optional<Vec2> by = bend(from, to);
-  return by ? distance(a, *by) + distance(*by, b) : distance(a, b);
-}
-
 namespace {
 
 /// The posts on one side of a string, from its last fixed point on: a chain that bends around them.
@@ -133,8 +82,7 @@ class Funnel {
   Path<Vec2> path_;
 };
 
-}  // namespace
-
+/// Through the middles of the doors, of which each two in a row belong to one cell; start and goal included.
 Path<Vec2> path_through_middles(Vec2 start, Vec2 goal, std::span<const std::uint32_t> doors, const DoorPoints& points) {
   Path<Vec2> path{start};
   for (std::size_t i = 0; i < doors.size(); ++i) {
@@ -147,6 +95,12 @@ Path<Vec2> path_through_middles(Vec2 start, Vec2 goal, std::span<const std::uint
   return path;
 }
 
+/// The shortest path through the doors; it bends at corners of the obstacles only. It is a string pulled taut through
+/// the doors (funnel algorithm: Chazelle 1982; Lee, Preparata 1984). Of each door only its corner counts: the segment
+/// at the other end begins and ends at corners that the route passes as well, or that lie behind its ends, and a string
+/// that keeps to those keeps to the segment. So every decision is an exact orientation. Where the route turns back (two
+/// doors below and above one corner in a row) the string is tied to that corner, and between such corners the route
+/// runs from left to right or from right to left, which is all the funnel needs. O(doors).
 Path<Vec2> shortest_path_through(const CellRoute& route, const CellDecomposition& cells) {
   const auto is_rightwards = [&](std::size_t i) { return cells.doors[route.doors[i]].left == route.cells[i]; };
   Funnel funnel(route.start);
@@ -164,10 +118,7 @@ Path<Vec2> shortest_path_through(const CellRoute& route, const CellDecomposition
   return funnel.take();
 }
 
-namespace {
-
-// Why no path leads through vertical cells from start to goal: how many cells each can reach, and the gap between them.
-
+/// Why no path leads from start to goal: how many cells each can reach, and the gap between them.
 /// parts: of the graph of the cells, with start and goal behind them in this order. Sizes count cells; the gap is the
 /// least distance between the ends and the doors' middles of either side. O(cells).
 Separation cell_separation(const CellDecomposition& cells, const Components& parts, Vec2 start, Vec2 goal,
@@ -190,9 +141,9 @@ Separation cell_separation(const CellDecomposition& cells, const Components& par
 }
 
 /// One plan: the steps share the question and fill in the solution.
-class Planning {
+class CellPlanning {
  public:
-  Planning(Vec2 start, Vec2 goal, const CellOptions& options, const Execution& execution)
+  CellPlanning(Vec2 start, Vec2 goal, const CellOptions& options, const Execution& execution)
       : start_(start), goal_(goal), options_(options), execution_(execution) {}
 
   void run(const PlaneObstacles& obstacles) {
@@ -252,7 +203,7 @@ class Planning {
   Solution<Vec2> solution_;
 };
 
-void Planning::decompose_plane(const PlaneObstacles& obstacles) {
+void CellPlanning::decompose_plane(const PlaneObstacles& obstacles) {
   const StageTimer timer(execution_, "cells", solution_.seconds.graph, obstacles.polygons.corners.size());
   const std::array<Vec2, 2> ends{start_, goal_};
   plan_.cells = options_.overlaps == Overlaps::united ? decompose_united(obstacles, ends, execution_)
@@ -260,18 +211,18 @@ void Planning::decompose_plane(const PlaneObstacles& obstacles) {
   cells_ = &plan_.cells;
 }
 
-void Planning::compute_points() {
+void CellPlanning::compute_points() {
   if (points_ == nullptr) points_ = &own_points_.emplace(*cells_, execution_);
 }
 
-bool Planning::ends_are_blocked() {
+bool CellPlanning::ends_are_blocked() {
   if (!start_place().blocked && !goal_place().blocked) return false;
   solution_.outcome = start_place().blocked ? Outcome::start_blocked : Outcome::goal_blocked;
   return true;
 }
 
 /// Both in one convex cell, or in one point: the straight way.
-bool Planning::share_a_cell() {
+bool CellPlanning::share_a_cell() {
   const std::vector<VertexId>& s = start_place().cells;
   const auto shared = std::find_first_of(s.begin(), s.end(), goal_place().cells.begin(), goal_place().cells.end());
   if (shared == s.end() && !(start_ == goal_)) return false;
@@ -282,7 +233,7 @@ bool Planning::share_a_cell() {
   return true;
 }
 
-void Planning::connect_cells() {
+void CellPlanning::connect_cells() {
   const StageTimer timer(execution_, "connect", solution_.seconds.connect, cells_->doors.size());
   std::vector<Edge> edges;
   for (const VertexId cell : start_place().cells) edges.push_back({start_vertex(), cell});
@@ -290,7 +241,7 @@ void Planning::connect_cells() {
   graph_ = cells_->graph(2, edges, execution_);
 }
 
-bool Planning::ends_are_joined() {
+bool CellPlanning::ends_are_joined() {
   const StageTimer timer(execution_, "components", solution_.seconds.connect);
   const Components parts = components(graph_, execution_);
   solution_.roadmap.components = parts.count;
@@ -300,9 +251,9 @@ bool Planning::ends_are_joined() {
   return false;
 }
 
-void Planning::find_route() {
+void CellPlanning::find_route() {
   const StageTimer timer(execution_, "search", solution_.seconds.search);
-  const bool over_cells = options_.search == SearchKind::bfs || options_.search == SearchKind::dfs;
+  const bool over_cells = is_blind(options_.search);
   plan_.route = {start_, goal_, {}, {}};
   const bool taut = !over_cells && options_.doors == DoorKind::funnel;
   if (options_.doors == DoorKind::midpoint) compute_points();
@@ -315,27 +266,23 @@ void Planning::find_route() {
   }
 }
 
-RawVector<VertexId> Planning::search_cells() {
-  const auto should_stop = [&] { return execution_.should_stop(); };
+RawVector<VertexId> CellPlanning::search_cells() {
   SearchState state;
-  state.resize(graph_.vertex_count(), [&] { execution_.check(); });
-  SearchResult found = options_.search == SearchKind::bfs
-                           ? breadth_first(graph_, start_vertex(), goal_vertex(), state, should_stop)
-                           : depth_first(graph_, start_vertex(), goal_vertex(), state, should_stop);
+  SearchResult found = search_blindly(options_.search, graph_, start_vertex(), goal_vertex(), state, execution_);
   solution_.counters.expanded = found.expanded;
   if (found.status == SearchStatus::stopped) execution_.check();
   return std::move(found.path);
 }
 
 template <class Visit>
-void Planning::for_each_door(std::uint32_t cell, const Visit& visit) const {
+void CellPlanning::for_each_door(std::uint32_t cell, const Visit& visit) const {
   for (const std::uint32_t door : cells_->cells[cell].doors) {
     if (door != no_number && !cells_->doors[door].shut) visit(door);
   }
 }
 
 /// Best first over the doors, start and goal behind them.
-RawVector<VertexId> Planning::search_doors() {
+RawVector<VertexId> CellPlanning::search_doors() {
   const auto count = static_cast<VertexId>(cells_->doors.size());
   const VertexId start = count;
   const VertexId goal = count + 1;
@@ -362,16 +309,14 @@ RawVector<VertexId> Planning::search_doors() {
     return distance(v == start ? start_ : points_->middle(v), goal_);
   };
   SearchState state;
-  state.resize(count + 2, [&] { execution_.check(); });
-  SearchResult found = with_queue(options_.queue, count + 2, execution_, [&](auto& queue) {
-    return best_first(start, goal, neighbours, estimate, queue, state, [&] { return execution_.should_stop(); });
-  });
+  SearchResult found =
+      search_best_first(options_.queue, count + 2, start, goal, neighbours, estimate, state, execution_);
   solution_.counters.expanded = found.expanded;
   if (found.status == SearchStatus::stopped) execution_.check();
   return std::move(found.path);
 }
 
-std::uint32_t Planning::door_between(std::uint32_t cell, std::uint32_t next) const {
+std::uint32_t CellPlanning::door_between(std::uint32_t cell, std::uint32_t next) const {
   std::uint32_t found = no_number;
   for_each_door(cell, [&](std::uint32_t door) {
     if (cells_->beyond(door, cell) == next) found = door;
@@ -380,7 +325,7 @@ std::uint32_t Planning::door_between(std::uint32_t cell, std::uint32_t next) con
 }
 
 /// cells: start's vertex, cells, goal's vertex.
-void Planning::follow_cells(std::span<const VertexId> cells) {
+void CellPlanning::follow_cells(std::span<const VertexId> cells) {
   CellRoute& route = plan_.route;
   route.cells.assign(cells.begin() + 1, cells.end() - 1);
   for (std::size_t i = 1; i < route.cells.size(); ++i) {
@@ -391,7 +336,7 @@ void Planning::follow_cells(std::span<const VertexId> cells) {
 
 /// doors: start's vertex, doors, goal's vertex. A door that is reached but not passed (all legs lie in one cell) is
 /// left out, at the ends too.
-void Planning::follow_doors(std::span<const VertexId> doors) {
+void CellPlanning::follow_doors(std::span<const VertexId> doors) {
   CellRoute& route = plan_.route;
   middles_.assign(doors.begin() + 1, doors.end() - 1);
   const auto holds = [](const CellPlace& place, std::uint32_t cell) {
@@ -419,7 +364,7 @@ void Planning::follow_doors(std::span<const VertexId> doors) {
 
 /// Where nothing is left although the cells are connected, rounding has cut the last way off: then a way through the
 /// doors' middles does.
-void Planning::follow_taut_route() {
+void CellPlanning::follow_taut_route() {
   const bool informed = options_.search == SearchKind::astar;
   TautRoute found = shortest_taut_route(*cells_, plan_.cells.places, start_, goal_, informed, execution_);
   solution_.counters.expanded = found.expanded;
@@ -431,7 +376,7 @@ void Planning::follow_taut_route() {
   plan_.route.doors = std::move(found.doors);
 }
 
-void Planning::lay_path() {
+void CellPlanning::lay_path() {
   const StageTimer timer(execution_, "path", solution_.seconds.search);
   Path<Vec2>& path = solution_.path;
   path = options_.doors == DoorKind::midpoint ? path_through_middles(start_, goal_, middles_, *points_)
@@ -444,17 +389,61 @@ void Planning::lay_path() {
 template <class Ground>
 Solution<Vec2> plan_on(const Ground& ground, Vec2 start, Vec2 goal, const CellOptions& options,
                        const Execution& execution, CellPlan* keep) {
-  Planning planning(start, goal, options, execution);
-  try {
-    planning.run(ground);
-  } catch (const Stopped& stopped) {
-    mark_stopped(planning.solution(), stopped);
-  }
+  CellPlanning planning(start, goal, options, execution);
+  Solution<Vec2> solution = run_plan(planning, ground);
   if (keep != nullptr) *keep = std::move(planning.plan());
-  return std::move(planning.solution());
+  return solution;
 }
 
 }  // namespace
+
+DoorPoints::DoorPoints(const CellDecomposition& cells, const Execution& execution) : cells_(cells) {
+  execution.reserve(cells.doors.size() * sizeof(Vec2));
+  middles_.resize(cells.doors.size());
+  for_chunks(cells.doors.size(), 16384, execution, [&](Range r) {
+    for (std::size_t i = r.first; i < r.last; ++i) middles_[i] = middle_of(static_cast<std::uint32_t>(i));
+  });
+}
+
+Vec2 DoorPoints::middle_of(std::uint32_t door) const {
+  const Door& d = cells_.doors[door];
+  const Vec2 corner = cells_.corners[d.corner];
+  const std::uint32_t far = cells_.far_segment(door);
+  const bool on_right = far == CellDecomposition::floor_segment && corner.x == cells_.box.max.x;
+  const bool on_left = far == CellDecomposition::ceiling_segment && corner.x == cells_.box.min.x;
+  if (d.above ? on_left : on_right) return corner;  // between corner and box: what lies there on the box may be a wall
+  const Vec2 middle{corner.x, 0.5 * corner.y + 0.5 * cells_.height(far, corner.x)};
+  const bool fits = d.above ? middle.y > corner.y && cells_.side(far, middle) < 0
+                            : middle.y < corner.y && cells_.side(far, middle) > 0;
+  return fits ? middle : corner;
+}
+
+bool DoorPoints::strictly_inside(const VerticalCell& cell, Vec2 p) const {
+  const double left = cell.left == no_number ? cells_.box.min.x : cells_.corners[cell.left].x;
+  const double right = cell.right == no_number ? cells_.box.max.x : cells_.corners[cell.right].x;
+  return left < p.x && p.x < right && cells_.side(cell.lower, p) > 0 && cells_.side(cell.upper, p) < 0;
+}
+
+std::optional<Vec2> DoorPoints::bend(std::uint32_t from, std::uint32_t to) const {
+  const Door& d = cells_.doors[from];
+  if (d.corner != cells_.doors[to].corner) return std::nullopt;
+  const std::uint32_t cell = cells_.shared_cell(from, to);
+  const Vec2 corner = cells_.corners[d.corner];
+  double aside = 0.25 * std::abs(middles_[to].y - middles_[from].y);
+  if (d.right != cell) aside = -aside;  // the doors are on the cell's right side
+  for (int halved = 0; halved < 16; ++halved, aside *= 0.5) {
+    const Vec2 p{corner.x + aside, corner.y};
+    if (strictly_inside(cells_.cells[cell], p)) return p;
+  }
+  return std::nullopt;
+}
+
+double DoorPoints::leg_length(std::uint32_t from, std::uint32_t to) const {
+  const Vec2 a = middles_[from];
+  const Vec2 b = middles_[to];
+  const std::optional<Vec2> by = bend(from, to);
+  return by ? distance(a, *by) + distance(*by, b) : distance(a, b);
+}
 
 CellRoadmap::CellRoadmap(PlaneObstacles plane, const Execution& execution)
     : obstacles(std::move(plane)), cells(decompose(obstacles, {}, execution)), points(cells, execution) {}

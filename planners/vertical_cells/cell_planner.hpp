@@ -12,7 +12,6 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string_view>
 #include <vector>
 
@@ -25,14 +24,12 @@
 #include "planners/vertical_cells/cell_decomposition.hpp"
 
 namespace warren {
-// Points at which a path passes the doors of vertical cells: the middles, as close as doubles come to them.
-//
-// A door has one end in the input (its corner) and one that would have to be computed. The middle is rounded, asked
-// exactly whether it still lies between the two, and replaced by the corner where it does not (doors of a few units in
-// the last place): the corner belongs to both cells, so legs between the points of a cell never leave it, whatever the
-// rounding. Such a path may touch the corner.
 
-/// Immutable; refers to the cells. Copies nothing else.
+/// Points at which a path passes the doors of vertical cells: the middles, as close as doubles come to them. A door has
+/// one end in the input (its corner) and one that would have to be computed. The middle is rounded, asked exactly
+/// whether it still lies between the two, and replaced by the corner where it does not (doors of a few units in the
+/// last place): the corner belongs to both cells, so legs between the points of a cell never leave it, whatever the
+/// rounding. Such a path may touch the corner. Immutable; refers to the cells.
 class DoorPoints {
  public:
   /// O(doors), on all threads.
@@ -53,29 +50,14 @@ class DoorPoints {
   std::vector<Vec2> middles_;
 };
 
-// A way through vertical cells, door by door, and the paths that follow it: through the doors' middles, or the shortest
-// one.
-//
-// The shortest path is a string pulled taut through the doors (funnel algorithm: Chazelle 1982; Lee, Preparata 1984).
-// Of each door only its corner counts: the segment at the other end begins and ends at corners that the route passes as
-// well, or that lie behind its ends, and a string that keeps to those keeps to the segment. So the string bends at
-// corners of the input alone and every decision is an exact orientation. Where the route turns back (two doors below
-// and above one corner in a row) the string is tied to that corner, and between such corners the route runs from left
-// to right or from right to left, which is all the funnel needs. O(doors).
-
-/// cells[i] and cells[i + 1] share the open door doors[i]; start lies in the first cell, goal in the last.
+/// A way through vertical cells: cells[i] and cells[i + 1] share the open door doors[i]; start lies in the first cell,
+/// goal in the last.
 struct CellRoute {
   Vec2 start;                        ///< in the first cell
   Vec2 goal;                         ///< in the last one
   std::vector<std::uint32_t> cells;  ///< one after the other
   std::vector<std::uint32_t> doors;  ///< one fewer
 };
-
-/// Through the middles of the doors, of which each two in a row belong to one cell; start and goal included.
-Path<Vec2> path_through_middles(Vec2 start, Vec2 goal, std::span<const std::uint32_t> doors, const DoorPoints& points);
-
-/// The shortest path through the doors; bends at corners of the obstacles only.
-Path<Vec2> shortest_path_through(const CellRoute& route, const CellDecomposition& cells);
 
 /// Where a path passes from cell to cell: in the middle of the door, or where the shortest one does.
 enum class DoorKind : std::uint8_t { midpoint, funnel };

@@ -8,7 +8,8 @@
 // planners/vertical_cells/cell_planner.hpp the other ends of doors don't matter, and where the way turns back under a
 // corner it bends there. Whether rays leave anything is an exact orientation; only the order of the search, by length
 // so far and least length to the goal, is rounded: the route is the best but for routes as short within rounding. A
-// corner is a root again only if it is reached by no longer a way. Time: O(nodes log nodes), usually few nodes a cell.
+// corner is a root again only if it is reached by no longer a way. Nodes are made as they are met and are no vertices
+// of a graph, so the loop isn't core's best_first. Time: O(nodes log nodes), usually few nodes a cell.
 #pragma once
 
 #include <cstdint>

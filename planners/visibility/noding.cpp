@@ -5,12 +5,34 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/base/raw_vector.hpp"
 #include "core/plane/geometry.hpp"
 #include "parallel/asked_memory.hpp"
 #include "parallel/sort.hpp"
 
 namespace warren {
 namespace {
+
+/// How far rounding to the nearest point of a grid moves a point at most, in units of the grid.
+constexpr double rounding_units = 0.7072;
+
+/// A segment between integers (of at most 2^45, held as doubles).
+struct IntegerPiece {
+  Vec2 a, b;
+  std::uint32_t source;  ///< whatever it is a piece of
+};
+
+/// A place where a piece must be cut.
+struct PieceCut {
+  std::uint32_t piece;
+  Vec2 at;
+  friend bool operator==(const PieceCut&, const PieceCut&) = default;
+};
+
+struct CrossingCuts {
+  RawVector<PieceCut> cuts;  ///< some more than once
+  bool crossed = false;      ///< is one of them a rounded crossing?
+};
 
 constexpr std::size_t pieces_per_poll = 4096;
 
@@ -122,8 +144,7 @@ void cut_pair(const std::vector<IntegerPiece>& pieces, std::uint32_t i, std::uin
   }
 }
 
-}  // namespace
-
+/// What is left to cut. Throws Stopped at the deadline and the memory limit: crowded pieces have many cuts.
 CrossingCuts find_cuts(const std::vector<IntegerPiece>& pieces, const Execution& execution) {
   CrossingCuts found;
   const PieceGrid grid(pieces, execution);
@@ -131,21 +152,23 @@ CrossingCuts find_cuts(const std::vector<IntegerPiece>& pieces, const Execution&
   return found;
 }
 
-namespace {
-
 constexpr double largest_snapped = 0x1.0p29;
 constexpr int most_rounds = 24;
 constexpr std::size_t snapped_per_poll = 1 << 14;
+
+/// The least power of two of which `most` times is no less than a size > 0; 1 for 0.
+double unit_for(double size, double most) {
+  int exponent = 0;
+  if (size > 0.0) std::frexp(size / most, &exponent);
+  return std::ldexp(1.0, exponent);
+}
 
 SnapGrid grid_of(std::span<const Segment> segments) {
   Box box;
   for (const Segment& s : segments) box.include(box_of(s));
   SnapGrid grid;
   if (box.empty()) return grid;
-  const double half = 0.5 * std::max(box.width(), box.height());
-  int exponent = 0;
-  if (half > 0.0) std::frexp(half / largest_snapped, &exponent);  // half <= largest_snapped * 2^exponent
-  grid.unit = std::ldexp(1.0, exponent);
+  grid.unit = unit_for(0.5 * std::max(box.width(), box.height()), largest_snapped);
   const auto rounded = [&](double c) { return std::nearbyint(c / grid.unit) * grid.unit; };
   grid.origin = {rounded(0.5 * box.min.x + 0.5 * box.max.x), rounded(0.5 * box.min.y + 0.5 * box.max.y)};
   return grid;
@@ -156,9 +179,9 @@ Vec2 snapped(const SnapGrid& grid, Vec2 p) {
 }
 
 /// Splits the pieces at their cuts, in order along each.
-std::vector<IntegerPiece> split(const std::vector<IntegerPiece>& pieces, RawVector<Cut>& cuts,
+std::vector<IntegerPiece> split(const std::vector<IntegerPiece>& pieces, RawVector<PieceCut>& cuts,
                                 const Execution& execution) {
-  polled_sort(cuts.begin(), cuts.end(), execution, [](const Cut& c, const Cut& d) {
+  polled_sort(cuts.begin(), cuts.end(), execution, [](const PieceCut& c, const PieceCut& d) {
     return c.piece != d.piece ? c.piece < d.piece : is_before(c.at, d.at);
   });
   cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
@@ -189,6 +212,66 @@ void tidy(std::vector<IntegerPiece>& pieces, const Execution& execution) {
   });
   const auto same = [](const IntegerPiece& p, const IntegerPiece& q) { return p.a == q.a && p.b == q.b; };
   pieces.erase(std::unique(pieces.begin(), pieces.end(), same), pieces.end());
+}
+
+constexpr double largest_integer = 0x1.0p45;
+
+double largest_of(std::span<const Vec2> corners) {
+  double largest = 0.0;
+  for (const Vec2 p : corners) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+  return largest;
+}
+
+/// Appends the ring without corners that equal the one before; a ring that has no room is left empty.
+void add_ring(std::vector<Vec2> ring, PolygonSet& to) {
+  ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+  while (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
+  if (ring.size() < 3) ring.clear();
+  to.add(ring);
+}
+
+PolygonSet rounded(const PolygonSet& polygons, double unit) {
+  PolygonSet result;
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    std::vector<Vec2> ring;
+    for (const Vec2 p : polygons[i]) ring.push_back({std::nearbyint(p.x / unit), std::nearbyint(p.y / unit)});
+    add_ring(std::move(ring), result);
+  }
+  return result;
+}
+
+/// Piece i is the side that begins at corner i.
+std::vector<IntegerPiece> sides_of(const PolygonSet& polygons) {
+  std::vector<IntegerPiece> sides;
+  sides.reserve(polygons.corners.size());
+  for (std::size_t p = 0; p < polygons.size(); ++p) {
+    for_each_side(polygons[p], [&](Vec2 a, Vec2 b) {
+      sides.push_back({a, b, static_cast<std::uint32_t>(sides.size())});
+    });
+  }
+  return sides;
+}
+
+/// Puts the cuts, in the order along their sides, between the sides' ends.
+PolygonSet with_cuts(const PolygonSet& polygons, const std::vector<IntegerPiece>& sides, RawVector<PieceCut>& cuts,
+                     const Execution& execution) {
+  const auto along = [&](const PieceCut& c) {
+    return dot(c.at - sides[c.piece].a, sides[c.piece].b - sides[c.piece].a);
+  };
+  polled_sort(cuts.begin(), cuts.end(), execution, [&](const PieceCut& c, const PieceCut& d) {
+    return c.piece != d.piece ? c.piece < d.piece : along(c) < along(d);
+  });
+  PolygonSet result;
+  auto cut = cuts.begin();
+  for (std::size_t p = 0; p < polygons.size(); ++p) {
+    std::vector<Vec2> ring;
+    for (std::uint32_t i = polygons.first[p]; i < polygons.first[p + 1]; ++i) {
+      ring.push_back(polygons.corners[i]);
+      for (; cut != cuts.end() && cut->piece == i; ++cut) ring.push_back(cut->at);
+    }
+    add_ring(std::move(ring), result);
+  }
+  return result;
 }
 
 }  // namespace
@@ -224,73 +307,9 @@ SnappedSegments snap_segments(std::span<const Segment> segments, const Execution
   return result;
 }
 
-namespace {
-
-constexpr double largest_integer = 0x1.0p45;
-
-double unit_for(std::span<const Vec2> corners) {
-  double largest = 0.0;
-  for (const Vec2 p : corners) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
-  int exponent = 0;
-  if (largest > 0.0) std::frexp(largest / largest_integer, &exponent);  // largest <= largest_integer * 2^exponent
-  return std::ldexp(1.0, exponent);
-}
-
-/// Appends the ring without corners that equal the one before; a ring that has no room is left empty.
-void add_ring(std::vector<Vec2> ring, PolygonSet& to) {
-  ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
-  while (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
-  if (ring.size() < 3) ring.clear();
-  to.add(ring);
-}
-
-PolygonSet rounded(const PolygonSet& polygons, double unit) {
-  PolygonSet result;
-  for (std::size_t i = 0; i < polygons.size(); ++i) {
-    std::vector<Vec2> ring;
-    for (const Vec2 p : polygons[i]) ring.push_back({std::nearbyint(p.x / unit), std::nearbyint(p.y / unit)});
-    add_ring(std::move(ring), result);
-  }
-  return result;
-}
-
-/// Piece i is the side that begins at corner i.
-std::vector<IntegerPiece> sides_of(const PolygonSet& polygons) {
-  std::vector<IntegerPiece> sides;
-  sides.reserve(polygons.corners.size());
-  for (std::size_t p = 0; p < polygons.size(); ++p) {
-    const std::span<const Vec2> ring = polygons[p];
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      sides.push_back({ring[i], ring[i + 1 == ring.size() ? 0 : i + 1], static_cast<std::uint32_t>(sides.size())});
-    }
-  }
-  return sides;
-}
-
-/// Puts the cuts, in the order along their sides, between the sides' ends.
-PolygonSet with_cuts(const PolygonSet& polygons, const std::vector<IntegerPiece>& sides, RawVector<Cut>& cuts,
-                     const Execution& execution) {
-  const auto along = [&](const Cut& c) { return dot(c.at - sides[c.piece].a, sides[c.piece].b - sides[c.piece].a); };
-  polled_sort(cuts.begin(), cuts.end(), execution,
-              [&](const Cut& c, const Cut& d) { return c.piece != d.piece ? c.piece < d.piece : along(c) < along(d); });
-  PolygonSet result;
-  auto cut = cuts.begin();
-  for (std::size_t p = 0; p < polygons.size(); ++p) {
-    std::vector<Vec2> ring;
-    for (std::uint32_t i = polygons.first[p]; i < polygons.first[p + 1]; ++i) {
-      ring.push_back(polygons.corners[i]);
-      for (; cut != cuts.end() && cut->piece == i; ++cut) ring.push_back(cut->at);
-    }
-    add_ring(std::move(ring), result);
-  }
-  return result;
-}
-
-}  // namespace
-
 NodedPolygons node_polygons(const PolygonSet& polygons, const Execution& execution) {
   if (polygons.corners.size() >= std::size_t{1} << 31) throw InputError("union", "expected fewer than 2^31 sides");
-  const double unit = unit_for(polygons.corners);
+  const double unit = unit_for(largest_of(polygons.corners), largest_integer);
   NodedPolygons result{rounded(polygons, unit), rounding_units * unit};
   for (int round = 0;; ++round) {
     const std::vector<IntegerPiece> sides = sides_of(result.polygons);

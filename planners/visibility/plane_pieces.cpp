@@ -37,8 +37,7 @@ bool has_area(const Box& box) { return box.width() > 0.0 && box.height() > 0.0; 
 Sides sides_of(const PlaneObstacles& obstacles) {
   Sides sides;
   for (std::size_t p = 0; p < obstacles.polygons.size(); ++p) {
-    const std::span<const Vec2> corners = obstacles.polygons[p];
-    for (std::size_t i = 0; i < corners.size(); ++i) sides.add(corners[i], corners[(i + 1) % corners.size()], 1);
+    for_each_side(obstacles.polygons[p], [&](Vec2 a, Vec2 b) { sides.add(a, b, 1); });
   }
   for (const Segment& wall : obstacles.walls) sides.add(wall.a, wall.b, 0);
   sides.corner_ends = sides.ends.size();
@@ -85,6 +84,39 @@ bool is_left(const Segment& s, Vec2 at) {
   if (side != 0) return side > 0;
   if (s.a.y != s.b.y) return s.b.y < s.a.y;
   return s.b.x > s.a.x;
+}
+
+constexpr double open_sight = std::numeric_limits<double>::infinity();
+constexpr double margin = 1e-9;          // of places: far above their rounding, far below a range's width
+constexpr double shallow = 1e-6;         // sines below this: a distance along the ray is not to be trusted
+constexpr double outwards = 1.0 + 1e-9;  // distances are rounded up by this
+constexpr double bent = 0.999;           // a chord of a range of directions, at its middle, and rounding
+
+Vec2 direction_at(double place) {
+  if (place < 1.0) return {1.0 - place, place};
+  if (place < 2.0) return {1.0 - place, 2.0 - place};
+  if (place < 3.0) return {place - 3.0, 2.0 - place};
+  return {place - 3.0, place - 4.0};
+}
+
+/// The first and the last direction, anticlockwise, in which the box lies; the origin is not in it.
+struct BoxView {
+  Vec2 first;
+  Vec2 last;
+};
+BoxView view_of(const Box& b) {
+  if (b.min.x > 0.0) {
+    if (b.min.y > 0.0) return {{b.max.x, b.min.y}, {b.min.x, b.max.y}};
+    if (b.max.y < 0.0) return {b.min, b.max};
+    return {b.min, {b.min.x, b.max.y}};
+  }
+  if (b.max.x < 0.0) {
+    if (b.min.y > 0.0) return {b.max, b.min};
+    if (b.max.y < 0.0) return {{b.min.x, b.max.y}, {b.max.x, b.min.y}};
+    return {b.max, {b.max.x, b.min.y}};
+  }
+  if (b.min.y > 0.0) return {{b.max.x, b.min.y}, b.min};
+  return {{b.min.x, b.max.y}, b.max};
 }
 
 }  // namespace
@@ -243,43 +275,6 @@ int PlanePieces::depth_beside(Vec2 p) const {
   const Vec2 below{corner.x, p.y};
   return depth_[grid_.index(cell)] + rise_in_cell(cell, corner, below) + rise_in_cell(cell, below, p);
 }
-
-namespace {
-
-constexpr double open_sight = std::numeric_limits<double>::infinity();
-constexpr double margin = 1e-9;          // of places: far above their rounding, far below a range's width
-constexpr double shallow = 1e-6;         // sines below this: a distance along the ray is not to be trusted
-constexpr double outwards = 1.0 + 1e-9;  // distances are rounded up by this
-constexpr double bent = 0.999;           // a chord of a range of directions, at its middle, and rounding
-
-Vec2 direction_at(double place) {
-  if (place < 1.0) return {1.0 - place, place};
-  if (place < 2.0) return {1.0 - place, 2.0 - place};
-  if (place < 3.0) return {place - 3.0, 2.0 - place};
-  return {place - 3.0, place - 4.0};
-}
-
-/// The first and the last direction, anticlockwise, in which the box lies; the origin is not in it.
-struct BoxView {
-  Vec2 first;
-  Vec2 last;
-};
-BoxView view_of(const Box& b) {
-  if (b.min.x > 0.0) {
-    if (b.min.y > 0.0) return {{b.max.x, b.min.y}, {b.min.x, b.max.y}};
-    if (b.max.y < 0.0) return {b.min, b.max};
-    return {b.min, {b.min.x, b.max.y}};
-  }
-  if (b.max.x < 0.0) {
-    if (b.min.y > 0.0) return {b.max, b.min};
-    if (b.max.y < 0.0) return {{b.min.x, b.max.y}, {b.max.x, b.min.y}};
-    return {b.max, {b.max.x, b.min.y}};
-  }
-  if (b.min.y > 0.0) return {{b.max.x, b.min.y}, b.min};
-  return {{b.min.x, b.max.y}, b.max};
-}
-
-}  // namespace
 
 double direction_place(Vec2 d) {
   const double sum = std::abs(d.x) + std::abs(d.y);

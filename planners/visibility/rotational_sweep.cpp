@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "parallel/sort.hpp"
-#include "planners/visibility/plane_pieces.hpp"
 
 namespace warren {
 namespace {
@@ -39,6 +38,9 @@ void visit_free(const PlanePieces& pieces, Vec2 at, std::vector<Spoke>& spokes, 
     if (depth == 0) visit(spokes[i], spokes[(i + 1) % spokes.size()]);
   }
 }
+
+constexpr double place_doubt = 1e-12;  // places that differ by more are in the directions' order for certain
+constexpr std::size_t pieces_per_poll = 1 << 14;
 
 }  // namespace
 
@@ -83,13 +85,6 @@ std::vector<SectorOfPoints> free_sectors_at(const PlanePieces& pieces, PointId a
   });
   return sectors;
 }
-
-namespace {
-
-constexpr double place_doubt = 1e-12;  // places that differ by more are in the directions' order for certain
-constexpr std::size_t pieces_per_poll = 1 << 14;
-
-}  // namespace
 
 RotationalSweep::RotationalSweep(const PlanePieces& pieces, const Execution& execution)
     : pieces_(pieces), execution_(execution), event_of_(pieces.points().size(), 0) {}

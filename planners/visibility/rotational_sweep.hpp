@@ -10,7 +10,6 @@
 // comparisons of coordinates decide; rounded angles merely sort in advance.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "core/plane/polygon.hpp"
 #include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
 
@@ -25,6 +24,97 @@ PlaceRange range_of(Vec2 at, const Sector& sector) {
   const PlaceRange range{direction_place(sector.first - at), direction_place(sector.last - at)};
   const double apart = std::abs(range.last - range.first);
   return apart < doubt || apart > 4.0 - doubt ? all_round : range;
+}
+
+/// Of some vertices in a row: the neighbours above each.
+struct Rows {
+  RawVector<VertexId> targets;
+  RawVector<EdgeEnd> degrees;
+};
+
+/// Vertices a chunk: few enough to share the work, enough to pay for a chunk's scratch, which is O(n).
+std::size_t grain_for(std::size_t vertices) { return std::clamp<std::size_t>(vertices / 256, 16, 1024); }
+
+std::vector<Rows> rows_above(const VisibleCorners& corners, SightLines which, const Execution& execution) {
+  const std::size_t n = corners.size();
+  const std::size_t grain = grain_for(n);
+  std::vector<Rows> parts(chunk_count(n, grain));
+  for_chunks(n, grain, execution, [&](Range r) {
+    CornerSight sight(corners, execution);
+    std::vector<VertexId> seen;
+    Rows& part = parts[r.first / grain];
+    for (std::size_t v = r.first; v < r.last; ++v) {
+      execution.check();
+      sight.above_vertex(static_cast<VertexId>(v), which, seen);
+      part.targets.insert(part.targets.end(), seen.begin(), seen.end());
+      part.degrees.push_back(static_cast<EdgeEnd>(seen.size()));
+    }
+    execution.reserve(part.targets.size() * sizeof(VertexId));
+  });
+  return parts;
+}
+
+/// Calls visit(v, w) for all v, ascending, and the neighbours w above it, ascending.
+template <class Visit>
+void for_each_pair(const std::vector<Rows>& parts, const Execution& execution, const Visit& visit) {
+  VertexId v = 0;
+  for (const Rows& part : parts) {
+    auto target = part.targets.begin();
+    for (const EdgeEnd degree : part.degrees) {
+      if (v % 16 == 0) execution.check();
+      for (const auto end = target + degree; target != end; ++target) visit(v, *target);
+      ++v;
+    }
+  }
+}
+
+/// Where each vertex's row begins, and where the part of it begins that lies above.
+struct RowBorders {
+  RawVector<EdgeEnd> first;
+  RawVector<EdgeEnd> above;
+};
+
+RowBorders row_borders(std::size_t n, const std::vector<Rows>& parts, const Execution& execution) {
+  std::vector<std::uint32_t> below(n, 0);
+  for_each_pair(parts, execution, [&](VertexId, VertexId w) { ++below[w]; });
+  RowBorders borders;
+  borders.first.reserve(n + 1);
+  borders.above.reserve(n);
+  std::uint64_t ends = 0;
+  for (const Rows& part : parts) {
+    for (const EdgeEnd degree : part.degrees) {
+      borders.first.push_back(static_cast<EdgeEnd>(ends));
+      ends += below[borders.above.size()];
+      borders.above.push_back(static_cast<EdgeEnd>(ends));
+      ends += degree;
+    }
+    if (ends > std::numeric_limits<EdgeEnd>::max())
+      throw InputError("visibility graph", "more than 2^32 - 1 edge ends");
+  }
+  borders.first.push_back(static_cast<EdgeEnd>(ends));
+  return borders;
+}
+
+/// Each edge was found at its lower end: writes it into both rows, and sorts these.
+Graph graph_of_rows(std::size_t n, std::vector<Rows>& parts, const Execution& execution) {
+  RowBorders borders = row_borders(n, parts, execution);
+  execution.reserve(borders.first[n] * sizeof(VertexId));
+  RawVector<VertexId> targets(borders.first[n]);
+  touch_first(targets, execution);
+  std::vector<EdgeEnd> below(borders.first.begin(), borders.first.end() - 1);
+  std::vector<EdgeEnd> above(borders.above.begin(), borders.above.end());
+  for_each_pair(parts, execution, [&](VertexId v, VertexId w) {
+    targets[above[v]++] = w;
+    targets[below[w]++] = v;
+  });
+  parts.clear();
+  for_chunks(n, 1024, execution, [&](Range r) {
+    for (std::size_t v = r.first; v < r.last; ++v) {
+      std::inplace_merge(targets.begin() + borders.first[v], targets.begin() + borders.above[v],
+                         targets.begin() + borders.first[v + 1]);
+    }
+  });
+  return Graph(std::move(borders.first), std::move(targets));
 }
 
 }  // namespace
@@ -162,101 +252,6 @@ void CornerSight::from_point(Vec2 p, SightLines which, std::optional<Vec2> extra
   std::sort(seen.begin(), seen.end());
   seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
 }
-
-namespace {
-
-/// Of some vertices in a row: the neighbours above each.
-struct Rows {
-  RawVector<VertexId> targets;
-  RawVector<EdgeEnd> degrees;
-};
-
-/// Vertices a chunk: few enough to share the work, enough to pay for a chunk's scratch, which is O(n).
-std::size_t grain_for(std::size_t vertices) { return std::clamp<std::size_t>(vertices / 256, 16, 1024); }
-
-std::vector<Rows> rows_above(const VisibleCorners& corners, SightLines which, const Execution& execution) {
-  const std::size_t n = corners.size();
-  const std::size_t grain = grain_for(n);
-  std::vector<Rows> parts(chunk_count(n, grain));
-  for_chunks(n, grain, execution, [&](Range r) {
-    CornerSight sight(corners, execution);
-    std::vector<VertexId> seen;
-    Rows& part = parts[r.first / grain];
-    for (std::size_t v = r.first; v < r.last; ++v) {
-      execution.check();
-      sight.above_vertex(static_cast<VertexId>(v), which, seen);
-      part.targets.insert(part.targets.end(), seen.begin(), seen.end());
-      part.degrees.push_back(static_cast<EdgeEnd>(seen.size()));
-    }
-    execution.reserve(part.targets.size() * sizeof(VertexId));
-  });
-  return parts;
-}
-
-/// Calls visit(v, w) for all v, ascending, and the neighbours w above it, ascending.
-template <class Visit>
-void for_each_pair(const std::vector<Rows>& parts, const Execution& execution, const Visit& visit) {
-  VertexId v = 0;
-  for (const Rows& part : parts) {
-    auto target = part.targets.begin();
-    for (const EdgeEnd degree : part.degrees) {
-      if (v % 16 == 0) execution.check();
-      for (const auto end = target + degree; target != end; ++target) visit(v, *target);
-      ++v;
-    }
-  }
-}
-
-/// Where each vertex's row begins, and where the part of it begins that lies above.
-struct RowBorders {
-  RawVector<EdgeEnd> first;
-  RawVector<EdgeEnd> above;
-};
-
-RowBorders row_borders(std::size_t n, const std::vector<Rows>& parts, const Execution& execution) {
-  std::vector<std::uint32_t> below(n, 0);
-  for_each_pair(parts, execution, [&](VertexId, VertexId w) { ++below[w]; });
-  RowBorders borders;
-  borders.first.reserve(n + 1);
-  borders.above.reserve(n);
-  std::uint64_t ends = 0;
-  for (const Rows& part : parts) {
-    for (const EdgeEnd degree : part.degrees) {
-      borders.first.push_back(static_cast<EdgeEnd>(ends));
-      ends += below[borders.above.size()];
-      borders.above.push_back(static_cast<EdgeEnd>(ends));
-      ends += degree;
-    }
-    if (ends > std::numeric_limits<EdgeEnd>::max())
-      throw InputError("visibility graph", "more than 2^32 - 1 edge ends");
-  }
-  borders.first.push_back(static_cast<EdgeEnd>(ends));
-  return borders;
-}
-
-/// Each edge was found at its lower end: writes it into both rows, and sorts these.
-Graph graph_of_rows(std::size_t n, std::vector<Rows>& parts, const Execution& execution) {
-  RowBorders borders = row_borders(n, parts, execution);
-  execution.reserve(borders.first[n] * sizeof(VertexId));
-  RawVector<VertexId> targets(borders.first[n]);
-  touch_first(targets, execution);
-  std::vector<EdgeEnd> below(borders.first.begin(), borders.first.end() - 1);
-  std::vector<EdgeEnd> above(borders.above.begin(), borders.above.end());
-  for_each_pair(parts, execution, [&](VertexId v, VertexId w) {
-    targets[above[v]++] = w;
-    targets[below[w]++] = v;
-  });
-  parts.clear();
-  for_chunks(n, 1024, execution, [&](Range r) {
-    for (std::size_t v = r.first; v < r.last; ++v) {
-      std::inplace_merge(targets.begin() + borders.first[v], targets.begin() + borders.above[v],
-                         targets.begin() + borders.first[v + 1]);
-    }
-  });
-  return Graph(std::move(borders.first), std::move(targets));
-}
-
-}  // namespace
 
 VisibilityGraph::VisibilityGraph(const VisibleCorners& corners, Graph graph, VisibilityEdges edges)
     : corners_(corners),

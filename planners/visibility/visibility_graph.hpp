@@ -25,20 +25,19 @@
 #include "planners/visibility/rotational_sweep.hpp"
 
 namespace warren {
-// The vertices of a visibility graph among polygons and walls, and who sees whom, one vertex at a time.
-//
-// A vertex is a corner of a polygon or an end of a wall together with one free sector there: where obstacles touch, a
-// corner has several free sectors, and no way leads from one into another (contact rule). Vertices are numbered by
-// corners in the order in which they first appear (polygons, then walls), sectors anticlockwise from +x; a corner
-// inside of another polygon has none. Two vertices are neighbours if the straight way between them leaves and arrives
-// by their sectors, enters no polygon and changes no wall's side. It may pass other corners.
-// Tangent neighbours: both sectors are wider than half a turn, and the line through both leaves the obstacles at each
-// on one side. Shortest paths bend nowhere else.
-//
-// Cost of one look: planners/visibility/plane_pieces and planners/visibility/rotational_sweep, O(k log k) for k
-// pieces that may be seen.
 
-/// Immutable; any number of threads may read.
+/// The vertices of a visibility graph among polygons and walls, and who sees whom, one vertex at a time.
+///
+/// A vertex is a corner of a polygon or an end of a wall together with one free sector there: where obstacles touch, a
+/// corner has several free sectors, and no way leads from one into another (contact rule). Vertices are numbered by
+/// corners in the order in which they first appear (polygons, then walls), sectors anticlockwise from +x; a corner
+/// inside of another polygon has none. Two vertices are neighbours if the straight way between them leaves and arrives
+/// by their sectors, enters no polygon and changes no wall's side. It may pass other corners. Tangent neighbours: both
+/// sectors are wider than half a turn, and the line through both leaves the obstacles at each on one side. Shortest
+/// paths bend nowhere else.
+///
+/// Cost of one look: planners/visibility/plane_pieces and planners/visibility/rotational_sweep, O(k log k) for k pieces
+/// that may be seen. Immutable; any number of threads may read.
 class VisibleCorners {
  public:
   VisibleCorners(const PlaneObstacles& obstacles, const Execution& execution);

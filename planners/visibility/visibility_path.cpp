@@ -5,7 +5,6 @@
 #include <array>
 #include <limits>
 #include <utility>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "parallel/sort.hpp"
@@ -16,14 +15,6 @@
 #include "planners/graph/roadmap_search.hpp"
 
 namespace warren {
-
-Box box_around(const PlaneObstacles& obstacles) {
-  if (obstacles.bounds) return *obstacles.bounds;
-  Box box;
-  for (const Vec2 p : obstacles.polygons.corners) box.include(p);
-  for (const Segment& wall : obstacles.walls) box.include(box_of(wall));
-  return box;
-}
 
 PlaneObstacles confined(PlaneObstacles obstacles) {
   if (obstacles.bounds) return obstacles;
@@ -93,12 +84,7 @@ class VisibilityPlan {
   void run(const VisibilityRoadmap& roadmap) {
     if (begin(roadmap.corners)) search(roadmap.graph);
   }
-  void stop(StopReason reason) {
-    solution_.stop_reason = reason;
-    solution_.path.clear();
-    end(Outcome::stopped);
-  }
-  Solution<Vec2> take() { return std::move(solution_); }
+  Solution<Vec2>& solution() { return solution_; }
 
  private:
   void end(Outcome outcome) { solution_.outcome = outcome; }
@@ -127,9 +113,8 @@ class VisibilityPlan {
     const StageTimer timer(execution_, "search", solution_.seconds.search);
     const VisibilityLinks links = visibility.link(start_, goal_, execution_);
     solution_.roadmap.edges = visibility.graph().edge_count() + links.count();
-    const bool plain = options_.search == SearchKind::bfs || options_.search == SearchKind::dfs;
+    const bool plain = is_blind(options_.search);
     SearchState state;
-    state.resize(visibility.size() + 2, [&] { execution_.check(); });
     if (plain || keep_ != nullptr) roadmap_.graph = visibility.joined(links, execution_);
     const SearchResult found = plain ? search_plainly(state) : search_best(visibility, links, state);
     if (found.status == SearchStatus::exhausted) separate(visibility, visibility.joined(links, execution_));
@@ -139,12 +124,11 @@ class VisibilityPlan {
 
   SearchResult search_plainly(SearchState& state) const {
     const auto start = static_cast<VertexId>(roadmap_.graph.vertex_count() - 2);
-    const auto should_stop = [&] { return execution_.should_stop(); };
-    return options_.search == SearchKind::bfs ? breadth_first(roadmap_.graph, start, start + 1, state, should_stop)
-                                              : depth_first(roadmap_.graph, start, start + 1, state, should_stop);
+    return search_blindly(options_.search, roadmap_.graph, start, start + 1, state, execution_);
   }
 
   SearchResult search_best(const VisibilityGraph& visibility, const VisibilityLinks& links, SearchState& state) const {
+    state.resize(visibility.size() + 2, [&] { execution_.check(); });
     return with_queue(options_.queue, visibility.size() + 2, execution_, [&](auto& queue) {
       return visibility.search(links, options_.search == SearchKind::astar, queue, state,
                                [&] { return execution_.should_stop(); });
@@ -210,12 +194,7 @@ Solution<Vec2> plan_within(const Ground& ground, const Box& box, Vec2 start, Vec
                            const VisibilityOptions& options, const Execution& execution, PlannedRoadmap<Vec2>* keep) {
   options.validate();
   VisibilityPlan plan(box, start, goal, options, execution, keep);
-  try {
-    plan.run(ground);
-  } catch (const Stopped& stopped) {
-    plan.stop(stopped.reason);
-  }
-  return plan.take();
+  return run_plan(plan, ground);
 }
 
 /// The box that confines the point.

@@ -56,27 +56,21 @@ Solution<Vec2> visibility_path(const VisibilityRoadmap& roadmap, Vec2 start, Vec
                                const VisibilityOptions& options, const Execution& execution,
                                PlannedRoadmap<Vec2>* keep = nullptr);
 
-// The shortest path among polygons and walls without building the visibility graph: A* over the reduced graph, whose
-// rows are found when a vertex is settled, and of which only those edges are looked for that a taut way can take: at
-// each vertex the range of directions between straight on and the obstacle round which the way bends. Any optimal way
-// through a vertex is taut at it whichever optimal way led there, so the path is as short as the graph's.
-// One look a vertex settled, each over what can be seen in that range; memory 150 bytes a corner.
-
-/// Start and goal are not blocked, and different; start is vertex corners.size(), goal the next. Looks
-/// (neighbour_queries) and what they found (edges_checked) are added to the counters; `found`, where given, receives
-/// the edges. Throws Stopped.
+/// The shortest path among polygons and walls without building the visibility graph: A* over the reduced graph, whose
+/// rows are found when a vertex is settled, and of which only those edges are looked for that a taut way can take: at
+/// each vertex the range of directions between straight on and the obstacle round which the way bends. Any optimal way
+/// through a vertex is taut at it whichever optimal way led there, so the path is as short as the graph's. One look a
+/// vertex settled, each over what can be seen in that range; memory 150 bytes a corner. Start and goal are not blocked,
+/// and different; start is vertex corners.size(), goal the next. Looks (neighbour_queries) and what they found
+/// (edges_checked) are added to the counters; `found`, where given, receives the edges. Throws Stopped.
 SearchResult lazy_visibility_search(const VisibleCorners& corners, Vec2 start, Vec2 goal, const Execution& execution,
                                     Counters& counters, std::vector<Edge>* found = nullptr);
 
-// Worlds without bounds, whose obstacles' box confines the reference point and is no wall: paths may run along polygons
-// on it and around walls that end on it, and shortest paths don't leave it by themselves. But nobody gets between the
-// box and a wall that lies on its side: a maze's outline shall not be walked around on the outside.
-
-/// The bounds, or else the box of polygons and walls; empty where there is nothing.
-Box box_around(const PlaneObstacles& obstacles);
-
-/// The same for planners of shortest paths that know bounds only. Behind each wall on a side of the box stands a
-/// polygon that reaches to bounds well outside of the box; without such walls, or with bounds, nothing is changed.
+/// Worlds without bounds, whose obstacles' box confines the reference point and is no wall: paths may run along
+/// polygons on it and around walls that end on it, and shortest paths don't leave it by themselves. But nobody gets
+/// between the box and a wall that lies on its side: a maze's outline shall not be walked around on the outside. For
+/// planners of shortest paths, which know bounds only: behind each wall on a side of the box stands a polygon that
+/// reaches to bounds well outside of the box; without such walls, or with bounds, nothing is changed.
 PlaneObstacles confined(PlaneObstacles obstacles);
 
 }  // namespace warren

@@ -12,8 +12,7 @@
 namespace warren {
 namespace {
 
-using scene_text::Fields;
-using scene_text::Place;
+using scene_text::Fields, scene_text::Place;
 
 /// Reads one table.
 class TableReader {

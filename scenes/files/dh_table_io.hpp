@@ -7,8 +7,6 @@
 //   tool X Y Z                            of the last frame; default 0 0 0
 #pragma once
 
-#include <string>
-
 #include "parallel/execution.hpp"
 #include "scenes/files/input_file_io.hpp"
 #include "scenes/scene/scene.hpp"

@@ -11,8 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -28,11 +26,10 @@
 namespace warren {
 namespace {
 
-// What GeoJSON's geometries mean for a world: outlines are obstacles, lines walls, points nothing, unless the feature
-// around them says that they are start, goal or bounds. That is known when the feature ends, so geometries wait here.
-// Polygons with holes are cut (scenes/scene/rings.hpp).
-
-/// Refers to the file's name, which must outlive it. All that is wrong throws InputError with file and line.
+/// What GeoJSON's geometries mean for a world: outlines are obstacles, lines walls, points nothing, unless the feature
+/// around them says that they are start, goal or bounds. That is known when the feature ends, so geometries wait here.
+/// Polygons with holes are cut (scenes/scene/rings.hpp). Refers to the file's name, which must outlive it. All that is
+/// wrong throws InputError with file and line.
 class GeojsonPieces {
  public:
   enum class Kind : std::uint8_t { polygon, wall, point };
@@ -362,24 +359,6 @@ void Reader::add_rings(const Coordinates& c) {
   }
 }
 
-}  // namespace
-
-bool is_geojson(std::string_view bytes) {
-  bytes = bytes.substr(0, bytes_that_tell);
-  if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
-  const std::size_t at = bytes.find_first_not_of(" \t\r\n");
-  return at != std::string_view::npos && (bytes[at] == '{' || bytes[at] == '[');
-}
-
-Scene read_geojson(const InputFile& file, const Execution& execution) {
-  JsonBytes bytes(file, execution);
-  Reader reader(file.name(), bytes.line(), execution);
-  Json::sax_parse(bytes.begin(), bytes.end(), &reader);
-  return reader.finish();
-}
-
-namespace {
-
 std::string position(Vec2 p) { return fmt::format("[{}, {}]", p.x + 0.0, p.y + 0.0); }
 
 /// Writes features, one a line.
@@ -417,6 +396,20 @@ class Writer {
 };
 
 }  // namespace
+
+bool is_geojson(std::string_view bytes) {
+  bytes = bytes.substr(0, bytes_that_tell);
+  if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
+  const std::size_t at = bytes.find_first_not_of(" \t\r\n");
+  return at != std::string_view::npos && (bytes[at] == '{' || bytes[at] == '[');
+}
+
+Scene read_geojson(const InputFile& file, const Execution& execution) {
+  JsonBytes bytes(file, execution);
+  Reader reader(file.name(), bytes.line(), execution);
+  Json::sax_parse(bytes.begin(), bytes.end(), &reader);
+  return reader.finish();
+}
 
 void write_geojson(const Scene& scene, const std::string& path, const Execution& execution) {
   if (has_solids(scene)) throw InputError(path, "GeoJSON holds no spheres or boxes; write them to a .scene file");

@@ -17,9 +17,8 @@ std::string grouped(std::uint64_t count);     ///< 1 683 000, by groups of three
 std::string counted(std::uint64_t count, std::string_view one, std::string_view many);
 std::string human_number(double value);  ///< six significant digits, and all before the point up to 1e15
 
-// CSV as RFC 4180 has it: fields between commas, quoted where they must be.
-
-/// A text as a field, made printable (so it has no ends of lines): in quotes where it holds a comma or a quote.
+/// CSV as RFC 4180 has it: fields between commas, quoted where they must be. A text as a field, made printable (so it
+/// has no ends of lines): in quotes where it holds a comma or a quote.
 std::string csv_field(std::string_view text);
 
 /// Wraps text in colour where it is on.

@@ -11,32 +11,12 @@
 #include "scenes/files/output_file_io.hpp"
 #include "scenes/files/png_io.hpp"
 #include "scenes/files/scene_text.hpp"
-#include "scenes/scene/occupancy_map.hpp"
 
 namespace warren {
-
-bool is_png(std::string_view bytes) { return bytes.starts_with("\x89PNG"); }
-
-bool is_bmp(std::string_view bytes) {
-  return bytes.size() > 17 && bytes.starts_with("BM") && bytes.substr(15, 3) == std::string_view("\0\0\0", 3);
-}
-
-bool is_pgm(std::string_view bytes) {
-  return bytes.size() > 2 && (bytes.starts_with("P5") || bytes.starts_with("P2")) &&
-         std::string_view(" \t\r\n#").find(bytes[2]) != std::string_view::npos;
-}
-
-void read_image(const InputFile& file, const ImageSink& sink, const Execution& execution) {
-  if (is_png(file.bytes())) return read_png(file, sink, execution);
-  if (is_pgm(file.bytes())) return read_pgm(file, sink, execution);
-  if (is_bmp(file.bytes())) return read_bmp(file, sink, execution);
-  throw InputError(file.name(), "expected a PNG, PGM (magic P5 or P2) or BMP image");
-}
+namespace {
 
 // Offsets are those of BITMAPFILEHEADER (14 bytes) and BITMAPINFOHEADER (40 and more); numbers are little-endian. A row
 // is as many whole words of 32 bits as its pixels need, the lowest row first unless the height is negative.
-
-namespace {
 
 constexpr std::size_t file_header_bytes = 14;
 
@@ -125,8 +105,8 @@ std::string_view pixel_of(const Layout& layout, std::string_view row, std::size_
   return layout.palette.substr(4 * colour, 4);
 }
 
-}  // namespace
-
+/// BMP: uncompressed, of 1, 4 or 8 bits with a palette, 24, or 32 whose fourth byte is alpha, as Nav2's map saver
+/// writes them and its server reads them.
 void read_bmp(const InputFile& file, const ImageSink& sink, const Execution& execution) {
   constexpr std::size_t pixels_a_look = 1 << 14;
   const Layout layout = layout_of(file, execution);
@@ -146,8 +126,6 @@ void read_bmp(const InputFile& file, const ImageSink& sink, const Execution& exe
     sink.row({layout.is_top_down ? i : height - 1 - i, 0, 1, samples});
   }
 }
-
-namespace {
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f'; }
 
@@ -288,8 +266,8 @@ void read_ascii(const InputFile& file, const ImageHeader& header, PgmTokens& tok
   }
 }
 
-}  // namespace
-
+/// PGM: P5 (binary) and P2 (ASCII), maxval up to 65535, comments anywhere in the header. What follows the pixels is
+/// ignored.
 void read_pgm(const InputFile& file, const ImageSink& sink, const Execution& execution) {
   constexpr std::uint32_t most_side = 0x7fffffff;
   PgmTokens tokens(file, execution);
@@ -301,6 +279,26 @@ void read_pgm(const InputFile& file, const ImageSink& sink, const Execution& exe
   check_map_size(file.name(), header.width, header.height);
   if (file.bytes()[1] == '5') return read_binary(file, header, tokens.pixels(), sink, execution);
   read_ascii(file, header, tokens, sink, execution);
+}
+
+}  // namespace
+
+bool is_png(std::string_view bytes) { return bytes.starts_with("\x89PNG"); }
+
+bool is_bmp(std::string_view bytes) {
+  return bytes.size() > 17 && bytes.starts_with("BM") && bytes.substr(15, 3) == std::string_view("\0\0\0", 3);
+}
+
+bool is_pgm(std::string_view bytes) {
+  return bytes.size() > 2 && (bytes.starts_with("P5") || bytes.starts_with("P2")) &&
+         std::string_view(" \t\r\n#").find(bytes[2]) != std::string_view::npos;
+}
+
+void read_image(const InputFile& file, const ImageSink& sink, const Execution& execution) {
+  if (is_png(file.bytes())) return read_png(file, sink, execution);
+  if (is_pgm(file.bytes())) return read_pgm(file, sink, execution);
+  if (is_bmp(file.bytes())) return read_bmp(file, sink, execution);
+  throw InputError(file.name(), "expected a PNG, PGM (magic P5 or P2) or BMP image");
 }
 
 void write_map_pgm(const OccupancyMap& map, const std::string& path, UnknownCells unknown, const Execution& execution) {

@@ -46,17 +46,6 @@ bool is_png(std::string_view bytes);
 bool is_pgm(std::string_view bytes);
 bool is_bmp(std::string_view bytes);
 
-// BMP in: uncompressed, of 1, 4 or 8 bits with a palette, 24, or 32 whose fourth byte is alpha, as Nav2's map saver
-// writes them and its server reads them.
-
-/// As read_image, for a BMP.
-void read_bmp(const InputFile& file, const ImageSink& sink, const Execution& execution);
-
-// PGM in and out: P5 (binary) and P2 (ASCII) in, maxval up to 65535, comments anywhere in the header; P5 out.
-
-/// As read_image, for a PGM. What follows the pixels is ignored.
-void read_pgm(const InputFile& file, const ImageSink& sink, const Execution& execution);
-
 /// What a cell of which a map server knew nothing becomes.
 enum class UnknownCells : std::uint8_t {
   grey,   ///< 205, as map servers write and read it

@@ -8,7 +8,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
 
 #include "core/base/printable.hpp"
 #include "scenes/files/scene_text.hpp"
@@ -45,6 +44,8 @@ void append_escaped(std::string& text, char c) {
 }
 
 bool is_plain(char c) { return static_cast<unsigned char>(c) >= 0x20 && c != '"' && c != '\\'; }
+
+constexpr std::size_t json_bytes_a_look = std::size_t{1} << 16;
 
 }  // namespace
 
@@ -97,12 +98,6 @@ void append_json_list(std::string& text, std::span<const double> values) {
   }
   text += values.empty() ? "[]" : "]";
 }
-
-namespace {
-
-constexpr std::size_t json_bytes_a_look = std::size_t{1} << 16;
-
-}  // namespace
 
 JsonBytes::JsonBytes(const InputFile& file, const Execution& execution)
     : file_(file), execution_(execution), text_(file.bytes()) {

@@ -10,7 +10,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "parallel/execution.hpp"
 #include "scenes/files/input_file_io.hpp"
@@ -71,10 +70,9 @@ class JsonObject {
   std::string text_ = "{";
 };
 
-// The bytes of a JSON text as its parser takes them, one by one: lines are counted, and every 64 KiB the deadline is
-// looked at and the memory asked for that the parser may need before the next look, however long a word or a run of
-// blanks is.
-
+/// The bytes of a JSON text as its parser takes them, one by one: lines are counted, and every 64 KiB the deadline is
+/// looked at and the memory asked for that the parser may need before the next look, however long a word or a run of
+/// blanks is.
 class JsonBytes {
  public:
   /// Begins behind a byte order mark. Both must outlive it, and it all of its iterators.

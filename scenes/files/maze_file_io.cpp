@@ -71,6 +71,26 @@ Scene scene_of(const MazeFile& maze, const std::string& name) {
   return scene;
 }
 
+using Table = std::array<std::array<std::uint32_t, 256>, 8>;
+
+/// Of a byte that so many bytes follow.
+constexpr Table make_table() {
+  Table table{};
+  for (std::uint32_t byte = 0; byte < 256; ++byte) {
+    std::uint32_t sum = byte;
+    for (int bit = 0; bit < 8; ++bit) sum = sum >> 1U ^ ((sum & 1U) != 0 ? 0xEDB88320U : 0U);
+    table[0][byte] = sum;
+  }
+  for (std::size_t behind = 1; behind < 8; ++behind) {
+    for (std::size_t byte = 0; byte < 256; ++byte) {
+      const std::uint32_t before = table[behind - 1][byte];
+      table[behind][byte] = before >> 8U ^ table[0][before & 0xffU];
+    }
+  }
+  return table;
+}
+constexpr Table crc_table = make_table();
+
 }  // namespace
 
 struct MazeFile::Header {
@@ -259,30 +279,6 @@ void write_maze_file(const Scene& scene, const std::string& path, const Executio
   const HeldCells cells(cells_of_walls(scene.walls, *maze, execution), CellBits::usual_side_log2);
   write_maze_file(cells, path, execution);
 }
-
-namespace {
-
-using Table = std::array<std::array<std::uint32_t, 256>, 8>;
-
-/// Of a byte that so many bytes follow.
-constexpr Table make_table() {
-  Table table{};
-  for (std::uint32_t byte = 0; byte < 256; ++byte) {
-    std::uint32_t sum = byte;
-    for (int bit = 0; bit < 8; ++bit) sum = sum >> 1U ^ ((sum & 1U) != 0 ? 0xEDB88320U : 0U);
-    table[0][byte] = sum;
-  }
-  for (std::size_t behind = 1; behind < 8; ++behind) {
-    for (std::size_t byte = 0; byte < 256; ++byte) {
-      const std::uint32_t before = table[behind - 1][byte];
-      table[behind][byte] = before >> 8U ^ table[0][before & 0xffU];
-    }
-  }
-  return table;
-}
-constexpr Table crc_table = make_table();
-
-}  // namespace
 
 std::uint32_t crc32(std::string_view bytes) noexcept {
   std::uint32_t sum = 0xffffffffU;

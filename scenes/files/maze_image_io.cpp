@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scenes/files/maze_image_io.hpp"
 
-#include <bit>
 #include <numeric>
 #include <optional>
 

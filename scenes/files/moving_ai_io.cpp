@@ -7,7 +7,6 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <string_view>
 
 #include "core/base/error.hpp"
@@ -122,58 +121,6 @@ void refuse_more_rows(TextLines& lines, std::uint32_t width, std::uint32_t heigh
   }
 }
 
-}  // namespace
-
-OccupancyMap read_moving_ai_map(const InputFile& file, const Execution& execution) {
-  TextLines lines(file, execution);
-  const std::vector<std::string_view> type = next_words(lines);
-  if (type.size() != 2 || type[0] != "type" || type[1] != "octile") {
-    lines.place().fail("expected `type octile`", type.empty() ? "" : type.back());
-  }
-  const std::uint32_t height = size_line(lines, "height");
-  const std::uint32_t width = size_line(lines, "width");
-  check_map_size(file.name(), width, height);
-  if (next_words(lines) != std::vector<std::string_view>{"map"}) lines.place().fail("expected `map`");
-  OccupancyMap map;
-  map.format = MapFormat::moving_ai;
-  map.source = file.name();
-  if (file.bytes().size() / width < height) {
-    throw InputError(file.name(), fmt::format("expected {} rows of {} cells; the file is too short", height, width));
-  }
-  map.blocked = cell_bitmap(width, height, execution);
-  for (std::uint32_t row = 0; row < height; ++row) {
-    if (!lines.next()) {
-      throw InputError(file.name(), fmt::format("expected {} rows after `map`", height), fmt::format("{}", row));
-    }
-    const std::string_view line = without_trailing_blanks(text_of(lines), width);
-    if (line.size() != width) {
-      lines.place().fail(fmt::format("expected a row of {} cells", width), fmt::format("{} characters", line.size()));
-    }
-    map.free += fill_row(line, height - 1 - row, lines.place(), map, execution);
-  }
-  refuse_more_rows(lines, width, height);
-  map.occupied = map.blocked.size() - map.free;
-  return map;
-}
-
-void write_moving_ai_map(const OccupancyMap& map, const std::string& path, const Execution& execution) {
-  OutputFile file(path, execution);
-  file.write(fmt::format("type octile\nheight {}\nwidth {}\nmap\n", map.height(), map.width()));
-  std::string line;
-  for (std::uint32_t row = 0; row < map.height(); ++row) {
-    const std::uint32_t y = map.height() - 1 - row;
-    line.clear();
-    for (std::uint32_t x = 0; x < map.width(); ++x) {
-      line.push_back(map.water.holds(x, y) ? 'W' : map.blocked.test(x, y) ? '@' : '.');
-    }
-    line.push_back('\n');
-    file.write(line);
-  }
-  file.commit();
-}
-
-namespace {
-
 /// The power of ten of the first digit of a number > 0.
 int first_digit_of(double value) {
   const std::string digits = fmt::format("{:.17e}", value);  // exact as far as a double goes
@@ -244,6 +191,54 @@ std::uint32_t scaled(std::uint32_t coordinate, std::uint32_t map_size, std::uint
 }
 
 }  // namespace
+
+OccupancyMap read_moving_ai_map(const InputFile& file, const Execution& execution) {
+  TextLines lines(file, execution);
+  const std::vector<std::string_view> type = next_words(lines);
+  if (type.size() != 2 || type[0] != "type" || type[1] != "octile") {
+    lines.place().fail("expected `type octile`", type.empty() ? "" : type.back());
+  }
+  const std::uint32_t height = size_line(lines, "height");
+  const std::uint32_t width = size_line(lines, "width");
+  check_map_size(file.name(), width, height);
+  if (next_words(lines) != std::vector<std::string_view>{"map"}) lines.place().fail("expected `map`");
+  OccupancyMap map;
+  map.format = MapFormat::moving_ai;
+  map.source = file.name();
+  if (file.bytes().size() / width < height) {
+    throw InputError(file.name(), fmt::format("expected {} rows of {} cells; the file is too short", height, width));
+  }
+  map.blocked = cell_bitmap(width, height, execution);
+  for (std::uint32_t row = 0; row < height; ++row) {
+    if (!lines.next()) {
+      throw InputError(file.name(), fmt::format("expected {} rows after `map`", height), fmt::format("{}", row));
+    }
+    const std::string_view line = without_trailing_blanks(text_of(lines), width);
+    if (line.size() != width) {
+      lines.place().fail(fmt::format("expected a row of {} cells", width), fmt::format("{} characters", line.size()));
+    }
+    map.free += fill_row(line, height - 1 - row, lines.place(), map, execution);
+  }
+  refuse_more_rows(lines, width, height);
+  map.occupied = map.blocked.size() - map.free;
+  return map;
+}
+
+void write_moving_ai_map(const OccupancyMap& map, const std::string& path, const Execution& execution) {
+  OutputFile file(path, execution);
+  file.write(fmt::format("type octile\nheight {}\nwidth {}\nmap\n", map.height(), map.width()));
+  std::string line;
+  for (std::uint32_t row = 0; row < map.height(); ++row) {
+    const std::uint32_t y = map.height() - 1 - row;
+    line.clear();
+    for (std::uint32_t x = 0; x < map.width(); ++x) {
+      line.push_back(map.water.holds(x, y) ? 'W' : map.blocked.test(x, y) ? '@' : '.');
+    }
+    line.push_back('\n');
+    file.write(line);
+  }
+  file.commit();
+}
 
 std::vector<Scenario> read_scenarios(const InputFile& file, const Execution& execution) {
   TextLines lines(file, execution);

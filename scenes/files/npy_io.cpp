@@ -11,11 +11,8 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 #include <limits>
-#include <optional>
-#include <string_view>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -284,6 +281,15 @@ std::string header_of(std::uint64_t walls) {
   return npy_header(sizeof(T) == sizeof(float) ? "<f4" : "<f8", std::array<std::uint64_t, 2>{walls, 4});
 }
 
+/// As Python writes a tuple: "()", "(28,)", "(28, 4)".
+std::string tuple_text(std::span<const std::uint64_t> numbers) {
+  std::string text = "(";
+  for (const std::uint64_t number : numbers) fmt::format_to(std::back_inserter(text), "{}, ", number);
+  if (numbers.size() == 1) text.pop_back();
+  if (numbers.size() > 1) text.resize(text.size() - 2);
+  return text + ")";
+}
+
 }  // namespace
 
 bool is_npy(std::string_view bytes) { return bytes.starts_with(magic); }
@@ -332,19 +338,6 @@ void write_npy(const Scene& scene, const std::string& path, const Execution& exe
   });
   file.commit();
 }
-
-namespace {
-
-/// As Python writes a tuple: "()", "(28,)", "(28, 4)".
-std::string tuple_text(std::span<const std::uint64_t> numbers) {
-  std::string text = "(";
-  for (const std::uint64_t number : numbers) fmt::format_to(std::back_inserter(text), "{}, ", number);
-  if (numbers.size() == 1) text.pop_back();
-  if (numbers.size() > 1) text.resize(text.size() - 2);
-  return text + ")";
-}
-
-}  // namespace
 
 std::string npy_header(std::string_view type, std::span<const std::uint64_t> shape) {
   constexpr std::size_t alignment = 64;

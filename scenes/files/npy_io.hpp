@@ -39,11 +39,9 @@ void write_npy(const Scene& scene, const std::string& path, const Execution& exe
 /// Writes the walls of a maze while they are made. Throws WriteError, Stopped.
 void write_npy(const WallStrips& walls, const std::string& path, const Execution& execution);
 
-// What stands before the numbers of a NumPy array: a Python literal, padded so that the numbers begin on a multiple of
-// 64 bytes.
-
-/// The header, format version 1, of an array in C order. `type` as NumPy spells it: "<f8", "<i4", "|S3". A shape
-/// without numbers is that of a single value.
+/// What stands before the numbers of a NumPy array: a Python literal, padded so that the numbers begin on a multiple of
+/// 64 bytes. The header, format version 1, of an array in C order. `type` as NumPy spells it: "<f8", "<i4", "|S3". A
+/// shape without numbers is that of a single value.
 std::string npy_header(std::string_view type, std::span<const std::uint64_t> shape);
 
 }  // namespace warren

@@ -12,7 +12,6 @@
 
 #include "core/base/error.hpp"
 #include "scenes/files/maze_file_io.hpp"
-#include "scenes/files/npy_io.hpp"
 #include "scenes/files/read_world_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 

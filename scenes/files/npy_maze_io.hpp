@@ -55,10 +55,9 @@ class NpyMaze {
   std::uint64_t units_ = 0;  // of walls, so far
 };
 
-// Which mazes can be had tile by tile, so that their walls may be left out (is_unmade): those of a name whose algorithm
-// makes each tile by itself, and those of files that are read by parts.
-
-/// maze:ROWSxCOLS,...: the maze without its walls; nothing for algorithms that make it as a whole. Throws UsageError.
+/// Which mazes can be had tile by tile, so that their walls may be left out (is_unmade): those of a name whose
+/// algorithm makes each tile by itself, and those of files that are read by parts. maze:ROWSxCOLS,...: the maze without
+/// its walls; nothing for algorithms that make it as a whole. Throws UsageError.
 std::optional<Scene> unmade_maze(const std::string& source);
 
 /// A file of a maze, without its walls; nothing where its format or its walls are others. Looks at its header, of an

@@ -13,12 +13,9 @@
 #include <exception>
 #include <new>
 #include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "scenes/files/output_file_io.hpp"
-#include "scenes/scene/occupancy_map.hpp"
 
 namespace warren {
 namespace {
@@ -113,50 +110,6 @@ void check_pixels_are_there(const InputFile& file, const ImageHeader& header, st
                                     std::to_string(header.height) + " pixels");
 }
 
-}  // namespace
-
-void read_png(const InputFile& file, const ImageSink& sink, const Execution& execution) {
-  PngInput input{
-      .rest = file.bytes(), .execution = execution, .error = {}, .bits_a_pixel = 0, .bytes = {}, .samples = {}};
-  const auto fail = [&] {
-    execution.check();
-    throw InputError(file.name(), "expected a whole PNG image: " + input.error);
-  };
-  const PngReader reader(input);
-  ImageHeader header;
-  if (!begin(reader.png(), reader.info(), input, header)) fail();
-  check_map_size(file.name(), header.width, header.height);
-  check_pixels_are_there(file, header, input.bits_a_pixel);
-  sink.begin(header);
-  const std::size_t row_samples = std::size_t{header.width} * header.channels;
-  execution.reserve(8 * row_samples);  // two of libpng's rows, of two bytes a sample, and our two
-  input.bytes.resize(png_get_rowbytes(reader.png(), reader.info()));
-  input.samples.resize(row_samples);
-  const bool interlaced = png_get_interlace_type(reader.png(), reader.info()) == PNG_INTERLACE_ADAM7;
-  for (int pass = 0; pass < (interlaced ? PNG_INTERLACE_ADAM7_PASSES : 1); ++pass) {
-    const std::uint32_t cols = interlaced ? PNG_PASS_COLS(header.width, pass) : header.width;
-    const std::uint32_t rows = interlaced ? PNG_PASS_ROWS(header.height, pass) : header.height;
-    if (cols == 0) continue;
-    for (std::uint32_t r = 0; r < rows; ++r) {
-      execution.check();
-      if (!next_row(reader.png(), input.bytes.data())) fail();
-      const std::size_t count = std::size_t{cols} * header.channels;
-      widen(header, count, input);
-      const std::span<const std::uint16_t> samples(input.samples.data(), count);
-      if (!interlaced) {
-        sink.row({r, 0, 1, samples});
-        continue;
-      }
-      const auto y = static_cast<std::uint32_t>(PNG_ROW_FROM_PASS_ROW(r, pass));
-      const auto first_x = static_cast<std::uint32_t>(PNG_PASS_START_COL(pass));
-      sink.row({y, first_x, std::uint32_t{1} << PNG_PASS_COL_SHIFT(pass), samples});
-    }
-  }
-  if (!end(reader.png())) fail();
-}
-
-namespace {
-
 /// libpng reports by longjmp, so nothing that needs a destructor may live between setjmp and the calls; an exception of
 /// `write` is kept and rethrown after.
 struct PngSink {
@@ -212,6 +165,46 @@ bool encode(png_structp png, png_infop info, const PngRows& rows, PngSink& sink,
 }
 
 }  // namespace
+
+void read_png(const InputFile& file, const ImageSink& sink, const Execution& execution) {
+  PngInput input{
+      .rest = file.bytes(), .execution = execution, .error = {}, .bits_a_pixel = 0, .bytes = {}, .samples = {}};
+  const auto fail = [&] {
+    execution.check();
+    throw InputError(file.name(), "expected a whole PNG image: " + input.error);
+  };
+  const PngReader reader(input);
+  ImageHeader header;
+  if (!begin(reader.png(), reader.info(), input, header)) fail();
+  check_map_size(file.name(), header.width, header.height);
+  check_pixels_are_there(file, header, input.bits_a_pixel);
+  sink.begin(header);
+  const std::size_t row_samples = std::size_t{header.width} * header.channels;
+  execution.reserve(8 * row_samples);  // two of libpng's rows, of two bytes a sample, and our two
+  input.bytes.resize(png_get_rowbytes(reader.png(), reader.info()));
+  input.samples.resize(row_samples);
+  const bool interlaced = png_get_interlace_type(reader.png(), reader.info()) == PNG_INTERLACE_ADAM7;
+  for (int pass = 0; pass < (interlaced ? PNG_INTERLACE_ADAM7_PASSES : 1); ++pass) {
+    const std::uint32_t cols = interlaced ? PNG_PASS_COLS(header.width, pass) : header.width;
+    const std::uint32_t rows = interlaced ? PNG_PASS_ROWS(header.height, pass) : header.height;
+    if (cols == 0) continue;
+    for (std::uint32_t r = 0; r < rows; ++r) {
+      execution.check();
+      if (!next_row(reader.png(), input.bytes.data())) fail();
+      const std::size_t count = std::size_t{cols} * header.channels;
+      widen(header, count, input);
+      const std::span<const std::uint16_t> samples(input.samples.data(), count);
+      if (!interlaced) {
+        sink.row({r, 0, 1, samples});
+        continue;
+      }
+      const auto y = static_cast<std::uint32_t>(PNG_ROW_FROM_PASS_ROW(r, pass));
+      const auto first_x = static_cast<std::uint32_t>(PNG_PASS_START_COL(pass));
+      sink.row({y, first_x, std::uint32_t{1} << PNG_PASS_COL_SHIFT(pass), samples});
+    }
+  }
+  if (!end(reader.png())) fail();
+}
 
 void write_png(const PngRows& rows, const Execution& execution, const std::function<void(std::string_view)>& write) {
   PngSink sink{write, nullptr};

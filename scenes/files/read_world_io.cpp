@@ -116,40 +116,6 @@ class MazeSource {
   std::string_view source_;
 };
 
-}  // namespace
-
-WorldFormat format_of(const InputFile& file) {
-  const std::string_view bytes = file.bytes();
-  if (is_npy(bytes)) return WorldFormat::npy;
-  if (is_maze_file(bytes)) return WorldFormat::maze;
-  if (is_png(bytes) || is_pgm(bytes) || is_bmp(bytes)) return WorldFormat::image;
-  if (bytes.starts_with("type ")) return WorldFormat::moving_ai;
-  if (names_image(bytes)) return WorldFormat::ros_map;
-  if (is_micromouse(bytes)) return WorldFormat::micromouse;
-  if (is_geojson(bytes)) return WorldFormat::geojson;
-  if (is_wkt(bytes)) return WorldFormat::wkt;
-  if (is_ring_list(bytes)) return WorldFormat::ring_list;
-  const std::string_view name = file.name();
-  if (name.ends_with(".npy")) return WorldFormat::npy;
-  if (name.ends_with(".maze")) return WorldFormat::maze;
-  if (name.ends_with(".png") || name.ends_with(".pgm") || name.ends_with(".bmp")) return WorldFormat::image;
-  if (name.ends_with(".num")) return WorldFormat::micromouse;
-  if (name.ends_with(".geojson") || name.ends_with(".json")) return WorldFormat::geojson;
-  if (name.ends_with(".wkt")) return WorldFormat::wkt;
-  if (name.ends_with(".poly") || name.ends_with(".environment")) return WorldFormat::ring_list;
-  if (name.ends_with(".map")) return WorldFormat::moving_ai;
-  if (name.ends_with(".yaml") || name.ends_with(".yml")) return WorldFormat::ros_map;
-  return WorldFormat::scene;
-}
-
-bool is_maze_source(std::string_view source) { return source.starts_with(maze_prefix); }
-
-bool is_made_source(std::string_view source) { return is_maze_source(source) || source.starts_with(empty_prefix); }
-
-MazeOptions parse_maze_source(std::string_view source) { return MazeSource(source).parse(); }
-
-namespace {
-
 /// A scene that is a map, with the map's start and goal.
 Scene scene_of(OccupancyMap map) {
   Scene scene;
@@ -203,6 +169,36 @@ Scene read_unchecked(const InputFile& file, const Execution& execution, MapServe
 }
 
 }  // namespace
+
+WorldFormat format_of(const InputFile& file) {
+  const std::string_view bytes = file.bytes();
+  if (is_npy(bytes)) return WorldFormat::npy;
+  if (is_maze_file(bytes)) return WorldFormat::maze;
+  if (is_png(bytes) || is_pgm(bytes) || is_bmp(bytes)) return WorldFormat::image;
+  if (bytes.starts_with("type ")) return WorldFormat::moving_ai;
+  if (names_image(bytes)) return WorldFormat::ros_map;
+  if (is_micromouse(bytes)) return WorldFormat::micromouse;
+  if (is_geojson(bytes)) return WorldFormat::geojson;
+  if (is_wkt(bytes)) return WorldFormat::wkt;
+  if (is_ring_list(bytes)) return WorldFormat::ring_list;
+  const std::string_view name = file.name();
+  if (name.ends_with(".npy")) return WorldFormat::npy;
+  if (name.ends_with(".maze")) return WorldFormat::maze;
+  if (name.ends_with(".png") || name.ends_with(".pgm") || name.ends_with(".bmp")) return WorldFormat::image;
+  if (name.ends_with(".num")) return WorldFormat::micromouse;
+  if (name.ends_with(".geojson") || name.ends_with(".json")) return WorldFormat::geojson;
+  if (name.ends_with(".wkt")) return WorldFormat::wkt;
+  if (name.ends_with(".poly") || name.ends_with(".environment")) return WorldFormat::ring_list;
+  if (name.ends_with(".map")) return WorldFormat::moving_ai;
+  if (name.ends_with(".yaml") || name.ends_with(".yml")) return WorldFormat::ros_map;
+  return WorldFormat::scene;
+}
+
+bool is_maze_source(std::string_view source) { return source.starts_with(maze_prefix); }
+
+bool is_made_source(std::string_view source) { return is_maze_source(source) || source.starts_with(empty_prefix); }
+
+MazeOptions parse_maze_source(std::string_view source) { return MazeSource(source).parse(); }
 
 Scene read_scene(const InputFile& file, const Execution& execution, MapServerRules rules) {
   if (file.bytes().starts_with(roadmap_begin)) {

@@ -16,7 +16,6 @@
 #include <istream>
 #include <numeric>
 #include <sstream>
-#include <string>
 #include <string_view>
 #include <system_error>
 #include <vector>

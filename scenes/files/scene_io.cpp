@@ -12,9 +12,6 @@
 #include <cstring>
 #include <iterator>
 #include <limits>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -27,8 +24,7 @@
 namespace warren {
 namespace {
 
-using scene_text::Fields;
-using scene_text::Place;
+using scene_text::Fields, scene_text::Place;
 
 class SceneReader {
  public:
@@ -251,15 +247,6 @@ void SceneReader::check_maze() const {
   }
 }
 
-}  // namespace
-
-Scene read_scene_text(const InputFile& file, const Execution& execution) { return SceneReader(file, execution).read(); }
-
-// The writer of scene text: shortest decimal numbers that read back the same, half-integers (mazes) by integer digits.
-// Walls are formatted in parallel, a batch of chunks at a time, and written in their order.
-
-namespace {
-
 constexpr std::size_t line_grain = 8192;
 constexpr std::size_t chunks_a_batch = 64;
 
@@ -405,6 +392,10 @@ void write_items(std::size_t count, std::size_t chunk, const SceneTextSink& writ
 
 }  // namespace
 
+Scene read_scene_text(const InputFile& file, const Execution& execution) { return SceneReader(file, execution).read(); }
+
+/// The writer of scene text: shortest decimal numbers that read back the same, half-integers (mazes) by integer digits.
+/// Walls are formatted in parallel, a batch of chunks at a time, and written in their order.
 void write_scene_text(const Scene& scene, const SceneTextSink& write, const Execution& execution) {
   write(head_of(scene));
   write_items(scene.polygons.size(), line_grain / 16, write, execution, [&](std::string& text, std::size_t i) {

@@ -3,10 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
-#include <cmath>
-#include <limits>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -235,6 +232,8 @@ class RobotReader {
   const Execution& execution_;
 };
 
+constexpr std::size_t bytes_a_look = std::size_t{1} << 18;
+
 }  // namespace
 
 std::string arm_words(const RobotSpec& robot) {
@@ -245,12 +244,6 @@ std::string arm_words(const RobotSpec& robot) {
 }
 
 RobotSpec read_robot(Fields& fields, const Execution& execution) { return RobotReader(fields, execution).read(); }
-
-namespace {
-
-constexpr std::size_t bytes_a_look = std::size_t{1} << 18;
-
-}  // namespace
 
 TextLines::TextLines(const InputFile& file, const Execution& execution) : file_(file), execution_(execution) {
   constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";

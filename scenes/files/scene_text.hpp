@@ -100,10 +100,9 @@ std::string arm_words(const RobotSpec& robot);
 /// Reads what follows the word `robot`, to the line's end. Throws InputError naming the fields' place, Stopped.
 RobotSpec read_robot(scene_text::Fields& fields, const Execution& execution);
 
-// The lines of a text file, one after the other: the deadline is looked at and the memory for what follows is asked for
-// every 256 KiB, and the pages behind are given back. Lines may be as long as the file; what is in them polls by
-// itself.
-
+/// The lines of a text file, one after the other: the deadline is looked at and the memory for what follows is asked
+/// for every 256 KiB, and the pages behind are given back. Lines may be as long as the file; what is in them polls by
+/// itself.
 class TextLines {
  public:
   /// Begins before the first line, behind a byte order mark. Both must outlive it.
@@ -130,9 +129,8 @@ class TextLines {
   std::size_t forgotten_ = 0;  // what lies before was given back
 };
 
-// Collects walls one by one when their number is not known: packed until the first that doesn't fit, as floats until
-// the first that no float holds, as doubles from then on. Growing asks for memory first.
-
+/// Collects walls one by one when their number is not known: packed until the first that doesn't fit, as floats until
+/// the first that no float holds, as doubles from then on. Growing asks for memory first.
 class WallCollector {
  public:
   explicit WallCollector(const Execution& execution) : execution_(execution) {}

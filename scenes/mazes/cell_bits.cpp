@@ -7,8 +7,6 @@
 #include <cassert>
 #include <cstring>
 #include <limits>
-#include <memory>
-#include <string>
 #include <vector>
 
 #include "parallel/chunks.hpp"
@@ -34,62 +32,6 @@ void unpack(const std::uint8_t* bits, std::uint32_t count, std::uint8_t* out) {
   for (std::uint32_t i = 0; i < whole; ++i) std::memcpy(out + 4 * std::size_t{i}, &cells_of_byte[bits[i]], 4);
   for (std::uint32_t i = 4 * whole; i < count; ++i) out[i] = bits[whole] >> (2 * (i % 4)) & 3U;
 }
-
-}  // namespace
-
-void pack_tile(const CellTile& tile, std::size_t row_bytes, std::uint8_t* rows) {
-  for (std::uint32_t row = 0; row < tile.height; ++row) {
-    const std::uint8_t* cells = tile.walls.data() + tile.index(0, row);
-    std::uint8_t* out = rows + row * row_bytes + tile.first_col / 4;
-    std::uint32_t col = 0;
-    for (; col + 4 <= tile.width; col += 4, cells += 4) {
-      *out++ = static_cast<std::uint8_t>(cells[0] | cells[1] << 2U | cells[2] << 4U | cells[3] << 6U);
-    }
-    if (col == tile.width) continue;
-    unsigned last = 0;
-    for (; col < tile.width; ++col) last |= static_cast<unsigned>(*cells++) << (2 * (col % 4));
-    *out = static_cast<std::uint8_t>(last);
-  }
-}
-
-class CellBits::Reader : public CellWallReader {
- public:
-  explicit Reader(const CellBits& cells) : cells_(cells), row_bytes_(bytes_a_row(cells.cols())) {}
-  ~Reader() override {
-    if (cells_.forget_ && first_row_ < last_row_) cells_.forget_(first_row_ * row_bytes_, last_row_ * row_bytes_);
-  }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
-
-  void read(std::size_t number, CellTile& tile) override {
-    cells_.place(number, tile);
-    first_row_ = std::min<std::size_t>(first_row_, tile.first_row);
-    last_row_ = std::max<std::size_t>(last_row_, std::size_t{tile.first_row} + tile.height);
-    for (std::ptrdiff_t row = tile.first_row > 0 ? -1 : 0; row < std::ptrdiff_t{tile.height}; ++row) {
-      const auto maze_row = static_cast<std::size_t>(std::ptrdiff_t{tile.first_row} + row);
-      assert(maze_row >= cells_.first_row_);
-      const std::uint8_t* const bits = cells_.bits_ + (maze_row - cells_.first_row_) * row_bytes_;
-      std::uint8_t* const out = tile.walls.data() + tile.index(-1, row);
-      const std::uint32_t left = tile.first_col - 1;
-      if (tile.first_col > 0) *out = bits[left / 4] >> (2 * (left % 4)) & 3U;
-      unpack(bits + tile.first_col / 4, tile.width, out + 1);
-    }
-    if (number == 0) tile.walls[tile.index(-1, 0)] = 0;
-  }
-
- private:
-  const CellBits& cells_;
-  std::size_t row_bytes_;
-  std::size_t first_row_ = std::numeric_limits<std::size_t>::max();
-  std::size_t last_row_ = 0;
-};
-
-std::unique_ptr<CellWallReader> CellBits::reader() const { return std::make_unique<Reader>(*this); }
-
-// Strips of columns are looked at twice: how many walls each has says where the chunks of the hash begin in it. The
-// walls that a part has before its first chunk are those of its neighbour's last one, which they end.
-
-namespace {
 
 constexpr std::size_t grain = WallsHash::grain;
 constexpr std::size_t most_parts = 16;  // each holds up to a chunk of walls
@@ -262,6 +204,57 @@ std::string joined(std::size_t walls, const std::vector<Segment>& frame, const s
 
 }  // namespace
 
+void pack_tile(const CellTile& tile, std::size_t row_bytes, std::uint8_t* rows) {
+  for (std::uint32_t row = 0; row < tile.height; ++row) {
+    const std::uint8_t* cells = tile.walls.data() + tile.index(0, row);
+    std::uint8_t* out = rows + row * row_bytes + tile.first_col / 4;
+    std::uint32_t col = 0;
+    for (; col + 4 <= tile.width; col += 4, cells += 4) {
+      *out++ = static_cast<std::uint8_t>(cells[0] | cells[1] << 2U | cells[2] << 4U | cells[3] << 6U);
+    }
+    if (col == tile.width) continue;
+    unsigned last = 0;
+    for (; col < tile.width; ++col) last |= static_cast<unsigned>(*cells++) << (2 * (col % 4));
+    *out = static_cast<std::uint8_t>(last);
+  }
+}
+
+class CellBits::Reader : public CellWallReader {
+ public:
+  explicit Reader(const CellBits& cells) : cells_(cells), row_bytes_(bytes_a_row(cells.cols())) {}
+  ~Reader() override {
+    if (cells_.forget_ && first_row_ < last_row_) cells_.forget_(first_row_ * row_bytes_, last_row_ * row_bytes_);
+  }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  void read(std::size_t number, CellTile& tile) override {
+    cells_.place(number, tile);
+    first_row_ = std::min<std::size_t>(first_row_, tile.first_row);
+    last_row_ = std::max<std::size_t>(last_row_, std::size_t{tile.first_row} + tile.height);
+    for (std::ptrdiff_t row = tile.first_row > 0 ? -1 : 0; row < std::ptrdiff_t{tile.height}; ++row) {
+      const auto maze_row = static_cast<std::size_t>(std::ptrdiff_t{tile.first_row} + row);
+      assert(maze_row >= cells_.first_row_);
+      const std::uint8_t* const bits = cells_.bits_ + (maze_row - cells_.first_row_) * row_bytes_;
+      std::uint8_t* const out = tile.walls.data() + tile.index(-1, row);
+      const std::uint32_t left = tile.first_col - 1;
+      if (tile.first_col > 0) *out = bits[left / 4] >> (2 * (left % 4)) & 3U;
+      unpack(bits + tile.first_col / 4, tile.width, out + 1);
+    }
+    if (number == 0) tile.walls[tile.index(-1, 0)] = 0;
+  }
+
+ private:
+  const CellBits& cells_;
+  std::size_t row_bytes_;
+  std::size_t first_row_ = std::numeric_limits<std::size_t>::max();
+  std::size_t last_row_ = 0;
+};
+
+std::unique_ptr<CellWallReader> CellBits::reader() const { return std::make_unique<Reader>(*this); }
+
+/// Strips of columns are looked at twice: how many walls each has says where the chunks of the hash begin in it. The
+/// walls that a part has before its first chunk are those of its neighbour's last one, which they end.
 HashedCells hash_of_cells(const CellWallSource& cells, const Execution& execution) {
   const std::size_t strips = cells.tile_cols();
   const std::size_t size = std::max<std::size_t>(1, (strips + most_parts - 1) / most_parts);

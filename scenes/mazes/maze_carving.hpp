@@ -7,7 +7,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
 #include "core/base/raw_vector.hpp"
 #include "core/base/rng.hpp"
@@ -113,8 +112,7 @@ class StepPoll {
   std::uint64_t told_ = 0;
 };
 
-// Disjoint regions of cells (union-find) for the maze generators that join regions. One Id an element.
-
+/// Disjoint regions of cells (union-find) for the maze generators that join regions. One Id an element.
 template <class Id>
 class Regions {
  public:

@@ -76,57 +76,6 @@ void open_loops(MazeCells& cells, std::uint64_t count, std::uint64_t standing, s
   }
 }
 
-}  // namespace
-
-namespace maze {
-void mark_gaps(MazeCells& cells, std::uint8_t bits, const Execution& execution) {
-  const std::span<std::uint8_t> bytes = cells.bytes();
-  for_chunks(cells.cols() + std::size_t{1}, generator_grain, {execution.threads, execution.deadline}, [&](Range r) {
-    for (std::size_t gap = r.first; gap < r.last; ++gap) bytes[gap * cells.stride()] |= bits;
-  });
-}
-}  // namespace maze
-
-std::string_view name_of(MazeAlgorithm algorithm) { return algorithm_of(algorithm).name; }
-
-MazeAlgorithm maze_algorithm_named(std::string_view name) {
-  std::string known;
-  for (const Algorithm& algorithm : algorithms) {
-    if (algorithm.name == name) return algorithm.id;
-    known.append(known.empty() ? "" : ", ").append(algorithm.name);
-  }
-  throw InputError("maze", "the algorithm must be one of " + known, name);
-}
-
-MazeCells::MazeCells(std::uint32_t rows, std::uint32_t cols, const Execution& execution) : rows_(rows), cols_(cols) {
-  check_size(rows, cols);
-  const std::size_t bytes = cols * stride() + 1;
-  execution.reserve(bytes);
-  bits_.resize(bytes);
-  fill_bytes(bits_, all_walls, execution);
-}
-
-MazeCells generate_maze(const MazeOptions& options, const Execution& execution) {
-  if (!(options.loops >= 0.0 && options.loops <= 1.0)) {
-    throw InputError("maze", "loops must be a fraction from 0 to 1", fmt::format("{}", options.loops));
-  }
-  check_size(options.rows, options.cols);
-  MazeCells cells(options.rows, options.cols, {execution.threads, execution.deadline});
-  if (execution.progress != nullptr) execution.progress->begin("generate", cells.cell_count());
-  algorithm_of(options.algorithm).carve(cells, options.seed, execution);
-  clear_scratch(cells, {execution.threads, execution.deadline});
-  if (options.loops > 0.0 && options.algorithm == MazeAlgorithm::mst) {
-    maze::open_drawn_loops(cells, options.loops, options.seed, {execution.threads, execution.deadline});
-  } else if (options.loops > 0.0) {
-    const std::uint64_t standing = interior_walls(cells, {execution.threads, execution.deadline});
-    const auto count = static_cast<std::uint64_t>(std::round(options.loops * static_cast<double>(standing)));
-    open_loops(cells, std::min(count, standing), standing, options.seed, execution);
-  }
-  return cells;
-}
-
-namespace {
-
 /// All but the walls.
 void describe(const MazeOptions& options, Scene& scene) {
   scene.maze = MazeHint{options.rows, options.cols};
@@ -136,31 +85,6 @@ void describe(const MazeOptions& options, Scene& scene) {
                              name_of(options.algorithm), options.loops);
   if (options.algorithm == MazeAlgorithm::mst) scene.formula = MazeFormula{options.seed, options.loops};
 }
-
-}  // namespace
-
-Scene unmade_maze_scene(const MazeOptions& options) {
-  check_spanning_maze(options.rows, options.cols, options.loops);
-  Scene scene;
-  describe(options, scene);
-  return scene;
-}
-
-Scene maze_scene(const MazeOptions& options, bool merged, const Execution& execution) {
-  check_size(options.rows, options.cols);
-  const std::uint64_t interior = (std::uint64_t{options.rows} - 1) * (options.cols - 1);
-  if (!merged) {
-    const std::size_t wall_bytes = maze_wall_bytes(options.rows, options.cols);
-    execution.reserve(std::uint64_t{options.rows} * options.cols + interior * wall_bytes);
-  }
-  const MazeCells cells = generate_maze(options, execution);
-  Scene scene;
-  scene.walls = maze_walls(cells, merged, execution);
-  describe(options, scene);
-  return scene;
-}
-
-namespace {
 
 constexpr std::size_t outline_grain = std::size_t{1} << 16;
 
@@ -232,6 +156,74 @@ bool has_outline(const WallSet& walls, const Box& outline, const Execution& exec
 
 }  // namespace
 
+namespace maze {
+void mark_gaps(MazeCells& cells, std::uint8_t bits, const Execution& execution) {
+  const std::span<std::uint8_t> bytes = cells.bytes();
+  for_chunks(cells.cols() + std::size_t{1}, generator_grain, {execution.threads, execution.deadline}, [&](Range r) {
+    for (std::size_t gap = r.first; gap < r.last; ++gap) bytes[gap * cells.stride()] |= bits;
+  });
+}
+}  // namespace maze
+
+std::string_view name_of(MazeAlgorithm algorithm) { return algorithm_of(algorithm).name; }
+
+MazeAlgorithm maze_algorithm_named(std::string_view name) {
+  std::string known;
+  for (const Algorithm& algorithm : algorithms) {
+    if (algorithm.name == name) return algorithm.id;
+    known.append(known.empty() ? "" : ", ").append(algorithm.name);
+  }
+  throw InputError("maze", "the algorithm must be one of " + known, name);
+}
+
+MazeCells::MazeCells(std::uint32_t rows, std::uint32_t cols, const Execution& execution) : rows_(rows), cols_(cols) {
+  check_size(rows, cols);
+  const std::size_t bytes = cols * stride() + 1;
+  execution.reserve(bytes);
+  bits_.resize(bytes);
+  fill_bytes(bits_, all_walls, execution);
+}
+
+MazeCells generate_maze(const MazeOptions& options, const Execution& execution) {
+  if (!(options.loops >= 0.0 && options.loops <= 1.0)) {
+    throw InputError("maze", "loops must be a fraction from 0 to 1", fmt::format("{}", options.loops));
+  }
+  check_size(options.rows, options.cols);
+  MazeCells cells(options.rows, options.cols, {execution.threads, execution.deadline});
+  if (execution.progress != nullptr) execution.progress->begin("generate", cells.cell_count());
+  algorithm_of(options.algorithm).carve(cells, options.seed, execution);
+  clear_scratch(cells, {execution.threads, execution.deadline});
+  if (options.loops > 0.0 && options.algorithm == MazeAlgorithm::mst) {
+    maze::open_drawn_loops(cells, options.loops, options.seed, {execution.threads, execution.deadline});
+  } else if (options.loops > 0.0) {
+    const std::uint64_t standing = interior_walls(cells, {execution.threads, execution.deadline});
+    const auto count = static_cast<std::uint64_t>(std::round(options.loops * static_cast<double>(standing)));
+    open_loops(cells, std::min(count, standing), standing, options.seed, execution);
+  }
+  return cells;
+}
+
+Scene unmade_maze_scene(const MazeOptions& options) {
+  check_spanning_maze(options.rows, options.cols, options.loops);
+  Scene scene;
+  describe(options, scene);
+  return scene;
+}
+
+Scene maze_scene(const MazeOptions& options, bool merged, const Execution& execution) {
+  check_size(options.rows, options.cols);
+  const std::uint64_t interior = (std::uint64_t{options.rows} - 1) * (options.cols - 1);
+  if (!merged) {
+    const std::size_t wall_bytes = maze_wall_bytes(options.rows, options.cols);
+    execution.reserve(std::uint64_t{options.rows} * options.cols + interior * wall_bytes);
+  }
+  const MazeCells cells = generate_maze(options, execution);
+  Scene scene;
+  scene.walls = maze_walls(cells, merged, execution);
+  describe(options, scene);
+  return scene;
+}
+
 std::optional<MazeHint> maze_of_walls(const WallSet& walls, const Execution& execution) {
   const Box box = box_of_walls(walls, execution);
   const std::optional<MazeHint> hint = size_of_box(box);
@@ -242,19 +234,16 @@ std::optional<MazeHint> maze_of_walls(const WallSet& walls, const Execution& exe
 MazeCells cells_from(const CellWallSource& source, const Execution& execution) {
   constexpr std::size_t grain = 8;  // a reader's scratch is large
   MazeCells cells(source.rows(), source.cols(), execution);
-  const std::span<std::uint8_t> bytes = cells.bytes();
   for_chunks(source.tile_count(), grain, execution, [&](Range r) {
     const auto reader = source.reader();
     CellTile tile;
     for (std::size_t number = r.first; number < r.last; ++number) {
       reader->read(number, tile);
-      for (std::uint32_t col = 0; col < tile.width; ++col) {
-        std::uint8_t* const column = bytes.data() + cells.index(tile.first_col + col, tile.first_row);
-        for (std::uint32_t row = 0; row < tile.height; ++row) column[row] = tile.walls[tile.index(col, row)];
-      }
+      copy_tile(tile, cells, tile.first_col);
     }
   });
-  bytes[cells.index(source.cols() - 1, source.rows() - 1)] |= MazeCells::right_wall;  // the exit is no cell's business
+  cells.bytes()[cells.index(source.cols() - 1, source.rows() - 1)] |=
+      MazeCells::right_wall;  // the exit is no cell's business
   return cells;
 }
 

@@ -2,8 +2,8 @@
 // Mazes of any size from a seed, the same bits on every machine. Cell (c, r) is the unit square around the integer
 // point (c, r), c in 1..cols, r in 1..rows; the outline opens at the left of (1, 1) and at the right of (cols, rows).
 // Carving is serial by nature and needs, cells included, 1 byte a cell for backtracker and wilson, 1 and the frontier
-// for prim, 13 for kruskal and 5 for course; mst (spanning_maze.hpp) and all else is parallel. One file an algorithm:
-// maze_walks.cpp, ...
+// for prim, 13 for kruskal and 5 for course; mst (spanning_maze.hpp) and all else is parallel.
+// The algorithms: maze_walks.cpp, maze_kruskal.cpp.
 #pragma once
 
 #include <cassert>
@@ -126,17 +126,14 @@ MazeCells cells_of_walls(const WallSet& walls, MazeHint hint, const Execution& e
 bool flood_connects(const MazeCells& cells, std::pair<std::uint32_t, std::uint32_t> a,
                     std::pair<std::uint32_t, std::uint32_t> b, const Execution& execution);
 
-// Tells a maze by its walls alone, in whatever order and direction they come, whole or in pieces: for files that have
-// no place to say what they hold.
-
-/// The size of the maze of the course: all walls on its grid, and its outline closed but for the entrance in the first
-/// row of the left side and the exit in the last row of the right one. Nothing for other walls. Two passes over the
-/// walls, and a sort of those on the outline. Throws Stopped.
+/// Tells a maze by its walls alone, in whatever order and direction they come, whole or in pieces: for files that have
+/// no place to say what they hold. The size of the maze of the course: all walls on its grid, and its outline closed
+/// but for the entrance in the first row of the left side and the exit in the last row of the right one. Nothing for
+/// other walls. Two passes over the walls, and a sort of those on the outline. Throws Stopped.
 std::optional<MazeHint> maze_of_walls(const WallSet& walls, const Execution& execution);
 
-// A maze that is held, given tile by tile: what makes every maze of the generators a world whose walls are made when
-// they are asked for. And the way back.
-
+/// A maze that is held, given tile by tile: what makes every maze of the generators a world whose walls are made when
+/// they are asked for. And the way back.
 class HeldCells : public CellWallSource {
  public:
   HeldCells(MazeCells cells, unsigned side_log2)
@@ -175,6 +172,14 @@ class HeldCells : public CellWallSource {
 
   MazeCells cells_;
 };
+
+/// Writes a tile's cells into some from column `to_col` on.
+inline void copy_tile(const CellTile& tile, MazeCells& cells, std::uint32_t to_col) {
+  for (std::uint32_t col = 0; col < tile.width; ++col) {
+    std::uint8_t* const column = cells.bytes().data() + cells.index(to_col + col, tile.first_row);
+    for (std::uint32_t row = 0; row < tile.height; ++row) column[row] = tile.walls[tile.index(col, row)];
+  }
+}
 
 /// All cells of a source. Throws InputError for 2^32 cells and more, Stopped.
 MazeCells cells_from(const CellWallSource& source, const Execution& execution);

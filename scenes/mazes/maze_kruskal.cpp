@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Randomised Kruskal: the interior walls in random order, each taken out if it parts two regions. Many short dead ends.
-// The order is a Fisher-Yates shuffle done as it is consumed, so it ends with the last join. O(cells) in practice,
-// about 12 bytes a cell besides the cells (two wall numbers and one parent), 24 from 2^31 bytes of cells on.
+// Mazes that join regions of cells: randomised Kruskal, the biased one of the course, and the minimum spanning tree.
 
 #include <algorithm>
 #include <limits>
@@ -59,24 +57,6 @@ void carve(MazeCells& cells, std::uint64_t seed, const Execution& execution) {
     ++carved;
   }
 }
-
-}  // namespace
-
-void carve_kruskal(MazeCells& cells, std::uint64_t seed, const Execution& execution) {
-  if (cells.bytes().size() <= std::numeric_limits<std::uint32_t>::max() / 2) {
-    carve<std::uint32_t>(cells, seed, execution);
-  } else {
-    carve<std::uint64_t>(cells, seed, execution);
-  }
-}
-
-// The maze generator of the robotics course whose assignment started this project: a biased randomised Kruskal. Of 15
-// cells drawn at random the one is taken that is not yet joined to the first cell, then that nearest to it (col + row),
-// then the first drawn; one of its walls is drawn with a preference that changes from block to block, and goes if it
-// parts two regions. So growth starts near the entrance, and patches of long horizontal and vertical corridors appear.
-// Expected O(cells log cells), 1 to 2 microseconds a cell; 5 bytes a cell.
-
-namespace {
 
 /// Cells, numbered column by column from 0, and their place counted from 1 as the course does.
 struct Place {
@@ -176,6 +156,22 @@ class CourseCarver {
 
 }  // namespace
 
+/// Randomised Kruskal: the interior walls in random order, each taken out if it parts two regions. Many short dead
+/// ends. The order is a Fisher-Yates shuffle done as it is consumed, so it ends with the last join. O(cells) in
+/// practice, about 12 bytes a cell besides the cells (two wall numbers and one parent), 24 from 2^31 bytes of cells on.
+void carve_kruskal(MazeCells& cells, std::uint64_t seed, const Execution& execution) {
+  if (cells.bytes().size() <= std::numeric_limits<std::uint32_t>::max() / 2) {
+    carve<std::uint32_t>(cells, seed, execution);
+  } else {
+    carve<std::uint64_t>(cells, seed, execution);
+  }
+}
+
+/// The maze generator of the robotics course whose assignment started this project: a biased randomised Kruskal. Of 15
+/// cells drawn at random the one is taken that is not yet joined to the first cell, then that nearest to it (col +
+/// row), then the first drawn; one of its walls is drawn with a preference that changes from block to block, and goes
+/// if it parts two regions. So growth starts near the entrance, and patches of long horizontal and vertical corridors
+/// appear. Expected O(cells log cells), 1 to 2 microseconds a cell; 5 bytes a cell.
 void carve_course(MazeCells& cells, std::uint64_t seed, const Execution& execution) {
   execution.reserve(cells.cell_count() * sizeof(std::uint32_t));
   CourseCarver carver(cells, seed, execution);
@@ -186,32 +182,22 @@ void carve_course(MazeCells& cells, std::uint64_t seed, const Execution& executi
   }
 }
 
-// The algorithm mst into cells that are held: tile by tile, in parallel. Kruskal's maze with a hash as the shuffle, so
-// it looks as that of kruskal. 15 ns a cell on two cores.
-
+/// The algorithm mst into cells that are held: tile by tile, in parallel. Kruskal's maze with a hash as the shuffle, so
+/// it looks as that of kruskal. 15 ns a cell on two cores.
 void carve_mst(MazeCells& cells, std::uint64_t seed, const Execution& execution) {
   const SpanningMaze maze(cells.rows(), cells.cols(), seed, 0.0, {execution.threads, execution.deadline});
-  const auto open = [&](const CellTile& tile) {
-    for (std::uint32_t col = 0; col < tile.width; ++col) {
-      for (std::uint32_t row = 0; row < tile.height; ++row) {
-        const unsigned walls = tile.walls[tile.index(col, row)];
-        const std::uint32_t at_col = tile.first_col + col;
-        const std::uint32_t at_row = tile.first_row + row;
-        if ((walls & CellTile::right_wall) == 0 && at_col + 1 < cells.cols()) cells.open_right(at_col, at_row);
-        if ((walls & CellTile::upper_wall) == 0) cells.open_above(at_col, at_row);
-      }
-    }
-  };
   for_chunks(maze.tile_count(), 16, {execution.threads, execution.deadline}, [&](Range r) {
     const auto reader = maze.reader();
     CellTile tile;
     for (std::size_t t = r.first; t < r.last; ++t) {
       reader->read(t, tile);
-      open(tile);
+      copy_tile(tile, cells, tile.first_col);
       execution.advance(std::uint64_t{tile.width} * tile.height);
       execution.check();
     }
   });
+  cells.bytes()[cells.index(cells.cols() - 1, cells.rows() - 1)] |=
+      MazeCells::right_wall;  // the exit is no cell's business
 }
 
 void open_drawn_loops(MazeCells& cells, double loops, std::uint64_t seed, const Execution& execution) {

@@ -1,41 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Recursive backtracker: a depth-first walk that goes to a random neighbour not yet visited and, where there is none,
-// one step back. Long winding corridors, few dead ends. Needs no stack: the way back is a direction of two bits in each
-// cell's own byte, so the whole generator lives in 1 byte a cell. Each cell is entered once and left back once:
-// O(cells), 30 to 60 ns each; the walk is local, so caches serve it at any size.
+// Mazes that grow cell by cell: recursive backtracker, randomised Prim, and Wilson's loop-erased walks.
 
 #include <vector>
 
 #include "scenes/mazes/maze_carving.hpp"
 
 namespace warren::maze {
-
-void carve_backtracker(MazeCells& cells, std::uint64_t seed, const Execution& execution) {
-  mark_gaps(cells, in_maze, execution);
-  const Steps at(cells);
-  SequentialRng rng(seed);
-  StepPoll poll(execution);
-  std::size_t i = cells.index(0, 0);
-  at[i] |= in_maze;
-  for (std::uint64_t left = cells.cell_count() - 1; left > 0;) {
-    poll.step(cells.cell_count() - left);
-    const unsigned unvisited = at.neighbours_with(i, in_maze, 0);
-    if (unvisited == 0) {
-      i = at.neighbour(i, at[i] >> direction_shift & 3U);
-      continue;
-    }
-    const unsigned d = choose_direction(unvisited, rng);
-    at.open(i, d);
-    i = at.neighbour(i, d);
-    at[i] = static_cast<std::uint8_t>(at[i] | in_maze | (d ^ 2U) << direction_shift);
-    --left;
-  }
-}
-
-// Randomised Prim, the variant over cells: the maze grows from its middle by a random cell of the frontier, joined to a
-// random neighbour that is in the maze already. Short dead ends, direct ways. O(cells); the frontier is a list of
-// cells, a few times the longer side.
-
 namespace {
 
 /// Puts cells next to the maze up for a random draw.
@@ -71,31 +41,6 @@ class Frontier {
   const Execution& execution_;
   std::vector<std::size_t> cells_;
 };
-
-}  // namespace
-
-void carve_prim(MazeCells& cells, std::uint64_t seed, const Execution& execution) {
-  mark_gaps(cells, in_frontier, execution);  // never fresh, and never in the maze
-  const Steps at(cells);
-  SequentialRng rng(seed);
-  StepPoll poll(execution);
-  Frontier frontier(at, execution);
-  frontier.add_to_maze(cells.index(cells.cols() / 2, cells.rows() / 2));
-  for (std::uint64_t carved = 1; !frontier.empty(); ++carved) {
-    poll.step(carved);
-    const std::size_t i = frontier.take(rng);
-    at.open(i, choose_direction(at.neighbours_with(i, in_maze, in_maze), rng));
-    frontier.add_to_maze(i);
-  }
-}
-
-// Wilson's algorithm (STOC 1996): loop-erased random walks, each from the next cell outside the tree until it meets the
-// tree. Every perfect maze is equally likely: a uniform spanning tree. A walk leaves in each cell the direction in
-// which it was last left, two bits of the cell's byte, so loops erase themselves and 1 byte a cell is all. The root is
-// the middle cell: the tree's law doesn't depend on it, the expected number of steps (4 times the sum of the effective
-// resistances to it, about 10 a cell at 1000 x 1000, growing with the logarithm of the side) is least there.
-
-namespace {
 
 /// Directions from 64 random bits, two bits each.
 class DirectionBits {
@@ -155,7 +100,55 @@ class Walker {
 };
 
 }  // namespace
+/// Recursive backtracker: a depth-first walk that goes to a random neighbour not yet visited and, where there is none,
+/// one step back. Long winding corridors, few dead ends. Needs no stack: the way back is a direction of two bits in
+/// each cell's own byte, so the whole generator lives in 1 byte a cell. Each cell is entered once and left back once:
+/// O(cells), 30 to 60 ns each; the walk is local, so caches serve it at any size.
+void carve_backtracker(MazeCells& cells, std::uint64_t seed, const Execution& execution) {
+  mark_gaps(cells, in_maze, execution);
+  const Steps at(cells);
+  SequentialRng rng(seed);
+  StepPoll poll(execution);
+  std::size_t i = cells.index(0, 0);
+  at[i] |= in_maze;
+  for (std::uint64_t left = cells.cell_count() - 1; left > 0;) {
+    poll.step(cells.cell_count() - left);
+    const unsigned unvisited = at.neighbours_with(i, in_maze, 0);
+    if (unvisited == 0) {
+      i = at.neighbour(i, at[i] >> direction_shift & 3U);
+      continue;
+    }
+    const unsigned d = choose_direction(unvisited, rng);
+    at.open(i, d);
+    i = at.neighbour(i, d);
+    at[i] = static_cast<std::uint8_t>(at[i] | in_maze | (d ^ 2U) << direction_shift);
+    --left;
+  }
+}
 
+/// Randomised Prim, the variant over cells: the maze grows from its middle by a random cell of the frontier, joined to
+/// a random neighbour that is in the maze already. Short dead ends, direct ways. O(cells); the frontier is a list of
+/// cells, a few times the longer side.
+void carve_prim(MazeCells& cells, std::uint64_t seed, const Execution& execution) {
+  mark_gaps(cells, in_frontier, execution);  // never fresh, and never in the maze
+  const Steps at(cells);
+  SequentialRng rng(seed);
+  StepPoll poll(execution);
+  Frontier frontier(at, execution);
+  frontier.add_to_maze(cells.index(cells.cols() / 2, cells.rows() / 2));
+  for (std::uint64_t carved = 1; !frontier.empty(); ++carved) {
+    poll.step(carved);
+    const std::size_t i = frontier.take(rng);
+    at.open(i, choose_direction(at.neighbours_with(i, in_maze, in_maze), rng));
+    frontier.add_to_maze(i);
+  }
+}
+
+/// Wilson's algorithm (STOC 1996): loop-erased random walks, each from the next cell outside the tree until it meets
+/// the tree. Every perfect maze is equally likely: a uniform spanning tree. A walk leaves in each cell the direction in
+/// which it was last left, two bits of the cell's byte, so loops erase themselves and 1 byte a cell is all. The root is
+/// the middle cell: the tree's law doesn't depend on it, the expected number of steps (4 times the sum of the effective
+/// resistances to it, about 10 a cell at 1000 x 1000, growing with the logarithm of the side) is least there.
 void carve_wilson(MazeCells& cells, std::uint64_t seed, const Execution& execution) {
   mark_gaps(cells, in_maze | outside, execution);
   Walker walker(cells, seed, execution);

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <limits>
 #include <utility>
@@ -17,14 +16,8 @@
 namespace warren {
 namespace {
 
-using maze::edge_col;
-using maze::edge_direction;
-using maze::edge_number;
-using maze::edge_row;
-using maze::EdgeWeights;
-using maze::GridPiece;
-using maze::JoinedParts;
-using maze::RimPart;
+using maze::edge_col, maze::edge_direction, maze::edge_number, maze::edge_row, maze::EdgeWeights, maze::GridPiece,
+    maze::JoinedParts, maze::RimPart;
 
 constexpr std::uint32_t group_side = 8;  // pieces that are joined at once, along a side
 

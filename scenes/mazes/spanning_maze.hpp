@@ -22,10 +22,10 @@
 #include "scenes/mazes/spanning_tile.hpp"
 
 namespace warren::maze {
-// Rectangles of the unit grid that are decided but for what their rims stand for, joined to larger ones: a step of
-// spanning_maze.hpp. Kruskal's algorithm over the parts' rim edges and the edges between the parts.
 
-/// A rectangle of tiles whose inner edges are decided but for those that its rim stands for.
+/// Rectangles of the unit grid that are decided but for what their rims stand for, joined to larger ones: a step of
+/// SpanningMaze. Kruskal's algorithm over the parts' rim edges and the edges between the parts. A rectangle of tiles
+/// whose inner edges are decided but for those that its rim stands for.
 struct RimPart {
   GridPiece at{};
   std::vector<RimEdge> edges;

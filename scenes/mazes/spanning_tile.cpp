@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scenes/mazes/spanning_tile.hpp"
-#include "core/search/union_find.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <limits>
+
+#include "core/search/union_find.hpp"
 
 namespace warren::maze {
 namespace {
@@ -34,17 +35,22 @@ SpanningTile::SpanningTile(std::uint64_t seed) : weights_(seed) {}
 
 void SpanningTile::make(const GridPiece& piece) {
   assert(piece.width >= 1 && piece.width <= largest_side && piece.height >= 1 && piece.height <= largest_side);
+  decide_early(piece);
+  contract();
+  collect();
+  sort();
+  number_rim();
+  join();
+}
+
+/// What the least and the greatest edges decide.
+void SpanningTile::decide_early(const GridPiece& piece) {
   piece_ = piece;
   cells_ = std::size_t{piece.width} * piece.height;
   weigh();
   find_least();
   find_greatest();
   mark();
-  contract();
-  collect();
-  sort();
-  number_rim();
-  join();
 }
 
 std::uint64_t SpanningTile::number_of(std::uint32_t place) const {
@@ -195,12 +201,7 @@ void SpanningTile::choices(std::vector<std::uint64_t>& bits) const {
 }
 
 void SpanningTile::remake(const GridPiece& piece, std::span<const std::uint64_t> choices) {
-  piece_ = piece;
-  cells_ = std::size_t{piece.width} * piece.height;
-  weigh();
-  find_least();
-  find_greatest();
-  mark();
+  decide_early(piece);
   std::size_t n = 0;
   for (std::size_t i = 0; i < cells_; ++i) {
     const unsigned contested = contested_[i];

@@ -119,6 +119,7 @@ class SpanningTile {
   };
   using Count = std::array<std::uint32_t, 2048>;
 
+  void decide_early(const GridPiece& piece);
   void weigh();
   void find_least();
   void cut_at_rim();

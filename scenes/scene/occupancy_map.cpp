@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <cmath>
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"

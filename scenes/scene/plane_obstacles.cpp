@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <string>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"

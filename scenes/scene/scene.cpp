@@ -3,14 +3,9 @@
 // wall costs two 64 x 64 -> 128 bit multiplications in two independent chains, and chunks are folded in their order.
 #include "scenes/scene/scene.hpp"
 
-#include <string>
-
 #include "core/base/error.hpp"
 
 #include <fmt/format.h>
-
-#include <span>
-#include <vector>
 
 #include "core/base/rng.hpp"
 #include "parallel/chunks.hpp"
@@ -70,35 +65,6 @@ Box box_of_walls(Walls walls, const Execution& execution) {
   return all;
 }
 
-}  // namespace
-
-std::size_t state_size(const RobotSpec& robot) {
-  switch (robot.kind) {
-    case RobotKind::point:
-    case RobotKind::disc:
-      return 2;
-    case RobotKind::polygon:
-    case RobotKind::car:
-      return 3;
-    case RobotKind::puma560:
-    case RobotKind::arm:
-      return 6;
-  }
-  return 2;
-}
-
-std::string unmade_hash(const Scene& scene) {
-  if (scene.packed) return scene.packed->hash ? fmt::format("{:016x}", *scene.packed->hash) : std::string();
-  Hasher hasher(std::uint64_t{0x6d7374});  // "mst"
-  hasher.add(std::uint64_t{scene.maze->rows});
-  hasher.add(std::uint64_t{scene.maze->cols});
-  hasher.add(scene.formula->seed);
-  hasher.add(scene.formula->loops);
-  return fmt::format("{:016x}", hasher.value());
-}
-
-namespace {
-
 /// walls: their hash.
 std::string hash_with(std::uint64_t walls, const Scene& scene) {
   Hasher hasher(walls);
@@ -127,6 +93,31 @@ std::string hash_with(std::uint64_t walls, const Scene& scene) {
 }
 
 }  // namespace
+
+std::size_t state_size(const RobotSpec& robot) {
+  switch (robot.kind) {
+    case RobotKind::point:
+    case RobotKind::disc:
+      return 2;
+    case RobotKind::polygon:
+    case RobotKind::car:
+      return 3;
+    case RobotKind::puma560:
+    case RobotKind::arm:
+      return 6;
+  }
+  return 2;
+}
+
+std::string unmade_hash(const Scene& scene) {
+  if (scene.packed) return scene.packed->hash ? fmt::format("{:016x}", *scene.packed->hash) : std::string();
+  Hasher hasher(std::uint64_t{0x6d7374});  // "mst"
+  hasher.add(std::uint64_t{scene.maze->rows});
+  hasher.add(std::uint64_t{scene.maze->cols});
+  hasher.add(scene.formula->seed);
+  hasher.add(scene.formula->loops);
+  return fmt::format("{:016x}", hasher.value());
+}
 
 std::string scene_hash(const Scene& scene, const Execution& execution) {
   if (is_unmade(scene)) return unmade_hash(scene);

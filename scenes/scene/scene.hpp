@@ -163,9 +163,8 @@ std::vector<Segment> bounds_walls(const Scene& scene);
 /// The clearance, if it is one that a body can keep: throws InputError where it is not from 0 to largest_coordinate.
 double checked_clearance(double clearance);
 
-// What a unit of a scene's coordinates is called, where its file says so.
-
-/// "cells" of mazes, of Moving AI's maps and of images, "m" of maps of map_server; "": nobody says.
+/// What a unit of a scene's coordinates is called, where its file says so. "cells" of mazes, of Moving AI's maps and of
+/// images, "m" of maps of map_server; "": nobody says.
 inline std::string_view unit_of(const Scene& scene) {
   if (scene.maze) return "cells";
   if (!scene.map) return {};

@@ -74,13 +74,12 @@ enum class StepRule : std::uint8_t { four, eight, eight_squeezing };
 /// For each of the 512 neighbourhoods (FreeCells::around) a bit for each allowed step of cell_steps.
 const std::array<std::uint8_t, 512>& allowed_steps(StepRule rule);
 
-// The middles of a map's corridors, to draw samples from: the cells on the ridges of the distance transform. A ridge is
-// where the distance falls to both sides: along one of the four axes through the cell the two drops add up to 0.6 of
-// the way or more (2 in a corridor, 0 beside a straight wall, less than 0 around a corner; small steps of a slanted
-// wall stay below). A cell at distance d weighs 1 / d, so that a stretch of corridor as long as it is wide gets the
-// same share of the samples whatever its width. Cells are filed tile by tile, therefore evenly spread shares are evenly
-// spread over the map. O(cells) to build; 1 bit a cell and 12 bytes a ridge cell; O(log ridge cells) a sample.
-
+/// The middles of a map's corridors, to draw samples from: the cells on the ridges of the distance transform. A ridge
+/// is where the distance falls to both sides: along one of the four axes through the cell the two drops add up to 0.6
+/// of the way or more (2 in a corridor, 0 beside a straight wall, less than 0 around a corner; small steps of a slanted
+/// wall stay below). A cell at distance d weighs 1 / d, so that a stretch of corridor as long as it is wide gets the
+/// same share of the samples whatever its width. Cells are filed tile by tile, therefore evenly spread shares are
+/// evenly spread over the map. O(cells) to build; 1 bit a cell and 12 bytes a ridge cell; O(log ridge cells) a sample.
 /// Immutable; any number of threads may draw.
 class CorridorCells {
  public:

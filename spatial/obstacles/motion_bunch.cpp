@@ -6,7 +6,6 @@
 #endif
 
 #include <algorithm>
-#include <cstring>
 
 namespace warren::detail {
 namespace {

@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 #include <utility>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "core/base/whole.hpp"
@@ -14,7 +12,6 @@
 #include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
 #include "spatial/obstacles/motion_bunch.hpp"
-#include "spatial/obstacles/wall_grid.hpp"
 
 namespace warren {
 // Builds a WallGrid: chooses the cell, cuts walls into pieces, and sorts the pieces into cells by counting, first into

@@ -12,10 +12,8 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <optional>
 
 #include "core/base/raw_vector.hpp"
-#include "core/base/whole.hpp"
 #include "parallel/sort.hpp"
 
 namespace warren {
@@ -174,6 +172,8 @@ class NearestSet {
   double worst_ = infinity;
 };
 
+constexpr std::size_t smallest_tree = 128;
+
 }  // namespace
 
 template <int D>
@@ -186,7 +186,7 @@ struct KdTree<D>::Forest {
   std::vector<std::unique_ptr<Tree<D>>> trees;  // null where there is no point
 
   Forest(std::span<const Point> input, const Execution& execution) : top(input) {
-    const Execution quiet = detail::quiet(execution);
+    const Execution quiet = execution.quiet();
     quiet.reserve(input.size() * (sizeof(Point) + 16 + 12));
     KeyOrder order =
         counting_sort(input.size(), top.leaves, quiet, [&](std::size_t i) { return top.leaf_of(input[i]); });
@@ -333,12 +333,6 @@ template class KdTree<2>;
 template class KdTree<3>;
 template class KdTree<4>;
 template class KdTree<6>;
-
-namespace {
-
-constexpr std::size_t smallest_tree = 128;
-
-}  // namespace
 
 template <int D>
 void GrowingTree<D>::insert(const Point& p) {

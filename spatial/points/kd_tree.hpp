@@ -11,7 +11,6 @@
 #include <span>
 #include <vector>
 
-#include "core/base/whole.hpp"
 #include "parallel/chunks.hpp"
 #include "spatial/points/neighbour.hpp"
 
@@ -58,13 +57,12 @@ extern template class KdTree<3>;
 extern template class KdTree<4>;
 extern template class KdTree<6>;
 
-// Nearest neighbours among points that keep coming: what a tree that grows asks at every step. Logarithmic rebuilding
-// (Bentley, Saxe, J. Algorithms 1, 1980): the newest up to 127 points are looked at one by one; when there are 128
-// they become a k-d tree, and two trees of one size become one of the double size, so that n points lie in at most
-// log2(n / 128) trees. An insertion costs O(log^2 n) on average, a query O(log^2 n) and 128 distances at most. The
-// answers are those of brute force, ties by id. Measured in bench/certified_motion_bench.cpp.
-
-/// Points are numbered as they come. For one thread. D = 2, 3, 4 and 6.
+/// Nearest neighbours among points that keep coming: what a tree that grows asks at every step. Logarithmic rebuilding
+/// (Bentley, Saxe, J. Algorithms 1, 1980): the newest up to 127 points are looked at one by one; when there are 128
+/// they become a k-d tree, and two trees of one size become one of the double size, so that n points lie in at most
+/// log2(n / 128) trees. An insertion costs O(log^2 n) on average, a query O(log^2 n) and 128 distances at most. The
+/// answers are those of brute force, ties by id. Measured in bench/certified_motion_bench.cpp. Points are numbered as
+/// they come. For one thread. D = 2, 3, 4 and 6.
 template <int D>
 class GrowingTree {
  public:

@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
-#include <type_traits>
 #include <vector>
 
 #include "core/base/raw_vector.hpp"
@@ -22,9 +21,8 @@
 #include "spatial/points/point_grid.hpp"
 
 namespace warren {
-// Neighbours by looking at every point: what the indices are measured against. A query costs O(n).
 
-/// As KdTree.
+/// Neighbours by looking at every point: what the indices are measured against. A query costs O(n). As KdTree.
 template <int D>
 class BruteNeighbours : public NeighboursByVisits<BruteNeighbours<D>, D> {
  public:

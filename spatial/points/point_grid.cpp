@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <numbers>
-#include <numeric>
 
 #include "parallel/sort.hpp"
 #include "spatial/points/disc_points.hpp"
@@ -29,16 +28,14 @@ PointGrid::PointGrid(std::span<const Vec2> points, const Execution& execution) {
 
 void PointGrid::count_crowding(const Execution& execution) {
   const std::size_t cells = frame_.cell_count();
-  std::vector<std::uint64_t> sums(chunk_count(cells, grid_grain), 0);  // of squares: below 2^64, n is below 2^32
-  for_chunks(cells, grid_grain, detail::quiet(execution), [&](Range range) {
-    std::uint64_t sum = 0;
+  const std::uint64_t sum = sum_of_chunks(cells, grid_grain, execution.quiet(), [&](Range range) {
+    std::uint64_t squares = 0;  // below 2^64, for n is below 2^32
     for (std::size_t cell = range.first; cell < range.last; ++cell) {
       const std::uint64_t count = begin_[cell + 1] - begin_[cell];
-      sum += count * count;
+      squares += count * count;
     }
-    sums[range.first / grid_grain] = sum;
+    return squares;
   });
-  const std::uint64_t sum = std::accumulate(sums.begin(), sums.end(), std::uint64_t{0});
   crowding_ = static_cast<double>(sum) / static_cast<double>(size());
 }
 
@@ -49,7 +46,7 @@ std::size_t PointGrid::bytes() const {
 /// Are the points in tile order? A pass of its own: filed out of order, two chunks would write the same cell.
 bool PointGrid::in_order(std::span<const Vec2> points, const Execution& execution) const {
   std::vector<std::uint8_t> sorted(chunk_count(points.size(), grid_grain), 0);
-  for_chunks(points.size(), grid_grain, detail::quiet(execution), [&](Range range) {
+  for_chunks(points.size(), grid_grain, execution.quiet(), [&](Range range) {
     std::size_t before = frame_.cell_of(points[range.first == 0 ? 0 : range.first - 1]);
     for (std::size_t i = range.first; i < range.last; ++i) {
       const std::size_t cell = frame_.cell_of(points[i]);
@@ -65,7 +62,7 @@ bool PointGrid::in_order(std::span<const Vec2> points, const Execution& executio
 void PointGrid::file_points(const Execution& execution) {
   const std::size_t n = points_.size();
   begin_.resize(frame_.cell_count() + 1);
-  for_chunks(n, grid_grain, detail::quiet(execution), [&](Range range) {
+  for_chunks(n, grid_grain, execution.quiet(), [&](Range range) {
     std::size_t next = range.first == 0 ? 0 : std::size_t{frame_.cell_of(points_[range.first - 1])} + 1;  // not filed
     for (std::size_t i = range.first; i < range.last; ++i) {
       const std::size_t cell = frame_.cell_of(points_[i]);
@@ -84,7 +81,7 @@ void PointGrid::sort_points(std::span<const Vec2> points, const Execution& execu
   id_ = std::move(order.item);
   place_of_.resize(points.size());
   sorted_.resize(points.size());
-  for_chunks(points.size(), grid_grain, detail::quiet(execution), [&](Range range) {
+  for_chunks(points.size(), grid_grain, execution.quiet(), [&](Range range) {
     for (std::size_t place = range.first; place < range.last; ++place) {
       sorted_[place] = points[id_[place]];
       place_of_[id_[place]] = as_whole<std::uint32_t>(place);

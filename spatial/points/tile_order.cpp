@@ -28,7 +28,7 @@ CellFrame::CellFrame(const Box& box, std::size_t count, double load) {
 
 Box bounding_box(PlanarView positions, const Execution& execution) {
   std::vector<Box> boxes(chunk_count(positions.count, order_grain));
-  for_chunks(positions.count, order_grain, detail::quiet(execution), [&](Range range) {
+  for_chunks(positions.count, order_grain, execution.quiet(), [&](Range range) {
     Box box;
     for (std::size_t i = range.first; i < range.last; ++i) box.include(positions[i]);
     boxes[range.first / order_grain] = box;

@@ -21,7 +21,6 @@
 // piece.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>

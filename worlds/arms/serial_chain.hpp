@@ -11,7 +11,6 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
-#include <vector>
 
 #include "scenes/scene/scene.hpp"
 

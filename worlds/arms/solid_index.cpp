@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "worlds/arms/solid_index.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 
@@ -29,6 +27,47 @@ void check(const SolidBox& box, std::size_t number) {
 BoxOf<3> bounds_of(const Sphere& s) {
   return {{s.x - s.radius, s.y - s.radius, s.z - s.radius}, {s.x + s.radius, s.y + s.radius, s.z + s.radius}};
 }
+
+/// The square of the distance of a segment's points from a box, as a function of the share t along the segment.
+class BoxProfile {
+ public:
+  BoxProfile(const Spine& spine, const SolidBox& box)
+      : spine_(spine), low_(box.low[0], box.low[1], box.low[2]), high_(box.high[0], box.high[1], box.high[2]) {}
+
+  double at(double t) const { return gap(t).squaredNorm(); }
+  /// Half the derivative.
+  double slope(double t) const { return gap(t).dot(spine_.way); }
+  /// Half the second derivative of the piece around t, which holds no break.
+  double curvature(double t) const {
+    const Vec3 outside = gap(t);
+    double sum = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (outside[axis] != 0.0) sum += spine_.way[axis] * spine_.way[axis];
+    }
+    return sum;
+  }
+  /// Narrows [low, high], where the slope turns, to a piece without breaks: the slope only grows along the segment.
+  void narrow(double& low, double& high) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (spine_.way[axis] == 0.0) continue;
+      for (const double face : {low_[axis], high_[axis]}) {
+        const double t = (face - spine_.a[axis]) / spine_.way[axis];
+        if (t > low && t < high) (slope(t) < 0.0 ? low : high) = t;
+      }
+    }
+  }
+
+ private:
+  /// From the box to the point, coordinate by coordinate.
+  Vec3 gap(double t) const {
+    const Vec3 p = spine_.a + t * spine_.way;
+    return p - p.cwiseMax(low_).cwiseMin(high_);
+  }
+
+  const Spine& spine_;
+  Vec3 low_;
+  Vec3 high_;
+};
 
 }  // namespace
 
@@ -97,51 +136,6 @@ double SolidIndex::distance(const Spine& spine, double enough) const {
   });
   return nearest;
 }
-
-namespace {
-
-/// The square of the distance of a segment's points from a box, as a function of the share t along the segment.
-class BoxProfile {
- public:
-  BoxProfile(const Spine& spine, const SolidBox& box)
-      : spine_(spine), low_(box.low[0], box.low[1], box.low[2]), high_(box.high[0], box.high[1], box.high[2]) {}
-
-  double at(double t) const { return gap(t).squaredNorm(); }
-  /// Half the derivative.
-  double slope(double t) const { return gap(t).dot(spine_.way); }
-  /// Half the second derivative of the piece around t, which holds no break.
-  double curvature(double t) const {
-    const Vec3 outside = gap(t);
-    double sum = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (outside[axis] != 0.0) sum += spine_.way[axis] * spine_.way[axis];
-    }
-    return sum;
-  }
-  /// Narrows [low, high], where the slope turns, to a piece without breaks: the slope only grows along the segment.
-  void narrow(double& low, double& high) const {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (spine_.way[axis] == 0.0) continue;
-      for (const double face : {low_[axis], high_[axis]}) {
-        const double t = (face - spine_.a[axis]) / spine_.way[axis];
-        if (t > low && t < high) (slope(t) < 0.0 ? low : high) = t;
-      }
-    }
-  }
-
- private:
-  /// From the box to the point, coordinate by coordinate.
-  Vec3 gap(double t) const {
-    const Vec3 p = spine_.a + t * spine_.way;
-    return p - p.cwiseMax(low_).cwiseMin(high_);
-  }
-
-  const Spine& spine_;
-  Vec3 low_;
-  Vec3 high_;
-};
-
-}  // namespace
 
 double distance_square(const Spine& spine, const SolidBox& box) {
   const BoxProfile profile(spine, box);

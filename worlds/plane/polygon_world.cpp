@@ -2,8 +2,6 @@
 #include "worlds/plane/polygon_world.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
 #include <vector>
 
 #include "core/base/error.hpp"

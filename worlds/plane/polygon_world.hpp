@@ -9,7 +9,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 
 #include "core/base/types.hpp"
 #include "core/base/world.hpp"

@@ -6,10 +6,8 @@
 #include <string>
 
 #include "core/base/error.hpp"
-#include "core/base/whole.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "worlds/poses/pose_in_bounds.hpp"
-#include "worlds/poses/reeds_shepp_curve.hpp"
 
 namespace warren {
 namespace {
@@ -73,6 +71,8 @@ class BodyTravel {
   std::array<double, SteeringWord::most_pieces> paces_{};
   std::size_t count_;
 };
+
+constexpr double as_good = 1e-9;  // in turning radii: what is shorter by less is as long
 
 }  // namespace
 
@@ -141,12 +141,6 @@ bool CarBody::is_free_curve(const SteeringCurve& curve, Query& query) const {
   if (verdict == MotionVerdict::refused) ++query.refused;
   return verdict == MotionVerdict::free;
 }
-
-namespace {
-
-constexpr double as_good = 1e-9;  // in turning radii: what is shorter by less is as long
-
-}  // namespace
 
 struct PricedCar::Recipe {
   SteeringWord word;

@@ -131,9 +131,6 @@ class CarWorld {
 static_assert(SteerableWorld<CarWorld<DubinsCurve>>);
 static_assert(SteerableWorld<CarWorld<ReedsSheppCurve>>);
 
-// A car whose changes of gear and ways backwards have a price, for planners/shorten/redrive.hpp: between two poses not
-// the shortest curve alone but, for each gear at its begin and at its end, the cheapest of all Reeds-Shepp words.
-
 struct DrivingPrice {
   double cusp = 0.0;     ///< of a change of gear, in units of length; finite, >= 0
   double reverse = 1.0;  ///< of a unit of length driven backwards; finite, >= 1
@@ -147,6 +144,8 @@ struct PricedCurve {
   std::int8_t last_gear = 0;
 };
 
+/// A car whose changes of gear and ways backwards have a price, for planners/shorten/redrive.hpp: between two poses not
+/// the shortest curve alone but, for each gear at its begin and at its end, the cheapest of all Reeds-Shepp words.
 /// Refers to the car. Immutable; one Query a thread.
 class PricedCar {
  public:

@@ -9,6 +9,7 @@
 
 #include "core/base/whole.hpp"
 #include "core/plane/geometry.hpp"
+#include "core/plane/polygon.hpp"
 #include "parallel/asked_memory.hpp"
 
 namespace warren {
@@ -31,9 +32,7 @@ class BlockedHeadings {
   void add(const Segment& obstacle) {
     execution_.check();
     if (distance(Vec2{}, obstacle) > reach_) return;
-    for (std::size_t i = 0; i < outline_.size(); ++i) {
-      add_pair({outline_[i], outline_[i + 1 == outline_.size() ? 0 : i + 1]}, obstacle);
-    }
+    for_each_side(outline_, [&](Vec2 a, Vec2 b) { add_pair({a, b}, obstacle); });
   }
 
   /// What is left.

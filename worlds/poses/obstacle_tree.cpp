@@ -9,7 +9,6 @@
 #include <limits>
 
 #include "core/base/whole.hpp"
-#include "parallel/execution.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "worlds/rasters/convex_pieces.hpp"
 

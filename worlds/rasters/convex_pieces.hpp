@@ -34,13 +34,11 @@ ConvexPiece touching_positions(const ConvexPiece& piece, const Segment& wall);
 /// The piece turned by angle `k` of n; quarter turns are exact, so bodies with that symmetry keep their corners' bits.
 ConvexPiece turned(std::span<const Vec2> outline, std::uint32_t k, std::uint32_t n);
 
-// Where a convex body that doesn't turn would meet a convex obstacle, marked on a coarse grid of places: the rows of
-// the Minkowski sum of the obstacle and the mirrored body, whose sides are taken in the order of their directions as
-// they are merged. O(n + m + rows) for n and m corners, nothing is allocated. A guide, not a proof: doubles as they
-// come.
-
-/// Takes the bits of places away at which the body comes nearer to the obstacle than `reach` (>= 0), by the larger of
-/// the distances in x and y, and maybe of a few more. Both run counter-clockwise, with one corner or more.
+/// Where a convex body that doesn't turn would meet a convex obstacle, marked on a coarse grid of places: the rows of
+/// the Minkowski sum of the obstacle and the mirrored body, whose sides are taken in the order of their directions as
+/// they are merged. O(n + m + rows) for n and m corners, nothing is allocated. A guide, not a proof: doubles as they
+/// come. Takes the bits of places away at which the body comes nearer to the obstacle than `reach` (>= 0), by the
+/// larger of the distances in x and y, and maybe of a few more. Both run counter-clockwise, with one corner or more.
 void take_blocked_places(std::span<const Vec2> obstacle, std::span<const Vec2> mirrored_body, double reach,
                          PlaceGrid& free);
 

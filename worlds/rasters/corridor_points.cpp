@@ -7,7 +7,6 @@
 
 #include "core/base/rng.hpp"
 #include "core/base/whole.hpp"
-#include "spatial/maps/free_cells.hpp"
 
 namespace warren {
 namespace {

@@ -4,18 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "core/base/whole.hpp"
 #include "core/plane/convex_polygons.hpp"
+#include "core/plane/polygon.hpp"
 #include "core/plane/se2.hpp"
 #include "parallel/chunks.hpp"
 #include "spatial/maps/distance_field.hpp"
@@ -24,6 +23,90 @@
 
 namespace warren {
 namespace {
+
+/// One bitmap to be made: positions at which the union of the pieces touches something.
+struct LayerJob {
+  std::vector<ConvexPiece> pieces;
+  bool is_standing = false;  ///< a body may also stand inside an obstacle without touching its outline
+};
+
+/// Corners in order from the least: the same for every heading that covers the same set.
+ConvexPiece key_of(ConvexPiece corners) {
+  const auto less = [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); };
+  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end(), less), corners.end());
+  return corners;
+}
+
+/// The turn to the next heading, larger ones in parts, so that arcs stay near their tangents.
+LayerJob turn_job(const std::vector<ConvexPiece>& pieces, std::uint32_t angles) {
+  LayerJob job;
+  const double angle_rad = 2.0 * std::numbers::pi / angles;
+  constexpr double widest = std::numbers::pi / 24;
+  const int parts = bounded_whole<int>(std::ceil(angle_rad / widest));
+  for (const ConvexPiece& piece : pieces) {
+    for (int part = 0; part < parts; ++part) {
+      ConvexPiece from;
+      for (const Vec2 p : piece) from.push_back(Rotation(part * angle_rad / parts)(p));
+      for (ConvexPiece& swept : swept_by_turn(from, angle_rad / parts)) job.pieces.push_back(std::move(swept));
+    }
+  }
+  return job;
+}
+
+class JobList {
+ public:
+  explicit JobList(HeadingLayers& layers) : layers_(layers) {}
+
+  void add_heading(const std::vector<ConvexPiece>& pieces) {
+    layers_.standing.push_back(add({pieces, true}));
+    std::array<std::uint32_t, 4> moving{};
+    for (std::size_t s = 0; s < moving.size(); ++s) {
+      const auto [dx, dy] = HeadingLayers::steps[s];
+      LayerJob job;
+      for (const ConvexPiece& piece : pieces) {
+        job.pieces.push_back(swept_by_step(piece, {dx * layers_.cell, dy * layers_.cell}));
+      }
+      moving[s] = add(std::move(job));
+    }
+    layers_.moving.push_back(moving);
+    if (layers_.angles > 1) layers_.turning.push_back(add(turn_job(pieces, layers_.angles)));
+  }
+  void repeat_heading(std::size_t same) {
+    layers_.standing.push_back(layers_.standing[same]);
+    layers_.moving.push_back(layers_.moving[same]);
+    if (layers_.angles > 1) layers_.turning.push_back(layers_.turning[same]);
+  }
+  std::vector<LayerJob> take() { return std::move(jobs_); }
+
+ private:
+  std::uint32_t add(LayerJob job) {
+    jobs_.push_back(std::move(job));
+    return as_whole<std::uint32_t>(jobs_.size() - 1);
+  }
+
+  HeadingLayers& layers_;
+  std::vector<LayerJob> jobs_;
+};
+
+/// Which bitmaps the layers of a turning body need, whatever it turns among: for each heading what the body covers
+/// where it stands, on each of the four steps and on the turn to the next heading, as convex pieces around the
+/// reference point. Headings at which the body covers the same set share their jobs. O(headings squared) comparisons.
+/// Job i makes bitmap i; fills in standing, moving and turning. outline: a polygon around the reference point, or that
+/// alone.
+std::vector<LayerJob> list_layer_jobs(std::span<const Vec2> outline, HeadingLayers& layers) {
+  JobList jobs(layers);
+  std::vector<ConvexPiece> keys;
+  for (std::uint32_t k = 0; k < layers.angles; ++k) {
+    keys.push_back(key_of(turned(outline, k, layers.angles)));
+    const auto same = as_whole<std::size_t>(std::find(keys.begin(), keys.end(), keys.back()) - keys.begin());
+    if (same < k) {
+      jobs.repeat_heading(same);
+    } else {
+      jobs.add_heading(outline_pieces(turned(outline, k, layers.angles)));
+    }
+  }
+  return jobs.take();
+}
 
 /// Where positions lie, without any layer.
 HeadingLayers empty_lattice(const Scene& scene, const RobotSpec& robot, const LayerOptions& options,
@@ -64,9 +147,7 @@ class ExactLayers {
         radius_((robot.kind == RobotKind::disc ? robot.radius : 0.0) + options.clearance),
         layers_(empty_lattice(scene, robot, options, execution)) {
     for (const ScenePolygon& polygon : scene.polygons) {
-      for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
-        sides_.push_back({polygon.corners[i], polygon.corners[(i + 1) % polygon.corners.size()]});
-      }
+      for_each_side(polygon.corners, [&](Vec2 a, Vec2 b) { sides_.push_back({a, b}); });
     }
   }
 
@@ -113,10 +194,8 @@ class ExactLayers {
   HeadingLayers layers_;
 };
 
-// ---- as in report 004 -----------------------------------------------------------------------------------------------
-
-/// The report's drawing, found from its figures: a wall covers the cells on both sides of it, a level one also the cell
-/// before its first; an upright one begins and ends with the cells of its ends.
+/// The drawing of the course's report 004, found from its figures: a wall covers the cells on both sides of it, a level
+/// one also the cell before its first; an upright one begins and ends with the cells of its ends.
 void draw_two_cells_thick(const Segment& wall, const HeadingLayers& lattice, Bitmap& drawn) {
   const auto set = [&](double i, double j) {
     if (i >= 0.0 && j >= 0.0 && i < lattice.width && j < lattice.height) {
@@ -160,9 +239,7 @@ Bitmap drawn_walls(const Scene& scene, const HeadingLayers& lattice, const Execu
   }
   for (const ScenePolygon& polygon : scene.polygons) {
     execution.check();
-    for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
-      draw_two_cells_thick({polygon.corners[i], polygon.corners[(i + 1) % polygon.corners.size()]}, lattice, drawn);
-    }
+    for_each_side(polygon.corners, [&](Vec2 a, Vec2 b) { draw_two_cells_thick({a, b}, lattice, drawn); });
   }
   drawn.set_run(0, 0, lattice.width);
   drawn.set_run(lattice.height - 1, 0, lattice.width);
@@ -194,22 +271,6 @@ HeadingLayers report_layers(const Scene& scene, const RobotSpec& robot, const La
   }
   return layers;
 }
-
-}  // namespace
-
-HeadingLayers orientation_layers(const Scene& scene, const RobotSpec& robot, const LayerOptions& options,
-                                 const Execution& execution) {
-  if (robot.kind != RobotKind::point && robot.kind != RobotKind::disc && robot.kind != RobotKind::polygon) {
-    throw InputError("robot", "must be a point, a disc or a polygon for a grid");
-  }
-  if (!(options.grid.cell > 0.0) || options.grid.angles < 1) {
-    throw InputError("grid", "needs a cell above 0 and at least one heading");
-  }
-  if (options.kind == LayerKind::report004) return report_layers(scene, robot, options, execution);
-  return ExactLayers(scene, robot, options, execution).make();
-}
-
-namespace {
 
 /// Cells at row dy and columns first .. last from a position.
 struct StampRun {
@@ -390,6 +451,18 @@ class MapLayers {
 
 }  // namespace
 
+HeadingLayers orientation_layers(const Scene& scene, const RobotSpec& robot, const LayerOptions& options,
+                                 const Execution& execution) {
+  if (robot.kind != RobotKind::point && robot.kind != RobotKind::disc && robot.kind != RobotKind::polygon) {
+    throw InputError("robot", "must be a point, a disc or a polygon for a grid");
+  }
+  if (!(options.grid.cell > 0.0) || options.grid.angles < 1) {
+    throw InputError("grid", "needs a cell above 0 and at least one heading");
+  }
+  if (options.kind == LayerKind::report004) return report_layers(scene, robot, options, execution);
+  return ExactLayers(scene, robot, options, execution).make();
+}
+
 HeadingLayers map_layers(const OccupancyMap& map, std::span<const Vec2> outline, std::uint32_t angles, double clearance,
                          const Execution& execution) {
   if (outline.size() < 3) throw InputError("robot", "a polygon needs three corners or more");
@@ -414,83 +487,6 @@ HeadingLayers map_layers(const OccupancyMap& map, std::span<const Vec2> outline,
   const std::vector<LayerJob> jobs = list_layer_jobs(outline, layers);
   MapLayers(map, clearance, execution).make(jobs, layers.bitmaps);
   return layers;
-}
-
-namespace {
-
-/// Corners in order from the least: the same for every heading that covers the same set.
-ConvexPiece key_of(ConvexPiece corners) {
-  const auto less = [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); };
-  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end(), less), corners.end());
-  return corners;
-}
-
-/// The turn to the next heading, larger ones in parts, so that arcs stay near their tangents.
-LayerJob turn_job(const std::vector<ConvexPiece>& pieces, std::uint32_t angles) {
-  LayerJob job;
-  const double angle_rad = 2.0 * std::numbers::pi / angles;
-  constexpr double widest = std::numbers::pi / 24;
-  const int parts = bounded_whole<int>(std::ceil(angle_rad / widest));
-  for (const ConvexPiece& piece : pieces) {
-    for (int part = 0; part < parts; ++part) {
-      ConvexPiece from;
-      for (const Vec2 p : piece) from.push_back(Rotation(part * angle_rad / parts)(p));
-      for (ConvexPiece& swept : swept_by_turn(from, angle_rad / parts)) job.pieces.push_back(std::move(swept));
-    }
-  }
-  return job;
-}
-
-class JobList {
- public:
-  explicit JobList(HeadingLayers& layers) : layers_(layers) {}
-
-  void add_heading(const std::vector<ConvexPiece>& pieces) {
-    layers_.standing.push_back(add({pieces, true}));
-    std::array<std::uint32_t, 4> moving{};
-    for (std::size_t s = 0; s < moving.size(); ++s) {
-      const auto [dx, dy] = HeadingLayers::steps[s];
-      LayerJob job;
-      for (const ConvexPiece& piece : pieces) {
-        job.pieces.push_back(swept_by_step(piece, {dx * layers_.cell, dy * layers_.cell}));
-      }
-      moving[s] = add(std::move(job));
-    }
-    layers_.moving.push_back(moving);
-    if (layers_.angles > 1) layers_.turning.push_back(add(turn_job(pieces, layers_.angles)));
-  }
-  void repeat_heading(std::size_t same) {
-    layers_.standing.push_back(layers_.standing[same]);
-    layers_.moving.push_back(layers_.moving[same]);
-    if (layers_.angles > 1) layers_.turning.push_back(layers_.turning[same]);
-  }
-  std::vector<LayerJob> take() { return std::move(jobs_); }
-
- private:
-  std::uint32_t add(LayerJob job) {
-    jobs_.push_back(std::move(job));
-    return as_whole<std::uint32_t>(jobs_.size() - 1);
-  }
-
-  HeadingLayers& layers_;
-  std::vector<LayerJob> jobs_;
-};
-
-}  // namespace
-
-std::vector<LayerJob> list_layer_jobs(std::span<const Vec2> outline, HeadingLayers& layers) {
-  JobList jobs(layers);
-  std::vector<ConvexPiece> keys;
-  for (std::uint32_t k = 0; k < layers.angles; ++k) {
-    keys.push_back(key_of(turned(outline, k, layers.angles)));
-    const auto same = as_whole<std::size_t>(std::find(keys.begin(), keys.end(), keys.back()) - keys.begin());
-    if (same < k) {
-      jobs.repeat_heading(same);
-    } else {
-      jobs.add_heading(outline_pieces(turned(outline, k, layers.angles)));
-    }
-  }
-  return jobs.take();
 }
 
 }  // namespace warren

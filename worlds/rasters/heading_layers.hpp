@@ -12,7 +12,6 @@
 #include <optional>
 #include <span>
 #include <string_view>
-#include <vector>
 
 #include "core/base/enum_names.hpp"
 #include "core/base/types.hpp"
@@ -20,7 +19,6 @@
 #include "parallel/execution.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "scenes/scene/scene.hpp"
-#include "worlds/rasters/convex_pieces.hpp"
 
 namespace warren {
 
@@ -42,32 +40,18 @@ struct LayerOptions {
 HeadingLayers orientation_layers(const Scene& scene, const RobotSpec& robot, const LayerOptions& options,
                                  const Execution& execution);
 
-// The layers of a turning body on an occupancy map: states stand at the middles of the map's cells, blocked cells are
-// closed squares, and what lies outside of the map is blocked. Which cells around a position touch the body there (or
-// what it sweeps on a step or a turn) is the same everywhere: a stamp, found once a layer by the exact sum of body and
-// square. The layer is the blocked cells widened by the stamp, 64 cells at a time: each of the stamp's rows is an
-// interval or a few, and an interval of any length is two shifted copies of a doubled row. O(layers * stamp rows *
-// cells / 64), whatever the map holds; layers in parallel.
-
+/// The layers of a turning body on an occupancy map: states stand at the middles of the map's cells, blocked cells are
+/// closed squares, and what lies outside of the map is blocked. Which cells around a position touch the body there (or
+/// what it sweeps on a step or a turn) is the same everywhere: a stamp, found once a layer by the exact sum of body and
+/// square. The layer is the blocked cells widened by the stamp, 64 cells at a time: each of the stamp's rows is an
+/// interval or a few, and an interval of any length is two shifted copies of a doubled row. O(layers * stamp rows *
+/// cells / 64), whatever the map holds; layers in parallel.
+///
 /// outline: three corners or more around the reference point, world units; clearance: room around the body, >= 0; 0:
 /// touching is blocked. Positions and headings are the map's own: as if its origin were (0, 0) and it were not turned.
 /// Throws InputError for more than HeadingLayers::most_states, no heading, and a body that reaches over 4096 cells;
 /// Stopped.
 HeadingLayers map_layers(const OccupancyMap& map, std::span<const Vec2> outline, std::uint32_t angles, double clearance,
                          const Execution& execution);
-
-// Which bitmaps the layers of a turning body need, whatever it turns among: for each heading what the body covers where
-// it stands, on each of the four steps and on the turn to the next heading, as convex pieces around the reference
-// point. Headings at which the body covers the same set share their jobs. O(headings squared) comparisons.
-
-/// One bitmap to be made: positions at which the union of the pieces touches something.
-struct LayerJob {
-  std::vector<ConvexPiece> pieces;
-  bool is_standing = false;  ///< a body may also stand inside an obstacle without touching its outline
-};
-
-/// For a body with layers.angles headings on a lattice with layers.cell; job i makes bitmap i. Fills in standing,
-/// moving and turning. outline: a polygon around the reference point, or the reference point alone.
-std::vector<LayerJob> list_layer_jobs(std::span<const Vec2> outline, HeadingLayers& layers);
 
 }  // namespace warren

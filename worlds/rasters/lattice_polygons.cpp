@@ -9,6 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/whole.hpp"
+#include "core/plane/polygon.hpp"
 #include "spatial/maps/free_cells.hpp"
 #include "worlds/rasters/convex_pieces.hpp"
 
@@ -67,6 +68,40 @@ Box box_around(std::span<const Vec2> points) {
   Box box;
   for (const Vec2 p : points) box.include(p);
   return box;
+}
+
+/// Calls add(y, from, to) for each longest run of borders between rows y - 1 and y.
+template <class Add>
+void for_borders_between_rows(const Bitmap& blocked, const Execution& execution, const Add& add) {
+  const std::size_t words = blocked.empty() ? 0 : blocked.row(0).size();
+  const auto solid = [&](std::int64_t y, std::size_t w) {
+    if (y < 0 || y >= blocked.height()) return ~std::uint64_t{0};
+    const std::uint64_t beyond =
+        w + 1 == words && blocked.width() % 64 != 0 ? ~std::uint64_t{0} << blocked.width() % 64 : 0;
+    return blocked.row(as_whole<std::uint32_t>(y))[w] | beyond;
+  };
+  for (std::int64_t y = 0; y <= blocked.height(); ++y) {
+    if (y % 16 == 0) execution.check();
+    std::int64_t first = -1;  // of the run that is open
+    for (std::size_t w = 0; w < words; ++w) {
+      std::uint64_t differs = solid(y - 1, w) ^ solid(y, w);
+      const auto base = as_whole<std::int64_t>(64 * w);
+      std::int64_t x = 0;
+      while (x < 64) {
+        const auto next = as_whole<std::int64_t>(first < 0 ? std::countr_zero(differs) : std::countr_one(differs));
+        if (x + next >= 64) break;
+        x += next;
+        differs >>= next;
+        if (first < 0) {
+          first = base + x;
+        } else {
+          add(y, first, base + x);
+          first = -1;
+        }
+      }
+    }
+    if (first >= 0) add(y, first, std::int64_t{blocked.width()});
+  }
 }
 
 }  // namespace
@@ -138,44 +173,6 @@ void LatticeMarking::mark_inside(std::span<const Vec2> polygon, Vec2 offset, con
   }
 }
 
-namespace {
-
-/// Calls add(y, from, to) for each longest run of borders between rows y - 1 and y.
-template <class Add>
-void for_borders_between_rows(const Bitmap& blocked, const Execution& execution, const Add& add) {
-  const std::size_t words = blocked.empty() ? 0 : blocked.row(0).size();
-  const auto solid = [&](std::int64_t y, std::size_t w) {
-    if (y < 0 || y >= blocked.height()) return ~std::uint64_t{0};
-    const std::uint64_t beyond =
-        w + 1 == words && blocked.width() % 64 != 0 ? ~std::uint64_t{0} << blocked.width() % 64 : 0;
-    return blocked.row(as_whole<std::uint32_t>(y))[w] | beyond;
-  };
-  for (std::int64_t y = 0; y <= blocked.height(); ++y) {
-    if (y % 16 == 0) execution.check();
-    std::int64_t first = -1;  // of the run that is open
-    for (std::size_t w = 0; w < words; ++w) {
-      std::uint64_t differs = solid(y - 1, w) ^ solid(y, w);
-      const auto base = as_whole<std::int64_t>(64 * w);
-      std::int64_t x = 0;
-      while (x < 64) {
-        const auto next = as_whole<std::int64_t>(first < 0 ? std::countr_zero(differs) : std::countr_one(differs));
-        if (x + next >= 64) break;
-        x += next;
-        differs >>= next;
-        if (first < 0) {
-          first = base + x;
-        } else {
-          add(y, first, base + x);
-          first = -1;
-        }
-      }
-    }
-    if (first >= 0) add(y, first, std::int64_t{blocked.width()});
-  }
-}
-
-}  // namespace
-
 std::vector<Segment> border_walls(const OccupancyMap& map, const Execution& execution) {
   std::vector<Segment> walls;
   const auto point = [&](std::int64_t x, std::int64_t y) {
@@ -222,9 +219,7 @@ OccupancyMap map_of_scene(const Scene& scene, double cell, const Execution& exec
   }
   for (const ScenePolygon& polygon : scene.polygons) {
     execution.check();
-    for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
-      mark({polygon.corners[i], polygon.corners[(i + 1) % polygon.corners.size()]});
-    }
+    for_each_side(polygon.corners, [&](Vec2 a, Vec2 b) { mark({a, b}); });
     marking.mark_inside(polygon.corners, {0.0, 0.0}, execution);
   }
   map.blocked = marking.take();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/grid/map_skeleton.hpp"
+#include "planners/grid/skeleton_planner.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/base/rng.hpp"
-#include "planners/grid/skeleton_planner.hpp"
 #include "tests/planners/grid/grid_oracle.hpp"
 #include "tests/seeds.hpp"
 

@@ -11,7 +11,6 @@
 #include "core/base/rng.hpp"
 #include "planners/graph/assemble_graph.hpp"
 #include "planners/graph/components.hpp"
-#include "planners/grid/map_skeleton.hpp"
 
 namespace warren {
 namespace {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/roadmap/lattice_milestones.hpp"
+#include "planners/roadmap/milestones.hpp"
 
 #include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
-#include "planners/roadmap/milestones.hpp"
 
 namespace warren {
 namespace {
