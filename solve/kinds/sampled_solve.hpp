@@ -14,7 +14,6 @@
 //   stop_at(numbers)                       the states that will do at a way-point; throws UsageError for other numbers
 //   stop_in(world, numbers)                the same, where the world decides which; else not there
 //   choose_sampler(options)                what is asked for, or what suits; throws UsageError for what is not for it
-//   add_options(answer)                    what else was asked for
 //   index(world, sampler)                  emplaces the world
 //   provably_apart(world, goals)           is it proved that no path leads to any of the goals?
 //   start_stands_free(), goal_stands_free(state)   by the verification
@@ -58,7 +57,6 @@ struct UsualBody {
   static constexpr std::string_view noun = "body";
   static constexpr std::optional<SamplerKind> tree_sampler = std::nullopt;
 
-  static void add_options(Answer&) {}
   template <class World, class State>
   static std::vector<State> best_first(const World&, const std::vector<State>& goals) {
     return goals;
@@ -86,7 +84,9 @@ class SampledSolve {
     answer_.problem = body_.problem();
     answer_.planner = name_of(request.planner);
     by_roadmap() ? describe_roadmap() : describe_trees();
-    body_.add_options(answer_);
+    const auto of_body = given_figures(request.options, {Option::attach, Option::steering, Option::turning_radius,
+                                                         Option::cusp_cost, Option::reverse_cost});
+    answer_.options.insert(answer_.options.end(), of_body.begin(), of_body.end());
   }
 
   Answer run() {
@@ -160,7 +160,8 @@ void SampledSolve<Body>::describe_trees() {
   for (const std::vector<double>& point : request_.options.trees.via) body_.stop_at(point);  // refused before the work
   answer_.sampler = sampler_name(tree_options_);
   answer_.seed = tree_options_.seed;
-  answer_.options = given_tree_options(request_.options);
+  answer_.options = given_figures(
+      request_.options, {Option::step, Option::goal_bias, Option::nodes, Option::trees, Option::via, Option::optimise});
 }
 
 template <class Body>

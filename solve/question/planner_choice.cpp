@@ -2,13 +2,11 @@
 #include "solve/question/planner_choice.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "core/base/error.hpp"
 #include "planners/mazes/tiled_prm_lattice.hpp"
@@ -115,24 +113,6 @@ SamplerKind sampler_for(const SolveOptions& asked, const Scene& scene) {
   return asked.sampler.value_or(usual);
 }
 
-/// Options that answer and description repeat.
-std::vector<NamedFigure> given_options(const SolveOptions& asked, const PlannerOptions& o) {
-  std::vector<NamedFigure> given;
-  const auto add = [&](const char* name, auto value) { given.push_back({name, Figure(std::move(value))}); };
-  if (o.roadmap.samples) add("samples", *o.roadmap.samples);
-  if (o.roadmap.neighbours) add("neighbours", std::uint64_t{*o.roadmap.neighbours});
-  if (o.roadmap.radius) add("radius", *o.roadmap.radius);
-  if (o.roadmap.star == StarRule::neighbours) add("neighbours", std::string("star"));
-  if (o.roadmap.star == StarRule::radius) add("radius", std::string("star"));
-  if (asked.queue) add("queue", std::string(name_of(*asked.queue)));
-  if (asked.heuristic) add("heuristic", std::string(name_of(*asked.heuristic)));
-  if (asked.roadmap.neighbour_index) add("neighbour_index", std::string(name_of(*asked.roadmap.neighbour_index)));
-  if (asked.roadmap.lazy) add("lazy", std::string(name_of(*asked.roadmap.lazy)));
-  if (asked.roadmap.pipeline) add("pipeline", std::string(name_of(*asked.roadmap.pipeline)));
-  if (o.optimise) add("optimise", true);
-  return given;
-}
-
 }  // namespace
 
 SearchChoice search_choice(const SolveOptions& asked) {
@@ -175,7 +155,9 @@ PlannerOptions planner_options(const SolveOptions& asked, const Scene& scene, co
   options.fused = takes_fused_tiles(asked, options, problem.reach());
   options.pipeline = pipeline_for(asked, options, scene);
   options.optimise = asked.optimise;
-  options.given = given_options(asked, options);
+  options.given =
+      given_figures(asked, {Option::samples, Option::neighbours, Option::radius, Option::queue, Option::heuristic,
+                            Option::neighbour_index, Option::lazy, Option::pipeline, Option::optimise});
   return options;
 }
 
@@ -240,18 +222,6 @@ GridMethod grid_method(const SolveOptions& options, GridMethod usual) {
   throw UsageError("@search: grid takes astar, dijkstra and bfs; the planner prm takes dfs");
 }
 
-namespace {
-
-/// "1,2;3,4,0.5"
-std::string way_points_text(const std::vector<std::vector<double>>& via) {
-  std::string text;
-  for (const std::vector<double>& state : via)
-    text += fmt::format("{}{}", text.empty() ? "" : ";", fmt::join(state, ","));
-  return text;
-}
-
-}  // namespace
-
 RrtOptions tree_options(const SolveOptions& asked) {
   RrtOptions options;
   if (asked.sampler && takes_all_places(*asked.sampler)) {
@@ -269,19 +239,6 @@ RrtOptions tree_options(const SolveOptions& asked) {
 
 std::string_view sampler_name(const RrtOptions& options) {
   return options.sampler ? name_of(*options.sampler) : "uniform-gaussian";
-}
-
-std::vector<NamedFigure> given_tree_options(const SolveOptions& asked) {
-  std::vector<NamedFigure> given;
-  const auto add = [&](const char* name, auto value) { given.push_back({name, Figure(std::move(value))}); };
-  const TreeFields& trees = asked.trees;
-  if (trees.step) add("step", *trees.step);
-  if (trees.goal_bias) add("goal_bias", *trees.goal_bias);
-  if (trees.nodes) add("nodes", *trees.nodes);
-  if (trees.trees) add("trees", std::uint64_t{*trees.trees});
-  if (!trees.via.empty()) add("via", way_points_text(trees.via));
-  if (asked.optimise) add("optimise", true);
-  return given;
 }
 
 }  // namespace warren

@@ -72,7 +72,5 @@ inline constexpr OptionSet rrt_options = rrt_connect_options | OptionSet{Option:
 RrtOptions tree_options(const SolveOptions& options);
 /// What the answer calls the trees' sampler.
 std::string_view sampler_name(const RrtOptions& options);
-/// What was asked for, as Answer::options repeats it.
-std::vector<NamedFigure> given_tree_options(const SolveOptions& options);
 
 }  // namespace warren
