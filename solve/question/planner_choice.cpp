@@ -207,18 +207,7 @@ GridSpec grid_spec(const GridFields& options, const Scene& scene) {
 
 GridMethod grid_method(const SolveOptions& options, GridMethod usual) {
   if (!options.search) return usual;
-  switch (*options.search) {
-    case SearchMethod::astar:
-      return GridMethod::astar;
-    case SearchMethod::dijkstra:
-      return GridMethod::dijkstra;
-    case SearchMethod::bfs:
-      return GridMethod::bfs;
-    case SearchMethod::jump_points:
-      return GridMethod::jump_points;
-    case SearchMethod::dfs:
-      break;
-  }
+  if (const auto method = enum_named<GridMethod>(name_of(*options.search))) return *method;
   throw UsageError("@search: grid takes astar, dijkstra and bfs; the planner prm takes dfs");
 }
 

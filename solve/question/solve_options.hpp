@@ -211,6 +211,8 @@ class OptionSet {
 /// What a question asks of a roadmap that is there; a roadmap that is kept has none of them.
 inline constexpr OptionSet question_options{Option::search,    Option::queue,        Option::optimise,
                                             Option::cusp_cost, Option::reverse_cost, Option::heuristic};
+/// These, and how an arm is joined to the roadmap.
+inline constexpr OptionSet asked_options = question_options | OptionSet{Option::attach};
 /// How planners work, which roadmaps that are kept don't show.
 inline constexpr OptionSet work_options{Option::lazy, Option::pipeline, Option::sampled_edges, Option::neighbour_index};
 /// In the order of the enumeration.

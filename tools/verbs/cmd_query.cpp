@@ -149,7 +149,7 @@ Command query_command() {
   const Command build = build_command();  // knows what it refuses itself, and why
   for (const OptionSpec& spec : solve_option_specs()) {
     const auto option = option_of_words(spec.name);
-    if (option && (question_options.has(*option) || option == Option::attach)) {
+    if (option && asked_options.has(*option)) {
       command.options.push_back(spec);
     } else {
       const auto refused = std::find_if(build.foreign.begin(), build.foreign.end(),
