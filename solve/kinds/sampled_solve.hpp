@@ -84,9 +84,7 @@ class SampledSolve {
     answer_.problem = body_.problem();
     answer_.planner = name_of(request.planner);
     by_roadmap() ? describe_roadmap() : describe_trees();
-    const auto of_body = given_figures(request.options, {Option::attach, Option::steering, Option::turning_radius,
-                                                         Option::cusp_cost, Option::reverse_cost});
-    answer_.options.insert(answer_.options.end(), of_body.begin(), of_body.end());
+    answer_.options = given_figures(request.options);
   }
 
   Answer run() {
@@ -150,7 +148,6 @@ void SampledSolve<Body>::describe_roadmap() {
   answer_.sampler = name_of(roadmap_options_.sampler);
   answer_.search = name_of(roadmap_options_.search);
   answer_.seed = roadmap_options_.seed;
-  answer_.options = options.given;
 }
 
 template <class Body>
@@ -160,8 +157,6 @@ void SampledSolve<Body>::describe_trees() {
   for (const std::vector<double>& point : request_.options.trees.via) body_.stop_at(point);  // refused before the work
   answer_.sampler = sampler_name(tree_options_);
   answer_.seed = tree_options_.seed;
-  answer_.options = given_figures(
-      request_.options, {Option::step, Option::goal_bias, Option::nodes, Option::trees, Option::via, Option::optimise});
 }
 
 template <class Body>

@@ -155,9 +155,7 @@ PlannerOptions planner_options(const SolveOptions& asked, const Scene& scene, co
   options.fused = takes_fused_tiles(asked, options, problem.reach());
   options.pipeline = pipeline_for(asked, options, scene);
   options.optimise = asked.optimise;
-  options.given =
-      given_figures(asked, {Option::samples, Option::neighbours, Option::radius, Option::queue, Option::heuristic,
-                            Option::neighbour_index, Option::lazy, Option::pipeline, Option::optimise});
+  options.given = given_figures(asked);
   return options;
 }
 

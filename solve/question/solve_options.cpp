@@ -102,11 +102,11 @@ void copy_option(Option option, SolveOptions& to, const SolveOptions& from) {
   if (star_option(from) == option) to.roadmap.star = from.roadmap.star;
 }
 
-std::vector<NamedFigure> given_figures(const SolveOptions& options, OptionSet which) {
+std::vector<NamedFigure> given_figures(const SolveOptions& options) {
   std::vector<NamedFigure> figures;
   const auto add = [&]<class T>(Option option, OptionRange, const T& field) {
     const bool is_star = star_option(options) == option;
-    if (!which.has(option) || (field == T{} && !is_star)) return;
+    if (option == Option::sampler || option == Option::search || (field == T{} && !is_star)) return;
     figures.push_back({std::string(name_of(option)), is_star ? Figure(std::string("star")) : option_figure(field)});
   };
   visit_options(add, options);

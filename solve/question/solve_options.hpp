@@ -239,12 +239,13 @@ void visit_options(const Visit& visit, Of&... of) {
   visit(Option::lazy, {}, of.roadmap.lazy...);
   visit(Option::lazy, {}, of.visibility.lazy...);
   visit(Option::pipeline, {}, of.roadmap.pipeline...);
-  visit(Option::attach, {}, of.roadmap.attach...);
   visit(Option::step, {}, of.trees.step...);
   visit(Option::goal_bias, {0, 1}, of.trees.goal_bias...);
   visit(Option::nodes, {2, most_samples}, of.trees.nodes...);
   visit(Option::trees, {1, most_trees}, of.trees.trees...);
   visit(Option::via, {}, of.trees.via...);
+  visit(Option::optimise, {}, of.optimise...);
+  visit(Option::attach, {}, of.roadmap.attach...);
   visit(Option::cell, {}, of.grid.cell...);
   visit(Option::angles, {1, 1'000'000}, of.grid.angles...);
   visit(Option::face_motion, {}, of.grid.face_motion...);
@@ -260,7 +261,6 @@ void visit_options(const Visit& visit, Of&... of) {
   visit(Option::turning_radius, {}, of.car.turning_radius...);
   visit(Option::cusp_cost, {0, largest_coordinate}, of.car.cusp_cost...);
   visit(Option::reverse_cost, {1, largest_coordinate}, of.car.reverse_cost...);
-  visit(Option::optimise, {}, of.optimise...);
 }
 /// The option that RoadmapFields::star is said with, in place of a number.
 constexpr std::optional<Option> star_option(const SolveOptions& options) {
@@ -271,7 +271,7 @@ constexpr std::optional<Option> star_option(const SolveOptions& options) {
 OptionSet given(const SolveOptions& options);
 /// Gives one option the value that it has in `from`.
 void copy_option(Option option, SolveOptions& to, const SolveOptions& from);
-/// What answers repeat of options that are given, in the order of the table.
-std::vector<NamedFigure> given_figures(const SolveOptions& options, OptionSet which);
+/// Those that are given as answers repeat them: all but sampler and search, which answers name anyway.
+std::vector<NamedFigure> given_figures(const SolveOptions& options);
 
 }  // namespace warren
