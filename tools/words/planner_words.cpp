@@ -121,12 +121,14 @@ struct OptionReader {
     if (count) field = static_cast<std::uint32_t>(*count);
   }
   template <NamedEnum E>
-  void read(std::string_view flag, std::string_view text, OptionRange, std::optional<E>& field) const {
-    if constexpr (std::is_same_v<E, SearchMethod>) {
-      field = search_value(flag, text, planner);
-    } else if (flag != "--lazy" || !text.empty()) {
-      field = choice_value<E>(flag, text);
-    }
+  static void read(std::string_view flag, std::string_view text, OptionRange, std::optional<E>& field) {
+    if (flag != "--lazy" || !text.empty()) field = choice_value<E>(flag, text);
+  }
+  /// Jump points are for grids alone, and who plans elsewhere is not told of them.
+  void read(std::string_view flag, std::string_view text, OptionRange, std::optional<SearchMethod>& field) const {
+    field = enum_named<SearchMethod>(text);
+    if (!field && planner == PlannerKind::grid) choice_value<GridMethod>(flag, text);  // says which there are
+    if (!field) choice_value<SearchKind>(flag, text);
   }
   static void read(std::string_view flag, std::string_view text, OptionRange, std::optional<GrowingAttach>& field) {
     const std::size_t comma = text.find(',');
@@ -159,12 +161,6 @@ std::uint64_t seed_value(std::string_view option, std::string_view text) {
 }
 
 std::uint64_t seed_word(const Arguments& arguments) { return given_value(arguments, "--seed", seed_value).value_or(1); }
-
-SearchMethod search_value(std::string_view option, std::string_view text, std::optional<PlannerKind> planner) {
-  if (const auto method = enum_named<SearchMethod>(text)) return *method;
-  if (planner == PlannerKind::grid) choice_value<GridMethod>(option, text);  // says which there are
-  return static_cast<SearchMethod>(choice_value<SearchKind>(option, text));
-}
 
 SolveOptions solve_words(const Arguments& arguments) {
   SolveOptions options;

@@ -31,8 +31,6 @@ RoadmapSearchFields search_words(const Arguments& arguments);
 std::uint64_t seed_word(const Arguments& arguments);
 /// A seed: any number of 64 bits.
 std::uint64_t seed_value(std::string_view option, std::string_view text);
-/// A word of --search. Jump points are for grids alone, where others are not told of them.
-SearchMethod search_value(std::string_view option, std::string_view text, std::optional<PlannerKind> planner = {});
 /// The names of the planners that there are, blank-separated.
 std::string_view planner_names();
 /// The same of some of them.
