@@ -110,7 +110,7 @@ void OneWayPlan<W>::check_all() {
 
 template <World W>
 bool OneWayPlan<W>::search() {
-  const bool best = options_.search == SearchKind::astar || options_.search == SearchKind::dijkstra;
+  const bool best = has_queue(options_.search);
   if (!best && lazy_) check_all();
   StageTimer timer(execution_, "expansion", solution_.seconds.search);
   const SearchResult found = best ? search_best() : search_plainly();

@@ -41,7 +41,7 @@ RoadmapOptions roadmap_options(const SolveOptions& asked) {
 }
 
 void check_queue(const SolveOptions& asked, SearchKind search) {
-  if (!asked.queue || search == SearchKind::astar || search == SearchKind::dijkstra) return;
+  if (!asked.queue || has_queue(search)) return;
   throw UsageError(fmt::format("@queue: {} has no priority queue; astar and dijkstra take one", name_of(search)));
 }
 
@@ -59,8 +59,7 @@ void check_planner(const SolveOptions& asked, PlannerKind planner, SearchKind se
   if (planner == PlannerKind::lazy_prm && asked.visibility.lazy) {
     throw UsageError("@lazy: WHEN is missing");
   }
-  const bool best_first = search == SearchKind::astar || search == SearchKind::dijkstra;
-  if (planner == PlannerKind::lazy_prm && !best_first) {
+  if (planner == PlannerKind::lazy_prm && !has_queue(search)) {
     throw UsageError(
         fmt::format("@search: lazy-prm takes astar and dijkstra; the planner prm takes {} too", name_of(search)));
   }

@@ -359,10 +359,10 @@ std::vector<studies::SearchVariant> variants_of(const Arguments& arguments) {
   std::vector<studies::SearchVariant> variants;
   bool any_queue = false;
   for (const SearchKind search : searches) {
-    any_queue = any_queue || studies::has_queue(search);
-    if (!studies::has_queue(search)) variants.push_back({search, std::nullopt, studies::SearchLibrary::warren});
+    any_queue = any_queue || has_queue(search);
+    if (!has_queue(search)) variants.push_back({search, std::nullopt, studies::SearchLibrary::warren});
     for (const studies::QueuePolicy queue : queues) {
-      if (studies::has_queue(search)) variants.push_back({search, queue, studies::SearchLibrary::warren});
+      if (has_queue(search)) variants.push_back({search, queue, studies::SearchLibrary::warren});
     }
     if (peer) variants.push_back({search, std::nullopt, studies::SearchLibrary::boost});
   }
