@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <type_traits>
 
 #include "core/base/error.hpp"
 
@@ -18,23 +19,16 @@ struct OptionCheck {
   template <class T>
   void operator()(Option, OptionRange, const T&) const {}
 
-  void operator()(Option option, OptionRange range, const std::optional<double>& value) const {
+  template <class T>
+  requires std::is_arithmetic_v<T>
+  void operator()(Option option, OptionRange range, const std::optional<T>& value) const {
     const bool above_zero = std::isinf(range.high);
-    if (!value || (above_zero ? *value > 0.0 && std::isfinite(*value) : *value >= range.low && *value <= range.high)) {
+    const auto number = static_cast<double>(value.value_or(T{1}));
+    if (!value || (above_zero ? number > 0.0 && number < range.high : number >= range.low && number <= range.high))
       return;
-    }
     const std::string expected = above_zero ? "above 0" : fmt::format("from {} to {}", range.low, range.high);
-    throw UsageError(fmt::format("@{}: must be a number {} (found: {})", name_of(option), expected, *value));
-  }
-  void operator()(Option option, OptionRange range, const std::optional<std::uint64_t>& value) const {
-    const auto low = static_cast<std::uint64_t>(range.low);
-    const auto high = static_cast<std::uint64_t>(range.high);
-    if (!value || (*value >= low && *value <= high)) return;
-    throw UsageError(
-        fmt::format("@{}: must be a whole number from {} to {} (found: {})", name_of(option), low, high, *value));
-  }
-  void operator()(Option option, OptionRange range, const std::optional<std::uint32_t>& value) const {
-    (*this)(option, range, std::optional<std::uint64_t>(value));
+    throw UsageError(fmt::format("@{}: must be a {} {} (found: {})", name_of(option),
+                                 std::is_integral_v<T> ? "whole number" : "number", expected, *value));
   }
   void operator()(Option option, OptionRange range, const std::optional<GrowingAttach>& attach) const {
     if (!attach) return;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <limits>
 
 #include "core/base/error.hpp"
@@ -102,23 +103,18 @@ struct OptionReader {
   /// A flag, or --lazy without a word.
   static void read(std::string_view, std::string_view text, OptionRange, bool& field) { field = text.empty(); }
   static void read(std::string_view flag, std::string_view text, OptionRange range, std::optional<double>& field) {
-    const bool is_radius = flag == "--radius";
-    if (is_radius && (text == "auto" || text == "star")) return;
+    if (flag == "--radius" && (text == "auto" || text == "star")) return;
     field =
         range.high > largest_coordinate ? positive_value(flag, text) : number_value(flag, text, range.low, range.high);
   }
-  static void read(std::string_view flag, std::string_view text, OptionRange range,
-                   std::optional<std::uint64_t>& field) {
+  template <std::integral N>
+  static void read(std::string_view flag, std::string_view text, OptionRange range, std::optional<N>& field) {
+    if (flag == "--neighbours" && text == "star") return;
     const auto low = static_cast<std::uint64_t>(range.low);
     const auto high = static_cast<std::uint64_t>(range.high);
-    field = flag == "--samples" || flag == "--neighbours" ? auto_or_count_value(flag, text, low, high)
-                                                          : count_value(flag, text, low, high);
-  }
-  static void read(std::string_view flag, std::string_view text, OptionRange range,
-                   std::optional<std::uint32_t>& field) {
-    std::optional<std::uint64_t> count;
-    if (flag != "--neighbours" || text != "star") read(flag, text, range, count);
-    if (count) field = static_cast<std::uint32_t>(*count);
+    const bool may_be_open = flag == "--samples" || flag == "--neighbours";
+    const auto count = may_be_open ? auto_or_count_value(flag, text, low, high) : count_value(flag, text, low, high);
+    if (count) field = static_cast<N>(*count);
   }
   template <NamedEnum E>
   static void read(std::string_view flag, std::string_view text, OptionRange, std::optional<E>& field) {
