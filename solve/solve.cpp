@@ -44,12 +44,7 @@ void check_length(Verdict& verdict, const RecordedAnswer& answer) {
 SolveOptions options_of_roadmap(const SolveOptions& options, PlannerKind planner) {
   SolveOptions kept = options;
   kept.planner = planner;
-  kept.search.reset();
-  kept.queue.reset();
-  kept.heuristic.reset();
-  kept.optimise = false;
-  kept.car.cusp_cost.reset();
-  kept.car.reverse_cost.reset();
+  for (const Option option : options_in(question_options)) copy_option(option, kept, {});
   return kept;
 }
 

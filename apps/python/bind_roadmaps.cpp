@@ -116,8 +116,8 @@ tools::Command building() {
 }
 
 bool is_of_search(const tools::OptionSpec& spec) {
-  return is_among({"--search", "--heuristic", "--queue", "--optimise", "--cusp-cost", "--reverse-cost", "--attach"},
-                  spec);
+  const auto option = tools::option_of_words(spec.name);
+  return option && asked_options.has(*option);
 }
 
 tools::Command asking() {

@@ -192,63 +192,6 @@ class PlannerContest {
   std::optional<GridFields> raster_;  ///< of the contender on whose raster cells are counted
 };
 
-/// Gives one option the value that it has in `from`.
-using Copy = void (*)(SolveOptions& to, const SolveOptions& from);
-
-template <auto Field>
-void whole(SolveOptions& to, const SolveOptions& from) {
-  to.*Field = from.*Field;
-}
-template <auto Part, auto Field>
-void part(SolveOptions& to, const SolveOptions& from) {
-  to.*Part.*Field = from.*Part.*Field;
-}
-template <auto Field, StarRule Rule>
-void joining(SolveOptions& to, const SolveOptions& from) {
-  to.roadmap.*Field = from.roadmap.*Field;
-  if (from.roadmap.star == Rule) to.roadmap.star = Rule;
-}
-void lazy(SolveOptions& to, const SolveOptions& from) {
-  to.roadmap.lazy = from.roadmap.lazy;
-  to.visibility.lazy = from.visibility.lazy;
-}
-
-/// In the order of Option.
-constexpr std::array<Copy, option_count> copies{
-    whole<&SolveOptions::sampler>,
-    part<&SolveOptions::roadmap, &RoadmapFields::samples>,
-    joining<&RoadmapFields::neighbours, StarRule::neighbours>,
-    joining<&RoadmapFields::radius, StarRule::radius>,
-    whole<&SolveOptions::search>,
-    whole<&SolveOptions::queue>,
-    lazy,
-    part<&SolveOptions::roadmap, &RoadmapFields::pipeline>,
-    whole<&SolveOptions::optimise>,
-    part<&SolveOptions::grid, &GridFields::cell>,
-    part<&SolveOptions::grid, &GridFields::angles>,
-    part<&SolveOptions::grid, &GridFields::face_motion>,
-    part<&SolveOptions::grid, &GridFields::step_cost>,
-    part<&SolveOptions::grid, &GridFields::turn_cost>,
-    part<&SolveOptions::grid, &GridFields::diagonal>,
-    part<&SolveOptions::grid, &GridFields::layers>,
-    part<&SolveOptions::visibility, &VisibilityFields::full>,
-    part<&SolveOptions::visibility, &VisibilityFields::sampled_edges>,
-    part<&SolveOptions::cells, &CellFields::doors>,
-    part<&SolveOptions::axis, &AxisFields::objective>,
-    part<&SolveOptions::trees, &TreeFields::step>,
-    part<&SolveOptions::trees, &TreeFields::goal_bias>,
-    part<&SolveOptions::trees, &TreeFields::nodes>,
-    part<&SolveOptions::trees, &TreeFields::trees>,
-    part<&SolveOptions::trees, &TreeFields::via>,
-    part<&SolveOptions::car, &CarFields::steering>,
-    part<&SolveOptions::car, &CarFields::turning_radius>,
-    part<&SolveOptions::car, &CarFields::cusp_cost>,
-    part<&SolveOptions::car, &CarFields::reverse_cost>,
-    part<&SolveOptions::roadmap, &RoadmapFields::attach>,
-    whole<&SolveOptions::heuristic>,
-    part<&SolveOptions::roadmap, &RoadmapFields::neighbour_index>,
-};
-
 /// Why the planner does not take this option as it is in `from`; nothing where it does.
 std::optional<UsageError> refusal(PlannerKind planner, Option option, const SolveOptions& from) {
   SolveOptions alone{.planner = planner};
@@ -321,18 +264,9 @@ std::vector<PlannerContender> with_clearances(const std::vector<PlannerContender
   return clearances.empty() ? contenders : all;
 }
 
-std::vector<Option> options_of(const SolveOptions& options) {
-  const OptionSet set = given(options);
-  std::vector<Option> all;
-  for (std::size_t i = 0; i < option_count; ++i) {
-    if (set.has(static_cast<Option>(i))) all.push_back(static_cast<Option>(i));
-  }
-  return all;
-}
-
 std::vector<PlannerContender> contenders_of(const PlannerDeal& deal, PlannerKind planner) {
   SolveOptions usual{.planner = planner, .seed = deal.common.seed};
-  for (const Option option : options_of(deal.common)) {
+  for (const Option option : options_in(given(deal.common))) {
     if (!refusal(planner, option, deal.common)) copy_option(option, usual, deal.common);
   }
   std::vector<PlannerContender> all{{usual, deal.question, {}}};
@@ -371,13 +305,9 @@ void run_planner_contest(const Scene& scene, const PlannerContestOptions& option
   PlannerContest(scene, options, execution, comparison).run();
 }
 
-void copy_option(Option option, SolveOptions& to, const SolveOptions& from) {
-  copies[static_cast<std::size_t>(option)](to, from);
-}
-
 std::vector<PlannerContender> deal_planners(const PlannerDeal& deal) {
   deal.question.validate();
-  for (const Option option : options_of(deal.common)) check_taken(deal.planners, option, deal.common);
+  for (const Option option : options_in(given(deal.common))) check_taken(deal.planners, option, deal.common);
   for (const DealtOption& list : deal.lists) {
     for (const DealtValue& value : list.values) check_taken(deal.planners, list.option, value.value);
   }

@@ -61,9 +61,6 @@ struct PlannerDeal {
 /// searches that have one.
 std::vector<PlannerContender> deal_planners(const PlannerDeal& deal);
 
-/// Gives one option the value that it has in `from`.
-void copy_option(Option option, SolveOptions& to, const SolveOptions& from);
-
 struct PlannerContestOptions {
   std::vector<PlannerContender> contenders = {};  ///< each with a planner, as deal_planners() makes them
   std::uint64_t first_seed = 1;

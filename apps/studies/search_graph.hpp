@@ -62,8 +62,6 @@ struct SearchVariant {
   friend bool operator==(const SearchVariant&, const SearchVariant&) = default;
 };
 
-constexpr bool has_queue(SearchKind search) { return search == SearchKind::astar || search == SearchKind::dijkstra; }
-
 class GraphSearch {
  public:
   virtual ~GraphSearch() = default;

@@ -273,7 +273,7 @@ void AxisGraph::narrow_to(double clearance) {
 SearchResult AxisGraph::search(SearchKind search, QueueKind queue_kind) const {
   SearchState state;
   SearchResult found;
-  if (is_blind(search)) {
+  if (!has_queue(search)) {
     found = search_blindly(search, graph(), start(), goal(), state, execution_);
   } else {
     const auto neighbours = [&](VertexId v, const auto& visit) {

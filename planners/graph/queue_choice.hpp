@@ -84,9 +84,6 @@ SearchResult search_best_first(QueueKind kind, std::size_t vertex_count, VertexI
   });
 }
 
-/// Breadth- or depth-first?
-inline bool is_blind(SearchKind search) { return search == SearchKind::bfs || search == SearchKind::dfs; }
-
 /// The blind search of this kind, as search_best_first.
 inline SearchResult search_blindly(SearchKind search, const Graph& graph, VertexId start, VertexId goal,
                                    SearchState& state, const Execution& execution) {

@@ -8,11 +8,10 @@
 namespace warren {
 
 void RoadmapOptions::validate() const {
-  constexpr std::uint64_t most_samples = std::uint64_t{1} << 31;
   if (samples && (*samples < 1 || *samples > most_samples)) {
     throw InputError("samples", "must be from 1 to 2^31", std::to_string(*samples));
   }
-  if (neighbours && (*neighbours < 1 || *neighbours > 4096)) {
+  if (neighbours && (*neighbours < 1 || *neighbours > most_neighbours)) {
     throw InputError("neighbours", "must be from 1 to 4096", std::to_string(*neighbours));
   }
   if (radius && !(*radius > 0.0 && std::isfinite(*radius))) {

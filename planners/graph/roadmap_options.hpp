@@ -78,6 +78,8 @@ enum class StarRule : std::uint8_t { none, neighbours, radius };
 /// How a graph is searched: by cost and estimate, by cost, by the number of edges, or depth first.
 enum class SearchKind : std::uint8_t { astar, dijkstra, bfs, dfs };
 constexpr auto enum_names(SearchKind) { return std::array<std::string_view, 4>{"astar", "dijkstra", "bfs", "dfs"}; }
+/// Do the open vertices stand in a queue by cost, so that the path is the shortest?
+constexpr bool has_queue(SearchKind search) { return search == SearchKind::astar || search == SearchKind::dijkstra; }
 /// What holds the open vertices of astar and dijkstra; the path has the same length with each of them.
 enum class QueueKind : std::uint8_t { heap, lazy_heap, sorted_array, resorted_array };
 constexpr auto enum_names(QueueKind) {
@@ -98,6 +100,9 @@ struct GrowingAttach {
   std::uint32_t tries = 10;           ///< 1 .. 10,000
   friend bool operator==(const GrowingAttach&, const GrowingAttach&) = default;
 };
+
+inline constexpr std::uint64_t most_samples = std::uint64_t{1} << 31;  ///< of a roadmap, and nodes of a tree
+inline constexpr std::uint32_t most_neighbours = 4096;                 ///< of a milestone
 
 /// How a roadmap is made and searched.
 /// validate() refuses values outside the stated ranges with InputError.

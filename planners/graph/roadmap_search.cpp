@@ -166,13 +166,13 @@ bool is_stringy(const Graph& graph, const Execution& execution) {
 }
 
 std::optional<TwiceReducedGraphView> reduced_for_search(const Graph& graph, const RoadmapSearch& asked) {
-  if (is_blind(asked.search) || !asked.estimate_fits) return std::nullopt;
+  if (!has_queue(asked.search) || !asked.estimate_fits) return std::nullopt;
   if (graph.vertex_count() < fewest_for_both_ends || !is_stringy(graph, asked.execution)) return std::nullopt;
   return TwiceReducedGraphView(graph, std::array{asked.start, asked.goal}, asked.length, asked.execution);
 }
 
 SearchResult search_roadmap(const Graph& graph, const RoadmapSearch& asked) {
-  if (is_blind(asked.search)) return search_blindly(graph, asked);
+  if (!has_queue(asked.search)) return search_blindly(graph, asked);
   const auto itself = [](VertexId v) { return v; };
   return search_best(graph, asked.start, asked.goal, estimates(asked, itself), asked);
 }

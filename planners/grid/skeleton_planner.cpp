@@ -357,7 +357,7 @@ std::uint32_t SkeletonPlan::widest(std::span<const std::uint32_t> widths) const 
 
 SearchResult SkeletonPlan::found(const Graph& graph) const {
   SearchState state;
-  if (is_blind(options_.search)) {
+  if (!has_queue(options_.search)) {
     return search_blindly(options_.search, graph, start(), goal(), state, execution_);
   }
   const auto neighbours = [&](VertexId v, const auto& visit) {

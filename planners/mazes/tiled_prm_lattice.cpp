@@ -438,7 +438,7 @@ void keep(KeptParts& kept, std::size_t first, std::span<const TileSummary> summa
 bool tiled_prm_applies(const RoadmapOptions& options, double clearance) {
   const bool own_rule =
       options.star == StarRule::none && !options.neighbours && (!options.radius || *options.radius == 1.0);
-  const bool shortest = options.search == SearchKind::astar || options.search == SearchKind::dijkstra;
+  const bool shortest = has_queue(options.search);
   return options.sampler == SamplerKind::lattice && own_rule && shortest && clearance <= WallMarker::largest_clearance;
 }
 

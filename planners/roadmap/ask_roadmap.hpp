@@ -356,7 +356,7 @@ void Ask<W>::search() {
   SearchResult found;
   if (roadmap_.hierarchy() != nullptr && scratch_.by_hierarchy) {
     found = search_hierarchy();
-  } else if (is_blind(options_.search) || (large && roadmap_.is_stringy())) {
+  } else if (!has_queue(options_.search) || (large && roadmap_.is_stringy())) {
     found = search_copy();
   } else if (large) {
     found = search_both_ends();

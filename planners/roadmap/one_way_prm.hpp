@@ -106,7 +106,7 @@ void OneWayPlan<W>::check_all() {
 
 template <World W>
 bool OneWayPlan<W>::search() {
-  const bool blind = is_blind(options_.search);
+  const bool blind = !has_queue(options_.search);
   if (blind && lazy_) check_all();
   StageTimer timer(execution_, "expansion", solution_.seconds.search);
   const SearchResult found = blind ? search_plainly() : search_best();

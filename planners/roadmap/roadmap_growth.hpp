@@ -31,7 +31,6 @@ inline constexpr double growth = 1.6;
 inline constexpr double first_growth = 2.0;
 /// until there are this many times the usual number: then the answer is not_connected.
 inline constexpr double growth_cap = 64.0;
-inline constexpr std::uint64_t most_samples = std::uint64_t{1} << 31;
 
 template <class W>
 concept SuggestsSamples = requires(const W& w, const Execution& execution) {

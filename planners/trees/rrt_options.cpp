@@ -16,10 +16,10 @@ void RrtOptions::validate() const {
   if (!(goal_bias >= 0.0 && goal_bias <= 1.0)) {
     throw InputError("goal bias", "must be from 0 to 1", std::to_string(goal_bias));
   }
-  if (nodes < 2 || nodes > std::uint64_t{1} << 31) {
+  if (nodes < 2 || nodes > most_samples) {
     throw InputError("nodes", "must be from 2 to 2^31", std::to_string(nodes));
   }
-  if (trees < 1 || trees > 4096) throw InputError("trees", "must be from 1 to 4096", std::to_string(trees));
+  if (trees < 1 || trees > most_trees) throw InputError("trees", "must be from 1 to 4096", std::to_string(trees));
 }
 
 }  // namespace warren

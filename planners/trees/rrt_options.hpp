@@ -9,6 +9,8 @@
 
 namespace warren {
 
+inline constexpr std::uint32_t most_trees = 4096;  ///< at once
+
 /// validate() refuses values outside the stated ranges with InputError.
 struct RrtOptions {
   /// Not lattice. None: uniform at first; a search that takes longer has narrow passages, so from then on every other

@@ -253,7 +253,7 @@ bool CellPlanning::ends_are_joined() {
 
 void CellPlanning::find_route() {
   const StageTimer timer(execution_, "search", solution_.seconds.search);
-  const bool over_cells = is_blind(options_.search);
+  const bool over_cells = !has_queue(options_.search);
   plan_.route = {start_, goal_, {}, {}};
   const bool taut = !over_cells && options_.doors == DoorKind::funnel;
   if (options_.doors == DoorKind::midpoint) compute_points();

@@ -113,7 +113,7 @@ class VisibilityPlan {
     const StageTimer timer(execution_, "search", solution_.seconds.search);
     const VisibilityLinks links = visibility.link(start_, goal_, execution_);
     solution_.roadmap.edges = visibility.graph().edge_count() + links.count();
-    const bool plain = is_blind(options_.search);
+    const bool plain = !has_queue(options_.search);
     SearchState state;
     if (plain || keep_ != nullptr) roadmap_.graph = visibility.joined(links, execution_);
     const SearchResult found = plain ? search_plainly(state) : search_best(visibility, links, state);

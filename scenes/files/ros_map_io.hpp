@@ -5,8 +5,10 @@
 // pictures with alpha, so they are an option.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "parallel/execution.hpp"
 #include "scenes/files/input_file_io.hpp"
@@ -17,6 +19,7 @@ namespace warren {
 /// nav2: p >= occupied_thresh is occupied, p <= free_thresh free, a transparent pixel unknown. ros1: strictly beyond
 /// the thresholds; in trinary mode alpha counts as one more colour, in scale mode a fully transparent pixel is unknown.
 enum class MapServerRules : std::uint8_t { nav2, ros1 };
+constexpr auto enum_names(MapServerRules) { return std::array<std::string_view, 2>{"nav2", "ros1"}; }
 
 /// Reads the YAML and its image (absolute, ~/…, or relative to the YAML file). Throws InputError naming file and line,
 /// ReadError naming the image and who asks for it, Stopped.

@@ -176,9 +176,7 @@ class RobotReader {
   }
   SteeringKind steering() {
     const std::string_view name = fields_.word();
-    for (const SteeringKind kind : {SteeringKind::dubins, SteeringKind::reeds_shepp}) {
-      if (name == name_of(kind)) return kind;
-    }
+    if (const auto kind = enum_named<SteeringKind>(name)) return *kind;
     refuse_car(name.empty() ? "no steering" : name);
   }
   std::vector<Vec2> car_corners() {

@@ -6,6 +6,7 @@
 #include "scenes/mazes/maze_generator.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -27,19 +28,10 @@ namespace {
 
 constexpr std::size_t generator_grain = std::size_t{1} << 18;
 
-struct Algorithm {
-  MazeAlgorithm id;
-  std::string_view name;
-  void (*carve)(MazeCells&, std::uint64_t, const Execution&);
-};
-constexpr std::array<Algorithm, 6> algorithms{{{MazeAlgorithm::backtracker, "backtracker", maze::carve_backtracker},
-                                               {MazeAlgorithm::kruskal, "kruskal", maze::carve_kruskal},
-                                               {MazeAlgorithm::prim, "prim", maze::carve_prim},
-                                               {MazeAlgorithm::wilson, "wilson", maze::carve_wilson},
-                                               {MazeAlgorithm::course, "course", maze::carve_course},
-                                               {MazeAlgorithm::mst, "mst", maze::carve_mst}}};
-
-const Algorithm& algorithm_of(MazeAlgorithm id) { return algorithms.at(static_cast<std::size_t>(id)); }
+/// In the order of MazeAlgorithm.
+constexpr std::array<void (*)(MazeCells&, std::uint64_t, const Execution&), enum_names(MazeAlgorithm{}).size()> carvers{
+    maze::carve_backtracker, maze::carve_kruskal, maze::carve_prim,
+    maze::carve_wilson,      maze::carve_course,  maze::carve_mst};
 
 void check_size(std::uint32_t rows, std::uint32_t cols) {
   const std::uint64_t count = std::uint64_t{rows} * cols;
@@ -165,15 +157,10 @@ void mark_gaps(MazeCells& cells, std::uint8_t bits, const Execution& execution) 
 }
 }  // namespace maze
 
-std::string_view name_of(MazeAlgorithm algorithm) { return algorithm_of(algorithm).name; }
-
 MazeAlgorithm maze_algorithm_named(std::string_view name) {
-  std::string known;
-  for (const Algorithm& algorithm : algorithms) {
-    if (algorithm.name == name) return algorithm.id;
-    known.append(known.empty() ? "" : ", ").append(algorithm.name);
-  }
-  throw InputError("maze", "the algorithm must be one of " + known, name);
+  if (const auto algorithm = enum_named<MazeAlgorithm>(name)) return *algorithm;
+  throw InputError("maze", fmt::format("the algorithm must be one of {}", fmt::join(enum_names(MazeAlgorithm{}), ", ")),
+                   name);
 }
 
 MazeCells::MazeCells(std::uint32_t rows, std::uint32_t cols, const Execution& execution) : rows_(rows), cols_(cols) {
@@ -191,7 +178,7 @@ MazeCells generate_maze(const MazeOptions& options, const Execution& execution) 
   check_size(options.rows, options.cols);
   MazeCells cells(options.rows, options.cols, {execution.threads, execution.deadline});
   if (execution.progress != nullptr) execution.progress->begin("generate", cells.cell_count());
-  algorithm_of(options.algorithm).carve(cells, options.seed, execution);
+  carvers.at(static_cast<std::size_t>(options.algorithm))(cells, options.seed, execution);
   clear_scratch(cells, {execution.threads, execution.deadline});
   if (options.loops > 0.0 && options.algorithm == MazeAlgorithm::mst) {
     maze::open_drawn_loops(cells, options.loops, options.seed, {execution.threads, execution.deadline});

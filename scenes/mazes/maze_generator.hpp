@@ -6,6 +6,7 @@
 // The algorithms: maze_walks.cpp, maze_kruskal.cpp.
 #pragma once
 
+#include <array>
 #include <cassert>
 #include <cstdint>
 #include <memory>
@@ -14,6 +15,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/base/enum_names.hpp"
 #include "core/base/raw_vector.hpp"
 #include "core/plane/cell_walls.hpp"
 #include "core/plane/wall_set.hpp"
@@ -24,9 +26,9 @@ namespace warren {
 
 /// How a maze is made; mst is the one whose walls can be made piece by piece.
 enum class MazeAlgorithm : std::uint8_t { backtracker, kruskal, prim, wilson, course, mst };
-
-/// "backtracker", "kruskal", …
-std::string_view name_of(MazeAlgorithm algorithm);
+constexpr auto enum_names(MazeAlgorithm) {
+  return std::array<std::string_view, 6>{"backtracker", "kruskal", "prim", "wilson", "course", "mst"};
+}
 /// Throws InputError naming the known algorithms.
 MazeAlgorithm maze_algorithm_named(std::string_view name);
 

@@ -24,15 +24,13 @@ namespace {
 
 /// What says how a roadmap is searched or how its planner works while it searches means nothing to one that is kept.
 void refuse_what_is_asked_later(const SolveOptions& options) {
-  const OptionSet all = given(options);
-  for (const Option option :
-       {Option::search, Option::queue, Option::optimise, Option::cusp_cost, Option::reverse_cost, Option::heuristic}) {
-    if (!all.has(option)) continue;
-    throw UsageError(fmt::format("@{}: is for a question; say it when the roadmap is asked", name_of(option)));
-  }
-  for (const Option option : {Option::lazy, Option::pipeline, Option::sampled_edges, Option::neighbour_index}) {
-    if (!all.has(option)) continue;
-    throw UsageError(fmt::format("@{}: a roadmap that is kept is made in one way; leave it out", name_of(option)));
+  for (const Option option : options_in(given(options))) {
+    if (question_options.has(option)) {
+      throw UsageError(fmt::format("@{}: is for a question; say it when the roadmap is asked", name_of(option)));
+    }
+    if (work_options.has(option)) {
+      throw UsageError(fmt::format("@{}: a roadmap that is kept is made in one way; leave it out", name_of(option)));
+    }
   }
 }
 

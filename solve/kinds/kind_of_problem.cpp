@@ -84,10 +84,7 @@ std::string takers_text(const std::vector<std::string_view>& takers) {
 /// Refuses the options that none of `choices` takes; `fitting` are the kinds of the problem, where that is known.
 void refuse_ignored(const SolveOptions& options, PlannerKind planner, const std::vector<PlannerChoice>& choices,
                     const std::vector<const SolveKind*>& fitting = {}) {
-  const OptionSet asked = given(options);
-  for (std::size_t i = 0; i < option_count; ++i) {
-    const auto option = static_cast<Option>(i);
-    if (!asked.has(option)) continue;
+  for (const Option option : options_in(given(options))) {
     const auto takes = [&](const PlannerChoice& choice) { return choice.options.has(option); };
     if (std::any_of(choices.begin(), choices.end(), takes)) continue;
     if (!fitting.empty()) refuse_for_problem(option, planner, fitting);

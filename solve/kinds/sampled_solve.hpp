@@ -14,7 +14,6 @@
 //   stop_at(numbers)                       the states that will do at a way-point; throws UsageError for other numbers
 //   stop_in(world, numbers)                the same, where the world decides which; else not there
 //   choose_sampler(options)                what is asked for, or what suits; throws UsageError for what is not for it
-//   add_options(answer)                    what else was asked for
 //   index(world, sampler)                  emplaces the world
 //   provably_apart(world, goals)           is it proved that no path leads to any of the goals?
 //   start_stands_free(), goal_stands_free(state)   by the verification
@@ -57,7 +56,6 @@ struct UsualBody {
   static constexpr std::string_view noun = "body";
   static constexpr std::optional<SamplerKind> tree_sampler = std::nullopt;
 
-  static void add_options(Answer&) {}
   template <class World, class State>
   static std::vector<State> best_first(const World&, const std::vector<State>& goals) {
     return goals;
@@ -85,7 +83,7 @@ class SampledSolve {
     answer_.problem = body_.problem();
     answer_.planner = name_of(request.planner);
     by_roadmap() ? describe_roadmap() : describe_trees();
-    body_.add_options(answer_);
+    answer_.options = given_figures(request.options);
   }
 
   Answer run() {
@@ -117,7 +115,6 @@ class SampledSolve {
     answer_.sampler = name_of(roadmap_options_.sampler);
     answer_.search = name_of(roadmap_options_.search);
     answer_.seed = roadmap_options_.seed;
-    answer_.options = options.given;
   }
   void describe_trees() {
     tree_options_ = tree_options(request_.options);
@@ -126,7 +123,6 @@ class SampledSolve {
       body_.stop_at(point);  // refused before the work
     answer_.sampler = sampler_name(tree_options_);
     answer_.seed = tree_options_.seed;
-    answer_.options = given_tree_options(request_.options);
   }
   void index() {
     const StageTimer timer(execution(), "index", answer_.seconds.index);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Joins ArmWorld with the planners that take it: an arm among spheres and boxes. A goal of three numbers is a place of
 // the tool and is met in any posture within the limits.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <iterator>
 #include <optional>
@@ -25,12 +23,6 @@
 namespace warren {
 namespace {
 
-/// "0.5" or "0.5,0.1".
-std::string attach_text(const GrowingAttach& attach) {
-  const std::string radius = attach.radius ? fmt::format("{}", *attach.radius) : "";
-  return attach.step ? fmt::format("{},{}", radius, *attach.step) : radius;
-}
-
 class Arm : public UsualBody {
  public:
   using World = ArmWorld;
@@ -39,7 +31,6 @@ class Arm : public UsualBody {
   explicit Arm(const SolveRequest& request)
       : scene_(request.scene),
         execution_(request.execution),
-        asked_attach_(request.options.roadmap.attach),
         problem_(arm_problem(request.scene, request.question, request.execution)) {}
 
   Problem problem() const { return problem_.general(); }
@@ -67,9 +58,6 @@ class Arm : public UsualBody {
   /// Start and goal are joined within a radius that grows.
   static std::optional<GrowingAttach> attach(const SolveOptions& options) {
     return options.roadmap.attach.value_or(GrowingAttach{});
-  }
-  void add_options(Answer& answer) const {
-    if (asked_attach_) answer.options.push_back({"attach", attach_text(*asked_attach_)});
   }
   void index(std::optional<World>& world, SamplerKind) const {
     const ArmOptions options{.radius = problem_.robot.radius,
@@ -143,7 +131,6 @@ class Arm : public UsualBody {
 
   const Scene& scene_;
   const Execution& execution_;
-  std::optional<GrowingAttach> asked_attach_;
   ArmProblem problem_;
   std::uint64_t tried_ = 0;
   bool knows_all_ = true;  // is every posture blocked where none of the goals is free?

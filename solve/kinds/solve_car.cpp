@@ -58,12 +58,6 @@ class Car : public PoseBody {
     if (Curve::one_way) throw UsageError(fmt::format("@{}: a car with @steering dubins has one gear", option));
   }
 
-  void add_options(Answer& answer) const {
-    if (asked_.steering) answer.options.push_back({"steering", std::string(name_of(*asked_.steering))});
-    if (asked_.turning_radius) answer.options.push_back({"turning_radius", *asked_.turning_radius});
-    if (asked_.cusp_cost) answer.options.push_back({"cusp_cost", *asked_.cusp_cost});
-    if (asked_.reverse_cost) answer.options.push_back({"reverse_cost", *asked_.reverse_cost});
-  }
   void index(std::optional<World>& world, SamplerKind) const {
     const RobotSpec& robot = question().robot;
     const CarOptions options{.turning_radius = robot.turning_radius,

@@ -303,12 +303,10 @@ class SkeletonSolve {
   Answer answer_;
 };
 
-constexpr OptionSet occupancy_roadmap_options = prm_takes | OptionSet{Option::heuristic, Option::neighbour_index};
-constexpr OptionSet lazy_options = lazy_prm_takes | OptionSet{Option::heuristic, Option::neighbour_index};
 constexpr PlannerChoice occupancy_planners[] = {
     {PlannerKind::grid, OptionSet{Option::search, Option::diagonal, Option::optimise}},
-    {PlannerKind::prm, occupancy_roadmap_options},
-    {PlannerKind::lazy_prm, lazy_options},
+    {PlannerKind::prm, prm_takes | point_takes},
+    {PlannerKind::lazy_prm, lazy_prm_takes | point_takes},
     {PlannerKind::rrt, rrt_options},
     {PlannerKind::rrt_connect, rrt_connect_options},
     {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue}}};

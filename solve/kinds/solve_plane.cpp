@@ -87,11 +87,9 @@ NamedLines lines_of(const MedialAxis& axis) {
   return lines;
 }
 
-constexpr OptionSet plane_roadmap_options =
-    prm_takes | OptionSet{Option::lazy, Option::pipeline, Option::heuristic, Option::neighbour_index};
 constexpr PlannerChoice plane_planners[] = {
-    {PlannerKind::prm, plane_roadmap_options},
-    {PlannerKind::lazy_prm, plane_roadmap_options},
+    {PlannerKind::prm, plane_takes},
+    {PlannerKind::lazy_prm, plane_takes},
     {PlannerKind::visibility,
      OptionSet{Option::full, Option::lazy, Option::sampled_edges, Option::search, Option::queue}},
     {PlannerKind::cells, OptionSet{Option::doors, Option::search, Option::queue}},

@@ -28,8 +28,6 @@ struct VisibilityRequest {
   std::optional<double> sample_step;
 };
 
-bool is_best_first(SearchKind search) { return search == SearchKind::astar || search == SearchKind::dijkstra; }
-
 std::size_t corner_count(const Scene& scene) {
   std::size_t corners = 2 * scene.walls.size();
   for (const ScenePolygon& polygon : scene.polygons) corners += polygon.corners.size();
@@ -186,7 +184,7 @@ class VisibilitySolve {
                       : confined_visibility_path(obstacles, start, goal, asked_.options, request_.execution, keep));
     if (answer.outcome == Outcome::not_connected) answer.outcome = Outcome::infeasible;  // the graph misses no path
     verify_solved(answer, request_.scene, problem_, request_.execution, request_.asked.judged());
-    answer.optimal = answer.verified && is_best_first(asked_.options.search);
+    answer.optimal = answer.verified && has_queue(asked_.options.search);
   }
 
  private:

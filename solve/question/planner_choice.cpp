@@ -2,13 +2,11 @@
 #include "solve/question/planner_choice.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "core/base/error.hpp"
 #include "planners/mazes/tiled_prm_lattice.hpp"
@@ -43,7 +41,7 @@ RoadmapOptions roadmap_options(const SolveOptions& asked) {
 }
 
 void check_queue(const SolveOptions& asked, SearchKind search) {
-  if (!asked.queue || search == SearchKind::astar || search == SearchKind::dijkstra) return;
+  if (!asked.queue || has_queue(search)) return;
   throw UsageError(fmt::format("@queue: {} has no priority queue; astar and dijkstra take one", name_of(search)));
 }
 
@@ -61,8 +59,7 @@ void check_planner(const SolveOptions& asked, PlannerKind planner, SearchKind se
   if (planner == PlannerKind::lazy_prm && asked.visibility.lazy) {
     throw UsageError("@lazy: WHEN is missing");
   }
-  const bool best_first = search == SearchKind::astar || search == SearchKind::dijkstra;
-  if (planner == PlannerKind::lazy_prm && !best_first) {
+  if (planner == PlannerKind::lazy_prm && !has_queue(search)) {
     throw UsageError(
         fmt::format("@search: lazy-prm takes astar and dijkstra; the planner prm takes {} too", name_of(search)));
   }
@@ -115,24 +112,6 @@ SamplerKind sampler_for(const SolveOptions& asked, const Scene& scene) {
   return asked.sampler.value_or(usual);
 }
 
-/// Options that answer and description repeat.
-std::vector<NamedFigure> given_options(const SolveOptions& asked, const PlannerOptions& o) {
-  std::vector<NamedFigure> given;
-  const auto add = [&](const char* name, auto value) { given.push_back({name, Figure(std::move(value))}); };
-  if (o.roadmap.samples) add("samples", *o.roadmap.samples);
-  if (o.roadmap.neighbours) add("neighbours", std::uint64_t{*o.roadmap.neighbours});
-  if (o.roadmap.radius) add("radius", *o.roadmap.radius);
-  if (o.roadmap.star == StarRule::neighbours) add("neighbours", std::string("star"));
-  if (o.roadmap.star == StarRule::radius) add("radius", std::string("star"));
-  if (asked.queue) add("queue", std::string(name_of(*asked.queue)));
-  if (asked.heuristic) add("heuristic", std::string(name_of(*asked.heuristic)));
-  if (asked.roadmap.neighbour_index) add("neighbour_index", std::string(name_of(*asked.roadmap.neighbour_index)));
-  if (asked.roadmap.lazy) add("lazy", std::string(name_of(*asked.roadmap.lazy)));
-  if (asked.roadmap.pipeline) add("pipeline", std::string(name_of(*asked.roadmap.pipeline)));
-  if (o.optimise) add("optimise", true);
-  return given;
-}
-
 }  // namespace
 
 SearchChoice search_choice(const SolveOptions& asked) {
@@ -175,7 +154,7 @@ PlannerOptions planner_options(const SolveOptions& asked, const Scene& scene, co
   options.fused = takes_fused_tiles(asked, options, problem.reach());
   options.pipeline = pipeline_for(asked, options, scene);
   options.optimise = asked.optimise;
-  options.given = given_options(asked, options);
+  options.given = given_figures(asked);
   return options;
 }
 
@@ -225,32 +204,9 @@ GridSpec grid_spec(const GridFields& options, const Scene& scene) {
 
 GridMethod grid_method(const SolveOptions& options, GridMethod usual) {
   if (!options.search) return usual;
-  switch (*options.search) {
-    case SearchMethod::astar:
-      return GridMethod::astar;
-    case SearchMethod::dijkstra:
-      return GridMethod::dijkstra;
-    case SearchMethod::bfs:
-      return GridMethod::bfs;
-    case SearchMethod::jump_points:
-      return GridMethod::jump_points;
-    case SearchMethod::dfs:
-      break;
-  }
+  if (const auto method = enum_named<GridMethod>(name_of(*options.search))) return *method;
   throw UsageError("@search: grid takes astar, dijkstra and bfs; the planner prm takes dfs");
 }
-
-namespace {
-
-/// "1,2;3,4,0.5"
-std::string way_points_text(const std::vector<std::vector<double>>& via) {
-  std::string text;
-  for (const std::vector<double>& state : via)
-    text += fmt::format("{}{}", text.empty() ? "" : ";", fmt::join(state, ","));
-  return text;
-}
-
-}  // namespace
 
 RrtOptions tree_options(const SolveOptions& asked) {
   RrtOptions options;
@@ -269,19 +225,6 @@ RrtOptions tree_options(const SolveOptions& asked) {
 
 std::string_view sampler_name(const RrtOptions& options) {
   return options.sampler ? name_of(*options.sampler) : "uniform-gaussian";
-}
-
-std::vector<NamedFigure> given_tree_options(const SolveOptions& asked) {
-  std::vector<NamedFigure> given;
-  const auto add = [&](const char* name, auto value) { given.push_back({name, Figure(std::move(value))}); };
-  const TreeFields& trees = asked.trees;
-  if (trees.step) add("step", *trees.step);
-  if (trees.goal_bias) add("goal_bias", *trees.goal_bias);
-  if (trees.nodes) add("nodes", *trees.nodes);
-  if (trees.trees) add("trees", std::uint64_t{*trees.trees});
-  if (!trees.via.empty()) add("via", way_points_text(trees.via));
-  if (asked.optimise) add("optimise", true);
-  return given;
 }
 
 }  // namespace warren

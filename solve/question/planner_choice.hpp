@@ -22,6 +22,9 @@ namespace warren {
 inline constexpr OptionSet prm_takes{Option::sampler, Option::samples, Option::neighbours, Option::radius,
                                      Option::search,  Option::queue,   Option::optimise};
 inline constexpr OptionSet lazy_prm_takes = prm_takes | OptionSet{Option::lazy};
+/// What both take of a point or disc, and among walls and polygons.
+inline constexpr OptionSet point_takes{Option::heuristic, Option::neighbour_index};
+inline constexpr OptionSet plane_takes = lazy_prm_takes | point_takes | OptionSet{Option::pipeline};
 
 /// How any graph is searched.
 struct SearchChoice {
@@ -72,7 +75,5 @@ inline constexpr OptionSet rrt_options = rrt_connect_options | OptionSet{Option:
 RrtOptions tree_options(const SolveOptions& options);
 /// What the answer calls the trees' sampler.
 std::string_view sampler_name(const RrtOptions& options);
-/// What was asked for, as Answer::options repeats it.
-std::vector<NamedFigure> given_tree_options(const SolveOptions& options);
 
 }  // namespace warren

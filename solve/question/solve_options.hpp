@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -16,8 +17,10 @@
 #include "planners/axis/medial_axis_planner.hpp"
 #include "planners/graph/roadmap_options.hpp"
 #include "planners/grid/grid_search.hpp"
+#include "planners/trees/rrt_options.hpp"
 #include "planners/vertical_cells/cell_planner.hpp"
 #include "scenes/scene/scene.hpp"
+#include "solve/question/figure.hpp"
 #include "worlds/rasters/heading_layers.hpp"
 
 namespace warren {
@@ -205,7 +208,70 @@ class OptionSet {
   static constexpr std::uint64_t bit(Option option) { return std::uint64_t{1} << static_cast<unsigned>(option); }
   std::uint64_t bits_ = 0;
 };
+/// What a question asks of a roadmap that is there; a roadmap that is kept has none of them.
+inline constexpr OptionSet question_options{Option::search,    Option::queue,        Option::optimise,
+                                            Option::cusp_cost, Option::reverse_cost, Option::heuristic};
+/// These, and how an arm is joined to the roadmap.
+inline constexpr OptionSet asked_options = question_options | OptionSet{Option::attach};
+/// How planners work, which roadmaps that are kept don't show.
+inline constexpr OptionSet work_options{Option::lazy, Option::pipeline, Option::sampled_edges, Option::neighbour_index};
+/// In the order of the enumeration.
+std::vector<Option> options_in(OptionSet set);
+
+/// Numbers that an option takes: from low to high; without an end those above 0. The rest means nothing to other types.
+struct OptionRange {
+  double low = 0.0;
+  double high = std::numeric_limits<double>::infinity();
+};
+
+/// The table of the options, in the order in which answers repeat them: calls visit(option, range, field ...) with each
+/// option's field in each of `of`; lazy has two, one a kind of planner. Which planner takes what: kind_of_problem.hpp.
+template <class Visit, class... Of>
+void visit_options(const Visit& visit, Of&... of) {
+  visit(Option::sampler, {}, of.sampler...);
+  visit(Option::samples, {1, most_samples}, of.roadmap.samples...);
+  visit(Option::neighbours, {1, most_neighbours}, of.roadmap.neighbours...);
+  visit(Option::radius, {}, of.roadmap.radius...);
+  visit(Option::search, {}, of.search...);
+  visit(Option::queue, {}, of.queue...);
+  visit(Option::heuristic, {}, of.heuristic...);
+  visit(Option::neighbour_index, {}, of.roadmap.neighbour_index...);
+  visit(Option::lazy, {}, of.roadmap.lazy...);
+  visit(Option::lazy, {}, of.visibility.lazy...);
+  visit(Option::pipeline, {}, of.roadmap.pipeline...);
+  visit(Option::step, {}, of.trees.step...);
+  visit(Option::goal_bias, {0, 1}, of.trees.goal_bias...);
+  visit(Option::nodes, {2, most_samples}, of.trees.nodes...);
+  visit(Option::trees, {1, most_trees}, of.trees.trees...);
+  visit(Option::via, {}, of.trees.via...);
+  visit(Option::optimise, {}, of.optimise...);
+  visit(Option::attach, {}, of.roadmap.attach...);
+  visit(Option::cell, {}, of.grid.cell...);
+  visit(Option::angles, {1, 1'000'000}, of.grid.angles...);
+  visit(Option::face_motion, {}, of.grid.face_motion...);
+  visit(Option::step_cost, {}, of.grid.step_cost...);
+  visit(Option::turn_cost, {}, of.grid.turn_cost...);
+  visit(Option::diagonal, {}, of.grid.diagonal...);
+  visit(Option::layers, {}, of.grid.layers...);
+  visit(Option::doors, {}, of.cells.doors...);
+  visit(Option::objective, {}, of.axis.objective...);
+  visit(Option::full, {}, of.visibility.full...);
+  visit(Option::sampled_edges, {}, of.visibility.sampled_edges...);
+  visit(Option::steering, {}, of.car.steering...);
+  visit(Option::turning_radius, {}, of.car.turning_radius...);
+  visit(Option::cusp_cost, {0, largest_coordinate}, of.car.cusp_cost...);
+  visit(Option::reverse_cost, {1, largest_coordinate}, of.car.reverse_cost...);
+}
+/// The option that RoadmapFields::star is said with, in place of a number.
+constexpr std::optional<Option> star_option(const SolveOptions& options) {
+  if (options.roadmap.star == StarRule::none) return std::nullopt;
+  return options.roadmap.star == StarRule::radius ? Option::radius : Option::neighbours;
+}
 /// The options that are not as they are by default.
 OptionSet given(const SolveOptions& options);
+/// Gives one option the value that it has in `from`.
+void copy_option(Option option, SolveOptions& to, const SolveOptions& from);
+/// Those that are given as answers repeat them: all but sampler and search, which answers name anyway.
+std::vector<NamedFigure> given_figures(const SolveOptions& options);
 
 }  // namespace warren

@@ -160,10 +160,7 @@ class PointAmongWalls : public UsualBody {
   WallProblem problem_;
 };
 
-constexpr OptionSet shared_options =
-    prm_takes | OptionSet{Option::lazy, Option::pipeline, Option::heuristic, Option::neighbour_index};
-constexpr PlannerChoice walls_planners[] = {{PlannerKind::prm, shared_options},
-                                            {PlannerKind::lazy_prm, shared_options}};
+constexpr PlannerChoice walls_planners[] = {{PlannerKind::prm, plane_takes}, {PlannerKind::lazy_prm, plane_takes}};
 
 bool fits_walls(const Scene& scene, const RobotSpec& robot) {
   const bool plain = robot.kind == RobotKind::point || robot.kind == RobotKind::disc;

@@ -38,13 +38,8 @@ constexpr OptionSpec world_specs[] = {
     {"--map-rules", "NAME",
      "whose rules the pixels of a map_server YAML follow: nav2's or those of ROS 1, strict at the thresholds "
      "(default: nav2)",
-     "nav2 ros1"},
+     choices_of<MapServerRules>},
 };
-
-MapServerRules rules_value(std::string_view option, std::string_view text) {
-  constexpr std::array<std::string_view, 2> words{"nav2", "ros1"};
-  return choice_value(option, text, words) == 0 ? MapServerRules::nav2 : MapServerRules::ros1;
-}
 
 void tell_of_grey(const OccupancyMap& map) {
   say_on_standard_error(
@@ -101,7 +96,7 @@ Scene load_planned_world(const std::string& source, std::optional<PipelineKind> 
 }
 
 Scene load_world(const InputFile& file, const Arguments& arguments, const Execution& execution, StageTimes& seconds) {
-  const auto asked = given_value(arguments, "--map-rules", rules_value);
+  const auto asked = given_choice<MapServerRules>(arguments, "--map-rules");
   const StageTimer timer(execution, "read", seconds.read);
   Scene scene = read_scene(file, execution, asked.value_or(MapServerRules::nav2));
   if (asked && !(scene.map && scene.map->format == MapFormat::ros)) refuse_rules(file.name());

@@ -24,15 +24,13 @@ namespace {
 
 constexpr OptionSpec build_specs[] = {
     {"--output", "FILE", "where to: a name that ends in .roadmap, or any", {}, "-o"},
-    {"--index", "NAME", "of a large roadmap: answers without a search, where that pays (default: auto)", "auto none"},
+    {"--index", "NAME", "of a large roadmap: answers without a search, where that pays (default: auto)",
+     choices_of<IndexChoice>},
     {"--no-world", "", "leave the world out of the file; who asks names it then"},
 };
 
 /// Those that some planner that keeps a roadmap takes, and that a roadmap without a question can have.
 void add_kept_options(Command& command) {
-  constexpr OptionSet of_questions{Option::search,    Option::queue,        Option::optimise,
-                                   Option::cusp_cost, Option::reverse_cost, Option::heuristic};
-  constexpr OptionSet of_work{Option::lazy, Option::pipeline, Option::sampled_edges, Option::neighbour_index};
   static const std::string planners = names_of_planners(keeps_roadmap);
   for (OptionSpec spec : solve_option_specs()) {
     const auto option = option_of_words(spec.name);
@@ -41,9 +39,9 @@ void add_kept_options(Command& command) {
       spec.choices = planners;
       spec.help = "whose roadmap (default: by world and body)";
     }
-    if (option && of_questions.has(*option)) {
+    if (option && question_options.has(*option)) {
       command.foreign.emplace_back(spec.name, "is for a question; 'warren query' takes it");
-    } else if (option && of_work.has(*option)) {
+    } else if (option && work_options.has(*option)) {
       command.foreign.emplace_back(spec.name, "a roadmap that is kept is made in one way; leave it out");
     } else if (option && std::none_of(std::begin(all_planners), std::end(all_planners), takes)) {
       command.foreign.emplace_back(spec.name, "is for planners whose roadmaps can't be kept; 'warren solve' takes it");

@@ -163,56 +163,36 @@ class CompareCommand {
 
 // Which options of `solve` take lists in `warren compare`, and the contenders' deal that words make with them.
 
-/// An option of `solve` that takes a list here, apart by commas.
-struct ListOption {
-  Option option;
-  std::string_view name;
-  std::string_view list = {};  ///< another name of it; empty: none
-};
-
 /// May planners take turns with several values of an option each, or is one graph searched, which has one value each
 /// and leaves searches and queues to others?
 enum class DealKind : std::uint8_t { planners, graph };
 
-/// In the order in which they are dealt.
-constexpr ListOption listed[] = {
-    {Option::search, "--search", "--searches"},
-    {Option::queue, "--queue", "--queues"},
-    {Option::heuristic, "--heuristic"},
-    {Option::sampler, "--sampler", "--samplers"},
-    {Option::samples, "--samples"},
-    {Option::neighbours, "--neighbours"},
-    {Option::radius, "--radius"},
-    {Option::neighbour_index, "--neighbour-index"},
-    {Option::pipeline, "--pipeline"},
-    {Option::cell, "--cell"},
-    {Option::angles, "--angles"},
-    {Option::step_cost, "--step-cost"},
-    {Option::turn_cost, "--turn-cost"},
-    {Option::diagonal, "--diagonal"},
-    {Option::layers, "--layers"},
-    {Option::sampled_edges, "--sampled-edges"},
-    {Option::doors, "--doors"},
-    {Option::objective, "--objective"},
-    {Option::step, "--step"},
-    {Option::goal_bias, "--goal-bias"},
-    {Option::nodes, "--nodes"},
-    {Option::trees, "--trees"},
-    {Option::steering, "--steering"},
-    {Option::turning_radius, "--turning-radius"},
-    {Option::cusp_cost, "--cusp-cost"},
-    {Option::reverse_cost, "--reverse-cost"},
-};
+/// The options of `solve` that take a list here, apart by commas, in the order in which they are dealt.
+constexpr Option listed[] = {Option::search,    Option::queue,       Option::heuristic, Option::sampler,
+                             Option::samples,   Option::neighbours,  Option::radius,    Option::neighbour_index,
+                             Option::pipeline,  Option::cell,        Option::angles,    Option::step_cost,
+                             Option::turn_cost, Option::diagonal,    Option::layers,    Option::sampled_edges,
+                             Option::doors,     Option::objective,   Option::step,      Option::goal_bias,
+                             Option::nodes,     Option::trees,       Option::steering,  Option::turning_radius,
+                             Option::cusp_cost, Option::reverse_cost};
+
+/// Another flag that gives the list; empty: none.
+std::string_view list_flag(Option option) {
+  return option == Option::search    ? "--searches"
+         : option == Option::queue   ? "--queues"
+         : option == Option::sampler ? "--samplers"
+                                     : "";
+}
 constexpr std::string_view clearance = "--clearance";
 
 bool is_list(const Arguments& arguments, std::string_view option) {
   return arguments.value(option).value_or("").find(',') != std::string::npos;
 }
 
-studies::DealtOption dealt_words(const ListOption& option, std::string_view name, const std::string& text) {
-  studies::DealtOption dealt{option.option, {}};
+studies::DealtOption dealt_words(Option option, std::string_view name, const std::string& text) {
+  studies::DealtOption dealt{option, {}};
   for (const std::string& word : list_value(name, text)) {
-    dealt.values.push_back({word, solve_words(Arguments::of(option.name, word))});
+    dealt.values.push_back({word, solve_words(Arguments::of(option_flag(option), word))});
   }
   return dealt;
 }
@@ -238,19 +218,20 @@ studies::PlannerDeal deal_words(const Arguments& arguments, std::vector<PlannerK
   studies::PlannerDeal deal;
   deal.planners = std::move(planners);
   std::vector<std::string_view> taken{"--seed"};
-  for (const ListOption& option : listed) {
-    const bool left_to_others = option.option == Option::search || option.option == Option::queue;
+  for (const Option option : listed) {
+    const bool left_to_others = option == Option::search || option == Option::queue;
     if (kind == DealKind::graph && left_to_others) continue;
-    const bool named_list = !option.list.empty() && arguments.has(option.list);
-    if (named_list) refuse(arguments, {option.name}, fmt::format("{} gives it, too", option.list));
-    const std::string_view name = named_list ? option.list : option.name;
+    const std::string_view flag = option_flag(option);
+    const bool named_list = arguments.has(list_flag(option));
+    if (named_list) refuse(arguments, {flag}, fmt::format("{} gives it, too", list_flag(option)));
+    const std::string_view name = named_list ? list_flag(option) : flag;
     const auto text = arguments.value(name);
-    const bool always = named_list || option.option == Option::samples;  // which "auto" is no option of, but a value
+    const bool always = named_list || option == Option::samples;  // which "auto" is no option of, but a value
     if (!text || (!always && !is_list(arguments, name))) continue;
     deal.lists.push_back(dealt_words(option, name, *text));
-    taken.push_back(option.name);
+    taken.push_back(flag);
     if (kind == DealKind::graph && deal.lists.back().values.size() > 1) {
-      throw UsageError(fmt::format("{}: searches run on one graph; give one value", option.name));
+      throw UsageError(fmt::format("{}: searches run on one graph; give one value", flag));
     }
   }
   if (is_list(arguments, clearance)) {
@@ -278,9 +259,9 @@ constexpr OptionSpec own_specs[] = {
      "commas; "
      "without it searches are compared"},
     {"--searches", "LIST", "searches, apart by commas (default: all four; with --planners: as 'solve' chooses)",
-     "astar dijkstra bfs dfs"},
+     choices_of<SearchKind>},
     {"--queues", "LIST", "queues, apart by commas (default: all five; with --planners: as 'solve' chooses)",
-     "heap lazy-heap sorted-array resorted-array linear-scan"},
+     choices_of<studies::QueuePolicy>},
     {"--trials", "N|auto",
      "how often each search is timed (default: auto, 5 to 10000 times, about 0.25 s each); with --planners as --seeds, "
      "and those whose answer no seed changes run as often"},
@@ -291,8 +272,7 @@ constexpr OptionSpec own_specs[] = {
     {"--seeds", "N",
      "with --planners: runs of each planner, with seeds from --seed on (default: 10), but one of those whose answer no "
      "seed changes; with --sizes: graphs of each size (default: 3)"},
-    {"--samplers", "LIST", "samplers of 'solve', apart by commas, as --sampler",
-     "uniform lattice halton random gaussian bridge mixture corridor cell-centres"},
+    {"--samplers", "LIST", "samplers of 'solve', apart by commas, as --sampler", choices_of<SamplerKind>},
     {"--samples", "LIST", "numbers of samples, or auto, apart by commas"},
     {"--seed", "N", "the first seed (default: 1)"},
     {"--parallel", "",
@@ -355,10 +335,10 @@ std::vector<studies::SearchVariant> variants_of(const Arguments& arguments) {
   std::vector<studies::SearchVariant> variants;
   bool any_queue = false;
   for (const SearchKind search : searches) {
-    any_queue = any_queue || studies::has_queue(search);
-    if (!studies::has_queue(search)) variants.push_back({search, std::nullopt, studies::SearchLibrary::warren});
+    any_queue = any_queue || has_queue(search);
+    if (!has_queue(search)) variants.push_back({search, std::nullopt, studies::SearchLibrary::warren});
     for (const studies::QueuePolicy queue : queues) {
-      if (studies::has_queue(search)) variants.push_back({search, queue, studies::SearchLibrary::warren});
+      if (has_queue(search)) variants.push_back({search, queue, studies::SearchLibrary::warren});
     }
     if (peer) variants.push_back({search, std::nullopt, studies::SearchLibrary::boost});
   }
@@ -449,8 +429,7 @@ SolveOptions graph_options(const CompareOptions& options, const Scene& scene) {
   studies::PlannerDeal deal = options.graph_deal;
   if (!options.graph) {
     SolveOptions all = deal.common;
-    for (const studies::DealtOption& list : deal.lists)
-      studies::copy_option(list.option, all, list.values.front().value);
+    for (const studies::DealtOption& list : deal.lists) copy_option(list.option, all, list.values.front().value);
     deal.planners = {studies::usual_graph_planner(scene, deal.question, all)};
   }
   SolveOptions graph = studies::deal_planners(deal).front().options;
@@ -506,8 +485,8 @@ std::vector<OptionSpec> compare_option_specs() {
   }
   add_options(specs, picture_option_specs());
   add_options(specs, passed_specs());
-  for (const ListOption& option : listed) {
-    const auto same = [&](const OptionSpec& spec) { return spec.name == option.name; };
+  for (const Option option : listed) {
+    const auto same = [&](const OptionSpec& spec) { return spec.name == option_flag(option); };
     std::find_if(specs.begin(), specs.end(), same)->is_list = true;
   }
   return specs;

@@ -38,7 +38,7 @@ constexpr OptionSpec generate_specs[] = {
      {},
      "-o"},
     {.name = "--seed", .value = "N", .help = "which world (default: 1)", .group = "Options"},
-    {"--algorithm", "NAME", "how a maze is made (default: backtracker)", "backtracker kruskal prim wilson course mst"},
+    {"--algorithm", "NAME", "how a maze is made (default: backtracker)", choices_of<MazeAlgorithm>},
     {"--loops", "F", "fraction of a maze's remaining walls taken out, 0 to 1 (default: 0)"},
     {"--unit-walls", "", "a maze's walls one cell long instead of as long as they go"},
     {"--corners", "N", "corners of each polygon (default: 3 to 12, at random)"},

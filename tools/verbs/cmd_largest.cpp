@@ -79,7 +79,7 @@ studies::LargestOptions largest_options(const Arguments& arguments) {
   options.budget_s = given_value(arguments, "--budget", duration_value).value_or(default_budget_s);
   options.shape_rows = shape("--rows");
   options.shape_cols = shape("--cols");
-  options.planner = roadmap_words(arguments);
+  options.planner = solve_words(arguments);
   const bool is_streamed = options.planner.roadmap.pipeline == PipelineKind::streamed;
   if (is_streamed) options.maze.algorithm = MazeAlgorithm::mst;
   options.maze = maze_words(arguments, options.maze);

@@ -148,9 +148,8 @@ Command query_command() {
   constexpr std::string_view fixed = "the roadmap was built with its own; another one takes `warren build`";
   const Command build = build_command();  // knows what it refuses itself, and why
   for (const OptionSpec& spec : solve_option_specs()) {
-    constexpr std::string_view asked[] = {"--search",       "--queue",  "--optimise", "--cusp-cost",
-                                          "--reverse-cost", "--attach", "--heuristic"};
-    if (std::find(std::begin(asked), std::end(asked), spec.name) != std::end(asked)) {
+    const auto option = option_of_words(spec.name);
+    if (option && asked_options.has(*option)) {
       command.options.push_back(spec);
     } else {
       const auto refused = std::find_if(build.foreign.begin(), build.foreign.end(),

@@ -63,7 +63,7 @@ std::vector<unsigned> threads_of(const Arguments& arguments) {
 
 /// Every planner with every sampler, and all with the other options; checked as `solve` checks them.
 std::vector<SolveOptions> planners_of(const Arguments& arguments) {
-  const SolveOptions common = roadmap_words(arguments);
+  const SolveOptions common = solve_words(arguments);
   const auto planners = given_values(arguments, "--planners", "--planner", choice_value<PlannerKind>);
   const auto samplers = given_values(arguments, "--samplers", "--sampler", choice_value<SamplerKind>);
   std::vector<SolveOptions> all;

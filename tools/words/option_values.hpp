@@ -3,6 +3,8 @@
 // option, the range and what was found. NaN and infinities are never values.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -46,6 +48,24 @@ E choice_value(std::string_view option, std::string_view text) {
   const auto words = enum_names(E{});
   return static_cast<E>(choice_value(option, text, words));
 }
+
+/// The names of an enum, apart by blanks.
+struct ChoiceText {
+  template <NamedEnum E>
+  explicit constexpr ChoiceText(E) {
+    for (const std::string_view name : enum_names(E{})) {
+      if (size > 0) text[size++] = ' ';
+      for (const char c : name) text[size++] = c;
+    }
+  }
+  std::array<char, 128> text = {};
+  std::size_t size = 0;
+};
+template <NamedEnum E>
+inline constexpr ChoiceText choice_text{E{}};
+/// The same, as OptionSpec::choices has them.
+template <NamedEnum E>
+inline constexpr std::string_view choices_of{choice_text<E>.text.data(), choice_text<E>.size};
 
 /// What `read`, one of the functions above, makes of an option's value; nothing where the option is not given.
 template <class Read, class... Limits>

@@ -18,8 +18,6 @@ namespace warren::tools {
 /// --planner --sampler --samples --neighbours --radius --search --queue --lazy --pipeline --optimise --seed: of the
 /// planners that build roadmaps of samples.
 std::span<const OptionSpec> roadmap_option_specs();
-/// Reads these alone. Throws UsageError.
-SolveOptions roadmap_words(const Arguments& arguments);
 
 /// All options of all planners; --planner lists the planners that there are.
 std::vector<OptionSpec> solve_option_specs();
@@ -29,26 +27,17 @@ SolveOptions solve_words(const Arguments& arguments);
 /// What a question to a roadmap may say of its search. Throws as solve_words().
 RoadmapSearchFields search_words(const Arguments& arguments);
 
-/// The parts of these that have files of their own: planner_words.cpp (--cell --angles --face-motion --step-cost
-/// --turn-cost --diagonal --layers), planner_words.cpp (--step --goal-bias --nodes --trees --via).
-std::span<const OptionSpec> grid_option_specs();
-GridFields grid_words(const Arguments& arguments);
-std::span<const OptionSpec> tree_option_specs();
-TreeFields tree_words(const Arguments& arguments);
-
 /// --seed; 1 where nothing is said. Throws UsageError.
 std::uint64_t seed_word(const Arguments& arguments);
 /// A seed: any number of 64 bits.
 std::uint64_t seed_value(std::string_view option, std::string_view text);
-/// A word of --search. Jump points are for grids alone, where others are not told of them.
-SearchMethod search_value(std::string_view option, std::string_view text, std::optional<PlannerKind> planner = {});
-/// A word of --samples: a number of them, or auto.
-std::optional<std::uint64_t> samples_value(std::string_view option, std::string_view text);
 /// The names of the planners that there are, blank-separated.
 std::string_view planner_names();
 /// The same of some of them.
 std::string names_of_planners(bool (*are)(PlannerKind));
-/// "--goal-bias" is Option::goal_bias; none: planners are not asked about it.
+/// Option::goal_bias is "--goal-bias", by words that last.
+std::string_view option_flag(Option option);
+/// The other way; none: planners are not asked about it.
 std::optional<Option> option_of_words(std::string_view words);
 
 }  // namespace warren::tools

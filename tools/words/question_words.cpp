@@ -19,7 +19,7 @@ constexpr OptionSpec question_specs[] = {
      "room to keep around the body along the whole path (default: the file's, else 0.1 in mazes, else 0)"},
     {"--contact", "WORD",
      "with clearance 0: may the path touch an obstacle? (default: allowed for visibility and cells, else blocked)",
-     "blocked allowed"},
+     choices_of<Contact>},
 };
 
 RobotSpec robot_option(std::string_view option, std::string_view text) {
@@ -47,15 +47,9 @@ Question question_words(const Arguments& arguments) {
 namespace {
 
 constexpr OptionSpec maze_specs[] = {
-    {"--algorithm", "NAME", "how the mazes are made (default: backtracker)",
-     "backtracker kruskal prim wilson course mst"},
+    {"--algorithm", "NAME", "how the mazes are made (default: backtracker)", choices_of<MazeAlgorithm>},
     {"--loops", "F", "fraction of the remaining walls taken out, 0 to 1 (default: 0)"},
 };
-
-MazeAlgorithm algorithm_value(std::string_view option, std::string_view text) {
-  constexpr std::string_view words[] = {"backtracker", "kruskal", "prim", "wilson", "course", "mst"};
-  return maze_algorithm_named(words[choice_value(option, text, words)]);
-}
 
 }  // namespace
 
@@ -63,7 +57,7 @@ std::span<const OptionSpec> maze_option_specs() { return maze_specs; }
 
 MazeOptions maze_words(const Arguments& arguments, MazeOptions usual) {
   usual.loops = given_value(arguments, "--loops", number_value, 0.0, 1.0).value_or(usual.loops);
-  usual.algorithm = given_value(arguments, "--algorithm", algorithm_value).value_or(usual.algorithm);
+  usual.algorithm = given_choice<MazeAlgorithm>(arguments, "--algorithm").value_or(usual.algorithm);
   return usual;
 }
 

@@ -224,12 +224,9 @@ double clearance_of(const OrderedJson& json) {
 }
 
 PlannerKind planner_of(const OrderedJson& json) {
-  if (json.is_string()) {
-    for (const PlannerKind planner : all_planners) {
-      if (name_of(planner) == json.get<std::string>()) return planner;
-    }
-  }
-  refuse_word("planner", "the name of a planner");
+  const auto planner = json.is_string() ? enum_named<PlannerKind>(json.get<std::string>()) : std::nullopt;
+  if (!planner) refuse_word("planner", "the name of a planner");
+  return *planner;
 }
 
 void take(const std::string& key, const OrderedJson& value, QueryBody& body) {
