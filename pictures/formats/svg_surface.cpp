@@ -17,8 +17,6 @@
 namespace warren {
 namespace {
 
-std::string hex(Rgb c) { return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue); }
-
 /// Appends a number with at most three decimals, without trailing zeros.
 void append_number(std::string& to, double value) {
   const auto thousandths = static_cast<std::int64_t>(std::llround(value * 1000.0));
@@ -57,7 +55,8 @@ void SvgSurface::open(const Picture& picture, std::string_view title) {
       "xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
       "font-family=\"Helvetica,Arial,Liberation Sans,DejaVu Sans,sans-serif\">\n"
       "<title>{}</title>\n<desc>{}</desc>\n<rect id=\"paper\" width=\"100%\" height=\"100%\" fill=\"{}\"/>\n",
-      page_.width, page_.height, width, height, xml_text(title), xml_text(picture.description), hex(colors::paper));
+      page_.width, page_.height, width, height, xml_text(title), xml_text(picture.description),
+      css_color(colors::paper));
 }
 
 void SvgSurface::close() {
@@ -81,11 +80,11 @@ void SvgSurface::leave_world() {
 }
 
 std::string SvgSurface::style(const Pen& pen) const {
-  std::string style = fmt::format(" fill=\"{}\"", pen.fill ? hex(*pen.fill) : "none");
+  std::string style = fmt::format(" fill=\"{}\"", pen.fill ? css_color(*pen.fill) : "none");
   if (pen.stroke) {
     fmt::format_to(std::back_inserter(style),
                    " stroke=\"{}\" stroke-width=\"{:.5g}\" stroke-linecap=\"round\" stroke-linejoin=\"round\"",
-                   hex(*pen.stroke), length(pen.width));
+                   css_color(*pen.stroke), length(pen.width));
   }
   if (pen.opacity < 1.0) fmt::format_to(std::back_inserter(style), " opacity=\"{:.3g}\"", pen.opacity);
   if (pen.crisp) style += " shape-rendering=\"crispEdges\"";

@@ -8,10 +8,11 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <concepts>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
@@ -26,6 +27,8 @@
 #include "scenes/scene/scene.hpp"
 
 namespace warren {
+namespace {
+
 // Numbers as pages hold them: {"type": "f32", "data": base64}, little-endian, written in pieces.
 
 static_assert(std::endian::native == std::endian::little, "the arrays of pages are little-endian");
@@ -59,6 +62,9 @@ class NumberArray {
     add(p.x);
     add(p.y);
   }
+  void add(const Vec3& p) {
+    for (int k = 0; k < 3; ++k) add(p[k]);
+  }
   void end() {
     flush();
     base64_.end();
@@ -78,32 +84,19 @@ class NumberArray {
   std::string bytes_;
 };
 
-// An arm and its solids as the member "arm" of a page's JSON.
-
 /// Does the page's script draw an arm in perspective, where it is on its way? Else its perspective is an image.
-inline bool moves_arm(const Picture& picture, Parts parts) {
+bool moves_arm(const Picture& picture, Parts parts) {
   return picture.solids != nullptr && picture.arm != nullptr && !picture.arm->spines.empty() && parts.has(Part::body);
 }
 
-/// Of a picture that moves an arm. Places of space are relative to the view's target, of the picture's world
-/// to `origin`. Throws Stopped, and what `write` throws.
-void write_page_arm(const Picture& picture, Parts parts, Vec2 origin, const Execution& execution, const Write& write);
-
-// What a page shows of a picture's world and layers, as the member "layers" of its JSON. Of walls by the million, which
-// no browser would draw at once, there is an image.
-
-/// "#1e293b"
-std::string css_color(Rgb color);
-
 /// JSON as it may stand in a <script>.
-std::string in_script(std::string_view json);
+std::string in_script(std::string_view json) {
+  std::string safe;
+  for (const char c : json) safe += c == '<' ? std::string_view("\\u003c") : std::string_view(&c, 1);
+  return safe;
+}
 
-/// `canvas`: the picture's. Numbers are relative to `origin`. Returns what is drawn otherwise than usual, as
-/// write_html() does. Throws Stopped, and what `write` throws.
-std::vector<std::string> write_page_layers(const Picture& picture, Parts parts, const Canvas& canvas, Vec2 origin,
-                                           const Execution& execution, const Write& write);
-
-namespace {
+constexpr std::size_t most_drawn_walls = 4'000'000;
 
 using Json = nlohmann::ordered_json;
 
@@ -128,16 +121,17 @@ class PageWriter {
                                                    "arm.js",  "pointer.js", "controls.js"};
     write_(head_of_page(title, page_file("page.css"), scripts));
     write_(page_file("page.html"));
-    write_("<script id=\"picture\" type=\"application/json\">{");
+    write_("<script id=\"picture\" type=\"application/json\">");
     words(title);
-    std::vector<std::string> notes = write_page_layers(picture_, parts_, canvas_, origin_, execution_, write_);
+    layers();
     if (picture_.roadmap != nullptr && picture_.panels.empty()) graph(*picture_.roadmap);
     if (parts_.has(Part::path)) path();
-    if (moves_arm(picture_, parts_)) write_page_arm(picture_, parts_, origin_, execution_, write_);
+    if (moves_arm(picture_, parts_)) arm();
     write_("}</script>\n");
     for (const std::string_view script : scripts) write_(script_element(script));
     write_("</body>\n</html>\n");
-    return notes;
+    if (!parts_.has(Part::world) || picture_.scene.walls.size() <= most_drawn_walls) return {};
+    return {"as pixels, being so many: walls"};
   }
 
  private:
@@ -145,11 +139,46 @@ class PageWriter {
   void graph(const PlannedRoadmap<Vec2>& roadmap);
   void path();
   void poses(const MovingBody& body);
+  void layers();
+  void polygons();
+  void layer(const PictureLayer& layer);
+  void walls();
+  template <class T>
+  void wall_ends();
+  void wall_image();
+  void perspective(const SolidView& view);
+  template <class WritePng>
+  void image_in(const Box& box, const WritePng& write_png);
+  void arm();
+  Json arm_facts() const;
 
+  /// The object, whose end is left open.
+  void begin(std::string_view before, const Json& object) {
+    std::string text = in_script(object.dump(-1, ' ', true, Json::error_handler_t::replace));
+    text.pop_back();
+    write_(std::string(before) + text);
+  }
+  void begin_layer(const Json& about) { begin(std::exchange(between_, ","), about); }
   template <class T>
   NumberArray<T> numbers(std::string_view name) const {
     return {name, execution_, write_};
   }
+  /// of(one): the number, or the point, of each.
+  template <class T, class Range, class Of = std::identity>
+  void numbers(std::string_view name, const Range& all, const Of& of = {}) const {
+    auto array = numbers<T>(name);
+    for (const auto& one : all) array.add(of(one));
+    array.end();
+  }
+  auto moving() const {
+    return [this](Vec2 p) { return moved(p); };
+  }
+  Json box_json(const Box& box) const {
+    const Vec2 low = moved(box.min);
+    const Vec2 high = moved(box.max);
+    return Json{low.x, low.y, high.x, high.y};
+  }
+  bool has_small_whole_walls() const;
   Vec2 moved(Vec2 p) const { return p - origin_; }
 
   const Picture& picture_;
@@ -157,15 +186,11 @@ class PageWriter {
   const Execution& execution_;
   const Write& write_;
   Canvas canvas_;
-  Vec2 origin_;  // numbers are relative to it, so that floats are enough
+  Vec2 origin_;                    // numbers are relative to it, so that floats are enough
+  std::string_view between_ = "";  // layers
 };
 
 void PageWriter::words(const std::string& title) {
-  const auto box_json = [&](const Box& box) {
-    const Vec2 low = moved(box.min);
-    const Vec2 high = moved(box.max);
-    return Json{low.x, low.y, high.x, high.y};
-  };
   Json words{{"title", seen_text(title)},
              {"about", seen_text(picture_.subtitle)},
              {"origin", {origin_.x, origin_.y}},
@@ -190,9 +215,7 @@ void PageWriter::words(const std::string& title) {
   };
   end("start", picture_.start, colors::start);
   end("goal", picture_.goal, colors::goal);
-  std::string text = in_script(words.dump(-1, ' ', true, Json::error_handler_t::replace));
-  text.pop_back();
-  write_(text.substr(1));
+  begin("", words);
 }
 
 void PageWriter::graph(const PlannedRoadmap<Vec2>& roadmap) {
@@ -204,15 +227,9 @@ void PageWriter::graph(const PlannedRoadmap<Vec2>& roadmap) {
       {"hasRoadmap", parts_.has(Part::roadmap)},
       {"widths", {{"edges", widths::edge}, {"milestones", widths::milestone}, {"search_tree", widths::search_tree}}}};
   for (const Rgb color : colors::components) about["colors"].push_back(css_color(color));
-  std::string text = about.dump();
-  text.pop_back();
-  write_(",\"graph\":" + text);
-  auto states = numbers<float>("states");
-  for (const Vec2 p : roadmap.states) states.add(moved(p));
-  states.end();
-  auto colors = numbers<std::uint8_t>("component");
-  for (const std::uint8_t color : component) colors.add(color);
-  colors.end();
+  begin(",\"graph\":", about);
+  numbers<float>("states", roadmap.states, moving());
+  numbers<std::uint8_t>("component", component);
   auto edges = numbers<std::uint32_t>("edges");
   for (VertexId v = 0; v < roadmap.graph.vertex_count(); ++v) {
     for (const VertexId w : roadmap.graph.neighbours(v)) {
@@ -228,18 +245,14 @@ void PageWriter::graph(const PlannedRoadmap<Vec2>& roadmap) {
     for (const Edge& edge : roadmap.search_tree) {
       parent[edge.from] = static_cast<std::int32_t>(edge.to == no_vertex ? edge.from : edge.to);
     }
-    auto parents = numbers<std::int32_t>("parent");
-    for (const std::int32_t v : parent) parents.add(v);
-    parents.end();
+    numbers<std::int32_t>("parent", parent);
   }
   write_("}");
 }
 
 void PageWriter::path() {
   if (picture_.path.empty()) return;
-  auto xy = numbers<double>("path");
-  for (const Vec2 p : without_arcs(picture_.path, picture_.path_turns)) xy.add(moved(p));
-  xy.end();
+  numbers<double>("path", without_arcs(picture_.path, picture_.path_turns), moving());
   const MovingBody point;
   const MovingBody& body = picture_.body != nullptr && parts_.has(Part::body) ? *picture_.body : point;
   Json outline = Json::array();
@@ -282,59 +295,7 @@ void PageWriter::poses(const MovingBody& body) {
   out.end();
 }
 
-}  // namespace
-
-std::vector<std::string> write_html(const Picture& picture, const PictureOptions& options, const Execution& execution,
-                                    const Write& write) {
-  return PageWriter(picture, options.parts, execution, write).document(options.title.value_or(picture.title));
-}
-
-namespace {
-
-constexpr std::size_t most_drawn_walls = 4'000'000;
-
-class PageLayers {
- public:
-  PageLayers(const Picture& picture, Parts parts, const Canvas& canvas, Vec2 origin, const Execution& execution,
-             const Write& write)
-      : picture_(picture), parts_(parts), canvas_(canvas), origin_(origin), execution_(execution), write_(write) {}
-
-  void all();
-
- private:
-  void polygons();
-  void layer(const PictureLayer& layer);
-  void walls();
-  template <class T>
-  void wall_ends();
-  void wall_image();
-  void perspective(const SolidView& view);
-  template <class WritePng>
-  void image_in(const Box& box, const WritePng& write_png);
-
-  void begin_layer(const Json& about) {
-    std::string text = in_script(about.dump(-1, ' ', true, Json::error_handler_t::replace));
-    text.pop_back();
-    write_((is_first_ ? "" : ",") + text);
-    is_first_ = false;
-  }
-  template <class T>
-  NumberArray<T> numbers(std::string_view name) const {
-    return {name, execution_, write_};
-  }
-  Vec2 moved(Vec2 p) const { return p - origin_; }
-  bool has_small_whole_walls() const;
-
-  const Picture& picture_;
-  Parts parts_;
-  const Canvas& canvas_;
-  Vec2 origin_;
-  const Execution& execution_;
-  const Write& write_;
-  bool is_first_ = true;
-};
-
-void PageLayers::all() {
+void PageWriter::layers() {
   write_(",\"layers\":[");
   for (const PictureLayer& one : picture_.layers) {
     if (one.part == Part::world && parts_.has(one.part) && !one.lines.empty()) layer(one);
@@ -348,7 +309,7 @@ void PageLayers::all() {
   write_("]");
 }
 
-void PageLayers::polygons() {
+void PageWriter::polygons() {
   const std::vector<ScenePolygon>& all = picture_.scene.polygons;
   begin_layer({{"id", "polygons"},
                {"label", "obstacles"},
@@ -370,7 +331,7 @@ void PageLayers::polygons() {
   write_("}");
 }
 
-void PageLayers::layer(const PictureLayer& layer) {
+void PageWriter::layer(const PictureLayer& layer) {
   Json about{{"id", layer.id},
              {"label", layer.label.empty() ? layer.id : layer.label},
              {"kind", layer.fill ? "areas" : "chains"},
@@ -390,13 +351,11 @@ void PageLayers::layer(const PictureLayer& layer) {
     first.push_back(first.back() + static_cast<std::uint32_t>(chain.size()));
   }
   xy.end();
-  auto starts = numbers<std::uint32_t>("first");
-  for (const std::uint32_t corner : first) starts.add(corner);
-  starts.end();
+  numbers<std::uint32_t>("first", first);
   write_("}");
 }
 
-void PageLayers::walls() {
+void PageWriter::walls() {
   const std::size_t count = picture_.scene.walls.size();
   if (count == 0 && !picture_.scene.bounds) return;
   Json about{{"id", "walls"},
@@ -422,7 +381,7 @@ void PageLayers::walls() {
   write_("}");
 }
 
-bool PageLayers::has_small_whole_walls() const {
+bool PageWriter::has_small_whole_walls() const {
   constexpr double most = 65535.0;
   const auto fits = [](double x) { return x >= 0.0 && x <= most && x == std::floor(x); };
   const auto all_fit = [&](Vec2 p) { return fits(moved(p).x) && fits(moved(p).y); };
@@ -437,7 +396,7 @@ bool PageLayers::has_small_whole_walls() const {
 }
 
 template <class T>
-void PageLayers::wall_ends() {
+void PageWriter::wall_ends() {
   auto xy = numbers<T>("xy");
   const auto add = [&](Vec2 a, Vec2 b) {
     xy.add(moved(a));
@@ -456,7 +415,7 @@ void PageLayers::wall_ends() {
   xy.end();
 }
 
-void PageLayers::wall_image() {
+void PageWriter::wall_image() {
   constexpr double most_pixels = 4096.0;
   constexpr double least_width = 0.2;
   constexpr std::size_t walls_a_poll = 1 << 14;
@@ -480,7 +439,7 @@ void PageLayers::wall_image() {
 }
 
 /// Of an arm that doesn't move there; the page's script draws the others.
-void PageLayers::perspective(const SolidView& view) {
+void PageWriter::perspective(const SolidView& view) {
   constexpr std::size_t pixels = 1024;
   begin_layer({{"id", "perspective"}, {"label", "perspective"}, {"isOpaque", true}});
   const double scale = static_cast<double>(pixels) / std::max(view.box.width(), view.box.height());
@@ -493,7 +452,7 @@ void PageLayers::perspective(const SolidView& view) {
 
 /// The rest of a layer that has begun: an image, the page's numbers for its place.
 template <class WritePng>
-void PageLayers::image_in(const Box& box, const WritePng& write_png) {
+void PageWriter::image_in(const Box& box, const WritePng& write_png) {
   write_(fmt::format(",\"kind\":\"image\",\"box\":[{},{},{},{}],\"href\":\"data:image/png;base64,", box.min.x,
                      box.min.y, box.max.x, box.max.y));
   Base64 out(write_);
@@ -502,36 +461,11 @@ void PageLayers::image_in(const Box& box, const WritePng& write_png) {
   write_("\"}");
 }
 
-}  // namespace
-
-std::string css_color(Rgb c) { return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue); }
-
-std::string in_script(std::string_view json) {
-  std::string safe;
-  for (const char c : json) {
-    if (c == '<') {
-      safe += "\\u003c";
-    } else {
-      safe += c;
-    }
-  }
-  return safe;
-}
-
-std::vector<std::string> write_page_layers(const Picture& picture, Parts parts, const Canvas& canvas, Vec2 origin,
-                                           const Execution& execution, const Write& write) {
-  PageLayers(picture, parts, canvas, origin, execution, write).all();
-  if (!parts.has(Part::world) || picture.scene.walls.size() <= most_drawn_walls) return {};
-  return {"as pixels, being so many: walls"};
-}
-
-namespace {
-
-Json facts_of(const SolidView& solids, const MovingArm& arm, Vec2 origin) {
-  const Vec2 low = solids.box.min - origin;
-  const Vec2 high = solids.box.max - origin;
+Json PageWriter::arm_facts() const {
+  const SolidView& solids = *picture_.solids;
+  const MovingArm& arm = *picture_.arm;
   const Vec3 floor = solids.floor - solids.target;
-  Json about{{"box", {low.x, low.y, high.x, high.y}},
+  Json about{{"box", box_json(solids.box)},
              {"reach", solids.reach},
              {"azimuth", solids.azimuth_rad},
              {"rise", solids.rise_rad},
@@ -548,51 +482,47 @@ Json facts_of(const SolidView& solids, const MovingArm& arm, Vec2 origin) {
                {"moving", css_color(colors::path)}}},
              {"views", Json::array()}};
   for (const Projection& view : arm.views) {
-    const Vec2 zero = view.at(solids.target) - origin;
+    const Vec2 zero = moved(view.at(solids.target));
     about["views"].push_back({view.axes[0], view.axes[1], zero.x, zero.y});
   }
   return about;
 }
 
-}  // namespace
-
-void write_page_arm(const Picture& picture, Parts parts, Vec2 origin, const Execution& execution, const Write& write) {
-  const SolidView& solids = *picture.solids;
-  const MovingArm& arm = *picture.arm;
-  std::string text = facts_of(solids, arm, origin).dump();
-  text.pop_back();
-  write(",\"arm\":" + text);
-  const auto place = [&](NumberArray<float>& to, const Vec3& p) {
-    for (int k = 0; k < 3; ++k) to.add(p[k] - solids.target[k]);
-  };
-  NumberArray<float> spheres("spheres", execution, write);
+/// The arm and its solids; places are relative to the view's target.
+void PageWriter::arm() {
+  const SolidView& solids = *picture_.solids;
+  const MovingArm& arm = *picture_.arm;
+  begin(",\"arm\":", arm_facts());
+  const auto place = [&](const Vec3& p) -> Vec3 { return p - solids.target; };
+  auto spheres = numbers<float>("spheres");
   for (const Solid& s : solids.solids) {
-    if (s.part != Part::world || s.radius < 0.0 || !parts.has(s.part)) continue;
-    place(spheres, s.a);
+    if (s.part != Part::world || s.radius < 0.0 || !parts_.has(s.part)) continue;
+    spheres.add(place(s.a));
     spheres.add(s.radius);
   }
   spheres.end();
-  NumberArray<float> boxes("boxes", execution, write);
+  auto boxes = numbers<float>("boxes");
   for (const Solid& s : solids.solids) {
-    if (s.radius >= 0.0 || !parts.has(s.part)) continue;
-    place(boxes, s.a);
-    place(boxes, s.b);
+    if (s.radius >= 0.0 || !parts_.has(s.part)) continue;
+    boxes.add(place(s.a));
+    boxes.add(place(s.b));
   }
   boxes.end();
-  NumberArray<float> tools("tools", execution, write);
-  if (parts.has(Part::path)) {
-    for (const Vec3& p : arm.tools) place(tools, p);
-  }
-  tools.end();
-  NumberArray<float> spines("spines", execution, write);
+  numbers<float>("tools", parts_.has(Part::path) ? arm.tools : std::vector<Vec3>{}, place);
+  auto spines = numbers<float>("spines");
   for (const std::vector<Vec3>& spine : arm.spines) {
-    for (const Vec3& end : spine) place(spines, end);
+    for (const Vec3& end : spine) spines.add(place(end));
   }
   spines.end();
-  NumberArray<double> moments("moments", execution, write);
-  for (const double moment : arm.moments) moments.add(moment);
-  moments.end();
-  write("}");
+  numbers<double>("moments", arm.moments);
+  write_("}");
+}
+
+}  // namespace
+
+std::vector<std::string> write_html(const Picture& picture, const PictureOptions& options, const Execution& execution,
+                                    const Write& write) {
+  return PageWriter(picture, options.parts, execution, write).document(options.title.value_or(picture.title));
 }
 
 }  // namespace warren

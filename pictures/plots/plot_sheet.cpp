@@ -17,8 +17,6 @@
 namespace warren {
 namespace {
 
-std::string web_color(Rgb c) { return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue); }
-
 std::string svg_of(const PlotWords& words) {
   constexpr std::array<std::string_view, 3> anchors{"start", "middle", "end"};
   const PlacedText& text = words.text;
@@ -26,7 +24,7 @@ std::string svg_of(const PlotWords& words) {
   if (text.size != plot_text_size) more += fmt::format(" font-size=\"{}\"", text.size);
   if (text.bold) more += " font-weight=\"bold\"";
   if (text.upright) more += fmt::format(" transform=\"rotate(-90 {:.1f} {:.1f})\"", text.at.x, text.at.y);
-  if (!(words.color == colors::text)) more += fmt::format(" fill=\"{}\"", web_color(words.color));
+  if (!(words.color == colors::text)) more += fmt::format(" fill=\"{}\"", css_color(words.color));
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", text.at.x, text.at.y,
                      anchors[static_cast<std::size_t>(text.anchor)], more, xml_text(text.text));
 }
@@ -46,8 +44,8 @@ std::string svg_of(const PlotShape& shape) {
       fmt::format_to(std::back_inserter(text), "{}{:.1f} {:.1f}", text.back() == '"' ? 'M' : 'L', p.x, p.y);
     text += '"';
   }
-  text += fmt::format(" fill=\"{}\"", shape.pen.fill ? web_color(*shape.pen.fill) : "none");
-  if (shape.pen.stroke) text += fmt::format(" stroke=\"{}\"", web_color(*shape.pen.stroke));
+  text += fmt::format(" fill=\"{}\"", shape.pen.fill ? css_color(*shape.pen.fill) : "none");
+  if (shape.pen.stroke) text += fmt::format(" stroke=\"{}\"", css_color(*shape.pen.stroke));
   if (shape.pen.stroke && shape.pen.width != 1.0) text += fmt::format(" stroke-width=\"{}\"", shape.pen.width);
   if (shape.dash.x > 0.0) text += fmt::format(" stroke-dasharray=\"{} {}\"", shape.dash.x, shape.dash.y);
   if (!shape.tip.empty()) text += fmt::format(" data-tip=\"{}\"", xml_text(shape.tip));
@@ -113,7 +111,7 @@ std::string PlotSheet::svg() const {
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\" "
       "font-family=\"sans-serif\" font-size=\"{2}\" fill=\"{3}\"{5}>\n<title>{4}</title>\n"
       "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
-      plot_size.x, plot_size.y, plot_text_size, web_color(colors::text), xml_text(title_),
+      plot_size.x, plot_size.y, plot_text_size, css_color(colors::text), xml_text(title_),
       keeps_colors_ ? " class=\"kept\"" : "");
   for (const auto& part : parts_) text += std::visit([](const auto& one) { return svg_of(one); }, part);
   return text + "</svg>\n";
