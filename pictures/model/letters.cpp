@@ -223,6 +223,7 @@ std::vector<CurveContour> contours_of(std::size_t number) {
     }
     contours.push_back(std::move(contour));
   }
+
   return contours;
 }
 
@@ -247,6 +248,7 @@ std::vector<Vec2> contour_of(const CurveContour& points) {
       contour.push_back((1 - t) * (1 - t) * a + 2 * t * (1 - t) * here.at + t * t * b);
     }
   }
+
   return contour;
 }
 

@@ -7,9 +7,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 
-#include "core/base/trigonometry.hpp"
 #include "pictures/formats/markup.hpp"
 #include "pictures/formats/surface.hpp"
 #include "scenes/files/output_file_io.hpp"
@@ -71,22 +69,12 @@ std::vector<std::vector<Vec2>> dashes_of(const std::vector<Vec2>& line, Vec2 das
   return dashes;
 }
 
-std::vector<Vec2> disc_outline(Vec2 middle, double radius) {
-  constexpr std::size_t corners = 24;
-  std::vector<Vec2> outline;
-  for (std::size_t i = 0; i < corners; ++i) {
-    const double turn = 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(corners);
-    outline.push_back(middle + radius * Vec2{portable::cos(turn), portable::sin(turn)});
-  }
-  return outline;
-}
-
 /// Its points are the page's.
 void draw_shape(Surface& surface, const PlotShape& shape, const std::vector<Vec2>& points) {
   const Vec2 low = points.front();
   const Vec2 high = points.back();
   surface.take_pen(shape.pen);
-  if (shape.kind == PlotShape::Kind::disc) return surface.chain(disc_outline(low, shape.radius), {}, true);
+  if (shape.kind == PlotShape::Kind::disc) return surface.chain(circle_outline(low, shape.radius, 24), {}, true);
   if (shape.kind == PlotShape::Kind::box)
     return surface.chain(std::array{low, Vec2{high.x, low.y}, high, Vec2{low.x, high.y}}, {}, true);
   if (shape.dash.x <= 0.0) return surface.chain(points, {}, false);
