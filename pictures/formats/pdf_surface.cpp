@@ -159,16 +159,14 @@ class PdfSurface : public Surface {
   }
   void use_pen() {
     const auto part = [](std::uint8_t value) { return real(value / 255.0); };
-    if (pen_.stroke) {
-      HPDF_Page_SetRGBStroke(sheet_, part(pen_.stroke->red), part(pen_.stroke->green), part(pen_.stroke->blue));
-      HPDF_Page_SetLineWidth(sheet_, real(points_a_pixel * pen_.width));
-    }
+    const auto stroke = [&](Rgb c, double width) {
+      HPDF_Page_SetRGBStroke(sheet_, part(c.red), part(c.green), part(c.blue));
+      HPDF_Page_SetLineWidth(sheet_, real(width));
+    };
+    if (pen_.stroke) stroke(*pen_.stroke, points_a_pixel * pen_.width);
     if (pen_.fill) HPDF_Page_SetRGBFill(sheet_, part(pen_.fill->red), part(pen_.fill->green), part(pen_.fill->blue));
-    if (pen_.crisp && pen_.fill && !pen_.stroke) {  // a hair's line closes the seams
-      constexpr double hair = 0.1;
-      HPDF_Page_SetRGBStroke(sheet_, part(pen_.fill->red), part(pen_.fill->green), part(pen_.fill->blue));
-      HPDF_Page_SetLineWidth(sheet_, real(hair));
-    }
+    constexpr double hair = 0.1;  // its line closes the seams
+    if (pen_.crisp && pen_.fill && !pen_.stroke) stroke(*pen_.fill, hair);
     HPDF_ExtGState& state = opacities_[pen_.opacity];
     if (state == nullptr) {
       state = HPDF_CreateExtGState(document_.get());

@@ -82,7 +82,7 @@ class ArmPath {
     JointState q;
   };
   /// All states, and more between them so that there are about `count` evenly along the path. Throws Stopped.
-  std::vector<ArmPath::Place> places(double count, const Execution& execution) const {
+  std::vector<Place> places(double count, const Execution& execution) const {
     std::vector<Place> all{{0.0, states_.front()}};
     if (!(length() > 0.0)) return all;
     for (std::size_t i = 1; i < states_.size(); ++i) {
@@ -278,9 +278,9 @@ class ArmDrawing {
     const Vec2 above{0.0, size.z() + 3.0 * room_};
     views_ = {Projection{{0, 2}, Vec2{-low_.x(), -low_.z()}}, Projection{{0, 1}, above + Vec2{-low_.x(), -low_.y()}},
               Projection{{1, 2}, right + Vec2{-low_.y(), -low_.z()}}};
-    const Vec2 corner = right + above - Vec2{0.5 * room_, 0.5 * room_};
+    const Vec2 low = right + above - Vec2{0.5 * room_, 0.5 * room_};
     const double side = extent + room_;
-    perspective_ = {corner, corner + Vec2{side, side}};
+    perspective_ = {low, low + Vec2{side, side}};
   }
   void add_obstacles(const Projection& view, Scene& stage) const {
     constexpr std::size_t obstacles_a_poll = 256;
