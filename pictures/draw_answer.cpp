@@ -118,18 +118,19 @@ std::vector<PictureLayer> ground_of(const Scene& scene, const Execution& executi
 }
 
 /// Views instead of the world.
-Drawing drawing_of_arm(const Scene& scene, const RobotSpec& robot, const JointState& start, const StateList& states,
-                       const Execution& execution) {
+Drawing drawing_of_arm(const Scene& scene, const RobotSpec& robot, const std::vector<double>& start,
+                       const StateList& states, std::string subtitle, const Execution& execution) {
   Path<JointState> path;
   for (std::size_t i = 0; i < states.size(); ++i) path.push_back(joint_state(states[i]));
-  if (path.empty()) path.push_back(start);
+  if (path.empty()) path.push_back(joint_state(start));
   ArmViews views = arm_views(scene, table_of(robot, execution), robot.radius, path, execution);
   return {.layers = std::move(views.layers),
           .stage = std::move(views.stage),
           .panels = std::move(views.panels),
           .solids = std::move(views.solids),
           .arm = std::move(views.arm),
-          .title = title_of(scene)};
+          .title = title_of(scene),
+          .subtitle = std::move(subtitle)};
 }
 
 const std::vector<double>& first_given(const std::vector<double>& state, const std::vector<double>& otherwise) {
@@ -157,9 +158,7 @@ Drawing drawing_of(const Scene& scene, const Answer& answer, ByProducts made, co
   const Problem& problem = answer.problem;
   const StateList& states = answer.refuted ? answer.refuted->states : answer.states;
   if (is_arm(problem.robot)) {
-    Drawing views = drawing_of_arm(scene, problem.robot, joint_state(problem.start), states, execution);
-    views.subtitle = subtitle_of(scene, answer);
-    return views;
+    return drawing_of_arm(scene, problem.robot, problem.start, states, subtitle_of(scene, answer), execution);
   }
   Drawing drawing{.layers = ground_of(scene, execution),
                   .path = answer.refuted ? answer.refuted->path : answer.path,
@@ -187,9 +186,7 @@ Drawing drawing_of(const Scene& scene, const RecordedAnswer& answer, const Execu
   const std::vector<double>& start = first_given(answer.problem.start, scene.start);
   if (is_arm(robot)) {
     if (!answer.path.empty()) check_state_width(answer, most_joints, "an arm");
-    Drawing views = drawing_of_arm(scene, robot, joint_state(start), answer.states, execution);
-    views.subtitle = subtitle_of(scene, answer);
-    return views;
+    return drawing_of_arm(scene, robot, start, answer.states, subtitle_of(scene, answer), execution);
   }
   Drawing drawing{.layers = ground_of(scene, execution),
                   .path = answer.path,

@@ -100,86 +100,80 @@ class RoadmapDrawing {
   JointState joints(VertexId v) const {
     return joint_state(std::span<const double>(arrays_.states).subspan(std::size_t{v} * most_joints, most_joints));
   }
-  void add_lines(Drawing& drawing) const;
-  void add_curves(Drawing& drawing) const;
-  PictureLayer arrows() const;
-  Drawing draw_arm() const;
+  void add_lines(Drawing& drawing) const {
+    for (const EdgeStyle& style : other_edges) {
+      PictureLayer layer{.id = style.id, .label = style.label, .color = style.color, .width = thin};
+      const Graph graph = edges_in(style.state, arrays_, execution_);
+      for (VertexId v = 0; v < vertex_count(); ++v) {
+        if (v % polled == 0) execution_.check();
+        for (const VertexId w : graph.neighbours(v)) {
+          if (v < w || arrays_.directed) layer.lines.add(std::array{position(v), position(w)});
+        }
+      }
+      if (layer.lines.size() > 0) drawing.layers.push_back(std::move(layer));
+    }
+    drawing.roadmap.emplace();
+    drawing.roadmap->states = positions();
+    drawing.roadmap->graph = edges_in(EdgeState::free, arrays_, execution_);
+  }
+
+  void add_curves(Drawing& drawing) const {
+    std::array<PlannedRoadmap<Se2>, 1> roadmap;
+    for (VertexId v = 0; v < vertex_count(); ++v) roadmap[0].states.push_back(pose(v));
+    const auto add = [&](EdgeStyle style) {
+      roadmap[0].graph = edges_in(style.state, arrays_, execution_);
+      PictureLayer layer = car_curves(roadmap, roadmap_.robot, execution_).edges;
+      layer.id = style.id;
+      layer.label = style.label;
+      layer.color = style.color;
+      if (style.state != EdgeState::free) layer.width = thin;
+      if (layer.lines.size() > 0) drawing.layers.push_back(std::move(layer));
+    };
+    for (const EdgeStyle& style : other_edges) add(style);
+    add({EdgeState::free, "free", "free edge", colors::components[0]});
+    drawing.roadmap.emplace();
+    drawing.roadmap->states = positions();
+    drawing.roadmap->graph = Graph::from_edges(vertex_count(), {});
+  }
+
+  /// Where the states look, in strokes that keep apart from each other.
+  PictureLayer arrows() const {
+    Box box;
+    for (VertexId v = 0; v < vertex_count(); ++v) box.include(position(v));
+    if (box.empty()) return heading_arrows({}, 0.0);
+    const double extent = std::max(box.width(), box.height());
+    const double length = std::min(extent / 50.0, 0.4 * extent / std::sqrt(static_cast<double>(vertex_count())));
+    return heading_arrows(poses(), length);
+  }
+  Drawing draw_arm() const {
+    std::vector<JointState> states;
+    for (VertexId v = 0; v < vertex_count(); ++v) states.push_back(joints(v));
+    std::vector<ToolLines> lines;
+    const auto add = [&](EdgeStyle style) {
+      lines.push_back({style.id, style.label, style.color, style.state == EdgeState::free ? widths::edge : thin, {}});
+      const Graph graph = edges_in(style.state, arrays_, execution_);
+      for (VertexId v = 0; v < vertex_count(); ++v) {
+        for (const VertexId w : graph.neighbours(v)) {
+          if (v < w) lines.back().edges.push_back({v, w});
+        }
+      }
+    };
+    for (const EdgeStyle& style : other_edges) add(style);
+    add({EdgeState::free, "free", "free edge", colors::components[0]});
+    ArmViews views =
+        arm_roadmap_views(scene_, table_of(roadmap_.robot, execution_), roadmap_.robot.radius,
+                          scene_.start.empty() ? JointState{} : joint_state(scene_.start), states, lines, execution_);
+    return {.layers = std::move(views.layers),
+            .stage = std::move(views.stage),
+            .panels = std::move(views.panels),
+            .solids = std::move(views.solids)};
+  }
 
   const Scene& scene_;
   const Roadmap& roadmap_;
   const RoadmapArrays& arrays_;
   const Execution& execution_;
 };
-
-void RoadmapDrawing::add_lines(Drawing& drawing) const {
-  for (const EdgeStyle& style : other_edges) {
-    PictureLayer layer{.id = style.id, .label = style.label, .color = style.color, .width = thin};
-    const Graph graph = edges_in(style.state, arrays_, execution_);
-    for (VertexId v = 0; v < vertex_count(); ++v) {
-      if (v % polled == 0) execution_.check();
-      for (const VertexId w : graph.neighbours(v)) {
-        if (v < w || arrays_.directed) layer.lines.add(std::array{position(v), position(w)});
-      }
-    }
-    if (layer.lines.size() > 0) drawing.layers.push_back(std::move(layer));
-  }
-  drawing.roadmap.emplace();
-  drawing.roadmap->states = positions();
-  drawing.roadmap->graph = edges_in(EdgeState::free, arrays_, execution_);
-}
-
-void RoadmapDrawing::add_curves(Drawing& drawing) const {
-  std::array<PlannedRoadmap<Se2>, 1> roadmap;
-  for (VertexId v = 0; v < vertex_count(); ++v) roadmap[0].states.push_back(pose(v));
-  const auto add = [&](EdgeStyle style) {
-    roadmap[0].graph = edges_in(style.state, arrays_, execution_);
-    PictureLayer layer = car_curves(roadmap, roadmap_.robot, execution_).edges;
-    layer.id = style.id;
-    layer.label = style.label;
-    layer.color = style.color;
-    if (style.state != EdgeState::free) layer.width = thin;
-    if (layer.lines.size() > 0) drawing.layers.push_back(std::move(layer));
-  };
-  for (const EdgeStyle& style : other_edges) add(style);
-  add({EdgeState::free, "free", "free edge", colors::components[0]});
-  drawing.roadmap.emplace();
-  drawing.roadmap->states = positions();
-  drawing.roadmap->graph = Graph::from_edges(vertex_count(), {});
-}
-
-/// Where the states look, in strokes that keep apart from each other.
-PictureLayer RoadmapDrawing::arrows() const {
-  Box box;
-  for (VertexId v = 0; v < vertex_count(); ++v) box.include(position(v));
-  if (box.empty()) return heading_arrows({}, 0.0);
-  const double extent = std::max(box.width(), box.height());
-  const double length = std::min(extent / 50.0, 0.4 * extent / std::sqrt(static_cast<double>(vertex_count())));
-  return heading_arrows(poses(), length);
-}
-
-Drawing RoadmapDrawing::draw_arm() const {
-  std::vector<JointState> states;
-  for (VertexId v = 0; v < vertex_count(); ++v) states.push_back(joints(v));
-  std::vector<ToolLines> lines;
-  const auto add = [&](EdgeStyle style) {
-    lines.push_back({style.id, style.label, style.color, style.state == EdgeState::free ? widths::edge : thin, {}});
-    const Graph graph = edges_in(style.state, arrays_, execution_);
-    for (VertexId v = 0; v < vertex_count(); ++v) {
-      for (const VertexId w : graph.neighbours(v)) {
-        if (v < w) lines.back().edges.push_back({v, w});
-      }
-    }
-  };
-  for (const EdgeStyle& style : other_edges) add(style);
-  add({EdgeState::free, "free", "free edge", colors::components[0]});
-  ArmViews views =
-      arm_roadmap_views(scene_, table_of(roadmap_.robot, execution_), roadmap_.robot.radius,
-                        scene_.start.empty() ? JointState{} : joint_state(scene_.start), states, lines, execution_);
-  return {.layers = std::move(views.layers),
-          .stage = std::move(views.stage),
-          .panels = std::move(views.panels),
-          .solids = std::move(views.solids)};
-}
 
 }  // namespace
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pictures/formats/markup.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstddef>
 
@@ -36,6 +38,8 @@ std::string seen_text(std::string_view text) {
   for_each_seen(text, [&](std::string_view piece) { out += piece; });
   return out;
 }
+
+std::string css_color(Rgb c) { return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue); }
 
 namespace {
 

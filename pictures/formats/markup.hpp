@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "pictures/formats/write_picture.hpp"
+#include "pictures/model/colors.hpp"
 
 namespace warren {
 
@@ -14,6 +15,9 @@ std::string xml_text(std::string_view text);
 
 /// The same without the escapes: for text that scripts show.
 std::string seen_text(std::string_view text);
+
+/// "#1e293b"
+std::string css_color(Rgb color);
 
 // Bytes as base 64, piece by piece: images inside of text.
 

@@ -50,7 +50,19 @@ class PdfSurface : public Surface {
     HPDF_SetInfoAttr(document_.get(), HPDF_INFO_TITLE, latin1_text(words.title).c_str());
     HPDF_SetInfoAttr(document_.get(), HPDF_INFO_SUBJECT, latin1_text(words.subject).c_str());
   }
-  void finish(const Write& write);
+  void finish(const Write& write) {
+    HPDF_SaveToStream(document_.get());
+    check();
+    std::array<HPDF_BYTE, std::size_t{1} << 16U> piece{};
+    for (;;) {
+      execution_.check();
+      auto size = static_cast<HPDF_UINT32>(piece.size());
+      const HPDF_STATUS status = HPDF_ReadFromStream(document_.get(), piece.data(), &size);
+      if (size > 0) write({reinterpret_cast<const char*>(piece.data()), size});
+      if (status == HPDF_STREAM_EOF || size == 0) return;
+      check();
+    }
+  }
 
   void enter_world() override { in_world_ = true; }
   void leave_world() override { in_world_ = false; }
@@ -82,14 +94,46 @@ class PdfSurface : public Surface {
     if (closed) HPDF_Page_ClosePath(sheet_);
     piece_ended();
   }
-  void text(const PlacedText& text) override;
+  void text(const PlacedText& text) override {
+    paint_path();
+    const std::string words = latin1_text(text.text);
+    HPDF_Page_SetFontAndSize(sheet_, text.bold ? bold_ : regular_, real(points_a_pixel * text.size));
+    const double width = HPDF_Page_TextWidth(sheet_, words.c_str());
+    const double back = text.anchor == Anchor::start ? 0.0 : text.anchor == Anchor::middle ? 0.5 * width : width;
+    const Vec2 p = at(text.at) - (text.upright ? Vec2{0.0, back} : Vec2{back, 0.0});
+    const HPDF_REAL cosine = text.upright ? 0.0F : 1.0F;
+    const HPDF_REAL sine = text.upright ? 1.0F : 0.0F;
+    HPDF_Page_BeginText(sheet_);
+    HPDF_Page_SetTextMatrix(sheet_, cosine, sine, -sine, cosine, real(p.x), real(p.y));
+    HPDF_Page_ShowText(sheet_, words.c_str());
+    HPDF_Page_EndText(sheet_);
+  }
+
   bool takes_as_mask(std::size_t points) const override {
     constexpr std::size_t most_points = 500'000;
     return points > most_points;
   }
-  void mask(const Mask& mask, Rgb color) override;
+  /// One pixel of the colour, seen through the mask.
+  void mask(const Mask& mask, Rgb color) override {
+    paint_path();
+    const std::array pixel{color.red, color.green, color.blue};
+    const HPDF_Image ink = HPDF_LoadRawImageFromMem(document_.get(), pixel.data(), 1, 1, HPDF_CS_DEVICE_RGB, 8);
+    const HPDF_Image cover =
+        HPDF_LoadRawImageFromMem(document_.get(), mask.pixels().data(), static_cast<HPDF_UINT>(mask.width()),
+                                 static_cast<HPDF_UINT>(mask.height()), HPDF_CS_DEVICE_GRAY, 8);
+    check();
+    HPDF_Image_AddSMask(ink, cover);
+    draw_image(ink, page_.data);
+    check();
+  }
   double image_density() const override { return density_of_images; }
-  void image(const Image& image, const Box& at) override;
+  void image(const Image& image, const Box& at) override {
+    const HPDF_Image pixels =
+        HPDF_LoadRawImageFromMem(document_.get(), image.row(0), static_cast<HPDF_UINT>(image.width()),
+                                 static_cast<HPDF_UINT>(image.height()), HPDF_CS_DEVICE_RGB, 8);
+    check();
+    draw_image(pixels, at);
+  }
 
  private:
   static constexpr double density_of_images = 3.0;  // some 300 pixels an inch
@@ -113,8 +157,36 @@ class PdfSurface : public Surface {
     HPDF_Page_LineTo(sheet_, real(p.x), real(p.y));
     ++path_steps_;
   }
-  void use_pen();
-  void paint_path();
+  void use_pen() {
+    const auto part = [](std::uint8_t value) { return real(value / 255.0); };
+    const auto stroke = [&](Rgb c, double width) {
+      HPDF_Page_SetRGBStroke(sheet_, part(c.red), part(c.green), part(c.blue));
+      HPDF_Page_SetLineWidth(sheet_, real(width));
+    };
+    if (pen_.stroke) stroke(*pen_.stroke, points_a_pixel * pen_.width);
+    if (pen_.fill) HPDF_Page_SetRGBFill(sheet_, part(pen_.fill->red), part(pen_.fill->green), part(pen_.fill->blue));
+    constexpr double hair = 0.1;  // its line closes the seams
+    if (pen_.crisp && pen_.fill && !pen_.stroke) stroke(*pen_.fill, hair);
+    HPDF_ExtGState& state = opacities_[pen_.opacity];
+    if (state == nullptr) {
+      state = HPDF_CreateExtGState(document_.get());
+      HPDF_ExtGState_SetAlphaFill(state, real(pen_.opacity));
+      HPDF_ExtGState_SetAlphaStroke(state, real(pen_.opacity));
+    }
+    HPDF_Page_SetExtGState(sheet_, state);
+  }
+
+  void paint_path() {
+    if (path_steps_ == 0) return;
+    path_steps_ = 0;
+    if (pen_.fill && (pen_.stroke || pen_.crisp)) {
+      HPDF_Page_FillStroke(sheet_);
+    } else if (pen_.fill) {
+      HPDF_Page_Fill(sheet_);
+    } else {
+      HPDF_Page_Stroke(sheet_);
+    }
+  }
   void piece_ended() {
     constexpr std::size_t most_steps = 10'000;
     if (path_steps_ < most_steps) return;
@@ -136,90 +208,6 @@ class PdfSurface : public Surface {
   bool in_world_ = false;
   std::size_t path_steps_ = 0;
 };
-
-void PdfSurface::use_pen() {
-  const auto part = [](std::uint8_t value) { return real(value / 255.0); };
-  if (pen_.stroke) {
-    HPDF_Page_SetRGBStroke(sheet_, part(pen_.stroke->red), part(pen_.stroke->green), part(pen_.stroke->blue));
-    HPDF_Page_SetLineWidth(sheet_, real(points_a_pixel * pen_.width));
-  }
-  if (pen_.fill) HPDF_Page_SetRGBFill(sheet_, part(pen_.fill->red), part(pen_.fill->green), part(pen_.fill->blue));
-  if (pen_.crisp && pen_.fill && !pen_.stroke) {  // a hair's line closes the seams
-    constexpr double hair = 0.1;
-    HPDF_Page_SetRGBStroke(sheet_, part(pen_.fill->red), part(pen_.fill->green), part(pen_.fill->blue));
-    HPDF_Page_SetLineWidth(sheet_, real(hair));
-  }
-  HPDF_ExtGState& state = opacities_[pen_.opacity];
-  if (state == nullptr) {
-    state = HPDF_CreateExtGState(document_.get());
-    HPDF_ExtGState_SetAlphaFill(state, real(pen_.opacity));
-    HPDF_ExtGState_SetAlphaStroke(state, real(pen_.opacity));
-  }
-  HPDF_Page_SetExtGState(sheet_, state);
-}
-
-void PdfSurface::paint_path() {
-  if (path_steps_ == 0) return;
-  path_steps_ = 0;
-  if (pen_.fill && (pen_.stroke || pen_.crisp)) {
-    HPDF_Page_FillStroke(sheet_);
-  } else if (pen_.fill) {
-    HPDF_Page_Fill(sheet_);
-  } else {
-    HPDF_Page_Stroke(sheet_);
-  }
-}
-
-void PdfSurface::text(const PlacedText& text) {
-  paint_path();
-  const std::string words = latin1_text(text.text);
-  HPDF_Page_SetFontAndSize(sheet_, text.bold ? bold_ : regular_, real(points_a_pixel * text.size));
-  const double width = HPDF_Page_TextWidth(sheet_, words.c_str());
-  const double back = text.anchor == Anchor::start ? 0.0 : text.anchor == Anchor::middle ? 0.5 * width : width;
-  const Vec2 p = at(text.at) - (text.upright ? Vec2{0.0, back} : Vec2{back, 0.0});
-  const HPDF_REAL cosine = text.upright ? 0.0F : 1.0F;
-  const HPDF_REAL sine = text.upright ? 1.0F : 0.0F;
-  HPDF_Page_BeginText(sheet_);
-  HPDF_Page_SetTextMatrix(sheet_, cosine, sine, -sine, cosine, real(p.x), real(p.y));
-  HPDF_Page_ShowText(sheet_, words.c_str());
-  HPDF_Page_EndText(sheet_);
-}
-
-/// One pixel of the colour, seen through the mask.
-void PdfSurface::mask(const Mask& mask, Rgb color) {
-  paint_path();
-  const std::array pixel{color.red, color.green, color.blue};
-  const HPDF_Image ink = HPDF_LoadRawImageFromMem(document_.get(), pixel.data(), 1, 1, HPDF_CS_DEVICE_RGB, 8);
-  const HPDF_Image cover =
-      HPDF_LoadRawImageFromMem(document_.get(), mask.pixels().data(), static_cast<HPDF_UINT>(mask.width()),
-                               static_cast<HPDF_UINT>(mask.height()), HPDF_CS_DEVICE_GRAY, 8);
-  check();
-  HPDF_Image_AddSMask(ink, cover);
-  draw_image(ink, page_.data);
-  check();
-}
-
-void PdfSurface::image(const Image& image, const Box& at) {
-  const HPDF_Image pixels =
-      HPDF_LoadRawImageFromMem(document_.get(), image.row(0), static_cast<HPDF_UINT>(image.width()),
-                               static_cast<HPDF_UINT>(image.height()), HPDF_CS_DEVICE_RGB, 8);
-  check();
-  draw_image(pixels, at);
-}
-
-void PdfSurface::finish(const Write& write) {
-  HPDF_SaveToStream(document_.get());
-  check();
-  std::array<HPDF_BYTE, std::size_t{1} << 16U> piece{};
-  for (;;) {
-    execution_.check();
-    auto size = static_cast<HPDF_UINT32>(piece.size());
-    const HPDF_STATUS status = HPDF_ReadFromStream(document_.get(), piece.data(), &size);
-    if (size > 0) write({reinterpret_cast<const char*>(piece.data()), size});
-    if (status == HPDF_STREAM_EOF || size == 0) return;
-    check();
-  }
-}
 
 }  // namespace
 

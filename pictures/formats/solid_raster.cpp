@@ -81,15 +81,141 @@ class SolidRaster {
  private:
   static constexpr std::size_t shadow_side = 512;
 
-  void take_camera(const SolidView& view);
-  void take_solids(const SolidView& view, Parts parts);
-  void take_shadow(const Solid& s);
-  void mark(std::uint32_t i);
-  Box box_around(const Vec3& p, double radius) const;
-  Reach reach_of(const Solid& s) const;
-  void resolve(std::size_t x, std::size_t y, std::uint8_t* pixel) const;
-  Vec3 color_of(std::size_t row, std::size_t column) const;
-  Vec3 floor_color(const Vec3& ray) const;
+  void take_camera(const SolidView& view) {
+    const Vec3 from{portable::cos(view.rise_rad) * portable::cos(view.azimuth_rad),
+                    portable::cos(view.rise_rad) * portable::sin(view.azimuth_rad), portable::sin(view.rise_rad)};
+    eye_ = eye_distance * from;
+    forward_ = -from;
+    right_ = {-portable::sin(view.azimuth_rad), portable::cos(view.azimuth_rad), 0.0};
+    up_ = right_.cross(forward_);
+    const double seen_reach = 1.0 / std::sqrt(eye_distance * eye_distance - 1.0);
+    zoom_ = 0.5 * static_cast<double>(std::min(columns_, rows_)) / seen_reach;
+  }
+  void take_solids(const SolidView& view, Parts parts) {
+    const auto near = [&](const Vec3& p) -> Vec3 { return (p - view.target) / view.reach; };
+    floor_ = near(view.floor);
+    floor_side_ = view.floor_side / view.reach;
+    square_ = view.square / view.reach;
+    shadows_ = Mask(shadow_side, shadow_side, execution_);
+    execution_.reserve(view.solids.size() * sizeof(Solid));
+    for (std::size_t i = 0; i < view.solids.size(); ++i) {
+      if (i % solids_a_poll == 0) execution_.check();
+      const Solid& s = view.solids[i];
+      if (!parts.has(s.part)) continue;
+      solids_.push_back({near(s.a), near(s.b), s.radius / view.reach, s.color, s.part});
+      take_shadow(solids_.back());
+    }
+  }
+
+  /// The light falls straight down, as far as shadows go.
+  void take_shadow(const Solid& s) {
+    const Vec2 a = shadow_place(s.a);
+    const Vec2 b = shadow_place(s.b);
+    if (s.radius < 0.0) {
+      PolygonSet outline;
+      outline.add(std::array{a, Vec2{b.x, a.y}, b, Vec2{a.x, b.y}});
+      return shadows_.fill(outline, 1.0, execution_);
+    }
+    shadows_.draw_line(a, b, 2.0 * s.radius / floor_side_ * static_cast<double>(shadow_side), 1.0);
+  }
+  /// Asks the rays of the samples that the solid may cover.
+  void mark(std::uint32_t i) {
+    const Solid& s = solids_[i];
+    const Reach reach = reach_of(s);
+    const auto clamped = [](double v, std::size_t size) {
+      return static_cast<std::size_t>(std::clamp(v, 0.0, static_cast<double>(size)));
+    };
+    const std::size_t end = clamped(std::ceil(std::max(reach.a.y, reach.b.y) + reach.half.y), rows_);
+    for (std::size_t row = clamped(std::floor(std::min(reach.a.y, reach.b.y) - reach.half.y), rows_); row < end;
+         ++row) {
+      if (row % 32 == 0) execution_.check();
+      const Vec2 columns = reach.in_row(static_cast<double>(row) + 0.5);
+      const std::size_t last = clamped(std::ceil(columns.y), columns_);
+      for (std::size_t column = clamped(std::floor(columns.x), columns_); column < last; ++column) {
+        const Vec3 way = ray(row, column);
+        const double t = enter_solid(eye_, way, s);
+        const std::size_t sample = row * columns_ + column;
+        if (!(t > 0.0) || !(static_cast<float>(t) < depth_[sample])) continue;
+        depth_[sample] = static_cast<float>(t);
+        whose_[sample] = i;
+      }
+    }
+  }
+
+  /// Around the picture of a ball, in samples.
+  Box box_around(const Vec3& p, double radius) const {
+    constexpr double nearest = 1e-3;
+    const Vec3 at = seen(p);
+    const Vec2 middle{0.5 * static_cast<double>(columns_), 0.5 * static_cast<double>(rows_)};
+    Box box;
+    for (const double depth : {std::max(at.z() - radius, nearest), std::max(at.z() + radius, nearest)}) {
+      for (const double way : {-radius, radius}) {
+        box.include(Vec2{middle.x + zoom_ * (at.x() + way) / depth, middle.y - zoom_ * (at.y() + way) / depth});
+      }
+    }
+    return box;
+  }
+  Reach reach_of(const Solid& s) const {
+    const auto middle = [](const Box& box) { return 0.5 * (box.min + box.max); };
+    if (s.radius < 0.0) {
+      Box box;
+      for (int corner = 0; corner < 8; ++corner) {
+        box.include(box_around({(corner & 1) != 0 ? s.a.x() : s.b.x(), (corner & 2) != 0 ? s.a.y() : s.b.y(),
+                                (corner & 4) != 0 ? s.a.z() : s.b.z()},
+                               0.0));
+      }
+      return {middle(box), middle(box), 0.5 * (box.max - box.min)};
+    }
+    const Box a = box_around(s.a, s.radius);
+    const Box b = box_around(s.b, s.radius);
+    return {middle(a), middle(b), {0.5 * std::max(a.width(), b.width()), 0.5 * std::max(a.height(), b.height())}};
+  }
+
+  void resolve(std::size_t x, std::size_t y, std::uint8_t* pixel) const {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t k = 0; k < samples_a_side * samples_a_side; ++k) {
+      sum += color_of(samples_a_side * y + k / samples_a_side, samples_a_side * x + k % samples_a_side);
+    }
+    constexpr double share = 1.0 / (samples_a_side * samples_a_side);
+    for (int c = 0; c < 3; ++c)
+      pixel[c] = static_cast<std::uint8_t>(std::lround(std::clamp(share * sum[c], 0.0, 255.0)));
+  }
+  Vec3 color_of(std::size_t row, std::size_t column) const {
+    const Vec3 way = ray(row, column);
+    const std::size_t sample = row * columns_ + column;
+    if (whose_[sample] == nobody) return floor_color(way);
+    const Solid& s = solids_[whose_[sample]];
+    const Vec3 normal = normal_at(eye_ + static_cast<double>(depth_[sample]) * way, s);
+    // From the left, above, and from where the eye is.
+    const Vec3 light = (-0.45 * right_ + 0.75 * Vec3::UnitZ() - 0.6 * forward_).normalized();
+    constexpr double darkest = 0.5;
+    const double bright = darkest + (1.0 - darkest) * std::max(0.0, normal.dot(light));
+    constexpr double shine = 0.25;
+    const double glance = std::max(0.0, normal.dot((light - way).normalized()));
+    const double square = glance * glance;
+    const double gloss = shine * square * square * square * square;
+    const Vec3 color = ink(s.color) * bright;
+    return in_air(color + gloss * (ink(colors::paper) - color), depth_[sample]);
+  }
+
+  Vec3 floor_color(const Vec3& ray) const {
+    const Vec3 paper = ink(colors::paper);
+    const double t = (floor_.z() - eye_.z()) / ray.z();
+    if (!(t > 0.0)) return paper;
+    const Vec3 at = eye_ + t * ray;
+    const Vec2 place = shadow_place(at);
+    const double side = static_cast<double>(shadow_side);
+    if (!(place.x >= 0.0 && place.y >= 0.0 && place.x < side && place.y < side)) return paper;
+    const auto x = static_cast<std::int64_t>(std::floor((at.x() - floor_.x()) / square_));
+    const auto y = static_cast<std::int64_t>(std::floor((at.y() - floor_.y()) / square_));
+    constexpr Rgb even{244, 245, 247};
+    constexpr Rgb odd{232, 235, 239};
+    const std::uint8_t dark =
+        shadows_.pixels()[static_cast<std::size_t>(place.y) * shadow_side + static_cast<std::size_t>(place.x)];
+    constexpr double shadow = 0.22 / 255.0;
+    return in_air(ink((x + y) % 2 == 0 ? even : odd) * (1.0 - shadow * dark), t);
+  }
+
   /// From the eye, of length 1.
   Vec3 ray(std::size_t row, std::size_t column) const {
     const double u = (static_cast<double>(column) + 0.5 - 0.5 * static_cast<double>(columns_)) / zoom_;
@@ -128,143 +254,6 @@ class SolidRaster {
   RawVector<float> depth_;
   RawVector<std::uint32_t> whose_;
 };
-
-void SolidRaster::take_camera(const SolidView& view) {
-  const Vec3 from{portable::cos(view.rise_rad) * portable::cos(view.azimuth_rad),
-                  portable::cos(view.rise_rad) * portable::sin(view.azimuth_rad), portable::sin(view.rise_rad)};
-  eye_ = eye_distance * from;
-  forward_ = -from;
-  right_ = {-portable::sin(view.azimuth_rad), portable::cos(view.azimuth_rad), 0.0};
-  up_ = right_.cross(forward_);
-  const double seen_reach = 1.0 / std::sqrt(eye_distance * eye_distance - 1.0);
-  zoom_ = 0.5 * static_cast<double>(std::min(columns_, rows_)) / seen_reach;
-}
-
-void SolidRaster::take_solids(const SolidView& view, Parts parts) {
-  const auto near = [&](const Vec3& p) -> Vec3 { return (p - view.target) / view.reach; };
-  floor_ = near(view.floor);
-  floor_side_ = view.floor_side / view.reach;
-  square_ = view.square / view.reach;
-  shadows_ = Mask(shadow_side, shadow_side, execution_);
-  execution_.reserve(view.solids.size() * sizeof(Solid));
-  for (std::size_t i = 0; i < view.solids.size(); ++i) {
-    if (i % solids_a_poll == 0) execution_.check();
-    const Solid& s = view.solids[i];
-    if (!parts.has(s.part)) continue;
-    solids_.push_back({near(s.a), near(s.b), s.radius / view.reach, s.color, s.part});
-    take_shadow(solids_.back());
-  }
-}
-
-/// The light falls straight down, as far as shadows go.
-void SolidRaster::take_shadow(const Solid& s) {
-  const Vec2 a = shadow_place(s.a);
-  const Vec2 b = shadow_place(s.b);
-  if (s.radius < 0.0) {
-    PolygonSet outline;
-    outline.add(std::array{a, Vec2{b.x, a.y}, b, Vec2{a.x, b.y}});
-    return shadows_.fill(outline, 1.0, execution_);
-  }
-  shadows_.draw_line(a, b, 2.0 * s.radius / floor_side_ * static_cast<double>(shadow_side), 1.0);
-}
-
-/// Around the picture of a ball, in samples.
-Box SolidRaster::box_around(const Vec3& p, double radius) const {
-  constexpr double nearest = 1e-3;
-  const Vec3 at = seen(p);
-  const Vec2 middle{0.5 * static_cast<double>(columns_), 0.5 * static_cast<double>(rows_)};
-  Box box;
-  for (const double depth : {std::max(at.z() - radius, nearest), std::max(at.z() + radius, nearest)}) {
-    for (const double way : {-radius, radius}) {
-      box.include(Vec2{middle.x + zoom_ * (at.x() + way) / depth, middle.y - zoom_ * (at.y() + way) / depth});
-    }
-  }
-  return box;
-}
-
-Reach SolidRaster::reach_of(const Solid& s) const {
-  const auto middle = [](const Box& box) { return 0.5 * (box.min + box.max); };
-  if (s.radius < 0.0) {
-    Box box;
-    for (int corner = 0; corner < 8; ++corner) {
-      box.include(box_around({(corner & 1) != 0 ? s.a.x() : s.b.x(), (corner & 2) != 0 ? s.a.y() : s.b.y(),
-                              (corner & 4) != 0 ? s.a.z() : s.b.z()},
-                             0.0));
-    }
-    return {middle(box), middle(box), 0.5 * (box.max - box.min)};
-  }
-  const Box a = box_around(s.a, s.radius);
-  const Box b = box_around(s.b, s.radius);
-  return {middle(a), middle(b), {0.5 * std::max(a.width(), b.width()), 0.5 * std::max(a.height(), b.height())}};
-}
-
-/// Asks the rays of the samples that the solid may cover.
-void SolidRaster::mark(std::uint32_t i) {
-  const Solid& s = solids_[i];
-  const Reach reach = reach_of(s);
-  const auto clamped = [](double v, std::size_t size) {
-    return static_cast<std::size_t>(std::clamp(v, 0.0, static_cast<double>(size)));
-  };
-  const std::size_t end = clamped(std::ceil(std::max(reach.a.y, reach.b.y) + reach.half.y), rows_);
-  for (std::size_t row = clamped(std::floor(std::min(reach.a.y, reach.b.y) - reach.half.y), rows_); row < end; ++row) {
-    if (row % 32 == 0) execution_.check();
-    const Vec2 columns = reach.in_row(static_cast<double>(row) + 0.5);
-    const std::size_t last = clamped(std::ceil(columns.y), columns_);
-    for (std::size_t column = clamped(std::floor(columns.x), columns_); column < last; ++column) {
-      const Vec3 way = ray(row, column);
-      const double t = enter_solid(eye_, way, s);
-      const std::size_t sample = row * columns_ + column;
-      if (!(t > 0.0) || !(static_cast<float>(t) < depth_[sample])) continue;
-      depth_[sample] = static_cast<float>(t);
-      whose_[sample] = i;
-    }
-  }
-}
-
-Vec3 SolidRaster::floor_color(const Vec3& ray) const {
-  const Vec3 paper = ink(colors::paper);
-  const double t = (floor_.z() - eye_.z()) / ray.z();
-  if (!(t > 0.0)) return paper;
-  const Vec3 at = eye_ + t * ray;
-  const Vec2 place = shadow_place(at);
-  const double side = static_cast<double>(shadow_side);
-  if (!(place.x >= 0.0 && place.y >= 0.0 && place.x < side && place.y < side)) return paper;
-  const auto x = static_cast<std::int64_t>(std::floor((at.x() - floor_.x()) / square_));
-  const auto y = static_cast<std::int64_t>(std::floor((at.y() - floor_.y()) / square_));
-  constexpr Rgb even{244, 245, 247};
-  constexpr Rgb odd{232, 235, 239};
-  const std::uint8_t dark =
-      shadows_.pixels()[static_cast<std::size_t>(place.y) * shadow_side + static_cast<std::size_t>(place.x)];
-  constexpr double shadow = 0.22 / 255.0;
-  return in_air(ink((x + y) % 2 == 0 ? even : odd) * (1.0 - shadow * dark), t);
-}
-
-Vec3 SolidRaster::color_of(std::size_t row, std::size_t column) const {
-  const Vec3 way = ray(row, column);
-  const std::size_t sample = row * columns_ + column;
-  if (whose_[sample] == nobody) return floor_color(way);
-  const Solid& s = solids_[whose_[sample]];
-  const Vec3 normal = normal_at(eye_ + static_cast<double>(depth_[sample]) * way, s);
-  // From the left, above, and from where the eye is.
-  const Vec3 light = (-0.45 * right_ + 0.75 * Vec3::UnitZ() - 0.6 * forward_).normalized();
-  constexpr double darkest = 0.5;
-  const double bright = darkest + (1.0 - darkest) * std::max(0.0, normal.dot(light));
-  constexpr double shine = 0.25;
-  const double glance = std::max(0.0, normal.dot((light - way).normalized()));
-  const double square = glance * glance;
-  const double gloss = shine * square * square * square * square;
-  const Vec3 color = ink(s.color) * bright;
-  return in_air(color + gloss * (ink(colors::paper) - color), depth_[sample]);
-}
-
-void SolidRaster::resolve(std::size_t x, std::size_t y, std::uint8_t* pixel) const {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t k = 0; k < samples_a_side * samples_a_side; ++k) {
-    sum += color_of(samples_a_side * y + k / samples_a_side, samples_a_side * x + k % samples_a_side);
-  }
-  constexpr double share = 1.0 / (samples_a_side * samples_a_side);
-  for (int c = 0; c < 3; ++c) pixel[c] = static_cast<std::uint8_t>(std::lround(std::clamp(share * sum[c], 0.0, 255.0)));
-}
 
 }  // namespace
 
@@ -340,6 +329,7 @@ Vec3 normal_at(const Vec3& p, const Solid& s) {
     normal[face] = off[face] < 0.0 ? -1.0 : 1.0;
     return normal;
   }
+
   const Vec3 along = s.b - s.a;
   const double along_sq = along.squaredNorm();
   const double place = along_sq > 0.0 ? std::clamp(along.dot(p - s.a) / along_sq, 0.0, 1.0) : 0.0;

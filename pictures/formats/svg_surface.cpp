@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+// SVG 1.1, one merged path a layer (and a component's colour), so that files stay small: "M1 1h1" is a wall. In the
+// group "world" coordinates are the world's, with at most three decimals; worlds that are tiny, huge or far from the
+// origin are moved into a frame where that is enough. No attribute is longer than a megabyte, which some readers ask
+// for; more lines than a screen can show are an image inside. Written in pieces: memory stays small whatever the world.
 #include "pictures/formats/svg_surface.hpp"
 
 #include <fmt/format.h>
@@ -13,11 +17,11 @@
 #include "pictures/formats/markup.hpp"
 #include "pictures/formats/painter.hpp"
 #include "pictures/formats/raster.hpp"
+#include "pictures/formats/surface.hpp"
+#include "pictures/formats/write_picture.hpp"
 
 namespace warren {
 namespace {
-
-std::string hex(Rgb c) { return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue); }
 
 /// Appends a number with at most three decimals, without trailing zeros.
 void append_number(std::string& to, double value) {
@@ -33,238 +37,253 @@ void append_number(std::string& to, double value) {
   to.append(tail, fraction % 10 != 0 ? 4 : fraction % 100 != 0 ? 3 : 2);
 }
 
-}  // namespace
-
-WorldFrame::WorldFrame(const Box& box) {
-  const double extent = std::max(box.width(), box.height());
-  if (extent > 0.0 && (extent < 5.0 || extent > 1e5)) scale = std::pow(10.0, 2.0 - std::floor(std::log10(extent)));
-  const double far = std::max({std::abs(box.min.x), std::abs(box.min.y), std::abs(box.max.x), std::abs(box.max.y)});
-  if (scale != 1.0 || far > 1e5) origin = box.min;
-}
-
-void SvgSurface::open(const Picture& picture, std::string_view title) {
-  std::string width = fmt::format("{:.0f}", std::ceil(page_.width));
-  std::string height = fmt::format("{:.0f}", std::ceil(page_.height));
-  if (page_.asked) {
-    const std::string_view unit = page_.asked->unit == LengthUnit::mm ? "mm" : "";
-    width = fmt::format("{:.6g}{}", unit.empty() ? page_.width : page_.asked->width, unit);
-    height = fmt::format("{:.6g}{}", unit.empty() ? page_.height : page_.asked->height, unit);
+/// Where SVG's coordinates are those of the world, but for a move and a factor.
+struct WorldFrame {
+  explicit WorldFrame(const Box& box) {
+    const double extent = std::max(box.width(), box.height());
+    if (extent > 0.0 && (extent < 5.0 || extent > 1e5)) scale = std::pow(10.0, 2.0 - std::floor(std::log10(extent)));
+    const double far = std::max({std::abs(box.min.x), std::abs(box.min.y), std::abs(box.max.x), std::abs(box.max.y)});
+    if (scale != 1.0 || far > 1e5) origin = box.min;
   }
-  fmt::format_to(
-      std::back_inserter(text_),
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" "
-      "viewBox=\"0 0 {:.2f} {:.2f}\" width=\"{}\" height=\"{}\" role=\"img\" "
-      "xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
-      "font-family=\"Helvetica,Arial,Liberation Sans,DejaVu Sans,sans-serif\">\n"
-      "<title>{}</title>\n<desc>{}</desc>\n<rect id=\"paper\" width=\"100%\" height=\"100%\" fill=\"{}\"/>\n",
-      page_.width, page_.height, width, height, xml_text(title), xml_text(picture.description), hex(colors::paper));
-}
+  Vec2 at(Vec2 p) const { return scale * (p - origin); }
 
-void SvgSurface::close() {
-  text_ += "</svg>\n";
-  flush();
-}
+  Vec2 origin;
+  double scale = 1.0;
+};
 
-/// x right, y up.
-void SvgSurface::enter_world() {
-  in_world_ = true;
-  const double scale = page_.view.scale / frame_.scale;
-  const Vec2 zero = page_.view.at(frame_.origin);
-  fmt::format_to(std::back_inserter(text_),
-                 "<g id=\"world\" transform=\"matrix({0:.9g} 0 0 {1:.9g} {2:.9g} {3:.9g})\">\n", scale, -scale, zero.x,
-                 zero.y);
-}
+class SvgSurface : public Surface {
+ public:
+  SvgSurface(const Page& page, const Execution& execution, const Write& write)
+      : page_(page), execution_(execution), write_(write), frame_(page.canvas.box) {}
 
-void SvgSurface::leave_world() {
-  text_ += "</g>\n";
-  in_world_ = false;
-}
-
-std::string SvgSurface::style(const Pen& pen) const {
-  std::string style = fmt::format(" fill=\"{}\"", pen.fill ? hex(*pen.fill) : "none");
-  if (pen.stroke) {
-    fmt::format_to(std::back_inserter(style),
-                   " stroke=\"{}\" stroke-width=\"{:.5g}\" stroke-linecap=\"round\" stroke-linejoin=\"round\"",
-                   hex(*pen.stroke), length(pen.width));
-  }
-  if (pen.opacity < 1.0) fmt::format_to(std::back_inserter(style), " opacity=\"{:.3g}\"", pen.opacity);
-  if (pen.crisp) style += " shape-rendering=\"crispEdges\"";
-  return style;
-}
-
-void SvgSurface::begin_group(std::string_view id, std::string_view label, const Pen& pen) {
-  group_pen_ = pen_ = pen;
-  is_way_ = id == "path";
-  fmt::format_to(std::back_inserter(text_), "<g id=\"{}\"{}", xml_text(id), style(pen));
-  if (!label.empty()) fmt::format_to(std::back_inserter(text_), " data-label=\"{}\"", xml_text(label));
-  text_ += '>';
-}
-
-void SvgSurface::end_group() {
-  close_path();
-  text_ += "</g>\n";
-  if (text_.size() > 1U << 16U) flush();
-}
-
-void SvgSurface::take_pen(const Pen& pen) {
-  if (pen == pen_) return;
-  close_path();
-  pen_ = pen;
-}
-
-void SvgSurface::open_path() {
-  if (path_is_open_) return;
-  path_is_open_ = true;
-  path_bytes_ = 0;
-  text_ += "\n<path";
-  if (is_way_ && pen_ == group_pen_) text_ += " id=\"way\"";
-  if (pen_ != group_pen_) text_ += style(pen_);
-  text_ += " d=\"";
-}
-
-void SvgSurface::close_path() {
-  if (path_is_open_) text_ += "\"/>";
-  path_is_open_ = false;
-}
-
-void SvgSurface::command(char letter, Vec2 p) {
-  text_ += letter;
-  append_number(text_, p.x);
-  text_ += ' ';
-  append_number(text_, p.y);
-}
-
-/// Axis-parallel segments, most of a maze, take the short commands.
-void SvgSurface::segment(Vec2 a, Vec2 b) {
-  open_path();
-  const Vec2 from = at(a);
-  const Vec2 to = at(b);
-  command('M', from);
-  if (from.y == to.y) {
-    text_ += 'h';
-    append_number(text_, to.x - from.x);
-  } else if (from.x == to.x) {
-    text_ += 'v';
-    append_number(text_, to.y - from.y);
-  } else {
-    command('L', to);
-  }
-  split();
-}
-
-/// A straight, or a circular arc.
-void SvgSurface::leg_to(Vec2 from, Vec2 to, double turn) {
-  constexpr double no_turn = 1e-9;
-  if (std::abs(turn) < no_turn) return command('L', at(to));
-  const double radius = frame_.scale * arc_radius(from, to, turn);
-  text_ += 'A';
-  append_number(text_, radius);
-  text_ += ' ';
-  append_number(text_, radius);
-  text_ += turn > 0.0 ? " 0 0 1 " : " 0 0 0 ";
-  const Vec2 p = at(to);
-  append_number(text_, p.x);
-  text_ += ' ';
-  append_number(text_, p.y);
-}
-
-void SvgSurface::chain(std::span<const Vec2> points, std::span<const double> turns, bool closed) {
-  open_path();
-  command('M', at(points[0]));
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    leg_to(points[i - 1], points[i], turns.empty() ? 0.0 : turns[i]);
-    if (closed) continue;
-    split();
-    if (!path_is_open_ && i + 1 < points.size()) {  // a long line goes on in the next path
-      open_path();
-      command('M', at(points[i]));
+  void open(const Picture& picture, std::string_view title) {
+    std::string width = fmt::format("{:.0f}", std::ceil(page_.width));
+    std::string height = fmt::format("{:.0f}", std::ceil(page_.height));
+    if (page_.asked) {
+      const std::string_view unit = page_.asked->unit == LengthUnit::mm ? "mm" : "";
+      width = fmt::format("{:.6g}{}", unit.empty() ? page_.width : page_.asked->width, unit);
+      height = fmt::format("{:.6g}{}", unit.empty() ? page_.height : page_.asked->height, unit);
     }
+    fmt::format_to(
+        std::back_inserter(text_),
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" "
+        "viewBox=\"0 0 {:.2f} {:.2f}\" width=\"{}\" height=\"{}\" role=\"img\" "
+        "xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
+        "font-family=\"Helvetica,Arial,Liberation Sans,DejaVu Sans,sans-serif\">\n"
+        "<title>{}</title>\n<desc>{}</desc>\n<rect id=\"paper\" width=\"100%\" height=\"100%\" fill=\"{}\"/>\n",
+        page_.width, page_.height, width, height, xml_text(title), xml_text(picture.description),
+        css_color(colors::paper));
   }
-  if (closed) text_ += 'Z';
-  split();
-}
 
-/// Ends the path before it is too long for a reader.
-void SvgSurface::split() {
-  constexpr std::size_t piece = 1U << 16U;
-  constexpr std::size_t longest_path = 900'000;
-  if (text_.size() < piece) return;
-  path_bytes_ += text_.size();
-  if (path_bytes_ > longest_path) close_path();
-  execution_.check();
-  flush();
-}
-
-void SvgSurface::flush() {
-  write_(text_);
-  written_ += text_.size();
-  text_.clear();
-}
-
-void SvgSurface::text(const PlacedText& text) {
-  constexpr std::string_view anchors[] = {"start", "middle", "end"};
-  std::string more;
-  if (text.anchor != Anchor::start) {
-    more = fmt::format(" text-anchor=\"{}\"", anchors[static_cast<std::size_t>(text.anchor)]);
+  void close() {
+    text_ += "</svg>\n";
+    flush();
   }
-  if (text.bold) more += " font-weight=\"bold\"";
-  if (text.upright) more += fmt::format(" transform=\"rotate(-90 {:.1f} {:.1f})\"", text.at.x, text.at.y);
-  fmt::format_to(std::back_inserter(text_), "\n<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:.4g}\"{}>{}</text>",
-                 text.at.x, text.at.y, text.size, more, xml_text(text.text));
-}
 
-/// Some readers (librsvg, and so GNOME) open no more than ten megabytes.
-bool SvgSurface::takes_as_mask(std::size_t points) const {
-  constexpr std::size_t bytes_a_point = 12;
-  constexpr std::size_t most_bytes = 7'000'000;
-  return written_ + points * bytes_a_point > most_bytes;
-}
+  /// x right, y up.
+  void enter_world() override {
+    in_world_ = true;
+    const double scale = page_.view.scale / frame_.scale;
+    const Vec2 zero = page_.view.at(frame_.origin);
+    fmt::format_to(std::back_inserter(text_),
+                   "<g id=\"world\" transform=\"matrix({0:.9g} 0 0 {1:.9g} {2:.9g} {3:.9g})\">\n", scale, -scale,
+                   zero.x, zero.y);
+  }
+  void leave_world() override {
+    text_ += "</g>\n";
+    in_world_ = false;
+  }
+  void begin_group(std::string_view id, std::string_view label, const Pen& pen) override {
+    group_pen_ = pen_ = pen;
+    is_way_ = id == "path";
+    fmt::format_to(std::back_inserter(text_), "<g id=\"{}\"{}", xml_text(id), style(pen));
+    if (!label.empty()) fmt::format_to(std::back_inserter(text_), " data-label=\"{}\"", xml_text(label));
+    text_ += '>';
+  }
+  void end_group() override {
+    close_path();
+    text_ += "</g>\n";
+    if (text_.size() > 1U << 16U) flush();
+  }
+  void take_pen(const Pen& pen) override {
+    if (pen == pen_) return;
+    close_path();
+    pen_ = pen;
+  }
+  /// Axis-parallel segments, most of a maze, take the short commands.
+  void segment(Vec2 a, Vec2 b) override {
+    open_path();
+    const Vec2 from = at(a);
+    const Vec2 to = at(b);
+    command('M', from);
+    if (from.y == to.y) {
+      text_ += 'h';
+      append_number(text_, to.x - from.x);
+    } else if (from.x == to.x) {
+      text_ += 'v';
+      append_number(text_, to.y - from.y);
+    } else {
+      command('L', to);
+    }
+    split();
+  }
 
-void SvgSurface::mask(const Mask& mask, Rgb color) {
-  close_path();
-  // In the world's coordinates, which run upwards: turned back.
-  const double size = length(1.0);
-  const Vec2 corner = at({(page_.data.min.x - page_.view.origin.x) / page_.view.scale,
-                          (page_.view.origin.y - page_.data.min.y) / page_.view.scale});
-  fmt::format_to(
-      std::back_inserter(text_),
-      "\n<image transform=\"matrix({0:.9g} 0 0 {1:.9g} {2:.9g} {3:.9g})\" width=\"{4:.9g}\" height=\"{5:.9g}\" "
-      "preserveAspectRatio=\"none\" xlink:href=\"data:image/png;base64,",
-      size, -size, corner.x, corner.y, page_.data.width(), page_.data.height());
-  flush();
-  Base64 base64(write_);
-  write_png_file(mask, color, execution_, [&](std::string_view bytes) {
-    written_ += bytes.size() * 4 / 3;
-    base64.write(bytes);
-  });
-  base64.end();
-  text_ += "\"/>";
-}
+  void chain(std::span<const Vec2> points, std::span<const double> turns, bool closed) override {
+    open_path();
+    command('M', at(points[0]));
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      leg_to(points[i - 1], points[i], turns.empty() ? 0.0 : turns[i]);
+      if (closed) continue;
+      split();
+      if (!path_is_open_ && i + 1 < points.size()) {  // a long line goes on in the next path
+        open_path();
+        command('M', at(points[i]));
+      }
+    }
+    if (closed) text_ += 'Z';
+    split();
+  }
 
-void SvgSurface::image(const Image& image, const Box& at) {
-  fmt::format_to(std::back_inserter(text_),
-                 "\n<image x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" preserveAspectRatio=\"none\" "
-                 "xlink:href=\"data:image/png;base64,",
-                 at.min.x, at.min.y, at.width(), at.height());
-  flush();
-  Base64 base64(write_);
-  constexpr double points_an_inch = 96.0;
-  write_png_file(image, density_of_images * points_an_inch, execution_, [&](std::string_view bytes) {
-    written_ += bytes.size() * 4 / 3;
-    base64.write(bytes);
-  });
-  base64.end();
-  text_ += "\"/>";
-}
+  void text(const PlacedText& text) override {
+    constexpr std::string_view anchors[] = {"start", "middle", "end"};
+    std::string more;
+    if (text.anchor != Anchor::start) {
+      more = fmt::format(" text-anchor=\"{}\"", anchors[static_cast<std::size_t>(text.anchor)]);
+    }
+    if (text.bold) more += " font-weight=\"bold\"";
+    if (text.upright) more += fmt::format(" transform=\"rotate(-90 {:.1f} {:.1f})\"", text.at.x, text.at.y);
+    fmt::format_to(std::back_inserter(text_), "\n<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:.4g}\"{}>{}</text>",
+                   text.at.x, text.at.y, text.size, more, xml_text(text.text));
+  }
+  /// Some readers (librsvg, and so GNOME) open no more than ten megabytes.
+  bool takes_as_mask(std::size_t points) const override {
+    constexpr std::size_t bytes_a_point = 12;
+    constexpr std::size_t most_bytes = 7'000'000;
+    return written_ + points * bytes_a_point > most_bytes;
+  }
+  void mask(const Mask& mask, Rgb color) override {
+    close_path();
+    // In the world's coordinates, which run upwards: turned back.
+    const double size = length(1.0);
+    const Vec2 corner = at({(page_.data.min.x - page_.view.origin.x) / page_.view.scale,
+                            (page_.view.origin.y - page_.data.min.y) / page_.view.scale});
+    fmt::format_to(
+        std::back_inserter(text_),
+        "\n<image transform=\"matrix({0:.9g} 0 0 {1:.9g} {2:.9g} {3:.9g})\" width=\"{4:.9g}\" height=\"{5:.9g}\" "
+        "preserveAspectRatio=\"none\" xlink:href=\"data:image/png;base64,",
+        size, -size, corner.x, corner.y, page_.data.width(), page_.data.height());
+    png([&](const Write& write) { write_png_file(mask, color, execution_, write); });
+  }
+  double image_density() const override { return density_of_images; }
+  void image(const Image& image, const Box& at) override {
+    fmt::format_to(std::back_inserter(text_),
+                   "\n<image x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" preserveAspectRatio=\"none\" "
+                   "xlink:href=\"data:image/png;base64,",
+                   at.min.x, at.min.y, at.width(), at.height());
+    constexpr double points_an_inch = 96.0;
+    png([&](const Write& write) { write_png_file(image, density_of_images * points_an_inch, execution_, write); });
+  }
+  void moving_body(const MovingBody& body, double line_width) override {
+    text_ += svg_moving_body(body, "way", frame_.scale, length(line_width));
+  }
+  void moving_arm(const MovingArm& arm, double line_width) override {
+    const double width = std::max(2.0 * frame_.scale * arm.radius, length(line_width));
+    text_ += svg_moving_arm(arm, width, [&](Vec2 p) { return at(p); });
+  }
 
-void SvgSurface::moving_arm(const MovingArm& arm, double line_width) {
-  const double width = std::max(2.0 * frame_.scale * arm.radius, length(line_width));
-  text_ += svg_moving_arm(arm, width, [&](Vec2 p) { return at(p); });
-}
+ private:
+  static constexpr double density_of_images = 2.0;  // sharp on most screens, and on paper
+  Vec2 at(Vec2 p) const { return in_world_ ? frame_.at(p) : p; }
+  /// Of a length on the page.
+  double length(double pixels) const { return in_world_ ? pixels * frame_.scale / page_.view.scale : pixels; }
+  std::string style(const Pen& pen) const {
+    std::string style = fmt::format(" fill=\"{}\"", pen.fill ? css_color(*pen.fill) : "none");
+    if (pen.stroke) {
+      fmt::format_to(std::back_inserter(style),
+                     " stroke=\"{}\" stroke-width=\"{:.5g}\" stroke-linecap=\"round\" stroke-linejoin=\"round\"",
+                     css_color(*pen.stroke), length(pen.width));
+    }
+    if (pen.opacity < 1.0) fmt::format_to(std::back_inserter(style), " opacity=\"{:.3g}\"", pen.opacity);
+    if (pen.crisp) style += " shape-rendering=\"crispEdges\"";
+    return style;
+  }
+  void open_path() {
+    if (path_is_open_) return;
+    path_is_open_ = true;
+    path_bytes_ = 0;
+    text_ += "\n<path";
+    if (is_way_ && pen_ == group_pen_) text_ += " id=\"way\"";
+    if (pen_ != group_pen_) text_ += style(pen_);
+    text_ += " d=\"";
+  }
+  void close_path() {
+    if (path_is_open_) text_ += "\"/>";
+    path_is_open_ = false;
+  }
+  void command(char letter, Vec2 p) {
+    text_ += letter;
+    append_number(text_, p.x);
+    text_ += ' ';
+    append_number(text_, p.y);
+  }
+  /// A straight, or a circular arc.
+  void leg_to(Vec2 from, Vec2 to, double turn) {
+    constexpr double no_turn = 1e-9;
+    if (std::abs(turn) < no_turn) return command('L', at(to));
+    const double radius = frame_.scale * arc_radius(from, to, turn);
+    text_ += 'A';
+    append_number(text_, radius);
+    text_ += ' ';
+    append_number(text_, radius);
+    text_ += turn > 0.0 ? " 0 0 1 " : " 0 0 0 ";
+    const Vec2 p = at(to);
+    append_number(text_, p.x);
+    text_ += ' ';
+    append_number(text_, p.y);
+  }
 
-void SvgSurface::moving_body(const MovingBody& body, double line_width) {
-  text_ += svg_moving_body(body, "way", frame_.scale, length(line_width));
-}
+  /// Ends the path before it is too long for a reader.
+  void split() {
+    constexpr std::size_t piece = 1U << 16U;
+    constexpr std::size_t longest_path = 900'000;
+    if (text_.size() < piece) return;
+    path_bytes_ += text_.size();
+    if (path_bytes_ > longest_path) close_path();
+    execution_.check();
+    flush();
+  }
+  void flush() {
+    write_(text_);
+    written_ += text_.size();
+    text_.clear();
+  }
+  /// The end of an <image> that is open up to its bytes.
+  void png(const std::function<void(const Write&)>& write_bytes) {
+    flush();
+    Base64 base64(write_);
+    write_bytes([&](std::string_view bytes) {
+      written_ += bytes.size() * 4 / 3;
+      base64.write(bytes);
+    });
+    base64.end();
+    text_ += "\"/>";
+  }
+
+  const Page& page_;
+  const Execution& execution_;
+  const Write& write_;
+  WorldFrame frame_;
+  bool in_world_ = false;
+  Pen group_pen_;
+  Pen pen_;
+  bool path_is_open_ = false;
+  bool is_way_ = false;  // the group is "path": its last line has the id "way"
+  std::size_t path_bytes_ = 0;
+  std::size_t written_ = 0;  // bytes
+  std::string text_;
+};
+
+}  // namespace
 
 std::vector<std::string> write_svg(const Picture& picture, const PictureOptions& options, const Execution& execution,
                                    const Write& write) {
@@ -386,6 +405,7 @@ std::string svg_moving_arm(const MovingArm& arm, double width, const std::functi
                    "attributeName=\"points\" {} calcMode=\"linear\" keyTimes=\"{}\" values=\"{}\"/></polyline>\n",
                    first, width, duration, moments, places);
   }
+
   return group + "</g>\n";
 }
 

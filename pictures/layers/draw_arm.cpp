@@ -24,29 +24,78 @@
 #include "worlds/arms/serial_chain.hpp"
 
 namespace warren {
+namespace {
+
+double joint_distance(const JointState& a, const JointState& b) {
+  double square = 0.0;
+  for (std::size_t j = 0; j < most_joints; ++j) square += (b[j] - a[j]) * (b[j] - a[j]);
+  return std::sqrt(square);
+}
+
+JointState between(const JointState& a, const JointState& b, double t) {
+  JointState q;
+  for (std::size_t j = 0; j < most_joints; ++j) q[j] = a[j] + t * (b[j] - a[j]);
+  return q;
+}
+
 // An arm along a path in joint space: what its pictures ask.
 
 /// Refers to the path, which has at least one state.
 class ArmPath {
  public:
-  ArmPath(const DhTable& table, std::span<const JointState> states);
+  ArmPath(const DhTable& table, std::span<const JointState> states)
+      : chain_(table), links_(links_of(chain_)), states_(states), shares_{0.0} {
+    for (std::size_t i = 1; i < states.size(); ++i) {
+      shares_.push_back(shares_.back() + joint_distance(states[i - 1], states[i]));
+    }
+  }
 
   std::span<const JointState> states() const { return states_; }
   /// In joint space.
   double length() const { return shares_.back(); }
   /// The ends of the links, from the base.
-  std::vector<Vec3> spine(const JointState& q) const;
-  Vec3 tool(const JointState& q) const;
+  std::vector<Vec3> spine(const JointState& q) const {
+    ChainPosture at;
+    chain_.place(q, at);
+    std::vector<Vec3> ends{at.points[links_.front().from]};
+    for (const ArmLink& link : links_) ends.push_back(at.points[link.to]);
+    return ends;
+  }
+  Vec3 tool(const JointState& q) const {
+    ChainPosture at;
+    chain_.place(q, at);
+    return at.points[chain_.point_count() - 1];
+  }
 
   /// Where it is when that share of the length is behind, 0 .. 1.
-  JointState at(double moment) const;
+  JointState at(double moment) const {
+    const double way = moment * length();
+    std::size_t i = 1;
+    while (i + 1 < states_.size() && shares_[i] < way) ++i;
+    if (i >= states_.size() || !(shares_[i] > shares_[i - 1])) return states_.front();
+    return between(states_[i - 1], states_[i],
+                   std::clamp((way - shares_[i - 1]) / (shares_[i] - shares_[i - 1]), 0.0, 1.0));
+  }
 
   struct Place {
     double moment;  ///< the share of the length that is behind, 0 .. 1
     JointState q;
   };
   /// All states, and more between them so that there are about `count` evenly along the path. Throws Stopped.
-  std::vector<Place> places(double count, const Execution& execution) const;
+  std::vector<Place> places(double count, const Execution& execution) const {
+    std::vector<Place> all{{0.0, states_.front()}};
+    if (!(length() > 0.0)) return all;
+    for (std::size_t i = 1; i < states_.size(); ++i) {
+      execution.check();
+      const double leg = shares_[i] - shares_[i - 1];
+      const double parts = std::max(1.0, std::ceil(count * leg / length()));
+      for (double part = 1.0; part <= parts; part += 1.0) {
+        const double t = part / parts;
+        all.push_back({(shares_[i - 1] + t * leg) / length(), between(states_[i - 1], states_[i], t)});
+      }
+    }
+    return all;
+  }
 
  private:
   SerialChain chain_;
@@ -54,8 +103,6 @@ class ArmPath {
   std::span<const JointState> states_;
   std::vector<double> shares_;  // of each state: the length up to it
 };
-
-namespace {
 
 // An arm and its obstacles as solids, seen in perspective.
 
@@ -126,16 +173,6 @@ void add_arm(SolidView& view, const ArmPath& path, double radius, const Executio
   }
 }
 
-std::vector<Vec2> circle(Vec2 centre, double radius) {
-  constexpr int corners = 64;
-  std::vector<Vec2> points;
-  for (int i = 0; i < corners; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / corners;
-    points.push_back(centre + Vec2{radius * portable::cos(angle), radius * portable::sin(angle)});
-  }
-  return points;
-}
-
 /// The outline of a capsule seen from far.
 std::vector<Vec2> stadium(Vec2 a, Vec2 b, double radius) {
   constexpr int half = 12;
@@ -187,8 +224,31 @@ class ArmDrawing {
     }
     return views;
   }
+
   /// Where the tool is at these, in each view, instead of its trace.
-  std::vector<PictureLayer> places(std::span<const Vec3> tools, std::span<const ToolLines> lines) const;
+  std::vector<PictureLayer> places(std::span<const Vec3> tools, std::span<const ToolLines> lines) const {
+    std::vector<PictureLayer> layers;
+    constexpr std::size_t lines_a_poll = 1 << 12;
+    for (const ToolLines& some : lines) {
+      PictureLayer& layer = layers.emplace_back(
+          PictureLayer{.id = some.id, .label = some.label, .color = some.color, .width = some.width});
+      for (const Projection& view : views_) {
+        for (std::size_t i = 0; i < some.edges.size(); ++i) {
+          if (i % lines_a_poll == 0) execution_.check();
+          layer.lines.add(std::array{view.at(tools[some.edges[i].from]), view.at(tools[some.edges[i].to])});
+        }
+      }
+    }
+    PictureLayer& dots = layers.emplace_back(PictureLayer{.id = "milestones",
+                                                          .label = "tool at a state",
+                                                          .swatch = MarkShape::disc,
+                                                          .color = colors::outline,
+                                                          .width = widths::milestone});
+    for (const Projection& view : views_) {
+      for (const Vec3& p : tools) dots.lines.add(std::array{view.at(p), view.at(p)});
+    }
+    return layers;
+  }
 
  private:
   static constexpr double margin = 0.1;  // of the extent
@@ -197,13 +257,100 @@ class ArmDrawing {
     low_ = low_.cwiseMin(p - Vec3::Constant(radius));
     high_ = high_.cwiseMax(p + Vec3::Constant(radius));
   }
-  void measure(const ArmPath& seen);
-  void lay_out();
-  void add_obstacles(const Projection& view, Scene& stage) const;
-  std::vector<AxesPanel> panels(double square) const;
-  PictureLayer sweep(const ArmPath& path) const;
-  PictureLayer arm_at(const char* id, const ArmPath& path, const JointState& q, Rgb color) const;
-  PictureLayer trace(const ArmPath& path) const;
+  void measure(const ArmPath& seen) {
+    include(Vec3::Zero(), radius_);
+    for (const Sphere& s : scene_.spheres) include({s.x, s.y, s.z}, s.radius);
+    for (const auto& [low, high] : scene_.boxes) {
+      include(corner(low), 0.0);
+      include(corner(high), 0.0);
+    }
+    constexpr double places = 60.0;
+    for (const ArmPath::Place& at : seen.places(places, execution_)) {
+      for (const Vec3& end : seen.spine(at.q)) include(end, radius_);
+    }
+  }
+  /// Above the view from the side, and beyond where that is narrow, stands the perspective.
+  void lay_out() {
+    const Vec3 size = high_ - low_;
+    const double extent = std::max(size.maxCoeff(), 1e-9);
+    room_ = margin * extent;
+    const Vec2 right{size.x() + 3.0 * room_, 0.0};
+    const Vec2 above{0.0, size.z() + 3.0 * room_};
+    views_ = {Projection{{0, 2}, Vec2{-low_.x(), -low_.z()}}, Projection{{0, 1}, above + Vec2{-low_.x(), -low_.y()}},
+              Projection{{1, 2}, right + Vec2{-low_.y(), -low_.z()}}};
+    const Vec2 low = right + above - Vec2{0.5 * room_, 0.5 * room_};
+    const double side = extent + room_;
+    perspective_ = {low, low + Vec2{side, side}};
+  }
+  void add_obstacles(const Projection& view, Scene& stage) const {
+    constexpr std::size_t obstacles_a_poll = 256;
+    for (std::size_t i = 0; i < scene_.spheres.size(); ++i) {
+      if (i % obstacles_a_poll == 0) execution_.check();
+      const Sphere& s = scene_.spheres[i];
+      if (s.radius > 0.0) stage.polygons.push_back({circle_outline(view.at({s.x, s.y, s.z}), s.radius, 64)});
+    }
+    for (const auto& [low, high] : scene_.boxes) {
+      const Vec2 a = view.at(corner(low));
+      const Vec2 b = view.at(corner(high));
+      stage.polygons.push_back({{a, {b.x, a.y}, b, {a.x, b.y}}});
+    }
+  }
+  std::vector<AxesPanel> panels(double square) const {
+    constexpr std::array<const char*, 3> names{"x", "y", "z"};
+    std::vector<AxesPanel> panels;
+    const Vec2 room{0.5 * room_, 0.5 * room_};
+    for (const Projection& view : views_) {
+      panels.push_back({.box = {view.at(low_) - room, view.at(high_) + room},
+                        .origin = view.shift,
+                        .x_label = names[static_cast<std::size_t>(view.axes[0])],
+                        .y_label = names[static_cast<std::size_t>(view.axes[1])]});
+    }
+    panels.push_back(
+        {.box = perspective_, .y_label = fmt::format("perspective, squares of {:.4g}", square), .has_ticks = false});
+    return panels;
+  }
+
+  PictureLayer sweep(const ArmPath& path) const {
+    constexpr double bodies = 24.0;
+    PictureLayer layer{.id = "sweep",
+                       .label = "arm along the path",
+                       .part = Part::body,
+                       .color = colors::body,
+                       .width = 0.5 * widths::edge,
+                       .closed = true};
+    for (const ArmPath::Place& at : path.places(bodies, execution_)) {
+      const std::vector<Vec3> spine = path.spine(at.q);
+      for (const Projection& view : views_) {
+        for (std::size_t i = 1; i < spine.size(); ++i) {
+          layer.lines.add(stadium(view.at(spine[i - 1]), view.at(spine[i]), radius_));
+        }
+      }
+    }
+    return layer;
+  }
+
+  PictureLayer arm_at(const char* id, const ArmPath& path, const JointState& q, Rgb color) const {
+    PictureLayer layer{.id = std::string("arm_at_") + id,
+                       .label = std::string("arm at the ") + id,
+                       .part = Part::body,
+                       .color = color,
+                       .width = widths::wall};
+    const std::vector<Vec3> spine = path.spine(q);
+    for (const Projection& view : views_) layer.lines.add(seen_from(view, spine));
+    return layer;
+  }
+  PictureLayer trace(const ArmPath& path) const {
+    constexpr double pieces = 400.0;
+    PictureLayer layer{.id = "trace",
+                       .label = "path of the tool",
+                       .part = Part::path,
+                       .color = colors::path,
+                       .width = 0.6 * widths::path};
+    std::vector<Vec3> way;
+    for (const ArmPath::Place& at : path.places(pieces, execution_)) way.push_back(path.tool(at.q));
+    for (const Projection& view : views_) layer.lines.add(seen_from(view, way));
+    return layer;
+  }
 
   const Scene& scene_;
   double radius_;
@@ -214,129 +361,6 @@ class ArmDrawing {
   std::array<Projection, 3> views_;
   Box perspective_;
 };
-
-void ArmDrawing::measure(const ArmPath& seen) {
-  include(Vec3::Zero(), radius_);
-  for (const Sphere& s : scene_.spheres) include({s.x, s.y, s.z}, s.radius);
-  for (const auto& [low, high] : scene_.boxes) {
-    include({low[0], low[1], low[2]}, 0.0);
-    include({high[0], high[1], high[2]}, 0.0);
-  }
-  constexpr double places = 60.0;
-  for (const ArmPath::Place& at : seen.places(places, execution_)) {
-    for (const Vec3& end : seen.spine(at.q)) include(end, radius_);
-  }
-}
-
-/// Above the view from the side, and beyond where that is narrow, stands the perspective.
-void ArmDrawing::lay_out() {
-  const Vec3 size = high_ - low_;
-  const double extent = std::max(size.maxCoeff(), 1e-9);
-  room_ = margin * extent;
-  const Vec2 right{size.x() + 3.0 * room_, 0.0};
-  const Vec2 above{0.0, size.z() + 3.0 * room_};
-  views_ = {Projection{{0, 2}, Vec2{-low_.x(), -low_.z()}}, Projection{{0, 1}, above + Vec2{-low_.x(), -low_.y()}},
-            Projection{{1, 2}, right + Vec2{-low_.y(), -low_.z()}}};
-  const Vec2 corner = right + above - Vec2{0.5 * room_, 0.5 * room_};
-  const double side = extent + room_;
-  perspective_ = {corner, corner + Vec2{side, side}};
-}
-
-void ArmDrawing::add_obstacles(const Projection& view, Scene& stage) const {
-  constexpr std::size_t obstacles_a_poll = 256;
-  for (std::size_t i = 0; i < scene_.spheres.size(); ++i) {
-    if (i % obstacles_a_poll == 0) execution_.check();
-    const Sphere& s = scene_.spheres[i];
-    if (s.radius > 0.0) stage.polygons.push_back({circle(view.at({s.x, s.y, s.z}), s.radius)});
-  }
-  for (const auto& [low, high] : scene_.boxes) {
-    const Vec2 a = view.at({low[0], low[1], low[2]});
-    const Vec2 b = view.at({high[0], high[1], high[2]});
-    stage.polygons.push_back({{a, {b.x, a.y}, b, {a.x, b.y}}});
-  }
-}
-
-std::vector<AxesPanel> ArmDrawing::panels(double square) const {
-  constexpr std::array<const char*, 3> names{"x", "y", "z"};
-  std::vector<AxesPanel> panels;
-  const Vec2 room{0.5 * room_, 0.5 * room_};
-  for (const Projection& view : views_) {
-    panels.push_back({.box = {view.at(low_) - room, view.at(high_) + room},
-                      .origin = view.shift,
-                      .x_label = names[static_cast<std::size_t>(view.axes[0])],
-                      .y_label = names[static_cast<std::size_t>(view.axes[1])]});
-  }
-  panels.push_back(
-      {.box = perspective_, .y_label = fmt::format("perspective, squares of {:.4g}", square), .has_ticks = false});
-  return panels;
-}
-
-PictureLayer ArmDrawing::sweep(const ArmPath& path) const {
-  constexpr double bodies = 24.0;
-  PictureLayer layer{.id = "sweep",
-                     .label = "arm along the path",
-                     .part = Part::body,
-                     .color = colors::body,
-                     .width = 0.5 * widths::edge,
-                     .closed = true};
-  for (const ArmPath::Place& at : path.places(bodies, execution_)) {
-    const std::vector<Vec3> spine = path.spine(at.q);
-    for (const Projection& view : views_) {
-      for (std::size_t i = 1; i < spine.size(); ++i) {
-        layer.lines.add(stadium(view.at(spine[i - 1]), view.at(spine[i]), radius_));
-      }
-    }
-  }
-  return layer;
-}
-
-PictureLayer ArmDrawing::arm_at(const char* id, const ArmPath& path, const JointState& q, Rgb color) const {
-  PictureLayer layer{.id = std::string("arm_at_") + id,
-                     .label = std::string("arm at the ") + id,
-                     .part = Part::body,
-                     .color = color,
-                     .width = widths::wall};
-  const std::vector<Vec3> spine = path.spine(q);
-  for (const Projection& view : views_) layer.lines.add(seen_from(view, spine));
-  return layer;
-}
-
-PictureLayer ArmDrawing::trace(const ArmPath& path) const {
-  constexpr double pieces = 400.0;
-  PictureLayer layer{.id = "trace",
-                     .label = "path of the tool",
-                     .part = Part::path,
-                     .color = colors::path,
-                     .width = 0.6 * widths::path};
-  std::vector<Vec3> way;
-  for (const ArmPath::Place& at : path.places(pieces, execution_)) way.push_back(path.tool(at.q));
-  for (const Projection& view : views_) layer.lines.add(seen_from(view, way));
-  return layer;
-}
-
-std::vector<PictureLayer> ArmDrawing::places(std::span<const Vec3> tools, std::span<const ToolLines> lines) const {
-  std::vector<PictureLayer> layers;
-  constexpr std::size_t lines_a_poll = 1 << 12;
-  for (const ToolLines& some : lines) {
-    PictureLayer& layer =
-        layers.emplace_back(PictureLayer{.id = some.id, .label = some.label, .color = some.color, .width = some.width});
-    for (const Projection& view : views_) {
-      for (std::size_t i = 0; i < some.edges.size(); ++i) {
-        if (i % lines_a_poll == 0) execution_.check();
-        layer.lines.add(std::array{view.at(tools[some.edges[i].from]), view.at(tools[some.edges[i].to])});
-      }
-    }
-  }
-  PictureLayer& dots = layers.emplace_back(PictureLayer{.id = "milestones",
-                                                        .label = "tool at a state",
-                                                        .swatch = MarkShape::disc,
-                                                        .color = colors::outline,
-                                                        .width = widths::milestone});
-  for (const Projection& view : views_) {
-    for (const Vec3& p : tools) dots.lines.add(std::array{view.at(p), view.at(p)});
-  }
-  return layers;
-}
 
 /// How much thinner and paler balls and threads become whose ink would cover the view: the root of the share of it that
 /// they may cover, at most 1. ink: square reaches.
@@ -384,6 +408,7 @@ class Places {
                 some.color, share);
     }
   }
+
   void add_solid(const Vec3& a, const Vec3& b, double radius, Rgb color, double share) {
     constexpr double least_share = 0.6;  // paler ones would be grey in their own shade
     const auto percent = static_cast<unsigned>(100.0 * std::max(share, least_share));
@@ -423,67 +448,6 @@ ArmViews arm_views(const Scene& scene, const DhTable& table, double radius, std:
                    const Execution& execution) {
   const ArmPath along(table, path);
   return ArmDrawing(scene, radius, along, execution).draw(along);
-}
-
-namespace {
-
-double joint_distance(const JointState& a, const JointState& b) {
-  double square = 0.0;
-  for (std::size_t j = 0; j < most_joints; ++j) square += (b[j] - a[j]) * (b[j] - a[j]);
-  return std::sqrt(square);
-}
-
-JointState between(const JointState& a, const JointState& b, double t) {
-  JointState q;
-  for (std::size_t j = 0; j < most_joints; ++j) q[j] = a[j] + t * (b[j] - a[j]);
-  return q;
-}
-
-}  // namespace
-
-ArmPath::ArmPath(const DhTable& table, std::span<const JointState> states)
-    : chain_(table), links_(links_of(chain_)), states_(states), shares_{0.0} {
-  for (std::size_t i = 1; i < states.size(); ++i) {
-    shares_.push_back(shares_.back() + joint_distance(states[i - 1], states[i]));
-  }
-}
-
-std::vector<Vec3> ArmPath::spine(const JointState& q) const {
-  ChainPosture at;
-  chain_.place(q, at);
-  std::vector<Vec3> ends{at.points[links_.front().from]};
-  for (const ArmLink& link : links_) ends.push_back(at.points[link.to]);
-  return ends;
-}
-
-Vec3 ArmPath::tool(const JointState& q) const {
-  ChainPosture at;
-  chain_.place(q, at);
-  return at.points[chain_.point_count() - 1];
-}
-
-JointState ArmPath::at(double moment) const {
-  const double way = moment * length();
-  std::size_t i = 1;
-  while (i + 1 < states_.size() && shares_[i] < way) ++i;
-  if (i >= states_.size() || !(shares_[i] > shares_[i - 1])) return states_.front();
-  return between(states_[i - 1], states_[i],
-                 std::clamp((way - shares_[i - 1]) / (shares_[i] - shares_[i - 1]), 0.0, 1.0));
-}
-
-std::vector<ArmPath::Place> ArmPath::places(double count, const Execution& execution) const {
-  std::vector<Place> all{{0.0, states_.front()}};
-  if (!(length() > 0.0)) return all;
-  for (std::size_t i = 1; i < states_.size(); ++i) {
-    execution.check();
-    const double leg = shares_[i] - shares_[i - 1];
-    const double parts = std::max(1.0, std::ceil(count * leg / length()));
-    for (double part = 1.0; part <= parts; part += 1.0) {
-      const double t = part / parts;
-      all.push_back({(shares_[i - 1] + t * leg) / length(), between(states_[i - 1], states_[i], t)});
-    }
-  }
-  return all;
 }
 
 }  // namespace warren

@@ -27,14 +27,8 @@ constexpr std::size_t most_bends = 24;
 constexpr double faintest = 0.25;  // of the outlines, at the start
 
 std::vector<Vec2> outline_of(const RobotSpec& robot) {
-  if (!robot.outline.empty()) return robot.outline;
-  std::vector<Vec2> circle;
-  constexpr int corners = 64;
-  for (int i = 0; i < corners && robot.radius > 0.0; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / corners;
-    circle.push_back({robot.radius * portable::cos(angle), robot.radius * portable::sin(angle)});
-  }
-  return circle;
+  if (!robot.outline.empty() || !(robot.radius > 0.0)) return robot.outline;
+  return circle_outline({}, robot.radius, 64);
 }
 
 class BodyDrawing {
@@ -93,9 +87,57 @@ class BodyDrawing {
     for (const Vec2 p : outline_) corners.push_back(pose.position() + turned(p));
     layer.lines.add(corners);
   }
-  void add_front(PictureLayer& layer, const Se2& pose) const;
-  std::vector<Se2> bends_of() const;
-  PictureLayer sweep() const;
+  /// A triangle inside, at the end that goes ahead.
+  void add_front(PictureLayer& layer, const Se2& pose) const {
+    Box box;
+    for (const Vec2 p : outline_) box.include(p);
+    const double middle = 0.5 * (box.min.y + box.max.y);
+    const double half = 0.16 * std::min(box.width(), box.height());
+    const double tip = box.max.x - 0.06 * box.width();
+    const Rotation turned(pose.theta);
+    std::vector<Vec2> triangle;
+    for (const Vec2 p :
+         {Vec2{tip, middle}, Vec2{tip - 1.7 * half, middle + half}, Vec2{tip - 1.7 * half, middle - half}}) {
+      triangle.push_back(pose.position() + turned(p));
+    }
+    layer.lines.add(triangle);
+  }
+
+  /// Not too near to each other, nor too many; of a car where it changes between forwards and backwards.
+  std::vector<Se2> bends_of() const {
+    std::vector<std::size_t> bends;
+    const auto direction = [&](std::size_t leg) {
+      const Vec2 way = poses_[leg].position() - poses_[leg - 1].position();
+      const Se2 middle = pose_on_leg(poses_[leg - 1], poses_[leg], 0.5);
+      return dot(way, Rotation(middle.theta)({1.0, 0.0})) >= 0.0;
+    };
+    for (std::size_t i = 1; i + 1 < poses_.size(); ++i) {
+      if (motion_ == BodyMotion::straight || direction(i) != direction(i + 1)) bends.push_back(i);
+    }
+    std::vector<Se2> kept;
+    const std::size_t apart = bends.size() / most_bends + 1;
+    double last = 0.0;
+    for (std::size_t k = 0; k < bends.size(); k += apart) {
+      const double at = travels_[bends[k]];
+      const bool is_apart = at - last >= 0.8 * size_ && travels_.back() - at >= 0.8 * size_;
+      if (motion_ == BodyMotion::straight && !is_apart) continue;
+      last = at;
+      kept.push_back(poses_[bends[k]]);
+    }
+    return kept;
+  }
+
+  PictureLayer sweep() const {
+    PictureLayer layer{
+        .id = "sweep", .label = "body along the path", .part = Part::body, .color = colors::body, .closed = true};
+    const double whole = travels_.back();
+    const double count = std::floor(std::min(most_outlines, whole / (0.5 * size_)));
+    for (double i = 1.0; i < count; i += 1.0) {
+      add_body(layer, pose_at(whole * i / count));
+      layer.opacities.push_back(faintest + (1.0 - faintest) * i / count);
+    }
+    return layer;
+  }
   PictureLayer filled(const char* id, const std::string& label, Rgb color, std::span<const Se2> poses) const {
     PictureLayer layer{.id = id,
                        .label = label,
@@ -116,58 +158,6 @@ class BodyDrawing {
   bool has_heading_ = false;
   std::vector<double> travels_;  // way of the farthest point, at most, until each pose
 };
-
-/// A triangle inside, at the end that goes ahead.
-void BodyDrawing::add_front(PictureLayer& layer, const Se2& pose) const {
-  Box box;
-  for (const Vec2 p : outline_) box.include(p);
-  const double middle = 0.5 * (box.min.y + box.max.y);
-  const double half = 0.16 * std::min(box.width(), box.height());
-  const double tip = box.max.x - 0.06 * box.width();
-  const Rotation turned(pose.theta);
-  std::vector<Vec2> triangle;
-  for (const Vec2 p :
-       {Vec2{tip, middle}, Vec2{tip - 1.7 * half, middle + half}, Vec2{tip - 1.7 * half, middle - half}}) {
-    triangle.push_back(pose.position() + turned(p));
-  }
-  layer.lines.add(triangle);
-}
-
-/// Not too near to each other, nor too many; of a car where it changes between forwards and backwards.
-std::vector<Se2> BodyDrawing::bends_of() const {
-  std::vector<std::size_t> bends;
-  const auto direction = [&](std::size_t leg) {
-    const Vec2 way = poses_[leg].position() - poses_[leg - 1].position();
-    const Se2 middle = pose_on_leg(poses_[leg - 1], poses_[leg], 0.5);
-    return dot(way, Rotation(middle.theta)({1.0, 0.0})) >= 0.0;
-  };
-  for (std::size_t i = 1; i + 1 < poses_.size(); ++i) {
-    if (motion_ == BodyMotion::straight || direction(i) != direction(i + 1)) bends.push_back(i);
-  }
-  std::vector<Se2> kept;
-  const std::size_t apart = bends.size() / most_bends + 1;
-  double last = 0.0;
-  for (std::size_t k = 0; k < bends.size(); k += apart) {
-    const double at = travels_[bends[k]];
-    const bool is_apart = at - last >= 0.8 * size_ && travels_.back() - at >= 0.8 * size_;
-    if (motion_ == BodyMotion::straight && !is_apart) continue;
-    last = at;
-    kept.push_back(poses_[bends[k]]);
-  }
-  return kept;
-}
-
-PictureLayer BodyDrawing::sweep() const {
-  PictureLayer layer{
-      .id = "sweep", .label = "body along the path", .part = Part::body, .color = colors::body, .closed = true};
-  const double whole = travels_.back();
-  const double count = std::floor(std::min(most_outlines, whole / (0.5 * size_)));
-  for (double i = 1.0; i < count; i += 1.0) {
-    add_body(layer, pose_at(whole * i / count));
-    layer.opacities.push_back(faintest + (1.0 - faintest) * i / count);
-  }
-  return layer;
-}
 
 }  // namespace
 

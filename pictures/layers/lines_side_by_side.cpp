@@ -153,7 +153,30 @@ class SharedLegs {
     if (users->size() == 1) return shown_[path].add(run);
     take_turns(*users, run);
   }
-  void take_turns(const PathNumbers& users, const std::vector<Vec2>& run);
+  /// Dashes of equal length, as many for each.
+  void take_turns(const PathNumbers& users, const std::vector<Vec2>& run) {
+    double length = 0.0;
+    for (std::size_t k = 1; k < run.size(); ++k) length += distance(run[k - 1], run[k]);
+    const auto rounds = std::max(std::round(length / dash_ / static_cast<double>(users.size())), 1.0);
+    const auto dashes = static_cast<std::size_t>(rounds) * users.size();
+    const double each = length / static_cast<double>(dashes);
+    std::vector<Vec2> dash{run.front()};
+    std::size_t drawn = 0;
+    double walked = 0.0;
+    for (std::size_t k = 1; k < run.size(); ++k) {
+      const double leg = distance(run[k - 1], run[k]);
+      for (; drawn + 1 < dashes && each * static_cast<double>(drawn + 1) < walked + leg; ++drawn) {
+        const double share = (each * static_cast<double>(drawn + 1) - walked) / leg;
+        const Vec2 end = run[k - 1] + share * (run[k] - run[k - 1]);
+        dash.push_back(end);
+        shown_[users[drawn % users.size()]].add(dash);
+        dash = {end};
+      }
+      walked += leg;
+      dash.push_back(run[k]);
+    }
+    shown_[users[drawn % users.size()]].add(dash);
+  }
 
   std::span<const std::vector<Vec2>> paths_;
   double dash_;
@@ -161,31 +184,6 @@ class SharedLegs {
   std::map<Leg, PathNumbers> users_;
   std::vector<PolygonSet> shown_;
 };
-
-/// Dashes of equal length, as many for each.
-void SharedLegs::take_turns(const PathNumbers& users, const std::vector<Vec2>& run) {
-  double length = 0.0;
-  for (std::size_t k = 1; k < run.size(); ++k) length += distance(run[k - 1], run[k]);
-  const auto rounds = std::max(std::round(length / dash_ / static_cast<double>(users.size())), 1.0);
-  const auto dashes = static_cast<std::size_t>(rounds) * users.size();
-  const double each = length / static_cast<double>(dashes);
-  std::vector<Vec2> dash{run.front()};
-  std::size_t drawn = 0;
-  double walked = 0.0;
-  for (std::size_t k = 1; k < run.size(); ++k) {
-    const double leg = distance(run[k - 1], run[k]);
-    for (; drawn + 1 < dashes && each * static_cast<double>(drawn + 1) < walked + leg; ++drawn) {
-      const double share = (each * static_cast<double>(drawn + 1) - walked) / leg;
-      const Vec2 end = run[k - 1] + share * (run[k] - run[k - 1]);
-      dash.push_back(end);
-      shown_[users[drawn % users.size()]].add(dash);
-      dash = {end};
-    }
-    walked += leg;
-    dash.push_back(run[k]);
-  }
-  shown_[users[drawn % users.size()]].add(dash);
-}
 
 }  // namespace
 

@@ -3,14 +3,17 @@
 
 #include <array>
 #include <string_view>
+#include <utility>
 
 #include "core/base/printable.hpp"
 
 namespace warren {
 // The outlines of ASCII's and Latin-1's letters, so that pictures in pixels don't depend on a machine's fonts. Glyphs
-// of U+0020 to U+007E and U+00A0 to U+00FF, apart by blanks. All numbers are pairs of digits in base 64 (A-Z a-z 0-9 +
-// /): a glyph is its advance and its contours, a contour the count of its points and these, a point x + 1024 and
-// 2 (y + 512) + (1 if it is on the curve): TrueType's quadratic curves, 1024 units to the letters' size.
+// of U+0020 to U+007E and U+00A0 to U+00FF, apart by blanks: a glyph is its advance and its contours, a contour the
+// count of its points and these: TrueType's quadratic curves, 1024 units to the letters' size. Points are steps from
+// the one before, y up, y doubled + 1 where the point is on the curve; instead of a count 0 stands before a contour of
+// an earlier glyph: the glyph, which of its contours, and the step from it. A number is a digit of base 91 (# to ~
+// without the backslash) below 40, else two; steps are doubled, those back are -2 n - 1.
 //
 // Derived from DejaVu Sans 2.37 with another name, as its licence asks. Copyright (c) 2003 by Bitstream, Inc. All
 // Rights Reserved. Bitstream Vera is a trademark of Bitstream, Inc. DejaVu changes are in public domain. Permission is
@@ -32,181 +35,116 @@ namespace warren {
 // INABILITY TO USE THE FONT SOFTWARE OR FROM OTHER DEALINGS IN THE FONT SOFTWARE.
 
 inline constexpr std::string_view letter_outlines =
-    "FG GaAESaT/UAT/UAQBSaQBAGSanVUAnVUAdHT2XhSlXhSadH HXAES4nVS4erRierRinVAEV0nVV0erUgerUgnV NaAEYMeFV6eFVQY5XiY5AcX"
-    "Am/WMghYeghZTm/ajm/ZwghcMghcMeFZceFYzY5bSY5bSWfYgWfXsQBWcQBXPWfU8WfUJQBS4QBTsWfRPWfRPY5T/Y5UpeFSIeFSIghU8ghVwm/ "
-    "KMAiVaLVUoLVUoQBTzQCSKQwRVRdRVURSITQTwSQUoSPUoZXS6Z6RVcmRVe9RVhgTCkcUokpUooVVaoVVaktWIkoXgkIYJjvYJhBXghoWIiYVaid"
-    "VabxXMbMY2YYY2V9Y2TUXFQQVaQDAHUocDUoidTuiQSxgkSxfNSxd4TqcYAHVaZDVaSRWaSiXaUQXaVrXaXCWcYq PNAMboaRa9aQaMX8aMV5aMT"
-    "4a9RiboRjcTRidET4dEV5dEX8cTaQAMbocRc4cQeUY0eUV5eUS+c3PkboPlaYPkY8S+Y8V5Y8Y0aZcQAMTklxS6lwSIjcSIhbSIfWS5dCTkdDUQd"
-    "CVCfWVChbVCjcUQlwAEaonxb4nxUlPlTVPlAMTknxU0nwWSkUWShbWSecU0bETkbFSVbEQ4eeQ4hbQ4kUSWnw MeAKT5clTMbSShYwShXZShVIUL"
-    "SEVbSFWKSEXeTEYCUFAnVAeVY+WNZbXkZ8awZ/chbcchbWacaiWcZ0Udb/QBaBQBY6SVYGQ6WUPkVSPlTaPkRAT2RAXNRAZMSEcuTGeRSufQSWhM"
-    "SWiJSWksUEnwVgnxWKnwXcnMYHmpYHjzXckgWMlSVqlTU2lST0jkT0iNT0hYUSfw EaAES4nVS4erRierRinV GQAOU+oTT6ksS6dqS6aFS6WcT7"
-    "PYU+LzTuLzSiPcRYWkRYaFRYdiSikmTuoT GQAORSoTSioTTtkmU4diU4aFU4WkTtPcSiLzRSLzSUPYTWWcTWaFTWdqSUks IAASXijhUugdXidb"
-    "XEb5UcfFUcZLTkZLTkfFQ8b5QedbTSgdQejhQ8lDTkh5TknxUcnxUch5XElD NaAMXXkFXXbZbubZbuYtXXYtXXQBWDQBWDYtRsYtRsbZWDbZWDk"
-    "F FGAGR4T/TiT/TiRTSQMTRPMTR4RT FyAEQyaFVAaFVAXhQyXh FGAERuT/TXT/TXQBRuQB FZAEUEnVVZnVRVNDQAND KMAMVGlRT4lQSpgcSp"
-    "bpSpW2T4SEVGSFWUSEXiW2XibpXigcWUlQAMVGnxXDnwZIhkZIbpZIVwXDPkVGPlTIPkREVwREbpREhkTInw KMALR/SrUkSrUkkdRwjVRwmNUjn"
-    "VWInVWISrYtSrYtQBR/QB KMAdTESrYlSrYlQBRLQBRLSrSEUgVLayVkbtWVdYW8fwW8g5W8iwVolGUllHT2lGSMkERQjBRQmNSNm+T3nwUjnxWX"
-    "nwYhkIYhhHYhfqX+dEXRbVXEa4U+Wk KMApWgclXocGY6ZCY6WzY6TUWiPkUWPlTmPkSDQIROQtROTxR4TATcSMUSSNVySMXVUkXVWzXVY2V4bMU"
-    "mbNTPbNTPdxUqdxV0dwXEfoXEhZXEjMVylGUmlHT8lGSekiRkj9RkmxSenQUCnwUvnxWinwYokgYohtYofwXhdG KMADWDklSEYJWDYJALVonVXo"
-    "nVXoYJZSYJZSVhXoVhXoQBWDQBWDVhQyVhQyYl KMAeRunVX7nVX7ktTLktTLe9ThfMUNfcUjfdWgfcYybIYyXhYyTuWcPkUUPlTkPkSDQERPQlR"
-    "PTvR8S8TcSMUSSNVoSMXNVEXNXhXNZ8VocwUScxTpcwSYcMRubp KMAMVSc9UOc8S+aAS+XhS+U+UOSEVSSFWWSEXmU+XmXhXmaAWWc8AZYam1Ya"
-    "j9X0kgWnlGWBlHUdlGS0g4SscpTKd+UifcVYfdXIfcZLbKZLXhZLT4XDPkVSPlTQPkRIVwRIbpRIhMTwnwV9nxWjnwXwnS KMAHRUnVY0nVY0mBU"
-    "lQBS8QBW6ktRUkt KMAMVGbFT+bESrYsSrWlSrUcT+SEVGSFWOSEXgUeXgWlXgYsWObEAYTgcdSgc8RXfsRXhtRXkgTWnwVGnxW1nwY0kgY0htY0"
-    "fsXsc8WrcdX0b4ZGY0ZGWlZGTMXBPkVGPlTKPkRGTMRGWlRGY0SYb4AMS8hbS8fmUEdkVGdlWGdkXQfmXQhbXQjOWGlQVGlRUElQS8jO KMAZRwQ"
-    "hRwTZSWS0TkSMUKSNVuSMXYWaXfatXCZWVpX6UzX7TDX6RAcIRAf1RAjaTInwU6nxW7nwZEhkZEbpZEWIWcPkUOPlToPkSaQAAMU6aZV+aYXNdSX"
-    "Nf1XNiUV+lQU6lRT2lQSmiUSmf1SmdST2aY FZAER4T/TiT/TiQBR4QBAER4glTiglTiclR4cl FZAER4glTiglTiclR4clAGR4T/TiT/TiRTSQM"
-    "TRPMTR4RT NaAHbufxTqaBbuUVbuRfRsYxRsbVbuin NaAERsejbuejbub7Rsb7AERsYLbuYLbuVhRsVh NaAHRsfxRsinbubVbuYxRsRfRsUVZw"
-    "aB IgAETET/UpT/UpQBTEQBAhUmWRTGWRTGYtTGaQTicSUQdpU8fBVZf2VyhUVyiFVyjeUxlMT7lNTUlMR6kGRKjFRKmBR4m4TZnwUMnxVonwXYk"
-    "uXYiRXYhEW0e6WHdlVbcPVEbgUwaqUsaRUpZ8UmZAUmYN QAAMV9YZV9WKXEToYCTpZAToaGWMaGYZaGakY+dKYBdLXEdKV9amBBaOTvZwSgYiRY"
-    "XuRZWYRYUtVQUtYZUtbgWZfcXufdYifcZweQaOdFaOfJbVfJbVTpceT8dwXcdwaNdwb4dRe0cxgFb9iIZokSYQkTXSkSVhjQUxiRTigsSKbgSKYh"
-    "SKWATERqT6QBUuOYW4MsYHMtZIMsbEOCb4PVclNlbmMEZTKcYHKdWqKcUGMgTGOdSGQYREViREYhREbUSIggTGidUHkcWwmiYOmjZ4micuj0dshV"
-    "eRfye4cMe4aRe4WKcaRaaORV K8ADVekPTVYpXoYpAIUlnVWYnVa0QBZLQBYHWBS2WBRyQBQIQB K+AJTKbJTKSnVsSnW9SmYMUsYMW5YMZEW9bI"
-    "VsbJAJTKkxTKdtVfdtWpdsXyfcXyhPXyjAWpkwVfkxAPRknVVmnVXanUZXkUZXhlZXfcYXc4XZclYkcEZ2Y6Z2WjZ2TaXuQAVwQBRkQB LLAaaUl"
-    "jaUiNZgjsXtlKWslLUslKSkgQSkbpSkXCUsSIWsSJXtSIZgToaUVHaUR1ZeQsXoPkWmPlT8PkQ6WCQ6bpQ6hQT8nwWmnxXpnwZgmo MUAJTKkxTK"
-    "SnVESnXeSmZuW+ZubtZugYXekwVEkxAJRknVU0nVYNnUbYhsbYbtbYVqYMQAU0QBRkQB KHAMRknVY8nVY8ktTKktTKdxYtdxYtbJTKbJTKSrZGS"
-    "rZGQBRkQB JNAKRknVYSnVYSktTKktTKd1Xyd1XybJTKbJTKQBRkQB MaAeZiTVZiZnW8ZnW8cNbGcNbGSNaLQ4X+PkWuPlT/PkQ6V8Q6bpQ6hYT"
-    "/nwWunxX3nwZ6moayljayiNZ6jqX8lKW2lLUulKSkgYSkbpSkW8UuSIW2SJXsSIZASu MCAMRknVTKnVTKdxY4dxY4nVaenVaeQBY4QBY4bJTKbJ"
-    "TKQBRkQB EuAERknVTKnVTKQBRkQB EuAMRknVTKnVTKRpTKNaRjJmPyJnPLJnPLMRPqMRQuMQRkOmRkRp KgALRknVTKnVTKdfYYnVaanVUocda"
-    "1QBYwQBTKbRTKQBRkQB I6AGRknVTKnVTKSrY1SrY1QBRkQB N0ANRknVT7nVW6XdZ5nVcQnVcQQBatQBatkhXsUhWHUhTGkhTGQBRkQB L+AKRk"
-    "nVTsnVY4T1Y4nVaanVaaQBYSQBTGjhTGQBRkQB MmAMWUlNUmlMSkgESkbpSkXQUmSIWUSJYCSIaCXQaCbpaCgEYClMAMWUnxYwnwbshMbsbpbsW"
-    "IYwPkWUPlT2PkQ6WIQ6bpQ6hMT2nw JqAJTKkxTKb/VIb/WPb+XceQXcgZXcicWPkwVIkxALRknVVInVXGnUZGjyZGgZZGc6XGZYVIZZTKZZTKQB"
-    "RkQB MmAMWUlNUmlMSkgESkbpSkXQUmSIWUSJYCSIaCXQaCbpaCgEYClMASYhQdamL5YsL5W+PpWtPkWcPkWUPlT2PkQ6WIQ6bpQ6hMT2nwWUnxY"
-    "wnwbshMbsbpbsXkaER0 LIAUXGa9XnamYkYWZEWZaqQBY+QBXeWBW5YUV0Z4U4Z5TKZ5TKQBRkQBRknVVInVXInUZGkAZGgpZGeaYFbgAJTKkxTK"
-    "cdVIcdWSccXcekXcgpXciqWSkwVIkx KKAoYkmlYkjhXqkWWElMVVlNUClMSpjMSphXSpf0TkeOU4dxV0dXXmcsZRZSZRWdZRTEXAPkUzPlT+PkS"
-    "GQURGRDRGUTSETMT6SIUzSJWKSIXoUQXoWNXoX8WkZ4VXaXUaavSobcREecREhHREkMTPnwVKnxV+nwXrnK JyAIP9nVZ0nVZ0ktVsktVsQBUGQB"
-    "UGktP9kt LuASRZnVS+nVS+ZLS+VaUWSIV3SJXYSIYvVaYvZLYvnVaUnVaUYxaUUMYEPkV3PlTqPkRZUMRZYx K8AHUlQBQInVRynVVeTtZLnVa0"
-    "nVWYQB P0ANQinVSInVUlTpXCnVYznVbQTpdsnVfTnVcYQBaYQBX7kRVcQBTdQB K+AMRAnVStnVVmerYhnVaOnVWecJaeQBYxQBVfZ9SMQBQeQB"
-    "Upcd JyAJP+nVRqnVU6dxYHnVZ0nVVsbJVsQBUGQBUGbJ K+AKQ6nVaEnVaEk9SsSraQSraQQBQuQBQuSbYGktQ6kt GQAIRYoVUsoVUsmFS0mFS"
-    "0OBUsOBUsLzRYLz FZAERVnVVZNDUENDQAnV GQAIU4oVU4LzRkLzRkOBTbOBTbmFRkmFRkoV NaAHXenVbuepaJepWtk1TRepRsepV8nV IAAEY"
-    "KKtYKIdP2IdP2Kt IAAES4pnVEjxT4jxRVpn J0ALVfY1TwY0SaXMSaVTSaTwTaR8USR9VeR8W6VWW6YLW6Y1AbYWaBYWQBW6QBW6SrWbREU9PkT"
-    "5PlSjPkQ+SkQ+VHQ+YES8bEU6bFW6bFW6bVW6dUVnfgUcfhTsfgSQewRmeFRmgtSZhUT4h8Ulh9Weh8YWeA KKAMXyYxXyb6WffgVWfhUNfgS6b6"
-    "S6YxS6VkUNR8VWR9WfR8XyVkARS6e3TWgaUvh8Vsh9XSh8ZSc4ZSYxZSUoXSPkVsPlUvPkTWRES6SpS6QBRdQBRdoVS6oV IzAaX0g1X0eJXMe0V"
-    "+fgVWfhT8fgSab8SaYxSaViT8SAVWSBV+SAXMSqX0TVX0QtXNQIV6PkVMPlTOPkQ4UgQ4YxQ4dATPh8VSh9V8h8XOhY KKARXRe3XRoVYtoVYtQB"
-    "XRQBXRSpW0REVcPkUePlS4PkQ4UoQ4YxQ4c4S4h8Ueh9Vch8W0gaAMSYYxSYVkTrR8U0R9V9R8XRVkXRYxXRb6V9fgU0fhTrfgSYb6 J2AVZAZfZ"
-    "AYFSYYFSeVGUFSAVgSBWWSAX5S0YqTpYqQ5X4QQWQPkVbPlTVPkQ4UcQ4YlQ4c4TNh8VLh9W8h8ZAdYAHXkaVXicsWQfgVMfhT/fgSicwScaV Fo"
-    "AUV8oVV8l9Ukl9Tyl8TMksTMjFTMhhVkhhVkfRTMfRTMQBRwQBRwfRQYfRQYhhRwhhRwivRwloTGoUUloV KKAMXRY9XRcEV+fgU0fhTqfgSYcES"
-    "YY9SYV2TqSaU0SbV+SaXRV2AdYtSNYtNsWuJWUrJXT6JWSkJ0R8KRR8NFSkMYT0LuUcLvV3LuXROsXRRrXRTFW0RiVcQAUeQBS2QAQ4U6Q4Y9Q4d"
-    "AS2h8Ueh9Vch8W0gYXRe3XRhhYthh KJAUYyalYyQBXWQBXWafXWc8WYfcVafdUQfcS6ccS6Z5S6QBRdQBRdoVS6oVS6ezTagYU0h8Vuh9XPh8Yy"
-    "eM EcAERghhS8hhS8QBRgQBAERgoVS8oVS8ktRgkt EcAMRghhS8hhS8PtS8MWRrJWQQJXPuJXPuLzQGLzQ6LyRgNURgPtAERgoVS8oVS8ktRgkt"
-    " JRALRdoVS6oVS6Z9XMhhZChhUYZVZOQBXWQBS6YlS6QBRdQB EcAERgoVS8oVS8QBRgQB PmAjYUeJY3gEaXh8bYh9cwh8eOeGeOaleOQBcyQBc"
-    "yafcydAb5fca+fdZ3fcYkccYkZ5YkQBXIQBXIafXIdAWOfcVTfdUMfcS6ccS6Z5S6QBRdQBRdhhS6hhS6ezTZgYUxh8Vuh9Wqh8YAgA KJAUYyal"
-    "YyQBXWQBXWafXWc8WYfcVafdUQfcS6ccS6Z5S6QBRdQBRdhhS6hhS6ezTagYU0h8Vuh9XPh8YyeM JyAMU6fhTwfgSab4SaYxSaVmTvSAU6SBWDS"
-    "AXZVoXZYxXZb2WDfgAMU6h9Wyh8Y6dEY6YxY6UcWyPkU6PlTBPkQ4UcQ4YxQ4dETBh8 KKARS6SpS6JXRdJXRdhhS6hhS6e3TWgaUvh8Vsh9XSh8"
-    "ZSc4ZSYxZSUoXSPkVsPlUvPkTWREAMXyYxXyb6WffgVWfhUNfgS6b6S6YxS6VkUNR8VWR9WfR8XyVk KKAMSYYxSYVkTrR8U0R9V9R8XRVkXRYxX"
-    "Rb6V9fgU0fhTrfgSYb6ARXRSpW0REVcPkUePlS4PkQ4UoQ4YxQ4c4S4h8Ueh9Vch8W0gaXRe3XRhhYthhYtJXXRJX GlASWle1WWfGVxfYVbfZUN"
-    "fYS6cMS6ZPS6QBRdQBRdhhS6hhS6ezTWgYU0h8V2h9WAh8WWh2Wkhx IWAoXGhBXGeRWee4VKfgUefhTZfgSUeMSUc5SUb4TGawUQaRUvaBWRZYX"
-    "kW+XkU1XkSYVoPkT8PlTPPkRuQGQ4QpQ4TpRqSyTOR8T+R9U/R8WFTWWFUpWFVyVSXCT9XpTdX3SIYaQ8awQ8cxQ8fQSsh8USh9VGh8Wghc GSAU"
-    "S8mfS8hhV5hhV5fRS8fRS8VxS8ToThSaUaSbV5SbV5QBUaQBSwQARfSgRfVxRffRQcfRQchhRfhhRfmf KJAURXW7RXhhSzhhSzXBSzUiTxSEUvS"
-    "FV6SEXQVAXQXlXQhhYshhYsQBXQQBXQStWuRGVWPkUcPlS7PkRXTUABU+h9 JeAHQehhSAhhUvS1XehhZAhhVuQBTwQB NGANQrhhSHhhT6T3Vsh"
-    "hXZhhZMT3a+hhcahhaIQBYcQBWjeXUqQBS+QB JeAMYyhhVoZBY8QBXQQBUtW5SKQBQeQBT3ZLQwhhSchhUxbRXGhh JeAQVKOZUiLQTYJWSaJXR"
-    "RJXRRLxSHLxStLwTXM4TwO/UBQTQehhSAhhUvT1XehhZAhh IaAKQ4hhXuhhXue5SUSVXuSVXuQBQsQBQsSpWGfNQ4fN KMAlYMNDYMKzXsKzVwK"
-    "yUcNGUcQlUcUTUcWoTmYcSeYdSAYdSAatSeatTmasUccgUce1UcilUcmAVwoUXsoVYMoVYMmFXqmFWjmEV4ksV4ihV4epV4cMVKZ8UUZlVLZIV4W"
-    "8V4UhV4QpV4OaWjNCXqND FZAETXodTXIdSCIdSCod KMAlSANDSjNDTpNCUUOYUUQpUUUhUUW8VAZIV4ZlVAZ8UUcMUUepUUihUUkuTpmESjmFS"
-    "AmFSAoVSgoVUcoUVwmAVwilVwe1VwcgWmasXsatYMatYMYdXsYdWmYcVwWoVwUTVwQlVwNGUcKySgKzSAKz NaAebucxbuaBa5YwZgXsYvXtX4Xs"
-    "WvYpWqYsWnYtWkYwWcY1VOZ0UgZ1T0Z0SeYmRsXVRsaFShbUT6cYUrcZVicYWsbdWwbYWzbZW3bUW+bRYMaQY6aRZmaQa6bc FG GaAEUAdjSadj"
-    "SahhUAhhAGUAKNSaKNSaUbSlaBT2aBUAUb KMAHVTSFVTfdUKfIS4boS4YxS4V2UKSUAbYSg1YSeJXseyWofcWGfhWGSBWpSEXuSuYSTVYSQtXxQ"
-    "MWsPqWGPlWGLJVTLJVTPpTaP8RWUuRWYxRWcwTahkVTh5VTmZWGmZWGh5Wrh0XwhU KMAcYnm1Ynj/YBkoW9lQWelRVUlQUai0UafhUacLXecLXe"
-    "Z9UaZ9UaSrYxSrYxQBRAQBRASrS2SrS2Z9RTZ9RTcLS2cLS2f5S2j8UinwWWnxW0nwYAnQ KMAkW+fhYlizZehBX3dxYKc2YcbAYcaBYcZCYIXQX"
-    "0WXZdTJYkRXW8UlWfT8VlTYVGTZUqTYTuT8TPUhRoRTQvTFSWWVSEXQRyZIRyaBRybASEc0SYdtQwg9RqivTRfhTsgGUmgsVGgtVkgsWfgIAMXNa"
-    "FXNb0WAeMVGeNUOeMTAb0TAaFTAYQUOV0VGV1V/V0XNYS KMAZZGXJV4XJV4QBUUQBUUXJREXJREZDUUZDUUZ1TqcRREcRREeNTIeNQpnVSInVVG"
-    "cZYCnVZinVXCeNZGeNZGcRWhcRV3Z1V3ZDZGZD FZAETXWZTXKjSCKjSCWZAETXmZTXajSCajSCmZ IAAMS+epSed6R/cgR/bzR/amTEYgVCWbVh"
-    "XIWAYiWAZRWAacU4ckAzWem3WekTV1k4UulgUSlhThlgSrkQSrjJSrhwUSf9UffsUmflWQduXRbUXRZxXRYUWjWIV0VVWUUgWwS0WwR1WwPkVKM8"
-    "T0M9TPM8SCNaRWN5RWQdSCP0TMPMToPNUcPMVUQgVURtVUTUTmVPTZVdRuXUQuZsQubVQucuRce8SKfvRsgaRPiKRPjRRPlQSznwUGnxUqnwV3nU"
-    " IAAEUvoRWUoRWUlHUvlHAERsoRTRoRTRlHRslH QAAYYAnNZMnMbQlgcGjzc8iEdyeAdybldyZMc8VIcGTdbQRuZMQAYAQBW0QAUwRuT6TdTEVI"
-    "SOZMSOblSOeATEiET6jzUwlgW0nMAYYAlnW+lmVOkIUeirTwhMTAdoTAblTAZkTwWAUeUlVOTEW+RmYARnZCRma0TEbiUlcRWAdAZidAbldAdqcQ"
-    "hMbiira0kIZClmAaaWhxaWfxZ0gQY0gwYSgxXIgwV0eCV0blV0ZGXKWYYYWZY4WYZ0W4aWXZaWVbZ0U8YwUgYMUhWgUgUjYUUjblUje2WgioYMip"
-    "YxioZ1iM HiAERGZRWeZRWeXVRGXVAbWciNWcbNVSbNVSc9U8b+T0a6TGa7SGa6Q6dAQ6ezQ6g4SZjET3jFVSjFVSjJVSkiUYl8Tdl9S+l8R6lcR"
-    "Yk5RYm5R8nUTFnwTonxVDnwWclAALUShRTChQSDgMSDe/SDd+S0cwTdcxURcwVSfAVSg1VShR JyAHYSglYSdlV8ZZYSVNYSSNUoYxUoaBAHU6gl"
-    "U6dlSjZZU6VNU6SNRPYxRPaB NaAGRsdfbudfbuUhaaUhaaa1Rsa1 FyAEQyaFVAaFVAXhQyXh QAAYYAlnW+lmVOkIUeirTwhMTAdoTAblTAZkT"
-    "wWAUeUlVOTEW+RmYARnZCRma0TEbiUlcRWAdAZidAbldAdqcQhMbiira0kIZClmAYYAnNZMnMbQlgcGjzc8iEdyeAdybldyZMc8VIcGTdbQRuZMQ"
-    "AYAQBW0QAUwRuT6TdTEVISOZMSOblSOeATEiET6jzUwlgW0nMAJXygxW1gxW1cdXycdYqccZVdYZVelZVfwYpgwAUX2iXZOiWalggalenaldQZwb"
-    "gZAbRZMbIZuZ6aFYxbKVTZ0VTYzYlYWaEXxa2XWa3W1a3W1VTVoVTVoiX IAAERqn3WWn3WWljRqlj IAAMUAlxTYlwShkAShixShhgTYf0UAf1U"
-    "of0VfhgVfixVfkAUolwAPUAnxUgnwVbnAVwmRWIlkWejyWeixWegsVCd0T/d1S8d0RigoRiixRik2S+nw NaAMXXkFXXeBbueBbubZXXbZXXVVWD"
-    "VVWDbZRsbZRseBWDeBWDkFAERsSrbuSrbuQBRsQB GaAZSGcPVacPVaadQvadQvcLRAcoRgdhUMiSUMjxUMkyTYmEStmFSTmERWlgQyk9Qym5RYn"
-    "USbnwS4nxUAnwVXlsVXkBVXh0SydZSWco GaApUGhhU0hOVmfgVmeRVmcUUIaMSvaNSSaMRUaiQxa3QxcxRLcUSGb6Sob7Teb6UadIUaeRUafYTj"
-    "gkStglSCglSCiRSxiRTgiQUQjQUQkNUQlGTemESvmFSbmERolwRAlbRAnNRkneSknwTAnxUInwVcl6VckZVcjSUvhy IAAEVGpnWppnUGjvS6jv "
-    "KMAhRXJXRXhhSzhhSzWpSzUYT4SEU8SFWGSEXQUsXQXVXQhhYshhYsUDYsTGY+SMZQSNZUSMZkSYZySlZyQRZeP4Y6PkYoPlYGPkXcQwXVSBW8Qy"
-    "V0PkVCPlUQPkTIQwSzSBSzJX KMAOU8nVYcnVYcM9XWM9XWlbV3lbV3M9UwM9UwaJTEaaRPd4RPgxRPjsTRnU FGAERudHTXdHTXZJRuZJ IAAUU"
-    "qQBVGPCVgNYVgMpVgLQUkJ0TqJ1TSJ0SnKASSKNSSMRSiMATILwTfLxT8LwUaMgUaNPUaNsUFPETuQB GaALROcLS0cLS0ltRElFREm5S4nhT8nh"
-    "T8cLVicLViadROad HiAERGZRWeZRWeXVRGXVAMTynxVLnwWykUWyhVWyeUVLa6Tya7SYa6QweWQwhVQwkUSYnwAMTyl9S9l8R+jcR+hVR+fQS+c"
-    "wTycxUmcwVkfQVkhVVkjcUml8 JyAHRgglVLaBVLYxRgSNRgVNT3ZZRgdlAHU6glYkaBYkYxU6SNU6VNXQZZU6dl PgALROcLS0cLS0ltRElFREm"
-    "5S4nhT8nhT8cLVicLViadROadADc0bLaaUpc0UpALcpdFd8dFd8UpfAUpfAS7d8S7d8QBc0QBc0S7ZlS7ZlU1AEaxnxcBnxUvPlTfPl PgALROcL"
-    "S0cLS0ltRElFREm5S4nhT8nhT8cLVicLViadROadAZbMRzegRzegQBZ0QBZ0RvaGSMalTFdRX2dRZVdRaWcdbobybpbYboacbEZ4ahZ4cdaec4bg"
-    "dUb9dVdGdUecbQecZlecXYb3S9bbSMAEaxnxcBnxUvPlTfPl PgApUGhhU0hOVmfgVmeRVmcUUIaMSvaNSSaMRUaiQxa3QxcxRLcUSGb6Sob7Teb"
-    "6UadIUaeRUafYTjgkStglSCglSCiRSxiRTgiQUQjQUQkNUQlGTemESvmFSbmERolwRAlbRAnNRkneSknwTAnxUInwVcl6VckZVcjSUvhyADc0bLa"
-    "aUpc0UpALcpdFd8dFd8UpfAUpfAS7d8S7d8QBc0QBc0S7ZlS7ZlU1AEaxnxcBnxUvPlTfPl IgAhT6bRVZbRVZY1VZXOU+VMUQT1TkSdTGRoStQK"
-    "StPZStOATuMSUlMTVMMSWmNYXWOdXWLhWnKmVHJuUUJvS4JuRIMwRIPRRIQcRsSkSYT7TEVRTcWATwW0T0XNT3XiT6YeT6ZVAEVcdjT3djT3hhVc"
-    "hh K8ADVekPTVYpXoYpAIUlnVWYnVa0QBZLQBYHWBS2WBRyQBQIQBAEVCttWkplVXplTktt K8ADVekPTVYpXoYpAIUlnVWYnVa0QBZLQBYHWBS2"
-    "WBRyQBQIQBAEV6ttXWttVkplUYpl K8ADVekPTVYpXoYpAIUlnVWYnVa0QBZLQBYHWBS2WBRyQBQIQBAHUvttWNttX2plWxplVesVULplTGpl K8"
-    "ADVekPTVYpXoYpAIUlnVWYnVa0QBZLQBYHWBS2WBRyQBQIQBAeVcqvVArRUzrcUkroUerpUMroT4q2T4qJT4qFS5qFS5roTsteUYtfUqteVItOVg"
-    "s1V8sVWIsIWZr8Wgr9Wwr8XEswXEtZXEtfYDtfYCr6XOqEWkqFWUqEV2qU K8ADVekPTVYpXoYpAIUlnVWYnVa0QBZLQBYHWBS2WBRyQBQIQBAEW"
-    "NtPXytPXyqFWNqFAETKtPUvtPUvqFTKqF K8AMWqpbWqqYV+ryVerzU+ryUSqcUSpbUSocU+nEVenFV+nEWqocADVekPTWYpXmYpATUSl1T0meTV"
-    "oQTVpbTVrMUktsVettWXtsXorMXopbXooUXImeWql1a0QBZLQBYHWBS2WBRyQBQIQB PmAQeanVeaktYoktYodxeMdxeMbJYobJYoSrekSrekQBX"
-    "CQBXCWBS6WBRqQBQEQBU8nVAEWCk5TdYpXCYpXCk5 LLAaaUljaUiNZgjsXtlKWslLUslKSkgQSkbpSkXCUsSIWsSJXtSIZgToaUVHaUR1ZeQsXo"
-    "PkWmPlT8PkQ6WCQ6bpQ6hQT8nwWmnxXpnwZgmoAUXAQBXcPCX3NYX3MpX3LQW7J0WAJ1VpJ0U+KAUoKNUoMRU5MAVeLwV2LxWTLwWxMgWxNPWxNs"
-    "WcPEWFQB KHAMRknVY8nVY8ktTKktTKdxYtdxYtbJTKbJTKSrZGSrZGQBRkQBAEUyttWUplVIplTVtt KHAMRknVY8nVY8ktTKktTKdxYtdxYtbJ"
-    "TKbJTKSrZGSrZGQBRkQBAEVqttXHttVVplUIpl KHAMRknVY8nVY8ktTKktTKdxYtdxYtbJTKbJTKSrZGSrZGQBRkQBAHUgttV+ttXoplWiplVPs"
-    "VT8plS2pl KHAMRknVY8nVY8ktTKktTKdxYtdxYtbJTKbJTKSrZGSrZGQBRkQBAEV+tPXktPXkqFV+qFAES6tPUgtPUgqFS6qF EuAERknVTKnVT"
-    "KQBRkQBAER7ttTdplSQplQett EuAERknVTKnVTKQBRkQBAESzttUQttSeplRRpl EuAERknVTKnVTKQBRkQBAHRottTGttUwplTqplSYsVREplP"
-    "/pl EuAERknVTKnVTKQBRkQBAETGtPUstPUsqFTGqFAEQDtPRotPRoqFQDqF MaANRqnVU6nVYSnUbdhsbdbtbdVqYSQAU6QBRqQBRqa9QFa9QFd"
-    "NRqdNANTPkxTPdNV3dNV3a9TPa9TPSnVISnXjSmZyW+ZybtZygYXjkwVIkx L+AKRknVTsnVY4T1Y4nVaanVaaQBYSQBTGjhTGQBRkQBAeV9qvVg"
-    "rRVUrcVEroU+rpUsroUYq2UYqJUYqFTaqFTaroUOteU4tfVKteVptOWBs1WesVWpsIW6r8XCr9XSr8XmswXmtZXmtfYktfYjr6XwqEXGqFW0qEWX"
-    "qU MmAMWUlNUmlMSkgESkbpSkXQUmSIWUSJYCSIaCXQaCbpaCgEYClMAMWUnxYwnwbshMbsbpbsWIYwPkWUPlT2PkQ6WIQ6bpQ6hMT2nwAEV3ttX"
-    "ZplWMplUatt MmAMWUlNUmlMSkgESkbpSkXQUmSIWUSJYCSIaCXQaCbpaCgEYClMAMWUnxYwnwbshMbsbpbsWIYwPkWUPlT2PkQ6WIQ6bpQ6hMT2"
-    "nwAEWvttYMttWaplVNpl MmAMWUlNUmlMSkgESkbpSkXQUmSIWUSJYCSIaCXQaCbpaCgEYClMAMWUnxYwnwbshMbsbpbsWIYwPkWUPlT2PkQ6WIQ"
-    "6bpQ6hMT2nwAHVkttXCttYsplXmplWUsVVAplT7pl MmAMWUlNUmlMSkgESkbpSkXQUmSIWUSJYCSIaCXQaCbpaCgEYClMAMWUnxYwnwbshMbsbp"
-    "bsWIYwPkWUPlT2PkQ6WIQ6bpQ6hMT2nwAeWSqvV1rRVorcVZroVTrpVBroUtq2UtqJUtqFTuqFTuroUiteVNtfVfteV+tOWWs1WysVW+sIXOr8XW"
-    "r9Xmr8X6swX6tZX6tfY4tfY4r6YEqEXaqFXJqEWsqU MmAMWUlNUmlMSkgESkbpSkXQUmSIWUSJYCSIaCXQaCbpaCgEYClMAMWUnxYwnwbshMbsb"
-    "pbsWIYwPkWUPlT2PkQ6WIQ6bpQ6hMT2nwAEXCtPYotPYoqFXCqFAET/tPVktPVkqFT/qF NaAMbOhNXqaBbOS5aSRBWtYLTIRBSMS5VwaBSMhNTI"
-    "jFWtb7aSjF MmAKZbhZT0ULUUTKVkSIWUSJYCSIaCXQaCbpaCdYZugQAKYyjJYUkIXDlMWUlNUmlMSkgESkbpSkZ4S4W8TLV5AYSITdRhVAQ6ZIQ"
-    "6bpQ6hMT2nwWUnxXUnwZDmkZulZbAoZbym/aej5bEiQbseIbsbpbsWIYwPkWUPlVUPkTlQuS4R5RmO7QzQT LuASRZnVS+nVS+ZLS+VaUWSIV3SJ"
-    "XYSIYvVaYvZLYvnVaUnVaUYxaUUMYEPkV3PlTqPkRZUMRZYxAEVattW8plVwplT9tt LuASRZnVS+nVS+ZLS+VaUWSIV3SJXYSIYvVaYvZLYvnVa"
-    "UnVaUYxaUUMYEPkV3PlTqPkRZUMRZYxAEWSttXvttV9plUwpl LuASRZnVS+nVS+ZLS+VaUWSIV3SJXYSIYvVaYvZLYvnVaUnVaUYxaUUMYEPkV3"
-    "PlTqPkRZUMRZYxAHVIttWmttYQplXKplV3sVUkplTepl LuASRZnVS+nVS+ZLS+VaUWSIV3SJXYSIYvVaYvZLYvnVaUnVaUYxaUUMYEPkV3PlTqP"
-    "kRZUMRZYxAEWmtPYMtPYMqFWmqFAETitPVItPVIqFTiqF JyAJP+nVRqnVU6dxYHnVZ0nVVsbJVsQBUGQBUGbJAEVVttWyttVAplTzpl JsANRkn"
-    "VTKnVTKjNVIjNXGjMZGfsZGcRZGY0XGVSVIVTTKVTTKQBRkQBAJTKgpTKX5VIX5WPX4XcaKXccRXceWWQgoVIgp KFAwRdhxRdk4TUoUVCoVWqoU"
-    "YXksYYhNXNhEV5fQV5dxV5dCWWbwW2bJXTajYmY4ZWWqZWVHZWSaXmPkV8PlVcPkUYP8T0QVT0S5UcSaViR8WCR9W8R8X4TcX4U5X4V2XaXKWoYJ"
-    "V6ZBVKZ6UecAUeddUefcVyiIW+ilW6kMV4l8VAl9T+l8S6jwS6htS6QBRdQB J0ALVfY1TwY0SaXMSaVTSaTwTaR8USR9VeR8W6VWW6YLW6Y1AbY"
-    "WaBYWQBW6QBW6SrWbREU9PkT5PlSjPkQ+SkQ+VHQ+YES8bEU6bFW6bFW6bVW6dUVnfgUcfhTsfgSQewRmeFRmgtSZhUT4h8Ulh9Weh8YWeAAETgp"
-    "nVujxUhjxR+pn J0ALVfY1TwY0SaXMSaVTSaTwTaR8USR9VeR8W6VWW6YLW6Y1AbYWaBYWQBW6QBW6SrWbREU9PkT5PlSjPkQ+SkQ+VHQ+YES8bE"
-    "U6bFW6bFW6bVW6dUVnfgUcfhTsfgSQewRmeFRmgtSZhUT4h8Ulh9Weh8YWeAAEVupnXSpnUvjvTijv J0ALVfY1TwY0SaXMSaVTSaTwTaR8USR9V"
-    "eR8W6VWW6YLW6Y1AbYWaBYWQBW6QBW6SrWbREU9PkT5PlSjPkQ+SkQ+VHQ+YES8bEU6bFW6bFW6bVW6dUVnfgUcfhTsfgSQewRmeFRmgtSZhUT4h"
-    "8Ulh9Weh8YWeAAHUEpnVOpnXIjvWDjvUpnlTPjvSKjv J0ALVfY1TwY0SaXMSaVTSaTwTaR8USR9VeR8W6VWW6YLW6Y1AbYWaBYWQBW6QBW6SrWb"
-    "REU9PkT5PlSjPkQ+SkQ+VHQ+YES8bEU6bFW6bFW6bVW6dUVnfgUcfhTsfgSQewRmeFRmgtSZhUT4h8Ulh9Weh8YWeAAcUnlbUKmRUAmkTvm4Tom5"
-    "TWm4TElwTCkdSEkdSFmkS4o4Tmo5T4o4UYocUrn7VInFVSmwVjmcVqmdV8mcWOnkWQo5XOo5XNmwWakcVskdVakcU6k4 J0ALVfY1TwY0SaXMSaV"
-    "TSaTwTaR8USR9VeR8W6VWW6YLW6Y1AbYWaBYWQBW6QBW6SrWbREU9PkT5PlSjPkQ+SkQ+VHQ+YES8bEU6bFW6bFW6bVW6dUVnfgUcfhTsfgSQewR"
-    "meFRmgtSZhUT4h8Ulh9Weh8YWeAAEVYoRW+oRW+lHVYlHAESUoRT6oRT6lHSUlH J0ALVfY1TwY0SaXMSaVTSaTwTaR8USR9VeR8W6VWW6YLW6Y1"
-    "AbYWaBYWQBW6QBW6SrWbREU9PkT5PlSjPkQ+SkQ+VHQ+YES8bEU6bFW6bFW6bVW6dUVnfgUcfhTsfgSQewRmeFRmgtSZhUT4h8Ulh9Weh8YWeAAM"
-    "V1n1V1o0VJqMUpqNUIqMTdo0Tdn1Tdm0UIlcUpldVJlcV1m0AMWyn1WymAVijgUpjhTwjgSgmASgn1SgpoTwsGUpsHVisGWypo PuAHdbaVdacsc"
-    "IfgbEfhZ3fgYacwYUaVAtXyfFYWgcaAh8bCh9c0h8e4dYe4Zfe4YFYQYFYWVEZ8R8bYR9cMR8dwSyeiTpeiQ5dwQQcIPkbTPlaAPkYERcXdTVW4R"
-    "cVMPkUFPlSmPkQ+SeQ+VHQ+YES8bEU6bFW6bFW6bVW6dUVnfgUcfhTsfgSQewRmeFRmgtSZhUT4h8Ulh9Vsh8XWgcALVfY1TwY0SaXMSaVTSaTwT"
-    "aR8USR9VeR8W6VWW6YLW6Y1 IzAaX0g1X0eJXMe0V+fgVWfhT8fgSab8SaYxSaViT8SAVWSBV+SAXMSqX0TVX0QtXNQIV6PkVMPlTOPkQ4UgQ4Yx"
-    "Q4dATPh8VSh9V8h8XOhYAUVyQBWNPCWoNYWoMpWoLQVsJ0UxJ1UaJ0TuKATZKNTZMRTqMAUPLwUmLxVELwViMgViNPViNsVMPEU2QB J2AVZAZfZ"
-    "AYFSYYFSeVGUFSAVgSBWWSAX5S0YqTpYqQ5X4QQWQPkVbPlTVPkQ4UcQ4YlQ4c4TNh8VLh9W8h8ZAdYAHXkaVXicsWQfgVMfhT/fgSicwScaVAET"
-    "9pnWKjxU+jxSapn J2AVZAZfZAYFSYYFSeVGUFSAVgSBWWSAX5S0YqTpYqQ5X4QQWQPkVbPlTVPkQ4UcQ4YlQ4c4TNh8VLh9W8h8ZAdYAHXkaVXi"
-    "csWQfgVMfhT/fgSicwScaVAEWLpnXupnVMjvT/jv J2AVZAZfZAYFSYYFSeVGUFSAVgSBWWSAX5S0YqTpYqQ5X4QQWQPkVbPlTVPkQ4UcQ4YlQ4c"
-    "4TNh8VLh9W8h8ZAdYAHXkaVXicsWQfgVMfhT/fgSicwScaVAHUgpnVqpnXljvWgjvVGnlTsjvSmjv J2AVZAZfZAYFSYYFSeVGUFSAVgSBWWSAX5"
-    "S0YqTpYqQ5X4QQWQPkVbPlTVPkQ4UcQ4YlQ4c4TNh8VLh9W8h8ZAdYAHXkaVXicsWQfgVMfhT/fgSicwScaVAEV0oRXaoRXalHV0lHAESxoRUWoR"
-    "UWlHSxlH EcAERGpnTTjxSGjxPkpnAERghhS8hhS8QBRgQBABSOh9 EcAETUpnU4pnSUjvRIjvAERghhS8hhS8QBRgQBABSOh9 EcAERghhS8hhS"
-    "8QBRgQBABSOh9AHRqpnS0pnUujvTojvSOnlQ0jvPvjv EcAERghhS8hhS8QBRgQBABSOh9AES+oRUjoRUjlHS+lHAEP6oRRgoRRglHP6lH JyAPW"
-    "jeVWKekVee0VKe1T2e0SabcSaYZSaVcTwSAU6SBWCSAXZVcXZYZXZaUW+dQAaXCh1YCfmY6bGY6YZY6UaWsPkU6PlTGPkQ4UaQ4YZQ4cUTChKUxh"
-    "LU6hKVUhEVphBUaj1R6iJRqjtT2lJScoVUOoVVNmFX0nzYEmRVwkx KJAUYyalYyQBXWQBXWafXWc8WYfcVafdUQfcS6ccS6Z5S6QBRdQBRdhhS6"
-    "hhS6ezTagYU0h8Vuh9XPh8YyeMAcVKlbUumRUimkUSm4UMm5T4m4TmlwTmkdSnkdSomkTbo4UIo5Uco4U8ocVOn7VqnFV2mwWGmcWMmdWgmcWynk"
-    "Wyo5Xxo5XwmwW9kcWQkdV8kcVck4 JyAMU6fhTwfgSab4SaYxSaVmTvSAU6SBWDSAXZVoXZYxXZb2WDfgAMU6h9Wyh8Y6dEY6YxY6UcWyPkU6PlT"
-    "BPkQ4UcQ4YxQ4dETBh8AETxpnV+jxUyjxSOpn JyAMU6fhTwfgSab4SaYxSaVmTvSAU6SBWDSAXZVoXZYxXZb2WDfgAMU6h9Wyh8Y6dEY6YxY6Uc"
-    "WyPkU6PlTBPkQ4UcQ4YxQ4dETBh8AEV/pnXipnVAjvTzjv JyAMU6fhTwfgSab4SaYxSaVmTvSAU6SBWDSAXZVoXZYxXZb2WDfgAMU6h9Wyh8Y6d"
-    "EY6YxY6UcWyPkU6PlTBPkQ4UcQ4YxQ4dETBh8AHUUpnVepnXZjvWUjvU6nlTgjvSajv JyAMU6fhTwfgSab4SaYxSaVmTvSAU6SBWDSAXZVoXZYx"
-    "XZb2WDfgAMU6h9Wyh8Y6dEY6YxY6UcWyPkU6PlTBPkQ4UcQ4YxQ4dETBh8AcU4lbUbmRUQmkUAm4T5m5Tmm4TUlwTTkdSUkdSWmkTIo4T2o5UJo4"
-    "UpocU8n7VYnFVjmwV0mcV6mdWNmcWfnkWgo5Xeo5XemwWqkcV9kdVqkcVKk4 JyAMU6fhTwfgSab4SaYxSaVmTvSAU6SBWDSAXZVoXZYxXZb2WDf"
-    "gAMU6h9Wyh8Y6dEY6YxY6UcWyPkU6PlTBPkQ4UcQ4YxQ4dETBh8AEVooRXOoRXOlHVolHAESloRUKoRUKlHSllH NaAEVwhxXqhxXqd5Vwd5AEVw"
-    "WNXqWNXqSXVwSXAERsbZbubZbuYtRsYt JyAKXEchTRTRTmSoUZSAU6SBWDSAXZVoXZYxXZZ+XPb0AKWheNWMe2VYfgU6fhTufgSab0SaYhSaXYS"
-    "jVsStU9AYRuSnRUT0Q4W4Q4YxQ4dETBh8U6h9Voh8W4hIXZgVYei9ZOhtYFe7YgdsY6aoY6YxY6UcWyPkU6PlUKPkS5QYSaRLRUOjQkPx KJAURX"
-    "W7RXhhSzhhSzXBSzUiTxSEUvSFV6SEXQVAXQXlXQhhYshhYsQBXQQBXQStWuRGVWPkUcPlS7PkRXTUABU+h9AET1pnWCjxU2jxSSpn KJAURXW7R"
-    "XhhSzhhSzXBSzUiTxSEUvSFV6SEXQVAXQXlXQhhYshhYsQBXQQBXQStWuRGVWPkUcPlS7PkRXTUABU+h9AEWDpnXmpnVEjvT3jv KJAURXW7RXhh"
-    "SzhhSzXBSzUiTxSEUvSFV6SEXQVAXQXlXQhhYshhYsQBXQQBXQStWuRGVWPkUcPlS7PkRXTUABU+h9AHUYpnVipnXdjvWYjvU+nlTkjvSejv KJA"
-    "URXW7RXhhSzhhSzXBSzUiTxSEUvSFV6SEXQVAXQXlXQhhYshhYsQBXQQBXQStWuRGVWPkUcPlS7PkRXTUABU+h9AEVsoRXSoRXSlHVslHAESpoRU"
-    "OoRUOlHSplH JeAQVKOZUiLQTYJWSaJXRRJXRRLxSHLxStLwTXM4TwO/UBQTQehhSAhhUvT1XehhZAhhAEV0pnXYpnU1jvTojv KKARS6SpS6JXR"
-    "dJXRdoVS6oVS6e3TWgaUvh8Vsh9XSh8ZSc4ZSYxZSUoXSPkVsPlUvPkTWREAMXyYxXyb6WffgVWfhUNfgS6b6S6YxS6VkUNR8VWR9WfR8XyVk Je"
-    "AQVKOZUiLQTYJWSaJXRRJXRRLxSHLxStLwTXM4TwO/UBQTQehhSAhhUvT1XehhZAhhAEVeoRXEoRXElHVelHAESaoRUAoRUAlHSalH";
+    "N0 O)'MzP1Lm$#P/Ll$)MzlDLm$#Xx6RILA$8RK Og'NZlD#VfLK$#Vh'RglD#VfLG$#Vh S~'V*_CMi$KNQqMj$?THktKcS_Mj$KfSaL@$KaS_M~$"
+    "#M}NI$KLQqN($#MyNM$KcS_L?$KbSaMk$KaS_LA$KdSaN#$#M{NJ$KOQsN+$#N#NR$KdSa QfER2Q0K_$#Q2Ke'LrKWKeKT#NSKbKzLqKzKl&#TYL|"
+    "KCLjNB#Ms#N2L{NcLm<#OiK`$#O_KW)LPK9KMK.#NEKLKKLOK[KV,#S{M)KALuNP#M}#N8M&NqLv>*Q)[P#SXKo9KuLw#LO#LFKnL_*R2W<#T+K|GK"
+    "|L}#LU#LPKwLq U:/ZwX~KP#K]Ml#ML#MCK^MpKQ$KQ#K^Mr#MF#MMK]Mn/Zw[mL@#LXOE#Nb#N]LYOAL=$L?#LWOC#N`#NcLZOG/OWj2KN#K_Ml#M"
+    "H#MKK^MlKQ$KS#K`Mn#MN#MIK_Mn'YQl}L@$TnmWL?$/OWl}L@#L]OE#N^#NeL[O=L?$L=#LYOC#Nd#N_L]OG SA-P&]9KTLBKPN,#LO#MdLuNqL@$"
+    "KY#LHK|KCK}JQY_dP0U}K5LPK=O')M&LZ$.MKKcP2KVMDM[PlM@$L-MoKcLRM(LJL#$M4#MyPX#O<#MEL(OSL$LfK*K|K*M=#Ku#N2L}NsLX$KO#LD"
+    "KAKQKB#NUKPKWL?K`K>$Kc#L#L{#LO#KbK7Lo M`#%### N{1QUmfL'OYK{TJ#OZ#O^K~TNL&OZL?$L7OdL3TX#OP#OKL4TPL8Oi N{1LDmfL@$L6O"
+    "fL6TN#OJ#OML5TVL5OcL?$L$O[L$TP#Oa#O[L#TL P45U1g#NQNrNRNnK6LdN9O(#RrKk$#RtN9O&K6LfNRNpNQNtK7LfN:N~#RpKl$#RnN:O$ S~/"
+    "Twgl#VjPc$#NAPb$#VjLG$#VlPb$#NCPc$#Vl N0)M5P1Lu$#NALCQXK}$KMQZ N]'K`XfPP$#N1PO$ N0'L}P1Ls$#P/Lr$ NC'P<lDLJ$P;pRLI$"
+    " Qf/QfiML;#L=Q?#Q@#Q;L>Q;L<$L<#L<Q=#Q>#QAL;QA/Qfl}M?#MOS9#Rv#RmMNS9M>$M@#MLS;#Rp#RwMMS; Qf.MCN?N4$#dXNQL/#N[NPL1Lk"
+    "$#hZN4$#N=T#$ Qf@NsN?R@$#N=T|$#N?KnM1NySGK-KqK^LyKIMv#L1#M5LGMrL%$KX#LtK~KsL'#O(KvK`LuK`KS$M-#MYO^#Nn#LVK@N4KTM$<K"
+    "1MPPZ QfK$Sd]9L0K5LDNq#Me#OIMuOnM]$KZ#LfKCKeKD#NtKOKYLiKbKh$La#LgMv#Mc#MMLYMrLC$LM$#N3LV$L4#L@M5#M&#M-LCM9L7$KN#L["
+    "KAKoKF#NSKpK;LiK;KU$M+#MQO-#NQ#M;L-N< Qf&S)hPP1]'P2$.RNlDME$#`wLu$#N9Lt$#R=Lj$#R?Q{$#Nt QfAL}lDS=$#N9Q8$#R^K'CKSCK"
+    "'$M?#MjPZ#O_#OrMqPFMT$KZ#LbK;KcK<#O$KUK^LaKYKh$LL#LkNZ#N##M~LjNRLK$KL#LAKAKNKB Qf/Q~]jL'#L?Na#N)#N,L@N]L($L(#L@N_#"
+    "N/#N*L?Nc<VFk`#NYKFKCL9KGKF$Lh#LrPN2PSK7LLLPL]Kh$M%#MKPV#Oc#O^MTPZM&$MH#MTS;#Rp#RFN:SlM`$KG#L:K5 Qf*LHlDU-$#LGPQjP"
+    "Lr$P0haRI$ Qf/QfZ/L/#LEMt#MT#MSLFMtL0$L0#LDMz#MR#MULCMv;OO])K{K;L1NJ#MF#NRMCO/M%$M##MCO-#NQ#MCL/NHK}K:L2KALDNq#Me#"
+    "O=MNO^M:$M<#MLO`#O@#MfLDNs/Ncd(#M+L0MGL$$K|#L4MI#M.#M-L3MIK{$L##L/MG Qf<M%K<#N[KGKAL<KIKG$Li#LuPP1PYK4LJLQLVKg$M$#"
+    "MJPP#Oi#O[MUPaM)$MG#MWS9#Rv#R<N9SjMa$KF#L;K3/QMY2L(#L>N_#N/#N*L=NcL'$L'#L?Na#N)#N,L@N] NC'M5P1Lu$#P/Lt$'M5bsLu$#P3"
+    "Lt$ NC#=$###/### S~*['afUuR^UvRU#NUX`Tn#N3XaTn S~'Ly`$Xa$#N9X`$'LyV'Xa$#N=X`$ S~*Lyaf#NWXaTl#N1X`Tl#NWUvRW PT'NsP1"
+    "Lk$#P/Lj$DQ%SDL`$#N##LiK3MIKWLMKSLQK5KhK-L]#K]#LTK}L}Kg$KH#LSL*KZL##NdKWKlLcKlKb$LX#M%Nm#N%#L6KBMWKTLKKRLKK(KUJKf*"
+    "K.(I(Kr#Kc Un/RyVC#M`L.N,Kx$Kx#L,N2#M_#M^L/N6Ku$Ku#L-N0K<XyOmK6L:L;L.Kc$LK#LvP$#N|#N{LyP,LJ$Kd#L<L6K7L7#MNL.$#ZfL2"
+    "K#LDOO#NK#LyK8NcK:LAKcMMMoMYLO$Kw#M&K~KZK{L=LgLOQp#Nj#N(KpP_KhLtKdLoMYLwL>$K~#M=LLKdLEKUM$KyL_MkLoL7$LY#N1MMK{M>K{"
+    "M=L#Qn#Nh#NRL(QrKxM>K~MEN<MQL]$Lu#NVNDKxN)KELcKIOY#M<#P>N%Q7M]. R:&R:h$MVZrPZ$+Q#lDM+$PmlBLr$L'S$Q{$L'R~Lt$ R<,O#Z"
+    "7#VUN.$LB#L>MQ#M_#M^L=MMLA$,O#hi#TOMp$L4#L2M%#M*#M)L1M%L3$2LilDP8$M-#M?Ni#NI#MSK{N0KwJL6K9LDN}#Mu#NyMTOAM@$PK$ RI="
+    "Y)ir#O:KcLaM*L]K}$MD#MTQK#Q(#Q#MUQKME$K~#M+LaKdL^#O2KgL.M0L.L#$N=#NnS`#RK#RNNoSdN>$L&#M3L. S7,O#hi#e+M9$Mz#MfPe#Q6"
+    "#Q1MePeMy$,LilDO/$OA#O%RL#R~#S%O&RPO>$O.$ Qa/LilDTy$#N9Rb$#T?RD$#N9RC$#VMRw$#N=U0$ Q&-LilDT$$#N9Qi$#T7Q)$#NAQ($#Z5"
+    "Ll$ S=AW|O8#SHN5$#N7PH$#X[KqLFM_LFL?$NG#NtSS#RW#R_NuSSNH$L2#MKL.KlL+#O:KkL]M@LaL+$MT#MXQ;#Q8#Q/MYQ?MU$Kh#LHKG S%/L"
+    "ilDLm$#X#RZ$#X%Lm$#lBLl$#Z7RY$#Z5Ll$ Mt'LilDLm$#lBLl$ Mt/LilDLm$#j(#PNLnOvM&$KH$#N?K9$L(#KhMr#Np Qz.LilDLm$#XGQvXI"
+    "MI$RbYqS=]'MN$RIZG#ZELl$ Po)LilDLm$#hZRT$#N=Tj$ T<0LilDMt$NiatNiavMt$#lBLf$#hHNlb(Lj$Nlb*#hFLd$ R}-LilDMU$Qrf}#g#L"
+    "e$#lBMT$Qqg##f}Ld$ SI/SKiEL|#MHQh#Pl#PcMIQhL}$L}#MEQj#Pf#PmMDQj/SKl}M~#NcSj#RE#R<NbSjM}$N%#NbSl#R?#RFNcSl QC,O#hi#"
+    "VvMA$L.#L:Mj#MV#MML9MnL-$.LilDOW$MA#MEOQ#OB#OIMDOQM@$M@$#WgLl$ SI#K*###5VTK4MOP|M8$L|OqD)D#2$N%#NbSl#R?#RFNcSlN&$M"
+    "~#NcSj#RE#P:LpR] RF7TTY{K=K%KvMdK;M@LmSRLx$L`S$KDMnL)LiKs$L|$#XKLl$#lDOW$ME#MAO5#O>#M`K}N],O#hi#V9MA$L4#L4MU#MN#MI"
+    "L3MQL3$ QdK#VZk?#NrKoKhLlKhKX$LE#LQMC#M0#LcKrLkLHK6KtK.M)KMLwOA#NU#O=MgOMM_$Ke#M4K[K{KX#O0KxL*M1L&Kn$LN#L]MU#M>#M%"
+    "L'M=L9K8KuK,M(KWLhNk#N?#NwM[OWM;$Kd#L{KE QK+(lDXJ$#N9PC$#h_Ll$#haPE$ Rm5LRlDLk$#_M#OnLPO1Lc$Lc#LNO3#Oq#_OLk$#`&#P{"
+    "MeQ'M_$M_#MgQ)#P~ R:*Q#$PnlDLu$Ohg1Ojg3Ls$PllB Ub0K?lDLm$N$g9N$g;M'$N$g9M~g;Lo$N`lBMD$N#h(N'h&MB$ R</K|lDL{$N]VfNa"
+    "VhL{$OoZ=P4[ZLz$O2XUO4XSL|$PJ]) QK,&lDLy$O/X#O)X%L{$PC[c#Z5Ll$#Z7 R<-KplDWK$#MuTxe;U5$#N=W{$#M{Tye=T`$ N{+LPmjO7$#"
+    "MeM4$#mGM5$#MaO6$ NC'LJlDP<pRLI$P;pT N{+QImj#sbO6$#McM3$#mIM2$#Mg S~*U)lDPTVjLj$OFS<OFS:Lj$PTVl P4'V&R%#MeV9$#Mg P"
+    "4'NZoWM^RjL7$N/Rl QM.R<V|L~#LKLo#M8#LcK|M+Kl$L8#LXOC#NS#KP>V>X^#X[LW$#N?K8LkL[L_L'$LK#LjNk#N/#NgMANkMA$ME$#D#MELEM"
+    "^L5$KZ#LWKYKNKR#N;KbKKL_KKKU$M7#M5P* Qd/UQVt#O#LEO[L1$L1#LEOY#N~#O%LFO^L2$L2#LFO`4N_`LK3LiLRLeKv$Lm#MEQ`#PC#PBMDQ`"
+    "Ll$Ku#LQLaK2Lj#N9LY$#mjLZ$ Ph=UUc7#NAKJKSL;KSKJ$LS#LdOU#O&#O)LeOQLT$KK#L<KOKKKP#N9KHKALEKAKV$M@#MqQQ#PU#PTMtQQMK$K"
+    "O#LDKA Qd4Tk`L#WuLX$#mhLW$#N;K4LgLOL_Kw$Ll#MDQb#PE#PDMEQbLm$Kx#LPLc/MvVt#O%LFO^L2$L2#LHO`#O(#O#LGO[L1$L1#LEOY QO8W"
+    "7Wu#LSSs$/NeLoNuLV$Kh#LgKdK^Ke#NIK_KILpKQKe$MP#N#QI#PE#P]MpQbMA$M'#MMP{*U5Y*&MvLCNRL'$L9#LYNH.M} NR7Rwmj#MuLO$K_#K"
+    "FL>#Lp#LhMv$#MeMu$#a#LW$#a%LO$#MgLP$#L=#N_LLNBL_$ Qd/TkW0#N{LEOGL3$L3#LCOE#Nz#NuLDOEL4$L4#LFOG@VmM_#PsMBP_MJ$K]#LK"
+    "K7KJK4#NSKKKQL@KMKK$LV#LTNg#Nh#LUK4LcLOLcKw$Lp#M@QM#P9#P<MAQQLq$Kx#LPLgK5Ld#N?LX$ Qc7VwYJ#YHLW$#Y>#N&KwN*Kw$L3#LKN"
+    "i#N1#XKLY$#mjLZ$#W{K;LmLTLiKp$Lc#LgOn Mb'Lad4LX$#d2LW$'LamjLX$#O_LW$ Mb/Lad4LX$#dZ#O9LANiLU$K>$#N#K+$Kd#KGLe#Mw#KD"
+    "$## Q*.LZmjLZ$#_jPXU6M1$Q,V)QEW_M4$PlV[#VYLY$ Mb'LamjLX$#mhLW$ USFV:_KKAM=LaM5K~$LP#L]Oz#OR#YHLW$#Y>#N.KmM~Kq$L-#L"
+    "ENi#N1#XKLW$#Y>#N.KoM~Kq$L-#LCNi#N1#XKLY$#d4LZ$#NEK9LmLPLiKv$Kt#LLM; Qc7VwYJ#YHLW$#Y>#N&KwN*Kw$L3#LKNi#N1#XKLY$#d4"
+    "LZ$#NEK;LmLTLiKp$Lc#LgOn QK/QMaEL3#LKO^#Nz#N}LJOYL6$L2#LLO`#N|#NwLKOd/QMdmM5#MUQG#P[#PZMTQGM4$M6#MVQI#P^#P]MWQI Qd"
+    "4N_N;#WZLY$#mULZ$#N=K3LiLRLeKv$Lm#MEQ`#PC#PBMDQ`Ll$Ku#LQLa#K=### Qd#K?$##4TkN;K4LgLOL_Kw$Ll#MDQb#PE#PDMEQbLm$Kx#LP"
+    "LcK5Lh#N?LX$#mSLW$ O45Sn`H@GKDGK&$L;#LEO%#Nf#WRLY$#d4LZ$#NEK3LmL]LiL$$7#K'-?. PJK#TTcO#NIKJKKLGKKKR$L)#L)LF#LG#KzK"
+    "`L.L4K:K9BLeKILFMx#MX#M|M<NPLx$KT#LbK?KgK@#NlK`KfLiKfK[$K~#L,LT#LE#L4KaL@LIKHK:@LIKCL7Mr#MF#N*M%NBLm$Kd#LTK9 N}7Nc"
+    "k3#QTNe$#MeNd$#Ww#MSKEL:Kn$L_$#MyL^$Lt#LAN*#O0#WyL%$#MgL&$#QV Qc7LNT=#YNLX$#Y@#N$KxN$Kx$L6#LLNc#N3#XULX$#d2LW$#NCK"
+    ">LkLOLcKo$Lb#LhOp$QUdm Q7*K7d4Le$NH`6NH`8Le$O2d2M@$ Sj0KQd4LX$M+^iM)^kL{$M+^iM)^kLX$Mid2Lx$M6_hM6_fLx$ Q7/Vwd4N~VQ"
+    "O7W6Lx$N/T9N/T7Lx$OAWLNxV?Ly$MpSBMpSD Q73QnLpKJNyL3M7Kw$L1$#M{Kh$KG#KOL0K-MRELIOTclLe$NH^mNH^oLe$ PN-Kld4T4$#N9R1]"
+    "7R2$#MmTK$#N;R2]9Qu$ QfHV*Nf#MeK:$M<#LGMn#OL#Om#MrKgM-L/$K6$#MgK7$L0#KhM-#Mo#Oq#OGLHMnM=$K;$#MeK>$L-#KPLN#M]#P##M|"
+    "KVMdKgK*KjK1KUM[#M}#P##M`KQLNL.$ NC'O=mz#xVLI$#xX QfHMENfKA$L,#KQLL#Mg#P%#M~KSM^KlK4KkK+KRMf#N##P%#MbKPLLL+$K@$#Mg"
+    "K;$M=#LHMl#OF#Oo#MlKhM+L,$K;$#MeK:$L+#KgM+#Mq#Ok#OILGMlM<$K:$ S~A[']Q#NIKeL>LQL&K]$Ki#L1Ku,+($(+2,L;K|KV$KR#LKL:K_"
+    "LC#NKKfL@LRL(K^$Kj#L4Ks+))$+)1*L<KzKW$KS#LHL8 N0 O)'P4^ZLl$#P1Lm$)P4RfLl$#Xz9RKLB$7RI Qf*R$MN#^FL1ILCOM#NY#N]LDOQ>"
+    "V6c7#NAKFKOL'KOK>,#^TKA+L*KOKCKH#N9K<K9L)K=KF.#PlKa$#PvM6K#MLQ=#P9#P4MMQAM7K$#PvKb$#PtKE)L*K9 Qf?Vak`#NUKFKOL'KKK8"
+    "$L3#KoM|#O6#O:Ns$#MaNr$#TlPc$#N=UN$#N?M1$#TnLf$#McLg$#Om#P<LyOxM-$K7#L8K9 QfGTDaELoO4KnM(LnO.IKnGM/#K{#KvJM'JKoLsO"
+    "*KmM(LpO,K4KIKoKAK8$K2#KsKCK8KDLnO*KmM*LoO0FKtFM5#Km#K|GM-K#KmLpO0KpM*LoO*K1KGKpKGK;$K7#KrKA/TcXf#M%L9MvKo$Kk#L;Mt"
+    "#M$#M+L<M|Kl$Kn#L<N& Qf<WCTYO*$#TWLh$#TYO.$#M:O/$#KaKNN#N5$#M>MM$N'WHL_$NgYyNcY{La$N)WFMM$#M<N3$KNM}#K_O-$ NC'O=ST"
+    "#[6LI$#[8'O=k'#[6LI$#[8 P4/Ng`0K:KUK8LR#KV#L6L*MOMAMPK9KWK9LT#KX#L8L/MUK.S`kd#N1KLKGL-KKK2$K]#KgL>#L/#LNLoM,=A12Lu"
+    "M/K~Mx#Lh#LVKVM[KXKcK;KbK3Lw#K{#MdLlN8LK$KD#L9K7KRK8#N3KSKIL4KIK3$Kd#KlLH#L9#LqL|M:<@LvM5K{Mv#Lr#LTKWMbKWKaK6KSK4M"
+    "%#L-#MELiN*LF$KC#L:K1 P4'Q7mbLk$#N~Lj$'LymbLk$#N~Lj$ Un;Unl4L8#MMLwKhL|KhL{KhP:#M}#MtKgP:KgLxKgL{MLL{L7$L7#MLL}KgL"
+    "~KgLyKgP<#Mw#M~KhP<KhL~KhL}MMLy;UnizL##M$LZKZL[KVLZKZOU#ML#MCK[OUKWLWK[L_M%LZL$$L$#M)L]KWLbKYLXKYOS#MJ#MQKZOSKVL^K"
+    "VL]M(L]=Y-dT#MDK>K;K{K;K>$L3#LGND#N%#N$LLNDL<$K;#KtK;K?K<#M@K>K5L'K1KB$Lx#M>Ox#O0#O3M?OtLy$KE#L(K1 Or'L,WXR.$#M<R-"
+    "$>S[e1#TGL3$#M&K&KvL/L&KV$K{#L7MQ#M*#MQL_M^L]$LV$#,#LTKoLTKq$K8#L'K9K>KB#MFKCK3L2K3KA$LV#LRNH.PXcpL?#KyL&#L;#KzK^L"
+    ":KM$Kd#K~Mf#M.#K4 QK*V6bs#NjMqPKMrPK#NjOcSm#LA*QMbs#NjMsPKMtPK#NjOeSm#LA S~)Ly^RXa$#W2LG$#SLVn$ N]#0### Un#Kd$###K"
+    "d###,UQc/Ku$#P[Kv$Kl#KQKt#L9#L8KRK|7UYeELP#LNM/#M8#LJKeM#KZB;1K?L:K)L3L*OJLK$K}O4K4LaKDK`K0$K<$#REL9$#]z P4'Lum-Q1"
+    "$#MmQ0$ P4/P4j2KJ#KiM##L?#L>KjLwKK$KK#KjLy#LA#L@KiM%2P4l}K;#KrKYK%KZK+KQK'M'#L##MKLWNXL%$L%#LSNR#MV#MQLXN_ S~/Twgl"
+    "#S*Pc$#N9Pb$#S*LG$#S,Pb$#N;Pc$#S,#@$#NI O)<MQ[iO7$#M(Q.$#L~EK7K;KmNBQ=#L^#L$KcLDKP$K.#KuKAKBKB#M>KGK3L&K3K5$L0#LNM"
+    "K#Lx#M[N3PlK2KY O)K$P@d4KWEK`L{#L?#M;L[MSLQ$K4#KwK'K@K$#M:K/K1KrK-K?$Kh#KtL<#L1#L0KiL8Kg$KP$#LzKY$KY#K[K|#Ku#KpK_K"
+    "xKX$J#KaIKJK&#M*KCGK|GK3$L0#LHM/#Ld#L*KTL_ P4'QfoWLg$N/RnL7$ QfDLNSw#mULX$#Yq#MdL*MlL($L4#L4N:#N;#XvLX$#^P#KrGKnG$"
+    "+#C;?<#MmJK)KBIF$K>#KNL80LAK,L:L/L:K_$K_#L/L8K$LA#Vf Qf1QQlDOO$#p_L+$#m~L^$#m|L-$#^.LxGM.OK#N[#NcMIO` N0#1##P} P47"
+    "Q-$K3KvK/Ls#KZ#LNKsLVKo$K*#KP;K$<#MNCAKGAK)$K5#K7K[#KX#K7K$LPK(Ku O).L<[aLm$#W}M$KJ#M.M-KLL($#ZQLm$#L|P[$ Or#Ke###"
+    "/Otl}LR#LoOE#Nj#NiLnOALQ$LS#LpOG#Nh#NkLqOG/OtjJKe#KyN(#MT#MKK|N(Kd$Kd#KxN*#MN#MUKwN* QK*LabsOfSk#L?OeSk#NlMtPMMsPM"
+    "*QMbsOdSk#L?OcSk#NlMrPMMqPM UM#Kt###&]XZ;MySgMz$.]B]zLF$#VIL($#L|L'$#N^L/$#N`O,$#M:'Ydl}L@$TlmWL?$ UM#Kt###<Z>M*O7"
+    "$#M(Q0$#L~GK7K9KmNBQ=#L^#L$KcLDKP$K.#KsKAKBKB#M>KGK3L$K3K5$L2#LLMK#Lx#M[N3PlK2KY#Kw&## UM#Kn####Kw$###Kw%###Kw&## "
+    "PTDP(ZGL_$#M}#LkK0MGKVLOKRLOK6KbK,LZ#K_#LNK~L{Kj$KI#LTL,K[L)#NbKXKnL`KjKa$LW#M$No#N+#L8KCMUKSLMKSLMK+K[K#Kd+K,)K')"
+    "Kt#Ki'R6^ZLj$#P1Lk$ R:#D####D$##'Q^uALePCL9$M*PE R:#D####D$##'RsuALX$M(PCL7$ R:#D####D$##*Q7uAL]$LsPCL)$LENKLENIL)"
+    "$ R:#D####D$##AR6q1K2K@<;@;.$F#JK^#KV#*Ky$#LiKbM1KS$G#K7AK+K.K3K:;9E91$C#K#Kd#KL#0Kz$$LgKcM/KN$B#K6C R:#D####D$###"
+    "Kc#L]N(#Kc#LjN( R:/Sxo?#KxKRLTK:$K:#KRLJ#L##KvKSLNK;$K;#KSLP&R:h$MTZrPT$6PXj:K6KOK8M)#L5#M)L>N*Kp$Kn#LBN(#M(#L*K:M"
+    "/K6KNPHj8Lr$L'S$Q{$L'R~Lt$ US3_olD#N9Rb$#T?RF$#N9RE$#VMRw$#N=U0$#S$PC$L?R~Ll$QIlD'S'hyN3[kOY$#[m RI#F###7TH$K3KvK1"
+    "Ls#KZ#LNKsLVKq$K(#KP;K&<#MNEAKEAK+$K5#K7K[#KX#K7K$LPK(Ku Qa#H###'Q=uALePCL7$M*PE Qa#H###'RRuALZ$M(PCL9$ Qa#H###*Pu"
+    "uAL]$LuPCL+$LENKLENIL+$ Qa#H###'R{taLm$#N~Ll$'N_taLm$#N~Ll$ Mt#K$###'M;uALePCL9$M(PE Mt#K$####L($NW# Mt#K$###*LquA"
+    "L]$LuPCL+$LCNKLGNIL)$ Mt#K$####L*$NY##Kc#Q0N( S=0LulDO/$O?#O%RL#R~#S%O$RPO>$O.$#Y{Lj$#MgLk$0O-hi#U4N:$#MeN9$#V=M7$"
+    "M|#MdPe#Q6#Q1McPeM{$ R}#K)###ARyq1K4K@:;B;.$F#JK^#KV#*Kw$#LiKdM1KO$G#K9AK+K.K5K:99E93$C#K#Kd#KL#0Kx$$LgKaM/KN$F#K4"
+    "C SI#K*####K*$###L+$P,# SI#K*####K*$###L($L*# SI#K*####K*$###L-$P,# SI#K*####K*$##ASGq1K4K@<;@;.$F#JK^#KV#*Ky$#LiK"
+    "dM1KQ$G#K9AK+K.K3K:;9C93$C#K#Kd#KL#0Kx$#LgKcM/KN$D#K4C SI#K*####K*$###L*$L(##Kc#KZN( S~/ZBchOVT`OWTWKsM4OXT^OXT[Ks"
+    "M6OWTYOVTbKtM6OYT[OYT^ SI-Wnd$RK^0K;KzL@K~K[$L}#MEQj#Pf#M%JNZ-VwfNK6K|LAL(KX$L|#MHQh#Pl#M#K#NaIL';MUOHKHLiKHPD#N+#"
+    "RFNcSlN&$K|#M#L6KQL7LDNlK`LSLGNvKGLoKKPB#N)#R<NbSjM}$K{#L~L4KTL5LCNfKaLQ Rm#K0####L'$KK# Rm#K0####L($KK# Rm#K0####"
+    "L)$KK# Rm#K0####L*$KK##L*$M}# QK#K4####L($K$# QE0LilDLm$#PCMA$MA#MEOM#OF#OEMDOQM@$M@$#Q}Ll$,O#b{#VrMA$L.#L:Mj#MR#M"
+    "QL7MjL/$ Q_K+LZdT#N{M3OGL}$Lq#L{O^%ONL51LGM+#L`#KUK5LBK;KJK5KFLFLsK[M`#Lh#N@M$NTLt$K:#L'K+KBK,#N3KKK5L,K5K;$Kp#KtL"
+    "a#LY#KxK6LHK_KyKVKmKZKpKRMQ#LY#MELHNBL8K4*LqL#M%Kk$L##L'M[#ML#dJLY$ QM#K<####K<$##'OOoWMbRjL9$N/Rl QM#K<####K<$##'"
+    "RZoWLi$N/RnL9$ QM#K<####K<$##*P<oWL4$M9RnL)$LSO}LSO{L)$ QM#K<####K<$##?Q'ibK4Ki6K#DK#0$F#FL.&LGKw$%MUKbMnKW$G#K;K1"
+    "IK>K5Kg7IEI1$G#GL0'LIKx$$MSKaMlKV$F#K:K3 QM#K<####K<$###L*$KFN'#L*$OcN' QM#K<####K<$##/Rim)#K|KRLPK:$K<#KPLN#K{#Kz"
+    "KQLNK=$K;#KSLP/T,m)#M+L?N(Km$Km#L?N*#M.#M-L@N&Kn$Kn#L@N$ U[*^KY*$MvLCNRL'$L9#LYNH.M}K(UQ`iKCLPLuLaL$$M)#MMP{#P'#LS"
+    "Ss$/NiLmNyLX$Kd#LiKhK`Ki#NIK_KILpKQKe$LE#M<M5KHM6KDM3LxM3L-$L^#LpN_#N;#NgMANkMA$ME$#D#MELEM^L5$KZ#LWKYKNKR#N;KbKKL"
+    "_KKKU$L.#LuL_#K<### Ph#K>###7Rc$K1KvK1Ls#KZ#LNKsLVKq$K(#KR;K$<#MNEAKEAK)$K7#K7K[#KX#K7K&LPK&Ku QO#K@####K@$##'P.oW"
+    "M`RjL7$N1Rl QO#K@####K@$##'S9oWLg$N-RnL9$ QO#K@####K@$##*PuoWL4$M;RnL)$LSO}LSO{L+$ QO#K@####K@$###L*$6N'#Kc#M@# Mb"
+    "'L,oWM`RjL9$N-Rl#KD####KP$NI# Mb'O7oWLi$N1RnL7$#KD####KP$NI# Mb#KD####KP$NI#*LuoWL4$M9RnL+$LSO}LSO{L)$ Mb#KD####KP"
+    "$NI##Kc#M&##L*$S*N' QK2Sj_dK,CKRCJ$LG#LWO=#Nr#NaLLOEL4$L0#LNOG#Nd#M=K0Nc=TLd]K|M`KlPs#NE#P.MaQCM($M,#MaQE#P1#P,MYQ"
+    "EM#$5#K/-K%*L=NSN)LxBLjM^LYLSO(M)$KzMeN8L~CLdMmL` Qc#KI###?QnibK2Ki:K#BK#.$J#FL.#LGKy$%MUKbMnKU$K##K;K1GK>K3Kg;ICI"
+    "/$K##GL0#LIKz$$MSKaMlKT$J#K:K3 QK#KJ####KJ$###LG%:# QK#KJ####KJ$###LH%:# QK#KJ####KJ$###LI%:# QK#KJ####KJ$##?QIibK"
+    "4Ki8K#BK#0$H#FL.$LGKy$'MUK`MnKW$I#K;K1IK>K3Kg9IEI/$I#GL0%LIKx$#MSKcMlKT$H#K:K3 QK#KJ####KJ$###L*$K&N'#Kc#MX# S~'R_"
+    "dTM9$#P#M8$'R_S<M9$#O{M8$'LyZWXa$#NAX`$ QK-TP]1OuWVK%KIKbKIK=$L2#LLO`#N|#L<6M1-Sf_SK$KOKcKOK6$L7#LGOf#O6#L.5Lw7KZ;"
+    "L}N7K.L<K2Ns#M6#P]MWQIM7$KW#L@KbK=KcL*N;K[L?L1NMK1L:K/Nq#M4#PZMTQGM4$KZ#LAKdK8KaL+N9KZL= Qc#KP####KP$###LG%2# Qc#K"
+    "P####KP$###LH%2# Qc#KP####KP$###LI%2# Qc#KP####KP$###L*$FN'#Kc#MP# Q7#KT####L@%/# Qd4N_N;#WZLY$#w/LZ$#WsK3LiLRLeKv"
+    "$Lm#MEQ`#PC#PBMDQ`Ll$Ku#LQLa#K=### Q7#KT####L*$K:N'#L*$OVN'";
 
 namespace {
 
@@ -216,23 +154,21 @@ constexpr double units = 1024.0;
 class GlyphReader {
  public:
   explicit GlyphReader(std::string_view digits) : digits_(digits) {}
-  bool ended() const { return at_ >= digits_.size(); }
+  bool ended() const { return digits_.empty(); }
   int number() {
-    const int high = digit(digits_[at_]);
-    const int low = digit(digits_[at_ + 1]);
-    at_ += 2;
-    return high * 64 + low;
+    constexpr int small = 40;
+    const int first = digit();
+    return first < small ? first : small + 91 * (first - small) + digit();
   }
+  static int step(int number) { return number % 2 == 0 ? number / 2 : -(number / 2) - 1; }
 
  private:
-  static int digit(char c) {
-    if (c >= 'A' && c <= 'Z') return c - 'A';
-    if (c >= 'a' && c <= 'z') return c - 'a' + 26;
-    if (c >= '0' && c <= '9') return c - '0' + 52;
-    return c == '+' ? 62 : 63;
+  int digit() {
+    const char c = digits_.front();
+    digits_.remove_prefix(1);
+    return c - (c > '\\' ? '$' : '#');
   }
   std::string_view digits_;
-  std::size_t at_ = 0;
 };
 
 constexpr std::size_t glyph_count = 95 + 96;
@@ -247,19 +183,52 @@ std::array<std::string_view, glyph_count> all_glyphs() {
   return glyphs;
 }
 
-std::string_view glyph_of(char latin1) {
+GlyphReader glyph(std::size_t number) {
   static const std::array<std::string_view, glyph_count> glyphs = all_glyphs();
+  return GlyphReader(glyphs[number]);
+}
+
+std::size_t glyph_of(char latin1) {
   const auto code = static_cast<unsigned char>(latin1);
-  return glyphs[code < 0x80U ? code - 0x20U : code - 0xa0U + 95U];
+  return code < 0x80U ? code - 0x20U : code - 0xa0U + 95U;
 }
 
 struct CurvePoint {
   Vec2 at;
   bool on = false;
 };
+using CurveContour = std::vector<CurvePoint>;
+
+/// In units, y up.
+std::vector<CurveContour> contours_of(std::size_t number) {
+  std::vector<CurveContour> contours;
+  GlyphReader reader = glyph(number);
+  reader.number();  // its advance
+  const auto step = [&] { return static_cast<double>(GlyphReader::step(reader.number())); };
+  while (!reader.ended()) {
+    CurveContour contour(static_cast<std::size_t>(reader.number()));
+    Vec2 at;
+    for (CurvePoint& p : contour) {
+      at.x += step();
+      const int y = reader.number();
+      at.y += GlyphReader::step(y / 2);
+      p = {at, y % 2 == 1};
+    }
+    if (contour.empty()) {
+      const std::vector<CurveContour> earlier = contours_of(static_cast<std::size_t>(reader.number()));
+      contour = earlier[static_cast<std::size_t>(reader.number())];
+      at.x = step();
+      at.y = step();
+      for (CurvePoint& p : contour) p.at = p.at + at;
+    }
+    contours.push_back(std::move(contour));
+  }
+
+  return contours;
+}
 
 /// The contour in chords: between two points off the curve lies one on it, half-way.
-std::vector<Vec2> contour_of(const std::vector<CurvePoint>& points) {
+std::vector<Vec2> contour_of(const CurveContour& points) {
   constexpr int chords = 4;
   std::vector<Vec2> contour;
   const std::size_t n = points.size();
@@ -279,6 +248,7 @@ std::vector<Vec2> contour_of(const std::vector<CurvePoint>& points) {
       contour.push_back((1 - t) * (1 - t) * a + 2 * t * (1 - t) * here.at + t * t * b);
     }
   }
+
   return contour;
 }
 
@@ -315,7 +285,7 @@ std::string latin1_text(std::string_view text) {
 
 double text_width(std::string_view text, double size) {
   int width = 0;
-  for (const char c : latin1_text(text)) width += GlyphReader(glyph_of(c)).number();
+  for (const char c : latin1_text(text)) width += glyph(glyph_of(c)).number();
   return width * size / units;
 }
 
@@ -323,20 +293,12 @@ PolygonSet text_outlines(std::string_view text, double size) {
   PolygonSet outlines;
   double pen = 0.0;
   const double scale = size / units;
-  std::vector<CurvePoint> points;
   for (const char c : latin1_text(text)) {
-    GlyphReader glyph(glyph_of(c));
-    const int advance = glyph.number();
-    while (!glyph.ended()) {
-      points.clear();
-      for (int count = glyph.number(); count > 0; --count) {
-        const int x = glyph.number() - 1024;
-        const int y = glyph.number();
-        points.push_back({{pen + scale * x, -scale * (y / 2 - 512)}, y % 2 == 1});
-      }
-      outlines.add(contour_of(points));
+    for (CurveContour& contour : contours_of(glyph_of(c))) {
+      for (CurvePoint& p : contour) p.at = {pen + scale * p.at.x, -scale * p.at.y};
+      outlines.add(contour_of(contour));
     }
-    pen += scale * advance;
+    pen += scale * glyph(glyph_of(c)).number();
   }
   return outlines;
 }

@@ -135,21 +135,200 @@ class PageMaker {
   bool has_axes() const { return options_.parts.has(Part::axes); }
   double world_width() const { return page_.canvas.box.width(); }
   double world_height() const { return page_.canvas.box.height(); }
-  void take_size();
-  bool best_side();
-  void lay_out(bool beside);
-  void fit_page();
-  void place_world();
-  void title();
-  void axes();
-  std::string axis_name(char axis, std::optional<Vec2> of) const;
-  void legend();
-  void wrap_title();
-  double title_height() const;
-  double ticks_width() const;
-  std::size_t legend_columns(double width) const;
-  void text(Vec2 at, std::string words, double size, Anchor anchor, bool bold = false, bool upright = false) {
-    if (!words.empty()) page_.texts.push_back({at, std::move(words), size, anchor, bold, upright});
+  void take_size() {
+    const Box& box = page_.canvas.box;
+    const double longer = std::max(box.width(), box.height());
+    // A PNG of unasked size has some pixels for each cell, up to a limit.
+    constexpr double pixels_a_unit = 24.0;
+    constexpr double least_pixels = 2.0 * usual_side;
+    constexpr double most_pixels = 4096.0;
+    const double wanted = std::clamp(pixels_a_unit * longer / page_.canvas.unit, least_pixels, most_pixels);
+    const bool free_size = !options_.size && in_pixels_;
+    page_.dpi = options_.dpi.value_or(free_size ? 96.0 * wanted / usual_side : 96.0);
+    if (!options_.size) return;
+    fixed_ = true;
+    page_.asked = options_.size;
+    constexpr double mm_an_inch = 25.4;
+    const double to_page = 96.0 / (options_.size->unit == LengthUnit::mm ? mm_an_inch : page_.dpi);
+    page_.width = to_page * options_.size->width;
+    page_.height = to_page * options_.size->height;
+  }
+
+  /// Is there more room for the world with the legend beside it than with it below?
+  bool best_side() {
+    if (entries_.empty()) return true;
+    const double aspect = world_width() / world_height();
+    if (!fixed_) return aspect < 1.4;
+    const auto scale = [&](bool beside) {
+      beside_ = beside;
+      page_.data = {};
+      lay_out(beside);
+      return page_.view.scale;
+    };
+    const double with_beside = scale(true);
+    return with_beside >= scale(false);
+  }
+  /// Margins and the scale of the world.
+  void lay_out(bool beside) {
+    beside_ = beside;
+    const double axis = has_axes() ? tick_length + 4.0 + text_size * line_height : 0.0;
+    const bool names = has_axes() && picture_.panels.empty();
+    const double name = names ? text_size * line_height : 0.0;
+    const double numbers = ticks_width();
+    around_ = {margin + name + (has_axes() ? numbers + tick_length + 4.0 : 0.0), margin,
+               std::max(margin, 0.5 * numbers), margin + axis + name};
+    if (beside && !entries_.empty()) around_.right += legend_gap + entry_width_;
+    const double longer = std::max(world_width(), world_height());
+    double data_width = 0.0;
+    double data_height = 0.0;
+    for (int round = 0; round < 2; ++round) {  // the title is wrapped to the width that the first round gives
+      if (fixed_) {
+        wrap_title();
+        Margins all = around_;
+        all.top += title_height();
+        if (!beside) {
+          const double inner = page_.width - 2.0 * margin;
+          const auto rows = (slots() + legend_columns(inner) - 1) / legend_columns(inner);
+          all.bottom += legend_gap + legend_row * static_cast<double>(rows);
+        }
+        data_width = std::max(page_.width - all.left - all.right, 8.0);
+        data_height = std::max(page_.height - all.top - all.bottom, 8.0);
+        const double fit_rim = std::min({rim, 0.2 * data_width, 0.2 * data_height});
+        page_.view.scale =
+            std::min((data_width - 2.0 * fit_rim) / world_width(), (data_height - 2.0 * fit_rim) / world_height());
+        page_.data = Box{{all.left, all.top}, {all.left + data_width, all.top + data_height}};
+        return;
+      }
+      page_.view.scale = (usual_side - 2.0 * rim) / longer;
+      data_width = std::max(world_width() * page_.view.scale + 2.0 * rim, least_side);
+      data_height = std::max(world_height() * page_.view.scale + 2.0 * rim, least_side);
+      page_.width = around_.left + data_width + around_.right;
+      wrap_title();
+    }
+    const double top = around_.top + title_height();
+    page_.data = Box{{around_.left, top}, {around_.left + data_width, top + data_height}};
+  }
+
+  /// The page around a world of the usual size.
+  void fit_page() {
+    double widest = title_.empty() ? 0.0 : std::min(text_width(title_, title_size) * 1.08, 640.0);
+    for (const std::string& line : subtitle_) widest = std::max(widest, text_width(line, text_size));
+    page_.width = std::max(page_.width, widest + 2.0 * margin);
+    page_.height = page_.data.max.y + around_.bottom;
+    if (entries_.empty()) return;
+    const auto count = static_cast<double>(slots());
+    if (beside_) {
+      page_.height = std::max(page_.height, page_.data.min.y + count * legend_row + margin);
+    } else {
+      const auto columns = static_cast<double>(legend_columns(page_.width - 2.0 * margin));
+      page_.height += legend_gap + legend_row * (std::ceil(count / columns) - 0.7);
+    }
+  }
+
+  /// The world in the middle of its place; the frame as tight around it as the rim.
+  void place_world() {
+    const Vec2 size{world_width() * page_.view.scale, world_height() * page_.view.scale};
+    Box& data = page_.data;
+    if (fixed_) {  // what is left over goes to the right and below
+      data.max.x = std::min(data.max.x, data.min.x + std::max(size.x + 2.0 * rim, least_side));
+      data.max.y = std::min(data.max.y, data.min.y + std::max(size.y + 2.0 * rim, least_side));
+    }
+    const Vec2 low{0.5 * (data.min.x + data.max.x - size.x), 0.5 * (data.min.y + data.max.y + size.y)};
+    page_.view.origin = {low.x - page_.view.scale * page_.canvas.box.min.x,
+                         low.y + page_.view.scale * page_.canvas.box.min.y};
+  }
+  void title() {
+    double y = margin;
+    if (!title_.empty()) {
+      y += title_size;
+      constexpr double bold = 1.08;
+      add_text(page_, {margin, y}, fitting_text(title_, title_size * bold, page_.width - 2.0 * margin), title_size,
+               Anchor::start, true);
+      y += (line_height - 1.0) * title_size;
+    }
+    for (const std::string& line : subtitle_) {
+      add_text(page_, {margin, y + text_size}, line, text_size, Anchor::start);
+      y += line_height * text_size;
+    }
+  }
+
+  void axes() {
+    if (picture_.panels.empty()) {
+      const auto& whole = page_.canvas.whole;
+      const Box& data = page_.data;
+      const std::string x = axis_name('x', whole ? std::optional(Vec2{whole->min.x, whole->max.x}) : std::nullopt);
+      const std::string y = axis_name('y', whole ? std::optional(Vec2{whole->min.y, whole->max.y}) : std::nullopt);
+      const auto fits = [](const std::string& words, double room) { return text_width(words, text_size) <= room; };
+      add_axes(page_,
+               {.x_label = fits(x, data.width()) ? x : axis_name('x', std::nullopt),
+                .y_label = fits(y, data.height()) ? y : axis_name('y', std::nullopt)},
+               data, margin + page_text_size);
+      return;
+    }
+    for (const AxesPanel& panel : picture_.panels) {
+      const Vec2 low = page_.view.at(panel.box.min);
+      const Vec2 high = page_.view.at(panel.box.max);
+      add_axes(page_, panel, Box{{low.x, high.y}, {high.x, low.y}}, std::nullopt);
+    }
+  }
+
+  /// of: what the whole map takes of the axis, where not all of it is shown.
+  std::string axis_name(char axis, std::optional<Vec2> of) const {
+    const std::string_view unit = unit_of(picture_.scene);
+    std::string name = unit.empty() ? std::string(1, axis) : fmt::format("{} ({})", axis, unit);
+    if (of) name += fmt::format(", part of {} to {}: the rest is unknown", human_number(of->x), human_number(of->y));
+    return name;
+  }
+  void legend() {
+    if (entries_.empty()) return;
+    const std::size_t columns = beside_ ? 1 : legend_columns(page_.width - 2.0 * margin);
+    const Vec2 first = beside_ ? Vec2{page_.data.max.x + legend_gap, page_.data.min.y + 0.5 * legend_row}
+                               : Vec2{margin, page_.data.max.y + around_.bottom - margin + legend_gap};
+    const auto place = [&](std::size_t i) {
+      return first + Vec2{static_cast<double>(i % columns) * (entry_width_ + legend_gap),
+                          static_cast<double>(i / columns) * legend_row};
+    };
+    for (std::size_t i = 0; i < entries_.size(); ++i) page_.legend.push_back({place(i), entries_[i]});
+    if (has_axes()) add_scale_bar(page_, place(entries_.size()), unit_of(picture_.scene));
+    for (const PlacedLegend& placed : page_.legend) {
+      add_text(page_, {placed.at.x + swatch_width + swatch_gap, placed.at.y + 0.35 * text_size}, placed.entry.label,
+               text_size, Anchor::start);
+    }
+  }
+
+  void wrap_title() {
+    subtitle_.clear();
+    if (options_.title && options_.title->empty()) return;
+    constexpr double least_width = 420.0;
+    const double room = (fixed_ ? page_.width : std::max(page_.width, least_width)) - 2.0 * margin;
+    for (std::size_t at = 0; at < picture_.subtitle.size();) {
+      const std::size_t end = std::min(picture_.subtitle.find('\n', at), picture_.subtitle.size());
+      for (std::string& line : wrapped_text(picture_.subtitle.substr(at, end - at), text_size, room)) {
+        subtitle_.push_back(std::move(line));
+      }
+      at = end + 1;
+    }
+  }
+  double title_height() const {
+    double height = 0.0;
+    if (!title_.empty()) height += title_size * line_height;
+    height += static_cast<double>(subtitle_.size()) * text_size * line_height;
+    return height > 0.0 ? height + 4.0 : 0.0;
+  }
+  double ticks_width() const {
+    if (!has_axes()) return 0.0;
+    const Box& box = page_.canvas.box;
+    const double step = tick_step(std::max(box.width(), box.height()), 8.0);
+    double widest = 0.0;
+    for (const double tick : ticks_between(box.min.y, box.max.y, step)) {
+      widest = std::max(widest, text_width(tick_text(tick, step), text_size));
+    }
+    return widest;
+  }
+  std::size_t legend_columns(double width) const {
+    const double columns = std::floor((width + legend_gap) / (entry_width_ + legend_gap));
+    return std::clamp<std::size_t>(static_cast<std::size_t>(std::max(columns, 1.0)), 1,
+                                   std::max<std::size_t>(slots(), 1));
   }
 
   const Picture& picture_;
@@ -164,208 +343,6 @@ class PageMaker {
   bool beside_ = true;  // the legend
   Margins around_{};
 };
-
-void PageMaker::take_size() {
-  const Box& box = page_.canvas.box;
-  const double longer = std::max(box.width(), box.height());
-  // A PNG of unasked size has some pixels for each cell, up to a limit.
-  constexpr double pixels_a_unit = 24.0;
-  constexpr double least_pixels = 2.0 * usual_side;
-  constexpr double most_pixels = 4096.0;
-  const double wanted = std::clamp(pixels_a_unit * longer / page_.canvas.unit, least_pixels, most_pixels);
-  const bool free_size = !options_.size && in_pixels_;
-  page_.dpi = options_.dpi.value_or(free_size ? 96.0 * wanted / usual_side : 96.0);
-  if (!options_.size) return;
-  fixed_ = true;
-  page_.asked = options_.size;
-  constexpr double mm_an_inch = 25.4;
-  const double to_page = 96.0 / (options_.size->unit == LengthUnit::mm ? mm_an_inch : page_.dpi);
-  page_.width = to_page * options_.size->width;
-  page_.height = to_page * options_.size->height;
-}
-
-/// Is there more room for the world with the legend beside it than with it below?
-bool PageMaker::best_side() {
-  if (entries_.empty()) return true;
-  const double aspect = world_width() / world_height();
-  if (!fixed_) return aspect < 1.4;
-  const auto scale = [&](bool beside) {
-    beside_ = beside;
-    page_.data = {};
-    lay_out(beside);
-    return page_.view.scale;
-  };
-  const double with_beside = scale(true);
-  return with_beside >= scale(false);
-}
-
-double PageMaker::ticks_width() const {
-  if (!has_axes()) return 0.0;
-  const Box& box = page_.canvas.box;
-  const double step = tick_step(std::max(box.width(), box.height()), 8.0);
-  double widest = 0.0;
-  for (const double tick : ticks_between(box.min.y, box.max.y, step)) {
-    widest = std::max(widest, text_width(tick_text(tick, step), text_size));
-  }
-  return widest;
-}
-
-std::size_t PageMaker::legend_columns(double width) const {
-  const double columns = std::floor((width + legend_gap) / (entry_width_ + legend_gap));
-  return std::clamp<std::size_t>(static_cast<std::size_t>(std::max(columns, 1.0)), 1,
-                                 std::max<std::size_t>(slots(), 1));
-}
-
-double PageMaker::title_height() const {
-  double height = 0.0;
-  if (!title_.empty()) height += title_size * line_height;
-  height += static_cast<double>(subtitle_.size()) * text_size * line_height;
-  return height > 0.0 ? height + 4.0 : 0.0;
-}
-
-void PageMaker::wrap_title() {
-  subtitle_.clear();
-  if (options_.title && options_.title->empty()) return;
-  constexpr double least_width = 420.0;
-  const double room = (fixed_ ? page_.width : std::max(page_.width, least_width)) - 2.0 * margin;
-  for (std::size_t at = 0; at < picture_.subtitle.size();) {
-    const std::size_t end = std::min(picture_.subtitle.find('\n', at), picture_.subtitle.size());
-    for (std::string& line : wrapped_text(picture_.subtitle.substr(at, end - at), text_size, room)) {
-      subtitle_.push_back(std::move(line));
-    }
-    at = end + 1;
-  }
-}
-
-/// Margins and the scale of the world.
-void PageMaker::lay_out(bool beside) {
-  beside_ = beside;
-  const double axis = has_axes() ? tick_length + 4.0 + text_size * line_height : 0.0;
-  const bool names = has_axes() && picture_.panels.empty();
-  const double name = names ? text_size * line_height : 0.0;
-  const double numbers = ticks_width();
-  around_ = {margin + name + (has_axes() ? numbers + tick_length + 4.0 : 0.0), margin, std::max(margin, 0.5 * numbers),
-             margin + axis + name};
-  if (beside && !entries_.empty()) around_.right += legend_gap + entry_width_;
-  const double longer = std::max(world_width(), world_height());
-  double data_width = 0.0;
-  double data_height = 0.0;
-  for (int round = 0; round < 2; ++round) {  // the title is wrapped to the width that the first round gives
-    if (fixed_) {
-      wrap_title();
-      Margins all = around_;
-      all.top += title_height();
-      if (!beside) {
-        const double inner = page_.width - 2.0 * margin;
-        const auto rows = (slots() + legend_columns(inner) - 1) / legend_columns(inner);
-        all.bottom += legend_gap + legend_row * static_cast<double>(rows);
-      }
-      data_width = std::max(page_.width - all.left - all.right, 8.0);
-      data_height = std::max(page_.height - all.top - all.bottom, 8.0);
-      const double fit_rim = std::min({rim, 0.2 * data_width, 0.2 * data_height});
-      page_.view.scale =
-          std::min((data_width - 2.0 * fit_rim) / world_width(), (data_height - 2.0 * fit_rim) / world_height());
-      page_.data = Box{{all.left, all.top}, {all.left + data_width, all.top + data_height}};
-      return;
-    }
-    page_.view.scale = (usual_side - 2.0 * rim) / longer;
-    data_width = std::max(world_width() * page_.view.scale + 2.0 * rim, least_side);
-    data_height = std::max(world_height() * page_.view.scale + 2.0 * rim, least_side);
-    page_.width = around_.left + data_width + around_.right;
-    wrap_title();
-  }
-  const double top = around_.top + title_height();
-  page_.data = Box{{around_.left, top}, {around_.left + data_width, top + data_height}};
-}
-
-/// The page around a world of the usual size.
-void PageMaker::fit_page() {
-  double widest = title_.empty() ? 0.0 : std::min(text_width(title_, title_size) * 1.08, 640.0);
-  for (const std::string& line : subtitle_) widest = std::max(widest, text_width(line, text_size));
-  page_.width = std::max(page_.width, widest + 2.0 * margin);
-  page_.height = page_.data.max.y + around_.bottom;
-  if (entries_.empty()) return;
-  const auto count = static_cast<double>(slots());
-  if (beside_) {
-    page_.height = std::max(page_.height, page_.data.min.y + count * legend_row + margin);
-  } else {
-    const auto columns = static_cast<double>(legend_columns(page_.width - 2.0 * margin));
-    page_.height += legend_gap + legend_row * (std::ceil(count / columns) - 0.7);
-  }
-}
-
-/// The world in the middle of its place; the frame as tight around it as the rim.
-void PageMaker::place_world() {
-  const Vec2 size{world_width() * page_.view.scale, world_height() * page_.view.scale};
-  Box& data = page_.data;
-  if (fixed_) {  // what is left over goes to the right and below
-    data.max.x = std::min(data.max.x, data.min.x + std::max(size.x + 2.0 * rim, least_side));
-    data.max.y = std::min(data.max.y, data.min.y + std::max(size.y + 2.0 * rim, least_side));
-  }
-  const Vec2 low{0.5 * (data.min.x + data.max.x - size.x), 0.5 * (data.min.y + data.max.y + size.y)};
-  page_.view.origin = {low.x - page_.view.scale * page_.canvas.box.min.x,
-                       low.y + page_.view.scale * page_.canvas.box.min.y};
-}
-
-void PageMaker::title() {
-  double y = margin;
-  if (!title_.empty()) {
-    y += title_size;
-    constexpr double bold = 1.08;
-    text({margin, y}, fitting_text(title_, title_size * bold, page_.width - 2.0 * margin), title_size, Anchor::start,
-         true);
-    y += (line_height - 1.0) * title_size;
-  }
-  for (const std::string& line : subtitle_) {
-    text({margin, y + text_size}, line, text_size, Anchor::start);
-    y += line_height * text_size;
-  }
-}
-
-/// of: what the whole map takes of the axis, where not all of it is shown.
-std::string PageMaker::axis_name(char axis, std::optional<Vec2> of) const {
-  const std::string_view unit = unit_of(picture_.scene);
-  std::string name = unit.empty() ? std::string(1, axis) : fmt::format("{} ({})", axis, unit);
-  if (of) name += fmt::format(", part of {} to {}: the rest is unknown", human_number(of->x), human_number(of->y));
-  return name;
-}
-
-void PageMaker::axes() {
-  if (picture_.panels.empty()) {
-    const auto& whole = page_.canvas.whole;
-    const Box& data = page_.data;
-    const std::string x = axis_name('x', whole ? std::optional(Vec2{whole->min.x, whole->max.x}) : std::nullopt);
-    const std::string y = axis_name('y', whole ? std::optional(Vec2{whole->min.y, whole->max.y}) : std::nullopt);
-    const auto fits = [](const std::string& words, double room) { return text_width(words, text_size) <= room; };
-    add_axes(page_,
-             {.x_label = fits(x, data.width()) ? x : axis_name('x', std::nullopt),
-              .y_label = fits(y, data.height()) ? y : axis_name('y', std::nullopt)},
-             data, margin + page_text_size);
-    return;
-  }
-  for (const AxesPanel& panel : picture_.panels) {
-    const Vec2 low = page_.view.at(panel.box.min);
-    const Vec2 high = page_.view.at(panel.box.max);
-    add_axes(page_, panel, Box{{low.x, high.y}, {high.x, low.y}}, std::nullopt);
-  }
-}
-
-void PageMaker::legend() {
-  if (entries_.empty()) return;
-  const std::size_t columns = beside_ ? 1 : legend_columns(page_.width - 2.0 * margin);
-  const Vec2 first = beside_ ? Vec2{page_.data.max.x + legend_gap, page_.data.min.y + 0.5 * legend_row}
-                             : Vec2{margin, page_.data.max.y + around_.bottom - margin + legend_gap};
-  const auto place = [&](std::size_t i) {
-    return first + Vec2{static_cast<double>(i % columns) * (entry_width_ + legend_gap),
-                        static_cast<double>(i / columns) * legend_row};
-  };
-  for (std::size_t i = 0; i < entries_.size(); ++i) page_.legend.push_back({place(i), entries_[i]});
-  if (has_axes()) add_scale_bar(page_, place(entries_.size()), unit_of(picture_.scene));
-  for (const PlacedLegend& placed : page_.legend) {
-    text({placed.at.x + swatch_width + swatch_gap, placed.at.y + 0.35 * text_size}, placed.entry.label, text_size,
-         Anchor::start);
-  }
-}
 
 }  // namespace
 
@@ -405,78 +382,72 @@ class LegendMaker {
   }
 
  private:
-  void world();
-  void roadmap();
-  void path();
-  void add(const PictureLayer& layer);
+  void world() {
+    const Scene& scene = picture_.scene;
+    if (!scene.polygons.empty()) {
+      entries_.push_back({.label = scene.polygons.size() == 1 ? "obstacle" : "obstacles",
+                          .lines = {colors::outline},
+                          .width = widths::outline,
+                          .fill = colors::polygon});
+    }
+    // A map's walls are the borders of its cells.
+    if (scene.walls.size() > 0) {
+      const bool borders = scene.map.has_value();
+      entries_.push_back(
+          {.label = borders ? "border of blocked cells" : "wall", .lines = {colors::wall}, .width = widths::wall});
+    } else if (scene.bounds && picture_.panels.empty()) {
+      entries_.push_back({.label = "bounds", .lines = {colors::wall}, .width = widths::wall});
+    }
+  }
+
+  void roadmap() {
+    const PlannedRoadmap<Vec2>& roadmap = *picture_.roadmap;
+    if (parts_.has(Part::roadmap) && !roadmap.states.empty()) {
+      const std::size_t edges = roadmap.graph.edge_count();
+      LegendEntry entry{.label = edges > 0 ? "roadmap edge, milestone" : "milestone", .dot = colors::components[0]};
+      if (edges > 0) {
+        const std::vector<std::uint8_t> color = component_colors(roadmap.graph, execution_);
+        // The last colour is for single milestones, too.
+        std::size_t used = 1;
+        for (std::size_t c = 1; c + 1 < colors::components.size(); ++c) {
+          used += std::find(color.begin(), color.end(), c) != color.end() ? 1 : 0;
+        }
+        constexpr std::size_t most_pieces = 4;
+        used = std::min(used, most_pieces);
+        entry.lines.assign(colors::components.begin(), colors::components.begin() + static_cast<std::ptrdiff_t>(used));
+        if (used > 1) entry.label = "roadmap, a colour a component";
+        entry.width = 1.5;
+      }
+      entries_.push_back(std::move(entry));
+    }
+    if (parts_.has(Part::search) && !roadmap.search_tree.empty()) {
+      entries_.push_back({.label = "search tree", .lines = {colors::search_tree}, .width = widths::search_tree});
+    }
+  }
+
+  void path() {
+    if (!picture_.path.empty()) {
+      entries_.push_back({.label = picture_.path_label, .lines = {colors::path}, .width = widths::path});
+    }
+    if (picture_.start) entries_.push_back({.label = "start", .fill = colors::start, .mark = MarkShape::disc});
+    if (picture_.goal) entries_.push_back({.label = "goal", .fill = colors::goal, .mark = MarkShape::star});
+  }
+  void add(const PictureLayer& layer) {
+    if (!parts_.has(layer.part) || layer.label.empty() || layer.lines.empty()) return;
+    for (const LegendEntry& there : entries_) {
+      if (there.label == layer.label) return;
+    }
+    LegendEntry entry{.label = layer.label, .width = layer.width, .fill = layer.fill, .mark = layer.swatch};
+    if (layer.swatch && !layer.fill) entry.fill = layer.color;
+    if (layer.width > 0.0) entry.lines = {layer.color};
+    entries_.push_back(std::move(entry));
+  }
 
   const Picture& picture_;
   Parts parts_;
   const Execution& execution_;
   std::vector<LegendEntry> entries_;
 };
-
-void LegendMaker::world() {
-  const Scene& scene = picture_.scene;
-  if (!scene.polygons.empty()) {
-    entries_.push_back({.label = scene.polygons.size() == 1 ? "obstacle" : "obstacles",
-                        .lines = {colors::outline},
-                        .width = widths::outline,
-                        .fill = colors::polygon});
-  }
-  // A map's walls are the borders of its cells.
-  if (scene.walls.size() > 0) {
-    const bool borders = scene.map.has_value();
-    entries_.push_back(
-        {.label = borders ? "border of blocked cells" : "wall", .lines = {colors::wall}, .width = widths::wall});
-  } else if (scene.bounds && picture_.panels.empty()) {
-    entries_.push_back({.label = "bounds", .lines = {colors::wall}, .width = widths::wall});
-  }
-}
-
-void LegendMaker::roadmap() {
-  const PlannedRoadmap<Vec2>& roadmap = *picture_.roadmap;
-  if (parts_.has(Part::roadmap) && !roadmap.states.empty()) {
-    const std::size_t edges = roadmap.graph.edge_count();
-    LegendEntry entry{.label = edges > 0 ? "roadmap edge, milestone" : "milestone", .dot = colors::components[0]};
-    if (edges > 0) {
-      const std::vector<std::uint8_t> color = component_colors(roadmap.graph, execution_);
-      // The last colour is for single milestones, too.
-      std::size_t used = 1;
-      for (std::size_t c = 1; c + 1 < colors::components.size(); ++c) {
-        used += std::find(color.begin(), color.end(), c) != color.end() ? 1 : 0;
-      }
-      constexpr std::size_t most_pieces = 4;
-      used = std::min(used, most_pieces);
-      entry.lines.assign(colors::components.begin(), colors::components.begin() + static_cast<std::ptrdiff_t>(used));
-      if (used > 1) entry.label = "roadmap, a colour a component";
-      entry.width = 1.5;
-    }
-    entries_.push_back(std::move(entry));
-  }
-  if (parts_.has(Part::search) && !roadmap.search_tree.empty()) {
-    entries_.push_back({.label = "search tree", .lines = {colors::search_tree}, .width = widths::search_tree});
-  }
-}
-
-void LegendMaker::add(const PictureLayer& layer) {
-  if (!parts_.has(layer.part) || layer.label.empty() || layer.lines.empty()) return;
-  for (const LegendEntry& there : entries_) {
-    if (there.label == layer.label) return;
-  }
-  LegendEntry entry{.label = layer.label, .width = layer.width, .fill = layer.fill, .mark = layer.swatch};
-  if (layer.swatch && !layer.fill) entry.fill = layer.color;
-  if (layer.width > 0.0) entry.lines = {layer.color};
-  entries_.push_back(std::move(entry));
-}
-
-void LegendMaker::path() {
-  if (!picture_.path.empty()) {
-    entries_.push_back({.label = picture_.path_label, .lines = {colors::path}, .width = widths::path});
-  }
-  if (picture_.start) entries_.push_back({.label = "start", .fill = colors::start, .mark = MarkShape::disc});
-  if (picture_.goal) entries_.push_back({.label = "goal", .fill = colors::goal, .mark = MarkShape::star});
-}
 
 }  // namespace
 

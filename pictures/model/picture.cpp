@@ -64,6 +64,7 @@ std::vector<Vec2> without_arcs(std::span<const Vec2> points, std::span<const dou
     }
     chain.push_back(points[i]);
   }
+
   return chain;
 }
 
@@ -100,6 +101,15 @@ std::vector<Vec2> mark_outline(MarkShape shape, double radius) {
     const double angle = 2.0 * std::numbers::pi * (static_cast<double>(i) / static_cast<double>(corners) + 0.25);
     const double r = radius * (!is_star ? 1.0 : i % 2 == 0 ? star_reach : star_waist);
     outline.push_back({r * portable::cos(angle), r * portable::sin(angle)});
+  }
+  return outline;
+}
+
+std::vector<Vec2> circle_outline(Vec2 middle, double radius, int corners) {
+  std::vector<Vec2> outline;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / corners;
+    outline.push_back(middle + Vec2{radius * portable::cos(angle), radius * portable::sin(angle)});
   }
   return outline;
 }

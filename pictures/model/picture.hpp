@@ -31,6 +31,9 @@ enum class MarkShape : std::uint8_t { disc, star, front };
 /// large.
 std::vector<Vec2> mark_outline(MarkShape shape, double radius);
 
+/// Corners of a circle, anticlockwise from the right where y runs up.
+std::vector<Vec2> circle_outline(Vec2 middle, double radius, int corners);
+
 // An arm that moves: where the ends of its links are at moments of its path.
 
 /// From space into a picture's world: which axes run right and up, and where the space's zero stands.

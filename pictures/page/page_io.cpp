@@ -8,10 +8,11 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <concepts>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
@@ -26,6 +27,8 @@
 #include "scenes/scene/scene.hpp"
 
 namespace warren {
+namespace {
+
 // Numbers as pages hold them: {"type": "f32", "data": base64}, little-endian, written in pieces.
 
 static_assert(std::endian::native == std::endian::little, "the arrays of pages are little-endian");
@@ -59,6 +62,9 @@ class NumberArray {
     add(p.x);
     add(p.y);
   }
+  void add(const Vec3& p) {
+    for (int k = 0; k < 3; ++k) add(p[k]);
+  }
   void end() {
     flush();
     base64_.end();
@@ -78,32 +84,19 @@ class NumberArray {
   std::string bytes_;
 };
 
-// An arm and its solids as the member "arm" of a page's JSON.
-
 /// Does the page's script draw an arm in perspective, where it is on its way? Else its perspective is an image.
-inline bool moves_arm(const Picture& picture, Parts parts) {
+bool moves_arm(const Picture& picture, Parts parts) {
   return picture.solids != nullptr && picture.arm != nullptr && !picture.arm->spines.empty() && parts.has(Part::body);
 }
 
-/// Of a picture that moves an arm. Places of space are relative to the view's target, of the picture's world
-/// to `origin`. Throws Stopped, and what `write` throws.
-void write_page_arm(const Picture& picture, Parts parts, Vec2 origin, const Execution& execution, const Write& write);
-
-// What a page shows of a picture's world and layers, as the member "layers" of its JSON. Of walls by the million, which
-// no browser would draw at once, there is an image.
-
-/// "#1e293b"
-std::string css_color(Rgb color);
-
 /// JSON as it may stand in a <script>.
-std::string in_script(std::string_view json);
+std::string in_script(std::string_view json) {
+  std::string safe;
+  for (const char c : json) safe += c == '<' ? std::string_view("\\u003c") : std::string_view(&c, 1);
+  return safe;
+}
 
-/// `canvas`: the picture's. Numbers are relative to `origin`. Returns what is drawn otherwise than usual, as
-/// write_html() does. Throws Stopped, and what `write` throws.
-std::vector<std::string> write_page_layers(const Picture& picture, Parts parts, const Canvas& canvas, Vec2 origin,
-                                           const Execution& execution, const Write& write);
-
-namespace {
+constexpr std::size_t most_drawn_walls = 4'000'000;
 
 using Json = nlohmann::ordered_json;
 
@@ -128,27 +121,368 @@ class PageWriter {
                                                    "arm.js",  "pointer.js", "controls.js"};
     write_(head_of_page(title, page_file("page.css"), scripts));
     write_(page_file("page.html"));
-    write_("<script id=\"picture\" type=\"application/json\">{");
+    write_("<script id=\"picture\" type=\"application/json\">");
     words(title);
-    std::vector<std::string> notes = write_page_layers(picture_, parts_, canvas_, origin_, execution_, write_);
+    layers();
     if (picture_.roadmap != nullptr && picture_.panels.empty()) graph(*picture_.roadmap);
     if (parts_.has(Part::path)) path();
-    if (moves_arm(picture_, parts_)) write_page_arm(picture_, parts_, origin_, execution_, write_);
+    if (moves_arm(picture_, parts_)) arm();
     write_("}</script>\n");
     for (const std::string_view script : scripts) write_(script_element(script));
     write_("</body>\n</html>\n");
-    return notes;
+    if (!parts_.has(Part::world) || picture_.scene.walls.size() <= most_drawn_walls) return {};
+    return {"as pixels, being so many: walls"};
   }
 
  private:
-  void words(const std::string& title);
-  void graph(const PlannedRoadmap<Vec2>& roadmap);
-  void path();
-  void poses(const MovingBody& body);
+  auto moving() const {
+    return [this](Vec2 p) { return moved(p); };
+  }
+  void words(const std::string& title) {
+    Json words{{"title", seen_text(title)},
+               {"about", seen_text(picture_.subtitle)},
+               {"origin", {origin_.x, origin_.y}},
+               {"box", box_json(canvas_.box)},
+               {"unit", canvas_.unit},
+               {"lengthUnit", unit_of(picture_.scene)},
+               {"pathColor", css_color(colors::path)},
+               {"pathWidth", widths::path},
+               {"pathLabel", picture_.path_label},
+               {"panels", Json::array()},
+               {"ends", Json::object()}};
+    for (const AxesPanel& panel : picture_.panels) {
+      words["panels"].push_back({{"box", box_json(panel.box)},
+                                 {"x", panel.x_label},
+                                 {"y", panel.y_label},
+                                 {"origin", {moved(panel.origin).x, moved(panel.origin).y}},
+                                 {"hasTicks", panel.has_ticks}});
+    }
+    const auto end = [&](const char* name, std::optional<Vec2> at, Rgb color) {
+      if (!at || !parts_.has(Part::path)) return;
+      words["ends"][name] = {{"x", moved(*at).x}, {"y", moved(*at).y}, {"color", css_color(color)}};
+    };
+    end("start", picture_.start, colors::start);
+    end("goal", picture_.goal, colors::goal);
+    begin("", words);
+  }
 
+  void graph(const PlannedRoadmap<Vec2>& roadmap) {
+    const std::vector<std::uint8_t> component = component_colors(roadmap.graph, execution_);
+    if (component.size() != roadmap.states.size()) return;  // stopped before the graph was made
+    Json about{
+        {"colors", Json::array()},
+        {"treeColor", css_color(colors::search_tree)},
+        {"hasRoadmap", parts_.has(Part::roadmap)},
+        {"widths", {{"edges", widths::edge}, {"milestones", widths::milestone}, {"search_tree", widths::search_tree}}}};
+    for (const Rgb color : colors::components) about["colors"].push_back(css_color(color));
+    begin(",\"graph\":", about);
+    numbers<float>("states", roadmap.states, moving());
+    numbers<std::uint8_t>("component", component);
+    auto edges = numbers<std::uint32_t>("edges");
+    for (VertexId v = 0; v < roadmap.graph.vertex_count(); ++v) {
+      for (const VertexId w : roadmap.graph.neighbours(v)) {
+        if (w < v) continue;
+        edges.add(v);
+        edges.add(w);
+      }
+    }
+    edges.end();
+    if (parts_.has(Part::search) && !roadmap.search_tree.empty()) {
+      execution_.reserve(roadmap.states.size() * sizeof(std::int32_t));
+      std::vector<std::int32_t> parent(roadmap.states.size(), -1);
+      for (const Edge& edge : roadmap.search_tree) {
+        parent[edge.from] = static_cast<std::int32_t>(edge.to == no_vertex ? edge.from : edge.to);
+      }
+      numbers<std::int32_t>("parent", parent);
+    }
+    write_("}");
+  }
+
+  void path() {
+    if (picture_.path.empty()) return;
+    numbers<double>("path", without_arcs(picture_.path, picture_.path_turns), moving());
+    const MovingBody point;
+    const MovingBody& body = picture_.body != nullptr && parts_.has(Part::body) ? *picture_.body : point;
+    Json outline = Json::array();
+    for (const Vec2 p : body.outline) outline.push_back({p.x, p.y});
+    write_(",\"body\":" + Json{{"outline", outline}, {"radius", body.radius}, {"heads", body.heads}}.dump());
+    if (!body.poses.empty()) poses(body);
+  }
+  /// x, y, heading and moment of as many places as arcs have chords, or turns on the spot few degrees.
+  void poses(const MovingBody& body) {
+    constexpr double step_rad = 0.05;
+    const Timetable table = timetable_of(body);
+    auto out = numbers<double>("poses");
+    const auto add = [&](Vec2 at, double theta, double moment) {
+      out.add(at);
+      out.add(theta);
+      out.add(moment);
+    };
+    add(moved(body.poses.front().position()), body.poses.front().theta, 0.0);
+    for (std::size_t i = 1; i < body.poses.size(); ++i) {
+      const Se2& from = body.poses[i - 1];
+      const Se2& to = body.poses[i];
+      const double turn = turn_between(from.theta, to.theta);
+      const double arc = picture_.path_turns.empty() ? 0.0 : picture_.path_turns[i];
+      std::vector<Vec2> way = without_arcs(std::array{from.position(), to.position()}, std::array{0.0, arc});
+      if (way.size() == 2) {
+        const auto parts = static_cast<std::size_t>(std::ceil(std::abs(turn) / step_rad));
+        way = {from.position()};
+        for (std::size_t k = 1; k <= std::max<std::size_t>(parts, 1); ++k) {
+          const double share = static_cast<double>(k) / static_cast<double>(std::max<std::size_t>(parts, 1));
+          way.push_back(from.position() + share * (to.position() - from.position()));
+        }
+      }
+      for (std::size_t k = 1; k < way.size(); ++k) {
+        const double share = static_cast<double>(k) / static_cast<double>(way.size() - 1);
+        add(moved(way[k]), from.theta + share * turn,
+            table.moments[i - 1] + share * (table.moments[i] - table.moments[i - 1]));
+      }
+    }
+    out.end();
+  }
+
+  void layers() {
+    write_(",\"layers\":[");
+    for (const PictureLayer& one : picture_.layers) {
+      if (one.part == Part::world && parts_.has(one.part) && !one.lines.empty()) layer(one);
+    }
+    if (parts_.has(Part::world) && !picture_.scene.polygons.empty()) polygons();
+    for (const PictureLayer& one : picture_.layers) {
+      if (one.part != Part::world && parts_.has(one.part) && !one.lines.empty()) layer(one);
+    }
+    if (parts_.has(Part::world)) walls();
+    if (picture_.solids != nullptr && !moves_arm(picture_, parts_)) perspective(*picture_.solids);
+    write_("]");
+  }
+  void polygons() {
+    const std::vector<ScenePolygon>& all = picture_.scene.polygons;
+    begin_layer({{"id", "polygons"},
+                 {"label", "obstacles"},
+                 {"kind", "areas"},
+                 {"obstacle", true},
+                 {"color", css_color(colors::polygon)},
+                 {"outline", css_color(colors::outline)},
+                 {"width", widths::outline}});
+    auto first = numbers<std::uint32_t>("first");
+    std::size_t corners = 0;
+    first.add(corners);
+    for (const ScenePolygon& polygon : all) first.add(corners += anticlockwise(polygon.corners).size());
+    first.end();
+    auto xy = numbers<float>("xy");
+    for (const ScenePolygon& polygon : all) {
+      for (const Vec2 p : anticlockwise(polygon.corners)) xy.add(moved(p));
+    }
+    xy.end();
+    write_("}");
+  }
+
+  void layer(const PictureLayer& layer) {
+    Json about{{"id", layer.id},
+               {"label", layer.label.empty() ? layer.id : layer.label},
+               {"kind", layer.fill ? "areas" : "chains"},
+               {"obstacle", layer.part == Part::world && layer.fill && layer.blocks},
+               {"color", css_color(layer.fill.value_or(layer.color))},
+               {"width", layer.width},
+               {"closed", layer.closed},
+               {"opacity", layer.opacity}};
+    if (layer.fill && layer.width > 0.0) about["outline"] = css_color(layer.color);
+    if (!layer.opacities.empty()) about["opacities"] = layer.opacities;
+    begin_layer(about);
+    std::vector<std::uint32_t> first{0};
+    auto xy = numbers<float>("xy");
+    for (std::size_t i = 0; i < layer.lines.size(); ++i) {
+      const std::vector<Vec2> chain = without_arcs(layer.lines[i], layer.turns_of(i));
+      for (const Vec2 p : chain) xy.add(moved(p));
+      first.push_back(first.back() + static_cast<std::uint32_t>(chain.size()));
+    }
+    xy.end();
+    numbers<std::uint32_t>("first", first);
+    write_("}");
+  }
+
+  void walls() {
+    const std::size_t count = picture_.scene.walls.size();
+    if (count == 0 && !picture_.scene.bounds) return;
+    Json about{{"id", "walls"},
+               {"label", picture_.scene.map         ? "borders of blocked cells"
+                         : count == 0               ? "bounds"
+                         : count > most_drawn_walls ? "walls, as pixels"
+                                                    : "walls"},
+               {"obstacle", picture_.panels.empty()},
+               {"color", css_color(colors::wall)},
+               {"width", widths::wall}};
+    if (count > most_drawn_walls) {
+      about["count"] = count;
+      begin_layer(about);
+      return wall_image();
+    }
+    about["kind"] = "segments";
+    begin_layer(about);
+    if (has_small_whole_walls()) {
+      wall_ends<std::uint16_t>();
+    } else {
+      wall_ends<float>();
+    }
+    write_("}");
+  }
+
+  template <class T>
+  void wall_ends() {
+    auto xy = numbers<T>("xy");
+    const auto add = [&](Vec2 a, Vec2 b) {
+      xy.add(moved(a));
+      xy.add(moved(b));
+    };
+    picture_.scene.walls.visit([&](auto all) {
+      for (const auto& wall : all) add(wall.segment().a, wall.segment().b);
+    });
+    if (picture_.scene.bounds) {
+      const auto [low, high] = *picture_.scene.bounds;
+      add(low, {high.x, low.y});
+      add({high.x, low.y}, high);
+      add(high, {low.x, high.y});
+      add({low.x, high.y}, low);
+    }
+    xy.end();
+  }
+
+  void wall_image() {
+    constexpr double most_pixels = 4096.0;
+    constexpr double least_width = 0.2;
+    constexpr std::size_t walls_a_poll = 1 << 14;
+    const Box& box = canvas_.box;
+    const double scale = most_pixels / std::max(box.width(), box.height());
+    Mask mask(static_cast<std::size_t>(std::ceil(scale * box.width())),
+              static_cast<std::size_t>(std::ceil(scale * box.height())), execution_);
+    const auto at = [&](Vec2 p) { return Vec2{scale * (p.x - box.min.x), scale * (box.max.y - p.y)}; };
+    const double width = std::max(widths::wall / 20.0 * scale * canvas_.unit, least_width);
+    picture_.scene.walls.visit([&](auto all) {
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        if (i % walls_a_poll == 0) execution_.check();
+        mask.draw_line(at(all[i].segment().a), at(all[i].segment().b), width);
+      }
+    });
+    const Vec2 top_left = moved({box.min.x, box.max.y});
+    const double width_seen = static_cast<double>(mask.width()) / scale;
+    const double height_seen = static_cast<double>(mask.height()) / scale;
+    image_in({{top_left.x, top_left.y - height_seen}, {top_left.x + width_seen, top_left.y}},
+             [&](const Write& write) { write_png_file(mask, colors::wall, execution_, write); });
+  }
+
+  /// Of an arm that doesn't move there; the page's script draws the others.
+  void perspective(const SolidView& view) {
+    constexpr std::size_t pixels = 1024;
+    begin_layer({{"id", "perspective"}, {"label", "perspective"}, {"isOpaque", true}});
+    const double scale = static_cast<double>(pixels) / std::max(view.box.width(), view.box.height());
+    const Image image = draw_solids(view, parts_, static_cast<std::size_t>(std::ceil(scale * view.box.width())),
+                                    static_cast<std::size_t>(std::ceil(scale * view.box.height())), execution_);
+    constexpr double dots_an_inch = 96.0;
+    image_in({moved(view.box.min), moved(view.box.max)},
+             [&](const Write& write) { write_png_file(image, dots_an_inch, execution_, write); });
+  }
+  /// The rest of a layer that has begun: an image, the page's numbers for its place.
+  template <class WritePng>
+  void image_in(const Box& box, const WritePng& write_png) {
+    write_(fmt::format(",\"kind\":\"image\",\"box\":[{},{},{},{}],\"href\":\"data:image/png;base64,", box.min.x,
+                       box.min.y, box.max.x, box.max.y));
+    Base64 out(write_);
+    write_png([&](std::string_view bytes) { out.write(bytes); });
+    out.end();
+    write_("\"}");
+  }
+  /// The arm and its solids; places are relative to the view's target.
+  void arm() {
+    const SolidView& solids = *picture_.solids;
+    const MovingArm& arm = *picture_.arm;
+    begin(",\"arm\":", arm_facts());
+    const auto place = [&](const Vec3& p) -> Vec3 { return p - solids.target; };
+    auto spheres = numbers<float>("spheres");
+    for (const Solid& s : solids.solids) {
+      if (s.part != Part::world || s.radius < 0.0 || !parts_.has(s.part)) continue;
+      spheres.add(place(s.a));
+      spheres.add(s.radius);
+    }
+    spheres.end();
+    auto boxes = numbers<float>("boxes");
+    for (const Solid& s : solids.solids) {
+      if (s.radius >= 0.0 || !parts_.has(s.part)) continue;
+      boxes.add(place(s.a));
+      boxes.add(place(s.b));
+    }
+    boxes.end();
+    numbers<float>("tools", parts_.has(Part::path) ? arm.tools : std::vector<Vec3>{}, place);
+    auto spines = numbers<float>("spines");
+    for (const std::vector<Vec3>& spine : arm.spines) {
+      for (const Vec3& end : spine) spines.add(place(end));
+    }
+    spines.end();
+    numbers<double>("moments", arm.moments);
+    write_("}");
+  }
+
+  Json arm_facts() const {
+    const SolidView& solids = *picture_.solids;
+    const MovingArm& arm = *picture_.arm;
+    const Vec3 floor = solids.floor - solids.target;
+    Json about{{"box", box_json(solids.box)},
+               {"reach", solids.reach},
+               {"azimuth", solids.azimuth_rad},
+               {"rise", solids.rise_rad},
+               {"floor", {floor.x(), floor.y(), floor.z()}},
+               {"floorSide", solids.floor_side},
+               {"square", solids.square},
+               {"radius", arm.radius},
+               {"least", least_radius * solids.reach},
+               {"ends", arm.spines.front().size()},
+               {"colors",
+                {{"solid", css_color(colors::blocked_cell)},
+                 {"start", css_color(colors::start)},
+                 {"goal", css_color(colors::goal)},
+                 {"moving", css_color(colors::path)}}},
+               {"views", Json::array()}};
+    for (const Projection& view : arm.views) {
+      const Vec2 zero = moved(view.at(solids.target));
+      about["views"].push_back({view.axes[0], view.axes[1], zero.x, zero.y});
+    }
+    return about;
+  }
+
+  /// The object, whose end is left open.
+  void begin(std::string_view before, const Json& object) {
+    std::string text = in_script(object.dump(-1, ' ', true, Json::error_handler_t::replace));
+    text.pop_back();
+    write_(std::string(before) + text);
+  }
+  void begin_layer(const Json& about) { begin(std::exchange(between_, ","), about); }
   template <class T>
   NumberArray<T> numbers(std::string_view name) const {
     return {name, execution_, write_};
+  }
+  /// of(one): the number, or the point, of each.
+  template <class T, class Range, class Of = std::identity>
+  void numbers(std::string_view name, const Range& all, const Of& of = {}) const {
+    auto array = numbers<T>(name);
+    for (const auto& one : all) array.add(of(one));
+    array.end();
+  }
+  Json box_json(const Box& box) const {
+    const Vec2 low = moved(box.min);
+    const Vec2 high = moved(box.max);
+    return Json{low.x, low.y, high.x, high.y};
+  }
+  bool has_small_whole_walls() const {
+    constexpr double most = 65535.0;
+    const auto fits = [](double x) { return x >= 0.0 && x <= most && x == std::floor(x); };
+    const auto all_fit = [&](Vec2 p) { return fits(moved(p).x) && fits(moved(p).y); };
+    if (picture_.scene.bounds && !(all_fit(picture_.scene.bounds->min) && all_fit(picture_.scene.bounds->max)))
+      return false;
+    return picture_.scene.walls.visit([&](auto all) {
+      for (const auto& wall : all) {
+        if (!all_fit(wall.segment().a) || !all_fit(wall.segment().b)) return false;
+      }
+      return true;
+    });
   }
   Vec2 moved(Vec2 p) const { return p - origin_; }
 
@@ -157,442 +491,15 @@ class PageWriter {
   const Execution& execution_;
   const Write& write_;
   Canvas canvas_;
-  Vec2 origin_;  // numbers are relative to it, so that floats are enough
+  Vec2 origin_;                    // numbers are relative to it, so that floats are enough
+  std::string_view between_ = "";  // layers
 };
-
-void PageWriter::words(const std::string& title) {
-  const auto box_json = [&](const Box& box) {
-    const Vec2 low = moved(box.min);
-    const Vec2 high = moved(box.max);
-    return Json{low.x, low.y, high.x, high.y};
-  };
-  Json words{{"title", seen_text(title)},
-             {"about", seen_text(picture_.subtitle)},
-             {"origin", {origin_.x, origin_.y}},
-             {"box", box_json(canvas_.box)},
-             {"unit", canvas_.unit},
-             {"lengthUnit", unit_of(picture_.scene)},
-             {"pathColor", css_color(colors::path)},
-             {"pathWidth", widths::path},
-             {"pathLabel", picture_.path_label},
-             {"panels", Json::array()},
-             {"ends", Json::object()}};
-  for (const AxesPanel& panel : picture_.panels) {
-    words["panels"].push_back({{"box", box_json(panel.box)},
-                               {"x", panel.x_label},
-                               {"y", panel.y_label},
-                               {"origin", {moved(panel.origin).x, moved(panel.origin).y}},
-                               {"hasTicks", panel.has_ticks}});
-  }
-  const auto end = [&](const char* name, std::optional<Vec2> at, Rgb color) {
-    if (!at || !parts_.has(Part::path)) return;
-    words["ends"][name] = {{"x", moved(*at).x}, {"y", moved(*at).y}, {"color", css_color(color)}};
-  };
-  end("start", picture_.start, colors::start);
-  end("goal", picture_.goal, colors::goal);
-  std::string text = in_script(words.dump(-1, ' ', true, Json::error_handler_t::replace));
-  text.pop_back();
-  write_(text.substr(1));
-}
-
-void PageWriter::graph(const PlannedRoadmap<Vec2>& roadmap) {
-  const std::vector<std::uint8_t> component = component_colors(roadmap.graph, execution_);
-  if (component.size() != roadmap.states.size()) return;  // stopped before the graph was made
-  Json about{
-      {"colors", Json::array()},
-      {"treeColor", css_color(colors::search_tree)},
-      {"hasRoadmap", parts_.has(Part::roadmap)},
-      {"widths", {{"edges", widths::edge}, {"milestones", widths::milestone}, {"search_tree", widths::search_tree}}}};
-  for (const Rgb color : colors::components) about["colors"].push_back(css_color(color));
-  std::string text = about.dump();
-  text.pop_back();
-  write_(",\"graph\":" + text);
-  auto states = numbers<float>("states");
-  for (const Vec2 p : roadmap.states) states.add(moved(p));
-  states.end();
-  auto colors = numbers<std::uint8_t>("component");
-  for (const std::uint8_t color : component) colors.add(color);
-  colors.end();
-  auto edges = numbers<std::uint32_t>("edges");
-  for (VertexId v = 0; v < roadmap.graph.vertex_count(); ++v) {
-    for (const VertexId w : roadmap.graph.neighbours(v)) {
-      if (w < v) continue;
-      edges.add(v);
-      edges.add(w);
-    }
-  }
-  edges.end();
-  if (parts_.has(Part::search) && !roadmap.search_tree.empty()) {
-    execution_.reserve(roadmap.states.size() * sizeof(std::int32_t));
-    std::vector<std::int32_t> parent(roadmap.states.size(), -1);
-    for (const Edge& edge : roadmap.search_tree) {
-      parent[edge.from] = static_cast<std::int32_t>(edge.to == no_vertex ? edge.from : edge.to);
-    }
-    auto parents = numbers<std::int32_t>("parent");
-    for (const std::int32_t v : parent) parents.add(v);
-    parents.end();
-  }
-  write_("}");
-}
-
-void PageWriter::path() {
-  if (picture_.path.empty()) return;
-  auto xy = numbers<double>("path");
-  for (const Vec2 p : without_arcs(picture_.path, picture_.path_turns)) xy.add(moved(p));
-  xy.end();
-  const MovingBody point;
-  const MovingBody& body = picture_.body != nullptr && parts_.has(Part::body) ? *picture_.body : point;
-  Json outline = Json::array();
-  for (const Vec2 p : body.outline) outline.push_back({p.x, p.y});
-  write_(",\"body\":" + Json{{"outline", outline}, {"radius", body.radius}, {"heads", body.heads}}.dump());
-  if (!body.poses.empty()) poses(body);
-}
-
-/// x, y, heading and moment of as many places as arcs have chords, or turns on the spot few degrees.
-void PageWriter::poses(const MovingBody& body) {
-  constexpr double step_rad = 0.05;
-  const Timetable table = timetable_of(body);
-  auto out = numbers<double>("poses");
-  const auto add = [&](Vec2 at, double theta, double moment) {
-    out.add(at);
-    out.add(theta);
-    out.add(moment);
-  };
-  add(moved(body.poses.front().position()), body.poses.front().theta, 0.0);
-  for (std::size_t i = 1; i < body.poses.size(); ++i) {
-    const Se2& from = body.poses[i - 1];
-    const Se2& to = body.poses[i];
-    const double turn = turn_between(from.theta, to.theta);
-    const double arc = picture_.path_turns.empty() ? 0.0 : picture_.path_turns[i];
-    std::vector<Vec2> way = without_arcs(std::array{from.position(), to.position()}, std::array{0.0, arc});
-    if (way.size() == 2) {
-      const auto parts = static_cast<std::size_t>(std::ceil(std::abs(turn) / step_rad));
-      way = {from.position()};
-      for (std::size_t k = 1; k <= std::max<std::size_t>(parts, 1); ++k) {
-        const double share = static_cast<double>(k) / static_cast<double>(std::max<std::size_t>(parts, 1));
-        way.push_back(from.position() + share * (to.position() - from.position()));
-      }
-    }
-    for (std::size_t k = 1; k < way.size(); ++k) {
-      const double share = static_cast<double>(k) / static_cast<double>(way.size() - 1);
-      add(moved(way[k]), from.theta + share * turn,
-          table.moments[i - 1] + share * (table.moments[i] - table.moments[i - 1]));
-    }
-  }
-  out.end();
-}
 
 }  // namespace
 
 std::vector<std::string> write_html(const Picture& picture, const PictureOptions& options, const Execution& execution,
                                     const Write& write) {
   return PageWriter(picture, options.parts, execution, write).document(options.title.value_or(picture.title));
-}
-
-namespace {
-
-constexpr std::size_t most_drawn_walls = 4'000'000;
-
-class PageLayers {
- public:
-  PageLayers(const Picture& picture, Parts parts, const Canvas& canvas, Vec2 origin, const Execution& execution,
-             const Write& write)
-      : picture_(picture), parts_(parts), canvas_(canvas), origin_(origin), execution_(execution), write_(write) {}
-
-  void all();
-
- private:
-  void polygons();
-  void layer(const PictureLayer& layer);
-  void walls();
-  template <class T>
-  void wall_ends();
-  void wall_image();
-  void perspective(const SolidView& view);
-  template <class WritePng>
-  void image_in(const Box& box, const WritePng& write_png);
-
-  void begin_layer(const Json& about) {
-    std::string text = in_script(about.dump(-1, ' ', true, Json::error_handler_t::replace));
-    text.pop_back();
-    write_((is_first_ ? "" : ",") + text);
-    is_first_ = false;
-  }
-  template <class T>
-  NumberArray<T> numbers(std::string_view name) const {
-    return {name, execution_, write_};
-  }
-  Vec2 moved(Vec2 p) const { return p - origin_; }
-  bool has_small_whole_walls() const;
-
-  const Picture& picture_;
-  Parts parts_;
-  const Canvas& canvas_;
-  Vec2 origin_;
-  const Execution& execution_;
-  const Write& write_;
-  bool is_first_ = true;
-};
-
-void PageLayers::all() {
-  write_(",\"layers\":[");
-  for (const PictureLayer& one : picture_.layers) {
-    if (one.part == Part::world && parts_.has(one.part) && !one.lines.empty()) layer(one);
-  }
-  if (parts_.has(Part::world) && !picture_.scene.polygons.empty()) polygons();
-  for (const PictureLayer& one : picture_.layers) {
-    if (one.part != Part::world && parts_.has(one.part) && !one.lines.empty()) layer(one);
-  }
-  if (parts_.has(Part::world)) walls();
-  if (picture_.solids != nullptr && !moves_arm(picture_, parts_)) perspective(*picture_.solids);
-  write_("]");
-}
-
-void PageLayers::polygons() {
-  const std::vector<ScenePolygon>& all = picture_.scene.polygons;
-  begin_layer({{"id", "polygons"},
-               {"label", "obstacles"},
-               {"kind", "areas"},
-               {"obstacle", true},
-               {"color", css_color(colors::polygon)},
-               {"outline", css_color(colors::outline)},
-               {"width", widths::outline}});
-  auto first = numbers<std::uint32_t>("first");
-  std::size_t corners = 0;
-  first.add(corners);
-  for (const ScenePolygon& polygon : all) first.add(corners += anticlockwise(polygon.corners).size());
-  first.end();
-  auto xy = numbers<float>("xy");
-  for (const ScenePolygon& polygon : all) {
-    for (const Vec2 p : anticlockwise(polygon.corners)) xy.add(moved(p));
-  }
-  xy.end();
-  write_("}");
-}
-
-void PageLayers::layer(const PictureLayer& layer) {
-  Json about{{"id", layer.id},
-             {"label", layer.label.empty() ? layer.id : layer.label},
-             {"kind", layer.fill ? "areas" : "chains"},
-             {"obstacle", layer.part == Part::world && layer.fill && layer.blocks},
-             {"color", css_color(layer.fill.value_or(layer.color))},
-             {"width", layer.width},
-             {"closed", layer.closed},
-             {"opacity", layer.opacity}};
-  if (layer.fill && layer.width > 0.0) about["outline"] = css_color(layer.color);
-  if (!layer.opacities.empty()) about["opacities"] = layer.opacities;
-  begin_layer(about);
-  std::vector<std::uint32_t> first{0};
-  auto xy = numbers<float>("xy");
-  for (std::size_t i = 0; i < layer.lines.size(); ++i) {
-    const std::vector<Vec2> chain = without_arcs(layer.lines[i], layer.turns_of(i));
-    for (const Vec2 p : chain) xy.add(moved(p));
-    first.push_back(first.back() + static_cast<std::uint32_t>(chain.size()));
-  }
-  xy.end();
-  auto starts = numbers<std::uint32_t>("first");
-  for (const std::uint32_t corner : first) starts.add(corner);
-  starts.end();
-  write_("}");
-}
-
-void PageLayers::walls() {
-  const std::size_t count = picture_.scene.walls.size();
-  if (count == 0 && !picture_.scene.bounds) return;
-  Json about{{"id", "walls"},
-             {"label", picture_.scene.map         ? "borders of blocked cells"
-                       : count == 0               ? "bounds"
-                       : count > most_drawn_walls ? "walls, as pixels"
-                                                  : "walls"},
-             {"obstacle", picture_.panels.empty()},
-             {"color", css_color(colors::wall)},
-             {"width", widths::wall}};
-  if (count > most_drawn_walls) {
-    about["count"] = count;
-    begin_layer(about);
-    return wall_image();
-  }
-  about["kind"] = "segments";
-  begin_layer(about);
-  if (has_small_whole_walls()) {
-    wall_ends<std::uint16_t>();
-  } else {
-    wall_ends<float>();
-  }
-  write_("}");
-}
-
-bool PageLayers::has_small_whole_walls() const {
-  constexpr double most = 65535.0;
-  const auto fits = [](double x) { return x >= 0.0 && x <= most && x == std::floor(x); };
-  const auto all_fit = [&](Vec2 p) { return fits(moved(p).x) && fits(moved(p).y); };
-  if (picture_.scene.bounds && !(all_fit(picture_.scene.bounds->min) && all_fit(picture_.scene.bounds->max)))
-    return false;
-  return picture_.scene.walls.visit([&](auto all) {
-    for (const auto& wall : all) {
-      if (!all_fit(wall.segment().a) || !all_fit(wall.segment().b)) return false;
-    }
-    return true;
-  });
-}
-
-template <class T>
-void PageLayers::wall_ends() {
-  auto xy = numbers<T>("xy");
-  const auto add = [&](Vec2 a, Vec2 b) {
-    xy.add(moved(a));
-    xy.add(moved(b));
-  };
-  picture_.scene.walls.visit([&](auto all) {
-    for (const auto& wall : all) add(wall.segment().a, wall.segment().b);
-  });
-  if (picture_.scene.bounds) {
-    const auto [low, high] = *picture_.scene.bounds;
-    add(low, {high.x, low.y});
-    add({high.x, low.y}, high);
-    add(high, {low.x, high.y});
-    add({low.x, high.y}, low);
-  }
-  xy.end();
-}
-
-void PageLayers::wall_image() {
-  constexpr double most_pixels = 4096.0;
-  constexpr double least_width = 0.2;
-  constexpr std::size_t walls_a_poll = 1 << 14;
-  const Box& box = canvas_.box;
-  const double scale = most_pixels / std::max(box.width(), box.height());
-  Mask mask(static_cast<std::size_t>(std::ceil(scale * box.width())),
-            static_cast<std::size_t>(std::ceil(scale * box.height())), execution_);
-  const auto at = [&](Vec2 p) { return Vec2{scale * (p.x - box.min.x), scale * (box.max.y - p.y)}; };
-  const double width = std::max(widths::wall / 20.0 * scale * canvas_.unit, least_width);
-  picture_.scene.walls.visit([&](auto all) {
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (i % walls_a_poll == 0) execution_.check();
-      mask.draw_line(at(all[i].segment().a), at(all[i].segment().b), width);
-    }
-  });
-  const Vec2 top_left = moved({box.min.x, box.max.y});
-  const double width_seen = static_cast<double>(mask.width()) / scale;
-  const double height_seen = static_cast<double>(mask.height()) / scale;
-  image_in({{top_left.x, top_left.y - height_seen}, {top_left.x + width_seen, top_left.y}},
-           [&](const Write& write) { write_png_file(mask, colors::wall, execution_, write); });
-}
-
-/// Of an arm that doesn't move there; the page's script draws the others.
-void PageLayers::perspective(const SolidView& view) {
-  constexpr std::size_t pixels = 1024;
-  begin_layer({{"id", "perspective"}, {"label", "perspective"}, {"isOpaque", true}});
-  const double scale = static_cast<double>(pixels) / std::max(view.box.width(), view.box.height());
-  const Image image = draw_solids(view, parts_, static_cast<std::size_t>(std::ceil(scale * view.box.width())),
-                                  static_cast<std::size_t>(std::ceil(scale * view.box.height())), execution_);
-  constexpr double dots_an_inch = 96.0;
-  image_in({moved(view.box.min), moved(view.box.max)},
-           [&](const Write& write) { write_png_file(image, dots_an_inch, execution_, write); });
-}
-
-/// The rest of a layer that has begun: an image, the page's numbers for its place.
-template <class WritePng>
-void PageLayers::image_in(const Box& box, const WritePng& write_png) {
-  write_(fmt::format(",\"kind\":\"image\",\"box\":[{},{},{},{}],\"href\":\"data:image/png;base64,", box.min.x,
-                     box.min.y, box.max.x, box.max.y));
-  Base64 out(write_);
-  write_png([&](std::string_view bytes) { out.write(bytes); });
-  out.end();
-  write_("\"}");
-}
-
-}  // namespace
-
-std::string css_color(Rgb c) { return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue); }
-
-std::string in_script(std::string_view json) {
-  std::string safe;
-  for (const char c : json) {
-    if (c == '<') {
-      safe += "\\u003c";
-    } else {
-      safe += c;
-    }
-  }
-  return safe;
-}
-
-std::vector<std::string> write_page_layers(const Picture& picture, Parts parts, const Canvas& canvas, Vec2 origin,
-                                           const Execution& execution, const Write& write) {
-  PageLayers(picture, parts, canvas, origin, execution, write).all();
-  if (!parts.has(Part::world) || picture.scene.walls.size() <= most_drawn_walls) return {};
-  return {"as pixels, being so many: walls"};
-}
-
-namespace {
-
-Json facts_of(const SolidView& solids, const MovingArm& arm, Vec2 origin) {
-  const Vec2 low = solids.box.min - origin;
-  const Vec2 high = solids.box.max - origin;
-  const Vec3 floor = solids.floor - solids.target;
-  Json about{{"box", {low.x, low.y, high.x, high.y}},
-             {"reach", solids.reach},
-             {"azimuth", solids.azimuth_rad},
-             {"rise", solids.rise_rad},
-             {"floor", {floor.x(), floor.y(), floor.z()}},
-             {"floorSide", solids.floor_side},
-             {"square", solids.square},
-             {"radius", arm.radius},
-             {"least", least_radius * solids.reach},
-             {"ends", arm.spines.front().size()},
-             {"colors",
-              {{"solid", css_color(colors::blocked_cell)},
-               {"start", css_color(colors::start)},
-               {"goal", css_color(colors::goal)},
-               {"moving", css_color(colors::path)}}},
-             {"views", Json::array()}};
-  for (const Projection& view : arm.views) {
-    const Vec2 zero = view.at(solids.target) - origin;
-    about["views"].push_back({view.axes[0], view.axes[1], zero.x, zero.y});
-  }
-  return about;
-}
-
-}  // namespace
-
-void write_page_arm(const Picture& picture, Parts parts, Vec2 origin, const Execution& execution, const Write& write) {
-  const SolidView& solids = *picture.solids;
-  const MovingArm& arm = *picture.arm;
-  std::string text = facts_of(solids, arm, origin).dump();
-  text.pop_back();
-  write(",\"arm\":" + text);
-  const auto place = [&](NumberArray<float>& to, const Vec3& p) {
-    for (int k = 0; k < 3; ++k) to.add(p[k] - solids.target[k]);
-  };
-  NumberArray<float> spheres("spheres", execution, write);
-  for (const Solid& s : solids.solids) {
-    if (s.part != Part::world || s.radius < 0.0 || !parts.has(s.part)) continue;
-    place(spheres, s.a);
-    spheres.add(s.radius);
-  }
-  spheres.end();
-  NumberArray<float> boxes("boxes", execution, write);
-  for (const Solid& s : solids.solids) {
-    if (s.radius >= 0.0 || !parts.has(s.part)) continue;
-    place(boxes, s.a);
-    place(boxes, s.b);
-  }
-  boxes.end();
-  NumberArray<float> tools("tools", execution, write);
-  if (parts.has(Part::path)) {
-    for (const Vec3& p : arm.tools) place(tools, p);
-  }
-  tools.end();
-  NumberArray<float> spines("spines", execution, write);
-  for (const std::vector<Vec3>& spine : arm.spines) {
-    for (const Vec3& end : spine) place(spines, end);
-  }
-  spines.end();
-  NumberArray<double> moments("moments", execution, write);
-  for (const double moment : arm.moments) moments.add(moment);
-  moments.end();
-  write("}");
 }
 
 }  // namespace warren

@@ -22,6 +22,16 @@ constexpr double margin_of_name = 8.0;  // at its end
 constexpr double mark_radius = 3.5;
 constexpr Vec2 dashed_line{3.0, 4.0};
 
+/// The least and the largest of what is included; low > high: nothing is.
+struct PlotExtent {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  void include(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+};
+
 /// Draws one plot from back to front.
 class PlotDrawing {
  public:
@@ -38,12 +48,87 @@ class PlotDrawing {
   }
 
  private:
-  Box frame_beside_legend() const;
-  PlotAxis axis(bool of_x) const;
-  void grid();
-  void level(double from, double to, double y);
-  void series(std::size_t i);
-  void legend();
+  /// As wide as the names of the series leave it.
+  Box frame_beside_legend() const {
+    double widest = 0.0;
+    for (const PlotSeries& s : plot_.series) widest = std::max(widest, text_width(s.name, plot_text_size));
+    if (plot_.level) widest = std::max(widest, text_width(plot_.level_name, plot_text_size));
+    const double right = plot_size.x - legend_indent - widest - margin_of_name;
+    Box frame = widest_frame;
+    frame.max.x = std::clamp(right, frame.min.x + narrowest, frame.max.x);
+    return frame;
+  }
+  /// Wide enough for all that is shown and some room; never empty.
+  PlotAxis axis(bool of_x) const {
+    const bool logarithmic = of_x ? plot_.log_x : plot_.log_y;
+    PlotExtent extent;
+    const auto include = [&](double value) {
+      if (std::isfinite(value) && (!logarithmic || value > 0.0)) extent.include(value);
+    };
+    for (const PlotSeries& s : plot_.series) {
+      for (const Vec2 p : s.points) include(of_x ? p.x : p.y);
+      for (const Vec2 span : s.spans) {
+        if (!of_x) include(span.x), include(span.y);
+      }
+    }
+    if (!of_x && plot_.level) include(*plot_.level);
+    return axis_around(extent.low, extent.high, logarithmic, !of_x && plot_.from_zero, of_x && plot_.whole_x);
+  }
+
+  void grid() {
+    for (const double tick : x_.ticks()) {
+      sheet_.line({{place_x(tick), frame_.min.y}, {place_x(tick), frame_.max.y}}, faint_line);
+      sheet_.label({place_x(tick), frame_.max.y + 17.0}, Anchor::middle, tick_on_axis(tick, plot_.x_label));
+    }
+    for (const double tick : y_.ticks()) {
+      sheet_.line({{frame_.min.x, place_y(tick)}, {frame_.max.x, place_y(tick)}}, faint_line);
+      sheet_.label({frame_.min.x - 7.0, place_y(tick) + 4.0}, Anchor::end, tick_on_axis(tick, plot_.y_label));
+    }
+    sheet_.box(frame_, frame_line);
+  }
+  void level(double from, double to, double y) {
+    constexpr Rgb red{193, 18, 31};
+    sheet_.line({{from, y}, {to, y}}, {.stroke = red, .width = 1.5}, {7.0, 4.0});
+  }
+  void series(std::size_t i) {
+    const PlotSeries& series = plot_.series[i];
+    std::vector<Vec2> places;
+    std::vector<std::string> tips;
+    for (std::size_t k = 0; k < series.points.size(); ++k) {
+      const Vec2 p = series.points[k];
+      if (!shows(p)) continue;
+      places.push_back({place_x(p.x), place_y(p.y)});
+      tips.push_back(
+          fmt::format("{}: {} {}, {} {}", series.name, short_text(p.x), plot_.x_label, short_text(p.y), plot_.y_label));
+      if (k >= series.spans.size()) continue;
+      sheet_.line({{places.back().x, place_y(series.spans[k].x)}, {places.back().x, place_y(series.spans[k].y)}},
+                  {.stroke = color_of(i)});
+    }
+    if (places.empty()) return;
+    if (series.joined) sheet_.line(places, line_of(i), series.dashed ? dashed_line : Vec2{});
+    if (series.dashed) return;
+    for (std::size_t k = 0; k < places.size(); ++k) mark(i, places[k], tips[k]);
+  }
+
+  void legend() {
+    const double left = frame_.max.x + 16.0;
+    const auto name = [&](const std::string& words, double y) {
+      const double at = frame_.max.x + legend_indent;
+      sheet_.label({at, y + 4.0}, Anchor::start,
+                   fitting_text(words, plot_text_size, plot_size.x - at - margin_of_name));
+    };
+    double y = frame_.min.y + 10.0;
+    for (std::size_t i = 0; i < plot_.series.size(); ++i, y += 20.0) {
+      const PlotSeries& series = plot_.series[i];
+      if (series.joined) sheet_.line({{left, y}, {left + 22.0, y}}, line_of(i), series.dashed ? dashed_line : Vec2{});
+      if (!series.dashed) mark(i, {left + 11.0, y}, {});
+      name(series.name, y);
+    }
+    if (!plot_.level) return;
+    level(left, left + 22.0, y);
+    name(plot_.level_name, y);
+  }
+
   Rgb color_of(std::size_t i) const { return series_color(plot_.series[i].color.value_or(i)); }
   // Of series that coincide both are seen: every second one is thin, its marks are rings.
   Pen line_of(std::size_t i) const { return {.stroke = color_of(i), .width = i % 2 == 0 ? 2.6 : 1.2}; }
@@ -61,91 +146,6 @@ class PlotDrawing {
   PlotAxis y_;
   PlotSheet sheet_;
 };
-
-/// As wide as the names of the series leave it.
-Box PlotDrawing::frame_beside_legend() const {
-  double widest = 0.0;
-  for (const PlotSeries& s : plot_.series) widest = std::max(widest, text_width(s.name, plot_text_size));
-  if (plot_.level) widest = std::max(widest, text_width(plot_.level_name, plot_text_size));
-  const double right = plot_size.x - legend_indent - widest - margin_of_name;
-  Box frame = widest_frame;
-  frame.max.x = std::clamp(right, frame.min.x + narrowest, frame.max.x);
-  return frame;
-}
-
-/// Wide enough for all that is shown and some room; never empty.
-PlotAxis PlotDrawing::axis(bool of_x) const {
-  const bool logarithmic = of_x ? plot_.log_x : plot_.log_y;
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  const auto include = [&](double value) {
-    if (!std::isfinite(value) || (logarithmic && value <= 0.0)) return;
-    low = std::min(low, value);
-    high = std::max(high, value);
-  };
-  for (const PlotSeries& s : plot_.series) {
-    for (const Vec2 p : s.points) include(of_x ? p.x : p.y);
-    for (const Vec2 span : s.spans) {
-      if (!of_x) include(span.x), include(span.y);
-    }
-  }
-  if (!of_x && plot_.level) include(*plot_.level);
-  return axis_around(low, high, logarithmic, !of_x && plot_.from_zero, of_x && plot_.whole_x);
-}
-
-void PlotDrawing::grid() {
-  for (const double tick : x_.ticks()) {
-    sheet_.line({{place_x(tick), frame_.min.y}, {place_x(tick), frame_.max.y}}, faint_line);
-    sheet_.label({place_x(tick), frame_.max.y + 17.0}, Anchor::middle, tick_on_axis(tick, plot_.x_label));
-  }
-  for (const double tick : y_.ticks()) {
-    sheet_.line({{frame_.min.x, place_y(tick)}, {frame_.max.x, place_y(tick)}}, faint_line);
-    sheet_.label({frame_.min.x - 7.0, place_y(tick) + 4.0}, Anchor::end, tick_on_axis(tick, plot_.y_label));
-  }
-  sheet_.box(frame_, frame_line);
-}
-
-void PlotDrawing::level(double from, double to, double y) {
-  constexpr Rgb red{193, 18, 31};
-  sheet_.line({{from, y}, {to, y}}, {.stroke = red, .width = 1.5}, {7.0, 4.0});
-}
-
-void PlotDrawing::series(std::size_t i) {
-  const PlotSeries& series = plot_.series[i];
-  std::vector<Vec2> places;
-  std::vector<std::string> tips;
-  for (std::size_t k = 0; k < series.points.size(); ++k) {
-    const Vec2 p = series.points[k];
-    if (!shows(p)) continue;
-    places.push_back({place_x(p.x), place_y(p.y)});
-    tips.push_back(
-        fmt::format("{}: {} {}, {} {}", series.name, short_text(p.x), plot_.x_label, short_text(p.y), plot_.y_label));
-    if (k >= series.spans.size()) continue;
-    sheet_.line({{places.back().x, place_y(series.spans[k].x)}, {places.back().x, place_y(series.spans[k].y)}},
-                {.stroke = color_of(i)});
-  }
-  if (places.empty()) return;
-  if (series.joined) sheet_.line(places, line_of(i), series.dashed ? dashed_line : Vec2{});
-  if (series.dashed) return;
-  for (std::size_t k = 0; k < places.size(); ++k) mark(i, places[k], tips[k]);
-}
-
-void PlotDrawing::legend() {
-  const double left = frame_.max.x + 16.0;
-  const double at = frame_.max.x + legend_indent;
-  double y = frame_.min.y + 10.0;
-  for (std::size_t i = 0; i < plot_.series.size(); ++i, y += 20.0) {
-    const PlotSeries& series = plot_.series[i];
-    if (series.joined) sheet_.line({{left, y}, {left + 22.0, y}}, line_of(i), series.dashed ? dashed_line : Vec2{});
-    if (!series.dashed) mark(i, {left + 11.0, y}, {});
-    sheet_.label({at, y + 4.0}, Anchor::start,
-                 fitting_text(series.name, plot_text_size, plot_size.x - at - margin_of_name));
-  }
-  if (!plot_.level) return;
-  level(left, left + 22.0, y);
-  sheet_.label({at, y + 4.0}, Anchor::start,
-               fitting_text(plot_.level_name, plot_text_size, plot_size.x - at - margin_of_name));
-}
 
 }  // namespace
 
@@ -174,12 +174,73 @@ class BoxDrawing {
   }
 
  private:
-  Box frame_between_words() const;
-  PlotAxis axis() const;
-  void row(std::size_t i);
-  void name(const std::string& text, double y);
-  void box(const PlottedBox& box, double y, Rgb color);
-  void outliers(const std::vector<double>& values, double y, Rgb color);
+  Box frame_between_words() const {
+    constexpr double least = 60.0;
+    constexpr double margin = 20.0;
+    double widest = least;
+    for (const PlottedBox& box : plot_.boxes) widest = std::max(widest, text_width(box.name, plot_text_size));
+    return {{std::min(widest, most_name) + margin, 48.0}, {plot_size.x - room_of_remark, 366.0}};
+  }
+  PlotAxis axis() const {
+    PlotExtent extent;
+    for (const PlottedBox& box : plot_.boxes) {
+      if (!box.figures) continue;
+      extent.include(box.figures->low), extent.include(box.figures->high);
+      for (const double value : box.figures->outliers) extent.include(value);
+    }
+    return axis_around(extent.low, extent.high, plot_.logarithmic && extent.low > 0.0);
+  }
+  void row(std::size_t i) {
+    const PlottedBox& one = plot_.boxes[i];
+    const double y = frame_.min.y + (static_cast<double>(i) + 0.5) * row_height();
+    name(one.name, y);
+    sheet_.label({frame_.max.x + 10.0, y + 4.0}, Anchor::start, one.remark);
+    if (one.figures) box(one, y, series_color(i));
+  }
+  /// In two lines where it needs them and the row has them, else without its middle: names often differ at their ends.
+  void name(const std::string& text, double y) {
+    constexpr double line_height = 14.0;
+    std::vector<std::string> lines = wrapped_text(text, plot_text_size, most_name);
+    const bool has_room = static_cast<double>(lines.size()) * line_height <= row_height();
+    const bool is_cut = std::any_of(lines.begin(), lines.end(), [](const auto& line) { return line.ends_with("..."); });
+    if (lines.size() > 2 || !has_room || is_cut) lines = {fitting_ends(text, plot_text_size, most_name)};
+    const double first = y + 4.0 - 0.5 * line_height * static_cast<double>(lines.size() - 1);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      sheet_.label({frame_.min.x - 8.0, first + line_height * static_cast<double>(i)}, Anchor::end, lines[i]);
+    }
+  }
+  void box(const PlottedBox& box, double y, Rgb color) {
+    constexpr double thickest = 26.0;
+    constexpr unsigned pale = 25;
+    const BoxFigures& f = *box.figures;
+    const double half = 0.5 * std::min(0.6 * row_height(), thickest);
+    const Pen line{.stroke = color, .width = 1.5};
+    const auto upright = [&](double value, double height, const Pen& pen) {
+      sheet_.line({{place(value), y - height}, {place(value), y + height}}, pen);
+    };
+    sheet_.line({{place(f.low), y}, {place(f.q1), y}}, line);
+    sheet_.line({{place(f.q3), y}, {place(f.high), y}}, line);
+    upright(f.low, 0.5 * half, line);
+    upright(f.high, 0.5 * half, line);
+    const auto said = [&](double value) { return plot_.text != nullptr ? plot_.text(value) : short_text(value); };
+    sheet_.box({{place(f.q1), y - half}, {place(f.q3), y + half}},
+               {.stroke = color, .width = 1.5, .fill = mixed(color, colors::paper, pale)},
+               fmt::format("{}: median {}, half of the runs from {} to {}; {} {}", box.name, said(f.median), said(f.q1),
+                           said(f.q3), box.remark, plot_.remarks));
+    upright(f.median, half, {.stroke = color, .width = 3.0});
+    outliers(f.outliers, y, color);
+  }
+
+  /// One of those that lie on the same half pixel.
+  void outliers(const std::vector<double>& values, double y, Rgb color) {
+    double last = -1.0;
+    for (const double value : values) {
+      const double x = 0.5 * std::round(2.0 * place(value));
+      if (x == last) continue;
+      last = x;
+      sheet_.disc({x, y}, 2.5, {.stroke = color});
+    }
+  }
   double place(double value) const { return frame_.min.x + axis_.at(value) * frame_.width(); }
   double row_height() const { return frame_.height() / static_cast<double>(plot_.boxes.size()); }
 
@@ -188,83 +249,6 @@ class BoxDrawing {
   PlotAxis axis_;
   PlotSheet sheet_;
 };
-
-Box BoxDrawing::frame_between_words() const {
-  constexpr double least = 60.0;
-  constexpr double margin = 20.0;
-  double widest = least;
-  for (const PlottedBox& box : plot_.boxes) widest = std::max(widest, text_width(box.name, plot_text_size));
-  return {{std::min(widest, most_name) + margin, 48.0}, {plot_size.x - room_of_remark, 366.0}};
-}
-
-PlotAxis BoxDrawing::axis() const {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  const auto include = [&](double value) {
-    low = std::min(low, value);
-    high = std::max(high, value);
-  };
-  for (const PlottedBox& box : plot_.boxes) {
-    if (!box.figures) continue;
-    include(box.figures->low), include(box.figures->high);
-    for (const double value : box.figures->outliers) include(value);
-  }
-  return axis_around(low, high, plot_.logarithmic && low > 0.0);
-}
-
-void BoxDrawing::row(std::size_t i) {
-  const PlottedBox& one = plot_.boxes[i];
-  const double y = frame_.min.y + (static_cast<double>(i) + 0.5) * row_height();
-  name(one.name, y);
-  sheet_.label({frame_.max.x + 10.0, y + 4.0}, Anchor::start, one.remark);
-  if (one.figures) box(one, y, series_color(i));
-}
-
-/// In two lines where it needs them and the row has them, else without its middle: names often differ at their ends.
-void BoxDrawing::name(const std::string& text, double y) {
-  constexpr double line_height = 14.0;
-  std::vector<std::string> lines = wrapped_text(text, plot_text_size, most_name);
-  const bool has_room = static_cast<double>(lines.size()) * line_height <= row_height();
-  const bool is_cut = std::any_of(lines.begin(), lines.end(), [](const auto& line) { return line.ends_with("..."); });
-  if (lines.size() > 2 || !has_room || is_cut) lines = {fitting_ends(text, plot_text_size, most_name)};
-  const double first = y + 4.0 - 0.5 * line_height * static_cast<double>(lines.size() - 1);
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    sheet_.label({frame_.min.x - 8.0, first + line_height * static_cast<double>(i)}, Anchor::end, lines[i]);
-  }
-}
-
-void BoxDrawing::box(const PlottedBox& box, double y, Rgb color) {
-  constexpr double thickest = 26.0;
-  constexpr unsigned pale = 25;
-  const BoxFigures& f = *box.figures;
-  const double half = 0.5 * std::min(0.6 * row_height(), thickest);
-  const Pen line{.stroke = color, .width = 1.5};
-  const auto upright = [&](double value, double height, const Pen& pen) {
-    sheet_.line({{place(value), y - height}, {place(value), y + height}}, pen);
-  };
-  sheet_.line({{place(f.low), y}, {place(f.q1), y}}, line);
-  sheet_.line({{place(f.q3), y}, {place(f.high), y}}, line);
-  upright(f.low, 0.5 * half, line);
-  upright(f.high, 0.5 * half, line);
-  const auto said = [&](double value) { return plot_.text != nullptr ? plot_.text(value) : short_text(value); };
-  sheet_.box({{place(f.q1), y - half}, {place(f.q3), y + half}},
-             {.stroke = color, .width = 1.5, .fill = mixed(color, colors::paper, pale)},
-             fmt::format("{}: median {}, half of the runs from {} to {}; {} {}", box.name, said(f.median), said(f.q1),
-                         said(f.q3), box.remark, plot_.remarks));
-  upright(f.median, half, {.stroke = color, .width = 3.0});
-  outliers(f.outliers, y, color);
-}
-
-/// One of those that lie on the same half pixel.
-void BoxDrawing::outliers(const std::vector<double>& values, double y, Rgb color) {
-  double last = -1.0;
-  for (const double value : values) {
-    const double x = 0.5 * std::round(2.0 * place(value));
-    if (x == last) continue;
-    last = x;
-    sheet_.disc({x, y}, 2.5, {.stroke = color});
-  }
-}
 
 }  // namespace
 
@@ -296,13 +280,6 @@ Rgb rounded(const HeatColor& c) {
 
 bool is_dark(const HeatColor& c) { return 0.3 * c[0] + 0.59 * c[1] + 0.11 * c[2] < 128.0; }
 
-/// The least and the largest value; equal where there is one value or none.
-struct Scale {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-  double share(double value) const { return high > low ? (value - low) / (high - low) : 0.5; }
-};
-
 class HeatMapDrawing {
  public:
   explicit HeatMapDrawing(const HeatMap& map)
@@ -310,9 +287,7 @@ class HeatMapDrawing {
         cell_{frame.width() / static_cast<double>(map.columns.size()),
               frame.height() / static_cast<double>(map.rows.size())} {
     for (const HeatMap::Cell& cell : map.cells) {
-      if (!cell.value) continue;
-      scale_.low = std::min(scale_.low, *cell.value);
-      scale_.high = std::max(scale_.high, *cell.value);
+      if (cell.value) scale_.include(*cell.value);
     }
     scale_.low = map.low.value_or(scale_.low);
     scale_.high = map.high.value_or(scale_.high);
@@ -327,39 +302,38 @@ class HeatMapDrawing {
   }
 
  private:
-  void begin();
-  void draw_cell(std::size_t column, std::size_t row);
+  void begin() {
+    sheet_.keep_colors();
+    sheet_.begin(map_.title, frame, map_.x_label, map_.y_label, 40.0);
+    for (std::size_t i = 0; i < map_.columns.size(); ++i) {
+      sheet_.label({x_of(i) + 0.5 * cell_.x, frame.max.y + 18.0}, Anchor::middle, map_.columns[i]);
+    }
+    for (std::size_t i = 0; i < map_.rows.size(); ++i) {
+      sheet_.label({frame.min.x - 8.0, y_of(i) + 0.5 * cell_.y + 4.0}, Anchor::end, map_.rows[i]);
+    }
+  }
+  void draw_cell(std::size_t column, std::size_t row) {
+    const HeatMap::Cell& cell = map_.cells[row * map_.columns.size() + column];
+    const double share = cell.value ? share_of(*cell.value) : 0.0;
+    const HeatColor color = cell.value ? color_at(map_.less_is_better ? 1.0 - share : share) : HeatColor{232, 232, 232};
+    const Vec2 low{x_of(column), y_of(row)};
+    sheet_.box(
+        {low, low + cell_}, {.stroke = colors::paper, .fill = rounded(color)},
+        fmt::format("{} {}, {} {}: {}", map_.x_label, map_.columns[column], map_.y_label, map_.rows[row], cell.text));
+    sheet_.label(low + Vec2{0.5 * cell_.x, 0.5 * cell_.y + 4.0}, Anchor::middle, cell.text,
+                 is_dark(color) ? colors::paper : Rgb{0, 0, 0});  // a fill of its own, on dark pages, too
+  }
+  double share_of(double value) const {
+    return scale_.high > scale_.low ? (value - scale_.low) / (scale_.high - scale_.low) : 0.5;
+  }
   double x_of(std::size_t column) const { return frame.min.x + cell_.x * static_cast<double>(column); }
   double y_of(std::size_t row) const { return frame.max.y - cell_.y * static_cast<double>(row + 1); }
 
   const HeatMap& map_;
   Vec2 cell_;  // width and height of one
-  Scale scale_;
+  PlotExtent scale_;
   PlotSheet sheet_;
 };
-
-void HeatMapDrawing::begin() {
-  sheet_.keep_colors();
-  sheet_.begin(map_.title, frame, map_.x_label, map_.y_label, 40.0);
-  for (std::size_t i = 0; i < map_.columns.size(); ++i) {
-    sheet_.label({x_of(i) + 0.5 * cell_.x, frame.max.y + 18.0}, Anchor::middle, map_.columns[i]);
-  }
-  for (std::size_t i = 0; i < map_.rows.size(); ++i) {
-    sheet_.label({frame.min.x - 8.0, y_of(i) + 0.5 * cell_.y + 4.0}, Anchor::end, map_.rows[i]);
-  }
-}
-
-void HeatMapDrawing::draw_cell(std::size_t column, std::size_t row) {
-  const HeatMap::Cell& cell = map_.cells[row * map_.columns.size() + column];
-  const double share = cell.value ? scale_.share(*cell.value) : 0.0;
-  const HeatColor color = cell.value ? color_at(map_.less_is_better ? 1.0 - share : share) : HeatColor{232, 232, 232};
-  const Vec2 low{x_of(column), y_of(row)};
-  sheet_.box(
-      {low, low + cell_}, {.stroke = colors::paper, .fill = rounded(color)},
-      fmt::format("{} {}, {} {}: {}", map_.x_label, map_.columns[column], map_.y_label, map_.rows[row], cell.text));
-  sheet_.label(low + Vec2{0.5 * cell_.x, 0.5 * cell_.y + 4.0}, Anchor::middle, cell.text,
-               is_dark(color) ? colors::paper : Rgb{0, 0, 0});  // a fill of its own, on dark pages, too
-}
 
 }  // namespace
 

@@ -7,17 +7,13 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 
-#include "core/base/trigonometry.hpp"
 #include "pictures/formats/markup.hpp"
 #include "pictures/formats/surface.hpp"
 #include "scenes/files/output_file_io.hpp"
 
 namespace warren {
 namespace {
-
-std::string web_color(Rgb c) { return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue); }
 
 std::string svg_of(const PlotWords& words) {
   constexpr std::array<std::string_view, 3> anchors{"start", "middle", "end"};
@@ -26,7 +22,7 @@ std::string svg_of(const PlotWords& words) {
   if (text.size != plot_text_size) more += fmt::format(" font-size=\"{}\"", text.size);
   if (text.bold) more += " font-weight=\"bold\"";
   if (text.upright) more += fmt::format(" transform=\"rotate(-90 {:.1f} {:.1f})\"", text.at.x, text.at.y);
-  if (!(words.color == colors::text)) more += fmt::format(" fill=\"{}\"", web_color(words.color));
+  if (!(words.color == colors::text)) more += fmt::format(" fill=\"{}\"", css_color(words.color));
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", text.at.x, text.at.y,
                      anchors[static_cast<std::size_t>(text.anchor)], more, xml_text(text.text));
 }
@@ -46,8 +42,8 @@ std::string svg_of(const PlotShape& shape) {
       fmt::format_to(std::back_inserter(text), "{}{:.1f} {:.1f}", text.back() == '"' ? 'M' : 'L', p.x, p.y);
     text += '"';
   }
-  text += fmt::format(" fill=\"{}\"", shape.pen.fill ? web_color(*shape.pen.fill) : "none");
-  if (shape.pen.stroke) text += fmt::format(" stroke=\"{}\"", web_color(*shape.pen.stroke));
+  text += fmt::format(" fill=\"{}\"", shape.pen.fill ? css_color(*shape.pen.fill) : "none");
+  if (shape.pen.stroke) text += fmt::format(" stroke=\"{}\"", css_color(*shape.pen.stroke));
   if (shape.pen.stroke && shape.pen.width != 1.0) text += fmt::format(" stroke-width=\"{}\"", shape.pen.width);
   if (shape.dash.x > 0.0) text += fmt::format(" stroke-dasharray=\"{} {}\"", shape.dash.x, shape.dash.y);
   if (!shape.tip.empty()) text += fmt::format(" data-tip=\"{}\"", xml_text(shape.tip));
@@ -73,22 +69,12 @@ std::vector<std::vector<Vec2>> dashes_of(const std::vector<Vec2>& line, Vec2 das
   return dashes;
 }
 
-std::vector<Vec2> disc_outline(Vec2 middle, double radius) {
-  constexpr std::size_t corners = 24;
-  std::vector<Vec2> outline;
-  for (std::size_t i = 0; i < corners; ++i) {
-    const double turn = 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(corners);
-    outline.push_back(middle + radius * Vec2{portable::cos(turn), portable::sin(turn)});
-  }
-  return outline;
-}
-
 /// Its points are the page's.
 void draw_shape(Surface& surface, const PlotShape& shape, const std::vector<Vec2>& points) {
   const Vec2 low = points.front();
   const Vec2 high = points.back();
   surface.take_pen(shape.pen);
-  if (shape.kind == PlotShape::Kind::disc) return surface.chain(disc_outline(low, shape.radius), {}, true);
+  if (shape.kind == PlotShape::Kind::disc) return surface.chain(circle_outline(low, shape.radius, 24), {}, true);
   if (shape.kind == PlotShape::Kind::box)
     return surface.chain(std::array{low, Vec2{high.x, low.y}, high, Vec2{low.x, high.y}}, {}, true);
   if (shape.dash.x <= 0.0) return surface.chain(points, {}, false);
@@ -113,7 +99,7 @@ std::string PlotSheet::svg() const {
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" role=\"img\" "
       "font-family=\"sans-serif\" font-size=\"{2}\" fill=\"{3}\"{5}>\n<title>{4}</title>\n"
       "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
-      plot_size.x, plot_size.y, plot_text_size, web_color(colors::text), xml_text(title_),
+      plot_size.x, plot_size.y, plot_text_size, css_color(colors::text), xml_text(title_),
       keeps_colors_ ? " class=\"kept\"" : "");
   for (const auto& part : parts_) text += std::visit([](const auto& one) { return svg_of(one); }, part);
   return text + "</svg>\n";

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "pictures/model/axis.hpp"
 
 namespace warren {
@@ -22,6 +24,11 @@ TEST(Letters, HaveTheirShapes) {
   EXPECT_EQ(text_outlines("l", 10).size(), 1U);
   EXPECT_EQ(text_outlines("o", 10).size(), 2U);
   EXPECT_EQ(text_outlines("B8", 10).size(), 6U);
+  const PolygonSet plain = text_outlines("o", 10);
+  const PolygonSet accented = text_outlines("\xc3\xb6", 10);  // its contours are the plain one's, and the dots
+  ASSERT_EQ(accented.size(), 4U);
+  EXPECT_TRUE(std::any_of(accented.corners.begin(), accented.corners.end(),
+                          [&](Vec2 p) { return p == plain.corners.front(); }));
   Box box;
   for (const Vec2 p : text_outlines("H", 100).corners) box.include(p);
   EXPECT_NEAR(box.height(), 73, 1);  // of the size: its capitals
