@@ -19,43 +19,47 @@ const PlannerChoice* choice_in(const SolveKind& kind, PlannerKind planner) {
   return found == kind.planners.end() ? nullptr : &*found;
 }
 
-/// "a", "a and b", "a, b and c".
-std::string listed(const std::vector<std::string_view>& words) {
+/// "a", "a and b", "a, b and c": of words or planners.
+template <class Word>
+std::string listed(const std::vector<Word>& words) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i) {
     text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ");
-    text += words[i];
+    if constexpr (NamedEnum<Word>) {
+      text += name_of(words[i]);
+    } else {
+      text += words[i];
+    }
   }
   return text;
 }
 
 /// The planners of all kinds for which `holds` is true of some choice, in their order.
 template <class Holds>
-std::vector<std::string_view> planners_where(const Holds& holds) {
-  std::vector<std::string_view> names;
+std::vector<PlannerKind> planners_where(const Holds& holds) {
+  std::vector<PlannerKind> planners;
   for (const PlannerKind planner : all_planners) {
     const bool any = std::any_of(solve_kinds().begin(), solve_kinds().end(), [&](const SolveKind& kind) {
       const PlannerChoice* choice = choice_in(kind, planner);
       return choice != nullptr && holds(kind, *choice);
     });
-    if (any) names.push_back(name_of(planner));
+    if (any) planners.push_back(planner);
   }
-  return names;
+  return planners;
 }
 
 /// Of the kinds that fit a problem, each planner once.
-std::vector<std::string_view> planners_of(const std::vector<const SolveKind*>& kinds) {
-  std::vector<std::string_view> names;
+std::vector<PlannerKind> planners_of(const std::vector<const SolveKind*>& kinds) {
+  std::vector<PlannerKind> planners;
   for (const SolveKind* kind : kinds) {
-    for (const PlannerChoice& choice : kind->planners) {
-      const std::string_view name = name_of(choice.planner);
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    for (const auto& [planner, options] : kind->planners) {
+      if (std::find(planners.begin(), planners.end(), planner) == planners.end()) planners.push_back(planner);
     }
   }
-  return names;
+  return planners;
 }
 
-std::string takers_text(const std::vector<std::string_view>& takers) {
+std::string takers_text(const std::vector<PlannerKind>& takers) {
   return fmt::format("{} {} it", listed(takers), takers.size() == 1 ? "takes" : "take");
 }
 
@@ -119,7 +123,7 @@ void check_corridors(const SolveOptions& options, const Scene& scene) {
 }
 
 [[noreturn]] void refuse_planner(PlannerKind planner, const std::vector<const SolveKind*>& fitting) {
-  const std::vector<std::string_view> others = planners_of(fitting);
+  const std::vector<PlannerKind> others = planners_of(fitting);
   throw UsageError(fmt::format("@planner: {} does not solve {}; {} {}", name_of(planner), fitting.front()->problem,
                                listed(others), others.size() == 1 ? "does" : "do"));
 }
@@ -141,9 +145,8 @@ void check_solver_options(const SolveOptions& options) {
       if (const PlannerChoice* choice = choice_in(kind, *asked)) choices.push_back(*choice);
     }
     if (choices.empty()) {
-      const auto all = planners_where([](const SolveKind&, const PlannerChoice&) { return true; });
-      throw UsageError(
-          fmt::format("@planner: {} is none that this version has; it has {}", name_of(*asked), listed(all)));
+      throw UsageError(fmt::format("@planner: {} is none that this version has; it has {}", name_of(*asked),
+                                   listed(planners_there_are())));
     }
     refuse_ignored(options, *asked, choices);
   }
@@ -182,12 +185,7 @@ bool planner_takes(PlannerKind planner, Option option) {
 }
 
 std::vector<PlannerKind> planners_there_are() {
-  std::vector<PlannerKind> planners;
-  for (const PlannerKind planner : all_planners) {
-    const auto has_it = [&](const SolveKind& kind) { return choice_in(kind, planner) != nullptr; };
-    if (std::any_of(solve_kinds().begin(), solve_kinds().end(), has_it)) planners.push_back(planner);
-  }
-  return planners;
+  return planners_where([](const SolveKind&, const PlannerChoice&) { return true; });
 }
 
 }  // namespace warren

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/enum_names.hpp"
@@ -49,23 +50,19 @@ E choice_value(std::string_view option, std::string_view text) {
   return static_cast<E>(choice_value(option, text, words));
 }
 
-/// The names of an enum, apart by blanks.
-struct ChoiceText {
-  template <NamedEnum E>
-  explicit constexpr ChoiceText(E) {
-    for (const std::string_view name : enum_names(E{})) {
-      if (size > 0) text[size++] = ' ';
-      for (const char c : name) text[size++] = c;
-    }
+template <NamedEnum E>
+inline constexpr auto choice_text = [] {
+  std::pair<std::array<char, 128>, std::size_t> joined{};
+  auto& [text, size] = joined;
+  for (const std::string_view name : enum_names(E{})) {
+    if (size > 0) text[size++] = ' ';
+    for (const char c : name) text[size++] = c;
   }
-  std::array<char, 128> text = {};
-  std::size_t size = 0;
-};
+  return joined;
+}();
+/// The names of an enum, apart by blanks, as OptionSpec::choices has them.
 template <NamedEnum E>
-inline constexpr ChoiceText choice_text{E{}};
-/// The same, as OptionSpec::choices has them.
-template <NamedEnum E>
-inline constexpr std::string_view choices_of{choice_text<E>.text.data(), choice_text<E>.size};
+inline constexpr std::string_view choices_of{choice_text<E>.first.data(), choice_text<E>.second};
 
 /// What `read`, one of the functions above, makes of an option's value; nothing where the option is not given.
 template <class Read, class... Limits>
