@@ -83,7 +83,9 @@ std::vector<std::string> write_picture(const std::string& file, const Scene& sce
 /// The world's name, without its folder.
 std::string title_of(const Scene& scene);
 
+/// Of an answer as it is.
 std::string subtitle_of(const Scene& scene, const Answer& answer);
+/// Of an answer that was read from a file.
 std::string subtitle_of(const Scene& scene, const RecordedAnswer& answer);
 
 /// The world and the body in it.

@@ -68,7 +68,9 @@ bool contains(std::span<const Vec2> polygon, Vec2 p) noexcept;
 /// Is p in the polygon and on no side of it? Exact.
 bool strictly_inside(std::span<const Vec2> polygon, Vec2 p) noexcept;
 
+/// Of a closed polygon from a segment; 0 where they meet.
 double distance(std::span<const Vec2> polygon, const Segment& s) noexcept;
+/// Of two closed polygons; 0 where they meet.
 double distance(std::span<const Vec2> a, std::span<const Vec2> b) noexcept;
 
 }  // namespace warren

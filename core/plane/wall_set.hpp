@@ -27,7 +27,10 @@ class PackedWall {
 
   /// Its ends in steps.
   struct Ends {
-    std::int32_t x1, y1, x2, y2;
+    std::int32_t x1;  ///< of the first end
+    std::int32_t y1;  ///< of the first end
+    std::int32_t x2;  ///< of the second end
+    std::int32_t y2;  ///< of the second end
   };
 
   PackedWall() = default;

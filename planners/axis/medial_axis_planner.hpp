@@ -69,8 +69,8 @@ Solution<Vec2> plan_on_medial_axis(const AxisRoadmap& roadmap, Vec2 start, Vec2 
 /// What of a medial axis is wide enough for a clearance, as straight lines: its vertices and between them the corners
 /// of its curves' polylines (AxisCurve::append_polyline).
 struct StraightLines {
-  std::vector<Vec2> points;
-  std::vector<Edge> edges;  ///< ascending, each once, from < to
+  std::vector<Vec2> points;  ///< vertices, and corners of the curves
+  std::vector<Edge> edges;   ///< ascending, each once, from < to
 };
 
 /// `clearance` >= 0. Left out is what rounding may keep from having it. O(edges log edges). Throws Stopped.

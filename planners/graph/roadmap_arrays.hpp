@@ -28,10 +28,15 @@ struct RoadmapParts {
   std::span<const std::uint64_t> edge_states;  ///< graph.hpp
   std::span<const VertexId> component;         ///< smallest vertex that free edges join each vertex with, any direction
 
+  /// Milestones.
   std::size_t vertex_count() const { return first.empty() ? 0 : first.size() - 1; }
+  /// Undirected edges once, directed ones each.
   std::size_t edge_count() const { return directed ? to.size() : to.size() / 2; }
+  /// The numbers of a milestone.
   std::span<const double> state(VertexId v) const { return states.subspan(std::size_t{v} * dimension, dimension); }
+  /// Ends of the edges of v, ascending.
   std::span<const VertexId> neighbours(VertexId v) const { return to.subspan(first[v], first[v + 1] - first[v]); }
+  /// What is known of the edge with this end.
   EdgeState state_of_end(std::size_t end) const { return edge_state(edge_states, end); }
 };
 

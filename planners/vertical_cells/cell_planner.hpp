@@ -35,6 +35,7 @@ class DoorPoints {
   /// O(doors), on all threads.
   DoorPoints(const CellDecomposition& cells, const Execution& execution);
 
+  /// Of a door.
   Vec2 middle(std::uint32_t door) const { return middles_[door]; }
   /// Where the leg between the middles of two doors of one cell should bend: doors below and above one corner are
   /// joined around it, a little inside the cell. None: the leg is straight, or there is no room.

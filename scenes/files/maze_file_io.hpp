@@ -58,8 +58,4 @@ void write_maze_file(const CellWallSource& cells, const std::string& path, const
 /// The same of a scene's walls. Throws InputError for whatever is no maze closed but for its two doors.
 void write_maze_file(const Scene& scene, const std::string& path, const Execution& execution);
 
-/// CRC-32 as zlib, PNG and Python's zlib.crc32 have it (reflected, polynomial 0xEDB88320), eight bytes at a time by
-/// tables (Kounavis, Berry 2005).
-std::uint32_t crc32(std::string_view bytes) noexcept;
-
 }  // namespace warren

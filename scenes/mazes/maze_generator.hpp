@@ -138,8 +138,10 @@ std::optional<MazeHint> maze_of_walls(const WallSet& walls, const Execution& exe
 /// they are asked for. And the way back.
 class HeldCells : public CellWallSource {
  public:
+  /// Tiles of 2^side_log2 cells a side.
   HeldCells(MazeCells cells, unsigned side_log2)
       : CellWallSource(cells.rows(), cells.cols(), side_log2), cells_(std::move(cells)) {}
+  /// Of a thread. The cells must outlive it.
   std::unique_ptr<CellWallReader> reader() const override { return std::make_unique<Reader>(*this); }
 
  private:

@@ -185,12 +185,15 @@ inline std::uint64_t folded_words(std::uint64_t a, std::uint64_t b) {
 /// The words of a double, where -0 is 0; never equal to a secret, which are no doubles of a sane size.
 inline std::uint64_t hashed_word(double x) { return std::bit_cast<std::uint64_t>(x + 0.0); }
 
+/// What the words of a wall are mixed with.
 inline constexpr std::uint64_t fold_secret_a = 0xa0761d6478bd642fU;
+/// The same for every other word.
 inline constexpr std::uint64_t fold_secret_b = 0xe7037ed1a0b428dbU;
 
 /// One chunk of walls.
 class WallFold {
  public:
+  /// The next wall.
   void add(const Segment& s) {
     first_ = folded_words(hashed_word(s.a.x) ^ fold_secret_a, hashed_word(s.a.y) ^ first_);
     second_ = folded_words(hashed_word(s.b.x) ^ fold_secret_b, hashed_word(s.b.y) ^ second_);

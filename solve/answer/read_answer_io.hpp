@@ -34,6 +34,7 @@ struct RecordedAnswer {
 
 /// What a file "answer" would hold: an answer, or a path of these states alone.
 RecordedAnswer recorded(const Answer& answer);
+/// A path alone, as states of as many numbers each.
 RecordedAnswer recorded(std::span<const std::vector<double>> states);
 
 /// "-" is standard input. Throws ReadError, InputError naming file and key, Stopped.

@@ -37,13 +37,14 @@ std::string description_of(const Scene& scene);
 
 /// What is in a world, line by line, for people and as JSON (warren.info/1).
 struct Fact {
-  std::string name;
+  std::string name;  ///< a key of warren.info/1
   std::string text;  ///< for people
-  std::string json;
+  std::string json;  ///< its value there
 };
 
 /// Throws Stopped. O(size of the scene), for its hash.
 std::vector<Fact> facts_of(const Scene& scene, const Execution& execution);
+/// All facts as one object of warren.info/1.
 std::string facts_json(const std::vector<Fact>& facts);
 
 }  // namespace warren

@@ -15,6 +15,7 @@
 
 namespace warren {
 
+/// What is written.
 struct ExportOptions {
   bool with_unchecked = false;  ///< edges that nobody has asked about, too; else free ones alone
   std::string frame = "map";    ///< of the coordinates, for .geojson: a frame that Nav2 knows
@@ -22,28 +23,29 @@ struct ExportOptions {
 
 /// What was written and what was not. An edge that leads both ways is one.
 struct ExportAccount {
-  std::uint64_t vertices = 0;  ///< all of them
-  std::uint64_t edges = 0;     ///< those that are written
-  std::uint64_t unchecked_left_out = 0;
-  std::uint64_t blocked_left_out = 0;
+  std::uint64_t vertices = 0;            ///< all of them
+  std::uint64_t edges = 0;               ///< those that are written
+  std::uint64_t unchecked_left_out = 0;  ///< edges that nobody has asked about
+  std::uint64_t blocked_left_out = 0;    ///< edges that are not free
   friend bool operator==(const ExportAccount&, const ExportAccount&) = default;
 };
 
 /// What is exported. Refers to arrays and a function that live elsewhere.
 struct ExportedRoadmapView {
-  RoadmapParts parts;
-  VertexDistance length;  ///< of an edge; of one that leads both ways from its smaller vertex
-  ExportOptions options = {};
+  RoadmapParts parts;          ///< the roadmap
+  VertexDistance length;       ///< of an edge; of one that leads both ways from its smaller vertex
+  ExportOptions options = {};  ///< what of it
 };
 
 /// How often an undirected edge is written. Directed ones are written as they are.
 enum class EdgeWays : std::uint8_t { once, both };
 
+/// An edge of an export.
 struct ExportedEdge {
-  std::uint64_t number;
-  VertexId from;
-  VertexId to;
-  EdgeState state;
+  std::uint64_t number;  ///< in the order of writing, from 0
+  VertexId from;         ///< its begin
+  VertexId to;           ///< its end
+  EdgeState state;       ///< what is known of it
 };
 
 /// The edges that an export writes, in the order of their rows, numbered from 0: what the formats share. A first pass
@@ -58,7 +60,9 @@ class ExportedEdgesView {
   ExportedEdgesView(const ExportedRoadmapView& roadmap, EdgeWays ways, const Execution& execution);
 
   std::uint64_t count() const { return numbers_.back(); }  ///< of lines: with EdgeWays::both two an undirected edge
+  /// How many are written, and how many are not.
   const ExportAccount& account() const { return account_; }
+  /// Edge ends of the roadmap, written or not.
   std::size_t ends() const { return parts_.to.size(); }
   /// Throws InputError where it is no finite number, zero or more.
   double length(const ExportedEdge& edge) const;

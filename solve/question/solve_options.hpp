@@ -220,8 +220,8 @@ std::vector<Option> options_in(OptionSet set);
 
 /// Numbers that an option takes: from low to high; without an end those above 0. The rest means nothing to other types.
 struct OptionRange {
-  double low = 0.0;
-  double high = std::numeric_limits<double>::infinity();
+  double low = 0.0;                                       ///< the least value
+  double high = std::numeric_limits<double>::infinity();  ///< the largest value
 };
 
 /// The table of the options, in the order in which answers repeat them: calls visit(option, range, field ...) with each

@@ -2,6 +2,7 @@
 #include "scenes/files/maze_file_io.hpp"
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <cstdint>
 #include <string>
@@ -32,18 +33,16 @@ std::string said_of(std::string_view bytes) {
   return {};
 }
 
+std::uint32_t crc32(std::string_view bytes) {
+  return static_cast<std::uint32_t>(::crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
 /// With the header's checksum as it should be.
 std::string with_number(std::string bytes, std::size_t at, std::uint64_t number, std::size_t size) {
   for (std::size_t i = 0; i < size; ++i) bytes[at + i] = static_cast<char>(number >> 8 * i & 0xffU);
   const std::uint32_t sum = crc32(std::string_view(bytes).substr(0, 60));
   for (std::size_t i = 0; i < 4; ++i) bytes[60 + i] = static_cast<char>(sum >> 8 * i & 0xffU);
   return bytes;
-}
-
-TEST(Crc32, IsThatOfZlib) {
-  EXPECT_EQ(crc32(""), 0U);
-  EXPECT_EQ(crc32("123456789"), 0xcbf43926U);  // the check value of the standard's catalogues
-  EXPECT_EQ(crc32("The quick brown fox jumps over the lazy dog"), 0x414fa339U);
 }
 
 TEST(MazeFile, HoldsTheMazesOfTheGenerators) {
