@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is said of a word that nobody knows: what it is here, where it is one of the field's (unknown_words.hpp), else
+// What is said of a word that nobody knows: what it is here, where it is one of the field's (docs/other_names.md), else
 // "did you mean" the known word with the smallest edit distance.
 #pragma once
 
