@@ -73,7 +73,8 @@ int dispatch(std::vector<std::string> words, MpiTransport& transport) {
   add_limits(words, transport.ranks_here());
   const tools::Arguments arguments(*command, words);
   if (arguments.wants_help()) {
-    if (transport.rank() == 0) tools::print_text(tools::command_help(*command, tools::terminal_width()));
+    if (transport.rank() == 0)
+      tools::print_text(tools::command_help(*command, tools::terminal_width(), arguments.wants_all_help()));
     return tools::exit_code::success;
   }
   if (transport.rank() == 0) tools::check_outputs(arguments);

@@ -27,8 +27,8 @@ class PolledArray : public Queue {
 };
 
 /// The queues that are there to be compared with the heap, as one type: else each search of each world would be
-/// compiled four times. Choosing costs one or two nanoseconds an operation; studies/searches times each queue without
-/// it.
+/// compiled four times. Choosing costs one or two nanoseconds an operation; apps/studies/search_contest times each
+/// queue without it.
 class ComparedQueue {
  public:
   ComparedQueue(QueueKind kind, const Execution& execution)

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which problems `solve` and `verify` know, and which planners solve each: one SolveKind a kind of problem, defined in
-// a file of its own, solve/kinds/solve_NAME.cpp; the table of all of them is in kind_of_problem.cpp.
+// the file of its kind of world (solve/kinds; that of streamed mazes in solve/streamed); the table of all of them is in
+// kind_of_problem.cpp.
 //
 // To add a planner to a kind: a line in the `NAME_planners` of its file with the options that it takes beyond planner
 // and seed (every other one is refused, by name, before the planner sees it), and a branch in its solve_NAME(). An
-// option that nobody had yet: solve_options.hpp. To add a kind: its file, its declaration below, its line in the table.
-// Several kinds may fit a world (walls are plane obstacles too): the first in the table that has the planner solves it,
-// and the first that has any planner is asked for the default.
+// option that nobody had yet: solve_options.hpp. To add a kind: its file or a place in one, its declaration below, its
+// line in the table. Several kinds may fit a world (walls are plane obstacles too): the first in the table that has the
+// planner solves it, and the first that has any planner is asked for the default.
 #pragma once
 
 #include <memory>
@@ -126,7 +127,7 @@ struct SolveKind {
   bool unmade = false;  ///< takes worlds whose walls are left out, and no others
 };
 
-// The kinds, one a file solve_NAME.cpp.
+// The kinds, in the files of their worlds.
 SolveKind walls_kind();
 SolveKind streamed_kind();
 SolveKind plane_kind();

@@ -135,6 +135,10 @@ TEST(OneWayPrm, TellsHowFarStartAndGoalAreApart) {
   const Forwards world(scene, car);
   const auto solution = one_way_prm(world, start, goal, {.samples = 300, .seed = 1}, true, {});
   EXPECT_EQ(solution.outcome, Outcome::not_connected);
+  const auto checked = one_way_prm(world, start, goal, {.samples = 300, .seed = 1}, false, {});
+  EXPECT_EQ(solution.counters.edges_checked, checked.counters.edges_checked)
+      << "what the search asked is not asked again";
+  EXPECT_EQ(solution.counters.edges_free, checked.counters.edges_free);
   EXPECT_GT(solution.separation.start_size, 20U);
   EXPECT_GT(solution.separation.goal_size, 20U);
   EXPECT_GT(solution.separation.nearest_gap, 0.0);
