@@ -6,8 +6,8 @@
 //   peeling            which cells are tree, and which way their core is           (planners/lengths/core_graph)
 //   pieces             trees cut at the borders of tiles, with heavy paths         (piece_forest)
 //   core graph         junctions of the core, joined by chains                     (core_graph)
-//   reduction          junctions without choice leave it; chains are marked      (core_reduction)
-//   dissection         the core cut by few junctions again and again               (planar_region, dissection)
+//   reduction          junctions without choice leave it; chains are marked      (core_graph)
+//   dissection         the core cut by few junctions again and again               (dissection)
 //   fronts             lengths and ways between the junctions of cuts, the gates   (separator_fronts)
 //
 // All of it is plain arrays, which a file may hold (route_index.hpp), and the same bytes for any thread count. In

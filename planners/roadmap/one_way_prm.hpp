@@ -110,11 +110,11 @@ bool OneWayPlan<W>::search() {
   if (blind && lazy_) check_all();
   StageTimer timer(execution_, "expansion", solution_.seconds.search);
   const SearchResult found = blind ? search_plainly() : search_best();
+  solution_.roadmap.edges = free_count();
+  solution_.counters.edges_free += solution_.roadmap.edges;  // of a search that was stopped, too
   if (found.status == SearchStatus::stopped) execution_.check();
   timer.set_items(found.expanded);
   this->count(found);
-  solution_.roadmap.edges = free_count();
-  solution_.counters.edges_free += solution_.roadmap.edges;
   return this->take(found.path);
 }
 

@@ -46,7 +46,8 @@ class ObstacleClash : public InputError {
   std::size_t other_;
 };
 
-/// What the sweep does where polygons overlap; to be united they must share nothing but corners (noded_polygons).
+/// What the sweep does where polygons overlap; to be united they must share nothing but corners
+/// (planners/visibility/noding).
 enum class Overlaps : std::uint8_t { refused, united };
 
 /// In place of a cell, a corner, a door or a polygon.

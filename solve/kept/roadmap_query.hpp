@@ -62,7 +62,9 @@ class RoadmapQuery {
   RoadmapQuery(const RoadmapQuery&) = delete;
   RoadmapQuery& operator=(const RoadmapQuery&) = delete;
 
-  /// Start and goal as Question has them: 2, 3 or 6 numbers; empty: the world file's. Throws UsageError.
+  /// Start and goal as Question has them: 2, 3 or 6 numbers; empty: the world file's. Says where
+  /// a blocked end is free, and what an estimate cost, too. Throws UsageError, InputError for a world that is not what
+  /// its file promises.
   Answer ask(const std::vector<double>& start, const std::vector<double>& goal, const RoadmapSearchFields& how = {},
              const Limits& limits = {}, ByProducts* keep = nullptr) const;
   /// The same under an execution, with a scratch that the thread keeps from one question to the next.

@@ -141,6 +141,8 @@ def check_places(faults):
         here = [fault for fault in faults if fault.file == name]
         before = len(trouble)
         for fault in here:
+            trouble += [f"{fault.name}: near: tests/{near} is not there" for near in fault.near
+                        if not os.path.exists(os.path.join(ROOT, "tests", near))]
             try:
                 place_of(fault, source)
             except TableError as error:

@@ -49,8 +49,11 @@ bool Comparison::beside(const Segment& obstacle, const Box& box) const {
   const Vec2 most{std::abs(low.x) + std::abs(high.x), std::abs(low.y) + std::abs(high.y)};
   const double error = 1e-15 * (std::abs(along.x) * most.y + std::abs(along.y) * most.x);
   const double room = std::abs(cross(along, to)) - spread - 8.0 * error;
-  constexpr double least_room = 1e-140;  // so that its square is no rounded trifle
-  return room > least_room && room * room > near_sq_ * dot(along, along) * (1.0 + 4.0 * exact::distance_error);
+  const double length_sq = dot(along, along);
+  constexpr double trifle = 1e-280;      // squares below it are rounded, to 0 at last: they decide nothing
+  constexpr double least_room = 1e-140;  // its root
+  return length_sq >= trifle && room > least_room &&
+         room * room > std::max(near_sq_, trifle) * length_sq * (1.0 + 4.0 * exact::distance_error);
 }
 
 void Comparison::compare(const Segment& s, std::size_t leg, const Segment& obstacle, std::size_t number) {

@@ -158,7 +158,7 @@ std::size_t first_misfit(std::span<const Vec2> path, const Execution& execution)
 }  // namespace
 
 void check_judged_path(std::span<const Vec2> path, const VerifyOptions& options, const Execution& execution) {
-  constexpr std::size_t most_legs = 500'000'000;  // so that legs, and their runs in cells, can be numbered in 32 bits
+  constexpr std::size_t most_legs = 500'000'000;  // told at once; a path is 16 bytes a leg, and its boxes come on top
   if (path.empty()) throw InputError("path", "has no points");
   if (path.size() > most_legs + 1) throw InputError("path", "more than 500 million legs can't be verified");
   if (const std::size_t i = first_misfit(path, execution); i < path.size()) {

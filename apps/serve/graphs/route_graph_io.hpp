@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Route graphs and what is asked about them as JSON: what the page and the service say to each other. Files of Nav2 are
-// nav2_graph_io's.
+// Route graphs and what is asked about them as JSON: what the page and the service say to each other. Files of Nav2
+// are the other half of it.
 #pragma once
 
 #include <string>

@@ -12,6 +12,7 @@
 #include "tests/seeds.hpp"
 #include "tests/verify/judges/paths_among_walls.hpp"
 #include "verify/exact/exact_segments.hpp"
+#include "verify/near/obstacle_index.hpp"
 
 namespace warren {
 namespace {
@@ -261,6 +262,27 @@ TEST(Verify, HugeWallsAndTinyLegsMeet) {
   EXPECT_TRUE(verified(scene, {{0.001, 0.002}, {0.0015, 0.0016}}, 0.0).verified);
   EXPECT_TRUE(verified(scene, {{0.001, 0.002}, {0.0015, 0.0016}}, 1e-5).verified);
   EXPECT_FALSE(verified(scene, {{0.001, 0.002}, {0.0015, 0.0016}}, 1e-3).verified);
+}
+
+/// Whose squares are 0 as doubles: nothing may be left out by them.
+TEST(Verify, LegsOfAnyLengthAreKeptFromWallsFarAway) {
+  const Scene scene = scene_of({{{1e30, -1e31}, {1e30, 1e31}},
+                                {{3e26, -1e31}, {3e26, 1e31}},
+                                {{-1e31, 1e31}, {1e31, 1e31}},
+                                {{-1e31, -1e31}, {1e31, -1e31}}});
+  const ObstacleIndex index(scene, {});
+  for (double length = 1e-100; length > 0.0; length *= 1e-3) {
+    SCOPED_TRACE(length);
+    VerifyOptions options;
+    options.clearance = 1e28;
+    for (const std::vector<Vec2>& path : {std::vector<Vec2>{{0, 0}, {0, length}}, {{0, length}, {0, 0}, {0, length}}}) {
+      for (const ObstacleIndex* by : {static_cast<const ObstacleIndex*>(nullptr), &index}) {
+        const Verification v = verify_path(scene, path, options, {}, by);
+        EXPECT_FALSE(v.verified) << (by != nullptr ? "by the index" : "by the pass");
+        EXPECT_EQ(v.min_clearance, 3e26);
+      }
+    }
+  }
 }
 
 TEST(Verify, AnyClearanceIsKeptOrNot) {
