@@ -146,6 +146,15 @@ struct Solution {
   StageTimes seconds;                         ///< wall-clock
 };
 
+/// A path that is better than those before it, of a planner that gets better with time.
+struct Improvement {
+  std::uint64_t iterations = 0;  ///< turns that were done when it came
+  double seconds = 0.0;          ///< since the search began, wall-clock
+  double cost = 0.0;             ///< in the body's metric, which is what gets better
+  double length = 0.0;           ///< as answers have it
+  std::string by;                ///< the part that found it: straight, tree, restarts, roadmap or shorten
+};
+
 /// Where the points of a path go that is too long to be held: they are handed on as they are made.
 class PathTaker {
  public:

@@ -18,7 +18,8 @@ constexpr OptionSpec planner_specs[] = {
     {"--planner", "NAME",
      "prm checks every edge of a roadmap, lazy-prm those that a search reaches; visibility finds the shortest path "
      "among polygons, cells one through vertical cells, voronoi one far from obstacles; rrt and rrt-connect grow "
-     "trees, grid searches cells (default: by world and body)",
+     "trees, grid searches cells; anytime, rrt-star and informed-rrt-star get better until they are stopped (default: "
+     "by world and body)",
      "prm lazy-prm"},
     {"--sampler", "NAME",
      "where milestones come from (default: lattice in mazes, cell-centres on maps of corridors a cell wide, else "
@@ -74,6 +75,10 @@ constexpr OptionSpec planner_specs[] = {
     {"--goal-bias", "F", "share of rrt's samples that are the goal (default: 0.05)"},
     {"--nodes", "N", "most nodes of a tree; a tree that has them gives up (default: 100000)"},
     {"--trees", "N", "trees grown independently at once; the first to arrive answers (default: 1)"},
+    {"--iterations", "N", "planners that get better: end after N turns, with the same answer on any machine"},
+    {"--gap", "SHARE", "planners that get better: end when the path costs at most 1% (or 0.01) more than is proved"},
+    {"--parts", "LIST", "anytime: what takes turns, of tree,restarts,roadmap,shorten (default: all)"},
+    {"--bound", "", "prove the best lower bound of the path's length that there is, at a cost of its own"},
     {"--via", "STATES",
      "waypoints to pass in this order, apart by semicolons; each X,Y or X,Y,THETA or six joint angles"},
     {"--steering", "WORD", "a car's curves: forwards only, or backwards too (default: the file's, else dubins)",
@@ -104,6 +109,7 @@ struct OptionReader {
   static void read(std::string_view, std::string_view text, OptionRange, bool& field) { field = text.empty(); }
   static void read(std::string_view flag, std::string_view text, OptionRange range, std::optional<double>& field) {
     if (flag == "--radius" && (text == "auto" || text == "star")) return;
+    if (flag == "--gap") return static_cast<void>(field = share_value(flag, text));
     field =
         range.high > largest_coordinate ? positive_value(flag, text) : number_value(flag, text, range.low, range.high);
   }
@@ -130,6 +136,9 @@ struct OptionReader {
     const std::size_t comma = text.find(',');
     field.emplace().radius = positive_value(flag, text.substr(0, comma));
     if (comma != std::string_view::npos) field->step = positive_value(flag, text.substr(comma + 1));
+  }
+  static void read(std::string_view flag, std::string_view text, OptionRange, std::vector<AnytimePart>& field) {
+    for (const std::string& word : list_value(flag, text)) field.push_back(choice_value<AnytimePart>(flag, word));
   }
   static void read(std::string_view flag, std::string_view text, OptionRange, std::vector<std::vector<double>>& field) {
     for (;;) {
