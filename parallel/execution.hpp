@@ -117,6 +117,10 @@ struct Execution {
   void check() const {
     if (deadline != nullptr) deadline->check();
   }
+  /// Seconds that are left, at least 0; infinity: no limit.
+  double seconds_left() const noexcept {
+    return deadline != nullptr ? deadline->seconds_left() : std::numeric_limits<double>::infinity();
+  }
   /// Is it time to stop?
   bool should_stop() const noexcept { return deadline != nullptr && deadline->reached().has_value(); }
   /// Throws Stopped{memory} if so many further bytes would pass the limit.

@@ -309,6 +309,9 @@ constexpr PlannerChoice occupancy_planners[] = {
     {PlannerKind::lazy_prm, lazy_prm_takes | point_takes},
     {PlannerKind::rrt, rrt_options},
     {PlannerKind::rrt_connect, rrt_connect_options},
+    {PlannerKind::rrt_star, rrt_star_options},
+    {PlannerKind::informed_rrt_star, rrt_star_options},
+    {PlannerKind::anytime, anytime_options},
     {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue}}};
 
 bool fits_occupancy(const Scene& scene, const RobotSpec& robot) {

@@ -71,6 +71,13 @@ inline constexpr OptionSet rrt_connect_options{Option::sampler, Option::step, Op
                                                Option::trees,   Option::via,  Option::optimise};
 inline constexpr OptionSet rrt_options = rrt_connect_options | OptionSet{Option::goal_bias};
 
+// How planners that get better are told what to do.
+
+/// What each takes.
+inline constexpr OptionSet anytime_options{Option::iterations, Option::gap, Option::parts};
+inline constexpr OptionSet rrt_star_options{Option::iterations, Option::gap,   Option::step,
+                                            Option::goal_bias,  Option::nodes, Option::optimise};
+
 /// Throws UsageError for samplers that trees have no use for.
 RrtOptions tree_options(const SolveOptions& options);
 /// What the answer calls the trees' sampler.
