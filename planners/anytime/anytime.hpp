@@ -100,11 +100,11 @@ class AnytimeSearch {
     restart_options_.places = true;
     if (options.parts.tree) {
       tree_.emplace(world, start, std::span<const State>(goals_),
-                    typename RrtStarTree<W>::Options{.seed = random_bits(options.trees.seed, 0),
-                                                     .step = step_,
-                                                     .nodes = options.trees.nodes,
-                                                     .informed = options.informed,
-                                                     .goal_bias = options.trees.goal_bias});
+                    RrtStarOptions{.seed = random_bits(options.trees.seed, 0),
+                                   .step = step_,
+                                   .nodes = options.trees.nodes,
+                                   .informed = options.informed,
+                                   .goal_bias = options.trees.goal_bias});
     }
   }
 
@@ -134,9 +134,10 @@ class AnytimeSearch {
 
   enum class Part : std::uint8_t { tree, restarts, roadmap, shorten };
   struct Found {
+    explicit Found(Part part = Part::tree) : by(part) {}
     Path<State> path;
     double cost = std::numeric_limits<double>::infinity();
-    Part by = Part::tree;
+    Part by;
     Counters counters;
   };
   struct Restart {
@@ -354,7 +355,7 @@ void AnytimeSearch<W>::adapt(bool had_path) {
 
 template <SteerableWorld W>
 auto AnytimeSearch<W>::grow_tree(const Execution& execution) -> Found {
-  Found found{.by = Part::tree};
+  Found found(Part::tree);
   if (options_.informed) {
     for (const Path<State>& path : to_join_) tree_->take(path, execution);
   }
@@ -372,7 +373,7 @@ auto AnytimeSearch<W>::grow_tree(const Execution& execution) -> Found {
 /// One pair of trees, from turn to turn, until it arrives or has grown too large.
 template <SteerableWorld W>
 auto AnytimeSearch<W>::grow_restart(Restart& restart, const Execution& execution) -> Found {
-  Found found{.by = Part::restarts};
+  Found found(Part::restarts);
   const auto slot = static_cast<std::uint64_t>(&restart - restarts_.data());
   if (!restart.trees) {
     const std::uint64_t index = restart_count * restart.index++ + slot;
@@ -380,19 +381,14 @@ auto AnytimeSearch<W>::grow_restart(Restart& restart, const Execution& execution
     restart.counted = {};
     restart.trees = std::make_unique<RrtConnectSearch<W>>(world_, start_, std::span<const State>(goals_),
                                                           restart_options_, step_, index);
+    if (has_path()) restart.trees->bound(solution_.cost * (1.0 + restart.looseness));
   }
   RrtConnectSearch<W>& trees = *restart.trees;
-  trees.bound(solution_.cost * (1.0 + restart.looseness));
-  for (const std::uint64_t begin = work_of(trees.counters()), most = share_of(Part::restarts) / restart_count;
-       !trees.arrived() && !trees.gave_up() && work_of(trees.counters()) - begin < most;) {
-    trees.advance(1, execution);
-  }
+  trees.advance_by_work(share_of(Part::restarts) / restart_count, execution);
   found.counters = counted_since(restart.counted, trees.counters());
   restart.counted = trees.counters();
   if (trees.arrived()) {
-    Solution<State> solution;
-    trees.finish(solution, nullptr, execution);
-    found.path = std::move(solution.path);
+    found.path = trees.path();
     found.cost = cost_of(found.path);
   }
   if (trees.arrived() || trees.gave_up()) restart.trees.reset();
@@ -404,7 +400,7 @@ template <SteerableWorld W>
 auto AnytimeSearch<W>::draw_roadmap(const Execution& execution) -> Found {
   constexpr std::uint64_t first_samples = 50;
   constexpr std::uint64_t most_doublings = 20;
-  Found found{.by = Part::roadmap};
+  Found found(Part::roadmap);
   credit_ += share_of(Part::roadmap);
   if (credit_ < 2 * roadmap_work_) return found;
   RoadmapOptions options = options_.roadmap;
@@ -430,7 +426,7 @@ auto AnytimeSearch<W>::draw_roadmap(const Execution& execution) -> Found {
 
 template <SteerableWorld W>
 auto AnytimeSearch<W>::polished(const Execution& execution) -> Found {
-  Found found{.by = Part::shorten};
+  Found found(Part::shorten);
   const std::uint64_t seed = random_bits(options_.trees.seed, solution_.iterations, 7);
   found.path =
       body_.shortened(solution_.path, std::numeric_limits<double>::infinity(), seed, execution, found.counters);
