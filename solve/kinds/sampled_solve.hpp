@@ -209,7 +209,7 @@ class SampledSolve {
     }
   }
   AnytimeOptions better_options() const {
-    constexpr std::uint64_t usual_iterations = 100;
+    constexpr std::uint64_t usual_iterations = 20;
     const AnytimeFields& asked = request_.options.anytime;
     AnytimeOptions options;
     options.trees = tree_options_;

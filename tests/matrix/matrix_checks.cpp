@@ -103,6 +103,7 @@ void Matrix::check_ends(const MatrixBody& body, const std::vector<std::vector<do
 
 /// In a strange world there may be no way: nobody shall look for it long.
 std::vector<std::string> Matrix::limits_of(const std::string& planner) {
+  if (planner == "anytime" || planner.ends_with("rrt-star")) return {"--iterations", "6"};
   if (!world().is_strange) return {};
   if (planner == "prm" || planner == "lazy-prm") return {"--samples", "300"};
   if (planner == "rrt" || planner == "rrt-connect") return {"--nodes", "2000"};
