@@ -215,9 +215,9 @@ PlotSheet profile_bars(const StageProfile& profile) {
 }
 
 constexpr OptionSpec profile_specs[] = {
-    {"--runs", "N", "how often, on one thread and on all in turns; medians are told (default: 5)"},
-    {"--json", "FILE", "write warren.profile/1; - is standard output"},
-    {"--picture", "FILE", "a bar a stage, as .svg, .png or .pdf by ending; - is standard output"},
+    {"--runs", "N", "how often it runs, by turns on one thread and on all; times are medians (default: 5)"},
+    {"--json", "FILE", "write all figures as JSON; - is standard output"},
+    {"--picture", "FILE", "draw a bar for each stage, as .svg, .png or .pdf by ending; - is standard output"},
 };
 
 int profile(const Arguments& arguments) {
