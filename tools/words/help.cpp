@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <string>
 #include <utility>
 
@@ -81,11 +82,11 @@ std::string options_with_verbs(std::span<const Command> commands, std::size_t wi
   return text;
 }
 
-/// Options of that name, then those that take it as a value. Blanks and _ are as good as the - between words.
-std::string options_about(std::string_view word, std::span<const Command> commands, std::size_t width) {
-  std::string name = word.starts_with('-') ? std::string{word} : fmt::format("--{}", word);
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return c == ' ' || c == '_'; }, '-');
+/// Options of that name, then those that take it as a value, in any letter case. Blanks and _ are as good as -.
+std::string options_about(std::string_view asked, std::span<const Command> commands, std::size_t width) {
+  std::string word{asked};
+  for (char& c : word) c = c == ' ' || c == '_' ? '-' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string name = word.starts_with('-') ? word : "--" + word;
   const auto has_name = [&](const Command& command, const OptionSpec& option) {
     return &option == option_named(command, name);
   };

@@ -77,6 +77,7 @@ TEST(Help, ExplainsOneOptionAndOneOfItsValues) {
   EXPECT_NE(seed.find("seed of the first maze"), std::string::npos) << seed;
   EXPECT_EQ(seed.find("in: warren solve"), std::string::npos) << seed;
   EXPECT_EQ(run({"help", "goal", "bias"}).out, run({"help", "--goal-bias"}).out);
+  EXPECT_EQ(run({"help", "PRM"}).out, run({"help", "prm"}).out);
   const std::string either = run({"help", "clearance"}).out;
   EXPECT_LT(either.find("--clearance R"), either.find("--objective NAME")) << "the option before those that take it";
   check({{"help", "--clearence"}, 2, "did you mean --clearance?"});

@@ -13,6 +13,7 @@ TEST(Usage, WrongWordsAreRefusedWithTheClosestMatch) {
       {{"solve"}, 2, "WORLD is missing"},
       {{"solve", "maze:5x7", "maze:5x7"}, 2, "unexpected argument"},
       {{"solve", "maze", "5x7"}, 2, "unexpected argument '5x7'; a maze is called maze:41x41"},
+      {{"generate", "maze", "5", "7", "-o", "x.npy"}, 2, "unexpected argument '7'; its size is one word, 41x41"},
       {{"solve", "5x7"}, 66, "there is no such file; a maze is called maze:41x41"},
       {{"solve", "maze:5x7", "--robot", "disc", "0.2"}, 2, "'0.2'; a value of several words is quoted"},
       {{"solve", "maze:5x7", "--sampels", "5"}, 2, "did you mean --samples?"},
