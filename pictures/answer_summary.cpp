@@ -8,6 +8,8 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "core/base/printable.hpp"
 #include "scenes/files/human_units.hpp"
@@ -149,12 +151,12 @@ void add_roadmap(std::string& text, const Answer& answer, const Palette& palette
   if (answer.roadmap.components > 0) what += ", " + counted(answer.roadmap.components, "component", "components");
   line(text, palette, "roadmap", what);
   add_wrong_edges(text, answer, palette);
-  std::string work = grouped(answer.counters.expanded) + " expanded";
-  const auto [edges, rounds] = std::pair(answer.counters.edges_checked, answer.counters.rounds);
-  if (edges > 0)
-    work = counted(edges, "edge", "edges") + " checked, " + work;  // none where all are free by their making
-  if (rounds > 0) work += ", " + counted(rounds, "round", "rounds");
-  line(text, palette, "work", work);
+  const Counters& did = answer.counters;
+  std::vector<std::string> work;  // no edges where all are free by their making, no search where trees have met
+  if (did.edges_checked > 0) work.push_back(counted(did.edges_checked, "edge", "edges") + " checked");
+  if (did.expanded > 0) work.push_back(counted(did.expanded, "place", "places") + " expanded by the search");
+  if (did.rounds > 0) work.push_back(counted(did.rounds, "round", "rounds"));
+  if (!work.empty()) line(text, palette, "work", fmt::format("{}", fmt::join(work, ", ")));
   if (answer.outcome != Outcome::not_connected || answer.refuted || !answer.separation.is_known()) return;
   line(
       text, palette, "start, goal",

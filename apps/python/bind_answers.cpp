@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "apps/python/arrays.hpp"
 #include "apps/python/bind.hpp"
@@ -56,9 +57,12 @@ py::object blocked_of(const Answer& answer) {
   py::dict blocked;
   blocked["end"] = answer.blocked->is_start ? "start" : "goal";
   blocked["by"] = answer.blocked->by;
-  blocked["free_place"] = answer.blocked->free_place;
-  blocked["distance"] = answer.blocked->distance;
-  blocked["hint"] = answer.blocked->hint;
+  const bool is_place = !answer.blocked->free_place.empty();
+  blocked["free_place"] = is_place ? py::object(py::tuple(py::cast(answer.blocked->free_place))) : py::none();
+  blocked["distance"] = is_place ? std::optional(answer.blocked->distance) : std::nullopt;
+  blocked["hint"] = answer.blocked->hint.empty() ? std::nullopt : std::optional(answer.blocked->hint);
+  blocked["room"] = answer.blocked->room;
+  blocked["needed"] = answer.blocked->needed;
   blocked["depth"] = answer.blocked->depth;
   return blocked;
 }

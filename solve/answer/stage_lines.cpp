@@ -36,7 +36,7 @@ constexpr std::array links{
     Link{"reduction", "reduction", [](const Answer& a) { return a.roadmap.milestones; },
          [](const Answer&) { return std::string("vertices"); }},
     Link{"components", "components", [](const Answer& a) { return a.roadmap.milestones; },
-         [](const Answer& a) { return fmt::format("vertices, {} components", grouped(a.roadmap.components)); }},
+         [](const Answer& a) { return "vertices, " + counted(a.roadmap.components, "component", "components"); }},
     Link{"expansion", "queue and search", [](const Answer& a) { return a.counters.expanded; },
          [](const Answer& a) {
            return fmt::format("expanded, {} pushes, {} decreases", grouped(a.counters.pushes),

@@ -4,7 +4,7 @@ import json
 import os
 
 from . import _core
-from ._explanations import explanation
+from ._explanations import BlockedEnd, explanation
 from ._options import documented, told
 from ._pictures import Pictured
 
@@ -83,8 +83,12 @@ class Answer(Pictured):
 
     seconds = told("seconds", "What each stage took.")
     solve_s = told("solve_s", "What all of it took, in seconds.")
-    blocked = told("blocked", """Where start or goal is blocked: its end, what it is blocked by, a free_place near it
-        and the distance to that, and a hint; else None.""")
+
+    @property
+    def blocked(self):
+        """Where start or goal is blocked, why, as a :class:`BlockedEnd`; else None."""
+        said = self._core.blocked
+        return None if said is None else BlockedEnd(**said)
 
     @property
     def explained(self):

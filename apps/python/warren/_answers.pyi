@@ -4,7 +4,7 @@ from typing import Any, Literal
 
 from numpy.typing import NDArray
 
-from ._explanations import Explanation
+from ._explanations import BlockedEnd, Explanation
 from ._pictures import Pictured
 from ._worlds import World, _Floats, _Path
 
@@ -51,7 +51,7 @@ class Answer(Pictured):
     @property
     def solve_s(self) -> float: ...
     @property
-    def blocked(self) -> dict[str, Any] | None: ...
+    def blocked(self) -> BlockedEnd | None: ...
     @property
     def explained(self) -> Explanation | None: ...
     def json(self) -> str: ...
