@@ -80,10 +80,12 @@ double least_way(const Scene& scene, const Problem& problem, BoundEffort effort,
   const double straight = below_rounding(distance(start, goal), 1);
   const std::optional<double> radius = held_radius(problem);
   if (effort == BoundEffort::simple || !radius || straight == 0.0 || is_unmade(scene)) return straight;
+  Execution quiet = execution;
+  quiet.account = nullptr;  // its stages are none of the answer's
   try {
-    const std::optional<PlaneObstacles> obstacles = bounding_obstacles(scene, start, execution);
+    const std::optional<PlaneObstacles> obstacles = bounding_obstacles(scene, start, quiet);
     if (!obstacles) return straight;
-    return std::max(straight, shortest_way(*obstacles, start, goal, *radius, execution).value_or(0.0));
+    return std::max(straight, shortest_way(*obstacles, start, goal, *radius, quiet).value_or(0.0));
   } catch (const Stopped&) {
     return straight;
   } catch (const std::bad_alloc&) {
@@ -110,8 +112,10 @@ double free_curve(const Problem& problem) {
   const double radius = problem.robot.turning_radius;
   const auto shortest =
       problem.robot.steering == SteeringKind::dubins ? DubinsCurve::shortest : ReedsSheppCurve::shortest;
-  constexpr double rounding = 1e-12;
-  return radius * shortest(start, goal, radius).length * (1.0 - rounding);
+  // Rounding of the curve, and of poses along it where these are far from the origin.
+  const double places = std::abs(start.x) + std::abs(start.y) + std::abs(goal.x) + std::abs(goal.y) +
+                        radius * (std::abs(start.theta) + std::abs(goal.theta));
+  return std::max(0.0, radius * shortest(start, goal, radius).length * (1.0 - 1e-12) - 0x1p-46 * places);
 }
 
 /// In joint space. A tool whose place is the goal goes no farther than its distance from each axis times the turn about
@@ -154,11 +158,12 @@ void tell_bound(Answer& answer, const Scene& scene, const SolveOptions& options,
   if (answer.optimal) {
     answer.lower_bound = below_rounding(cost, answer.roadmap.milestones);
   } else if (!answer.lower_bound) {
-    const bool in_metric = options.planner && gets_better(*options.planner);
+    const bool in_metric = gets_better(enum_named<PlannerKind>(answer.planner).value_or(PlannerKind::prm));
     if (answer.cost && !in_metric) return;
-    double seconds = 0.0;
-    const StageTimer timer(execution, "bound", seconds);
     const bool exact = options.bound || options.anytime.gap;
+    double seconds = 0.0;
+    std::optional<StageTimer> timer;
+    if (exact) timer.emplace(execution, "bound", seconds);
     answer.lower_bound = proved_bound(scene, answer.problem, in_metric ? BoundOf::metric : BoundOf::length,
                                       exact ? BoundEffort::exact : BoundEffort::simple, execution);
   }
