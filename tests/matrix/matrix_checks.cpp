@@ -82,7 +82,9 @@ void Matrix::check_bound(const std::string& planner, const ProgramAnswer& answer
   EXPECT_GE(bound, 0.0);
   EXPECT_LE(bound, length * (1.0 + 1e-12));
   EXPECT_EQ(answer.gap.empty(), bound == 0.0 && length > 0.0);
-  if (!answer.gap.empty()) EXPECT_GE(std::stod(answer.gap), 0.0);
+  if (!answer.gap.empty()) {
+    EXPECT_GE(std::stod(answer.gap), 0.0);
+  }
   EXPECT_EQ(answer.optimal, length - bound <= rounding * length);
 }
 
