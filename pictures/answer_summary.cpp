@@ -112,7 +112,12 @@ std::string planner_text(const Answer& answer) {
 void add_path(std::string& text, const Answer& answer, const Palette& palette) {
   std::string length = palette.strong(length_text(answer, answer.length));
   if (answer.raw_length) length += fmt::format(" (before --optimise: {})", length_text(answer, *answer.raw_length));
-  if (answer.optimal) length += " (the shortest there is)";
+  const auto gap = gap_of(answer);
+  if (answer.optimal) {
+    length += " (the shortest there is)";
+  } else if (gap && figure_named(answer.options, "bound") != nullptr) {
+    length += fmt::format(" (at most {} % above the shortest)", human_number(100.0 * *gap));
+  }
   line(text, palette, "length", length + fmt::format(", {}", counted(path_points(answer), "point", "points")));
   if (answer.cost) line(text, palette, "cost", human_number(*answer.cost) + ", in steps from cell to cell");
   if (answer.turn_rad) {

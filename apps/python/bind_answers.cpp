@@ -155,6 +155,8 @@ void bind_answers(py::module_& module) {
   });
   figure(answers, "verified", [](const Answer& a) { return a.verified; });
   figure(answers, "optimal", [](const Answer& a) { return a.optimal; });
+  figure(answers, "lower_bound", [](const Answer& a) { return a.lower_bound.value_or(unknown); });
+  figure(answers, "gap", [](const Answer& a) { return gap_of(a).value_or(unknown); });
   figure(answers, "length", [](const Answer& a) { return a.verified ? a.length : unknown; });
   figure(answers, "min_clearance", [](const Answer& a) { return a.verified ? a.min_clearance : unknown; });
   figure(answers, "raw_length", [](const Answer& a) { return a.raw_length.value_or(unknown); });

@@ -54,7 +54,7 @@ struct AnytimeOptions {
   RoadmapOptions roadmap;  ///< but for samples and seed
   std::optional<std::uint64_t> iterations;  ///< turns; none: until something else ends it
   std::optional<double> gap;   ///< it ends when the cost is at most so much more than the bound, as a share of it
-  double lower_bound = 0.0;    ///< proved: no path costs less
+  double lower_bound = 0.0;    ///< proved at no cost: no path costs less
   std::size_t kept_paths = 0;  ///< at most so many of the paths that were the best are kept
 };
 
@@ -66,11 +66,13 @@ struct AnytimeBody {
       shortened;
   std::function<double(const Path<State>&)> length;    ///< as answers have it
   std::function<double(const Path<State>&)> judged_s;  ///< judges a path: the seconds that it took
+  std::function<double()> lower_bound;  ///< a better one, asked for once there is a path; empty: there is none
 };
 
 template <class State>
 struct AnytimeSolution : Solution<State> {
   double cost = std::numeric_limits<double>::infinity();
+  double lower_bound = 0.0;               ///< that it knew in the end
   std::vector<Improvement> improvements;  ///< ascending by iterations, falling by cost
   std::vector<Path<State>> improved;      ///< some of their paths, the oldest first
   std::uint64_t iterations = 0;           ///< turns that were done
@@ -109,9 +111,13 @@ class AnytimeSearch {
   }
 
   AnytimeSolution<State> run() {
+    solution_.lower_bound = options_.lower_bound;
     try {
       const StageTimer timer(execution_, "search", solution_.seconds.search);
       while (!has_path() && !is_ended()) take_turn(execution_);
+      if (has_path() && !is_straight_ && body_.lower_bound) {
+        solution_.lower_bound = std::max(solution_.lower_bound, body_.lower_bound());
+      }
       const Deadline sooner(execution_.deadline, seconds_before_the_judge());
       Execution within = execution_;
       if (execution_.deadline != nullptr) within.deadline = &sooner;
@@ -164,8 +170,8 @@ class AnytimeSearch {
     constexpr double equal = 1e-9;
     if (is_enough_) return end("caller");
     if (has_path()) {
-      if (is_straight_ || solution_.cost <= options_.lower_bound * (1.0 + equal)) return end("optimum");
-      if (options_.gap && solution_.cost <= options_.lower_bound * (1.0 + *options_.gap)) return end("gap");
+      if (is_straight_ || solution_.cost <= solution_.lower_bound * (1.0 + equal)) return end("optimum");
+      if (options_.gap && solution_.cost <= solution_.lower_bound * (1.0 + *options_.gap)) return end("gap");
     }
     return options_.iterations && solution_.iterations >= *options_.iterations && end("iterations");
   }

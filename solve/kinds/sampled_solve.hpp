@@ -46,6 +46,7 @@
 #include "planners/trees/through_way_points.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
+#include "solve/kinds/lower_bound.hpp"
 #include "solve/kinds/planned_worlds.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/question/planner_choice.hpp"
@@ -240,6 +241,7 @@ class SampledSolve {
     body.length = [this](const Path<State>& path) {
       return path_length(path, [this](const State& a, const State& b) { return body_.length(*world_, a, b); });
     };
+    if (wants_exact_bound()) body.lower_bound = [this] { return bound(BoundEffort::exact); };
     body.judged_s = [this](const Path<State>& path) {
       Answer judged;
       judged.outcome = Outcome::solved;
@@ -248,6 +250,16 @@ class SampledSolve {
       return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     };
     return body;
+  }
+  double bound(BoundEffort effort) const {
+    const BoundOf measure = Body::has_cost ? BoundOf::metric : BoundOf::length;
+    return proved_bound(request_.scene, answer_.problem, measure, effort, execution());
+  }
+  /// Of planners that nobody asks how good they are, where it takes little.
+  bool wants_exact_bound() const {
+    constexpr std::size_t few = 2'000;
+    const bool is_small = request_.scene.polygons.size() + request_.scene.walls.size() <= few && !request_.scene.map;
+    return request_.options.bound || request_.options.anytime.gap || is_small;
   }
   /// What ends the search does not end the work: its path is judged and told in the memory that there is.
   void plan_better() {
@@ -258,11 +270,10 @@ class SampledSolve {
       return;
     }
     AnytimeOptions options = better_options();
-    options.lower_bound = std::numeric_limits<double>::infinity();
-    for (const State& goal : goals)
-      options.lower_bound = std::min(options.lower_bound, world_->distance(body_.start(), goal));
+    options.lower_bound = bound(BoundEffort::simple);
     AnytimeSolution<State> found =
         anytime(*world_, State(body_.start()), std::span<const State>(goals), options, body_of_better(), execution());
+    answer_.lower_bound = found.lower_bound;
     answer_.improvements = std::move(found.improvements);
     answer_.iterations = found.iterations;
     answer_.ended_by = found.ended_by;

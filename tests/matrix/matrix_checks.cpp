@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 #include <sstream>
+#include <string>
 
 #include "tests/matrix/matrix_run.hpp"
 #include "tests/paths.hpp"
@@ -66,6 +67,25 @@ std::optional<std::string> Matrix::wrong_with(const MatrixBody& body, const std:
   std::copy(ends[0].begin(), ends[0].end(), question.start.begin());
   std::copy(ends[1].begin(), ends[1].end(), question.goal.begin());
   return wrong_with_path(world().plane, body.plane, question, path);
+}
+
+/// All but grid, whose cost is its own, tell a bound that their path is not below.
+void Matrix::check_bound(const std::string& planner, const ProgramAnswer& answer) {
+  EXPECT_EQ(answer.lower_bound.empty(), planner == "grid");
+  if (answer.lower_bound.empty()) {
+    EXPECT_TRUE(answer.gap.empty());
+    return;
+  }
+  constexpr double rounding = 1e-9;
+  const double bound = std::stod(answer.lower_bound);
+  const double length = std::stod(answer.length);
+  EXPECT_GE(bound, 0.0);
+  EXPECT_LE(bound, length * (1.0 + 1e-12));
+  EXPECT_EQ(answer.gap.empty(), bound == 0.0 && length > 0.0);
+  if (!answer.gap.empty()) {
+    EXPECT_GE(std::stod(answer.gap), 0.0);
+  }
+  EXPECT_EQ(answer.optimal, length - bound <= rounding * length);
 }
 
 Outcome Matrix::ask(const std::vector<std::string>& arguments) {

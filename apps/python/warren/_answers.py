@@ -59,6 +59,9 @@ class Answer(Pictured):
     verified = told("verified", """Has it a path that an independent judge found free, all along and with all its
         clearance?""")
     optimal = told("optimal", "Is it proved that no shorter path exists?")
+    lower_bound = told("lower_bound", """Proved: no path has less cost or, where that is not told, length; nan where
+        nothing is proved.""")
+    gap = told("gap", "How much more than lower_bound the path costs, as a share of that; nan where nothing is known.")
     path = told("path", """States from start to goal, float64: (n, 2) x, y; (n, 3) x, y, theta; (n, 6) joint angles.
         A read-only view that keeps the answer alive; no rows where there is no path.""")
     length = told("length", "Of the path, of a car its curve, of an arm in radians; nan without a verified path.")

@@ -35,7 +35,7 @@ def keywords_of_stub(name):
     ("verify", "verify", {"world", "path"}, {"map_rules"}),
     ("build", "build", {"world"}, {"map_rules"}),
     ("query", "query", {"keep"}, {"map_rules"}),
-    ("lengths", "query", {"starts", "goals"}, {"map_rules", "start", "goal", "explain"}),
+    ("lengths", "query", {"starts", "goals"}, {"map_rules", "start", "goal", "explain", "bound"}),
     ("compare", "compare", {"world"}, {"map_rules"}),
 ])
 def test_the_keywords_are_the_long_options_of_the_program(program, name, verb, other, without):
