@@ -214,7 +214,7 @@ constexpr NamedGroup option_groups[] = {
     {"Shortening", "--optimise --cusp-cost --reverse-cost"},
     {"Mazes", "--algorithm --loops"},
     {"Outputs",
-     "--output --picture --figures --table --json --no-path --csv --runs --log --html --pictures --report "
+     "--output --picture --figures --curves --table --json --no-path --csv --runs --log --html --pictures --report "
      "--save-roadmap --keep "
      "--explain --show "
      "--heading --size --dpi --title"},
