@@ -53,9 +53,8 @@ struct AnytimeOptions {
   RrtOptions trees;        ///< step, goal bias, most nodes of the tree, seed of everything
   RoadmapOptions roadmap;  ///< but for samples and seed
   std::optional<std::uint64_t> iterations;  ///< turns; none: until something else ends it
-  std::optional<double> gap;   ///< it ends when the cost is at most so much more than the bound, as a share of it
-  double lower_bound = 0.0;    ///< proved at no cost: no path costs less
-  std::size_t kept_paths = 0;  ///< at most so many of the paths that were the best are kept
+  std::optional<double> gap;  ///< it ends when the cost is at most so much more than the bound, as a share of it
+  double lower_bound = 0.0;   ///< proved at no cost: no path costs less
 };
 
 /// What differs from body to body. shortened and length are called from several threads at once.
@@ -66,6 +65,7 @@ struct AnytimeBody {
       shortened;
   std::function<double(const Path<State>&)> length;    ///< as answers have it
   std::function<double(const Path<State>&)> judged_s;  ///< judges a path: the seconds that it took
+  std::function<void(const Path<State>&)> kept;        ///< takes each path that was the best; empty: nobody does
   std::function<double()> lower_bound;  ///< a better one, asked for once there is a path; empty: there is none
 };
 
@@ -74,7 +74,6 @@ struct AnytimeSolution : Solution<State> {
   double cost = std::numeric_limits<double>::infinity();
   double lower_bound = 0.0;               ///< that it knew in the end
   std::vector<Improvement> improvements;  ///< ascending by iterations, falling by cost
-  std::vector<Path<State>> improved;      ///< some of their paths, the oldest first
   std::uint64_t iterations = 0;           ///< turns that were done
   /// optimum, gap, iterations, caller, or the name of a StopReason.
   std::string ended_by;
@@ -182,7 +181,6 @@ class AnytimeSearch {
   void shorten(std::vector<Found>& found, const Execution& execution) const;
   void take(Found& found);
   void tell(std::string_view by);
-  void keep_path();
   void adapt(bool had_path);
 
   Found grow_tree(const Execution& execution);
@@ -332,20 +330,9 @@ void AnytimeSearch<W>::tell(std::string_view by) {
   const std::chrono::duration<double> since = std::chrono::steady_clock::now() - begin_;
   solution_.improvements.push_back({std::max<std::uint64_t>(1, solution_.iterations), since.count(), solution_.cost,
                                     body_.length(solution_.path), std::string(by)});
-  if (options_.kept_paths > 0) keep_path();
+  if (body_.kept) body_.kept(solution_.path);
   if (execution_.on_improvement != nullptr && !(*execution_.on_improvement)(solution_.improvements.back()))
     is_enough_ = true;
-}
-
-/// Where there are too many, every other one goes.
-template <SteerableWorld W>
-void AnytimeSearch<W>::keep_path() {
-  auto& kept = solution_.improved;
-  if (kept.size() == options_.kept_paths) {
-    for (std::size_t i = 0; 2 * i < kept.size(); ++i) kept[i] = std::move(kept[2 * i]);
-    kept.resize((kept.size() + 1) / 2);
-  }
-  kept.push_back(solution_.path);
 }
 
 template <SteerableWorld W>

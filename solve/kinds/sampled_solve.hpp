@@ -229,7 +229,6 @@ class SampledSolve {
     const bool is_endless = !asked.iterations && !asked.gap && execution().seconds_left() > 1e9;
     if (is_endless) options.iterations = usual_iterations;
     if (apart_) options.iterations = std::min<std::uint64_t>(options.iterations.value_or(4), 4);
-    options.kept_paths = request_.keep != nullptr ? 32 : 0;
     return options;
   }
   AnytimeBody<State> body_of_better() {
@@ -241,6 +240,7 @@ class SampledSolve {
     body.length = [this](const Path<State>& path) {
       return path_length(path, [this](const State& a, const State& b) { return body_.length(*world_, a, b); });
     };
+    if (request_.keep != nullptr) body.kept = [this](const Path<State>& path) { keep_improved(path); };
     if (wants_exact_bound()) body.lower_bound = [this] { return bound(BoundEffort::exact); };
     body.judged_s = [this](const Path<State>& path) {
       Answer judged;
@@ -250,6 +250,30 @@ class SampledSolve {
       return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     };
     return body;
+  }
+  /// Where the reference point went; curves as chords.
+  void keep_improved(const Path<State>& path) {
+    constexpr std::size_t pieces = 16;  // a leg of a car
+    PolygonSet& kept = request_.keep->improved;
+    std::vector<Vec2> line;
+    if constexpr (std::is_same_v<State, Vec2>) {
+      line.assign(path.begin(), path.end());
+    } else if constexpr (std::is_same_v<State, Se2>) {
+      line.push_back(path.front().position());
+      for (std::size_t i = 1; i < path.size(); ++i) {
+        for (std::size_t k = 1; k <= pieces; ++k)
+          line.push_back(world_->interpolate(path[i - 1], path[i], static_cast<double>(k) / pieces).position());
+      }
+    }
+    if (line.empty()) return;
+    if (kept.size() == most_improved) {
+      PolygonSet fewer;
+      for (std::size_t i = 0; i < kept.size(); ++i) {
+        if (i % 2 == 0 || i + 1 == kept.size()) fewer.add(kept[i]);
+      }
+      kept = std::move(fewer);
+    }
+    kept.add(line);
   }
   double bound(BoundEffort effort) const {
     const BoundOf measure = Body::has_cost ? BoundOf::metric : BoundOf::length;

@@ -177,13 +177,21 @@ TEST(Anytime, WithoutAWayItSaysThatNoneWasFound) {
   EXPECT_EQ(plan(apart, {}, execution).outcome, Outcome::stopped);
 }
 
-TEST(Anytime, PathsThatAreKeptAreFewAndEndWithTheBest) {
+TEST(Anytime, EachPathIsKeptBeforeItIsTold) {
   const auto problem = sampled_problems::body(3);
-  AnytimeOptions options = turns(12);
-  options.kept_paths = 4;
-  const auto found = plan(problem, options);
-  ASSERT_LE(found.improved.size(), 4U);
-  EXPECT_EQ(problem.length(found.improved.back()), found.cost);
+  auto body = body_of(problem);
+  std::vector<double> kept;
+  body.kept = [&](const Path<Se2>& path) { kept.push_back(problem.length(path)); };
+  std::vector<double> told;
+  const std::function<bool(const Improvement&)> tell = [&](const Improvement& improvement) {
+    told.push_back(improvement.cost);
+    return kept == told;
+  };
+  Execution execution;
+  execution.on_improvement = &tell;
+  const auto found = anytime(problem.world, problem.start, std::span(&problem.goal, 1), turns(12), body, execution);
+  EXPECT_EQ(found.ended_by, "iterations");
+  EXPECT_EQ(kept, told);
 }
 
 }  // namespace
