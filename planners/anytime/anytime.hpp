@@ -329,7 +329,7 @@ template <SteerableWorld W>
 void AnytimeSearch<W>::tell(std::string_view by) {
   const std::chrono::duration<double> since = std::chrono::steady_clock::now() - begin_;
   solution_.improvements.push_back({std::max<std::uint64_t>(1, solution_.iterations), since.count(), solution_.cost,
-                                    body_.length(solution_.path), std::string(by)});
+                                    body_.length(solution_.path), std::string(by), solution_.lower_bound});
   if (body_.kept) body_.kept(solution_.path);
   if (execution_.on_improvement != nullptr && !(*execution_.on_improvement)(solution_.improvements.back()))
     is_enough_ = true;
