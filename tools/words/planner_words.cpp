@@ -20,9 +20,9 @@ constexpr OptionSpec planner_specs[] = {
      "(default: prm on a lattice, else lazy-prm)",
      "prm lazy-prm"},
     {"--sampler", "NAME",
-     "how samples are placed: all over the world (uniform, halton, random), in the middles of cells (lattice, "
-     "cell-centres), along obstacles (gaussian), in narrow gaps (bridge), mixed of these (mixture), or in the middles "
-     "of a map's corridors (corridor). Default: lattice in mazes, cell-centres on maps whose corridors are a cell "
+     "how samples are placed. uniform, halton, random: all over the world; lattice, cell-centres: in the middles of "
+     "cells; gaussian: along obstacles; bridge: in narrow gaps; mixture: half uniform, half these two; corridor: along "
+     "the middles of a map's corridors. Default: lattice in mazes, cell-centres on maps whose corridors are a cell "
      "wide, "
      "else uniform",
      choices_of<SamplerKind>},
