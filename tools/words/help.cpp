@@ -140,9 +140,8 @@ std::string program_help() {
     }
   }
   return text +
-         "\n'warren help COMMAND' lists the options of a command, 'warren help WORD' explains an option, or a word "
-         "that "
-         "you\nknow from elsewhere, and 'warren help all' prints everything. Try:\n\n"
+         "\n'warren help COMMAND' lists the options of a command, 'warren help WORD' explains an option, or a word\n"
+         "that you know from elsewhere, and 'warren help all' prints everything. Try:\n\n"
          "  warren example parking-lot                  writes a world to try things on\n"
          "  warren solve maze:41x41 --picture maze.svg  makes a maze, solves it and draws it\n\n"
          "Exit codes: 0 success, 1 no path or refuted, 2 wrong options, 65 bad data, 66 unreadable input, 70 bug,\n"

@@ -23,8 +23,7 @@ constexpr OptionSpec planner_specs[] = {
      "how samples are placed. uniform, halton, random: all over the world; lattice, cell-centres: in the middles of "
      "cells; gaussian: along obstacles; bridge: in narrow gaps; mixture: half uniform, half these two; corridor: along "
      "the middles of a map's corridors. Default: lattice in mazes, cell-centres on maps whose corridors are a cell "
-     "wide, "
-     "else uniform",
+     "wide, else uniform",
      choices_of<SamplerKind>},
     {"--samples", "N|auto",
      "how many samples to draw; auto: more and more, until start and goal are joined (default: auto)"},
