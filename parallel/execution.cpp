@@ -135,6 +135,11 @@ std::optional<StopReason> Deadline::reached() const noexcept {
   return std::nullopt;
 }
 
+double Deadline::seconds_left() const noexcept {
+  if (!end_) return std::numeric_limits<double>::infinity();
+  return std::max(0.0, std::chrono::duration<double>(*end_ - Clock::now()).count());
+}
+
 void Deadline::reserve(std::size_t bytes) const {
   check();
   if (memory_bytes_ == std::numeric_limits<std::size_t>::max()) return;

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 
@@ -51,6 +52,8 @@ class Deadline {
   /// system takes 6 us, so a 64th of what was left when it was last asked is granted without.
   void reserve(std::size_t bytes) const;
 
+  /// Seconds that are left, at least 0; infinity: no limit.
+  double seconds_left() const noexcept;
   /// What the process may hold in all.
   std::size_t memory_bytes() const { return memory_bytes_; }
 
@@ -107,10 +110,16 @@ struct Execution {
   Progress* progress = nullptr;        ///< nullptr: nobody watches
   Trace* trace = nullptr;              ///< nullptr: nobody records
   StageAccount* account = nullptr;     ///< nullptr: nobody asks what a stage costs
+  /// Told of each better path, on the thread that called, by planners that get better with time; false: enough.
+  const std::function<bool(const Improvement&)>* on_improvement = nullptr;
 
   /// Throws Stopped if it is time to stop.
   void check() const {
     if (deadline != nullptr) deadline->check();
+  }
+  /// Seconds that are left, at least 0; infinity: no limit.
+  double seconds_left() const noexcept {
+    return deadline != nullptr ? deadline->seconds_left() : std::numeric_limits<double>::infinity();
   }
   /// Is it time to stop?
   bool should_stop() const noexcept { return deadline != nullptr && deadline->reached().has_value(); }

@@ -2,6 +2,7 @@
 // The account of one solve: the answer, what it means, and what it took. Plain data; write_answer_io.hpp writes it.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -18,6 +19,7 @@
 #include "solve/question/figure.hpp"
 #include "solve/question/question.hpp"
 #include "verify/judges/verification.hpp"
+#include "verify/judges/verify_bound.hpp"
 
 namespace warren {
 // What became of the work of a solve beyond what its answer tells anyhow: which stage lost what, where it is narrow,
@@ -121,7 +123,7 @@ struct HandedPath {
 /// What solve() found: an outcome, a verified path where there is one, and the account of the work.
 struct Answer {
   Outcome outcome = Outcome::stopped;     ///< how it ended
-  std::optional<StopReason> stop_reason;  ///< only for stopped
+  std::optional<StopReason> stop_reason;  ///< of stopped, and of planners that get better until they are stopped
   bool verified = false;                  ///< has it a path that a judge found free, with all its clearance?
   std::optional<BlockedEnd> blocked;      ///< where solve() was asked, not in studies
   std::optional<Explanation> explained;   ///< where explain_answer() was asked
@@ -130,16 +132,20 @@ struct Answer {
   double min_clearance = 0.0;             ///< room around the body along the path
   std::optional<double> raw_length;       ///< before it was pulled taut
   bool optimal = false;                   ///< proved: no shorter path exists
-  std::optional<double> cost;             ///< in the planner's own units, where that is not the length
-  std::optional<double> turn_rad;         ///< all turning along the path, of bodies that turn
-  Problem problem;                        ///< what was asked, with what the world's file and the defaults add
-  WorldAccount world;                     ///< of which world
-  std::string planner;                    ///< who found it: "prm", "rrt-connect", …
-  std::string pipeline;                   ///< plain, tiled or streamed; only for prm
-  std::string sampler;                    ///< empty: the planner has none
-  std::string search;                     ///< empty: the planner has none
-  std::uint64_t seed = 1;                 ///< of all that was random
-  unsigned threads = 1;                   ///< that worked
+  std::optional<double> lower_bound;      ///< proved: no path has less cost or, where that is not told, length
+  std::vector<Improvement> improvements;  ///< of planners that get better with time: each path that was the best so far
+  std::optional<std::uint64_t> iterations;  ///< the turns that these have done: as many give the same answer
+  std::string ended_by;        ///< of these: optimum, gap, iterations, caller, or as stop_reason; empty: of the others
+  std::optional<double> cost;  ///< in the planner's own units, where that is not the length
+  std::optional<double> turn_rad;    ///< all turning along the path, of bodies that turn
+  Problem problem;                   ///< what was asked, with what the world's file and the defaults add
+  WorldAccount world;                ///< of which world
+  std::string planner;               ///< who found it: "prm", "rrt-connect", …
+  std::string pipeline;              ///< plain, tiled or streamed; only for prm
+  std::string sampler;               ///< empty: the planner has none
+  std::string search;                ///< empty: the planner has none
+  std::uint64_t seed = 1;            ///< of all that was random
+  unsigned threads = 1;              ///< that worked
   std::vector<NamedFigure> options;  ///< those that were given, and those that were chosen where that tells something
   RoadmapSize roadmap;               ///< that was searched
   std::optional<CellCount> cells;    ///< of planners that make some
@@ -157,6 +163,14 @@ struct Answer {
   bool tells_path = true;            ///< does JSON list the path's states, or only their number and hash?
 };
 
+/// How much more than the lower bound the path costs, as a share of that; none where either is not known.
+inline std::optional<double> gap_of(const Answer& answer) {
+  if (!answer.verified || !answer.lower_bound) return std::nullopt;
+  const double cost = answer.cost.value_or(answer.length);
+  if (!(*answer.lower_bound > 0.0)) return cost > 0.0 ? std::nullopt : std::optional(0.0);
+  return std::max(0.0, cost / *answer.lower_bound - 1.0);
+}
+
 /// The number of the path's states, wherever they are.
 inline std::uint64_t path_points(const Answer& answer) {
   if (answer.handed) return answer.handed->points;
@@ -169,7 +183,8 @@ std::vector<std::pair<const char*, double>> named_stages(const StageTimes& secon
 /// What a judge says of a path, and about which question: the members of Verification (verified, length, min_clearance
 /// around the body, first_violation, …) and the problem that was judged.
 struct Verdict : Verification {
-  Problem problem;  ///< that was judged
+  Problem problem;                            ///< that was judged
+  BoundVerdict bound = BoundVerdict::absent;  ///< of the lower bound that the answer claims
 };
 
 }  // namespace warren

@@ -44,8 +44,9 @@ constexpr std::array links{
          }},
     Link{"optimise", "pulled taut"},
     Link{"verify", "verified", path_points, [](const Answer&) { return std::string("points"); }},
+    Link{"bound", "lower bound"},
 };
-constexpr std::size_t first_of_the_end = links.size() - 2;
+constexpr std::size_t first_of_the_end = links.size() - 3;
 
 std::size_t place_of(std::string_view key) {
   const auto at = std::find_if(links.begin(), links.end(), [&](const Link& link) { return link.key == key; });

@@ -113,19 +113,47 @@ std::string blocked_json(const BlockedEnd& blocked) {
   return json.closed();
 }
 
+std::string improvements_json(const Answer& answer) {
+  std::string text = "[";
+  for (const Improvement& improvement : answer.improvements) {
+    JsonObject json;
+    json.add("iterations", improvement.iterations);
+    json.add("seconds", improvement.seconds);
+    json.add("length", improvement.length);
+    if (answer.cost) json.add("cost", improvement.cost);
+    json.add("by", improvement.by);
+    text.append(text.size() > 1 ? ", " : "").append(json.closed());
+  }
+  return text + "]";
+}
+
+/// How good the path is, as far as that is proved, and how it came to be.
+void add_quality(JsonObject& json, const Answer& answer) {
+  if (answer.optimal) json.add("optimal", true);
+  if (answer.cost) json.add("cost", *answer.cost);
+  if (answer.lower_bound) json.add("lower_bound", *answer.lower_bound);
+  if (const auto gap = gap_of(answer)) json.add("gap", *gap);
+  if (answer.turn_rad) json.add("turn_rad", *answer.turn_rad);
+  if (!answer.iterations) return;
+  json.add("iterations", *answer.iterations);
+  json.add_json("improvements", improvements_json(answer));
+}
+
 void add_outcome(JsonObject& json, const Answer& answer) {
   json.add("schema", "warren.answer/1");
   json.add("warren_version", WARREN_VERSION);
   json.add("status", answer.refuted ? "refuted" : name_of(answer.outcome));
-  if (answer.stop_reason) json.add("stopped_by", name_of(*answer.stop_reason));
+  if (answer.stop_reason) {
+    json.add("stopped_by", name_of(*answer.stop_reason));
+  } else if (!answer.ended_by.empty()) {
+    json.add("stopped_by", answer.ended_by);
+  }
   json.add("verified", answer.verified);
   json.add_or_null("length", answer.verified, answer.length);
   json.add_or_null("min_clearance", answer.verified, answer.min_clearance);
   json.add_or_null("raw_length", answer.raw_length.has_value(), answer.raw_length.value_or(0.0));
   if (answer.blocked) json.add_json("blocked", blocked_json(*answer.blocked));
-  if (answer.optimal) json.add("optimal", true);
-  if (answer.cost) json.add("cost", *answer.cost);
-  if (answer.turn_rad) json.add("turn_rad", *answer.turn_rad);
+  add_quality(json, answer);
 }
 
 /// A world that was never read leaves the problem open.

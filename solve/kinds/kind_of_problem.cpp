@@ -114,6 +114,13 @@ const SolveKind& first_kind(const std::vector<const SolveKind*>& fitting) {
   return **found;
 }
 
+/// Who names how good the path shall be, or how long it is worked on, asks for a planner that gets better.
+PlannerKind usual_planner_of(const SolveKind& kind, const SolveOptions& options, const Scene& scene,
+                             const Question& question) {
+  const bool wants_better = options.anytime.gap || options.anytime.iterations || !options.anytime.parts.empty();
+  return wants_better ? PlannerKind::anytime : kind.usual_planner(options, scene, question);
+}
+
 /// Only maps have corridors and cells that are known.
 void check_corridors(const SolveOptions& options, const Scene& scene) {
   const auto asked = options.sampler;
@@ -158,7 +165,7 @@ ChosenSolver choose_solver(const SolveOptions& options, const Scene& scene, cons
   const std::vector<const SolveKind*> fitting = fitting_kinds(scene, robot_of(scene, question));
   const SolveKind& first = first_kind(fitting);
   const std::optional<PlannerKind> asked = options.planner;
-  ChosenSolver chosen{&first, asked ? *asked : first.usual_planner(options, scene, question)};
+  ChosenSolver chosen{&first, asked ? *asked : usual_planner_of(first, options, scene, question)};
   const auto has_it = [&](const SolveKind* kind) { return choice_in(*kind, chosen.planner) != nullptr; };
   const auto found = std::find_if(fitting.begin(), fitting.end(), has_it);
   if (found == fitting.end()) refuse_planner(chosen.planner, fitting);

@@ -7,6 +7,7 @@ template PlannersOf<ArmWorld>::Roadmap prm<ArmWorld>;
 template PlannersOf<ArmWorld>::Roadmap lazy_prm<ArmWorld>;
 template PlannersOf<ArmWorld>::Trees rrt<ArmWorld>;
 template PlannersOf<ArmWorld>::Trees rrt_connect<ArmWorld>;
+template PlannersOf<ArmWorld>::Better anytime<ArmWorld>;
 template PlannersOf<ArmWorld>::Ask ask_roadmap<ArmWorld>;
 template PlannersOf<ArmWorld>::Build build_roadmap<ArmWorld>;
 

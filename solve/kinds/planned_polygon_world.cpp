@@ -5,6 +5,9 @@ namespace warren {
 
 template PlannersOf<PolygonWorld>::Roadmap prm<PolygonWorld>;
 template PlannersOf<PolygonWorld>::Roadmap lazy_prm<PolygonWorld>;
+template PlannersOf<PolygonWorld>::Trees rrt<PolygonWorld>;
+template PlannersOf<PolygonWorld>::Trees rrt_connect<PolygonWorld>;
+template PlannersOf<PolygonWorld>::Better anytime<PolygonWorld>;
 template PlannersOf<PolygonWorld>::Ask ask_roadmap<PolygonWorld>;
 template PlannersOf<PolygonWorld>::Build build_roadmap<PolygonWorld>;
 

@@ -6,7 +6,8 @@
 //
 // A Body is what differs:
 //   World, and State = World::State
-//   has_trees                              does rrt take its world?
+//   has_cost                               do planners that get better make another measure small than the length?
+//   improved(world, path, how, execution, counters)   the path with less cost, on any thread
 //   problem()                              as the answer repeats it
 //   start(), goals(world)                  all states that will do as the goal; of those that are too many, free ones
 //   knows_all_goals(), goals_tried()       where it has no goal: is there none, and else how many were tried?
@@ -26,9 +27,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <limits>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -38,10 +40,13 @@
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
 #include "core/base/solution.hpp"
+#include "planners/anytime/anytime.hpp"
 #include "planners/graph/roadmap_options.hpp"
+#include "planners/shorten/shortcut.hpp"
 #include "planners/trees/through_way_points.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
+#include "solve/kinds/lower_bound.hpp"
 #include "solve/kinds/planned_worlds.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/question/planner_choice.hpp"
@@ -50,8 +55,8 @@
 namespace warren {
 /// What most bodies of sampled_solve.hpp and sampled_roadmap.hpp have in common.
 struct UsualBody {
-  static constexpr bool has_trees = true;
   static constexpr bool names_pipeline = false;
+  static constexpr bool has_cost = false;         ///< is what the planners make small another measure than the length?
   static constexpr bool judged_by_index = false;  ///< does its judge take an ObstacleIndex?
   static constexpr std::string_view noun = "body";
   static constexpr std::optional<SamplerKind> tree_sampler = std::nullopt;
@@ -59,6 +64,14 @@ struct UsualBody {
   template <class World, class State>
   static std::vector<State> best_first(const World&, const std::vector<State>& goals) {
     return goals;
+  }
+  template <class World>
+  static Path<typename World::State> improved(const World& world, const Path<typename World::State>& path,
+                                              const ImproveOptions& how, const Execution& execution,
+                                              Counters& counters) {
+    using State = typename World::State;
+    const auto cost = [&](const State& a, const State& b) { return world.distance(a, b); };
+    return improve_path(world, path, cost, how, execution, counters);
   }
   static std::uint64_t goals_tried() { return 0; }
   static bool knows_all_goals() { return true; }
@@ -78,11 +91,17 @@ class SampledSolve {
   using World = typename Body::World;
   using State = typename World::State;
 
-  /// Throws UsageError. Refers to the request.
-  SampledSolve(const SolveRequest& request, Body body) : request_(request), body_(std::move(body)) {
+  /// Throws UsageError. Refers to the request. `own`, of planners that get better: the execution of the request, whose
+  /// limits end with the search, so that its path is judged.
+  SampledSolve(const SolveRequest& request, Body body, Execution* own = nullptr)
+      : request_(request), own_(own), body_(std::move(body)) {
     answer_.problem = body_.problem();
     answer_.planner = name_of(request.planner);
-    by_roadmap() ? describe_roadmap() : describe_trees();
+    if (gets_better(request.planner)) {
+      describe_better();
+    } else {
+      by_roadmap() ? describe_roadmap() : describe_trees();
+    }
     answer_.options = given_figures(request.options);
   }
 
@@ -95,7 +114,7 @@ class SampledSolve {
                                                      : Outcome::not_connected;
       } else if (!ends_touch()) {
         bound_growth();
-        by_roadmap() ? plan_roadmaps() : plan_trees();
+        plan();
         settle_ends();
       }
       finish();
@@ -105,6 +124,10 @@ class SampledSolve {
 
  private:
   const Execution& execution() const { return request_.execution; }
+  void plan() {
+    if (gets_better(request_.planner)) return plan_better();
+    by_roadmap() ? plan_roadmaps() : plan_trees();
+  }
   bool by_roadmap() const { return is_roadmap_planner(request_.planner); }
   void describe_roadmap() {
     const PlannerOptions options = planner_options(request_.options, request_.scene, WallProblem{});
@@ -115,6 +138,16 @@ class SampledSolve {
     answer_.sampler = name_of(roadmap_options_.sampler);
     answer_.search = name_of(roadmap_options_.search);
     answer_.seed = roadmap_options_.seed;
+  }
+  /// rrt-star is the textbook's; what anytime draws is its own business.
+  void describe_better() {
+    tree_options_ = tree_options(request_.options);
+    tree_options_.nodes = request_.options.trees.nodes.value_or(std::uint64_t{1} << 24U);
+    if (!tree_options_.sampler) tree_options_.sampler = body_.tree_sampler;
+    roadmap_options_.seed = request_.options.seed;
+    roadmap_options_.sampler = body_.choose_sampler(request_.options, roadmap_options_);
+    roadmap_options_.attach = body_.attach(request_.options);
+    answer_.seed = tree_options_.seed;
   }
   void describe_trees() {
     tree_options_ = tree_options(request_.options);
@@ -176,6 +209,107 @@ class SampledSolve {
       return planner(*world_, body_.start(), goal, roadmap_options_, execution(), kept());
     }
   }
+  AnytimeOptions better_options() const {
+    constexpr std::uint64_t usual_iterations = 20;
+    const AnytimeFields& asked = request_.options.anytime;
+    AnytimeOptions options;
+    options.trees = tree_options_;
+    options.roadmap = roadmap_options_;
+    options.informed = request_.planner != PlannerKind::rrt_star;
+    const auto has = [&](AnytimePart part) {
+      return asked.parts.empty() || std::find(asked.parts.begin(), asked.parts.end(), part) != asked.parts.end();
+    };
+    const bool whole = request_.planner == PlannerKind::anytime;
+    options.parts = {.tree = !whole || has(AnytimePart::tree),
+                     .restarts = whole && has(AnytimePart::restarts),
+                     .roadmap = whole && has(AnytimePart::roadmap),
+                     .shorten = whole && has(AnytimePart::shorten)};
+    options.iterations = asked.iterations;
+    options.gap = asked.gap;
+    const bool is_endless = !asked.iterations && !asked.gap && execution().seconds_left() > 1e9;
+    if (is_endless) options.iterations = usual_iterations;
+    if (apart_) options.iterations = std::min<std::uint64_t>(options.iterations.value_or(4), 4);
+    return options;
+  }
+  AnytimeBody<State> body_of_better() {
+    AnytimeBody<State> body;
+    body.shortened = [this](const Path<State>& path, double hopeless, std::uint64_t seed, const Execution& on,
+                            Counters& counters) {
+      return body_.improved(*world_, path, {.seed = seed, .hopeless = hopeless}, on, counters);
+    };
+    body.length = [this](const Path<State>& path) {
+      return path_length(path, [this](const State& a, const State& b) { return body_.length(*world_, a, b); });
+    };
+    if (request_.keep != nullptr) body.kept = [this](const Path<State>& path) { keep_improved(path); };
+    if (wants_exact_bound()) body.lower_bound = [this] { return bound(BoundEffort::exact); };
+    body.judged_s = [this](const Path<State>& path) {
+      Answer judged;
+      judged.outcome = Outcome::solved;
+      const auto begin = std::chrono::steady_clock::now();
+      body_.judge(*world_, Path<State>(path), judged);
+      return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    };
+    return body;
+  }
+  /// Where the reference point went; curves as chords.
+  void keep_improved(const Path<State>& path) {
+    constexpr std::size_t pieces = 16;  // a leg of a car
+    PolygonSet& kept = request_.keep->improved;
+    std::vector<Vec2> line;
+    if constexpr (std::is_same_v<State, Vec2>) {
+      line.assign(path.begin(), path.end());
+    } else if constexpr (std::is_same_v<State, Se2>) {
+      line.push_back(path.front().position());
+      for (std::size_t i = 1; i < path.size(); ++i) {
+        for (std::size_t k = 1; k <= pieces; ++k)
+          line.push_back(world_->interpolate(path[i - 1], path[i], static_cast<double>(k) / pieces).position());
+      }
+    }
+    if (line.empty()) return;
+    if (kept.size() == most_improved) {
+      PolygonSet fewer;
+      for (std::size_t i = 0; i < kept.size(); ++i) {
+        if (i % 2 == 0 || i + 1 == kept.size()) fewer.add(kept[i]);
+      }
+      kept = std::move(fewer);
+    }
+    kept.add(line);
+  }
+  double bound(BoundEffort effort) const {
+    const BoundOf measure = Body::has_cost ? BoundOf::metric : BoundOf::length;
+    return proved_bound(request_.scene, answer_.problem, measure, effort, execution());
+  }
+  /// Of planners that nobody asks how good they are, where it takes little.
+  bool wants_exact_bound() const {
+    constexpr std::size_t few = 2'000;
+    const bool is_small = request_.scene.polygons.size() + request_.scene.walls.size() <= few && !request_.scene.map;
+    return request_.options.bound || request_.options.anytime.gap || is_small;
+  }
+  /// What ends the search does not end the work: its path is judged and told in the memory that there is.
+  void plan_better() {
+    std::vector<State> goals = detail::free_states(*world_, std::span<const State>(goals_));
+    auto query = world_->make_query();
+    if (const bool is_free = world_->is_free(body_.start(), query); !is_free || goals.empty()) {
+      answer_.outcome = is_free ? Outcome::goal_blocked : Outcome::start_blocked;
+      return;
+    }
+    AnytimeOptions options = better_options();
+    options.lower_bound = bound(BoundEffort::simple);
+    AnytimeSolution<State> found =
+        anytime(*world_, State(body_.start()), std::span<const State>(goals), options, body_of_better(), execution());
+    answer_.lower_bound = found.lower_bound;
+    answer_.improvements = std::move(found.improvements);
+    answer_.iterations = found.iterations;
+    answer_.ended_by = found.ended_by;
+    answer_.optimal = found.ended_by == "optimum";
+    const bool is_stopped = enum_named<StopReason>(found.ended_by).has_value();
+    if (is_stopped) answer_.stop_reason = found.stop_reason;
+    if (is_stopped && own_ != nullptr && own_->deadline != nullptr) {
+      last_.emplace(std::numeric_limits<double>::infinity(), own_->deadline->memory_bytes());
+      own_->deadline = &*last_;
+    }
+    take(std::move(found));
+  }
   void plan_trees() { take(grow_through_stops()); }
   Solution<State> grow_through_stops() {
     const auto plan = [&](const State& start, std::span<const State> goals, std::size_t) {
@@ -184,12 +318,8 @@ class SampledSolve {
     return plan_through<State>(body_.start(), stops(), plan);
   }
   Solution<State> grow_trees(const State& start, std::span<const State> goals) {
-    if constexpr (Body::has_trees) {
-      const auto planner = request_.planner == PlannerKind::rrt ? rrt<World> : rrt_connect<World>;
-      return planner(*world_, start, goals, tree_options_, execution(), kept());
-    } else {
-      throw std::logic_error("this body has no trees");
-    }
+    const auto planner = request_.planner == PlannerKind::rrt ? rrt<World> : rrt_connect<World>;
+    return planner(*world_, start, goals, tree_options_, execution(), kept());
   }
   /// Way-points and goal, each as the states that will do.
   std::vector<std::vector<State>> stops() const {
@@ -282,7 +412,13 @@ class SampledSolve {
           path_length(path_, [this](const State& a, const State& b) { return body_.length(*world_, a, b); });
       path_ = body_.shortened(*world_, std::move(path_), answer_);
     }
+    const std::optional<double> cost = cost_of_better();
     body_.judge(*world_, std::move(path_), answer_);
+    answer_.cost = cost;
+  }
+  std::optional<double> cost_of_better() const {
+    if (!Body::has_cost || !gets_better(request_.planner)) return std::nullopt;
+    return path_length(path_, [this](const State& a, const State& b) { return world_->distance(a, b); });
   }
   /// Why there is no path, one word a cause.
   std::string_view cause() const {
@@ -294,6 +430,8 @@ class SampledSolve {
   }
 
   const SolveRequest& request_;
+  Execution* own_;
+  std::optional<Deadline> last_;  // without the time
   Body body_;
   RoadmapOptions roadmap_options_;  // of prm and lazy-prm
   RrtOptions tree_options_;         // of the others
@@ -309,7 +447,10 @@ class SampledSolve {
 /// SolveKind::solve for a body.
 template <class Body>
 Answer solve_sampled(const SolveRequest& request) {
-  return SampledSolve(request, Body(request)).run();
+  if (!gets_better(request.planner)) return SampledSolve(request, Body(request)).run();
+  Execution execution = request.execution;
+  SolveRequest own{request.options, request.scene, request.question, request.planner, execution, request.keep};
+  return SampledSolve(own, Body(own), &execution).run();
 }
 
 }  // namespace warren

@@ -117,11 +117,15 @@ class Car : public PoseBody {
   CarFields asked_;
 };
 
-constexpr OptionSet curve_options{Option::steering, Option::turning_radius, Option::cusp_cost, Option::reverse_cost};
+constexpr OptionSet shape_options{Option::steering, Option::turning_radius};
+constexpr OptionSet curve_options = shape_options | OptionSet{Option::cusp_cost, Option::reverse_cost};
 constexpr PlannerChoice car_planners[] = {{PlannerKind::rrt_connect, rrt_connect_options | curve_options},
                                           {PlannerKind::rrt, rrt_options | curve_options},
                                           {PlannerKind::prm, prm_takes | curve_options},
-                                          {PlannerKind::lazy_prm, lazy_prm_takes | curve_options}};
+                                          {PlannerKind::lazy_prm, lazy_prm_takes | curve_options},
+                                          {PlannerKind::rrt_star, rrt_star_options | shape_options},
+                                          {PlannerKind::informed_rrt_star, rrt_star_options | shape_options},
+                                          {PlannerKind::anytime, anytime_options | shape_options}};
 
 bool fits_car(const Scene&, const RobotSpec& robot) { return robot.kind == RobotKind::car; }
 

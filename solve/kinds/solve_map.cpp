@@ -309,7 +309,10 @@ constexpr PlannerChoice occupancy_planners[] = {
     {PlannerKind::lazy_prm, lazy_prm_takes | point_takes},
     {PlannerKind::rrt, rrt_options},
     {PlannerKind::rrt_connect, rrt_connect_options},
-    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue}}};
+    {PlannerKind::rrt_star, rrt_star_options},
+    {PlannerKind::informed_rrt_star, rrt_star_options},
+    {PlannerKind::anytime, anytime_options},
+    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound}}};
 
 bool fits_occupancy(const Scene& scene, const RobotSpec& robot) {
   return scene.map && (robot.kind == RobotKind::point || robot.kind == RobotKind::disc);

@@ -90,10 +90,15 @@ NamedLines lines_of(const MedialAxis& axis) {
 constexpr PlannerChoice plane_planners[] = {
     {PlannerKind::prm, plane_takes},
     {PlannerKind::lazy_prm, plane_takes},
+    {PlannerKind::rrt, rrt_options},
+    {PlannerKind::rrt_connect, rrt_connect_options},
+    {PlannerKind::rrt_star, rrt_star_options},
+    {PlannerKind::informed_rrt_star, rrt_star_options},
+    {PlannerKind::anytime, anytime_options},
     {PlannerKind::visibility,
-     OptionSet{Option::full, Option::lazy, Option::sampled_edges, Option::search, Option::queue}},
-    {PlannerKind::cells, OptionSet{Option::doors, Option::search, Option::queue}},
-    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue}}};
+     OptionSet{Option::full, Option::lazy, Option::sampled_edges, Option::search, Option::queue, Option::bound}},
+    {PlannerKind::cells, OptionSet{Option::doors, Option::search, Option::queue, Option::bound}},
+    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound}}};
 
 bool fits_plane(const Scene&, const RobotSpec& robot) {
   return robot.kind == RobotKind::point || robot.kind == RobotKind::disc;
@@ -105,11 +110,10 @@ PlannerKind usual_plane_planner(const SolveOptions&, const Scene& scene, const Q
   return reach > 0.0 || question.contact == Contact::blocked ? PlannerKind::lazy_prm : PlannerKind::visibility;
 }
 
-/// For prm and lazy-prm.
+/// For all planners that sample.
 class PointAmongPolygons : public UsualBody {
  public:
   using World = PolygonWorld;
-  static constexpr bool has_trees = false;
   static constexpr bool names_pipeline = true;
   static constexpr bool judged_by_index = true;
 
@@ -117,12 +121,16 @@ class PointAmongPolygons : public UsualBody {
       : scene_(request.scene),
         execution_(request.execution),
         judged_(request.asked.judged()),
-        problem_(keeping_off(request.scene, request.question, "prm and lazy-prm keep off the walls")) {}
+        problem_(keeping_off(request.scene, request.question,
+                             fmt::format("{} keeps off the walls", name_of(request.planner)))) {}
 
   Problem problem() const { return problem_.general(); }
   Vec2 start() const { return problem_.start; }
   std::vector<Vec2> goals(const World&) const { return {problem_.goal}; }
-  std::vector<Vec2> stop_at(const std::vector<double>&) const { return {}; }
+  static std::vector<Vec2> stop_at(const std::vector<double>& point) {
+    if (point.size() != 2) throw UsageError("@via: a point or disc takes X,Y");
+    return {{point[0], point[1]}};
+  }
   static SamplerKind choose_sampler(const SolveOptions&, const RoadmapOptions& roadmap) { return roadmap.sampler; }
   void index(std::optional<World>& world, SamplerKind) const { world.emplace(scene_, problem_.reach(), execution_); }
   static bool provably_apart(const World&, const std::vector<Vec2>&) { return false; }
@@ -131,6 +139,10 @@ class PointAmongPolygons : public UsualBody {
   static double length(const World&, Vec2 a, Vec2 b) { return World::distance(a, b); }
   Path<Vec2> shortened(const World& world, const Path<Vec2>& path, Answer&) const {
     return taut_path(world.sides(), path, world.planning_clearance(), execution_);
+  }
+  static Path<Vec2> improved(const World& world, const Path<Vec2>& path, const ImproveOptions&,
+                             const Execution& execution, Counters&) {
+    return taut_path(world.sides(), path, world.planning_clearance(), execution);
   }
   void judge(const World&, Path<Vec2> path, Answer& answer) const {
     answer.path = std::move(path);
@@ -153,7 +165,7 @@ Answer solve_plane(const SolveRequest& request) {
     case PlannerKind::voronoi:
       return solve_on_medial_axis(request);
     default:
-      return SampledSolve(request, PointAmongPolygons(request)).run();
+      return solve_sampled<PointAmongPolygons>(request);
   }
 }
 

@@ -26,6 +26,7 @@ namespace {
 class TurningPolygon : public PoseBody {
  public:
   using World = Se2World;
+  static constexpr bool has_cost = true;
 
   explicit TurningPolygon(const SolveRequest& request)
       : PoseBody(request, pose_problem(request.scene, request.question, turning_body)) {}
@@ -50,7 +51,10 @@ class TurningPolygon : public PoseBody {
 constexpr PlannerChoice turning_planners[] = {{PlannerKind::rrt_connect, rrt_connect_options},
                                               {PlannerKind::rrt, rrt_options},
                                               {PlannerKind::prm, prm_takes},
-                                              {PlannerKind::lazy_prm, lazy_prm_takes}};
+                                              {PlannerKind::lazy_prm, lazy_prm_takes},
+                                              {PlannerKind::rrt_star, rrt_star_options},
+                                              {PlannerKind::informed_rrt_star, rrt_star_options},
+                                              {PlannerKind::anytime, anytime_options}};
 
 bool fits_turning(const Scene&, const RobotSpec& robot) { return robot.kind == RobotKind::polygon; }
 
@@ -59,7 +63,7 @@ bool fits_turning(const Scene&, const RobotSpec& robot) { return robot.kind == R
 // another, the body turns when it is there. A body that fits only in some headings is not found a way: not_connected.
 
 constexpr PlannerChoice turning_axis_planners[] = {
-    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue}}};
+    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound}}};
 
 /// The same question for the disc that holds the body.
 Question question_of_disc(const PoseProblem& problem) {

@@ -40,6 +40,8 @@ LimitedExecution::LimitedExecution(const Limits& limits)
     : deadline_(seconds_of(limits), limits.memory.value_or(available_bytes()), limits.cancel) {
   execution_.threads = threads_of(limits);
   execution_.deadline = &deadline_;
+  on_improvement_ = limits.on_improvement;
+  if (on_improvement_) execution_.on_improvement = &on_improvement_;
   if (!limits.progress) return;
   execution_.progress = &progress_;
   reporter_ = std::make_unique<Reporter>(progress_, limits.progress);

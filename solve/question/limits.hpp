@@ -33,6 +33,9 @@ struct Limits {
   std::optional<std::size_t> memory = {};                    ///< bytes that the process may hold; none: all there is
   const SignalFlag* cancel = nullptr;                        ///< stops the call as soon as it is not 0
   std::function<void(const ProgressReport&)> progress = {};  ///< called ten times a second, on another thread
+  /// Called with each better path by planners that get better with time, on the thread that called; false ends the
+  /// search with the path that it has.
+  std::function<bool(const Improvement&)> on_improvement = {};
 };
 
 /// The execution that keeps limits; the budget begins with it. Not movable: the execution points into it. Throws
@@ -52,6 +55,7 @@ class LimitedExecution {
   PagePool pages_;  // what one stage leaves is warm for the next
   Deadline deadline_;
   Progress progress_;
+  std::function<bool(const Improvement&)> on_improvement_;
   Execution execution_;
   struct Reporter;
   std::unique_ptr<Reporter> reporter_;  // last: it ends before what it looks at

@@ -66,6 +66,13 @@ Figure option_figure(const std::vector<std::vector<double>>& via) {
   return text;
 }
 
+/// "tree,restarts"
+Figure option_figure(const std::vector<AnytimePart>& parts) {
+  std::string text;
+  for (const AnytimePart part : parts) text.append(text.empty() ? "" : ",").append(name_of(part));
+  return text;
+}
+
 }  // namespace
 
 void SolveOptions::validate() const { visit_options(OptionCheck{}, *this); }

@@ -27,15 +27,32 @@ namespace warren {
 
 /// prm: every edge of a roadmap is checked; lazy_prm: those that a search reaches. visibility, cells: a point among
 /// obstacles, exactly. voronoi: as far from all obstacles as can be. rrt, rrt_connect: trees. grid: cells or a lattice.
-enum class PlannerKind : std::uint8_t { prm, lazy_prm, visibility, cells, voronoi, rrt, rrt_connect, grid };
+/// rrt_star, informed_rrt_star, anytime: get better until they are stopped.
+enum class PlannerKind : std::uint8_t {
+  prm,
+  lazy_prm,
+  visibility,
+  cells,
+  voronoi,
+  rrt,
+  rrt_connect,
+  grid,
+  rrt_star,
+  informed_rrt_star,
+  anytime
+};
 constexpr auto enum_names(PlannerKind) {
-  return std::array<std::string_view, 8>{"prm",     "lazy-prm", "visibility",  "cells",
-                                         "voronoi", "rrt",      "rrt-connect", "grid"};
+  return std::array<std::string_view, 11>{"prm",    "lazy-prm",    "visibility", "cells",    "voronoi",
+                                          "rrt",    "rrt-connect", "grid",       "rrt-star", "informed-rrt-star",
+                                          "anytime"};
 }
 /// In the order of the enumeration.
-inline constexpr PlannerKind all_planners[] = {PlannerKind::prm,         PlannerKind::lazy_prm, PlannerKind::visibility,
-                                               PlannerKind::cells,       PlannerKind::voronoi,  PlannerKind::rrt,
-                                               PlannerKind::rrt_connect, PlannerKind::grid};
+inline constexpr PlannerKind all_planners[] = {PlannerKind::prm,         PlannerKind::lazy_prm,
+                                               PlannerKind::visibility,  PlannerKind::cells,
+                                               PlannerKind::voronoi,     PlannerKind::rrt,
+                                               PlannerKind::rrt_connect, PlannerKind::grid,
+                                               PlannerKind::rrt_star,    PlannerKind::informed_rrt_star,
+                                               PlannerKind::anytime};
 /// Does it search a roadmap of samples?
 constexpr bool is_roadmap_planner(PlannerKind planner) {
   return planner == PlannerKind::prm || planner == PlannerKind::lazy_prm;
@@ -46,6 +63,9 @@ constexpr bool keeps_roadmap(PlannerKind planner) {
   return is_roadmap_planner(planner) || planner == PlannerKind::visibility || planner == PlannerKind::cells ||
          planner == PlannerKind::voronoi;
 }
+
+/// Does it get better until it is stopped?
+constexpr bool gets_better(PlannerKind planner) { return planner >= PlannerKind::rrt_star; }
 
 /// How prm works: stage by stage over the whole world; tile by tile with all stages of a tile in cache; or so that
 /// nothing of a tile is kept but what paths through it need, and its walls neither where they can be made again.
@@ -82,6 +102,19 @@ struct TreeFields {
   std::optional<std::uint64_t> nodes = {};    ///< a tree of so many gives up, 2 .. 2^31; none: 100,000
   std::optional<std::uint32_t> trees = {};    ///< grown independently at once, 1 .. 4096; none: 1
   std::vector<std::vector<double>> via = {};  ///< way-points in their order: 2, 3 or 6 numbers each
+};
+
+/// What takes turns in anytime.
+enum class AnytimePart : std::uint8_t { tree, restarts, roadmap, shorten };
+constexpr auto enum_names(AnytimePart) {
+  return std::array<std::string_view, 4>{"tree", "restarts", "roadmap", "shorten"};
+}
+
+/// Planners that get better until they are stopped.
+struct AnytimeFields {
+  std::optional<std::uint64_t> iterations = {};  ///< they end after so many turns, 1 .. 2^62; none: see the limits
+  std::optional<double> gap = {};       ///< they end where the path costs at most this share more than the bound
+  std::vector<AnytimePart> parts = {};  ///< of anytime; empty: all
 };
 
 /// grid in a scene, and of a body that turns.
@@ -131,6 +164,8 @@ struct SolveOptions {
   std::optional<HeuristicKind> heuristic = {};  ///< of astar on roadmaps of points and discs; none: euclidean
   RoadmapFields roadmap = {};                   ///< of prm and lazy_prm
   TreeFields trees = {};                        ///< of rrt and rrt_connect
+  AnytimeFields anytime = {};                   ///< of planners that get better
+  bool bound = false;                           ///< prove the best lower bound that there is, at a cost of its own
   GridFields grid = {};                         ///< of grid
   CellFields cells = {};                        ///< of cells
   AxisFields axis = {};                         ///< of voronoi
@@ -174,16 +209,20 @@ enum class Option : std::uint8_t {
   reverse_cost,
   attach,
   heuristic,
-  neighbour_index
+  neighbour_index,
+  iterations,
+  gap,
+  parts,
+  bound
 };
 constexpr auto enum_names(Option) {
-  return std::array<std::string_view, 32>{"sampler",   "samples",        "neighbours",    "radius",       "search",
-                                          "queue",     "lazy",           "pipeline",      "optimise",     "cell",
-                                          "angles",    "face_motion",    "step_cost",     "turn_cost",    "diagonal",
-                                          "layers",    "full",           "sampled_edges", "doors",        "objective",
-                                          "step",      "goal_bias",      "nodes",         "trees",        "via",
-                                          "steering",  "turning_radius", "cusp_cost",     "reverse_cost", "attach",
-                                          "heuristic", "neighbour_index"};
+  return std::array<std::string_view, 36>{
+      "sampler",   "samples",         "neighbours",     "radius",    "search",       "queue",
+      "lazy",      "pipeline",        "optimise",       "cell",      "angles",       "face_motion",
+      "step_cost", "turn_cost",       "diagonal",       "layers",    "full",         "sampled_edges",
+      "doors",     "objective",       "step",           "goal_bias", "nodes",        "trees",
+      "via",       "steering",        "turning_radius", "cusp_cost", "reverse_cost", "attach",
+      "heuristic", "neighbour_index", "iterations",     "gap",       "parts",        "bound"};
 }
 /// Enumerators of Option.
 inline constexpr std::size_t option_count = enum_names(Option{}).size();
@@ -210,7 +249,8 @@ class OptionSet {
 };
 /// What a question asks of a roadmap that is there; a roadmap that is kept has none of them.
 inline constexpr OptionSet question_options{Option::search,    Option::queue,        Option::optimise,
-                                            Option::cusp_cost, Option::reverse_cost, Option::heuristic};
+                                            Option::cusp_cost, Option::reverse_cost, Option::heuristic,
+                                            Option::bound};
 /// These, and how an arm is joined to the roadmap.
 inline constexpr OptionSet asked_options = question_options | OptionSet{Option::attach};
 /// How planners work, which roadmaps that are kept don't show.
@@ -244,6 +284,10 @@ void visit_options(const Visit& visit, Of&... of) {
   visit(Option::nodes, {2, most_samples}, of.trees.nodes...);
   visit(Option::trees, {1, most_trees}, of.trees.trees...);
   visit(Option::via, {}, of.trees.via...);
+  visit(Option::iterations, {1, 4'611'686'018'427'387'904}, of.anytime.iterations...);
+  visit(Option::gap, {0, 1e9}, of.anytime.gap...);
+  visit(Option::parts, {}, of.anytime.parts...);
+  visit(Option::bound, {}, of.bound...);
   visit(Option::optimise, {}, of.optimise...);
   visit(Option::attach, {}, of.roadmap.attach...);
   visit(Option::cell, {}, of.grid.cell...);

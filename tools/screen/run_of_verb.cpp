@@ -71,6 +71,12 @@ Run::Run(const Arguments& arguments, RunScope scope, ExpectedStages stages)
   execution_.deadline = &deadline_;
   execution_.progress = &progress_;
   bar_ = std::make_unique<ProgressBar>(progress_, mode_, budget_of(arguments, scope), stages);
+  if (resolved(mode_) == ProgressMode::none) return;
+  on_improvement_ = [this](const Improvement& improvement) {
+    if (bar_) bar_->tell(improvement);
+    return true;
+  };
+  execution_.on_improvement = &on_improvement_;
 }
 
 void Run::note(std::string_view line) const {

@@ -197,6 +197,8 @@ void AnswerCommand::draw(const Execution& execution) {
 
 int AnswerCommand::exit_code() const {
   if (answer_.outcome == Outcome::stopped) return exit_code_of(stop_reason());
+  // One that gets better until it is interrupted answers, and says that it was.
+  if (answer_.stop_reason && is_signal(*answer_.stop_reason)) return exit_code_of(*answer_.stop_reason);
   return answer_.verified ? exit_code::success : exit_code::no_path;
 }
 

@@ -50,6 +50,9 @@ constexpr OptionSpec compare_output_specs[] = {
     {"--picture", "FILE",
      "plot times against size, or the share solved against time and box plots, as .svg, .png or .pdf by ending; - is "
      "standard output"},
+    {"--curves", "FILE",
+     "plot what planners' best paths cost against time, and the share solved, as .svg, .png or .pdf by ending; .csv: "
+     "write each path that was the best so far"},
     {"--figures", "FILE", "write each plot of --picture as its own file: k.pdf gives k-length.pdf and others"},
     {"--table", "FILE", "write the table for a document, as LaTeX (.tex) or else Markdown; - is standard output"},
     {"--log", "FILE", "write every run as OMPL's benchmarks do; - is standard output"},
@@ -57,9 +60,12 @@ constexpr OptionSpec compare_output_specs[] = {
 
 /// Throws unless every output can be written; says whether one of them takes standard output.
 bool check_outputs_of_compare(const Arguments& arguments) {
-  const bool taken =
-      check_reports(arguments, {"--json", "--csv", "--runs", "--picture", "--html", "--log", "--table", "--figures"});
+  const bool taken = check_reports(
+      arguments, {"--json", "--csv", "--runs", "--picture", "--html", "--log", "--table", "--figures", "--curves"});
   check_plots(arguments);
+  if (arguments.has("--curves") && !arguments.has("--planners")) {
+    throw UsageError("--curves: shows how planners get better with time; say --planners, too");
+  }
   if (const auto folder = arguments.value("--pictures")) studies::make_folder(*folder);
   if (arguments.has("--log") && arguments.has("--sizes")) {
     throw UsageError("--log: holds the runs on one world; --sizes has many graphs");
@@ -117,6 +123,16 @@ class CompareCommand {
     write_report(arguments_, "--runs", [&] { return studies::comparison_runs(comparison_); });
     write_plots(arguments_, execution_, comparison_.stopped.has_value(),
                 [&] { return studies::comparison_plots(comparison_); });
+    if (arguments_.value("--curves").value_or("").ends_with(".csv")) {
+      write_report(arguments_, "--curves", [&] { return studies::comparison_curves(comparison_); });
+    } else {
+      write_plots(
+          arguments_, execution_, comparison_.stopped.has_value(),
+          [&] {
+            return PlotsPage{studies::curve_panels(comparison_), 2};
+          },
+          "--curves");
+    }
     write_report(arguments_, "--html",
                  [&] { return studies::comparison_page(comparison_, arguments_.command_line()); });
     write_report(arguments_, "--table",

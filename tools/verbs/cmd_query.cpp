@@ -135,6 +135,9 @@ int query_roadmap(const Arguments& arguments) {
     throw UsageError(matrix ? "--lengths-only: is for --batch; --matrix tells lengths alone"
                             : "--lengths-only: needs --batch FILE, many questions");
   }
+  if (arguments.has("--bound") && (matrix || arguments.has("--lengths-only"))) {
+    throw UsageError("--bound: is of paths; lengths alone have none");
+  }
   if (batch) return ask_lines(arguments);
   if (matrix) return ask_table(arguments);
   if (arguments.has("--csv")) throw UsageError("--csv: needs --batch FILE or --matrix STARTS GOALS, many questions");

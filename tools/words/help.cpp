@@ -205,6 +205,7 @@ constexpr NamedGroup option_groups[] = {
     {"Roadmaps of samples",
      "--sampler --samplers --samples --neighbours --radius --neighbour-index --attach --lazy --pipeline"},
     {"Trees", "--step --goal-bias --nodes --trees"},
+    {"Better with time", "--iterations --gap --parts --bound"},
     {"Grids", "--cell --angles --face-motion --step-cost --turn-cost --diagonal --layers"},
     {"Visibility graph, cells, medial axis", "--full --sampled-edges --doors --objective"},
     {"Cars", "--steering --turning-radius"},
@@ -212,7 +213,7 @@ constexpr NamedGroup option_groups[] = {
     {"Shortening", "--optimise --cusp-cost --reverse-cost"},
     {"Mazes", "--algorithm --loops"},
     {"Outputs",
-     "--output --picture --figures --table --json --no-path --csv --runs --log --html --pictures --report "
+     "--output --picture --figures --curves --table --json --no-path --csv --runs --log --html --pictures --report "
      "--save-roadmap --keep "
      "--explain --show "
      "--heading --size --dpi --title"},

@@ -95,6 +95,13 @@ double duration_value(std::string_view option, std::string_view text) {
   return *seconds;
 }
 
+double share_value(std::string_view option, std::string_view text) {
+  const bool percent = text.ends_with('%');
+  const auto number = number_in(percent ? text.substr(0, text.size() - 1) : text);
+  if (!number || !(*number >= 0.0) || *number > 1e9) refuse(option, "a share such as 1% or 0.01", text);
+  return percent ? *number / 100.0 : *number;
+}
+
 double angle_value(std::string_view option, std::string_view text) {
   const auto angle = number_or_degrees(text);
   if (!angle || std::abs(*angle) > largest_coordinate) refuse(option, "an angle in radians, or as 90deg", text);

@@ -26,6 +26,8 @@ std::optional<double> number_in(std::string_view text);
 double number_value(std::string_view option, std::string_view text, double low, double high);
 /// A number > 0.
 double positive_value(std::string_view option, std::string_view text);
+/// A share, >= 0: "1%", "0.01".
+double share_value(std::string_view option, std::string_view text);
 /// Radians, "90deg" too; finite.
 double angle_value(std::string_view option, std::string_view text);
 /// A whole number in [low, high].

@@ -88,6 +88,12 @@ constexpr OptionSpec planner_specs[] = {
     {"--goal-bias", "F", "rrt: how often it aims at the goal instead of a random place, 0 to 1 (default: 0.05)"},
     {"--nodes", "N", "rrt, rrt-connect: give up when a tree has so many nodes (default: 100000)"},
     {"--trees", "N", "rrt, rrt-connect: grow so many trees independently; the first to arrive answers (default: 1)"},
+    {"--iterations", "N",
+     "anytime, rrt-star, informed-rrt-star: end after N turns, with the same answer on any machine"},
+    {"--gap", "SHARE",
+     "the same planners: end when the path is proved to be at most SHARE longer than the best, such as 1% or 0.01"},
+    {"--parts", "LIST", "anytime: what takes turns, of tree,restarts,roadmap,shorten (default: all)"},
+    {"--bound", "", "prove the best lower bound of the path's length that there is, at a cost of its own"},
     {"--via", "STATES",
      "rrt, rrt-connect: waypoints to pass in this order, separated by semicolons: \"X,Y; X,Y,THETA\", or six joint "
      "angles each"},
@@ -121,6 +127,7 @@ struct OptionReader {
   static void read(std::string_view, std::string_view text, OptionRange, bool& field) { field = text.empty(); }
   static void read(std::string_view flag, std::string_view text, OptionRange range, std::optional<double>& field) {
     if (flag == "--radius" && (text == "auto" || text == "star")) return;
+    if (flag == "--gap") return static_cast<void>(field = share_value(flag, text));
     field =
         range.high > largest_coordinate ? positive_value(flag, text) : number_value(flag, text, range.low, range.high);
   }
@@ -147,6 +154,9 @@ struct OptionReader {
     const std::size_t comma = text.find(',');
     field.emplace().radius = positive_value(flag, text.substr(0, comma));
     if (comma != std::string_view::npos) field->step = positive_value(flag, text.substr(comma + 1));
+  }
+  static void read(std::string_view flag, std::string_view text, OptionRange, std::vector<AnytimePart>& field) {
+    for (const std::string& word : list_value(flag, text)) field.push_back(choice_value<AnytimePart>(flag, word));
   }
   static void read(std::string_view flag, std::string_view text, OptionRange, std::vector<std::vector<double>>& field) {
     for (;;) {
@@ -222,15 +232,16 @@ std::vector<OptionSpec> solve_option_specs() {
   specs.front().help =
       "how to find the path. prm joins samples to a roadmap and checks all of it, lazy-prm only what the search meets. "
       "visibility: the shortest path among polygons; cells: through slices of the free space; voronoi: as far "
-      "from obstacles as can be. rrt grows a tree from the start, rrt-connect one from either end. grid searches cells "
-      "(default: by world and body)";
+      "from obstacles as can be. rrt grows a tree from the start, rrt-connect one from either end. grid searches "
+      "cells. "
+      "anytime, rrt-star and informed-rrt-star get better until they are stopped (default: by world and body)";
   return specs;
 }
 
 RoadmapSearchFields search_words(const Arguments& arguments) {
   const SolveOptions words = solve_words(arguments);
-  return {words.search,           words.queue,    words.roadmap.attach, words.optimise, words.car.cusp_cost,
-          words.car.reverse_cost, words.heuristic};
+  return {words.search,           words.queue,     words.roadmap.attach, words.optimise, words.car.cusp_cost,
+          words.car.reverse_cost, words.heuristic, words.bound};
 }
 
 }  // namespace warren::tools

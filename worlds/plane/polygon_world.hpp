@@ -42,6 +42,9 @@ class PolygonWorld {
     return sides_.keeps_clearance(a, b, planning_clearance_);
   }
   static double distance(const State& a, const State& b) { return warren::distance(a, b); }
+  static State interpolate(const State& a, const State& b, double t) {
+    return t <= 0.0 ? a : t >= 1.0 ? b : a + t * (b - a);
+  }
   std::array<double, 2> embed(const State& a) const { return {a.x, a.y}; }
 
   /// Area of the box that uniform samples are drawn from.
@@ -64,6 +67,6 @@ class PolygonWorld {
   WallIndex sides_;
 };
 
-static_assert(World<PolygonWorld>);
+static_assert(SteerableWorld<PolygonWorld>);
 
 }  // namespace warren

@@ -19,7 +19,7 @@ from ._explanations import (
     NarrowPlace as NarrowPlace,
     SampleCounts as SampleCounts,
 )
-from ._answers import Answer as Answer
+from ._answers import Answer as Answer, Improvement as Improvement
 from ._solving import Verdict as Verdict, solve as solve, verify as verify
 from ._roadmaps import EdgeCounts as EdgeCounts, Roadmap as Roadmap
 from ._building import build as build, open_roadmap as open_roadmap
@@ -27,7 +27,7 @@ from ._studies import Comparison as Comparison, compare as compare
 from ._plots import animate as animate, plot as plot
 
 __all__ = ["Answer", "BlockedEnd", "Comparison", "ComponentFacts", "EdgeCounts", "Error", "Explanation", "Hint",
-           "InputError", "MotionCounts", "NarrowPlace", "ReadError", "Roadmap", "SampleCounts", "Stopped", "UsageError",
-           "Verdict", "World", "WriteError", "__version__", "animate", "arm", "build", "car", "compare", "disc", "from_geo",
+           "Improvement", "InputError", "MotionCounts", "NarrowPlace", "ReadError", "Roadmap", "SampleCounts", "Stopped",
+           "UsageError", "Verdict", "World", "WriteError", "__version__", "animate", "arm", "build", "car", "compare", "disc", "from_geo",
            "grid", "maze", "open_roadmap", "plot", "polygon", "puma560", "read_world", "scene", "solve", "verify"]
 __version__: str

@@ -1,0 +1,444 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A planner that gets better until it is stopped. Parts take turns: an RRT* tree (planners/trees/rrt_star), restarts of
+// RRT-Connect inside the cost of the best path, lazy roadmaps of doubling size, and the body's shortener. No part is
+// best everywhere: restarts are in the open, the roadmap in mazes, the tree where it is narrow; the shortener makes
+// something of the variety that they find.
+//
+// Work is counted, not timed: a state check is 1, an edge check 4, a neighbour query 1. A turn is a list of tasks with
+// fixed numbers, each a function of what was known when the turn began; they run on as many threads as there are, and
+// their results are taken in the order of their numbers. So as many turns give the same bytes on any machine, with any
+// number of threads. A turn that a stop cuts is thrown away.
+//
+// The cost is the sum of the world's metric. It comes near the best there is; how near is said by a lower bound that
+// whoever asks has proved. Asymptotically optimal, as its tree is. That there is no path is never proved.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/base/rng.hpp"
+#include "core/base/solution.hpp"
+#include "core/base/world.hpp"
+#include "parallel/chunks.hpp"
+#include "planners/graph/roadmap_options.hpp"
+#include "planners/roadmap/lazy_prm.hpp"
+#include "planners/roadmap/one_way_prm.hpp"
+#include "planners/trees/rrt_connect.hpp"
+#include "planners/trees/rrt_options.hpp"
+#include "planners/trees/rrt_star.hpp"
+
+namespace warren {
+
+struct AnytimeParts {
+  bool tree = true;
+  bool restarts = true;
+  bool roadmap = true;
+  bool shorten = true;
+};
+
+struct AnytimeOptions {
+  AnytimeParts parts;      ///< at least one of tree, restarts and roadmap
+  bool informed = true;    ///< the tree draws where a better path may lead; else anywhere, as the textbook has it
+  RrtOptions trees;        ///< step, goal bias, most nodes of the tree, seed of everything
+  RoadmapOptions roadmap;  ///< but for samples and seed
+  std::optional<std::uint64_t> iterations;  ///< turns; none: until something else ends it
+  std::optional<double> gap;  ///< it ends when the cost is at most so much more than the bound, as a share of it
+  double lower_bound = 0.0;   ///< proved at no cost: no path costs less
+};
+
+/// What differs from body to body. shortened and length are called from several threads at once.
+template <class State>
+struct AnytimeBody {
+  /// The path made shorter, by draws of the seed; it may give up where it costs more than `hopeless`. Throws Stopped.
+  std::function<Path<State>(const Path<State>&, double hopeless, std::uint64_t seed, const Execution&, Counters&)>
+      shortened;
+  std::function<double(const Path<State>&)> length;    ///< as answers have it
+  std::function<double(const Path<State>&)> judged_s;  ///< judges a path: the seconds that it took
+  std::function<void(const Path<State>&)> kept;        ///< takes each path that was the best; empty: nobody does
+  std::function<double()> lower_bound;  ///< a better one, asked for once there is a path; empty: there is none
+};
+
+template <class State>
+struct AnytimeSolution : Solution<State> {
+  double cost = std::numeric_limits<double>::infinity();
+  double lower_bound = 0.0;               ///< that it knew in the end
+  std::vector<Improvement> improvements;  ///< ascending by iterations, falling by cost
+  std::uint64_t iterations = 0;           ///< turns that were done
+  /// optimum, gap, iterations, caller, or the name of a StopReason.
+  std::string ended_by;
+};
+
+namespace detail {
+
+template <SteerableWorld W>
+class AnytimeSearch {
+ public:
+  using State = typename W::State;
+
+  AnytimeSearch(const W& world, const State& start, std::span<const State> goals, const AnytimeOptions& options,
+                const AnytimeBody<State>& body, const Execution& execution)
+      : world_(world),
+        start_(start),
+        goals_(goals.begin(), goals.end()),
+        options_(options),
+        body_(body),
+        execution_(execution),
+        step_(options.trees.step ? *options.trees.step : usual_step(world)),
+        restart_options_(options.trees) {
+    constexpr std::uint64_t restart_nodes = 20'000;
+    restart_options_.nodes = restart_nodes;
+    restart_options_.places = true;
+    if (options.parts.tree) {
+      tree_.emplace(world, start, std::span<const State>(goals_),
+                    RrtStarOptions{.seed = random_bits(options.trees.seed, 0),
+                                   .step = step_,
+                                   .nodes = options.trees.nodes,
+                                   .informed = options.informed,
+                                   .goal_bias = options.trees.goal_bias});
+    }
+  }
+
+  AnytimeSolution<State> run() {
+    solution_.lower_bound = options_.lower_bound;
+    try {
+      const StageTimer timer(execution_, "search", solution_.seconds.search);
+      while (!has_path() && !is_ended()) take_turn(execution_);
+      if (has_path() && !is_straight_ && body_.lower_bound) {
+        solution_.lower_bound = std::max(solution_.lower_bound, body_.lower_bound());
+      }
+      const Deadline sooner(execution_.deadline, seconds_before_the_judge());
+      Execution within = execution_;
+      if (execution_.deadline != nullptr) within.deadline = &sooner;
+      while (!is_ended()) take_turn(within);
+    } catch (const Stopped& stopped) {
+      solution_.ended_by = name_of(stopped.reason);
+      solution_.stop_reason = stopped.reason;
+      solution_.outcome = has_path() ? Outcome::solved : Outcome::stopped;
+      return std::move(solution_);
+    }
+    solution_.outcome = has_path() ? Outcome::solved : Outcome::not_connected;
+    return std::move(solution_);
+  }
+
+ private:
+  static constexpr std::uint64_t first_share = 256;
+  static constexpr std::uint64_t largest_share = 16'384;
+  static constexpr std::size_t restart_count = 3;
+  static constexpr int patience = 10;  // turns without luck after which a part gets half
+
+  enum class Part : std::uint8_t { tree, restarts, roadmap, shorten };
+  struct Found {
+    explicit Found(Part part = Part::tree) : by(part) {}
+    Path<State> path;
+    double cost = std::numeric_limits<double>::infinity();
+    Part by;
+    Counters counters;
+  };
+  struct Restart {
+    std::unique_ptr<RrtConnectSearch<W>> trees;
+    std::uint64_t index = 0;  // of its seed
+    double looseness = 0.0;   // it may cost so much more than the best, as a share
+    Counters counted;         // of its work, what was told already
+  };
+
+  bool has_path() const { return !solution_.path.empty(); }
+  double cost_of(const Path<State>& path) const {
+    return path_length(path, [this](const State& a, const State& b) { return world_.distance(a, b); });
+  }
+  double seconds_before_the_judge() const {
+    if (!has_path() || execution_.deadline == nullptr) return std::numeric_limits<double>::infinity();
+    const double judged_s = body_.judged_s(solution_.path);
+    return std::max(0.0, execution_.deadline->seconds_left() - 2.0 * judged_s);
+  }
+  bool end(std::string_view why) {
+    solution_.ended_by = why;
+    return true;
+  }
+  bool is_ended() {
+    constexpr double equal = 1e-9;
+    if (is_enough_) return end("caller");
+    if (has_path()) {
+      if (is_straight_ || solution_.cost <= solution_.lower_bound * (1.0 + equal)) return end("optimum");
+      if (options_.gap && solution_.cost <= solution_.lower_bound * (1.0 + *options_.gap)) return end("gap");
+    }
+    return options_.iterations && solution_.iterations >= *options_.iterations && end("iterations");
+  }
+
+  void take_turn(const Execution& execution);
+  void try_straight();
+  std::vector<Found> grown(const Execution& execution);
+  void shorten(std::vector<Found>& found, const Execution& execution) const;
+  void take(Found& found);
+  void tell(std::string_view by);
+  void adapt(bool had_path);
+
+  Found grow_tree(const Execution& execution);
+  Found grow_restart(Restart& restart, const Execution& execution);
+  Found draw_roadmap(const Execution& execution);
+  Found polished(const Execution& execution);
+  std::uint64_t share_of(Part part) const { return share_ / (idle_[index_of(part)] >= patience ? 2 : 1); }
+  static std::size_t index_of(Part part) { return static_cast<std::size_t>(part); }
+
+  const W& world_;
+  const State start_;
+  const std::vector<State> goals_;
+  const AnytimeOptions& options_;
+  const AnytimeBody<State>& body_;
+  const Execution& execution_;
+  const double step_;
+  RrtOptions restart_options_;
+
+  AnytimeSolution<State> solution_;
+  std::vector<Path<State>> to_join_;  // the tree has yet to take them
+  bool is_straight_ = false;          // the best path is one motion to the nearest goal
+  bool is_enough_ = false;            // whoever is told says so
+  std::uint64_t share_ = first_share;
+  std::array<int, 4> idle_{};        // turns since a part brought something
+  std::array<bool, 4> was_lucky_{};  // in this turn
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+
+  std::optional<RrtStarTree<W>> tree_;
+  Counters tree_counted_;
+  std::array<Restart, restart_count> restarts_;
+  std::uint64_t roadmaps_ = 0;      // that were drawn
+  std::uint64_t credit_ = 0;        // work that the roadmap has saved up
+  std::uint64_t roadmap_work_ = 0;  // of the last one
+  int dull_ = 0;                    // polishings without gain, since the best path came
+};
+
+inline std::uint64_t work_of(const Counters& counters) {
+  return counters.samples + counters.neighbour_queries + 4 * counters.edges_checked;
+}
+/// What was counted since `before`, of what only grows.
+inline Counters counted_since(const Counters& before, const Counters& now) {
+  Counters since;
+  since.samples = now.samples - before.samples;
+  since.kept = now.kept - before.kept;
+  since.neighbour_queries = now.neighbour_queries - before.neighbour_queries;
+  since.edges_checked = now.edges_checked - before.edges_checked;
+  since.edges_free = now.edges_free - before.edges_free;
+  since.refused = now.refused - before.refused;
+  return since;
+}
+
+template <SteerableWorld W>
+void AnytimeSearch<W>::take_turn(const Execution& execution) {
+  execution.check();
+  if (solution_.iterations == 0) try_straight();
+  if (is_straight_) {
+    ++solution_.iterations;
+    return;
+  }
+  Execution inner = execution.quiet();  // stages of parts are no stages of the whole, and tasks are what runs at once
+  inner.trace = nullptr;
+  inner.account = nullptr;
+  std::vector<Found> found = grown(inner);
+  shorten(found, inner);
+  execution.check();
+  ++solution_.iterations;  // from here on nothing stops
+  const bool had_path = has_path();
+  was_lucky_ = {};
+  for (Found& each : found) take(each);
+  adapt(had_path);
+}
+
+/// The straight motion to the nearest goal, where it is free, is the best there is.
+template <SteerableWorld W>
+void AnytimeSearch<W>::try_straight() {
+  const auto nearest = std::min_element(goals_.begin(), goals_.end(), [&](const State& a, const State& b) {
+    return world_.distance(start_, a) < world_.distance(start_, b);
+  });
+  auto query = world_.make_query();
+  ++solution_.counters.edges_checked;
+  if (!world_.is_free_motion(start_, *nearest, query)) return;
+  ++solution_.counters.edges_free;
+  is_straight_ = true;
+  solution_.path = {start_, *nearest};
+  solution_.cost = world_.distance(start_, *nearest);
+  tell("straight");
+}
+
+/// What the parts find in this turn, in the order of their tasks.
+template <SteerableWorld W>
+auto AnytimeSearch<W>::grown(const Execution& execution) -> std::vector<Found> {
+  std::vector<std::function<Found(const Execution&)>> tasks;
+  const AnytimeParts& parts = options_.parts;
+  if (parts.shorten && has_path() && dull_ < 3) tasks.push_back([this](const Execution& on) { return polished(on); });
+  if (parts.tree) tasks.push_back([this](const Execution& on) { return grow_tree(on); });
+  if (parts.restarts) {
+    for (Restart& restart : restarts_) {
+      tasks.push_back([this, &restart](const Execution& on) { return grow_restart(restart, on); });
+    }
+  }
+  if (parts.roadmap) tasks.push_back([this](const Execution& on) { return draw_roadmap(on); });
+  std::vector<Found> found(tasks.size());
+  Execution alone = execution;
+  alone.threads = 1;
+  for_chunks(tasks.size(), 1, execution, [&](Range r) { found[r.first] = tasks[r.first](alone); });
+  return found;
+}
+
+/// New paths that may come to something.
+template <SteerableWorld W>
+void AnytimeSearch<W>::shorten(std::vector<Found>& found, const Execution& execution) const {
+  if (!options_.parts.shorten) return;
+  Execution alone = execution;
+  alone.threads = 1;
+  for_chunks(found.size(), 1, execution, [&](Range r) {
+    Found& each = found[r.first];
+    if (each.path.empty() || each.by == Part::shorten) return;
+    const double hopeless = 1.5 * solution_.cost;
+    const std::uint64_t seed = random_bits(options_.trees.seed, solution_.iterations, 8 + r.first);
+    each.path = body_.shortened(each.path, hopeless, seed, alone, each.counters);
+    each.cost = cost_of(each.path);
+  });
+}
+
+template <SteerableWorld W>
+void AnytimeSearch<W>::take(Found& found) {
+  constexpr double near = 1.05;
+  constexpr double worth = 1e-4;
+  solution_.counters += found.counters;
+  if (found.path.empty()) return;
+  const double before = solution_.cost;
+  const bool is_better = found.cost < before * (1.0 - 1e-12) || !has_path();
+  if (found.by == Part::shorten) dull_ = found.cost < before * (1.0 - worth) ? 0 : dull_ + 1;
+  if (tree_ && options_.informed && found.by != Part::tree && found.cost < near * before)
+    to_join_.push_back(found.path);
+  if (!is_better) return;
+  was_lucky_[index_of(found.by)] = true;
+  if (found.by != Part::shorten) dull_ = 0;
+  solution_.cost = found.cost;
+  solution_.path = std::move(found.path);
+  constexpr std::array<std::string_view, 4> names{"tree", "restarts", "roadmap", "shorten"};
+  tell(names[index_of(found.by)]);
+}
+
+template <SteerableWorld W>
+void AnytimeSearch<W>::tell(std::string_view by) {
+  const std::chrono::duration<double> since = std::chrono::steady_clock::now() - begin_;
+  solution_.improvements.push_back({std::max<std::uint64_t>(1, solution_.iterations), since.count(), solution_.cost,
+                                    body_.length(solution_.path), std::string(by)});
+  if (body_.kept) body_.kept(solution_.path);
+  if (execution_.on_improvement != nullptr && !(*execution_.on_improvement)(solution_.improvements.back()))
+    is_enough_ = true;
+}
+
+template <SteerableWorld W>
+void AnytimeSearch<W>::adapt(bool had_path) {
+  for (std::size_t part = 0; part < idle_.size(); ++part) idle_[part] = was_lucky_[part] ? 0 : idle_[part] + 1;
+  if (has_path() && !had_path) {  // from first path to better ones
+    share_ = first_share;
+    idle_ = {};
+  } else {
+    share_ = std::min(largest_share, has_path() ? share_ + share_ / 4 : 2 * share_);
+  }
+}
+
+template <SteerableWorld W>
+auto AnytimeSearch<W>::grow_tree(const Execution& execution) -> Found {
+  Found found(Part::tree);
+  if (options_.informed) {
+    for (const Path<State>& path : to_join_) tree_->take(path, execution);
+  }
+  to_join_.clear();
+  tree_->advance(share_of(Part::tree), options_.informed ? solution_.cost : std::numeric_limits<double>::infinity(),
+                 solution_.path, execution);
+  found.counters = counted_since(tree_counted_, tree_->counters());
+  tree_counted_ = tree_->counters();
+  if (!(tree_->cost() < solution_.cost)) return found;
+  found.path = tree_->path();
+  found.cost = cost_of(found.path);
+  return found;
+}
+
+/// One pair of trees, from turn to turn, until it arrives or has grown too large.
+template <SteerableWorld W>
+auto AnytimeSearch<W>::grow_restart(Restart& restart, const Execution& execution) -> Found {
+  Found found(Part::restarts);
+  const auto slot = static_cast<std::uint64_t>(&restart - restarts_.data());
+  if (!restart.trees) {
+    const std::uint64_t index = restart_count * restart.index++ + slot;
+    restart.looseness = 0.05 + 0.95 * uniform(options_.trees.seed, index, 15);
+    restart.counted = {};
+    restart.trees = std::make_unique<RrtConnectSearch<W>>(world_, start_, std::span<const State>(goals_),
+                                                          restart_options_, step_, index);
+    if (has_path()) restart.trees->bound(solution_.cost * (1.0 + restart.looseness));
+  }
+  RrtConnectSearch<W>& trees = *restart.trees;
+  trees.advance_by_work(share_of(Part::restarts) / restart_count, execution);
+  found.counters = counted_since(restart.counted, trees.counters());
+  restart.counted = trees.counters();
+  if (trees.arrived()) {
+    found.path = trees.path();
+    found.cost = cost_of(found.path);
+  }
+  if (trees.arrived() || trees.gave_up()) restart.trees.reset();
+  return found;
+}
+
+/// A whole lazy roadmap, once enough is saved up for one of double the size.
+template <SteerableWorld W>
+auto AnytimeSearch<W>::draw_roadmap(const Execution& execution) -> Found {
+  constexpr std::uint64_t first_samples = 50;
+  constexpr std::uint64_t most_doublings = 20;
+  Found found(Part::roadmap);
+  credit_ += share_of(Part::roadmap);
+  if (credit_ < 2 * roadmap_work_) return found;
+  RoadmapOptions options = options_.roadmap;
+  options.samples = first_samples << std::min(roadmaps_, most_doublings);
+  options.seed = random_bits(options_.trees.seed, roadmaps_, 14);
+  const State& goal = goals_[roadmaps_ % goals_.size()];
+  const Solution<State> solution = [&] {
+    if constexpr (requires { requires W::one_way; }) {
+      return one_way_prm(world_, start_, goal, options, true, execution);
+    } else {
+      return lazy_prm(world_, start_, goal, options, execution);
+    }
+  }();
+  if (solution.outcome == Outcome::stopped) throw Stopped(solution.stop_reason);
+  ++roadmaps_;
+  credit_ = 0;
+  roadmap_work_ = work_of(solution.counters);
+  found.counters = solution.counters;
+  found.path = solution.path;
+  if (!found.path.empty()) found.cost = cost_of(found.path);
+  return found;
+}
+
+template <SteerableWorld W>
+auto AnytimeSearch<W>::polished(const Execution& execution) -> Found {
+  Found found(Part::shorten);
+  const std::uint64_t seed = random_bits(options_.trees.seed, solution_.iterations, 7);
+  found.path =
+      body_.shortened(solution_.path, std::numeric_limits<double>::infinity(), seed, execution, found.counters);
+  found.cost = cost_of(found.path);
+  return found;
+}
+
+}  // namespace detail
+
+/// start and goals (at least one): free. Never throws Stopped: outcome is solved with a path, else stopped, or
+/// not_connected where the iterations are over. InputError for options out of range. What `body` and
+/// execution.on_improvement throw passes through.
+template <SteerableWorld W>
+AnytimeSolution<typename W::State> anytime(const W& world, const typename W::State& start,
+                                           std::span<const typename W::State> goals, const AnytimeOptions& options,
+                                           const AnytimeBody<typename W::State>& body, const Execution& execution) {
+  options.trees.validate();
+  options.roadmap.validate();
+  return detail::AnytimeSearch<W>(world, start, goals, options, body, execution).run();
+}
+
+}  // namespace warren
