@@ -89,11 +89,13 @@ constexpr OptionSpec planner_specs[] = {
     {"--nodes", "N", "rrt, rrt-connect: give up when a tree has so many nodes (default: 100000)"},
     {"--trees", "N", "rrt, rrt-connect: grow so many trees independently; the first to arrive answers (default: 1)"},
     {"--iterations", "N",
-     "anytime, rrt-star, informed-rrt-star: end after N turns, with the same answer on any machine"},
+     "anytime, rrt-star, informed-rrt-star: end after N turns of work, which gives the same answer on any machine"},
     {"--gap", "SHARE",
-     "the same planners: end when the path is proved to be at most SHARE longer than the best, such as 1% or 0.01"},
-    {"--parts", "LIST", "anytime: what takes turns, of tree,restarts,roadmap,shorten (default: all)"},
-    {"--bound", "", "prove the best lower bound of the path's length that there is, at a cost of its own"},
+     "anytime, rrt-star, informed-rrt-star: end when the path is proved to be at most SHARE, such as 1%, longer than "
+     "the shortest"},
+    {"--parts", "LIST",
+     "anytime: what takes turns, separated by commas: tree, restarts, roadmap, shorten (default: all)"},
+    {"--bound", "", "also prove a lower bound, how short no path can be, as near as can be; takes time of its own"},
     {"--via", "STATES",
      "rrt, rrt-connect: waypoints to pass in this order, separated by semicolons: \"X,Y; X,Y,THETA\", or six joint "
      "angles each"},
