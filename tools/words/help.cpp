@@ -115,8 +115,8 @@ std::string option_usage(const OptionSpec& option) {
 
 std::string_view meaning_of(std::string_view operand) {
   if (operand == "WORLD" || operand == "[WORLD]") {
-    return "a file with walls, polygons, a map or a maze (its content decides which), - for standard input, "
-           "empty:WIDTHxHEIGHT, or a maze that is made on the spot: maze:ROWSxCOLS[,seed=N][,algorithm=NAME][,loops=F]";
+    return "a file with walls, polygons, a map or a maze (its content decides), - for standard input, "
+           "empty:WIDTHxHEIGHT, or maze:ROWSxCOLS[,seed=N][,algorithm=NAME][,loops=F]";
   }
   if (operand == "ROADMAP") return "a file that 'warren build' or 'warren solve --save-roadmap' has written";
   if (operand == "ANSWER.json") return "what 'warren solve --json' has written";
