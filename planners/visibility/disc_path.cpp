@@ -57,65 +57,94 @@ struct DiscRoom {
 class DiscSight {
  public:
   /// known: who sees whom, where that is there already; nullptr: nowhere.
-  DiscSight(const DiscGround& ground, const Graph* known, Vec2 start, Vec2 goal, const Execution& execution)
+  DiscSight(const DiscGround& ground, const Graph* known, Vec2 start, Vec2 goal, double radius,
+            const Execution& execution)
       : ground(ground),
         start(start),
         goal(goal),
+        radius(radius),
         execution(execution),
         near(ground),
         known_(known),
         sight_(ground.corners(), execution),
         candidates_(asked_for(ground, execution)),
-        looked_(ground.circles().size() + 1, 0) {}
+        looked_(candidates_.size(), 0) {}
 
   std::uint32_t ends() const { return static_cast<std::uint32_t>(ground.circles().size()); }
-  /// Circles that can follow on this one, ends(): the goal; of ends(): on the start. Throws Stopped.
-  std::span<const std::uint32_t> candidates(std::uint32_t circle) {
-    if (looked_[circle] == 0) look(circle);
-    return candidates_[circle];
+  /// Circles that can follow on this side, ends(): the goal; of 2 * ends(): on the start. Throws Stopped.
+  std::span<const std::uint32_t> candidates(SideId side) {
+    if (looked_[side] == 0) look(side);
+    return candidates_[side];
   }
 
   const DiscGround& ground;
   const Vec2 start, goal;
+  const double radius;
   const Execution& execution;
   NearSegments near;
 
  private:
   /// Asks for the memory of both searches, too.
   static std::size_t asked_for(const DiscGround& ground, const Execution& execution) {
-    const std::size_t count = ground.circles().size() + 1;
-    execution.reserve(count * (4 * sizeof(CircleSide) + sizeof(std::vector<std::uint32_t>) + 1));
+    const std::size_t count = 2 * ground.circles().size() + 1;
+    execution.reserve(count * (2 * sizeof(CircleSide) + sizeof(std::vector<std::uint32_t>) + 1));
     return count;
   }
 
-  void look(std::uint32_t circle) {
+  void look(SideId side) {
     execution.check();
-    std::vector<std::uint32_t>& found = candidates_[circle];
+    const std::uint32_t circle = side / 2;
+    std::vector<std::uint32_t>& found = candidates_[side];
     const bool is_whole = circle < ends() && ground.circles()[circle].whole();
     if (is_whole) {
       for (std::uint32_t c = 0; c < ground.first_whole(); ++c) found.push_back(c);
       found.push_back(ends());
     } else {
-      see(circle);
+      see(side);
       for (const VertexId v : seen_) found.push_back(v == CornerSight::target ? ends() : ground.circle_of(v));
     }
     for (std::uint32_t c = ground.first_whole(); c < ends(); ++c) {
       if (c != circle) found.push_back(c);
     }
     execution.reserve(found.size() * sizeof(std::uint32_t));
-    looked_[circle] = 1;
+    looked_[side] = 1;
   }
 
-  void see(std::uint32_t circle) {
-    if (circle == ends()) return sight_.from_point(start, SightLines::reflex, goal, seen_);
-    const VertexId v = ground.circles()[circle].vertex;
-    if (known_ == nullptr) return sight_.around_vertex(v, goal, seen_);
+  void see(SideId side) {
+    if (side / 2 == ends()) return sight_.from_point(start, SightLines::reflex, goal, seen_);
+    const DiscCircle& circle = ground.circles()[side / 2];
+    const VertexId v = circle.vertex;
+    if (known_ == nullptr) return sight_.within_ranges(v, ranges_of(circle, side % 2 != 0), goal, seen_);
     if (!goal_seen_) {
       sight_.from_point(goal, SightLines::reflex, std::nullopt, seen_);
       goal_seen_ = seen_;
     }
     seen_.assign(known_->neighbours(v).begin(), known_->neighbours(v).end());
     if (std::binary_search(goal_seen_->begin(), goal_seen_->end(), v)) seen_.push_back(CornerSight::target);
+  }
+
+  /// Where the corners of circles are that ways lead to from one side of a circle. A way runs in a direction of the
+  /// cone, a quarter turn on; the corner that it leads to lies ahead, or, on the other side, so far aside as the
+  /// distance allows.
+  std::array<PlaceRange, 6> ranges_of(const DiscCircle& circle, bool left) const {
+    constexpr std::array<double, 6> turns{0.0, 0.1, 0.2, 0.4, 0.8, 0.5 * std::numbers::pi};  // off the way, radians
+    constexpr double wider = 1.0 + 1e-6;
+    const Vec2 straight = left ? -1.0 * circle.first : -1.0 * circle.last;  // the cone's first way
+    const double ahead = direction_place(straight);
+    std::array<PlaceRange, 6> ranges;
+    ranges[0] =
+        left ? PlaceRange{ahead, direction_place(circle.last)} : PlaceRange{direction_place(circle.first), ahead};
+    for (std::size_t i = 1; i < ranges.size(); ++i) {
+      const auto aside = [&](double turn) {
+        const auto [sine, cosine] = portable::sin_and_cos(turn);
+        return direction_place(cosine * straight + (left ? -sine : sine) * left_of(straight));
+      };
+      const double reach =
+          i == 1 ? std::numeric_limits<double>::infinity() : wider * 2.0 * radius / portable::sin(turns[i - 1]);
+      ranges[i] = left ? PlaceRange{aside(turns[i]), aside(turns[i - 1]), reach}
+                       : PlaceRange{aside(turns[i - 1]), aside(turns[i]), reach};
+    }
+    return ranges;
   }
 
   const Graph* known_;
@@ -376,7 +405,7 @@ class DiscSearch {
   }
 
   void leave_start() {
-    for (const std::uint32_t c : sight_.candidates(sight_.ends())) {
+    for (const std::uint32_t c : sight_.candidates(start_)) {
       const SideId first = c == sight_.ends() ? goal_ : 2 * c;
       for (SideId to = first; to <= (c == sight_.ends() ? goal_ : first + 1); ++to) {
         if (std::optional<TangentWay> way = draw(start_, to)) offer(add(*way), way->length, no_way);
@@ -395,7 +424,7 @@ class DiscSearch {
     CircleSide& here = sides_[side];
     if (here.left) return;
     here.left = true;
-    const std::span<const std::uint32_t> next = sight_.candidates(side / 2);
+    const std::span<const std::uint32_t> next = sight_.candidates(side);
     sight_.execution.reserve(2 * next.size() * sizeof(TangentWay));
     for (const std::uint32_t c : next) {
       const SideId first = c == sight_.ends() ? goal_ : 2 * c;
@@ -528,10 +557,10 @@ class DiscPlan {
  public:
   DiscPlan(const DiscGround& ground, const Graph* known, Vec2 start, Vec2 goal, double radius,
            const Execution& execution)
-      : sight_(ground, known, start, goal, execution),
-        size_(ground.box(), start, goal),
+      : size_(ground.box(), start, goal),
         doubt_(1e-12 * radius + 64.0 * rounding * size_.extent),
         room_(doubt_ + 8.0 * rounding * size_.largest),
+        sight_(ground, known, start, goal, radius + room_, execution),
         loose_(sight_, {radius, radius - 0.5 * doubt_, true}, 8.0 * rounding * size_.largest + doubt_),
         tight_(sight_, {radius + room_, radius + 0.5 * room_, false}, 8.0 * rounding * size_.largest + doubt_) {
     path_.radius = radius + room_;
@@ -578,10 +607,10 @@ class DiscPlan {
     return tight_.stands(sight_.goal) ? Outcome::solved : Outcome::goal_blocked;
   }
 
-  DiscSight sight_;
   const WorldSize size_;
   const double doubt_;  // what counts as rounding
   const double room_;   // by which circles are larger
+  DiscSight sight_;
   DiscSearch loose_;
   DiscSearch tight_;
   DiscPath path_;

@@ -225,13 +225,22 @@ void CornerSight::above_vertex(VertexId v, SightLines which, std::vector<VertexI
   std::sort(seen.begin(), seen.end());
 }
 
-void CornerSight::around_vertex(VertexId v, std::optional<Vec2> extra, std::vector<VertexId>& seen) {
+void CornerSight::within_ranges(VertexId v, std::span<const PlaceRange> ranges, std::optional<Vec2> extra,
+                                std::vector<VertexId>& seen) {
+  constexpr double doubt = 1e-9;
   seen.clear();
   const Vec2 eye = corners_.position(v);
   const Sector sector = corners_.sector(v);
-  const PlaceRange range = range_of(eye, sector);
-  const auto departure = [&](Vec2 q) { return lanes_in_sector(eye, sector, q); };
-  look(eye, RotationalSweep::Turn::whole, {&range, 1}, SightLines::reflex, extra, departure, seen);
+  const auto departure = [&](Vec2 q) {  // elsewhere nothing was looked at
+    const double place = direction_place(q - eye);
+    const bool looked = std::any_of(ranges.begin(), ranges.end(), [&](const PlaceRange& r) {
+      const double width = r.last - r.first + (r.last < r.first ? 4.0 : 0.0);
+      const double on = place - r.first;
+      return (on < -doubt ? on + 4.0 : on) <= width + doubt;
+    });
+    return looked ? lanes_in_sector(eye, sector, q) : no_lane;
+  };
+  look(eye, RotationalSweep::Turn::whole, ranges, SightLines::reflex, extra, departure, seen);
   std::sort(seen.begin(), seen.end());
 }
 

@@ -87,9 +87,10 @@ class CornerSight {
   /// Replaces `seen` by half of the neighbours of v, ascending: those above it and, at its height, on its right. So of
   /// each pair of neighbours one sees the other.
   void above_vertex(VertexId v, SightLines which, std::vector<VertexId>& seen);
-  /// The neighbours of v with a sector wider than half a turn, ascending, `target` last; v has one, too. extra: one
-  /// more target.
-  void around_vertex(VertexId v, std::optional<Vec2> extra, std::vector<VertexId>& seen);
+  /// The neighbours of v with a sector wider than half a turn that lie in the ranges, and beyond their reach some that
+  /// are none; ascending, `target` last. v has such a sector, too. extra: one more target.
+  void within_ranges(VertexId v, std::span<const PlaceRange> ranges, std::optional<Vec2> extra,
+                     std::vector<VertexId>& seen);
   /// The tangent neighbours of v to which a way that came straight from `from` may bend and still be taut, ascending,
   /// `target` last. extra: one more target.
   void taut_from_vertex(VertexId v, Vec2 from, std::optional<Vec2> extra, std::vector<VertexId>& seen);
