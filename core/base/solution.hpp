@@ -2,6 +2,7 @@
 // What a planner returns: an answer, the path that goes with it, and the account of the work.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/base/enum_names.hpp"
 #include "core/base/raw_vector.hpp"
@@ -81,6 +83,28 @@ double path_length(const States& path, Distance&& distance_between) {
   double length = 0.0;
   for (std::size_t i = 1; i < path.size(); ++i) length += distance_between(path[i - 1], path[i]);
   return length;
+}
+
+/// The sums of the motions' lengths from the path's begin to each of its states.
+template <std::ranges::contiguous_range States, class Distance>
+std::vector<double> lengths_along(const States& path, Distance&& distance_between) {
+  std::vector<double> along(path.size(), 0.0);
+  for (std::size_t i = 1; i < path.size(); ++i) along[i] = along[i - 1] + distance_between(path[i - 1], path[i]);
+  return along;
+}
+
+/// A place on a path: at a share, 0 to 1, of the motion from its state `leg`.
+struct PlaceOnPath {
+  std::size_t leg = 0;  ///< the path's states but the last
+  double share = 0.0;   ///< of the motion's length
+};
+
+/// Where one is after a way from the path's begin. along: lengths_along() of two states or more.
+inline PlaceOnPath place_on_path(std::span<const double> along, double way) {
+  const auto next = std::upper_bound(along.begin() + 1, along.end() - 1, way);
+  const auto leg = static_cast<std::size_t>(next - along.begin()) - 1;
+  const double length = along[leg + 1] - along[leg];
+  return {leg, length > 0.0 ? std::clamp((way - along[leg]) / length, 0.0, 1.0) : 0.0};
 }
 
 /// Why a computation was stopped before its end.

@@ -76,6 +76,17 @@ concept SteerableWorld = World<W> && requires(const W& w, const typename W::Stat
   { w.interpolate(a, a, 0.5) } -> std::same_as<typename W::State>;
 };
 
+/// A state near a: a share t in [0, 1] of the way to b. No motion: poses of bodies that can't go sideways are moved all
+/// the same, as the plane's own interpolate(a, b, t) does.
+template <SteerableWorld W>
+typename W::State state_between(const W& world, const typename W::State& a, const typename W::State& b, double t) {
+  if constexpr (requires { interpolate(a, b, t); }) {
+    return interpolate(a, b, t);
+  } else {
+    return world.interpolate(a, b, t);
+  }
+}
+
 /// A world of the plane that knows roughly where the robot may be if all but its place stays as it is.
 /// w.free_places(a)   a coarse grid of places; none where that would take too long
 /// w.place_of(a)      where the robot is

@@ -8,6 +8,11 @@
 // difference between two, so that a path far from the origin is shortened as it is near it.
 // Ends when rounds bring less than 0.01 % for a while. The path gets near a shortest one of its homotopy class; it is
 // no proof of anything.
+// improve_path() is for searches that go on and have a path to improve again and again: first it skips states that are
+// not needed, then its rounds cut, pull, and let states drift: each a share of the way towards a random state, where
+// the share halves on failure and doubles on luck, for each state its own: so paths slide along obstacles and bodies
+// turn where no straight motion shows the way. A round ends by leaving out what the motion of its neighbours passes.
+// The metric says no first, the checks come last.
 #pragma once
 
 #include <algorithm>
@@ -36,39 +41,48 @@ class Shortener {
 
   Shortener(const W& world, Path<State> path, const Length& length, const ShortcutOptions& options,
             const Execution& execution)
-      : world_(world), path_(std::move(path)), length_(length), options_(options), execution_(execution) {}
+      : world_(world),
+        path_(std::move(path)),
+        drifts_(path_.size(), first_drift),
+        length_(length),
+        options_(options),
+        execution_(execution) {}
 
-  Path<State> run() {
+  /// The rounds of shortcut_path().
+  Path<State> shortened() {
     constexpr int patience = 12;
     constexpr double worth = 1e-4;
-    constexpr double noise = 1e-6;
     int idle = 0;
     double best = whole();
     for (std::uint32_t round = 0; round < options_.rounds && idle < patience && path_.size() > 2; ++round) {
       execution_.check();
       unsure_ = noise * best;
-      round % 2 == 0 ? cut_corners(round) : pull(round);
+      round % 2 == 0 ? cut_corners(round, candidates) : pull(round);
       const double now = whole();
       idle = best - now > worth * best ? 0 : idle + 1;
       best = std::min(best, now);
     }
     return std::move(path_);
   }
+  /// Those of improve_path().
+  Path<State> improved(double worth, std::uint32_t patience);
   const Counters& counters() const { return counters_; }
 
  private:
   static constexpr std::uint64_t candidates = 64;
+  static constexpr double first_drift = 0.125;
+  static constexpr double noise = 1e-6;  // share of the path's length by which rounding may feign a gain
 
-  /// A place on the path: on the motion from path_[leg].
-  struct Place {
-    std::size_t leg = 0;
-    double share = 0.0;
-  };
   /// Replaces the path between two places by `states`.
   struct Change {
-    Place from;
-    Place to;
+    PlaceOnPath from;
+    PlaceOnPath to;
     std::vector<State> states;
+    double gain = 0.0;
+  };
+  /// Where a state of the path may go, and what that gains; 0: nowhere.
+  struct Moved {
+    State state;
     double gain = 0.0;
   };
 
@@ -77,8 +91,8 @@ class Shortener {
     for (std::size_t i = 1; i < path_.size(); ++i) sum += length_(path_[i - 1], path_[i]);
     return sum;
   }
-  State at(const Place& p) const { return world_.interpolate(path_[p.leg], path_[p.leg + 1], p.share); }
-  double length_between(const Place& p, const Place& q) const;
+  State at(const PlaceOnPath& p) const { return world_.interpolate(path_[p.leg], path_[p.leg + 1], p.share); }
+  double length_between(const PlaceOnPath& p, const PlaceOnPath& q) const;
   bool is_free(const State& a, const State& b, typename W::Query& query, Counters& counters) const {
     ++counters.edges_checked;
     const bool free = world_.is_free(b, query) && world_.is_free_motion(a, b, query);
@@ -87,17 +101,25 @@ class Shortener {
   }
   Change shortcut(std::uint64_t round, std::uint64_t index, const std::vector<double>& along, typename W::Query& query,
                   Counters& counters) const;
+  Moved moved_to_chord(std::size_t vertex, double slip, double less, typename W::Query& query,
+                       Counters& counters) const;
   Change pulled(std::uint64_t round, std::uint64_t index, std::size_t vertex, typename W::Query& query,
                 Counters& counters) const;
-  void cut_corners(std::uint32_t round);
+  void cut_corners(std::uint32_t round, std::size_t count);
   void pull(std::uint32_t round);
+  void skip();
+  void drift(std::uint64_t pass);
+  void thin();
+  template <class Move>
+  void move_states(const Move& move);
   template <class Make>
   void change(std::size_t count, const Make& make);
   void apply(std::vector<Change>& changes);
-  Path<State> with(const std::vector<Change>& chosen) const;
+  Path<State> with(const std::vector<Change>& chosen);
 
   const W& world_;
   Path<State> path_;
+  std::vector<double> drifts_;  // how far each state tries to drift
   const Length& length_;
   const ShortcutOptions& options_;
   const Execution& execution_;
@@ -107,7 +129,7 @@ class Shortener {
 
 /// Before: p lies before q, not on one leg.
 template <SteerableWorld W, class Length>
-double Shortener<W, Length>::length_between(const Place& p, const Place& q) const {
+double Shortener<W, Length>::length_between(const PlaceOnPath& p, const PlaceOnPath& q) const {
   double sum = length_(at(p), path_[p.leg + 1]);
   for (std::size_t i = p.leg + 1; i < q.leg; ++i) sum += length_(path_[i], path_[i + 1]);
   return sum + length_(path_[q.leg], at(q));
@@ -117,12 +139,7 @@ double Shortener<W, Length>::length_between(const Place& p, const Place& q) cons
 template <SteerableWorld W, class Length>
 auto Shortener<W, Length>::shortcut(std::uint64_t round, std::uint64_t index, const std::vector<double>& along,
                                     typename W::Query& query, Counters& counters) const -> Change {
-  const auto place = [&](double way) {
-    const auto next = std::upper_bound(along.begin() + 1, along.end() - 1, way);
-    const auto leg = static_cast<std::size_t>(next - along.begin()) - 1;
-    const double length = along[leg + 1] - along[leg];
-    return Place{leg, length > 0.0 ? std::clamp((way - along[leg]) / length, 0.0, 1.0) : 0.0};
-  };
+  const auto place = [&](double way) { return place_on_path(along, way); };
   const std::uint64_t draw = round * candidates + index;
   const double first = uniform(options_.seed, draw, 0);
   // Half of them anywhere, the others at most an eighth of the path apart: those mend details.
@@ -143,37 +160,44 @@ auto Shortener<W, Length>::shortcut(std::uint64_t round, std::uint64_t index, co
   return change;
 }
 
-/// The state moved towards where the motion between its neighbours passes, as far as that is free.
+/// The state moved towards where the motion between its neighbours passes, as far as that is free: all the way, or by
+/// a share that falls by the factor `less`.
 template <SteerableWorld W, class Length>
-auto Shortener<W, Length>::pulled(std::uint64_t round, std::uint64_t index, std::size_t vertex,
-                                  typename W::Query& query, Counters& counters) const -> Change {
+auto Shortener<W, Length>::moved_to_chord(std::size_t vertex, double slip, double less, typename W::Query& query,
+                                          Counters& counters) const -> Moved {
   const State& before = path_[vertex - 1];
   const State& after = path_[vertex + 1];
   const double way_in = world_.distance(before, path_[vertex]);
   const double way_out = world_.distance(path_[vertex], after);
-  Change change{{vertex - 1, 0.0}, {vertex, 1.0}, {}, 0.0};
-  if (!(way_in + way_out > 0.0)) return change;
-  const double slip = 0.5 * (uniform(options_.seed, round * candidates + index, 2) - 0.5);
-  const double share = std::clamp(way_in / (way_in + way_out) + (round % 4 == 1 ? slip : 0.0), 0.0, 1.0);
+  if (!(way_in + way_out > 0.0)) return {path_[vertex]};
+  const double share = std::clamp(way_in / (way_in + way_out) + slip, 0.0, 1.0);
   const State target = world_.interpolate(before, after, share);
   const double old_length = length_(before, path_[vertex]) + length_(path_[vertex], after);
-  for (double t = 1.0; t > 1e-3; t *= 0.5) {
-    const State moved = world_.interpolate(path_[vertex], target, t);
+  for (double t = 1.0; t > 1e-3; t *= less) {
+    const State moved = state_between(world_, path_[vertex], target, t);
     const double gain = old_length - length_(before, moved) - length_(moved, after);
     if (gain <= unsure_ || !is_free(before, moved, query, counters) || !is_free(moved, after, query, counters))
       continue;
-    change.gain = gain;
-    change.states = {before, moved, after};
-    break;
+    return {moved, gain};
   }
+  return {path_[vertex]};
+}
+
+template <SteerableWorld W, class Length>
+auto Shortener<W, Length>::pulled(std::uint64_t round, std::uint64_t index, std::size_t vertex,
+                                  typename W::Query& query, Counters& counters) const -> Change {
+  const double slip = 0.5 * (uniform(options_.seed, round * candidates + index, 2) - 0.5);
+  const Moved moved = moved_to_chord(vertex, round % 4 == 1 ? slip : 0.0, 0.5, query, counters);
+  Change change{{vertex - 1, 0.0}, {vertex, 1.0}, {}, moved.gain};
+  if (moved.gain > 0.0) change.states = {path_[vertex - 1], moved.state, path_[vertex + 1]};
   return change;
 }
 
 template <SteerableWorld W, class Length>
-void Shortener<W, Length>::cut_corners(std::uint32_t round) {
-  std::vector<double> along(path_.size(), 0.0);
-  for (std::size_t i = 1; i < path_.size(); ++i) along[i] = along[i - 1] + world_.distance(path_[i - 1], path_[i]);
-  change(candidates, [&](std::size_t i, typename W::Query& query, Counters& counters) {
+void Shortener<W, Length>::cut_corners(std::uint32_t round, std::size_t count) {
+  const std::vector<double> along =
+      lengths_along(path_, [this](const State& a, const State& b) { return world_.distance(a, b); });
+  change(count, [&](std::size_t i, typename W::Query& query, Counters& counters) {
     return shortcut(round, i, along, query, counters);
   });
 }
@@ -228,19 +252,130 @@ void Shortener<W, Length>::apply(std::vector<Change>& changes) {
 
 /// chosen: in the path's order, no two on one leg.
 template <SteerableWorld W, class Length>
-auto Shortener<W, Length>::with(const std::vector<Change>& chosen) const -> Path<State> {
+auto Shortener<W, Length>::with(const std::vector<Change>& chosen) -> Path<State> {
   Path<State> path;
-  const auto add = [&](const State& state) {
-    if (path.empty() || !(path.back() == state)) path.push_back(state);
+  std::vector<double> drifts;
+  const auto add = [&](const State& state, double drift) {
+    if (!path.empty() && path.back() == state) return;
+    path.push_back(state);
+    drifts.push_back(drift);
   };
   std::size_t next = 0;  // the first state of the old path that is not yet dealt with
   for (const Change& change : chosen) {
-    for (; next <= change.from.leg; ++next) add(path_[next]);
-    for (const State& state : change.states) add(state);
+    for (; next <= change.from.leg; ++next) add(path_[next], drifts_[next]);
+    for (const State& state : change.states) add(state, first_drift);
     next = change.to.leg + 1;
   }
-  for (; next < path_.size(); ++next) add(path_[next]);
+  for (; next < path_.size(); ++next) add(path_[next], drifts_[next]);
+  drifts_ = std::move(drifts);
   return path;
+}
+
+template <SteerableWorld W, class Length>
+auto Shortener<W, Length>::improved(double worth, std::uint32_t patience) -> Path<State> {
+  constexpr std::size_t cuts = 8;
+  constexpr std::uint64_t drifts = 4;
+  double best = whole();
+  unsure_ = noise * best;
+  skip();
+  std::uint32_t idle = 0;
+  for (std::uint32_t round = 0; round < options_.rounds && idle < patience && path_.size() > 2; ++round) {
+    execution_.check();
+    unsure_ = noise * best;
+    cut_corners(round, cuts);
+    move_states([&](std::size_t v, typename W::Query& query, Counters& counters) {
+      path_[v] = moved_to_chord(v, 0.0, 0.25, query, counters).state;
+    });
+    for (std::uint64_t pass = 0; pass < drifts; ++pass) drift(round * drifts + pass);
+    thin();
+    const double now = whole();
+    idle = best - now > worth * best ? 0 : idle + 1;
+    best = std::min(best, now);
+  }
+  return std::move(path_);
+}
+
+/// From each state straight to the farthest that can be reached so, by halving.
+template <SteerableWorld W, class Length>
+void Shortener<W, Length>::skip() {
+  auto query = world_.make_query();
+  const std::vector<double> along = lengths_along(path_, length_);
+  std::size_t kept = 0;
+  for (std::size_t from = 0; from + 1 < path_.size();) {
+    execution_.check();
+    std::size_t to = path_.size() - 1;
+    const auto is_shorter = [&] { return length_(path_[from], path_[to]) <= along[to] - along[from] + unsure_; };
+    while (to > from + 1 && !(is_shorter() && is_free(path_[from], path_[to], query, counters_))) {
+      to = from + (to - from) / 2;
+    }
+    path_[++kept] = path_[to];
+    from = to;
+  }
+  path_.resize(kept + 1);
+  drifts_.resize(kept + 1);
+  counters_.refused += refused_motions(query);
+}
+
+/// Moves every other state, then the others: those of a kind don't touch each other, so that they may be moved at once.
+template <SteerableWorld W, class Length>
+template <class Move>
+void Shortener<W, Length>::move_states(const Move& move) {
+  constexpr std::size_t grain = 4;
+  for (const std::size_t first : {1U, 2U}) {
+    const std::size_t count = path_.size() > first ? (path_.size() - first) / 2 : 0;
+    std::vector<Counters> parts(chunk_count(count, grain));
+    for_chunks(count, grain, execution_, [&](Range r) {
+      auto query = world_.make_query();
+      Counters& counters = parts[r.first / grain];
+      for (std::size_t i = r.first; i < r.last; ++i) move(first + 2 * i, query, counters);
+      counters.refused = refused_motions(query);
+    });
+    for (const Counters& part : parts) counters_ += part;
+  }
+}
+
+template <SteerableWorld W, class Length>
+void Shortener<W, Length>::drift(std::uint64_t pass) {
+  constexpr std::uint64_t purpose = 0x64726966747321U;
+  constexpr double most = 0.5;
+  constexpr double least = 0x1p-14;
+  const std::uint64_t seed = random_bits(options_.seed, pass, purpose);
+  move_states([&](std::size_t v, typename W::Query& query, Counters& counters) {
+    const State& before = path_[v - 1];
+    const State& after = path_[v + 1];
+    const State moved = state_between(world_, path_[v], uniform_state(world_, seed, v), drifts_[v]);
+    const double old_length = length_(before, path_[v]) + length_(path_[v], after);
+    const double gain = old_length - length_(before, moved) - length_(moved, after);
+    if (gain > unsure_ && is_free(before, moved, query, counters) && is_free(moved, after, query, counters)) {
+      path_[v] = moved;
+      drifts_[v] = std::min(most, 2.0 * drifts_[v]);
+    } else {
+      drifts_[v] = drifts_[v] > least ? 0.5 * drifts_[v] : first_drift;
+    }
+  });
+}
+
+/// Leaves out states that the motion between their neighbours passes anyway.
+template <SteerableWorld W, class Length>
+void Shortener<W, Length>::thin() {
+  auto query = world_.make_query();
+  std::size_t kept = 0;
+  for (std::size_t v = 1; v < path_.size(); ++v) {
+    const bool is_last = v + 1 == path_.size();
+    const State& before = path_[kept];
+    const auto is_passed = [&] {
+      const double direct = length_(before, path_[v + 1]);
+      const double around = length_(before, path_[v]) + length_(path_[v], path_[v + 1]);
+      return direct <= around && around - direct <= unsure_ && is_free(before, path_[v + 1], query, counters_);
+    };
+    if (!is_last && is_passed()) continue;
+    ++kept;
+    path_[kept] = path_[v];
+    drifts_[kept] = drifts_[v];
+  }
+  path_.resize(kept + 1);
+  drifts_.resize(kept + 1);
+  counters_.refused += refused_motions(query);
 }
 
 }  // namespace detail
@@ -253,7 +388,26 @@ Path<typename W::State> shortcut_path(const W& world, Path<typename W::State> pa
                                       const ShortcutOptions& options, const Execution& execution, Counters& counters) {
   if (path.size() < 3) return path;
   detail::Shortener<W, Length> shortener(world, std::move(path), length, options, execution);
-  Path<typename W::State> shorter = shortener.run();
+  Path<typename W::State> shorter = shortener.shortened();
+  counters += shortener.counters();
+  return shorter;
+}
+
+struct ImproveOptions {
+  std::uint64_t seed = 1;
+  std::uint32_t rounds = 400;  ///< at most
+  double worth = 2e-3;         ///< a round that takes off less than this share of the length is idle; >= 0
+  std::uint32_t patience = 1;  ///< so many idle rounds in a row are the end; >= 1
+};
+
+/// As shortcut_path(), for searches that go on.
+template <SteerableWorld W, class Length>
+Path<typename W::State> improve_path(const W& world, Path<typename W::State> path, const Length& length,
+                                     const ImproveOptions& options, const Execution& execution, Counters& counters) {
+  if (path.size() < 2) return path;
+  const ShortcutOptions rounds{options.seed, options.rounds};
+  detail::Shortener<W, Length> shortener(world, std::move(path), length, rounds, execution);
+  Path<typename W::State> shorter = shortener.improved(options.worth, options.patience);
   counters += shortener.counters();
   return shorter;
 }

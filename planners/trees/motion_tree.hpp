@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A tree of free motions that grows from its roots: what rrt and rrt_connect share. A forward tree's motions lead from
-// the roots to its states, a backward tree's from the states to the roots; so worlds may be used whose motions have a
-// direction. A step costs one neighbour query in the world's embedding and one motion check.
+// A tree of free motions that grows from its roots: what rrt, rrt_connect and rrt_star share. A forward tree's motions
+// lead from the roots to its states, a backward tree's from the states to the roots; so worlds may be used whose
+// motions have a direction. A step costs one neighbour query in the world's embedding and one motion check.
 #pragma once
 
 #include <algorithm>
@@ -41,13 +41,19 @@ class MotionTree {
   std::size_t size() const { return states_.size(); }
   const State& state(VertexId v) const { return states_[v]; }
   VertexId parent(VertexId v) const { return parents_[v]; }  ///< no_vertex for roots
+  /// Of the motions between v and its root, in the world's metric.
+  double cost(VertexId v) const { return costs_[v]; }
+  /// What growing has taken: a state check 1, a motion check 4, a neighbour query 1.
+  std::uint64_t work() const { return work_; }
 
-  /// Asks for what the tree takes while it doubles, once it has doubled. Throws Stopped.
-  void ask_room(const Execution& execution) {
+  /// Asks for what the tree takes while it doubles, once it has doubled, and so many more bytes a state. Throws
+  /// Stopped.
+  void ask_room(const Execution& execution, std::size_t more_bytes = 0) {
     constexpr std::size_t index_bytes = 32;  // of its own, a state
     if (states_.size() < asked_at_) return;
     asked_at_ = 2 * states_.size();
-    execution.reserve(asked_at_ * (sizeof(State) + sizeof(VertexId) + sizeof(Embedding) + index_bytes));
+    execution.reserve(
+        asked_at_ * (sizeof(State) + sizeof(VertexId) + sizeof(double) + sizeof(Embedding) + index_bytes + more_bytes));
   }
   /// Those of all states. Throws Stopped.
   std::vector<Embedding> embeddings(const Execution& execution) const {
@@ -59,33 +65,54 @@ class MotionTree {
   }
 
   VertexId nearest(const State& to, Counters& counters) {
-    ++counters.neighbour_queries;
+    count_query(counters);
     return index_.nearest(embedded(*world_, to)).id;
   }
-  /// Grows one motion from `from` towards `to`, of length `step` at most (in the world's metric): its vertex, or
-  /// nothing where the motion is not free.
-  std::optional<VertexId> extend(VertexId from, const State& to, double step, typename W::Query& query,
-                                 Counters& counters) {
-    const State state = towards(states_[from], to, step);
-    ++counters.edges_checked;
-    if (!world_->is_free(state, query)) return std::nullopt;
+  /// The k nearest by the embedding.
+  void nearest(const State& to, std::size_t k, std::vector<Neighbour>& out, Counters& counters) {
+    count_query(counters);
+    index_.nearest(embedded(*world_, to), k, out);
+  }
+  /// Of the motion that joins a vertex with a state, in the tree's direction.
+  double length(VertexId from, const State& to) const {
     const bool forward = direction_ == GrowthDirection::forward;
-    const bool is_free = forward ? world_->is_free_motion(states_[from], state, query)
-                                 : world_->is_free_motion(state, states_[from], query);
-    if (!is_free) return std::nullopt;
-    ++counters.edges_free;
-    return add(state, from);
+    return forward ? world_->distance(states_[from], to) : world_->distance(to, states_[from]);
+  }
+  /// Where the motion from a vertex towards a state has gone so far, at most.
+  State towards(VertexId from, const State& to, double step) const {
+    const double whole = length(from, to);
+    if (whole <= step) return to;
+    return direction_ == GrowthDirection::forward ? world_->interpolate(states_[from], to, step / whole)
+                                                  : world_->interpolate(to, states_[from], 1.0 - step / whole);
+  }
+  bool is_free(const State& state, typename W::Query& query) {
+    ++work_;
+    return world_->is_free(state, query);
+  }
+  /// Is the motion that joins a vertex with a free state free?
+  bool is_free_motion(VertexId from, const State& to, typename W::Query& query, Counters& counters) {
+    constexpr std::uint64_t work_of_motion = 4;
+    work_ += work_of_motion;
+    ++counters.edges_checked;
+    const bool forward = direction_ == GrowthDirection::forward;
+    const bool free =
+        forward ? world_->is_free_motion(states_[from], to, query) : world_->is_free_motion(to, states_[from], query);
+    counters.edges_free += free ? 1 : 0;
+    return free;
   }
   /// Grows one motion from `from` all the way to `to`: its vertex, or nothing where `to` or the motion is not free.
   std::optional<VertexId> join(VertexId from, const State& to, typename W::Query& query, Counters& counters) {
-    ++counters.edges_checked;
-    if (!world_->is_free(to, query)) return std::nullopt;
-    const bool forward = direction_ == GrowthDirection::forward;
-    const bool is_free =
-        forward ? world_->is_free_motion(states_[from], to, query) : world_->is_free_motion(to, states_[from], query);
-    if (!is_free) return std::nullopt;
-    ++counters.edges_free;
+    if (!is_free(to, query)) {
+      ++counters.edges_checked;
+      return std::nullopt;
+    }
+    if (!is_free_motion(from, to, query, counters)) return std::nullopt;
     return add(to, from);
+  }
+  /// The same towards `to`, of length `step` at most (in the world's metric).
+  std::optional<VertexId> extend(VertexId from, const State& to, double step, typename W::Query& query,
+                                 Counters& counters) {
+    return join(from, towards(from, to, step), query, counters);
   }
   /// Grows from `from` towards `to` step by step: the last vertex, which stands at `to` where nothing is in the way.
   VertexId connect(VertexId from, const State& to, double step, typename W::Query& query, Counters& counters) {
@@ -103,26 +130,30 @@ class MotionTree {
     return way;
   }
 
- private:
+ protected:
   VertexId add(const State& state, VertexId parent) {
+    costs_.push_back(parent == no_vertex ? 0.0 : costs_[parent] + length(parent, state));
     states_.push_back(state);
     parents_.push_back(parent);
     index_.insert(embedded(*world_, state));
     return static_cast<VertexId>(states_.size() - 1);
   }
-  State towards(const State& from, const State& to, double step) const {
-    const bool forward = direction_ == GrowthDirection::forward;
-    const double way = forward ? world_->distance(from, to) : world_->distance(to, from);
-    if (way <= step) return to;
-    return forward ? world_->interpolate(from, to, step / way) : world_->interpolate(to, from, 1.0 - step / way);
+
+  std::vector<VertexId> parents_;
+  std::vector<double> costs_;
+
+ private:
+  void count_query(Counters& counters) {
+    ++work_;
+    ++counters.neighbour_queries;
   }
 
   const W* world_;
   GrowthDirection direction_;
   std::vector<State> states_;
-  std::vector<VertexId> parents_;
   GrowingTree<embedding_dimension<W>> index_;
   std::size_t asked_at_ = 1024;  // at so many states memory is asked for again
+  std::uint64_t work_ = 0;
 };
 
 /// The trees as a roadmap, one after the other; the first root of the first tree and of the last stand once more as

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -42,38 +43,69 @@ class RrtConnectSearch {
         begun_(index != 0) {
     trees_[0].add_root(start);
     for (const State& goal : goals) trees_[1].add_root(goal);
+    goal_count_ = static_cast<VertexId>(goals.size());
   }
 
+  /// Before anything has grown: only paths that cost less are of use. A state is added only where its cost in its tree
+  /// and the metric from there to the other end are less together. The way over places, which is the same whatever the
+  /// bound, is not tried.
+  void bound(double most) {
+    most_ = most;
+    begun_ = true;
+  }
   void advance(std::uint64_t steps, const Execution& execution) {
+    advance_while([&steps] { return steps-- > 0; }, execution);
+  }
+  /// Until so much more work() is done: a step's is never cut.
+  void advance_by_work(std::uint64_t more, const Execution& execution) {
+    advance_while([this, until = work() + more] { return work() < until; }, execution);
+  }
+  /// A state check 1, a motion check 4, a neighbour query 1; without what samplers look at.
+  std::uint64_t work() const { return trees_[0].work() + trees_[1].work(); }
+  bool arrived() const { return arrived_; }
+  bool gave_up() const { return node_count() >= options_->nodes || counters_.samples >= most_steps(); }
+  const Counters& counters() const { return counters_; }
+  /// In the world's metric; only where arrived().
+  double cost() const { return trees_[0].cost(meeting_[0]) + trees_[1].cost(meeting_[1]); }
+  Path<State> path() const;  ///< start to goal; only where arrived()
+  void finish(Solution<State>& solution, PlannedRoadmap<State>* keep, const Execution& execution) const;
+
+ private:
+  template <class GoesOn>
+  void advance_while(const GoesOn& goes_on, const Execution& execution) {
     if (!begun_) try_places(execution);
     begun_ = true;
-    for (std::uint64_t i = 0; i < steps && !arrived() && !gave_up(); ++i) {
+    while (!arrived() && !gave_up() && goes_on()) {
       execution.check();
       for (MotionTree<W>& tree : trees_) tree.ask_room(execution);
       take_step();
     }
     counters_.refused = refused_motions(query_);
   }
-  bool arrived() const { return arrived_; }
-  bool gave_up() const { return node_count() >= options_->nodes || counters_.samples >= most_steps(); }
-  const Counters& counters() const { return counters_; }
-  void finish(Solution<State>& solution, PlannedRoadmap<State>* keep, const Execution& execution) const;
-
- private:
   /// Trees that are shut in on all sides never get their nodes.
   std::uint64_t most_steps() const { return 64 * options_->nodes; }
   std::size_t node_count() const { return trees_[0].size() + trees_[1].size(); }
   void take_step();
+  double least_rest(std::size_t side, const State& state) const;
+  bool is_worth(std::size_t side, VertexId from, const State& next) const {
+    return most_ == unbounded ||
+           trees_[side].cost(from) + trees_[side].length(from, next) + least_rest(side, next) < most_;
+  }
+  void meet(std::size_t side, VertexId grown);
   std::optional<VertexId> walk(MotionTree<W>& tree, VertexId from, const PlaceWay& way, const Execution& execution);
   VertexId try_places(std::size_t side, VertexId root, const Execution& execution);
   void try_places(const Execution& execution);
 
+  static constexpr double unbounded = std::numeric_limits<double>::infinity();
+
   const W* world_;
   const RrtOptions* options_;
   double step_;
+  double most_ = unbounded;  // what a path may cost, and less
   std::uint64_t seed_;
   typename W::Query query_;
   std::array<MotionTree<W>, 2> trees_;  // from the start, from the goals
+  VertexId goal_count_ = 0;             // so many roots has the second
   std::array<VertexId, 2> meeting_{};   // where they meet, in each tree
   std::size_t turn_ = 0;                // whose turn it is
   bool arrived_ = false;
@@ -141,25 +173,53 @@ void RrtConnectSearch<W>::try_places(const Execution& execution) {
   if (!arrived_ && is_turned) try_places(1, goal, execution);
 }
 
+/// The least that is left from a state of a tree to the other end.
+template <SteerableWorld W>
+double RrtConnectSearch<W>::least_rest(std::size_t side, const State& state) const {
+  if (side == 1) return trees_[0].length(0, state);
+  double least = unbounded;
+  for (VertexId goal = 0; goal < goal_count_; ++goal) least = std::min(least, trees_[1].length(goal, state));
+  return least;
+}
+
+/// Grows the other tree towards a new state of this one.
+template <SteerableWorld W>
+void RrtConnectSearch<W>::meet(std::size_t side, VertexId grown) {
+  MotionTree<W>& other = trees_[1 - side];
+  const State& state = trees_[side].state(grown);
+  const VertexId from = other.nearest(state, counters_);
+  const bool bounded = most_ != unbounded;
+  if (bounded && !(trees_[side].cost(grown) + other.cost(from) + other.length(from, state) < most_)) return;
+  meeting_[side] = grown;
+  meeting_[1 - side] = other.connect(from, state, step_, query_, counters_);
+  arrived_ = other.state(meeting_[1 - side]) == state && (!bounded || cost() < most_);
+}
+
 template <SteerableWorld W>
 void RrtConnectSearch<W>::take_step() {
   MotionTree<W>& mine = trees_[turn_];
-  MotionTree<W>& other = trees_[1 - turn_];
+  const MotionTree<W>& other = trees_[1 - turn_];
   // The first targets are the other tree's roots: in the open that is all.
   const bool straight = counters_.samples < 2;
   const State target =
       straight ? other.state(0)
                : target_state(*world_, options_->sampler_of(counters_.samples), seed_, counters_.samples, query_);
   ++counters_.samples;
-  const auto grown = mine.extend(mine.nearest(target, counters_), target, step_, query_, counters_);
-  if (grown) {
-    const VertexId reached =
-        other.connect(other.nearest(mine.state(*grown), counters_), mine.state(*grown), step_, query_, counters_);
-    arrived_ = other.state(reached) == mine.state(*grown);
-    meeting_[turn_] = *grown;
-    meeting_[1 - turn_] = reached;
+  const VertexId from = mine.nearest(target, counters_);
+  const State next = mine.towards(from, target, step_);
+  if (is_worth(turn_, from, next)) {
+    if (const auto grown = mine.join(from, next, query_, counters_)) meet(turn_, *grown);
   }
   turn_ = 1 - turn_;
+}
+
+template <SteerableWorld W>
+auto RrtConnectSearch<W>::path() const -> Path<State> {
+  Path<State> whole = trees_[0].way_to_root(meeting_[0]);
+  std::reverse(whole.begin(), whole.end());
+  const Path<State> rest = trees_[1].way_to_root(meeting_[1]);
+  whole.insert(whole.end(), rest.begin() + 1, rest.end());
+  return whole;
 }
 
 template <SteerableWorld W>
@@ -167,10 +227,7 @@ void RrtConnectSearch<W>::finish(Solution<State>& solution, PlannedRoadmap<State
                                  const Execution& execution) const {
   solution.roadmap = {node_count(), node_count() - 1, arrived_ ? 1U : 2U};
   if (arrived_) {
-    solution.path = trees_[0].way_to_root(meeting_[0]);
-    std::reverse(solution.path.begin(), solution.path.end());
-    const Path<State> rest = trees_[1].way_to_root(meeting_[1]);
-    solution.path.insert(solution.path.end(), rest.begin() + 1, rest.end());
+    solution.path = path();
   } else {
     solution.separation = separation_between<embedding_dimension<W>>(trees_[0].embeddings(execution),
                                                                      trees_[1].embeddings(execution), execution);

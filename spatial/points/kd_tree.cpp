@@ -373,6 +373,40 @@ Neighbour GrowingTree<D>::nearest(const Point& p) {
   return best;
 }
 
+/// The k of the largest tree, and of the others what is not farther than these.
+template <int D>
+void GrowingTree<D>::nearest(const Point& p, std::size_t k, std::vector<Neighbour>& out) {
+  out.clear();
+  if (k == 0) return;
+  const auto keep = [&out, k] {
+    if (out.size() <= k) return;
+    std::nth_element(out.begin(), out.begin() + as_whole<std::ptrdiff_t>(k), out.end());
+    out.resize(k);
+  };
+  const auto reach = [&out, k] {
+    return out.size() < k ? infinity : std::max_element(out.begin(), out.end())->distance;
+  };
+  for (const Level& level : levels_) {
+    const auto take = [&](VertexId place, double distance) {
+      out.push_back({as_whole<VertexId>(level.first + place), distance});
+    };
+    if (const double most = reach(); most < infinity) {
+      level.tree.for_each_within(p, most, take);
+    } else {
+      level.tree.nearest(p, k, no_vertex, found_);
+      for (const Neighbour& found : found_) take(found.id, found.distance);
+    }
+    keep();
+  }
+  const double most = reach();
+  for (std::size_t i = filed_; i < points_.size(); ++i) {
+    const double distance = distance_between<D>(points_[i], p);
+    if (distance <= most) out.push_back({as_whole<VertexId>(i), distance});
+  }
+  keep();
+  std::sort(out.begin(), out.end());
+}
+
 template class GrowingTree<2>;
 template class GrowingTree<3>;
 template class GrowingTree<4>;

@@ -60,9 +60,9 @@ extern template class KdTree<6>;
 /// Nearest neighbours among points that keep coming: what a tree that grows asks at every step. Logarithmic rebuilding
 /// (Bentley, Saxe, J. Algorithms 1, 1980): the newest up to 127 points are looked at one by one; when there are 128
 /// they become a k-d tree, and two trees of one size become one of the double size, so that n points lie in at most
-/// log2(n / 128) trees. An insertion costs O(log^2 n) on average, a query O(log^2 n) and 128 distances at most. The
-/// answers are those of brute force, ties by id. Measured in bench/certified_motion_bench.cpp. Points are numbered as
-/// they come. For one thread. D = 2, 3, 4 and 6.
+/// log2(n / 128) trees. An insertion costs O(log^2 n) on average, a query O(log^2 n) and 128 distances at most, and of
+/// k neighbours k log k. The answers are those of brute force, ties by id. Measured in
+/// bench/certified_motion_bench.cpp. Points are numbered as they come. For one thread. D = 2, 3, 4 and 6.
 template <int D>
 class GrowingTree {
  public:
@@ -74,6 +74,21 @@ class GrowingTree {
   const Point& point(VertexId id) const { return points_[id]; }
   /// The nearest point, the first of them; size() >= 1.
   Neighbour nearest(const Point& p);
+  /// The k points nearest to p (fewer if there are not so many), ascending by (distance, id).
+  void nearest(const Point& p, std::size_t k, std::vector<Neighbour>& out);
+  /// Calls visit(id, distance) for all points at a distance <= radius from p, in an order that depends on the points.
+  template <class Visit>
+  void for_each_within(const Point& p, const SearchRadius& radius, const Visit& visit) const {
+    for (const Level& level : levels_) {
+      level.tree.for_each_within(p, radius, [&](VertexId place, double distance) {
+        visit(as_whole<VertexId>(level.first + place), distance);
+      });
+    }
+    for (std::size_t i = filed_; i < points_.size(); ++i) {
+      const double distance = distance_between<D>(points_[i], p);
+      if (distance <= radius.length()) visit(as_whole<VertexId>(i), distance);
+    }
+  }
 
  private:
   /// Points first .. first + tree.size() - 1, in the order of their numbers.

@@ -3,8 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <vector>
 
 #include "core/base/rng.hpp"
 
@@ -38,27 +39,40 @@ double plain_distance(const PointOf<D>& a, const PointOf<D>& b) {
   }
 }
 
-/// After every insertion one query, against a plain loop.
+/// After every insertion one query of each kind, against a plain loop.
 template <int D>
 void expect_as_brute_force(std::uint64_t seed, std::size_t count) {
   SCOPED_TRACE(testing::Message() << "D " << D << " seed " << seed);
   GrowingTree<D> tree;
   std::vector<PointOf<D>> points;
+  std::vector<Neighbour> all;
+  std::vector<Neighbour> found;
   for (std::size_t i = 0; i < count; ++i) {
     points.push_back(random_point<D>(seed, i));
     tree.insert(points.back());
     ASSERT_EQ(tree.size(), points.size());
     const PointOf<D> query = random_point<D>(seed + 100, i);
-    Neighbour best{0, std::numeric_limits<double>::infinity()};
+    all.clear();
     for (std::size_t j = 0; j < points.size(); ++j) {
-      const double d = plain_distance<D>(points[j], query);
-      if (d < best.distance) best = {static_cast<VertexId>(j), d};
+      all.push_back({static_cast<VertexId>(j), plain_distance<D>(points[j], query)});
     }
-    ASSERT_EQ(tree.nearest(query), best) << i;
+    std::sort(all.begin(), all.end());
+    ASSERT_EQ(tree.nearest(query), all.front()) << i;
+
+    const std::size_t k = i % 5 == 0 ? 200 : i % 12;
+    tree.nearest(query, k, found);
+    ASSERT_EQ(found, std::vector(all.begin(), all.begin() + static_cast<long>(std::min(k, all.size())))) << i;
+
+    const double radius = i % 3 == 0 ? all[all.size() / 4].distance : 0.3;  // of a point, or of none
+    found.clear();
+    tree.for_each_within(query, radius, [&](VertexId id, double distance) { found.push_back({id, distance}); });
+    std::sort(found.begin(), found.end());
+    const auto beyond = [radius](const Neighbour& n) { return n.distance > radius; };
+    ASSERT_EQ(found, std::vector(all.begin(), std::find_if(all.begin(), all.end(), beyond))) << i;
   }
 }
 
-TEST(GrowingTree, FindsTheNearestAtEverySizeAsBruteForceDoes) {
+TEST(GrowingTree, FindsTheNearestAndThoseWithinARadiusAtEverySizeAsBruteForceDoes) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     expect_as_brute_force<2>(seed, 700);
     expect_as_brute_force<4>(seed, 700);

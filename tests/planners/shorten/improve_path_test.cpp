@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "planners/shorten/shortcut.hpp"
+#include "tests/planners/trees/sampled_problems.hpp"
+
+namespace warren {
+namespace {
+
+namespace problems = sampled_problems;
+
+/// Free, from end to end, no longer, and the same whatever the threads.
+template <class W>
+double share_left(const problems::Problem<W>& problem, std::uint64_t seed) {
+  const auto length = [&](const auto& a, const auto& b) { return problem.world.distance(a, b); };
+  const auto found = rrt_connect(problem.world, problem.start, std::span(&problem.goal, 1), {.seed = seed}, {});
+  EXPECT_EQ(found.outcome, Outcome::solved);
+  Path<typename W::State> first;
+  Counters first_counters;
+  for (const unsigned threads : {1U, 2U, 8U}) {
+    Counters counters;
+    const auto path = improve_path(problem.world, found.path, length, {.seed = seed}, {.threads = threads}, counters);
+    if (threads == 1) {
+      first = path;
+      first_counters = counters;
+    }
+    EXPECT_EQ(path, first) << threads;
+    EXPECT_EQ(counters, first_counters) << threads;
+  }
+  EXPECT_EQ(first.front(), problem.start);
+  EXPECT_EQ(first.back(), problem.goal);
+  EXPECT_TRUE(problem.is_free(first));
+  EXPECT_GT(first_counters.edges_checked, 0U);
+  const double share = problem.length(first) / problem.length(found.path);
+  EXPECT_LE(share, 1.0 + 1e-12);
+  return share;
+}
+
+TEST(ImprovePath, MakesPathsShorterInEveryWorldAndTheSameForAnyNumberOfThreads) {
+  std::vector<double> shares(5, 0.0);
+  constexpr std::uint64_t seeds = 6;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    SCOPED_TRACE(seed);
+    shares[0] += share_left(problems::point(true), seed) / seeds;
+    shares[1] += share_left(problems::body(seed), seed) / seeds;
+    shares[2] += share_left(problems::car<DubinsWorld>(), seed) / seeds;
+    shares[3] += share_left(problems::car<ReedsSheppWorld>(), seed) / seeds;
+    shares[4] += share_left(problems::arm(), seed) / seeds;
+  }
+  for (const double share : shares) EXPECT_LT(share, 0.95);
+}
+
+TEST(ImprovePath, ApproachesTheShortestAroundACornerAndKeepsFewStates) {
+  const auto problem = problems::point(true);
+  const Path<Vec2> path = {{2, 1}, {1, 9}, {4, 6}, {5, 9}, {9, 9}, {8, 1}};
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Counters counters;
+    const auto shorter = improve_path(problem.world, path, MazeWorld::distance,
+                                      {.seed = seed, .worth = 1e-4, .patience = 3}, {}, counters);
+    EXPECT_LE(problem.length(shorter), 10.0 * 1.005) << seed;
+    EXPECT_GE(problem.length(shorter), 10.0);
+    EXPECT_LE(shorter.size(), 8U);
+  }
+}
+
+TEST(ImprovePath, LeavesWhatCanNotBeShorter) {
+  const auto problem = problems::point(false);
+  const Path<Vec2> straight = {{2, 1}, {8, 1}};
+  const Path<Vec2> in_pieces = {{2, 1}, {3, 1}, {5, 1}, {8, 1}};
+  Counters counters;
+  EXPECT_EQ(improve_path(problem.world, straight, MazeWorld::distance, {}, {}, counters), straight);
+  EXPECT_EQ(improve_path(problem.world, in_pieces, MazeWorld::distance, {}, {}, counters), straight);
+  const Path<Vec2> one = {{2, 1}};
+  EXPECT_EQ(improve_path(problem.world, one, MazeWorld::distance, {}, {}, counters), one);
+  const Deadline past(1e-9);
+  EXPECT_THROW(improve_path(problem.world, in_pieces, MazeWorld::distance, {}, {.deadline = &past}, counters), Stopped);
+}
+
+}  // namespace
+}  // namespace warren
