@@ -8,6 +8,8 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "core/base/printable.hpp"
 #include "scenes/files/human_units.hpp"
@@ -110,9 +112,18 @@ std::string planner_text(const Answer& answer) {
 void add_path(std::string& text, const Answer& answer, const Palette& palette) {
   std::string length = palette.strong(length_text(answer, answer.length));
   if (answer.raw_length) length += fmt::format(" (before --optimise: {})", length_text(answer, *answer.raw_length));
-  if (answer.optimal) length += " (the shortest there is)";
+  const auto gap = gap_of(answer);
+  if (answer.optimal && !answer.cost) {
+    length += " (the shortest there is)";
+  } else if (gap && !answer.iterations && figure_named(answer.options, "bound") != nullptr) {
+    length += fmt::format(" (at most {} % above the shortest)", human_number(100.0 * *gap));
+  }
   line(text, palette, "length", length + fmt::format(", {}", counted(path_points(answer), "point", "points")));
-  if (answer.cost) line(text, palette, "cost", human_number(*answer.cost) + ", in steps from cell to cell");
+  if (answer.cost) {
+    const std::string_view of_what = answer.iterations ? "turning counted" : "in steps from cell to cell";
+    line(text, palette, "cost",
+         fmt::format("{}, {}{}", human_number(*answer.cost), of_what, answer.optimal ? " (the least there is)" : ""));
+  }
   if (answer.turn_rad) {
     constexpr double degree = std::numbers::pi / 180.0;
     line(text, palette, "turning", human_number(*answer.turn_rad / degree) + " degrees");
@@ -120,6 +131,37 @@ void add_path(std::string& text, const Answer& answer, const Palette& palette) {
   line(text, palette, "clearance",
        fmt::format("{} at least; {} asked for", length_text(answer, answer.min_clearance),
                    length_text(answer, answer.problem.clearance)));
+}
+
+/// Why it got no better than it is.
+std::string end_text(const Answer& answer) {
+  if (answer.stop_reason) return std::string(text_of(*answer.stop_reason));
+  if (answer.ended_by == "optimum") return "there is no better one";
+  if (answer.ended_by == "gap") return "as near to the best as --gap asks for";
+  if (answer.ended_by == "iterations") return "all --iterations are done";
+  if (answer.ended_by == "caller") return "the caller had enough";
+  return answer.ended_by;
+}
+
+/// Of planners that get better: how the path came to be, and how far from the best it is at most.
+void add_quality(std::string& text, const Answer& answer, const Palette& palette) {
+  if (!answer.iterations) return;
+  std::string what = counted(*answer.iterations, "turn", "turns");
+  const std::vector<Improvement>& all = answer.improvements;
+  if (answer.verified && all.size() > 1) {
+    what += fmt::format(", cost {} to {} in {}", human_number(all.front().cost), human_number(all.back().cost),
+                        counted(all.size() - 1, "step", "steps"));
+  }
+  const std::string end = end_text(answer);
+  line(text, palette, "better", what + (end.empty() ? "" : "; " + end));
+  const auto gap = gap_of(answer);
+  if (!gap || answer.optimal) return;
+  constexpr double near = 0.02;
+  const std::string share = share_text(*gap);
+  std::string how_far = fmt::format("at most {} longer than the best", share);
+  if (answer.cost) how_far = fmt::format("costs at most {} more than the best", share);
+  if (*gap < near) how_far = fmt::format("within {} of the best there is", share);
+  line(text, palette, "bound", fmt::format("{}: {}, proved", human_number(*answer.lower_bound), how_far));
 }
 
 /// Of --sampled-edges: how many are wrong, and what the proof took.
@@ -149,12 +191,12 @@ void add_roadmap(std::string& text, const Answer& answer, const Palette& palette
   if (answer.roadmap.components > 0) what += ", " + counted(answer.roadmap.components, "component", "components");
   line(text, palette, "roadmap", what);
   add_wrong_edges(text, answer, palette);
-  std::string work = grouped(answer.counters.expanded) + " expanded";
-  const auto [edges, rounds] = std::pair(answer.counters.edges_checked, answer.counters.rounds);
-  if (edges > 0)
-    work = counted(edges, "edge", "edges") + " checked, " + work;  // none where all are free by their making
-  if (rounds > 0) work += ", " + counted(rounds, "round", "rounds");
-  line(text, palette, "work", work);
+  const Counters& did = answer.counters;
+  std::vector<std::string> work;  // no edges where all are free by their making, no search where trees have met
+  if (did.edges_checked > 0) work.push_back(counted(did.edges_checked, "edge", "edges") + " checked");
+  if (did.expanded > 0) work.push_back(counted(did.expanded, "place", "places") + " expanded by the search");
+  if (did.rounds > 0) work.push_back(counted(did.rounds, "round", "rounds"));
+  if (!work.empty()) line(text, palette, "work", fmt::format("{}", fmt::join(work, ", ")));
   if (answer.outcome != Outcome::not_connected || answer.refuted || !answer.separation.is_known()) return;
   line(
       text, palette, "start, goal",
@@ -193,6 +235,12 @@ void add_times(std::string& text, const Answer& answer, const Palette& palette) 
 
 }  // namespace
 
+std::string share_text(double share) {
+  const double percent = 100.0 * share;
+  const double unit = percent >= 10.0 ? 1.0 : percent >= 1.0 ? 0.1 : percent >= 0.1 ? 0.01 : 0.001;
+  return fmt::format("{:g} %", unit * std::ceil(percent / unit - 1e-9));
+}
+
 std::string summary_of(const Answer& answer, const Palette& palette, std::span<const std::string> files_written) {
   std::string text = fmt::format("{}  {}\n", palette.strong(answer.world.source), headline(answer, palette));
   if (!answer.world.kind.empty()) {
@@ -202,6 +250,7 @@ std::string summary_of(const Answer& answer, const Palette& palette, std::span<c
   add_strange_headings(text, answer.problem, palette);
   if (answer.blocked) add_blocked(text, answer, *answer.blocked, palette);
   if (answer.verified) add_path(text, answer, palette);
+  add_quality(text, answer, palette);
   if (answer.refuted)
     line(text, palette, "length", length_text(answer, answer.refuted->length) + ", of the refuted path");
   add_roadmap(text, answer, palette);

@@ -13,4 +13,7 @@ namespace warren {
 /// Each line with its newline; Palette(false) for text without colours.
 std::string summary_of(const Answer& answer, const Palette& palette, std::span<const std::string> files_written);
 
+/// In per cent, rounded up as bounds must be: "0.001 %", "0.42 %", "3.4 %", "120 %". share >= 0.
+std::string share_text(double share);
+
 }  // namespace warren

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -113,6 +114,80 @@ void add_roadmap(Drawing& drawing, const Answer& answer, ByProducts& made, const
   if (is_shown) drawing.roadmap = std::move(roadmap);
 }
 
+/// Paths that were the best before, the older the fainter.
+PictureLayer improvements_layer(const Answer& answer, PolygonSet paths) {
+  PictureLayer layer{.id = "improvements",
+                     .label = counted(paths.size(), "path before it", "paths before it"),
+                     .part = Part::search,
+                     .color = colors::path,
+                     .width = widths::outline,
+                     .lines = std::move(paths),
+                     .over_roadmap = true};
+  if (!answer.improvements.empty()) {
+    layer.label += fmt::format(", the first {} long", human_number(answer.improvements.front().length));
+  }
+  constexpr double faintest = 0.15;
+  constexpr double strongest = 0.6;
+  for (std::size_t i = 0; i < layer.lines.size(); ++i) {
+    const double share = static_cast<double>(i + 1) / static_cast<double>(layer.lines.size());
+    layer.opacities.push_back(std::lerp(faintest, strongest, share));
+  }
+  return layer;
+}
+
+/// No path through a place outside of it is as short as the answer's: an ellipse around start and goal, as far as it
+/// lies in the box. Empty where the path is straight.
+PictureLayer informed_set(const Answer& answer, Vec2 start, Vec2 goal, const Box& box) {
+  constexpr int corners = 360;
+  PictureLayer layer{.id = "informed_set",
+                     .label = fmt::format("no path shorter than {} leaves it", human_number(answer.length)),
+                     .part = Part::search,
+                     .color = colors::outline,
+                     .width = widths::outline,
+                     .over_roadmap = true};
+  const double apart = distance(start, goal);
+  if (!(answer.length > apart) || apart == 0.0) return layer;
+  const Vec2 along = 0.5 * answer.length / apart * (goal - start);
+  const double half_width = 0.5 * std::sqrt((answer.length - apart) * (answer.length + apart));
+  const Vec2 across = half_width / apart * Vec2{start.y - goal.y, goal.x - start.x};
+  const Vec2 middle = 0.5 * (start + goal);
+  std::vector<Vec2> chain;
+  const auto end_chain = [&] {
+    if (chain.size() > 1) layer.lines.add(chain);
+    chain.clear();
+  };
+  std::vector<Vec2> circle = circle_outline({0, 0}, 1.0, corners);
+  circle.push_back(circle.front());
+  for (const Vec2 c : circle) {
+    const Vec2 p = middle + c.x * along + c.y * across;
+    const bool is_inside = p.x >= box.min.x && p.x <= box.max.x && p.y >= box.min.y && p.y <= box.max.y;
+    is_inside ? chain.push_back(p) : end_chain();
+  }
+  end_chain();
+  return layer;
+}
+
+/// What is seen of a planner that gets better: where it looked, and the paths that it had before.
+void add_improvements(Drawing& drawing, const Scene& scene, const Answer& answer, ByProducts& made) {
+  if (!answer.verified || !answer.iterations) return;
+  const RobotKind body = answer.problem.robot.kind;
+  const bool is_informed = answer.planner != name_of(PlannerKind::rrt_star);
+  if (is_informed && (body == RobotKind::point || body == RobotKind::disc) && drawing.start && drawing.goal) {
+    Box box = obstacle_box(scene);
+    if (scene.bounds) box.include(*scene.bounds);
+    for (const Vec2 p : drawing.path) box.include(p);
+    PictureLayer ellipse = informed_set(answer, *drawing.start, *drawing.goal, box);
+    if (!ellipse.lines.empty()) drawing.layers.push_back(std::move(ellipse));
+  }
+  PolygonSet before;
+  for (std::size_t i = 0; i < made.improved.size(); ++i) {
+    if (!std::ranges::equal(made.improved[i], drawing.path)) before.add(made.improved[i]);
+  }
+  if (before.empty()) return;
+  drawing.layers.push_back(improvements_layer(answer, std::move(before)));
+  drawing.path_label += fmt::format(", {} long", human_number(answer.length));
+}
+
 std::vector<PictureLayer> ground_of(const Scene& scene, const Execution& execution) {
   return scene.map ? cells_of_map(*scene.map, execution) : std::vector<PictureLayer>{};
 }
@@ -176,6 +251,7 @@ Drawing drawing_of(const Scene& scene, const Answer& answer, ByProducts made, co
   for (NamedLines& lines : made.lines) drawing.layers.push_back(layer_of(std::move(lines)));
   add_roadmap(drawing, answer, made, execution);
   add_bodies(drawing, problem.robot, states);
+  add_improvements(drawing, scene, answer, made);
   return drawing;
 }
 

@@ -11,6 +11,7 @@
 #include "solve/kept/roadmap.hpp"
 #include "solve/kept/roadmap_query.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
+#include "solve/kinds/lower_bound.hpp"
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/solve_steps.hpp"
 
@@ -38,6 +39,19 @@ void check_length(Verdict& verdict, const RecordedAnswer& answer) {
       Violation{.leg = 0,
                 .distance = 0.0,
                 .obstacle = fmt::format("length: the answer says {}, its path has {}", *answer.length, verdict.length)};
+}
+
+/// So is the lower bound.
+void check_bound(Verdict& verdict, const Scene& scene, const RecordedAnswer& answer, const Execution& execution) {
+  if (!verdict.verified || !answer.lower_bound) return;
+  const auto& [robot, start, goal, clearance, contact] = verdict.problem;
+  const ClaimedBound claim{*answer.lower_bound, answer.cost, verdict.length, answer.state_width(),
+                           answer.states.numbers};
+  const JudgedBound judged = verify_bound(scene, {robot, start, goal, clearance}, claim, execution);
+  verdict.bound = judged.verdict;
+  if (judged.verdict != BoundVerdict::refuted) return;
+  verdict.verified = false;
+  verdict.first_violation = Violation{.leg = 0, .distance = 0.0, .obstacle = "lower_bound: " + judged.what};
 }
 
 /// What shapes the roadmap.
@@ -83,7 +97,8 @@ Answer kept_and_solved(Scene scene, const Question& question, const SolveOptions
                           .optimise = options.optimise,
                           .cusp_cost = options.car.cusp_cost,
                           .reverse_cost = options.car.reverse_cost,
-                          .heuristic = options.heuristic};
+                          .heuristic = options.heuristic,
+                          .bound = options.bound};
   if (!roadmap.arrays.hierarchy.empty() && !how.search) how.search = SearchMethod::astar;  // as solve searches
   QuestionScratch scratch;
   Answer asked = query.ask_within(question.start, question.goal, how, execution, scratch, by_question ? nullptr : keep);
@@ -113,6 +128,7 @@ Answer solve_within(const Scene& scene, const Question& question, const SolveOpt
     SolveRequest request{options, planned.get(), question, solver.planner, accounted, keep};
     request.taker = taker;
     answer = solver.kind->solve(request);
+    tell_bound(answer, planned.get(), options, accounted);
     if (answer.world.kind.empty()) answer.world = std::move(world);
   } catch (const Stopped& stopped) {
     answer.stop_reason = stopped.reason;
@@ -132,6 +148,7 @@ Verdict verify_within(const Scene& scene, const Question& question, const Record
   const Question asked = merged(question, answer.problem);
   Verdict verdict = verifying_kind(scene, asked).verify(scene, asked, answer, execution);
   check_length(verdict, answer);
+  check_bound(verdict, scene, answer, execution);
   return verdict;
 }
 

@@ -61,10 +61,8 @@ int dispatch(std::span<const std::string> words) {
 }
 
 std::string usage_hint(std::span<const std::string> words) {
-  for (const Command& command : command_table()) {
-    if (!words.empty() && words[0] == command.name) return fmt::format(" (see 'warren {} --help')", command.name);
-  }
-  return " (see 'warren --help')";
+  const bool is_verb = !words.empty() && words[0] != "help" && find_command(words[0]) != nullptr;
+  return is_verb ? fmt::format(" (see 'warren {} --help')", words[0]) : " (see 'warren --help')";
 }
 
 int run_program(std::span<const std::string> words) {

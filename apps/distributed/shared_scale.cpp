@@ -27,7 +27,7 @@ constexpr tools::OptionSpec scale_specs[] = {
     {"--loops", "F", "fraction of the walls left that are taken out (default: 0)"},
     {"--seed", "N", "of the mazes (default: 1)"},
     {"--ranks", "LIST",
-     "numbers of ranks, apart by commas, at most those that mpirun has started (default: 1 and all)"},
+     "numbers of ranks, separated by commas, at most those that mpirun has started (default: 1 and all)"},
     {"--json", "FILE", "write warren.ranks/1; - is standard output"},
 };
 

@@ -182,7 +182,7 @@ WARREN_ARCHIVED(WorldAccount, source, kind, walls, polygons, hash, spheres, boxe
 WARREN_ARCHIVED(NamedFigure, name, value)
 WARREN_ARCHIVED(StageCost, name, wall_s, cpu_s)
 WARREN_ARCHIVED(HandedPath, points, hash)
-WARREN_ARCHIVED(Improvement, iterations, seconds, cost, length, by)
+WARREN_ARCHIVED(Improvement, iterations, seconds, cost, length, by, lower_bound)
 WARREN_ARCHIVED(Answer, outcome, stop_reason, verified, blocked, explained, refuted, length, min_clearance, raw_length,
                 optimal, lower_bound, improvements, iterations, ended_by, cost, turn_rad, problem, world, planner,
                 pipeline, sampler, search, seed, threads, options, roadmap, cells, figures, path_figures, separation,

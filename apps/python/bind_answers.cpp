@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "apps/python/arrays.hpp"
 #include "apps/python/bind.hpp"
@@ -51,14 +52,25 @@ py::dict seconds_of(const Answer& answer) {
   return seconds;
 }
 
+py::list improvements_of(const Answer& answer) {
+  py::list all;
+  for (const Improvement& i : answer.improvements) {
+    all.append(py::make_tuple(i.iterations, i.seconds, i.length, i.cost, i.by, i.lower_bound));
+  }
+  return all;
+}
+
 py::object blocked_of(const Answer& answer) {
   if (!answer.blocked) return py::none();
   py::dict blocked;
   blocked["end"] = answer.blocked->is_start ? "start" : "goal";
   blocked["by"] = answer.blocked->by;
-  blocked["free_place"] = answer.blocked->free_place;
-  blocked["distance"] = answer.blocked->distance;
-  blocked["hint"] = answer.blocked->hint;
+  const bool is_place = !answer.blocked->free_place.empty();
+  blocked["free_place"] = is_place ? py::object(py::tuple(py::cast(answer.blocked->free_place))) : py::none();
+  blocked["distance"] = is_place ? std::optional(answer.blocked->distance) : std::nullopt;
+  blocked["hint"] = answer.blocked->hint.empty() ? std::nullopt : std::optional(answer.blocked->hint);
+  blocked["room"] = answer.blocked->room;
+  blocked["needed"] = answer.blocked->needed;
   blocked["depth"] = answer.blocked->depth;
   return blocked;
 }
@@ -151,10 +163,16 @@ void bind_answers(py::module_& module) {
   });
   figure(answers, "verified", [](const Answer& a) { return a.verified; });
   figure(answers, "optimal", [](const Answer& a) { return a.optimal; });
+  figure(answers, "lower_bound", [](const Answer& a) { return a.lower_bound.value_or(unknown); });
+  figure(answers, "gap", [](const Answer& a) { return gap_of(a).value_or(unknown); });
   figure(answers, "length", [](const Answer& a) { return a.verified ? a.length : unknown; });
   figure(answers, "min_clearance", [](const Answer& a) { return a.verified ? a.min_clearance : unknown; });
   figure(answers, "raw_length", [](const Answer& a) { return a.raw_length.value_or(unknown); });
   figure(answers, "cost", [](const Answer& a) { return a.cost.value_or(unknown); });
+  figure(answers, "iterations", [](const Answer& a) { return a.iterations; });
+  figure(answers, "ended_by",
+         [](const Answer& a) { return a.ended_by.empty() ? std::nullopt : std::optional(a.ended_by); });
+  figure(answers, "improvements", &improvements_of);
   figure(answers, "turn_rad", [](const Answer& a) { return a.turn_rad.value_or(unknown); });
   figure(answers, "robot", [](const Answer& a) { return robot_text(a.problem.robot); });
   figure(answers, "start", [](const Answer& a) { return a.problem.start; });

@@ -125,8 +125,10 @@ tools::Command asking() {
     return is_of_search(spec) || is_among({"--start", "--goal"}, spec);
   });
 }
-tools::Command asking_pairs() { return of_verb("lengths", tools::query_command(), is_of_search); }
-tools::Command asking_matrix() { return of_verb("matrix", tools::query_command(), is_of_search); }
+/// Lengths alone have no bound.
+bool is_of_lengths(const tools::OptionSpec& spec) { return is_of_search(spec) && spec.name != "--bound"; }
+tools::Command asking_pairs() { return of_verb("lengths", tools::query_command(), is_of_lengths); }
+tools::Command asking_matrix() { return of_verb("matrix", tools::query_command(), is_of_lengths); }
 
 Kept build_roadmap(const Scene& scene, py::dict keywords) {
   CallLimits limits = take_limits(keywords);

@@ -26,8 +26,9 @@ constexpr tools::OptionSpec narrow_spec[] = {{"--explain", "", "say where along 
 tools::Command verifying() { return command_of("verify", {tools::question_option_specs(), narrow_spec}); }
 
 /// The answer as the program makes it; a stopped one, too, unless Python's handler of a signal raises.
-KeptAnswer solve_scene(const Scene& scene, py::dict keywords, bool keep, bool explain) {
+KeptAnswer solve_scene(const Scene& scene, py::dict keywords, bool keep, bool explain, py::object on_improvement) {
   CallLimits limits = take_limits(keywords);
+  limits.tell_improvements(std::move(on_improvement));
   const tools::Arguments words = arguments_of(made_once<solving>(), keywords);
   const Question question = tools::question_words(words);
   const SolveOptions options = tools::solve_words(words);
@@ -173,6 +174,7 @@ void bind_studies(py::module_& module) {
       .def("runs_csv", &studies::comparison_runs)
       .def("table_csv", &studies::comparison_csv)
       .def("json", &studies::comparison_json)
+      .def("curves_csv", &studies::comparison_curves)
       .def("svg", [](const studies::Comparison& comparison) { return studies::comparison_plots(comparison).svg(); })
       .def("summary", [](const studies::Comparison& comparison) {
         return studies::comparison_summary(comparison, Palette(false));

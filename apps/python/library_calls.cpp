@@ -133,6 +133,7 @@ Limits CallLimits::limits(const SignalWatch& watch) {
   flag_ = &watch.flag_or(own_flag_);
   limits_.cancel = flag_;
   if (!progress_.is_none()) limits_.progress = [this](const ProgressReport& report) { tell(report); };
+  if (!on_improvement_.is_none()) limits_.on_improvement = [this](const Improvement& better) { return tell(better); };
   return limits_;
 }
 
@@ -152,6 +153,26 @@ void CallLimits::ask_python(const ProgressReport& report) {
   if (said != nullptr) return;
   failure_.emplace();
   flag_->store(SIGINT, std::memory_order_relaxed);
+}
+
+bool CallLimits::tell(const Improvement& improvement) noexcept {
+  bool goes_on = false;
+  or_sleep_at_exit([&] {
+    const PyGILState_STATE state = PyGILState_Ensure();
+    goes_on = !failure_ && ask_python(improvement);
+    PyGILState_Release(state);
+  });
+  return goes_on;
+}
+
+bool CallLimits::ask_python(const Improvement& improvement) {
+  PyObject* said = PyObject_CallFunction(
+      on_improvement_.ptr(), "Kdddsd", static_cast<unsigned long long>(improvement.iterations), improvement.seconds,
+      improvement.length, improvement.cost, improvement.by.c_str(), improvement.lower_bound);
+  const bool goes_on = said != nullptr && said != Py_False;
+  Py_XDECREF(said);
+  if (said == nullptr) failure_.emplace();
+  return goes_on;
 }
 
 void CallLimits::raise_failure() {

@@ -60,6 +60,10 @@ class CallLimits {
              pybind11::object progress);
   CallLimits() : CallLimits(0, {}, {}, pybind11::none()) {}
 
+  /// Calls `told`, unless it is None, with the figures of each better path, on the thread that calls run(), with the
+  /// interpreter's lock held; False, or what it raises, ends the search.
+  void tell_improvements(pybind11::object told) { on_improvement_ = std::move(told); }
+
   /// Calls work(execution) without the interpreter's lock. Throws what it throws, and what handlers of signals and
   /// progress functions raise; Stopped where a handler of a signal lets the program go on.
   template <class Work>
@@ -92,13 +96,16 @@ class CallLimits {
   Limits limits(const SignalWatch& watch);
   void tell(const ProgressReport& report) noexcept;
   void ask_python(const ProgressReport& report);
+  bool tell(const Improvement& improvement) noexcept;
+  bool ask_python(const Improvement& improvement);
   void raise_failure();
 
   Limits limits_;
   SignalFlag own_flag_{0};
-  SignalFlag* flag_ = &own_flag_;  // set by signals, and where the progress function fails
+  SignalFlag* flag_ = &own_flag_;  // set by signals, and where a function of Python fails
   pybind11::object progress_;
-  std::optional<pybind11::error_already_set> failure_;  // of the progress function
+  pybind11::object on_improvement_ = pybind11::none();
+  std::optional<pybind11::error_already_set> failure_;  // of one of these two functions
 };
 
 /// From now on what the library throws becomes an exception of warren._errors: each with where, what and value.

@@ -35,6 +35,10 @@ struct ComparedRun {
   Counters counters = {};                    ///< planners only
   std::vector<StageCost> costs = {};         ///< planners only: of each stage
   RoadmapSize roadmap = {};                  ///< planners only
+  /// Planners only: each path that was the best so far, by the clock of time_s and in the body's metric; of those that
+  /// have one answer that one, by "answer".
+  std::vector<Improvement> improvements = {};
+  std::optional<double> lower_bound = {};  ///< planners only: proved, of all costs of `improvements`
   bool solved() const { return outcome == Outcome::solved; }
 };
 

@@ -331,6 +331,25 @@ std::string comparison_runs(const Comparison& comparison) {
   return text;
 }
 
+std::string comparison_curves(const Comparison& comparison) {
+  std::string text = "planner,seed,seconds,cost,length,by,lower_bound,options\n";
+  for (const Contender& c : comparison.contenders) {
+    const std::string options = options_text(c);
+    for (const ComparedRun& run : c.runs) {
+      const std::string seed = std::to_string(run.seed);
+      const std::string bound = run.lower_bound ? fmt::format("{}", *run.lower_bound) : "";
+      for (const Improvement& one : run.improvements) {
+        text += csv_line({c.planner, seed, fmt::format("{}", one.seconds), fmt::format("{}", one.cost),
+                          fmt::format("{}", one.length), one.by, bound, options});
+      }
+      if (run.improvements.empty()) {
+        text += csv_line({c.planner, seed, fmt::format("{}", run.time_s), "", "", "", bound, options});
+      }
+    }
+  }
+  return text;
+}
+
 std::string ompl_log(const Comparison& comparison, const OmplExperiment& experiment) {
   std::size_t most_runs = 0;
   for (const Contender& c : comparison.contenders) most_runs = std::max(most_runs, c.runs.size());

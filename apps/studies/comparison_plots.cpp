@@ -85,7 +85,7 @@ std::vector<Vec2> solved_shares(const Contender& contender) {
   constexpr std::size_t most_points = 40;
   std::vector<double> times;
   for (const ComparedRun& run : contender.runs) {
-    if (run.solved()) times.push_back(run.time_s);
+    if (run.solved()) times.push_back(run.improvements.empty() ? run.time_s : run.improvements.front().seconds);
   }
   std::sort(times.begin(), times.end());
   const std::size_t step = times.size() / most_points + 1;
@@ -384,6 +384,12 @@ std::vector<PlotSheet> line_panels(const std::vector<Family>& families) {
 }  // namespace
 
 std::vector<PlotSheet> comparison_panels(const Comparison& comparison) {
+  if (std::any_of(comparison.contenders.begin(), comparison.contenders.end(), has_curve)) {
+    std::vector<PlotSheet> panels = curve_panels(comparison);
+    for (PlotSheet& panel : list_panels(comparison)) panels.push_back(std::move(panel));
+    for (PlotSheet& panel : box_panels(comparison)) panels.push_back(std::move(panel));
+    return panels;
+  }
   std::vector<PlotSheet> panels = list_panels(comparison);
   const std::vector<SweepCurve> curves = sweep_curves(comparison);
   const bool is_alone = panels.empty();

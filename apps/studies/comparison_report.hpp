@@ -31,6 +31,24 @@ std::string comparison_runs(const Comparison& comparison);
 /// Median times against size, a line a size, and where arrays and heaps cross; none without random graphs.
 std::vector<ReportTable> sweep_tables(const Comparison& comparison);
 
+/// A line a path that was the best so far in its run, and one without cost for each run that found none.
+std::string comparison_curves(const Comparison& comparison);
+
+/// Does it get better until it is stopped?
+bool has_curve(const Contender& contender);
+/// What a planner's runs had at moments, ascending, from the first path of all contenders to the end of the longest
+/// run. A run without a path yet costs infinitely much. Most moments where something changed, and all figures at those
+/// are exact.
+struct CostCurve {
+  std::vector<Vec2> median = {};     ///< seconds, cost of the best path until then
+  std::vector<Vec2> quartiles = {};  ///< of that cost, at the same moments
+  std::vector<Vec2> solved = {};     ///< seconds, per cent of the runs that have a path; from 0 at begin_s on
+};
+/// 0 < begin_s <= end_s.
+CostCurve cost_curve(const Contender& contender, double begin_s, double end_s);
+/// Of each problem what the runs of each planner cost and how many of them were solved, against time (cost_curves.cpp).
+std::vector<PlotSheet> curve_panels(const Comparison& comparison);
+
 /// Plots (comparison_plots.cpp): of random graphs times and ratios against size; else what options that were dealt out
 /// do, and the share of runs that had found a path, against time.
 std::vector<PlotSheet> comparison_panels(const Comparison& comparison);

@@ -51,6 +51,35 @@ std::uint64_t expanded_by(const Answer& answer) {
   return grows ? answer.roadmap.milestones : answer.counters.expanded;
 }
 
+/// In the metric that planners get better by: of bodies that turn, with their turning (Se2World::distance), of all
+/// others the length.
+double metric_cost(const Answer& answer) {
+  if (answer.problem.robot.kind != RobotKind::polygon || answer.states.width != 3) return answer.length;
+  double weight = 0.0;
+  for (const Vec2 corner : answer.problem.robot.outline) weight = std::max(weight, norm(corner));
+  return path_length(poses_of(answer.states), [&](const Se2& a, const Se2& b) {
+    return std::hypot(distance(a.position(), b.position()), weight * turn_between(a.theta, b.theta));
+  });
+}
+
+/// Searches of planners that get better begin when their index is there.
+std::vector<Improvement> improvements_of(const Answer& answer) {
+  if (!answer.verified) return {};
+  if (answer.improvements.empty()) {
+    return {{.seconds = answer.solve_s, .cost = metric_cost(answer), .length = answer.length, .by = "answer"}};
+  }
+  std::vector<Improvement> all = answer.improvements;
+  for (Improvement& one : all) one.seconds += answer.seconds.index;
+  return all;
+}
+
+/// Of the same cost. Steps from cell to cell are another.
+std::optional<double> lower_bound_of(const Answer& answer) {
+  const bool counts_steps = answer.cost && answer.improvements.empty();
+  if (answer.lower_bound && !counts_steps) return answer.lower_bound;
+  return answer.optimal ? std::optional(answer.length) : std::nullopt;
+}
+
 std::size_t state_count(const Answer& answer) {
   return answer.states.empty() ? answer.path.size() : answer.states.size();
 }
@@ -153,6 +182,8 @@ class PlannerContest {
     run.counters = answer.counters;
     run.costs = answer.costs;
     run.roadmap = answer.roadmap;
+    run.improvements = improvements_of(answer);
+    run.lower_bound = lower_bound_of(answer);
     return run;
   }
   Answer solve(const PlannerContender& contender, std::uint64_t seed) const {
@@ -161,9 +192,10 @@ class PlannerContest {
     Execution within = execution_;
     within.deadline = &deadline;
     within.progress = nullptr;  // the bar shows the runs, not the stages of each
+    within.on_improvement = nullptr;
     if (options_.parallel) within.threads = 1;
     Answer answer = solve_contender(scene_, contender, seed, within);
-    if (answer.outcome == Outcome::stopped) execution_.check();
+    if (answer.stop_reason) execution_.check();
     return answer;
   }
   /// What was dealt out is an option, whether or not the answer repeats it.
@@ -281,7 +313,9 @@ std::vector<PlannerContender> contenders_of(const PlannerDeal& deal, PlannerKind
 
 bool depends_on_seed(const Answer& answer, const SolveOptions& options, const Scene& scene) {
   const auto planner = enum_named<PlannerKind>(answer.planner);
-  if (!planner || *planner == PlannerKind::rrt || *planner == PlannerKind::rrt_connect) return true;
+  if (!planner || *planner == PlannerKind::rrt || *planner == PlannerKind::rrt_connect || gets_better(*planner)) {
+    return true;
+  }
   if (is_roadmap_planner(*planner)) {
     const auto sampler = enum_named<SamplerKind>(answer.sampler);
     if (!sampler || !takes_all_places(*sampler)) return true;

@@ -326,10 +326,11 @@ std::vector<ThreadGain> thread_gains(const ScalingResult& result, unsigned cores
 std::string text_of(const ThreadGain& gain) {
   const MazeTrial& t = gain.first;
   std::string text = fmt::format(
-      "{} x {}, {}, {} threads: {:.2f} times in the median of {} {}, arithmetic alone {:.2f}", t.rows, t.cols,
-      planner_text(t), t.threads, gain.gain, gain.pairs, gain.pairs == 1 ? "pair" : "pairs", gain.arithmetic);
+      "{} x {}, {}, {} threads: {:.2f} times as fast as one (median of {} {}), arithmetic alone {:.2f} times", t.rows,
+      t.cols, planner_text(t), t.threads, gain.gain, gain.pairs, gain.pairs == 1 ? "pair of runs" : "pairs of runs",
+      gain.arithmetic);
   if (!gain.quiet_gain) return text + "; the machine was quiet in none of them";
-  text += fmt::format("; {:.2f} in the {} in which the machine was quiet", *gain.quiet_gain, gain.quiet_pairs);
+  text += fmt::format("; while the machine was quiet, in {} of them, {:.2f} times", gain.quiet_pairs, *gain.quiet_gain);
   std::string stages;
   for (const auto& [name, value] : gain.quiet_stages) {
     stages += fmt::format("{}{} {:.2f}", stages.empty() ? "" : ", ", name, value);

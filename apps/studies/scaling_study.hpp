@@ -103,8 +103,8 @@ struct ThreadGain {
 /// In the order in which they first ran; solved runs only. cores: those of the machine.
 std::vector<ThreadGain> thread_gains(const ScalingResult& result, unsigned cores);
 
-/// "1000 x 1000, prm, tiled, lattice sampler, 2 threads: 1.85 times in the median of 15 pairs, arithmetic alone 1.97;
-/// ..."
+/// "1000 x 1000, prm, tiled, lattice sampler, 2 threads: 1.85 times as fast as one (median of 15 pairs of runs),
+/// arithmetic alone 1.97 times; ..."
 std::string text_of(const ThreadGain& gain);
 
 /// A table, warren.scale/1, and CSV with a run a line.

@@ -33,7 +33,7 @@ CASES = [
     ("walls.scene, square of 50", ["{examples}/walls.scene"]),
     ("car-20.scene", ["{examples}/car-20.scene"]),
     ("parking-lot.scene", ["{examples}/parking-lot.scene"]),
-    ("puma-seed.scene", ["{examples}/puma-seed.scene"]),
+    ("puma.scene", ["{examples}/puma.scene"]),
 ]
 
 

@@ -177,6 +177,7 @@ struct Improvement {
   double cost = 0.0;             ///< in the body's metric, which is what gets better
   double length = 0.0;           ///< as answers have it
   std::string by;                ///< the part that found it: straight, tree, restarts, roadmap or shorten
+  double lower_bound = 0.0;      ///< of all costs, as far as it is proved when it came; 0: nothing is
 };
 
 /// Where the points of a path go that is too long to be held: they are handed on as they are made.

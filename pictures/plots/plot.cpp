@@ -42,7 +42,8 @@ class PlotDrawing {
     sheet_.begin(plot_.title, frame_, plot_.x_label, plot_.y_label, 18.0);
     grid();
     if (plot_.level && y_.shows(*plot_.level)) level(frame_.min.x, frame_.max.x, place_y(*plot_.level));
-    for (std::size_t i = 0; i < plot_.series.size(); ++i) series(i);
+    for (std::size_t i = 0; i < plot_.series.size(); ++i) band(i);
+    for (std::size_t i = 0; i < plot_.series.size(); ++i) plot_.series[i].steps ? steps(i) : series(i);
     legend();
     return std::move(sheet_);
   }
@@ -110,6 +111,42 @@ class PlotDrawing {
     for (std::size_t k = 0; k < places.size(); ++k) mark(i, places[k], tips[k]);
   }
 
+  /// The points' places where they are known, each followed by the corner below or above the next.
+  template <class Value>
+  std::vector<Vec2> stairs(const PlotSeries& series, const Value& value_of) const {
+    std::vector<Vec2> places;
+    for (std::size_t k = 0; k < series.points.size(); ++k) {
+      const std::optional<double> value = value_of(k);
+      if (!value) continue;
+      const double x = place_x(series.points[k].x);
+      if (!places.empty()) places.push_back({x, places.back().y});
+      places.push_back({x, std::isfinite(*value) ? place_y(*value) : frame_.min.y});
+    }
+    return places;
+  }
+  void steps(std::size_t i) {
+    const PlotSeries& series = plot_.series[i];
+    const std::vector<Vec2> line = stairs(series, [&](std::size_t k) {
+      return shows(series.points[k]) ? std::optional(series.points[k].y) : std::nullopt;
+    });
+    if (!line.empty()) sheet_.line(line, line_of(i));
+  }
+  void band(std::size_t i) {
+    constexpr double pale = 0.16;
+    const PlotSeries& series = plot_.series[i];
+    if (!series.steps || series.spans.size() != series.points.size()) return;
+    const auto bound = [&](double Vec2::*end) {
+      return stairs(series, [&, end](std::size_t k) {
+        const bool is_known = shows({series.points[k].x, series.spans[k].x});
+        return is_known ? std::optional(series.spans[k].*end) : std::nullopt;
+      });
+    };
+    std::vector<Vec2> outline = bound(&Vec2::x);
+    const std::vector<Vec2> above = bound(&Vec2::y);
+    outline.insert(outline.end(), above.rbegin(), above.rend());
+    if (!outline.empty()) sheet_.line(outline, {.fill = color_of(i), .opacity = pale});
+  }
+
   void legend() {
     const double left = frame_.max.x + 16.0;
     const auto name = [&](const std::string& words, double y) {
@@ -121,7 +158,7 @@ class PlotDrawing {
     for (std::size_t i = 0; i < plot_.series.size(); ++i, y += 20.0) {
       const PlotSeries& series = plot_.series[i];
       if (series.joined) sheet_.line({{left, y}, {left + 22.0, y}}, line_of(i), series.dashed ? dashed_line : Vec2{});
-      if (!series.dashed) mark(i, {left + 11.0, y}, {});
+      if (!series.dashed && !series.steps) mark(i, {left + 11.0, y}, {});
       name(series.name, y);
     }
     if (!plot_.level) return;

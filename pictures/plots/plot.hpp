@@ -16,6 +16,9 @@ struct PlotSeries {
   std::vector<Vec2> points;  ///< in the order in which the line joins them; on a logarithmic axis only those > 0 show
   bool joined = true;        ///< by a line
   bool dashed = false;       ///< the line alone, without markers: what is expected, not measured
+  /// The line keeps its height until the next point, and has no markers; spans are a band around it. What is infinite
+  /// is above the frame.
+  bool steps = false;
   std::vector<Vec2> spans = {};           ///< of each point a low and a high y, which a bar joins; empty: no bars
   std::optional<std::size_t> color = {};  ///< as series_color() has it; none: its place among the series
 };

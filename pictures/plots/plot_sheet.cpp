@@ -45,6 +45,7 @@ std::string svg_of(const PlotShape& shape) {
   text += fmt::format(" fill=\"{}\"", shape.pen.fill ? css_color(*shape.pen.fill) : "none");
   if (shape.pen.stroke) text += fmt::format(" stroke=\"{}\"", css_color(*shape.pen.stroke));
   if (shape.pen.stroke && shape.pen.width != 1.0) text += fmt::format(" stroke-width=\"{}\"", shape.pen.width);
+  if (shape.pen.opacity < 1.0) text += fmt::format(" opacity=\"{}\"", shape.pen.opacity);
   if (shape.dash.x > 0.0) text += fmt::format(" stroke-dasharray=\"{} {}\"", shape.dash.x, shape.dash.y);
   if (!shape.tip.empty()) text += fmt::format(" data-tip=\"{}\"", xml_text(shape.tip));
   return text + "/>\n";
@@ -77,7 +78,7 @@ void draw_shape(Surface& surface, const PlotShape& shape, const std::vector<Vec2
   if (shape.kind == PlotShape::Kind::disc) return surface.chain(circle_outline(low, shape.radius, 24), {}, true);
   if (shape.kind == PlotShape::Kind::box)
     return surface.chain(std::array{low, Vec2{high.x, low.y}, high, Vec2{low.x, high.y}}, {}, true);
-  if (shape.dash.x <= 0.0) return surface.chain(points, {}, false);
+  if (shape.dash.x <= 0.0) return surface.chain(points, {}, shape.pen.fill.has_value());
   for (const std::vector<Vec2>& dash : dashes_of(points, shape.dash)) surface.chain(dash, {}, false);
 }
 

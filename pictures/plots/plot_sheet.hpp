@@ -25,7 +25,7 @@ struct PlotShape {
   enum class Kind : std::uint8_t { line, box, disc };
   Kind kind = Kind::line;
   std::vector<Vec2> points = {};  ///< of a disc its middle
-  Pen pen = {};                   ///< opaque
+  Pen pen = {};                   ///< of a line with a fill: the area between its ends
   double radius = 0.0;            ///< of a disc
   Vec2 dash = {};                 ///< of a line: how long it is drawn and left out in turn; 0: drawn wholly
   std::string tip = {};           ///< what a page tells of it at the pointer; empty: nothing

@@ -24,13 +24,14 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "core/base/rng.hpp"
 #include "core/base/solution.hpp"
-#include "core/base/world.hpp"
 #include "parallel/chunks.hpp"
+#include "planners/graph/any_world.hpp"
 #include "planners/graph/roadmap_options.hpp"
 #include "planners/roadmap/lazy_prm.hpp"
 #include "planners/roadmap/one_way_prm.hpp"
@@ -53,9 +54,8 @@ struct AnytimeOptions {
   RrtOptions trees;        ///< step, goal bias, most nodes of the tree, seed of everything
   RoadmapOptions roadmap;  ///< but for samples and seed
   std::optional<std::uint64_t> iterations;  ///< turns; none: until something else ends it
-  std::optional<double> gap;   ///< it ends when the cost is at most so much more than the bound, as a share of it
-  double lower_bound = 0.0;    ///< proved: no path costs less
-  std::size_t kept_paths = 0;  ///< at most so many of the paths that were the best are kept
+  std::optional<double> gap;  ///< it ends when the cost is at most so much more than the bound, as a share of it
+  double lower_bound = 0.0;   ///< proved at no cost: no path costs less
 };
 
 /// What differs from body to body. shortened and length are called from several threads at once.
@@ -66,13 +66,15 @@ struct AnytimeBody {
       shortened;
   std::function<double(const Path<State>&)> length;    ///< as answers have it
   std::function<double(const Path<State>&)> judged_s;  ///< judges a path: the seconds that it took
+  std::function<void(const Path<State>&)> kept;        ///< takes each path that was the best; empty: nobody does
+  std::function<double()> lower_bound;  ///< a better one, asked for once there is a path; empty: there is none
 };
 
 template <class State>
 struct AnytimeSolution : Solution<State> {
   double cost = std::numeric_limits<double>::infinity();
+  double lower_bound = 0.0;               ///< that it knew in the end
   std::vector<Improvement> improvements;  ///< ascending by iterations, falling by cost
-  std::vector<Path<State>> improved;      ///< some of their paths, the oldest first
   std::uint64_t iterations = 0;           ///< turns that were done
   /// optimum, gap, iterations, caller, or the name of a StopReason.
   std::string ended_by;
@@ -100,18 +102,22 @@ class AnytimeSearch {
     restart_options_.places = true;
     if (options.parts.tree) {
       tree_.emplace(world, start, std::span<const State>(goals_),
-                    typename RrtStarTree<W>::Options{.seed = random_bits(options.trees.seed, 0),
-                                                     .step = step_,
-                                                     .nodes = options.trees.nodes,
-                                                     .informed = options.informed,
-                                                     .goal_bias = options.trees.goal_bias});
+                    RrtStarOptions{.seed = random_bits(options.trees.seed, 0),
+                                   .step = step_,
+                                   .nodes = options.trees.nodes,
+                                   .informed = options.informed,
+                                   .goal_bias = options.trees.goal_bias});
     }
   }
 
   AnytimeSolution<State> run() {
+    solution_.lower_bound = options_.lower_bound;
     try {
       const StageTimer timer(execution_, "search", solution_.seconds.search);
       while (!has_path() && !is_ended()) take_turn(execution_);
+      if (has_path() && !is_straight_ && body_.lower_bound) {
+        solution_.lower_bound = std::max(solution_.lower_bound, body_.lower_bound());
+      }
       const Deadline sooner(execution_.deadline, seconds_before_the_judge());
       Execution within = execution_;
       if (execution_.deadline != nullptr) within.deadline = &sooner;
@@ -134,9 +140,10 @@ class AnytimeSearch {
 
   enum class Part : std::uint8_t { tree, restarts, roadmap, shorten };
   struct Found {
+    explicit Found(Part part = Part::tree) : by(part) {}
     Path<State> path;
     double cost = std::numeric_limits<double>::infinity();
-    Part by = Part::tree;
+    Part by;
     Counters counters;
   };
   struct Restart {
@@ -163,8 +170,8 @@ class AnytimeSearch {
     constexpr double equal = 1e-9;
     if (is_enough_) return end("caller");
     if (has_path()) {
-      if (is_straight_ || solution_.cost <= options_.lower_bound * (1.0 + equal)) return end("optimum");
-      if (options_.gap && solution_.cost <= options_.lower_bound * (1.0 + *options_.gap)) return end("gap");
+      if (is_straight_ || solution_.cost <= solution_.lower_bound * (1.0 + equal)) return end("optimum");
+      if (options_.gap && solution_.cost <= solution_.lower_bound * (1.0 + *options_.gap)) return end("gap");
     }
     return options_.iterations && solution_.iterations >= *options_.iterations && end("iterations");
   }
@@ -175,7 +182,6 @@ class AnytimeSearch {
   void shorten(std::vector<Found>& found, const Execution& execution) const;
   void take(Found& found);
   void tell(std::string_view by);
-  void keep_path();
   void adapt(bool had_path);
 
   Found grow_tree(const Execution& execution);
@@ -325,20 +331,9 @@ void AnytimeSearch<W>::tell(std::string_view by) {
   const std::chrono::duration<double> since = std::chrono::steady_clock::now() - begin_;
   solution_.improvements.push_back({std::max<std::uint64_t>(1, solution_.iterations), since.count(), solution_.cost,
                                     body_.length(solution_.path), std::string(by)});
-  if (options_.kept_paths > 0) keep_path();
+  if (body_.kept) body_.kept(solution_.path);
   if (execution_.on_improvement != nullptr && !(*execution_.on_improvement)(solution_.improvements.back()))
     is_enough_ = true;
-}
-
-/// Where there are too many, every other one goes.
-template <SteerableWorld W>
-void AnytimeSearch<W>::keep_path() {
-  auto& kept = solution_.improved;
-  if (kept.size() == options_.kept_paths) {
-    for (std::size_t i = 0; 2 * i < kept.size(); ++i) kept[i] = std::move(kept[2 * i]);
-    kept.resize((kept.size() + 1) / 2);
-  }
-  kept.push_back(solution_.path);
 }
 
 template <SteerableWorld W>
@@ -354,7 +349,7 @@ void AnytimeSearch<W>::adapt(bool had_path) {
 
 template <SteerableWorld W>
 auto AnytimeSearch<W>::grow_tree(const Execution& execution) -> Found {
-  Found found{.by = Part::tree};
+  Found found(Part::tree);
   if (options_.informed) {
     for (const Path<State>& path : to_join_) tree_->take(path, execution);
   }
@@ -372,7 +367,7 @@ auto AnytimeSearch<W>::grow_tree(const Execution& execution) -> Found {
 /// One pair of trees, from turn to turn, until it arrives or has grown too large.
 template <SteerableWorld W>
 auto AnytimeSearch<W>::grow_restart(Restart& restart, const Execution& execution) -> Found {
-  Found found{.by = Part::restarts};
+  Found found(Part::restarts);
   const auto slot = static_cast<std::uint64_t>(&restart - restarts_.data());
   if (!restart.trees) {
     const std::uint64_t index = restart_count * restart.index++ + slot;
@@ -380,19 +375,14 @@ auto AnytimeSearch<W>::grow_restart(Restart& restart, const Execution& execution
     restart.counted = {};
     restart.trees = std::make_unique<RrtConnectSearch<W>>(world_, start_, std::span<const State>(goals_),
                                                           restart_options_, step_, index);
+    if (has_path()) restart.trees->bound(solution_.cost * (1.0 + restart.looseness));
   }
   RrtConnectSearch<W>& trees = *restart.trees;
-  trees.bound(solution_.cost * (1.0 + restart.looseness));
-  for (const std::uint64_t begin = work_of(trees.counters()), most = share_of(Part::restarts) / restart_count;
-       !trees.arrived() && !trees.gave_up() && work_of(trees.counters()) - begin < most;) {
-    trees.advance(1, execution);
-  }
+  trees.advance_by_work(share_of(Part::restarts) / restart_count, execution);
   found.counters = counted_since(restart.counted, trees.counters());
   restart.counted = trees.counters();
   if (trees.arrived()) {
-    Solution<State> solution;
-    trees.finish(solution, nullptr, execution);
-    found.path = std::move(solution.path);
+    found.path = trees.path();
     found.cost = cost_of(found.path);
   }
   if (trees.arrived() || trees.gave_up()) restart.trees.reset();
@@ -404,7 +394,7 @@ template <SteerableWorld W>
 auto AnytimeSearch<W>::draw_roadmap(const Execution& execution) -> Found {
   constexpr std::uint64_t first_samples = 50;
   constexpr std::uint64_t most_doublings = 20;
-  Found found{.by = Part::roadmap};
+  Found found(Part::roadmap);
   credit_ += share_of(Part::roadmap);
   if (credit_ < 2 * roadmap_work_) return found;
   RoadmapOptions options = options_.roadmap;
@@ -412,7 +402,7 @@ auto AnytimeSearch<W>::draw_roadmap(const Execution& execution) -> Found {
   options.seed = random_bits(options_.trees.seed, roadmaps_, 14);
   const State& goal = goals_[roadmaps_ % goals_.size()];
   const Solution<State> solution = [&] {
-    if constexpr (requires { requires W::one_way; }) {
+    if constexpr (W::one_way) {
       return one_way_prm(world_, start_, goal, options, true, execution);
     } else {
       return lazy_prm(world_, start_, goal, options, execution);
@@ -430,7 +420,7 @@ auto AnytimeSearch<W>::draw_roadmap(const Execution& execution) -> Found {
 
 template <SteerableWorld W>
 auto AnytimeSearch<W>::polished(const Execution& execution) -> Found {
-  Found found{.by = Part::shorten};
+  Found found(Part::shorten);
   const std::uint64_t seed = random_bits(options_.trees.seed, solution_.iterations, 7);
   found.path =
       body_.shortened(solution_.path, std::numeric_limits<double>::infinity(), seed, execution, found.counters);
@@ -443,13 +433,13 @@ auto AnytimeSearch<W>::polished(const Execution& execution) -> Found {
 /// start and goals (at least one): free. Never throws Stopped: outcome is solved with a path, else stopped, or
 /// not_connected where the iterations are over. InputError for options out of range. What `body` and
 /// execution.on_improvement throw passes through.
-template <SteerableWorld W>
-AnytimeSolution<typename W::State> anytime(const W& world, const typename W::State& start,
-                                           std::span<const typename W::State> goals, const AnytimeOptions& options,
-                                           const AnytimeBody<typename W::State>& body, const Execution& execution) {
+template <class State, bool one_way>
+AnytimeSolution<State> anytime(const AnyWorld<State, one_way>& world, const State& start,
+                               std::span<const std::type_identity_t<State>> goals, const AnytimeOptions& options,
+                               const AnytimeBody<State>& body, const Execution& execution) {
   options.trees.validate();
   options.roadmap.validate();
-  return detail::AnytimeSearch<W>(world, start, goals, options, body, execution).run();
+  return detail::AnytimeSearch<AnyWorld<State, one_way>>(world, start, goals, options, body, execution).run();
 }
 
 }  // namespace warren

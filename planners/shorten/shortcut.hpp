@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "core/base/rng.hpp"
@@ -65,7 +66,7 @@ class Shortener {
     return std::move(path_);
   }
   /// Those of improve_path().
-  Path<State> improved(double worth, std::uint32_t patience);
+  Path<State> improved(double worth, std::uint32_t patience, double hopeless);
   const Counters& counters() const { return counters_; }
 
  private:
@@ -272,7 +273,7 @@ auto Shortener<W, Length>::with(const std::vector<Change>& chosen) -> Path<State
 }
 
 template <SteerableWorld W, class Length>
-auto Shortener<W, Length>::improved(double worth, std::uint32_t patience) -> Path<State> {
+auto Shortener<W, Length>::improved(double worth, std::uint32_t patience, double hopeless) -> Path<State> {
   constexpr std::size_t cuts = 8;
   constexpr std::uint64_t drifts = 4;
   double best = whole();
@@ -291,6 +292,7 @@ auto Shortener<W, Length>::improved(double worth, std::uint32_t patience) -> Pat
     const double now = whole();
     idle = best - now > worth * best ? 0 : idle + 1;
     best = std::min(best, now);
+    if (best > hopeless) break;
   }
   return std::move(path_);
 }
@@ -398,6 +400,7 @@ struct ImproveOptions {
   std::uint32_t rounds = 400;  ///< at most
   double worth = 2e-3;         ///< a round that takes off less than this share of the length is idle; >= 0
   std::uint32_t patience = 1;  ///< so many idle rounds in a row are the end; >= 1
+  double hopeless = std::numeric_limits<double>::infinity();  ///< it gives up where a round leaves more than so much
 };
 
 /// As shortcut_path(), for searches that go on.
@@ -407,7 +410,7 @@ Path<typename W::State> improve_path(const W& world, Path<typename W::State> pat
   if (path.size() < 2) return path;
   const ShortcutOptions rounds{options.seed, options.rounds};
   detail::Shortener<W, Length> shortener(world, std::move(path), length, rounds, execution);
-  Path<typename W::State> shorter = shortener.improved(options.worth, options.patience);
+  Path<typename W::State> shorter = shortener.improved(options.worth, options.patience, options.hopeless);
   counters += shortener.counters();
   return shorter;
 }

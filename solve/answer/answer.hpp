@@ -19,6 +19,7 @@
 #include "solve/question/figure.hpp"
 #include "solve/question/question.hpp"
 #include "verify/judges/verification.hpp"
+#include "verify/judges/verify_bound.hpp"
 
 namespace warren {
 // What became of the work of a solve beyond what its answer tells anyhow: which stage lost what, where it is narrow,
@@ -182,7 +183,8 @@ std::vector<std::pair<const char*, double>> named_stages(const StageTimes& secon
 /// What a judge says of a path, and about which question: the members of Verification (verified, length, min_clearance
 /// around the body, first_violation, …) and the problem that was judged.
 struct Verdict : Verification {
-  Problem problem;  ///< that was judged
+  Problem problem;                            ///< that was judged
+  BoundVerdict bound = BoundVerdict::absent;  ///< of the lower bound that the answer claims
 };
 
 }  // namespace warren

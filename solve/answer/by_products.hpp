@@ -3,6 +3,7 @@
 // costs memory. Plain data; how it is drawn is pictures/'s.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -33,6 +34,10 @@ struct HeadingCells {
   double yaw_rad = 0.0;  ///< the cells are turned about that corner, anticlockwise; the heading is as they see it
 };
 
+/// More paths are a smear. Of more, the first and the last are kept, and of the others every second one is dropped when
+/// there is no room for the next.
+inline constexpr std::size_t most_improved = 32;
+
 /// What a planner makes on its way to an answer: what pictures show beside the path.
 struct ByProducts {
   PlannedRoadmap<Vec2> roadmap;             ///< of points and discs
@@ -42,6 +47,10 @@ struct ByProducts {
   PlannedRoadmap<JointState> joint_roadmap;  ///< of arms
   std::vector<NamedLines> lines;             ///< further lines, by name
   std::vector<HeadingCells> headings;        ///< of lattices of positions and headings
+  /// Of planners that get better with time, in the plane: where the reference point went on paths that were the best so
+  /// far, the oldest first, at most most_improved; curves as chords. The planner adds each path before it tells
+  /// Execution::on_improvement of it, on the same thread: whoever is told may look at the last.
+  PolygonSet improved;
 };
 
 }  // namespace warren

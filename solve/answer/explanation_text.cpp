@@ -79,9 +79,10 @@ void add_edges(Lines& lines, const Answer& answer) {
 void add_components(Lines& lines, const Answer& answer) {
   if (!answer.explained->components) return;
   const ComponentFacts& facts = *answer.explained->components;
-  lines.add("components", fmt::format("{}; the largest has {} of the milestones, {} of one alone",
-                                      counted(facts.count, "component", "components"),
-                                      share(facts.largest, facts.milestones), counted(facts.alone, "is", "are")));
+  lines.add("components",
+            fmt::format("{}; the largest has {} of the milestones, {}", counted(facts.count, "component", "components"),
+                        share(facts.largest, facts.milestones),
+                        counted(facts.alone, "is a single milestone", "are single milestones")));
   if (facts.joined) {
     lines.add("start, goal",
               fmt::format("in one component, of {}", counted(facts.of_start, "milestone", "milestones")));
@@ -212,7 +213,7 @@ std::string heuristic_note(const Answer& answer) {
   const double percent = 100.0 * (*searched / *shortest - 1.0);
   const std::string longer =
       *searched > *shortest * (1.0 + 1e-12) ? fmt::format("{:.2g} % longer than", percent) : "as long as";
-  return fmt::format("{}: {}, {} the roadmap's shortest, {}; {} expanded, by euclidean {}",
+  return fmt::format("{}: {}, {} the roadmap's shortest, {}; {} places expanded, by euclidean {}",
                      option_word(answer, "heuristic"), human_number(*searched), longer, human_number(*shortest),
                      grouped(answer.counters.expanded), grouped(*expanded));
 }

@@ -72,7 +72,7 @@ class AnswerReader {
   bool start_array(std::size_t) {
     if (objects_ == 0) refuse_kind();
     if (in("path") && arrays_ >= 2) refuse(path_expected, "a deeper list");
-    if (in("clearance") || in("length")) refuse("a number", "a list");
+    if (in_number()) refuse("a number", "a list");
     ++arrays_;
     numbers_.clear();
     return true;
@@ -98,7 +98,7 @@ class AnswerReader {
  private:
   bool number(double value) {
     if (!began_) refuse_kind();
-    const bool wanted = in("path") || in("start") || in("goal") || in("clearance") || in("length");
+    const bool wanted = in("path") || in("start") || in("goal") || in_number();
     if (wanted && !(std::abs(value) <= largest_coordinate)) refuse("finite numbers of at most 1e60");
     if (in("path") && arrays_ != 2) refuse(path_expected, "a number");
     if ((in("start") || in("goal")) && arrays_ != 1) refuse(point_expected, "a number");
@@ -107,6 +107,8 @@ class AnswerReader {
       answer_.problem.clearance = value;
     }
     if (in("length")) answer_.length = value;
+    if (in("lower_bound")) answer_.lower_bound = value;
+    if (in("cost")) answer_.cost = value;
     if (wanted && arrays_ > 0) {
       if (numbers_.size() >= longest_state) refuse(in("path") ? path_expected : point_expected, "more numbers");
       numbers_.push_back(value);
@@ -118,7 +120,7 @@ class AnswerReader {
     if (in("path")) refuse(path_expected, found);
     const bool missing = std::string_view(found) == "null" && arrays_ == 0;
     if ((in("start") || in("goal")) && !missing) refuse(point_expected, found);
-    if ((in("clearance") || in("length")) && !missing) refuse("a number", found);
+    if (in_number() && !missing) refuse("a number", found);
     if (in("contact") && !missing) refuse("\"allowed\" or \"blocked\"", found);
     if (!began_) refuse_kind();
     return true;
@@ -128,6 +130,7 @@ class AnswerReader {
   }
   [[noreturn]] void refuse_kind() const { throw InputError(file_, "expected one JSON object: an answer"); }
   bool in(std::string_view name) const { return objects_ == 1 && key_ == name; }
+  bool in_number() const { return in("clearance") || in("length") || in("lower_bound") || in("cost"); }
   void end_point() {
     constexpr std::size_t batch = 1 << 14;
     const std::size_t width = answer_.path.empty() ? numbers_.size() : answer_.state_width();
@@ -160,6 +163,8 @@ RecordedAnswer recorded(const Answer& answer) {
   record.problem = answer.problem.question();
   record.world_hash = answer.world.hash;
   record.length = answer.length;
+  record.lower_bound = answer.lower_bound;
+  record.cost = answer.cost;
   record.file = "answer";
   record.path = answer.path;
   record.states = answer.states;

@@ -24,6 +24,8 @@ struct RecordedAnswer {
   Question problem;                       ///< what the answer says of the problem
   std::optional<std::string> world_hash;  ///< of the world that it is for; none: the file doesn't say
   std::optional<double> length;           ///< that it claims
+  std::optional<double> lower_bound;      ///< the same
+  std::optional<double> cost;             ///< the same; with a lower bound, which is of it then
   std::string file;                       ///< where it stands, for messages
   Path<Vec2> path;                        ///< where a state has two numbers
   StateList states;                       ///< where a state has three or six; then `path` is their first two

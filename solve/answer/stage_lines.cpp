@@ -36,7 +36,7 @@ constexpr std::array links{
     Link{"reduction", "reduction", [](const Answer& a) { return a.roadmap.milestones; },
          [](const Answer&) { return std::string("vertices"); }},
     Link{"components", "components", [](const Answer& a) { return a.roadmap.milestones; },
-         [](const Answer& a) { return fmt::format("vertices, {} components", grouped(a.roadmap.components)); }},
+         [](const Answer& a) { return "vertices, " + counted(a.roadmap.components, "component", "components"); }},
     Link{"expansion", "queue and search", [](const Answer& a) { return a.counters.expanded; },
          [](const Answer& a) {
            return fmt::format("expanded, {} pushes, {} decreases", grouped(a.counters.pushes),
@@ -44,8 +44,9 @@ constexpr std::array links{
          }},
     Link{"optimise", "pulled taut"},
     Link{"verify", "verified", path_points, [](const Answer&) { return std::string("points"); }},
+    Link{"bound", "lower bound"},
 };
-constexpr std::size_t first_of_the_end = links.size() - 2;
+constexpr std::size_t first_of_the_end = links.size() - 3;
 
 std::size_t place_of(std::string_view key) {
   const auto at = std::find_if(links.begin(), links.end(), [&](const Link& link) { return link.key == key; });

@@ -325,13 +325,15 @@ std::string numbers(const Box& box) {
                      human_number(box.max.y));
 }
 
-/// Of a map of metres, where the cell is, and whether anything is known of it; empty of all others.
+/// Of a map of metres, where the cell is, and whether anything is known of it; of all maps, that it is none of theirs.
 std::string cell_in_words(const Scene& scene, const std::string& name) {
-  const auto x = number_after(name, "cell ");
-  if (!x || !scene.map || scene.map->format != MapFormat::ros) return {};
+  if (!scene.map || !name.starts_with("cell ")) return {};
   const OccupancyMap& map = *scene.map;
-  const Cell cell{static_cast<std::uint32_t>(*x),
-                  static_cast<std::uint32_t>(*number_after(std::string_view(name).substr(name.rfind(' ')), " "))};
+  const auto x = number_after(name, "cell ");  // none below 0
+  const auto y = number_after(std::string_view(name).substr(name.rfind(' ')), " ");
+  if (!x || !y || *x >= map.blocked.width() || *y >= map.blocked.height()) return "the cell is outside of the map";
+  if (map.format != MapFormat::ros) return {};
+  const Cell cell{static_cast<std::uint32_t>(*x), static_cast<std::uint32_t>(*y)};
   const Vec2 middle = cell_centre(map, cell);
   const bool is_unknown = map.unknown_count > 0 && map.unknown.test(cell.x, cell.y);
   return fmt::format("the cell is {}at {}, {} m", is_unknown ? "unknown, " : "", human_number(middle.x),

@@ -14,6 +14,7 @@
 #include "planners/shorten/taut_path.hpp"
 #include "solve/explain/blocked_end.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
+#include "solve/kinds/lower_bound.hpp"
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/question/planner_choice.hpp"
@@ -165,6 +166,7 @@ Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vec
   options.queue = how.queue;
   options.heuristic = how.heuristic;
   options.optimise = how.optimise;
+  options.bound = how.bound;
   options.car.cusp_cost = how.cusp_cost;
   options.car.reverse_cost = how.reverse_cost;
   if (how.attach) options.roadmap.attach = how.attach;
@@ -182,6 +184,7 @@ Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vec
                                  execution,
                                  keep,
                                  {opened_->session.get(), &scratch.search}});
+    tell_bound(answer, opened_->planned.get(), options, execution);
   } catch (const Stopped& stopped) {
     answer.stop_reason = stopped.reason;
   } catch (const std::bad_alloc&) {
@@ -252,6 +255,8 @@ Answer RoadmapQuery::ask_lattice(const Question& question, const RoadmapSearchFi
       }
       settle_and_verify(answer, problem, how.optimise, execution, scratch);
     });
+    const Scene& scene = how.bound ? roadmap_.world.whole(execution) : roadmap_.world.outline();
+    tell_bound(answer, scene, {.bound = how.bound}, execution);
   } catch (const RefutedPathError& error) {
     refuse_roadmap(roadmap_, error);
   }

@@ -30,6 +30,7 @@ struct RoadmapSearchFields {
   std::optional<double> cusp_cost = {};         ///< as CarFields has them, with optimise
   std::optional<double> reverse_cost = {};      ///< the same
   std::optional<HeuristicKind> heuristic = {};  ///< of A*, for points and discs; none: euclidean
+  bool bound = false;                           ///< prove the best lower bound that there is
 };
 
 /// What one thread keeps from one question to the next.

@@ -36,6 +36,15 @@ Path<typename W::State> shorter_path(const W& world, Path<typename W::State> pat
   return shortcut_path(any, std::move(path), length, options, execution, counters);
 }
 
+/// improve_path() likewise.
+template <World W>
+Path<typename W::State> improved_path(const W& world, Path<typename W::State> path,
+                                      const MotionLength<typename W::State>& length, const ImproveOptions& options,
+                                      const Execution& execution, Counters& counters) {
+  const AnyWorldOf<W>& any = WorldView(world);
+  return improve_path(any, std::move(path), length, options, execution, counters);
+}
+
 /// The planners' functions, so that a line names one of a kind of state.
 template <class State, bool one_way = false>
 struct PlannersOf {
@@ -54,38 +63,44 @@ struct PlannersOf {
                                     const KnownMotions<State>&);
   using Shorter = Path<State>(const Any&, Path<State>, const MotionLength<State>&, const ShortcutOptions&,
                               const Execution&, Counters&);
+  using Improved = Path<State>(const Any&, Path<State>, const MotionLength<State>&, const ImproveOptions&,
+                               const Execution&, Counters&);
 };
 
 extern template PlannersOf<Vec2>::Roadmap prm<Vec2>;
 extern template PlannersOf<Vec2>::Roadmap lazy_prm<Vec2>;
 extern template PlannersOf<Vec2>::Trees rrt<Vec2, false>;
 extern template PlannersOf<Vec2>::Trees rrt_connect<Vec2, false>;
-extern template PlannersOf<Vec2>::Better anytime<AnyWorld<Vec2>>;
+extern template PlannersOf<Vec2>::Better anytime<Vec2, false>;
 extern template PlannersOf<Vec2>::Ask ask_roadmap<AnyWorld<Vec2>>;
 extern template PlannersOf<Vec2>::Build build_roadmap<Vec2, false>;
 extern template PlannersOf<Vec2>::Shorter shortcut_path<AnyWorld<Vec2>>;
+extern template PlannersOf<Vec2>::Improved improve_path<AnyWorld<Vec2>>;
 extern template PlannersOf<Se2>::Roadmap prm<Se2>;
 extern template PlannersOf<Se2>::Roadmap lazy_prm<Se2>;
 extern template PlannersOf<Se2>::Trees rrt<Se2, false>;
 extern template PlannersOf<Se2>::Trees rrt_connect<Se2, false>;
-extern template PlannersOf<Se2>::Better anytime<AnyWorld<Se2>>;
+extern template PlannersOf<Se2>::Better anytime<Se2, false>;
 extern template PlannersOf<Se2>::Ask ask_roadmap<AnyWorld<Se2>>;
 extern template PlannersOf<Se2>::Build build_roadmap<Se2, false>;
 extern template PlannersOf<Se2>::Shorter shortcut_path<AnyWorld<Se2>>;
+extern template PlannersOf<Se2>::Improved improve_path<AnyWorld<Se2>>;
 extern template PlannersOf<Se2, true>::OneWay one_way_prm<Se2, true>;
 extern template PlannersOf<Se2, true>::Trees rrt<Se2, true>;
 extern template PlannersOf<Se2, true>::Trees rrt_connect<Se2, true>;
-extern template PlannersOf<Se2, true>::Better anytime<AnyWorld<Se2, true>>;
+extern template PlannersOf<Se2, true>::Better anytime<Se2, true>;
 extern template PlannersOf<Se2, true>::Ask ask_roadmap<AnyWorld<Se2, true>>;
 extern template PlannersOf<Se2, true>::Build build_roadmap<Se2, true>;
 extern template PlannersOf<Se2, true>::Shorter shortcut_path<AnyWorld<Se2, true>>;
+extern template PlannersOf<Se2, true>::Improved improve_path<AnyWorld<Se2, true>>;
 extern template PlannersOf<JointState>::Roadmap prm<JointState>;
 extern template PlannersOf<JointState>::Roadmap lazy_prm<JointState>;
 extern template PlannersOf<JointState>::Trees rrt<JointState, false>;
 extern template PlannersOf<JointState>::Trees rrt_connect<JointState, false>;
-extern template PlannersOf<JointState>::Better anytime<AnyWorld<JointState>>;
+extern template PlannersOf<JointState>::Better anytime<JointState, false>;
 extern template PlannersOf<JointState>::Ask ask_roadmap<AnyWorld<JointState>>;
 extern template PlannersOf<JointState>::Build build_roadmap<JointState, false>;
 extern template PlannersOf<JointState>::Shorter shortcut_path<AnyWorld<JointState>>;
+extern template PlannersOf<JointState>::Improved improve_path<AnyWorld<JointState>>;
 
 }  // namespace warren

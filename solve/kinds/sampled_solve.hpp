@@ -46,6 +46,7 @@
 #include "planners/trees/through_way_points.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
+#include "solve/kinds/lower_bound.hpp"
 #include "solve/kinds/planned_worlds.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/question/planner_choice.hpp"
@@ -70,7 +71,7 @@ struct UsualBody {
                                               Counters& counters) {
     using State = typename World::State;
     const auto cost = [&](const State& a, const State& b) { return world.distance(a, b); };
-    return improve_path(world, path, cost, how, execution, counters);
+    return improved_path(world, path, cost, how, execution, counters);
   }
   static std::uint64_t goals_tried() { return 0; }
   static bool knows_all_goals() { return true; }
@@ -210,7 +211,7 @@ class SampledSolve {
     }
   }
   AnytimeOptions better_options() const {
-    constexpr std::uint64_t usual_iterations = 100;
+    constexpr std::uint64_t usual_iterations = 20;
     const AnytimeFields& asked = request_.options.anytime;
     AnytimeOptions options;
     options.trees = tree_options_;
@@ -229,7 +230,6 @@ class SampledSolve {
     const bool is_endless = !asked.iterations && !asked.gap && execution().seconds_left() > 1e9;
     if (is_endless) options.iterations = usual_iterations;
     if (apart_) options.iterations = std::min<std::uint64_t>(options.iterations.value_or(4), 4);
-    options.kept_paths = request_.keep != nullptr ? 32 : 0;
     return options;
   }
   AnytimeBody<State> body_of_better() {
@@ -241,6 +241,8 @@ class SampledSolve {
     body.length = [this](const Path<State>& path) {
       return path_length(path, [this](const State& a, const State& b) { return body_.length(*world_, a, b); });
     };
+    if (request_.keep != nullptr) body.kept = [this](const Path<State>& path) { keep_improved(path); };
+    if (wants_exact_bound()) body.lower_bound = [this] { return bound(BoundEffort::exact); };
     body.judged_s = [this](const Path<State>& path) {
       Answer judged;
       judged.outcome = Outcome::solved;
@@ -249,6 +251,40 @@ class SampledSolve {
       return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     };
     return body;
+  }
+  /// Where the reference point went; curves as chords.
+  void keep_improved(const Path<State>& path) {
+    constexpr std::size_t pieces = 16;  // a leg of a car
+    PolygonSet& kept = request_.keep->improved;
+    std::vector<Vec2> line;
+    if constexpr (std::is_same_v<State, Vec2>) {
+      line.assign(path.begin(), path.end());
+    } else if constexpr (std::is_same_v<State, Se2>) {
+      line.push_back(path.front().position());
+      for (std::size_t i = 1; i < path.size(); ++i) {
+        for (std::size_t k = 1; k <= pieces; ++k)
+          line.push_back(world_->interpolate(path[i - 1], path[i], static_cast<double>(k) / pieces).position());
+      }
+    }
+    if (line.empty()) return;
+    if (kept.size() == most_improved) {
+      PolygonSet fewer;
+      for (std::size_t i = 0; i < kept.size(); ++i) {
+        if (i % 2 == 0 || i + 1 == kept.size()) fewer.add(kept[i]);
+      }
+      kept = std::move(fewer);
+    }
+    kept.add(line);
+  }
+  double bound(BoundEffort effort) const {
+    const BoundOf measure = Body::has_cost ? BoundOf::metric : BoundOf::length;
+    return proved_bound(request_.scene, answer_.problem, measure, effort, execution());
+  }
+  /// Of planners that nobody asks how good they are, where it takes little.
+  bool wants_exact_bound() const {
+    constexpr std::size_t few = 2'000;
+    const bool is_small = request_.scene.polygons.size() + request_.scene.walls.size() <= few && !request_.scene.map;
+    return request_.options.bound || request_.options.anytime.gap || is_small;
   }
   /// What ends the search does not end the work: its path is judged and told in the memory that there is.
   void plan_better() {
@@ -259,11 +295,9 @@ class SampledSolve {
       return;
     }
     AnytimeOptions options = better_options();
-    options.lower_bound = std::numeric_limits<double>::infinity();
-    for (const State& goal : goals)
-      options.lower_bound = std::min(options.lower_bound, world_->distance(body_.start(), goal));
-    const AnyWorldOf<World>& world = *view_;
-    AnytimeSolution<State> found = anytime(world, body_.start(), goals, options, body_of_better(), execution());
+    options.lower_bound = bound(BoundEffort::simple);
+    AnytimeSolution<State> found = anytime(*view_, State(body_.start()), goals, options, body_of_better(), execution());
+    answer_.lower_bound = found.lower_bound;
     answer_.improvements = std::move(found.improvements);
     answer_.iterations = found.iterations;
     answer_.ended_by = found.ended_by;

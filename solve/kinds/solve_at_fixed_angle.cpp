@@ -137,8 +137,9 @@ class FixedAngleSolve {
   Answer answer_;
 };
 
-constexpr PlannerChoice fixed_angle_planners[] = {{PlannerKind::visibility, {}},
-                                                  {PlannerKind::cells, {Option::doors, Option::search, Option::queue}}};
+constexpr PlannerChoice fixed_angle_planners[] = {
+    {PlannerKind::visibility, {Option::bound}},
+    {PlannerKind::cells, {Option::doors, Option::search, Option::queue, Option::bound}}};
 
 bool fits_fixed_angle(const Scene& scene, const RobotSpec& robot) {
   return robot.kind == RobotKind::polygon && !scene.map;

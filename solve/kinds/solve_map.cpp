@@ -312,7 +312,7 @@ constexpr PlannerChoice occupancy_planners[] = {
     {PlannerKind::rrt_star, rrt_star_options},
     {PlannerKind::informed_rrt_star, rrt_star_options},
     {PlannerKind::anytime, anytime_options},
-    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue}}};
+    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound}}};
 
 bool fits_occupancy(const Scene& scene, const RobotSpec& robot) {
   return scene.map && (robot.kind == RobotKind::point || robot.kind == RobotKind::disc);

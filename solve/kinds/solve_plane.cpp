@@ -96,9 +96,9 @@ constexpr PlannerChoice plane_planners[] = {
     {PlannerKind::informed_rrt_star, rrt_star_options},
     {PlannerKind::anytime, anytime_options},
     {PlannerKind::visibility,
-     OptionSet{Option::full, Option::lazy, Option::sampled_edges, Option::search, Option::queue}},
-    {PlannerKind::cells, OptionSet{Option::doors, Option::search, Option::queue}},
-    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue}}};
+     OptionSet{Option::full, Option::lazy, Option::sampled_edges, Option::search, Option::queue, Option::bound}},
+    {PlannerKind::cells, OptionSet{Option::doors, Option::search, Option::queue, Option::bound}},
+    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound}}};
 
 bool fits_plane(const Scene&, const RobotSpec& robot) {
   return robot.kind == RobotKind::point || robot.kind == RobotKind::disc;

@@ -107,6 +107,7 @@ void price_heuristic(Answer& answer, std::optional<HeuristicKind> asked,
 void claim_nothing(Answer& answer) {
   answer.verified = false;
   answer.optimal = false;
+  answer.lower_bound.reset();
   answer.length = 0.0;
   answer.min_clearance = 0.0;
   answer.raw_length.reset();

@@ -63,7 +63,7 @@ bool fits_turning(const Scene&, const RobotSpec& robot) { return robot.kind == R
 // another, the body turns when it is there. A body that fits only in some headings is not found a way: not_connected.
 
 constexpr PlannerChoice turning_axis_planners[] = {
-    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue}}};
+    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound}}};
 
 /// The same question for the disc that holds the body.
 Question question_of_disc(const PoseProblem& problem) {

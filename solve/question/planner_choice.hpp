@@ -20,7 +20,7 @@ namespace warren {
 
 /// What the planners that build roadmaps take of every body; some bodies take more.
 inline constexpr OptionSet prm_takes{Option::sampler, Option::samples, Option::neighbours, Option::radius,
-                                     Option::search,  Option::queue,   Option::optimise};
+                                     Option::search,  Option::queue,   Option::optimise,   Option::bound};
 inline constexpr OptionSet lazy_prm_takes = prm_takes | OptionSet{Option::lazy};
 /// What both take of a point or disc, and among walls and polygons.
 inline constexpr OptionSet point_takes{Option::heuristic, Option::neighbour_index};
@@ -67,16 +67,16 @@ GridSpec grid_spec(const GridFields& options, const Scene& scene);
 // How rrt and rrt-connect are told what to do, whatever the body.
 
 /// What each planner of trees takes.
-inline constexpr OptionSet rrt_connect_options{Option::sampler, Option::step, Option::nodes,
-                                               Option::trees,   Option::via,  Option::optimise};
+inline constexpr OptionSet rrt_connect_options{Option::sampler, Option::step,     Option::nodes, Option::trees,
+                                               Option::via,     Option::optimise, Option::bound};
 inline constexpr OptionSet rrt_options = rrt_connect_options | OptionSet{Option::goal_bias};
 
 // How planners that get better are told what to do.
 
 /// What each takes.
-inline constexpr OptionSet anytime_options{Option::iterations, Option::gap, Option::parts};
-inline constexpr OptionSet rrt_star_options{Option::iterations, Option::gap,   Option::step,
-                                            Option::goal_bias,  Option::nodes, Option::optimise};
+inline constexpr OptionSet anytime_options{Option::iterations, Option::gap, Option::parts, Option::bound};
+inline constexpr OptionSet rrt_star_options{Option::iterations, Option::gap,      Option::step, Option::goal_bias,
+                                            Option::nodes,      Option::optimise, Option::bound};
 
 /// Throws UsageError for samplers that trees have no use for.
 RrtOptions tree_options(const SolveOptions& options);

@@ -249,7 +249,8 @@ class OptionSet {
 };
 /// What a question asks of a roadmap that is there; a roadmap that is kept has none of them.
 inline constexpr OptionSet question_options{Option::search,    Option::queue,        Option::optimise,
-                                            Option::cusp_cost, Option::reverse_cost, Option::heuristic};
+                                            Option::cusp_cost, Option::reverse_cost, Option::heuristic,
+                                            Option::bound};
 /// These, and how an arm is joined to the roadmap.
 inline constexpr OptionSet asked_options = question_options | OptionSet{Option::attach};
 /// How planners work, which roadmaps that are kept don't show.

@@ -34,7 +34,7 @@ def commands():
             heading = ',0' if 'polygon' in body or 'car' in body else ''
             where = '' if world == 'poly-easy.scene' else places.format(h=heading)
             yield solve.format(world, body, '--planner ' + planner if planner else '', where)
-    for world in ['walls.scene', 'car-20.scene', 'parking-lot.scene', 'puma-seed.scene', 'maze:25x25']:
+    for world in ['walls.scene', 'car-20.scene', 'parking-lot.scene', 'puma.scene', 'maze:25x25']:
         for planner in PLANNERS:
             yield solve.format(world, '', '--planner ' + planner if planner else '', '--nodes 3000' if 'rrt' in planner else '')
         yield f'solve {world} --optimise --json -'

@@ -51,7 +51,7 @@ def cases(folder):
         file.write(MAP)
     with open(os.path.join(folder, "corridor.pgm"), "wb") as file:
         file.write(picture())
-    car, arm, polygon, walls = (scene(f"{name}.scene") for name in ("car-20", "puma-seed", "poly-easy", "walls"))
+    car, arm, polygon, walls = (scene(f"{name}.scene") for name in ("car-20", "puma", "poly-easy", "walls"))
     room = os.path.join(folder, "corridor.yaml")
     ends = ["--start", "-1.0,1.6", "--goal", "0.9,2.6"]
     for seed in (1, 2, 3):

@@ -20,8 +20,8 @@ class Pictures(BrowserTest):
         worlds = {'maze.html': ['maze:41x41,seed=3,loops=0.1', '--planner', 'prm', '--pipeline', 'plain'],
                   'car.html': [WORLDS + '/parking.scene', '--seed', '1'],
                   'town.html': [WORLDS + '/town.geojson', '--start', '1.5,1.5', '--goal', '9.5,8.5', '--planner', 'prm', '--samples', '300'],
-                  'arm.html': [WORLDS + '/puma-seed.scene', '--optimise'],
-                  'still.html': [WORLDS + '/puma-seed.scene', '--optimise', '--show', 'world,path,axes'],
+                  'arm.html': [WORLDS + '/puma.scene', '--optimise'],
+                  'still.html': [WORLDS + '/puma.scene', '--optimise', '--show', 'world,path,axes'],
                   'large.html': ['maze:700x700']}
         for name, words in worlds.items():
             subprocess.run([WARREN, 'solve', *words, '--svg', cls.folder.name + '/' + name, '--quiet'], check=True)
@@ -236,7 +236,7 @@ class Pictures(BrowserTest):
 
     def test_the_roadmap_of_an_arm_is_seen_in_perspective(self):
         kept, page = self.folder.name + '/arm.roadmap', self.folder.name + '/arm-roadmap.html'
-        subprocess.run([WARREN, 'build', WORLDS + '/puma-seed.scene', '--samples', '100', '-o', kept], check=True, capture_output=True)
+        subprocess.run([WARREN, 'build', WORLDS + '/puma.scene', '--samples', '100', '-o', kept], check=True, capture_output=True)
         subprocess.run([WARREN, 'render', kept, '-o', page], check=True, capture_output=True)
         self.open('arm-roadmap.html')
         self.async_script("""const layer = layers.find(one => one.id === "perspective"), wait = () => layer.image?.complete ? done() : requestAnimationFrame(wait); wait()""")

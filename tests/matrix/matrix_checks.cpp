@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 #include <sstream>
+#include <string>
 
 #include "tests/matrix/matrix_run.hpp"
 #include "tests/paths.hpp"
@@ -68,6 +69,25 @@ std::optional<std::string> Matrix::wrong_with(const MatrixBody& body, const std:
   return wrong_with_path(world().plane, body.plane, question, path);
 }
 
+/// All but grid, whose cost is its own, tell a bound that their path is not below.
+void Matrix::check_bound(const std::string& planner, const ProgramAnswer& answer) {
+  EXPECT_EQ(answer.lower_bound.empty(), planner == "grid");
+  if (answer.lower_bound.empty()) {
+    EXPECT_TRUE(answer.gap.empty());
+    return;
+  }
+  constexpr double rounding = 1e-9;
+  const double bound = std::stod(answer.lower_bound);
+  const double length = std::stod(answer.length);
+  EXPECT_GE(bound, 0.0);
+  EXPECT_LE(bound, length * (1.0 + 1e-12));
+  EXPECT_EQ(answer.gap.empty(), bound == 0.0 && length > 0.0);
+  if (!answer.gap.empty()) {
+    EXPECT_GE(std::stod(answer.gap), 0.0);
+  }
+  EXPECT_EQ(answer.optimal, length - bound <= rounding * length);
+}
+
 Outcome Matrix::ask(const std::vector<std::string>& arguments) {
   ++asked_;
   return run(arguments);
@@ -103,6 +123,7 @@ void Matrix::check_ends(const MatrixBody& body, const std::vector<std::vector<do
 
 /// In a strange world there may be no way: nobody shall look for it long.
 std::vector<std::string> Matrix::limits_of(const std::string& planner) {
+  if (planner == "anytime" || planner.ends_with("rrt-star")) return {"--iterations", "6"};
   if (!world().is_strange) return {};
   if (planner == "prm" || planner == "lazy-prm") return {"--samples", "300"};
   if (planner == "rrt" || planner == "rrt-connect") return {"--nodes", "2000"};

@@ -53,6 +53,7 @@ class Matrix : public testing::TestWithParam<MatrixWorld> {
   void check_why_blocked(const MatrixBody& body, const ProgramAnswer& answer) const;
   void ask_offered_place(const MatrixBody& body, const ProgramAnswer& answer);
 
+  static void check_bound(const std::string& planner, const ProgramAnswer& answer);
   static void check_explained(const ProgramAnswer& answer, const std::string& summary);
 
   void ask_planner(const MatrixBody& body, const PlannerRow& planner, const PlannerField* field, bool optimise);

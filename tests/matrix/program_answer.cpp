@@ -61,6 +61,9 @@ ProgramAnswer read_program_answer(const std::string& json) {
     return rest.substr(0, rest.find_first_of(",}"));
   };
   answer.length = number_of("length");
+  if (json.find("\"lower_bound\": ") != std::string::npos) answer.lower_bound = number_of("lower_bound");
+  if (json.find("\"gap\": ") != std::string::npos) answer.gap = number_of("gap");
+  answer.optimal = json.find("\"optimal\": true") != std::string::npos;
   if (json.find("\"expanded\": ") != std::string::npos) answer.expanded = number_of("expanded");
   if (json.find("\"explained\": ") != std::string::npos) {
     const std::string explained = value_of(json, "explained");

@@ -10,7 +10,10 @@ namespace warren::test {
 struct ProgramAnswer {
   std::string status;
   bool verified = false;
-  std::string length;    ///< as it stands there
+  std::string length;       ///< as it stands there
+  std::string lower_bound;  ///< the same; empty where none is told
+  std::string gap;          ///< the same
+  bool optimal = false;
   std::string expanded;  ///< of the counters, likewise; empty where nothing was searched
   std::vector<std::vector<double>> path;
   bool says_why_blocked = false;

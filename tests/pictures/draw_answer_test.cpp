@@ -199,5 +199,48 @@ TEST(DrawAnswer, APictureIsTheWorldsOrTheStages) {
   EXPECT_EQ(&picture_of(scene, drawing).scene, &*drawing.stage);
 }
 
+/// An answer with two paths before it, and what a planner that gets better would have kept.
+Drawing drawn_with_improvements(const Scene& scene, Answer answer) {
+  answer.planner = name_of(PlannerKind::anytime);
+  answer.iterations = 7;
+  answer.improvements = {{.iterations = 1, .cost = 14.5, .length = 14.5, .by = "tree"},
+                         {.iterations = 2, .cost = answer.length, .length = answer.length, .by = "shorten"}};
+  ByProducts made;
+  made.improved.add(std::vector<Vec2>{{1, 5}, {3, 8}, {9, 5}});
+  made.improved.add(std::vector<Vec2>{{1, 5}, {4, 7}, {9, 5}});
+  return drawing_of(scene, answer, std::move(made), {});
+}
+
+TEST(DrawAnswer, PathsBeforeFadeAndTheEllipseHoldsWhatIsShorter) {
+  const Scene scene = room_with_a_block();
+  const Answer answer = solve(scene, {}, {.planner = PlannerKind::visibility});
+  const Drawing drawing = drawn_with_improvements(scene, answer);
+  ASSERT_EQ(ids_of(drawing.layers), (std::vector<std::string>{"informed_set", "improvements"}));
+  const PictureLayer& ellipse = drawing.layers[0];
+  ASSERT_FALSE(ellipse.lines.empty());
+  for (const Vec2 p : ellipse.lines.corners) {
+    EXPECT_NEAR(distance({1, 5}, p) + distance(p, {9, 5}), answer.length, 1e-9);
+    EXPECT_TRUE(p.x >= 0 && p.x <= 10 && p.y >= 0 && p.y <= 10) << "the picture grows by no ellipse";
+  }
+  const PictureLayer& before = drawing.layers[1];
+  EXPECT_EQ(before.label, "2 paths before it, the first 14.5 long");
+  ASSERT_EQ(before.opacities.size(), 2U);
+  EXPECT_LT(before.opacities[0], before.opacities[1]);
+  EXPECT_TRUE(drawing.path_label.starts_with("path, ")) << drawing.path_label;
+}
+
+TEST(DrawAnswer, TheEllipseIsOfPointsAndDiscsThatBend) {
+  Scene scene = room_with_a_block();
+  scene.robot = RobotSpec{.kind = RobotKind::polygon, .outline = {{-0.5, -0.1}, {0.5, -0.1}, {0.5, 0.1}, {-0.5, 0.1}}};
+  scene.start.push_back(0.0);
+  scene.goal.push_back(0.0);
+  const Answer turning = solve(scene, {}, {.planner = PlannerKind::rrt_connect});
+  for (const std::string& id : ids_of(drawn_with_improvements(scene, turning).layers)) EXPECT_NE(id, "informed_set");
+  scene = room_with_a_block();
+  scene.polygons.clear();
+  const Answer straight = solve(scene, {}, {.planner = PlannerKind::lazy_prm});
+  EXPECT_EQ(ids_of(drawn_with_improvements(scene, straight).layers), std::vector<std::string>{"improvements"});
+}
+
 }  // namespace
 }  // namespace warren

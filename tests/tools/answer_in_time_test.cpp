@@ -83,5 +83,51 @@ TEST(AnswerInTime, ASignalThatEndedAnExplanationIsForgotten) {
   EXPECT_EQ(tools::signal_flag().load(), 0);
 }
 
+/// A planner that gets better, ended after its first path.
+class EndedImprover : public tools::AnswerCommand {
+ public:
+  EndedImprover(const tools::Arguments& arguments, StopReason reason)
+      : tools::AnswerCommand(arguments, "--save-roadmap"), reason_(reason) {}
+
+ private:
+  Answer find(const tools::Run& run, StageTimes&, ByProducts* keep) override {
+    Scene scene;
+    scene.source = "field";
+    scene.bounds = Box{{0.0, 0.0}, {10.0, 10.0}};
+    scene.start = {1.0, 1.0};
+    scene.goal = {9.0, 9.0};
+    Answer answer = solve_within(scene, {}, {}, run.execution(), keep);
+    answer.iterations = 3;
+    answer.stop_reason = reason_;
+    answer.improvements = {{.iterations = 1, .cost = answer.length, .length = answer.length, .by = "tree"}};
+    return answer;
+  }
+  Scene scene_drawn(const Execution&, ByProducts&) override { return {}; }
+  void explain(const Execution&, Answer&, ByProducts&) override {}
+  const Roadmap& roadmap() const override { return roadmap_; }
+
+  StopReason reason_;
+  Roadmap roadmap_;
+};
+
+TEST(AnswerInTime, APathThatASignalEndedIsWrittenAndTheCodeIsTheSignals) {
+  for (const auto& [reason, code] : {std::pair(StopReason::time, tools::exit_code::success),
+                                     std::pair(StopReason::memory, tools::exit_code::success),
+                                     std::pair(StopReason::interrupt, tools::exit_code::interrupted),
+                                     std::pair(StopReason::terminate, tools::exit_code::terminated)}) {
+    const Folder folder;
+    const std::vector<std::string> words{"field", "--quiet", "--json", folder.path("a.json")};
+    const tools::Command command = tools::command_named("solve");
+    const tools::Arguments arguments(command, words);
+    EXPECT_EQ(EndedImprover(arguments, reason).run(), code) << name_of(reason);
+    const auto answer = nlohmann::json::parse(folder.read("a.json"));
+    EXPECT_EQ(answer["status"], "solved");
+    EXPECT_EQ(answer["verified"], true);
+    EXPECT_EQ(answer["stopped_by"], name_of(reason));
+    EXPECT_EQ(answer["improvements"].size(), 1U);
+    EXPECT_EQ(answer["iterations"], 3);
+  }
+}
+
 }  // namespace
 }  // namespace warren::test

@@ -393,5 +393,33 @@ TEST(Compare, SaysHowManyHeatMapsAreLeftOut) {
   EXPECT_NE(outcome.out.find("60 of 72 heat maps are drawn"), std::string::npos) << outcome.out << outcome.err;
 }
 
+TEST(Compare, CurvesOfPlannersWithOneAnswerAreAStepEach) {
+  const Folder folder;
+  const std::string words = "compare maze:7x7 --planners prm,rrt-connect --seeds 2 --quiet --curves ";
+  ASSERT_EQ(run_program(words + folder.path("k.csv")).exit_code, 0);
+  std::istringstream csv(folder.read("k.csv"));
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(csv, line);) lines.push_back(line);
+  ASSERT_EQ(lines.size(), 1U + 1U + 2U) << "no seed changes prm's answer";
+  EXPECT_EQ(lines[0], "planner,seed,seconds,cost,length,by,lower_bound,options");
+  EXPECT_EQ(lines[1].substr(0, 6), "prm,1,");
+  EXPECT_NE(lines[2].find(",answer,"), std::string::npos);
+  ASSERT_EQ(run_program(words + folder.path("k.svg")).exit_code, 0);
+  const std::string svg = folder.read("k.svg");
+  for (const char* part :
+       {"maze:7x7: cost against time", "maze:7x7: solved", ">prm<", ">rrt-connect<", "best of all: "}) {
+    EXPECT_NE(svg.find(part), std::string::npos) << part;
+  }
+}
+
+TEST(Compare, CurvesAreRefusedWhereThereAreNone) {
+  const Folder folder;
+  check({{"compare", "maze:5x5", "--curves", folder.path("k.svg")}, 2, "--curves: shows how planners"});
+  check({{"compare", "maze:5x5", "--planners", "prm", "--curves", folder.path("k.gif")}, 2, ".svg .png .pdf .csv"});
+  check({{"compare", "maze:5x5", "--planners", "prm", "--curves", folder.path("k.csv"), "--csv", folder.path("k.csv")},
+         2,
+         "would both write"});
+}
+
 }  // namespace
 }  // namespace warren::tools

@@ -39,8 +39,8 @@ TEST(Example, WithoutANameEveryWorldHasItsLine) {
 TEST(Example, WritesTheFilesAsTheyStandAndSaysACommandThatSolvesThem) {
   const Folder folder;
   std::size_t written = 0;
-  for (const char* name : {"walls", "poly-easy", "town", "flat", "car-20", "parking-lot", "parking", "square-place",
-                           "garage", "puma-seed"}) {
+  for (const char* name :
+       {"walls", "poly-easy", "town", "flat", "car-20", "parking-lot", "parking", "square-place", "garage", "puma"}) {
     SCOPED_TRACE(name);
     const Outcome outcome = run({"example", name, "-o", folder.path("")});
     EXPECT_EQ(outcome.code, 0) << outcome.err;
@@ -54,6 +54,15 @@ TEST(Example, WritesTheFilesAsTheyStandAndSaysACommandThatSolvesThem) {
   EXPECT_EQ(written, static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder.path("")), {})));
   EXPECT_EQ(run({"solve", folder.path("walls.scene"), "--quiet"}).code, 0);
   EXPECT_EQ(run({"info", folder.path("flat.yaml")}).code, 0) << "its image is beside it";
+}
+
+TEST(Example, ANameOfBeforeWritesTheSameWorldUnderThatName) {
+  const Folder folder;
+  const Outcome outcome = run({"example", "puma-seed", "-o", folder.path("")});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("warren solve puma-seed.scene"), outcome.out.npos) << outcome.out;
+  EXPECT_EQ(folder.read("puma-seed.scene"), bytes_of(worlds / "puma.scene"));
+  EXPECT_EQ(run({"example"}).out.find("puma-seed"), std::string::npos) << "it is not listed";
 }
 
 TEST(Example, WhatIsThereStays) {

@@ -24,7 +24,7 @@ TEST(Profile, ShowsEachLinkOfTheChainWithItsCount) {
   const std::vector<std::string> maze{"maze:20x20,seed=2", "--sampler", "uniform"};
   const std::vector<std::string> town{test::world_file("town.geojson"), "--start", "1.5,1.5", "--goal", "9.5,8.5"};
   const std::vector<std::string> car{test::world_file("car-20.scene"), "--samples", "200"};
-  const std::vector<std::string> arm{test::world_file("puma-seed.scene"), "--samples", "100"};
+  const std::vector<std::string> arm{test::world_file("puma.scene"), "--samples", "100"};
   for (const auto& world : {maze, town, car, arm}) {
     for (const char* planner : {"prm", "lazy-prm"}) {
       const auto words = joined(world, {"--planner", planner, "--runs", "1", "--threads", "2", "--json", "-"});

@@ -48,7 +48,7 @@ TEST(Leaks, NoVerbLeavesMemoryBehind) {
       {{"solve", file("m.maze"), "--pipeline", "streamed", "--no-path", "--quiet"}, 0, ""},
       {{"solve", file("m.npy"), "--planner", "lazy-prm", "--threads", "2", "--quiet"}, 0, ""},
       {{"solve", world_file("parking-lot.scene"), "--explain", "--quiet", "--json", file("car.json")}, 0, ""},
-      {{"solve", world_file("puma-seed.scene"), "--quiet", "--budget", "1us"}, 124, ""},
+      {{"solve", world_file("puma.scene"), "--quiet", "--budget", "1us"}, 124, ""},
       {{"solve", bad}, 65, "bad.scene"},
       {{"solve", "maze:5x7", "--sampels", "5"}, 2, "--samples"},
       {{"verify", file("walls.scene"), file("a.json")}, 0, ""},

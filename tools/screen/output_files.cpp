@@ -79,9 +79,9 @@ void check_picture_ending(std::string_view option, const std::string& file, std:
 }
 
 /// Of all verbs: the options whose values are files that are written, and that are read. Operands are read.
-constexpr std::array<std::string_view, 14> output_options{"--path", "--json",   "--picture",      "--table", "--html",
-                                                          "--csv",  "--runs",   "--log",          "--trace", "--output",
-                                                          "--keep", "--report", "--save-roadmap", "--resume"};
+constexpr std::array<std::string_view, 15> output_options{
+    "--path",  "--json",   "--picture", "--table",  "--html",         "--csv",    "--runs",  "--log",
+    "--trace", "--output", "--keep",    "--report", "--save-roadmap", "--resume", "--curves"};
 constexpr std::array<std::string_view, 5> input_options{"--answer", "--map", "--batch", "--matrix", "--world"};
 
 /// Where a file is, or will be: two are the same file exactly if their places are equal.
@@ -264,15 +264,18 @@ void check_plots(const Arguments& arguments) {
     check_picture_ending(option, file, plot_endings);
     check_picture(option, file);
   }
+  const std::string curves = arguments.value("--curves").value_or("");
+  check_picture_ending("--curves", curves, fmt::format("{} .csv", plot_endings));
+  check_picture("--curves", curves.ends_with(".csv") ? "" : curves);
   if (arguments.has("--figures") && ending_of(*arguments.value("--figures")).empty()) {
     throw UsageError("--figures: expected a name that ends in .svg, .png or .pdf, such as k.pdf for k-length.pdf");
   }
 }
 
 void write_plots(const Arguments& arguments, const Execution& execution, bool was_stopped,
-                 const std::function<PlotsPage()>& plots) {
-  const auto file = arguments.value("--picture");
-  const auto figures = arguments.value("--figures");
+                 const std::function<PlotsPage()>& plots, std::string_view option) {
+  const auto file = arguments.value(option);
+  const auto figures = option == "--picture" ? arguments.value("--figures") : std::nullopt;
   if (!file && !figures) return;
   const Deadline memory_alone(std::numeric_limits<double>::infinity(), execution.deadline->memory_bytes());
   Execution within = execution;

@@ -34,12 +34,13 @@ bool check_reports(const Arguments& arguments, std::initializer_list<std::string
 /// Writes what `text` makes to the file that an option names, if it is given; whatever has stopped meanwhile.
 void write_report(const Arguments& arguments, std::string_view option, const std::function<std::string()>& text);
 
-/// Throws UsageError unless --picture and --figures, where they are given, name files that plots can be written to.
+/// Throws UsageError unless --picture, --figures and --curves, where they are given, name files that plots can be
+/// written to.
 void check_plots(const Arguments& arguments);
-/// Writes plots to the file that --picture names, if it is given, and each to one of its own by --figures: "k.pdf"
-/// becomes "k-length.pdf", by its title; of a run that was stopped, too: within its memory alone.
+/// Writes plots to the file that the option names, if it is given, and with --picture each to one of its own by
+/// --figures: "k.pdf" becomes "k-length.pdf", by its title; of a run that was stopped, too: within its memory alone.
 void write_plots(const Arguments& arguments, const Execution& execution, bool was_stopped,
-                 const std::function<PlotsPage()>& plots);
+                 const std::function<PlotsPage()>& plots, std::string_view option = "--picture");
 
 /// Says on standard error what is drawn otherwise than usual, if anything is and --quiet is not given.
 void say_of_picture(const Arguments& arguments, const std::string& file, const std::vector<std::string>& notes);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "pictures/answer_summary.hpp"
 #include "scenes/files/human_units.hpp"
 
 namespace warren::tools {
@@ -79,6 +80,20 @@ std::string ProgressBar::whole_run_text(const RunMoment& moment, double items_pe
   return fmt::format("--budget ends in {}", human_seconds(std::max(0.0, *budget_s_ - moment.seconds)));
 }
 
+void ProgressBar::tell(const Improvement& improvement) {
+  const std::lock_guard lock(mutex_);
+  best_ = improvement;
+}
+
+std::string improvement_text(const Improvement& best) {
+  std::string text = fmt::format("cost {}", human_number(best.cost));
+  if (best.lower_bound > 0.0) {
+    const double gap = std::max(0.0, best.cost / best.lower_bound - 1.0);
+    text += fmt::format(", bound {}, gap {}", human_number(best.lower_bound), share_text(gap));
+  }
+  return text + fmt::format(", turn {}", best.iterations);
+}
+
 void ProgressBar::draw() {
   const char* stage = progress_.stage();
   if (stage == nullptr) return;
@@ -93,7 +108,14 @@ void ProgressBar::draw() {
   const double rate = seconds > 0.0 ? static_cast<double>(done - done_at_begin_) / seconds : 0.0;
   const std::size_t width = terminal_width();
   const RunMoment moment{stage, done, progress_.total(), std::chrono::duration<double>(now - begin_).count()};
-  const std::string line = progress_line(moment, rate, whole_run_text(moment, rate), width);
+  std::string whole_run = whole_run_text(moment, rate);
+  std::optional<Improvement> best;
+  {
+    const std::lock_guard lock(mutex_);
+    best = best_;
+  }
+  if (best) whole_run = improvement_text(*best) + (whole_run.empty() ? "" : ", " + whole_run);
+  const std::string line = progress_line(moment, best ? 0.0 : rate, whole_run, width);
   std::fputs((mode_ == ProgressMode::bar ? erasing(columns_, width) + line : line + "\n").c_str(), stderr);
   std::fflush(stderr);
   columns_ = line.size();

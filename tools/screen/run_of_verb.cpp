@@ -22,13 +22,14 @@ namespace warren::tools {
 namespace {
 
 constexpr OptionSpec run_specs[] = {
-    {"--threads", "N", "threads to compute on; changes the time, never the result (default: all)"},
+    {"--threads", "N",
+     "how many threads to compute on; changes the time, never the result (default: one for each core)"},
     {"--budget", "TIME", "stop after this time, such as 20s or 500ms: exit code 124 (default: none)"},
     {"--memory", "BYTES", "hold at most so much memory, such as 20GiB (default: what the machine has)"},
     {"--quiet", "", "print nothing but what was asked for"},
     {"--progress", "MODE", "how to show progress on standard error (default: auto)", "auto bar plain none"},
     {"--color", "WHEN", "colour the output (default: auto)", "auto always never"},
-    {"--trace", "FILE", "write when each stage and chunk ran, as a Chrome trace"},
+    {"--trace", "FILE", "write what ran when on which thread, as a trace for Chrome or Perfetto"},
 };
 
 /// Of the whole command.
@@ -70,6 +71,12 @@ Run::Run(const Arguments& arguments, RunScope scope, ExpectedStages stages)
   execution_.deadline = &deadline_;
   execution_.progress = &progress_;
   bar_ = std::make_unique<ProgressBar>(progress_, mode_, budget_of(arguments, scope), stages);
+  if (resolved(mode_) == ProgressMode::none) return;
+  on_improvement_ = [this](const Improvement& improvement) {
+    if (bar_) bar_->tell(improvement);
+    return true;
+  };
+  execution_.on_improvement = &on_improvement_;
 }
 
 void Run::note(std::string_view line) const {

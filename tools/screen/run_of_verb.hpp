@@ -67,6 +67,7 @@ class Run {
   bool quiet_ = false;
   ProgressMode mode_;
   Palette palette_{false};
+  std::function<bool(const Improvement&)> on_improvement_;  // tells the bar
   Execution execution_;
   std::unique_ptr<ProgressBar> bar_;
 };

@@ -36,8 +36,7 @@ namespace {
 
 constexpr OptionSpec world_specs[] = {
     {"--map-rules", "NAME",
-     "whose rules the pixels of a map_server YAML follow: nav2's or those of ROS 1, strict at the thresholds "
-     "(default: nav2)",
+     "for maps of ROS (.yaml): by whose rules a pixel is free, Nav2's or those of ROS 1 (default: nav2)",
      choices_of<MapServerRules>},
 };
 
@@ -58,9 +57,23 @@ void tell_of_grey(const OccupancyMap& map) {
 
 std::span<const OptionSpec> world_option_specs() { return world_specs; }
 
+namespace {
+
+/// Whoever types a maze's size, or the word alone, is told how a maze is called.
+InputFile file_of_world(const std::string& source, const Execution& execution) {
+  const bool is_size = source == "maze" || source.find_first_not_of("0123456789x") == std::string::npos;
+  std::error_code ignored;
+  if (is_size && !std::filesystem::exists(source, ignored)) {
+    throw ReadError(source, "there is no such file; a maze is called maze:41x41");
+  }
+  return InputFile(source, execution);
+}
+
+}  // namespace
+
 Scene load_world(const std::string& source, const Arguments& arguments, const Execution& execution,
                  StageTimes& seconds) {
-  if (!is_made_source(source)) return load_world(InputFile(source, execution), arguments, execution, seconds);
+  if (!is_made_source(source)) return load_world(file_of_world(source, execution), arguments, execution, seconds);
   if (arguments.has("--map-rules")) refuse_rules(source);
   const StageTimer timer(execution, "generate", seconds.generate);
   return read_world(source, execution);
@@ -84,7 +97,7 @@ Scene load_planned_world(const std::string& source, std::optional<PipelineKind> 
     return load_world(source, arguments, execution, seconds);
   }
   if (is_made_source(source)) return load_world(source, arguments, execution, seconds);
-  const InputFile file(source, execution);
+  const InputFile file = file_of_world(source, execution);
   std::error_code ignored;
   if (std::filesystem::is_regular_file(source, ignored) && !arguments.has("--map-rules")) {
     std::optional<Scene> scene = unmade_maze(file);

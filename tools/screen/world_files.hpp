@@ -48,8 +48,8 @@ void note_left_out(const Arguments& arguments, const Scene& scene, const std::st
 /// Throws UsageError unless `file` has an ending that write_world knows, WriteError unless it can be written.
 void check_world_file(const std::string& file);
 
-inline constexpr OptionSpec roadmap_world_option{"--world", "WORLD",
-                                                 "the world that the roadmap was built for, where its file has none"};
+inline constexpr OptionSpec roadmap_world_option{
+    "--world", "WORLD", "the world that the roadmap was built for, where its file has none (build --no-world)"};
 
 /// Throws UsageError for --map-rules where no --world is named that they could be for.
 void check_rules_of_maps(const Arguments& arguments);

@@ -26,8 +26,8 @@ namespace {
 
 constexpr OptionSpec output_specs[] = {
     {"--json", "FILE", "write the answer as JSON; - is standard output"},
-    {"--no-path", "", "leave the path's points out of the JSON: it says their number (path_points) and path_hash"},
-    {"--explain", "", "say what became of samples and motions, where it is narrow, and what would likely help"},
+    {"--no-path", "", "leave the points of the path out of the JSON, which then has their number and a hash of them"},
+    {"--explain", "", "also say what became of samples and motions, where it is narrow, and what would likely help"},
     {"--picture", "FILE", "draw the world, roadmap, search and path: .svg .png .pdf .html by ending (or --svg FILE)"},
 };
 

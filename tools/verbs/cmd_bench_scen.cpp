@@ -256,7 +256,8 @@ int bench_scen(const Arguments& arguments) {
 }  // namespace
 
 Command bench_scen_command() {
-  Command command{"bench-scen", "FILE.scen", "check a Moving AI scenario file against its optima", {}, bench_scen};
+  Command command{
+      "bench-scen", "FILE.scen", "check a Moving AI scenario file against its published lengths", {}, bench_scen};
   add_options(command.options, bench_scen_specs);
   add_options(command.options, run_option_specs());
   return command;

@@ -23,10 +23,12 @@ namespace warren::tools {
 namespace {
 
 constexpr OptionSpec build_specs[] = {
-    {"--output", "FILE", "where to: a name that ends in .roadmap, or any", {}, "-o"},
-    {"--index", "NAME", "of a large roadmap: answers without a search, where that pays (default: auto)",
+    {"--output", "FILE", "file to write; by custom NAME.roadmap", {}, "-o"},
+    {"--index", "NAME",
+     "auto: give a large roadmap an index, which answers without a search, where that pays; none: give it none "
+     "(default: auto)",
      choices_of<IndexChoice>},
-    {"--no-world", "", "leave the world out of the file; who asks names it then"},
+    {"--no-world", "", "leave the world out of the file; --world of 'warren query' then names it"},
 };
 
 /// Those that some planner that keeps a roadmap takes, and that a roadmap without a question can have.
@@ -37,8 +39,12 @@ void add_kept_options(Command& command) {
     const auto takes = [&](PlannerKind planner) { return keeps_roadmap(planner) && planner_takes(planner, *option); };
     if (spec.name == "--planner") {
       spec.choices = planners;
-      spec.help = "whose roadmap (default: by world and body)";
+      spec.help =
+          "whose roadmap: prm checks all of it, lazy-prm only what searches meet later; visibility joins corners of "
+          "polygons, cells slices of the free space, voronoi follows what is farthest from obstacles (default: by "
+          "world and body)";
     }
+    if (spec.name == "--samples") spec.help = "how many samples to draw (default: auto, a number by world and body)";
     if (option && question_options.has(*option)) {
       command.foreign.emplace_back(spec.name, "is for a question; 'warren query' takes it");
     } else if (option && work_options.has(*option)) {

@@ -42,24 +42,30 @@ namespace warren::tools {
 namespace {
 
 constexpr OptionSpec compare_output_specs[] = {
-    {"--budget", "TIME", "each run, of a planner or a search, may take so long (default: none)"},
-    {"--json", "FILE", "write warren.compare/1; - is standard output"},
-    {"--csv", "FILE", "write a line a planner or search; - is standard output"},
+    {"--budget", "TIME", "most time for each run of a planner or a search (default: none)"},
+    {"--json", "FILE", "write all figures as JSON; - is standard output"},
+    {"--csv", "FILE", "write a line for each planner or search, as CSV; - is standard output"},
     {"--html", "FILE", "write a page of tables and plots that needs no network; - is standard output"},
-    {"--runs", "FILE", "write a line a run as CSV; - is standard output"},
+    {"--runs", "FILE", "write a line for each run, as CSV; - is standard output"},
     {"--picture", "FILE",
      "plot times against size, or the share solved against time and box plots, as .svg, .png or .pdf by ending; - is "
      "standard output"},
-    {"--figures", "FILE", "each of these plots as a file of its own: k.pdf writes k-length.pdf and others"},
-    {"--table", "FILE", "write the table for a document: .tex, or else Markdown; - is standard output"},
+    {"--curves", "FILE",
+     "plot what planners' best paths cost against time, and the share solved, as .svg, .png or .pdf by ending; .csv: "
+     "write each path that was the best so far"},
+    {"--figures", "FILE", "write each plot of --picture as its own file: k.pdf gives k-length.pdf and others"},
+    {"--table", "FILE", "write the table for a document, as LaTeX (.tex) or else Markdown; - is standard output"},
     {"--log", "FILE", "write every run as OMPL's benchmarks do; - is standard output"},
 };
 
 /// Throws unless every output can be written; says whether one of them takes standard output.
 bool check_outputs_of_compare(const Arguments& arguments) {
-  const bool taken =
-      check_reports(arguments, {"--json", "--csv", "--runs", "--picture", "--html", "--log", "--table", "--figures"});
+  const bool taken = check_reports(
+      arguments, {"--json", "--csv", "--runs", "--picture", "--html", "--log", "--table", "--figures", "--curves"});
   check_plots(arguments);
+  if (arguments.has("--curves") && !arguments.has("--planners")) {
+    throw UsageError("--curves: shows how planners get better with time; say --planners, too");
+  }
   if (const auto folder = arguments.value("--pictures")) studies::make_folder(*folder);
   if (arguments.has("--log") && arguments.has("--sizes")) {
     throw UsageError("--log: holds the runs on one world; --sizes has many graphs");
@@ -117,6 +123,16 @@ class CompareCommand {
     write_report(arguments_, "--runs", [&] { return studies::comparison_runs(comparison_); });
     write_plots(arguments_, execution_, comparison_.stopped.has_value(),
                 [&] { return studies::comparison_plots(comparison_); });
+    if (arguments_.value("--curves").value_or("").ends_with(".csv")) {
+      write_report(arguments_, "--curves", [&] { return studies::comparison_curves(comparison_); });
+    } else {
+      write_plots(
+          arguments_, execution_, comparison_.stopped.has_value(),
+          [&] {
+            return PlotsPage{studies::curve_panels(comparison_), 2};
+          },
+          "--curves");
+    }
     write_report(arguments_, "--html",
                  [&] { return studies::comparison_page(comparison_, arguments_.command_line()); });
     write_report(arguments_, "--table",
@@ -255,31 +271,34 @@ constexpr std::uint64_t usual_graphs = 3;
 
 constexpr OptionSpec own_specs[] = {
     {"--planners", "LIST",
-     "planners of 'solve', apart by commas; each runs with every combination of what its options list, apart by "
-     "commas; "
-     "without it searches are compared"},
-    {"--searches", "LIST", "searches, apart by commas (default: all four; with --planners: as 'solve' chooses)",
+     "planners to compare, separated by commas. Their options may list values, too, and each combination runs. Without "
+     "it searches are compared"},
+    {"--searches", "LIST",
+     "searches to compare, separated by commas (default: all four; with --planners: as 'solve' chooses)",
      choices_of<SearchKind>},
-    {"--queues", "LIST", "queues, apart by commas (default: all five; with --planners: as 'solve' chooses)",
+    {"--queues", "LIST",
+     "queues to compare, separated by commas (default: all five; with --planners: as 'solve' chooses)",
      choices_of<studies::QueuePolicy>},
     {"--trials", "N|auto",
-     "how often each search is timed (default: auto, 5 to 10000 times, about 0.25 s each); with --planners as --seeds, "
-     "and those whose answer no seed changes run as often"},
-    {"--peer", "NAME", "the searches of another library on the same graph, too", "boost"},
-    {"--graph", "NAME", "the planner of 'solve' whose graph is searched (default: prm; among polygons visibility)"},
-    {"--sizes", "LIST", "search random geometric graphs of so many vertices, apart by commas; needs no WORLD"},
-    {"--degree", "D", "neighbours of a vertex of those graphs, on average (default: 20)"},
+     "how often each search is timed (default: auto, 5 to 10000 times, about 0.25 s each). With --planners: as "
+     "--seeds, "
+     "but planners that use no seed run as often"},
+    {"--peer", "NAME", "time the searches of another library, too, on the same graph", "boost"},
+    {"--graph", "NAME", "the planner whose graph is searched (default: prm; among polygons visibility)"},
+    {"--sizes", "LIST", "search random geometric graphs with so many vertices, separated by commas; needs no WORLD"},
+    {"--degree", "D", "with --sizes: how many neighbours a vertex has on average (default: 20)"},
     {"--seeds", "N",
-     "with --planners: runs of each planner, with seeds from --seed on (default: 10), but one of those whose answer no "
-     "seed changes; with --sizes: graphs of each size (default: 3)"},
-    {"--samplers", "LIST", "samplers of 'solve', apart by commas, as --sampler", choices_of<SamplerKind>},
-    {"--samples", "LIST", "numbers of samples, or auto, apart by commas"},
+     "with --planners: how often each runs, each time with the next seed (default: 10); a planner that uses no seed "
+     "runs "
+     "once. With --sizes: how many graphs of each size (default: 3)"},
+    {"--samplers", "LIST", "the same as --sampler with a list", choices_of<SamplerKind>},
+    {"--samples", "LIST", "numbers of samples, or auto, separated by commas"},
     {"--seed", "N", "the first seed (default: 1)"},
     {"--parallel", "",
-     "with --planners: runs beside each other on the threads, each on one; all figures but the times stay the same"},
+     "with --planners: several runs at once, each on one thread; all figures but the times stay the same"},
     {"--pictures", "FOLDER",
-     "draw the graph with the path of each search in one figure; with --planners each planner's path of median length, "
-     "the body along it, the layers of the grid, and all paths in one"},
+     "draw into this folder: of searches the graph with all their paths; of planners each one's path of median length "
+     "with the body along it, all these paths in one picture, and the layers of grid"},
 };
 
 /// The options of `solve` that compare takes as they are.

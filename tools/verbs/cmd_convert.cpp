@@ -34,7 +34,7 @@ constexpr OptionSpec convert_specs[] = {
      "map's .png has a pixel a cell; of other worlds it is a picture unless --cell is given",
      {},
      "-o"},
-    {"--cell", "C", "side of a cell where walls become a map"},
+    {"--cell", "C", "make a map of walls or polygons, with cells of this side"},
 };
 
 /// The map that the scene is, or that it becomes with cells of the side that --cell says.

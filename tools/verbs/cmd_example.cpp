@@ -31,7 +31,16 @@ struct Example {
   std::string_view command;  ///< that shows it
 };
 
+/// `puma` by its name of before, which scripts may know.
+Example former_example() {
+  return {"puma-seed",
+          {"puma-seed.scene"},
+          "a Puma 560 among spheres; its name is puma now",
+          "warren solve puma-seed.scene --optimise --picture puma.svg"};
+}
+
 std::string_view bytes_of(std::string_view name) {
+  if (name == "puma-seed.scene") name = "puma.scene";
   const auto files = example_files();
   return std::find_if(files.begin(), files.end(), [&](const EmbeddedFile& file) { return file.name == name; })->bytes;
 }
@@ -96,8 +105,9 @@ int example(const Arguments& arguments) {
   }
   std::vector<std::string_view> names;
   for (const Example& each : all) names.push_back(each.name);
-  return write_example(all[choice_value("NAME", arguments.operand(0), names)],
-                       arguments.value("--output").value_or(""));
+  const std::string folder = arguments.value("--output").value_or("");
+  if (arguments.operand(0) == "puma-seed") return write_example(former_example(), folder);
+  return write_example(all[choice_value("NAME", arguments.operand(0), names)], folder);
 }
 
 }  // namespace

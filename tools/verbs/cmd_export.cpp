@@ -22,8 +22,8 @@ constexpr OptionSpec export_specs[] = {
      "where to: .geojson .graphml .gr .csv .npz .dot, or as a picture .svg .png .pdf .html, by ending",
      {},
      "-o"},
-    {"--unchecked", "", "edges that nobody has checked, too"},
-    {"--frame", "NAME", "the frame that .geojson names (default: map)"},
+    {"--unchecked", "", "write edges, too, that nothing has checked yet (of lazy-prm)"},
+    {"--frame", "NAME", "name of the coordinate frame in .geojson (default: map)"},
     roadmap_world_option,
 };
 

@@ -37,10 +37,13 @@ constexpr OptionSpec generate_specs[] = {
      "where to: .walls .scene .npy .maze .geojson .wkt .svg .png .html by ending; - is standard output",
      {},
      "-o"},
-    {.name = "--seed", .value = "N", .help = "which world (default: 1)", .group = "Options"},
+    {.name = "--seed",
+     .value = "N",
+     .help = "which of all such worlds: another seed makes another (default: 1)",
+     .group = "Options"},
     {"--algorithm", "NAME", "how a maze is made (default: backtracker)", choices_of<MazeAlgorithm>},
-    {"--loops", "F", "fraction of a maze's remaining walls taken out, 0 to 1 (default: 0)"},
-    {"--unit-walls", "", "a maze's walls one cell long instead of as long as they go"},
+    {"--loops", "F", "share of a maze's inner walls that is taken out, which makes loops, 0 to 1 (default: 0)"},
+    {"--unit-walls", "", "write each wall of a maze as pieces of one cell, not as long as it goes"},
     {"--corners", "N", "corners of each polygon (default: 3 to 12, at random)"},
 };
 

@@ -32,7 +32,7 @@ namespace {
 
 constexpr OptionSpec info_specs[] = {
     {"--json", "FILE", "write it as JSON; - is standard output"},
-    {"--check", "all", "of a roadmap file: hold all of it against its checksums and what it promises", "all"},
+    {"--check", "all", "check every byte of a roadmap file, however large it is", "all"},
 };
 
 /// Of a world nullptr. What comes through a pipe is read once.

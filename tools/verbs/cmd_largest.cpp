@@ -26,17 +26,17 @@ constexpr double default_budget_s = 20.0;
 
 constexpr OptionSpec search_specs[] = {
     {"--budget", "TIME",
-     "each run may take so long from walls in memory (streamed: from the seed) to path verified (default: 20s)"},
-    {"--rows", "R", "rows to columns as R to C, by --cols; the search is over the number of cells (default: 1)"},
+     "most time for each maze, from its walls in memory (streamed: from its seed) to the verified path (default: 20s)"},
+    {"--rows", "R", "with --cols C: mazes whose rows are to their columns as R to C (default: 1)"},
     {"--cols", "C", "see --rows (default: 1)"},
     {"--start-size", "N", "the first maze tried has about N x N cells (default: 128)"},
-    {"--max-size", "N", "try nothing larger than about N x N cells (default: what memory holds)"},
-    {"--precision", "P", "end when the side is known to P per cent (default: 5)"},
-    {"--seed", "N", "the first maze's seed, and its sampling's (default: 1)"},
-    {"--seeds", "N", "mazes that must all be solved at the largest size (default: 3)"},
-    {"--json", "FILE", "write warren.largest/1; - is standard output"},
+    {"--max-size", "N", "try no maze larger than about N x N cells (default: what memory holds)"},
+    {"--precision", "P", "end when the largest side is known to P per cent (default: 5)"},
+    {"--seed", "N", "seed of the first maze and of its samples (default: 1)"},
+    {"--seeds", "N", "how many mazes of the largest size must all be solved (default: 3)"},
+    {"--json", "FILE", "write all figures as JSON; - is standard output"},
     {"--picture", "FILE",
-     "plot time against cells with the budget, as .svg, .png or .pdf by ending; - is standard output"},
+     "plot time against the number of cells, as .svg, .png or .pdf by ending; - is standard output"},
 };
 
 /// "5" or "5%".

@@ -98,11 +98,10 @@ std::vector<std::string> row_of(const ProfiledStage& stage, double whole_s) {
           human_seconds(line.wall_s),
           whole_s > 0.0 ? fmt::format("{:.0f} %", 100.0 * line.wall_s / whole_s) : "",
           human_seconds(line.cpu_s),
-          line.count > 0 ? grouped(line.count) : "",
           line.count > 0 ? fmt::format("{:.0f}", line.ns_each()) : "",
           stage.one_thread_s ? human_seconds(*stage.one_thread_s) : "",
           speed_up ? fmt::format("{:.2f}", *speed_up) : "",
-          line.counted};
+          line.count > 0 ? fmt::format("{} {}", grouped(line.count), line.counted) : ""};
 }
 
 Json json_of(const ProfiledStage& stage) {
@@ -149,7 +148,7 @@ StageProfile profile_stages(const Scene& scene, const Question& question, const 
 
 std::string profile_summary(const StageProfile& profile, const Palette& palette) {
   const Answer& answer = profile.answer;
-  studies::TextTable table{{"stage", "wall", "share", "CPU", "count", "ns each", "1 thread", "speed-up", ""}, 1, {}};
+  studies::TextTable table{{"stage", "wall", "share", "CPU", "ns each", "1 thread", "speed-up", "of"}, 1, {}};
   for (const ProfiledStage& stage : profile.stages) table.rows.push_back(row_of(stage, profile.whole.line.wall_s));
   if (profile.runs > 0) table.rows.push_back(row_of(profile.whole, 0.0));
   return fmt::format("{}  {}, {}{}; {} on {}, medians\n{}{} {}\n", palette.strong(answer.world.source),
@@ -215,9 +214,9 @@ PlotSheet profile_bars(const StageProfile& profile) {
 }
 
 constexpr OptionSpec profile_specs[] = {
-    {"--runs", "N", "how often, on one thread and on all in turns; medians are told (default: 5)"},
-    {"--json", "FILE", "write warren.profile/1; - is standard output"},
-    {"--picture", "FILE", "a bar a stage, as .svg, .png or .pdf by ending; - is standard output"},
+    {"--runs", "N", "how often it runs, by turns on one thread and on all; times are medians (default: 5)"},
+    {"--json", "FILE", "write all figures as JSON; - is standard output"},
+    {"--picture", "FILE", "draw a bar for each stage, as .svg, .png or .pdf by ending; - is standard output"},
 };
 
 int profile(const Arguments& arguments) {

@@ -28,12 +28,13 @@ namespace warren::tools {
 namespace {
 
 constexpr OptionSpec query_specs[] = {
-    {"--batch", "FILE", "ask each line of this file, CSV or JSON lines; - is standard input"},
-    {"--lengths-only", "", "with --batch: answers without their paths"},
-    {"--matrix", "STARTS GOALS", "the length from each of these starts to each of these goals, both CSV or JSON lines"},
+    {"--batch", "FILE", "a file with a question on each line, CSV or JSON lines; - is standard input"},
+    {"--lengths-only", "", "with --batch: leave the paths out of the answers"},
+    {"--matrix", "STARTS GOALS",
+     "two files of places, CSV or JSON lines: give the length from each start to each goal"},
     {"--csv", "", "with --batch or --matrix: answers as CSV instead of JSON lines"},
     roadmap_world_option,
-    {"--keep", "FILE", "write the roadmap with what this question has learnt of its edges"},
+    {"--keep", "FILE", "write the roadmap anew; a lazy one then remembers the edges that this question has checked"},
 };
 
 class QueryCommand : public AnswerCommand {
@@ -133,6 +134,9 @@ int query_roadmap(const Arguments& arguments) {
   if (!batch && arguments.has("--lengths-only")) {
     throw UsageError(matrix ? "--lengths-only: is for --batch; --matrix tells lengths alone"
                             : "--lengths-only: needs --batch FILE, many questions");
+  }
+  if (arguments.has("--bound") && (matrix || arguments.has("--lengths-only"))) {
+    throw UsageError("--bound: is of paths; lengths alone have none");
   }
   if (batch) return ask_lines(arguments);
   if (matrix) return ask_table(arguments);

@@ -88,7 +88,7 @@ int render(const Arguments& arguments) {
 }  // namespace
 
 Command render_command() {
-  Command command{"render", "FILE", "draw a world, and an answer's path on it, or a roadmap", {}, render};
+  Command command{"render", "FILE", "draw a world, with the path of an answer, or a roadmap", {}, render};
   add_options(command.options, render_specs);
   add_options(command.options, picture_option_specs());
   add_options(command.options, world_option_specs());

@@ -20,16 +20,15 @@ namespace warren::tools {
 namespace {
 
 constexpr OptionSpec study_specs[] = {
-    {"--sizes", "LIST", "mazes, N for N x N or ROWSxCOLS, apart by commas (default: 100,316,1000)"},
-    {"--threads", "LIST", "numbers of threads, apart by commas (default: 1 and all)"},
-    {"--planners", "LIST", "planners of 'solve', apart by commas (default: as 'solve' chooses)"},
-    {"--samplers", "LIST",
-     "samplers of 'solve', apart by commas; each planner takes each (default: as 'solve' chooses)"},
-    {"--seeds", "LIST", "seeds of the mazes and of their sampling, apart by commas (default: 1)"},
-    {"--repeats", "N", "how often each run is made; they alternate with the others (default: 3)"},
-    {"--budget", "TIME", "each run may take so long from walls in memory to path verified (default: none)"},
-    {"--json", "FILE", "write warren.scale/1; - is standard output"},
-    {"--csv", "FILE", "write a line a run; - is standard output"},
+    {"--sizes", "LIST", "sizes of mazes, N for N x N or ROWSxCOLS, separated by commas (default: 100,316,1000)"},
+    {"--threads", "LIST", "numbers of threads, separated by commas (default: 1 and all cores)"},
+    {"--planners", "LIST", "planners to measure, separated by commas (default: as 'solve' chooses)"},
+    {"--samplers", "LIST", "samplers, separated by commas; each planner runs with each (default: as 'solve' chooses)"},
+    {"--seeds", "LIST", "seeds of the mazes and of their samples, separated by commas (default: 1)"},
+    {"--repeats", "N", "how often each run is repeated, by turns with the others (default: 3)"},
+    {"--budget", "TIME", "most time for each run, from walls in memory to the verified path (default: none)"},
+    {"--json", "FILE", "write all figures as JSON; - is standard output"},
+    {"--csv", "FILE", "write a line for each run, as CSV; - is standard output"},
     {"--html", "FILE", "write a page with plots that needs no network; - is standard output"},
 };
 
@@ -123,7 +122,7 @@ int scale(const Arguments& arguments) {
 }  // namespace
 
 Command scale_command() {
-  Command command{"scale", "", "measure time and memory against size and threads", {}, scale};
+  Command command{"scale", "", "measure how time and memory grow with size and threads", {}, scale};
   add_options(command.options, study_specs);
   add_options(command.options, maze_option_specs());
   add_options(command.options, roadmap_option_specs(), {"--planner", "--sampler", "--seed"});

@@ -29,15 +29,17 @@ namespace {
 constexpr std::uint16_t usual_port = 8765;
 
 constexpr OptionSpec serve_specs[] = {
-    {"--port", "N", "where to listen; 0 takes a port that is free (default: 8765)"},
-    {"--listen", "ADDRESS", "listen there instead of on this machine alone: whoever reaches it may ask"},
+    {"--port", "N", "port to listen at; 0 takes a free one (default: 8765)"},
+    {"--listen", "ADDRESS",
+     "address to listen at, such as 0.0.0.0: whoever reaches it may ask (default: this machine alone)"},
     {.name = "--public-url",
      .value = "URL",
-     .help = "people reach it at this address, too, of a proxy or under a name: https://NAME/PATH/; may be repeated",
+     .help = "another address that leads here, by a proxy or a name: https://NAME/PATH/; may be repeated",
      .may_repeat = true},
     {"--budget", "TIME", "most time for each request (default: 10s)"},
-    {"--writable", "", "whoever reaches it may draw walls and polygons, and everybody sees them; no file is written"},
-    {"--token-file", "FILE", "who changes the world must know this file's first line, 16 to 256 letters"},
+    {"--writable", "",
+     "let the page draw walls and polygons into the world, for all who look at it; no file is written"},
+    {"--token-file", "FILE", "with --writable: only who knows this file's first line (16 to 256 letters) may draw"},
     roadmap_world_option,
 };
 

@@ -24,10 +24,10 @@ namespace warren::tools {
 namespace {
 
 constexpr OptionSpec solve_specs[] = {
-    {"--save-roadmap", "FILE", "keep the roadmap of the answer, with prm and lazy-prm, for `warren query`"},
+    {"--save-roadmap", "FILE", "prm, lazy-prm: keep the roadmap in this file, to ask it again with 'warren query'"},
     {"--resume", "FILE",
-     "with --pipeline streamed: keep finished parts of the work in FILE, and go on from those of an earlier run that "
-     "ended before its answer"},
+     "with --pipeline streamed: keep finished parts of the work in FILE; a run that was ended goes on from there when "
+     "it is started again"},
 };
 
 /// What the stages take of a maze that is made here, held or tile by tile, in hundredths, on two threads: `warren solve

@@ -62,7 +62,7 @@ int update_roadmap(const Arguments& arguments) {
 }  // namespace
 
 Command update_command() {
-  Command command{"update", "ROADMAP WORLD", "the roadmap of a world that has changed", {}, update_roadmap};
+  Command command{"update", "ROADMAP WORLD", "take a roadmap into a world that has changed", {}, update_roadmap};
   add_options(command.options, update_specs);
   add_options(command.options, world_option_specs());
   add_options(command.options, run_option_specs());

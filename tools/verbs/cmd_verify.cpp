@@ -32,23 +32,25 @@ constexpr OptionSpec verify_specs[] = {
     {"--explain", "", "say where along the path there is least room"},
 };
 
-std::string verdict_json(const Verification& v, const std::string& more) {
+std::string verdict_json(const Verdict& v, const std::string& more) {
   const std::string violation = v.first_violation ? violation_json(*v.first_violation) : "null";
   return fmt::format(
       "{{\"schema\": \"warren.verify/1\",\n \"verified\": {},\n \"length\": {},\n \"min_clearance\": {},\n "
-      "\"first_violation\": {}{}}}\n",
-      v.verified, json_number(v.length), json_number(v.min_clearance), violation, more);
+      "\"first_violation\": {},\n \"bound\": {}{}}}\n",
+      v.verified, json_number(v.length), json_number(v.min_clearance), violation,
+      v.bound == BoundVerdict::absent ? "null" : fmt::format("\"{}\"", name_of(v.bound)), more);
 }
 
 void print_verdict(const Verdict& v, std::string_view metres, const Palette& palette) {
   const double clearance = v.problem.clearance;
   if (v.verified) {
-    print_text(fmt::format("{0}: length {2}{1}, clearance {3}{1} at least, {4}{1} asked for\n",
+    print_text(fmt::format("{0}: length {2}{1}, clearance {3}{1} at least, {4}{1} asked for{5}\n",
                            palette.good("verified"), metres, human_number(v.length), human_number(v.min_clearance),
-                           human_number(clearance)));
+                           human_number(clearance),
+                           v.bound == BoundVerdict::absent ? "" : fmt::format(", lower bound {}", name_of(v.bound))));
   } else {
     const Violation violation = v.first_violation.value_or(Violation{});
-    if (violation.obstacle.starts_with("length:")) {
+    if (violation.obstacle.starts_with("length:") || violation.obstacle.starts_with("lower_bound:")) {
       return print_text(fmt::format("{}, {}\n", palette.bad("refuted"), violation.obstacle));
     }
     const std::string distance = human_number(violation.distance);

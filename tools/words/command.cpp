@@ -101,7 +101,13 @@ void Arguments::check_operands(const Command& command) const {
   const std::vector<std::string> needed = words_of(command.operands);
   const bool complete = operands_.size() >= needed.size() || needed[operands_.size()].starts_with('[');
   if (!complete) throw UsageError(needed[operands_.size()] + " is missing");
-  if (operands_.size() > needed.size()) throw UsageError("unexpected argument '" + operands_[needed.size()] + "'");
+  if (operands_.size() <= needed.size()) return;
+  const std::string extra = "unexpected argument '" + operands_[needed.size()] + "'";
+  if (operands_[0] == "maze") {
+    const bool is_world = needed[0].ends_with("WORLD");
+    throw UsageError(extra + (is_world ? "; a maze is called maze:41x41" : "; its size is one word, 41x41"));
+  }
+  throw UsageError(extra + (options_.empty() ? "" : "; a value of several words is quoted: --robot \"disc 0.2\""));
 }
 
 bool Arguments::has(std::string_view option) const {
@@ -159,6 +165,8 @@ const Command& command_named(std::string_view name) {
   if (const Command* command = find_command(name)) return *command;
   std::vector<std::string_view> names{"--help", "--version"};
   for (const Command& command : command_table()) names.push_back(command.name);
+  const bool is_world = name.starts_with("maze:") || name.find('.') != std::string_view::npos;
+  if (is_world) throw UsageError(fmt::format("unknown command {0}; to find a path in a world: warren solve {0}", name));
   const std::string_view what = name.starts_with('-') ? "unknown option " : "unknown command ";
   throw UsageError(std::string{what} + std::string{name} + suggestion(name, names));
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <string>
 #include <utility>
 
@@ -63,15 +64,13 @@ std::string examples_text(const Command& command) {
   return text;
 }
 
-/// Options of that name, a text each with the verbs that have it so; and those that take it as a value.
-std::string options_about(std::string_view word, std::span<const Command> commands, std::size_t width) {
-  const std::string name = word.starts_with('-') ? std::string{word} : fmt::format("--{}", word);
+/// The options that are wanted, a text each with the verbs that have it so.
+template <class IsWanted>
+std::string options_with_verbs(std::span<const Command> commands, std::size_t width, const IsWanted& is_wanted) {
   std::vector<std::pair<std::string, std::string>> entries;  // text, verbs
   for (const Command& command : commands) {
     for (const OptionSpec& option : command.options) {
-      const std::vector<std::string> choices = words_of(option.choices);
-      const bool is_value = std::find(choices.begin(), choices.end(), word) != choices.end();
-      if (!is_value && &option != option_named(command, name)) continue;
+      if (!is_wanted(command, option)) continue;
       const std::string text = option_entry(option, width);
       auto known = std::find_if(entries.begin(), entries.end(), [&](const auto& each) { return each.first == text; });
       if (known == entries.end()) known = entries.insert(known, {text, "in: warren"});
@@ -81,6 +80,21 @@ std::string options_about(std::string_view word, std::span<const Command> comman
   std::string text;
   for (const auto& [option, verbs] : entries) text += option + entry("", verbs, width);
   return text;
+}
+
+/// Options of that name, then those that take it as a value, in any letter case. Blanks and _ are as good as -.
+std::string options_about(std::string_view asked, std::span<const Command> commands, std::size_t width) {
+  std::string word{asked};
+  for (char& c : word) c = c == ' ' || c == '_' ? '-' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string name = word.starts_with('-') ? word : "--" + word;
+  const auto has_name = [&](const Command& command, const OptionSpec& option) {
+    return &option == option_named(command, name);
+  };
+  const auto takes_it = [&](const Command& command, const OptionSpec& option) {
+    const std::vector<std::string> choices = words_of(option.choices);
+    return !has_name(command, option) && std::find(choices.begin(), choices.end(), word) != choices.end();
+  };
+  return options_with_verbs(commands, width, has_name) + options_with_verbs(commands, width, takes_it);
 }
 
 }  // namespace
@@ -101,23 +115,23 @@ std::string option_usage(const OptionSpec& option) {
 
 std::string_view meaning_of(std::string_view operand) {
   if (operand == "WORLD" || operand == "[WORLD]") {
-    return "a file (scene text, walls, polygons, a map, a maze; its content decides), - for standard input, "
-           "empty:WIDTHxHEIGHT, or maze:ROWSxCOLS[,seed=N][,algorithm=NAME][,loops=F]";
+    return "a file with walls, polygons, a map or a maze (its content decides which), - for standard input, "
+           "empty:WIDTHxHEIGHT, or a maze that is made on the spot: maze:ROWSxCOLS[,seed=N][,algorithm=NAME][,loops=F]";
   }
-  if (operand == "ROADMAP") return "a file that 'warren build' or '--save-roadmap' has written";
+  if (operand == "ROADMAP") return "a file that 'warren build' or 'warren solve --save-roadmap' has written";
   if (operand == "ANSWER.json") return "what 'warren solve --json' has written";
   if (operand == "FILE.scen") return "a scenario file of Moving AI";
   if (operand == "SHELL") return "bash, zsh or fish";
   if (operand == "FILE") return "a world or a roadmap";
   if (operand == "[COMMAND]") return "one of the commands of 'warren help'";
   if (operand == "[COMMAND|WORD]") return "a command, an option, or a word such as prm, footprint or timeout";
-  if (operand == "[all|OPTION]") return "of a command: all of its options, or one";
+  if (operand == "[all|OPTION]") return "after a command: all of its options, or one of them";
   return {};
 }
 
 std::string program_help() {
   std::string text =
-      "warren: motion planning by roadmaps; every path that it prints was verified\n"
+      "warren: finds paths among obstacles; each path that it prints has been checked by separate code\n"
       "\nUsage: warren COMMAND [operands] [options]\n";
   for (const auto& [title, commands] : grouped_commands()) {
     text += fmt::format("\n{}:\n", title);
@@ -126,12 +140,12 @@ std::string program_help() {
     }
   }
   return text +
-         "\n'warren help COMMAND' tells a command's options, 'warren help WORD' what an option or a word of the field "
-         "is\n"
-         "here, 'man warren' what WORLD may be. Try:\n\n"
+         "\n'warren help COMMAND' lists the options of a command, 'warren help WORD' explains an option, or a word "
+         "that "
+         "you\nknow from elsewhere, and 'warren help all' prints everything. Try:\n\n"
          "  warren example parking-lot                  writes a world to try things on\n"
-         "  warren solve maze:41x41 --picture maze.svg  solves one that it makes, and draws it\n\n"
-         "Exit codes: 0 success, 1 no path or refuted, 2 usage, 65 bad data, 66 unreadable input, 70 bug,\n"
+         "  warren solve maze:41x41 --picture maze.svg  makes a maze, solves it and draws it\n\n"
+         "Exit codes: 0 success, 1 no path or refuted, 2 wrong options, 65 bad data, 66 unreadable input, 70 bug,\n"
          "73 unwritable output, 124 budget of time or memory reached, 129, 130 and 143 interrupted.\n";
 }
 
@@ -165,7 +179,9 @@ std::string word_help(std::string_view word, std::span<const Command> commands, 
     known.push_back(command.name);
     for (const OptionSpec& option : command.options) known.push_back(option.name);
   }
-  throw UsageError(fmt::format("nothing is called {}{}", word, suggestion(word, known)));
+  const std::string near = suggestion(word, known);
+  throw UsageError(
+      fmt::format("nothing is called {}{}", word, near.empty() ? "; docs/other_names.md lists words" : near));
 }
 
 std::string version_text(std::string_view commit) {
@@ -198,7 +214,7 @@ constexpr NamedGroup option_groups[] = {
     {"Shortening", "--optimise --cusp-cost --reverse-cost"},
     {"Mazes", "--algorithm --loops"},
     {"Outputs",
-     "--output --picture --figures --table --json --no-path --csv --runs --log --html --pictures --report "
+     "--output --picture --figures --curves --table --json --no-path --csv --runs --log --html --pictures --report "
      "--save-roadmap --keep "
      "--explain --show "
      "--heading --size --dpi --title"},
@@ -213,7 +229,7 @@ constexpr NamedGroup command_groups[] = {
     {"In the browser", "serve"},
     {"Worlds", "example generate info convert"},
     {"Measuring", "profile largest scale bench-scen"},
-    {"Words", "help man completion"},
+    {"Help", "help man completion"},
 };
 
 bool is_among(std::string_view name, std::string_view names) {
@@ -266,35 +282,35 @@ warren generate maze 41x41 --algorithm wilson -o maze.npy # a maze as an array
 warren generate polygons 50 --seed 7 -o town.scene # a town of polygons
 warren solve maze:41x41 --picture maze.svg --json answer.json # a maze, solved and drawn
 warren solve flat.yaml --robot "disc 0.2" --start 0.5,0.5 --goal 4.3,0.5 # a disc on a map
-warren solve town.scene --planner prm --neighbours star --samples 2000 # PRM*
-warren solve parking-lot.scene --optimise --json drive.json # a car
-warren solve parking-lot.scene --path drive.yaml --speed 1.5 # its path with times, for ROS
-warren verify maze:41x41 answer.json # an answer of 'warren solve --json'
+warren solve town.scene --planner prm --neighbours star --samples 2000 # PRM* among polygons
+warren solve parking-lot.scene --optimise --json drive.json # a car that parks
+warren solve parking-lot.scene --path drive.yaml --speed 1.5 # the same path with times, for ROS
+warren verify maze:41x41 answer.json # checks an answer that 'warren solve --json' wrote
 warren render maze:41x41 --answer answer.json -o path.png # an answer as a picture
 warren render parking-lot.scene --answer drive.json --animate -o drive.svg # the car drives
-warren build maze:100x100,loops=0.01 -o maze.roadmap # the roadmap of a maze
+warren build maze:100x100,loops=0.01 -o maze.roadmap # a roadmap, to be asked by 'warren query'
 warren build flat.yaml --planner voronoi -o axis.roadmap # the middles of a map's corridors
 warren query maze.roadmap --start 1,1 --goal 80,80 # one question
-warren query maze.roadmap --batch questions.csv --lengths-only # start_x,start_y,goal_x,goal_y a line
+warren query maze.roadmap --batch questions.csv --lengths-only # a file of questions: start_x,start_y,goal_x,goal_y on each line
 warren update maze.roadmap maze:100x100,loops=0.02 -o new.roadmap # the maze has more loops now
 warren export axis.roadmap -o route.geojson # a route graph for Nav2
 warren export maze.roadmap -o maze.graphml # for NetworkX and others
-warren info flat.yaml # a world
-warren info maze.roadmap --check all # every byte of a roadmap
+warren info flat.yaml # what is in a map
+warren info maze.roadmap --check all # checks every byte of a roadmap
 warren convert maze.npy -o maze.walls # walls as text
 warren convert town.scene --cell 0.2 -o town.map # polygons as cells
 warren serve flat.yaml --robot "disc 0.2" # click start and goal in the browser
 warren serve empty:20x10 --writable # draw a world of your own
-warren compare maze:41x41 --planners prm,lazy-prm --seeds 20 # two planners
-warren compare town.scene --planners prm --samples 100,250 --picture k.svg # plots of two numbers of samples
-warren compare maze:41x41,loops=0.2 --searches dijkstra,astar # searches alone
+warren compare maze:41x41 --planners prm,lazy-prm --seeds 20 # two planners, 20 runs each
+warren compare town.scene --planners prm --samples 100,250 --picture k.svg # plots for two numbers of samples
+warren compare maze:41x41,loops=0.2 --searches dijkstra,astar # two searches on the same graph
 warren profile maze:99x99 --planner prm --picture stages.svg # what each stage costs
 warren largest --budget 1s --max-size 500 # mazes that are solved within a second each
 warren scale --sizes 50,100,200 --threads 1,2 --html scale.html # time against size and threads
-warren bench-scen arena.map.scen # beside its arena.map
-warren help solve # what is used most
+warren bench-scen arena.map.scen # its map, arena.map, lies beside it
+warren help solve # its options that are used most
 warren help solve all # all of its options
-warren help --clearance # one option
+warren help --clearance # one option, wherever it is
 warren help footprint # a word that you know from elsewhere
 warren man solve # the page of 'warren solve'
 warren completion bash # the script for bash

@@ -137,7 +137,7 @@ std::vector<std::string> list_value(std::string_view option, std::string_view te
   for (std::size_t at = 0; at <= text.size();) {
     const std::size_t end = std::min(text.find(',', at), text.size());
     std::string word{text.substr(at, end - at)};
-    if (word.empty()) refuse(option, "words apart by commas", text);
+    if (word.empty()) refuse(option, "words separated by commas", text);
     if (std::find(words.begin(), words.end(), word) != words.end()) {
       throw UsageError(fmt::format("{}: {} is there twice", option, word));
     }

@@ -15,11 +15,12 @@ namespace {
 
 constexpr OptionSpec picture_specs[] = {
     {"--show", "LIST",
-     "what a picture shows, of world, roadmap, search, path, body, axes, legend, apart by commas (default: all)"},
+     "what a picture shows, separated by commas: world, roadmap, search, path, body, axes, legend (default: all)"},
     {"--heading", "ANGLE",
-     "of a body that turns, radians or as 45deg: show where it has no room at that heading, and states as arrows"},
-    {"--size", "WxH", "size of a picture in pixels, or in millimetres as 180x120mm (default: as the world asks)"},
-    {"--dpi", "N", "pixels an inch of a picture, 10 to 2400 (default: 96, or what a .png's world asks)"},
+     "for a body that turns, in radians or as 45deg: shade where it has no room at this heading, and draw milestones "
+     "as arrows"},
+    {"--size", "WxH", "size of a picture in pixels, or in millimetres as 180x120mm (default: by the world)"},
+    {"--dpi", "N", "pixels an inch of a picture, 10 to 2400 (default: 96; of a .png as many as its cells need)"},
     {"--title", "TEXT", "title of a picture; an empty one leaves it out (default: the world and how it was solved)"},
 };
 
@@ -78,21 +79,26 @@ namespace {
 constexpr OptionSpec path_specs[] = {
     {"--path", "FILE", "write the path: .csv, .yaml (ROS nav_msgs/Path), .geojson or .npy by ending"},
     {"--every", "D|TIME",
-     "with --path: places at most D apart beside the path's own, or moments, such as 100ms (default: its own places "
-     "alone, arcs as chords of at most 5 degrees)"},
-    {"--speed", "V", "with --path: say when, at most so fast, in units of length a second; stops at corners"},
-    {"--acceleration", "A", "with --speed: speeding up and braking (default: at once)"},
-    {"--lateral-acceleration", "A", "with --speed: of a car on arcs (default: any)"},
-    {"--joint-speed", "W[,...]", "with --path, arms: say when, at most so fast, in rad/s, all joints or each"},
-    {"--joint-acceleration", "A[,...]", "with --joint-speed: in rad/s^2, all joints or each (default: at once)"},
-    {"--frame", "NAME", "with --path: the frame that .yaml and .geojson name (default: map)"},
+     "with --path: add places, so that no two are more than D apart; or, with --speed, give a place every 100ms, say "
+     "(default: the path's own places, and on a car's arcs one each 5 degrees)"},
+    {"--speed", "V",
+     "with --path: add times, for driving at most so fast (units of length a second) and stopping at corners"},
+    {"--acceleration", "A", "with --speed: how hard to speed up and brake (default: at once)"},
+    {"--lateral-acceleration", "A",
+     "with --speed: how hard a car may corner, which makes it slow on tight arcs (default: any)"},
+    {"--joint-speed", "W[,...]",
+     "with --path, for arms: add times, for turning at most so fast (rad/s): one number for all joints, or six"},
+    {"--joint-acceleration", "A[,...]",
+     "with --joint-speed: how hard joints speed up and brake (rad/s^2), one number or six (default: at once)"},
+    {"--frame", "NAME", "with --path: name of the coordinate frame in .yaml and .geojson (default: map)"},
 };
 
 std::vector<double> joint_values(std::string_view option, std::string_view text) {
   if (number_in(text)) return {positive_value(option, text)};
   std::vector<double> values = state_value(option, text);
   if (values.size() == 6 && std::all_of(values.begin(), values.end(), [](double x) { return x > 0.0; })) return values;
-  throw UsageError(fmt::format("{}: expected one number above 0, or six apart by commas (found: '{}')", option, text));
+  throw UsageError(
+      fmt::format("{}: expected one number above 0, or six separated by commas (found: '{}')", option, text));
 }
 
 }  // namespace

@@ -16,80 +16,99 @@ namespace {
 /// Those of the planners that build roadmaps of samples come first.
 constexpr OptionSpec planner_specs[] = {
     {"--planner", "NAME",
-     "prm checks every edge of a roadmap, lazy-prm those that a search reaches; visibility finds the shortest path "
-     "among polygons, cells one through vertical cells, voronoi one far from obstacles; rrt and rrt-connect grow "
-     "trees, grid searches cells; anytime, rrt-star and informed-rrt-star get better until they are stopped (default: "
-     "by world and body)",
+     "how to find the path. prm joins samples to a roadmap and checks all of it, lazy-prm only what the search meets "
+     "(default: prm on a lattice, else lazy-prm)",
      "prm lazy-prm"},
     {"--sampler", "NAME",
-     "where milestones come from (default: lattice in mazes, cell-centres on maps of corridors a cell wide, else "
-     "uniform)",
+     "how samples are placed: all over the world (uniform, halton, random), in the middles of cells (lattice, "
+     "cell-centres), along obstacles (gaussian), in narrow gaps (bridge), mixed of these (mixture), or in the middles "
+     "of a map's corridors (corridor). Default: lattice in mazes, cell-centres on maps whose corridors are a cell "
+     "wide, "
+     "else uniform",
      choices_of<SamplerKind>},
-    {"--samples", "N|auto", "states drawn; auto grows until start and goal connect (default: auto)"},
-    {"--neighbours", "K|auto|star", "join each milestone to its K nearest; star: by the rule of PRM* (default: auto)"},
+    {"--samples", "N|auto",
+     "how many samples to draw; auto: more and more, until start and goal are joined (default: auto)"},
+    {"--neighbours", "K|auto|star",
+     "join each milestone (a sample where the body fits) to its K nearest; star: as many as PRM* takes (default: "
+     "auto)"},
     {"--radius", "R|auto|star",
-     "join milestones at most so far apart, instead of the K nearest; star: by the rule of PRM* (default: auto)"},
+     "join all milestones that are at most R apart, instead of the K nearest; star: as far as PRM* goes (default: "
+     "auto)"},
     {"--neighbour-index", "NAME",
-     "what finds neighbours of points and discs; the path is the same (default: auto, a grid, or a k-d tree where "
-     "milestones crowd); other bodies have the k-d tree",
+     "how the nearest milestones are found, for points and discs; the path is the same. auto: by a grid, or by a k-d "
+     "tree where milestones crowd; brute: by looking at all (default: auto)",
      choices_of<NeighbourIndex>},
     {"--search", "NAME", "how the roadmap is searched (default: astar)", choices_of<SearchKind>},
     {"--heuristic", "NAME",
      "how astar estimates the distance to the goal, for points and discs. manhattan and octile may give a longer "
      "path; warren then says by how much (default: euclidean)",
      choices_of<HeuristicKind>},
-    {"--queue", "NAME", "the queue of astar and dijkstra (default: heap)", choices_of<QueueKind>},
+    {"--queue", "NAME", "the priority queue of astar and dijkstra (default: heap)", choices_of<QueueKind>},
     {"--lazy",
      "[WHEN]",
-     "lazy-prm checks an edge when the search expands it; there is no other way (default: expansion)",
+     "visibility: look for edges only where the search needs them (by itself from 20000 corners on). lazy-prm always "
+     "checks its edges so, and takes the word expansion",
      choices_of<LazyCheck>,
      {},
      true},
     {"--pipeline", "NAME",
-     "how prm works. plain: one stage after the other; tiled: each tile through all stages, in cache; streamed: as "
-     "tiled, without holding the maze (mst only). Default: tiled on lattices, streamed where memory does not hold the "
-     "maze, else plain",
+     "how prm works through a maze. plain: one stage after the other; tiled: square by square, each through all "
+     "stages while it is in the cache; streamed: as tiled, without holding the whole maze in memory. Default: tiled on "
+     "lattices, streamed where memory does not hold the maze, else plain",
      choices_of<PipelineKind>},
-    {"--optimise", "", "shorten the path after the search"},
-    {"--seed", "N", "seed of the sampling; never alters the world (default: 1)"},
+    {"--optimise", "", "pull the path taut after the search, which makes it shorter"},
+    {"--seed", "N",
+     "seed of all that is random in planning: another seed, another roadmap or tree, in the same world (default: 1)"},
     {"--cell", "C",
-     "grid in a scene: distance of its positions (default: the file's grid line, else a 400th of the longer side)"},
-    {"--angles", "N", "grid: headings of a body that turns (default: the file's grid line, else 72)"},
-    {"--face-motion", "", "grid of a body that turns: it moves only where it faces"},
-    {"--step-cost", "C", "grid in a scene or of a body that turns: what a step to the side costs (default: 1)"},
-    {"--turn-cost", "C", "grid of a body that turns: what a turn to the next heading costs (default: 1)"},
-    {"--diagonal", "NAME", "grid: what a diagonal step costs (default: sqrt2)", choices_of<Diagonal>},
+     "grid in a scene: how far apart its positions are (default: the file's grid line, else a 400th of the longer "
+     "side)"},
+    {"--angles", "N", "grid: number of headings for a body that turns (default: the file's grid line, else 72)"},
+    {"--face-motion", "", "grid: a body that turns moves only the way it faces"},
+    {"--step-cost", "C", "grid in a scene, or for a body that turns: cost of a step to the next position (default: 1)"},
+    {"--turn-cost", "C", "grid: cost of a turn to the next heading, for a body that turns (default: 1)"},
+    {"--diagonal", "NAME",
+     "grid: cost of a diagonal step, sqrt2 or 1 (unit) times that of a straight one; none: there are none (default: "
+     "sqrt2)",
+     choices_of<Diagonal>},
     {"--layers", "NAME",
-     "grid in a scene. exact: the body's own outline; report004: discs that cover it, rounded up to cells, among walls "
-     "two cells thick (default: exact)",
+     "grid in a scene: what blocks a cell. exact: the body's own outline; report004: as a course report had it, discs "
+     "that cover the body, rounded up to cells, among walls two cells thick (default: exact)",
      choices_of<LayerKind>},
-    {"--full", "", "visibility: all visible edges instead of those that shortest paths take"},
+    {"--full", "", "visibility: join all corners that see each other, not only those that a shortest path can join"},
     {"--sampled-edges", "D",
      "visibility: test edges at points D apart instead of exactly, and say which edges are wrong"},
     {"--doors", "NAME",
-     "cells: pass from cell to cell in the door's middle, or where the shortest path does (default: midpoint)",
+     "cells: cross the border to the next cell in its middle (midpoint), or where the path gets shortest (funnel) "
+     "(default: midpoint)",
      choices_of<DoorKind>},
-    {"--objective", "NAME", "voronoi: the shortest path, or the widest and then the shortest (default: length)",
+    {"--objective", "NAME",
+     "voronoi: length takes the shortest way, clearance the widest, and of these the shortest (default: length)",
      choices_of<AxisObjective>},
-    {"--step", "D", "longest motion of a tree, in the body's metric (default: a third of half the space's diagonal)"},
-    {"--goal-bias", "F", "share of rrt's samples that are the goal (default: 0.05)"},
-    {"--nodes", "N", "most nodes of a tree; a tree that has them gives up (default: 100000)"},
-    {"--trees", "N", "trees grown independently at once; the first to arrive answers (default: 1)"},
-    {"--iterations", "N", "planners that get better: end after N turns, with the same answer on any machine"},
-    {"--gap", "SHARE", "planners that get better: end when the path costs at most 1% (or 0.01) more than is proved"},
+    {"--step", "D",
+     "rrt, rrt-connect: longest motion that is added to a tree at once (default: a sixth of the space's diagonal)"},
+    {"--goal-bias", "F", "rrt: how often it aims at the goal instead of a random place, 0 to 1 (default: 0.05)"},
+    {"--nodes", "N", "rrt, rrt-connect: give up when a tree has so many nodes (default: 100000)"},
+    {"--trees", "N", "rrt, rrt-connect: grow so many trees independently; the first to arrive answers (default: 1)"},
+    {"--iterations", "N",
+     "anytime, rrt-star, informed-rrt-star: end after N turns, with the same answer on any machine"},
+    {"--gap", "SHARE",
+     "the same planners: end when the path is proved to be at most SHARE longer than the best, such as 1% or 0.01"},
     {"--parts", "LIST", "anytime: what takes turns, of tree,restarts,roadmap,shorten (default: all)"},
     {"--bound", "", "prove the best lower bound of the path's length that there is, at a cost of its own"},
     {"--via", "STATES",
-     "waypoints to pass in this order, apart by semicolons; each X,Y or X,Y,THETA or six joint angles"},
-    {"--steering", "WORD", "a car's curves: forwards only, or backwards too (default: the file's, else dubins)",
+     "rrt, rrt-connect: waypoints to pass in this order, separated by semicolons: \"X,Y; X,Y,THETA\", or six joint "
+     "angles each"},
+    {"--steering", "WORD",
+     "how a car drives: dubins forwards only, reeds-shepp backwards too (default: the file's, else dubins)",
      choices_of<SteeringKind>},
-    {"--turning-radius", "RHO", "how tightly a car turns, > 0 (default: the file's)"},
+    {"--turning-radius", "RHO", "radius of a car's tightest turn, > 0 (default: the file's)"},
     {"--cusp-cost", "C",
-     "with --optimise: the length that a car may add to save one change of gear, >= 0 (default: its turning radius)"},
-    {"--reverse-cost", "F", "with --optimise: cost of driving backwards, where forwards is 1, >= 1 (default: 1)"},
+     "with --optimise: how much longer a car may drive to save one change of gear, >= 0 (default: its turning radius)"},
+    {"--reverse-cost", "F",
+     "with --optimise: how many times dearer driving backwards is than forwards, >= 1 (default: 1)"},
     {"--attach", "R[,STEP]",
-     "arms: join start and goal to a roadmap within R, and while that fails within STEP more, 10 times in all "
-     "(default: as far as the K nearest, and half of that)"},
+     "arms: join start and goal to the milestones within R of them. Where that fails, STEP is added to R, at most 10 "
+     "times (default: R as far as the K nearest, STEP half of that)"},
 };
 constexpr std::size_t roadmap_spec_count = 13;
 
@@ -211,13 +230,19 @@ std::optional<Option> option_of_words(std::string_view words) {
 std::vector<OptionSpec> solve_option_specs() {
   std::vector<OptionSpec> specs(std::begin(planner_specs), std::end(planner_specs));
   specs.front().choices = planner_names();
+  specs.front().help =
+      "how to find the path. prm joins samples to a roadmap and checks all of it, lazy-prm only what the search meets. "
+      "visibility: the shortest path among polygons; cells: through slices of the free space; voronoi: as far "
+      "from obstacles as can be. rrt grows a tree from the start, rrt-connect one from either end. grid searches "
+      "cells. "
+      "anytime, rrt-star and informed-rrt-star get better until they are stopped (default: by world and body)";
   return specs;
 }
 
 RoadmapSearchFields search_words(const Arguments& arguments) {
   const SolveOptions words = solve_words(arguments);
-  return {words.search,           words.queue,    words.roadmap.attach, words.optimise, words.car.cusp_cost,
-          words.car.reverse_cost, words.heuristic};
+  return {words.search,           words.queue,     words.roadmap.attach, words.optimise, words.car.cusp_cost,
+          words.car.reverse_cost, words.heuristic, words.bound};
 }
 
 }  // namespace warren::tools

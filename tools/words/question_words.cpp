@@ -10,15 +10,20 @@ namespace {
 constexpr OptionSpec question_specs[] = {
     {"--robot", "\"BODY\"",
      "the moving body: \"point\", \"disc RADIUS\", \"polygon X Y X Y ...\" (or \"[[X, Y], ...]\"), \"car polygon X Y "
-     "... turning RHO\", \"puma560 radius R\" or \"arm FILE radius R\" (default: the file's, else point)"},
+     "... turning RHO\", \"puma560 radius R\" or \"arm FILE radius R\". X and Y of a corner count from the place that "
+     "--start names; RHO is the radius of the tightest turn (default: the file's, else point)"},
     {"--start", "X,Y[,THETA]",
-     "start: X,Y, or X,Y,THETA (radians, or 90deg), or six joint angles of an arm (default: the file's)"},
+     "where to start: X,Y; for a body that turns X,Y,THETA (radians, or 90deg); for an arm six joint angles "
+     "(default: the file's)"},
     {"--goal", "X,Y[,THETA]",
-     "goal, as --start; without THETA a body that turns may arrive at any heading (default: the file's)"},
+     "where to arrive, as --start. Without THETA a body that turns may arrive at any heading; an arm may also be given "
+     "its tool's place X,Y,Z (default: the file's)"},
     {"--clearance", "R",
      "room to keep around the body along the whole path (default: the file's, else 0.1 in mazes, else 0)"},
     {"--contact", "WORD",
-     "with clearance 0: may the path touch an obstacle? (default: allowed for visibility and cells, else blocked)",
+     "with clearance 0: may the path touch obstacles? allowed: it may run along a wall or around a corner, never "
+     "through. blocked: it keeps off, however little (default: allowed for visibility and cells, whose shortest paths "
+     "touch corners; else blocked)",
      choices_of<Contact>},
 };
 
@@ -48,7 +53,7 @@ namespace {
 
 constexpr OptionSpec maze_specs[] = {
     {"--algorithm", "NAME", "how the mazes are made (default: backtracker)", choices_of<MazeAlgorithm>},
-    {"--loops", "F", "fraction of the remaining walls taken out, 0 to 1 (default: 0)"},
+    {"--loops", "F", "share of the inner walls that is taken out, which makes loops, 0 to 1 (default: 0)"},
 };
 
 }  // namespace

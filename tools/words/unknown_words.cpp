@@ -63,6 +63,8 @@ std::string letters_of(std::string_view word) {
     letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
   if (letters.ends_with("star")) letters.replace(letters.size() - 4, 4, "*");
+  constexpr std::size_t shortest_plural = 4;
+  if (letters.size() >= shortest_plural && letters.ends_with('s')) letters.pop_back();
   return letters;
 }
 

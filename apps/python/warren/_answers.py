@@ -3,10 +3,31 @@
 import json
 import os
 
+from typing import NamedTuple
+
 from . import _core
-from ._explanations import explanation
+from ._explanations import BlockedEnd, explanation
 from ._options import documented, told
 from ._pictures import Pictured
+
+
+class Improvement(NamedTuple):
+    """A path that was better than those before it, of a planner that gets better with time.
+
+    `iterations` are the turns that were done when it came, `seconds` those since the search began, `length` and `cost`
+    (in the body's metric, which is what gets better) are the path's, `by` the part that found it; `lower_bound` is what
+    was proved of all costs by then, 0 where nothing was.
+    """
+
+    iterations: int
+    seconds: float
+    length: float
+    cost: float
+    by: str
+    lower_bound: float
+
+
+Improvement.__module__ = "warren"
 
 
 class Answer(Pictured):
@@ -59,12 +80,25 @@ class Answer(Pictured):
     verified = told("verified", """Has it a path that an independent judge found free, all along and with all its
         clearance?""")
     optimal = told("optimal", "Is it proved that no shorter path exists?")
+    lower_bound = told("lower_bound", """Proved: no path has less cost or, where that is not told, length; nan where
+        nothing is proved.""")
+    gap = told("gap", "How much more than lower_bound the path costs, as a share of that; nan where nothing is known.")
     path = told("path", """States from start to goal, float64: (n, 2) x, y; (n, 3) x, y, theta; (n, 6) joint angles.
         A read-only view that keeps the answer alive; no rows where there is no path.""")
     length = told("length", "Of the path, of a car its curve, of an arm in radians; nan without a verified path.")
     min_clearance = told("min_clearance", "The least room around the body along the path; nan without a verified path.")
     raw_length = told("raw_length", "The length before the path was pulled taut; nan where it wasn't.")
     cost = told("cost", "In the planner's own units; nan where that is the length.")
+    iterations = told("iterations", """The turns of a planner that gets better, which `iterations=` repeats on any machine;
+        None of the others.""")
+    ended_by = told("ended_by", '''What ended a planner that gets better: "optimum", "gap", "iterations", "caller" (`on_improvement`
+        said False), "budget", "memory" or a signal; None of the others.''')
+
+    @property
+    def improvements(self):
+        """Of planners that get better: each path that was the best so far, a list of :class:`Improvement`."""
+        return [Improvement(*figures) for figures in self._core.improvements]
+
     turn_rad = told("turn_rad", "All turning along the path; nan for bodies that don't turn.")
     planner = told("planner", "Who found it.")
     seed = told("seed", "Of all that was random.")
@@ -83,8 +117,12 @@ class Answer(Pictured):
 
     seconds = told("seconds", "What each stage took.")
     solve_s = told("solve_s", "What all of it took, in seconds.")
-    blocked = told("blocked", """Where start or goal is blocked: its end, what it is blocked by, a free_place near it
-        and the distance to that, and a hint; else None.""")
+
+    @property
+    def blocked(self):
+        """Where start or goal is blocked, why, as a :class:`BlockedEnd`; else None."""
+        said = self._core.blocked
+        return None if said is None else BlockedEnd(**said)
 
     @property
     def explained(self):

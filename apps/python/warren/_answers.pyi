@@ -1,12 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
 from collections.abc import Sequence
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 from numpy.typing import NDArray
 
-from ._explanations import Explanation
+from ._explanations import BlockedEnd, Explanation
 from ._pictures import Pictured
 from ._worlds import World, _Floats, _Path
+
+class Improvement(NamedTuple):
+    iterations: int
+    seconds: float
+    length: float
+    cost: float
+    by: str
+    lower_bound: float
 
 class Answer(Pictured):
     world: World
@@ -23,6 +31,10 @@ class Answer(Pictured):
     @property
     def optimal(self) -> bool: ...
     @property
+    def lower_bound(self) -> float: ...
+    @property
+    def gap(self) -> float: ...
+    @property
     def path(self) -> _Floats: ...
     @property
     def length(self) -> float: ...
@@ -32,6 +44,12 @@ class Answer(Pictured):
     def raw_length(self) -> float: ...
     @property
     def cost(self) -> float: ...
+    @property
+    def iterations(self) -> int | None: ...
+    @property
+    def ended_by(self) -> str | None: ...
+    @property
+    def improvements(self) -> list[Improvement]: ...
     @property
     def turn_rad(self) -> float: ...
     @property
@@ -51,7 +69,7 @@ class Answer(Pictured):
     @property
     def solve_s(self) -> float: ...
     @property
-    def blocked(self) -> dict[str, Any] | None: ...
+    def blocked(self) -> BlockedEnd | None: ...
     @property
     def explained(self) -> Explanation | None: ...
     def json(self) -> str: ...

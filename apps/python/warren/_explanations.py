@@ -1,7 +1,45 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What explain=True tells: what became of samples and motions, where it is narrow, what would likely help."""
+"""Why an end is blocked; and what explain=True tells: what became of samples and motions, where it is narrow, what would
+likely help."""
 import json
 from typing import NamedTuple, Optional, Tuple
+
+
+class BlockedEnd(NamedTuple):
+    """Why the body does not fit at the start or the goal.
+
+    `end` is "start" or "goal", `by` what is in the way. `free_place` is a state near it where the body fits, `distance` how
+    far away that is; both are None where none was found. `hint` says what may have been meant, or None. `room` is there
+    between what is in the way and the body (of a disc its middle), `needed` the room that it needs; `depth` is how far the
+    body would have to go to be out of what is in the way, None where it does not stand in it.
+
+    Fields are taken by their names as well: `blocked["by"]` is `blocked.by`.
+
+    Examples
+    --------
+    >>> import warren
+    >>> blocked = warren.solve("maze:5x5", (1, 1), (9, 9)).blocked
+    >>> blocked.end, blocked.by
+    ('goal', 'outside of the box of the obstacles 0.5 0.5 5.5 5.5')
+    >>> len(blocked.free_place), blocked["free_place"] == blocked.free_place
+    (2, True)
+    """
+
+    end: str
+    by: str
+    free_place: Optional[Tuple[float, ...]]
+    distance: Optional[float]
+    hint: Optional[str]
+    room: float
+    needed: float
+    depth: Optional[float]
+
+    def __getitem__(self, key):
+        if not isinstance(key, str):
+            return tuple.__getitem__(self, key)
+        if key not in self._fields:
+            raise KeyError(key)
+        return getattr(self, key)
 
 
 class SampleCounts(NamedTuple):
@@ -95,7 +133,7 @@ class Explanation(NamedTuple):
     stopped_by: Optional[str]
 
 
-for _named in (SampleCounts, MotionCounts, ComponentFacts, NarrowPlace, Hint, Explanation):
+for _named in (BlockedEnd, SampleCounts, MotionCounts, ComponentFacts, NarrowPlace, Hint, Explanation):
     _named.__module__ = "warren"
 
 

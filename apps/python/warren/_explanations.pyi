@@ -1,5 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple, SupportsIndex, overload
+
+class BlockedEnd(NamedTuple):
+    end: Literal["start", "goal"]
+    by: str
+    free_place: tuple[float, ...] | None
+    distance: float | None
+    hint: str | None
+    room: float
+    needed: float
+    depth: float | None
+    @overload
+    def __getitem__(self, key: SupportsIndex | str) -> Any: ...
+    @overload
+    def __getitem__(self, key: slice) -> tuple[Any, ...]: ...
 
 class SampleCounts(NamedTuple):
     drawn: int

@@ -7,7 +7,8 @@ _KINDS = {"N": "int", "K": "int", "NAME": "str", "WORD": "str", "TIME": "float o
           "STATES": "sequence of sequences of float", "X,Y[,THETA]": "sequence of float", '"BODY"': "str",
           "LIST": "list of str or str", "N|auto": "int or 'auto'", "K|auto|star": "int, 'auto' or 'star'",
           "R|auto|star": "float, 'auto' or 'star'", "R[,STEP]": "float or (float, float)", "D|TIME": "float or str",
-          "W[,...]": "float or sequence of float", "A[,...]": "float or sequence of float"}
+          "W[,...]": "float or sequence of float", "A[,...]": "float or sequence of float",
+          "SHARE": "float or str"}
 
 LIMITS = """
 threads : int, optional

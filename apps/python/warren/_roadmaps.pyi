@@ -51,6 +51,7 @@ class Roadmap(Pictured):
         optimise: bool | None = ...,
         cusp_cost: float | None = ...,
         reverse_cost: float | None = ...,
+        bound: bool | None = ...,
         attach: float | tuple[float, float] | None = ...,
         threads: int | None = ...,
         budget: float | str | None = ...,

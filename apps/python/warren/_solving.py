@@ -6,7 +6,7 @@ import warnings
 from typing import NamedTuple, Optional, Tuple
 
 from . import _core
-from ._answers import Answer
+from ._answers import Answer, Improvement
 from ._errors import Stopped
 from ._explanations import NarrowPlace, narrow_place
 from ._options import documented
@@ -16,14 +16,14 @@ from ._making_worlds import as_world
 def finished(core, world):
     """The answer, or the exception of a limit that ended it."""
     answer = Answer(core, world)
-    if core.stop_reason is not None:
+    if core.stop_reason is not None and not core.verified:
         reason, text = core.stop_reason
         raise Stopped(reason, text, answer)
     return answer
 
 
 @documented(_core.solve_keywords())
-def solve(world, start=None, goal=None, *, keep=False, explain=False, **options):
+def solve(world, start=None, goal=None, *, keep=False, explain=False, on_improvement=None, **options):
     """Finds a path, verified by code that shares nothing with the planner.
 
     What isn't said is as the world's file says, and else what is fastest and most honest for the problem. The answer is
@@ -41,6 +41,9 @@ def solve(world, start=None, goal=None, *, keep=False, explain=False, **options)
     explain : bool
         Shall :attr:`Answer.explained` say what became of samples and motions, where it is narrow, and what would likely
         help? It takes about three times what the judge of the path takes.
+    on_improvement : callable, optional
+        Called with an :class:`Improvement` for each better path of a planner that gets better, on this thread; where it
+        returns False, the search ends with the path that it has.
     {options}
 
     Returns
@@ -55,7 +58,7 @@ def solve(world, start=None, goal=None, *, keep=False, explain=False, **options)
     InputError
         For a world that contradicts itself.
     Stopped
-        At a limit; its `answer` is the partial one.
+        At a limit; its `answer` is the partial one. Planners that get better return the path that they have instead.
     KeyboardInterrupt
         Within 0.2 s of Ctrl-C.
 
@@ -71,7 +74,10 @@ def solve(world, start=None, goal=None, *, keep=False, explain=False, **options)
     there = as_world(world)
     options["start"] = start
     options["goal"] = goal
-    return finished(_core.solve(there._core, options, keep, explain), there)
+    if on_improvement is not None and not callable(on_improvement):
+        raise TypeError(f"on_improvement: expected a function (found: {type(on_improvement).__name__})")
+    tell = None if on_improvement is None else lambda *figures: on_improvement(Improvement(*figures))
+    return finished(_core.solve(there._core, options, keep, explain, tell), there)
 
 
 class Verdict(NamedTuple):

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, Literal, NamedTuple
 
 from numpy.typing import ArrayLike
 
-from ._answers import Answer
+from ._answers import Answer, Improvement
 from ._explanations import NarrowPlace
 from ._worlds import (
     World,
@@ -41,6 +41,7 @@ def solve(
     *,
     keep: bool = ...,
     explain: bool = ...,
+    on_improvement: Callable[[Improvement], bool | None] | None = ...,
     planner: _Planner | None = ...,
     sampler: _Sampler | None = ...,
     samples: int | Literal["auto"] | None = ...,
@@ -69,6 +70,10 @@ def solve(
     goal_bias: float | None = ...,
     nodes: int | None = ...,
     trees: int | None = ...,
+    iterations: int | None = ...,
+    gap: float | str | None = ...,
+    parts: str | Sequence[str] | None = ...,
+    bound: bool | None = ...,
     via: Sequence[_State] | None = ...,
     steering: _Steering | None = ...,
     turning_radius: float | None = ...,

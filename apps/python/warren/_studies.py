@@ -66,6 +66,10 @@ class Comparison(dict):
         """warren.compare/1, as `warren compare --json -` prints it."""
         return self._core.json()
 
+    def curves_csv(self):
+        """A line for each path that was the best so far in its run, as `warren compare --curves FILE.csv` writes it."""
+        return self._core.curves_csv()
+
     def svg(self):
         """Plots of success and times, as `warren compare --picture` draws them."""
         return self._core.svg()

@@ -13,7 +13,9 @@ class _Geo(Protocol):
     @property
     def __geo_interface__(self) -> Mapping[str, Any]: ...
 
-_Planner: TypeAlias = Literal["prm", "lazy-prm", "visibility", "cells", "voronoi", "rrt", "rrt-connect", "grid"]
+_Planner: TypeAlias = Literal[
+    "prm", "lazy-prm", "visibility", "cells", "voronoi", "rrt", "rrt-connect", "grid", "rrt-star", "informed-rrt-star", "anytime"
+]
 _Sampler: TypeAlias = Literal[
     "uniform", "lattice", "halton", "random", "gaussian", "bridge", "mixture", "corridor", "cell-centres"
 ]

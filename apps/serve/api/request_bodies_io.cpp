@@ -229,6 +229,16 @@ PlannerKind planner_of(const OrderedJson& json) {
   return *planner;
 }
 
+std::string watch_of(const OrderedJson& json) {
+  constexpr std::size_t longest = 64;
+  const std::string name = json.is_string() ? json.get<std::string>() : "";
+  constexpr std::string_view known = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
+  if (name.empty() || name.size() > longest || name.find_first_not_of(known) != std::string::npos) {
+    refuse_word("watch", "1 to 64 letters, digits, - and _");
+  }
+  return name;
+}
+
 void take(const std::string& key, const OrderedJson& value, QueryBody& body) {
   if (key == "start") {
     body.question.start = state_of(value, "start");
@@ -248,8 +258,10 @@ void take(const std::string& key, const OrderedJson& value, QueryBody& body) {
     body.question.planner = planner_of(value);
   } else if (key == "budget_ms") {
     body.question.budget_s = budget_of(value);
+  } else if (key == "watch") {
+    body.watch = watch_of(value);
   } else {
-    refuse_word("body", "the keys start, goal, robot, clearance, optimise, planner, budget_ms, explain, path");
+    refuse_word("body", "the keys start, goal, robot, clearance, optimise, planner, budget_ms, explain, path, watch");
   }
 }
 

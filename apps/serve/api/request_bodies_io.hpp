@@ -22,6 +22,7 @@ namespace warren::serve {
 struct QueryBody {
   ServedQuestion question;
   bool tells_path = true;  ///< else the path is kept, to be seen part by part
+  std::string watch = {};  ///< the name under which GET /api/progress tells of it while it runs; empty: none
 };
 
 /// Throws HttpError: 400 for what is no such object, nested deeper than deepest_json or has another key.

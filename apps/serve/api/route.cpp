@@ -39,6 +39,7 @@ Route api_route(const std::vector<std::string_view>& words) {
                                                            {"world", Place::world},
                                                            {"query", Place::query},
                                                            {"query/batch", Place::batch},
+                                                           {"progress", Place::progress},
                                                            {"scene", Place::scene},
                                                            {"update", Place::update},
                                                            {"check", Place::check},

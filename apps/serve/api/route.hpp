@@ -23,6 +23,7 @@ enum class Place : std::uint8_t {
   clearance,
   sweep,
   query,
+  progress,
   batch,
   scene,
   update,

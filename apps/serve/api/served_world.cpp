@@ -144,9 +144,10 @@ void ServedWorld::prepare(const Execution& execution) const {
 }
 
 Answer ServedWorld::ask(const ServedQuestion& question, const Execution& execution,
-                        std::function<void(const Answer&)> beside_judge) const {
-  ByProducts made;
-  ByProducts* const keep = question.explains ? &made : nullptr;
+                        std::function<void(const Answer&)> beside_judge, ByProducts* watched) const {
+  ByProducts own;
+  ByProducts& made = watched != nullptr ? *watched : own;
+  ByProducts* const keep = question.explains ? &made : watched;
   Question asked = body_asked(question.robot, question.clearance);
   if (query_ && is_own(*asked.robot, *asked.clearance)) {
     if (question.planner && *question.planner != roadmap_->options.planner) {
@@ -155,10 +156,11 @@ Answer ServedWorld::ask(const ServedQuestion& question, const Execution& executi
     QuestionScratch scratch;
     scratch.beside_judge = std::move(beside_judge);
     const RoadmapSearchFields how{.optimise = question.optimise};
-    Answer answer = query_->ask_explained(question.start, question.goal, how, execution, scratch, keep);
+    Answer answer = query_->ask_explained(question.start, question.goal, how, execution, scratch,
+                                          question.explains ? &made : nullptr);
     const AskedWith with{.options = roadmap_->options, .samples = roadmap_->samples, .is_kept = true};
     const auto explain = [&] { explain_answer(whole(execution), with, answer, made, execution); };
-    if (keep != nullptr && roadmap_->lattice == nullptr) explain_in_time(answer, explain);
+    if (question.explains && roadmap_->lattice == nullptr) explain_in_time(answer, explain);
     return answer;
   }
   const Scene& scene = whole(execution);
@@ -170,7 +172,7 @@ Answer ServedWorld::ask(const ServedQuestion& question, const Execution& executi
     make_by_products(scene, asked, options, execution, made);
     explain_answer(scene, {options}, answer, made, execution);
   };
-  if (keep != nullptr && answer.outcome != Outcome::stopped) explain_in_time(answer, explain);
+  if (question.explains && answer.outcome != Outcome::stopped) explain_in_time(answer, explain);
   return answer;
 }
 

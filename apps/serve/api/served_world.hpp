@@ -19,6 +19,7 @@
 #include "parallel/once.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
+#include "solve/answer/by_products.hpp"
 #include "solve/kept/roadmap.hpp"
 #include "solve/kept/roadmap_query.hpp"
 #include "solve/question/solve_options.hpp"
@@ -90,9 +91,9 @@ class ServedWorld {
   /// Makes what first questions would wait for. Throws Stopped, InputError.
   void prepare(const Execution& execution) const;
   /// A verified answer, or why there is none; a blocked end is explained. beside_judge: as QuestionScratch has it.
-  /// Throws UsageError, InputError, Stopped.
+  /// keep: as solve() has it, of questions that are solved by themselves. Throws UsageError, InputError, Stopped.
   Answer ask(const ServedQuestion& question, const Execution& execution,
-             std::function<void(const Answer&)> beside_judge = {}) const;
+             std::function<void(const Answer&)> beside_judge = {}, ByProducts* keep = nullptr) const;
 
  private:
   void describe(const Execution& execution);

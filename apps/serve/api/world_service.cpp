@@ -321,6 +321,8 @@ std::optional<HttpResponse> WorldService::at_once(const HttpRequest& request, co
       return HttpResponse{.body = "{\"status\":\"ok\"}\n"};
     case Place::metrics:
       return metrics(figures);
+    case Place::progress:
+      return progress(request);
     case Place::world:
       return request.query.empty() ? std::optional(HttpResponse{.body = world_json_}) : std::nullopt;
     case Place::tile: {
@@ -404,12 +406,28 @@ HttpResponse WorldService::query(const HttpRequest& request, const SignalFlag& g
   const QueryBody body = read_query_body(request.body);
   const double budget_s = std::min(limits_.budget_s, body.question.budget_s.value_or(limits_.budget_s));
   const Deadline deadline(budget_s, limits_.memory_bytes, &gone);
-  const Execution execution{.threads = limits_.threads, .deadline = &deadline};
+  Execution execution{.threads = limits_.threads, .deadline = &deadline};
   execution.check();
   std::string name;
-  Answer answer =
-      world_.ask(body.question, execution, [&](const Answer& found) { name = path_hash(found, execution); });
+  RunningQuestions::Entry entry(running_, body.watch);
+  ByProducts made;
+  const std::function<bool(const Improvement&)> tell = [&](const Improvement& better) {
+    std::vector<Vec2> way;
+    if (!made.improved.empty()) {
+      const auto newest = made.improved[made.improved.size() - 1];
+      way.assign(newest.begin(), newest.end());
+    }
+    entry.tell(better, std::move(way));
+    return true;
+  };
+  const bool is_seen = entry.is_seen() && body.question.planner && gets_better(*body.question.planner);
+  if (is_seen) execution.on_improvement = &tell;
+  Answer answer = world_.ask(
+      body.question, execution, [&](const Answer& found) { name = path_hash(found, execution); },
+      is_seen ? &made : nullptr);
   if (answer.outcome == Outcome::stopped) throw Stopped(answer.stop_reason.value_or(StopReason::time));
+  const Deadline unhurried(std::numeric_limits<double>::infinity(), limits_.memory_bytes, &gone);
+  if (answer.stop_reason) execution.deadline = &unhurried;  // what gets better has used the time up
   HttpResponse response;
   if (answer.verified) {
     if (name.empty()) name = path_hash(answer, execution);
@@ -421,6 +439,16 @@ HttpResponse WorldService::query(const HttpRequest& request, const SignalFlag& g
   write_answer_json(answer, execution, [&](std::string_view piece) { response.body += piece; });
   if (answer.verified) paths_.keep(name, std::move(answer), execution);
   return response;
+}
+
+HttpResponse WorldService::progress(const HttpRequest& request) const {
+  const auto from = numbers_parameter(request, "from", 1);
+  if (from && !((*from)[0] >= 0.0 && (*from)[0] < 1e15))
+    throw HttpError(400, "bad_request", "query", "from: expected a count");
+  auto told =
+      running_.told(parameter(request, "watch").value_or(""), from ? static_cast<std::uint64_t>((*from)[0]) : 0);
+  if (!told) throw HttpError(404, "not_running", "watch", "no question of this name is being answered");
+  return {.body = *told + "\n"};
 }
 
 HttpResponse WorldService::batch(const HttpRequest& request, const Execution& execution) const {

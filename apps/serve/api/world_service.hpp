@@ -11,6 +11,7 @@
 #include "apps/serve/api/graph_service.hpp"
 #include "apps/serve/api/kept_path.hpp"
 #include "apps/serve/api/route.hpp"
+#include "apps/serve/api/running_questions.hpp"
 #include "apps/serve/api/served_world.hpp"
 #include "apps/serve/api/world_layers.hpp"
 #include "apps/serve/http/http_message.hpp"
@@ -84,6 +85,7 @@ class WorldService : public HttpService {
   HttpResponse tile(const Route& route, const Execution& execution);
   HttpResponse layer(const HttpRequest& request, const Route& route, const Execution& execution);
   HttpResponse query(const HttpRequest& request, const SignalFlag& gone);
+  HttpResponse progress(const HttpRequest& request) const;
   HttpResponse batch(const HttpRequest& request, const Execution& execution) const;
   HttpResponse scene(const HttpRequest& request, const Execution& execution) const;
   Question body_in(const HttpRequest& request) const;
@@ -99,6 +101,7 @@ class WorldService : public HttpService {
   const GraphService graphs_;
   KeptValues<std::string> tiles_;
   PathService paths_;
+  RunningQuestions running_;
 };
 
 /// A service whose world may be changed while it is asked (docs/service.md): each change makes a new world with a

@@ -18,6 +18,7 @@ function stateOf(place, heading) {
 function bodyOf(q) {
   const body = {start: stateOf(q.start, q.startHeading === null ? 0 : q.startHeading), goal: stateOf(q.goal, q.goalHeading), optimise: q.optimise};
   if (q.planner) body.planner = q.planner;
+  if (getsBetter(q.planner)) body.budget_ms = betterBudget;
   if (q.robot) body.robot = q.robot;
   if (q.clearance) body.clearance = Number(q.clearance);
   return body;
@@ -33,21 +34,29 @@ function serverTimes(reply) {
 
 async function ask() {
   if (!question.start || !question.goal) return;
-  if (asking) return void (askAgain = true);
+  if (asking) {
+    if (better.abort) better.abort.abort();  // it would take all its time
+    return void (askAgain = true);
+  }
   asking = true;
   await taken;  // another body, another world
   askAgain = false;
   if (!question.start || !question.goal) return void (asking = false);  // taken away meanwhile
   const began = performance.now(), asked = JSON.stringify(bodyOf(question));
   try {
-    const reply = await fetch("api/query", {method: "POST", headers: {"Content-Type": "application/json"}, body: asked});
+    const body = JSON.stringify({...JSON.parse(asked), ...beginWatching()}), signal = better.abort ? better.abort.signal : undefined;
+    const reply = await fetch("api/query", {method: "POST", headers: {"Content-Type": "application/json"}, body, signal});
     const text = await reply.text();
+    endWatching();
     take(reply, text, performance.now() - began, asked);
   } catch (error) {
-    forgetAnswer();
-    showAnswer(null, []);
-    say("The service does not answer any more.");
+    if (error.name !== "AbortError") {
+      forgetAnswer();
+      showAnswer(null, []);
+      say("The service does not answer any more.");
+    }
   }
+  endWatching();
   asking = false;
   if (askAgain) {
     askAgain = false;
@@ -56,6 +65,7 @@ async function ask() {
 }
 function forgetAnswer() {
   clearPath();
+  hideWays();
   forgetClearance();
   forgetSweep();
   answer.text = answer.json = answer.id = answer.start = answer.asked = null;
@@ -97,6 +107,7 @@ function take(reply, text, passed, asked) {
   answer.id = reply.headers.get("Warren-Path");
   if (answer.id) showPath(asDriven(json.path).map(p => [p[0], p[1]]), answer.id);
   say(inWords(json));
+  showWays(json);
   showAnswer(json, [...serverTimes(reply), ["there and back", passed]]);
   showClearance();
   showSweep();

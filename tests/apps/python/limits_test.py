@@ -242,7 +242,7 @@ def test_worlds_and_answers_go_to_other_processes(method):
 
 def test_pickles_hold_all_of_a_world(tmp_path):
     root = pathlib.Path(__file__).resolve().parents[3] / "examples" / "worlds"
-    for name in ("town.geojson", "flat.yaml", "puma-seed.scene", "car-20.scene", "walls.scene"):
+    for name in ("town.geojson", "flat.yaml", "puma.scene", "car-20.scene", "walls.scene"):
         world = warren.read_world(root / name)
         again = pickle.loads(pickle.dumps(world))
         assert again.facts() == world.facts() and repr(again) == repr(world)

@@ -26,7 +26,7 @@ SAME = [
     ("flat.yaml", {"planner": "grid", "robot": warren.disc(0.2), **FLAT}),
     ("flat.yaml", {"map_rules_of_world": "ros1", **FLAT}),
     ("parking.scene", {"seed": 2}),
-    ("puma-seed.scene", {"seed": 3}),
+    ("puma.scene", {"seed": 3}),
     ("walls.scene", {"contact": "blocked"}),
 ]
 
@@ -80,7 +80,24 @@ def test_no_path_is_no_exception(options, status):
     answer = warren.solve("maze:5x5", **{"start": (1, 1), "goal": (4, 4), **options})
     assert answer.status in (status, "start_blocked") and not answer and not answer.verified
     assert answer.path.shape == (0, 2) and np.isnan(answer.length) and np.isnan(answer.min_clearance)
-    assert answer.blocked["end"] in ("start", "goal") and answer.blocked["by"]
+    assert answer.blocked.end in ("start", "goal") and answer.blocked.by
+
+
+def test_a_blocked_end_says_what_the_json_says():
+    world = warren.scene(polygons=[[(4, 1), (7, 1), (7, 3), (4, 3)]], bounds=(0, 0, 10, 4))
+    for start, robot in (((4.5, 2), "point"), ((4.5, 2), "disc 0.2"), ((12, 1), "point"), ((3.9, 2), "disc 0.2")):
+        answer = warren.solve(world, start, (9, 3), robot=robot)
+        blocked = answer.blocked
+        told = answer.to_dict()["blocked"]
+        assert isinstance(blocked, warren.BlockedEnd) and blocked._fields == tuple(told)
+        assert blocked._replace(free_place=list(blocked.free_place)) == tuple(told.values())
+        assert all(blocked[name] == getattr(blocked, name) for name in told) and blocked[0] == blocked.end == "start"
+        assert pickle.loads(pickle.dumps(answer)).blocked == blocked
+    with pytest.raises(KeyError):
+        blocked["nothing"]
+    shut = warren.scene(walls=[(0, 0, 1, 0), (1, 0, 1, 1), (1, 1, 0, 1), (0, 1, 0, 0)], bounds=(0, 0, 1, 1))
+    nowhere = warren.solve(shut, (0.5, 0.5), (0.6, 0.5), robot=warren.disc(3.0)).blocked
+    assert nowhere.free_place is None and nowhere.distance is None
 
 
 def test_what_is_infeasible_is_said():

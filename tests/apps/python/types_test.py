@@ -18,7 +18,7 @@ LIMITS = {"threads", "budget", "memory", "progress"}
 OUTPUTS = {"json", "picture", "figures", "table", "path", "every", "speed", "acceleration", "lateral_acceleration", "joint_speed",
            "joint_acceleration", "frame", "save_roadmap", "quiet", "color", "trace", "help", "output", "no_world", "csv",
            "runs", "log", "pictures", "batch", "lengths_only", "matrix", "world", "keep", "animate",
-           "title", "dpi", "size", "show", "heading", "html", "no_path", "resume"}
+           "curves", "title", "dpi", "size", "show", "heading", "html", "no_path", "resume"}
 
 
 def keywords_of_stub(name):
@@ -31,11 +31,11 @@ def keywords_of_stub(name):
 
 
 @pytest.mark.parametrize("name, verb, other, without", [
-    ("solve", "solve", {"world", "keep"}, {"map_rules"}),
+    ("solve", "solve", {"world", "keep", "on_improvement"}, {"map_rules"}),
     ("verify", "verify", {"world", "path"}, {"map_rules"}),
     ("build", "build", {"world"}, {"map_rules"}),
     ("query", "query", {"keep"}, {"map_rules"}),
-    ("lengths", "query", {"starts", "goals"}, {"map_rules", "start", "goal", "explain"}),
+    ("lengths", "query", {"starts", "goals"}, {"map_rules", "start", "goal", "explain", "bound"}),
     ("compare", "compare", {"world"}, {"map_rules"}),
 ])
 def test_the_keywords_are_the_long_options_of_the_program(program, name, verb, other, without):

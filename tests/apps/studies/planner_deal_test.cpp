@@ -124,7 +124,7 @@ TEST(PlannerDeal, TheQuestionIsCheckedOnce) {
 }
 
 TEST(PlannerDeal, EveryOptionReachesThePlannersThatTakeIt) {
-  SolveOptions all{.optimise = true, .sampler = SamplerKind::halton, .search = SearchMethod::astar};
+  SolveOptions all{.optimise = true, .sampler = SamplerKind::halton, .search = SearchMethod::astar, .bound = true};
   all.queue = QueueKind::lazy_heap;
   all.roadmap = {.samples = 9, .neighbours = 8, .lazy = LazyCheck::expansion, .pipeline = PipelineKind::plain};
   all.roadmap.attach = GrowingAttach{};

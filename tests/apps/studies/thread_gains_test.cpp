@@ -48,8 +48,8 @@ TEST(ThreadGains, AreMediansOfPairsAndOfThoseInWhichTheMachineGaveAllItsCores) {
   EXPECT_EQ(all[0].quiet_stages[0].first, "index");
   EXPECT_NEAR(all[0].quiet_stages[0].second, 1.8, 1e-12);
   EXPECT_EQ(text_of(all[0]),
-            "100 x 100, prm, lattice sampler, 2 threads: 1.70 times in the median of 5 pairs, arithmetic alone 1.96; "
-            "1.80 in the 3 in which the machine was quiet (index 1.80)");
+            "100 x 100, prm, lattice sampler, 2 threads: 1.70 times as fast as one (median of 5 pairs of runs), "
+            "arithmetic alone 1.96 times; while the machine was quiet, in 3 of them, 1.80 times (index 1.80)");
 }
 
 TEST(ThreadGains, TheMedianOfAnEvenNumberLiesBetween) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace warren {
 namespace {
 
@@ -115,6 +117,21 @@ TEST(Plot, OfSeriesThatCoincideBothAreSeen) {
   EXPECT_EQ(count_of(text, "r=\"4.5\""), 3U) << "rings around them";
   EXPECT_EQ(count_of(text, "stroke-width=\"2.6\""), 2U);
   EXPECT_EQ(count_of(text, "stroke-width=\"1.2\""), 3U + 2U) << "thin lines upon them";
+}
+
+TEST(Plot, StepsAreLevelAndHaveABandInsteadOfMarkers) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  Plot plot = plot_of({{1, never}, {2, 5}, {4, 3}}, false);
+  plot.series[0].steps = true;
+  plot.series[0].spans = {{4, never}, {3, 6}, {2, 4}};
+  const std::string text = plot_svg(plot);
+  EXPECT_EQ(count_of(text, "<circle"), 0U);
+  const std::size_t line = text.find("<path d=\"M", text.find("opacity"));
+  const std::string places = text.substr(line + 9, text.find('"', line + 9) - line - 9);
+  EXPECT_EQ(count_of(places, "L"), 2U) << "from 2 to 4 at the height of 5, then down: " << places;
+  EXPECT_EQ(count_of(text, "opacity="), 1U);
+  EXPECT_EQ(text.find("inf"), std::string::npos) << "a band without an end is cut by the frame";
+  EXPECT_EQ(text.find("nan"), std::string::npos);
 }
 
 TEST(Plot, TextIsEscaped) {

@@ -150,7 +150,7 @@ TEST_P(StudyScene, ThePathsEndsAreAttachedWithinARadiusThatGrows) {
   EXPECT_THROW(prm(WorldView(*world_), question_.start, question_.goal, options, {}), InputError);
 }
 
-INSTANTIATE_TEST_SUITE_P(Puma, StudyScene, ::testing::Values("examples/worlds/puma-seed.scene", nine_spheres));
+INSTANTIATE_TEST_SUITE_P(Puma, StudyScene, ::testing::Values("examples/worlds/puma.scene", nine_spheres));
 
 }  // namespace
 }  // namespace warren

@@ -38,7 +38,7 @@ std::vector<ForgedCase> forged_cases() {
   return {{"Dubins", worlds + "car-20.scene"},
           {"Reeds-Shepp", worlds + "parking-lot.scene"},
           {"turning", worlds + "poly-easy.scene"},
-          {"arm", worlds + "puma-seed.scene"}};
+          {"arm", worlds + "puma.scene"}};
 }
 
 class ForgedRoadmap : public testing::Test {

@@ -55,7 +55,7 @@ TEST_F(RoadmapFileIo, WhatIsReadAnswersAsWhatWasWrittenInEveryWorld) {
   const std::string worlds = test::source_dir() + "/examples/worlds/";
   for (const std::string& world :
        {worlds + "walls.scene", worlds + "poly-easy.scene", worlds + "car-20.scene", worlds + "parking-lot.scene",
-        worlds + "puma-seed.scene", std::string("maze:9x9,seed=2"), std::string("maze:5x7,loops=0.2")}) {
+        worlds + "puma.scene", std::string("maze:9x9,seed=2"), std::string("maze:5x7,loops=0.2")}) {
     for (const PlannerKind planner : {PlannerKind::prm, PlannerKind::lazy_prm}) {
       SCOPED_TRACE(world);
       const Roadmap built = build(read_world(world), {}, few(300, planner));

@@ -42,7 +42,7 @@ std::vector<Case> cases() {
           {"turning", world_file("poly-easy.scene"), {}, 1500, {}},
           {"car", world_file("car-20.scene"), {}, 400, {}},
           {"parking", world_file("parking-lot.scene"), {}, 500, {}},
-          {"arm", world_file("puma-seed.scene"), {}, 400, {}},
+          {"arm", world_file("puma.scene"), {}, 400, {}},
           {"map", world_file("flat.yaml"), {.robot = disc, .start = {1, 1}, .goal = {3, 1}}, 500, {}},
           {"body on a map",
            world_file("flat.yaml"),

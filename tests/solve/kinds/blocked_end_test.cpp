@@ -136,7 +136,7 @@ TEST(BlockedEnd, OffersTheOnlyPocketOfALargeMap) {
 }
 
 TEST(BlockedEnd, NamesTheJointAndItsLimitsAndGuessesDegrees) {
-  const BlockedEnd blocked = told(world("puma-seed.scene"), {.goal = {90, 0, 0, 0, 0, 0}});
+  const BlockedEnd blocked = told(world("puma.scene"), {.goal = {90, 0, 0, 0, 0, 0}});
   EXPECT_NE(blocked.by.find("joint 1"), std::string::npos) << blocked.by;
   EXPECT_NE(blocked.hint.find("90deg"), std::string::npos);
   EXPECT_FALSE(blocked.depth.has_value());

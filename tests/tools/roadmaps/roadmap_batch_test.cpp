@@ -223,7 +223,7 @@ TEST_F(RoadmapBatch, AnEmptyHeadingIsAnyHeading) {
 }
 
 TEST_F(RoadmapBatch, ArmsAreAskedByTheirJoints) {
-  build(source_dir() + "/examples/worlds/puma-seed.scene", {"--planner", "prm", "--samples", "300"});
+  build(source_dir() + "/examples/worlds/puma.scene", {"--planner", "prm", "--samples", "300"});
   const Json own = Json::parse(run({"query", roadmap_, "--json", "-"}).out);
   std::string header;
   std::string line;

@@ -96,7 +96,7 @@ TEST_F(RoadmapMatrix, BodiesThatTurnAndArmsAreAskedByAllTheirNumbers) {
   expect_single_lengths(header, "x,y,theta", {joined(own["start"]), goal}, {goal, joined(own["start"])});
   const Outcome any = table("x,y,theta\n" + joined(own["start"]) + "\n", "x,y\n5,5\n");
   EXPECT_EQ(any.code, 0) << any.err;
-  build(source_dir() + "/examples/worlds/puma-seed.scene", {"--planner", "prm", "--samples", "200"});
+  build(source_dir() + "/examples/worlds/puma.scene", {"--planner", "prm", "--samples", "200"});
   const Outcome arm = table("1,2,3,4,5,6\n0,0,0,0,0,0\n", "{\"state\": [0, 0, 0, 0, 0, 0]}\n", {"--csv"});
   EXPECT_EQ(arm.out, "id,1\n1,0.0\n");
 }

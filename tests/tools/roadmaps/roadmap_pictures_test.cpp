@@ -56,7 +56,7 @@ TEST_F(RoadmapPictures, TurningBodiesHaveArrowsCarsCurvesAndArmsThreeViews) {
   build(world_file("car-20.scene"), {"--planner", "prm", "--samples", "60"});
   EXPECT_GT(count_of(group(svg(), "free"), "A"), 10U);
   EXPECT_GT(count_of(group(svg(), "blocked"), "A"), 0U);
-  build(world_file("puma-seed.scene"), {"--planner", "prm", "--samples", "30"});
+  build(world_file("puma.scene"), {"--planner", "prm", "--samples", "30"});
   const std::string arm = svg();
   EXPECT_EQ(count_of(group(arm, "milestones"), "M") % 3, 0U);
   EXPECT_GT(count_of(group(arm, "milestones"), "M"), 30U);

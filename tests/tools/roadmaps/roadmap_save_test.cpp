@@ -50,7 +50,7 @@ TEST_F(RoadmapSave, TheAnswerIsSolvesAndTheFileThatOfBuild) {
       {world_file("poly-easy.scene"), {"--planner", "prm", "--samples", "300"}, {}, {}},
       {world_file("parking-lot.scene"), {"--planner", "prm", "--samples", "200"}, {}, {}},
       {world_file("car-20.scene"), {"--planner", "lazy-prm", "--samples", "300"}, {}, {}, false},
-      {world_file("puma-seed.scene"), {"--planner", "prm", "--samples", "300"}, {}, {}},
+      {world_file("puma.scene"), {"--planner", "prm", "--samples", "300"}, {}, {}},
       {world_file("town.geojson"), {}, {"--start", "1.5,1.5", "--goal", "9.5,8.5"}, {"--planner", "visibility"}},
       {world_file("walls.scene"), {"--planner", "prm", "--samples", "300"}, {"--start=-99,0,0"}, {}}};
   for (const SaveCase& c : cases) {
@@ -81,7 +81,7 @@ TEST_F(RoadmapSave, SamplesThatGrowAreThoseOfTheLastRound) {
                                     {"maze:7x7", {"--planner", "prm", "--sampler", "uniform"}, {}, {}},
                                     {world_file("parking-lot.scene"), {"--planner", "prm"}, {}, {}},
                                     {world_file("car-20.scene"), {"--planner", "prm"}, {}, {}},
-                                    {world_file("puma-seed.scene"), {"--planner", "prm"}, {}, {}}};
+                                    {world_file("puma.scene"), {"--planner", "prm"}, {}, {}}};
   for (const SaveCase& c : cases) {
     SCOPED_TRACE(shown(joined({"solve", c.world}, c.options)));
     const Outcome outcome = solved(c.world, c.options);

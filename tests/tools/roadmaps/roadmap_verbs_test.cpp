@@ -67,7 +67,7 @@ TEST_F(RoadmapVerbs, AQueryAnswersAsSolveDoes) {
       {world_file("poly-easy.scene"), joined(few, {"--planner", "prm"}), {}, {}, {}},
       {world_file("parking-lot.scene"), joined(few, {"--planner", "prm"}), {}, {}, {}},
       {world_file("car-20.scene"), joined(few, {"--planner", "lazy-prm"}), {}, {}, {}},
-      {world_file("puma-seed.scene"), joined(few, {"--planner", "prm"}), {}, {}, {"--attach", "3"}},
+      {world_file("puma.scene"), joined(few, {"--planner", "prm"}), {}, {}, {"--attach", "3"}},
       {world_file("flat.yaml"),
        joined(few, {"--planner", "prm", "--robot", "disc 0.05"}),
        {"--start", "1,1", "--goal", "3,1"},

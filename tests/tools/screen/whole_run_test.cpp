@@ -62,5 +62,14 @@ TEST(ProgressLine, TellsOfStageAndWholeAndFits) {
             "search     --budget ends in 5.00 s");
 }
 
+TEST(ImprovementText, SaysCostBoundGapAndTurn) {
+  Improvement best{.iterations = 120, .cost = 12.5, .length = 12.0, .by = "tree"};
+  EXPECT_EQ(improvement_text(best), "cost 12.5, turn 120");
+  best.lower_bound = 12.0;
+  EXPECT_EQ(improvement_text(best), "cost 12.5, bound 12, gap 4.2 %, turn 120");
+  best.lower_bound = 5.0;
+  EXPECT_EQ(improvement_text(best), "cost 12.5, bound 5, gap 150 %, turn 120");
+}
+
 }  // namespace
 }  // namespace warren::tools

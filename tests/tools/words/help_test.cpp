@@ -74,8 +74,12 @@ TEST(Help, ExplainsOneOptionAndOneOfItsValues) {
   EXPECT_EQ(run({"help", "--optimize"}).out, run({"help", "--optimise"}).out);
   EXPECT_NE(run({"help", "lazy-prm"}).out.find("--planner NAME"), std::string::npos);
   const std::string seed = run({"help", "largest", "--seed"}).out;
-  EXPECT_NE(seed.find("the first maze's seed"), std::string::npos) << seed;
-  EXPECT_EQ(seed.find("seed of the sampling"), std::string::npos) << seed;
+  EXPECT_NE(seed.find("seed of the first maze"), std::string::npos) << seed;
+  EXPECT_EQ(seed.find("in: warren solve"), std::string::npos) << seed;
+  EXPECT_EQ(run({"help", "goal", "bias"}).out, run({"help", "--goal-bias"}).out);
+  EXPECT_EQ(run({"help", "PRM"}).out, run({"help", "prm"}).out);
+  const std::string either = run({"help", "clearance"}).out;
+  EXPECT_LT(either.find("--clearance R"), either.find("--objective NAME")) << "the option before those that take it";
   check({{"help", "--clearence"}, 2, "did you mean --clearance?"});
   check({{"help", "solve", "--writable"}, 2, "nothing is called --writable"});
 }
@@ -112,6 +116,32 @@ TEST(Help, ItsExamplesWork) {
     const Outcome outcome = run(words);
     std::filesystem::current_path(before);
     EXPECT_EQ(outcome.code, 0) << line << '\n' << outcome.err;
+  }
+}
+
+TEST(Help, AllIsTheCommandsAndThenAllOptionsOfEach) {
+  const std::string all = run({"help", "all"}).out;
+  EXPECT_EQ(all.find(run({"help"}).out), 0U);
+  for (const tools::Command& command : tools::command_table()) {
+    const std::string name{command.name};
+    EXPECT_NE(all.find("\n\n" + run({"help", name, "all"}).out), std::string::npos) << name;
+  }
+}
+
+/// Texts of help, sentence by sentence: one that is longer is read twice. What is in brackets is one word.
+TEST(Help, SentencesAreShort) {
+  constexpr std::size_t most_words = 30;
+  for (const tools::Command& command : tools::command_table()) {
+    for (const tools::OptionSpec& option : command.options) {
+      std::size_t words = 0;
+      bool is_inside = false;
+      for (const std::string& word : tools::words_of(option.help)) {
+        words += is_inside ? 0U : 1U;
+        is_inside = (is_inside || word.front() == '(') && word.find(')') == std::string::npos;
+        EXPECT_LE(words, most_words) << command.name << ' ' << option.name << ": " << option.help;
+        if (!is_inside && (word.back() == '.' || word.back() == ';' || word.back() == ':')) words = 0;
+      }
+    }
   }
 }
 

@@ -101,6 +101,13 @@ TEST(OtherNames, AreTypedAsPeopleTypeThem) {
       {{"solve", "maze:5x5", "--optim"}, 2, "did you mean --optimise?"},
       {{"plan", "maze:5x5"}, 2, "unknown command plan; warren solve WORLD"},
       {{"help", "D* Lite"}, 0, ""},
+      {{"help", "dynamic", "window"}, 0, ""},
+      {{"help", "obstacles"}, 0, ""},
+      {{"help", "nonsense", "word"},
+       2,
+       "nothing is called nonsense word; docs/other_names.md lists words (see 'warren --help')"},
+      {{"maze:41x41"}, 2, "to find a path in a world: warren solve maze:41x41"},
+      {{"map.yaml"}, 2, "warren solve map.yaml"},
       {{"man", "nosuch"}, 2, "unknown command nosuch"},
       {{"largest", "--step", "5"}, 2, "--step: is called --precision"},
   };

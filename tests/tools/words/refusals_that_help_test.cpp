@@ -34,7 +34,7 @@ TEST(RefusalsThatHelp, TooNarrowIsToldWithTheRoomAndThePlaceInFewDigits) {
 }
 
 TEST(RefusalsThatHelp, ArmsAreToldTheirLimitsInDegreesAndTheirReach) {
-  const std::string world = world_file("puma-seed.scene");
+  const std::string world = world_file("puma.scene");
   expect_said(said({"solve", world, "--start", "0,0,0,0,0,400"}),
               {"joint 6 at 400", "-266 to 266 degrees", "400 degrees are 400deg"});
   const std::string far = said({"solve", world, "--goal", "9,9,9"});
@@ -48,7 +48,7 @@ TEST(RefusalsThatHelp, HowDeepIsToldBesideTheFreePlace) {
   expect_said(said({"solve", world, "--start", "4.5,2"}), {"in the way is polygon 0", "depth         0.5 in it"});
   const Json blocked = answered({"solve", world, "--start", "4.5,2"}, 1)["blocked"];
   EXPECT_NEAR(blocked["depth"].get<double>(), 0.5, 1e-3);
-  expect_said(said({"solve", world_file("puma-seed.scene"), "--goal", "-0.25,-0.4,0.05"}),
+  expect_said(said({"solve", world_file("puma.scene"), "--goal", "-0.25,-0.4,0.05"}),
               {"in the way is sphere 2", "depth         0.15 in it", "free place    ("});
 }
 
@@ -88,6 +88,10 @@ TEST(RefusalsThatHelp, UnknownCellsAreToldFromOccupiedOnesAndWhereTheyAre) {
               {"in the way is cell 2, 1\n", "hint          the cell is unknown, at 15, 3 m"});
   expect_said(said({"solve", map, "--start", "11,1", "--goal", "15,1"}),
               {"in the way is cell 2, 0\n", "hint          the cell is at 15, 1 m"});
+  for (const char* edge : {"12,0", "10,1", "10,0", "12,4"}) {  // all that lies around the map is blocked
+    expect_said(said({"solve", map, "--start", "11,1", "--goal", edge}),
+                {"in the way is cell ", "hint          the cell is outside of the map\n"});
+  }
 }
 
 TEST(RefusalsThatHelp, AMazeThatDoesNotFitIsToldWhatTakesLess) {
@@ -99,7 +103,9 @@ TEST(RefusalsThatHelp, WhatWasNotDoneIsNotCounted) {
   const std::string text = said({"solve", world_file("town.geojson"), "--start", "1.5,1.5", "--goal", "9.5,8.5"}, 0);
   EXPECT_EQ(text.find("0 edges checked"), std::string::npos) << text;
   EXPECT_EQ(text.find("0 rounds"), std::string::npos) << text;
-  expect_said(text, {" expanded"});
+  expect_said(text, {"work          6 places expanded by the search\n"});
+  const std::string trees = said({"solve", world_file("walls.scene"), "--planner", "rrt-connect"}, 0);
+  EXPECT_EQ(trees.find(" expanded"), std::string::npos) << trees;
 }
 
 TEST(RefusalsThatHelp, GreyThatBecomesFreeIsToldOnce) {

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/serve/api/running_questions.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "apps/serve/api/request_bodies_io.hpp"
+#include "scenes/files/json_text.hpp"
+
+namespace warren::serve {
+
+RunningQuestions::Entry::Entry(RunningQuestions& all, std::string name) : all_(all), name_(std::move(name)) {
+  const std::lock_guard lock(all_.mutex_);
+  is_seen_ = !name_.empty() && all_.questions_.try_emplace(name_).second;
+}
+
+RunningQuestions::Entry::~Entry() {
+  const std::lock_guard lock(all_.mutex_);
+  if (is_seen_) all_.questions_.erase(name_);
+}
+
+void RunningQuestions::Entry::tell(const Improvement& improvement, std::vector<Vec2> way) {
+  if (!is_seen_) return;
+  if (way.size() > most_points) way.clear();
+  const std::lock_guard lock(all_.mutex_);
+  Question& question = all_.questions_.at(name_);
+  question.told.push_back({improvement, std::move(way)});
+  if (question.told.size() <= most_told) return;
+  question.told.pop_front();
+  ++question.first;
+}
+
+std::optional<std::string> RunningQuestions::told(const std::string& name, std::uint64_t from) const {
+  std::vector<Told> fresh;
+  std::uint64_t first = from;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = questions_.find(name);
+    if (found == questions_.end()) return std::nullopt;
+    const Question& question = found->second;
+    first = std::max(from, question.first);
+    const std::uint64_t skipped = std::min<std::uint64_t>(first - question.first, question.told.size());
+    fresh.assign(question.told.begin() + static_cast<std::ptrdiff_t>(skipped), question.told.end());
+  }
+  std::string list;
+  for (const Told& one : fresh) {
+    JsonObject json;
+    json.add("iterations", one.improvement.iterations);
+    json.add("seconds", one.improvement.seconds);
+    json.add("length", one.improvement.length);
+    json.add("cost", one.improvement.cost);
+    json.add("by", std::string_view(one.improvement.by));
+    json.add_or_null("lower_bound", one.improvement.lower_bound > 0.0, one.improvement.lower_bound);
+    json.add_json("chains", json_chains({one.way}, {}));
+    list += (list.empty() ? "" : ", ") + json.closed();
+  }
+  JsonObject json;
+  json.add("first", first);
+  json.add_json("improvements", "[" + list + "]");
+  return json.closed();
+}
+
+}  // namespace warren::serve

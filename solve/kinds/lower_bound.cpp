@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/kinds/lower_bound.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+#include "core/base/solution.hpp"
+#include "core/plane/polygon.hpp"
+#include "core/plane/se2.hpp"
+#include "planners/visibility/visibility_path.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
+#include "solve/kinds/map_steps.hpp"
+#include "solve/kinds/question_of_pose.hpp"
+#include "solve/question/question_of_arm.hpp"
+#include "worlds/arms/serial_chain.hpp"
+#include "worlds/poses/dubins_curve.hpp"
+#include "worlds/poses/reeds_shepp_curve.hpp"
+#include "worlds/rasters/lattice_polygons.hpp"
+
+namespace warren {
+namespace {
+
+/// The sum of so many legs without what rounding may have added.
+double below_rounding(double sum, std::size_t legs) {
+  return sum * (1.0 - 0x1p-48 - 0x1p-50 * static_cast<double>(std::min(legs, std::size_t{1} << 40)));
+}
+
+/// The disc around its reference point that the body holds in any heading, with the clearance; none: the body need not
+/// be where its reference point is.
+std::optional<double> held_radius(const Problem& problem) {
+  const std::vector<Vec2>& outline = problem.robot.outline;
+  if (outline.empty()) return problem.robot.radius + problem.clearance;
+  if (!contains(outline, {0.0, 0.0})) return std::nullopt;
+  double inside = std::numeric_limits<double>::infinity();
+  for_each_side(outline, [&](Vec2 a, Vec2 b) { inside = std::min(inside, distance(Vec2{0.0, 0.0}, Segment{a, b})); });
+  constexpr double rounding = 1e-12;
+  return inside * (1.0 - rounding) + problem.clearance;
+}
+
+/// A map's blocked cells are closed by their borders: what keeps off the cells crosses none of these, and borders that
+/// meet at a corner let nothing through. Who starts on water may stay there.
+std::vector<Segment> borders_from(const OccupancyMap& map, Vec2 start, const Execution& execution) {
+  if (map.water.empty()) return border_walls(map, execution);
+  execution.reserve(2 * map.blocked.size() / 8);
+  OccupancyMap closed = map;
+  closed.blocked = closed_cells(map, start);
+  return border_walls(closed, execution);
+}
+
+/// Of what the reference point can't pass; nothing where that has too many corners.
+std::optional<PlaneObstacles> bounding_obstacles(const Scene& scene, Vec2 start, const Execution& execution) {
+  if (scene.map && scene.walls.size() == 0) {
+    PlaneObstacles borders;
+    borders.walls = borders_from(*scene.map, start, execution);
+    if (2 * borders.walls.size() > largest_bounded_corners) return std::nullopt;
+    return borders;
+  }
+  std::size_t corners = 2 * scene.walls.size();
+  for (const ScenePolygon& polygon : scene.polygons) corners += polygon.corners.size();
+  if (corners > largest_bounded_corners) return std::nullopt;
+  return plane_obstacles(scene, execution);
+}
+
+/// The shortest way of a disc's middle, rounded down; nothing where it isn't found. A point may touch what it goes
+/// around, so that its way is not longer than any that keeps off; a disc is taken for its middle.
+std::optional<double> shortest_way(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, double /*radius*/,
+                                   const Execution& execution) {
+  const VisibilityOptions options{.lazy = true};
+  const Solution<Vec2> found = confined_visibility_path(obstacles, start, goal, options, execution);
+  if (found.outcome != Outcome::solved) return std::nullopt;
+  const double length = path_length(found.path, [](Vec2 a, Vec2 b) { return distance(a, b); });
+  return below_rounding(length, found.roadmap.milestones);
+}
+
+/// What the reference point goes at least.
+double least_way(const Scene& scene, const Problem& problem, BoundEffort effort, const Execution& execution) {
+  const Vec2 start{problem.start[0], problem.start[1]};
+  const Vec2 goal{problem.goal[0], problem.goal[1]};
+  const double straight = below_rounding(distance(start, goal), 1);
+  const std::optional<double> radius = held_radius(problem);
+  if (effort == BoundEffort::simple || !radius || straight == 0.0 || is_unmade(scene)) return straight;
+  Execution quiet = execution;
+  quiet.account = nullptr;  // its stages are none of the answer's
+  try {
+    const std::optional<PlaneObstacles> obstacles = bounding_obstacles(scene, start, quiet);
+    if (!obstacles) return straight;
+    return std::max(straight, shortest_way(*obstacles, start, goal, *radius, quiet).value_or(0.0));
+  } catch (const Stopped&) {
+    return straight;
+  } catch (const std::bad_alloc&) {
+    return straight;
+  }
+}
+
+bool names_heading(const Problem& problem) { return problem.start.size() == 3 && problem.goal.size() == 3; }
+
+/// On any path the ways (of the reference point, of the weighed turn) add up to a vector that is at least (way, turn).
+double with_turn(double way, const Problem& problem) {
+  if (!names_heading(problem)) return way;
+  constexpr double rounding_rad = 1e-12;  // of headings that were turned by full turns
+  const double turn = std::abs(turn_between(problem.start[2], problem.goal[2])) - rounding_rad;
+  const double weighed = extent_of(problem.robot) * std::max(0.0, turn);
+  return below_rounding(std::sqrt(way * way + weighed * weighed), 1);
+}
+
+/// Without obstacles; a goal without heading may be met in the best.
+double free_curve(const Problem& problem) {
+  if (!names_heading(problem)) return 0.0;
+  const Se2 start{problem.start[0], problem.start[1], problem.start[2]};
+  const Se2 goal{problem.goal[0], problem.goal[1], problem.goal[2]};
+  const double radius = problem.robot.turning_radius;
+  const auto shortest =
+      problem.robot.steering == SteeringKind::dubins ? DubinsCurve::shortest : ReedsSheppCurve::shortest;
+  // Rounding of the curve, and of poses along it where these are far from the origin.
+  const double places = std::abs(start.x) + std::abs(start.y) + std::abs(goal.x) + std::abs(goal.y) +
+                        radius * (std::abs(start.theta) + std::abs(goal.theta));
+  return std::max(0.0, radius * shortest(start, goal, radius).length * (1.0 - 1e-12) - 0x1p-46 * places);
+}
+
+/// In joint space. A tool whose place is the goal goes no farther than its distance from each axis times the turn about
+/// it, all told: so its way is at most the root of the sum of these distances' squares times the way in joint space.
+double least_turns(const Problem& problem, const Execution& execution) {
+  const JointState start = joint_state(problem.start);
+  double sum = 0.0;
+  if (problem.goal.size() == most_joints) {
+    for (std::size_t j = 0; j < most_joints; ++j) sum += (problem.goal[j] - start[j]) * (problem.goal[j] - start[j]);
+    return below_rounding(std::sqrt(sum), most_joints);
+  }
+  const SerialChain chain(table_of(problem.robot, execution));
+  const std::size_t tool = chain.point_count() - 1;
+  for (std::size_t j = 0; j < chain.joint_count(); ++j) sum += chain.reach(j, tool) * chain.reach(j, tool);
+  constexpr double tolerance = 1e-9;  // of the judge, and more than what rounding does to either
+  const double way =
+      (Vec3(problem.goal[0], problem.goal[1], problem.goal[2]) - chain.tool_pose(start).translation()).norm();
+  return sum > 0.0 ? std::max(0.0, way - tolerance) / std::sqrt(sum) * (1.0 - tolerance) : 0.0;
+}
+
+bool is_told(const Answer& answer, std::string_view option) {
+  return std::any_of(answer.options.begin(), answer.options.end(),
+                     [&](const NamedFigure& figure) { return figure.name == option; });
+}
+
+}  // namespace
+
+double proved_bound(const Scene& scene, const Problem& problem, BoundOf of, BoundEffort effort,
+                    const Execution& execution) {
+  if (is_arm(problem.robot)) return least_turns(problem, execution);
+  const double way = least_way(scene, problem, effort, execution);
+  if (problem.robot.kind == RobotKind::car) return std::max(way, free_curve(problem));
+  return of == BoundOf::metric && problem.robot.kind == RobotKind::polygon ? with_turn(way, problem) : way;
+}
+
+void tell_bound(Answer& answer, const Scene& scene, const SolveOptions& options, const Execution& execution) {
+  if (options.bound && !is_told(answer, name_of(Option::bound))) answer.options.push_back({"bound", true});
+  if (!answer.verified || !options.trees.via.empty()) return;
+  const double cost = answer.cost.value_or(answer.length);
+  if (answer.optimal) {
+    answer.lower_bound = below_rounding(cost, answer.roadmap.milestones);
+  } else if (!answer.lower_bound) {
+    const bool in_metric = gets_better(enum_named<PlannerKind>(answer.planner).value_or(PlannerKind::prm));
+    if (answer.cost && !in_metric) return;
+    const bool exact = options.bound || options.anytime.gap;
+    double seconds = 0.0;
+    std::optional<StageTimer> timer;
+    if (exact) timer.emplace(execution, "bound", seconds);
+    answer.lower_bound = proved_bound(scene, answer.problem, in_metric ? BoundOf::metric : BoundOf::length,
+                                      exact ? BoundEffort::exact : BoundEffort::simple, execution);
+  }
+  constexpr double rounding = 1e-9;
+  answer.optimal = cost - *answer.lower_bound <= rounding * cost;
+}
+
+}  // namespace warren

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Lower bounds, proved: no path of a problem is shorter, whoever plans it. What is proved of which body, and why:
+// docs/algorithms.md, "Lower bounds". The simple bound is a formula of start and goal; the exact one adds the shortest
+// way, among the obstacles, of a disc that the body holds however it is turned.
+//
+// Rounding: a sum of n legs is off by at most n * 2^-52 of itself, and so is a search that compares such sums. Each
+// bound is made less by four times that, n being all corners where a way over corners is the shortest, and by 2^-48, so
+// that it is below what exact arithmetic gives; lengths of car's curves and the reach of an arm, which have longer
+// formulae, by 1e-12 and 1e-9. Beyond largest_bounded_corners, and where time or memory end, the simple bound is left.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "parallel/execution.hpp"
+#include "scenes/scene/scene.hpp"
+#include "solve/answer/answer.hpp"
+#include "solve/question/question.hpp"
+#include "solve/question/solve_options.hpp"
+
+namespace warren {
+
+/// What is bounded: the length that answers tell, or what planners that get better tell as cost, the body's metric:
+/// they differ for polygons that turn alone (worlds/poses/se2_world.hpp, with the usual weight of a turn).
+enum class BoundOf : std::uint8_t { length, metric };
+
+/// simple: costs nothing. exact: milliseconds, and seconds where there are many corners.
+enum class BoundEffort : std::uint8_t { simple, exact };
+
+/// Above, shortest ways take too long for what they tell.
+inline constexpr std::size_t largest_bounded_corners = 100'000;
+
+/// What no path of the problem can be shorter than; >= 0. `scene`: as it is planned in, with a map's borders as walls
+/// or without. Never throws Stopped. Throws as table_of() where an arm's table can't be read.
+double proved_bound(const Scene& scene, const Problem& problem, BoundOf of, BoundEffort effort,
+                    const Execution& execution);
+
+/// The bound of a verified answer, and whether that proves its path the shortest. One that has a bound, or was found
+/// to be optimal, keeps that. None is told of paths through way-points, nor where the cost is in units of the planner's
+/// own.
+void tell_bound(Answer& answer, const Scene& scene, const SolveOptions& options, const Execution& execution);
+
+}  // namespace warren
