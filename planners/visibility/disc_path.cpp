@@ -15,12 +15,12 @@
 namespace warren {
 namespace {
 
-constexpr double rounding = 0x1p-53;
+constexpr double unit_rounding = 0x1p-53;
 constexpr double whole_turn = 2.0 * std::numbers::pi;
 constexpr double cone_doubt = 1e-14;  // of unit vectors' products, and of angles
-constexpr std::uint32_t no_way = 0xffffffffU;
+constexpr std::uint32_t no_tangent = 0xffffffffU;
 
-Vec2 left_of(Vec2 v) { return {-v.y, v.x}; }
+Vec2 quarter_left(Vec2 v) { return {-v.y, v.x}; }
 
 /// One of the two ends, or one side of a circle: 2 * circle, and 1 more where its corner is on the left of the way.
 using SideId = std::uint32_t;
@@ -33,7 +33,7 @@ struct TangentWay {
   double out, in;  // where it leaves `from` and arrives at `to`: radians travelled on from the cone's begin
   double doubt;    // of its direction, radians
   double cost = std::numeric_limits<double>::infinity();  // at its end
-  std::uint32_t parent = no_way;
+  std::uint32_t parent = no_tangent;
   bool settled = false;
 };
 
@@ -137,7 +137,7 @@ class DiscSight {
     for (std::size_t i = 1; i < ranges.size(); ++i) {
       const auto aside = [&](double turn) {
         const auto [sine, cosine] = portable::sin_and_cos(turn);
-        return direction_place(cosine * straight + (left ? -sine : sine) * left_of(straight));
+        return direction_place(cosine * straight + (left ? -sine : sine) * quarter_left(straight));
       };
       const double reach =
           i == 1 ? std::numeric_limits<double>::infinity() : wider * 2.0 * radius / portable::sin(turns[i - 1]);
@@ -238,7 +238,7 @@ class DiscSearch {
   /// How far to the left of a way at this side the centre of its circle is.
   double offset(SideId side) const { return is_end(side) ? 0.0 : is_left(side) ? room_.radius : -room_.radius; }
   /// From the centre of the side's circle to where a way in this direction is on it.
-  Vec2 spoke(SideId side, Vec2 along) const { return -offset(side) * left_of(along); }
+  Vec2 spoke(SideId side, Vec2 along) const { return -offset(side) * quarter_left(along); }
   Vec2 place(SideId side, Vec2 along) const { return centre(side) + spoke(side, along); }
 
   /// The tangent between two sides; none where circles overlap too much, or it leaves a cone or the room.
@@ -254,11 +254,11 @@ class DiscSearch {
       rest = 0.0;
     }
     TangentWay way{.from = from, .to = to, .along = {}, .length = std::sqrt(rest), .out = 0, .in = 0, .doubt = 0};
-    way.along = (1.0 / square) * (way.length * v - aside * left_of(v));
+    way.along = (1.0 / square) * (way.length * v - aside * quarter_left(v));
     if (rest == 0.0) way.along = (1.0 / norm(way.along)) * way.along;
     // The direction is as doubtful as the root: what is short beside the circles' distance is badly rounded.
     const double far = std::sqrt(square);
-    way.doubt = way.length > 1e-8 * far ? 8.0 * rounding * far / way.length : 8e-8;
+    way.doubt = way.length > 1e-8 * far ? 8.0 * unit_rounding * far / way.length : 8e-8;
     if (!leaves(from, way, way.out) || !leaves(to, way, way.in)) return std::nullopt;
     return way;
   }
@@ -267,7 +267,7 @@ class DiscSearch {
   bool leaves(SideId side, const TangentWay& way, double& at) const {
     if (is_end(side)) return true;
     const DiscCircle& c = circle(side);
-    const Vec2 n = is_left(side) ? -1.0 * left_of(way.along) : left_of(way.along);
+    const Vec2 n = is_left(side) ? -1.0 * quarter_left(way.along) : quarter_left(way.along);
     const double doubt = cone_doubt + way.doubt;
     if (!c.whole() && (dot(n, c.first) > doubt || dot(n, c.last) > doubt)) return false;
     if (!in_room(c, n)) return false;
@@ -351,7 +351,7 @@ class DiscSearch {
     const Vec2 along = s.b - s.a;
     if (dot(p - s.a, along) <= 0.0) return s.a - p;
     if (dot(p - s.b, along) >= 0.0) return s.b - p;
-    return (-cross(along, p - s.a) / dot(along, along)) * left_of(along);
+    return (-cross(along, p - s.a) / dot(along, along)) * quarter_left(along);
   }
 
   void know_blocked(std::uint32_t number) {
@@ -408,7 +408,7 @@ class DiscSearch {
     for (const std::uint32_t c : sight_.candidates(start_)) {
       const SideId first = c == sight_.ends() ? goal_ : 2 * c;
       for (SideId to = first; to <= (c == sight_.ends() ? goal_ : first + 1); ++to) {
-        if (std::optional<TangentWay> way = draw(start_, to)) offer(add(*way), way->length, no_way);
+        if (std::optional<TangentWay> way = draw(start_, to)) offer(add(*way), way->length, no_tangent);
       }
     }
   }
@@ -478,7 +478,7 @@ class DiscSearch {
 
   std::vector<TangentWay> chain_to(std::uint32_t number) const {
     std::vector<TangentWay> chain;
-    for (; number != no_way; number = ways_[number].parent) chain.push_back(ways_[number]);
+    for (; number != no_tangent; number = ways_[number].parent) chain.push_back(ways_[number]);
     std::reverse(chain.begin(), chain.end());
     return chain;
   }
@@ -534,7 +534,7 @@ DiscPath path_of_point(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, c
     path.length += distance(found.path[i - 1], found.path[i]);
   }
   const double roundings = most_roundings + static_cast<double>(path.pieces.size());
-  if (path.outcome == Outcome::solved) path.lower_bound = path.length * (1.0 - roundings * rounding);
+  if (path.outcome == Outcome::solved) path.lower_bound = path.length * (1.0 - roundings * unit_rounding);
   path.checked = found.counters.edges_checked;
   return path;
 }
@@ -558,11 +558,11 @@ class DiscPlan {
   DiscPlan(const DiscGround& ground, const Graph* known, Vec2 start, Vec2 goal, double radius,
            const Execution& execution)
       : size_(ground.box(), start, goal),
-        doubt_(1e-12 * radius + 64.0 * rounding * size_.extent),
-        room_(doubt_ + 8.0 * rounding * size_.largest),
+        doubt_(1e-12 * radius + 64.0 * unit_rounding * size_.extent),
+        room_(doubt_ + 8.0 * unit_rounding * size_.largest),
         sight_(ground, known, start, goal, radius + room_, execution),
-        loose_(sight_, {radius, radius - 0.5 * doubt_, true}, 8.0 * rounding * size_.largest + doubt_),
-        tight_(sight_, {radius + room_, radius + 0.5 * room_, false}, 8.0 * rounding * size_.largest + doubt_) {
+        loose_(sight_, {radius, radius - 0.5 * doubt_, true}, 8.0 * unit_rounding * size_.largest + doubt_),
+        tight_(sight_, {radius + room_, radius + 0.5 * room_, false}, 8.0 * unit_rounding * size_.largest + doubt_) {
     path_.radius = radius + room_;
     path_.circles = ground.circles().size();
   }
@@ -586,7 +586,7 @@ class DiscPlan {
     if (found.empty()) return blocked(Outcome::infeasible);
     const double roundings = 32.0 * static_cast<double>(found.size() + 1);
     const double length = loose_.length_of(found);
-    path_.lower_bound = std::max(0.0, length - roundings * rounding * (length + path_.radius));
+    path_.lower_bound = std::max(0.0, length - roundings * unit_rounding * (length + path_.radius));
     const Outcome ends = stands_tightly();
     if (ends != Outcome::solved) return ends;
     std::vector<TangentWay> kept = tight_.follow(found);
