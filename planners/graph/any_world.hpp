@@ -38,10 +38,7 @@ class AnyQuery {
 
  private:
   struct Held {
-    Held() = default;
     virtual ~Held() = default;
-    Held(const Held&) = delete;
-    Held& operator=(const Held&) = delete;
     virtual std::uint64_t refused() const = 0;
   };
   template <class Query>
@@ -111,16 +108,19 @@ class AnyWorld {
   /// Of a roadmap that is tried first, >= 1, where many questions are easy; else as many as there are.
   virtual std::uint64_t first_samples() const = 0;
 
-  /// As concept CorridorWorld has it; the uniform sample where the world knows no corridors.
+  /// The index-th sample of a seed from the middles of corridors, a pure function; the uniform one where a world knows
+  /// none.
   virtual State corridor_state(std::uint64_t seed, std::uint64_t index) const = 0;
-  /// As concept CellWorld has them; nullptr: the world has no cells.
+  /// Of a world of cells: those whose middles make a roadmap that joins what the cells join. nullptr: there are no
+  /// cells.
   virtual const Bitmap* milestone_cells() const = 0;
-  virtual State cell_state(std::uint32_t x, std::uint32_t y) const = 0;
-  virtual double milestone_reach() const = 0;
+  virtual State cell_state(std::uint32_t x, std::uint32_t y) const = 0;  ///< in the middle of a cell
+  virtual double milestone_reach() const = 0;  ///< the longest motion that has to be tried between two of them
   /// Which sides of unit cells no motion crosses; empty where that can't be said, or where they are more than
   /// most_cells. Throws Stopped.
   virtual CellSides cell_sides(std::size_t most_cells, const Execution& execution) const = 0;
-  /// As concept PlaceWorld has them; has_places() is false: no places, and what is shifted stays.
+  /// Of a world of the plane that knows roughly where the robot may be if all but its place stays as it is: a coarse
+  /// grid of places, none where that takes too long; where the robot is; the state that is there, else as a.
   virtual bool has_places() const = 0;
   virtual PlaceGrid free_places(const State& a) const = 0;
   virtual Vec2 place_of(const State& a) const = 0;
@@ -162,13 +162,14 @@ class WorldView final : public AnyWorldOf<W> {
     return t < 1.0 ? a : b;
   }
   std::uint32_t free_states(std::span<const State> states, Query& query) const override {
-    if constexpr (BunchWorld<W>) return world_.free_states(states, own(query));
+    if constexpr (requires { world_.free_states(states, own(query)); }) return world_.free_states(states, own(query));
     std::uint32_t free = 0;
     for (std::size_t i = 0; i < states.size(); ++i) free |= std::uint32_t{world_.is_free(states[i], own(query))} << i;
     return free;
   }
   std::uint32_t free_motions(std::span<const Motion<State>> motions, Query& query) const override {
-    if constexpr (BunchWorld<W>) return world_.free_motions(motions, own(query));
+    if constexpr (requires { world_.free_motions(motions, own(query)); })
+      return world_.free_motions(motions, own(query));
     std::uint32_t free = 0;
     for (std::size_t i = 0; i < motions.size(); ++i) {
       free |= std::uint32_t{world_.is_free_motion(motions[i].from, motions[i].to, own(query))} << i;
@@ -200,19 +201,19 @@ class WorldView final : public AnyWorldOf<W> {
     return std::numeric_limits<std::uint64_t>::max();
   }
   State corridor_state(std::uint64_t seed, std::uint64_t index) const override {
-    if constexpr (CorridorWorld<W>) return world_.corridor_state(seed, index);
+    if constexpr (requires { world_.corridor_state(seed, index); }) return world_.corridor_state(seed, index);
     return uniform_state(world_, seed, index);
   }
   const Bitmap* milestone_cells() const override {
-    if constexpr (CellWorld<W>) return &world_.milestone_cells();
+    if constexpr (has_cells) return &world_.milestone_cells();
     return nullptr;
   }
   State cell_state(std::uint32_t x, std::uint32_t y) const override {
-    if constexpr (CellWorld<W>) return world_.cell_state(x, y);
+    if constexpr (has_cells) return world_.cell_state(x, y);
     return {};
   }
   double milestone_reach() const override {
-    if constexpr (CellWorld<W>) return world_.milestone_reach();
+    if constexpr (has_cells) return world_.milestone_reach();
     return 0.0;
   }
   CellSides cell_sides(std::size_t most_cells, const Execution& execution) const override {
@@ -220,22 +221,24 @@ class WorldView final : public AnyWorldOf<W> {
       return world_.cell_sides(most_cells, execution);
     return {};
   }
-  bool has_places() const override { return PlaceWorld<W>; }
+  bool has_places() const override { return knows_places; }
   PlaceGrid free_places(const State& a) const override {
-    if constexpr (PlaceWorld<W>) return world_.free_places(a);
+    if constexpr (knows_places) return world_.free_places(a);
     return {};
   }
   Vec2 place_of(const State& a) const override {
-    if constexpr (PlaceWorld<W>) return world_.place_of(a);
+    if constexpr (knows_places) return world_.place_of(a);
     return {};
   }
   State shifted(const State& a, Vec2 to) const override {
-    if constexpr (PlaceWorld<W>) return world_.shifted(a, to);
+    if constexpr (knows_places) return world_.shifted(a, to);
     return a;
   }
 
  private:
   using Own = typename W::Query;
+  static constexpr bool has_cells = requires(const W& w) { w.milestone_cells(); };
+  static constexpr bool knows_places = requires(const W& w, const State& a) { w.free_places(a); };
   static Own& own(Query& query) { return query.template as<Own>(); }
   double metric(const State& a, const State& b) const override { return world_.distance(a, b); }
   Embedding embedding(const State& a) const override { return world_.embed(a); }
