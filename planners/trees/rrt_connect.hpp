@@ -15,7 +15,9 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <type_traits>
 
+#include "planners/graph/any_world.hpp"
 #include "planners/graph/no_path.hpp"
 #include "planners/trees/motion_tree.hpp"
 #include "planners/trees/way_over_places.hpp"
@@ -163,14 +165,12 @@ VertexId RrtConnectSearch<W>::try_places(std::size_t side, VertexId root, const 
 /// Before anything is drawn: first at the heading of the start, then at that of the goal next to it.
 template <SteerableWorld W>
 void RrtConnectSearch<W>::try_places(const Execution& execution) {
-  if constexpr (PlaceWorld<W>) {
-    if (!options_->places || options_->sampler || gave_up()) return;
-    const VertexId goal = try_places(0, 0, execution);
-    const State& from = trees_[0].state(0);
-    const State& to = trees_[1].state(goal);
-    const bool is_turned = !(world_->shifted(from, world_->place_of(to)) == to);
-    if (!arrived_ && is_turned) try_places(1, goal, execution);
-  }
+  if (!world_->has_places() || !options_->places || options_->sampler || gave_up()) return;
+  const VertexId goal = try_places(0, 0, execution);
+  const State& from = trees_[0].state(0);
+  const State& to = trees_[1].state(goal);
+  const bool is_turned = !(world_->shifted(from, world_->place_of(to)) == to);
+  if (!arrived_ && is_turned) try_places(1, goal, execution);
 }
 
 /// The least that is left from a state of a tree to the other end.
@@ -241,11 +241,12 @@ void RrtConnectSearch<W>::finish(Solution<State>& solution, PlannedRoadmap<State
 /// InputError for options out of range. goal_blocked: none of the goals is free. not_connected: every pair of trees
 /// reached its number of nodes; the separation is the first one's. `keep`, where given, receives the trees that
 /// answered. The same for any number of threads.
-template <SteerableWorld W>
-Solution<typename W::State> rrt_connect(const W& world, const typename W::State& start,
-                                        std::span<const typename W::State> goals, const RrtOptions& options,
-                                        const Execution& execution, PlannedRoadmap<typename W::State>* keep = nullptr) {
-  return detail::race_trees<detail::RrtConnectSearch<W>>(world, start, goals, options, execution, keep);
+template <class State, bool one_way>
+Solution<State> rrt_connect(const AnyWorld<State, one_way>& world, const State& start,
+                            std::span<const std::type_identity_t<State>> goals, const RrtOptions& options,
+                            const Execution& execution, PlannedRoadmap<State>* keep = nullptr) {
+  return detail::race_trees<detail::RrtConnectSearch<AnyWorld<State, one_way>>>(world, start, goals, options, execution,
+                                                                                keep);
 }
 
 }  // namespace warren

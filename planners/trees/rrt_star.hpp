@@ -144,7 +144,7 @@ class RrtStarTree {
   const MotionTree<W>& tree() const { return tree_; }
 
  private:
-  static constexpr bool one_way = requires { requires W::one_way; };
+  static constexpr bool one_way = is_one_way<W>;
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr double noise = 1e-9;  // share of a cost that rounding may feign: no gain
 
