@@ -154,7 +154,7 @@ std::size_t expect_none_below(const Scene& scene, const Question& question, cons
 
 TEST(LowerBound, NoPathOfAnyPlannerAmongObstaclesIsBelow) {
   std::size_t solved = 0;
-  for (const std::uint64_t seed : test::seeds(100, 8)) {
+  for (const std::uint64_t seed : test::seeds(100, 4)) {
     const Scene scene = bounded_clutter(seed);
     std::size_t number = 0;
     for (const RobotSpec& body : bodies()) {
@@ -162,7 +162,7 @@ TEST(LowerBound, NoPathOfAnyPlannerAmongObstaclesIsBelow) {
       solved += expect_none_below(scene, asked_of(body, seed), ways_to_solve(body));
     }
   }
-  EXPECT_GT(solved, test::asks_all() ? 1000U : 60U);
+  EXPECT_GT(solved, test::asks_all() ? 1000U : 40U);
 }
 
 TEST(LowerBound, NoPathOnAMapIsBelow) {
@@ -191,7 +191,7 @@ TEST(LowerBound, NoPathOnAMapIsBelow) {
       std::vector<SolveOptions> ways{{.planner = PlannerKind::lazy_prm, .optimise = true, .bound = true},
                                      {.planner = PlannerKind::rrt_connect, .optimise = true, .bound = true},
                                      {.planner = PlannerKind::voronoi, .bound = true}};
-      for (SolveOptions& way : ways) way.trees.nodes = 5000;
+      ways[1].trees.nodes = 5000;
       solved += expect_none_below(scene, question, ways);
       const Answer answer = solve(scene, question, ways.front());
       if (answer.lower_bound && *answer.lower_bound > distance(start, goal) * 1.001) ++around;
@@ -307,7 +307,7 @@ TEST(LowerBound, IsNotToldOfOtherUnitsOrWayPoints) {
   const Answer cells = solve(one_wall(), question, {.planner = PlannerKind::grid});
   EXPECT_TRUE(cells.verified && cells.cost);
   EXPECT_FALSE(cells.lower_bound || gap_of(cells));
-  Question turning{.robot = bodies()[2], .start = {1, 2, 0}, .goal = {9, 2, 0}};
+  Question turning{.robot = bodies()[2], .start = {2, 2, 0}, .goal = {8, 2, 0}};
   SolveOptions via{.planner = PlannerKind::rrt_connect};
   EXPECT_TRUE(solve(one_wall(), turning, via).lower_bound);
   via.trees.via = {{2, 8, 0}};
