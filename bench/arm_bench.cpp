@@ -153,7 +153,7 @@ void bm_roadmap(benchmark::State& state) {
   options.neighbours = 10;
   const Execution execution{.threads = static_cast<unsigned>(state.range(1))};
   std::uint64_t milestones = 0;
-  for (auto _ : state) milestones += prm(world, ends[0], ends[1], options, execution, nullptr).roadmap.milestones;
+  for (auto _ : state) milestones += prm(WorldView(world), ends[0], ends[1], options, execution).roadmap.milestones;
   state.SetItemsProcessed(static_cast<std::int64_t>(milestones));
 }
 BENCHMARK(bm_roadmap)->ArgsProduct({{100, 1000, 10000}, {1, 2}})->Unit(benchmark::kMillisecond)->UseRealTime();

@@ -35,7 +35,8 @@ constexpr std::size_t nearest_k = 8;
 struct Chain {
   explicit Chain(std::uint32_t side)
       : scene(maze_scene({side, side, 1}, false, {})),
-        world(scene, 0.1, {}),
+        maze(scene, 0.1, {}),
+        world(maze),
         samples(usual_samples(world, options, {})),
         milestones(draw_milestones(world, options, samples, {})),
         rule(connection_rule_for(world, options, samples)),
@@ -49,12 +50,13 @@ struct Chain {
   VertexId last() const { return static_cast<VertexId>(milestones.size() - 1); }
 
   Scene scene;
-  MazeWorld world;
+  MazeWorld maze;
+  WorldView<MazeWorld> world;
   RoadmapOptions options{.sampler = SamplerKind::uniform};
   std::uint64_t samples;
   RawVector<Vec2> milestones;
   ConnectionRule rule;
-  StateIndex<MazeWorld> index;
+  StateIndex<AnyWorld<Vec2>> index;
   EdgeParts candidates;
   EdgeParts free;
   Graph graph;
@@ -129,7 +131,7 @@ void edge_checks(benchmark::State& state, std::uint32_t side, unsigned threads) 
       auto query = chain.world.make_query();
       detail::Bunch<Vec2> bunch;
       const auto flush = [&] {
-        benchmark::DoNotOptimize(detail::free_motions(chain.world, bunch.motions(), query));
+        benchmark::DoNotOptimize(chain.world.free_motions(bunch.motions(), query));
         bunch.clear();
       };
       for (const Edge& e : chain.candidates[r.first]) {
@@ -154,7 +156,7 @@ void lazy_validation(benchmark::State& state, std::uint32_t side) {
   const auto estimate = [&](VertexId v, VertexId w) { return distance_in(chain, v, w); };
   std::uint64_t checked = 0;
   for (auto _ : state) {
-    LazyGraph<MazeWorld> graph(chain.world, chain.states(), chain.index, chain.rule, none, {}, alone);
+    LazyGraph<AnyWorld<Vec2>> graph(chain.world, chain.states(), chain.index, chain.rule, none, {}, alone);
     SearchState search;
     const ImplicitSearch how{VertexDistance(estimate), true, QueueKind::heap, chain.milestones.size(), alone};
     benchmark::DoNotOptimize(search_implicit(AnyNeighbours(graph), 0, chain.last(), how, search).expanded);

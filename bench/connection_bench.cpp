@@ -25,8 +25,12 @@ const Scene& scene() {
   static const Scene kept = maze_scene({side, side, 1}, false, {});
   return kept;
 }
-const MazeWorld& world() {
+const MazeWorld& maze() {
   static const MazeWorld kept(scene(), kept_clearance, {});
+  return kept;
+}
+const AnyWorld<Vec2>& world() {
+  static const WorldView kept(maze());
   return kept;
 }
 
@@ -45,7 +49,7 @@ Execution threads_of(std::int64_t threads) { return {.threads = static_cast<unsi
 bool is_free_of_all_walls(Vec2 p) {
   bool free = true;
   scene().walls.visit([&](auto walls) {
-    for (const auto& w : walls) free = free && distance(p, w.segment()) >= world().planning_clearance();
+    for (const auto& w : walls) free = free && distance(p, w.segment()) >= maze().planning_clearance();
   });
   return free;
 }
@@ -102,7 +106,7 @@ void bm_draw_samples(benchmark::State& state) {
 /// Milestones of the uniform sampler with their index.
 struct Cloud {
   RawVector<Vec2> milestones = draw_milestones(world(), options_of(0), samples_of(0), threads_of(0));
-  StateIndex<MazeWorld> index = index_of_states(world(), std::span<const Vec2>(milestones), threads_of(0));
+  StateIndex<AnyWorld<Vec2>> index = index_of_states(world(), std::span<const Vec2>(milestones), threads_of(0));
 };
 const Cloud& cloud() {
   static const Cloud kept;

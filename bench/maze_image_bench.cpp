@@ -127,7 +127,8 @@ void bm_maze_roadmap(benchmark::State& state) {
                           sampler == SamplerKind::corridor       ? MapMilestones::corridors
                           : sampler == SamplerKind::cell_centres ? MapMilestones::cell_centres
                                                                  : MapMilestones::anywhere);
-    const auto solution = lazy_prm(world, cell_centre(map, ends.start), cell_centre(map, ends.goal), options, {});
+    const auto solution =
+        lazy_prm(WorldView(world), cell_centre(map, ends.start), cell_centre(map, ends.goal), options, {});
     milestones = solution.roadmap.milestones;
     if (solution.outcome != Outcome::solved) state.SkipWithError("the roadmap does not join the ends");
   }

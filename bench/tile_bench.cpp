@@ -171,7 +171,7 @@ Solution<Vec2> plan_in_tiles(const Scene& scene, const Execution& execution) {
 Solution<Vec2> plan_plainly(const Scene& scene, const Execution& execution) {
   const MazeWorld world(scene, clearance, execution);
   const Ends ends = ends_of(scene);
-  return prm(world, ends.start, ends.goal, lattice_options(scene), execution);
+  return prm(WorldView(world), ends.start, ends.goal, lattice_options(scene), execution);
 }
 
 double length_of(const Path<Vec2>& path) {

@@ -4,13 +4,13 @@
 function(warren_library folder)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp ${PROJECT_SOURCE_DIR}/${folder}/*.hpp)
   cmake_path(GET folder FILENAME folder)  # apps/studies is warren_studies
-  if(folder STREQUAL "solve")  # the planners of each world: where all the time of a solve goes, so compiled with all care
+  if(folder STREQUAL "solve")  # the planners: where all the time of a solve goes, so compiled with all care
     set(planned ${sources})
-    list(FILTER planned INCLUDE REGEX "/planned_[a-z0-9_]+_world[.]cpp$")
+    list(FILTER planned INCLUDE REGEX "/planned_[a-z_]+[.]cpp$")
     list(REMOVE_ITEM sources ${planned})
     add_library(warren_planned OBJECT ${planned})
     set_target_properties(warren_planned PROPERTIES UNITY_BUILD OFF)
-    target_link_libraries(warren_planned PRIVATE warren_worlds warren_planners)
+    target_link_libraries(warren_planned PRIVATE warren_scenes warren_planners)
     target_compile_features(warren_planned PRIVATE cxx_std_20)
     warren_headers(warren_planned warren_hot_headers)
     list(APPEND sources $<TARGET_OBJECTS:warren_planned>)

@@ -73,13 +73,6 @@ std::vector<Improvement> improvements_of(const Answer& answer) {
   return all;
 }
 
-/// Of the same cost. Steps from cell to cell are another.
-std::optional<double> lower_bound_of(const Answer& answer) {
-  const bool counts_steps = answer.cost && answer.improvements.empty();
-  if (answer.lower_bound && !counts_steps) return answer.lower_bound;
-  return answer.optimal ? std::optional(answer.length) : std::nullopt;
-}
-
 std::size_t state_count(const Answer& answer) {
   return answer.states.empty() ? answer.path.size() : answer.states.size();
 }
@@ -183,7 +176,7 @@ class PlannerContest {
     run.costs = answer.costs;
     run.roadmap = answer.roadmap;
     run.improvements = improvements_of(answer);
-    run.lower_bound = lower_bound_of(answer);
+    run.lower_bound = answer.lower_bound;
     return run;
   }
   Answer solve(const PlannerContender& contender, std::uint64_t seed) const {

@@ -75,7 +75,7 @@ ArmRun run_rrt_connect(const Question& q, std::uint64_t seed) {
   const ArmWorld world = world_of(q);
   RrtOptions options;
   options.seed = seed;
-  Solution<JointState> found = rrt_connect(world, q.start, std::span(&q.goal, 1), options, one_thread());
+  Solution<JointState> found = rrt_connect(WorldView(world), q.start, std::span(&q.goal, 1), options, one_thread());
   return {std::move(found.path), stopwatch.read()};
 }
 
@@ -85,7 +85,7 @@ ArmRun run_prm(const Question& q, std::uint64_t seed) {
   RoadmapOptions options;
   options.seed = seed;
   options.attach = GrowingAttach{};
-  Solution<JointState> found = prm(world, q.start, q.goal, options, one_thread(), nullptr);
+  Solution<JointState> found = prm(WorldView(world), q.start, q.goal, options, one_thread());
   return {std::move(found.path), stopwatch.read()};
 }
 

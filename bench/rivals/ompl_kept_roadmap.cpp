@@ -225,7 +225,7 @@ void compare(std::uint32_t side, std::uint64_t samples, int count) {
   RoadmapOptions plain_options;
   plain_options.samples = samples;
   tell("prm anew", few, lengths, [&](const Asked& asked) {
-    const Solution<Vec2> found = prm(world, asked.start, asked.goal, plain_options, {});
+    const Solution<Vec2> found = prm(WorldView(world), asked.start, asked.goal, plain_options, {});
     return path_length(found.path, [](Vec2 a, Vec2 b) { return distance(a, b); });
   });
   std::unique_ptr<GivenPrm> ompl_side;

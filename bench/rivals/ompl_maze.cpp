@@ -59,7 +59,7 @@ struct Contestant {
   std::vector<double> over_optimum = {};  ///< the same over the maze's optimum
 };
 
-using Planner = Solution<Vec2> (*)(const MazeWorld&, const Vec2&, const Vec2&, const RoadmapOptions&, const Execution&,
+using Planner = Solution<Vec2> (*)(const AnyWorld<Vec2>&, const Vec2&, const Vec2&, const RoadmapOptions&, const Execution&,
                                    PlannedRoadmap<Vec2>*);
 
 Execution one_thread() {
@@ -74,7 +74,7 @@ double optimum_of(const Maze& maze) {
   RoadmapOptions options;
   options.sampler = SamplerKind::lattice;
   options.lattice = maze.size;
-  const Solution<Vec2> walk = lazy_prm(world, maze.start, maze.goal, options, one_thread(), nullptr);
+  const Solution<Vec2> walk = lazy_prm(WorldView(world), maze.start, maze.goal, options, one_thread());
   const Path<Vec2> taut = taut_path(world.walls(), walk.path, clearance, one_thread());
   return path_length(taut, [](Vec2 a, Vec2 b) { return distance(a, b); });
 }
@@ -97,7 +97,7 @@ RivalRun run_warren(Planner plan, SamplerKind sampler, const Maze& maze, std::ui
   options.sampler = sampler;
   options.lattice = maze.size;
   options.seed = seed;
-  Solution<Vec2> solution = plan(world, maze.start, maze.goal, options, one_thread(), nullptr);
+  Solution<Vec2> solution = plan(WorldView(world), maze.start, maze.goal, options, one_thread(), nullptr);
   RivalRun run;
   run.seconds = stopwatch.read();
   run.path = std::move(solution.path);
@@ -243,16 +243,16 @@ nlohmann::ordered_json compare_all(const BenchOptions& options) {
   nlohmann::ordered_json pairs = nlohmann::ordered_json::array();
   for (const std::uint32_t side : options.uniform_sizes) {
     pairs.push_back(compare("uniform", side,
-                            {warren_contestant("warren lazy-prm, auto", lazy_prm<MazeWorld>, SamplerKind::uniform),
-                             warren_contestant("warren prm, auto", prm<MazeWorld>, SamplerKind::uniform),
+                            {warren_contestant("warren lazy-prm, auto", lazy_prm<Vec2>, SamplerKind::uniform),
+                             warren_contestant("warren prm, auto", prm<Vec2>, SamplerKind::uniform),
                              ompl_default_contestant(options.limit_s)},
                             options));
   }
   for (const std::uint32_t side : options.lattice_sizes) {
     pairs.push_back(compare("lattice", side,
                             {{"warren prm", [](const Maze& maze, std::uint64_t) { return run_tiles(maze); }},
-                             warren_contestant("warren prm, plain stages", prm<MazeWorld>, SamplerKind::lattice),
-                             warren_contestant("warren lazy-prm", lazy_prm<MazeWorld>, SamplerKind::lattice),
+                             warren_contestant("warren prm, plain stages", prm<Vec2>, SamplerKind::lattice),
+                             warren_contestant("warren lazy-prm", lazy_prm<Vec2>, SamplerKind::lattice),
                              ompl_cell_contestant("OMPL PRM, cell centres", 0.0),
                              ompl_cell_contestant("OMPL PRM, jittered cells", 0.2)},
                             options));

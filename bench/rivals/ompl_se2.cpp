@@ -128,7 +128,7 @@ Run run_warren(const Course& course, std::uint64_t seed) {
   const Stopwatch in_all;
   const typename Kind::World world = Kind::world(course);
   const Stopwatch search;
-  auto solution = rrt_connect(world, course.start, std::span(&course.goal, 1), options, one_thread());
+  auto solution = rrt_connect(WorldView(world), course.start, std::span(&course.goal, 1), options, one_thread());
   return {std::move(solution.path), in_all.read().cpu_s, search.read().cpu_s};
 }
 

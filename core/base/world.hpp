@@ -8,7 +8,6 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "core/base/rng.hpp"
 #include "core/base/types.hpp"
@@ -57,6 +56,7 @@ struct PlaceGrid {
 /// w.is_free_motion  may it move from a to b, clearance included, if both ends are free?
 /// w.distance(a, b)  the metric that path length sums up; static where the world has no say in it
 /// w.embed(a)        a point whose plain Euclidean distance is at most the metric: so one k-d tree serves every world
+/// What a world may have beyond that: planners/graph/any_world.hpp.
 template <class W>
 concept World = std::copyable<typename W::State> &&
     requires(const W& w, typename W::Query& q, const typename W::State& a, const typename W::State& b,
@@ -87,35 +87,6 @@ typename W::State state_between(const W& world, const typename W::State& a, cons
   }
 }
 
-/// A world of the plane that knows roughly where the robot may be if all but its place stays as it is.
-/// w.free_places(a)   a coarse grid of places; none where that would take too long
-/// w.place_of(a)      where the robot is
-/// w.shifted(a, p)    the state at the place p that is else as a
-template <class W>
-concept PlaceWorld = SteerableWorld<W> && requires(const W& w, const typename W::State& a) {
-  { w.free_places(a) } -> std::same_as<PlaceGrid>;
-  { w.place_of(a) } -> std::same_as<Vec2>;
-  { w.shifted(a, Vec2{}) } -> std::same_as<typename W::State>;
-};
-
-/// A world that knows the middles of its corridors.
-/// w.corridor_state(seed, index)  the index-th sample of a seed from there: a pure function
-template <class W>
-concept CorridorWorld = World<W> && requires(const W& w) {
-  { w.corridor_state(std::uint64_t{}, std::uint64_t{}) } -> std::same_as<typename W::State>;
-};
-
-/// A world of cells, some of whose middles make a roadmap that joins what the cells join.
-/// w.milestone_cells()     a bit for each of those cells
-/// w.cell_state(x, y)      the state in the middle of a cell
-/// w.milestone_reach()     the longest motion that has to be tried between two of them
-template <class W>
-concept CellWorld = World<W> && requires(const W& w) {
-  { w.milestone_cells().count() } -> std::convertible_to<std::uint64_t>;
-  { w.cell_state(0U, 0U) } -> std::same_as<typename W::State>;
-  { w.milestone_reach() } -> std::convertible_to<double>;
-};
-
 /// Motions and states that a world may check faster together than one by one.
 template <class State>
 struct Motion {
@@ -123,15 +94,6 @@ struct Motion {
   State to;
 };
 inline constexpr std::size_t bunch_size = 16;
-
-/// w.free_motions(motions, q)  bit i is is_free_motion(from, to) of the i-th motion; at most bunch_size, best if they
-///                             are near each other
-/// w.free_states(states, q)    bit i is is_free(state) of the i-th state, likewise
-template <class W>
-concept BunchWorld = World<W> && requires(const W& w, typename W::Query& q) {
-  { w.free_motions(std::span<const Motion<typename W::State>>(), q) } -> std::same_as<std::uint32_t>;
-  { w.free_states(std::span<const typename W::State>(), q) } -> std::same_as<std::uint32_t>;
-};
 
 /// Motions that this query saw refused: neither proved free nor blocked. 0 for worlds whose checks are exact.
 template <class Query>

@@ -24,13 +24,14 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "core/base/rng.hpp"
 #include "core/base/solution.hpp"
-#include "core/base/world.hpp"
 #include "parallel/chunks.hpp"
+#include "planners/graph/any_world.hpp"
 #include "planners/graph/roadmap_options.hpp"
 #include "planners/roadmap/lazy_prm.hpp"
 #include "planners/roadmap/one_way_prm.hpp"
@@ -329,7 +330,7 @@ template <SteerableWorld W>
 void AnytimeSearch<W>::tell(std::string_view by) {
   const std::chrono::duration<double> since = std::chrono::steady_clock::now() - begin_;
   solution_.improvements.push_back({std::max<std::uint64_t>(1, solution_.iterations), since.count(), solution_.cost,
-                                    body_.length(solution_.path), std::string(by)});
+                                    body_.length(solution_.path), std::string(by), solution_.lower_bound});
   if (body_.kept) body_.kept(solution_.path);
   if (execution_.on_improvement != nullptr && !(*execution_.on_improvement)(solution_.improvements.back()))
     is_enough_ = true;
@@ -401,7 +402,7 @@ auto AnytimeSearch<W>::draw_roadmap(const Execution& execution) -> Found {
   options.seed = random_bits(options_.trees.seed, roadmaps_, 14);
   const State& goal = goals_[roadmaps_ % goals_.size()];
   const Solution<State> solution = [&] {
-    if constexpr (requires { requires W::one_way; }) {
+    if constexpr (W::one_way) {
       return one_way_prm(world_, start_, goal, options, true, execution);
     } else {
       return lazy_prm(world_, start_, goal, options, execution);
@@ -432,13 +433,13 @@ auto AnytimeSearch<W>::polished(const Execution& execution) -> Found {
 /// start and goals (at least one): free. Never throws Stopped: outcome is solved with a path, else stopped, or
 /// not_connected where the iterations are over. InputError for options out of range. What `body` and
 /// execution.on_improvement throw passes through.
-template <SteerableWorld W>
-AnytimeSolution<typename W::State> anytime(const W& world, const typename W::State& start,
-                                           std::span<const typename W::State> goals, const AnytimeOptions& options,
-                                           const AnytimeBody<typename W::State>& body, const Execution& execution) {
+template <class State, bool one_way>
+AnytimeSolution<State> anytime(const AnyWorld<State, one_way>& world, const State& start,
+                               std::span<const std::type_identity_t<State>> goals, const AnytimeOptions& options,
+                               const AnytimeBody<State>& body, const Execution& execution) {
   options.trees.validate();
   options.roadmap.validate();
-  return detail::AnytimeSearch<W>(world, start, goals, options, body, execution).run();
+  return detail::AnytimeSearch<AnyWorld<State, one_way>>(world, start, goals, options, body, execution).run();
 }
 
 }  // namespace warren

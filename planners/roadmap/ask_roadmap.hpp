@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "core/base/solution.hpp"
-#include "core/base/world.hpp"
+#include "planners/graph/any_world.hpp"
 #include "planners/graph/components.hpp"
 #include "planners/graph/hierarchy.hpp"
 #include "planners/graph/hierarchy_query.hpp"
@@ -51,7 +51,7 @@ class AskedRoadmap {
         index_(index_of_states(world, std::span<const State>(states_), execution)) {
     if (lazy_) return;
     const Graph free = free_part(candidates_, edge_states, execution);
-    if constexpr (edge_directions<W>() == EdgeDirections::one) {
+    if constexpr (W::one_way) {
       free_edges_ = free.targets().size();
     } else {
       free_edges_ = free.edge_count();
@@ -132,7 +132,7 @@ class AskedNeighbours {
   std::uint64_t free_edges() const { return free_edges_; }
 
  private:
-  static constexpr bool one_way = edge_directions<W>() == EdgeDirections::one;
+  static constexpr bool one_way = W::one_way;
   static constexpr std::uint64_t checks_per_poll = 64;
 
   void visit_if_free(VertexId v, VertexId w, std::size_t end, const AnyVisit& visit) {
@@ -225,7 +225,7 @@ class Ask {
   }
 
  private:
-  static constexpr bool one_way = edge_directions<W>() == EdgeDirections::one;
+  static constexpr bool one_way = W::one_way;
   VertexId start_vertex() const { return static_cast<VertexId>(roadmap_.states().size()); }
   VertexId goal_vertex() const { return start_vertex() + 1; }
   std::size_t vertex_count() const { return roadmap_.states().size() + 2; }

@@ -17,9 +17,9 @@
 
 #include "core/base/raw_vector.hpp"
 #include "core/base/solution.hpp"
-#include "core/base/world.hpp"
 #include "core/search/graph.hpp"
 #include "parallel/chunks.hpp"
+#include "planners/graph/any_world.hpp"
 #include "planners/graph/assemble_graph.hpp"
 #include "planners/graph/components.hpp"
 #include "planners/graph/roadmap_options.hpp"
@@ -54,7 +54,7 @@ void check_row(const W& world, std::span<const typename W::State> states, const 
   std::array<std::size_t, bunch_size> ends;
   std::size_t count = 0;
   const auto flush = [&] {
-    const std::uint32_t free = free_motions<W>(world, std::span(motions).first(count), query);
+    const std::uint32_t free = world.free_motions(std::span(motions).first(count), query);
     for (std::size_t i = 0; i < count; ++i) {
       answers[ends[i]] = static_cast<std::uint8_t>((free >> i & 1U) != 0 ? EdgeState::free : EdgeState::blocked);
     }
@@ -140,13 +140,6 @@ RawVector<std::uint64_t> check_edges(const W& world, std::span<const typename W:
   for (const Counters& part : done) counters += part;
   if (directions == EdgeDirections::both) detail::copy_to_other_ends(graph, answers, execution);
   return detail::packed(answers, execution);
-}
-
-/// Motions that can be driven both ways make undirected roadmaps.
-template <World W>
-constexpr EdgeDirections edge_directions() {
-  if constexpr (requires { requires W::one_way; }) return EdgeDirections::one;
-  return EdgeDirections::both;
 }
 
 template <class State>
@@ -255,8 +248,9 @@ void RoadmapBuild<W>::round(std::uint64_t samples, bool check) {
   find_candidates(index_);
   const std::span<const State> states(built_.states);
   if (check) {
+    const EdgeDirections directions = W::one_way ? EdgeDirections::one : EdgeDirections::both;
     built_.edge_states =
-        check_edges(world_, states, built_.candidates, edge_directions<W>(), execution_, built_.counters, known_);
+        check_edges(world_, states, built_.candidates, directions, execution_, built_.counters, known_);
   } else {
     built_.edge_states = unchecked_edges(built_.candidates);
   }
@@ -265,7 +259,7 @@ void RoadmapBuild<W>::round(std::uint64_t samples, bool check) {
 template <World W>
 void RoadmapBuild<W>::find_candidates(const StateIndex<W>& index) {
   const std::span<const State> states(built_.states);
-  if constexpr (edge_directions<W>() == EdgeDirections::one) {
+  if constexpr (W::one_way) {
     const EdgeParts parts = one_way_edges(world_, states, states.size(), index, built_.rule, execution_);
     built_.candidates = one_way_graph(states.size(), parts, execution_);
     built_.counters.neighbour_queries += states.size();
@@ -279,7 +273,7 @@ template <World W>
 RawVector<Edge> RoadmapBuild<W>::attached(const State& state, VertexId vertex) const {
   Counters counters;
   const std::span<const State> states(built_.states);
-  if constexpr (edge_directions<W>() == EdgeDirections::both) {
+  if constexpr (!W::one_way) {
     return attach(world_, states, index_, built_.rule, state, vertex, counters);
   } else {
     auto query = world_.make_query();
@@ -328,12 +322,11 @@ std::vector<VertexId> RoadmapBuild<W>::joined_probes() {
 
 /// Throws Stopped, and InputError for options out of range. `lazy`: no edge is asked about where the samples are said.
 /// `known`: motions that need no asking.
-template <World W>
-BuiltRoadmap<typename W::State> build_roadmap(const W& world, const RoadmapOptions& options, bool lazy,
-                                              const Execution& execution,
-                                              const KnownMotions<typename W::State>& known = {}) {
+template <class State, bool one_way>
+BuiltRoadmap<State> build_roadmap(const AnyWorld<State, one_way>& world, const RoadmapOptions& options, bool lazy,
+                                  const Execution& execution, const KnownMotions<State>& known = {}) {
   options.validate();
-  return detail::RoadmapBuild<W>(world, options, lazy, execution, known).run();
+  return detail::RoadmapBuild<AnyWorld<State, one_way>>(world, options, lazy, execution, known).run();
 }
 
 }  // namespace warren

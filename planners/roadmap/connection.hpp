@@ -114,21 +114,6 @@ class Bunch {
   std::array<Motion<State>, bunch_size> motions_;
 };
 
-/// Bit i is set if motions[i] is free; at most bunch_size motions.
-template <World W>
-std::uint32_t free_motions(const W& world, std::span<const Motion<typename W::State>> motions,
-                           typename W::Query& query) {
-  std::uint32_t free = 0;
-  if constexpr (BunchWorld<W>) {
-    free = world.free_motions(motions, query);
-  } else {
-    for (std::size_t i = 0; i < motions.size(); ++i) {
-      free |= std::uint32_t{world.is_free_motion(motions[i].from, motions[i].to, query)} << i;
-    }
-  }
-  return free;
-}
-
 /// The candidate edges for which keep(chunk, motions, query) sets their bit.
 template <World W, class Keep>
 EdgeParts edges_that(const W& world, std::span<const typename W::State> milestones, const StateIndex<W>& index,
@@ -187,7 +172,7 @@ EdgeParts connect_milestones(const W& world, std::span<const typename W::State> 
   std::vector<Counters> done(chunk_count(milestones.size(), detail::connection_grain<W>));
   const auto keep = [&](std::size_t chunk, std::span<const Motion<typename W::State>> motions,
                         typename W::Query& query) {
-    const std::uint32_t bits = detail::free_motions(world, motions, query);
+    const std::uint32_t bits = world.free_motions(motions, query);
     done[chunk].edges_checked += motions.size();
     done[chunk].edges_free += static_cast<std::uint64_t>(std::popcount(bits));
     done[chunk].refused = refused_motions(query);  // one query a chunk

@@ -22,13 +22,13 @@
 
 #include "core/base/raw_vector.hpp"
 #include "core/base/solution.hpp"
-#include "core/base/world.hpp"
 #include "core/plane/cell_walls.hpp"
 #include "core/search/bidirectional_search.hpp"
 #include "core/search/graph.hpp"
 #include "core/search/search.hpp"
 #include "parallel/execution.hpp"
 #include "parallel/sort.hpp"
+#include "planners/graph/any_world.hpp"
 #include "planners/graph/assemble_graph.hpp"
 #include "planners/graph/roadmap_search.hpp"
 #include "planners/roadmap/connection.hpp"
@@ -37,13 +37,6 @@
 #include "spatial/points/neighbours.hpp"
 
 namespace warren {
-
-/// A world of the plane that knows which sides of unit cells no motion crosses.
-/// w.cell_sides(most_cells, execution)  nothing where that can't be said, or where the cells are more
-template <class W>
-concept CellSideWorld = World<W> && requires(const W& w, const Execution& execution) {
-  { w.cell_sides(std::size_t{}, execution) } -> std::same_as<CellSides>;
-};
 
 /// Which cells lead nowhere, and when a search need not look into them any more. A cell from which all ways to the ends
 /// of the question lead over one side, the way out, lies in a dead end: peeled cell by cell from its tip, so each cell
@@ -129,7 +122,7 @@ class LazyGraph {
 
   /// Leaves milestones of dead ends unexpanded where nothing depends on them. Radius rule, in the plane.
   void leave_out(const DeadEnds& dead_ends) {
-    if constexpr (CellSideWorld<W>) seals_.emplace(dead_ends, index_, rule_.radius, *execution_);
+    if constexpr (W::in_plane) seals_.emplace(dead_ends, index_, rule_.radius, *execution_);
   }
   /// Keeps the free edges that were used, for pictures.
   void record(std::vector<Edge>* edges) { recorded_ = edges; }
@@ -187,7 +180,7 @@ class LazyGraph {
       execution_->check();
     }
     clock_.lap(StagePart::queries);
-    std::uint32_t free = detail::free_motions(world_, wanted_.motions(), query_);
+    std::uint32_t free = world_.free_motions(wanted_.motions(), query_);
     clock_.lap(StagePart::checks);
     counters_.edges_checked += count;
     counters_.edges_free += static_cast<std::uint64_t>(std::popcount(free));
@@ -361,7 +354,7 @@ RawVector<VertexId> LazyPlan<W>::search_from_both_ends() {
 template <World W>
 DeadEnds LazyPlan<W>::find_dead_ends() const {
   constexpr double longest_motion = 2.0;
-  if constexpr (CellSideWorld<W>) {
+  if constexpr (W::in_plane) {
     if (rule_.neighbours != 0 || !(rule_.radius <= longest_motion)) return {};
     CellSides cells = world_.cell_sides(states_.size() / 2, execution_);
     if (cells.open.empty()) return {};
@@ -395,11 +388,11 @@ void LazyPlan<W>::finish(PlannedRoadmap<State>* keep) {
 
 /// Plans from start to goal. Never throws Stopped: a deadline or a memory limit gives Outcome::stopped. InputError for
 /// options out of range. `keep`, where given, receives milestones, free edges and search tree of the last round.
-template <World W>
-Solution<typename W::State> lazy_prm(const W& world, const typename W::State& start, const typename W::State& goal,
-                                     const RoadmapOptions& options, const Execution& execution,
-                                     PlannedRoadmap<typename W::State>* keep = nullptr) {
-  detail::LazyPlan<W> plan(world, start, goal, options, execution, keep != nullptr);
+template <class State>
+Solution<State> lazy_prm(const AnyWorld<State>& world, const State& start, const State& goal,
+                         const RoadmapOptions& options, const Execution& execution,
+                         PlannedRoadmap<State>* keep = nullptr) {
+  detail::LazyPlan<AnyWorld<State>> plan(world, start, goal, options, execution, keep != nullptr);
   return detail::plan_in_rounds(world, start, goal, options, execution, keep, plan);
 }
 

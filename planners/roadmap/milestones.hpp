@@ -15,8 +15,8 @@
 #include "core/base/error.hpp"
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
-#include "core/base/world.hpp"
 #include "parallel/chunks.hpp"
+#include "planners/graph/any_world.hpp"
 #include "planners/graph/roadmap_options.hpp"
 #include "planners/roadmap/sampler.hpp"
 #include "spatial/points/tile_order.hpp"
@@ -78,9 +78,7 @@ typename W::State sample_state(const W& world, const RoadmapOptions& options, st
     }
   }
   if (options.sampler == SamplerKind::halton) return world.at_unit(halton_point<W::dimension>(options.seed, index));
-  if constexpr (CorridorWorld<W>) {
-    if (options.sampler == SamplerKind::corridor) return world.corridor_state(options.seed, index);
-  }
+  if (options.sampler == SamplerKind::corridor) return world.corridor_state(options.seed, index);
   return uniform_state(world, options.seed, index);
 }
 
@@ -190,12 +188,16 @@ void LatticeBits::fill_rows(const W& world, Range rows, std::uint64_t count) {
   const std::span<std::uint64_t> words(&words_[rows.first * words_a_row_], rows.size() * words_a_row_);
   std::fill(words.begin(), words.end(), std::uint64_t{0});
   auto query = world.make_query();
+  std::array<Vec2, bunch_size> bunch;
   for (std::size_t row = rows.first; row < rows.last; ++row) {
     const std::uint64_t cols = cols_of(row, count);
     std::uint64_t* const its_words = &words_[row * words_a_row_];
-    for (std::uint64_t col = 0; col < cols; ++col) {
-      const Vec2 point{static_cast<double>(col + 1), static_cast<double>(row) + 1.0};
-      its_words[col / 64] |= std::uint64_t{world.is_free(point, query)} << (col % 64);
+    for (std::uint64_t col = 0; col < cols; col += bunch_size) {
+      const auto held = static_cast<std::size_t>(std::min<std::uint64_t>(bunch_size, cols - col));
+      for (std::size_t i = 0; i < held; ++i) {
+        bunch[i] = {static_cast<double>(col + i + 1), static_cast<double>(row) + 1.0};
+      }
+      its_words[col / 64] |= std::uint64_t{world.free_states({bunch.data(), held}, query)} << (col % 64);
     }
   }
 }
@@ -329,18 +331,6 @@ void for_each_sample(const W& world, const RoadmapOptions& options, Range range,
   for (std::size_t i = range.first; i < range.last; ++i) visit(sample_state(world, options, i, count));
 }
 
-/// Bit i is set if states[i] is free; at most bunch_size states.
-template <World W>
-std::uint32_t free_states(const W& world, std::span<const typename W::State> states, typename W::Query& query) {
-  std::uint32_t free = 0;
-  if constexpr (BunchWorld<W>) {
-    free = world.free_states(states, query);
-  } else {
-    for (std::size_t i = 0; i < states.size(); ++i) free |= std::uint32_t{world.is_free(states[i], query)} << i;
-  }
-  return free;
-}
-
 /// The free ones of a range of samples.
 template <World W>
 void append_free_samples(const W& world, const RoadmapOptions& options, Range range, std::uint64_t count,
@@ -349,7 +339,7 @@ void append_free_samples(const W& world, const RoadmapOptions& options, Range ra
   std::array<typename W::State, bunch_size> bunch;
   std::size_t held = 0;
   const auto flush = [&] {
-    std::uint32_t bits = free_states(world, std::span<const typename W::State>(bunch.data(), held), query);
+    std::uint32_t bits = world.free_states({bunch.data(), held}, query);
     for (; bits != 0; bits &= bits - 1) free.push_back(bunch[static_cast<std::size_t>(std::countr_zero(bits))]);
     held = 0;
   };
@@ -409,10 +399,10 @@ RawVector<typename W::State> in_tile_order(const W& world, const RawVector<typen
 }
 
 /// The middles of a map's cells, in tile order.
-template <CellWorld W>
+template <World W>
 RawVector<typename W::State> cell_centre_milestones(const W& world, const Execution& execution, std::size_t spare) {
   constexpr std::size_t rows = 32;
-  const auto& cells = world.milestone_cells();
+  const Bitmap& cells = *world.milestone_cells();
   std::vector<RawVector<typename W::State>> parts(chunk_count(cells.height(), rows));
   execution.reserve(cells.count() * sizeof(typename W::State));
   for_chunks(cells.height(), rows, execution, [&](Range r) {
@@ -444,11 +434,8 @@ RawVector<typename W::State> draw_milestones(const W& world, const RoadmapOption
       return lattice_milestones(world, options.lattice, count, execution, spare);
     }
   }
-  if constexpr (CellWorld<W>) {
-    if (options.sampler == SamplerKind::cell_centres) {
-      return detail::cell_centre_milestones(world, execution, spare);
-    }
-  }
+  if (options.sampler == SamplerKind::cell_centres && world.milestone_cells() != nullptr)
+    return detail::cell_centre_milestones(world, execution, spare);
   execution.reserve(count * sizeof(typename W::State));
   std::vector<RawVector<typename W::State>> parts(chunk_count(count, grain));
   for_chunks(count, grain, execution, [&](Range r) {

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "planners/graph/any_world.hpp"
 #include "planners/graph/queue_choice.hpp"
 #include "planners/graph/roadmap_search.hpp"
 #include "planners/roadmap/build_roadmap.hpp"
@@ -184,11 +185,11 @@ void OneWayPlan<W>::finish(PlannedRoadmap<State>* keep) {
 /// Plans from start to goal as prm does, or (lazy) as lazy_prm. `keep`, where
 /// given, receives the roadmap of the last round; its graph is directed: w is among the neighbours of v where the
 /// motion from v to w is free.
-template <World W>
-Solution<typename W::State> one_way_prm(const W& world, const typename W::State& start, const typename W::State& goal,
-                                        const RoadmapOptions& options, bool lazy, const Execution& execution,
-                                        PlannedRoadmap<typename W::State>* keep = nullptr) {
-  detail::OneWayPlan<W> plan(world, start, goal, options, lazy, execution, keep != nullptr);
+template <class State, bool one_way>
+Solution<State> one_way_prm(const AnyWorld<State, one_way>& world, const State& start, const State& goal,
+                            const RoadmapOptions& options, bool lazy, const Execution& execution,
+                            PlannedRoadmap<State>* keep = nullptr) {
+  detail::OneWayPlan<AnyWorld<State, one_way>> plan(world, start, goal, options, lazy, execution, keep != nullptr);
   return detail::plan_in_rounds(world, start, goal, options, execution, keep, plan);
 }
 

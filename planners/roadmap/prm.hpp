@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "planners/graph/any_world.hpp"
 #include "planners/graph/assemble_graph.hpp"
 #include "planners/graph/components.hpp"
 #include "planners/graph/roadmap_search.hpp"
@@ -128,11 +129,10 @@ void PrmPlan<W>::finish(PlannedRoadmap<State>* keep) {
 
 /// Plans from start to goal. Never throws Stopped: a deadline or a memory limit gives Outcome::stopped. InputError for
 /// options out of range. `keep`, where given, receives the roadmap of the last round.
-template <World W>
-Solution<typename W::State> prm(const W& world, const typename W::State& start, const typename W::State& goal,
-                                const RoadmapOptions& options, const Execution& execution,
-                                PlannedRoadmap<typename W::State>* keep = nullptr) {
-  detail::PrmPlan<W> plan(world, start, goal, options, execution, keep != nullptr);
+template <class State>
+Solution<State> prm(const AnyWorld<State>& world, const State& start, const State& goal, const RoadmapOptions& options,
+                    const Execution& execution, PlannedRoadmap<State>* keep = nullptr) {
+  detail::PrmPlan<AnyWorld<State>> plan(world, start, goal, options, execution, keep != nullptr);
   return detail::plan_in_rounds(world, start, goal, options, execution, keep, plan);
 }
 

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <numbers>
 
-#include "core/base/world.hpp"
 #include "parallel/execution.hpp"
+#include "planners/graph/any_world.hpp"
 #include "planners/graph/roadmap_options.hpp"
 
 namespace warren {
@@ -32,61 +32,24 @@ inline constexpr double first_growth = 2.0;
 /// until there are this many times the usual number: then the answer is not_connected.
 inline constexpr double growth_cap = 64.0;
 
-template <class W>
-concept SuggestsSamples = requires(const W& w, const Execution& execution) {
-  { w.suggested_samples(execution) } -> std::convertible_to<double>;
-};
-
-/// Area that the world's samples are drawn from, where it is plane; else 0.
-template <World W>
-double sampled_area(const W& world) {
-  if constexpr (requires {
-                  { world.sampled_area() } -> std::convertible_to<double>;
-                }) {
-    return world.sampled_area();
-  } else {
-    return 0.0;
-  }
-}
-
-/// Shorter side of the box that this area fills; else 0.
-template <World W>
-double sampled_breadth(const W& world) {
-  if constexpr (requires {
-                  { world.box().width() } -> std::convertible_to<double>;
-                  { world.sampled_area() } -> std::convertible_to<double>;
-                }) {
-    return std::min(world.box().width(), world.box().height());
-  } else {
-    return 0.0;
-  }
-}
-
 /// Samples that a round usually takes.
 template <World W>
 std::uint64_t usual_samples(const W& world, const RoadmapOptions& options, const Execution& execution) {
   if (options.sampler == SamplerKind::lattice) return std::uint64_t{options.lattice.rows} * options.lattice.cols;
-  if constexpr (CellWorld<W>) {
-    if (options.sampler == SamplerKind::cell_centres)
-      return std::max<std::uint64_t>(1, world.milestone_cells().count());
-  }
+  const Bitmap* cells = world.milestone_cells();
+  if (options.sampler == SamplerKind::cell_centres && cells != nullptr)
+    return std::max<std::uint64_t>(1, cells->count());
   if (options.samples) return *options.samples;
-  double suggested = 1000.0;
-  if constexpr (SuggestsSamples<W>) suggested = world.suggested_samples(execution);
+  const double suggested = world.suggested_samples(execution);
   return static_cast<std::uint64_t>(std::clamp(suggested, 64.0, static_cast<double>(most_samples)));
 }
 
-/// Samples of the first round: fewer in worlds where many questions are easy (w.first_samples(), >= 1).
+/// Samples of the first round: fewer in worlds where many questions are easy.
 template <World W>
 std::uint64_t first_samples(const W& world, const RoadmapOptions& options, const Execution& execution) {
   const std::uint64_t usual = usual_samples(world, options, execution);
   if (options.samples || takes_all_places(options.sampler)) return usual;
-  if constexpr (requires {
-                  { world.first_samples() } -> std::convertible_to<std::uint64_t>;
-                }) {
-    return std::min<std::uint64_t>(usual, world.first_samples());
-  }
-  return usual;
+  return std::min(usual, world.first_samples());
 }
 
 /// Samples of the round after one with `samples`; 0 when there is none.
@@ -114,43 +77,20 @@ inline ConnectionRule connection_rule(const RoadmapOptions& options, std::uint64
   return {std::max(std::sqrt(area / std::numbers::pi), strip), 0};
 }
 
-/// Volume of the space that samples are drawn from, in the world's metric; 0 where the world doesn't tell.
-template <World W>
-double sampled_volume(const W& world) {
-  if constexpr (requires {
-                  { world.sampled_volume() } -> std::convertible_to<double>;
-                }) {
-    return world.sampled_volume();
-  } else {
-    return sampled_area(world);
-  }
-}
-
-/// Dimensions of that space: fewer than the world's where some coordinates are always the same.
-template <World W>
-std::size_t sampled_dimension(const W& world) {
-  if constexpr (requires {
-                  { world.sampled_dimension() } -> std::convertible_to<std::size_t>;
-                }) {
-    return world.sampled_dimension();
-  } else {
-    return W::dimension;
-  }
-}
-
 /// k = e (1 + 1/d) ln n, or radius = 2 ((1 + 1/d) V / B ln n / n)^(1/d), with B the volume of the unit ball and V that
 /// of the sampled space, which is not less than the free one's. UsageError where the world doesn't tell V.
 ConnectionRule star_rule(StarRule rule, std::uint64_t samples, std::size_t dimension, double volume);
 
 template <World W>
 ConnectionRule connection_rule_for(const W& world, const RoadmapOptions& options, std::uint64_t samples) {
-  if constexpr (CellWorld<W>) {
-    const bool by_rule = !options.radius && !options.neighbours && options.star == StarRule::none;
-    if (options.sampler == SamplerKind::cell_centres && by_rule) return {world.milestone_reach(), 0, options.attach};
-  }
-  ConnectionRule rule = options.star == StarRule::none
-                            ? connection_rule(options, samples, sampled_area(world), sampled_breadth(world))
-                            : star_rule(options.star, samples, sampled_dimension(world), sampled_volume(world));
+  const bool by_rule = !options.radius && !options.neighbours && options.star == StarRule::none;
+  if (options.sampler == SamplerKind::cell_centres && by_rule && world.milestone_cells() != nullptr)
+    return {world.milestone_reach(), 0, options.attach};
+  const Box box = world.box();
+  ConnectionRule rule =
+      options.star == StarRule::none
+          ? connection_rule(options, samples, world.sampled_area(), std::min(box.width(), box.height()))
+          : star_rule(options.star, samples, world.sampled_dimension(), world.sampled_volume());
   rule.attach = options.attach;
   return rule;
 }

@@ -146,9 +146,7 @@ typename W::State target_state(const W& world, SamplerKind kind, std::uint64_t s
     if (const auto state = obstacle_sample(world, kind, seed, index, query)) return *state;
   }
   if (kind == SamplerKind::halton) return world.at_unit(halton_point<W::dimension>(seed, index));
-  if constexpr (CorridorWorld<W>) {
-    if (kind == SamplerKind::corridor) return world.corridor_state(seed, index);
-  }
+  if (kind == SamplerKind::corridor) return world.corridor_state(seed, index);
   return uniform_state(world, seed, index);
 }
 

@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <span>
+#include <type_traits>
 #include <vector>
 
+#include "planners/graph/any_world.hpp"
 #include "planners/graph/no_path.hpp"
 #include "planners/trees/motion_tree.hpp"
 
@@ -108,11 +110,11 @@ void RrtSearch<W>::finish(Solution<State>& solution, PlannedRoadmap<State>* keep
 }  // namespace detail
 
 /// Plans from start to one of the goals (at least one); as rrt_connect, with one tree and `goal_bias`.
-template <SteerableWorld W>
-Solution<typename W::State> rrt(const W& world, const typename W::State& start,
-                                std::span<const typename W::State> goals, const RrtOptions& options,
-                                const Execution& execution, PlannedRoadmap<typename W::State>* keep = nullptr) {
-  return detail::race_trees<detail::RrtSearch<W>>(world, start, goals, options, execution, keep);
+template <class State, bool one_way>
+Solution<State> rrt(const AnyWorld<State, one_way>& world, const State& start,
+                    std::span<const std::type_identity_t<State>> goals, const RrtOptions& options,
+                    const Execution& execution, PlannedRoadmap<State>* keep = nullptr) {
+  return detail::race_trees<detail::RrtSearch<AnyWorld<State, one_way>>>(world, start, goals, options, execution, keep);
 }
 
 }  // namespace warren

@@ -2,7 +2,7 @@
 // RRT-Connect (Kuffner, LaValle, ICRA 2000): a tree from the start and one from the goals. In turns, one grows a step
 // towards a sample, the other as far as it gets towards the new state; where it arrives, the trees are joined.
 // There may be many goals (a heading that doesn't matter, several inverse-kinematics branches): each is a root.
-// Where a world knows roughly which places are free at the heading of the start or the goal (PlaceWorld), a way over
+// Where a world knows roughly which places are free at the heading of the start or the goal (AnyWorld::has_places), a way over
 // these is tried before anything is drawn: it needs a dozen motion checks instead of some hundred. It is the same for
 // all seeds; what it finds of motions stays in the trees.
 // Cost a step: a neighbour query, O(log^2 n), and a few motion checks, which dominate. Not asymptotically optimal:
@@ -15,7 +15,9 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <type_traits>
 
+#include "planners/graph/any_world.hpp"
 #include "planners/graph/no_path.hpp"
 #include "planners/trees/motion_tree.hpp"
 #include "planners/trees/way_over_places.hpp"
@@ -163,14 +165,12 @@ VertexId RrtConnectSearch<W>::try_places(std::size_t side, VertexId root, const 
 /// Before anything is drawn: first at the heading of the start, then at that of the goal next to it.
 template <SteerableWorld W>
 void RrtConnectSearch<W>::try_places(const Execution& execution) {
-  if constexpr (PlaceWorld<W>) {
-    if (!options_->places || options_->sampler || gave_up()) return;
-    const VertexId goal = try_places(0, 0, execution);
-    const State& from = trees_[0].state(0);
-    const State& to = trees_[1].state(goal);
-    const bool is_turned = !(world_->shifted(from, world_->place_of(to)) == to);
-    if (!arrived_ && is_turned) try_places(1, goal, execution);
-  }
+  if (!world_->has_places() || !options_->places || options_->sampler || gave_up()) return;
+  const VertexId goal = try_places(0, 0, execution);
+  const State& from = trees_[0].state(0);
+  const State& to = trees_[1].state(goal);
+  const bool is_turned = !(world_->shifted(from, world_->place_of(to)) == to);
+  if (!arrived_ && is_turned) try_places(1, goal, execution);
 }
 
 /// The least that is left from a state of a tree to the other end.
@@ -241,11 +241,12 @@ void RrtConnectSearch<W>::finish(Solution<State>& solution, PlannedRoadmap<State
 /// InputError for options out of range. goal_blocked: none of the goals is free. not_connected: every pair of trees
 /// reached its number of nodes; the separation is the first one's. `keep`, where given, receives the trees that
 /// answered. The same for any number of threads.
-template <SteerableWorld W>
-Solution<typename W::State> rrt_connect(const W& world, const typename W::State& start,
-                                        std::span<const typename W::State> goals, const RrtOptions& options,
-                                        const Execution& execution, PlannedRoadmap<typename W::State>* keep = nullptr) {
-  return detail::race_trees<detail::RrtConnectSearch<W>>(world, start, goals, options, execution, keep);
+template <class State, bool one_way>
+Solution<State> rrt_connect(const AnyWorld<State, one_way>& world, const State& start,
+                            std::span<const std::type_identity_t<State>> goals, const RrtOptions& options,
+                            const Execution& execution, PlannedRoadmap<State>* keep = nullptr) {
+  return detail::race_trees<detail::RrtConnectSearch<AnyWorld<State, one_way>>>(world, start, goals, options, execution,
+                                                                                keep);
 }
 
 }  // namespace warren

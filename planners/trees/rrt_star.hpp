@@ -144,7 +144,7 @@ class RrtStarTree {
   const MotionTree<W>& tree() const { return tree_; }
 
  private:
-  static constexpr bool one_way = requires { requires W::one_way; };
+  static constexpr bool one_way = is_one_way<W>;
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr double noise = 1e-9;  // share of a cost that rounding may feign: no gain
 
@@ -240,7 +240,7 @@ auto RrtStarTree<W>::next_target(double best, const Guide& guide) -> std::option
 /// The neighbours of a state, unordered.
 template <SteerableWorld W>
 void RrtStarTree<W>::find_near(const State& state) {
-  const std::size_t k = star_rule(StarRule::neighbours, tree_.size(), sampled_dimension(*world_), 0.0).neighbours;
+  const std::size_t k = star_rule(StarRule::neighbours, tree_.size(), world_->sampled_dimension(), 0.0).neighbours;
   tree_.nearest(state, k, found_, counters_);
   near_.clear();
   for (const Neighbour& n : found_) {

@@ -298,10 +298,10 @@ void NearPieces::open(std::span<const PlaceRange> ranges) {
   sight_.fill(0.0);
   for (const PlaceRange& r : ranges) {
     const double end = r.last >= r.first ? r.last : r.last + 4.0;
-    if (end - r.first >= 4.0 - 2.0 / scale) return sight_.fill(open_sight);
+    if (end - r.first >= 4.0 - 2.0 / scale && r.reach == open_sight) return sight_.fill(open_sight);
     const auto first = static_cast<std::size_t>((r.first + 4.0 - margin) * scale);
     const auto last = static_cast<std::size_t>((end + 4.0 + margin) * scale);
-    for (std::size_t i = first; i <= last; ++i) sight_[i % directions] = open_sight;
+    for (std::size_t i = first; i <= last; ++i) sight_[i % directions] = std::max(sight_[i % directions], r.reach);
   }
 }
 

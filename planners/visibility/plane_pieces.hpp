@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -94,10 +95,11 @@ class PlanePieces {
 /// tangent. d is not zero.
 double direction_place(Vec2 d);
 
-/// Directions from `first` anticlockwise to `last`, by direction_place.
+/// Directions from `first` anticlockwise to `last`, by direction_place, and how far one looks there at most.
 struct PlaceRange {
   double first;
   double last;
+  double reach = std::numeric_limits<double>::infinity();
 };
 inline constexpr PlaceRange all_round{0.0, 4.0};
 

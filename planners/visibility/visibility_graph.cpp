@@ -26,6 +26,12 @@ PlaceRange range_of(Vec2 at, const Sector& sector) {
   return apart < doubt || apart > 4.0 - doubt ? all_round : range;
 }
 
+SightLines lines_of(VisibilityEdges edges) {
+  return edges == VisibilityEdges::full    ? SightLines::all
+         : edges == VisibilityEdges::discs ? SightLines::reflex
+                                           : SightLines::tangent;
+}
+
 /// Of some vertices in a row: the neighbours above each.
 struct Rows {
   RawVector<VertexId> targets;
@@ -178,7 +184,8 @@ void CornerSight::arrive(Vec2 eye, PointId p, Lanes lanes, SightLines which, std
       const bool right = (lanes & right_lane) != 0 && (back & left_lane) != 0;
       if (!left && !right) continue;
     }
-    if (which == SightLines::tangent && !(corners_.is_reflex(v) && is_tangent(at, sector, eye))) continue;
+    if (which != SightLines::all && !corners_.is_reflex(v)) continue;
+    if (which == SightLines::tangent && !is_tangent(at, sector, eye)) continue;
     seen.push_back(v);
   }
 }
@@ -200,7 +207,7 @@ void CornerSight::look(Vec2 eye, RotationalSweep::Turn how_far, std::span<const 
 void CornerSight::above_vertex(VertexId v, SightLines which, std::vector<VertexId>& seen) {
   seen.clear();
   const bool tangent = which == SightLines::tangent;
-  if (tangent && !corners_.is_reflex(v)) return;
+  if (which != SightLines::all && !corners_.is_reflex(v)) return;
   const Vec2 eye = corners_.position(v);
   const Sector sector = corners_.sector(v);
   const PlaceRange all = range_of(eye, sector);
@@ -215,6 +222,25 @@ void CornerSight::above_vertex(VertexId v, SightLines which, std::vector<VertexI
     return tangent && lanes != no_lane && !is_tangent(eye, sector, q) ? no_lane : lanes;
   };
   look(eye, RotationalSweep::Turn::upper_half, ranges, which, std::nullopt, departure, seen);
+  std::sort(seen.begin(), seen.end());
+}
+
+void CornerSight::within_ranges(VertexId v, std::span<const PlaceRange> ranges, std::optional<Vec2> extra,
+                                std::vector<VertexId>& seen) {
+  constexpr double doubt = 1e-9;
+  seen.clear();
+  const Vec2 eye = corners_.position(v);
+  const Sector sector = corners_.sector(v);
+  const auto departure = [&](Vec2 q) {  // elsewhere nothing was looked at
+    const double place = direction_place(q - eye);
+    const bool looked = std::any_of(ranges.begin(), ranges.end(), [&](const PlaceRange& r) {
+      const double width = r.last - r.first + (r.last < r.first ? 4.0 : 0.0);
+      const double on = place - r.first;
+      return (on < -doubt ? on + 4.0 : on) <= width + doubt;
+    });
+    return looked ? lanes_in_sector(eye, sector, q) : no_lane;
+  };
+  look(eye, RotationalSweep::Turn::whole, ranges, SightLines::reflex, extra, departure, seen);
   std::sort(seen.begin(), seen.end());
 }
 
@@ -254,10 +280,7 @@ void CornerSight::from_point(Vec2 p, SightLines which, std::optional<Vec2> extra
 }
 
 VisibilityGraph::VisibilityGraph(const VisibleCorners& corners, Graph graph, VisibilityEdges edges)
-    : corners_(corners),
-      which_(edges == VisibilityEdges::full ? SightLines::all : SightLines::tangent),
-      positions_(corners.size()),
-      graph_(std::move(graph)) {
+    : corners_(corners), which_(lines_of(edges)), positions_(corners.size()), graph_(std::move(graph)) {
   for (VertexId v = 0; v < positions_.size(); ++v) positions_[v] = corners.position(v);
 }
 

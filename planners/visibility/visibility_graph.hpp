@@ -4,6 +4,7 @@
 // corner's by a rotational sweep over what can be seen from it; corners are spread over the cores.
 //   reduced   tangent edges at convex corners only (Rohnert 1986; Liu, Arimoto 1992): enough for shortest paths
 //   full      all visible edges, sides of polygons included
+//   discs     those between corners that a disc goes around
 // Time O(n (s + k log k)) where a look meets k of the n pieces in s cells, so at worst O(n^2 log n), where everything
 // sees everything; with crossing obstacles O(k * pieces crossed) a look. Memory: 4 bytes an edge end, lengths
 // are computed as they are needed, and 150 bytes a corner. Start and goal are linked by a sweep each and
@@ -71,8 +72,8 @@ class VisibleCorners {
   std::vector<std::uint8_t> reflex_;  // one a point: has it a reflex one?
 };
 
-/// Which neighbours count.
-enum class SightLines : std::uint8_t { all, tangent };
+/// Which neighbours count: all, those with a sector wider than half a turn, or of these those that are tangent.
+enum class SightLines : std::uint8_t { all, reflex, tangent };
 
 /// Looks from vertices and from other points; scratch of one thread. The corners and the execution must outlive it.
 /// Throws Stopped.
@@ -86,6 +87,10 @@ class CornerSight {
   /// Replaces `seen` by half of the neighbours of v, ascending: those above it and, at its height, on its right. So of
   /// each pair of neighbours one sees the other.
   void above_vertex(VertexId v, SightLines which, std::vector<VertexId>& seen);
+  /// The neighbours of v with a sector wider than half a turn that lie in the ranges, and beyond their reach some that
+  /// are none; ascending, `target` last. v has such a sector, too. extra: one more target.
+  void within_ranges(VertexId v, std::span<const PlaceRange> ranges, std::optional<Vec2> extra,
+                     std::vector<VertexId>& seen);
   /// The tangent neighbours of v to which a way that came straight from `from` may bend and still be taut, ascending,
   /// `target` last. extra: one more target.
   void taut_from_vertex(VertexId v, Vec2 from, std::optional<Vec2> extra, std::vector<VertexId>& seen);
@@ -104,7 +109,9 @@ class CornerSight {
   RotationalSweep sweep_;
 };
 
-enum class VisibilityEdges : std::uint8_t { reduced, full };
+/// Which edges a graph has: those that a point's shortest paths take, all, or those that a disc's could follow
+/// (SightLines::tangent, all, reflex).
+enum class VisibilityEdges : std::uint8_t { reduced, full, discs };
 
 /// What start and goal see: vertices of the graph, ascending.
 struct VisibilityLinks {

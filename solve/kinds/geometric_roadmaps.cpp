@@ -44,10 +44,19 @@ RoadmapArrays free_arrays(const At& at, Graph graph, const Execution& execution)
   return arrays;
 }
 
-RoadmapArrays arrays_of(const VisibilityRoadmap& known, const SolveRequest& request) {
+/// Known: VisibilityRoadmap or DiscRoadmap.
+template <class Known>
+RoadmapArrays arrays_of_sight(const Known& known, const SolveRequest& request) {
   request.execution.reserve(known.graph.graph().targets().size() * sizeof(VertexId));
   const auto at = [&](VertexId v) { return known.graph.positions()[v]; };
   return free_arrays(at, known.graph.graph(), request.execution);
+}
+
+RoadmapArrays arrays_of(const VisibilityRoadmap& known, const SolveRequest& request) {
+  return arrays_of_sight(known, request);
+}
+RoadmapArrays arrays_of(const DiscRoadmap& known, const SolveRequest& request) {
+  return arrays_of_sight(known, request);
 }
 
 /// Doors, of which those of one cell are joined, but for the shut ones.
@@ -111,6 +120,8 @@ void make(std::optional<Known>& known, const SolveRequest& request) {
     without_clashes(request, [&] {
       if constexpr (std::is_same_v<Known, VisibilityRoadmap>) {
         known.emplace(obstacles, edges_of(request), execution);
+      } else if constexpr (std::is_same_v<Known, DiscRoadmap>) {
+        known.emplace(obstacles, execution);
       } else {
         known.emplace(std::move(obstacles), execution);
       }
@@ -139,19 +150,34 @@ std::unique_ptr<RoadmapSession> open(const SolveRequest& request, const RoadmapA
 }
 
 /// The file's edges; its states are the world's corners.
-std::unique_ptr<RoadmapSession> open_large_visibility(const SolveRequest& request, const RoadmapArrays& arrays) {
-  auto session = std::make_unique<GeometricSession<VisibilityRoadmap>>(arrays);
-  check<VisibilityRoadmap>(request);
+template <class Known>
+std::unique_ptr<RoadmapSession> open_large_sight(const SolveRequest& request, const RoadmapArrays& arrays) {
+  auto session = std::make_unique<GeometricSession<Known>>(arrays);
+  check<Known>(request);
   const Execution& execution = request.execution;
   execution.reserve(arrays.candidates.targets().size() * sizeof(VertexId));
-  session->known.emplace(plane_obstacles(request.scene, execution), edges_of(request), arrays.candidates, execution);
+  const PlaneObstacles obstacles = plane_obstacles(request.scene, execution);
+  if constexpr (std::is_same_v<Known, DiscRoadmap>) {
+    session->known.emplace(obstacles, arrays.candidates, execution);
+  } else {
+    session->known.emplace(obstacles, edges_of(request), arrays.candidates, execution);
+  }
   const auto at = [&](VertexId v) { return session->known->graph.positions()[v]; };
-  if (session->known->corners.size() != arrays.candidates.vertex_count() ||
+  if (session->known->graph.size() != arrays.candidates.vertex_count() ||
       !same(arrays, free_arrays(at, arrays.candidates, execution))) {
     refuse_arrays(request);
   }
   return session;
 }
+
+template <class Known>
+std::unique_ptr<RoadmapSession> open_sight(const SolveRequest& request, const RoadmapArrays& arrays) {
+  const bool large = arrays.candidates.vertex_count() > most_corners_made_anew;
+  return large ? open_large_sight<Known>(request, arrays) : open<Known>(request, arrays);
+}
+
+/// Is the roadmap for what keeps a distance from its obstacles?
+bool is_for_discs(const SolveRequest& request) { return touching_problem(request).reach() > 0.0; }
 
 template <class Known>
 RoadmapArrays built(const SolveRequest& request) {
@@ -165,7 +191,7 @@ RoadmapArrays built(const SolveRequest& request) {
 BuiltArrays build_geometric(const SolveRequest& request) {
   BuiltArrays all;
   if (request.planner == PlannerKind::visibility) {
-    all.arrays = built<VisibilityRoadmap>(request);
+    all.arrays = is_for_discs(request) ? built<DiscRoadmap>(request) : built<VisibilityRoadmap>(request);
   } else if (request.planner == PlannerKind::cells) {
     all.arrays = built<CellRoadmap>(request);
   } else if (request.scene.map) {
@@ -183,8 +209,8 @@ std::unique_ptr<RoadmapSession> open_geometric(const SolveRequest& request, cons
     if (request.planner == PlannerKind::voronoi) {
       return request.scene.map ? open<SkeletonRoadmap>(request, arrays) : open<AxisRoadmap>(request, arrays);
     }
-    const bool large = arrays.candidates.vertex_count() > most_corners_made_anew;
-    return large ? open_large_visibility(request, arrays) : open<VisibilityRoadmap>(request, arrays);
+    return is_for_discs(request) ? open_sight<DiscRoadmap>(request, arrays)
+                                 : open_sight<VisibilityRoadmap>(request, arrays);
   };
   std::unique_ptr<RoadmapSession> session = opened();
   if (request.many && !request.scene.map) session->judged.emplace(request.scene, request.execution);

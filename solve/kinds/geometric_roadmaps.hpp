@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Kept roadmaps of the planners that draw no samples: visibility (corners and who sees whom), cells (the middles of
+// Kept roadmaps of the planners that draw no samples: visibility (corners and who sees whom; for what keeps a distance
+// those that it can go around), cells (the middles of
 // doors, and those of one cell joined), voronoi (the medial axis as straight lines; on maps the skeleton's). A question
 // needs more than such a graph: that is made anew from the world when the roadmap is opened, and a file whose graph is
 // not the one that follows from its world is refused. Only the edges of a visibility graph of more than 1000 corners,
@@ -13,6 +14,7 @@
 #include "planners/axis/medial_axis_planner.hpp"
 #include "planners/grid/skeleton_planner.hpp"
 #include "planners/vertical_cells/cell_planner.hpp"
+#include "planners/visibility/disc_ground.hpp"
 #include "planners/visibility/visibility_path.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 
@@ -23,7 +25,7 @@ BuiltArrays build_geometric(const SolveRequest& request);
 std::unique_ptr<RoadmapSession> open_geometric(const SolveRequest& request, const RoadmapArrays& arrays,
                                                const ConnectionRule& rule);
 
-/// Known: VisibilityRoadmap, CellRoadmap, AxisRoadmap or SkeletonRoadmap. Refers to the arrays.
+/// Known: VisibilityRoadmap, DiscRoadmap, CellRoadmap, AxisRoadmap or SkeletonRoadmap. Refers to the arrays.
 template <class Known>
 struct GeometricSession : RoadmapSession {
   explicit GeometricSession(const RoadmapArrays& of) : arrays(of) {}

@@ -52,7 +52,8 @@ struct RoadmapSession {
 template <World W>
 struct SessionIn : RoadmapSession {
   std::optional<W> world;
-  std::optional<AskedRoadmap<W>> roadmap;
+  std::optional<WorldView<W>> view;
+  std::optional<AskedRoadmap<AnyWorldOf<W>>> roadmap;
   std::span<const std::uint64_t> edge_states() const override { return roadmap->edge_states(); }
   double distance(VertexId from, VertexId to) const override {
     return world->distance(roadmap->states()[from], roadmap->states()[to]);

@@ -8,6 +8,7 @@
 #include "core/base/solution.hpp"
 #include "core/plane/polygon.hpp"
 #include "core/plane/se2.hpp"
+#include "planners/visibility/disc_path.hpp"
 #include "planners/visibility/visibility_path.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "solve/kinds/map_steps.hpp"
@@ -63,9 +64,13 @@ std::optional<PlaneObstacles> bounding_obstacles(const Scene& scene, Vec2 start,
 }
 
 /// The shortest way of a disc's middle, rounded down; nothing where it isn't found. A point may touch what it goes
-/// around, so that its way is not longer than any that keeps off; a disc is taken for its middle.
-std::optional<double> shortest_way(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, double /*radius*/,
+/// around, so that its way is not longer than any that keeps off.
+std::optional<double> shortest_way(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, double radius,
                                    const Execution& execution) {
+  if (radius > 0.0) {
+    const double length = shortest_disc_path(obstacles, start, goal, radius, execution).lower_bound;
+    return std::isfinite(length) ? std::optional(length) : std::nullopt;
+  }
   const VisibilityOptions options{.lazy = true};
   const Solution<Vec2> found = confined_visibility_path(obstacles, start, goal, options, execution);
   if (found.outcome != Outcome::solved) return std::nullopt;
@@ -85,7 +90,9 @@ double least_way(const Scene& scene, const Problem& problem, BoundEffort effort,
   try {
     const std::optional<PlaneObstacles> obstacles = bounding_obstacles(scene, start, quiet);
     if (!obstacles) return straight;
-    return std::max(straight, shortest_way(*obstacles, start, goal, *radius, quiet).value_or(0.0));
+    // A disc may go around a map's outermost cells, as far from them as the map is wide: there its middle counts alone.
+    const double kept = scene.map ? 0.0 : *radius;
+    return std::max(straight, shortest_way(*obstacles, start, goal, kept, quiet).value_or(0.0));
   } catch (const Stopped&) {
     return straight;
   } catch (const std::bad_alloc&) {
@@ -155,9 +162,10 @@ void tell_bound(Answer& answer, const Scene& scene, const SolveOptions& options,
   if (options.bound && !is_told(answer, name_of(Option::bound))) answer.options.push_back({"bound", true});
   if (!answer.verified || !options.trees.via.empty()) return;
   const double cost = answer.cost.value_or(answer.length);
-  if (answer.optimal) {
+  if (answer.lower_bound) {  // the planner's own
+  } else if (answer.optimal) {
     answer.lower_bound = below_rounding(cost, answer.roadmap.milestones);
-  } else if (!answer.lower_bound) {
+  } else {
     const bool in_metric = gets_better(enum_named<PlannerKind>(answer.planner).value_or(PlannerKind::prm));
     if (answer.cost && !in_metric) return;
     const bool exact = options.bound || options.anytime.gap;
@@ -168,7 +176,7 @@ void tell_bound(Answer& answer, const Scene& scene, const SolveOptions& options,
                                       exact ? BoundEffort::exact : BoundEffort::simple, execution);
   }
   constexpr double rounding = 1e-9;
-  answer.optimal = cost - *answer.lower_bound <= rounding * cost;
+  answer.optimal |= cost - *answer.lower_bound <= rounding * cost;
 }
 
 }  // namespace warren

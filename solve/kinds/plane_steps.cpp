@@ -18,6 +18,20 @@ std::string obstacle_text(const Scene& scene, std::size_t number) {
   return line > 0 ? fmt::format("the polygon of line {}", line) : fmt::format("polygon {}", number);
 }
 
+/// Of the planner visibility, where it plans for what keeps a distance.
+void refuse_points_options(const SolveOptions& options) {
+  const bool other_search = options.search && *options.search != SearchMethod::astar;
+  const std::string_view option = options.visibility.full            ? "full"
+                                  : options.visibility.sampled_edges ? "sampled_edges"
+                                  : options.visibility.lazy          ? "lazy"
+                                  : options.queue                    ? "queue"
+                                  : other_search                     ? "search"
+                                                                     : "";
+  if (option.empty()) return;
+  throw UsageError(fmt::format(
+      "@{}: visibility would ignore it for a disc or a clearance, whose tangents it draws as A* needs them", option));
+}
+
 }  // namespace
 
 WallProblem touching_problem(const SolveRequest& request) {
@@ -30,16 +44,23 @@ WallProblem touching_problem(const SolveRequest& request) {
   }
   const WallProblem problem = wall_problem(request.scene, request.question, Contact::allowed);
   if (problem.reach() > 0.0) {
-    throw UsageError(fmt::format(
-        "@planner: {} plans for a point, which may touch obstacles; a disc or a clearance of {} needs prm, lazy-prm "
-        "or voronoi, or @clearance 0 and @robot point",
-        planner, problem.reach()));
+    if (request.planner == PlannerKind::visibility) return refuse_points_options(request.options), problem;
+    throw UsageError(
+        fmt::format("@planner: {} plans for a point, which may touch obstacles; a disc or a clearance of {} needs "
+                    "visibility, prm, lazy-prm or voronoi, or @clearance 0 and @robot point",
+                    planner, problem.reach()));
   }
   if (problem.contact == Contact::blocked) {
     throw UsageError(
         fmt::format("@contact: paths of {} may touch obstacles; prm, lazy-prm and voronoi keep off them", planner));
   }
   return problem;
+}
+
+std::size_t corner_count(const Scene& scene) {
+  std::size_t corners = 2 * scene.walls.size();
+  for (const ScenePolygon& polygon : scene.polygons) corners += polygon.corners.size();
+  return corners;
 }
 
 bool stand_on_seams(const SolveRequest& request, const WallProblem& problem, Answer& answer) {
@@ -78,8 +99,8 @@ void without_clashes(const SolveRequest& request, const std::function<void()>& p
     const bool polygon = clash.obstacle() < scene.polygons.size();
     throw InputError(
         polygon ? place_of_polygon(scene, clash.obstacle()) : scene.source,
-        fmt::format("{} takes obstacles that lie apart or touch, but {} and {} cross or overlap; prm and lazy-prm take "
-                    "them, and visibility for a point",
+        fmt::format("{} takes obstacles that lie apart or touch, but {} and {} cross or overlap; prm, lazy-prm and "
+                    "visibility take them",
                     name_of(request.planner), obstacle_text(scene, clash.obstacle()),
                     obstacle_text(scene, clash.other())));
   }

@@ -21,9 +21,12 @@ namespace warren {
 Answer solve_by_visibility(const SolveRequest& request);
 Answer solve_on_medial_axis(const SolveRequest& request);
 
-/// The problem of a planner that plans for a point which may touch obstacles. Throws UsageError for bodies and
-/// clearances that it can't keep, and where contact is to be blocked.
+/// The problem of a planner that plans for a point which may touch obstacles, of visibility also for what keeps a
+/// distance. Throws UsageError for bodies and clearances that it can't keep, and where contact is to be blocked.
 WallProblem touching_problem(const SolveRequest& request);
+
+/// Corners of polygons and ends of walls, as the file has them.
+std::size_t corner_count(const Scene& scene);
 
 /// Does start or goal stand on a seam, strictly inside of a polygon that was cut there? Says so in the answer.
 bool stand_on_seams(const SolveRequest& request, const WallProblem& problem, Answer& answer);

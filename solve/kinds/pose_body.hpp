@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "planners/shorten/shortcut.hpp"
 #include "solve/kinds/map_steps.hpp"
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/sampled_solve.hpp"
@@ -87,7 +86,7 @@ class PoseBody : public UsualBody {
   const PoseProblem& question() const { return problem_; }
   template <class World, class Length>
   Path<Se2> shortcut(const World& world, Path<Se2> path, const Length& length, Answer& answer) const {
-    return shortcut_path(world, std::move(path), length, {.seed = answer.seed}, execution_, answer.counters);
+    return shorter_path(world, std::move(path), length, {.seed = answer.seed}, execution_, answer.counters);
   }
 
  private:

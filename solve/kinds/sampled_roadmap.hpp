@@ -266,8 +266,7 @@ template <World W>
 Hierarchy hierarchy_of(const W& world, const BuiltRoadmap<typename W::State>& built, SamplerKind sampler,
                        const Execution& execution) {
   const bool in_pattern = takes_all_places(sampler) || sampler == SamplerKind::halton;
-  if constexpr (edge_directions<W>() == EdgeDirections::one) return {};
-  if (in_pattern || built.states.size() < fewest_contracted_states) return {};
+  if (is_one_way<W> || in_pattern || built.states.size() < fewest_contracted_states) return {};
   const auto length = [&](VertexId v, VertexId w) { return world.distance(built.states[v], built.states[w]); };
   const Graph free = free_part_with_lengths(built.candidates, built.edge_states, VertexDistance(length), execution);
   return contract(free, execution).value_or(Hierarchy{});
@@ -291,7 +290,7 @@ BuiltArrays build_sampled(const SolveRequest& request) {
   }
   const bool lazy = request.planner == PlannerKind::lazy_prm;
   const auto known = detail::known_motions(*world, request, body.problem());
-  BuiltRoadmap<State> built = build_roadmap(*world, options, lazy, execution, known);
+  BuiltRoadmap<State> built = build_roadmap(WorldView(*world), options, lazy, execution, known);
   all.samples = built.samples;
   all.rule = built.rule;
   all.account.counters = built.counters;
@@ -304,7 +303,7 @@ BuiltArrays build_sampled(const SolveRequest& request) {
     arrays.hierarchy = detail::hierarchy_of(*world, built, options.sampler, execution);
   }
   arrays.dimension = detail::state_width<State>();
-  arrays.directed = edge_directions<World>() == EdgeDirections::one;
+  arrays.directed = is_one_way<World>;
   execution.reserve(built.states.size() * arrays.dimension * sizeof(double));
   arrays.states.reserve(built.states.size() * arrays.dimension);
   for (const State& state : built.states) {
@@ -323,14 +322,15 @@ std::unique_ptr<RoadmapSession> open_sampled(const SolveRequest& request, const 
   using World = typename Body::World;
   using State = typename World::State;
   constexpr unsigned width = detail::state_width<State>();
-  if (arrays.dimension != width || arrays.directed != (edge_directions<World>() == EdgeDirections::one)) {
+  if (arrays.dimension != width || arrays.directed != is_one_way<World>) {
     throw InputError("roadmap", "its states are none of the body that it says it is for");
   }
   const Body body(request);
   const RoadmapOptions options = detail::roadmap_options_of(request, body);
   auto session = std::make_unique<SessionIn<World>>();
   body.index(session->world, options.sampler);
-  if (!(connection_rule_for(*session->world, options, request.samples) == rule)) {
+  session->view.emplace(*session->world);
+  if (!(connection_rule_for(*session->view, options, request.samples) == rule)) {
     throw InputError("roadmap", "its rule is not the one that follows from its options");
   }
   detail::check_drawn(*session->world, request, body.problem(), arrays.states);
@@ -346,7 +346,7 @@ std::unique_ptr<RoadmapSession> open_sampled(const SolveRequest& request, const 
   }
   const bool lazy = request.planner == PlannerKind::lazy_prm;
   const bool has_index = !arrays.hierarchy.empty() && !lazy && !arrays.directed;
-  session->roadmap.emplace(*session->world, std::move(states), arrays.candidates, arrays.edge_states, rule, lazy,
+  session->roadmap.emplace(*session->view, std::move(states), arrays.candidates, arrays.edge_states, rule, lazy,
                            request.execution, has_index ? &arrays.hierarchy : nullptr);
   return session;
 }

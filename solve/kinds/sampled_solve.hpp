@@ -71,7 +71,7 @@ struct UsualBody {
                                               Counters& counters) {
     using State = typename World::State;
     const auto cost = [&](const State& a, const State& b) { return world.distance(a, b); };
-    return improve_path(world, path, cost, how, execution, counters);
+    return improved_path(world, path, cost, how, execution, counters);
   }
   static std::uint64_t goals_tried() { return 0; }
   static bool knows_all_goals() { return true; }
@@ -167,6 +167,7 @@ class SampledSolve {
       body_.index(own_world_, roadmap_options_.sampler);
       world_ = &*own_world_;
     }
+    view_.emplace(*world_);
     goals_ = body_.goals(*world_);
   }
   /// What grows until start and goal connect, where they never can: a roadmap for one round and trees for a few nodes.
@@ -179,7 +180,7 @@ class SampledSolve {
     if (!body_.provably_apart(*world_, goals_)) return;
     apart_ = true;
     if (by_roadmap()) {
-      roadmap_options_.samples = first_samples(*world_, roadmap_options_, execution());
+      roadmap_options_.samples = first_samples(*view_, roadmap_options_, execution());
     } else {
       tree_options_.nodes = nodes_where_apart;
     }
@@ -202,11 +203,11 @@ class SampledSolve {
     if (asked_ != nullptr) {
       return ask_roadmap(*asked_, body_.start(), goal, roadmap_options_, execution(), *request_.asked.scratch, kept());
     }
-    if constexpr (requires { requires World::one_way; }) {
-      return one_way_prm(*world_, body_.start(), goal, roadmap_options_, lazy, execution(), kept());
+    if constexpr (is_one_way<World>) {
+      return one_way_prm<State>(*view_, body_.start(), goal, roadmap_options_, lazy, execution(), kept());
     } else {
-      const auto planner = lazy ? lazy_prm<World> : prm<World>;
-      return planner(*world_, body_.start(), goal, roadmap_options_, execution(), kept());
+      const auto planner = lazy ? lazy_prm<State> : prm<State>;
+      return planner(*view_, body_.start(), goal, roadmap_options_, execution(), kept());
     }
   }
   AnytimeOptions better_options() const {
@@ -295,8 +296,7 @@ class SampledSolve {
     }
     AnytimeOptions options = better_options();
     options.lower_bound = bound(BoundEffort::simple);
-    AnytimeSolution<State> found =
-        anytime(*world_, State(body_.start()), std::span<const State>(goals), options, body_of_better(), execution());
+    AnytimeSolution<State> found = anytime(*view_, State(body_.start()), goals, options, body_of_better(), execution());
     answer_.lower_bound = found.lower_bound;
     answer_.improvements = std::move(found.improvements);
     answer_.iterations = found.iterations;
@@ -318,8 +318,9 @@ class SampledSolve {
     return plan_through<State>(body_.start(), stops(), plan);
   }
   Solution<State> grow_trees(const State& start, std::span<const State> goals) {
-    const auto planner = request_.planner == PlannerKind::rrt ? rrt<World> : rrt_connect<World>;
-    return planner(*world_, start, goals, tree_options_, execution(), kept());
+    constexpr bool one_way = is_one_way<World>;
+    const auto planner = request_.planner == PlannerKind::rrt ? rrt<State, one_way> : rrt_connect<State, one_way>;
+    return planner(*view_, start, goals, tree_options_, execution(), kept());
   }
   /// Way-points and goal, each as the states that will do.
   std::vector<std::vector<State>> stops() const {
@@ -436,8 +437,9 @@ class SampledSolve {
   RoadmapOptions roadmap_options_;  // of prm and lazy-prm
   RrtOptions tree_options_;         // of the others
   std::optional<World> own_world_;
-  const World* world_ = nullptr;                // its own, or that of the roadmap that is asked
-  const AskedRoadmap<World>* asked_ = nullptr;  // none: one is planned
+  const World* world_ = nullptr;                            // its own, or that of the roadmap that is asked
+  std::optional<WorldView<World>> view_;                    // as planners see it
+  const AskedRoadmap<AnyWorldOf<World>>* asked_ = nullptr;  // none: one is planned
   std::vector<State> goals_;
   bool apart_ = false;  // proved: no goal can be reached
   Path<State> path_;

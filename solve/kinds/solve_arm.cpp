@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "planners/shorten/shortcut.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/sampled_roadmap.hpp"
 #include "solve/kinds/sampled_solve.hpp"
@@ -80,7 +79,7 @@ class Arm : public UsualBody {
   Path<JointState> shortened(const World& world, Path<JointState> path, Answer& answer) const {
     const auto length_of = [&](const JointState& a, const JointState& b) { return length(world, a, b); };
     return with_even_idle_joints(
-        world, shortcut_path(world, std::move(path), length_of, {.seed = answer.seed}, execution_, answer.counters));
+        world, shorter_path(world, std::move(path), length_of, {.seed = answer.seed}, execution_, answer.counters));
   }
   void judge(const World& world, const Path<JointState>& path, Answer& answer) const {
     const StageTimer timer(execution_, "verify", answer.seconds.verify, path.size());

@@ -95,8 +95,8 @@ constexpr PlannerChoice plane_planners[] = {
     {PlannerKind::rrt_star, rrt_star_options},
     {PlannerKind::informed_rrt_star, rrt_star_options},
     {PlannerKind::anytime, anytime_options},
-    {PlannerKind::visibility,
-     OptionSet{Option::full, Option::lazy, Option::sampled_edges, Option::search, Option::queue, Option::bound}},
+    {PlannerKind::visibility, OptionSet{Option::full, Option::lazy, Option::sampled_edges, Option::search,
+                                        Option::queue, Option::bound, Option::gap}},
     {PlannerKind::cells, OptionSet{Option::doors, Option::search, Option::queue, Option::bound}},
     {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound}}};
 
@@ -104,10 +104,15 @@ bool fits_plane(const Scene&, const RobotSpec& robot) {
   return robot.kind == RobotKind::point || robot.kind == RobotKind::disc;
 }
 
-/// A point may touch what it goes around, unless the contrary is asked for; who keeps a distance needs room.
-PlannerKind usual_plane_planner(const SolveOptions&, const Scene& scene, const Question& question) {
+/// The shortest path there is: of a point, which may touch what it goes around, unless the contrary is asked for, and
+/// of a disc, unless there are very many corners, or options are given that are none of its.
+PlannerKind usual_plane_planner(const SolveOptions& options, const Scene& scene, const Question& question) {
+  constexpr std::size_t most_corners_around_discs = 50'000;
   const double reach = clearance_of(scene, question) + robot_of(scene, question).radius;
-  return reach > 0.0 || question.contact == Contact::blocked ? PlannerKind::lazy_prm : PlannerKind::visibility;
+  if (!(reach > 0.0)) return question.contact == Contact::blocked ? PlannerKind::lazy_prm : PlannerKind::visibility;
+  const bool by_samples = !(given(options) == OptionSet{});
+  return by_samples || corner_count(scene) > most_corners_around_discs ? PlannerKind::lazy_prm
+                                                                       : PlannerKind::visibility;
 }
 
 /// For all planners that sample.

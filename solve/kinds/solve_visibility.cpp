@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The planner visibility: the shortest path of a point, and that it is the shortest is said. Worlds with very many
-// corners are searched lazily, unless something is asked for that needs the whole graph. With --sampled-edges the graph
-// is made as the report made it, and the answer says which of its edges are wrong.
+// The planner visibility: the shortest path of a point, or of what keeps a distance, and that it is the shortest is
+// said. Of a disc that is the path with its arcs; what is verified and answered is a polyline around them. Worlds with
+// very many corners are searched lazily, unless something is asked for that needs the whole graph. With --sampled-edges
+// the graph is made as the report made it, and the answer says which of its edges are wrong.
 
 #include <algorithm>
 #include <array>
@@ -12,6 +13,7 @@
 #include "core/search/search.hpp"
 #include "planners/graph/assemble_graph.hpp"
 #include "planners/graph/queue_choice.hpp"
+#include "planners/visibility/disc_path.hpp"
 #include "planners/visibility/sampled_visibility.hpp"
 #include "planners/visibility/visibility_path.hpp"
 #include "solve/kinds/geometric_roadmaps.hpp"
@@ -27,12 +29,6 @@ struct VisibilityRequest {
   VisibilityOptions options;
   std::optional<double> sample_step;
 };
-
-std::size_t corner_count(const Scene& scene) {
-  std::size_t corners = 2 * scene.walls.size();
-  for (const ScenePolygon& polygon : scene.polygons) corners += polygon.corners.size();
-  return corners;
-}
 
 VisibilityRequest options_of(const SolveRequest& request, const SearchChoice& search) {
   const VisibilityFields& fields = request.options.visibility;
@@ -193,11 +189,66 @@ class VisibilitySolve {
   const VisibilityRequest& asked_;
 };
 
+/// The same for a disc, or a point that keeps a clearance.
+class DiscSolve {
+ public:
+  DiscSolve(const SolveRequest& request, const WallProblem& problem) : request_(request), problem_(problem) {}
+
+  void run(Answer& answer) {
+    const DiscPath path = plan(answer);
+    answer.outcome = path.outcome;
+    answer.roadmap = {path.circles + 2, path.candidates, 0};
+    answer.counters.edges_checked = path.checked;
+    if (path.outcome == Outcome::solved) {
+      answer.path = polyline_of(path, request_.execution);
+      tell_bracket(path, answer);
+    }
+    settle_blocked_ends(answer, request_.scene, problem_, request_.execution, request_.asked.judged());
+    verify_solved(answer, request_.scene, problem_, request_.execution, request_.asked.judged());
+    constexpr double bracket = 1e-9;  // of the length: more than the trifles by which it is open
+    answer.optimal = answer.verified && path.length - path.lower_bound <= bracket * path.length;
+  }
+
+ private:
+  DiscPath plan(Answer& answer) const {
+    const DiscRoadmap* known = asked_roadmap<DiscRoadmap>(request_);
+    const Execution& execution = request_.execution;
+    std::optional<DiscGround> ground;
+    if (known == nullptr) {
+      const PlaneObstacles obstacles = indexed_obstacles(request_, answer);
+      const StageTimer timer(execution, "index", answer.seconds.index);
+      ground.emplace(obstacles, execution);
+    }
+    const StageTimer timer(execution, "search", answer.seconds.search);
+    return known != nullptr ? shortest_disc_path(*known, problem_.start, problem_.goal, problem_.reach(), execution)
+                            : shortest_disc_path(*ground, problem_.start, problem_.goal, problem_.reach(), execution);
+  }
+
+  static void tell_bracket(const DiscPath& path, Answer& answer) {
+    const double drawn = path_length(answer.path, [](Vec2 a, Vec2 b) { return distance(a, b); });
+    answer.path_figures.push_back({"arcs", path.arcs()});
+    answer.path_figures.push_back({"excess", std::max(0.0, drawn - path.length)});
+    answer.lower_bound = path.lower_bound;
+  }
+
+  const SolveRequest& request_;
+  const WallProblem& problem_;
+};
+
+Answer solve_disc(const SolveRequest& request, const WallProblem& problem, const SearchChoice& search) {
+  DiscSolve solve(request, problem);
+  Answer answer;
+  describe_plane_planner(answer, request, problem, search);
+  answer_within_limits(answer, [&] { solve.run(answer); });
+  return answer;
+}
+
 }  // namespace
 
 Answer solve_by_visibility(const SolveRequest& request) {
   const WallProblem problem = touching_problem(request);
   const SearchChoice search = search_choice(request.options);
+  if (problem.reach() > 0.0) return solve_disc(request, problem, search);
   const VisibilityRequest asked = options_of(request, search);
   Answer answer;
   describe_plane_planner(answer, request, problem, search);

@@ -90,8 +90,9 @@ class WallSolve {
     }
     const MazeWorld& world = indexed_world();
     if (grows() && ends_are_free(world) && proved_infeasible()) return;
-    const auto planner = options_.planner == PlannerKind::prm ? prm<MazeWorld> : lazy_prm<MazeWorld>;
-    take_solution(answer_, planner(world, problem_.start, problem_.goal, options_.roadmap, execution_, keep));
+    const auto planner = options_.planner == PlannerKind::prm ? prm<Vec2> : lazy_prm<Vec2>;
+    take_solution(answer_,
+                  planner(WorldView(world), problem_.start, problem_.goal, options_.roadmap, execution_, keep));
   }
   Solution<Vec2> plan_tiles() {
     const std::vector<Segment> bounds = bounds_walls(scene_);
@@ -188,7 +189,7 @@ void make_roadmap(const SolveRequest& request) {
   const LatticeSize size = options.roadmap.lattice;
   if (std::uint64_t{size.rows} * size.cols > most_drawn) return;
   const MazeWorld world(request.scene, problem.reach(), request.execution);
-  prm(world, problem.start, problem.goal, options.roadmap, request.execution, &request.keep->roadmap);
+  prm(WorldView(world), problem.start, problem.goal, options.roadmap, request.execution, &request.keep->roadmap);
 }
 
 Verdict recheck_walls(const Scene& scene, const Question& question, const RecordedAnswer& answer,

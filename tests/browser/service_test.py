@@ -104,6 +104,23 @@ class ServicePage(MapTest):
         self.wait(lambda: abs(self.end_of('start')[0] - 100) < 3)
         self.assertEqual(self.end_of('goal'), goal)
 
+    def test_better_paths_are_drawn_as_they_come_and_shown_again_by_the_slider(self):
+        self.shown(self.town, '#start=1.5,1.5&goal=9.5,8.5&planner=rrt-star')
+        self.wait(lambda: self.run_script('return better.ways.length') > 0)
+        self.wait_for('Solved')
+        ways = self.run_script('return better.ways.length')
+        slider = self.by_id('better-at')
+        self.assertTrue(slider.is_displayed())
+        self.assertEqual(slider.get_attribute('value'), str(ways))
+        self.assertIn("own path", self.by_id('better-text').text)
+        slider.send_keys(Keys.HOME)
+        self.wait(lambda: 'Length' in self.by_id('better-text').text)
+        first = self.run_script('return better.lines.getLayers()[0].getLatLngs().flat().map(p => [p.lng, p.lat])')
+        self.assertAlmostEqual(length_of(first), self.run_script('return better.ways[0].length'), places=6)
+        self.assertGreaterEqual(length_of(first), length_of(self.drawn()) - 1e-9)
+        self.at(3, 3).click().perform()  # another question ends this one
+        self.wait(lambda: not slider.is_displayed())
+
     def test_no_path_says_why_and_the_body_stands_at_its_ends(self):
         self.shown(self.closed, '#start=5,30&goal=95,30&planner=prm')
         self.wait_for('No path was found')

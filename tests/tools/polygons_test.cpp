@@ -310,8 +310,11 @@ TEST(Polygons, PlannersRefuseWhatTheyWouldIgnore) {
   const std::string scene = folder.write("a.scene", two_squares);
   check({{"solve", scene, "--samples", "50"}, 2, "visibility would ignore it"});
   check({{"solve", scene, "--planner", "prm", "--full"}, 2, "--full: prm would ignore it"});
-  check({{"solve", scene, "--planner", "visibility", "--clearance", "0.1"}, 2, "plans for a point"});
-  check({{"solve", scene, "--planner", "visibility", "--robot", "disc 1"}, 2, "plans for a point"});
+  check({{"solve", scene, "--planner", "cells", "--clearance", "0.1"}, 2, "plans for a point"});
+  check({{"solve", scene, "--planner", "cells", "--robot", "disc 1"}, 2, "plans for a point"});
+  for (const char* option : {"--full", "--lazy", "--sampled-edges=1", "--search=dijkstra", "--queue=heap"}) {
+    check({{"solve", scene, "--planner", "visibility", "--clearance", "0.1", option}, 2, "would ignore it for a disc"});
+  }
   check({{"solve", scene, "--planner", "visibility", "--contact", "blocked"}, 2, "--contact"});
   check({{"solve", scene, "--planner", "prm", "--contact", "allowed"}, 2, "--contact"});
   check({{"solve", scene, "--lazy", "--full"}, 2, "--lazy"});
@@ -321,7 +324,9 @@ TEST(Polygons, PlannersRefuseWhatTheyWouldIgnore) {
   check({{"solve", scene, "--sampled-edges", "0"}, 2, "--sampled-edges"});
   check({{"solve", scene, "--search", "bfs", "--queue", "heap"}, 2, "no priority queue"});
   check({{"solve", "maze:5x5", "--planner", "lazy-prm", "--lazy"}, 2, "WHEN is missing"});
-  EXPECT_EQ(json_of({"solve", scene, "--clearance", "0.1"})["planner"], "lazy-prm") << "who keeps away plans so";
+  EXPECT_EQ(json_of({"solve", scene, "--clearance", "0.1"})["planner"], "visibility") << "who keeps away, too";
+  EXPECT_EQ(json_of({"solve", scene, "--clearance", "0.1", "--samples", "500"})["planner"], "lazy-prm")
+      << "what is asked for decides";
 }
 
 TEST(Polygons, BodiesAndWorldsWithoutAPlannerAreSaidToHaveNone) {

@@ -107,14 +107,17 @@ void ProgressBar::draw() {
   const double seconds = std::chrono::duration<double>(now - stage_begin_).count();
   const double rate = seconds > 0.0 ? static_cast<double>(done - done_at_begin_) / seconds : 0.0;
   const std::size_t width = terminal_width();
-  const RunMoment moment{stage, done, progress_.total(), std::chrono::duration<double>(now - begin_).count()};
+  RunMoment moment{stage, done, progress_.total(), std::chrono::duration<double>(now - begin_).count()};
   std::string whole_run = whole_run_text(moment, rate);
   std::optional<Improvement> best;
   {
     const std::lock_guard lock(mutex_);
     best = best_;
   }
-  if (best) whole_run = improvement_text(*best) + (whole_run.empty() ? "" : ", " + whole_run);
+  if (best) {
+    whole_run = improvement_text(*best) + (whole_run.empty() ? "" : ", " + whole_run);
+    moment = {.stage = "search", .seconds = moment.seconds};  // whose parts are stages by themselves
+  }
   const std::string line = progress_line(moment, best ? 0.0 : rate, whole_run, width);
   std::fputs((mode_ == ProgressMode::bar ? erasing(columns_, width) + line : line + "\n").c_str(), stderr);
   std::fflush(stderr);

@@ -281,16 +281,14 @@ constexpr OptionSpec own_specs[] = {
      choices_of<studies::QueuePolicy>},
     {"--trials", "N|auto",
      "how often each search is timed (default: auto, 5 to 10000 times, about 0.25 s each). With --planners: as "
-     "--seeds, "
-     "but planners that use no seed run as often"},
+     "--seeds, but planners that use no seed run as often"},
     {"--peer", "NAME", "time the searches of another library, too, on the same graph", "boost"},
     {"--graph", "NAME", "the planner whose graph is searched (default: prm; among polygons visibility)"},
     {"--sizes", "LIST", "search random geometric graphs with so many vertices, separated by commas; needs no WORLD"},
     {"--degree", "D", "with --sizes: how many neighbours a vertex has on average (default: 20)"},
     {"--seeds", "N",
      "with --planners: how often each runs, each time with the next seed (default: 10); a planner that uses no seed "
-     "runs "
-     "once. With --sizes: how many graphs of each size (default: 3)"},
+     "runs once. With --sizes: how many graphs of each size (default: 3)"},
     {"--samplers", "LIST", "the same as --sampler with a list", choices_of<SamplerKind>},
     {"--samples", "LIST", "numbers of samples, or auto, separated by commas"},
     {"--seed", "N", "the first seed (default: 1)"},

@@ -34,7 +34,7 @@ constexpr OptionSpec query_specs[] = {
      "two files of places, CSV or JSON lines: give the length from each start to each goal"},
     {"--csv", "", "with --batch or --matrix: answers as CSV instead of JSON lines"},
     roadmap_world_option,
-    {"--keep", "FILE", "write the roadmap anew; a lazy one then remembers the edges that this question has checked"},
+    {"--keep", "FILE", "write the roadmap to FILE; a lazy one then remembers the edges that this question has checked"},
 };
 
 class QueryCommand : public AnswerCommand {

@@ -25,7 +25,7 @@ constexpr OptionSpec study_specs[] = {
     {"--planners", "LIST", "planners to measure, separated by commas (default: as 'solve' chooses)"},
     {"--samplers", "LIST", "samplers, separated by commas; each planner runs with each (default: as 'solve' chooses)"},
     {"--seeds", "LIST", "seeds of the mazes and of their samples, separated by commas (default: 1)"},
-    {"--repeats", "N", "how often each run is repeated, by turns with the others (default: 3)"},
+    {"--repeats", "N", "how often each run is made, by turns with the others (default: 3)"},
     {"--budget", "TIME", "most time for each run, from walls in memory to the verified path (default: none)"},
     {"--json", "FILE", "write all figures as JSON; - is standard output"},
     {"--csv", "FILE", "write a line for each run, as CSV; - is standard output"},

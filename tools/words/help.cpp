@@ -115,8 +115,8 @@ std::string option_usage(const OptionSpec& option) {
 
 std::string_view meaning_of(std::string_view operand) {
   if (operand == "WORLD" || operand == "[WORLD]") {
-    return "a file with walls, polygons, a map or a maze (its content decides which), - for standard input, "
-           "empty:WIDTHxHEIGHT, or a maze that is made on the spot: maze:ROWSxCOLS[,seed=N][,algorithm=NAME][,loops=F]";
+    return "a file with walls, polygons, a map or a maze (its content decides), - for standard input, "
+           "empty:WIDTHxHEIGHT, or maze:ROWSxCOLS[,seed=N][,algorithm=NAME][,loops=F]";
   }
   if (operand == "ROADMAP") return "a file that 'warren build' or 'warren solve --save-roadmap' has written";
   if (operand == "ANSWER.json") return "what 'warren solve --json' has written";
@@ -140,9 +140,8 @@ std::string program_help() {
     }
   }
   return text +
-         "\n'warren help COMMAND' lists the options of a command, 'warren help WORD' explains an option, or a word "
-         "that "
-         "you\nknow from elsewhere, and 'warren help all' prints everything. Try:\n\n"
+         "\n'warren help COMMAND' lists the options of a command, 'warren help WORD' explains an option, or a word\n"
+         "that you know from elsewhere, and 'warren help all' prints everything. Try:\n\n"
          "  warren example parking-lot                  writes a world to try things on\n"
          "  warren solve maze:41x41 --picture maze.svg  makes a maze, solves it and draws it\n\n"
          "Exit codes: 0 success, 1 no path or refuted, 2 wrong options, 65 bad data, 66 unreadable input, 70 bug,\n"

@@ -20,11 +20,10 @@ constexpr OptionSpec planner_specs[] = {
      "(default: prm on a lattice, else lazy-prm)",
      "prm lazy-prm"},
     {"--sampler", "NAME",
-     "how samples are placed: all over the world (uniform, halton, random), in the middles of cells (lattice, "
-     "cell-centres), along obstacles (gaussian), in narrow gaps (bridge), mixed of these (mixture), or in the middles "
-     "of a map's corridors (corridor). Default: lattice in mazes, cell-centres on maps whose corridors are a cell "
-     "wide, "
-     "else uniform",
+     "how samples are placed. uniform, halton, random: all over the world; lattice, cell-centres: in the middles of "
+     "cells; gaussian: along obstacles; bridge: in narrow gaps; mixture: half uniform, half these two; corridor: along "
+     "the middles of a map's corridors. Default: lattice in mazes, cell-centres on maps whose corridors are a cell "
+     "wide, else uniform",
      choices_of<SamplerKind>},
     {"--samples", "N|auto",
      "how many samples to draw; auto: more and more, until start and goal are joined (default: auto)"},
@@ -90,11 +89,13 @@ constexpr OptionSpec planner_specs[] = {
     {"--nodes", "N", "rrt, rrt-connect: give up when a tree has so many nodes (default: 100000)"},
     {"--trees", "N", "rrt, rrt-connect: grow so many trees independently; the first to arrive answers (default: 1)"},
     {"--iterations", "N",
-     "anytime, rrt-star, informed-rrt-star: end after N turns, with the same answer on any machine"},
+     "anytime, rrt-star, informed-rrt-star: end after N turns of work, which gives the same answer on any machine"},
     {"--gap", "SHARE",
-     "the same planners: end when the path is proved to be at most SHARE longer than the best, such as 1% or 0.01"},
-    {"--parts", "LIST", "anytime: what takes turns, of tree,restarts,roadmap,shorten (default: all)"},
-    {"--bound", "", "prove the best lower bound of the path's length that there is, at a cost of its own"},
+     "anytime, rrt-star, informed-rrt-star: end when the path is proved to be at most SHARE, such as 1%, longer than "
+     "the shortest"},
+    {"--parts", "LIST",
+     "anytime: what takes turns, separated by commas: tree, restarts, roadmap, shorten (default: all)"},
+    {"--bound", "", "also prove a lower bound, how short no path can be, as near as can be; takes time of its own"},
     {"--via", "STATES",
      "rrt, rrt-connect: waypoints to pass in this order, separated by semicolons: \"X,Y; X,Y,THETA\", or six joint "
      "angles each"},

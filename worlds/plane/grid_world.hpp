@@ -77,6 +77,6 @@ class GridWorld {
   Bitmap milestone_cells_;
 };
 
-static_assert(SteerableWorld<GridWorld> && CorridorWorld<GridWorld> && CellWorld<GridWorld>);
+static_assert(SteerableWorld<GridWorld>);
 
 }  // namespace warren

@@ -68,7 +68,7 @@ class MazeWorld {
   WallIndex index_;
 };
 
-static_assert(SteerableWorld<MazeWorld> && BunchWorld<MazeWorld>);
+static_assert(SteerableWorld<MazeWorld>);
 
 /// Which sides of unit cells a body with clearance can cross, asked wall by wall: a side is closed where both of its
 /// ends are nearer than the clearance to one wall, for then all of it is. Walls that do not run along the cells close

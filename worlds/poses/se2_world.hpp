@@ -114,6 +114,6 @@ class Se2World {
   std::optional<CorridorPoints> corridors_;  // only of maps
 };
 
-static_assert(SteerableWorld<Se2World> && CorridorWorld<Se2World> && PlaceWorld<Se2World>);
+static_assert(SteerableWorld<Se2World>);
 
 }  // namespace warren

@@ -30,13 +30,13 @@ void RunningQuestions::Entry::tell(const Improvement& improvement, std::vector<V
   ++question.first;
 }
 
-std::optional<std::string> RunningQuestions::told(const std::string& name, std::uint64_t from) const {
+std::string RunningQuestions::told(const std::string& name, std::uint64_t from) const {
   std::vector<Told> fresh;
   std::uint64_t first = from;
   {
     const std::lock_guard lock(mutex_);
     const auto found = questions_.find(name);
-    if (found == questions_.end()) return std::nullopt;
+    if (found == questions_.end()) return "{\"running\":false}";
     const Question& question = found->second;
     first = std::max(from, question.first);
     const std::uint64_t skipped = std::min<std::uint64_t>(first - question.first, question.told.size());
@@ -55,6 +55,7 @@ std::optional<std::string> RunningQuestions::told(const std::string& name, std::
     list += (list.empty() ? "" : ", ") + json.closed();
   }
   JsonObject json;
+  json.add("running", true);
   json.add("first", first);
   json.add_json("improvements", "[" + list + "]");
   return json.closed();

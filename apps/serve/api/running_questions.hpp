@@ -7,7 +7,6 @@
 #include <deque>
 #include <map>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,10 +36,10 @@ class RunningQuestions {
   };
 
   static constexpr std::size_t most_told = 64;
-  static constexpr std::size_t most_points = 1000;
+  static constexpr std::size_t most_points = 2000;
 
-  /// What came from the from-th improvement on, as JSON; nothing where no such question is running.
-  std::optional<std::string> told(const std::string& name, std::uint64_t from) const;
+  /// Is a question of this name running, and what came from its from-th improvement on; as JSON.
+  std::string told(const std::string& name, std::uint64_t from) const;
 
  private:
   struct Told {

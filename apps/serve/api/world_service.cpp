@@ -442,13 +442,10 @@ HttpResponse WorldService::query(const HttpRequest& request, const SignalFlag& g
 }
 
 HttpResponse WorldService::progress(const HttpRequest& request) const {
-  const auto from = numbers_parameter(request, "from", 1);
-  if (from && !((*from)[0] >= 0.0 && (*from)[0] < 1e15))
-    throw HttpError(400, "bad_request", "query", "from: expected a count");
-  auto told =
-      running_.told(parameter(request, "watch").value_or(""), from ? static_cast<std::uint64_t>((*from)[0]) : 0);
-  if (!told) throw HttpError(404, "not_running", "watch", "no question of this name is being answered");
-  return {.body = *told + "\n"};
+  constexpr double most = 1e15;
+  const double from = numbers_parameter(request, "from", 1).value_or(std::vector{0.0})[0];
+  if (!(from >= 0.0 && from < most)) throw HttpError(400, "bad_request", "query", "from: expected a count");
+  return {.body = running_.told(parameter(request, "watch").value_or(""), static_cast<std::uint64_t>(from)) + "\n"};
 }
 
 HttpResponse WorldService::batch(const HttpRequest& request, const Execution& execution) const {

@@ -23,9 +23,8 @@ async function watchWays(name) {
   for (let from = 0; better.watch === name;) {
     await new Promise(ready => setTimeout(ready, 200));
     try {
-      const reply = await fetch("api/progress?watch=" + name + "&from=" + from);
-      if (!reply.ok || better.watch !== name) continue;  // it has not begun, or has ended
-      const told = await reply.json();
+      const told = await (await fetch("api/progress?watch=" + name + "&from=" + from)).json();
+      if (!told.running) continue;  // not yet, or no more
       from = told.first + told.improvements.length;
       if (better.watch !== name || told.improvements.length === 0) continue;
       better.ways.push(...told.improvements);

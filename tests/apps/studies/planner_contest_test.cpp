@@ -25,7 +25,7 @@ std::vector<AskedWorld> worlds() {
   const Question across{.robot = RobotSpec{}, .start = {0.5, 0.5}, .goal = {4.3, 0.5}};
   std::vector<AskedWorld> all{{"maze:6x6,loops=0.3"},       {test::source_dir() + "/tests/data/sparse.scene"},
                               {example("poly-easy.scene")}, {example("car-20.scene")},
-                              {example("puma.scene")}, {example("flat.yaml"), across}};
+                              {example("puma.scene")},      {example("flat.yaml"), across}};
   all.push_back(all.back());
   all.back().question.robot = robot_value("here", "polygon -0.1 -0.1 0.1 -0.1 0.1 0.1 -0.1 0.1");
   all.back().question.start.push_back(0.0);

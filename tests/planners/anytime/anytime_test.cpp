@@ -22,7 +22,7 @@ AnytimeBody<typename W::State> body_of(const Problem<W>& problem) {
   AnytimeBody<State> body;
   body.shortened = [&problem, cost](const Path<State>& path, double hopeless, std::uint64_t seed, const Execution& on,
                                     Counters& counters) {
-    return improve_path(problem.world, path, cost, {.seed = seed, .hopeless = hopeless}, on, counters);
+    return improved_path(problem.world, path, cost, {.seed = seed, .hopeless = hopeless}, on, counters);
   };
   body.length = [&problem](const Path<State>& path) { return problem.length(path); };
   body.judged_s = [](const Path<State>&) { return 0.0; };
@@ -32,7 +32,7 @@ AnytimeBody<typename W::State> body_of(const Problem<W>& problem) {
 template <class W>
 AnytimeSolution<typename W::State> plan(const Problem<W>& problem, const AnytimeOptions& options,
                                         const Execution& execution = {}) {
-  return anytime(problem.world, problem.start, std::span(&problem.goal, 1), options, body_of(problem), execution);
+  return anytime(problem.view, problem.start, std::span(&problem.goal, 1), options, body_of(problem), execution);
 }
 
 AnytimeOptions turns(std::uint64_t iterations) {
@@ -189,7 +189,7 @@ TEST(Anytime, EachPathIsKeptBeforeItIsTold) {
   };
   Execution execution;
   execution.on_improvement = &tell;
-  const auto found = anytime(problem.world, problem.start, std::span(&problem.goal, 1), turns(12), body, execution);
+  const auto found = anytime(problem.view, problem.start, std::span(&problem.goal, 1), turns(12), body, execution);
   EXPECT_EQ(found.ended_by, "iterations");
   EXPECT_EQ(kept, told);
 }

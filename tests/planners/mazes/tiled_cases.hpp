@@ -56,7 +56,7 @@ inline Solution<Vec2> tiled(const TiledCase& c, const Execution& execution = {})
 
 inline Solution<Vec2> plain(const TiledCase& c) {
   const MazeWorld world(c.scene, c.clearance, {});
-  return prm(world, c.start, c.goal, options_of(c), {});
+  return prm(WorldView(world), c.start, c.goal, options_of(c), {});
 }
 
 inline void expect_same_answer(const TiledCase& c, const Solution<Vec2>& expected, const Solution<Vec2>& found) {

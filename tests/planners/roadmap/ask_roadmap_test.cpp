@@ -19,18 +19,19 @@ Scene maze(double loops, std::uint32_t side = 12) {
   return maze_scene({side, side, 3, MazeAlgorithm::backtracker, loops}, false, {});
 }
 
-template <World W>
-AskedRoadmap<W> asked(const W& world, const RoadmapOptions& options, bool lazy, unsigned threads = 2) {
+template <class State, bool one_way>
+AskedRoadmap<AnyWorld<State, one_way>> asked(const AnyWorld<State, one_way>& world, const RoadmapOptions& options,
+                                             bool lazy, unsigned threads = 2) {
   Execution execution;
   execution.threads = threads;
-  BuiltRoadmap<typename W::State> built = build_roadmap(world, options, lazy, execution);
+  BuiltRoadmap<State> built = build_roadmap(world, options, lazy, execution);
   return {world, std::move(built.states), std::move(built.candidates), built.edge_states, built.rule, lazy, execution};
 }
 
 template <World W>
 Solution<typename W::State> planned(const W& world, const typename W::State& start, const typename W::State& goal,
                                     const RoadmapOptions& options, bool lazy) {
-  if constexpr (edge_directions<W>() == EdgeDirections::one) {
+  if constexpr (W::one_way) {
     return one_way_prm(world, start, goal, options, lazy, {});
   } else {
     return lazy ? lazy_prm(world, start, goal, options, {}) : prm(world, start, goal, options, {});
@@ -42,7 +43,7 @@ Solution<typename W::State> planned(const W& world, const typename W::State& sta
 template <World W>
 std::size_t expect_the_planners_answers(const W& world, const std::vector<typename W::State>& states,
                                         const RoadmapOptions& options, bool lazy) {
-  const AskedRoadmap<W> roadmap = asked(world, options, lazy);
+  const auto roadmap = asked(world, options, lazy);
   AskScratch scratch;
   std::size_t solved = 0;
   for (const auto& start : states) {
@@ -52,7 +53,7 @@ std::size_t expect_the_planners_answers(const W& world, const std::vector<typena
       EXPECT_EQ(answer.outcome, expected.outcome);
       EXPECT_TRUE(std::equal(answer.path.begin(), answer.path.end(), expected.path.begin(), expected.path.end()));
       const bool large = expected.roadmap.milestones >= fewest_for_both_ends;
-      if (lazy && large && CellSideWorld<W> && !options.neighbours) {
+      if (lazy && large && W::in_plane && !options.neighbours) {
         EXPECT_GE(answer.counters.expanded, expected.counters.expanded);
       } else {
         EXPECT_EQ(answer.counters.expanded, expected.counters.expanded);
@@ -61,7 +62,7 @@ std::size_t expect_the_planners_answers(const W& world, const std::vector<typena
       if (!lazy) {
         EXPECT_EQ(answer.roadmap.components, expected.roadmap.components);
       }
-      if (!lazy && edge_directions<W>() == EdgeDirections::both) {
+      if (!lazy && !W::one_way) {
         EXPECT_EQ(answer.roadmap.edges, expected.roadmap.edges);
       }
       EXPECT_EQ(answer.separation.start_size, expected.separation.start_size);
@@ -78,7 +79,8 @@ std::vector<Vec2> some_places() { return {{1, 1}, {12, 12}, {3.2, 7.1}, {6.5, 6.
 TEST(AskRoadmap, AnswersAsThePlannerDoesInMazes) {
   for (const double loops : {0.0, 0.2}) {
     const Scene scene = maze(loops);
-    const MazeWorld world(scene, 0.1, {});
+    const MazeWorld own(scene, 0.1, {});
+    const WorldView world(own);
     for (const bool lazy : {false, true}) {
       for (const std::uint64_t samples : {400, 4000}) {
         SCOPED_TRACE(std::to_string(loops) + (lazy ? " lazy " : " ") + std::to_string(samples));
@@ -93,7 +95,8 @@ TEST(AskRoadmap, AnswersAsThePlannerDoesInMazes) {
 
 TEST(AskRoadmap, AnswersByEverySearchAndRule) {
   const Scene scene = maze(0.2);
-  const MazeWorld world(scene, 0.1, {});
+  const MazeWorld own(scene, 0.1, {});
+  const WorldView world(own);
   RoadmapOptions options;
   options.samples = 3000;
   for (const SearchKind search : {SearchKind::astar, SearchKind::dijkstra, SearchKind::bfs, SearchKind::dfs}) {
@@ -108,7 +111,8 @@ TEST(AskRoadmap, AnswersByEverySearchAndRule) {
 
 TEST(AskRoadmap, AnswersOnTheLattice) {
   const Scene scene = maze(0.1);
-  const MazeWorld world(scene, 0.1, {});
+  const MazeWorld own(scene, 0.1, {});
+  const WorldView world(own);
   RoadmapOptions options;
   options.sampler = SamplerKind::lattice;
   options.lattice = {scene.maze->rows, scene.maze->cols};
@@ -117,7 +121,8 @@ TEST(AskRoadmap, AnswersOnTheLattice) {
 
 TEST(AskRoadmap, AnswersFromBothEndsWhereItIsLarge) {
   const Scene scene = maze(0.2, 60);
-  const MazeWorld world(scene, 0.1, {});
+  const MazeWorld own(scene, 0.1, {});
+  const WorldView world(own);
   RoadmapOptions options;
   options.samples = 90'000;
   const std::vector<Vec2> places{{1, 1}, {60, 60}, {30, 10}};
@@ -130,7 +135,8 @@ TEST(AskRoadmap, AnswersForCarsThatOnlyDriveForwards) {
   Scene scene;
   scene.bounds = Box{{0, 0}, {12, 6}};
   scene.walls = WallSet::narrowest(std::vector<Segment>{{{3, 0}, {3, 3.5}}, {{6, 6}, {6, 2.5}}, {{9, 0}, {9, 3.5}}});
-  const CarWorld<DubinsCurve> world(scene, CarOptions{.turning_radius = 0.7, .radius = 0.2}, {});
+  const CarWorld<DubinsCurve> own(scene, CarOptions{.turning_radius = 0.7, .radius = 0.2}, {});
+  const WorldView world(own);
   RoadmapOptions options;
   for (const std::uint64_t samples : {60, 600}) {
     options.samples = samples;
@@ -142,11 +148,12 @@ TEST(AskRoadmap, AnswersForCarsThatOnlyDriveForwards) {
 
 TEST(AskRoadmap, IsTheSameForAnyNumberOfThreads) {
   const Scene scene = maze(0.1);
-  const MazeWorld world(scene, 0.1, {});
+  const MazeWorld own(scene, 0.1, {});
+  const WorldView world(own);
   const RoadmapOptions options;  // grows
-  const AskedRoadmap<MazeWorld> one = asked(world, options, false, 1);
+  const AskedRoadmap<AnyWorld<Vec2>> one = asked(world, options, false, 1);
   for (const unsigned threads : {2U, 3U, 8U}) {
-    const AskedRoadmap<MazeWorld> more = asked(world, options, false, threads);
+    const AskedRoadmap<AnyWorld<Vec2>> more = asked(world, options, false, threads);
     EXPECT_TRUE(std::equal(one.states().begin(), one.states().end(), more.states().begin(), more.states().end()));
     EXPECT_TRUE(std::ranges::equal(one.candidates().targets(), more.candidates().targets()));
     EXPECT_TRUE(std::ranges::equal(one.edge_states(), more.edge_states()));
@@ -155,13 +162,14 @@ TEST(AskRoadmap, IsTheSameForAnyNumberOfThreads) {
 
 TEST(AskRoadmap, GrowsUntilWhatIsJoinedStaysJoined) {
   const Scene scene = maze(0.0, 15);
-  const MazeWorld world(scene, 0.1, {});
+  const MazeWorld own(scene, 0.1, {});
+  const WorldView world(own);
   std::size_t joined = 0;
   std::size_t asked_for = 0;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     RoadmapOptions options;
     options.seed = seed;
-    const AskedRoadmap<MazeWorld> roadmap = asked(world, options, false);
+    const AskedRoadmap<AnyWorld<Vec2>> roadmap = asked(world, options, false);
     AskScratch scratch;
     for (std::uint64_t i = 0; i < 20; ++i) {
       const Vec2 start = uniform_state(world, 1000 + seed, 2 * i);
@@ -178,10 +186,11 @@ TEST(AskRoadmap, GrowsUntilWhatIsJoinedStaysJoined) {
 
 TEST(AskRoadmap, LearnsWhatItHasAskedTheWorld) {
   const Scene scene = maze(0.2);
-  const MazeWorld world(scene, 0.1, {});
+  const MazeWorld own(scene, 0.1, {});
+  const WorldView world(own);
   RoadmapOptions options;
   options.samples = 3000;
-  const AskedRoadmap<MazeWorld> roadmap = asked(world, options, true);
+  const AskedRoadmap<AnyWorld<Vec2>> roadmap = asked(world, options, true);
   AskScratch scratch;
   const auto first = ask_roadmap(roadmap, {1, 1}, {12, 12}, options, {}, scratch);
   const auto second = ask_roadmap(roadmap, {1, 1}, {12, 12}, options, {}, scratch);

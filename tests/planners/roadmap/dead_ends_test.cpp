@@ -241,14 +241,14 @@ TEST(DeadEnds, DoNotChangeThePathOfALazySearch) {
         RoadmapOptions options;
         options.seed = seed;
         options.search = search;
-        const auto eager = prm(world, asked.start, asked.goal, options, Execution{2});
-        const auto lazy = lazy_prm(world, asked.start, asked.goal, options, Execution{1});
+        const auto eager = prm(WorldView(world), asked.start, asked.goal, options, Execution{2});
+        const auto lazy = lazy_prm(WorldView(world), asked.start, asked.goal, options, Execution{1});
         ASSERT_GE(lazy.roadmap.milestones, fewest_for_both_ends);
         ASSERT_EQ(lazy.outcome, eager.outcome);
         EXPECT_EQ(lazy.counters.kept, eager.counters.kept);
         EXPECT_EQ(lazy.path, eager.path);
         EXPECT_NEAR(length_of(lazy), length_of(eager), 1e-12 * length_of(eager));
-        const auto two = lazy_prm(world, asked.start, asked.goal, options, Execution{2});
+        const auto two = lazy_prm(WorldView(world), asked.start, asked.goal, options, Execution{2});
         EXPECT_EQ(two.path, lazy.path);
         EXPECT_EQ(two.counters, lazy.counters);
       }
@@ -274,8 +274,8 @@ TEST(DeadEnds, AreNotWhereMilestonesOfAnEndAre) {
   RoadmapOptions options;
   options.samples = 100'000;
   options.radius = 0.15;
-  const auto eager = prm(world, Vec2{10.499, 9.6495}, Vec2{10.499, 10.3505}, options, {});
-  const auto lazy = lazy_prm(world, Vec2{10.499, 9.6495}, Vec2{10.499, 10.3505}, options, {});
+  const auto eager = prm(WorldView(world), Vec2{10.499, 9.6495}, Vec2{10.499, 10.3505}, options, {});
+  const auto lazy = lazy_prm(WorldView(world), Vec2{10.499, 9.6495}, Vec2{10.499, 10.3505}, options, {});
   ASSERT_EQ(eager.outcome, Outcome::solved);
   ASSERT_GE(lazy.roadmap.milestones, fewest_for_both_ends);
   EXPECT_GT(lazy.path.size(), 4U);
@@ -286,9 +286,9 @@ TEST(DeadEnds, AreLeftUnexpandedInAMaze) {
   const Scene scene = maze_scene({100, 100, 3, MazeAlgorithm::kruskal}, false, {});
   const MazeWorld world(scene, 0.1, {});
   RoadmapOptions options;
-  const auto by_radius = lazy_prm(world, Vec2{1, 1}, Vec2{100, 100}, options, {});
+  const auto by_radius = lazy_prm(WorldView(world), Vec2{1, 1}, Vec2{100, 100}, options, {});
   options.neighbours = 20;  // by which no motion has a longest length
-  const auto by_nearest = lazy_prm(world, Vec2{1, 1}, Vec2{100, 100}, options, {});
+  const auto by_nearest = lazy_prm(WorldView(world), Vec2{1, 1}, Vec2{100, 100}, options, {});
   ASSERT_EQ(by_radius.outcome, Outcome::solved);
   ASSERT_EQ(by_nearest.outcome, Outcome::solved);
   EXPECT_LT(3 * by_radius.counters.expanded, by_nearest.counters.expanded);
@@ -301,8 +301,8 @@ TEST(DeadEnds, OfAMazeWithoutAWayLeaveTheOutcomeAndTheGapAsTheyAre) {
   const MazeWorld world(scene, 0.1, {});
   RoadmapOptions options;
   options.samples = 100'000;
-  const auto eager = prm(world, Vec2{1, 1}, Vec2{100, 100}, options, {});
-  const auto lazy = lazy_prm(world, Vec2{1, 1}, Vec2{100, 100}, options, {});
+  const auto eager = prm(WorldView(world), Vec2{1, 1}, Vec2{100, 100}, options, {});
+  const auto lazy = lazy_prm(WorldView(world), Vec2{1, 1}, Vec2{100, 100}, options, {});
   ASSERT_EQ(eager.outcome, Outcome::not_connected);
   ASSERT_EQ(lazy.outcome, Outcome::not_connected);
   ASSERT_TRUE(eager.separation.is_known());

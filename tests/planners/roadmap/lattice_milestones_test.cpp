@@ -29,6 +29,7 @@ struct SpottedWorld {
 static_assert(World<SpottedWorld>);
 
 constexpr Box everywhere{{0, 0}, {1e6, 1e6}};
+constexpr SpottedWorld nothing{0.0, everywhere};
 
 /// Filtered one by one, then sorted.
 std::vector<Vec2> by_sorting(const SpottedWorld& world, LatticeSize size, std::uint64_t count) {
@@ -37,7 +38,7 @@ std::vector<Vec2> by_sorting(const SpottedWorld& world, LatticeSize size, std::u
   for (std::uint64_t i = 0; i < count; ++i) {
     if (world.is_free(lattice_point(size, i), query)) free.push_back(lattice_point(size, i));
   }
-  const RawVector<Vec2> sorted = detail::in_tile_order(world, free, {});
+  const RawVector<Vec2> sorted = detail::in_tile_order(WorldView(world), free, {});
   return {sorted.begin(), sorted.end()};
 }
 
@@ -51,7 +52,7 @@ TEST(LatticeMilestones, AreTheFreePointsInTileOrder) {
       for (const std::uint64_t count : {all, all / 2 + 1}) {
         SCOPED_TRACE(testing::Message() << size.rows << " x " << size.cols << ", " << count << " points, share "
                                         << world.share);
-        const RawVector<Vec2> points = lattice_milestones(world, size, count, {}, 2);
+        const RawVector<Vec2> points = lattice_milestones(WorldView(world), size, count, {}, 2);
         EXPECT_EQ(std::vector<Vec2>(points.begin(), points.end()), by_sorting(world, size, count));
         EXPECT_GE(points.capacity(), points.size() + 2);
       }
@@ -62,20 +63,21 @@ TEST(LatticeMilestones, AreTheFreePointsInTileOrder) {
 TEST(LatticeMilestones, AreTheSameForAnyThreadCount) {
   const SpottedWorld world{0.7, everywhere};
   const LatticeSize size{500, 400};
-  const RawVector<Vec2> one = lattice_milestones(world, size, 200'000, {.threads = 1}, 0);
+  const RawVector<Vec2> one = lattice_milestones(WorldView(world), size, 200'000, {.threads = 1}, 0);
   for (const unsigned threads : {2U, 3U, 8U}) {
-    EXPECT_EQ(lattice_milestones(world, size, 200'000, {.threads = threads}, 0), one) << threads << " threads";
+    EXPECT_EQ(lattice_milestones(WorldView(world), size, 200'000, {.threads = threads}, 0), one)
+        << threads << " threads";
   }
 }
 
 TEST(LatticeMilestones, NoneAreThereWhereNothingIsFree) {
-  EXPECT_TRUE(lattice_milestones(SpottedWorld{0.0, everywhere}, {20, 30}, 600, {}, 2).empty());
+  EXPECT_TRUE(lattice_milestones(WorldView(nothing), {20, 30}, 600, {}, 2).empty());
 }
 
 TEST(LatticeMilestones, MoreThanHaveNumbersAreRefused) {
   const LatticeSize size{65'536, 32'769};
   const std::uint64_t all = std::uint64_t{size.rows} * size.cols;
-  EXPECT_THROW(lattice_milestones(SpottedWorld{0.0, everywhere}, size, all, {}, 2), InputError);
+  EXPECT_THROW(lattice_milestones(WorldView(nothing), size, all, {}, 2), InputError);
 }
 
 }  // namespace

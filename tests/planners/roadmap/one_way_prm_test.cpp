@@ -60,7 +60,7 @@ TEST(OneWayPrm, SolvesASlalomWithVerifiedPathsOnEverySeed) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE(seed);
     for (const bool lazy : {false, true}) {
-      const auto solution = one_way_prm(world, start, goal, {.seed = seed}, lazy, {});
+      const auto solution = one_way_prm(WorldView(world), start, goal, {.seed = seed}, lazy, {});
       ASSERT_EQ(solution.outcome, Outcome::solved);
       expect_verified(scene, world, solution.path);
     }
@@ -72,8 +72,8 @@ TEST(OneWayPrm, LazilyThePathIsTheSame) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     SCOPED_TRACE(seed);
     const RoadmapOptions options{.samples = 400, .seed = seed};
-    const auto all = one_way_prm(world, start, goal, options, false, {});
-    const auto lazy = one_way_prm(world, start, goal, options, true, {});
+    const auto all = one_way_prm(WorldView(world), start, goal, options, false, {});
+    const auto lazy = one_way_prm(WorldView(world), start, goal, options, true, {});
     EXPECT_EQ(all.outcome, lazy.outcome);
     EXPECT_EQ(all.path, lazy.path);
     EXPECT_LT(lazy.counters.edges_checked, all.counters.edges_checked);
@@ -85,11 +85,11 @@ TEST(OneWayPrm, SameAnswerForAnyNumberOfThreads) {
   for (const bool lazy : {false, true}) {
     Execution one;
     one.threads = 1;
-    const auto expected = one_way_prm(world, start, goal, {.samples = 500, .seed = 2}, lazy, one);
+    const auto expected = one_way_prm(WorldView(world), start, goal, {.samples = 500, .seed = 2}, lazy, one);
     for (const unsigned threads : {2U, 3U, 8U}) {
       Execution many;
       many.threads = threads;
-      const auto found = one_way_prm(world, start, goal, {.samples = 500, .seed = 2}, lazy, many);
+      const auto found = one_way_prm(WorldView(world), start, goal, {.samples = 500, .seed = 2}, lazy, many);
       EXPECT_EQ(found.path, expected.path);
       EXPECT_EQ(found.counters.edges_checked, expected.counters.edges_checked);
       EXPECT_EQ(found.counters.expanded, expected.counters.expanded);
@@ -104,7 +104,8 @@ TEST(OneWayPrm, ThePathIsTheShortestOfItsRoadmap) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     SCOPED_TRACE(seed);
     PlannedRoadmap<Se2> roadmap;
-    const auto solution = one_way_prm(world, start, goal, {.samples = 400, .seed = seed}, false, {}, &roadmap);
+    const auto solution =
+        one_way_prm(WorldView(world), start, goal, {.samples = 400, .seed = seed}, false, {}, &roadmap);
     if (solution.outcome != Outcome::solved) continue;
     const std::size_t n = roadmap.states.size();
     std::vector<double> best(n, std::numeric_limits<double>::infinity());
@@ -133,17 +134,17 @@ TEST(OneWayPrm, TellsHowFarStartAndGoalAreApart) {
   Scene scene = slalom();
   scene.walls = WallSet::narrowest(std::vector<Segment>{{{6, 0}, {6, 6}}});
   const Forwards world(scene, car);
-  const auto solution = one_way_prm(world, start, goal, {.samples = 300, .seed = 1}, true, {});
+  const auto solution = one_way_prm(WorldView(world), start, goal, {.samples = 300, .seed = 1}, true, {});
   EXPECT_EQ(solution.outcome, Outcome::not_connected);
-  const auto checked = one_way_prm(world, start, goal, {.samples = 300, .seed = 1}, false, {});
+  const auto checked = one_way_prm(WorldView(world), start, goal, {.samples = 300, .seed = 1}, false, {});
   EXPECT_EQ(solution.counters.edges_checked, checked.counters.edges_checked)
       << "what the search asked is not asked again";
   EXPECT_EQ(solution.counters.edges_free, checked.counters.edges_free);
   EXPECT_GT(solution.separation.start_size, 20U);
   EXPECT_GT(solution.separation.goal_size, 20U);
   EXPECT_GT(solution.separation.nearest_gap, 0.0);
-  EXPECT_EQ(one_way_prm(world, {6, 1, 0}, goal, {.samples = 10}, true, {}).outcome, Outcome::start_blocked);
-  EXPECT_EQ(one_way_prm(world, start, {6, 1, 0}, {.samples = 10}, true, {}).outcome, Outcome::goal_blocked);
+  EXPECT_EQ(one_way_prm(WorldView(world), {6, 1, 0}, goal, {.samples = 10}, true, {}).outcome, Outcome::start_blocked);
+  EXPECT_EQ(one_way_prm(WorldView(world), start, {6, 1, 0}, {.samples = 10}, true, {}).outcome, Outcome::goal_blocked);
 }
 
 /// The goals' tree grows backwards: its curves are driven towards the goal.
@@ -153,9 +154,9 @@ void expect_trees_to_solve() {
   const W world(scene, car);
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE(seed);
-    for (const auto planner : {rrt<W>, rrt_connect<W>}) {
+    for (const auto planner : {rrt<Se2, is_one_way<W>>, rrt_connect<Se2, is_one_way<W>>}) {
       PlannedRoadmap<Se2> trees;
-      const auto solution = planner(world, start, std::span(&goal, 1), {.seed = seed}, {}, &trees);
+      const auto solution = planner(WorldView(world), start, std::span(&goal, 1), {.seed = seed}, {}, &trees);
       ASSERT_EQ(solution.outcome, Outcome::solved);
       expect_verified(scene, world, solution.path);
       auto query = world.make_query();
@@ -178,10 +179,10 @@ void expect_shortcuts_to_shorten() {
   double after = 0.0;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     SCOPED_TRACE(seed);
-    const auto solution = rrt_connect(world, start, std::span(&goal, 1), {.seed = seed}, {});
+    const auto solution = rrt_connect(WorldView(world), start, std::span(&goal, 1), {.seed = seed}, {});
     ASSERT_EQ(solution.outcome, Outcome::solved);
     Counters counters;
-    const auto shorter = shortcut_path(world, solution.path, length, {.seed = seed}, {}, counters);
+    const auto shorter = shorter_path(world, solution.path, length, {.seed = seed}, {}, counters);
     expect_verified(scene, world, shorter);
     EXPECT_LE(path_length(shorter, length), path_length(solution.path, length) + 1e-9);
     before += path_length(solution.path, length);

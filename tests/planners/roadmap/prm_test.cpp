@@ -71,13 +71,13 @@ void expect_clear(const Scene& scene, const Path<Vec2>& path) {
   }
 }
 
-using Planner = Solution<Vec2> (*)(const MazeWorld&, const Vec2&, const Vec2&, const RoadmapOptions&, const Execution&,
-                                   PlannedRoadmap<Vec2>*);
+using Planner = Solution<Vec2> (*)(const AnyWorld<Vec2>&, const Vec2&, const Vec2&, const RoadmapOptions&,
+                                   const Execution&, PlannedRoadmap<Vec2>*);
 struct NamedPlanner {
   const char* name;
   Planner plan;
 };
-const std::vector<NamedPlanner> planners = {{"prm", prm<MazeWorld>}, {"lazy-prm", lazy_prm<MazeWorld>}};
+const std::vector<NamedPlanner> planners = {{"prm", prm<Vec2>}, {"lazy-prm", lazy_prm<Vec2>}};
 
 TEST(Prm, LatticePathIsTheShortestWalkOverCellCentres) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -87,7 +87,7 @@ TEST(Prm, LatticePathIsTheShortestWalkOverCellCentres) {
       for (const NamedPlanner& planner : planners) {
         SCOPED_TRACE(std::string(planner.name) + " seed " + std::to_string(seed));
         RoadmapOptions options = lattice_options(scene);
-        const auto solution = planner.plan(world, start_of(scene), goal_of(scene), options, {}, nullptr);
+        const auto solution = planner.plan(WorldView(world), start_of(scene), goal_of(scene), options, {}, nullptr);
         ASSERT_EQ(solution.outcome, Outcome::solved);
         EXPECT_DOUBLE_EQ(length_of(solution), shortest_walk(scene));
         expect_clear(scene, solution.path);
@@ -106,7 +106,7 @@ TEST(Prm, UniformSamplingSolvesEveryMazeWithoutKnobs) {
         RoadmapOptions options;
         options.sampler = sampler;
         options.seed = seed;
-        const auto solution = planner.plan(world, start_of(scene), goal_of(scene), options, {}, nullptr);
+        const auto solution = planner.plan(WorldView(world), start_of(scene), goal_of(scene), options, {}, nullptr);
         ASSERT_EQ(solution.outcome, Outcome::solved);
         expect_clear(scene, solution.path);
       }
@@ -121,9 +121,9 @@ TEST(Prm, TheLazyPlannerFindsThePathOfTheEagerOne) {
     RoadmapOptions options;
     options.samples = 2500;
     if (by_nearest) options.neighbours = 20;
-    const auto eager = prm(world, start_of(scene), goal_of(scene), options, {});
+    const auto eager = prm(WorldView(world), start_of(scene), goal_of(scene), options, {});
     ASSERT_EQ(eager.outcome, Outcome::solved);
-    const auto found = lazy_prm(world, start_of(scene), goal_of(scene), options, {});
+    const auto found = lazy_prm(WorldView(world), start_of(scene), goal_of(scene), options, {});
     ASSERT_EQ(found.outcome, Outcome::solved);
     EXPECT_NEAR(length_of(found), length_of(eager), 1e-12 * length_of(eager));
     EXPECT_LT(found.counters.edges_checked, eager.counters.edges_checked);
@@ -138,7 +138,7 @@ TEST(Prm, ResultAndCountersAreTheSameForAnyNumberOfThreads) {
     const auto plan = [&](unsigned threads) {
       const Execution execution{threads};
       const MazeWorld world(scene, clearance, execution);
-      return planner.plan(world, start_of(scene), goal_of(scene), options, execution, nullptr);
+      return planner.plan(WorldView(world), start_of(scene), goal_of(scene), options, execution, nullptr);
     };
     const auto one = plan(1);
     ASSERT_EQ(one.outcome, Outcome::solved);
@@ -168,7 +168,7 @@ TEST(Prm, LazySearchFromBothEndsFindsThePathOfTheEagerOneOnAnyNumberOfThreads) {
   const Scene scene = maze(100, 100, 5, 0.05);
   const MazeWorld world(scene, clearance, {});
   const auto plan = [&](Planner planner, const RoadmapOptions& options, unsigned threads, PlannedRoadmap<Vec2>* keep) {
-    return planner(world, start_of(scene), goal_of(scene), options, Execution{threads}, keep);
+    return planner(WorldView(world), start_of(scene), goal_of(scene), options, Execution{threads}, keep);
   };
   for (const bool by_nearest : {false, true}) {
     for (const SearchKind search : {SearchKind::astar, SearchKind::dijkstra}) {
@@ -176,15 +176,15 @@ TEST(Prm, LazySearchFromBothEndsFindsThePathOfTheEagerOneOnAnyNumberOfThreads) {
       RoadmapOptions options;
       options.search = search;
       if (by_nearest) options.neighbours = 16;
-      const auto eager = plan(prm<MazeWorld>, options, 1, nullptr);
+      const auto eager = plan(prm<Vec2>, options, 1, nullptr);
       ASSERT_EQ(eager.outcome, Outcome::solved);
       PlannedRoadmap<Vec2> roadmap;
-      const auto one = plan(lazy_prm<MazeWorld>, options, 1, &roadmap);
+      const auto one = plan(lazy_prm<Vec2>, options, 1, &roadmap);
       ASSERT_EQ(one.outcome, Outcome::solved);
       ASSERT_GE(one.roadmap.milestones, fewest_for_both_ends);
       EXPECT_NEAR(length_of(one), length_of(eager), 1e-12 * length_of(eager));
       EXPECT_LT(one.counters.edges_checked, eager.counters.edges_checked);
-      const auto two = plan(lazy_prm<MazeWorld>, options, 2, nullptr);
+      const auto two = plan(lazy_prm<Vec2>, options, 2, nullptr);
       EXPECT_EQ(two.path, one.path);
       EXPECT_EQ(two.counters, one.counters);
       EXPECT_EQ(two.roadmap.edges, one.roadmap.edges);
@@ -205,7 +205,7 @@ TEST(Prm, LargeLatticesAreReducedWithoutChangingTheAnswer) {
       const auto plan = [&](unsigned threads) {
         const Execution execution{threads};
         const MazeWorld world(scene, clearance, execution);
-        return prm(world, start_of(scene), goal_of(scene), options, execution, &roadmap);
+        return prm(WorldView(world), start_of(scene), goal_of(scene), options, execution, &roadmap);
       };
       const auto one = plan(1);
       ASSERT_EQ(one.outcome, Outcome::solved);
@@ -231,7 +231,7 @@ TEST(Prm, EverySearchAndQueueFindsAPathAndTheOptimalOnesAgree) {
     for (const SearchKind search : {SearchKind::astar, SearchKind::dijkstra, SearchKind::bfs, SearchKind::dfs}) {
       options.queue = queue;
       options.search = search;
-      const auto solution = prm(world, start_of(scene), goal_of(scene), options, {});
+      const auto solution = prm(WorldView(world), start_of(scene), goal_of(scene), options, {});
       ASSERT_EQ(solution.outcome, Outcome::solved);
       expect_clear(scene, solution.path);
       if (search == SearchKind::dfs) {
@@ -265,7 +265,7 @@ TEST(Prm, TellsHowFarStartAndGoalAreApart) {
   for (const NamedPlanner& planner : planners) {
     SCOPED_TRACE(planner.name);
     RoadmapOptions options = lattice_options(scene);
-    const auto solution = planner.plan(world, start_of(scene), goal_of(scene), options, {}, nullptr);
+    const auto solution = planner.plan(WorldView(world), start_of(scene), goal_of(scene), options, {}, nullptr);
     EXPECT_EQ(solution.outcome, Outcome::not_connected);
     EXPECT_TRUE(solution.path.empty());
     EXPECT_EQ(solution.separation.start_size, reachable + 1);
@@ -278,7 +278,7 @@ TEST(Prm, KnowsTheComponentsOfWhatItReduces) {
   const Scene scene = walled_off(230, 250);
   const MazeWorld world(scene, clearance, {});
   PlannedRoadmap<Vec2> roadmap;
-  const auto solution = prm(world, start_of(scene), goal_of(scene), lattice_options(scene), {}, &roadmap);
+  const auto solution = prm(WorldView(world), start_of(scene), goal_of(scene), lattice_options(scene), {}, &roadmap);
   EXPECT_EQ(solution.outcome, Outcome::not_connected);
   ASSERT_GE(solution.roadmap.milestones, fewest_for_both_ends);
   const Components oracle = components(roadmap.graph);
@@ -292,15 +292,15 @@ TEST(Prm, KnowsTheComponentsOfWhatItReduces) {
 TEST(Prm, BlockedEndsAreNamed) {
   const Scene scene = maze(5, 5, 1);
   const MazeWorld world(scene, clearance, {});
-  EXPECT_EQ(prm(world, {1.0, 0.55}, goal_of(scene), {}, {}).outcome, Outcome::start_blocked);
-  EXPECT_EQ(prm(world, start_of(scene), {99.0, 1.0}, {}, {}).outcome, Outcome::goal_blocked);
-  EXPECT_EQ(lazy_prm(world, {1.0, 0.5}, goal_of(scene), {}, {}).outcome, Outcome::start_blocked);
+  EXPECT_EQ(prm(WorldView(world), {1.0, 0.55}, goal_of(scene), {}, {}).outcome, Outcome::start_blocked);
+  EXPECT_EQ(prm(WorldView(world), start_of(scene), {99.0, 1.0}, {}, {}).outcome, Outcome::goal_blocked);
+  EXPECT_EQ(lazy_prm(WorldView(world), {1.0, 0.5}, goal_of(scene), {}, {}).outcome, Outcome::start_blocked);
 }
 
 TEST(Prm, StartEqualToGoalIsAPathOfLengthZero) {
   const Scene scene = maze(5, 5, 1);
   const MazeWorld world(scene, clearance, {});
-  const auto solution = prm(world, {2, 2}, {2, 2}, lattice_options(scene), {});
+  const auto solution = prm(WorldView(world), {2, 2}, {2, 2}, lattice_options(scene), {});
   ASSERT_EQ(solution.outcome, Outcome::solved);
   EXPECT_EQ(length_of(solution), 0.0);
 }
@@ -311,7 +311,7 @@ TEST(Prm, ADeadlineInThePastStopsThePlan) {
   const Execution execution{1, &deadline};
   const MazeWorld world(scene, clearance, {});
   for (const NamedPlanner& planner : planners) {
-    const auto solution = planner.plan(world, start_of(scene), goal_of(scene), {}, execution, nullptr);
+    const auto solution = planner.plan(WorldView(world), start_of(scene), goal_of(scene), {}, execution, nullptr);
     EXPECT_EQ(solution.outcome, Outcome::stopped) << planner.name;
     EXPECT_EQ(solution.stop_reason, StopReason::time);
   }
@@ -324,7 +324,7 @@ TEST(Prm, KeepsTheRoadmapWhereAsked) {
     SCOPED_TRACE(planner.name);
     RoadmapOptions options = lattice_options(scene);
     PlannedRoadmap<Vec2> roadmap;
-    const auto solution = planner.plan(world, start_of(scene), goal_of(scene), options, {}, &roadmap);
+    const auto solution = planner.plan(WorldView(world), start_of(scene), goal_of(scene), options, {}, &roadmap);
     ASSERT_EQ(roadmap.states.size(), 51U);
     EXPECT_EQ(roadmap.graph.vertex_count(), 51U);
     EXPECT_EQ(solution.roadmap.milestones, 51U);

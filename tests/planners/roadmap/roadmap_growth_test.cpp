@@ -43,10 +43,10 @@ TEST(RoadmapRule, LongWorldsOfFewWallsAreSolvedWithFewSamples) {
     SCOPED_TRACE(seed);
     const MazeWorld world(long_world(seed), 0.0, {});
     const RoadmapOptions options{.seed = seed};
-    const Solution<Vec2> plan = lazy_prm(world, {1.0, 0.5}, {world_length - 1.0, 0.5}, options, {});
+    const Solution<Vec2> plan = lazy_prm(WorldView(world), {1.0, 0.5}, {world_length - 1.0, 0.5}, options, {});
     EXPECT_EQ(plan.outcome, Outcome::solved);
     EXPECT_LT(plan.counters.samples, 20'000U);
-    EXPECT_LT(growth_cap * growth * static_cast<double>(usual_samples(world, options, {})), 1e6)
+    EXPECT_LT(growth_cap * growth * static_cast<double>(usual_samples(WorldView(world), options, {})), 1e6)
         << "if there were no way";
   }
 }
@@ -60,7 +60,8 @@ TEST(RoadmapRule, LongMazesGetTheSamplesThatTheirCellsNeed) {
   Scene scene;
   scene.walls = WallSet::narrowest(walls);
   scene.bounds = Box{{0.0, 0.0}, {1.0 * cells, 1.0}};
-  EXPECT_GT(usual_samples(MazeWorld(scene, 0.0, {}), {}, {}), 4U * cells);
+  const MazeWorld world(scene, 0.0, {});
+  EXPECT_GT(usual_samples(WorldView(world), {}, {}), 4U * cells);
 }
 
 }  // namespace

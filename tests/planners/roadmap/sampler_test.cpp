@@ -31,7 +31,8 @@ RoadmapOptions lattice_options() {
 
 TEST(Sampler, SamplesArePureFunctionsInsideTheWorld) {
   const Scene scene = small_maze();
-  const MazeWorld world(scene, clearance, {});
+  const MazeWorld maze(scene, clearance, {});
+  const WorldView world(maze);
   RoadmapOptions options = lattice_options();
   std::set<std::pair<double, double>> cells;
   for (std::uint64_t i = 0; i < 54; ++i) {
@@ -51,7 +52,8 @@ TEST(Sampler, SamplesArePureFunctionsInsideTheWorld) {
 
 TEST(Sampler, SamplesOfARangeAreThoseOfTheirIndices) {
   const Scene scene = small_maze();
-  const MazeWorld world(scene, clearance, {});
+  const MazeWorld maze(scene, clearance, {});
+  const WorldView world(maze);
   for (const SamplerKind sampler : {SamplerKind::uniform, SamplerKind::halton, SamplerKind::random}) {
     RoadmapOptions options;
     options.sampler = sampler;

@@ -13,13 +13,13 @@ namespace problems = sampled_problems;
 template <class W>
 double share_left(const problems::Problem<W>& problem, std::uint64_t seed) {
   const auto length = [&](const auto& a, const auto& b) { return problem.world.distance(a, b); };
-  const auto found = rrt_connect(problem.world, problem.start, std::span(&problem.goal, 1), {.seed = seed}, {});
+  const auto found = rrt_connect(problem.view, problem.start, std::span(&problem.goal, 1), {.seed = seed}, {});
   EXPECT_EQ(found.outcome, Outcome::solved);
   Path<typename W::State> first;
   Counters first_counters;
   for (const unsigned threads : {1U, 2U, 8U}) {
     Counters counters;
-    const auto path = improve_path(problem.world, found.path, length, {.seed = seed}, {.threads = threads}, counters);
+    const auto path = improved_path(problem.world, found.path, length, {.seed = seed}, {.threads = threads}, counters);
     if (threads == 1) {
       first = path;
       first_counters = counters;
@@ -55,8 +55,8 @@ TEST(ImprovePath, ApproachesTheShortestAroundACornerAndKeepsFewStates) {
   const Path<Vec2> path = {{2, 1}, {1, 9}, {4, 6}, {5, 9}, {9, 9}, {8, 1}};
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Counters counters;
-    const auto shorter = improve_path(problem.world, path, MazeWorld::distance,
-                                      {.seed = seed, .worth = 1e-4, .patience = 3}, {}, counters);
+    const auto shorter = improved_path(problem.world, path, MazeWorld::distance,
+                                       {.seed = seed, .worth = 1e-4, .patience = 3}, {}, counters);
     EXPECT_LE(problem.length(shorter), 10.0 * 1.005) << seed;
     EXPECT_GE(problem.length(shorter), 10.0);
     EXPECT_LE(shorter.size(), 8U);
@@ -68,12 +68,13 @@ TEST(ImprovePath, LeavesWhatCanNotBeShorter) {
   const Path<Vec2> straight = {{2, 1}, {8, 1}};
   const Path<Vec2> in_pieces = {{2, 1}, {3, 1}, {5, 1}, {8, 1}};
   Counters counters;
-  EXPECT_EQ(improve_path(problem.world, straight, MazeWorld::distance, {}, {}, counters), straight);
-  EXPECT_EQ(improve_path(problem.world, in_pieces, MazeWorld::distance, {}, {}, counters), straight);
+  EXPECT_EQ(improved_path(problem.world, straight, MazeWorld::distance, {}, {}, counters), straight);
+  EXPECT_EQ(improved_path(problem.world, in_pieces, MazeWorld::distance, {}, {}, counters), straight);
   const Path<Vec2> one = {{2, 1}};
-  EXPECT_EQ(improve_path(problem.world, one, MazeWorld::distance, {}, {}, counters), one);
+  EXPECT_EQ(improved_path(problem.world, one, MazeWorld::distance, {}, {}, counters), one);
   const Deadline past(1e-9);
-  EXPECT_THROW(improve_path(problem.world, in_pieces, MazeWorld::distance, {}, {.deadline = &past}, counters), Stopped);
+  EXPECT_THROW(improved_path(problem.world, in_pieces, MazeWorld::distance, {}, {.deadline = &past}, counters),
+               Stopped);
 }
 
 }  // namespace

@@ -80,10 +80,11 @@ TEST(ArmPlanners, FindVerifiedPathsTheSameForAnyNumberOfThreads) {
     std::vector<Solution<JointState>> first;
     for (const unsigned threads : {1U, 2U, 3U, 8U}) {
       const Execution execution{.threads = threads};
-      std::vector<Solution<JointState>> all{prm(world, q.start, q.goal, options, execution),
-                                            lazy_prm(world, q.start, q.goal, options, execution),
-                                            rrt(world, q.start, std::span(&q.goal, 1), trees, execution),
-                                            rrt_connect(world, q.start, std::span(&q.goal, 1), trees, execution)};
+      std::vector<Solution<JointState>> all{
+          prm(WorldView(world), q.start, q.goal, options, execution),
+          lazy_prm(WorldView(world), q.start, q.goal, options, execution),
+          rrt(WorldView(world), q.start, std::span(&q.goal, 1), trees, execution),
+          rrt_connect(WorldView(world), q.start, std::span(&q.goal, 1), trees, execution)};
       if (first.empty()) first = all;
       for (std::size_t i = 0; i < all.size(); ++i) {
         EXPECT_EQ(all[i].outcome, Outcome::solved) << i;
@@ -117,11 +118,11 @@ TEST_P(StudyScene, AHundredSamplesSolveItForEachOfAHundredSeeds) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) seeds.push_back(seed);
   for (const std::uint64_t seed : seeds) {
     SCOPED_TRACE(seed);
-    const auto found = prm(*world_, question_.start, question_.goal, study_options(seed), {});
+    const auto found = prm(WorldView(*world_), question_.start, question_.goal, study_options(seed), {});
     ASSERT_EQ(found.outcome, Outcome::solved);
     if (seed > 12) continue;
     Counters counters;
-    const auto shorter = shortcut_path(*world_, found.path, joint_distance, {.seed = seed}, {}, counters);
+    const auto shorter = shorter_path(*world_, found.path, joint_distance, {.seed = seed}, {}, counters);
     expect_verified(question_, shorter);
     lengths.push_back(path_length(shorter, joint_distance));
   }
@@ -136,7 +137,7 @@ TEST_P(StudyScene, AHundredSamplesSolveItForEachOfAHundredSeeds) {
 TEST_P(StudyScene, ThePathsEndsAreAttachedWithinARadiusThatGrows) {
   RoadmapOptions options = study_options(1);
   options.attach = GrowingAttach{.radius = 1e-3, .step = 1e-3, .tries = 10};
-  const auto narrow = prm(*world_, question_.start, question_.goal, options, {});
+  const auto narrow = prm(WorldView(*world_), question_.start, question_.goal, options, {});
   const bool straight = world_->judge_motion(question_.start, question_.goal) == MotionVerdict::free;
   if (!straight) {
     EXPECT_EQ(narrow.outcome, Outcome::not_connected);  // nothing is so near
@@ -144,9 +145,9 @@ TEST_P(StudyScene, ThePathsEndsAreAttachedWithinARadiusThatGrows) {
     EXPECT_EQ(narrow.separation.goal_size, 1U);
   }
   options.attach = GrowingAttach{.radius = 0.1, .step = 0.5, .tries = 10};
-  EXPECT_EQ(prm(*world_, question_.start, question_.goal, options, {}).outcome, Outcome::solved);
+  EXPECT_EQ(prm(WorldView(*world_), question_.start, question_.goal, options, {}).outcome, Outcome::solved);
   options.attach->tries = 0;
-  EXPECT_THROW(prm(*world_, question_.start, question_.goal, options, {}), InputError);
+  EXPECT_THROW(prm(WorldView(*world_), question_.start, question_.goal, options, {}), InputError);
 }
 
 INSTANTIATE_TEST_SUITE_P(Puma, StudyScene, ::testing::Values("examples/worlds/puma.scene", nine_spheres));

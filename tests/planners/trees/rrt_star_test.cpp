@@ -16,18 +16,18 @@ using problems::Problem;
 constexpr double no_cost = std::numeric_limits<double>::infinity();
 
 template <class W>
-RrtStarTree<W> star_of(const Problem<W>& problem, const RrtStarOptions& options) {
+RrtStarTree<AnyWorldOf<W>> star_of(const Problem<W>& problem, const RrtStarOptions& options) {
   RrtStarOptions with_step = options;
   if (with_step.step == 0.0) with_step.step = usual_step(problem.world);
-  return RrtStarTree<W>(problem.world, problem.start, std::span(&problem.goal, 1), with_step);
+  return RrtStarTree<AnyWorldOf<W>>(problem.view, problem.start, std::span(&problem.goal, 1), with_step);
 }
 
 template <class W>
-RrtStarTree<W> star_of(const Problem<W>&&, const RrtStarOptions&) = delete;  // it refers to the world
+RrtStarTree<AnyWorldOf<W>> star_of(const Problem<W>&&, const RrtStarOptions&) = delete;  // it refers to the world
 
 /// Every cost is that of the parent and the motion from it, and the world lets it be made.
 template <class W>
-void expect_right_costs(const Problem<W>& problem, const MotionTree<W>& tree) {
+void expect_right_costs(const Problem<W>& problem, const MotionTree<AnyWorldOf<W>>& tree) {
   auto query = problem.world.make_query();
   std::size_t wrong = 0;
   std::size_t refused = 0;
@@ -45,7 +45,7 @@ void expect_right_costs(const Problem<W>& problem, const MotionTree<W>& tree) {
 
 template <class W>
 void expect_a_path_that_gets_shorter(const Problem<W>& problem, const RrtStarOptions& options) {
-  RrtStarTree<W> star = star_of(problem, options);
+  RrtStarTree<AnyWorldOf<W>> star = star_of(problem, options);
   Path<typename W::State> best;
   double least = no_cost;
   for (int slice = 0; slice < 60; ++slice) {
@@ -86,11 +86,11 @@ TEST(RrtStar, ApproachesTheShortestPath) {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
       SCOPED_TRACE(testing::Message() << "seed " << seed << " informed " << informed);
       const double rest = informed ? 1.005 : 1.02;
-      RrtStarTree<MazeWorld> open = star_of(in_the_open, {.seed = seed, .step = 1.0, .informed = informed});
+      RrtStarTree<AnyWorld<Vec2>> open = star_of(in_the_open, {.seed = seed, .step = 1.0, .informed = informed});
       open.advance(60'000, no_cost, {}, {});
       EXPECT_GE(open.cost(), 6.0 - 1e-12);
       EXPECT_LE(open.cost(), 6.0 * rest);
-      RrtStarTree<MazeWorld> wall = star_of(around_a_wall, {.seed = seed, .step = 1.0, .informed = informed});
+      RrtStarTree<AnyWorld<Vec2>> wall = star_of(around_a_wall, {.seed = seed, .step = 1.0, .informed = informed});
       wall.advance(60'000, no_cost, {}, {});
       EXPECT_GE(wall.cost(), 10.0);
       EXPECT_LE(wall.cost(), 10.0 * rest);
@@ -100,14 +100,14 @@ TEST(RrtStar, ApproachesTheShortestPath) {
 
 TEST(RrtStar, IsTheSameTwiceAndInSlices) {
   const Problem<Se2World> problem = problems::body(2);
-  RrtStarTree<Se2World> once = star_of(problem, {.seed = 5});
-  RrtStarTree<Se2World> twice = star_of(problem, {.seed = 5});
+  RrtStarTree<AnyWorld<Se2>> once = star_of(problem, {.seed = 5});
+  RrtStarTree<AnyWorld<Se2>> twice = star_of(problem, {.seed = 5});
   once.advance(9000, no_cost, {}, {});
   while (twice.work() < once.work()) twice.advance(1, no_cost, {}, {});
   EXPECT_EQ(once.path(), twice.path());
   EXPECT_EQ(once.counters(), twice.counters());
   EXPECT_EQ(once.size(), twice.size());
-  RrtStarTree<Se2World> other = star_of(problem, {.seed = 6});
+  RrtStarTree<AnyWorld<Se2>> other = star_of(problem, {.seed = 6});
   other.advance(9000, no_cost, {}, {});
   EXPECT_NE(once.path(), other.path());
 }
@@ -116,7 +116,7 @@ TEST(RrtStar, TakesAPathWithTheCostsThatItHas) {
   const Problem<MazeWorld> problem = problems::point(true);
   const Path<Vec2> around = {{2, 1}, {4, 6}, {6, 6}, {8, 1}};
   const Path<Vec2> nearer = {{2, 1}, {4, 5.5}, {5, 5.1}, {6, 5.5}, {8, 1}};
-  RrtStarTree<MazeWorld> star = star_of(problem, {});
+  RrtStarTree<AnyWorld<Vec2>> star = star_of(problem, {});
   star.take({{3, 1}, {8, 1}}, {});  // not from the start
   EXPECT_EQ(star.size(), 1U);
   star.take(around, {});
@@ -132,7 +132,7 @@ TEST(RrtStar, TakesAPathWithTheCostsThatItHas) {
   expect_right_costs(problem, star.tree());
 
   // What hangs on a state that gets cheaper gets cheaper, too.
-  RrtStarTree<MazeWorld> detour = star_of(problem, {});
+  RrtStarTree<AnyWorld<Vec2>> detour = star_of(problem, {});
   detour.take({{2, 1}, {1, 9}, {4, 6}, {6, 6}, {8, 1}}, {});
   detour.take({{2, 1}, {4, 6}}, {});
   EXPECT_EQ(detour.path(), around);
@@ -141,14 +141,14 @@ TEST(RrtStar, TakesAPathWithTheCostsThatItHas) {
 
 TEST(RrtStar, AddsNothingThroughWhichNoPathIsCheaper) {
   const Problem<MazeWorld> problem = problems::point(true);
-  RrtStarTree<MazeWorld> star = star_of(problem, {.seed = 3});
+  RrtStarTree<AnyWorld<Vec2>> star = star_of(problem, {.seed = 3});
   star.advance(4000, 10.5, {}, {});
   EXPECT_GT(star.size(), 50U);
   for (VertexId v = 1; v < star.size(); ++v) {
     const Vec2 state = star.tree().state(v);
     EXPECT_LT(star.tree().cost(v) + distance(state, problem.goal), 10.5);
   }
-  RrtStarTree<MazeWorld> none = star_of(problem, {.seed = 3});
+  RrtStarTree<AnyWorld<Vec2>> none = star_of(problem, {.seed = 3});
   none.advance(4000, 5.9, {}, {});  // less than the straight way
   EXPECT_EQ(none.size(), 1U);
   EXPECT_GE(none.work(), 4000U);
@@ -156,7 +156,7 @@ TEST(RrtStar, AddsNothingThroughWhichNoPathIsCheaper) {
 
 TEST(RrtStar, GrowsNoMoreThanItMay) {
   const Problem<MazeWorld> problem = problems::point(true);
-  RrtStarTree<MazeWorld> star = star_of(problem, {.nodes = 100});
+  RrtStarTree<AnyWorld<Vec2>> star = star_of(problem, {.nodes = 100});
   star.advance(100'000, no_cost, {}, {});
   EXPECT_TRUE(star.is_full());
   EXPECT_LE(star.size(), 101U);  // a goal may come with the last
@@ -166,7 +166,7 @@ TEST(RrtStar, GrowsNoMoreThanItMay) {
 TEST(RrtStar, StartsAtAGoal) {
   Problem<MazeWorld> problem = problems::point(true);
   problem.goal = problem.start;
-  RrtStarTree<MazeWorld> star = star_of(problem, {});
+  RrtStarTree<AnyWorld<Vec2>> star = star_of(problem, {});
   EXPECT_EQ(star.cost(), 0.0);
   EXPECT_EQ(star.path(), Path<Vec2>{problem.start});
   star.advance(100, 0.0, {}, {});
@@ -175,7 +175,7 @@ TEST(RrtStar, StartsAtAGoal) {
 
 TEST(RrtStar, StopsAtTheDeadline) {
   const Problem<MazeWorld> problem = problems::point(true);
-  RrtStarTree<MazeWorld> star = star_of(problem, {});
+  RrtStarTree<AnyWorld<Vec2>> star = star_of(problem, {});
   const Deadline past(1e-9);
   EXPECT_THROW(star.advance(1000, no_cost, {}, {.deadline = &past}), Stopped);
 }
@@ -188,7 +188,7 @@ void expect_bounded_paths(const Problem<W>& problem, std::uint64_t first) {
   double most = no_cost;
   int found = 0;
   for (std::uint64_t index = 1; index <= 8; ++index) {
-    detail::RrtConnectSearch<W> search(problem.world, problem.start, goals, options, step, index);
+    detail::RrtConnectSearch<AnyWorldOf<W>> search(problem.view, problem.start, goals, options, step, index);
     if (most < no_cost) search.bound(most);
     search.advance_by_work(20'000, {});
     if (!search.arrived()) continue;
@@ -219,8 +219,8 @@ TEST(RrtConnectBound, AWideOneChangesNothing) {
   const Problem<Se2World> problem = problems::body(3);
   const RrtOptions options{.places = false};
   const std::span<const Se2> goals(&problem.goal, 1);
-  detail::RrtConnectSearch<Se2World> plain(problem.world, problem.start, goals, options, 1.0, 3);
-  detail::RrtConnectSearch<Se2World> wide(problem.world, problem.start, goals, options, 1.0, 3);
+  detail::RrtConnectSearch<AnyWorld<Se2>> plain(problem.view, problem.start, goals, options, 1.0, 3);
+  detail::RrtConnectSearch<AnyWorld<Se2>> wide(problem.view, problem.start, goals, options, 1.0, 3);
   wide.bound(1e9);
   plain.advance(10'000, {});
   wide.advance_by_work(1'000'000, {});

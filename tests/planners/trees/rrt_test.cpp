@@ -51,13 +51,13 @@ constexpr Se2 easy_goal{3.86, 0.23, 0};
 
 double plane_length(const Se2& a, const Se2& b) { return distance(a.position(), b.position()); }
 
-using Planner = Solution<Se2> (*)(const Se2World&, const Se2&, std::span<const Se2>, const RrtOptions&,
+using Planner = Solution<Se2> (*)(const AnyWorld<Se2>&, const Se2&, std::span<const Se2>, const RrtOptions&,
                                   const Execution&, PlannedRoadmap<Se2>*);
 struct NamedPlanner {
   const char* name;
   Planner plan;
 };
-const std::vector<NamedPlanner> planners = {{"rrt", rrt<Se2World>}, {"rrt-connect", rrt_connect<Se2World>}};
+const std::vector<NamedPlanner> planners = {{"rrt", rrt<Se2, false>}, {"rrt-connect", rrt_connect<Se2, false>}};
 
 void expect_verified(const Scene& scene, const std::vector<Vec2>& outline, const Path<Se2>& path,
                      const PoseVerifyOptions& options) {
@@ -71,12 +71,13 @@ TEST(RrtConnect, SolvesPolyEasyForEverySeed) {
   double best = 100.0;
   for (std::uint64_t seed = 1; seed <= test::share(100, 20); ++seed) {
     SCOPED_TRACE(seed);
-    const auto solution = rrt_connect(world, easy_start, std::span(&easy_goal, 1), {.places = false, .seed = seed}, {});
+    const auto solution =
+        rrt_connect(WorldView(world), easy_start, std::span(&easy_goal, 1), {.places = false, .seed = seed}, {});
     ASSERT_EQ(solution.outcome, Outcome::solved);
     expect_verified(scene, kite, solution.path, {.start = easy_start, .goal = easy_goal});
     if (seed > 20) continue;
     Counters counters;
-    const auto path = shortcut_path(world, solution.path, plane_length, {.seed = seed}, {}, counters);
+    const auto path = shorter_path(world, solution.path, plane_length, {.seed = seed}, {}, counters);
     expect_verified(scene, kite, path, {.start = easy_start, .goal = easy_goal});
     const double length = path_length(path, plane_length);
     EXPECT_LE(length, path_length(solution.path, plane_length) + 1e-12);
@@ -94,14 +95,15 @@ TEST(RrtConnect, GoesOverFreePlacesBeforeAnythingIsDrawn) {
       SCOPED_TRACE(std::to_string(turn) + (backwards ? " backwards" : ""));
       std::vector<Se2> ends{easy_start, {easy_goal.x, easy_goal.y, turn}};
       if (backwards) std::swap(ends[0], ends[1]);
-      const auto solution = rrt_connect(world, ends[0], std::span(&ends[1], 1), {.seed = 3}, {});
+      const auto solution = rrt_connect(WorldView(world), ends[0], std::span(&ends[1], 1), {.seed = 3}, {});
       ASSERT_EQ(solution.outcome, Outcome::solved);
       expect_verified(scene, kite, solution.path, {.start = ends[0], .goal = ends[1]});
       if (turn == 0.0 && !backwards) {  // backwards the way cuts a corner, and trees go on from what was free of it
         EXPECT_EQ(solution.counters.samples, 0U);
       }
       EXPECT_LT(solution.counters.edges_checked, 60U);
-      const auto drawn = rrt_connect(world, ends[0], std::span(&ends[1], 1), {.places = false, .seed = 3}, {});
+      const auto drawn =
+          rrt_connect(WorldView(world), ends[0], std::span(&ends[1], 1), {.places = false, .seed = 3}, {});
       EXPECT_GT(drawn.counters.samples, 0U);
     }
   }
@@ -111,7 +113,7 @@ TEST(RrtConnect, GoesOverFreePlacesToTheNearestGoal) {
   const Scene scene = poly_easy();
   const Se2World world(scene, kite, {});
   const std::vector<Se2> goals{{3.86, 0.23, 2.0}, {3.86, 0.23, 0.0}, {3.86, 0.23, -2.0}};
-  const auto solution = rrt_connect(world, easy_start, goals, {}, {});
+  const auto solution = rrt_connect(WorldView(world), easy_start, goals, {}, {});
   ASSERT_EQ(solution.outcome, Outcome::solved);
   EXPECT_EQ(solution.path.back(), goals[1]);
   EXPECT_EQ(solution.counters.samples, 0U);
@@ -133,8 +135,8 @@ TEST(Rrt, SolvesScatteredScenesWithEverySampler) {
                                         SamplerKind::bridge, SamplerKind::mixture}) {
         SCOPED_TRACE(std::string(planner.name) + " seed " + std::to_string(seed) + " sampler " +
                      std::to_string(static_cast<int>(sampler)));
-        const auto solution =
-            planner.plan(world, ends[0], std::span(&ends[1], 1), {.sampler = sampler, .seed = seed}, {}, nullptr);
+        const auto solution = planner.plan(WorldView(world), ends[0], std::span(&ends[1], 1),
+                                           {.sampler = sampler, .seed = seed}, {}, nullptr);
         ASSERT_EQ(solution.outcome, Outcome::solved);
         expect_verified(scene, hook, solution.path, {.clearance = 0.02, .start = ends[0], .goal = ends[1]});
       }
@@ -154,7 +156,7 @@ TEST(RrtConnect, KeepsToTheBoxOfObstaclesWithoutBounds) {
       const Se2 pose = body_scenes::random_pose(seed, i);
       if (world.is_free(pose, query)) ends.push_back(pose);
     }
-    const auto solution = rrt_connect(world, ends[0], std::span(&ends[1], 1), {.seed = seed}, {}, nullptr);
+    const auto solution = rrt_connect(WorldView(world), ends[0], std::span(&ends[1], 1), {.seed = seed}, {}, nullptr);
     ASSERT_EQ(solution.outcome, Outcome::solved);
     expect_verified(scene, hook, solution.path, {.start = ends[0], .goal = ends[1]});
   }
@@ -181,11 +183,11 @@ TEST(Rrt, IsTheSameForAnyNumberOfThreadsAndTrees) {
       SCOPED_TRACE(std::string(planner.name) + " trees " + std::to_string(trees));
       std::vector<Solution<Se2>> all;
       for (const unsigned threads : {1U, 2U, 3U, 8U}) {
-        auto solution = planner.plan(world, easy_start, std::span(&easy_goal, 1), {.trees = trees, .seed = 5},
-                                     {.threads = threads}, nullptr);
+        auto solution = planner.plan(WorldView(world), easy_start, std::span(&easy_goal, 1),
+                                     {.trees = trees, .seed = 5}, {.threads = threads}, nullptr);
         Counters& counters = solution.counters;
         solution.path =
-            shortcut_path(world, solution.path, plane_length, {.rounds = 20}, {.threads = threads}, counters);
+            shorter_path(world, solution.path, plane_length, {.rounds = 20}, {.threads = threads}, counters);
         all.push_back(std::move(solution));
       }
       for (const auto& solution : all) {
@@ -202,7 +204,8 @@ TEST(Rrt, MoreTreesNeverTakeMoreBatches) {
   const Se2World world(scene, kite, {});
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const auto rounds = [&](std::uint32_t trees) {
-      return rrt(world, easy_start, std::span(&easy_goal, 1), {.trees = trees, .seed = seed}, {}).counters.rounds;
+      return rrt(WorldView(world), easy_start, std::span(&easy_goal, 1), {.trees = trees, .seed = seed}, {})
+          .counters.rounds;
     };
     EXPECT_LE(rounds(4), rounds(1)) << seed;
   }
@@ -220,11 +223,13 @@ TEST(RrtConnect, TakesTheGoalThatIsReached) {
   }
   const std::vector<Se2> goals = {{9, 9, 0}, free[1]};  // the first is blocked
   for (const NamedPlanner& planner : planners) {
-    const auto solution = planner.plan(world, free[0], goals, {}, {}, nullptr);
+    const auto solution = planner.plan(WorldView(world), free[0], goals, {}, {}, nullptr);
     ASSERT_EQ(solution.outcome, Outcome::solved) << planner.name;
     EXPECT_EQ(solution.path.back(), free[1]);
-    EXPECT_EQ(planner.plan(world, free[0], std::span(goals).first(1), {}, {}, nullptr).outcome, Outcome::goal_blocked);
-    EXPECT_EQ(planner.plan(world, goals[0], std::span(free), {}, {}, nullptr).outcome, Outcome::start_blocked);
+    EXPECT_EQ(planner.plan(WorldView(world), free[0], std::span(goals).first(1), {}, {}, nullptr).outcome,
+              Outcome::goal_blocked);
+    EXPECT_EQ(planner.plan(WorldView(world), goals[0], std::span(free), {}, {}, nullptr).outcome,
+              Outcome::start_blocked);
   }
 }
 
@@ -237,7 +242,8 @@ TEST(Rrt, GivesUpWhereThereIsNoWay) {
   for (const NamedPlanner& planner : planners) {
     SCOPED_TRACE(planner.name);
     PlannedRoadmap<Se2> keep;
-    const auto solution = planner.plan(world, {2, 5, 0}, std::span(&goal, 1), {.nodes = 300, .trees = 2}, {}, &keep);
+    const auto solution =
+        planner.plan(WorldView(world), {2, 5, 0}, std::span(&goal, 1), {.nodes = 300, .trees = 2}, {}, &keep);
     EXPECT_EQ(solution.outcome, Outcome::not_connected);
     EXPECT_TRUE(solution.path.empty());
     EXPECT_GE(solution.separation.nearest_gap, 0.0);
@@ -251,7 +257,7 @@ TEST(Rrt, StopsAtTheDeadline) {
   const Scene scene = poly_easy();
   const Se2World world(scene, kite, {});
   const Deadline past(1e-9);
-  const auto solution = rrt_connect(world, easy_start, std::span(&easy_goal, 1), {}, {.deadline = &past});
+  const auto solution = rrt_connect(WorldView(world), easy_start, std::span(&easy_goal, 1), {}, {.deadline = &past});
   EXPECT_EQ(solution.outcome, Outcome::stopped);
   EXPECT_TRUE(solution.path.empty());
 }
@@ -261,10 +267,10 @@ TEST(Rrt, ServesPointsAmongWallsToo) {
   const MazeWorld world(scene, 0.1, {});
   const Vec2 start{scene.start[0], scene.start[1]};
   const Vec2 goal{scene.goal[0], scene.goal[1]};
-  const auto solution = rrt_connect(world, start, std::span(&goal, 1), {}, {});
+  const auto solution = rrt_connect(WorldView(world), start, std::span(&goal, 1), {}, {});
   ASSERT_EQ(solution.outcome, Outcome::solved);
   Counters counters;
-  const auto path = shortcut_path(world, solution.path, MazeWorld::distance, {}, {}, counters);
+  const auto path = shorter_path(world, solution.path, MazeWorld::distance, {}, {}, counters);
   EXPECT_LT(path_length(path, MazeWorld::distance), path_length(solution.path, MazeWorld::distance));
   for (const auto& p : {solution.path, path}) {
     EXPECT_TRUE(verify_path(scene, p, {.clearance = 0.1, .start = start, .goal = goal}, {}).verified);
@@ -297,7 +303,7 @@ TEST(ShortcutPath, ApproachesTheShortestPathAroundACorner) {
   const Path<Vec2> path = {{2, 1}, {1, 9}, {4, 6}, {5, 9}, {9, 9}, {8, 1}};
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Counters counters;
-    const auto shorter = shortcut_path(world, path, MazeWorld::distance, {.seed = seed}, {}, counters);
+    const auto shorter = shorter_path(world, path, MazeWorld::distance, {.seed = seed}, {}, counters);
     EXPECT_EQ(shorter.front(), path.front());
     EXPECT_EQ(shorter.back(), path.back());
     EXPECT_LE(path_length(shorter, MazeWorld::distance), 10.0 * 1.005) << seed;  // 3-4-5 triangles on both sides
@@ -353,7 +359,7 @@ TEST(Prm, SolvesForTurningBodiesWithEverySamplerAndRule) {
       Path<Se2> path;
       for (const unsigned threads : {1U, 2U, 3U, 8U}) {
         if (threads > 1 && star != StarRule::none) continue;
-        const auto solution = prm(world, easy_start, easy_goal, options, {.threads = threads});
+        const auto solution = prm(WorldView(world), easy_start, easy_goal, options, {.threads = threads});
         ASSERT_EQ(solution.outcome, Outcome::solved);
         if (threads == 1) {
           path = solution.path;
@@ -364,7 +370,7 @@ TEST(Prm, SolvesForTurningBodiesWithEverySamplerAndRule) {
         EXPECT_EQ(solution.counters, first);
       }
       if (star == StarRule::radius) continue;
-      const auto lazy = lazy_prm(world, easy_start, easy_goal, options, {});
+      const auto lazy = lazy_prm(WorldView(world), easy_start, easy_goal, options, {});
       ASSERT_EQ(lazy.outcome, Outcome::solved);
       EXPECT_NEAR(path_length(lazy.path, [&](const Se2& a, const Se2& b) { return world.distance(a, b); }),
                   path_length(path, [&](const Se2& a, const Se2& b) { return world.distance(a, b); }), 1e-9);

@@ -16,6 +16,7 @@ struct Problem {
   W world;
   typename W::State start;
   typename W::State goal;
+  WorldView<W> view{world};  ///< as planners see it; so a problem stays where it is made
 
   double length(const Path<typename W::State>& path) const {
     return path_length(path, [this](const auto& a, const auto& b) { return world.distance(a, b); });

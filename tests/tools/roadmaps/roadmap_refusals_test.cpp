@@ -133,7 +133,7 @@ TEST_F(RoadmapRefusals, WordsThatMeanNothing) {
   refused({"update", "@r.roadmap", "maze:9x9"}, 2, "-o FILE is missing");
   refused({"export", "@r.roadmap"}, 2, "-o FILE is missing");
   refused({"build", "maze:9x9", "-o", "@new", "--planner", "grid"}, 2, "it searches the world's cells themselves");
-  refused({"build", "maze:9x9", "-o", "@new", "--planner", "visibility"}, 2, "visibility plans for a point");
+  refused({"build", "maze:9x9", "-o", "@new", "--planner", "cells"}, 2, "cells plans for a point");
   refused({"build", "maze:9x9", "-o", "@new", "--search", "bfs"}, 2, "--search");
   refused({"build", "maze:9x9", "-o", "@new", "--start", "1,1"}, 2, "--start");
   refused({"build", "maze:9x9", "-o", "@no/folder"}, 73, "no/folder");

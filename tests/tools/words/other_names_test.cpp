@@ -93,8 +93,8 @@ TEST(OtherNames, AreTypedAsPeopleTypeThem) {
   const std::vector<Case> cases{
       {{"solve", "maze:5x5", "--footprint", "1"}, 2, "unknown option --footprint; --robot \"[[X, Y], ...]\""},
       {{"solve", "maze:5x5", "-o", "x.svg"}, 2, "--picture FILE"},
-      {{"solve", "maze:5x5", "--planner", "RRT*"}, 2, "not here: with --planner prm --neighbours star"},
-      {{"solve", "maze:5x5", "--planner", "rrt-star"}, 2, "--neighbours star"},
+      {{"solve", "maze:5x5", "--planner", "RRT*"}, 2, "--planner rrt-star, informed-rrt-star or anytime"},
+      {{"solve", "maze:5x5", "--planner", "fmt-star"}, 2, "not here: --planner anytime"},
       {{"solve", "maze:5x5", "--planner", "RRT"}, 2, "did you mean rrt?"},
       {{"compare", "maze:5x5", "--planners", "prm,D*_Lite"}, 2, "warren update"},
       {{"solve", "maze:5x5", "--Planner", "prm"}, 2, "did you mean --planner?"},

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A world as planners see it: one type a kind of state, so that they are compiled once for all worlds of it. Questions
+// are virtual, and those that are asked most come in bunches; the metric of points is inline. What a world need not
+// have has an answer all the same, which says that it has none.
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <tuple>
+#include <utility>
+
+#include "core/base/bitmap.hpp"
+#include "core/base/types.hpp"
+#include "core/base/world.hpp"
+#include "core/plane/cell_walls.hpp"
+#include "core/plane/se2.hpp"
+#include "parallel/execution.hpp"
+
+namespace warren {
+
+/// The query of some world.
+class AnyQuery {
+ public:
+  template <class Query>
+  explicit AnyQuery(std::in_place_type_t<Query>, Query query) : held_(std::make_unique<Of<Query>>(std::move(query))) {}
+
+  /// Query: the one that it was made of.
+  template <class Query>
+  Query& as() {
+    return static_cast<Of<Query>&>(*held_).query;
+  }
+  std::uint64_t refused() const { return held_->refused(); }
+
+ private:
+  struct Held {
+    virtual ~Held() = default;
+    virtual std::uint64_t refused() const = 0;
+  };
+  template <class Query>
+  struct Of final : Held {
+    explicit Of(Query its_query) : query(std::move(its_query)) {}
+    std::uint64_t refused() const override { return refused_motions(query); }
+    Query query;
+  };
+  std::unique_ptr<Held> held_;
+};
+inline std::uint64_t refused_motions(const AnyQuery& query) { return query.refused(); }
+
+/// Numbers of a state and of its embedding.
+template <class State>
+inline constexpr std::array<std::size_t, 2> numbers_of{std::tuple_size_v<State>, std::tuple_size_v<State>};
+template <>
+inline constexpr std::array<std::size_t, 2> numbers_of<Vec2>{2, 2};
+template <>
+inline constexpr std::array<std::size_t, 2> numbers_of<Se2>{3, 4};
+
+/// one_way_: does the way from a to b say nothing of the way back? Any number of threads may ask, each with a query.
+template <class S, bool one_way_ = false>
+class AnyWorld {
+ public:
+  using State = S;
+  using Query = AnyQuery;
+  static constexpr bool one_way = one_way_;
+  static constexpr bool in_plane = std::same_as<State, Vec2>;
+  static constexpr std::size_t dimension = numbers_of<State>[0];
+  using Embedding = std::array<double, numbers_of<State>[1]>;
+
+  AnyWorld() = default;
+  virtual ~AnyWorld() = default;
+  AnyWorld(const AnyWorld&) = delete;
+  AnyWorld& operator=(const AnyWorld&) = delete;
+
+  // As concept SteerableWorld has them.
+  virtual Query make_query() const = 0;
+  virtual State at_unit(const std::array<double, dimension>& u) const = 0;
+  virtual bool is_free(const State& a, Query& query) const = 0;
+  virtual bool is_free_motion(const State& a, const State& b, Query& query) const = 0;
+  double distance(const State& a, const State& b) const {
+    if constexpr (in_plane) return warren::distance(a, b);
+    return metric(a, b);
+  }
+  Embedding embed(const State& a) const {
+    if constexpr (in_plane) return {a.x, a.y};
+    return embedding(a);
+  }
+  virtual State interpolate(const State& a, const State& b, double t) const = 0;
+
+  /// Bit i is is_free() of the i-th state; at most bunch_size.
+  virtual std::uint32_t free_states(std::span<const State> states, Query& query) const = 0;
+  /// Bit i is is_free_motion() of the i-th motion; at most bunch_size, best if they are near each other.
+  virtual std::uint32_t free_motions(std::span<const Motion<State>> motions, Query& query) const = 0;
+
+  /// Of the plane, where states are points: what samples are drawn from.
+  virtual Box box() const = 0;
+  /// Of that box; 0 where they are no points.
+  virtual double sampled_area() const = 0;
+  /// Volume of the space that samples are drawn from, in the metric; 0 where the world doesn't tell.
+  virtual double sampled_volume() const = 0;
+  /// Dimensions of that space: fewer than the world's where some coordinates are always the same.
+  virtual std::size_t sampled_dimension() const = 0;
+  /// Samples that a first roadmap needs.
+  virtual double suggested_samples(const Execution& execution) const = 0;
+  /// Of a roadmap that is tried first, >= 1, where many questions are easy; else as many as there are.
+  virtual std::uint64_t first_samples() const = 0;
+
+  /// The index-th sample of a seed from the middles of corridors, a pure function; the uniform one where a world knows
+  /// none.
+  virtual State corridor_state(std::uint64_t seed, std::uint64_t index) const = 0;
+  /// Of a world of cells: those whose middles make a roadmap that joins what the cells join. nullptr: there are no
+  /// cells.
+  virtual const Bitmap* milestone_cells() const = 0;
+  virtual State cell_state(std::uint32_t x, std::uint32_t y) const = 0;  ///< in the middle of a cell
+  virtual double milestone_reach() const = 0;  ///< the longest motion that has to be tried between two of them
+  /// Which sides of unit cells no motion crosses; empty where that can't be said, or where they are more than
+  /// most_cells. Throws Stopped.
+  virtual CellSides cell_sides(std::size_t most_cells, const Execution& execution) const = 0;
+  /// Of a world of the plane that knows roughly where the robot may be if all but its place stays as it is: a coarse
+  /// grid of places, none where that takes too long; where the robot is; the state that is there, else as a.
+  virtual bool has_places() const = 0;
+  virtual PlaceGrid free_places(const State& a) const = 0;
+  virtual Vec2 place_of(const State& a) const = 0;
+  virtual State shifted(const State& a, Vec2 to) const = 0;
+
+ protected:
+  virtual double metric(const State& a, const State& b) const = 0;
+  virtual Embedding embedding(const State& a) const = 0;
+};
+
+template <World W>
+inline constexpr bool is_one_way = requires {
+  requires W::one_way;
+};
+
+/// What a world is to planners.
+template <World W>
+using AnyWorldOf = AnyWorld<typename W::State, is_one_way<W>>;
+
+/// Refers to the world.
+template <World W>
+class WorldView final : public AnyWorldOf<W> {
+ public:
+  using Any = AnyWorldOf<W>;
+  using typename Any::Embedding, typename Any::Query, typename Any::State;
+  static constexpr std::size_t dimension = Any::dimension;
+
+  explicit WorldView(const W& world) : world_(world) {}
+  explicit WorldView(const W&&) = delete;
+
+  Query make_query() const override { return Query(std::in_place_type<Own>, world_.make_query()); }
+  State at_unit(const std::array<double, dimension>& u) const override { return world_.at_unit(u); }
+  bool is_free(const State& a, Query& query) const override { return world_.is_free(a, own(query)); }
+  bool is_free_motion(const State& a, const State& b, Query& query) const override {
+    return world_.is_free_motion(a, b, own(query));
+  }
+  State interpolate(const State& a, const State& b, double t) const override {
+    if constexpr (SteerableWorld<W>) return world_.interpolate(a, b, t);
+    return t < 1.0 ? a : b;
+  }
+  std::uint32_t free_states(std::span<const State> states, Query& query) const override {
+    if constexpr (requires { world_.free_states(states, own(query)); }) return world_.free_states(states, own(query));
+    std::uint32_t free = 0;
+    for (std::size_t i = 0; i < states.size(); ++i) free |= std::uint32_t{world_.is_free(states[i], own(query))} << i;
+    return free;
+  }
+  std::uint32_t free_motions(std::span<const Motion<State>> motions, Query& query) const override {
+    if constexpr (requires { world_.free_motions(motions, own(query)); })
+      return world_.free_motions(motions, own(query));
+    std::uint32_t free = 0;
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      free |= std::uint32_t{world_.is_free_motion(motions[i].from, motions[i].to, own(query))} << i;
+    }
+    return free;
+  }
+  Box box() const override {
+    if constexpr (requires { world_.box(); }) return world_.box();
+    return {};
+  }
+  double sampled_area() const override {
+    if constexpr (requires { world_.sampled_area(); }) return world_.sampled_area();
+    return 0.0;
+  }
+  double sampled_volume() const override {
+    if constexpr (requires { world_.sampled_volume(); }) return world_.sampled_volume();
+    return sampled_area();
+  }
+  std::size_t sampled_dimension() const override {
+    if constexpr (requires { world_.sampled_dimension(); }) return world_.sampled_dimension();
+    return dimension;
+  }
+  double suggested_samples(const Execution& execution) const override {
+    if constexpr (requires { world_.suggested_samples(execution); }) return world_.suggested_samples(execution);
+    return 1000.0;
+  }
+  std::uint64_t first_samples() const override {
+    if constexpr (requires { world_.first_samples(); }) return world_.first_samples();
+    return std::numeric_limits<std::uint64_t>::max();
+  }
+  State corridor_state(std::uint64_t seed, std::uint64_t index) const override {
+    if constexpr (requires { world_.corridor_state(seed, index); }) return world_.corridor_state(seed, index);
+    return uniform_state(world_, seed, index);
+  }
+  const Bitmap* milestone_cells() const override {
+    if constexpr (has_cells) return &world_.milestone_cells();
+    return nullptr;
+  }
+  State cell_state(std::uint32_t x, std::uint32_t y) const override {
+    if constexpr (has_cells) return world_.cell_state(x, y);
+    return {};
+  }
+  double milestone_reach() const override {
+    if constexpr (has_cells) return world_.milestone_reach();
+    return 0.0;
+  }
+  CellSides cell_sides(std::size_t most_cells, const Execution& execution) const override {
+    if constexpr (requires { world_.cell_sides(most_cells, execution); })
+      return world_.cell_sides(most_cells, execution);
+    return {};
+  }
+  bool has_places() const override { return knows_places; }
+  PlaceGrid free_places(const State& a) const override {
+    if constexpr (knows_places) return world_.free_places(a);
+    return {};
+  }
+  Vec2 place_of(const State& a) const override {
+    if constexpr (knows_places) return world_.place_of(a);
+    return {};
+  }
+  State shifted(const State& a, Vec2 to) const override {
+    if constexpr (knows_places) return world_.shifted(a, to);
+    return a;
+  }
+
+ private:
+  using Own = typename W::Query;
+  static constexpr bool has_cells = requires(const W& w) { w.milestone_cells(); };
+  static constexpr bool knows_places = requires(const W& w, const State& a) { w.free_places(a); };
+  static Own& own(Query& query) { return query.template as<Own>(); }
+  double metric(const State& a, const State& b) const override { return world_.distance(a, b); }
+  Embedding embedding(const State& a) const override { return world_.embed(a); }
+
+  const W& world_;
+};
+
+}  // namespace warren

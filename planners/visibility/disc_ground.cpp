@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/visibility/disc_ground.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "core/base/trigonometry.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::size_t circles_per_poll = 4096;
+
+Vec2 unit_of(Vec2 v) { return (1.0 / norm(v)) * v; }
+
+DiscCircle circle_around(const VisibleCorners& corners, VertexId v) {
+  const Vec2 centre = corners.position(v);
+  const Sector sector = corners.sector(v);
+  DiscCircle circle{centre, unit_of(sector.first - centre), unit_of(sector.last - centre), {}, 0.0, v};
+  circle.begin = {-circle.first.y, circle.first.x};
+  const Vec2 end{circle.last.y, -circle.last.x};
+  const double width = portable::atan2(cross(circle.begin, end), dot(circle.begin, end));
+  circle.width = sector.first == sector.last ? std::numbers::pi : std::max(width, 0.0);
+  return circle;
+}
+
+/// Walls without length, each place once.
+std::vector<Vec2> places_of_points(const std::vector<Segment>& walls) {
+  std::vector<Vec2> places;
+  for (const Segment& wall : walls) {
+    if (wall.a == wall.b) places.push_back(wall.a);
+  }
+  std::sort(places.begin(), places.end(), [](Vec2 p, Vec2 q) { return p.x != q.x ? p.x < q.x : p.y < q.y; });
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  return places;
+}
+
+}  // namespace
+
+DiscGround::DiscGround(const PlaneObstacles& obstacles, const Execution& execution)
+    : corners_(obstacles, execution), box_(box_around(obstacles)) {
+  if (!obstacles.bounds && !box_.empty()) room_ = box_;
+  const PlanePieces& pieces = corners_.pieces();
+  execution.reserve(pieces.pieces().size() * sizeof(Segment) + corners_.size() * (sizeof(DiscCircle) + 4));
+  segments_.reserve(pieces.pieces().size());
+  for (std::uint32_t i = 0; i < pieces.pieces().size(); ++i) segments_.push_back(pieces.segment(i));
+  circle_of_.assign(corners_.size(), no_vertex);
+  for (VertexId v = 0; v < corners_.size(); ++v) {
+    if (v % circles_per_poll == 0) execution.check();
+    if (!corners_.is_reflex(v)) continue;
+    circle_of_[v] = static_cast<std::uint32_t>(circles_.size());
+    circles_.push_back(circle_around(corners_, v));
+  }
+  first_whole_ = static_cast<std::uint32_t>(circles_.size());
+  for (const Vec2 p : places_of_points(obstacles.walls)) {
+    const std::vector<Sector> sectors = free_sectors(pieces, p);
+    if (sectors.empty() || !sectors.front().whole) continue;  // on an obstacle, or inside
+    segments_.push_back({p, p});
+    circles_.push_back({p, {}, {}, {1.0, 0.0}, 2.0 * std::numbers::pi, no_vertex});
+  }
+  grid_ = SegmentGrid(segments_, execution);
+}
+
+DiscRoadmap::DiscRoadmap(const PlaneObstacles& obstacles, const Execution& execution)
+    : ground(obstacles, execution), graph(ground.corners(), VisibilityEdges::discs, execution) {}
+
+DiscRoadmap::DiscRoadmap(const PlaneObstacles& obstacles, Graph known, const Execution& execution)
+    : ground(obstacles, execution), graph(ground.corners(), std::move(known), VisibilityEdges::discs) {}
+
+SegmentGrid::Cell NearSegments::cell(Vec2 p) const {
+  const Box box = ground_.grid().box();
+  return ground_.grid().cell_of({std::clamp(p.x, box.min.x, box.max.x), std::clamp(p.y, box.min.y, box.max.y)});
+}
+
+void NearSegments::next_round() {
+  std::fill(epoch_.begin(), epoch_.end(), 0U);
+  now_ = 1;
+}
+
+NearSegments::Span NearSegments::span_in(const Segment& s, double y_low, double y_high) {
+  const Vec2 low = s.a.y <= s.b.y ? s.a : s.b;
+  const Vec2 high = s.a.y <= s.b.y ? s.b : s.a;
+  const double rise = high.y - low.y;
+  const auto x_at = [&](double y) {
+    const double share = rise > 0.0 ? std::clamp((y - low.y) / rise, 0.0, 1.0) : y > low.y ? 1.0 : 0.0;
+    return low.x + share * (high.x - low.x);
+  };
+  const double x0 = x_at(y_low);
+  const double x1 = x_at(y_high);
+  return {std::min(x0, x1), std::max(x0, x1)};
+}
+
+}  // namespace warren

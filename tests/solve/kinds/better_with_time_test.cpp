@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Planners that get better until they are stopped, asked through solve().
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "scenes/files/read_world_io.hpp"
+#include "solve/solve.hpp"
+#include "tests/paths.hpp"
+
+namespace warren {
+namespace {
+
+using namespace std::chrono_literals;
+
+Scene world(const std::string& name) { return read_world(source_dir() + "/" + name, {}); }
+SolveOptions better(PlannerKind planner, std::optional<std::uint64_t> iterations = {}) {
+  SolveOptions options{.planner = planner};
+  options.anytime.iterations = iterations;
+  return options;
+}
+const std::vector<std::string> worlds = {"examples/worlds/poly-easy.scene", "examples/worlds/walls.scene"};
+
+TEST(BetterWithTime, AnswersTellBoundGapAndWhatEndedThem) {
+  for (const PlannerKind planner : {PlannerKind::anytime, PlannerKind::rrt_star, PlannerKind::informed_rrt_star}) {
+    for (const std::string& name : worlds) {
+      SCOPED_TRACE(name + " " + std::string(name_of(planner)));
+      const Answer answer = solve(world(name), {}, better(planner, 12));
+      ASSERT_EQ(answer.outcome, Outcome::solved);
+      EXPECT_TRUE(answer.verified);
+      EXPECT_EQ(answer.ended_by, "iterations");
+      EXPECT_EQ(answer.iterations, 12U);
+      ASSERT_TRUE(answer.lower_bound);
+      EXPECT_LE(*answer.lower_bound, answer.cost.value_or(answer.length));
+      ASSERT_FALSE(answer.improvements.empty());
+      EXPECT_NEAR(answer.improvements.back().cost, answer.cost.value_or(answer.length), 1e-9 * answer.length);
+      EXPECT_EQ(answer.cost.has_value(), answer.turn_rad.has_value());
+    }
+  }
+}
+
+TEST(BetterWithTime, AGapThatIsReachedEndsIt) {
+  SolveOptions options = better(PlannerKind::anytime);
+  options.anytime.gap = 0.5;
+  const Answer answer = solve(world(worlds[0]), {}, options, {.budget = 60s});
+  ASSERT_TRUE(answer.verified);
+  EXPECT_EQ(answer.ended_by, "gap");
+  EXPECT_LE(*gap_of(answer), 0.5);
+  options.planner.reset();  // who asks for a gap asks for a planner that gets better
+  EXPECT_EQ(solve(world(worlds[0]), {}, options, {.budget = 60s}).planner, "anytime");
+}
+
+TEST(BetterWithTime, ABudgetThatEndsWithAPathIsAnAnswer) {
+  const Scene scene = world(worlds[0]);
+  const Answer answer = solve(scene, {}, better(PlannerKind::anytime), {.budget = 1500ms});
+  ASSERT_EQ(answer.outcome, Outcome::solved);
+  EXPECT_TRUE(answer.verified);
+  EXPECT_EQ(answer.stop_reason, StopReason::time);
+  const Answer again = solve(scene, {}, better(PlannerKind::anytime, answer.iterations));
+  EXPECT_TRUE(std::equal(again.states.numbers.begin(), again.states.numbers.end(), answer.states.numbers.begin(),
+                         answer.states.numbers.end()));
+  EXPECT_EQ(solve(scene, {}, better(PlannerKind::anytime), {.budget = 1us}).outcome, Outcome::stopped);
+}
+
+TEST(BetterWithTime, ASignalThatComesWithAPathLeavesIt) {
+  SignalFlag signal{0};
+  Limits limits{.cancel = &signal};
+  int told = 0;
+  limits.on_improvement = [&](const Improvement&) {
+    if (++told == 2) signal = 15;
+    return true;
+  };
+  const Answer answer = solve(world(worlds[0]), {}, better(PlannerKind::anytime), limits);
+  ASSERT_EQ(answer.outcome, Outcome::solved);
+  EXPECT_TRUE(answer.verified);
+  EXPECT_EQ(answer.stop_reason, StopReason::terminate);
+  EXPECT_EQ(answer.ended_by, "SIGTERM");
+}
+
+TEST(BetterWithTime, AnErrorOfWhoIsToldPassesThrough) {
+  Limits limits;
+  limits.on_improvement = [](const Improvement&) -> bool { throw UsageError("enough"); };
+  EXPECT_THROW(solve(world(worlds[0]), {}, better(PlannerKind::anytime, 12), limits), UsageError);
+}
+
+TEST(BetterWithTime, WhatTheyWouldIgnoreIsRefused) {
+  SolveOptions options = better(PlannerKind::anytime);
+  options.optimise = true;
+  EXPECT_THROW(solve(world(worlds[0]), {}, options), UsageError);
+  options = better(PlannerKind::rrt_connect, 5);
+  EXPECT_THROW(solve(world(worlds[0]), {}, options), UsageError);
+}
+
+}  // namespace
+}  // namespace warren
