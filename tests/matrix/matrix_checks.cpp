@@ -78,14 +78,16 @@ void Matrix::check_bound(const std::string& planner, const ProgramAnswer& answer
   }
   constexpr double rounding = 1e-9;
   const double bound = std::stod(answer.lower_bound);
-  const double length = std::stod(answer.length);
+  const double cost = std::stod(answer.cost.empty() ? answer.length : answer.cost);
   EXPECT_GE(bound, 0.0);
-  EXPECT_LE(bound, length * (1.0 + 1e-12));
-  EXPECT_EQ(answer.gap.empty(), bound == 0.0 && length > 0.0);
+  EXPECT_LE(bound, cost * (1.0 + 1e-12));
+  EXPECT_EQ(answer.gap.empty(), bound == 0.0 && cost > 0.0);
   if (!answer.gap.empty()) {
     EXPECT_GE(std::stod(answer.gap), 0.0);
   }
-  EXPECT_EQ(answer.optimal, length - bound <= rounding * length);
+  constexpr double around_arcs = 1e-5;  // of a disc that visibility finds the way of
+  EXPECT_TRUE(answer.optimal || cost - bound > rounding * cost);
+  EXPECT_TRUE(!answer.optimal || cost - bound <= around_arcs * cost);
 }
 
 Outcome Matrix::ask(const std::vector<std::string>& arguments) {

@@ -62,6 +62,7 @@ ProgramAnswer read_program_answer(const std::string& json) {
   };
   answer.length = number_of("length");
   if (json.find("\"lower_bound\": ") != std::string::npos) answer.lower_bound = number_of("lower_bound");
+  if (json.find("\n \"cost\": ") != std::string::npos) answer.cost = number_of("cost");
   if (json.find("\"gap\": ") != std::string::npos) answer.gap = number_of("gap");
   answer.optimal = json.find("\"optimal\": true") != std::string::npos;
   if (json.find("\"expanded\": ") != std::string::npos) answer.expanded = number_of("expanded");

@@ -12,6 +12,7 @@ struct ProgramAnswer {
   bool verified = false;
   std::string length;       ///< as it stands there
   std::string lower_bound;  ///< the same; empty where none is told
+  std::string cost;         ///< the same; of grid, whose cost is its own, too
   std::string gap;          ///< the same
   bool optimal = false;
   std::string expanded;  ///< of the counters, likewise; empty where nothing was searched

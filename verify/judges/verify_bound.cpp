@@ -12,6 +12,7 @@
 #include <tuple>
 #include <vector>
 
+#include "verify/exact/exact_segments.hpp"
 #include "verify/judges/verify_point.hpp"
 #include "verify/near/obstacle_index.hpp"
 
@@ -52,7 +53,10 @@ double own_cost(const RobotSpec& robot, const ClaimedBound& claim) {
   return sum;
 }
 
-/// Looks for a way of a point that is shorter than `limit`.
+/// Looks for a way of a point that is shorter than `limit`. Arrivals at a corner are told apart, since of those at one
+/// side of a wall that ends there others lead on than of those at the other: a later one is dropped where a way leads
+/// from an earlier one to it through the corner, and so to all that it leads to. That is not said of one that comes
+/// along an obstacle, on whichever side.
 class ShorterWay {
  public:
   ShorterWay(const Scene& scene, Vec2 start, Vec2 goal, double limit, const Execution& execution)
@@ -61,27 +65,32 @@ class ShorterWay {
     for (std::size_t i = 0; i < obstacles.size(); ++i) {
       const Segment s = obstacles.segment(i);
       for (const Vec2 p : {s.a, s.b}) {
+        if (p == start || p == goal) continue;
         if (straight(start, p) + straight(p, goal) < limit) places_.push_back(p);
       }
     }
     std::sort(places_.begin() + 2, places_.end(),
               [](Vec2 a, Vec2 b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); });
     places_.erase(std::unique(places_.begin() + 2, places_.end()), places_.end());
+    arrived_.resize(places_.size());
   }
 
-  /// Empty: there is none, whose legs are free one by one.
-  std::vector<Vec2> find() {
-    execution_.reserve(places_.size() * places_.size() * sizeof(Leg));
-    parent_.assign(places_.size(), none);
-    settle(0, 0, 0.0);
+  /// Its places, where each two legs that follow each other are free; empty: there is none; nothing: too many legs were
+  /// asked about.
+  std::optional<std::vector<Vec2>> find() {
+    settle({0.0, 0.0, none, 0, false});
     while (!open_.empty()) {
-      const Leg leg = open_.top();
+      Leg leg = open_.top();
       open_.pop();
-      if (parent_[leg.to] != none || !is_free(places_[leg.from], places_[leg.to])) continue;
-      settle(leg.to, leg.from, leg.way);
-      if (leg.to == 1) return way();
+      leg.along = comes_along(place_before(leg), places_[leg.to]);
+      if (leg.to != 1 && is_covered(leg)) continue;
+      if (goes_on(leg.before, places_[leg.to])) {
+        settle(leg);
+        if (leg.to == 1) return way();
+      }
+      if (asked_ > most_judged_legs) return std::nullopt;
     }
-    return {};
+    return std::vector<Vec2>{};
   }
 
   /// As a whole.
@@ -92,26 +101,63 @@ class ShorterWay {
  private:
   static constexpr std::size_t none = ~std::size_t{0};
   struct Leg {
-    double promise;  ///< way, and straight on to the goal
-    double way;      ///< with the leg
-    std::size_t from, to;
-    bool operator<(const Leg& o) const { return std::tie(promise, to, from) > std::tie(o.promise, o.to, o.from); }
+    double promise;      ///< way, and straight on to the goal
+    double way;          ///< with the leg
+    std::size_t before;  ///< the arrival that it goes on from; none: the start
+    std::size_t to;      ///< a place
+    bool along;          ///< an obstacle; known when the leg comes first
+    bool operator<(const Leg& o) const { return std::tie(promise, to, before) > std::tie(o.promise, o.to, o.before); }
   };
 
-  bool is_free(Vec2 a, Vec2 b) const { return is_free(std::array{a, b}); }
-  void settle(std::size_t v, std::size_t from, double way) {
-    execution_.check();
-    parent_[v] = from;
+  Vec2 place_before(const Leg& leg) const { return places_[leg.before == none ? 0 : arrivals_[leg.before].to]; }
+  /// Goes the way to an arrival on to a place? Of it the last leg tells, and those before it as far as legs come along
+  /// obstacles, on whichever side.
+  bool goes_on(std::size_t arrival, Vec2 to) {
+    std::vector<Vec2> path{to, places_[arrivals_[arrival].to]};
+    for (bool is_told = false; arrivals_[arrival].before != none && !is_told; arrival = arrivals_[arrival].before) {
+      path.push_back(place_before(arrivals_[arrival]));
+      is_told = !arrivals_[arrival].along;
+    }
+    std::reverse(path.begin(), path.end());
+    ++asked_;
+    return is_free(path);
+  }
+  /// Nothing is covered that comes along an obstacle.
+  bool is_covered(const Leg& leg) {
+    const std::vector<std::size_t>& earlier = arrived_[leg.to];
+    return !leg.along && std::any_of(earlier.begin(), earlier.end(),
+                                     [&](std::size_t arrival) { return goes_on(arrival, place_before(leg)); });
+  }
+  /// Does an obstacle lie on the last of the leg?
+  bool comes_along(Vec2 came, Vec2 at) const {
+    bool found = false;
+    const auto lies_on_it = [&](Vec2 p) {
+      return exact::side_of(came, at, p) == 0 && (p.x - at.x) * (came.x - at.x) + (p.y - at.y) * (came.y - at.y) > 0.0;
+    };
+    index_.sides().for_each([&](const Box& box) { return !box.contains(at); },
+                            [&](std::size_t i) {
+                              const Segment s = index_.obstacles().segment(i);
+                              found = found || (exact::contains(s, at) && (lies_on_it(s.a) || lies_on_it(s.b)));
+                            });
+    return found;
+  }
+  void settle(const Leg& leg) {
+    execution_.reserve(places_.size() * sizeof(Leg));
+    const std::size_t arrival = arrivals_.size();
+    arrivals_.push_back(leg);
+    arrived_[leg.to].push_back(arrival);
     for (std::size_t to = 1; to < places_.size(); ++to) {
-      if (parent_[to] != none) continue;
-      const double there = way + straight(places_[v], places_[to]);
+      if (to == leg.to) continue;
+      const double there = leg.way + straight(places_[leg.to], places_[to]);
       const double promise = there + straight(places_[to], places_[1]);
-      if (promise < limit_) open_.push({promise, there, v, to});
+      if (promise < limit_) open_.push({promise, there, arrival, to, false});
     }
   }
   std::vector<Vec2> way() const {
-    std::vector<Vec2> path{places_[1]};
-    for (std::size_t v = 1; v != 0; v = parent_[v]) path.push_back(places_[parent_[v]]);
+    std::vector<Vec2> path;
+    for (std::size_t i = arrivals_.size() - 1; i != none; i = arrivals_[i].before) {
+      path.push_back(places_[arrivals_[i].to]);
+    }
     std::reverse(path.begin(), path.end());
     return path;
   }
@@ -121,8 +167,10 @@ class ShorterWay {
   double limit_;
   const Execution& execution_;
   std::vector<Vec2> places_;  // start, goal, corners that may lie on a way
-  std::vector<std::size_t> parent_;
+  std::vector<Leg> arrivals_;
+  std::vector<std::vector<std::size_t>> arrived_;  // at each place
   std::priority_queue<Leg> open_;
+  std::size_t asked_ = 0;  // legs, how they go on
 };
 
 std::size_t judged_corners(const Scene& scene) {
@@ -138,7 +186,9 @@ JudgedBound judge_by_search(const Scene& scene, const BoundQuestion& asked, doub
   const Vec2 start{asked.start[0], asked.start[1]};
   const Vec2 goal{asked.goal[0], asked.goal[1]};
   ShorterWay search(scene, start, goal, bound * (1.0 - bound_rounding), execution);
-  const std::vector<Vec2> way = search.find();
+  const std::optional<std::vector<Vec2>> found = search.find();
+  if (!found) return {};
+  const std::vector<Vec2>& way = *found;
   if (way.empty()) return {BoundVerdict::checked, {}};
   const bool is_point = asked.robot.kind == RobotKind::point || asked.robot.radius == 0.0;
   if (!is_point || asked.clearance > 0.0 || !search.is_free(way)) return {};

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Is a lower bound that an answer claims one? By formulae of the judge's own, and where these are too weak by a slow
-// search of its own for a way of a point that is shorter than claimed: over all corners of the scene, each leg judged
-// by verify_path(), those that promise most first, none left out but what is too long by the triangle inequality. So a
-// way that is found refutes the bound if it is judged free as a whole, and none proves it: legs are looked at one by
-// one, which lets through more than whole ways.
+// search of its own for a way of a point that is shorter than claimed: over all corners of the scene, the most
+// promising first, none left out but what is too long by the triangle inequality; that two legs follow each other is
+// for verify_path() to say. A way that is found refutes the bound if it is free as a whole; none proves it, since whole
+// ways are free two legs at a time.
 //
-// O(n^2 log n) and at most n^2 / 2 verdicts on single legs, for n corners.
+// O(n^2 log n) and a verdict on each of at most n^2 / 2 pairs of corners and more where walls end at corners; given up
+// after most_judged_legs of them.
 #pragma once
 
 #include <cstddef>
@@ -28,6 +29,8 @@ constexpr auto enum_names(BoundVerdict) {
 
 /// Above, the slow search is left out.
 inline constexpr std::size_t most_judged_corners = 2'000;
+/// And given up, some seconds later.
+inline constexpr std::size_t most_judged_legs = 200'000;
 
 /// A claim, and the path that was judged free, all in the judge's numbers.
 struct ClaimedBound {

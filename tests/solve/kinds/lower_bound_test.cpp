@@ -99,9 +99,10 @@ std::vector<SolveOptions> ways_to_solve(const RobotSpec& body) {
   add({.planner = PlannerKind::lazy_prm, .optimise = true});
   add({.planner = PlannerKind::prm, .optimise = true, .roadmap = {.samples = 300}});
   if (turns) add({.planner = PlannerKind::rrt_connect, .optimise = true, .trees = {.nodes = 5000}});
+  add({.planner = PlannerKind::anytime, .anytime = {.iterations = 5}});
   if (turns) add({.planner = PlannerKind::rrt_connect, .seed = 2, .optimise = true, .trees = {.nodes = 5000}});
   if (!turns) add({.planner = PlannerKind::voronoi});
-  if (body.kind == RobotKind::point) add({.planner = PlannerKind::visibility});
+  if (!turns) add({.planner = PlannerKind::visibility});
   if (body.kind == RobotKind::point) add({.planner = PlannerKind::cells});
   return ways;
 }
@@ -135,16 +136,24 @@ std::size_t expect_none_below(const Scene& scene, const Question& question, cons
     ++solved;
     EXPECT_TRUE(answer.lower_bound.has_value());
     if (!answer.lower_bound) continue;
-    EXPECT_LE(*answer.lower_bound, answer.length * (1.0 + 1e-13));
-    EXPECT_EQ(answer.optimal, answer.length - *answer.lower_bound <= 1e-9 * answer.length);
+    const double cost = answer.cost.value_or(answer.length);
+    EXPECT_LE(*answer.lower_bound, cost * (1.0 + 1e-13));
+    if (options.planner != PlannerKind::visibility) {  // whose polyline is around the arcs of a disc
+      EXPECT_EQ(answer.optimal, cost - *answer.lower_bound <= 1e-9 * cost);
+    }
     const auto bound = [&](BoundOf of, BoundEffort effort) {
       return proved_bound(scene, answer.problem, of, effort, Execution{});
     };
-    EXPECT_LE(bound(BoundOf::length, BoundEffort::simple), *answer.lower_bound);
+    const double of_length = bound(BoundOf::length, BoundEffort::exact);
     const double of_metric = bound(BoundOf::metric, BoundEffort::exact);
-    EXPECT_GE(of_metric, *answer.lower_bound * (1.0 - 1e-12));
+    EXPECT_LE(bound(BoundOf::length, BoundEffort::simple), of_length);
+    EXPECT_LE(of_length, answer.length * (1.0 + 1e-13));
+    EXPECT_GE(of_metric, of_length * (1.0 - 1e-12));
     if (answer.problem.robot.kind == RobotKind::polygon) {
       EXPECT_LE(of_metric, metric_cost(answer, extent_of(answer.problem.robot)));
+    }
+    if (!answer.optimal) {
+      EXPECT_EQ(*answer.lower_bound, answer.cost ? of_metric : of_length);
     }
     EXPECT_TRUE(verify(scene, answer).verified);
     EXPECT_NE(verify(scene, answer).bound, BoundVerdict::absent);
@@ -154,7 +163,7 @@ std::size_t expect_none_below(const Scene& scene, const Question& question, cons
 
 TEST(LowerBound, NoPathOfAnyPlannerAmongObstaclesIsBelow) {
   std::size_t solved = 0;
-  for (const std::uint64_t seed : test::seeds(100, 8)) {
+  for (const std::uint64_t seed : test::seeds(100, 4)) {
     const Scene scene = bounded_clutter(seed);
     std::size_t number = 0;
     for (const RobotSpec& body : bodies()) {
@@ -162,7 +171,7 @@ TEST(LowerBound, NoPathOfAnyPlannerAmongObstaclesIsBelow) {
       solved += expect_none_below(scene, asked_of(body, seed), ways_to_solve(body));
     }
   }
-  EXPECT_GT(solved, test::asks_all() ? 1000U : 60U);
+  EXPECT_GT(solved, test::asks_all() ? 1000U : 40U);
 }
 
 TEST(LowerBound, NoPathOnAMapIsBelow) {
@@ -191,7 +200,7 @@ TEST(LowerBound, NoPathOnAMapIsBelow) {
       std::vector<SolveOptions> ways{{.planner = PlannerKind::lazy_prm, .optimise = true, .bound = true},
                                      {.planner = PlannerKind::rrt_connect, .optimise = true, .bound = true},
                                      {.planner = PlannerKind::voronoi, .bound = true}};
-      for (SolveOptions& way : ways) way.trees.nodes = 5000;
+      ways[1].trees.nodes = 5000;
       solved += expect_none_below(scene, question, ways);
       const Answer answer = solve(scene, question, ways.front());
       if (answer.lower_bound && *answer.lower_bound > distance(start, goal) * 1.001) ++around;
@@ -307,7 +316,7 @@ TEST(LowerBound, IsNotToldOfOtherUnitsOrWayPoints) {
   const Answer cells = solve(one_wall(), question, {.planner = PlannerKind::grid});
   EXPECT_TRUE(cells.verified && cells.cost);
   EXPECT_FALSE(cells.lower_bound || gap_of(cells));
-  Question turning{.robot = bodies()[2], .start = {1, 2, 0}, .goal = {9, 2, 0}};
+  Question turning{.robot = bodies()[2], .start = {2, 2, 0}, .goal = {8, 2, 0}};
   SolveOptions via{.planner = PlannerKind::rrt_connect};
   EXPECT_TRUE(solve(one_wall(), turning, via).lower_bound);
   via.trees.via = {{2, 8, 0}};
