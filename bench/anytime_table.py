@@ -15,8 +15,8 @@ median run cost in the end. The best known is the shortest of the planner visibi
 (exact), else the best of all runs here, which have been verified: run longer to know better (--reference 30s adds such
 a run of warren that counts for nothing else).
 
-Times are CPU time. Warren tells wall-clock seconds since its search began, which count with the share of a core that
-its run had. OMPL's begin when its planner is made. The line "OMPL" has in each column the best of its planners; --all
+Times are CPU time. Warren tells wall-clock seconds since its search began; they count with the share of a core that the
+search had, but its budget ends by the clock: on a busy machine it has less of it. OMPL's begin when its planner is made. The line "OMPL" has in each column the best of its planners; --all
 prints each of them. --csv writes all of them: milliseconds, runs, paths refuted by warren's judge, and paths of no
 cost. Neither are improvements."""
 
@@ -26,12 +26,10 @@ import json
 import math
 import os
 import random
-import resource
 import statistics
 import subprocess
 import sys
 import tempfile
-import time
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 EXAMPLES = os.path.join(ROOT, "examples", "worlds")
@@ -178,14 +176,13 @@ class Bench:
         return answer.get("length") if answer.get("optimal") else None
 
     def run(self, planner, words, seed, budget):
-        before, begin = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
+        """The judge has seen the last path of the improvements: it is the answer's."""
         answer = self.answer([*words, "--planner", planner, "--budget", budget, "--seed", str(seed)])
-        after, wall = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic() - begin
-        cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-        share = min(1.0, cpu / wall)
-        # The answer's own path is the last of them, and the judge has seen it.
-        found = [(share * each["seconds"], each.get("cost", each["length"])) for each in answer.get("improvements", [])]
-        return Run(planner, found if answer["verified"] else [], refuted=answer["status"] == "refuted")
+        if not answer["verified"]:
+            return Run(planner, [], refuted=answer["status"] == "refuted")
+        stages = answer["stages_s"]
+        share = stages["search_cpu"] / stages["search"]
+        return Run(planner, [(share * each["seconds"], each.get("cost", each["length"])) for each in answer["improvements"]])
 
     def rival_runs(self, words, seed, budget_s):
         done = subprocess.run([self.rival, *words, "--seed", str(seed), "--budget", str(budget_s)],

@@ -97,13 +97,14 @@ struct PlaceTask {
   WallProblem problem;
   World world;
   States states;
-  Vec2 start, goal;
+  Vec2 start;
+  std::vector<Vec2> goals;
 
   explicit PlaceTask(const Scene& scene)
       : problem(wall_problem(scene, {})),
         world(scene, problem.reach(), one_thread()),
         start(problem.start),
-        goal(problem.goal) {}
+        goals{problem.goal} {}
   ob::StateSpacePtr space() const {
     auto plane = std::make_shared<MetricSpace<ob::RealVectorStateSpace, World, States>>(world, states, 2U);
     bound(*plane, world.box());
@@ -112,7 +113,7 @@ struct PlaceTask {
   Verification judged(const Scene& scene, const Path<Vec2>& path) const {
     VerifyOptions options{.radius = problem.robot.radius, .clearance = problem.clearance};
     options.start = start;
-    options.goal = goal;
+    options.goal = problem.goal;
     return verify_path(scene, path, options, one_thread());
   }
 };
@@ -124,14 +125,14 @@ struct PoseTask {
   PoseProblem problem;
   World world;
   States states;
-  Se2 start, goal;
+  Se2 start;
+  std::vector<Se2> goals;  // of a goal of any heading 16, as warren has it
 
   explicit PoseTask(const Scene& scene)
       : problem(pose_problem(scene, {}, "a body with a heading")),
         world(Kind::world(scene, problem.robot)),
         start(problem.start),
-        goal(problem.goal_pose()) {
-    if (problem.any_heading()) throw std::runtime_error("the goal has no heading");
+        goals(poses_of(problem.goal)) {
     if (problem.clearance > 0.0) throw std::runtime_error("a clearance is none of this bench's");
   }
   ob::StateSpacePtr space() const {
@@ -160,7 +161,8 @@ struct ArmTask {
   ArmProblem problem;
   World world;
   States states;
-  JointState start, goal;
+  JointState start;
+  std::vector<JointState> goals;
 
   explicit ArmTask(const Scene& scene)
       : problem(arm_problem(scene, {}, one_thread())),
@@ -170,7 +172,7 @@ struct ArmTask {
                .self_collision = problem.robot.self_collision}),
         states(world, problem.start),
         start(problem.start),
-        goal(problem.goal_state()) {}
+        goals{problem.goal_state()} {}
   ob::StateSpacePtr space() const {
     const auto joints = static_cast<unsigned>(states.joints().size());
     auto vectors = std::make_shared<MetricSpace<ob::RealVectorStateSpace, World, States>>(world, states, joints);
@@ -313,7 +315,7 @@ template <class Task>
 Json run_once(const Task& task, const Scene& scene, const Contestant& contestant, std::uint64_t seed, double budget_s) {
   ompl::RNG::setSeed(static_cast<std::uint_fast32_t>(seed));
   const auto space = checked(task.space(), task.world, task.states, Ends::asked);
-  const auto problem = problem_between(space, task.states, task.start, task.goal);
+  const auto problem = problem_to_any(space, task.states, task.start, task.goals);
   problem->setOptimizationObjective(std::make_shared<ob::PathLengthOptimizationObjective>(space));
   Watch watch(problem);
   std::string threw;

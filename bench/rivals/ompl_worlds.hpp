@@ -7,6 +7,7 @@
 #include <ompl/base/ProblemDefinition.h>
 #include <ompl/base/SpaceInformation.h>
 #include <ompl/base/StateValidityChecker.h>
+#include <ompl/base/goals/GoalStates.h>
 #include <ompl/base/spaces/DubinsStateSpace.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/base/spaces/ReedsSheppStateSpace.h>
@@ -247,16 +248,29 @@ ob::State* new_state(const ob::SpaceInformationPtr& space, const States& states,
   return made;
 }
 
+/// To any of the goals that are free.
+template <class States>
+ob::ProblemDefinitionPtr problem_to_any(const ob::SpaceInformationPtr& space, const States& states,
+                                        const typename States::State& start,
+                                        std::span<const typename States::State> goals) {
+  auto problem = std::make_shared<ob::ProblemDefinition>(space);
+  auto region = std::make_shared<ob::GoalStates>(space);
+  ob::State* from = new_state(space, states, start);
+  problem->addStartState(from);
+  space->freeState(from);
+  for (const auto& goal : goals) {
+    ob::State* to = new_state(space, states, goal);
+    if (goals.size() == 1 || space->isValid(to)) region->addState(to);
+    space->freeState(to);
+  }
+  problem->setGoal(region);
+  return problem;
+}
+
 template <class States>
 ob::ProblemDefinitionPtr problem_between(const ob::SpaceInformationPtr& space, const States& states,
                                          const typename States::State& start, const typename States::State& goal) {
-  auto problem = std::make_shared<ob::ProblemDefinition>(space);
-  ob::State* from = new_state(space, states, start);
-  ob::State* to = new_state(space, states, goal);
-  problem->setStartAndGoalStates(from, to);
-  space->freeState(from);
-  space->freeState(to);
-  return problem;
+  return problem_to_any(space, states, start, std::span<const typename States::State>(&goal, 1));
 }
 
 /// Empty: there is none.
