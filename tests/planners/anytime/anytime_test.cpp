@@ -7,7 +7,6 @@
 #include <functional>
 #include <vector>
 
-#include "planners/shorten/shortcut.hpp"
 #include "tests/planners/trees/sampled_problems.hpp"
 
 namespace warren {
@@ -86,8 +85,8 @@ void expect_same_for_any_threads(const Problem<W>& problem, std::uint64_t iterat
 
 TEST(Anytime, IsTheSameForAnyThreadsInEveryKindOfWorld) {
   expect_same_for_any_threads(sampled_problems::body(3), 12);
-  expect_same_for_any_threads(sampled_problems::car<DubinsWorld>(), 10);
-  expect_same_for_any_threads(sampled_problems::car<ReedsSheppWorld>(), 10);
+  expect_same_for_any_threads(sampled_problems::car<CarWorld<DubinsCurve>>(), 10);
+  expect_same_for_any_threads(sampled_problems::car<CarWorld<ReedsSheppCurve>>(), 10);
   expect_same_for_any_threads(sampled_problems::arm(), 10);
 }
 
@@ -130,7 +129,7 @@ TEST(Anytime, EachPartFindsAWayByItself) {
 
 /// A stop that comes with the k-th improvement: the answer is that of the whole turns before.
 TEST(Anytime, AStopKeepsThePathAndAsManyTurnsRepeatIt) {
-  const auto problem = sampled_problems::car<ReedsSheppWorld>();
+  const auto problem = sampled_problems::car<CarWorld<ReedsSheppCurve>>();
   for (int k = 1; k < 6; ++k) {
     SCOPED_TRACE(k);
     SignalFlag signal{0};
@@ -161,12 +160,12 @@ TEST(Anytime, WhoIsToldMayHaveEnough) {
 }
 
 TEST(Anytime, WithoutAWayItSaysThatNoneWasFound) {
-  auto problem = sampled_problems::car<ReedsSheppWorld>();
+  auto problem = sampled_problems::car<CarWorld<ReedsSheppCurve>>();
   Scene shut;
   shut.bounds = Box{{0, 0}, {12, 6}};
   shut.walls = WallSet::narrowest(std::vector<Segment>{{{6, 0}, {6, 6}}});
-  const Problem<ReedsSheppWorld> apart{ReedsSheppWorld(shut, {.turning_radius = 0.7, .radius = 0.2}), problem.start,
-                                       problem.goal};
+  const Problem<CarWorld<ReedsSheppCurve>> apart{
+      CarWorld<ReedsSheppCurve>(shut, {.turning_radius = 0.7, .radius = 0.2}), problem.start, problem.goal};
   const auto found = plan(apart, turns(4));
   EXPECT_EQ(found.outcome, Outcome::not_connected);
   EXPECT_EQ(found.ended_by, "iterations");

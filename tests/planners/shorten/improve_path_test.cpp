@@ -43,8 +43,8 @@ TEST(ImprovePath, MakesPathsShorterInEveryWorldAndTheSameForAnyNumberOfThreads) 
     SCOPED_TRACE(seed);
     shares[0] += share_left(problems::point(true), seed) / seeds;
     shares[1] += share_left(problems::body(seed), seed) / seeds;
-    shares[2] += share_left(problems::car<DubinsWorld>(), seed) / seeds;
-    shares[3] += share_left(problems::car<ReedsSheppWorld>(), seed) / seeds;
+    shares[2] += share_left(problems::car<CarWorld<DubinsCurve>>(), seed) / seeds;
+    shares[3] += share_left(problems::car<CarWorld<ReedsSheppCurve>>(), seed) / seeds;
     shares[4] += share_left(problems::arm(), seed) / seeds;
   }
   for (const double share : shares) EXPECT_LT(share, 0.95);

@@ -72,8 +72,8 @@ TEST(RrtStar, CostsAreThoseOfTheMotionsAndNeverRiseInEveryWorld) {
       const RrtStarOptions options{.seed = seed, .informed = informed};
       expect_a_path_that_gets_shorter(problems::point(true), options);
       expect_a_path_that_gets_shorter(problems::body(seed), options);
-      expect_a_path_that_gets_shorter(problems::car<DubinsWorld>(), options);
-      expect_a_path_that_gets_shorter(problems::car<ReedsSheppWorld>(), options);
+      expect_a_path_that_gets_shorter(problems::car<CarWorld<DubinsCurve>>(), options);
+      expect_a_path_that_gets_shorter(problems::car<CarWorld<ReedsSheppCurve>>(), options);
       expect_a_path_that_gets_shorter(problems::arm(), options);
     }
   }
@@ -209,8 +209,8 @@ TEST(RrtConnectBound, PathsAreCheaperThanIt) {
     SCOPED_TRACE(seed);
     expect_bounded_paths(problems::point(true), seed);
     expect_bounded_paths(problems::body(seed), seed);
-    expect_bounded_paths(problems::car<DubinsWorld>(), seed);
-    expect_bounded_paths(problems::car<ReedsSheppWorld>(), seed);
+    expect_bounded_paths(problems::car<CarWorld<DubinsCurve>>(), seed);
+    expect_bounded_paths(problems::car<CarWorld<ReedsSheppCurve>>(), seed);
     expect_bounded_paths(problems::arm(), seed);
   }
 }

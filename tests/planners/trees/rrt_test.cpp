@@ -15,6 +15,8 @@
 #include "tests/worlds/poses/body_scenes.hpp"
 #include "verify/judges/verify_point.hpp"
 #include "verify/judges/verify_turning.hpp"
+#include "worlds/plane/maze_world.hpp"
+#include "worlds/poses/se2_world.hpp"
 
 namespace warren {
 namespace {

@@ -7,7 +7,11 @@
 #include "scenes/scene/scene.hpp"
 #include "solve/kinds/planned_worlds.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
+#include "worlds/arms/arm_world.hpp"
 #include "worlds/arms/puma560.hpp"
+#include "worlds/plane/maze_world.hpp"
+#include "worlds/poses/car_world.hpp"
+#include "worlds/poses/se2_world.hpp"
 
 namespace warren::sampled_problems {
 
@@ -52,7 +56,7 @@ inline Problem<Se2World> body(std::uint64_t seed) {
   }
 }
 
-/// Three walls to be passed in a slalom. W: DubinsWorld or ReedsSheppWorld.
+/// Three walls to be passed in a slalom. W: CarWorld<DubinsCurve> or CarWorld<ReedsSheppCurve>.
 template <class W>
 Problem<W> car() {
   Scene scene;
