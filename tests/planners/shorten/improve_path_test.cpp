@@ -11,7 +11,7 @@ namespace problems = sampled_problems;
 
 /// Free, from end to end, no longer, and the same whatever the threads.
 template <class W>
-double share_left(const problems::Problem<W>& problem, std::uint64_t seed) {
+double share_left(const problems::SampledProblem<W>& problem, std::uint64_t seed) {
   const auto length = [&](const auto& a, const auto& b) { return problem.world.distance(a, b); };
   const auto found = rrt_connect(problem.world, problem.start, std::span(&problem.goal, 1), {.seed = seed}, {});
   EXPECT_EQ(found.outcome, Outcome::solved);
