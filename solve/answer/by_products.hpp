@@ -33,6 +33,13 @@ struct HeadingCells {
   double yaw_rad = 0.0;  ///< the cells are turned about that corner, anticlockwise; the heading is as they see it
 };
 
+/// A path with its arcs: the points where straights and arcs end, and the turn of what leads to each, radians, above 0
+/// anticlockwise; 0: a straight.
+struct ArcPath {
+  std::vector<Vec2> points;
+  std::vector<double> turns;
+};
+
 /// What a planner makes on its way to an answer: what pictures show beside the path.
 struct ByProducts {
   PlannedRoadmap<Vec2> roadmap;             ///< of points and discs
@@ -41,6 +48,7 @@ struct ByProducts {
       pose_roadmaps;                         ///< of turning bodies and cars: the roadmap, or the trees of each leg
   PlannedRoadmap<JointState> joint_roadmap;  ///< of arms
   std::vector<NamedLines> lines;             ///< further lines, by name
+  ArcPath arcs;                              ///< of discs: the shortest path, around which the answer's is a polyline
   std::vector<HeadingCells> headings;        ///< of lattices of positions and headings
 };
 
