@@ -251,6 +251,10 @@ Drawing drawing_of(const Scene& scene, const Answer& answer, ByProducts made, co
   for (NamedLines& lines : made.lines) drawing.layers.push_back(layer_of(std::move(lines)));
   add_roadmap(drawing, answer, made, execution);
   add_bodies(drawing, problem.robot, states);
+  if (answer.verified && !made.arcs.points.empty()) {
+    drawing.path.assign(made.arcs.points.begin(), made.arcs.points.end());
+    drawing.path_turns = std::move(made.arcs.turns);
+  }
   add_improvements(drawing, scene, answer, made);
   return drawing;
 }

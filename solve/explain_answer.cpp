@@ -273,8 +273,8 @@ class Hints {
   }
   /// One that proves what it says, else one of another kind.
   void add_planners() {
-    const bool in_plane =
-        !scene_.map && answer_.problem.robot.kind == RobotKind::point && answer_.problem.clearance == 0.0;
+    const RobotKind body = answer_.problem.robot.kind;
+    const bool in_plane = !scene_.map && (body == RobotKind::point || body == RobotKind::disc);
     const auto offer_planner = [&](PlannerKind planner, std::string_view why) {
       if (planner == options_.planner) return false;
       const auto change = [&](SolveOptions& options) { options.planner = planner; };

@@ -167,8 +167,12 @@ class DiscSearch {
         start_(2 * sight.ends()),
         goal_(start_ + 1) {}
 
-  std::uint64_t drawn() const { return drawn_; }
-  std::uint64_t checked() const { return checked_; }
+  void tell(DiscPath& path) const {
+    path.candidates += drawn_;
+    path.checked += checked_;
+    path.free += free_;
+    path.arrivals += arrivals_;
+  }
 
   /// Does the disc fit there as an end?
   bool stands(Vec2 p) const {
@@ -376,15 +380,18 @@ class DiscSearch {
     const double aside = offset(way.from);
     double least = room_.least;
     if (room_.loose) least -= way.doubt * (way.length + room_.radius);
-    if (!(least > 0.0)) return true;
     const Vec2 p = place(way.from, way.along);
-    return sight_.near.for_each({p, p + way.length * way.along}, least + rounding_, [&](std::uint32_t i) {
-      const Segment s = sight_.ground.segments()[i];
-      const Vec2 a = s.a - c;
-      const Vec2 b = s.b - c;
-      return keeps({{dot(way.along, a), cross(way.along, a) + aside}, {dot(way.along, b), cross(way.along, b) + aside}},
-                   way.length, least);
-    });
+    const bool free = !(least > 0.0) ||
+                      sight_.near.for_each({p, p + way.length * way.along}, least + rounding_, [&](std::uint32_t i) {
+                        const Segment s = sight_.ground.segments()[i];
+                        const Vec2 a = s.a - c;
+                        const Vec2 b = s.b - c;
+                        return keeps({{dot(way.along, a), cross(way.along, a) + aside},
+                                      {dot(way.along, b), cross(way.along, b) + aside}},
+                                     way.length, least);
+                      });
+    if (free) ++free_;
+    return free;
   }
 
   /// Does the segment keep so much from the level one from 0 to (length, 0)?
@@ -445,6 +452,7 @@ class DiscSearch {
       const double on = arc(side, ways_[earlier].in, in, 0.0);
       if (ways_[earlier].cost + room_.radius * on <= cost && on <= reach(side, ways_[earlier].in)) return;
     }
+    ++arrivals_;
     sides_[side].arrivals.push_back(number);
     leave(side);
     const double end = reach(side, in);
@@ -517,6 +525,8 @@ class DiscSearch {
   std::uint64_t settled_ = 0;
   std::uint64_t drawn_ = 0;
   std::uint64_t checked_ = 0;
+  std::uint64_t free_ = 0;
+  std::uint64_t arrivals_ = 0;
 };
 
 /// A point's path: circles of radius 0 are corners.
@@ -536,6 +546,8 @@ DiscPath path_of_point(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, c
   const double roundings = most_roundings + static_cast<double>(path.pieces.size());
   if (path.outcome == Outcome::solved) path.lower_bound = path.length * (1.0 - roundings * unit_rounding);
   path.checked = found.counters.edges_checked;
+  path.free = found.counters.edges_free;
+  path.arrivals = found.counters.expanded;
   return path;
 }
 
@@ -569,8 +581,8 @@ class DiscPlan {
 
   DiscPath run() {
     path_.outcome = plan();
-    path_.candidates = loose_.drawn() + tight_.drawn();
-    path_.checked = loose_.checked() + tight_.checked();
+    loose_.tell(path_);
+    tight_.tell(path_);
     return std::move(path_);
   }
 

@@ -54,6 +54,8 @@ struct DiscPath {
   std::uint64_t circles = 0;     ///< that there are
   std::uint64_t candidates = 0;  ///< tangents that were drawn
   std::uint64_t checked = 0;     ///< of them, those compared with the obstacles
+  std::uint64_t free = 0;        ///< of these, those that nothing blocks
+  std::uint64_t arrivals = 0;    ///< at circles, which no earlier one was as good as
 
   /// Turns around corners: arcs that follow each other on a circle count as one.
   std::uint64_t arcs() const;

@@ -72,8 +72,8 @@ class VisibleCorners {
   std::vector<std::uint8_t> reflex_;  // one a point: has it a reflex one?
 };
 
-/// Which neighbours count: all, those with a sector wider than half a turn, or of these those that are tangent.
-enum class SightLines : std::uint8_t { all, reflex, tangent };
+/// Which neighbours count: all, those that are tangent, or those with a sector wider than half a turn.
+enum class SightLines : std::uint8_t { all, tangent, reflex };
 
 /// Looks from vertices and from other points; scratch of one thread. The corners and the execution must outlive it.
 /// Throws Stopped.

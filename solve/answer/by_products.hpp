@@ -38,6 +38,13 @@ struct HeadingCells {
 /// there is no room for the next.
 inline constexpr std::size_t most_improved = 32;
 
+/// A path with its arcs: the points where straights and arcs end, and the turn of what leads to each, radians, above 0
+/// anticlockwise; 0: a straight.
+struct ArcPath {
+  std::vector<Vec2> points;
+  std::vector<double> turns;
+};
+
 /// What a planner makes on its way to an answer: what pictures show beside the path.
 struct ByProducts {
   PlannedRoadmap<Vec2> roadmap;             ///< of points and discs
@@ -46,6 +53,7 @@ struct ByProducts {
       pose_roadmaps;                         ///< of turning bodies and cars: the roadmap, or the trees of each leg
   PlannedRoadmap<JointState> joint_roadmap;  ///< of arms
   std::vector<NamedLines> lines;             ///< further lines, by name
+  ArcPath arcs;                              ///< of discs: the shortest path, around which the answer's is a polyline
   std::vector<HeadingCells> headings;        ///< of lattices of positions and headings
   /// Of planners that get better with time, in the plane: where the reference point went on paths that were the best so
   /// far, the oldest first, at most most_improved; curves as chords. The planner adds each path before it tells

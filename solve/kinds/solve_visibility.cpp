@@ -199,9 +199,12 @@ class DiscSolve {
     answer.outcome = path.outcome;
     answer.roadmap = {path.circles + 2, path.candidates, 0};
     answer.counters.edges_checked = path.checked;
+    answer.counters.edges_free = path.free;
+    answer.counters.expanded = path.arrivals;
     if (path.outcome == Outcome::solved) {
       answer.path = polyline_of(path, request_.execution);
       tell_bracket(path, answer);
+      if (request_.keep != nullptr) request_.keep->arcs = arcs_of(path);
     }
     settle_blocked_ends(answer, request_.scene, problem_, request_.execution, request_.asked.judged());
     verify_solved(answer, request_.scene, problem_, request_.execution, request_.asked.judged());
@@ -222,6 +225,15 @@ class DiscSolve {
     const StageTimer timer(execution, "search", answer.seconds.search);
     return known != nullptr ? shortest_disc_path(*known, problem_.start, problem_.goal, problem_.reach(), execution)
                             : shortest_disc_path(*ground, problem_.start, problem_.goal, problem_.reach(), execution);
+  }
+
+  static ArcPath arcs_of(const DiscPath& path) {
+    ArcPath arcs{{path.pieces.front().from}, {0.0}};
+    for (const DiscPiece& piece : path.pieces) {
+      arcs.points.push_back(piece.to);
+      arcs.turns.push_back(piece.anticlockwise ? piece.angle : -piece.angle);
+    }
+    return arcs;
   }
 
   static void tell_bracket(const DiscPath& path, Answer& answer) {
