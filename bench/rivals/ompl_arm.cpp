@@ -9,12 +9,6 @@
 // clock. They take turns, seed by seed. CPU seconds of the process; ratios are of medians. og::PRM::solve starts a
 // second thread that polls every millisecond, so its wall-clock time is coarse.
 #include <fmt/core.h>
-#include <ompl/base/MotionValidator.h>
-#include <ompl/base/ProblemDefinition.h>
-#include <ompl/base/SpaceInformation.h>
-#include <ompl/base/StateValidityChecker.h>
-#include <ompl/base/spaces/RealVectorStateSpace.h>
-#include <ompl/geometric/PathGeometric.h>
 #include <ompl/geometric/planners/prm/PRM.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
 #include <ompl/util/Console.h>
@@ -33,6 +27,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/rivals/ompl_worlds.hpp"
 #include "bench/rivals/stopwatch.hpp"
 #include "planners/roadmap/prm.hpp"
 #include "planners/trees/rrt_connect.hpp"
@@ -44,9 +39,7 @@
 namespace warren {
 namespace {
 
-namespace ob = ompl::base;
-namespace og = ompl::geometric;
-using VectorState = ob::RealVectorStateSpace::StateType;
+using namespace ompl_side;
 
 struct Question {
   std::string name;
@@ -61,12 +54,6 @@ struct ArmRun {
   Path<JointState> path;
   CpuWall seconds;
 };
-
-Execution one_thread() {
-  Execution execution;
-  execution.threads = 1;
-  return execution;
-}
 
 ArmWorld world_of(const Question& q) { return {q.scene, SerialChain(q.table), {.radius = q.radius}}; }
 
@@ -89,90 +76,10 @@ ArmRun run_prm(const Question& q, std::uint64_t seed) {
   return {std::move(found.path), stopwatch.read()};
 }
 
-/// Between OMPL's vectors, which hold the moving joints, and joint states.
-class MovingJoints {
- public:
-  MovingJoints(const ArmWorld& world, const JointState& rest) : rest_(rest) {
-    for (std::size_t j = 0; j < most_joints; ++j) {
-      if (world.chain().moves(j)) joints_.push_back(j);
-    }
-  }
-  std::span<const std::size_t> joints() const { return joints_; }
-  JointState state(const ob::State* from) const {
-    JointState q = rest_;
-    for (std::size_t i = 0; i < joints_.size(); ++i) q[joints_[i]] = from->as<VectorState>()->values[i];
-    return q;
-  }
-  ob::State* vector(const ob::SpaceInformationPtr& space, const JointState& q) const {
-    ob::State* to = space->allocState();
-    for (std::size_t i = 0; i < joints_.size(); ++i) to->as<VectorState>()->values[i] = q[joints_[i]];
-    return to;
-  }
-
- private:
-  JointState rest_;
-  std::vector<std::size_t> joints_;
-};
-
-class ArmStateChecker : public ob::StateValidityChecker {
- public:
-  ArmStateChecker(const ob::SpaceInformationPtr& space, const ArmWorld& world, const MovingJoints& joints)
-      : ob::StateValidityChecker(space), world_(world), joints_(joints) {}
-  bool isValid(const ob::State* state) const override {
-    auto query = world_.make_query();
-    return world_.is_free(joints_.state(state), query);
-  }
-
- private:
-  const ArmWorld& world_;
-  const MovingJoints& joints_;
-};
-
-class ArmMotionValidator : public ob::MotionValidator {
- public:
-  ArmMotionValidator(const ob::SpaceInformationPtr& space, const ArmWorld& world, const MovingJoints& joints)
-      : ob::MotionValidator(space), world_(world), joints_(joints) {}
-  bool checkMotion(const ob::State* from, const ob::State* to) const override {
-    auto query = world_.make_query();
-    const bool is_free = world_.is_free_motion(joints_.state(from), joints_.state(to), query);
-    ++(is_free ? valid_ : invalid_);
-    return is_free;
-  }
-  /// The last valid state by bisection: the random walks of expandRoadmap use it.
-  bool checkMotion(const ob::State* from, const ob::State* to,
-                   std::pair<ob::State*, double>& last_valid) const override {
-    if (checkMotion(from, to)) return true;
-    auto query = world_.make_query();
-    const JointState a = joints_.state(from);
-    const JointState b = joints_.state(to);
-    double reached = 0.0;
-    for (double step = 0.5; step > 0x1p-12; step *= 0.5) {
-      if (world_.is_free_motion(a, world_.interpolate(a, b, reached + step), query)) reached += step;
-    }
-    last_valid.second = reached;
-    if (last_valid.first != nullptr) si_->getStateSpace()->interpolate(from, to, reached, last_valid.first);
-    return false;
-  }
-
- private:
-  const ArmWorld& world_;
-  const MovingJoints& joints_;
-};
-
-ob::SpaceInformationPtr make_space(const ArmWorld& world, const MovingJoints& joints) {
-  const auto count = static_cast<unsigned>(joints.joints().size());
-  auto vectors = std::make_shared<ob::RealVectorStateSpace>(count);
-  ob::RealVectorBounds bounds(count);
-  for (unsigned i = 0; i < count; ++i) {
-    bounds.setLow(i, world.chain().low(joints.joints()[i]));
-    bounds.setHigh(i, world.chain().high(joints.joints()[i]));
-  }
-  vectors->setBounds(bounds);
-  auto space = std::make_shared<ob::SpaceInformation>(vectors);
-  space->setStateValidityChecker(std::make_shared<ArmStateChecker>(space, world, joints));
-  space->setMotionValidator(std::make_shared<ArmMotionValidator>(space, world, joints));
-  space->setup();
-  return space;
+ob::SpaceInformationPtr make_space(const ArmWorld& world, const JointStates& states) {
+  auto vectors = std::make_shared<ob::RealVectorStateSpace>(static_cast<unsigned>(states.joints().size()));
+  bound(*vectors, world, states);
+  return checked(vectors, world, states, Ends::free);
 }
 
 /// A planner of OMPL with all its defaults, until it finds a path or limit_s of wall-clock time end.
@@ -181,24 +88,15 @@ ArmRun run_ompl(const Question& q, std::uint64_t seed, double limit_s) {
   ompl::RNG::setSeed(static_cast<std::uint_fast32_t>(seed));
   const Stopwatch stopwatch;
   const ArmWorld world = world_of(q);
-  const MovingJoints joints(world, q.start);
-  const auto space = make_space(world, joints);
-  auto problem = std::make_shared<ob::ProblemDefinition>(space);
-  ob::State* from = joints.vector(space, q.start);
-  ob::State* to = joints.vector(space, q.goal);
-  problem->setStartAndGoalStates(from, to);
-  space->freeState(from);
-  space->freeState(to);
+  const JointStates states(world, q.start);
+  const auto space = make_space(world, states);
+  const auto problem = problem_between(space, states, q.start, q.goal);
   Planner planner(space);
   planner.setProblemDefinition(problem);
   planner.setup();
   ArmRun run;
   const auto status = planner.solve(ob::timedPlannerTerminationCondition(limit_s));
-  if (status == ob::PlannerStatus::EXACT_SOLUTION) {
-    for (const ob::State* state : problem->getSolutionPath()->as<og::PathGeometric>()->getStates()) {
-      run.path.push_back(joints.state(state));
-    }
-  }
+  if (status == ob::PlannerStatus::EXACT_SOLUTION) run.path = path_of(problem->getSolutionPath(), states);
   run.seconds = stopwatch.read();
   return run;
 }

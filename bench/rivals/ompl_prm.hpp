@@ -9,12 +9,6 @@
 // solution every millisecond; process CPU time counts both.
 #pragma once
 
-#include <ompl/base/MotionValidator.h>
-#include <ompl/base/ProblemDefinition.h>
-#include <ompl/base/SpaceInformation.h>
-#include <ompl/base/StateValidityChecker.h>
-#include <ompl/base/spaces/RealVectorStateSpace.h>
-#include <ompl/geometric/PathGeometric.h>
 #include <ompl/geometric/planners/prm/PRM.h>
 #include <ompl/util/RandomNumbers.h>
 
@@ -24,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/rivals/ompl_worlds.hpp"
 #include "bench/rivals/stopwatch.hpp"
 #include "core/base/rng.hpp"
 #include "core/base/solution.hpp"
@@ -44,98 +39,23 @@ namespace ompl_prm {
 
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
-using PlaneState = ob::RealVectorStateSpace::StateType;
 
-inline Vec2 point_of(const ob::State* state) {
-  const auto* plane = state->as<PlaneState>();
-  return {plane->values[0], plane->values[1]};
-}
-
-class MazeStateChecker : public ob::StateValidityChecker {
- public:
-  MazeStateChecker(const ob::SpaceInformationPtr& space, const MazeWorld& world)
-      : ob::StateValidityChecker(space), world_(world) {}
-  bool isValid(const ob::State* state) const override {
-    MazeWorld::Query query = world_.make_query();
-    return world_.is_free(point_of(state), query);
-  }
-
- private:
-  const MazeWorld& world_;
-};
-
-class MazeMotionValidator : public ob::MotionValidator {
- public:
-  MazeMotionValidator(const ob::SpaceInformationPtr& space, const MazeWorld& world)
-      : ob::MotionValidator(space), world_(world) {}
-
-  bool checkMotion(const ob::State* from, const ob::State* to) const override {
-    const bool is_free = is_free_motion(point_of(from), point_of(to));
-    ++(is_free ? valid_ : invalid_);
-    return is_free;
-  }
-  /// The last valid state by bisection, to 2^-16 of the motion: the random walks of expandRoadmap use it.
-  bool checkMotion(const ob::State* from, const ob::State* to,
-                   std::pair<ob::State*, double>& last_valid) const override {
-    if (checkMotion(from, to)) return true;
-    const Vec2 a = point_of(from);
-    const Vec2 leg = point_of(to) - a;
-    double reached = 0.0;
-    for (double step = 0.5; step > 0x1p-17; step *= 0.5) {
-      if (is_free_motion(a, a + (reached + step) * leg)) reached += step;
-    }
-    last_valid.second = reached;
-    if (last_valid.first != nullptr) si_->getStateSpace()->interpolate(from, to, reached, last_valid.first);
-    return false;
-  }
-
- private:
-  bool is_free_motion(Vec2 a, Vec2 b) const {
-    MazeWorld::Query query = world_.make_query();
-    return world_.is_free_motion(a, b, query);
-  }
-
-  const MazeWorld& world_;
-};
-
+/// Milestones are free before motions between them are asked about.
 inline ob::SpaceInformationPtr make_space(const MazeWorld& world) {
   auto plane = std::make_shared<ob::RealVectorStateSpace>(2);
-  ob::RealVectorBounds bounds(2);
-  bounds.setLow(0, world.box().min.x);
-  bounds.setLow(1, world.box().min.y);
-  bounds.setHigh(0, world.box().max.x);
-  bounds.setHigh(1, world.box().max.y);
-  plane->setBounds(bounds);
-  auto space = std::make_shared<ob::SpaceInformation>(plane);
-  space->setStateValidityChecker(std::make_shared<MazeStateChecker>(space, world));
-  space->setMotionValidator(std::make_shared<MazeMotionValidator>(space, world));
-  space->setup();
-  return space;
+  ompl_side::bound(*plane, world.box());
+  return ompl_side::checked(plane, world, ompl_side::PointStates(), ompl_side::Ends::free);
 }
 
 inline ob::State* make_state(const ob::SpaceInformationPtr& space, Vec2 point) {
-  ob::State* state = space->allocState();
-  state->as<PlaneState>()->values[0] = point.x;
-  state->as<PlaneState>()->values[1] = point.y;
-  return state;
+  return ompl_side::new_state(space, ompl_side::PointStates(), point);
 }
 
 inline ob::ProblemDefinitionPtr make_problem(const ob::SpaceInformationPtr& space, Vec2 start, Vec2 goal) {
-  auto problem = std::make_shared<ob::ProblemDefinition>(space);
-  ob::State* from = make_state(space, start);
-  ob::State* to = make_state(space, goal);
-  problem->setStartAndGoalStates(from, to);
-  space->freeState(from);
-  space->freeState(to);
-  return problem;
+  return ompl_side::problem_between(space, ompl_side::PointStates(), start, goal);
 }
 
-inline Path<Vec2> points_of(const ob::PathPtr& path) {
-  Path<Vec2> points;
-  if (!path) return points;
-  for (const ob::State* state : path->as<og::PathGeometric>()->getStates()) points.push_back(point_of(state));
-  return points;
-}
+inline Path<Vec2> points_of(const ob::PathPtr& path) { return ompl_side::path_of(path, ompl_side::PointStates()); }
 
 /// Opens og::PRM's protected addMilestone and constructSolution: a roadmap of given milestones.
 class CellPrm : public og::PRM {

@@ -13,15 +13,7 @@
 // CPU milliseconds of the process, medians; a ratio is to warren's. OMPL's random numbers have one seed a process, so
 // its runs follow each other; warren's have the seeds 1, 2, ...
 #include <fmt/core.h>
-#include <ompl/base/MotionValidator.h>
 #include <ompl/base/PlannerTerminationCondition.h>
-#include <ompl/base/ProblemDefinition.h>
-#include <ompl/base/SpaceInformation.h>
-#include <ompl/base/StateValidityChecker.h>
-#include <ompl/base/spaces/DubinsStateSpace.h>
-#include <ompl/base/spaces/ReedsSheppStateSpace.h>
-#include <ompl/base/spaces/SE2StateSpace.h>
-#include <ompl/geometric/PathGeometric.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
 #include <ompl/util/Console.h>
 #include <ompl/util/RandomNumbers.h>
@@ -32,17 +24,15 @@
 #include <string>
 #include <vector>
 
+#include "bench/rivals/ompl_worlds.hpp"
 #include "bench/rivals/stopwatch.hpp"
 #include "planners/trees/rrt_connect.hpp"
 #include "scenes/files/read_world_io.hpp"
-#include "worlds/poses/car_world.hpp"
-#include "worlds/poses/se2_world.hpp"
 
 namespace warren {
 namespace {
 
-namespace ob = ompl::base;
-namespace og = ompl::geometric;
+using namespace ompl_side;
 
 struct Options {
   std::vector<std::string> scenes;
@@ -97,101 +87,25 @@ Course course_of(const std::string& file) {
   return course;
 }
 
-/// What a kind of motion is to either side: how worlds and OMPL's spaces are made.
-struct Turning {
-  using World = Se2World;
-  static World world(const Course& c) { return {c.scene, c.robot.outline, {}}; }
-  static const Box& box(const World& world) { return world.box(); }
-  static auto space(const Course&) { return std::make_shared<ob::SE2StateSpace>(); }
-};
-
-template <class Curve, class Space>
-struct Driving {
-  using World = CarWorld<Curve>;
-  static World world(const Course& c) {
-    return {c.scene, {.turning_radius = c.robot.turning_radius, .radius = c.robot.radius, .outline = c.robot.outline}};
-  }
-  static const Box& box(const World& world) { return world.body().box(); }
-  static auto space(const Course& c) { return std::make_shared<Space>(c.robot.turning_radius); }
-};
-
-Execution one_thread() {
-  Execution execution;
-  execution.threads = 1;
-  return execution;
-}
-
 template <class Kind>
 Run run_warren(const Course& course, std::uint64_t seed) {
   RrtOptions options;
   options.seed = seed;
   const Stopwatch in_all;
-  const typename Kind::World world = Kind::world(course);
+  const typename Kind::World world = Kind::world(course.scene, course.robot);
   const Stopwatch search;
   auto solution = rrt_connect(WorldView(world), course.start, std::span(&course.goal, 1), options, one_thread());
   return {std::move(solution.path), in_all.read().cpu_s, search.read().cpu_s};
 }
 
-Se2 pose_of(const ob::State* state) {
-  const auto* pose = state->as<ob::SE2StateSpace::StateType>();
-  return {pose->getX(), pose->getY(), pose->getYaw()};
-}
-
-template <class World>
-class StateChecker : public ob::StateValidityChecker {
- public:
-  StateChecker(const ob::SpaceInformationPtr& space, const World& world)
-      : ob::StateValidityChecker(space), world_(world), query_(world.make_query()) {}
-  bool isValid(const ob::State* state) const override { return world_.is_free(pose_of(state), query_); }
-
- private:
-  const World& world_;
-  mutable typename World::Query query_;
-};
-
-template <class World>
-class MotionChecker : public ob::MotionValidator {
- public:
-  MotionChecker(const ob::SpaceInformationPtr& space, const World& world)
-      : ob::MotionValidator(space), world_(world), query_(world.make_query()) {}
-  bool checkMotion(const ob::State* from, const ob::State* to) const override {
-    return world_.is_free(pose_of(to), query_) && world_.is_free_motion(pose_of(from), pose_of(to), query_);
-  }
-  bool checkMotion(const ob::State* from, const ob::State* to, std::pair<ob::State*, double>& last) const override {
-    last.second = 0.0;
-    return checkMotion(from, to);
-  }
-
- private:
-  const World& world_;
-  mutable typename World::Query query_;
-};
-
-enum class Motions { certified, sampled };
-
 template <class Kind>
 Run run_ompl(const Course& course, Motions motions, double limit_s) {
   const Stopwatch in_all;
-  const typename Kind::World world = Kind::world(course);
-  auto poses = Kind::space(course);
-  ob::RealVectorBounds bounds(2);
-  const Box& box = Kind::box(world);
-  bounds.low = {box.min.x, box.min.y};
-  bounds.high = {box.max.x, box.max.y};
-  poses->setBounds(bounds);
-  auto space = std::make_shared<ob::SpaceInformation>(poses);
-  space->setStateValidityChecker(std::make_shared<StateChecker<typename Kind::World>>(space, world));
-  if (motions == Motions::certified)
-    space->setMotionValidator(std::make_shared<MotionChecker<typename Kind::World>>(space, world));
-  space->setup();
-  const auto state_at = [&](const Se2& pose) {
-    ob::ScopedState<ob::SE2StateSpace> state(poses);
-    state->setXY(pose.x, pose.y);
-    state->setYaw(pose.theta);
-    return state;
-  };
-  const ob::ProblemDefinitionPtr problem = std::make_shared<ob::ProblemDefinition>(space);
-  problem->setStartAndGoalStates(state_at(course.start), state_at(course.goal));
+  const typename Kind::World world = Kind::world(course.scene, course.robot);
+  auto poses = Kind::template space<typename Kind::Space>(course.robot);
+  bound(*poses, Kind::box(world));
+  const auto space = checked(poses, world, PoseStates(), Ends::asked, motions);
+  const auto problem = problem_between(space, PoseStates(), course.start, course.goal);
   og::RRTConnect planner(space);
   planner.setProblemDefinition(problem);
   planner.setup();
@@ -200,9 +114,7 @@ Run run_ompl(const Course& course, Motions motions, double limit_s) {
   Run run;
   run.cpu_s = in_all.read().cpu_s;
   run.search_s = search.read().cpu_s;
-  if (status != ob::PlannerStatus::EXACT_SOLUTION) return run;
-  auto* path = problem->getSolutionPath()->template as<og::PathGeometric>();
-  for (const ob::State* state : path->getStates()) run.path.push_back(pose_of(state));
+  if (status == ob::PlannerStatus::EXACT_SOLUTION) run.path = path_of(problem->getSolutionPath(), PoseStates());
   return run;
 }
 
@@ -255,7 +167,7 @@ void print(const std::string& scene, const char* name, const Record& record, con
 
 template <class Kind>
 void compare_trees(const Course& course, const Options& options) {
-  const typename Kind::World world = Kind::world(course);
+  const typename Kind::World world = Kind::world(course.scene, course.robot);
   Record ours;
   Record certified;
   Record sampled;
@@ -277,9 +189,9 @@ void compare(Course course, const Options& options) {
   }
   const std::string file = course.name;
   course.name = file + " D";
-  compare_trees<Driving<DubinsCurve, ob::DubinsStateSpace>>(course, options);
+  compare_trees<DrivingForwards>(course, options);
   course.name = file + " RS";
-  compare_trees<Driving<ReedsSheppCurve, ob::ReedsSheppStateSpace>>(course, options);
+  compare_trees<DrivingBothWays>(course, options);
 }
 
 int run(int argc, char** argv) {

@@ -14,7 +14,7 @@ from pages import DRAWN, ROOT, commands_of, differing_pictures, prepared
 
 PAGES = ['README.md', 'docs/tutorial.md', 'docs/gallery.md', 'docs/reports.md', 'docs/service.md', 'docs/algorithms.md',
          'docs/other_names.md', 'examples/worlds/README.md']
-TAKES_LONG = re.compile(r'largest|scale|5000x5000|big\.npy --budget|100000x100000|--sizes')
+TAKES_LONG = re.compile(r'largest|scale|5000x5000|big\.npy --budget|100000x100000|--sizes|--curves')
 
 
 def fails(command, folder, environment):

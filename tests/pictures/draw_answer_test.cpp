@@ -238,7 +238,7 @@ TEST(DrawAnswer, TheEllipseIsOfPointsAndDiscsThatBend) {
   for (const std::string& id : ids_of(drawn_with_improvements(scene, turning).layers)) EXPECT_NE(id, "informed_set");
   scene = room_with_a_block();
   scene.polygons.clear();
-  const Answer straight = solve(scene, {}, {.planner = PlannerKind::lazy_prm});
+  const Answer straight = solve(scene, {}, {.planner = PlannerKind::lazy_prm, .optimise = true});
   EXPECT_EQ(ids_of(drawn_with_improvements(scene, straight).layers), std::vector<std::string>{"improvements"});
 }
 

@@ -81,8 +81,7 @@ std::string ProgressBar::whole_run_text(const RunMoment& moment, double items_pe
 }
 
 void ProgressBar::tell(const Improvement& improvement) {
-  const std::lock_guard lock(mutex_);
-  best_ = improvement;
+  best_.use([&](auto& best) { best = improvement; });
 }
 
 std::string improvement_text(const Improvement& best) {
@@ -109,11 +108,7 @@ void ProgressBar::draw() {
   const std::size_t width = terminal_width();
   RunMoment moment{stage, done, progress_.total(), std::chrono::duration<double>(now - begin_).count()};
   std::string whole_run = whole_run_text(moment, rate);
-  std::optional<Improvement> best;
-  {
-    const std::lock_guard lock(mutex_);
-    best = best_;
-  }
+  const std::optional<Improvement> best = best_.use([](auto& now) { return now; });
   if (best) {
     whole_run = improvement_text(*best) + (whole_run.empty() ? "" : ", " + whole_run);
     moment = {.stage = "search", .seconds = moment.seconds};  // whose parts are stages by themselves

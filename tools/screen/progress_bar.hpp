@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +15,7 @@
 
 #include "core/base/solution.hpp"
 #include "parallel/execution.hpp"
+#include "parallel/guarded.hpp"
 #include "parallel/ticker.hpp"
 #include "tools/screen/terminal.hpp"
 
@@ -90,8 +90,7 @@ class ProgressBar {
   std::chrono::steady_clock::time_point stage_begin_;
   std::uint64_t done_at_begin_ = 0;
   std::size_t columns_ = 0;  // of what stands on the screen
-  std::mutex mutex_;         // guards best_
-  std::optional<Improvement> best_;
+  Guarded<std::optional<Improvement>> best_;
   std::unique_ptr<Ticker> ticker_;
 };
 

@@ -22,8 +22,7 @@ constexpr OptionSpec question_specs[] = {
      "room to keep around the body along the whole path (default: the file's, else 0.1 in mazes, else 0)"},
     {"--contact", "WORD",
      "with clearance 0: may the path touch obstacles? allowed: it may run along a wall or around a corner, never "
-     "through. blocked: it keeps off, however little (default: allowed for visibility and cells, whose shortest paths "
-     "touch corners; else blocked)",
+     "through. blocked: it keeps off, however little (default: allowed for visibility and cells, else blocked)",
      choices_of<Contact>},
 };
 

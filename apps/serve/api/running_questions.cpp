@@ -9,39 +9,39 @@
 
 namespace warren::serve {
 
-RunningQuestions::Entry::Entry(RunningQuestions& all, std::string name) : all_(all), name_(std::move(name)) {
-  const std::lock_guard lock(all_.mutex_);
-  is_seen_ = !name_.empty() && all_.questions_.try_emplace(name_).second;
-}
+RunningQuestions::Entry::Entry(RunningQuestions& all, std::string name)
+    : all_(all), name_(std::move(name)), is_seen_(!name_.empty() && all_.questions_.use([this](auto& questions) {
+        return questions.try_emplace(name_).second;
+      })) {}
 
 RunningQuestions::Entry::~Entry() {
-  const std::lock_guard lock(all_.mutex_);
-  if (is_seen_) all_.questions_.erase(name_);
+  if (is_seen_) all_.questions_.use([this](auto& questions) { questions.erase(name_); });
 }
 
 void RunningQuestions::Entry::tell(const Improvement& improvement, std::vector<Vec2> way) {
   if (!is_seen_) return;
   if (way.size() > most_points) way.clear();
-  const std::lock_guard lock(all_.mutex_);
-  Question& question = all_.questions_.at(name_);
-  question.told.push_back({improvement, std::move(way)});
-  if (question.told.size() <= most_told) return;
-  question.told.pop_front();
-  ++question.first;
+  all_.questions_.use([&](auto& questions) {
+    Question& question = questions.at(name_);
+    question.told.push_back({improvement, std::move(way)});
+    if (question.told.size() <= most_told) return;
+    question.told.pop_front();
+    ++question.first;
+  });
 }
 
 std::string RunningQuestions::told(const std::string& name, std::uint64_t from) const {
   std::vector<Told> fresh;
   std::uint64_t first = from;
-  {
-    const std::lock_guard lock(mutex_);
-    const auto found = questions_.find(name);
-    if (found == questions_.end()) return "{\"running\":false}";
+  const bool is_running = questions_.use([&](const auto& questions) {
+    const auto found = questions.find(name);
+    if (found == questions.end()) return false;
     const Question& question = found->second;
     first = std::max(from, question.first);
-    const std::uint64_t skipped = std::min<std::uint64_t>(first - question.first, question.told.size());
-    fresh.assign(question.told.begin() + static_cast<std::ptrdiff_t>(skipped), question.told.end());
-  }
+    for (std::uint64_t i = first - question.first; i < question.told.size(); ++i) fresh.push_back(question.told[i]);
+    return true;
+  });
+  if (!is_running) return "{\"running\":false}";
   std::string list;
   for (const Told& one : fresh) {
     JsonObject json;

@@ -6,12 +6,12 @@
 #include <cstdint>
 #include <deque>
 #include <map>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
+#include "parallel/guarded.hpp"
 
 namespace warren::serve {
 
@@ -50,8 +50,7 @@ class RunningQuestions {
     std::uint64_t first = 0;  ///< the number of the first that is kept
     std::deque<Told> told = {};
   };
-  mutable std::mutex mutex_;  // guards questions_
-  std::map<std::string, Question> questions_;
+  Guarded<std::map<std::string, Question>> questions_;
 };
 
 }  // namespace warren::serve

@@ -79,7 +79,7 @@ TEST(CostCurve, OfManyPathsSomeHundredMomentsAreToldAndTheLastIsExact) {
   for (int i = 1; i <= 100'000; ++i) steps.push_back({1e-5 * i, 100.0 + 1.0 / i});
   const CostCurve curve = cost_curve(planner("anytime", {steps}, 2.0), 1e-5, 2.0);
   EXPECT_LE(curve.median.size(), 1'100U);
-  EXPECT_GE(curve.median.size(), 400U);
+  EXPECT_GE(curve.median.size(), 300U);
   EXPECT_DOUBLE_EQ(curve.median.back().y, steps.back().y);
   for (std::size_t i = 1; i < curve.median.size(); ++i) {
     ASSERT_LE(curve.median[i - 1].x, curve.median[i].x);

@@ -7,16 +7,15 @@
 #include <functional>
 #include <vector>
 
-#include "planners/shorten/shortcut.hpp"
 #include "tests/planners/trees/sampled_problems.hpp"
 
 namespace warren {
 namespace {
 
-using sampled_problems::Problem;
+using sampled_problems::SampledProblem;
 
 template <class W>
-AnytimeBody<typename W::State> body_of(const Problem<W>& problem) {
+AnytimeBody<typename W::State> body_of(const SampledProblem<W>& problem) {
   using State = typename W::State;
   const auto cost = [&problem](const State& a, const State& b) { return problem.world.distance(a, b); };
   AnytimeBody<State> body;
@@ -30,7 +29,7 @@ AnytimeBody<typename W::State> body_of(const Problem<W>& problem) {
 }
 
 template <class W>
-AnytimeSolution<typename W::State> plan(const Problem<W>& problem, const AnytimeOptions& options,
+AnytimeSolution<typename W::State> plan(const SampledProblem<W>& problem, const AnytimeOptions& options,
                                         const Execution& execution = {}) {
   return anytime(problem.view, problem.start, std::span(&problem.goal, 1), options, body_of(problem), execution);
 }
@@ -59,7 +58,7 @@ void expect_same(const AnytimeSolution<State>& a, const AnytimeSolution<State>& 
 }
 
 template <class W>
-void expect_honest(const Problem<W>& problem, const AnytimeSolution<typename W::State>& found) {
+void expect_honest(const SampledProblem<W>& problem, const AnytimeSolution<typename W::State>& found) {
   ASSERT_EQ(found.outcome, Outcome::solved);
   ASSERT_FALSE(found.path.empty());
   EXPECT_TRUE(found.path.front() == problem.start);
@@ -75,7 +74,7 @@ void expect_honest(const Problem<W>& problem, const AnytimeSolution<typename W::
 }
 
 template <class W>
-void expect_same_for_any_threads(const Problem<W>& problem, std::uint64_t iterations) {
+void expect_same_for_any_threads(const SampledProblem<W>& problem, std::uint64_t iterations) {
   const auto alone = plan(problem, turns(iterations), {.threads = 1});
   expect_honest(problem, alone);
   for (const unsigned threads : {2U, 3U, 8U}) {
@@ -86,8 +85,8 @@ void expect_same_for_any_threads(const Problem<W>& problem, std::uint64_t iterat
 
 TEST(Anytime, IsTheSameForAnyThreadsInEveryKindOfWorld) {
   expect_same_for_any_threads(sampled_problems::body(3), 12);
-  expect_same_for_any_threads(sampled_problems::car<DubinsWorld>(), 10);
-  expect_same_for_any_threads(sampled_problems::car<ReedsSheppWorld>(), 10);
+  expect_same_for_any_threads(sampled_problems::car<CarWorld<DubinsCurve>>(), 10);
+  expect_same_for_any_threads(sampled_problems::car<CarWorld<ReedsSheppCurve>>(), 10);
   expect_same_for_any_threads(sampled_problems::arm(), 10);
 }
 
@@ -130,7 +129,7 @@ TEST(Anytime, EachPartFindsAWayByItself) {
 
 /// A stop that comes with the k-th improvement: the answer is that of the whole turns before.
 TEST(Anytime, AStopKeepsThePathAndAsManyTurnsRepeatIt) {
-  const auto problem = sampled_problems::car<ReedsSheppWorld>();
+  const auto problem = sampled_problems::car<CarWorld<ReedsSheppCurve>>();
   for (int k = 1; k < 6; ++k) {
     SCOPED_TRACE(k);
     SignalFlag signal{0};
@@ -161,12 +160,12 @@ TEST(Anytime, WhoIsToldMayHaveEnough) {
 }
 
 TEST(Anytime, WithoutAWayItSaysThatNoneWasFound) {
-  auto problem = sampled_problems::car<ReedsSheppWorld>();
+  auto problem = sampled_problems::car<CarWorld<ReedsSheppCurve>>();
   Scene shut;
   shut.bounds = Box{{0, 0}, {12, 6}};
   shut.walls = WallSet::narrowest(std::vector<Segment>{{{6, 0}, {6, 6}}});
-  const Problem<ReedsSheppWorld> apart{ReedsSheppWorld(shut, {.turning_radius = 0.7, .radius = 0.2}), problem.start,
-                                       problem.goal};
+  const SampledProblem<CarWorld<ReedsSheppCurve>> apart{
+      CarWorld<ReedsSheppCurve>(shut, {.turning_radius = 0.7, .radius = 0.2}), problem.start, problem.goal};
   const auto found = plan(apart, turns(4));
   EXPECT_EQ(found.outcome, Outcome::not_connected);
   EXPECT_EQ(found.ended_by, "iterations");

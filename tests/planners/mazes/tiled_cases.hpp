@@ -13,6 +13,7 @@
 #include "solve/kinds/planned_worlds.hpp"
 #include "tests/planners/visibility/plane_worlds.hpp"
 #include "verify/judges/verify_point.hpp"
+#include "worlds/plane/maze_world.hpp"
 
 namespace warren::test {
 

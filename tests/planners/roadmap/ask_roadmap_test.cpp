@@ -11,6 +11,8 @@
 #include "scenes/mazes/maze_generator.hpp"
 #include "solve/kinds/planned_worlds.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
+#include "worlds/plane/maze_world.hpp"
+#include "worlds/poses/car_world.hpp"
 
 namespace warren {
 namespace {

@@ -14,6 +14,7 @@
 #include "solve/kinds/planned_worlds.hpp"
 #include "tests/planners/visibility/plane_worlds.hpp"
 #include "tests/seeds.hpp"
+#include "worlds/plane/maze_world.hpp"
 
 namespace warren {
 namespace {

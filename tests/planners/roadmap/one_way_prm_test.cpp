@@ -9,6 +9,7 @@
 #include "solve/kinds/planned_worlds.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
 #include "verify/judges/verify_car.hpp"
+#include "worlds/poses/car_world.hpp"
 
 namespace warren {
 namespace {

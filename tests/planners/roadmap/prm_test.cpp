@@ -13,6 +13,7 @@
 #include "scenes/mazes/maze_generator.hpp"
 #include "solve/kinds/planned_worlds.hpp"
 #include "tests/planners/visibility/plane_worlds.hpp"
+#include "worlds/plane/maze_world.hpp"
 
 namespace warren {
 namespace {

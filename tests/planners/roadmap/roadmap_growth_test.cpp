@@ -8,6 +8,7 @@
 
 #include "solve/kinds/planned_worlds.hpp"
 #include "tests/planners/visibility/plane_worlds.hpp"
+#include "worlds/plane/maze_world.hpp"
 
 namespace warren {
 namespace {

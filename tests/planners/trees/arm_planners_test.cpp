@@ -12,6 +12,7 @@
 #include "tests/paths.hpp"
 #include "tests/seeds.hpp"
 #include "verify/judges/verify_arm.hpp"
+#include "worlds/arms/arm_world.hpp"
 #include "worlds/arms/puma560.hpp"
 
 namespace warren {

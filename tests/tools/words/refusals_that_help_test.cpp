@@ -88,8 +88,8 @@ TEST(RefusalsThatHelp, UnknownCellsAreToldFromOccupiedOnesAndWhereTheyAre) {
               {"in the way is cell 2, 1\n", "hint          the cell is unknown, at 15, 3 m"});
   expect_said(said({"solve", map, "--start", "11,1", "--goal", "15,1"}),
               {"in the way is cell 2, 0\n", "hint          the cell is at 15, 1 m"});
-  for (const char* edge : {"12,0", "10,1", "10,0", "12,4"}) {  // all that lies around the map is blocked
-    expect_said(said({"solve", map, "--start", "11,1", "--goal", edge}),
+  for (const char* edge : {"10.2,1", "11,0.2", "11,3.8"}) {  // all that lies around the map is blocked
+    expect_said(said({"solve", map, "--robot", "disc 0.5", "--start", "11,1", "--goal", edge}),
                 {"in the way is cell ", "hint          the cell is outside of the map\n"});
   }
 }

@@ -169,7 +169,8 @@ TEST(Usage, AnIgnoredOptionIsToldWithTheProblemThatItIsNotFor) {
          "--sampled-edges: visibility would ignore it for a polygon that turns; visibility takes it for a point"});
   check({{"solve", turning, "--planner", "grid", "--optimise"},
          2,
-         "--optimise: grid would ignore it for a polygon that turns; prm, lazy-prm, rrt and rrt-connect take it"});
+         "--optimise: grid would ignore it for a polygon that turns; prm, lazy-prm, rrt, rrt-connect, "
+         "rrt-star and informed-rrt-star take it"});
 }
 
 TEST(Usage, CellsThatAreTooSmallAreRefusedByTheirOptionAndInFewDigits) {
