@@ -56,6 +56,7 @@ struct AnytimeOptions {
   std::optional<std::uint64_t> iterations;  ///< turns; none: until something else ends it
   std::optional<double> gap;  ///< it ends when the cost is at most so much more than the bound, as a share of it
   double lower_bound = 0.0;   ///< proved at no cost: no path costs less
+  bool all_goals = true;      ///< are the goals all states that will do? Else a straight way to one proves nothing
 };
 
 /// What differs from body to body. shortened and length are called from several threads at once.
@@ -202,7 +203,7 @@ class AnytimeSearch {
 
   AnytimeSolution<State> solution_;
   std::vector<Path<State>> to_join_;  // the tree has yet to take them
-  bool is_straight_ = false;          // the best path is one motion to the nearest goal
+  bool is_straight_ = false;          // the best path is one motion to the nearest of all goals
   bool is_enough_ = false;            // whoever is told says so
   std::uint64_t share_ = first_share;
   std::array<int, 4> idle_{};        // turns since a part brought something
@@ -254,7 +255,7 @@ void AnytimeSearch<W>::take_turn(const Execution& execution) {
   adapt(had_path);
 }
 
-/// The straight motion to the nearest goal, where it is free, is the best there is.
+/// The straight motion to the nearest goal, where it is free, is the best there is, unless there are more goals.
 template <SteerableWorld W>
 void AnytimeSearch<W>::try_straight() {
   const auto nearest = std::min_element(goals_.begin(), goals_.end(), [&](const State& a, const State& b) {
@@ -264,7 +265,7 @@ void AnytimeSearch<W>::try_straight() {
   ++solution_.counters.edges_checked;
   if (!world_.is_free_motion(start_, *nearest, query)) return;
   ++solution_.counters.edges_free;
-  is_straight_ = true;
+  is_straight_ = options_.all_goals;
   solution_.path = {start_, *nearest};
   solution_.cost = world_.distance(start_, *nearest);
   tell("straight");

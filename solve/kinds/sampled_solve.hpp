@@ -296,6 +296,7 @@ class SampledSolve {
     }
     AnytimeOptions options = better_options();
     options.lower_bound = bound(BoundEffort::simple);
+    options.all_goals = answer_.problem.goal.size() == answer_.problem.start.size();  // else some headings or postures
     AnytimeSolution<State> found = anytime(*view_, State(body_.start()), goals, options, body_of_better(), execution());
     answer_.lower_bound = found.lower_bound;
     answer_.improvements = std::move(found.improvements);

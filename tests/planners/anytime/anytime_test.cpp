@@ -100,6 +100,17 @@ TEST(Anytime, AStraightWayIsTheBestAtOnce) {
   EXPECT_EQ(found.improvements.front().by, "straight");
 }
 
+TEST(Anytime, AStraightWayToOneOfMoreGoalsIsNotTheEnd) {
+  auto problem = sampled_problems::body(1);
+  problem.goal = {problem.start.x, problem.start.y, problem.start.theta + 1e-3};
+  AnytimeOptions options = turns(3);
+  options.all_goals = false;
+  const auto found = plan(problem, options);
+  expect_honest(problem, found);
+  EXPECT_EQ(found.ended_by, "iterations");
+  EXPECT_EQ(found.iterations, 3U);
+}
+
 TEST(Anytime, EndsWhereTheCostIsNearTheBound) {
   const auto problem = sampled_problems::body(3);
   const auto best = plan(problem, turns(12));
