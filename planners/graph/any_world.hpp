@@ -4,6 +4,7 @@
 // have has an answer all the same, which says that it has none.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstddef>
@@ -90,6 +91,8 @@ class AnyWorld {
   }
   virtual State interpolate(const State& a, const State& b, double t) const = 0;
 
+  /// at_unit() of each: to states[0] and those behind it.
+  virtual void at_units(std::span<const std::array<double, dimension>> units, State* states) const = 0;
   /// Bit i is is_free() of the i-th state; at most bunch_size.
   virtual std::uint32_t free_states(std::span<const State> states, Query& query) const = 0;
   /// Bit i is is_free_motion() of the i-th motion; at most bunch_size, best if they are near each other.
@@ -153,6 +156,9 @@ class WorldView final : public AnyWorldOf<W> {
 
   Query make_query() const override { return Query(std::in_place_type<Own>, world_.make_query()); }
   State at_unit(const std::array<double, dimension>& u) const override { return world_.at_unit(u); }
+  void at_units(std::span<const std::array<double, dimension>> units, State* states) const override {
+    std::transform(units.begin(), units.end(), states, [this](const auto& u) { return world_.at_unit(u); });
+  }
   bool is_free(const State& a, Query& query) const override { return world_.is_free(a, own(query)); }
   bool is_free_motion(const State& a, const State& b, Query& query) const override {
     return world_.is_free_motion(a, b, own(query));

@@ -321,9 +321,16 @@ void for_each_sample(const W& world, const RoadmapOptions& options, Range range,
     if (options.sampler == SamplerKind::uniform) {
       const Strata strata(count, height_over_width(world.box()));
       Strata::Row row;
-      for (std::size_t i = range.first; i < range.last; ++i) {
-        if (i >= row.next) row = strata.row_of(i);
-        visit(world.at_unit(strata.point(options.seed, i, row)));
+      std::array<std::array<double, 2>, bunch_size> units;
+      std::array<Vec2, bunch_size> states;
+      for (std::size_t first = range.first; first < range.last; first += bunch_size) {
+        const std::size_t held = std::min(bunch_size, range.last - first);
+        for (std::size_t i = 0; i < held; ++i) {
+          if (first + i >= row.next) row = strata.row_of(first + i);
+          units[i] = strata.point(options.seed, first + i, row);
+        }
+        world.at_units({units.data(), held}, states.data());
+        std::for_each_n(states.begin(), held, visit);
       }
       return;
     }

@@ -158,7 +158,7 @@ TEST(RrtConnect, KeepsToTheBoxOfObstaclesWithoutBounds) {
       const Se2 pose = body_scenes::random_pose(seed, i);
       if (world.is_free(pose, query)) ends.push_back(pose);
     }
-    const auto solution = rrt_connect(WorldView(world), ends[0], std::span(&ends[1], 1), {.seed = seed}, {}, nullptr);
+    const auto solution = rrt_connect(WorldView(world), ends[0], std::span(&ends[1], 1), {.seed = seed}, {});
     ASSERT_EQ(solution.outcome, Outcome::solved);
     expect_verified(scene, hook, solution.path, {.start = ends[0], .goal = ends[1]});
   }
