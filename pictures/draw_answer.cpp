@@ -123,9 +123,7 @@ PictureLayer improvements_layer(const Answer& answer, PolygonSet paths) {
                      .width = widths::outline,
                      .lines = std::move(paths),
                      .over_roadmap = true};
-  if (!answer.improvements.empty()) {
-    layer.label += fmt::format(", the first {} long", human_number(answer.improvements.front().length));
-  }
+  layer.label += fmt::format(", the first {} long", human_number(answer.improvements.front().length));
   constexpr double faintest = 0.15;
   constexpr double strongest = 0.6;
   for (std::size_t i = 0; i < layer.lines.size(); ++i) {
@@ -169,7 +167,7 @@ PictureLayer informed_set(const Answer& answer, Vec2 start, Vec2 goal, const Box
 
 /// What is seen of a planner that gets better: where it looked, and the paths that it had before.
 void add_improvements(Drawing& drawing, const Scene& scene, const Answer& answer, ByProducts& made) {
-  if (!answer.verified || !answer.iterations) return;
+  if (!answer.verified || answer.improvements.empty()) return;
   const RobotKind body = answer.problem.robot.kind;
   const bool is_informed = answer.planner != name_of(PlannerKind::rrt_star);
   if (is_informed && (body == RobotKind::point || body == RobotKind::disc) && drawing.start && drawing.goal) {
@@ -179,10 +177,10 @@ void add_improvements(Drawing& drawing, const Scene& scene, const Answer& answer
     PictureLayer ellipse = informed_set(answer, *drawing.start, *drawing.goal, box);
     if (!ellipse.lines.empty()) drawing.layers.push_back(std::move(ellipse));
   }
+  // The last of them is the answer's own, unless it was made shorter in the end.
+  const bool has_own = std::abs(answer.improvements.back().length - answer.length) <= 1e-9 * answer.length;
   PolygonSet before;
-  for (std::size_t i = 0; i < made.improved.size(); ++i) {
-    if (!std::ranges::equal(made.improved[i], drawing.path)) before.add(made.improved[i]);
-  }
+  for (std::size_t i = 0; i + (has_own ? 1 : 0) < made.improved.size(); ++i) before.add(made.improved[i]);
   if (before.empty()) return;
   drawing.layers.push_back(improvements_layer(answer, std::move(before)));
   drawing.path_label += fmt::format(", {} long", human_number(answer.length));

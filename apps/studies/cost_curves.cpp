@@ -75,11 +75,13 @@ std::vector<BetterPath> better_paths(const Contender& contender) {
 /// What all costs are measured by, and what it is.
 struct CostUnit {
   double cost = 1.0;
-  std::string_view name = {};  ///< empty: nothing is known, or it is 0
+  std::string name = {};  ///< empty: nothing is known, or it is 0
 };
 
-/// The best bound of all, since all are asked the same; where several clearances were dealt out they are not.
+/// The best bound of all, since all are asked the same; where several clearances were dealt out they are not. A bound
+/// so far below that it would press all curves together is told, and the best path taken.
 CostUnit unit_of_costs(const std::vector<const Contender*>& contenders) {
+  constexpr double far = 2.0;
   double bound = 0.0;
   double best = never;
   bool is_one_question = true;
@@ -90,8 +92,12 @@ CostUnit unit_of_costs(const std::vector<const Contender*>& contenders) {
       for (const Improvement& one : run.improvements) best = std::min(best, one.cost);
     }
   }
-  if (is_one_question && bound > 0.0) return {bound, "lower bound"};
-  return best > 0.0 && best < never ? CostUnit{best, "best of all"} : CostUnit{};
+  const bool has_bound = is_one_question && bound > 0.0;
+  if (!(best > 0.0 && best < never)) return {};
+  if (has_bound && best <= far * bound) return {bound, fmt::format("lower bound: {}", human_number(bound))};
+  std::string name = fmt::format("best of all: {}", human_number(best));
+  if (has_bound) name += fmt::format(", bound {}", human_number(bound));
+  return {best, std::move(name)};
 }
 
 Plot cost_plot(const ComparedProblem& problem, const CostUnit& unit) {
@@ -101,9 +107,9 @@ Plot cost_plot(const ComparedProblem& problem, const CostUnit& unit) {
             .log_x = true,
             .series = {}};
   if (unit.name.empty()) return plot;
-  plot.y_label = fmt::format("cost over the {}, median and quartiles", unit.name);
+  plot.y_label = fmt::format("cost over the {}, median and quartiles", unit.name.substr(0, unit.name.find(':')));
   plot.level = 1.0;
-  plot.level_name = fmt::format("{}: {}", unit.name, human_number(unit.cost));
+  plot.level_name = unit.name;
   return plot;
 }
 

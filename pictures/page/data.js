@@ -61,6 +61,10 @@ function prepared(layer) {
   if (layer.xy) layer.xy = numbers(layer.xy);
   if (layer.first) layer.first = numbers(layer.first);
   if (layer.kind === "chains" || layer.kind === "areas") layer.segments = segmentsOfChains(layer.xy, layer.first, layer.kind === "areas" || layer.closed);
+  if (layer.kind === "chains" && layer.opacities && !layer.closed) {  // the chain that each segment is of
+    layer.chainOf = new Uint32Array(layer.segments.length / 4);
+    for (let c = 0; c + 1 < layer.first.length; ++c) layer.chainOf.fill(c, layer.first[c] - c, layer.first[c + 1] - c - 1);
+  }
   if (layer.kind === "segments") layer.segments = layer.xy;
   return layer;
 }

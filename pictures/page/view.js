@@ -68,24 +68,25 @@ function inView(layer) {
 }
 const sizeOf = layer => layer.segments ? layer.segments.length / 4 : layer.xy.length / 2;
 
-/// A path for each colour; add(path, item).
+/// A path for each colour, or for each chain that has an opacity of its own; add(path, item).
 function byColor(layer, items, add) {
   const paths = new Map();
   for (let k = 0; k < (items ? items.length : sizeOf(layer)); ++k) {
-    const i = items ? items[k] : k, group = layer.groups ? layer.groups(i) : -1;
+    const i = items ? items[k] : k, group = layer.chainOf ? layer.chainOf[i] : layer.groups ? layer.groups(i) : -1;
     if (!paths.has(group)) paths.set(group, new Path2D());
     add(paths.get(group), i);
   }
-  return [...paths].map(([group, path]) => [group < 0 ? inkOf(layer) : layer.colors[group], path]);
+  return [...paths].map(([group, path]) => [group < 0 || layer.chainOf ? inkOf(layer) : layer.colors[group], path, group]);
 }
 function strokeFew(context, layer, items) {
   const s = layer.segments;
   context.lineWidth = lineWidth(layer);
   context.lineCap = "round";
-  for (const [color, path] of byColor(layer, items, (path, i) => {
+  for (const [color, path, group] of byColor(layer, items, (path, i) => {
     path.moveTo(screenX(s[4 * i]), screenY(s[4 * i + 1]));
     path.lineTo(screenX(s[4 * i + 2]) + 0.01, screenY(s[4 * i + 3]));  // a dot has no length, and would not be drawn
   })) {
+    if (layer.chainOf) context.globalAlpha = (layer.opacity ?? 1) * layer.opacities[group];
     context.strokeStyle = color;
     context.stroke(path);
   }

@@ -208,6 +208,7 @@ Drawing drawn_with_improvements(const Scene& scene, Answer answer) {
   ByProducts made;
   made.improved.add(std::vector<Vec2>{{1, 5}, {3, 8}, {9, 5}});
   made.improved.add(std::vector<Vec2>{{1, 5}, {4, 7}, {9, 5}});
+  made.improved.add(answer.path);  // the last of them
   return drawing_of(scene, answer, std::move(made), {});
 }
 

@@ -409,7 +409,7 @@ TEST(Compare, CurvesOfPlannersWithOneAnswerAreAStepEach) {
   ASSERT_EQ(run_program(words + folder.path("k.svg")).exit_code, 0);
   const std::string svg = folder.read("k.svg");
   for (const char* part : {"maze:7x7: cost against time", "maze:7x7: solved", ">prm, astar, sampler lattice<",
-                           ">rrt-connect, ", "lower bound: "}) {
+                           ">rrt-connect, ", "best of all: "}) {
     EXPECT_NE(svg.find(part), std::string::npos) << part;
   }
 }

@@ -96,6 +96,9 @@ TEST(CostCurve, TheBestBoundOfAllIsDrawnElseTheBestPath) {
   const std::string text = curve_panels(comparison)[0].svg();
   EXPECT_NE(text.find("lower bound: 16<"), std::string::npos);
   for (const char* name : {">anytime<", ">rrt-connect<"}) EXPECT_NE(text.find(name), std::string::npos) << name;
+  comparison.contenders[0].runs[0].lower_bound = 9.0;
+  comparison.contenders[1].runs[0].lower_bound = 5.0;
+  EXPECT_NE(curve_panels(comparison)[0].svg().find("best of all: 20, bound 9<"), std::string::npos) << "too far below";
   comparison.contenders[0].dealt = {{"clearance", "0.1"}};
   EXPECT_NE(curve_panels(comparison)[0].svg().find("best of all: 20<"), std::string::npos) << "other questions";
 }
