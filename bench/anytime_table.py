@@ -16,9 +16,10 @@ median run cost in the end. The best known is the shortest of the planner visibi
 a run of warren that counts for nothing else).
 
 Times are CPU time. Warren tells wall-clock seconds since its search began; they count with the share of a core that the
-search had, but its budget ends by the clock: on a busy machine it has less of it. OMPL's begin when its planner is made. The line "OMPL" has in each column the best of its planners; --all
-prints each of them. --csv writes all of them: milliseconds, runs, and what is left out: paths that warren's judge refutes,
-paths of no cost, and runs that a failed assertion of OMPL's ended."""
+search had, but its budget ends by the clock: on a busy machine it has less of it. OMPL's begin when its planner is
+made. The line "OMPL" has in each column the best of its planners; --all prints each of them. --csv writes all of them:
+milliseconds, runs, and what is left out: paths that warren's judge refutes, paths of no cost, and runs that a failed
+assertion of OMPL's ended."""
 
 import argparse
 import csv
