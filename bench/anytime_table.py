@@ -16,9 +16,10 @@ median run cost in the end. The best known is the shortest of the planner visibi
 a run of warren that counts for nothing else).
 
 Times are CPU time. Warren tells wall-clock seconds since its search began; they count with the share of a core that the
-search had, but its budget ends by the clock: on a busy machine it has less of it. OMPL's begin when its planner is made. The line "OMPL" has in each column the best of its planners; --all
-prints each of them. --csv writes all of them: milliseconds, runs, paths refuted by warren's judge, and paths of no
-cost. Neither are improvements."""
+search had, but its budget ends by the clock: on a busy machine it has less of it. OMPL's begin when its planner is
+made. The line "OMPL" has in each column the best of its planners; --all prints each of them. --csv writes all of them:
+milliseconds, runs, and what is left out: paths that warren's judge refutes, paths of no cost, and runs that a failed
+assertion of OMPL's ended."""
 
 import argparse
 import csv
@@ -34,6 +35,8 @@ import tempfile
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 EXAMPLES = os.path.join(ROOT, "examples", "worlds")
 RIVAL = os.path.join(ROOT, "build", "bench", "bench", "rival_ompl_anytime")
+OMPL = ("RRTConnect", "RRT*", "InformedRRT*", "RRT#", "RRTX", "BIT*", "ABIT*", "AIT*", "PRM*", "LazyPRM*", "FMT*", "BFMT*",
+        "CForest", "APS")  # each in a process of its own, for some end with a failed assertion
 WITHIN = [("first", math.inf), ("10 %", 0.10), ("5 %", 0.05), ("2 %", 0.02), ("1 %", 0.01)]
 NEVER = math.inf
 
@@ -41,8 +44,9 @@ NEVER = math.inf
 class Run:
     """One planner, one seed: costs that were reached, ascending by the second at which they were."""
 
-    def __init__(self, planner, improvements, refuted=0, none=0):
-        self.planner, self.improvements, self.refuted, self.none = planner, improvements, refuted, none
+    def __init__(self, planner, improvements, refuted=0, none=0, died=False):
+        self.planner, self.improvements = planner, improvements
+        self.refuted, self.none, self.died = refuted, none, died
 
     def seconds_to(self, cost):
         return next((at for at, reached in self.improvements if reached <= cost), NEVER)
@@ -57,7 +61,7 @@ class Row:
     def __init__(self, planner, runs, best):
         self.planner, self.runs = planner, runs
         self.solved = sum(1 for run in runs if run.improvements)
-        self.refuted, self.none = sum(run.refuted for run in runs), sum(run.none for run in runs)
+        self.left_out = [sum(run.refuted for run in runs), sum(run.none for run in runs), sum(run.died for run in runs)]
         limits = [best * (1.0 + share) if share < math.inf else math.inf for _, share in WITHIN]
         # Half of the runs must have come there: of two middle ones the later counts.
         self.ms = [1e3 * statistics.median_high(run.seconds_to(limit) for run in runs) for limit in limits]
@@ -184,23 +188,28 @@ class Bench:
         share = stages["search_cpu"] / stages["search"]
         return Run(planner, [(share * each["seconds"], each.get("cost", each["length"])) for each in answer["improvements"]])
 
-    def rival_runs(self, words, seed, budget_s):
-        done = subprocess.run([self.rival, *words, "--seed", str(seed), "--budget", str(budget_s)],
-                              capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            sys.exit(f"{self.rival}: {done.stderr.strip()}")
-        for told in json.loads(done.stdout):
-            if "threw" in told:
-                print(f"{words[0]}: {told['planner']}: {told['threw']}", file=sys.stderr)
-            found = [(each["seconds"], each["cost"]) for each in told["improvements"]]
-            yield Run(told["planner"], found, told["refuted"], told["none"])
+    def rival_run(self, planner, words, seed, budget_s):
+        """A run without a path where the planner ended by an assertion, or not at all."""
+        command = [self.rival, *words, "--planners", planner, "--seed", str(seed), "--budget", str(budget_s)]
+        try:
+            done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60 + 30 * budget_s)
+            said, code = done.stderr.strip(), done.returncode
+        except subprocess.TimeoutExpired:
+            said, code = "still running", -1
+        if code > 0:
+            sys.exit(f"{' '.join(command)}: {said}")
+        told = json.loads(done.stdout)[0] if code == 0 else {"refuted": 0, "none": 0, "improvements": [], "threw": said}
+        if "threw" in told:
+            print(f"{words[0]}, seed {seed}: {planner}: {told['threw']}", file=sys.stderr)
+        found = [(each["seconds"], each["cost"]) for each in told["improvements"]]
+        return Run(planner, found, told["refuted"], told["none"], died=code < 0)
 
     def rows(self, words):
         """Warren's and OMPL's planners in one world; what the best costs, and is that exact?"""
         runs = []
         for seed in range(1, self.asked.seeds + 1):
             runs += [self.run(planner, words, seed, f"{self.asked.budget}s") for planner in self.asked.planners]
-            runs += self.rival_runs(words, seed, self.asked.budget) if self.rival else []
+            runs += [self.rival_run(planner, words, seed, self.asked.budget) for planner in (OMPL if self.rival else ())]
         known = [run.last() for run in runs]
         if self.asked.reference:
             known.append(self.run("anytime", words, 1, self.asked.reference).last())
@@ -236,8 +245,8 @@ def main():
     asked = parser.parse_args()
     asked.planners = asked.planners.split(",")
     table = [["world", "best", "exact", "planner", "runs", "solved", *(f"ms {name}" for name, _ in WITHIN),
-              "over best in the end", "refuted", "of no cost"]]
-    refuted, none = 0, 0
+              "over best in the end", "refuted", "of no cost", "died"]]
+    left_out = [0, 0, 0]
     print("| problem (best known) | | " + " | ".join(name for name, _ in WITHIN) + f" | after {asked.budget:g} s |")
     print("|---" * (len(WITHIN) + 3) + "|", flush=True)
     with tempfile.TemporaryDirectory() as folder:
@@ -245,10 +254,11 @@ def main():
         for name, words in bench.worlds():
             rows, best, exact = bench.rows(words)
             print("\n".join(printed(name, best, exact, rows, asked)), flush=True)
-            refuted, none = refuted + sum(row.refuted for row in rows), none + sum(row.none for row in rows)
-            table += [[name, best, exact, row.planner, len(row.runs), row.solved, *row.ms, row.over, row.refuted, row.none]
+            left_out = [sum(counts) for counts in zip(left_out, *(row.left_out for row in rows))]
+            table += [[name, best, exact, row.planner, len(row.runs), row.solved, *row.ms, row.over, *row.left_out]
                       for row in rows]
-    print(f"\nLeft out: {refuted} paths that the judge refuted, {none} of no cost.")
+    refuted, none, died = left_out
+    print(f"\nLeft out: {refuted} paths that the judge refuted, {none} of no cost; {died} runs that an assertion ended.")
     if asked.csv:
         with open(asked.csv, "w", newline="", encoding="utf-8") as file:
             csv.writer(file).writerows(table)

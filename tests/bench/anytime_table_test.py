@@ -30,10 +30,13 @@ print(json.dumps({"status": "solved" if solved else "refuted", "verified": solve
                   "stages_s": {"search": 2.0, "search_cpu": 1.0}}))
 '''
 RIVAL = '''#!/usr/bin/env python3
-import json
-runs = [("RRT*", [[0.001, 20.0], [1.5, 10.05]], 2, 0), ("APS", [], 0, 3)]
-print(json.dumps([{"planner": name, "seed": 1, "refuted": refuted, "none": none,
-                   "improvements": [{"seconds": s, "cost": c} for s, c in found]} for name, found, refuted, none in runs]))
+import json, os, sys
+planner = sys.argv[sys.argv.index("--planners") + 1]
+if planner == "AIT*":
+    os.abort()
+found = {"RRT*": [[0.001, 20.0], [1.5, 10.05]]}.get(planner, [])
+print(json.dumps([{"planner": planner, "seed": 1, "refuted": 2 if found else 0, "none": 3 if planner == "APS" else 0,
+                   "improvements": [{"seconds": s, "cost": c} for s, c in found]}]))
 '''
 
 
@@ -86,19 +89,21 @@ class WholeRun(unittest.TestCase):
         figures = os.path.join(self.folder.name, "t.csv")
         words = ["anytime_table.py", self.warren, "w.scene", "--against-ompl", self.rival, "--seeds", "3", "--csv", figures]
         said = io.StringIO()
-        with mock.patch.object(sys, "argv", words), contextlib.redirect_stdout(said):
+        with mock.patch.object(sys, "argv", words), contextlib.redirect_stdout(said), contextlib.redirect_stderr(io.StringIO()):
             table.main()
         lines = said.getvalue().splitlines()
         self.assertEqual(lines[0], "| problem (best known) | | first | 10 % | 5 % | 2 % | 1 % | after 2 s |")
         self.assertIn("| w.scene (10) | OMPL | 1.00 RRT* | 1,500 RRT* | 1,500 RRT* | 1,500 RRT* | 1,500 RRT* | 0.500 % RRT* |", lines)
         # Half a core: half a second of the clock is a quarter of CPU time. The run that was refuted never comes.
         self.assertIn("|  | anytime | 250 | 500 | 500 | 500 | 500 | 0.000 % |", lines)
-        self.assertEqual(lines[-1], "Left out: 7 paths that the judge refuted, 9 of no cost.")
+        self.assertEqual(lines[-1], "Left out: 7 paths that the judge refuted, 9 of no cost; 3 runs that an assertion ended.")
         with open(figures, encoding="utf-8", newline="") as file:
-            rows = list(csv.DictReader(file))
-        self.assertEqual([one["planner"] for one in rows], ["anytime", "RRT*", "APS"])
-        self.assertEqual((rows[0]["runs"], rows[0]["solved"], rows[0]["ms first"]), ("3", "2", "250.0"))
-        self.assertEqual((rows[2]["solved"], rows[2]["ms first"], rows[2]["of no cost"]), ("0", "inf", "9"))
+            rows = {one["planner"]: one for one in csv.DictReader(file)}
+        self.assertEqual(list(rows), ["anytime", *table.OMPL])
+        ours, shortening = rows["anytime"], rows["APS"]
+        self.assertEqual((ours["runs"], ours["solved"], ours["ms first"]), ("3", "2", "250.0"))
+        self.assertEqual((shortening["solved"], shortening["ms first"], shortening["of no cost"]), ("0", "inf", "9"))
+        self.assertEqual(rows["AIT*"]["died"], "3")
 
 
 if __name__ == "__main__":
