@@ -10,9 +10,9 @@
 // no proof of anything.
 // improve_path() is for searches that go on and have a path to improve again and again: first it skips states that are
 // not needed, then its rounds cut, pull, and let states drift: each a share of the way towards a random state, where
-// the share halves on failure and doubles on luck, for each state its own: so paths slide along obstacles and bodies
-// turn where no straight motion shows the way. A round ends by leaving out what the motion of its neighbours passes.
-// The metric says no first, the checks come last.
+// the share falls by a fifth on failure and doubles on luck, for each state its own: so paths slide along obstacles and
+// bodies turn where no straight motion shows the way. A round ends by leaving out what the motion of its neighbours
+// passes. The metric says no first, the checks come last.
 #pragma once
 
 #include <algorithm>
@@ -274,7 +274,7 @@ auto Shortener<W, Length>::with(const std::vector<Change>& chosen) -> Path<State
 
 template <SteerableWorld W, class Length>
 auto Shortener<W, Length>::improved(double worth, std::uint32_t patience, double hopeless) -> Path<State> {
-  constexpr std::size_t cuts = 8;
+  constexpr std::size_t cuts = 16;
   constexpr std::uint64_t drifts = 4;
   double best = whole();
   unsure_ = noise * best;
@@ -341,6 +341,7 @@ void Shortener<W, Length>::drift(std::uint64_t pass) {
   constexpr std::uint64_t purpose = 0x64726966747321U;
   constexpr double most = 0.5;
   constexpr double least = 0x1p-14;
+  constexpr double less = 0.8;  // by halves they were gone before luck came
   const std::uint64_t seed = random_bits(options_.seed, pass, purpose);
   move_states([&](std::size_t v, typename W::Query& query, Counters& counters) {
     const State& before = path_[v - 1];
@@ -352,7 +353,7 @@ void Shortener<W, Length>::drift(std::uint64_t pass) {
       path_[v] = moved;
       drifts_[v] = std::min(most, 2.0 * drifts_[v]);
     } else {
-      drifts_[v] = drifts_[v] > least ? 0.5 * drifts_[v] : first_drift;
+      drifts_[v] = drifts_[v] > least ? less * drifts_[v] : first_drift;
     }
   });
 }

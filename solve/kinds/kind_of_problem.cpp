@@ -117,10 +117,8 @@ const SolveKind& first_kind(const std::vector<const SolveKind*>& fitting) {
 /// Who names how good the path shall be, or how long it is worked on, asks for a planner that gets better.
 PlannerKind usual_planner_of(const SolveKind& kind, const SolveOptions& options, const Scene& scene,
                              const Question& question) {
-  const PlannerKind usual = kind.usual_planner(options, scene, question);
-  const bool is_exact = usual == PlannerKind::visibility;  // it has no gap
-  const bool wants_turns = options.anytime.iterations || !options.anytime.parts.empty();
-  return wants_turns || (options.anytime.gap && !is_exact) ? PlannerKind::anytime : usual;
+  const bool wants_better = options.anytime.gap || options.anytime.iterations || !options.anytime.parts.empty();
+  return wants_better ? PlannerKind::anytime : kind.usual_planner(options, scene, question);
 }
 
 /// Only maps have corridors and cells that are known.

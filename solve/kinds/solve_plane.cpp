@@ -95,8 +95,8 @@ constexpr PlannerChoice plane_planners[] = {
     {PlannerKind::rrt_star, rrt_star_options},
     {PlannerKind::informed_rrt_star, rrt_star_options},
     {PlannerKind::anytime, anytime_options},
-    {PlannerKind::visibility, OptionSet{Option::full, Option::lazy, Option::sampled_edges, Option::search,
-                                        Option::queue, Option::bound, Option::gap}},
+    {PlannerKind::visibility,
+     OptionSet{Option::full, Option::lazy, Option::sampled_edges, Option::search, Option::queue, Option::bound}},
     {PlannerKind::cells, OptionSet{Option::doors, Option::search, Option::queue, Option::bound}},
     {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound}}};
 

@@ -19,6 +19,7 @@
 #include "solve/answer/world_account.hpp"
 #include "solve/explain/blocked_end.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
+#include "solve/kinds/lower_bound.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "solve/streamed/streamed_walls.hpp"
@@ -208,6 +209,7 @@ Answer solve_streamed_within(const Scene& scene, const Question& question, const
   if (!choose_solver(options, scene, question).kind->unmade) throw UsageError("@pipeline: these walls are held");
   const WallProblem problem = keeping_off(scene, question, "prm keeps off the walls");
   Answer answer = solve_streamed(scene, problem, planner_options(options, scene, problem), execution, help);
+  tell_bound(answer, scene, options, execution);
   answer.threads = thread_count(execution.threads);
   answer.peak_memory_bytes = peak_resident_bytes();
   return answer;

@@ -381,7 +381,9 @@ TEST(Compare, FilesThatCannotBeReadOrWrittenHaveTheirCodes) {
 }
 
 TEST(Compare, BlamesTheListOfPlanners) {
-  check({{"compare", "maze:5x5", "--planners", "rrt"}, 2, "--planners: rrt does not solve"});
+  check({{"compare", "maze:5x5", "--robot", "disc 0.1", "--planners", "cells"},
+         2,
+         "--planners: cells plans for a point"});
 }
 
 TEST(Compare, SaysHowManyHeatMapsAreLeftOut) {
@@ -406,8 +408,8 @@ TEST(Compare, CurvesOfPlannersWithOneAnswerAreAStepEach) {
   EXPECT_NE(lines[2].find(",answer,"), std::string::npos);
   ASSERT_EQ(run_program(words + folder.path("k.svg")).exit_code, 0);
   const std::string svg = folder.read("k.svg");
-  for (const char* part :
-       {"maze:7x7: cost against time", "maze:7x7: solved", ">prm<", ">rrt-connect<", "best of all: "}) {
+  for (const char* part : {"maze:7x7: cost against time", "maze:7x7: solved", ">prm, astar, sampler lattice<",
+                           ">rrt-connect, ", "lower bound: "}) {
     EXPECT_NE(svg.find(part), std::string::npos) << part;
   }
 }

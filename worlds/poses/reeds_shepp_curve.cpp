@@ -143,7 +143,8 @@ template <class Taker>
 class Enumeration {
  public:
   /// off: what rounding put the goal off by
-  Enumeration(const Se2& goal, double off, Taker& taker) : taker_(taker), off_(off), touching_(1e-11 + 8.0 * off) {
+  Enumeration(const Se2& goal, double off, Taker& taker)
+      : taker_(taker), off_(off), same_(1e-12 + off), touching_(1e-11 + 8.0 * off) {
     const auto [s, c] = portable::sin_and_cos(goal.theta);
     for (const bool mirrored : {false, true}) {
       const double side = mirrored ? -1.0 : 1.0;
@@ -179,6 +180,11 @@ class Enumeration {
   };
 
   bool worth(double at_least) const { return taker_.worth(at_least); }
+  /// Along the tangent between two circles whose middles are so far apart. Where they touch up to rounding there is
+  /// none: its root would make a piece of it, and turn the curve by as much.
+  double tangent(double apart) const { return apart <= 2.0 + same_ ? 0.0 : root(apart * apart - 4.0); }
+  /// The arc between circles that touch is none, as the tangent is.
+  double arc_of(double cosine) const { return cosine >= 1.0 - 0.25 * same_ ? 0.0 : portable::acos(cosine); }
   void take(const Frame& frame, Shape shape, double first, double middle, double last, double fixed) {
     taker_.take({fixed + std::abs(first) + std::abs(last), shape, frame.change, first, middle, last});
   }
@@ -189,6 +195,7 @@ class Enumeration {
 
   Taker& taker_;
   double off_;
+  double same_;      // what is so little apart is one place: less than ends_at() allows
   double touching_;  // circles that touch up to rounding count as touching; ends_at() decides whether that is true
 };
 
@@ -203,7 +210,7 @@ void Enumeration<Taker>::solve_all(const Frame& f) {
     if (f.to_left.size <= one_circle) take(f, Shape::lsl, 0.0, 0.0, f.phi, 0.0);
   }
   if (f.to_right.size >= 2.0 - touching_) {
-    const double straight = root(f.to_right.size * f.to_right.size - 4.0);
+    const double straight = tangent(f.to_right.size);
     if (worth(straight)) {
       const double first = wrapped(f.to_right.angle + portable::atan2(2.0, straight));
       take(f, Shape::lsr, first, straight, wrapped(first - f.phi), straight);
@@ -225,7 +232,7 @@ template <class Taker>
 void Enumeration<Taker>::solve_four_arcs(const Frame& f) {
   const double out_cosine = 0.25 * (2.0 + f.to_right.size);
   if (out_cosine <= 1.0 + touching_) {
-    const double arc = portable::acos(std::min(out_cosine, 1.0));
+    const double arc = arc_of(out_cosine);
     if (worth(2.0 * arc)) {
       const double first = wrapped(f.to_right.angle + arc + quarter);
       take(f, Shape::lrlr_out, first, arc, wrapped(first - 2.0 * arc - f.phi), 2.0 * arc);
@@ -233,7 +240,7 @@ void Enumeration<Taker>::solve_four_arcs(const Frame& f) {
   }
   const double in_cosine = (20.0 - f.to_right.size * f.to_right.size) / 16.0;
   if (in_cosine >= -1.0 && in_cosine <= 1.0 + touching_) {
-    const double arc = portable::acos(std::min(in_cosine, 1.0));
+    const double arc = arc_of(in_cosine);
     if (worth(2.0 * arc)) {
       const double first = wrapped(f.to_right.angle + quarter + portable::atan2(portable::sin(arc), 2.0 - in_cosine));
       take(f, Shape::lrlr_in, first, -arc, wrapped(first - f.phi), 2.0 * arc);

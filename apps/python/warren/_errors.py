@@ -40,7 +40,7 @@ class UsageError(InputError):
     ...     warren.solve("maze:5x5", planner="prn")
     ... except warren.UsageError as error:
     ...     print(error.where, "|", error.what)
-    planner | 'prn' is none of prm, lazy-prm, visibility, cells, voronoi, rrt, rrt-connect, grid; did you mean prm?
+    planner | 'prn' is none of prm, lazy-prm, visibility, cells, voronoi, rrt, rrt-connect, grid, rrt-star, informed-rrt-star, anytime; did you mean prm?
     """
 
 

@@ -12,10 +12,10 @@
 namespace warren {
 namespace {
 
-using sampled_problems::Problem;
+using sampled_problems::SampledProblem;
 
 template <class W>
-AnytimeBody<typename W::State> body_of(const Problem<W>& problem) {
+AnytimeBody<typename W::State> body_of(const SampledProblem<W>& problem) {
   using State = typename W::State;
   const auto cost = [&problem](const State& a, const State& b) { return problem.world.distance(a, b); };
   AnytimeBody<State> body;
@@ -29,7 +29,7 @@ AnytimeBody<typename W::State> body_of(const Problem<W>& problem) {
 }
 
 template <class W>
-AnytimeSolution<typename W::State> plan(const Problem<W>& problem, const AnytimeOptions& options,
+AnytimeSolution<typename W::State> plan(const SampledProblem<W>& problem, const AnytimeOptions& options,
                                         const Execution& execution = {}) {
   return anytime(problem.view, problem.start, std::span(&problem.goal, 1), options, body_of(problem), execution);
 }
@@ -58,7 +58,7 @@ void expect_same(const AnytimeSolution<State>& a, const AnytimeSolution<State>& 
 }
 
 template <class W>
-void expect_honest(const Problem<W>& problem, const AnytimeSolution<typename W::State>& found) {
+void expect_honest(const SampledProblem<W>& problem, const AnytimeSolution<typename W::State>& found) {
   ASSERT_EQ(found.outcome, Outcome::solved);
   ASSERT_FALSE(found.path.empty());
   EXPECT_TRUE(found.path.front() == problem.start);
@@ -74,7 +74,7 @@ void expect_honest(const Problem<W>& problem, const AnytimeSolution<typename W::
 }
 
 template <class W>
-void expect_same_for_any_threads(const Problem<W>& problem, std::uint64_t iterations) {
+void expect_same_for_any_threads(const SampledProblem<W>& problem, std::uint64_t iterations) {
   const auto alone = plan(problem, turns(iterations), {.threads = 1});
   expect_honest(problem, alone);
   for (const unsigned threads : {2U, 3U, 8U}) {
@@ -164,7 +164,7 @@ TEST(Anytime, WithoutAWayItSaysThatNoneWasFound) {
   Scene shut;
   shut.bounds = Box{{0, 0}, {12, 6}};
   shut.walls = WallSet::narrowest(std::vector<Segment>{{{6, 0}, {6, 6}}});
-  const Problem<CarWorld<ReedsSheppCurve>> apart{
+  const SampledProblem<CarWorld<ReedsSheppCurve>> apart{
       CarWorld<ReedsSheppCurve>(shut, {.turning_radius = 0.7, .radius = 0.2}), problem.start, problem.goal};
   const auto found = plan(apart, turns(4));
   EXPECT_EQ(found.outcome, Outcome::not_connected);

