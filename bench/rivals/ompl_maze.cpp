@@ -59,8 +59,8 @@ struct Contestant {
   std::vector<double> over_optimum = {};  ///< the same over the maze's optimum
 };
 
-using Planner = Solution<Vec2> (*)(const AnyWorld<Vec2>&, const Vec2&, const Vec2&, const RoadmapOptions&, const Execution&,
-                                   PlannedRoadmap<Vec2>*);
+using Planner = Solution<Vec2> (*)(const AnyWorld<Vec2>&, const Vec2&, const Vec2&, const RoadmapOptions&,
+                                   const Execution&, PlannedRoadmap<Vec2>*);
 
 Execution one_thread() {
   Execution execution;

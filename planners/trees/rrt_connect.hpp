@@ -2,12 +2,11 @@
 // RRT-Connect (Kuffner, LaValle, ICRA 2000): a tree from the start and one from the goals. In turns, one grows a step
 // towards a sample, the other as far as it gets towards the new state; where it arrives, the trees are joined.
 // There may be many goals (a heading that doesn't matter, several inverse-kinematics branches): each is a root.
-// Where a world knows roughly which places are free at the heading of the start or the goal (AnyWorld::has_places), a way over
-// these is tried before anything is drawn: it needs a dozen motion checks instead of some hundred. It is the same for
-// all seeds; what it finds of motions stays in the trees.
-// Cost a step: a neighbour query, O(log^2 n), and a few motion checks, which dominate. Not asymptotically optimal:
-// pull the path taut with planners/shorten/shortcut.hpp. Probabilistically complete; that there is no path is never
-// proved.
+// Where a world knows roughly which places are free at the heading of the start or the goal (AnyWorld::has_places), a
+// way over these is tried before anything is drawn: it needs a dozen motion checks instead of some hundred. It is the
+// same for all seeds; what it finds of motions stays in the trees. Cost a step: a neighbour query, O(log^2 n), and a
+// few motion checks, which dominate. Not asymptotically optimal: pull the path taut with planners/shorten/shortcut.hpp.
+// Probabilistically complete; that there is no path is never proved.
 #pragma once
 
 #include <algorithm>

@@ -3,14 +3,14 @@
 
 namespace warren {
 
-template PlannersOf<JointState>::Roadmap prm<JointState>;
-template PlannersOf<JointState>::Roadmap lazy_prm<JointState>;
-template PlannersOf<JointState>::Trees rrt<JointState, false>;
-template PlannersOf<JointState>::Trees rrt_connect<JointState, false>;
-template PlannersOf<JointState>::Better anytime<JointState, false>;
-template PlannersOf<JointState>::Ask ask_roadmap<AnyWorld<JointState>>;
-template PlannersOf<JointState>::Build build_roadmap<JointState, false>;
-template PlannersOf<JointState>::Shorter shortcut_path<AnyWorld<JointState>>;
-template PlannersOf<JointState>::Improved improve_path<AnyWorld<JointState>>;
+template decltype(prm<JointState>) prm<JointState>;
+template decltype(lazy_prm<JointState>) lazy_prm<JointState>;
+template decltype(rrt<JointState, false>) rrt<JointState, false>;
+template decltype(rrt_connect<JointState, false>) rrt_connect<JointState, false>;
+template decltype(anytime<JointState, false>) anytime<JointState, false>;
+template decltype(ask_roadmap<AnyWorld<JointState>>) ask_roadmap<AnyWorld<JointState>>;
+template decltype(build_roadmap<JointState, false>) build_roadmap<JointState, false>;
+template decltype(shorter_path<JointState, false>) shorter_path<JointState, false>;
+template decltype(improved_path<JointState, false>) improved_path<JointState, false>;
 
 }  // namespace warren

@@ -3,14 +3,14 @@
 
 namespace warren {
 
-template PlannersOf<Vec2>::Roadmap prm<Vec2>;
-template PlannersOf<Vec2>::Roadmap lazy_prm<Vec2>;
-template PlannersOf<Vec2>::Trees rrt<Vec2, false>;
-template PlannersOf<Vec2>::Trees rrt_connect<Vec2, false>;
-template PlannersOf<Vec2>::Better anytime<Vec2, false>;
-template PlannersOf<Vec2>::Ask ask_roadmap<AnyWorld<Vec2>>;
-template PlannersOf<Vec2>::Build build_roadmap<Vec2, false>;
-template PlannersOf<Vec2>::Shorter shortcut_path<AnyWorld<Vec2>>;
-template PlannersOf<Vec2>::Improved improve_path<AnyWorld<Vec2>>;
+template decltype(prm<Vec2>) prm<Vec2>;
+template decltype(lazy_prm<Vec2>) lazy_prm<Vec2>;
+template decltype(rrt<Vec2, false>) rrt<Vec2, false>;
+template decltype(rrt_connect<Vec2, false>) rrt_connect<Vec2, false>;
+template decltype(anytime<Vec2, false>) anytime<Vec2, false>;
+template decltype(ask_roadmap<AnyWorld<Vec2>>) ask_roadmap<AnyWorld<Vec2>>;
+template decltype(build_roadmap<Vec2, false>) build_roadmap<Vec2, false>;
+template decltype(shorter_path<Vec2, false>) shorter_path<Vec2, false>;
+template decltype(improved_path<Vec2, false>) improved_path<Vec2, false>;
 
 }  // namespace warren

@@ -3,14 +3,14 @@
 
 namespace warren {
 
-template PlannersOf<Se2>::Roadmap prm<Se2>;
-template PlannersOf<Se2>::Roadmap lazy_prm<Se2>;
-template PlannersOf<Se2>::Trees rrt<Se2, false>;
-template PlannersOf<Se2>::Trees rrt_connect<Se2, false>;
-template PlannersOf<Se2>::Better anytime<Se2, false>;
-template PlannersOf<Se2>::Ask ask_roadmap<AnyWorld<Se2>>;
-template PlannersOf<Se2>::Build build_roadmap<Se2, false>;
-template PlannersOf<Se2>::Shorter shortcut_path<AnyWorld<Se2>>;
-template PlannersOf<Se2>::Improved improve_path<AnyWorld<Se2>>;
+template decltype(prm<Se2>) prm<Se2>;
+template decltype(lazy_prm<Se2>) lazy_prm<Se2>;
+template decltype(rrt<Se2, false>) rrt<Se2, false>;
+template decltype(rrt_connect<Se2, false>) rrt_connect<Se2, false>;
+template decltype(anytime<Se2, false>) anytime<Se2, false>;
+template decltype(ask_roadmap<AnyWorld<Se2>>) ask_roadmap<AnyWorld<Se2>>;
+template decltype(build_roadmap<Se2, false>) build_roadmap<Se2, false>;
+template decltype(shorter_path<Se2, false>) shorter_path<Se2, false>;
+template decltype(improved_path<Se2, false>) improved_path<Se2, false>;
 
 }  // namespace warren

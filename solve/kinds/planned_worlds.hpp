@@ -5,7 +5,7 @@
 #pragma once
 
 #include <functional>
-#include <span>
+#include <type_traits>
 #include <utility>
 
 #include "core/plane/se2.hpp"
@@ -27,80 +27,54 @@ namespace warren {
 template <class State>
 using MotionLength = std::function<double(const State&, const State&)>;
 
-/// shortcut_path() in any world.
-template <World W>
-Path<typename W::State> shorter_path(const W& world, Path<typename W::State> path,
-                                     const MotionLength<typename W::State>& length, const ShortcutOptions& options,
-                                     const Execution& execution, Counters& counters) {
-  const AnyWorldOf<W>& any = WorldView(world);
-  return shortcut_path(any, std::move(path), length, options, execution, counters);
+/// shortcut_path() and improve_path().
+template <class State, bool one_way>
+Path<State> shorter_path(const AnyWorld<State, one_way>& world, Path<State> path,
+                         const MotionLength<std::type_identity_t<State>>& length, const ShortcutOptions& options,
+                         const Execution& execution, Counters& counters) {
+  return shortcut_path(world, std::move(path), length, options, execution, counters);
+}
+template <class State, bool one_way>
+Path<State> improved_path(const AnyWorld<State, one_way>& world, Path<State> path,
+                          const MotionLength<std::type_identity_t<State>>& length, const ImproveOptions& options,
+                          const Execution& execution, Counters& counters) {
+  return improve_path(world, std::move(path), length, options, execution, counters);
 }
 
-/// improve_path() likewise.
-template <World W>
-Path<typename W::State> improved_path(const W& world, Path<typename W::State> path,
-                                      const MotionLength<typename W::State>& length, const ImproveOptions& options,
-                                      const Execution& execution, Counters& counters) {
-  const AnyWorldOf<W>& any = WorldView(world);
-  return improve_path(any, std::move(path), length, options, execution, counters);
-}
-
-/// The planners' functions, so that a line names one of a kind of state.
-template <class State, bool one_way = false>
-struct PlannersOf {
-  using Any = AnyWorld<State, one_way>;
-  using Roadmap = Solution<State>(const Any&, const State&, const State&, const RoadmapOptions&, const Execution&,
-                                  PlannedRoadmap<State>*);
-  using OneWay = Solution<State>(const Any&, const State&, const State&, const RoadmapOptions&, bool, const Execution&,
-                                 PlannedRoadmap<State>*);
-  using Trees = Solution<State>(const Any&, const State&, std::span<const State>, const RrtOptions&, const Execution&,
-                                PlannedRoadmap<State>*);
-  using Better = AnytimeSolution<State>(const Any&, const State&, std::span<const State>, const AnytimeOptions&,
-                                        const AnytimeBody<State>&, const Execution&);
-  using Ask = Solution<State>(const AskedRoadmap<Any>&, const State&, const State&, const RoadmapOptions&,
-                              const Execution&, AskScratch&, PlannedRoadmap<State>*);
-  using Build = BuiltRoadmap<State>(const Any&, const RoadmapOptions&, bool, const Execution&,
-                                    const KnownMotions<State>&);
-  using Shorter = Path<State>(const Any&, Path<State>, const MotionLength<State>&, const ShortcutOptions&,
-                              const Execution&, Counters&);
-  using Improved = Path<State>(const Any&, Path<State>, const MotionLength<State>&, const ImproveOptions&,
-                               const Execution&, Counters&);
-};
-
-extern template PlannersOf<Vec2>::Roadmap prm<Vec2>;
-extern template PlannersOf<Vec2>::Roadmap lazy_prm<Vec2>;
-extern template PlannersOf<Vec2>::Trees rrt<Vec2, false>;
-extern template PlannersOf<Vec2>::Trees rrt_connect<Vec2, false>;
-extern template PlannersOf<Vec2>::Better anytime<Vec2, false>;
-extern template PlannersOf<Vec2>::Ask ask_roadmap<AnyWorld<Vec2>>;
-extern template PlannersOf<Vec2>::Build build_roadmap<Vec2, false>;
-extern template PlannersOf<Vec2>::Shorter shortcut_path<AnyWorld<Vec2>>;
-extern template PlannersOf<Vec2>::Improved improve_path<AnyWorld<Vec2>>;
-extern template PlannersOf<Se2>::Roadmap prm<Se2>;
-extern template PlannersOf<Se2>::Roadmap lazy_prm<Se2>;
-extern template PlannersOf<Se2>::Trees rrt<Se2, false>;
-extern template PlannersOf<Se2>::Trees rrt_connect<Se2, false>;
-extern template PlannersOf<Se2>::Better anytime<Se2, false>;
-extern template PlannersOf<Se2>::Ask ask_roadmap<AnyWorld<Se2>>;
-extern template PlannersOf<Se2>::Build build_roadmap<Se2, false>;
-extern template PlannersOf<Se2>::Shorter shortcut_path<AnyWorld<Se2>>;
-extern template PlannersOf<Se2>::Improved improve_path<AnyWorld<Se2>>;
-extern template PlannersOf<Se2, true>::OneWay one_way_prm<Se2, true>;
-extern template PlannersOf<Se2, true>::Trees rrt<Se2, true>;
-extern template PlannersOf<Se2, true>::Trees rrt_connect<Se2, true>;
-extern template PlannersOf<Se2, true>::Better anytime<Se2, true>;
-extern template PlannersOf<Se2, true>::Ask ask_roadmap<AnyWorld<Se2, true>>;
-extern template PlannersOf<Se2, true>::Build build_roadmap<Se2, true>;
-extern template PlannersOf<Se2, true>::Shorter shortcut_path<AnyWorld<Se2, true>>;
-extern template PlannersOf<Se2, true>::Improved improve_path<AnyWorld<Se2, true>>;
-extern template PlannersOf<JointState>::Roadmap prm<JointState>;
-extern template PlannersOf<JointState>::Roadmap lazy_prm<JointState>;
-extern template PlannersOf<JointState>::Trees rrt<JointState, false>;
-extern template PlannersOf<JointState>::Trees rrt_connect<JointState, false>;
-extern template PlannersOf<JointState>::Better anytime<JointState, false>;
-extern template PlannersOf<JointState>::Ask ask_roadmap<AnyWorld<JointState>>;
-extern template PlannersOf<JointState>::Build build_roadmap<JointState, false>;
-extern template PlannersOf<JointState>::Shorter shortcut_path<AnyWorld<JointState>>;
-extern template PlannersOf<JointState>::Improved improve_path<AnyWorld<JointState>>;
+extern template decltype(prm<Vec2>) prm<Vec2>;
+extern template decltype(lazy_prm<Vec2>) lazy_prm<Vec2>;
+extern template decltype(rrt<Vec2, false>) rrt<Vec2, false>;
+extern template decltype(rrt_connect<Vec2, false>) rrt_connect<Vec2, false>;
+extern template decltype(anytime<Vec2, false>) anytime<Vec2, false>;
+extern template decltype(ask_roadmap<AnyWorld<Vec2>>) ask_roadmap<AnyWorld<Vec2>>;
+extern template decltype(build_roadmap<Vec2, false>) build_roadmap<Vec2, false>;
+extern template decltype(shorter_path<Vec2, false>) shorter_path<Vec2, false>;
+extern template decltype(improved_path<Vec2, false>) improved_path<Vec2, false>;
+extern template decltype(prm<Se2>) prm<Se2>;
+extern template decltype(lazy_prm<Se2>) lazy_prm<Se2>;
+extern template decltype(rrt<Se2, false>) rrt<Se2, false>;
+extern template decltype(rrt_connect<Se2, false>) rrt_connect<Se2, false>;
+extern template decltype(anytime<Se2, false>) anytime<Se2, false>;
+extern template decltype(ask_roadmap<AnyWorld<Se2>>) ask_roadmap<AnyWorld<Se2>>;
+extern template decltype(build_roadmap<Se2, false>) build_roadmap<Se2, false>;
+extern template decltype(shorter_path<Se2, false>) shorter_path<Se2, false>;
+extern template decltype(improved_path<Se2, false>) improved_path<Se2, false>;
+extern template decltype(one_way_prm<Se2, true>) one_way_prm<Se2, true>;
+extern template decltype(rrt<Se2, true>) rrt<Se2, true>;
+extern template decltype(rrt_connect<Se2, true>) rrt_connect<Se2, true>;
+extern template decltype(anytime<Se2, true>) anytime<Se2, true>;
+extern template decltype(ask_roadmap<AnyWorld<Se2, true>>) ask_roadmap<AnyWorld<Se2, true>>;
+extern template decltype(build_roadmap<Se2, true>) build_roadmap<Se2, true>;
+extern template decltype(shorter_path<Se2, true>) shorter_path<Se2, true>;
+extern template decltype(improved_path<Se2, true>) improved_path<Se2, true>;
+extern template decltype(prm<JointState>) prm<JointState>;
+extern template decltype(lazy_prm<JointState>) lazy_prm<JointState>;
+extern template decltype(rrt<JointState, false>) rrt<JointState, false>;
+extern template decltype(rrt_connect<JointState, false>) rrt_connect<JointState, false>;
+extern template decltype(anytime<JointState, false>) anytime<JointState, false>;
+extern template decltype(ask_roadmap<AnyWorld<JointState>>) ask_roadmap<AnyWorld<JointState>>;
+extern template decltype(build_roadmap<JointState, false>) build_roadmap<JointState, false>;
+extern template decltype(shorter_path<JointState, false>) shorter_path<JointState, false>;
+extern template decltype(improved_path<JointState, false>) improved_path<JointState, false>;
 
 }  // namespace warren

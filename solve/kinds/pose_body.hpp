@@ -86,7 +86,7 @@ class PoseBody : public UsualBody {
   const PoseProblem& question() const { return problem_; }
   template <class World, class Length>
   Path<Se2> shortcut(const World& world, Path<Se2> path, const Length& length, Answer& answer) const {
-    return shorter_path(world, std::move(path), length, {.seed = answer.seed}, execution_, answer.counters);
+    return shorter_path(WorldView(world), std::move(path), length, {.seed = answer.seed}, execution_, answer.counters);
   }
 
  private:

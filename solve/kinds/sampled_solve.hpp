@@ -71,7 +71,7 @@ struct UsualBody {
                                               Counters& counters) {
     using State = typename World::State;
     const auto cost = [&](const State& a, const State& b) { return world.distance(a, b); };
-    return improved_path(world, path, cost, how, execution, counters);
+    return improved_path(WorldView(world), path, cost, how, execution, counters);
   }
   static std::uint64_t goals_tried() { return 0; }
   static bool knows_all_goals() { return true; }

@@ -78,8 +78,8 @@ class Arm : public UsualBody {
   static double length(const World& world, const JointState& a, const JointState& b) { return world.distance(a, b); }
   Path<JointState> shortened(const World& world, Path<JointState> path, Answer& answer) const {
     const auto length_of = [&](const JointState& a, const JointState& b) { return length(world, a, b); };
-    return with_even_idle_joints(
-        world, shorter_path(world, std::move(path), length_of, {.seed = answer.seed}, execution_, answer.counters));
+    return with_even_idle_joints(world, shorter_path(WorldView(world), std::move(path), length_of,
+                                                     {.seed = answer.seed}, execution_, answer.counters));
   }
   void judge(const World& world, const Path<JointState>& path, Answer& answer) const {
     const StageTimer timer(execution_, "verify", answer.seconds.verify, path.size());

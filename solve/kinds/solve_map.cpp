@@ -158,7 +158,7 @@ class CellSolve {
     map.blocked = closed_;
     const GridWorld world(map, problem_.reach(), request_.execution);
     answer_.raw_length = path_length(answer_.path, GridWorld::distance);
-    answer_.path = shorter_path(world, std::move(answer_.path), GridWorld::distance, {.seed = answer_.seed},
+    answer_.path = shorter_path(WorldView(world), std::move(answer_.path), GridWorld::distance, {.seed = answer_.seed},
                                 request_.execution, answer_.counters);
   }
 
@@ -221,7 +221,8 @@ class BodyOnMap : public UsualBody {
   }
   static double length(const World&, Vec2 a, Vec2 b) { return World::distance(a, b); }
   Path<Vec2> shortened(const World& world, Path<Vec2> path, Answer& answer) const {
-    return shorter_path(world, std::move(path), World::distance, {.seed = answer.seed}, execution_, answer.counters);
+    return shorter_path(WorldView(world), std::move(path), World::distance, {.seed = answer.seed}, execution_,
+                        answer.counters);
   }
   void judge(const World&, Path<Vec2> path, Answer& answer) const {
     answer.path = std::move(path);

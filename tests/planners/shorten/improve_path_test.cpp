@@ -19,7 +19,7 @@ double share_left(const problems::SampledProblem<W>& problem, std::uint64_t seed
   Counters first_counters;
   for (const unsigned threads : {1U, 2U, 8U}) {
     Counters counters;
-    const auto path = improved_path(problem.world, found.path, length, {.seed = seed}, {.threads = threads}, counters);
+    const auto path = improved_path(problem.view, found.path, length, {.seed = seed}, {.threads = threads}, counters);
     if (threads == 1) {
       first = path;
       first_counters = counters;
@@ -55,7 +55,7 @@ TEST(ImprovePath, ApproachesTheShortestAroundACornerAndKeepsFewStates) {
   const Path<Vec2> path = {{2, 1}, {1, 9}, {4, 6}, {5, 9}, {9, 9}, {8, 1}};
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Counters counters;
-    const auto shorter = improved_path(problem.world, path, MazeWorld::distance,
+    const auto shorter = improved_path(problem.view, path, MazeWorld::distance,
                                        {.seed = seed, .worth = 1e-4, .patience = 10}, {}, counters);
     EXPECT_LE(problem.length(shorter), 10.0 * 1.02) << seed;
     EXPECT_GE(problem.length(shorter), 10.0);
@@ -68,13 +68,12 @@ TEST(ImprovePath, LeavesWhatCanNotBeShorter) {
   const Path<Vec2> straight = {{2, 1}, {8, 1}};
   const Path<Vec2> in_pieces = {{2, 1}, {3, 1}, {5, 1}, {8, 1}};
   Counters counters;
-  EXPECT_EQ(improved_path(problem.world, straight, MazeWorld::distance, {}, {}, counters), straight);
-  EXPECT_EQ(improved_path(problem.world, in_pieces, MazeWorld::distance, {}, {}, counters), straight);
+  EXPECT_EQ(improved_path(problem.view, straight, MazeWorld::distance, {}, {}, counters), straight);
+  EXPECT_EQ(improved_path(problem.view, in_pieces, MazeWorld::distance, {}, {}, counters), straight);
   const Path<Vec2> one = {{2, 1}};
-  EXPECT_EQ(improved_path(problem.world, one, MazeWorld::distance, {}, {}, counters), one);
+  EXPECT_EQ(improved_path(problem.view, one, MazeWorld::distance, {}, {}, counters), one);
   const Deadline past(1e-9);
-  EXPECT_THROW(improved_path(problem.world, in_pieces, MazeWorld::distance, {}, {.deadline = &past}, counters),
-               Stopped);
+  EXPECT_THROW(improved_path(problem.view, in_pieces, MazeWorld::distance, {}, {.deadline = &past}, counters), Stopped);
 }
 
 }  // namespace
