@@ -17,7 +17,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-Scene world(const std::string& name) { return read_world(source_dir() + "/" + name, {}); }
+Scene world(const std::string& name) { return read_world(test::source_dir() + "/" + name, {}); }
 SolveOptions better(PlannerKind planner, std::optional<std::uint64_t> iterations = {}) {
   SolveOptions options{.planner = planner};
   options.anytime.iterations = iterations;
