@@ -440,7 +440,7 @@ class DiscSearch {
       }
     }
     std::sort(here.ways.begin(), here.ways.end(), [&](std::uint32_t v, std::uint32_t w) {
-      return ways_[v].out != ways_[w].out ? ways_[v].out < ways_[w].out : v < w;
+      return ways_[v].out != ways_[w].out ? ways_[v].out < ways_[w].out : ways_[v].to < ways_[w].to;
     });
   }
 
@@ -462,6 +462,19 @@ class DiscSearch {
     }
   }
 
+  struct Queued {
+    double key;
+    std::uint32_t way;
+  };
+  /// Ties break by the sides, whatever the order in which ways were drawn: with a roadmap it is another.
+  auto later() const {
+    return [this](const Queued& a, const Queued& b) {
+      if (a.key != b.key) return a.key > b.key;
+      const TangentWay& v = ways_[a.way];
+      const TangentWay& w = ways_[b.way];
+      return v.from != w.from ? v.from > w.from : v.to > w.to;
+    };
+  }
   void offer(std::uint32_t number, double cost, std::uint32_t parent) {
     TangentWay& way = ways_[number];
     if (way.settled || !(cost < way.cost)) return;
@@ -469,16 +482,11 @@ class DiscSearch {
     way.parent = parent;
     const double rest = norm(sight_.goal - centre(way.to) - spoke(way.to, way.along));
     queue_.push_back({cost + rest, number});
-    std::push_heap(queue_.begin(), queue_.end(), later);
+    std::push_heap(queue_.begin(), queue_.end(), later());
   }
 
-  struct Queued {
-    double key;
-    std::uint32_t way;
-  };
-  static bool later(const Queued& a, const Queued& b) { return a.key != b.key ? a.key > b.key : a.way > b.way; }
   std::uint32_t pop() {
-    std::pop_heap(queue_.begin(), queue_.end(), later);
+    std::pop_heap(queue_.begin(), queue_.end(), later());
     const std::uint32_t way = queue_.back().way;
     queue_.pop_back();
     return way;

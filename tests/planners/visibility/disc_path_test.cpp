@@ -356,6 +356,25 @@ TEST(DiscPath, OfAlmostNoRadiusIsThePointsAndLargerOnesAreLonger) {
   }
 }
 
+TEST(DiscPath, OfARoadmapIsTheSame) {
+  for (const std::uint64_t seed : test::seeds(200, 20)) {
+    SCOPED_TRACE(seed);
+    for (const ProblemBySeed make : {among_stars, among_degenerate}) {
+      const std::optional<DiscProblem> p = make(seed);
+      if (!p) continue;
+      const DiscRoadmap roadmap(p->obstacles, {});
+      const DiscPath path = plan(*p);
+      const DiscPath asked = shortest_disc_path(roadmap, p->start, p->goal, p->radius, {});
+      EXPECT_EQ(asked.outcome, path.outcome);
+      EXPECT_EQ(asked.length, path.length);
+      EXPECT_EQ(asked.lower_bound, path.lower_bound);
+      EXPECT_EQ(asked.arrivals, path.arrivals);
+      ASSERT_EQ(asked.pieces.size(), path.pieces.size());
+      for (std::size_t i = 0; i < path.pieces.size(); ++i) EXPECT_EQ(asked.pieces[i].to, path.pieces[i].to);
+    }
+  }
+}
+
 TEST(DiscPath, BlockedEndsAndEqualEnds) {
   DiscProblem p = corridor(3.0, 1.0);
   p.start = {0.5, 2};  // the bounds are nearer than the radius
