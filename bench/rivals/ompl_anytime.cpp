@@ -4,11 +4,11 @@
 // of OMPL's space, which its planners make small, is warren's metric; all else is as OMPL has it by default.
 //
 // How each is watched: most are asked to solve again and again, for a millisecond of CPU time each, later for a 50th of
-// what went before; they go on where they stopped. AIT* and AnytimePathShortening begin things anew when they are asked
-// again, so they run through, and the best path that they have told is looked at every millisecond. FMT* and BFMT* plan
-// once for a number of samples: they run with 125, 250, 500, ... one after the other. RRTConnect ends with its first
-// path. CPU time of the process, all threads of it, from the planner's construction on: the world and its index are
-// there before.
+// what went before; they go on where they stopped. AnytimePathShortening begins anew when it is asked again, so it runs
+// through, and its best path is looked at every millisecond. It has two of RRTConnect: the planner that it takes by
+// itself aborts in the plane, where a projection takes bytes for numbers. FMT* and BFMT* plan once for a number of
+// samples: they run with 125, 250, 500, ... one after the other. RRTConnect ends with its first path. CPU time of the
+// process, all threads of it, from the planner's construction on: the world and its index are there before.
 //
 // Outside of the clock warren's judge sees each path that was the best so far. What it refutes is counted as refuted;
 // what costs nothing, or no number, is counted as none. Neither is an improvement. A state that is there twice in a row
@@ -17,7 +17,6 @@
 #include <fmt/core.h>
 #include <ompl/base/PlannerTerminationCondition.h>
 #include <ompl/base/objectives/PathLengthOptimizationObjective.h>
-#include <ompl/base/spaces/RealVectorStateProjections.h>
 #include <ompl/geometric/planners/AnytimePathShortening.h>
 #include <ompl/geometric/planners/cforest/CForest.h>
 #include <ompl/geometric/planners/fmt/BFMT.h>
@@ -84,17 +83,6 @@ class MetricSpace : public Space {
       : Space(rest...), world_(world), states_(states) {}
   double distance(const ob::State* a, const ob::State* b) const override {
     return world_.distance(states_.read(a), states_.read(b));
-  }
-
- protected:
-  /// That of RealVectorStateSpace aborts in the plane: it takes bytes for numbers (1.5.2, RealVectorStateProjections).
-  void registerProjections() override {
-    if constexpr (std::is_same_v<States, PointStates>) {
-      const std::vector<unsigned> both{0, 1};
-      this->registerDefaultProjection(std::make_shared<ob::RealVectorOrthogonalProjectionEvaluator>(this, both));
-    } else {
-      Space::registerProjections();
-    }
   }
 
  private:
@@ -258,11 +246,10 @@ void by_doubling(const ob::SpaceInformationPtr& space, const ob::ProblemDefiniti
   }
 }
 
-template <class Planner>
 void run_through(const ob::SpaceInformationPtr& space, const ob::ProblemDefinitionPtr& problem, Watch& watch,
                  double budget_s) {
   constexpr double period_s = 1e-3;
-  const auto planner = ready(std::make_shared<Planner>(space), problem);
+  const auto planner = ready(og::AnytimePathShortening::createPlanner<og::RRTConnect, og::RRTConnect>(space), problem);
   const auto look = [&] {
     watch.look();
     return watch.seconds() >= budget_s;
@@ -288,13 +275,13 @@ constexpr Contestant contestants[] = {{"RRTConnect", until_first},
                                       {"RRTX", in_slices<og::RRTXstatic>},
                                       {"BIT*", in_slices<og::BITstar>},
                                       {"ABIT*", in_slices<og::ABITstar>},
-                                      {"AIT*", run_through<og::AITstar>},
+                                      {"AIT*", in_slices<og::AITstar>},
                                       {"PRM*", in_slices<og::PRMstar>},
                                       {"LazyPRM*", in_slices<og::LazyPRMstar>},
                                       {"FMT*", by_doubling<og::FMT>},
                                       {"BFMT*", by_doubling<og::BFMT>},
                                       {"CForest", in_slices<og::CForest>},
-                                      {"APS", run_through<og::AnytimePathShortening>}};
+                                      {"APS", run_through}};
 
 template <class Task>
 Path<typename Task::States::State> path_seen(const Task& task, const ob::PathPtr& found) {
