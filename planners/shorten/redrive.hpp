@@ -68,13 +68,14 @@ class Redriving {
   static constexpr std::size_t drawn_states = 64;
   static constexpr std::size_t backwards =
       20;                                 // places that lie so far before one in the stretch's order are tried, too
-  static constexpr double unsure = 1e-6;  // of prices, as rounding has it; a leg costs so much more
+  static constexpr double unsure = 1e-6;  // of prices, as rounding has it; a leg costs that to twice that more
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   struct Place {
     State state;
     double along;    // where in the stretch's order
     double to_goal;  // at least
+    double leg;      // what a way that leads there costs beside its price, as a share of the stretch's
   };
   /// A way that leads to a place.
   struct Arrival {
@@ -149,7 +150,12 @@ template <class Driver>
 void Redriving<Driver>::draw_places(std::size_t round, std::span<const State> stretch) {
   constexpr std::array scales{1.0, 0.5, 0.25, 1.5, 0.1};
   places_.clear();
-  for (const State& state : stretch) places_.push_back({state, static_cast<double>(places_.size()), 0.0});
+  // No two places cost the same: else of two on one curve rounding chose the one to come from, far from the origin
+  // another one than near it.
+  const auto leg = [&](std::uint64_t axis) {
+    return unsure * (1.0 + uniform(options_.seed, round * (drawn_states + stretch_states) + places_.size(), axis));
+  };
+  for (const State& state : stretch) places_.push_back({state, static_cast<double>(places_.size()), 0.0, leg(9)});
   places_.back().along += 1.0;  // behind all that is drawn
   for (std::size_t i = 0; i < drawn_states; ++i) {
     const auto u = [&](std::uint64_t axis) { return uniform(options_.seed, round * drawn_states + i, axis); };
@@ -159,7 +165,7 @@ void Redriving<Driver>::draw_places(std::size_t round, std::span<const State> st
     const Place& parent = places_[first + static_cast<std::size_t>(u(1) * static_cast<double>(last - first))];
     const State state = driver_.drawn_near(parent.state, {u(2), u(3), u(4), u(5)}, scales[round % scales.size()]);
     const double along = std::clamp(parent.along + u(6) - 0.5, 0.0, static_cast<double>(stretch.size() - 1));
-    if (driver_.is_free(state, query_)) places_.push_back({state, along, 0.0});
+    if (driver_.is_free(state, query_)) places_.push_back({state, along, 0.0, leg(9)});
   }
   std::stable_sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) { return a.along < b.along; });
   for (Place& place : places_) place.to_goal = driver_.distance(place.state, stretch.back());
@@ -206,7 +212,7 @@ void Redriving<Driver>::expand(std::size_t place, std::size_t arrived, Queue& op
     if (price + driver_.distance(from, places_[to].state) + places_[to].to_goal >= most_) continue;
     const bool is_end = to + 1 == places_.size();
     for (const Way& way : driver_.ways(from, places_[to].state, most_ - price - places_[to].to_goal)) {
-      const double there = price + change(gear, way.first_gear) + way.price + unsure * most_ +
+      const double there = price + change(gear, way.first_gear) + way.price + places_[to].leg * most_ +
                            (is_end ? change(way.last_gear, gear_after_) : 0.0);
       const double at_least = there + places_[to].to_goal;
       if (at_least >= most_ || is_settled(to, way.last_gear)) continue;

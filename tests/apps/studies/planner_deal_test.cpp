@@ -131,6 +131,7 @@ TEST(PlannerDeal, EveryOptionReachesThePlannersThatTakeIt) {
   all.roadmap.neighbour_index = NeighbourIndex::kd_tree;
   all.heuristic = HeuristicKind::manhattan;
   all.trees = {.step = 0.5, .goal_bias = 0.25, .nodes = 99, .trees = 2, .via = {{1.0, 2.0}}};
+  all.anytime = {.iterations = 9, .gap = 0.1, .parts = {AnytimePart::tree}};
   all.grid = {.cell = 0.5, .angles = 8, .face_motion = true, .step_cost = 2.0, .turn_cost = 3.0};
   all.grid.diagonal = Diagonal::unit;
   all.grid.layers = LayerKind::exact;

@@ -150,7 +150,7 @@ TEST(RrtStar, TakesAPathWithTheCostsThatItHas) {
 TEST(RrtStar, AddsNothingThroughWhichNoPathIsCheaper) {
   const SampledProblem<MazeWorld> problem = problems::point(true);
   RrtStarTree<AnyWorld<Vec2>> star = star_of(problem, {.seed = 3});
-  star.advance(4000, 10.5, {}, {});
+  star.advance(8000, 10.5, {}, {});
   EXPECT_GT(star.size(), 50U);
   for (VertexId v = 1; v < star.size(); ++v) {
     const Vec2 state = star.tree().state(v);
