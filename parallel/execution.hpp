@@ -103,7 +103,7 @@ class Progress {
 class Trace;         // parallel/trace.hpp
 class StageAccount;  // parallel/trace.hpp
 
-/// What changes the time of a call, never its result.
+/// What changes the time of a call, never its result, but that who is told of improvements may have enough.
 struct Execution {
   unsigned threads = 0;                ///< 0: one a core that this process may use; changes the time, never the result
   const Deadline* deadline = nullptr;  ///< nullptr: no limit

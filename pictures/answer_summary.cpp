@@ -138,7 +138,8 @@ std::string end_text(const Answer& answer) {
   if (answer.stop_reason) return std::string(text_of(*answer.stop_reason));
   if (answer.ended_by == "optimum") return "there is no better one";
   if (answer.ended_by == "gap") return "as near to the best as --gap asks for";
-  if (answer.ended_by == "iterations") return "all --iterations are done";
+  if (answer.ended_by == "iterations") return "all turns are done";
+  if (answer.ended_by == "nodes") return "its tree has all --nodes";
   if (answer.ended_by == "caller") return "the caller had enough";
   return answer.ended_by;
 }

@@ -169,9 +169,11 @@ bool CallLimits::ask_python(const Improvement& improvement) {
   PyObject* said = PyObject_CallFunction(
       on_improvement_.ptr(), "Kdddsd", static_cast<unsigned long long>(improvement.iterations), improvement.seconds,
       improvement.length, improvement.cost, improvement.by.c_str(), improvement.lower_bound);
-  const bool goes_on = said != nullptr && said != Py_False;
+  // None, as of a function without return, goes on; NumPy's False is not Python's.
+  const int truth = said == nullptr ? -1 : said == Py_None ? 1 : PyObject_IsTrue(said);
+  const bool goes_on = truth > 0;
   Py_XDECREF(said);
-  if (said == nullptr) failure_.emplace();
+  if (truth < 0) failure_.emplace();
   return goes_on;
 }
 

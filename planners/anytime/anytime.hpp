@@ -20,6 +20,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <new>
 #include <optional>
 #include <span>
 #include <string>
@@ -77,7 +78,7 @@ struct AnytimeSolution : Solution<State> {
   double lower_bound = 0.0;               ///< that it knew in the end
   std::vector<Improvement> improvements;  ///< ascending by iterations, falling by cost
   std::uint64_t iterations = 0;           ///< turns that were done
-  /// optimum, gap, iterations, caller, or the name of a StopReason.
+  /// optimum, gap, iterations, nodes, caller, or the name of a StopReason.
   std::string ended_by;
 };
 
@@ -124,20 +125,26 @@ class AnytimeSearch {
       if (execution_.deadline != nullptr) within.deadline = &sooner;
       while (!is_ended()) take_turn(within);
     } catch (const Stopped& stopped) {
-      solution_.ended_by = name_of(stopped.reason);
-      solution_.stop_reason = stopped.reason;
-      solution_.outcome = has_path() ? Outcome::solved : Outcome::stopped;
-      return std::move(solution_);
+      return stopped_by(stopped.reason);
+    } catch (const std::bad_alloc&) {
+      return stopped_by(StopReason::memory);
     }
     solution_.outcome = has_path() ? Outcome::solved : Outcome::not_connected;
     return std::move(solution_);
   }
 
  private:
+  AnytimeSolution<State> stopped_by(StopReason reason) {
+    solution_.ended_by = name_of(reason);
+    solution_.stop_reason = reason;
+    solution_.outcome = has_path() ? Outcome::solved : Outcome::stopped;
+    return std::move(solution_);
+  }
   static constexpr std::uint64_t first_share = 256;
   static constexpr std::uint64_t largest_share = 16'384;
   static constexpr std::size_t restart_count = 3;
-  static constexpr int patience = 10;  // turns without luck after which a part gets half
+  static constexpr double hopeless = 1.5;  // what costs so many times the best is not shortened
+  static constexpr int patience = 10;      // turns without luck after which a part gets half
 
   enum class Part : std::uint8_t { tree, restarts, roadmap, shorten };
   struct Found {
@@ -145,6 +152,7 @@ class AnytimeSearch {
     Path<State> path;
     double cost = std::numeric_limits<double>::infinity();
     Part by;
+    bool is_shortened = false;
     Counters counters;
   };
   struct Restart {
@@ -159,7 +167,8 @@ class AnytimeSearch {
     return path_length(path, [this](const State& a, const State& b) { return world_.distance(a, b); });
   }
   double seconds_before_the_judge() const {
-    if (!has_path() || execution_.deadline == nullptr) return std::numeric_limits<double>::infinity();
+    const bool has_end = execution_.seconds_left() < std::numeric_limits<double>::infinity();
+    if (!has_path() || !has_end) return std::numeric_limits<double>::infinity();
     const double judged_s = body_.judged_s(solution_.path);
     return std::max(0.0, execution_.deadline->seconds_left() - 2.0 * judged_s);
   }
@@ -174,13 +183,14 @@ class AnytimeSearch {
       if (is_straight_ || solution_.cost <= solution_.lower_bound * (1.0 + equal)) return end("optimum");
       if (options_.gap && solution_.cost <= solution_.lower_bound * (1.0 + *options_.gap)) return end("gap");
     }
+    const bool is_alone = !options_.parts.restarts && !options_.parts.roadmap;
+    if (is_alone && tree_ && tree_->is_full() && (dull_ >= 3 || !options_.parts.shorten)) return end("nodes");
     return options_.iterations && solution_.iterations >= *options_.iterations && end("iterations");
   }
 
   void take_turn(const Execution& execution);
   void try_straight();
   std::vector<Found> grown(const Execution& execution);
-  void shorten(std::vector<Found>& found, const Execution& execution) const;
   void take(Found& found);
   void tell(std::string_view by);
   void adapt(bool had_path);
@@ -188,7 +198,8 @@ class AnytimeSearch {
   Found grow_tree(const Execution& execution);
   Found grow_restart(Restart& restart, const Execution& execution);
   Found draw_roadmap(const Execution& execution);
-  Found polished(const Execution& execution);
+  Found polished(const Execution& execution) const;
+  Found shortened(const Found& rough, std::uint64_t number, const Execution& execution) const;
   std::uint64_t share_of(Part part) const { return share_ / (idle_[index_of(part)] >= patience ? 2 : 1); }
   static std::size_t index_of(Part part) { return static_cast<std::size_t>(part); }
 
@@ -203,8 +214,10 @@ class AnytimeSearch {
 
   AnytimeSolution<State> solution_;
   std::vector<Path<State>> to_join_;  // the tree has yet to take them
-  bool is_straight_ = false;          // the best path is one motion to the nearest of all goals
-  bool is_enough_ = false;            // whoever is told says so
+  std::vector<Found> rough_;   // paths that are to be shortened in the next turn, since they may come to something
+  bool is_straight_ = false;   // the best path is one motion to the nearest of all goals
+  bool is_enough_ = false;     // whoever is told says so
+  bool was_replaced_ = false;  // the best path is of this turn
   std::uint64_t share_ = first_share;
   std::array<int, 4> idle_{};        // turns since a part brought something
   std::array<bool, 4> was_lucky_{};  // in this turn
@@ -246,11 +259,12 @@ void AnytimeSearch<W>::take_turn(const Execution& execution) {
   inner.trace = nullptr;
   inner.account = nullptr;
   std::vector<Found> found = grown(inner);
-  shorten(found, inner);
   execution.check();
   ++solution_.iterations;  // from here on nothing stops
+  rough_.clear();
   const bool had_path = has_path();
   was_lucky_ = {};
+  was_replaced_ = false;
   for (Found& each : found) take(each);
   adapt(had_path);
 }
@@ -271,19 +285,22 @@ void AnytimeSearch<W>::try_straight() {
   tell("straight");
 }
 
-/// What the parts find in this turn, in the order of their tasks.
+/// What the parts find in this turn, in the order of their tasks: what takes longest comes first.
 template <SteerableWorld W>
 auto AnytimeSearch<W>::grown(const Execution& execution) -> std::vector<Found> {
   std::vector<std::function<Found(const Execution&)>> tasks;
   const AnytimeParts& parts = options_.parts;
-  if (parts.shorten && has_path() && dull_ < 3) tasks.push_back([this](const Execution& on) { return polished(on); });
+  if (parts.roadmap) tasks.push_back([this](const Execution& on) { return draw_roadmap(on); });
   if (parts.tree) tasks.push_back([this](const Execution& on) { return grow_tree(on); });
   if (parts.restarts) {
     for (Restart& restart : restarts_) {
       tasks.push_back([this, &restart](const Execution& on) { return grow_restart(restart, on); });
     }
   }
-  if (parts.roadmap) tasks.push_back([this](const Execution& on) { return draw_roadmap(on); });
+  if (parts.shorten && has_path() && dull_ < 3) tasks.push_back([this](const Execution& on) { return polished(on); });
+  for (std::size_t i = 0; i < rough_.size(); ++i) {
+    tasks.push_back([this, i](const Execution& on) { return shortened(rough_[i], i, on); });
+  }
   std::vector<Found> found(tasks.size());
   Execution alone = execution;
   alone.threads = 1;
@@ -291,22 +308,7 @@ auto AnytimeSearch<W>::grown(const Execution& execution) -> std::vector<Found> {
   return found;
 }
 
-/// New paths that may come to something.
-template <SteerableWorld W>
-void AnytimeSearch<W>::shorten(std::vector<Found>& found, const Execution& execution) const {
-  if (!options_.parts.shorten) return;
-  Execution alone = execution;
-  alone.threads = 1;
-  for_chunks(found.size(), 1, execution, [&](Range r) {
-    Found& each = found[r.first];
-    if (each.path.empty() || each.by == Part::shorten) return;
-    const double hopeless = 1.5 * solution_.cost;
-    const std::uint64_t seed = random_bits(options_.trees.seed, solution_.iterations, 8 + r.first);
-    each.path = body_.shortened(each.path, hopeless, seed, alone, each.counters);
-    each.cost = cost_of(each.path);
-  });
-}
-
+/// The best path of a turn is shortened as the best path that there is; others that come near it, as rough ones.
 template <SteerableWorld W>
 void AnytimeSearch<W>::take(Found& found) {
   constexpr double near = 1.05;
@@ -318,7 +320,16 @@ void AnytimeSearch<W>::take(Found& found) {
   if (found.by == Part::shorten) dull_ = found.cost < before * (1.0 - worth) ? 0 : dull_ + 1;
   if (tree_ && options_.informed && found.by != Part::tree && found.cost < near * before)
     to_join_.push_back(found.path);
+  const bool is_rough = options_.parts.shorten && !found.is_shortened;
+  if (!is_better && is_rough && found.cost < hopeless * before) rough_.push_back(std::move(found));
   if (!is_better) return;
+  if (was_replaced_) {  // by another one in this turn: nobody has shortened it yet
+    Found earlier;
+    earlier.path = std::move(solution_.path);
+    earlier.cost = before;
+    if (options_.parts.shorten) rough_.push_back(std::move(earlier));
+  }
+  was_replaced_ = true;
   was_lucky_[index_of(found.by)] = true;
   if (found.by != Part::shorten) dull_ = 0;
   solution_.cost = found.cost;
@@ -420,8 +431,19 @@ auto AnytimeSearch<W>::draw_roadmap(const Execution& execution) -> Found {
 }
 
 template <SteerableWorld W>
-auto AnytimeSearch<W>::polished(const Execution& execution) -> Found {
+auto AnytimeSearch<W>::shortened(const Found& rough, std::uint64_t number, const Execution& execution) const -> Found {
+  Found found(rough.by);
+  found.is_shortened = true;
+  const std::uint64_t seed = random_bits(options_.trees.seed, solution_.iterations, 8 + number);
+  found.path = body_.shortened(rough.path, hopeless * solution_.cost, seed, execution, found.counters);
+  found.cost = cost_of(found.path);
+  return found;
+}
+
+template <SteerableWorld W>
+auto AnytimeSearch<W>::polished(const Execution& execution) const -> Found {
   Found found(Part::shorten);
+  found.is_shortened = true;
   const std::uint64_t seed = random_bits(options_.trees.seed, solution_.iterations, 7);
   found.path =
       body_.shortened(solution_.path, std::numeric_limits<double>::infinity(), seed, execution, found.counters);

@@ -364,6 +364,7 @@ void Shortener<W, Length>::thin() {
   auto query = world_.make_query();
   std::size_t kept = 0;
   for (std::size_t v = 1; v < path_.size(); ++v) {
+    if (v % 256 == 0) execution_.check();
     const bool is_last = v + 1 == path_.size();
     const State& before = path_[kept];
     const auto is_passed = [&] {

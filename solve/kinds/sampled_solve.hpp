@@ -47,6 +47,7 @@
 #include "solve/answer/answer.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/lower_bound.hpp"
+#include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/planned_worlds.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/question/planner_choice.hpp"
@@ -146,7 +147,12 @@ class SampledSolve {
     if (!tree_options_.sampler) tree_options_.sampler = body_.tree_sampler;
     roadmap_options_.seed = request_.options.seed;
     roadmap_options_.sampler = body_.choose_sampler(request_.options, roadmap_options_);
+    if (takes_all_places(roadmap_options_.sampler))
+      roadmap_options_.sampler = SamplerKind::uniform;  // denser ones follow
     roadmap_options_.attach = body_.attach(request_.options);
+    const std::vector<AnytimePart>& parts = request_.options.anytime.parts;
+    if (std::ranges::count(parts, AnytimePart::shorten) == std::ranges::ssize(parts) && !parts.empty())
+      throw UsageError("@parts: shorten alone finds no path; add tree, restarts or roadmap");
     answer_.seed = tree_options_.seed;
   }
   void describe_trees() {
@@ -283,7 +289,7 @@ class SampledSolve {
   /// Of planners that nobody asks how good they are, where it takes little.
   bool wants_exact_bound() const {
     constexpr std::size_t few = 2'000;
-    const bool is_small = request_.scene.polygons.size() + request_.scene.walls.size() <= few && !request_.scene.map;
+    const bool is_small = !request_.scene.map && corner_count(request_.scene) <= few;
     return request_.options.bound || request_.options.anytime.gap || is_small;
   }
   /// What ends the search does not end the work: its path is judged and told in the memory that there is.
@@ -310,6 +316,21 @@ class SampledSolve {
       own_->deadline = &*last_;
     }
     take(std::move(found));
+    if (request_.options.optimise && answer_.outcome == Outcome::solved) shorten_better();
+  }
+  /// Of planners that leave it to who asks: in the metric that they make small, and never to a path that costs more.
+  void shorten_better() {
+    const StageTimer timer(execution(), "optimise", answer_.seconds.optimise, path_.size());
+    answer_.raw_length = body_of_better().length(path_);
+    try {
+      const ImproveOptions how{.seed = answer_.seed};
+      Path<State> shorter = body_.improved(*world_, path_, how, execution(), answer_.counters);
+      if (cost_of(shorter) < cost_of(path_)) path_ = std::move(shorter);
+    } catch (const Stopped&) {  // it stays as it is
+    }
+  }
+  double cost_of(const Path<State>& path) const {
+    return path_length(path, [this](const State& a, const State& b) { return world_->distance(a, b); });
   }
   void plan_trees() { take(grow_through_stops()); }
   Solution<State> grow_through_stops() {
@@ -407,7 +428,7 @@ class SampledSolve {
         answer_.figures.push_back({"goals_tried", body_.goals_tried()});
       return;
     }
-    if (request_.options.optimise) {
+    if (request_.options.optimise && !gets_better(request_.planner)) {
       const StageTimer timer(execution(), "optimise", answer_.seconds.optimise, path_.size());
       if constexpr (requires { body_.paths_weighed(); }) choose_path();
       answer_.raw_length =

@@ -110,7 +110,8 @@ PlannerKind usual_plane_planner(const SolveOptions& options, const Scene& scene,
   constexpr std::size_t most_corners_around_discs = 50'000;
   const double reach = clearance_of(scene, question) + robot_of(scene, question).radius;
   if (!(reach > 0.0)) return question.contact == Contact::blocked ? PlannerKind::lazy_prm : PlannerKind::visibility;
-  const bool by_samples = !(given(options) == OptionSet{});
+  const OptionSet said = given(options);
+  const bool by_samples = !(said == OptionSet{}) && !(said == OptionSet{Option::bound});
   return by_samples || corner_count(scene) > most_corners_around_discs ? PlannerKind::lazy_prm
                                                                        : PlannerKind::visibility;
 }

@@ -90,8 +90,8 @@ void Run::conclude(bool standard_output_taken, std::optional<StopReason> stopped
   if (stopped) fmt::print(stderr, "warren: stopped: {}\n", text_of(*stopped));
 }
 
-Execution Run::execution_for_what_is_left() {
-  if (!deadline_.reached()) return execution_;
+Execution Run::execution_for_what_is_left(bool has_used_its_time) {
+  if (!has_used_its_time && !deadline_.reached()) return execution_;
   forget_signal();
   Execution left = execution_;
   left.deadline = &last_deadline_;

@@ -51,7 +51,8 @@ class Run {
                 const std::function<std::string()>& summary) const;
   /// Where the answer is there in time and what came after it was stopped: for writing it, which a further signal or
   /// the memory alone ends; else execution().
-  Execution execution_for_what_is_left();
+  /// Or where the answer used its time by its nature.
+  Execution execution_for_what_is_left(bool has_used_its_time = false);
   /// Gives back the pages that stages left: for a verb that stays. On the thread that made the run.
   void give_back_pages() { pages_.reset(); }
   /// Ends the progress bar and writes the trace, if one was asked for; further calls do nothing.

@@ -57,7 +57,8 @@ int AnswerCommand::run() {
   write_outputs(run);
   run.end();
   say_of_picture(arguments_, svg_, drawn_otherwise_);
-  const auto stopped = answer_.outcome == Outcome::stopped ? std::optional(stop_reason()) : std::nullopt;
+  const bool is_told = answer_.outcome == Outcome::stopped || (answer_.stop_reason && is_signal(*answer_.stop_reason));
+  const auto stopped = is_told ? std::optional(stop_reason()) : std::nullopt;
   run.conclude(takes_standard_output(), stopped, [&] {
     return summary_of(answer_, run.palette(), written_) + notes_text(answer_, run.palette()) +
            explanation_text(answer_, run.palette());
@@ -104,7 +105,10 @@ void AnswerCommand::write_outputs(Run& run) {
     });
   }
   try {
-    if (answer_.outcome != Outcome::stopped) return write_finished(run.execution_for_what_is_left());
+    if (answer_.outcome != Outcome::stopped) {
+      const bool got_better = answer_.iterations.has_value();  // until its time was over
+      return write_finished(run.execution_for_what_is_left(got_better));
+    }
   } catch (const Stopped& stopped) {
     make_stopped(answer_, stopped.reason);
   } catch (const std::bad_alloc&) {
