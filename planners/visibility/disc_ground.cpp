@@ -54,7 +54,10 @@ DiscGround::DiscGround(const PlaneObstacles& obstacles, const Execution& executi
     circles_.push_back(circle_around(corners_, v));
   }
   first_whole_ = static_cast<std::uint32_t>(circles_.size());
-  for (const Vec2 p : places_of_points(obstacles.walls)) {
+  const std::vector<Vec2> points = places_of_points(obstacles.walls);
+  execution.reserve(points.size() * (sizeof(Segment) + sizeof(DiscCircle)));
+  for (const Vec2 p : points) {
+    execution.check();
     const std::vector<Sector> sectors = free_sectors(pieces, p);
     if (sectors.empty() || !sectors.front().whole) continue;  // on an obstacle, or inside
     segments_.push_back({p, p});

@@ -131,8 +131,8 @@ struct Answer {
   double length = 0.0;                    ///< only where verified, as all that is said of the path
   double min_clearance = 0.0;             ///< room around the body along the path
   std::optional<double> raw_length;       ///< before it was pulled taut
-  bool optimal = false;                   ///< proved: no shorter path exists
-  std::optional<double> lower_bound;      ///< proved: no path has less cost or, where that is not told, length
+  bool optimal = false;               ///< proved: no shorter path exists but for 1e-9; of a disc: than with its arcs
+  std::optional<double> lower_bound;  ///< proved: no path has less cost or, where that is not told, length
   std::vector<Improvement> improvements;  ///< of planners that get better with time: each path that was the best so far
   std::optional<std::uint64_t> iterations;  ///< the turns that these have done: as many give the same answer
   std::string ended_by;        ///< of these: optimum, gap, iterations, caller, or as stop_reason; empty: of the others

@@ -255,11 +255,15 @@ Answer RoadmapQuery::ask_lattice(const Question& question, const RoadmapSearchFi
       }
       settle_and_verify(answer, problem, how.optimise, execution, scratch);
     });
-    const Scene& scene = how.bound ? roadmap_.world.whole(execution) : roadmap_.world.outline();
-    tell_bound(answer, scene, {.bound = how.bound}, execution);
   } catch (const RefutedPathError& error) {
     refuse_roadmap(roadmap_, error);
   }
+  const Scene* scene = &roadmap_.world.outline();
+  try {
+    if (how.bound) scene = &roadmap_.world.whole(execution);
+  } catch (const Stopped&) {  // the simple bound is left
+  }
+  tell_bound(answer, *scene, {.bound = how.bound}, execution);
   return finished(std::move(answer), execution);
 }
 

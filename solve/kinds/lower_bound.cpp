@@ -12,6 +12,7 @@
 #include "planners/visibility/visibility_path.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "solve/kinds/map_steps.hpp"
+#include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/question/question_of_arm.hpp"
 #include "worlds/arms/serial_chain.hpp"
@@ -57,9 +58,7 @@ std::optional<PlaneObstacles> bounding_obstacles(const Scene& scene, Vec2 start,
     if (2 * borders.walls.size() > largest_bounded_corners) return std::nullopt;
     return borders;
   }
-  std::size_t corners = 2 * scene.walls.size();
-  for (const ScenePolygon& polygon : scene.polygons) corners += polygon.corners.size();
-  if (corners > largest_bounded_corners) return std::nullopt;
+  if (corner_count(scene) > largest_bounded_corners) return std::nullopt;
   return plane_obstacles(scene, execution);
 }
 

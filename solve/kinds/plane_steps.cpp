@@ -58,7 +58,12 @@ WallProblem touching_problem(const SolveRequest& request) {
 }
 
 std::size_t corner_count(const Scene& scene) {
+  constexpr std::size_t weight_of_point = 25;  // a wall without length is seen from everywhere
   std::size_t corners = 2 * scene.walls.size();
+  for (std::size_t i = 0; i < scene.walls.size(); ++i) {
+    const Segment wall = scene.walls.segment(i);
+    if (wall.a == wall.b) corners += weight_of_point;
+  }
   for (const ScenePolygon& polygon : scene.polygons) corners += polygon.corners.size();
   return corners;
 }

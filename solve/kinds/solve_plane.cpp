@@ -111,7 +111,9 @@ PlannerKind usual_plane_planner(const SolveOptions& options, const Scene& scene,
   const double reach = clearance_of(scene, question) + robot_of(scene, question).radius;
   if (!(reach > 0.0)) return question.contact == Contact::blocked ? PlannerKind::lazy_prm : PlannerKind::visibility;
   const OptionSet said = given(options);
-  const bool by_samples = !(said == OptionSet{}) && !(said == OptionSet{Option::bound});
+  constexpr OptionSet of_discs{Option::bound, Option::search};
+  const bool is_else_searched = options.search && *options.search != SearchMethod::astar;
+  const bool by_samples = !((said | of_discs) == of_discs) || is_else_searched;
   return by_samples || corner_count(scene) > most_corners_around_discs ? PlannerKind::lazy_prm
                                                                        : PlannerKind::visibility;
 }

@@ -97,10 +97,24 @@ class AxisSolve {
  private:
   void finish() {
     if (answer_.outcome != Outcome::solved) settle_blocked_ends();
+    if (answer_.outcome == Outcome::solved && request_.scene.map) check_ends_on_map();
     if (answer_.outcome != Outcome::solved) return;
     for (const Vec2 p : answer_.path) poses_.push_back({p.x, p.y, problem_.start.theta});
     turn_at_the_goal();
     judge_turning(request_.scene, problem_, poses_, request_.execution, answer_, request_.asked.judged());
+  }
+
+  /// A disc that starts on water may stay there, a polygon may not.
+  void check_ends_on_map() {
+    const auto stands = [&](const Se2& pose) {
+      return turning_stands_free(request_.scene, problem_, pose, request_.execution, request_.asked.judged());
+    };
+    const Vec2 goal = answer_.path.back();
+    if (!stands(problem_.start)) {
+      answer_.outcome = Outcome::start_blocked;
+    } else if (!stands({goal.x, goal.y, problem_.start.theta})) {
+      answer_.outcome = Outcome::goal_blocked;
+    }
   }
 
   /// In steps of at most a third of a turn, so that the way round is never in doubt.
