@@ -9,6 +9,9 @@
 namespace warren::test {
 namespace {
 
+/// Until something else ends it.
+bool gets_better(std::string_view planner) { return planner == "anytime" || planner.ends_with("rrt-star"); }
+
 std::string list_of(const std::vector<double>& numbers) {
   std::ostringstream text;
   text.precision(17);
@@ -125,7 +128,7 @@ void Matrix::check_ends(const MatrixBody& body, const std::vector<std::vector<do
 
 /// In a strange world there may be no way: nobody shall look for it long.
 std::vector<std::string> Matrix::limits_of(const std::string& planner) {
-  if (planner == "anytime" || planner.ends_with("rrt-star")) return {"--iterations", "6"};
+  if (gets_better(planner)) return {"--iterations", "6"};
   if (!world().is_strange) return {};
   if (planner == "prm" || planner == "lazy-prm") return {"--samples", "300"};
   if (planner == "rrt" || planner == "rrt-connect") return {"--nodes", "2000"};
@@ -198,6 +201,7 @@ void Matrix::ask_offered_place(const MatrixBody& body, const ProgramAnswer& offe
     }
     if (planner.name == "prm" || planner.name == "lazy-prm") arguments.insert(arguments.end(), {"--samples", "20"});
     if (planner.name == "rrt" || planner.name == "rrt-connect") arguments.insert(arguments.end(), {"--nodes", "200"});
+    if (gets_better(planner.name)) arguments.insert(arguments.end(), {"--iterations", "2"});
     arguments.insert(arguments.end(), {"--budget", "30s", "--json", folder_.path("offered.json")});
     SCOPED_TRACE(shown(arguments));
     const Outcome outcome = ask(arguments);

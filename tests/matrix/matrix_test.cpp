@@ -224,7 +224,8 @@ void Matrix::ask_all_at_once(const MatrixBody& body, const BodyColumn& column) {
   if (planners.ends_with("grid")) {
     for (const std::string& word : raster_of(body)) question.push_back(word);
   }
-  expect_path({"compare", world_file(), "--planners", planners, "--seeds", "1", "--budget", "30s"}, question);
+  expect_path({"compare", world_file(), "--planners", planners, "--seeds", "1", "--budget", "30s", "--iterations", "4"},
+              question);
 }
 
 /// A body that nobody solves in such a world: all verbs say so alike.

@@ -35,7 +35,7 @@ TEST(AnswerSummary, SaysHowAPathGotBetterAndWhatEndedIt) {
   answer.stop_reason.reset();
   for (const auto& [end, words] :
        {std::pair("optimum", "there is no better one"), std::pair("gap", "as near to the best as --gap asks for"),
-        std::pair("iterations", "all --iterations are done"), std::pair("caller", "the caller had enough")}) {
+        std::pair("iterations", "all turns are done"), std::pair("caller", "the caller had enough")}) {
     answer.ended_by = end;
     expect_line(answer, std::string("better        240 turns, cost 31.25 to 25 in 1 step; ") + words);
   }
