@@ -41,8 +41,8 @@ inline constexpr std::size_t most_improved = 32;
 /// A path with its arcs: the points where straights and arcs end, and the turn of what leads to each, radians, above 0
 /// anticlockwise; 0: a straight.
 struct ArcPath {
-  std::vector<Vec2> points;
-  std::vector<double> turns;
+  std::vector<Vec2> points;   ///< start to goal
+  std::vector<double> turns;  ///< as many
 };
 
 /// What a planner makes on its way to an answer: what pictures show beside the path.
