@@ -25,12 +25,12 @@ const Scene& scene() {
   static const Scene kept = maze_scene({side, side, 1}, false, {});
   return kept;
 }
-const MazeWorld& maze() {
+const MazeWorld& asked_maze() {
   static const MazeWorld kept(scene(), kept_clearance, {});
   return kept;
 }
 const AnyWorld<Vec2>& world() {
-  static const WorldView kept(maze());
+  static const WorldView kept(asked_maze());
   return kept;
 }
 
@@ -49,7 +49,7 @@ Execution threads_of(std::int64_t threads) { return {.threads = static_cast<unsi
 bool is_free_of_all_walls(Vec2 p) {
   bool free = true;
   scene().walls.visit([&](auto walls) {
-    for (const auto& w : walls) free = free && distance(p, w.segment()) >= maze().planning_clearance();
+    for (const auto& w : walls) free = free && distance(p, w.segment()) >= asked_maze().planning_clearance();
   });
   return free;
 }
