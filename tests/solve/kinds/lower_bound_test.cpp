@@ -220,7 +220,7 @@ TEST(LowerBound, NoPathOnAMapIsBelow) {
 TEST(LowerBound, NoPathOfAnArmIsBelow) {
   const Scene scene = read_world(test::source_dir() + "/tests/data/nine-spheres.scene");
   std::size_t solved = 0;
-  for (const std::uint64_t seed : test::seeds(100, 6)) {
+  for (const std::uint64_t seed : test::seeds(100, 24)) {
     SCOPED_TRACE(seed);
     Draws draw(seed);
     Question question;
