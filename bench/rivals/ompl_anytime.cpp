@@ -211,6 +211,7 @@ class Watch {
 
 // How a planner is run until the budget ends; see above.
 
+// OMPL's parts own each other by shared_ptr, and nothing else will do.
 template <class Planner>
 std::shared_ptr<Planner> ready(std::shared_ptr<Planner> planner, const ob::ProblemDefinitionPtr& problem) {
   planner->setProblemDefinition(problem);

@@ -132,6 +132,7 @@ class Checks {
   const std::uint64_t number_;
 };
 
+/// Shared, as OMPL has its own: what refers to them outlives whoever made them.
 template <class World, class States>
 using ChecksPtr = std::shared_ptr<const Checks<World, States>>;
 

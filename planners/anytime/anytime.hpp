@@ -189,7 +189,7 @@ class AnytimeSearch {
   }
 
   void take_turn(const Execution& execution);
-  void try_straight();
+  bool try_straight();
   std::vector<Found> grown(const Execution& execution);
   void take(Found& found);
   void tell(std::string_view by);
@@ -250,11 +250,7 @@ inline Counters counted_since(const Counters& before, const Counters& now) {
 template <SteerableWorld W>
 void AnytimeSearch<W>::take_turn(const Execution& execution) {
   execution.check();
-  if (solution_.iterations == 0) try_straight();
-  if (is_straight_) {
-    ++solution_.iterations;
-    return;
-  }
+  if (solution_.iterations == 0 && try_straight()) return;
   Execution inner = execution.quiet();  // stages of parts are no stages of the whole, and tasks are what runs at once
   inner.trace = nullptr;
   inner.account = nullptr;
@@ -269,20 +265,23 @@ void AnytimeSearch<W>::take_turn(const Execution& execution) {
   adapt(had_path);
 }
 
-/// The straight motion to the nearest goal, where it is free, is the best there is, unless there are more goals.
+/// The straight motion to the nearest goal, where it is free, is the best there is, unless there are more goals. It is
+/// a turn by itself.
 template <SteerableWorld W>
-void AnytimeSearch<W>::try_straight() {
+bool AnytimeSearch<W>::try_straight() {
   const auto nearest = std::min_element(goals_.begin(), goals_.end(), [&](const State& a, const State& b) {
     return world_.distance(start_, a) < world_.distance(start_, b);
   });
   auto query = world_.make_query();
   ++solution_.counters.edges_checked;
-  if (!world_.is_free_motion(start_, *nearest, query)) return;
+  if (!world_.is_free_motion(start_, *nearest, query)) return false;
   ++solution_.counters.edges_free;
   is_straight_ = options_.all_goals;
   solution_.path = {start_, *nearest};
   solution_.cost = world_.distance(start_, *nearest);
+  ++solution_.iterations;
   tell("straight");
+  return true;
 }
 
 /// What the parts find in this turn, in the order of their tasks: what takes longest comes first.

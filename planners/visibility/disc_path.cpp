@@ -87,7 +87,8 @@ class DiscSight {
   /// Asks for the memory of both searches, too.
   static std::size_t asked_for(const DiscGround& ground, const Execution& execution) {
     const std::size_t count = 2 * ground.circles().size() + 1;
-    execution.reserve(count * (2 * sizeof(CircleSide) + sizeof(std::vector<std::uint32_t>) + 1));
+    execution.reserve(count * (2 * sizeof(CircleSide) + sizeof(std::vector<std::uint32_t>) + 1) +
+                      ground.segments().size() * sizeof(std::uint32_t));
     return count;
   }
 
@@ -432,7 +433,8 @@ class DiscSearch {
     if (here.left) return;
     here.left = true;
     const std::span<const std::uint32_t> next = sight_.candidates(side);
-    sight_.execution.reserve(2 * next.size() * sizeof(TangentWay));
+    constexpr std::size_t queued = 16;  // bytes of a way in the queue
+    sight_.execution.reserve(2 * next.size() * (sizeof(TangentWay) + queued));
     for (const std::uint32_t c : next) {
       const SideId first = c == sight_.ends() ? goal_ : 2 * c;
       for (SideId to = first; to <= (c == sight_.ends() ? goal_ : first + 1); ++to) {

@@ -84,7 +84,7 @@ double least_way(const Scene& scene, const Problem& problem, BoundEffort effort,
   const double straight = below_rounding(distance(start, goal), 1);
   const std::optional<double> radius = held_radius(problem);
   if (effort == BoundEffort::simple || !radius || straight == 0.0 || is_unmade(scene)) return straight;
-  Execution quiet = execution;
+  Execution quiet = execution.quiet();
   quiet.account = nullptr;  // its stages are none of the answer's
   try {
     const std::optional<PlaneObstacles> obstacles = bounding_obstacles(scene, start, quiet);

@@ -238,6 +238,26 @@ class SampledSolve {
     if (apart_) options.iterations = std::min<std::uint64_t>(options.iterations.value_or(4), 4);
     return options;
   }
+  /// Nobody is told of the stages of what is done meanwhile.
+  class BesideTheStages {
+   public:
+    explicit BesideTheStages(Execution& execution) : execution_(execution), whole_(execution) {
+      execution_.progress = nullptr;
+      execution_.trace = nullptr;
+      execution_.account = nullptr;
+    }
+    ~BesideTheStages() {
+      execution_.progress = whole_.progress;
+      execution_.trace = whole_.trace;
+      execution_.account = whole_.account;
+    }
+    BesideTheStages(const BesideTheStages&) = delete;
+    BesideTheStages& operator=(const BesideTheStages&) = delete;
+
+   private:
+    Execution& execution_;
+    const Execution whole_;
+  };
   AnytimeBody<State> body_of_better() {
     AnytimeBody<State> body;
     body.shortened = [this](const Path<State>& path, double hopeless, std::uint64_t seed, const Execution& on,
@@ -253,6 +273,7 @@ class SampledSolve {
       Answer judged;
       judged.outcome = Outcome::solved;
       const auto begin = std::chrono::steady_clock::now();
+      const BesideTheStages beside(*own_);
       body_.judge(*world_, Path<State>(path), judged);
       return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     };

@@ -76,19 +76,6 @@ class GrowingTree {
   Neighbour nearest(const Point& p);
   /// The k points nearest to p (fewer if there are not so many), ascending by (distance, id).
   void nearest(const Point& p, std::size_t k, std::vector<Neighbour>& out);
-  /// Calls visit(id, distance) for all points at a distance <= radius from p, in an order that depends on the points.
-  template <class Visit>
-  void for_each_within(const Point& p, const SearchRadius& radius, const Visit& visit) const {
-    for (const Level& level : levels_) {
-      level.tree.for_each_within(p, radius, [&](VertexId place, double distance) {
-        visit(as_whole<VertexId>(level.first + place), distance);
-      });
-    }
-    for (std::size_t i = filed_; i < points_.size(); ++i) {
-      const double distance = distance_between<D>(points_[i], p);
-      if (distance <= radius.length()) visit(as_whole<VertexId>(i), distance);
-    }
-  }
 
  private:
   /// Points first .. first + tree.size() - 1, in the order of their numbers.

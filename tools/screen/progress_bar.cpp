@@ -109,11 +109,10 @@ void ProgressBar::draw() {
   RunMoment moment{stage, done, progress_.total(), std::chrono::duration<double>(now - begin_).count()};
   std::string whole_run = whole_run_text(moment, rate);
   const std::optional<Improvement> best = best_.use([](auto& now) { return now; });
-  if (best) {
+  if (best && moment.stage == "search") {
     whole_run = improvement_text(*best) + (whole_run.empty() ? "" : ", " + whole_run);
-    moment = {.stage = "search", .seconds = moment.seconds};  // whose parts are stages by themselves
   }
-  const std::string line = progress_line(moment, best ? 0.0 : rate, whole_run, width);
+  const std::string line = progress_line(moment, rate, whole_run, width);
   std::fputs((mode_ == ProgressMode::bar ? erasing(columns_, width) + line : line + "\n").c_str(), stderr);
   std::fflush(stderr);
   columns_ = line.size();

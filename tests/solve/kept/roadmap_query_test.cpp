@@ -120,6 +120,7 @@ TEST(Build, RefusesWhatMeansNothingToARoadmap) {
   EXPECT_EQ(line({.search = SearchMethod::bfs}), "search: is for a question; say it when the roadmap is asked");
   EXPECT_EQ(line({.roadmap = {.lazy = LazyCheck::expansion}}),
             "lazy: a roadmap that is kept is made in one way; leave it out");
+  EXPECT_EQ(line({.planner = PlannerKind::visibility}), "nothing") << "of a clearance, too";
   EXPECT_NE(line({.planner = PlannerKind::rrt_connect}), "nothing");
   EXPECT_NE(line({.planner = PlannerKind::anytime}), "nothing");
 }

@@ -272,5 +272,18 @@ TEST(Claims, AGoalThatIsTheStartIsReachedByEveryPlannerWithoutAMove) {
   for (const PlannerKind planner : all_planners) EXPECT_GT(reached[planner], 0U) << name_of(planner);
 }
 
+/// A disc that starts on water may stay there; the disc that holds a polygon is none.
+TEST(Claims, APolygonOnWaterIsBlockedWhoeverPlans) {
+  const TemporaryDirectory folder;
+  const Scene scene =
+      read_world(folder.write("w.map", "type octile\nheight 5\nwidth 5\nmap\nWWWWW\nWWWWW\nWWWWW\nWWWWW\nWWWWW\n"));
+  const RobotSpec robot{.kind = RobotKind::polygon, .outline = {{-0.2, -0.1}, {0.2, -0.1}, {0.2, 0.1}, {-0.2, 0.1}}};
+  const Question question{.robot = robot, .start = {1.5, 2.5, 0.0}, .goal = {3.5, 2.5, 0.0}};
+  for (const PlannerKind planner :
+       {PlannerKind::voronoi, PlannerKind::lazy_prm, PlannerKind::rrt_connect, PlannerKind::anytime}) {
+    EXPECT_EQ(solve(scene, question, by(planner)).outcome, Outcome::start_blocked) << name_of(planner);
+  }
+}
+
 }  // namespace
 }  // namespace warren

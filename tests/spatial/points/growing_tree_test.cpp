@@ -62,17 +62,10 @@ void expect_as_brute_force(std::uint64_t seed, std::size_t count) {
     const std::size_t k = i % 5 == 0 ? 200 : i % 12;
     tree.nearest(query, k, found);
     ASSERT_EQ(found, std::vector(all.begin(), all.begin() + static_cast<long>(std::min(k, all.size())))) << i;
-
-    const double radius = i % 3 == 0 ? all[all.size() / 4].distance : 0.3;  // of a point, or of none
-    found.clear();
-    tree.for_each_within(query, radius, [&](VertexId id, double distance) { found.push_back({id, distance}); });
-    std::sort(found.begin(), found.end());
-    const auto beyond = [radius](const Neighbour& n) { return n.distance > radius; };
-    ASSERT_EQ(found, std::vector(all.begin(), std::find_if(all.begin(), all.end(), beyond))) << i;
   }
 }
 
-TEST(GrowingTree, FindsTheNearestAndThoseWithinARadiusAtEverySizeAsBruteForceDoes) {
+TEST(GrowingTree, FindsTheNearestAtEverySizeAsBruteForceDoes) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     expect_as_brute_force<2>(seed, 700);
     expect_as_brute_force<4>(seed, 700);
