@@ -51,7 +51,6 @@ Yard yard(std::uint64_t seed, SteeringKind steering, Vec2 offset) {
   return yard;
 }
 
-/// `parted`: what ties between shortest curves may still make of the length, as a share.
 void expect_as_long_anywhere(SteeringKind steering) {
   std::size_t arrived = 0;
   for (const std::uint64_t seed : test::seeds(40, 4)) {
