@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/enum_names.hpp"
@@ -29,6 +30,8 @@ struct ScenePolygon {
   std::size_t line = 0;       ///< of its file, from 1
 };
 
+using Vec3 = Eigen::Vector3d;  ///< a point or vector of space; units of the world
+
 /// A closed ball.
 struct Sphere {
   double x;       ///< of the middle
@@ -41,6 +44,24 @@ struct Sphere {
 struct SolidBox {
   std::array<double, 3> low;   ///< least x, y, z
   std::array<double, 3> high;  ///< >= low
+};
+
+/// What a Solid is.
+enum class SolidKind : std::uint8_t { sphere, box, cylinder, capsule, hull };
+constexpr auto enum_names(SolidKind) {
+  return std::array<std::string_view, 5>{"sphere", "box", "cylinder", "capsule", "hull"};
+}
+
+/// A closed convex body anywhere in space: an obstacle of arms, or a part of an arm's link.
+struct Solid {
+  SolidKind kind = SolidKind::sphere;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< of its own frame, whose z is a cylinder's axis
+  /// sphere: x is the radius. box: half its sides. cylinder, capsule: x is the radius, z half the length of the axis (a
+  /// capsule's without its caps). All >= 0. hull: unused.
+  Vec3 half = Vec3::Zero();
+  std::vector<Vec3> corners = {};                        ///< hull: at least one, in its own frame, each on the outside
+  std::vector<std::array<std::uint32_t, 3>> faces = {};  ///< hull: triangles of corners, counter-clockwise from outside
+  std::string name = {};                                 ///< in messages; may be empty
 };
 
 /// "this is a maze": walls lie on the unit grid, cell centres at 1..cols x 1..rows.
@@ -63,11 +84,31 @@ struct PackedMaze {
   std::optional<std::uint64_t> hash;  ///< nothing: who reads the walls will know
 };
 
-/// arm: a serial chain whose table is in a file.
-enum class RobotKind : std::uint8_t { point, disc, polygon, car, puma560, arm };
+/// arm: a serial chain whose table is in a file. urdf: an arm whose joints and links are in a URDF.
+enum class RobotKind : std::uint8_t { point, disc, polygon, car, puma560, arm, urdf };
 constexpr auto enum_names(RobotKind) {
-  return std::array<std::string_view, 6>{"point", "disc", "polygon", "car", "puma560", "arm"};
+  return std::array<std::string_view, 7>{"point", "disc", "polygon", "car", "puma560", "arm", "urdf"};
 }
+
+/// A solid that an arm carries.
+struct AttachedSolid {
+  std::string link;                         ///< that it is fixed to
+  Solid solid;                              ///< in that link's frame
+  std::vector<std::string> may_touch = {};  ///< links beside that one
+};
+
+/// An arm that files describe.
+struct ArmFiles {
+  std::string urdf;                        ///< a path
+  std::string srdf = {};                   ///< a path; empty: none
+  std::string group = {};                  ///< of the SRDF; empty: base and tip say what moves, or all joints do
+  std::string base = {};                   ///< a link
+  std::string tip = {};                    ///< a link
+  std::vector<std::string> packages = {};  ///< folders where package:// is looked for, in this order
+  std::vector<std::pair<std::string, double>> held = {};  ///< joints outside of the group, and where they are
+  std::vector<std::array<std::string, 2>> allowed = {};   ///< pairs of links that may touch, beside the SRDF's
+  std::vector<AttachedSolid> attached = {};
+};
 
 /// How a car drives: dubins, forwards only; reeds_shepp, backwards too.
 enum class SteeringKind : std::uint8_t { dubins, reeds_shepp };
@@ -84,6 +125,7 @@ struct RobotSpec {
   std::string limits = {};                       ///< puma560: the name of its joint limits; empty: the classic ones
   std::string table = {};                        ///< arm: the file of its Denavit-Hartenberg table
   bool self_collision = false;                   ///< puma560, arm: may links not touch each other?
+  std::optional<ArmFiles> files = {};            ///< urdf
 };
 
 /// Raster for the grid planner.
@@ -99,6 +141,7 @@ struct Scene {
   std::vector<Segment> seams;   ///< where a polygon with holes was cut into several: no outline of what the file says
   std::vector<Sphere> spheres;  ///< what only arms can meet
   std::vector<SolidBox> boxes;  ///< the same
+  std::vector<Solid> solids;    ///< the same: turned boxes, cylinders, capsules, hulls
   std::optional<Box> bounds;    ///< the box that nothing may leave; none: the world has no end
   std::optional<double> clearance;     ///< that the file asks for
   std::optional<MazeHint> maze;        ///< is it a maze, and of which size?
@@ -152,7 +195,9 @@ class WallsHash {
 Scene without_arrays(const Scene& scene);
 
 /// Is there anything that only a body in space can meet?
-inline bool has_solids(const Scene& scene) { return !scene.spheres.empty() || !scene.boxes.empty(); }
+inline bool has_solids(const Scene& scene) {
+  return !scene.spheres.empty() || !scene.boxes.empty() || !scene.solids.empty();
+}
 
 /// The box of all walls and polygons (not of the bounds, nor of spheres and boxes); empty if there are none.
 Box obstacle_box(const Scene& scene, const Execution& execution = {});
@@ -211,12 +256,13 @@ class WallFold {
 // A Denavit-Hartenberg table of a serial chain of revolute joints, as plain data: what planners and judges of arms have
 // in common. What it means is said in worlds/arms/serial_chain.hpp.
 
-using Vec3 = Eigen::Vector3d;  ///< a point or vector of space; units of the world
-
-/// Joints that an arm may have.
-inline constexpr std::size_t most_joints = 6;
-/// Joint angles in radians; those that a shorter chain lacks are 0.
+/// Numbers that an arm's state may have: joints that move on their own.
+inline constexpr std::size_t most_joints = 14;
+/// Joint angles in radians, of joints that slide metres; those that an arm lacks are 0.
 using JointState = std::array<double, most_joints>;
+
+/// Joints that a Denavit-Hartenberg table may have; states of its arm have as many numbers.
+inline constexpr std::size_t most_chain_joints = 6;
 
 /// Where a joint's frame stands: at its far end (standard), or at its near one (modified, as Craig has it).
 enum class DhConvention : std::uint8_t { standard, modified };
@@ -234,7 +280,7 @@ struct DhJoint {
 /// A serial chain of revolute joints.
 struct DhTable {
   DhConvention convention = DhConvention::standard;        ///< how its rows are read
-  std::vector<DhJoint> joints;                             ///< 1 .. 6
+  std::vector<DhJoint> joints;                             ///< 1 .. most_chain_joints
   Eigen::Isometry3d tool = Eigen::Isometry3d::Identity();  ///< from the last frame
 };
 
