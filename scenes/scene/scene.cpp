@@ -9,6 +9,7 @@
 
 #include "core/base/rng.hpp"
 #include "parallel/chunks.hpp"
+#include "scenes/scene/arm_model.hpp"
 
 namespace warren {
 namespace {
@@ -104,7 +105,9 @@ std::size_t state_size(const RobotSpec& robot) {
       return 3;
     case RobotKind::puma560:
     case RobotKind::arm:
-      return 6;
+      return most_chain_joints;
+    case RobotKind::urdf:
+      return robot.files && robot.files->read ? robot.files->read->variables.size() : most_joints;
   }
   return 2;
 }

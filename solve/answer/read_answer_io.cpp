@@ -15,11 +15,11 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::string_view point_expected = "[X, Y], two finite numbers (three or six for other bodies)";
+constexpr std::string_view point_expected = "[X, Y], two finite numbers (three for bodies that turn, one a joint for arms)";
 constexpr std::string_view path_expected = "a list of points [X, Y]";
 
-constexpr std::size_t longest_state = 6;
-constexpr bool is_state_size(std::size_t n) { return n == 2 || n == 3 || n == 6; }
+constexpr std::size_t longest_state = most_joints;
+constexpr bool is_state_size(std::size_t n) { return n >= 1 && n <= most_joints; }
 
 /// Takes the events of the parser. Keys that matter stand at depth 1 (the answer itself) and in "world"; all others are
 /// passed over at any depth.
@@ -138,7 +138,7 @@ class AnswerReader {
       refuse(path_expected, fmt::format("{} numbers in point {}", numbers_.size(), answer_.path.size()));
     }
     if (answer_.path.size() % batch == 0) execution_.check();
-    answer_.path.push_back({numbers_[0], numbers_[1]});
+    answer_.path.push_back({numbers_[0], numbers_.size() > 1 ? numbers_[1] : 0.0});
     if (width == 2) return;
     answer_.states.width = width;
     answer_.states.add(numbers_);

@@ -31,6 +31,11 @@ double largest_coordinate_of(const Scene& scene, const Execution& execution) {
   for (const SolidBox& box : scene.boxes) {
     for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(box.low[k]), std::abs(box.high[k])});
   }
+  for (const Solid& solid : scene.solids) {
+    double size = solid.half.norm();
+    for (const Vec3& corner : solid.corners) size = std::max(size, corner.norm());
+    largest = std::max(largest, solid.pose.translation().norm() + size);
+  }
   return largest;
 }
 

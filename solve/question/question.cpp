@@ -85,7 +85,19 @@ std::string robot_text(const RobotSpec& robot) {
 }
 
 RobotSpec robot_of(const Scene& scene, const Question& options) {
-  return options.robot ? *options.robot : scene.robot.value_or(RobotSpec{});
+  if (!options.robot) return scene.robot.value_or(RobotSpec{});
+  RobotSpec robot = *options.robot;
+  if (!robot.files || robot.files->read || !scene.robot || !scene.robot->files) return robot;
+  // What the world says of any arm that is in it.
+  const ArmFiles& in_world = *scene.robot->files;
+  const auto add = [](auto& all, const auto& more) { all.insert(all.end(), more.begin(), more.end()); };
+  add(robot.files->held, in_world.held);
+  add(robot.files->allowed, in_world.allowed);
+  add(robot.files->attached, in_world.attached);
+  if (robot.files->group.empty() && robot.files->base.empty() && robot.files->tip.empty()) {
+    robot.files->group = in_world.group;
+  }
+  return robot;
 }
 
 double clearance_of(const Scene& scene, const Question& options) {
