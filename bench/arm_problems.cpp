@@ -70,7 +70,9 @@ struct SampledWorld : ArmWorld {
     }
     return true;
   }
-  bool is_free_step(const JointState& a, const JointState& b, Query& query) const { return is_free_motion(a, b, query); }
+  bool is_free_step(const JointState& a, const JointState& b, Query& query) const {
+    return is_free_motion(a, b, query);
+  }
 };
 
 struct Settings {

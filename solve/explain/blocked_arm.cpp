@@ -21,9 +21,9 @@
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/question/question_of_arm.hpp"
 #include "worlds/arms/arm_kinematics.hpp"
+#include "worlds/arms/convex_motion.hpp"
 #include "worlds/arms/puma560.hpp"
 #include "worlds/arms/serial_chain.hpp"
-#include "worlds/arms/solid_index.hpp"
 #include "worlds/arms/tool_postures.hpp"
 
 namespace warren {
@@ -33,6 +33,16 @@ double norm_between(std::span<const double> a, std::span<const double> b) {
   double square = 0.0;
   for (std::size_t k = 0; k < a.size(); ++k) square += (a[k] - b[k]) * (a[k] - b[k]);
   return std::sqrt(square);
+}
+
+/// Of a segment.
+double distance_from_box(const Vec3& a, const Vec3& b, const SolidBox& box) {
+  const Vec3 low(box.low[0], box.low[1], box.low[2]);
+  const Vec3 high(box.high[0], box.high[1], box.high[2]);
+  const ConvexBody spine({SolidKind::hull, Eigen::Isometry3d::Identity(), Vec3::Zero(), {a, b}});
+  const ConvexBody body(
+      {SolidKind::box, Eigen::Isometry3d(Eigen::Translation3d(0.5 * (low + high))), 0.5 * (high - low)});
+  return std::max(0.0, plane_between(spine, {}, body, {}, std::numeric_limits<double>::infinity()).below);
 }
 
 /// Unit vectors: both ways along each joint first, then others of even density, of six joints at a time.
@@ -55,10 +65,7 @@ std::vector<JointState> joint_directions(std::size_t width) {
 class BlockedArm {
  public:
   BlockedArm(const Scene& scene, const Problem& problem, const Execution& execution)
-      : scene_(scene),
-        execution_(execution),
-        model_(arm_model_of(problem.robot, execution)),
-        kinematics_(*model_) {
+      : scene_(scene), execution_(execution), model_(arm_model_of(problem.robot, execution)), kinematics_(*model_) {
     problem_.robot = problem.robot;
     if (!problem.robot.files) problem_.table = table_of(problem.robot, execution);
     problem_.model = model_;
@@ -89,13 +96,15 @@ class BlockedArm {
     if (const auto i = numbered("sphere ", scene_.spheres.size())) {
       const Sphere& s = scene_.spheres[*i];
       depth = deepest(q, [&](const Vec3& a, const Vec3& b) {
-        return s.radius - std::sqrt(distance_square(Spine(a, b), Vec3(s.x, s.y, s.z)));
+        const Vec3 way = b - a;
+        const Vec3 to = Vec3(s.x, s.y, s.z) - a;
+        return s.radius - (to - std::clamp(to.dot(way) / way.squaredNorm(), 0.0, 1.0) * way).norm();
       });
     } else if (const auto k = numbered("box ", scene_.boxes.size())) {
       const SolidBox& box = scene_.boxes[*k];
       depth = deepest(q, [&](const Vec3& a, const Vec3& b) {
         const double inside = depth_in_box(a, b, box);
-        return inside > 0.0 ? inside : -std::sqrt(distance_square(Spine(a, b), box));
+        return inside > 0.0 ? inside : -distance_from_box(a, b, box);
       });
     } else if (name.starts_with("link ")) {
       depth = -violation.distance;

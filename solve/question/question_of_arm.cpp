@@ -154,7 +154,7 @@ bool tip_is_blocked(const Scene& scene, const ArmProblem& problem) {
   if (!problem.table) return false;
   const ConvexBody tip({SolidKind::sphere, Eigen::Isometry3d(Eigen::Translation3d(problem.goal_place())),
                         Vec3(problem.robot.radius, 0.0, 0.0)});
-  const MovingFrame still{Eigen::Matrix3d::Identity(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), 0.0};
+  const MovingFrame still;
   return std::ranges::any_of(solids_of(scene, {}), [&](const Solid& solid) {
     return keep_apart(tip, still, ConvexBody(solid), still, 0.0, problem.clearance) != Apart::proved;
   });
