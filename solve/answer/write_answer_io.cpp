@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "scenes/scene/arm_model.hpp"
 #include "solve/answer/explanation_text.hpp"
 #include "solve/answer/path_hash.hpp"
 #include "solve/answer/stage_lines.hpp"
@@ -164,11 +165,22 @@ void add_open_problem(JsonObject& json, const Answer& answer) {
   json.add_json("world", world.closed());
 }
 
+void add_arm(JsonObject& json, const ArmModel& model) {
+  const auto list = [](const auto& items, const auto& name) {
+    std::string text = "[";
+    for (const auto& item : items) text += (text.size() > 1 ? ", " : "") + json_string(name(item));
+    return text + "]";
+  };
+  json.add_json("joints", list(model.variables, [](const ArmVariable& variable) { return variable.name; }));
+  json.add_json("assumed", list(model.assumed, [](const std::string& line) { return line; }));
+}
+
 void add_problem(JsonObject& json, const Answer& answer) {
   if (answer.world.kind.empty()) return add_open_problem(json, answer);
   add_state(json, "start", answer.problem.start);
   add_state(json, "goal", answer.problem.goal);
   json.add("robot", robot_text(answer.problem.robot));
+  if (answer.problem.robot.files && answer.problem.robot.files->read) add_arm(json, *answer.problem.robot.files->read);
   json.add("clearance", answer.problem.clearance);
   json.add("contact", name_of(answer.problem.contact));
   add_text(json, "sampler", answer.sampler);
