@@ -33,6 +33,7 @@ std::string world_json(const WorldAccount& world) {
   if (world.polygons > 0) json.add("polygons", world.polygons);
   if (world.spheres > 0) json.add("spheres", world.spheres);
   if (world.boxes > 0) json.add("boxes", world.boxes);
+  if (world.solids > 0) json.add("solids", world.solids);
   json.add("hash", world.hash);
   if (!world.unit.empty()) json.add("unit", world.unit);
   return json.closed();
