@@ -94,10 +94,11 @@ std::string world_text(const WorldAccount& world) {
   std::string text = world.kind;
   if (text == "map") return text;  // it has cells
   if (world.polygons > 0) text += ", " + counted(world.polygons, "polygon", "polygons");
-  const bool solids = world.spheres > 0 || world.boxes > 0;
+  const bool solids = world.spheres + world.boxes + world.solids > 0;
   if (world.walls > 0 || (world.polygons == 0 && !solids)) text += ", " + counted(world.walls, "wall", "walls");
   if (world.spheres > 0) text += ", " + counted(world.spheres, "sphere", "spheres");
   if (world.boxes > 0) text += ", " + counted(world.boxes, "box", "boxes");
+  if (world.solids > 0) text += ", " + counted(world.solids, "solid", "solids");
   return text;
 }
 

@@ -131,7 +131,7 @@ double least_turns(const Problem& problem, const Execution& execution) {
   const ArmModel& model = *read;
   const JointState start = joint_state(problem.start);
   double sum = 0.0;
-  if (problem.goal.size() == model.variables.size()) {
+  if (!problem.goal_pose && problem.goal.size() == model.variables.size()) {
     for (std::size_t j = 0; j < problem.goal.size(); ++j) {
       const double way = variable_way(model.variables[j], start[j], problem.goal[j]);
       sum += way * way;
@@ -143,9 +143,10 @@ double least_turns(const Problem& problem, const Execution& execution) {
     const double reach = kinematics.reach_of_tool(j);
     sum += reach * reach;
   }
+  const Vec3 place = problem.goal_pose ? Vec3(problem.goal_pose->translation())
+                                       : Vec3(problem.goal[0], problem.goal[1], problem.goal[2]);
   constexpr double tolerance = 1e-9;  // of the judge, and more than what rounding does to either
-  const double way = (Vec3(problem.goal[0], problem.goal[1], problem.goal[2]) -
-                      kinematics.tool_pose(start).translation()).norm();
+  const double way = (place - kinematics.tool_pose(start).translation()).norm();
   return sum > 0.0 ? std::max(0.0, way - tolerance) / std::sqrt(sum) * (1.0 - tolerance) : 0.0;
 }
 

@@ -49,8 +49,9 @@ class Arm : public UsualBody {
   bool knows_all_goals() const { return knows_all_; }
   std::vector<JointState> stop_at(const std::vector<double>& point) const {
     if (point.size() == problem_.width()) return {joint_state(point)};
-    throw UsageError(problem_.table ? "@via: an arm takes six joint angles a way-point"
-                                    : fmt::format("@via: this arm takes {} joint values a way-point", problem_.width()));
+    throw UsageError(problem_.table
+                         ? "@via: an arm takes six joint angles a way-point"
+                         : fmt::format("@via: this arm takes {} joint values a way-point", problem_.width()));
   }
   static SamplerKind choose_sampler(const SolveOptions& options, const RoadmapOptions& roadmap) {
     if (options.sampler == SamplerKind::lattice) {
@@ -84,8 +85,11 @@ class Arm : public UsualBody {
                                                      {.seed = answer.seed}, execution_, answer.counters));
   }
   void judge(const World& world, const Path<JointState>& path, Answer& answer) const {
+    ArmProblem reached = problem_;
+    take_reached_goal(reached, path.back());
+    answer.problem.goal = reached.goal;
     const StageTimer timer(execution_, "verify", answer.seconds.verify, path.size());
-    const Verification found = verify_arm(scene_, *problem_.model, path, problem_.verify_options(), execution_);
+    const Verification found = verify_arm(scene_, *problem_.model, path, reached.verify_options(), execution_);
     take_verdict(answer, found);
     answer.states.width = problem_.width();
     for (const JointState& q : path) {
@@ -125,8 +129,8 @@ class Arm : public UsualBody {
     }
     if (!world.kinematics().moves(4) || tip_is_blocked(scene_, problem_)) return states;
     for (const std::size_t enough : {std::size_t{64}, std::size_t{16'384}}) {
-      const ToolPostures more = tool_postures(SerialChain(*problem_.table), problem_.goal_place(), problem_.start[5],
-                                              enough, execution_);
+      const ToolPostures more =
+          tool_postures(SerialChain(*problem_.table), problem_.goal_place(), problem_.start[5], enough, execution_);
       if (more.none_is_left) return {};
       tried_ = states.size() + more.states.size();
       if (std::vector<JointState> free = free_of(more.states); !free.empty()) return free;

@@ -32,9 +32,9 @@ double largest_coordinate_of(const Scene& scene, const Execution& execution) {
     for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(box.low[k]), std::abs(box.high[k])});
   }
   for (const Solid& solid : scene.solids) {
-    double size = solid.half.norm();
-    for (const Vec3& corner : solid.corners) size = std::max(size, corner.norm());
-    largest = std::max(largest, solid.pose.translation().norm() + size);
+    double reach = solid.half.lpNorm<1>();
+    for (const Vec3& corner : solid.corners) reach = std::max(reach, corner.lpNorm<1>());
+    largest = std::max(largest, solid.pose.translation().lpNorm<Eigen::Infinity>() + reach);
   }
   return largest;
 }

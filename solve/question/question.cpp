@@ -85,19 +85,7 @@ std::string robot_text(const RobotSpec& robot) {
 }
 
 RobotSpec robot_of(const Scene& scene, const Question& options) {
-  if (!options.robot) return scene.robot.value_or(RobotSpec{});
-  RobotSpec robot = *options.robot;
-  if (!robot.files || robot.files->read || !scene.robot || !scene.robot->files) return robot;
-  // What the world says of any arm that is in it.
-  const ArmFiles& in_world = *scene.robot->files;
-  const auto add = [](auto& all, const auto& more) { all.insert(all.end(), more.begin(), more.end()); };
-  add(robot.files->held, in_world.held);
-  add(robot.files->allowed, in_world.allowed);
-  add(robot.files->attached, in_world.attached);
-  if (robot.files->group.empty() && robot.files->base.empty() && robot.files->tip.empty()) {
-    robot.files->group = in_world.group;
-  }
-  return robot;
+  return with_what_is_said(options.robot ? *options.robot : scene.robot.value_or(RobotSpec{}), scene);
 }
 
 double clearance_of(const Scene& scene, const Question& options) {
@@ -182,9 +170,8 @@ void check_plannable(const Scene& scene, const Question& problem) {
   }
   if (has_solids(scene)) {
     throw UsageError(
-        fmt::format("{}a {} plans among walls, polygons and bounds or on a map; spheres and boxes take an "
-                    "arm (puma560, arm)",
-                    where, name_of(robot.kind)));
+        fmt::format("{}a {} plans among walls, polygons and bounds or on a map; {} take an arm (puma560, arm)", where,
+                    name_of(robot.kind), scene.solids.empty() ? "spheres and boxes" : "solids"));
   }
   if (is_unmade(scene) && robot.kind != RobotKind::point && robot.kind != RobotKind::disc) {
     throw UsageError(fmt::format("{}where walls are made tile by tile a point or disc plans; a {} takes a smaller maze",

@@ -34,6 +34,35 @@ std::vector<double> state_of(std::string_view option, const std::vector<double>&
   throw UsageError(fmt::format("{}: an arm takes {} (found: {} numbers)", option, expected, state.size()));
 }
 
+/// Names that are no variables are of joints that don't move. Throws UsageError where a variable is missing.
+std::vector<double> state_named(const ArmModel& model, const NamedState& named) {
+  std::vector<double> state;
+  for (const ArmVariable& variable : model.variables) {
+    const auto found = std::find(named.names.begin(), named.names.end(), variable.name);
+    if (found == named.names.end()) {
+      throw UsageError(fmt::format("the request: says nothing of joint '{}', which moves", variable.name));
+    }
+    state.push_back(named.values[as_whole<std::size_t>(found - named.names.begin())]);
+  }
+  return state;
+}
+
+/// What is asked for, else what the file says: states by names, a pose, numbers.
+void take_goal(ArmProblem& problem, const Scene& scene, const Question& options) {
+  const bool is_asked = options.goal_pose || !options.goal.empty();
+  problem.goal_pose = options.goal_pose;
+  if (!is_asked && scene.goal_pose) problem.goal_pose = scene.goal_pose;
+  if (!is_asked && !scene.named_goals.empty()) {
+    problem.goal_pose.reset();
+    problem.goal = state_named(*problem.model, scene.named_goals.front());
+    for (std::size_t i = 1; i < scene.named_goals.size(); ++i) {
+      problem.other_goals.push_back(state_named(*problem.model, scene.named_goals[i]));
+    }
+  } else if (!problem.goal_pose) {
+    problem.goal = state_of("@goal", options.goal, scene.goal, problem.width(), true);
+  }
+}
+
 /// Files write pi as 3.14159.
 void move_onto_limits(const ArmModel& model, std::span<double> state) {
   constexpr double rounded_limits = 1e-5;
@@ -90,6 +119,7 @@ ArmVerifyOptions ArmProblem::verify_options() const {
 Problem ArmProblem::general() const {
   Problem problem{robot, {}, goal, clearance, Contact::blocked};
   problem.start.assign(start.begin(), start.begin() + as_whole<std::ptrdiff_t>(width()));
+  problem.goal_pose = goal_pose;
   return problem;
 }
 
@@ -122,23 +152,37 @@ ArmProblem arm_problem(const Scene& scene, const Question& options, const Execut
   if (problem.robot.kind != RobotKind::urdf) problem.table = table_of(problem.robot, execution);
   problem.model = arm_model_of(problem.robot, execution);
   if (problem.robot.files) problem.robot.files->read = problem.model;
-  std::vector<double> start = state_of("@start", options.start, scene.start, problem.width(), false);
-  problem.goal = state_of("@goal", options.goal, scene.goal, problem.width(), true);
+  const std::vector<double> said = scene.named_start ? state_named(*problem.model, *scene.named_start) : scene.start;
+  std::vector<double> start = state_of("@start", options.start, said, problem.width(), false);
+  take_goal(problem, scene, options);
   if (!problem.table) {
     move_onto_limits(*problem.model, start);
     if (!problem.any_posture()) move_onto_limits(*problem.model, problem.goal);
+    for (std::vector<double>& goal : problem.other_goals) move_onto_limits(*problem.model, goal);
   }
   problem.start = joint_state(start);
   problem.clearance = clearance_of(scene, options);
   return problem;
 }
 
+void take_reached_goal(ArmProblem& problem, const JointState& end) {
+  for (const std::vector<double>& other : problem.other_goals) {
+    if (joint_state(other) == end) problem.goal = other;
+  }
+  problem.other_goals.clear();
+}
+
 std::vector<JointState> goal_states(const ArmProblem& problem, const Execution& execution) {
-  if (!problem.any_posture()) return {problem.goal_state()};
+  constexpr std::size_t enough = 16;
+  if (problem.goal_pose) return postures_of_tool(*problem.model, *problem.goal_pose, problem.start, enough, execution);
+  if (!problem.any_posture()) {
+    std::vector<JointState> states{problem.goal_state()};
+    for (const std::vector<double>& other : problem.other_goals) states.push_back(joint_state(other));
+    return states;
+  }
   std::optional<SerialChain> chain;
   if (problem.table) chain.emplace(*problem.table);
   if (!chain || !has_puma560_shape(*chain)) {
-    constexpr std::size_t enough = 16;
     return postures_of_tool(*problem.model, problem.goal_place(), problem.start, enough, execution);
   }
   std::vector<JointState> states;

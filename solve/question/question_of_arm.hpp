@@ -19,7 +19,8 @@ struct ArmProblem {
   std::optional<DhTable> table;  ///< of puma560 and arm
   std::shared_ptr<const ArmModel> model;
   JointState start{};
-  std::vector<double> goal;                      ///< a number a variable, or the 3 coordinates of the tool's place
+  std::vector<double> goal;  ///< a number a variable, or the 3 coordinates of the tool's place; empty: see below
+  std::vector<std::vector<double>> other_goals;  ///< that do as well
   std::optional<Eigen::Isometry3d> goal_pose{};  ///< of the tool, instead
   double clearance = 0.0;
 
@@ -38,6 +39,9 @@ DhTable table_of(const RobotSpec& robot, const Execution& execution);
 
 /// What the arm's files say: reads them, unless that was done. Throws InputError, ReadError, UsageError, Stopped.
 std::shared_ptr<const ArmModel> arm_model_of(const RobotSpec& robot, const Execution& execution);
+
+/// The path's end as the goal where several would do.
+void take_reached_goal(ArmProblem& problem, const JointState& end);
 
 /// Throws UsageError where start or goal are missing or have the wrong size. Ends that are beyond a limit of an arm of
 /// files by at most 1e-5 are moved onto it.
