@@ -17,7 +17,6 @@ constexpr OptionSpec question_specs[] = {
      "--start names; RHO is the radius of the tightest turn (default: the file's, else point)"},
     {"--start", "X,Y[,THETA]",
      "where to start: X,Y; for a body that turns X,Y,THETA (radians, or 90deg); for an arm one angle a joint "
-     "
      "(default: the file's)"},
     {"--goal", "X,Y[,THETA]",
      "where to arrive, as --start. Without THETA a body that turns may arrive at any heading; an arm may also be given "
