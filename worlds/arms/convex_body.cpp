@@ -55,7 +55,6 @@ void ConvexBody::take_corners(std::vector<Vec3> corners) {
 
 /// Halves along the longest side, until what is near each other is together.
 void ConvexBody::split_corners(std::vector<Vec3>& corners, std::size_t begin, std::size_t end) {
-  const auto at = [&](std::size_t i) { return corners.begin() + static_cast<std::ptrdiff_t>(i); };
   Eigen::AlignedBox3d box;
   for (std::size_t i = begin; i < end; ++i) box.extend(corners[i]);
   if (end - begin > lanes) {
@@ -63,7 +62,7 @@ void ConvexBody::split_corners(std::vector<Vec3>& corners, std::size_t begin, st
     box.sizes().maxCoeff(&side);
     const std::size_t groups = (end - begin + lanes - 1) / lanes;
     const std::size_t middle = begin + (groups / 2) * lanes;
-    std::sort(at(begin), at(end), [side](const Vec3& a, const Vec3& b) {
+    std::sort(corners.data() + begin, corners.data() + end, [side](const Vec3& a, const Vec3& b) {
       return a[side] != b[side] ? a[side] < b[side]
                                 : std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
     });
