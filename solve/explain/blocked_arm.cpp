@@ -65,14 +65,18 @@ std::vector<JointState> joint_directions(std::size_t width) {
 class BlockedArm {
  public:
   BlockedArm(const Scene& scene, const Problem& problem, const Execution& execution)
-      : scene_(scene), execution_(execution), model_(arm_model_of(problem.robot, execution)), kinematics_(*model_) {
+      : scene_(scene),
+        execution_(execution),
+        model_(arm_model_of(problem.robot, problem.clearance, execution)),
+        kinematics_(*model_) {
     problem_.robot = problem.robot;
     if (!problem.robot.files) problem_.table = table_of(problem.robot, execution);
     problem_.model = model_;
     problem_.start = joint_state(problem.start);
     problem_.goal = problem.goal;
     problem_.clearance = problem.clearance;
-    margin_ = end_margin(scene, problem.robot, problem.clearance, kinematics_.reach(), execution);
+    reach_ = reach_of(problem_);
+    margin_ = end_margin(scene, problem.robot, problem.clearance, reach_, execution);
   }
 
   const ArmProblem& problem() const { return problem_; }
@@ -123,9 +127,9 @@ class BlockedArm {
       if (q[k] < variable.low || q[k] > variable.high) within[k] = std::clamp(q[k], low, high);
     }
     const auto is_free = [this](const JointState& state, double spare) {
-      return kinematics_.outside_limits(state) == most_joints && !met(state, margin_ + spare);
+      return kinematics_.variable_outside_limits(state) == most_joints && !met(state, margin_ + spare);
     };
-    const double size = std::max(problem_.robot.radius, 0.1 * kinematics_.reach());
+    const double size = std::max(problem_.robot.radius, 0.1 * reach_);
     if (is_free(within, 1e-2 * size)) return within;
     const FreeSearchRange range{1e-3, 2.0 * std::numbers::pi, 1e-3 * norm_between(q, within)};
     return nearest_free_in_few_digits<most_joints>(within, directions, range, size, is_free);
@@ -151,21 +155,22 @@ class BlockedArm {
       const std::vector<JointState> states = postures({p[0], p[1], p[2]});
       return std::any_of(states.begin(), states.end(), [&](const JointState& q) { return !met(q, margin_ + spare); });
     };
-    const double reach = kinematics_.reach();
-    const FreeSearchRange range{1e-3 * reach, reach};
-    return nearest_free_in_few_digits<3>({place.x(), place.y(), place.z()}, directions, range, 0.1 * reach, is_free);
+    const FreeSearchRange range{1e-3 * reach_, reach_};
+    return nearest_free_in_few_digits<3>({place.x(), place.y(), place.z()}, directions, range, 0.1 * reach_, is_free);
   }
 
  private:
   template <class DepthOfLink>
   double deepest(const JointState& q, const DepthOfLink& depth_of) const {
     double most = -std::numeric_limits<double>::infinity();
+    ArmPosture posture;
+    kinematics_.place(q, posture);
     for (const ArmLink& link : model_->links) {
-      const Eigen::Isometry3d frame = kinematics_.frame(q, link.frame);
+      const MovingFrame& frame = ArmKinematics::frame(posture, link.frame);
       for (const Solid& capsule : link.solids) {
-        const Eigen::Isometry3d at = frame * capsule.pose;
-        const Vec3 half = at.linear() * Vec3(0.0, 0.0, capsule.half.z());
-        most = std::max(most, depth_of(at.translation() - half, at.translation() + half) + capsule.half.x());
+        const Vec3 middle = frame.at + frame.turn * capsule.pose.translation();
+        const Vec3 half = frame.turn * (capsule.pose.linear() * Vec3(0.0, 0.0, capsule.half.z()));
+        most = std::max(most, depth_of(middle - half, middle + half) + capsule.half.x());
       }
     }
     return most;
@@ -176,6 +181,7 @@ class BlockedArm {
   std::shared_ptr<const ArmModel> model_;
   ArmKinematics kinematics_;
   ArmProblem problem_;
+  double reach_ = 0.0;
   double margin_ = 0.0;
 };
 

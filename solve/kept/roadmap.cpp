@@ -40,7 +40,7 @@ Question without_ends(const Scene& scene, Question question) {
   RobotSpec robot = robot_of(scene, question);
   std::size_t width = state_size(robot);
   if (robot.files) {
-    robot.files->read = arm_model_of(robot, {});
+    robot.files->read = arm_model_of(robot, 0.0, {});
     width = robot.files->read->variables.size();
     if (width <= 3) throw UsageError("@robot: a roadmap is kept of arms with four joints or more");
     question.robot = std::move(robot);

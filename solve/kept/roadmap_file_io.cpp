@@ -269,9 +269,9 @@ std::vector<double> numbers_of(const ArmModel& model) {
     numbers.insert(numbers.end(), {v.low, v.high, v.continuous ? 1.0 : 0.0});
   }
   for (const ArmJoint& joint : model.joints) {
-    numbers.insert(numbers.end(), {static_cast<double>(joint.parent), joint.axis.x(), joint.axis.y(), joint.axis.z(),
-                                   joint.slides ? 1.0 : 0.0, static_cast<double>(joint.variable), joint.multiplier,
-                                   joint.offset});
+    numbers.insert(numbers.end(),
+                   {static_cast<double>(joint.parent), joint.axis.x(), joint.axis.y(), joint.axis.z(),
+                    joint.slides ? 1.0 : 0.0, static_cast<double>(joint.variable), joint.multiplier, joint.offset});
     append(numbers, joint.origin);
   }
   for (const ArmLink& link : model.links) {
@@ -282,7 +282,8 @@ std::vector<double> numbers_of(const ArmModel& model) {
       for (const Vec3& corner : solid.corners) numbers.insert(numbers.end(), corner.data(), corner.data() + 3);
     }
   }
-  for (const auto& [a, b] : model.pairs) numbers.insert(numbers.end(), {static_cast<double>(a), static_cast<double>(b)});
+  for (const auto& [a, b] : model.pairs)
+    numbers.insert(numbers.end(), {static_cast<double>(a), static_cast<double>(b)});
   append(numbers, model.tool);
   return numbers;
 }
@@ -293,7 +294,7 @@ std::string table_hash(const RobotSpec& robot, const Execution& execution) {
     RobotSpec alone = robot;  // what a world adds to it is in that world's hash
     const ArmFiles& f = *robot.files;
     alone.files = ArmFiles{f.urdf, f.srdf, f.group, f.base, f.tip, f.packages};
-    const std::vector<double> numbers = numbers_of(*arm_model_of(alone, execution));
+    const std::vector<double> numbers = numbers_of(*arm_model_of(alone, 0.0, execution));
     return fmt::format("{:016x}", checksum(std::as_bytes(std::span(numbers))));
   }
   const InputFile table(robot.table, execution);
@@ -493,9 +494,8 @@ void read_meta(const std::string& where, std::string_view text, Roadmap& roadmap
   roadmap.world_hash = meta.text("world_hash");
   roadmap.robot = robot_value(fmt::format("{}: key \"robot\"", where), meta.text("robot"));
   if (is_of_file(roadmap.robot) && table_hash(roadmap.robot, execution) != meta.text("table_hash")) {
-    throw InputError(where,
-                     fmt::format("was made for another arm than {} has now; build it anew",
-                                 roadmap.robot.files ? roadmap.robot.files->urdf : roadmap.robot.table));
+    throw InputError(where, fmt::format("was made for another arm than {} has now; build it anew",
+                                        roadmap.robot.files ? roadmap.robot.files->urdf : roadmap.robot.table));
   }
   roadmap.clearance = meta.number("clearance");
   if (!(roadmap.clearance >= 0.0 && roadmap.clearance <= largest_coordinate)) {

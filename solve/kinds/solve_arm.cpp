@@ -74,8 +74,7 @@ class Arm : public UsualBody {
     options.goal.reset();
     options.goal_place.reset();
     options.goal_pose.reset();
-    options.clearance +=
-        end_margin(scene_, problem_.robot, problem_.clearance, ArmKinematics(*problem_.model).reach(), execution_);
+    options.clearance += end_margin(scene_, problem_.robot, problem_.clearance, reach_of(problem_), execution_);
     return verify_arm(scene_, *problem_.model, std::span(&q, 1), options, execution_).verified;
   }
   static double length(const World& world, const JointState& a, const JointState& b) { return world.distance(a, b); }
@@ -99,7 +98,9 @@ class Arm : public UsualBody {
     }
   }
   std::string_view cause_of_blocked(const World& world, Outcome outcome, const std::vector<JointState>& goals) const {
-    const auto is_outside = [&](const JointState& q) { return world.kinematics().outside_limits(q) != most_joints; };
+    const auto is_outside = [&](const JointState& q) {
+      return world.kinematics().variable_outside_limits(q) != most_joints;
+    };
     if (outcome == Outcome::start_blocked) {
       return is_outside(problem_.start) ? "start_outside_limits" : "start_in_collision";
     }

@@ -133,9 +133,10 @@ DhTable table_of(const RobotSpec& robot, const Execution& execution) {
   return table;
 }
 
-std::shared_ptr<const ArmModel> arm_model_of(const RobotSpec& robot, const Execution& execution) {
+std::shared_ptr<const ArmModel> arm_model_of(const RobotSpec& robot, double clearance, const Execution& execution) {
   if (robot.kind != RobotKind::urdf) {
-    return std::make_shared<ArmModel>(model_of(table_of(robot, execution), robot.radius, robot.self_collision));
+    return std::make_shared<ArmModel>(
+        model_of(table_of(robot, execution), robot.radius, robot.self_collision, clearance));
   }
   if (robot.files->read) return robot.files->read;
   auto model = std::make_shared<ArmModel>(read_urdf(*robot.files, execution));
@@ -150,7 +151,8 @@ ArmProblem arm_problem(const Scene& scene, const Question& options, const Execut
   ArmProblem problem;
   problem.robot = robot_of(scene, options);
   if (problem.robot.kind != RobotKind::urdf) problem.table = table_of(problem.robot, execution);
-  problem.model = arm_model_of(problem.robot, execution);
+  problem.clearance = clearance_of(scene, options);
+  problem.model = arm_model_of(problem.robot, problem.clearance, execution);
   if (problem.robot.files) problem.robot.files->read = problem.model;
   const std::vector<double> said = scene.named_start ? state_named(*problem.model, *scene.named_start) : scene.start;
   std::vector<double> start = state_of("@start", options.start, said, problem.width(), false);
@@ -161,8 +163,11 @@ ArmProblem arm_problem(const Scene& scene, const Question& options, const Execut
     for (std::vector<double>& goal : problem.other_goals) move_onto_limits(*problem.model, goal);
   }
   problem.start = joint_state(start);
-  problem.clearance = clearance_of(scene, options);
   return problem;
+}
+
+double reach_of(const ArmProblem& problem) {
+  return problem.table ? SerialChain(*problem.table).reach() : ArmKinematics(*problem.model).reach();
 }
 
 void take_reached_goal(ArmProblem& problem, const JointState& end) {

@@ -37,8 +37,12 @@ bool is_arm(const RobotSpec& robot);
 /// Reads a table from its file; the Puma's is built in. Throws InputError, ReadError, UsageError.
 DhTable table_of(const RobotSpec& robot, const Execution& execution);
 
-/// What the arm's files say: reads them, unless that was done. Throws InputError, ReadError, UsageError, Stopped.
-std::shared_ptr<const ArmModel> arm_model_of(const RobotSpec& robot, const Execution& execution);
+/// What the arm's files say: reads them, unless that was done. The clearance counts where links of a table's arm may
+/// not touch. Throws InputError, ReadError, UsageError, Stopped.
+std::shared_ptr<const ArmModel> arm_model_of(const RobotSpec& robot, double clearance, const Execution& execution);
+
+/// Upper bound of the distance of any point of the arm from its base.
+double reach_of(const ArmProblem& problem);
 
 /// The path's end as the goal where several would do.
 void take_reached_goal(ArmProblem& problem, const JointState& end);

@@ -62,7 +62,7 @@ JointState ArmWorld::at_unit(const std::array<double, dimension>& u) const {
 }
 
 bool ArmWorld::is_free(const State& a, Query&) const {
-  return kinematics_.outside_limits(a) == most_joints && certificate_.is_free(a);
+  return kinematics_.variable_outside_limits(a) == most_joints && certificate_.is_free(a);
 }
 
 std::array<double, most_joints> ArmWorld::ways_between(const State& a, const State& b) const {
@@ -118,7 +118,7 @@ bool ArmWorld::is_free_motion(const State& a, const State& b, Query& query) cons
 }
 
 bool ArmWorld::is_free_step(const State& a, const State& b, Query& query) const {
-  return kinematics_.outside_limits(b) == most_joints && is_free_motion(a, b, query);
+  return kinematics_.variable_outside_limits(b) == most_joints && is_free_motion(a, b, query);
 }
 
 double ArmWorld::sampled_volume() const {

@@ -203,7 +203,7 @@ TEST(ArmWorld, SamplesStayWithinTheLimitsAndKeepIdleJointsAtRest) {
   EXPECT_EQ(world.sampled_dimension(), 3U);
   for (std::uint64_t i = 0; i < 1000; ++i) {
     const JointState q = uniform_state(world, 1, i);
-    EXPECT_EQ(world.kinematics().outside_limits(q), most_joints);
+    EXPECT_EQ(world.kinematics().variable_outside_limits(q), most_joints);
     for (std::size_t j = 3; j < 6; ++j) EXPECT_EQ(q[j], 0.0);
   }
   const ArmWorld with_tool({}, model_of(puma560_table(0.1), 0.05, false), {});
