@@ -34,7 +34,7 @@ struct Question {
 /// Any body among anything.
 struct Problem {
   RobotSpec robot;                                  ///< what moves
-  std::vector<double> start;                        ///< 2, 3 or 6 numbers
+  std::vector<double> start;                        ///< 2 or 3 numbers, of an arm one a joint
   std::vector<double> goal;                         ///< a turning body's may have 2: any heading
   double clearance = 0.0;                           ///< around the body; finite, >= 0
   Contact contact = Contact::blocked;               ///< may the path touch obstacles?
