@@ -140,7 +140,7 @@ double least_turns(const Problem& problem, const Execution& execution) {
   }
   const ArmKinematics kinematics(model);
   for (std::size_t j = 0; j < model.variables.size(); ++j) {
-    const double reach = kinematics.reach_of_tool(j);
+    const double reach = kinematics.tool_reach(j);
     sum += reach * reach;
   }
   const Vec3 place = problem.goal_pose ? Vec3(problem.goal_pose->translation())

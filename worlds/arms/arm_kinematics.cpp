@@ -78,35 +78,38 @@ ArmKinematics::ArmKinematics(ArmModel model) : model_(std::move(model)) {
       const Vec3 along = solid.half.z() * solid.pose.linear().col(2);
       const Vec3 middle = solid.pose.translation();
       const double rim = solid.kind == SolidKind::cylinder ? solid.half.x() : 0.0;
-      if (solid.kind == SolidKind::sphere) find_reach(link, {middle, 0.0});
+      if (solid.kind == SolidKind::sphere) find_reach(link, {middle, 0.0}, solid.half.x());
       if (solid.kind == SolidKind::cylinder || solid.kind == SolidKind::capsule) {
-        find_reach(link, {middle - along, rim});
-        find_reach(link, {middle + along, rim});
+        const double margin = solid.half.x() - rim;
+        find_reach(link, {middle - along, rim}, margin);
+        find_reach(link, {middle + along, rim}, margin);
       }
       for (int corner = 0; corner < 8 && solid.kind == SolidKind::box; ++corner) {
         const Vec3 sides(corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0);
-        find_reach(link, {solid.pose * solid.half.cwiseProduct(sides), 0.0});
+        find_reach(link, {solid.pose * solid.half.cwiseProduct(sides), 0.0}, 0.0);
       }
-      for (const Vec3& corner : solid.corners) find_reach(link, {solid.pose * corner, 0.0});
+      for (const Vec3& corner : solid.corners) find_reach(link, {solid.pose * corner, 0.0}, 0.0);
     }
   }
   std::vector<double> of_tool(joints, 0.0);
-  add_reach(model_.tool_frame, {model_.tool.translation(), 0.0}, of_tool);
+  whole_reach_ = std::max(whole_reach_, add_reach(model_.tool_frame, {model_.tool.translation(), 0.0}, of_tool));
   for (std::size_t j = 0; j < joints; ++j) {
     const double most =
         std::max(of_tool[j], reach_[j].empty() ? 0.0 : *std::max_element(reach_[j].begin(), reach_[j].end()));
+    tool_reach_[model_.joints[j].variable] += std::abs(model_.joints[j].multiplier) * of_tool[j];
     if (most > 1e-12 && model_.joints[j].multiplier != 0.0) moving_[model_.joints[j].variable] = true;
   }
 }
 
-void ArmKinematics::find_reach(std::size_t link, Ball ball) {
+void ArmKinematics::find_reach(std::size_t link, Ball ball, double margin) {
   std::vector<double> reach(model_.joints.size(), 0.0);
-  add_reach(model_.links[link].frame, ball, reach);
+  whole_reach_ = std::max(whole_reach_, margin + add_reach(model_.links[link].frame, ball, reach));
   for (std::size_t j = 0; j < reach.size(); ++j) reach_[j][link] = std::max(reach_[j][link], reach[j]);
 }
 
-/// How far a ball that is fixed in a frame may come from the axes of this frame and those before it.
-void ArmKinematics::add_reach(int frame, Ball ball, std::vector<double>& reach) const {
+/// How far a ball that is fixed in a frame may come from the axes of this frame and those before it; returns how far
+/// from the base.
+double ArmKinematics::add_reach(int frame, Ball ball, std::vector<double>& reach) const {
   constexpr double upward = 1.0 + 1e-12;
   while (frame != base_frame) {
     const std::size_t number = frame_number(frame);
@@ -126,6 +129,7 @@ void ArmKinematics::add_reach(int frame, Ball ball, std::vector<double>& reach) 
     ball.centre = joint.origin * ball.centre;
     frame = joint.parent;
   }
+  return ball.centre.norm() + ball.radius;
 }
 
 const MovingFrame& ArmKinematics::frame(const ArmPosture& posture, int number) {

@@ -60,6 +60,11 @@ class ArmKinematics {
   /// Upper bound of the way of any point of these cores, when the variables go `way`.
   double travel(std::size_t link, const JointState& way) const;
 
+  /// Upper bound of how far the tool's origin goes when a variable goes by 1 alone.
+  double tool_reach(std::size_t variable) const { return tool_reach_[variable]; }
+  /// Upper bound of the distance of any point of the arm from the base.
+  double reach() const { return whole_reach_; }
+
   /// Does the variable move any core, or the tool's origin?
   bool moves(std::size_t variable) const { return variable < most_joints && moving_[variable]; }
   /// The first variable that is beyond its limits by more than rounding (1e-12), no number, or not 0 where the model
@@ -69,13 +74,15 @@ class ArmKinematics {
  private:
   struct Ball;
   double rate_of(std::size_t joint, const JointState& way) const;
-  void find_reach(std::size_t link, Ball ball);
-  void add_reach(int frame, Ball ball, std::vector<double>& reach) const;
+  void find_reach(std::size_t link, Ball ball, double margin);
+  double add_reach(int frame, Ball ball, std::vector<double>& reach) const;
 
   ArmModel model_;
   std::array<JointSet, most_frames> above_{};           // of each frame: the joints that move it, its own too
   std::array<std::vector<double>, most_frames> reach_;  // of each link
   std::array<bool, most_joints> moving_{};
+  std::array<double, most_joints> tool_reach_{};
+  double whole_reach_ = 0.0;
 };
 
 }  // namespace warren
