@@ -38,6 +38,7 @@ class SceneReader {
     last_line_ = lines.number();
     scene_.walls = walls_.take();
     scene_.source = file_.name();
+    complete_arm();
     check_whole();
     return std::move(scene_);
   }
@@ -49,7 +50,7 @@ class SceneReader {
     bool once;
     void (SceneReader::*read)(Fields&);
   };
-  static constexpr std::size_t item_count = 11;
+  static constexpr std::size_t item_count = 13;
   static constexpr std::size_t numbers_per_look = 4096;
   static const std::array<Item, item_count> items;
   enum ItemNumber : std::size_t { maze_item = 6, robot_item = 7, start_item = 8, goal_item = 9 };
@@ -179,6 +180,23 @@ class SceneReader {
   }
 
   void read_robot(Fields& fields) { scene_.robot = warren::read_robot(fields, execution_); }
+  void read_hold(Fields& fields) { read_arm_line(fields, warren::read_hold); }
+  void read_allow(Fields& fields) { read_arm_line(fields, warren::read_allow); }
+  void read_arm_line(Fields& fields, void (*words)(Fields&, ArmFiles&)) {
+    if (arm_line_ == 0) arm_line_ = fields.place().line;
+    words(fields, arm_);
+    if (!fields.done()) fields.place().fail(fmt::format("expected `{}`", item_->usage), fields.word());
+    execution_.check();
+  }
+  /// What lines beside the robot's say of it.
+  void complete_arm() {
+    if (arm_line_ == 0) return;
+    if (!scene_.robot || !scene_.robot->files)
+      Place{file_.name(), arm_line_}.fail("only a scene with `robot urdf FILE` may say that");
+    ArmFiles& files = *scene_.robot->files;
+    files.held.insert(files.held.end(), arm_.held.begin(), arm_.held.end());
+    files.allowed.insert(files.allowed.end(), arm_.allowed.begin(), arm_.allowed.end());
+  }
 
   void check_whole() const;
   void check_state(const std::vector<double>& given, ItemNumber item) const;
@@ -192,6 +210,8 @@ class SceneReader {
   std::vector<double> numbers_;
   std::array<std::size_t, item_count> first_lines_{};  ///< 0: no such line
   std::size_t last_line_ = 1;
+  ArmFiles arm_;                ///< what lines beside the robot's say of it
+  std::size_t arm_line_ = 0;    ///< the first of them; 0: none
   const Item* item_ = nullptr;  ///< of the line that is being read
 };
 
@@ -207,6 +227,8 @@ const std::array<SceneReader::Item, SceneReader::item_count> SceneReader::items 
     {"start", "start X Y [THETA] or six joint angles", true, &SceneReader::read_start},
     {"goal", "goal X Y [THETA] or six joint angles", true, &SceneReader::read_goal},
     {"grid", "grid CELL ANGLES", true, &SceneReader::read_grid},
+    {"hold", "hold JOINT VALUE", false, &SceneReader::read_hold},
+    {"allow", "allow LINK LINK", false, &SceneReader::read_allow},
 }};
 
 void SceneReader::check_whole() const {
@@ -338,6 +360,9 @@ void append_robot(std::string& text, const RobotSpec& robot) {
       text +=
           fmt::format("robot {} radius {} tool {}{}\n", robot.kind == RobotKind::arm ? "arm " + robot.table : "puma560",
                       number(robot.radius), number(robot.tool), arm_words(robot));
+      break;
+    case RobotKind::urdf:
+      text += fmt::format("robot urdf{}\n", urdf_words(*robot.files));
       break;
   }
 }
