@@ -26,6 +26,7 @@
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/solve_steps.hpp"
+#include "solve/question/question_of_arm.hpp"
 #include "spatial/maps/distance_field.hpp"
 #include "verify/near/leg_boxes.hpp"
 
