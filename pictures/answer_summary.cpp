@@ -15,6 +15,7 @@
 #include "scenes/files/human_units.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/stage_lines.hpp"
+#include "solve/question/question_of_arm.hpp"
 
 namespace warren {
 namespace {

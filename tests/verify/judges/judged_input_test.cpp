@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/base/error.hpp"
+#include "tests/verify/judges/chain_model.hpp"
 #include "verify/judges/verify_arm.hpp"
 #include "verify/judges/verify_car.hpp"
 #include "verify/judges/verify_point.hpp"
@@ -36,7 +37,7 @@ std::vector<Judge> plane_judges() {
 }
 
 Verification judged_arm(const Scene& scene) {
-  return verify_arm(scene, puma560_table(), std::vector<JointState>{JointState{}}, {}, {});
+  return verify_arm(scene, test::chain_model(puma560_table(), 0.05), std::vector<JointState>{JointState{}}, {}, {});
 }
 
 void give_walls(Scene& scene) {
