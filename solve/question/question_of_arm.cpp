@@ -179,7 +179,10 @@ void take_reached_goal(ArmProblem& problem, const JointState& end) {
 
 std::vector<JointState> goal_states(const ArmProblem& problem, const Execution& execution) {
   constexpr std::size_t enough = 16;
-  if (problem.goal_pose) return postures_of_tool(*problem.model, *problem.goal_pose, problem.start, enough, execution);
+  const auto found = [&](const ToolGoal& goal) {
+    return postures_of_tool(ArmKinematics(*problem.model), goal, problem.start, enough, execution);
+  };
+  if (problem.goal_pose) return found({*problem.goal_pose});
   if (!problem.any_posture()) {
     std::vector<JointState> states{problem.goal_state()};
     for (const std::vector<double>& other : problem.other_goals) states.push_back(joint_state(other));
@@ -188,7 +191,7 @@ std::vector<JointState> goal_states(const ArmProblem& problem, const Execution& 
   std::optional<SerialChain> chain;
   if (problem.table) chain.emplace(*problem.table);
   if (!chain || !has_puma560_shape(*chain)) {
-    return postures_of_tool(*problem.model, problem.goal_place(), problem.start, enough, execution);
+    return found({Eigen::Isometry3d(Eigen::Translation3d(problem.goal_place())), true});
   }
   std::vector<JointState> states;
   for (const auto& wrist : wrists_to_try(problem, *chain)) {
