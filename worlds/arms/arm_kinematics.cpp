@@ -86,9 +86,9 @@ ArmKinematics::ArmKinematics(ArmModel model) : model_(std::move(model)) {
       }
       for (int corner = 0; corner < 8 && solid.kind == SolidKind::box; ++corner) {
         const Vec3 sides(corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0);
-        find_reach(link, {solid.pose * solid.half.cwiseProduct(sides), 0.0}, 0.0);
+        find_reach(link, {placed_point(solid.pose, solid.half.cwiseProduct(sides)), 0.0}, 0.0);
       }
-      for (const Vec3& corner : solid.corners) find_reach(link, {solid.pose * corner, 0.0}, 0.0);
+      for (const Vec3& corner : solid.corners) find_reach(link, {placed_point(solid.pose, corner), 0.0}, 0.0);
     }
   }
   std::vector<double> of_tool(joints, 0.0);
@@ -126,7 +126,7 @@ double ArmKinematics::add_reach(int frame, Ball ball, std::vector<double>& reach
       reach[number] = ball.radius;
       ball.centre = beside;
     }
-    ball.centre = joint.origin * ball.centre;
+    ball.centre = placed_point(joint.origin, ball.centre);
     frame = joint.parent;
   }
   return ball.centre.norm() + ball.radius;

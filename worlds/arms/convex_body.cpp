@@ -39,7 +39,7 @@ ConvexBody::ConvexBody(const Solid& solid) : centre_(solid.pose.translation()) {
       break;
     case SolidKind::hull:
       std::vector<Vec3> corners;
-      for (const Vec3& corner : solid.corners) corners.push_back(solid.pose * corner);
+      for (const Vec3& corner : solid.corners) corners.push_back(placed_point(solid.pose, corner));
       take_corners(std::move(corners));
       break;
   }
