@@ -73,7 +73,7 @@ void add_blocked(std::string& text, const Answer& answer, const BlockedEnd& bloc
   const std::string_view metres = metres_behind(answer.world.unit);
   if (blocked.depth) line(text, palette, "depth", fmt::format("{:.3g}{} in it", *blocked.depth, metres));
   if (!blocked.free_place.empty()) {
-    const std::string_view unit = blocked.free_place.size() == 6 ? " rad" : metres;
+    const std::string_view unit = is_arm(answer.problem.robot) && blocked.free_place.size() == answer.problem.start.size() ? " rad" : metres;
     line(text, palette, "free place",
          fmt::format("({}), {}{} away", fmt::join(blocked.free_place, ", "), human_number(blocked.distance), unit));
   }
@@ -94,10 +94,11 @@ std::string world_text(const WorldAccount& world) {
   std::string text = world.kind;
   if (text == "map") return text;  // it has cells
   if (world.polygons > 0) text += ", " + counted(world.polygons, "polygon", "polygons");
-  const bool solids = world.spheres > 0 || world.boxes > 0;
+  const bool solids = world.spheres + world.boxes + world.solids > 0;
   if (world.walls > 0 || (world.polygons == 0 && !solids)) text += ", " + counted(world.walls, "wall", "walls");
   if (world.spheres > 0) text += ", " + counted(world.spheres, "sphere", "spheres");
   if (world.boxes > 0) text += ", " + counted(world.boxes, "box", "boxes");
+  if (world.solids > 0) text += ", " + counted(world.solids, "solid", "solids");
   return text;
 }
 

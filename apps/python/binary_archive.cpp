@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "apps/python/bind.hpp"
 
+#include <array>
 #include <cstring>
 #include <optional>
 #include <string>
@@ -156,6 +157,26 @@ void put(Ar& ar, Bitmap& bits) {
   for (std::uint32_t y = 0; y < height; ++y) ar.block(bits.row(y).data(), bits.row(y).size_bytes());
 }
 
+template <class Ar>
+void put(Ar& ar, Vec3& point) {
+  ar.block(point.data(), 3 * sizeof(double));
+}
+
+template <class Ar>
+void put(Ar& ar, Eigen::Isometry3d& pose) {
+  ar.block(pose.matrix().data(), 16 * sizeof(double));
+}
+
+template <class Ar, class A, class B>
+requires(!std::is_trivially_copyable_v<std::pair<A, B>>) void put(Ar& ar, std::pair<A, B>& both) {
+  all(ar, both.first, both.second);
+}
+
+template <class Ar>
+void put(Ar& ar, std::array<std::string, 2>& both) {
+  all(ar, both[0], both[1]);
+}
+
 /// Says each member once: for the binding, which doesn't compile where one is missing, and for the archive. The macro
 /// that the house otherwise does without: no template of C++20 can take a struct apart by names.
 #define WARREN_ARCHIVED(Type, ...) \
@@ -164,13 +185,17 @@ void put(Ar& ar, Bitmap& bits) {
     auto& [__VA_ARGS__] = whole;   \
     all(ar, __VA_ARGS__);          \
   }
-WARREN_ARCHIVED(RobotSpec, kind, radius, turning_radius, tool, outline, steering, limits, table, self_collision)
+WARREN_ARCHIVED(Solid, kind, pose, half, corners, faces, name, given)
+WARREN_ARCHIVED(AttachedSolid, link, solid, may_touch)
+WARREN_ARCHIVED(ArmFiles, urdf, srdf, group, base, tip, packages, held, allowed, attached)
+WARREN_ARCHIVED(NamedState, names, values)
+WARREN_ARCHIVED(RobotSpec, kind, radius, turning_radius, tool, outline, steering, limits, table, self_collision, files)
 WARREN_ARCHIVED(ScenePolygon, corners, line)
 WARREN_ARCHIVED(OccupancyMap, format, blocked, unknown, water, free, occupied, unknown_count, between, grey_free, cell,
                 origin, yaw_rad, start, goal, source, image)
 WARREN_ARCHIVED(PackedMaze, file, hash)
-WARREN_ARCHIVED(Scene, walls, polygons, seams, spheres, boxes, bounds, clearance, maze, formula, packed, robot, start,
-                goal, grid, map, source)
+WARREN_ARCHIVED(Scene, walls, polygons, seams, spheres, boxes, solids, bounds, clearance, maze, formula, packed, robot,
+                arm, start, goal, named_start, named_goals, goal_pose, grid, map, source)
 WARREN_ARCHIVED(StateList, width, numbers)
 WARREN_ARCHIVED(Violation, leg, distance, obstacle)
 WARREN_ARCHIVED(RefutedPath, violation, length, cost, path, states)
@@ -178,7 +203,7 @@ WARREN_ARCHIVED(BlockedEnd, is_start, by, free_place, distance, hint, room, need
 WARREN_ARCHIVED(Hint, verb, words, why)
 WARREN_ARCHIVED(Explanation, components, narrowest, hints, stopped)
 WARREN_ARCHIVED(Problem, robot, start, goal, clearance, contact)
-WARREN_ARCHIVED(WorldAccount, source, kind, walls, polygons, hash, spheres, boxes, unit)
+WARREN_ARCHIVED(WorldAccount, source, kind, walls, polygons, hash, spheres, boxes, unit, solids)
 WARREN_ARCHIVED(NamedFigure, name, value)
 WARREN_ARCHIVED(StageCost, name, wall_s, cpu_s)
 WARREN_ARCHIVED(HandedPath, points, hash)

@@ -199,7 +199,7 @@ py::array lengths(KeptRoadmap& kept, const py::object& from, const py::object& t
   const std::size_t width = state_size(kept.roadmap().robot);
   const NumberRows starts = rows_of(from, "starts", {width});
   const NumberRows goals = width == 3   ? rows_of(to, "goals", {3, 2})
-                           : width == 6 ? rows_of(to, "goals", {6, 3})
+                           : width > 3 ? rows_of(to, "goals", {width, 3})
                                         : rows_of(to, "goals", {2});
   if (!each_to_each && starts.rows != goals.rows && starts.rows != 1 && goals.rows != 1) {
     throw py::value_error("starts and goals: expected as many of both, or one of either (found: " +

@@ -23,6 +23,7 @@
 #include "parallel/execution.hpp"
 #include "scenes/files/input_file_io.hpp"
 #include "scenes/files/read_world_io.hpp"
+#include "scenes/files/solid_text.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "scenes/scene/polygon_generator.hpp"
@@ -130,6 +131,21 @@ void add_boxes(Scene& scene, py::handle value) {
   }
 }
 
+/// Lines of a scene: "cylinder 0 0 0 0 0 1 0.2".
+void add_solids(Scene& scene, py::handle value) {
+  const bool is_list = py::isinstance<py::iterable>(value) && !py::isinstance<py::str>(value);
+  if (!is_list) refuse_part("solids", "a sequence of lines", value);
+  for (const py::handle line : value) {
+    const std::string where = fmt::format("solids[{}]", scene.solids.size());
+    const std::string text = word_of(py::reinterpret_borrow<py::object>(line), where);
+    scene_text::Fields fields(text, {where, 0});
+    const std::string_view name = fields.word();
+    const SolidWord* const word = solid_word_named(name);
+    if (word == nullptr) throw InputError(where, "expected sphere, box, obox, cylinder, capsule or hull", name);
+    scene.solids.push_back(read_solid(*word, fields, {}));
+  }
+}
+
 Box read_bounds(py::handle value) {
   const py::tuple row = py::make_tuple(value);
   const NumberRows rows = rows_of(py::module_::import("numpy").attr("asarray")(row, "float64"), "bounds", {4});
@@ -158,8 +174,8 @@ MazeHint read_maze(py::handle value) {
 }
 
 /// A world from what Python holds: parts: walls (n, 4), float32 or float64; polygons, a list of rings (n, 2); spheres
-/// (n, 4); boxes (n, 6); bounds (4,); maze (rows, cols); source. All but the checks of polygons, which need no lock:
-/// check_scene. Throws TypeError, InputError.
+/// (n, 4); boxes (n, 6); solids, lines; bounds (4,); maze (rows, cols); source. All but the checks of polygons, which
+/// need no lock: check_scene. Throws TypeError, InputError.
 Scene scene_of_arrays(const py::dict& parts) {
   const auto part = [&](const char* name) -> py::object {
     return parts.contains(name) ? py::object(parts[name]) : py::object(py::none());
@@ -172,6 +188,7 @@ Scene scene_of_arrays(const py::dict& parts) {
   if (const py::object rings = part("polygons"); !rings.is_none()) add_polygons(scene, rings);
   if (const py::object balls = part("spheres"); !balls.is_none()) add_spheres(scene, balls);
   if (const py::object boxes = part("boxes"); !boxes.is_none()) add_boxes(scene, boxes);
+  if (const py::object solids = part("solids"); !solids.is_none()) add_solids(scene, solids);
   if (const py::object bounds = part("bounds"); !bounds.is_none()) scene.bounds = read_bounds(bounds);
   if (const py::object maze = part("maze"); !maze.is_none()) scene.maze = read_maze(maze);
   return scene;
@@ -379,6 +396,12 @@ void bind_what_is_seen(py::class_<Scene>& scene) {
       .def_property_readonly("spheres",
                              [](const py::object& s) { return solids_of(s.cast<const Scene&>().spheres, 4, s); })
       .def_property_readonly("boxes", [](const py::object& s) { return solids_of(s.cast<const Scene&>().boxes, 6, s); })
+      .def_property_readonly("solids",
+                             [](const Scene& s) {
+                               py::list lines;
+                               for (const Solid& solid : s.solids) lines.append(solid_text(solid));
+                               return lines;
+                             })
       .def_property_readonly("bounds", [](const Scene& s) { return box_of(s.bounds.value_or(Box{})); })
       .def_property_readonly("box", [](const Scene& s) { return box_of(obstacle_box(s)); })
       .def_property_readonly(

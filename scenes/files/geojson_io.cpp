@@ -412,7 +412,7 @@ Scene read_geojson(const InputFile& file, const Execution& execution) {
 }
 
 void write_geojson(const Scene& scene, const std::string& path, const Execution& execution) {
-  if (has_solids(scene)) throw InputError(path, "GeoJSON holds no spheres or boxes; write them to a .scene file");
+  if (has_solids(scene)) throw InputError(path, "GeoJSON holds no solids; write them to a .scene file");
   if (scene.start.size() > 2 || scene.goal.size() > 2) {
     throw InputError(path, "GeoJSON holds places X Y, no states with angles; write them to a .scene file");
   }

@@ -319,7 +319,7 @@ void write_npy(const WallStrips& walls, const std::string& path, const Execution
 
 void write_npy(const Scene& scene, const std::string& path, const Execution& execution) {
   if (!scene.polygons.empty() || has_solids(scene) || scene.bounds) {
-    throw InputError(path, "a .npy file holds walls alone; write polygons, spheres and bounds to a .scene file");
+    throw InputError(path, "a .npy file holds walls alone; write polygons, solids and bounds to a .scene file");
   }
   constexpr std::size_t block = std::size_t{1} << 16;  // walls
   if (execution.progress != nullptr) execution.progress->begin("write", scene.walls.size());

@@ -228,13 +228,13 @@ std::vector<std::string_view> parts_left_out(const Scene& scene, std::string_vie
   if (is_geojson || is_cells || is_map || path.ends_with(".wkt")) {
     const bool keeps_ends = is_geojson || (is_cells && scene.maze);
     lose(scene.bounds && path.ends_with(".wkt"), "bounds");
-    lose(!scene.start.empty() && !keeps_ends, "start");
-    lose(!scene.goal.empty() && !keeps_ends, "goal");
-    lose(scene.robot.has_value(), "robot");
+    lose(scene.named_start || (!scene.start.empty() && !keeps_ends), "start");
+    lose(!scene.named_goals.empty() || scene.goal_pose || (!scene.goal.empty() && !keeps_ends), "goal");
+    lose(scene.robot || scene.arm, "robot");
     lose(scene.clearance.has_value(), "clearance");
     lose(scene.grid.has_value(), "grid");
   }
-  lose(is_map && !(scene.spheres.empty() && scene.boxes.empty()), "spheres and boxes");
+  lose(is_map && has_solids(scene), "solids");
   const OccupancyMap* const map = scene.map ? &*scene.map : becomes;
   if (map == nullptr) return lost;
   lose(is_map && !is_yaml && map->cell != 1.0, "resolution");

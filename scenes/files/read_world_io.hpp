@@ -53,9 +53,9 @@ Scene read_scene(const InputFile& file, const Execution& execution, MapServerRul
 void write_scene(const Scene& scene, const std::string& path, const Execution& execution = {});
 
 /// What the scene, or the map that it becomes, has and a file of that ending, a world's or a map's, has no words for:
-/// "bounds" (told of WKT alone), "start", "goal", "robot", "clearance", "grid", "spheres and
-/// boxes"; of maps "resolution", "origin", "yaw",
-/// "unknown cells" and "water", which become walls. A maze read anew from .npy has the same start and goal.
+/// "bounds" (told of WKT alone), "start", "goal", "robot", "clearance", "grid", "solids"; of maps "resolution",
+/// "origin", "yaw", "unknown cells" and "water", which become walls. A maze read anew from .npy has the same start and
+/// goal.
 std::vector<std::string_view> parts_left_out(const Scene& scene, std::string_view path,
                                              const OccupancyMap* becomes = nullptr);
 

@@ -19,6 +19,7 @@
 #include "parallel/chunks.hpp"
 #include "scenes/files/output_file_io.hpp"
 #include "scenes/files/scene_text.hpp"
+#include "scenes/files/solid_text.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 
 namespace warren {
@@ -49,10 +50,18 @@ class SceneReader {
     bool once;
     void (SceneReader::*read)(Fields&);
   };
-  static constexpr std::size_t item_count = 11;
+  static constexpr std::size_t item_count = 18;
   static constexpr std::size_t numbers_per_look = 4096;
   static const std::array<Item, item_count> items;
-  enum ItemNumber : std::size_t { maze_item = 6, robot_item = 7, start_item = 8, goal_item = 9 };
+  enum ItemNumber : std::size_t {
+    maze_item = 10,
+    robot_item = 11,
+    start_item = 12,
+    goal_item = 13,
+    attach_item = 15,
+    hold_item = 16,
+    allow_item = 17
+  };
 
   void refuse_other_encodings() const {
     const std::string_view all = file_.bytes();
@@ -72,7 +81,8 @@ class SceneReader {
     item_ = std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.name == name; });
     if (item_ == items.end()) refuse_word(fields.place(), name, line);
     std::size_t& first = first_lines_[static_cast<std::size_t>(item_ - items.begin())];
-    if (item_->once && first != 0) {
+    const bool one_of_several = item_ == &items[goal_item] && !scene_.named_goals.empty();
+    if (item_->once && first != 0 && !one_of_several) {
       fields.place().fail(fmt::format("a second `{}` line; the first is line {}", name, first), line);
     }
     first = fields.place().line;
@@ -135,6 +145,33 @@ class SceneReader {
     }
     push_asked(scene_.boxes, box, execution_);
   }
+  void read_solid(Fields& fields) {
+    push_asked(scene_.solids, warren::read_solid(*solid_word_named(item_->name), fields, execution_), execution_);
+  }
+  /// What is left of the line has no word more; refuses it as too short.
+  std::string word_of(Fields& fields) {
+    if (fields.done()) fields.place().fail(fmt::format("expected `{}`", item_->usage), "too few words");
+    return std::string(fields.word());
+  }
+  void check_done(Fields& fields) {
+    if (!fields.done()) fields.place().fail(fmt::format("expected `{}`", item_->usage), fields.word());
+  }
+  ArmFiles& arm() { return scene_.arm ? *scene_.arm : scene_.arm.emplace(); }
+  void read_attach(Fields& fields) {
+    AttachedSolid attached{.link = word_of(fields), .solid = {}};
+    std::string word = word_of(fields);
+    for (; solid_word_named(word) == nullptr; word = word_of(fields)) attached.may_touch.push_back(word);
+    attached.solid = warren::read_solid(*solid_word_named(word), fields, execution_);
+    push_asked(arm().attached, std::move(attached), execution_);
+  }
+  void read_hold(Fields& fields) {
+    warren::read_hold(fields, arm());
+    check_done(fields);
+  }
+  void read_allow(Fields& fields) {
+    warren::read_allow(fields, arm());
+    check_done(fields);
+  }
   void read_bounds(Fields& fields) {
     const std::vector<double>& n = numbers(fields, 4, 4);
     if (!(n[0] < n[2])) refuse(fields.place(), fmt::format("XMIN must be less than XMAX = {}", n[2]), n[0]);
@@ -151,12 +188,51 @@ class SceneReader {
       fields.place().fail("`maze`: ROWS x COLS must be below 2^32", fmt::format("{}x{}", n[0], n[1]));
     }
   }
-  void read_start(Fields& fields) { scene_.start = state(fields); }
-  void read_goal(Fields& fields) { scene_.goal = state(fields); }
-  std::vector<double> state(Fields& fields) {
-    const std::vector<double>& n = numbers(fields, 2, 6);
-    if (n.size() != 2 && n.size() != 3 && n.size() != 6) refuse_count(fields.place(), n.size());
-    return n;
+  void read_start(Fields& fields) {
+    if (fields.done() || fields.number_follows()) {
+      scene_.start = state(fields);
+    } else {
+      scene_.named_start = named_state(fields, word_of(fields));
+    }
+  }
+  /// Several goals are all by names.
+  void read_goal(Fields& fields) {
+    const bool has_word = !fields.done() && !fields.number_follows();
+    const std::string word = has_word ? word_of(fields) : std::string();
+    if (!scene_.named_goals.empty() && word != "joints") {
+      fields.place().fail("goals are several where all are `goal joints NAME VALUE ...`");
+    }
+    if (!has_word) {
+      scene_.goal = state(fields);
+    } else if (word == "pose") {
+      scene_.goal_pose = pose(fields);
+    } else {
+      push_asked(scene_.named_goals, named_state(fields, word), execution_);
+    }
+  }
+  /// 2, 3 or 6 numbers; of an arm of files as many as it has joints, which is known at the end.
+  std::vector<double> state(Fields& fields) { return numbers(fields, 1, most_joints); }
+  NamedState named_state(Fields& fields, std::string_view word) {
+    if (word != "joints" || fields.done()) fields.place().fail(fmt::format("expected `{}`", item_->usage), word);
+    NamedState state;
+    while (!fields.done()) {
+      std::string joint = word_of(fields);
+      if (std::ranges::count(state.names, joint) > 0) fields.place().fail("this joint stands here twice", joint);
+      if (state.names.size() == most_joints) fields.place().fail(fmt::format("at most {} joints", most_joints), joint);
+      state.names.push_back(std::move(joint));
+      state.values.push_back(fields.number());
+    }
+    return state;
+  }
+  Eigen::Isometry3d pose(Fields& fields) {
+    const std::vector<double>& n = numbers(fields, 7, 7);
+    if (std::all_of(n.begin() + 3, n.end(), [](double x) { return x == 0.0; })) {
+      fields.place().fail("`goal pose`: the quaternion QX QY QZ QW must not be 0 0 0 0");
+    }
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.translation() = Vec3(n[0], n[1], n[2]);
+    pose.linear() = turn_of_quaternion(n[3], n[4], n[5], n[6]);
+    return pose;
   }
   void read_grid(Fields& fields) {
     const std::vector<double>& n = numbers(fields, 2, 2);
@@ -179,9 +255,9 @@ class SceneReader {
   }
 
   void read_robot(Fields& fields) { scene_.robot = warren::read_robot(fields, execution_); }
-
   void check_whole() const;
   void check_state(const std::vector<double>& given, ItemNumber item) const;
+  void check_arm_lines() const;
   void check_maze() const;
   Place place_of(ItemNumber item) const { return {file_.name(), first_lines_[item]}; }
 
@@ -200,6 +276,10 @@ const std::array<SceneReader::Item, SceneReader::item_count> SceneReader::items 
     {"polygon", "polygon X Y X Y X Y ...", false, &SceneReader::read_polygon},
     {"sphere", "sphere X Y Z R", false, &SceneReader::read_sphere},
     {"box", "box X1 Y1 Z1 X2 Y2 Z2", false, &SceneReader::read_box},
+    {"obox", solid_words[2].usage, false, &SceneReader::read_solid},
+    {"cylinder", solid_words[3].usage, false, &SceneReader::read_solid},
+    {"capsule", solid_words[4].usage, false, &SceneReader::read_solid},
+    {"hull", solid_words[5].usage, false, &SceneReader::read_solid},
     {"bounds", "bounds XMIN YMIN XMAX YMAX", true, &SceneReader::read_bounds},
     {"clearance", "clearance R", true, &SceneReader::read_clearance},
     {"maze", "maze ROWS COLS", true, &SceneReader::read_maze},
@@ -207,6 +287,10 @@ const std::array<SceneReader::Item, SceneReader::item_count> SceneReader::items 
     {"start", "start X Y [THETA] or six joint angles", true, &SceneReader::read_start},
     {"goal", "goal X Y [THETA] or six joint angles", true, &SceneReader::read_goal},
     {"grid", "grid CELL ANGLES", true, &SceneReader::read_grid},
+    {"attach", "attach LINK [MAY_TOUCH ...] sphere|box|obox|cylinder|capsule|hull NUMBERS", false,
+     &SceneReader::read_attach},
+    {"hold", "hold JOINT VALUE", false, &SceneReader::read_hold},
+    {"allow", "allow LINK LINK", false, &SceneReader::read_allow},
 }};
 
 void SceneReader::check_whole() const {
@@ -214,15 +298,31 @@ void SceneReader::check_whole() const {
   if (scene_.walls.size() == 0 && !has_lines) {
     Place{file_.name(), last_line_}.fail("the file ends without any wall, polygon, sphere, box or bounds");
   }
-  if (scene_.robot) {
-    check_state(scene_.start, start_item);
-    check_state(scene_.goal, goal_item);
-  }
+  check_state(scene_.start, start_item);
+  check_state(scene_.goal, goal_item);
+  check_arm_lines();
   if (scene_.maze) check_maze();
 }
 
+/// Without a robot's line the question names an arm, or says what is wrong.
+void SceneReader::check_arm_lines() const {
+  if (!scene_.robot || scene_.robot->kind == RobotKind::urdf) return;
+  for (const ItemNumber item : {attach_item, hold_item, allow_item}) {
+    if (first_lines_[item] > 0) place_of(item).fail(fmt::format("`{}` takes a `robot urdf`", items[item].name));
+  }
+  const bool has_names = scene_.named_start.has_value();
+  if (has_names || !scene_.named_goals.empty() || scene_.goal_pose) {
+    place_of(has_names ? start_item : goal_item).fail("names of joints and poses of the tool take a `robot urdf`");
+  }
+}
+
 void SceneReader::check_state(const std::vector<double>& given, ItemNumber item) const {
-  if (given.empty()) return;
+  if (given.empty() || (scene_.robot && scene_.robot->kind == RobotKind::urdf)) return;
+  if (const std::size_t count = given.size(); count == 1 || count == 4 || count == 5) {
+    place_of(item).fail(fmt::format("expected `{}`", items[item].usage),
+                        fmt::format("{} number{}", count, count == 1 ? "" : "s"));
+  }
+  if (!scene_.robot) return;
   const std::size_t wanted = state_size(*scene_.robot);
   const bool any_heading = item == goal_item && wanted == 3 && given.size() == 2;
   const bool place_of_tool = item == goal_item && wanted == 6 && given.size() == 3;
@@ -339,6 +439,34 @@ void append_robot(std::string& text, const RobotSpec& robot) {
           fmt::format("robot {} radius {} tool {}{}\n", robot.kind == RobotKind::arm ? "arm " + robot.table : "puma560",
                       number(robot.radius), number(robot.tool), arm_words(robot));
       break;
+    case RobotKind::urdf:
+      text += fmt::format("robot urdf{}\n", urdf_words(*robot.files));
+      break;
+  }
+}
+
+void append_named(std::string& text, std::string_view item, const NamedState& state) {
+  text += fmt::format("{} joints", item);
+  for (std::size_t i = 0; i < state.names.size(); ++i) {
+    text += fmt::format(" {} {}", state.names[i], number(state.values[i]));
+  }
+  text += '\n';
+}
+
+void append_pose(std::string& text, const Eigen::Isometry3d& pose) {
+  const Vec3 at = pose.translation();
+  const auto [x, y, z, w] = quaternion_of_turn(pose.linear());
+  append_line(text, "goal pose", at.x(), at.y(), at.z(), x, y, z, w);
+}
+
+/// Lines that say of an arm what its robot's line does not.
+void append_arm(std::string& text, const ArmFiles& arm) {
+  for (const auto& [joint, value] : arm.held) text += fmt::format("hold {} {}\n", joint, number(value));
+  for (const auto& [first, second] : arm.allowed) text += fmt::format("allow {} {}\n", first, second);
+  for (const AttachedSolid& attached : arm.attached) {
+    text += "attach " + attached.link;
+    for (const std::string& link : attached.may_touch) text += ' ' + link;
+    text += ' ' + solid_text(attached.solid) + '\n';
   }
 }
 
@@ -353,7 +481,11 @@ std::string head_of(const Scene& scene) {
   if (scene.robot) append_robot(text, *scene.robot);
   append_state(text, "start", scene.start);
   append_state(text, "goal", scene.goal);
+  if (scene.named_start) append_named(text, "start", *scene.named_start);
+  for (const NamedState& goal : scene.named_goals) append_named(text, "goal", goal);
+  if (scene.goal_pose) append_pose(text, *scene.goal_pose);
   if (scene.grid) append_line(text, "grid", scene.grid->cell, scene.grid->angles);
+  if (scene.arm) append_arm(text, *scene.arm);
   return text;
 }
 
@@ -362,6 +494,7 @@ std::string solids_of(const Scene& scene) {
   for (const Sphere& s : scene.spheres) append_line(text, "sphere", s.x, s.y, s.z, s.radius);
   for (const auto& [low, high] : scene.boxes)
     append_line(text, "box", low[0], low[1], low[2], high[0], high[1], high[2]);
+  for (const Solid& solid : scene.solids) text += solid_text(solid) + '\n';
   return text;
 }
 

@@ -297,7 +297,7 @@ Scene read_wkt(const InputFile& file, const Execution& execution) { return Reade
 
 void write_wkt(const Scene& scene, const std::string& path, const Execution& execution) {
   if (has_solids(scene) || scene.bounds) {
-    throw InputError(path, "WKT holds polygons and walls alone; write bounds and spheres to a .scene or .geojson file");
+    throw InputError(path, "WKT holds polygons and walls alone; write bounds and solids to a .scene or .geojson file");
   }
   constexpr std::size_t batch = 1 << 10;
   OutputFile file(path, execution);

@@ -7,8 +7,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/base/rng.hpp"
 #include "parallel/chunks.hpp"
+#include "scenes/scene/arm_model.hpp"
 
 namespace warren {
 namespace {
@@ -65,6 +68,19 @@ Box box_of_walls(Walls walls, const Execution& execution) {
   return all;
 }
 
+/// The numbers that shape it: those of its pose, of its size, and its corners.
+void add_solid(Hasher& hasher, const Solid& solid) {
+  hasher.add(std::uint64_t{static_cast<std::uint8_t>(solid.kind)});
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 4; ++column) hasher.add(solid.pose(row, column));
+  }
+  for (const double number : solid.half) hasher.add(number);
+  hasher.add(std::uint64_t{solid.corners.size()});
+  for (const Vec3& corner : solid.corners) {
+    for (const double number : corner) hasher.add(number);
+  }
+}
+
 /// walls: their hash.
 std::string hash_with(std::uint64_t walls, const Scene& scene) {
   Hasher hasher(walls);
@@ -84,6 +100,7 @@ std::string hash_with(std::uint64_t walls, const Scene& scene) {
     for (const double number : box.low) hasher.add(number);
     for (const double number : box.high) hasher.add(number);
   }
+  for (const Solid& solid : scene.solids) add_solid(hasher, solid);
   hasher.add(std::uint64_t{scene.bounds.has_value()});
   if (scene.bounds) {
     const Box& box = *scene.bounds;
@@ -104,9 +121,26 @@ std::size_t state_size(const RobotSpec& robot) {
       return 3;
     case RobotKind::puma560:
     case RobotKind::arm:
-      return 6;
+      return most_chain_joints;
+    case RobotKind::urdf:
+      return robot.files && robot.files->read ? robot.files->read->variables.size() : most_joints;
   }
   return 2;
+}
+
+RobotSpec with_what_is_said(RobotSpec robot, const Scene& scene) {
+  if (!robot.files || robot.files->read || !scene.arm) return robot;
+  ArmFiles& files = *robot.files;
+  const ArmFiles& said = *scene.arm;
+  const bool has_group = !files.group.empty() || !files.base.empty() || !files.tip.empty();
+  if (!has_group) files.group = said.group;
+  for (const auto& joint : said.held) {
+    const auto same = [&](const auto& other) { return other.first == joint.first; };
+    if (std::ranges::none_of(files.held, same)) files.held.push_back(joint);
+  }
+  files.allowed.insert(files.allowed.end(), said.allowed.begin(), said.allowed.end());
+  files.attached.insert(files.attached.end(), said.attached.begin(), said.attached.end());
+  return robot;
 }
 
 std::string unmade_hash(const Scene& scene) {
@@ -135,12 +169,17 @@ Scene without_arrays(const Scene& scene) {
   rest.polygons = scene.polygons;
   rest.spheres = scene.spheres;
   rest.boxes = scene.boxes;
+  rest.solids = scene.solids;
   rest.bounds = scene.bounds;
   rest.clearance = scene.clearance;
   rest.maze = scene.maze;
   rest.robot = scene.robot;
   rest.start = scene.start;
   rest.goal = scene.goal;
+  rest.arm = scene.arm;
+  rest.named_start = scene.named_start;
+  rest.named_goals = scene.named_goals;
+  rest.goal_pose = scene.goal_pose;
   rest.grid = scene.grid;
   rest.source = scene.source;
   return rest;

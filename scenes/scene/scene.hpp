@@ -8,6 +8,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -62,6 +63,9 @@ struct Solid {
   std::vector<Vec3> corners = {};                        ///< hull: at least one, in its own frame, each on the outside
   std::vector<std::array<std::uint32_t, 3>> faces = {};  ///< hull: triangles of corners, counter-clockwise from outside
   std::string name = {};                                 ///< in messages; may be empty
+  /// The numbers of its line in a scene (scenes/files/solid_text.hpp), so that it is written as it was read; whoever
+  /// changes the members above clears them. Empty: none are known.
+  std::vector<double> given = {};
 };
 
 /// "this is a maze": walls lie on the unit grid, cell centres at 1..cols x 1..rows.
@@ -97,6 +101,8 @@ struct AttachedSolid {
   std::vector<std::string> may_touch = {};  ///< links beside that one
 };
 
+struct ArmModel;  // scenes/scene/arm_model.hpp
+
 /// An arm that files describe.
 struct ArmFiles {
   std::string urdf;                        ///< a path
@@ -108,6 +114,13 @@ struct ArmFiles {
   std::vector<std::pair<std::string, double>> held = {};  ///< joints outside of the group, and where they are
   std::vector<std::array<std::string, 2>> allowed = {};   ///< pairs of links that may touch, beside the SRDF's
   std::vector<AttachedSolid> attached = {};
+  std::shared_ptr<const ArmModel> read = {};  ///< what the files say, where somebody has read them
+};
+
+/// A state of an arm by its joints' names: where their order is not known yet.
+struct NamedState {
+  std::vector<std::string> names;  ///< of joints, none twice
+  std::vector<double> values;      ///< as many, radians or metres
 };
 
 /// How a car drives: dubins, forwards only; reeds_shepp, backwards too.
@@ -148,9 +161,15 @@ struct Scene {
   std::optional<MazeFormula> formula;  ///< of the maze's walls; these may be left out (is_unmade)
   std::optional<PackedMaze> packed;    ///< the same of walls that a file holds
   std::optional<RobotSpec> robot;      ///< that the file asks for; none: a point
-  std::vector<double> start;           ///< 2, 3 or 6 numbers; empty: none
-  std::vector<double> goal;            ///< the same; an arm's 3 are a place of its tool
-  std::optional<GridSpec> grid;        ///< that the file asks for
+  /// Of the arm, beside what its robot's line says: group, joints held, links that may touch, attached solids; `urdf`
+  /// is empty. with_what_is_said() joins the two.
+  std::optional<ArmFiles> arm;
+  std::vector<double> start;                   ///< 2, 3 or 6 numbers, of an arm of files up to 14; empty: none
+  std::vector<double> goal;                    ///< the same; an arm's 3 are a place of its tool
+  std::optional<NamedState> named_start;       ///< instead of `start`
+  std::vector<NamedState> named_goals;         ///< instead of `goal`; any of them
+  std::optional<Eigen::Isometry3d> goal_pose;  ///< of the arm's tool, instead of `goal`
+  std::optional<GridSpec> grid;                ///< that the file asks for
   /// Cells instead of walls and polygons. Walls beside a map are its own borders (add_map_walls) and no obstacles more.
   std::optional<OccupancyMap> map;
   std::string source;  ///< file name or maze:... as given
@@ -159,7 +178,10 @@ struct Scene {
 /// "polygon" and "car" turn, so their states have an angle; 2, 3 or 6 numbers.
 std::size_t state_size(const RobotSpec& robot);
 
-/// A 64-bit hash of everything that shapes the free space (walls in order, polygons, spheres, boxes, bounds), as 16 hex
+/// The robot with what the scene says of its arm (Scene::arm) in its files; others as they are.
+RobotSpec with_what_is_said(RobotSpec robot, const Scene& scene);
+
+/// A 64-bit hash of everything that shapes the free space (walls in order, polygons, solids, bounds), as 16 hex
 /// digits: the same for the same world whatever file it came from and however its walls are held. Words are folded by
 /// wide multiplications (as wyhash does), chunk by chunk in parallel; about memory speed. Not for adversaries. Of walls
 /// that are left out: of their formula or file, another number than of the walls.
@@ -199,7 +221,7 @@ inline bool has_solids(const Scene& scene) {
   return !scene.spheres.empty() || !scene.boxes.empty() || !scene.solids.empty();
 }
 
-/// The box of all walls and polygons (not of the bounds, nor of spheres and boxes); empty if there are none.
+/// The box of all walls and polygons (not of the bounds, nor of solids); empty if there are none.
 Box obstacle_box(const Scene& scene, const Execution& execution = {});
 
 /// The four sides of the bounds as walls; none without bounds.

@@ -26,8 +26,15 @@ WorldAccount account_of(const Scene& scene, std::string hash) {
   const bool is_tree = is_unmade(scene) && scene.formula && scene.formula->loops == 0.0;
   const std::size_t walls =
       is_tree ? 4 + (scene.maze->rows - std::size_t{1}) * (scene.maze->cols - std::size_t{1}) : scene.walls.size();
-  return {scene.source,       kind,           walls, scene.polygons.size(), std::move(hash), scene.spheres.size(),
-          scene.boxes.size(), std::move(unit)};
+  return {scene.source,
+          kind,
+          walls,
+          scene.polygons.size(),
+          std::move(hash),
+          scene.spheres.size(),
+          scene.boxes.size(),
+          std::move(unit),
+          scene.solids.size()};
 }
 
 WorldAccount account_of(const Scene& scene, std::string hash, std::size_t walls) {
@@ -51,6 +58,7 @@ std::string description_of(const Scene& scene) {
   };
   add_solids(scene.spheres.size(), "sphere", "spheres");
   add_solids(scene.boxes.size(), "box", "boxes");
+  add_solids(scene.solids.size(), "solid", "solids");
   return text;
 }
 
@@ -126,6 +134,7 @@ std::vector<Fact> obstacle_facts(const Scene& scene, const WorldAccount& world, 
   }
   if (!scene.spheres.empty()) facts.push_back(count_fact("spheres", scene.spheres.size()));
   if (!scene.boxes.empty()) facts.push_back(count_fact("boxes", scene.boxes.size()));
+  if (!scene.solids.empty()) facts.push_back(count_fact("solids", scene.solids.size()));
   if (const Box box = obstacle_box(scene, execution); !box.empty()) facts.push_back(box_fact("box", box));
   if (scene.bounds) facts.push_back(box_fact("bounds", *scene.bounds));
   facts.push_back(text_fact("hash", world.hash));

@@ -22,6 +22,7 @@ struct WorldAccount {
   std::uint64_t spheres = 0;   ///< that only arms meet
   std::uint64_t boxes = 0;     ///< that only arms meet
   std::string unit = {};       ///< of its lengths: "m" or "cells"; empty: nobody says
+  std::uint64_t solids = 0;    ///< beside spheres and boxes, that only arms meet
 };
 
 /// Throws Stopped. O(size of the scene), for the hash.

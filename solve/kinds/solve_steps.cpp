@@ -31,6 +31,11 @@ double largest_coordinate_of(const Scene& scene, const Execution& execution) {
   for (const SolidBox& box : scene.boxes) {
     for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(box.low[k]), std::abs(box.high[k])});
   }
+  for (const Solid& solid : scene.solids) {
+    double reach = solid.half.lpNorm<1>();
+    for (const Vec3& corner : solid.corners) reach = std::max(reach, corner.lpNorm<1>());
+    largest = std::max(largest, solid.pose.translation().lpNorm<Eigen::Infinity>() + reach);
+  }
   return largest;
 }
 

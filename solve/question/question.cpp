@@ -78,6 +78,8 @@ std::string robot_text(const RobotSpec& robot) {
       return fmt::format("puma560 radius {} tool {}{}", robot.radius, robot.tool, arm_words(robot));
     case RobotKind::arm:
       return fmt::format("arm {} radius {} tool {}{}", robot.table, robot.radius, robot.tool, arm_words(robot));
+    case RobotKind::urdf:
+      return "urdf" + urdf_words(*robot.files);
     case RobotKind::polygon:
       break;
   }
@@ -85,7 +87,7 @@ std::string robot_text(const RobotSpec& robot) {
 }
 
 RobotSpec robot_of(const Scene& scene, const Question& options) {
-  return options.robot ? *options.robot : scene.robot.value_or(RobotSpec{});
+  return with_what_is_said(options.robot ? *options.robot : scene.robot.value_or(RobotSpec{}), scene);
 }
 
 double clearance_of(const Scene& scene, const Question& options) {
@@ -170,9 +172,8 @@ void check_plannable(const Scene& scene, const Question& problem) {
   }
   if (has_solids(scene)) {
     throw UsageError(
-        fmt::format("{}a {} plans among walls, polygons and bounds or on a map; spheres and boxes take an "
-                    "arm (puma560, arm)",
-                    where, name_of(robot.kind)));
+        fmt::format("{}a {} plans among walls, polygons and bounds or on a map; {} take an arm (puma560, arm)", where,
+                    name_of(robot.kind), scene.solids.empty() ? "spheres and boxes" : "solids"));
   }
   if (is_unmade(scene) && robot.kind != RobotKind::point && robot.kind != RobotKind::disc) {
     throw UsageError(fmt::format("{}where walls are made tile by tile a point or disc plans; a {} takes a smaller maze",

@@ -25,6 +25,7 @@ struct Question {
   std::optional<double> clearance =
       {};  ///< room around the body, 0 .. 1e60; none: the file's, else 0.1 in mazes, else 0
   std::optional<Contact> contact = {};  ///< may the path touch obstacles? none: where the planner's paths may
+  std::optional<Eigen::Isometry3d> goal_pose = {};  ///< of an arm's tool, instead of `goal`; none: the file's
 
   /// Throws UsageError for values that no problem can have.
   void validate() const;
@@ -32,14 +33,15 @@ struct Question {
 
 /// Any body among anything.
 struct Problem {
-  RobotSpec robot;                     ///< what moves
-  std::vector<double> start;           ///< 2, 3 or 6 numbers
-  std::vector<double> goal;            ///< a turning body's may have 2: any heading
-  double clearance = 0.0;              ///< around the body; finite, >= 0
-  Contact contact = Contact::blocked;  ///< may the path touch obstacles?
+  RobotSpec robot;                                  ///< what moves
+  std::vector<double> start;                        ///< 2 or 3 numbers, of an arm one a joint
+  std::vector<double> goal;                         ///< a turning body's may have 2: any heading
+  double clearance = 0.0;                           ///< around the body; finite, >= 0
+  Contact contact = Contact::blocked;               ///< may the path touch obstacles?
+  std::optional<Eigen::Isometry3d> goal_pose = {};  ///< of an arm's tool; then there is no `goal`
 
   /// The question that says all of it.
-  Question question() const { return {robot, start, goal, clearance, contact}; }
+  Question question() const { return {robot, start, goal, clearance, contact, goal_pose}; }
 };
 
 /// A point or disc among walls and polygons.
@@ -87,7 +89,7 @@ std::optional<Vec2> plane_point(const std::vector<double>& state);
 
 // Which worlds a body can be planned and judged in at all. All verbs ask here, so that they refuse alike.
 
-/// Arms plan among spheres and boxes or in free space; all others among walls, polygons, bounds or on a map; nobody
+/// Arms plan among solids or in free space; all others among walls, polygons, bounds or on a map; nobody
 /// where both are mixed, and no body of the plane where nothing confines it. Throws UsageError, saying what would do.
 void check_plannable(const Scene& scene, const Question& problem);
 

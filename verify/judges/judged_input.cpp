@@ -22,7 +22,8 @@ struct SceneParts {
   explicit SceneParts(const Scene& scene) {
     // Every member by its name, so that one more in Scene does not compile before it is said here what it means.
     const auto& [scene_walls, scene_polygons, seams, scene_spheres, scene_boxes, scene_solids, scene_bounds, clearance,
-                 maze, formula, packed, robot, start, goal, grid, scene_map, source] = scene;
+                 maze, formula, packed, robot, arm, start, goal, named_start, named_goals, goal_pose, grid, scene_map,
+                 source] = scene;
     walls = scene_walls.size() > 0;      // where they are left out there are none: judged by verify_among_cells alone
     polygons = !scene_polygons.empty();  // the seams lie between them
     bounds = scene_bounds.has_value();
@@ -90,9 +91,9 @@ void check_walls_of_map(const Scene& scene, const Execution& execution) {
 
 void check_plane_scene(const Scene& scene, const Execution& execution) {
   const SceneParts parts(scene);
-  const char* tall = parts.spheres ? "spheres" : parts.boxes ? "boxes" : parts.solids ? "solids" : nullptr;
-  if (tall != nullptr) {
-    refuse(scene, fmt::format("has {}, which only arms can meet: bodies in the plane are not judged among them", tall));
+  const char* high = parts.spheres ? "spheres" : parts.boxes ? "boxes" : parts.solids ? "solids" : nullptr;
+  if (high != nullptr) {
+    refuse(scene, fmt::format("has {}, which only arms can meet: bodies in the plane are not judged among them", high));
   }
   if (parts.map && (parts.polygons || parts.bounds)) {
     refuse(scene, parts.polygons ? "has polygons beside a map: the map is judged alone"
@@ -111,7 +112,7 @@ void check_space_scene(const Scene& scene) {
                      : parts.map      ? "a map"
                                       : nullptr;
   if (flat == nullptr) return;
-  refuse(scene, fmt::format("has {}, which have no height: arms are judged among spheres, boxes and solids", flat));
+  refuse(scene, fmt::format("has {}, which have no height: arms are judged among spheres and boxes", flat));
 }
 
 void check_not_negative(std::string_view name, double value) {

@@ -13,11 +13,11 @@
 namespace warren {
 
 /// For bodies in the plane: walls, polygons and bounds, or a map, beside which there are no walls but along its blocked
-/// cells. Throws InputError for all else: spheres and boxes, a map with polygons or bounds, a scene that holds nothing
+/// cells. Throws InputError for all else: solids, a map with polygons or bounds, a scene that holds nothing
 /// at all (nothing would confine the body). O(1), but for a map with walls: O(their length in cells).
 void check_plane_scene(const Scene& scene, const Execution& execution);
 
-/// For arms: spheres and boxes, or free space. Throws InputError for walls, polygons, bounds and maps.
+/// For arms: spheres, boxes and other solids, or free space. Throws InputError for walls, polygons, bounds and maps.
 void check_space_scene(const Scene& scene);
 
 /// Throws InputError, naming it, unless the number is in 0 .. largest_coordinate.

@@ -132,10 +132,10 @@ def grid(cells, cell=1.0, origin=(0.0, 0.0), *, yaw=0.0,
     return World(_core.cells(cells, float(cell), (float(origin[0]), float(origin[1])), float(yaw), said))
 
 
-def scene(*, walls=None, polygons=None, bounds=None, spheres=None, boxes=None,
+def scene(*, walls=None, polygons=None, bounds=None, spheres=None, boxes=None, solids=None,
           maze=None, start=None, goal=None, robot=None,
           clearance=None, source="scene"):
-    """A world of walls, polygons, balls and boxes.
+    """A world of walls, polygons, balls, boxes and other solids.
 
     Parameters
     ----------
@@ -149,6 +149,8 @@ def scene(*, walls=None, polygons=None, bounds=None, spheres=None, boxes=None,
         x, y, z, radius: for arms.
     boxes : array_like, (n, 6), optional
         xmin, ymin, zmin, xmax, ymax, zmax: for arms.
+    solids : sequence of str, optional
+        Other solids for arms, as lines of a scene: ``"cylinder 0 0 0 0 0 1 0.2"``, ``"obox ..."``.
     maze : (int, int), optional
         Rows and columns, where all walls lie on the unit grid of a maze.
     start, goal : sequence of float, optional
@@ -179,7 +181,7 @@ def scene(*, walls=None, polygons=None, bounds=None, spheres=None, boxes=None,
     >>> answer.optimal, round(answer.length, 3)
     (True, 8.0)
     """
-    parts = {"walls": walls, "polygons": polygons, "bounds": bounds, "spheres": spheres, "boxes": boxes, "maze": maze,
+    parts = {"walls": walls, "polygons": polygons, "bounds": bounds, "spheres": spheres, "boxes": boxes, "solids": solids, "maze": maze,
              "source": source}
     return World(_core.scene(parts, {"start": start, "goal": goal, "robot": robot, "clearance": clearance}))
 

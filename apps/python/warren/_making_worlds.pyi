@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Literal
 
 from numpy.typing import ArrayLike
@@ -41,6 +41,7 @@ def scene(
     bounds: _Box | None = ...,
     spheres: ArrayLike | None = ...,
     boxes: ArrayLike | None = ...,
+    solids: Sequence[str] | None = ...,
     maze: tuple[int, int] | None = ...,
     start: _State | None = ...,
     goal: _State | None = ...,

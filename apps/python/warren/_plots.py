@@ -46,7 +46,7 @@ def _draw_world(ax, world):
         ax.add_collection(PolyCollection(world.polygons, facecolor=POLYGON, edgecolor=OUTLINE, linewidth=0.5))
     if len(world.walls):
         ax.add_collection(LineCollection(world.walls.reshape(-1, 2, 2), colors=WALL, linewidth=1.0))
-    if len(world.spheres) or len(world.boxes):
+    if len(world.spheres) or len(world.boxes) or world.solids:
         raise ValueError("plot: draws the plane; answer.svg() shows arms from three sides")
     if world.bounds is not None:
         x0, y0, x1, y1 = world.bounds

@@ -61,6 +61,7 @@ class World(Pictured):
         radians.""")
     spheres = told("spheres", "Balls, (n, 4): x, y, z, radius.")
     boxes = told("boxes", "Boxes, (n, 6): the lowest corner, the highest corner.")
+    solids = told("solids", "Other solids, a line of a scene each: `obox`, `cylinder`, `capsule`, `hull`.")
     bounds = told("bounds", "The box that confines everything, xmin, ymin, xmax, ymax; None where there is none.")
     box = told("box", "The box of all walls, polygons and cells, xmin, ymin, xmax, ymax.")
     maze = told("maze", "Rows and columns, where all walls lie on the unit grid of a maze.")

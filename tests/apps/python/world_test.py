@@ -2,7 +2,9 @@
 """Worlds of arrays, geometries and files; what they show; how they are drawn and compared."""
 import csv
 import gc
+import json
 import os
+import pickle
 import warnings
 
 import geopandas
@@ -96,6 +98,9 @@ def test_the_same_world_has_the_same_hash_whatever_it_is_made_of(tmp_path):
     ({"bounds": (0, 0, 0, 1)}, ValueError, "bounds: "),
     ({"spheres": [(0, 0, 0, -1)]}, ValueError, r"spheres\[0\]: "),
     ({"boxes": [(1, 0, 0, 0, 1, 1)]}, ValueError, r"boxes\[0\]: "),
+    ({"solids": ["obox 0 0 0 0 0 0 0 1 1 1"]}, ValueError, r"solids\[0\]: `obox`: the quaternion"),
+    ({"solids": ["ball 0 0 0 1"]}, ValueError, r"solids\[0\]: expected sphere, box, obox"),
+    ({"solids": 5}, TypeError, "solids: expected a sequence of lines"),
     ({"walls": [(0.2, 0, 0.2, 1)], "maze": (3, 3)}, ValueError, r"walls\[0\]: is not on the unit grid"),
     ({"maze": (0, 3)}, ValueError, "maze: "),
     ({"maze": (2**16, 2**16)}, ValueError, "maze: "),
@@ -240,6 +245,15 @@ def test_an_arm_is_planned_among_solids_of_arrays():
     assert answer.svg().startswith("<svg")
     with pytest.raises(ValueError, match="plot: draws the plane"):
         warren.plot(answer)
+
+
+def test_solids_are_lines_and_are_kept_by_pickles():
+    lines = ["cylinder 0.1 0.7 0.3 0 0 1 0.2", "obox 1 0 0 0 0 0.6 0.8 0.1 0.2 0.3", "hull 0 0 0 1 0 0 0 1 0 0 0 1"]
+    world = warren.scene(solids=lines)
+    assert world.solids == lines
+    back = pickle.loads(pickle.dumps(world))
+    assert back.solids == lines and back.hash == world.hash != warren.scene(solids=lines[:2]).hash
+    assert json.loads(json.dumps(world.facts()))["solids"] == 3
 
 
 def test_a_car_drives_by_its_words():

@@ -5,10 +5,12 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
+#include "scenes/files/solid_text.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
 
@@ -17,6 +19,12 @@ namespace {
 
 Scene read(const TemporaryDirectory& directory, std::string_view text) {
   return read_scene_text(InputFile(directory.write("a.scene", text), {}), {});
+}
+
+std::string text_of(const Scene& scene) {
+  std::string text;
+  write_scene_text(scene, [&](std::string_view part) { text += part; }, {});
+  return text;
 }
 
 TEST(SceneText, ReadsEveryItemOfTheFormat) {
@@ -84,6 +92,92 @@ TEST(SceneText, TakesWallsAsTheyAre) {
   EXPECT_EQ(scene.walls.segment(6), (Segment{{0, 0}, {0, -1e-22}}));  // below 1e-100 is zero
   EXPECT_EQ(scene.walls.segment(7).a, (Vec2{1e60, -1e60}));
   EXPECT_EQ(scene.walls.segment(4), (Segment{{0.25, 0.25}, {2, 2}}));
+}
+
+TEST(SceneText, ReadsSolids) {
+  const TemporaryDirectory directory;
+  const Scene scene = read(directory,
+                           "obox 1 2 3 0 0 2 2 0.5 0.25 0.125\n"
+                           "cylinder 0 0 1 0 0 3 0.5\n"
+                           "capsule 1 0 0 4 4 0 0.5\n"
+                           "hull 0 0 0 1 0 0 0 1 0 0 0 1\n");
+  ASSERT_EQ(scene.solids.size(), 4U);
+  const Solid& box = scene.solids[0];
+  EXPECT_EQ(box.kind, SolidKind::box);
+  EXPECT_EQ(box.half, Vec3(0.5, 0.25, 0.125));
+  EXPECT_TRUE((box.pose * Vec3(1, 0, 0)).isApprox(Vec3(1, 3, 3), 1e-15)) << "a quarter turn about z";
+  const Solid& cylinder = scene.solids[1];
+  EXPECT_EQ(cylinder.kind, SolidKind::cylinder);
+  EXPECT_EQ(cylinder.pose.translation(), Vec3(0, 0, 2));
+  EXPECT_EQ(cylinder.half, Vec3(0.5, 0, 1));
+  const Solid& capsule = scene.solids[2];
+  EXPECT_EQ(capsule.kind, SolidKind::capsule);
+  EXPECT_TRUE((capsule.pose * Vec3(0, 0, 2.5)).isApprox(Vec3(4, 4, 0), 1e-15));
+  EXPECT_TRUE(capsule.pose.linear().isUnitary(1e-15));
+  EXPECT_GT(capsule.pose.linear().determinant(), 0.0);
+  EXPECT_EQ(scene.solids[3].corners.size(), 4U);
+}
+
+TEST(SceneText, WritesSolidsAndWhatIsSaidOfAnArmAsItReadThem) {
+  const TemporaryDirectory directory;
+  const std::string text =
+      "start joints a 0.1 b -2\n"
+      "goal joints a 1 b 1\n"
+      "goal joints a 2 b 1\n"
+      "hold finger 0.04\n"
+      "allow hand arm\n"
+      "attach hand finger palm box 0 0 0 0.1 0.1 0.3\n"
+      "attach hand capsule 0.1 0.7 0.3 0 0 1 0.01\n"
+      "obox 0.1 0.2 0.3 0 0 -0.5312887441157063 0.8471908110785643 0.6 0.5 0.02\n"
+      "cylinder 0.1 0.7 0.3 0 0 1 0.01\n"
+      "capsule 0.1 0.7 0.3 0 0 1 0.01\n"
+      "hull 0.1 0 0 1 0 0 0 1 0 0 0 1\n";
+  const Scene scene = read(directory, text);
+  ASSERT_TRUE(scene.arm && scene.named_start);
+  EXPECT_EQ(scene.named_start->names, (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(scene.named_goals.at(1).values, (std::vector<double>{2, 1}));
+  EXPECT_EQ(scene.arm->attached.at(0).may_touch, (std::vector<std::string>{"finger", "palm"}));
+  EXPECT_EQ(scene.arm->attached.at(0).solid.half, Vec3(0.05, 0.05, 0.15));
+  EXPECT_EQ(text_of(scene), text);
+  EXPECT_EQ(scene_hash(read(directory, text_of(scene))), scene_hash(scene));
+}
+
+TEST(SceneText, WritesSolidsOfNoFileToTheirLastDigits) {
+  for (int i = 0; i < 200; ++i) {
+    const auto random = [&](int k) { return std::remainder(0.7548776662466927 * (17 * i + k + 1), 1.0); };
+    Solid solid{.kind = i % 2 == 0 ? SolidKind::box : SolidKind::capsule, .half = {0.25, 0.5, 0.75}};
+    solid.pose.translation() = Vec3(random(0), random(1), random(2));
+    solid.pose.linear() = turn_of_quaternion(random(3), random(4), random(5), random(6));
+    if (i % 2 == 1) solid.half.y() = 0.0;
+    const TemporaryDirectory directory;
+    Scene scene;
+    scene.solids = {solid};
+    const Solid back = read(directory, text_of(scene)).solids.at(0);
+    EXPECT_TRUE(back.half.isApprox(solid.half, 1e-14));
+    EXPECT_TRUE((back.pose * Vec3::UnitZ()).isApprox(solid.pose * Vec3::UnitZ(), 1e-14));
+    if (i % 2 == 0) EXPECT_TRUE(back.pose.isApprox(solid.pose, 1e-14)) << i;
+  }
+}
+
+TEST(SceneText, ReadsAPoseOfTheTool) {
+  const TemporaryDirectory directory;
+  const Scene scene = read(directory, "goal pose 1 2 3 0 0 0.5 0.5\n");
+  ASSERT_TRUE(scene.goal_pose);
+  EXPECT_TRUE((*scene.goal_pose * Vec3(1, 0, 0)).isApprox(Vec3(1, 3, 3), 1e-15));
+  EXPECT_EQ(read(directory, text_of(scene)).goal_pose->matrix(), scene.goal_pose->matrix());
+}
+
+TEST(SceneText, WhatIsSaidOfAnArmJoinsItsFiles) {
+  const TemporaryDirectory directory;
+  const Scene scene = read(directory, "hold a 1\nhold b 2\nallow c d\nattach c sphere 0 0 0 1\n");
+  RobotSpec robot{.kind = RobotKind::urdf};
+  robot.files = ArmFiles{.urdf = "a.urdf", .held = {{"b", 3.0}}};
+  const ArmFiles files = *with_what_is_said(robot, scene).files;
+  EXPECT_EQ(files.urdf, "a.urdf");
+  EXPECT_EQ(files.held, (std::vector<std::pair<std::string, double>>{{"b", 3.0}, {"a", 1.0}}))
+      << "the robot's comes first";
+  EXPECT_EQ(files.allowed.size() + files.attached.size(), 2U);
+  EXPECT_FALSE(with_what_is_said({}, scene).files);
 }
 
 TEST(SceneText, OfARobotAloneIsFreeSpace) {
@@ -167,6 +261,27 @@ TEST(SceneText, RefusesBadInputInOneLineThatNamesFileAndLine) {
       {"arm without a file", "robot arm\n", ":1: expected `robot point|"},
       {"arm with limits", "robot arm a.dh radius 1 limits classic\n", ":1: expected `robot point|"},
       {"box of five numbers", "box 0 0 0 1 1\n", ":1: expected `box X1 Y1 Z1 X2 Y2 Z2` (found: 5 numbers)"},
+      {"obox of no turn", "obox 0 0 0 0 0 0 0 1 1 1\n", ":1: `obox`: the quaternion QX QY QZ QW must not be 0 0 0 0"},
+      {"obox of a negative side", "obox 0 0 0 0 0 0 1 1 -1 1\n", ":1: `obox`: half the sides HX HY HZ must be"},
+      {"cylinder of six numbers", "cylinder 0 0 0 1 1 1\n",
+       ":1: expected `cylinder X1 Y1 Z1 X2 Y2 Z2 R` (found: 6 numbers)"},
+      {"cylinder without length", "cylinder 1 1 1 1 1 1 1\n", ":1: `cylinder`: the two ends must differ"},
+      {"capsule of a negative radius", "capsule 0 0 0 1 1 1 -1\n", ":1: `capsule`: the radius must be at least 0"},
+      {"hull of half a point", "hull 0 0 0 1 1\n", ":1: expected `hull X Y Z X Y Z ...` (found: 5 numbers)"},
+      {"hull of nothing", "hull\n", ":1: expected `hull X Y Z X Y Z ...` (found: 0 numbers)"},
+      {"attach to a disc", "0 0 1 1\nattach a sphere 0 0 0 1\nrobot disc 1\n", ":2: `attach` takes a `robot urdf`"},
+      {"attach of no solid", "attach a ball 0 0 0 1\n", ":1: expected `attach LINK [MAY_TOUCH ...] sphere|"},
+      {"attach of a short box", "attach a box 0 0 0 1\n", ":1: expected `box X1 Y1 Z1 X2 Y2 Z2` (found: 4 numbers)"},
+      {"hold of no value", "hold a\n", ":1: expected `hold JOINT VALUE` (found: 0 numbers)"},
+      {"hold twice", "hold a 1\nhold a 2\n", ":2: `hold`: this joint is held already (found: a)"},
+      {"allow of one link", "allow a\n", ":1: expected `allow LINK LINK` (found: too few words)"},
+      {"allow of three links", "allow a b c\n", ":1: expected `allow LINK LINK` (found: c)"},
+      {"goal pose of six numbers", "goal pose 0 0 0 0 0 1\n", ":1: expected `goal X Y"},
+      {"goal pose of no turn", "goal pose 0 0 0 0 0 0 0\n", ":1: `goal pose`: the quaternion"},
+      {"goal of names for a puma", "robot puma560 radius 1\ngoal joints a 1\n", ":2: names of joints and poses of"},
+      {"a joint twice", "start joints a 1 a 2\n", ":1: this joint stands here twice (found: a)"},
+      {"goals of two ways", "goal joints a 1\ngoal 1 2\n", ":2: goals are several where all are `goal joints"},
+      {"start of fifteen numbers", "start 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15\n", ":1: expected `start X Y [THETA]"},
       {"robot outline of two corners", "robot polygon 0 0 1 1\n", ":1: expected `robot point|"},
       {"two starts", "0 0 1 1\nstart 1 1\nstart 1 2\n", ":3: a second `start` line; the first is line 2"},
       {"two bounds", "bounds 0 0 1 1\n\nbounds 0 0 1 1\n", ":3: a second `bounds` line; the first is line 1"},

@@ -53,6 +53,7 @@ void give_map(Scene& scene) {
   scene.map = map;
 }
 void give_sphere(Scene& scene) { scene.spheres.push_back({10, 10, 10, 1}); }
+void give_solid(Scene& scene) { scene.solids.emplace_back(); }
 void give_box(Scene& scene) { scene.boxes.push_back({{10, 10, 10}, {11, 11, 11}}); }
 
 struct Refused {
@@ -76,6 +77,7 @@ TEST(JudgedInput, JudgesOfThePlaneRefuseWhatTheyDoNotLookAt) {
   const Refused all[] = {{"spheres", {give_walls, give_sphere}},
                          {"boxes", {give_bounds, give_box}},
                          {"boxes", {give_box}},
+                         {"solids", {give_bounds, give_solid}},
                          {"spheres", {give_sphere, give_map}},
                          {"polygons", {give_map, give_polygon}},
                          {"bounds", {give_map, give_bounds}},

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scenes/files/solid_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "parallel/asked_memory.hpp"
+
+namespace warren {
+namespace {
+
+Vec3 point_at(std::span<const double> numbers, std::size_t first) {
+  return {numbers[first], numbers[first + 1], numbers[first + 2]};
+}
+
+/// A turn that takes z to the direction of `axis`, which is not zero: plain sums and products, so that it is the same
+/// everywhere.
+Eigen::Matrix3d turn_to(const Vec3& axis) {
+  const double length = std::hypot(axis.x(), axis.y(), axis.z());
+  const Vec3 z = axis / length;
+  const Vec3 side = std::abs(z.x()) < 0.75 ? Vec3::UnitX() : Vec3::UnitY();
+  Vec3 y = z.cross(side);
+  y /= std::sqrt(y.x() * y.x() + y.y() * y.y() + y.z() * y.z());
+  Eigen::Matrix3d turn;
+  turn.col(0) = y.cross(z);
+  turn.col(1) = y;
+  turn.col(2) = z;
+  return turn;
+}
+
+/// cylinder, capsule: two ends and a radius.
+void stretch(Solid& solid, std::span<const double> numbers) {
+  const Vec3 a = point_at(numbers, 0);
+  const Vec3 b = point_at(numbers, 3);
+  const Vec3 axis = b - a;
+  const double length = std::hypot(axis.x(), axis.y(), axis.z());
+  if (length > 0.0) solid.pose.linear() = turn_to(axis);
+  solid.pose.translation() = 0.5 * (a + b);
+  solid.half = {numbers[6], 0.0, 0.5 * length};
+}
+
+/// "": nothing is wrong.
+std::string_view fault_of(std::string_view name, std::span<const double> numbers) {
+  const auto any_negative = [](std::span<const double> some) {
+    return std::ranges::any_of(some, [](double x) { return !(x >= 0.0); });
+  };
+  if (name == "obox") {
+    if (std::ranges::all_of(numbers.subspan(3, 4), [](double x) { return x == 0.0; })) {
+      return "the quaternion QX QY QZ QW must not be 0 0 0 0";
+    }
+    return any_negative(numbers.subspan(7)) ? "half the sides HX HY HZ must be at least 0" : "";
+  }
+  if (name == "box" || name == "hull") return "";
+  if (any_negative(numbers.last(1))) return "the radius must be at least 0";
+  if (name == "cylinder" && point_at(numbers, 0) == point_at(numbers, 3)) return "the two ends must differ";
+  return "";
+}
+
+void append_numbers(std::string& text, std::span<const double> numbers) {
+  for (const double x : numbers) fmt::format_to(std::back_inserter(text), " {}", x + 0.0);  // no negative zeros
+}
+
+/// The numbers of a solid that no line gave, and their word.
+std::vector<double> numbers_of(const Solid& solid) {
+  const Vec3 middle = solid.pose.translation();
+  std::vector<double> numbers(middle.begin(), middle.end());
+  switch (solid.kind) {
+    case SolidKind::sphere:
+      numbers.push_back(solid.half.x());
+      break;
+    case SolidKind::box: {
+      const auto quaternion = quaternion_of_turn(solid.pose.linear());
+      numbers.insert(numbers.end(), quaternion.begin(), quaternion.end());
+      numbers.insert(numbers.end(), solid.half.begin(), solid.half.end());
+      break;
+    }
+    case SolidKind::cylinder:
+    case SolidKind::capsule: {
+      const Vec3 reach = solid.half.z() * solid.pose.linear().col(2);
+      const Vec3 ends[] = {middle - reach, middle + reach};
+      numbers.clear();
+      for (const Vec3& end : ends) numbers.insert(numbers.end(), end.begin(), end.end());
+      numbers.push_back(solid.half.x());
+      break;
+    }
+    case SolidKind::hull:
+      numbers.clear();
+      for (const Vec3& corner : solid.corners) {
+        const Vec3 at = solid.pose * corner;
+        numbers.insert(numbers.end(), at.begin(), at.end());
+      }
+      break;
+  }
+  return numbers;
+}
+
+}  // namespace
+
+const SolidWord* solid_word_named(std::string_view name) {
+  const auto* const found = std::ranges::find(solid_words, name, &SolidWord::name);
+  return found == solid_words.end() ? nullptr : found;
+}
+
+Eigen::Matrix3d turn_of_quaternion(double x, double y, double z, double w) {
+  const double most = std::max({std::abs(x), std::abs(y), std::abs(z), std::abs(w)});
+  for (double* const c : {&x, &y, &z, &w}) *c /= most;
+  const double s = 2.0 / (x * x + y * y + z * z + w * w);
+  Eigen::Matrix3d turn;
+  turn << 1.0 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w),  //
+      s * (x * y + z * w), 1.0 - s * (x * x + z * z), s * (y * z - x * w),      //
+      s * (x * z - y * w), s * (y * z + x * w), 1.0 - s * (x * x + y * y);
+  return turn;
+}
+
+std::array<double, 4> quaternion_of_turn(const Eigen::Matrix3d& turn) {
+  // From the largest of the four squares, so that no root is of a difference of rounding errors.
+  const double squares[] = {1.0 + turn(0, 0) - turn(1, 1) - turn(2, 2), 1.0 - turn(0, 0) + turn(1, 1) - turn(2, 2),
+                            1.0 - turn(0, 0) - turn(1, 1) + turn(2, 2), 1.0 + turn(0, 0) + turn(1, 1) + turn(2, 2)};
+  const auto largest = static_cast<std::size_t>(std::ranges::max_element(squares) - squares);
+  const double xy = turn(1, 0) + turn(0, 1);
+  const double xz = turn(2, 0) + turn(0, 2);
+  const double yz = turn(2, 1) + turn(1, 2);
+  const double xw = turn(2, 1) - turn(1, 2);
+  const double yw = turn(0, 2) - turn(2, 0);
+  const double zw = turn(1, 0) - turn(0, 1);
+  const double a = squares[largest];
+  const double all[4][4] = {{a, xy, xz, xw}, {xy, a, yz, yw}, {xz, yz, a, zw}, {xw, yw, zw, a}};
+  const double scale = 0.5 / std::sqrt(a);
+  std::array<double, 4> quaternion{};
+  for (std::size_t i = 0; i < 4; ++i) quaternion[i] = scale * all[largest][i];
+  return quaternion;
+}
+
+Solid solid_of_numbers(const SolidWord& word, std::span<const double> numbers, const scene_text::Place& place) {
+  if (const std::string_view fault = fault_of(word.name, numbers); !fault.empty()) {
+    std::string found;
+    append_numbers(found, numbers);
+    place.fail(fmt::format("`{}`: {}", word.name, fault), std::string_view(found).substr(1));
+  }
+  Solid solid;
+  solid.given.assign(numbers.begin(), numbers.end());
+  if (word.name == "sphere") {
+    solid.pose.translation() = point_at(numbers, 0);
+    solid.half.x() = numbers[3];
+  } else if (word.name == "box" || word.name == "obox") {
+    solid.kind = SolidKind::box;
+    const Vec3 first = point_at(numbers, 0);
+    const bool turned = word.name == "obox";
+    solid.pose.translation() = turned ? first : 0.5 * (first + point_at(numbers, 3));
+    solid.half = turned ? point_at(numbers, 7) : Vec3(0.5 * (point_at(numbers, 3) - first).cwiseAbs());
+    if (turned) solid.pose.linear() = turn_of_quaternion(numbers[3], numbers[4], numbers[5], numbers[6]);
+  } else if (word.name == "hull") {
+    solid.kind = SolidKind::hull;
+    for (std::size_t i = 0; i < numbers.size(); i += 3) solid.corners.push_back(point_at(numbers, i));
+    solid.given.clear();
+  } else {
+    solid.kind = word.name == "capsule" ? SolidKind::capsule : SolidKind::cylinder;
+    stretch(solid, numbers);
+  }
+  return solid;
+}
+
+Solid read_solid(const SolidWord& word, scene_text::Fields& fields, const Execution& execution) {
+  constexpr std::size_t numbers_per_look = 4096;
+  std::vector<double> numbers;
+  while (!fields.done()) {
+    push_asked(numbers, fields.number(), execution);
+    if (numbers.size() % numbers_per_look == 0) execution.check();
+  }
+  const bool right = word.numbers > 0 ? numbers.size() == word.numbers : !numbers.empty() && numbers.size() % 3 == 0;
+  if (!right) {
+    fields.place().fail(fmt::format("expected `{}`", word.usage),
+                        fmt::format("{} number{}", numbers.size(), numbers.size() == 1 ? "" : "s"));
+  }
+  execution.reserve(2 * numbers.size() * sizeof(double));
+  return solid_of_numbers(word, numbers, fields.place());
+}
+
+std::string solid_text(const Solid& solid) {
+  const bool turned = solid.kind == SolidKind::box && solid.given.size() != 6;
+  std::string text(turned ? "obox" : name_of(solid.kind));
+  append_numbers(text, solid.given.empty() ? numbers_of(solid) : solid.given);
+  return text;
+}
+
+}  // namespace warren
