@@ -112,7 +112,7 @@ void check_space_scene(const Scene& scene) {
                      : parts.map      ? "a map"
                                       : nullptr;
   if (flat == nullptr) return;
-  refuse(scene, fmt::format("has {}, which have no height: arms are judged among spheres, boxes and solids", flat));
+  refuse(scene, fmt::format("has {}, which have no height: arms are judged among spheres and boxes", flat));
 }
 
 void check_not_negative(std::string_view name, double value) {

@@ -19,13 +19,13 @@
 #include "parallel/execution.hpp"
 #include "tests/seeds.hpp"
 #include "tests/verify/judges/bounding_judge.hpp"
-#include "tests/verify/judges/chain_model.hpp"
 #include "verify/judges/verify_arm.hpp"
 #include "verify/judges/verify_car.hpp"
 #include "verify/judges/verify_map.hpp"
 #include "verify/judges/verify_point.hpp"
 #include "verify/judges/verify_turning.hpp"
 #include "verify/near/obstacle_index.hpp"
+#include "worlds/arms/chain_model.hpp"
 #include "worlds/arms/puma560.hpp"
 
 namespace warren::any_number {
@@ -418,7 +418,7 @@ TEST(JudgesOfAnyNumber, OfArmsAgreeWithASecondJudge) {
     constexpr double radius = 0.05;
     Limits limits;
     const ArmVerifyOptions options;
-    const ArmModel model = test::chain_model(table, radius);
+    const ArmModel model = model_of(table, radius, false);
     const bool verified = verify_arm(scene, model, path, options, limits.execution).verified;
     expect_as(test::bounded_arm(scene, table, radius, path[0], path[1], options.tolerance), verified, decided);
     free += verified ? 1 : 0;
@@ -477,7 +477,7 @@ TEST(JudgesOfAnyNumber, OfTurningBodiesAndCarsAnswerOrRefuseInTimeAndMemory) {
 }
 
 TEST(JudgesOfAnyNumber, OfArmsAnswerOrRefuse) {
-  const ArmModel model = test::chain_model(puma560_table(0.1), 0.05);
+  const ArmModel model = model_of(puma560_table(0.1), 0.05, false);
   Scene scene;
   scene.spheres.push_back({0.5, 0.5, 0.5, 0.1});
   for (const std::uint64_t seed : test::seeds(legs / 10, 50)) {
