@@ -332,7 +332,7 @@ void KdTree<D>::visit_within(const Point& p, const SearchRadius& radius, const v
 template class KdTree<2>;
 template class KdTree<3>;
 template class KdTree<4>;
-template class KdTree<6>;
+template class KdTree<16>;
 
 template <int D>
 void GrowingTree<D>::insert(const Point& p) {
@@ -410,6 +410,6 @@ void GrowingTree<D>::nearest(const Point& p, std::size_t k, std::vector<Neighbou
 template class GrowingTree<2>;
 template class GrowingTree<3>;
 template class GrowingTree<4>;
-template class GrowingTree<6>;
+template class GrowingTree<16>;
 
 }  // namespace warren

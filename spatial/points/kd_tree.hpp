@@ -55,7 +55,7 @@ class KdTree : public NeighboursByVisits<KdTree<D>, D> {
 extern template class KdTree<2>;
 extern template class KdTree<3>;
 extern template class KdTree<4>;
-extern template class KdTree<6>;
+extern template class KdTree<16>;
 
 /// Nearest neighbours among points that keep coming: what a tree that grows asks at every step. Logarithmic rebuilding
 /// (Bentley, Saxe, J. Algorithms 1, 1980): the newest up to 127 points are looked at one by one; when there are 128
@@ -94,6 +94,6 @@ class GrowingTree {
 extern template class GrowingTree<2>;
 extern template class GrowingTree<3>;
 extern template class GrowingTree<4>;
-extern template class GrowingTree<6>;
+extern template class GrowingTree<16>;
 
 }  // namespace warren

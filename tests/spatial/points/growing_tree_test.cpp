@@ -71,7 +71,7 @@ TEST(GrowingTree, FindsTheNearestAtEverySizeAsBruteForceDoes) {
     expect_as_brute_force<4>(seed, 700);
   }
   expect_as_brute_force<3>(1, 1500);
-  expect_as_brute_force<6>(1, 1500);
+  expect_as_brute_force<16>(1, 1500);
 }
 
 }  // namespace
