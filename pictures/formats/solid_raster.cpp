@@ -97,10 +97,10 @@ class SolidRaster {
     floor_side_ = view.floor_side / view.reach;
     square_ = view.square / view.reach;
     shadows_ = Mask(shadow_side, shadow_side, execution_);
-    execution_.reserve(view.solids.size() * sizeof(Solid));
+    execution_.reserve(view.solids.size() * sizeof(SeenSolid));
     for (std::size_t i = 0; i < view.solids.size(); ++i) {
       if (i % solids_a_poll == 0) execution_.check();
-      const Solid& s = view.solids[i];
+      const SeenSolid& s = view.solids[i];
       if (!parts.has(s.part)) continue;
       solids_.push_back({near(s.a), near(s.b), s.radius / view.reach, s.color, s.part});
       take_shadow(solids_.back());
@@ -108,7 +108,7 @@ class SolidRaster {
   }
 
   /// The light falls straight down, as far as shadows go.
-  void take_shadow(const Solid& s) {
+  void take_shadow(const SeenSolid& s) {
     const Vec2 a = shadow_place(s.a);
     const Vec2 b = shadow_place(s.b);
     if (s.radius < 0.0) {
@@ -120,7 +120,7 @@ class SolidRaster {
   }
   /// Asks the rays of the samples that the solid may cover.
   void mark(std::uint32_t i) {
-    const Solid& s = solids_[i];
+    const SeenSolid& s = solids_[i];
     const Reach reach = reach_of(s);
     const auto clamped = [](double v, std::size_t size) {
       return static_cast<std::size_t>(std::clamp(v, 0.0, static_cast<double>(size)));
@@ -155,7 +155,7 @@ class SolidRaster {
     }
     return box;
   }
-  Reach reach_of(const Solid& s) const {
+  Reach reach_of(const SeenSolid& s) const {
     const auto middle = [](const Box& box) { return 0.5 * (box.min + box.max); };
     if (s.radius < 0.0) {
       Box box;
@@ -184,7 +184,7 @@ class SolidRaster {
     const Vec3 way = ray(row, column);
     const std::size_t sample = row * columns_ + column;
     if (whose_[sample] == nobody) return floor_color(way);
-    const Solid& s = solids_[whose_[sample]];
+    const SeenSolid& s = solids_[whose_[sample]];
     const Vec3 normal = normal_at(eye_ + static_cast<double>(depth_[sample]) * way, s);
     // From the left, above, and from where the eye is.
     const Vec3 light = (-0.45 * right_ + 0.75 * Vec3::UnitZ() - 0.6 * forward_).normalized();
@@ -249,7 +249,7 @@ class SolidRaster {
   Vec3 floor_;
   double floor_side_ = 1.0;
   double square_ = 1.0;
-  std::vector<Solid> solids_;
+  std::vector<SeenSolid> solids_;
   Mask shadows_{1, 1, {}};
   RawVector<float> depth_;
   RawVector<std::uint32_t> whose_;
@@ -273,7 +273,7 @@ double enter_ball(const Vec3& eye, const Vec3& ray, const Vec3& centre, double r
   const double root = b * b - off.squaredNorm() + radius * radius;
   return root < 0.0 ? no_hit : -b - std::sqrt(root);
 }
-double enter_swept_ball(const Vec3& eye, const Vec3& ray, const Solid& s) {
+double enter_swept_ball(const Vec3& eye, const Vec3& ray, const SeenSolid& s) {
   const Vec3 along = s.b - s.a;
   const Vec3 off = eye - s.a;
   const double along_sq = along.squaredNorm();
@@ -291,7 +291,7 @@ double enter_swept_ball(const Vec3& eye, const Vec3& ray, const Solid& s) {
   }
   return std::min(enter_ball(eye, ray, s.a, s.radius), enter_ball(eye, ray, s.b, s.radius));
 }
-double enter_box(const Vec3& eye, const Vec3& ray, const Solid& s) {
+double enter_box(const Vec3& eye, const Vec3& ray, const SeenSolid& s) {
   double from = -no_hit;
   double to = no_hit;
   for (int k = 0; k < 3; ++k) {
@@ -308,11 +308,11 @@ double enter_box(const Vec3& eye, const Vec3& ray, const Solid& s) {
 }
 }  // namespace
 
-double enter_solid(const Vec3& eye, const Vec3& ray, const Solid& s) {
+double enter_solid(const Vec3& eye, const Vec3& ray, const SeenSolid& s) {
   return s.radius < 0.0 ? enter_box(eye, ray, s) : enter_swept_ball(eye, ray, s);
 }
 
-Vec3 normal_at(const Vec3& p, const Solid& s) {
+Vec3 normal_at(const Vec3& p, const SeenSolid& s) {
   if (s.radius < 0.0) {
     const Vec3 half = 0.5 * (s.b - s.a);
     const Vec3 off = p - 0.5 * (s.a + s.b);

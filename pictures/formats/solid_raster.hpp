@@ -17,9 +17,9 @@ Image draw_solids(const SolidView& view, Parts parts, std::size_t width, std::si
 // Where a ray meets a solid.
 
 /// How far from the eye a ray of length 1 enters the solid; infinite where it passes by; < 0 where it is behind.
-double enter_solid(const Vec3& eye, const Vec3& ray, const Solid& s);
+double enter_solid(const Vec3& eye, const Vec3& ray, const SeenSolid& s);
 
 /// Outwards, of length 1, at a place on its surface.
-Vec3 normal_at(const Vec3& p, const Solid& s);
+Vec3 normal_at(const Vec3& p, const SeenSolid& s);
 
 }  // namespace warren

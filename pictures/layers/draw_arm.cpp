@@ -118,7 +118,7 @@ SolidView solids_of(const Scene& scene, const Box& box, const Vec3& low, const V
   view.azimuth_rad = azimuth_rad;
   view.rise_rad = rise_rad;
   view.target = 0.5 * (low + high);
-  execution.reserve((scene.spheres.size() + scene.boxes.size()) * sizeof(Solid));
+  execution.reserve((scene.spheres.size() + scene.boxes.size()) * sizeof(SeenSolid));
   double reach = 0.0;
   const auto include = [&](const Vec3& p, double radius) {
     reach = std::max(reach, (p - view.target).norm() + radius);
@@ -378,7 +378,7 @@ class Places {
   void add(std::span<const ToolLines> lines) {
     std::size_t count = tools_.size();
     for (const ToolLines& some : lines) count += some.edges.size();
-    execution_.reserve(2 * (view_.solids.size() + count) * sizeof(Solid));  // two arrays while the solids move
+    execution_.reserve(2 * (view_.solids.size() + count) * sizeof(SeenSolid));  // two arrays while the solids move
     view_.solids.reserve(view_.solids.size() + count);
     for (const ToolLines& some : lines) add_threads(some);
     constexpr double bead = 0.008;

@@ -64,7 +64,7 @@ struct MovingBody {
 // Solids of space seen in perspective, as one part of a picture: plain data; formats/solid_raster.cpp draws them.
 
 /// A ball that went from a to b (a == b: a ball), or the box between these corners.
-struct Solid {
+struct SeenSolid {
   Vec3 a;
   Vec3 b;
   double radius = 0.0;  ///< of the ball; < 0: a box
@@ -82,7 +82,7 @@ struct SolidView {
   Vec3 floor;                ///< the corner of the floor with the least x and y
   double floor_side = 1.0;   ///< > 0
   double square = 1.0;       ///< side of the floor's squares
-  std::vector<Solid> solids = {};
+  std::vector<SeenSolid> solids = {};
   bool is_thinned = false;  ///< lines of a roadmap are thinner and paler, being so many
 };
 

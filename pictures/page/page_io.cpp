@@ -398,14 +398,14 @@ class PageWriter {
     begin(",\"arm\":", arm_facts());
     const auto place = [&](const Vec3& p) -> Vec3 { return p - solids.target; };
     auto spheres = numbers<float>("spheres");
-    for (const Solid& s : solids.solids) {
+    for (const SeenSolid& s : solids.solids) {
       if (s.part != Part::world || s.radius < 0.0 || !parts_.has(s.part)) continue;
       spheres.add(place(s.a));
       spheres.add(s.radius);
     }
     spheres.end();
     auto boxes = numbers<float>("boxes");
-    for (const Solid& s : solids.solids) {
+    for (const SeenSolid& s : solids.solids) {
       if (s.radius >= 0.0 || !parts_.has(s.part)) continue;
       boxes.add(place(s.a));
       boxes.add(place(s.b));

@@ -52,6 +52,7 @@ class SceneReader {
   };
   static constexpr std::size_t item_count = 18;
   static constexpr std::size_t numbers_per_look = 4096;
+  static constexpr std::size_t most_named = 1024;  // joints
   static const std::array<Item, item_count> items;
   enum ItemNumber : std::size_t {
     maze_item = 10,
@@ -168,6 +169,7 @@ class SceneReader {
     std::string joint = word_of(fields);
     const std::vector<double>& n = numbers(fields, 1, 1);
     const auto same = [&](const auto& held) { return held.first == joint; };
+    if (arm().held.size() == most_named) fields.place().fail(fmt::format("at most {} joints are held", most_named));
     if (std::ranges::any_of(arm().held, same)) fields.place().fail("`hold`: this joint is held already", joint);
     push_asked(arm().held, {std::move(joint), n[0]}, execution_);
   }
@@ -223,7 +225,7 @@ class SceneReader {
     while (!fields.done()) {
       std::string joint = word_of(fields);
       if (std::ranges::count(state.names, joint) > 0) fields.place().fail("this joint stands here twice", joint);
-      if (state.names.size() == most_joints) fields.place().fail(fmt::format("at most {} joints", most_joints), joint);
+      if (state.names.size() == most_named) fields.place().fail(fmt::format("at most {} joints", most_named), joint);
       state.names.push_back(std::move(joint));
       state.values.push_back(fields.number());
     }

@@ -162,7 +162,7 @@ TEST(DrawAnswer, ShowsAnArmFromThreeSidesAndInPerspective) {
   ASSERT_TRUE(drawing.solids);
   EXPECT_EQ(drawing.solids->solids.front().radius, 0.1);
   const double reach = drawing.solids->reach;
-  for (const Solid& solid : drawing.solids->solids) {
+  for (const SeenSolid& solid : drawing.solids->solids) {
     EXPECT_LE((solid.b - drawing.solids->target).norm(), 1.5 * reach) << "all of it is seen";
   }
   ASSERT_TRUE(drawing.arm);

@@ -29,8 +29,8 @@ int tint(const Image& image, std::size_t x, std::size_t y) {
 
 TEST(SolidRaster, WhatIsNearerHidesWhatIsFarInAnyOrder) {
   SolidView view = view_along_x();
-  const Solid near{{0.5, 0, 0}, {0.5, 0, 0}, 0.2, red, Part::body};
-  const Solid far{{-0.5, -0.5, -0.4}, {-0.4, 0.5, 0.4}, -1.0, blue, Part::world};
+  const SeenSolid near{{0.5, 0, 0}, {0.5, 0, 0}, 0.2, red, Part::body};
+  const SeenSolid far{{-0.5, -0.5, -0.4}, {-0.4, 0.5, 0.4}, -1.0, blue, Part::world};
   for (const bool near_first : {true, false}) {
     view.solids = near_first ? std::vector{near, far} : std::vector{far, near};
     const Image image = draw_solids(view, Parts::all(), 100, 100, {});
@@ -69,7 +69,7 @@ TEST(SolidRaster, TinyAndHugeWorldsLookAlike) {
 
 /// The place that a ray enters is on the surface, and nothing of the solid is before it.
 TEST(SolidRays, EnterAtTheFirstPlaceOfTheSurface) {
-  const Solid swept{{-0.5, 0.1, 0.2}, {0.4, -0.3, 0.1}, 0.25, red, Part::body};
+  const SeenSolid swept{{-0.5, 0.1, 0.2}, {0.4, -0.3, 0.1}, 0.25, red, Part::body};
   const auto distance_to_spine = [&](const Vec3& p) {
     const Vec3 along = swept.b - swept.a;
     const double t = std::clamp(along.dot(p - swept.a) / along.squaredNorm(), 0.0, 1.0);
