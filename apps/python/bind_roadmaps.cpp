@@ -109,7 +109,7 @@ bool is_among(std::initializer_list<std::string_view> options, const tools::Opti
 /// Those that say how `warren build` works, not where things are written.
 tools::Command building() {
   return of_verb("build", tools::build_command(), [](const tools::OptionSpec& spec) {
-    return !is_among({"--output", "--no-world", "--map-rules", "--threads", "--budget", "--memory", "--quiet",
+    return !is_among({"--output", "--no-world", "--map-rules", "--request", "--threads", "--budget", "--memory", "--quiet",
                       "--progress", "--color", "--trace"},
                      spec);
   });

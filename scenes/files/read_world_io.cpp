@@ -13,6 +13,7 @@
 #include "scenes/files/maze_file_io.hpp"
 #include "scenes/files/maze_image_io.hpp"
 #include "scenes/files/micromouse_io.hpp"
+#include "scenes/files/moveit_io.hpp"
 #include "scenes/files/moving_ai_io.hpp"
 #include "scenes/files/npy_io.hpp"
 #include "scenes/files/png_io.hpp"
@@ -164,6 +165,8 @@ Scene read_unchecked(const InputFile& file, const Execution& execution, MapServe
       return scene_of(read_ros_map(file, execution, rules));
     case WorldFormat::image:
       return scene_of(read_maze_image(file, execution));
+    case WorldFormat::moveit:
+      return read_moveit_scene(file, execution);
   }
   return read_scene_text(file, execution);
 }
@@ -181,6 +184,7 @@ WorldFormat format_of(const InputFile& file) {
   if (is_geojson(bytes)) return WorldFormat::geojson;
   if (is_wkt(bytes)) return WorldFormat::wkt;
   if (is_ring_list(bytes)) return WorldFormat::ring_list;
+  if (is_moveit_scene(file.name(), bytes)) return WorldFormat::moveit;
   const std::string_view name = file.name();
   if (name.ends_with(".npy")) return WorldFormat::npy;
   if (name.ends_with(".maze")) return WorldFormat::maze;

@@ -27,7 +27,8 @@ enum class WorldFormat : std::uint8_t {
   micromouse,
   geojson,
   wkt,
-  ring_list
+  ring_list,
+  moveit
 };
 
 /// What the content says, or where it says nothing the name's ending; text of no known kind is a scene.

@@ -7,23 +7,18 @@
 
 #include <fmt/format.h>
 #include <pwd.h>
-#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <istream>
 #include <numeric>
-#include <sstream>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/base/printable.hpp"
 #include "scenes/files/image_io.hpp"
 #include "scenes/files/output_file_io.hpp"
+#include "scenes/files/yaml_file_io.hpp"
 
 namespace warren {
 namespace {
@@ -41,51 +36,11 @@ struct Description {
   Mode mode = Mode::trinary;
 };
 
-constexpr std::size_t most_yaml_bytes = std::size_t{1} << 20;
-
-/// The text as yaml-cpp takes it, 2 KiB at a time: for each block the deadline is looked at, and the memory asked for
-/// that its tree needs. For the first one that is done before the library begins: it loses what it holds where its
-/// constructor, which takes that block, is left by an exception.
-class PolledText : public std::stringbuf {
- public:
-  PolledText(const std::string& text, const Execution& execution) : std::stringbuf(text), execution_(execution) {
-    ask_for(first_block_bytes);
-  }
-
- private:
-  static constexpr std::streamsize first_block_bytes = 2048;
-
-  void ask_for(std::streamsize bytes) const {
-    constexpr std::size_t tree_bytes_a_byte = 256;  // measured: 236
-    execution_.reserve(tree_bytes_a_byte * static_cast<std::size_t>(bytes));
-  }
-  std::streamsize xsgetn(char* to, std::streamsize count) override {
-    if (!is_first_) ask_for(count);
-    is_first_ = false;
-    return std::stringbuf::xsgetn(to, count);
-  }
-
-  const Execution& execution_;
-  bool is_first_ = true;
-};
-
 /// Reads the keys; each error names file, line and what was expected.
 class DescriptionReader {
  public:
-  DescriptionReader(const InputFile& yaml, const Execution& execution) : name_(yaml.name()) {
-    if (yaml.bytes().size() > most_yaml_bytes) {
-      throw InputError(name_, "expected a map server's YAML of at most 1 MiB",
-                       fmt::format("{} bytes", yaml.bytes().size()));
-    }
-    PolledText text(std::string{yaml.bytes()}, execution);
-    std::istream stream(&text);
-    try {
-      root_ = YAML::Load(stream);
-    } catch (const YAML::Exception& error) {
-      throw InputError(place(error.mark), "expected YAML: " + error.msg);
-    }
-    if (!root_.IsMap()) throw InputError(name_, "expected a map server's YAML: keys with values");
-  }
+  DescriptionReader(const InputFile& yaml, const Execution& execution)
+      : name_(yaml.name()), yaml_(yaml, "a map server's YAML", 1, execution), root_(yaml_.root()) {}
 
   Description read() const {
     Description d;
@@ -101,28 +56,14 @@ class DescriptionReader {
   }
 
  private:
-  std::string place(const YAML::Mark& mark) const {
-    return mark.is_null() ? name_ : fmt::format("{}:{}", name_, mark.line + 1);
-  }
-  [[noreturn]] void fail(const YAML::Node& node, std::string_view what) const {
-    constexpr std::size_t longest = 40;
-    throw InputError(place(node.Mark()), what, node.IsScalar() ? printable(node.Scalar(), longest) : "");
-  }
+  [[noreturn]] void fail(const YAML::Node& node, std::string_view what) const { yaml_.fail(node, what); }
   YAML::Node needed(const char* key) const {
     const YAML::Node node = root_[key];
     if (!node) throw InputError(name_, fmt::format("the key `{}` is missing: a map server needs it", key));
     return node;
   }
-  /// yaml-cpp's own conversion takes memory that has run out for a wrong number.
   double number(const YAML::Node& node, const char* key, std::string_view expected) const {
-    const std::string_view text = node.IsScalar() ? std::string_view(node.Scalar()) : std::string_view();
-    const char* const first = text.data() + (text.starts_with('+') ? 1 : 0);
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(first, text.data() + text.size(), value);
-    if (text.empty() || error != std::errc() || end != text.data() + text.size()) {
-      fail(node, fmt::format("`{}` must be {}", key, expected));
-    }
-    return value;
+    return yaml_.number(node, key, expected);
   }
   template <class T>
   T converted(const YAML::Node& node, const char* key, std::string_view expected) const {
@@ -174,7 +115,8 @@ class DescriptionReader {
   }
 
   const std::string& name_;
-  YAML::Node root_;
+  YamlFile yaml_;
+  const YAML::Node& root_;
 };
 
 /// What a pixel of brightness 0 … 1 is, its alpha apart.

@@ -52,6 +52,7 @@ class SceneReader {
   };
   static constexpr std::size_t item_count = 18;
   static constexpr std::size_t numbers_per_look = 4096;
+  static constexpr std::size_t most_named = 1024;  // joints
   static const std::array<Item, item_count> items;
   enum ItemNumber : std::size_t {
     maze_item = 10,
@@ -165,6 +166,7 @@ class SceneReader {
     push_asked(arm().attached, std::move(attached), execution_);
   }
   void read_hold(Fields& fields) {
+    if (arm().held.size() == most_named) fields.place().fail(fmt::format("at most {} joints are held", most_named));
     warren::read_hold(fields, arm());
     check_done(fields);
   }
@@ -218,7 +220,7 @@ class SceneReader {
     while (!fields.done()) {
       std::string joint = word_of(fields);
       if (std::ranges::count(state.names, joint) > 0) fields.place().fail("this joint stands here twice", joint);
-      if (state.names.size() == most_joints) fields.place().fail(fmt::format("at most {} joints", most_joints), joint);
+      if (state.names.size() == most_named) fields.place().fail(fmt::format("at most {} joints", most_named), joint);
       state.names.push_back(std::move(joint));
       state.values.push_back(fields.number());
     }

@@ -19,7 +19,7 @@ Vec3 point_at(std::span<const double> numbers, std::size_t first) {
 /// A turn that takes z to the direction of `axis`, which is not zero: plain sums and products, so that it is the same
 /// everywhere.
 Eigen::Matrix3d turn_to(const Vec3& axis) {
-  const double length = std::hypot(axis.x(), axis.y(), axis.z());
+  const double length = std::sqrt(axis.dot(axis));
   const Vec3 z = axis / length;
   const Vec3 side = std::abs(z.x()) < 0.75 ? Vec3::UnitX() : Vec3::UnitY();
   Vec3 y = z.cross(side);
@@ -36,7 +36,7 @@ void stretch(Solid& solid, std::span<const double> numbers) {
   const Vec3 a = point_at(numbers, 0);
   const Vec3 b = point_at(numbers, 3);
   const Vec3 axis = b - a;
-  const double length = std::hypot(axis.x(), axis.y(), axis.z());
+  const double length = std::sqrt(axis.dot(axis));
   if (length > 0.0) solid.pose.linear() = turn_to(axis);
   solid.pose.translation() = 0.5 * (a + b);
   solid.half = {numbers[6], 0.0, 0.5 * length};

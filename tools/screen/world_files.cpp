@@ -19,6 +19,7 @@
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/layers/draw_cells.hpp"
 #include "scenes/files/human_units.hpp"
+#include "scenes/files/moveit_io.hpp"
 #include "scenes/files/npy_io.hpp"
 #include "scenes/files/npy_maze_io.hpp"
 #include "scenes/files/read_world_io.hpp"
@@ -38,6 +39,7 @@ constexpr OptionSpec world_specs[] = {
     {"--map-rules", "NAME",
      "for maps of ROS (.yaml): by whose rules a pixel is free, Nav2's or those of ROS 1 (default: nav2)",
      choices_of<MapServerRules>},
+    {"--request", "FILE", "a request of MoveIt (YAML): start and goal of the arm"},
 };
 
 void tell_of_grey(const OccupancyMap& map) {
@@ -75,6 +77,7 @@ Scene load_world(const std::string& source, const Arguments& arguments, const Ex
                  StageTimes& seconds) {
   if (!is_made_source(source)) return load_world(file_of_world(source, execution), arguments, execution, seconds);
   if (arguments.has("--map-rules")) refuse_rules(source);
+  if (arguments.has("--request")) throw UsageError("--request: is for a world with an arm, and this one is made");
   const StageTimer timer(execution, "generate", seconds.generate);
   return read_world(source, execution);
 }
@@ -93,13 +96,14 @@ Scene load_planned_world(const std::string& source, std::optional<PipelineKind> 
   const auto is_left_out = [&](MazeHint maze) { return is_streamed || (!pipeline && is_large(maze)); };
   if (is_maze_source(source)) {
     std::optional<Scene> scene = unmade_maze(source);
-    if (scene && is_left_out(*scene->maze)) return std::move(*scene);
+    if (scene && is_left_out(*scene->maze) && !arguments.has("--request")) return std::move(*scene);
     return load_world(source, arguments, execution, seconds);
   }
   if (is_made_source(source)) return load_world(source, arguments, execution, seconds);
   const InputFile file = file_of_world(source, execution);
   std::error_code ignored;
-  if (std::filesystem::is_regular_file(source, ignored) && !arguments.has("--map-rules")) {
+  const bool plain = !arguments.has("--map-rules") && !arguments.has("--request");
+  if (std::filesystem::is_regular_file(source, ignored) && plain) {
     std::optional<Scene> scene = unmade_maze(file);
     // All of an array's walls can be planned among then.
     const bool fits = scene && is_npy(file.bytes()) && !is_large(*scene->maze);
@@ -115,6 +119,10 @@ Scene load_world(const InputFile& file, const Arguments& arguments, const Execut
   if (asked && !(scene.map && scene.map->format == MapFormat::ros)) refuse_rules(file.name());
   if (scene.map) check_not_written(arguments, scene.map->image);
   if (scene.map && scene.map->grey_free > 0 && !arguments.has("--quiet")) tell_of_grey(*scene.map);
+  if (const auto name = arguments.value("--request")) {
+    check_not_written(arguments, *name);
+    take_moveit_request(scene, InputFile(*name, execution), execution);
+  }
   check_not_written(arguments, scene.robot);
   return scene;
 }
@@ -159,8 +167,10 @@ void note_left_out(const Arguments& arguments, const Scene& scene, const std::st
 }
 
 void check_rules_of_maps(const Arguments& arguments) {
-  if (!arguments.has("--map-rules") || arguments.has("--world")) return;
-  throw UsageError("--map-rules: is for the world that --world names; a roadmap has its own inside");
+  for (const std::string_view option : {"--map-rules", "--request"}) {
+    if (!arguments.has(option) || arguments.has("--world")) continue;
+    throw UsageError(fmt::format("{}: is for the world that --world names; a roadmap has its own inside", option));
+  }
 }
 
 Roadmap load_roadmap(const Arguments& arguments, const Execution& execution, StageTimes& seconds) {

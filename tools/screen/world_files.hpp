@@ -20,7 +20,7 @@
 
 namespace warren::tools {
 
-/// --map-rules
+/// --map-rules, --request
 std::span<const OptionSpec> world_option_specs();
 
 /// Reads or generates WORLD as world_option_specs say; adds the time to seconds.read or seconds.generate. Throws as
@@ -51,7 +51,7 @@ void check_world_file(const std::string& file);
 inline constexpr OptionSpec roadmap_world_option{
     "--world", "WORLD", "the world that the roadmap was built for, where its file has none (build --no-world)"};
 
-/// Throws UsageError for --map-rules where no --world is named that they could be for.
+/// Throws UsageError for --map-rules and --request where no --world is named that they could be for.
 void check_rules_of_maps(const Arguments& arguments);
 
 /// Adds the time to seconds. Throws as read_roadmap and load_world do, InputError for a world where a roadmap is

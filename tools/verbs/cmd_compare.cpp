@@ -388,7 +388,7 @@ std::optional<studies::SizeSweepOptions> sweep_options(const Arguments& argument
 void refuse_world_options(const Arguments& arguments) {
   constexpr std::string_view why = "is about a world; give WORLD, too";
   for (const OptionSpec& spec : passed_specs()) refuse(arguments, {spec.name}, why);
-  refuse(arguments, {"--graph", "--samplers", "--samples", "--map-rules", "--pictures"}, why);
+  refuse(arguments, {"--graph", "--samplers", "--samples", "--map-rules", "--request", "--pictures"}, why);
 }
 
 /// Options of the world's graph; checked for the planners that may make it, so far as that needs no world.

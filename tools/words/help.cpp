@@ -206,7 +206,7 @@ struct NamedGroup {
 /// What stands in none is the verb's own.
 constexpr std::string_view own = "Options";
 constexpr NamedGroup option_groups[] = {
-    {"Question", "--robot --start --goal --via --clearance --contact --map-rules"},
+    {"Question", "--robot --start --goal --via --clearance --contact --map-rules --request"},
     {"Planner", "--planner --planners --seed"},
     {"Roadmaps of samples",
      "--sampler --samplers --samples --neighbours --radius --neighbour-index --attach --lazy --pipeline"},

@@ -10,6 +10,7 @@ def read_world(
     source: _Path,
     *,
     map_rules: Literal["nav2", "ros1"] | None = ...,
+    request: _Path | None = ...,
     threads: int | None = ...,
     budget: float | str | None = ...,
     memory: int | str | None = ...,

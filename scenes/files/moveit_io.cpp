@@ -1,0 +1,441 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scenes/files/moveit_io.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "parallel/asked_memory.hpp"
+#include "scenes/files/solid_text.hpp"
+#include "scenes/files/yaml_file_io.hpp"
+
+namespace warren {
+namespace {
+
+using YAML::Node;
+
+/// Numbers as scenes have them, so that a pose which nothing moves is written as it was read.
+struct PoseNumbers {
+  std::array<double, 3> at{};
+  std::array<double, 4> turn{0.0, 0.0, 0.0, 1.0};
+
+  Eigen::Isometry3d pose() const {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.translation() = Vec3(at[0], at[1], at[2]);
+    pose.linear() = turn_of_quaternion(turn[0], turn[1], turn[2], turn[3]);
+    return pose;
+  }
+  bool is_identity() const {
+    return at == std::array{0.0, 0.0, 0.0} && turn[0] == 0.0 && turn[1] == 0.0 && turn[2] == 0.0;
+  }
+};
+
+PoseNumbers joined(const PoseNumbers& outer, const PoseNumbers& inner) {
+  if (outer.is_identity()) return inner;
+  const Eigen::Isometry3d whole = outer.pose() * inner.pose();
+  const Vec3 at = whole.translation();
+  return {{at.x(), at.y(), at.z()}, quaternion_of_turn(whole.linear())};
+}
+
+/// Nodes as what they should be; each error names its line.
+class MoveItNodes {
+ public:
+  MoveItNodes(const InputFile& file, std::string_view what, const Execution& execution)
+      : yaml_(file, what, most_mebibytes, execution), execution_(execution) {}
+
+ protected:
+  static Node at(const Node& map, const char* key) {
+    const Node found = map.IsMap() ? map[key] : Node();
+    return found ? found : Node();
+  }
+  /// Each of a list; of nothing where the key is missing.
+  template <class Take>
+  void for_each(const Node& map, const char* key, const Take& take) const {
+    const Node list = at(map, key);
+    if (list.IsNull()) return;
+    if (!list.IsSequence()) yaml_.fail(list, fmt::format("`{}` must be a list", key));
+    for (const Node& item : list) {
+      execution_.check();
+      take(item);
+    }
+  }
+  std::size_t count(const Node& map, const char* key) const {
+    const Node list = at(map, key);
+    return list.IsSequence() ? list.size() : 0;
+  }
+  Node needed(const Node& map, const char* key) const {
+    const Node found = at(map, key);
+    if (found.IsNull()) yaml_.place(map).fail(fmt::format("the key `{}` is missing here", key));
+    return found;
+  }
+  double number(const Node& node, std::string_view key) const {
+    const double value = yaml_.number(node, key, "a number of at most 1e60");
+    if (!(std::abs(value) <= largest_coordinate)) {
+      yaml_.fail(node, fmt::format("`{}` must be a number of at most 1e60", key));
+    }
+    return std::abs(value) < smallest_coordinate ? 0.0 : value;
+  }
+  /// A list, or x, y, z and w by these names.
+  template <std::size_t N>
+  std::array<double, N> numbers(const Node& node, std::string_view key) const {
+    constexpr std::array<const char*, 4> names{"x", "y", "z", "w"};
+    if (!node.IsMap() && (!node.IsSequence() || node.size() != N)) {
+      yaml_.fail(node, fmt::format("`{}` must be {} numbers", key, N));
+    }
+    std::array<double, N> found{};
+    for (std::size_t i = 0; i < N; ++i) {
+      found[i] = number(node.IsMap() ? needed(node, names[i]) : Node(node[i]), node.IsMap() ? names[i] : key);
+    }
+    return found;
+  }
+  PoseNumbers pose(const Node& node, const char* at_key = "position", const char* turn_key = "orientation") const {
+    PoseNumbers pose;
+    if (const Node place = at(node, at_key); !place.IsNull()) pose.at = numbers<3>(place, at_key);
+    if (const Node turn = at(node, turn_key); !turn.IsNull()) pose.turn = numbers<4>(turn, turn_key);
+    if (pose.turn == std::array<double, 4>{}) yaml_.place(node).fail("a quaternion must not be 0 0 0 0");
+    return pose;
+  }
+  /// A word, as a line of a scene holds it.
+  std::string word(const Node& node, std::string_view key) const {
+    const std::string text = node.IsScalar() ? node.Scalar() : "";
+    const bool plain = std::ranges::none_of(text, [](unsigned char c) { return c <= ' ' || c == ',' || c == '#'; });
+    if (text.empty() || !plain) yaml_.fail(node, fmt::format("`{}` must be a name without blanks, commas and #", key));
+    return text;
+  }
+  bool truth(const Node& node, std::string_view key) const {
+    const std::string text = node.IsScalar() ? node.Scalar() : "";
+    for (const std::string_view yes : {"true", "True", "TRUE", "1", "yes", "on"}) {
+      if (text == yes) return true;
+    }
+    for (const std::string_view no : {"false", "False", "FALSE", "0", "no", "off"}) {
+      if (text == no) return false;
+    }
+    yaml_.fail(node, fmt::format("`{}` must be true or false", key));
+  }
+
+  YamlFile yaml_;
+  const Execution& execution_;
+
+ private:
+  static constexpr std::size_t most_mebibytes = 64;
+};
+
+/// What scenes and requests have in common: the robot's state.
+class MoveItStates : public MoveItNodes {
+ public:
+  using MoveItNodes::MoveItNodes;
+
+ protected:
+  /// Of a robot_state or start_state.
+  void take_state(Scene& scene, const Node& state) {
+    const Node joints = at(state, "joint_state");
+    if (!joints.IsNull()) take_joints(scene, joints);
+    for_each(at(state, "multi_dof_joint_state"), "transforms", [&](const Node& base) {
+      if (!pose(base, "translation", "rotation").is_identity()) yaml_.fail(base, "the arm's base must stand at 0 0 0");
+    });
+    for_each(state, "attached_collision_objects", [&](const Node& attached) { take_attached(scene, attached); });
+  }
+  /// A box, ball or cylinder, or a mesh's hull: take(solid) for each.
+  template <class Take>
+  void for_each_solid(const Node& object, const Take& take) const {
+    const PoseNumbers stand = pose(at(object, "pose"));
+    for (const char* key : {"planes", "plane_poses"}) {
+      if (count(object, key) > 0) yaml_.fail(at(object, key), "planes are not read: a box does instead");
+    }
+    const auto each = [&](const char* shapes, const char* poses, const auto& make) {
+      if (count(object, shapes) != count(object, poses)) {
+        yaml_.place(object).fail(fmt::format("`{}` must have as many items as `{}`", poses, shapes));
+      }
+      std::size_t i = 0;
+      for_each(object, shapes, [&](const Node& shape) {
+        Solid solid = make(shape, joined(stand, pose(at(object, poses)[i++])));
+        if (const Node id = at(object, "id"); id.IsScalar()) solid.name = id.Scalar();
+        take(std::move(solid));
+      });
+    };
+    each("primitives", "primitive_poses", [&](const Node& n, const PoseNumbers& p) { return primitive(n, p); });
+    each("meshes", "mesh_poses", [&](const Node& n, const PoseNumbers& p) { return mesh(n, p); });
+  }
+
+  ArmFiles& arm_of(Scene& scene) const { return scene.arm ? *scene.arm : scene.arm.emplace(); }
+
+ private:
+  void take_joints(Scene& scene, const Node& joints) const {
+    NamedState state;
+    std::map<std::string, double> values;
+    for_each(joints, "name", [&](const Node& name) {
+      push_asked(state.names, word(name, "name"), execution_);
+      if (!values.emplace(state.names.back(), 0.0).second) yaml_.fail(name, "this joint stands here twice");
+    });
+    for_each(joints, "position", [&](const Node& n) { state.values.push_back(number(n, "position")); });
+    if (state.names.size() != state.values.size()) {
+      yaml_.place(joints).fail("`position` must have as many numbers as `name` has joints");
+    }
+    if (state.names.empty()) return;
+    for (std::size_t i = 0; i < state.names.size(); ++i) values[state.names[i]] = state.values[i];
+    auto& held = arm_of(scene).held;
+    for (const auto& joint : held) values.insert(joint);
+    held.assign(values.begin(), values.end());
+    scene.start.clear();
+    scene.named_start = std::move(state);
+  }
+  void take_attached(Scene& scene, const Node& attached) const {
+    const std::string link = word(needed(attached, "link_name"), "link_name");
+    std::vector<std::string> touched;
+    for_each(attached, "touch_links", [&](const Node& n) { touched.push_back(word(n, "touch_links")); });
+    const Node object = needed(attached, "object");
+    if (const Node frame = at(at(object, "header"), "frame_id"); frame.IsScalar() && !frame.Scalar().empty()) {
+      if (frame.Scalar() != link) yaml_.fail(frame, fmt::format("what is attached must be in the frame {}", link));
+    }
+    for_each_solid(object, [&](Solid solid) {
+      push_asked(arm_of(scene).attached, {link, std::move(solid), touched}, execution_);
+    });
+  }
+  Solid primitive(const Node& shape, const PoseNumbers& pose) const {
+    const Node type = needed(shape, "type");
+    const std::string name = type.IsScalar() ? type.Scalar() : "";
+    const Node size = needed(shape, "dimensions");
+    const auto solid = [&](std::string_view word, const std::vector<double>& numbers) {
+      return solid_of_numbers(*solid_word_named(word), numbers, yaml_.place(shape));
+    };
+    const auto& [x, y, z] = pose.at;
+    if (name == "box" || name == "1") {
+      const auto sides = numbers<3>(size, "dimensions");
+      return solid("obox", {x, y, z, pose.turn[0], pose.turn[1], pose.turn[2], pose.turn[3], 0.5 * sides[0],
+                            0.5 * sides[1], 0.5 * sides[2]});
+    }
+    if (name == "sphere" || name == "2") return solid("sphere", {x, y, z, numbers<1>(size, "dimensions")[0]});
+    if (name == "cylinder" || name == "3") {
+      const auto [height, radius] = numbers<2>(size, "dimensions");
+      const Vec3 reach = 0.5 * height * pose.pose().linear().col(2);
+      return solid("cylinder",
+                   {x - reach.x(), y - reach.y(), z - reach.z(), x + reach.x(), y + reach.y(), z + reach.z(), radius});
+    }
+    yaml_.fail(type, "`type` must be box, sphere or cylinder");
+  }
+  Solid mesh(const Node& shape, const PoseNumbers& stand) const {
+    const Eigen::Isometry3d pose = stand.pose();
+    std::vector<double> all;
+    for_each(shape, "vertices", [&](const Node& vertex) {
+      const auto [x, y, z] = numbers<3>(vertex, "vertices");
+      for (const double c : Vec3(pose * Vec3(x, y, z))) push_asked(all, c, execution_);
+    });
+    if (all.empty()) yaml_.place(shape).fail("a mesh needs `vertices`");
+    execution_.reserve(2 * all.size() * sizeof(double));
+    return solid_of_numbers(*solid_word_named("hull"), all, yaml_.place(shape));
+  }
+};
+
+class MoveItSceneReader : public MoveItStates {
+ public:
+  using MoveItStates::MoveItStates;
+
+  Scene read() {
+    const Node& root = yaml_.root();
+    const Node world = at(root, "world");
+    if (!at(at(at(world, "octomap"), "octomap"), "data").IsNull() &&
+        count(at(at(world, "octomap"), "octomap"), "data") > 0) {
+      yaml_.fail(at(world, "octomap"), "octomaps are not read");
+    }
+    for_each(root, "fixed_frame_transforms", [&](const Node& frame) {
+      const bool same = pose(at(frame, "transform"), "translation", "rotation").is_identity();
+      if (!same) yaml_.fail(frame, "frames must stand at 0 0 0: what is in them would be elsewhere");
+    });
+    for_each(world, "collision_objects", [&](const Node& object) { take_object(object); });
+    take_state(scene_, at(root, "robot_state"));
+    take_matrix(at(root, "allowed_collision_matrix"));
+    return std::move(scene_);
+  }
+
+ private:
+  void take_object(const Node& object) {
+    if (const Node id = at(object, "id"); id.IsScalar()) ids_.insert(id.Scalar());
+    if (const Node frame = at(at(object, "header"), "frame_id"); frame.IsScalar() && !frame.Scalar().empty()) {
+      if (frame_.empty()) frame_ = frame.Scalar();
+      if (frame.Scalar() != frame_) yaml_.fail(frame, fmt::format("all objects must be in one frame, here {}", frame_));
+    }
+    for_each_solid(object, [&](Solid solid) {
+      if (solid.kind == SolidKind::sphere) {
+        const Vec3 at = solid.pose.translation();
+        push_asked(scene_.spheres, {at.x(), at.y(), at.z(), solid.half.x()}, execution_);
+      } else {
+        push_asked(scene_.solids, std::move(solid), execution_);
+      }
+    });
+  }
+  /// As MoveIt reads it: what stands above the diagonal; defaults where there is no entry.
+  void take_matrix(const Node& matrix) {
+    const std::vector<std::string> names = words(matrix, "entry_names");
+    std::size_t row = 0;
+    for_each(matrix, "entry_values", [&](const Node& values) {
+      const Node list = values.IsMap() ? at(values, "enabled") : values;
+      if (!list.IsSequence() || list.size() != names.size() || row == names.size()) {
+        yaml_.fail(values, fmt::format("`entry_values` must be {0} lists of {0}", names.size()));
+      }
+      std::size_t column = 0;
+      for (const Node& value : list) {
+        if (truth(value, "entry_values") && column > row) allow(names[row], names[column]);
+        ++column;
+      }
+      ++row;
+    });
+    if (row != names.size())
+      yaml_.place(matrix).fail(fmt::format("`entry_values` must be {0} lists of {0}", names.size()));
+    take_defaults(matrix, names);
+  }
+  void take_defaults(const Node& matrix, std::vector<std::string> known) {
+    const std::vector<std::string> names = words(matrix, "default_entry_names");
+    if (count(matrix, "default_entry_values") != names.size()) {
+      yaml_.place(matrix).fail("`default_entry_values` must have as many items as `default_entry_names`");
+    }
+    const std::set<std::string> entries(known.begin(), known.end());
+    std::size_t i = 0;
+    for_each(matrix, "default_entry_values", [&](const Node& value) {
+      const std::string& name = names[i++];
+      if (entries.contains(name)) return;
+      for (const std::string& other : known) {
+        if (truth(value, "default_entry_values")) allow(name, other);
+      }
+      known.push_back(name);
+    });
+  }
+  std::vector<std::string> words(const Node& map, const char* key) const {
+    std::vector<std::string> all;
+    for_each(map, key, [&](const Node& n) { push_asked(all, word(n, key), execution_); });
+    return all;
+  }
+  /// Of links alone: an object of the world is in the way of all.
+  void allow(const std::string& first, const std::string& second) {
+    execution_.check();
+    if (ids_.contains(first) || ids_.contains(second) || first == second) return;
+    bool is_attached = false;
+    for (AttachedSolid& attached : arm_of(scene_).attached) {
+      if (attached.solid.name != first && attached.solid.name != second) continue;
+      is_attached = true;
+      attached.may_touch.push_back(attached.solid.name == first ? second : first);
+    }
+    if (!is_attached) push_asked(arm_of(scene_).allowed, {first, second}, execution_);
+  }
+
+  Scene scene_;
+  std::set<std::string> ids_;  ///< of the world's objects
+  std::string frame_;
+};
+
+class MoveItRequestReader : public MoveItStates {
+ public:
+  using MoveItStates::MoveItStates;
+
+  void read(Scene& scene) {
+    const Node& root = yaml_.root();
+    if (const Node group = at(root, "group_name"); !group.IsNull()) arm_of(scene).group = word(group, "group_name");
+    take_state(scene, at(root, "start_state"));
+    const Node way = at(root, "path_constraints");
+    for (const char* key : kinds) {
+      if (count(way, key) > 0) yaml_.fail(at(way, key), "constraints on the way are not kept: `path_constraints`");
+    }
+    if (count(at(root, "trajectory_constraints"), "constraints") > 0) {
+      yaml_.fail(at(root, "trajectory_constraints"), "constraints on the way are not kept: `trajectory_constraints`");
+    }
+    scene.goal.clear();
+    scene.named_goals.clear();
+    scene.goal_pose.reset();
+    for_each(root, "goal_constraints", [&](const Node& goal) { take_goal(scene, goal); });
+    const bool by_place = scene.goal_pose || !scene.goal.empty();
+    if (by_place && count(root, "goal_constraints") > 1) {
+      yaml_.fail(at(root, "goal_constraints"), "goals are several where all are by `joint_constraints`");
+    }
+  }
+
+ private:
+  static constexpr std::array<const char*, 4> kinds{"joint_constraints", "position_constraints",
+                                                    "orientation_constraints", "visibility_constraints"};
+
+  void take_goal(Scene& scene, const Node& goal) const {
+    if (count(goal, kinds[3]) > 0) yaml_.fail(at(goal, kinds[3]), "`visibility_constraints` are not kept");
+    if (count(goal, kinds[0]) > 0) {
+      if (count(goal, kinds[1]) + count(goal, kinds[2]) > 0) {
+        yaml_.fail(goal, "a goal is by joints or by a place of the tool, not by both");
+      }
+      return take_joint_goal(scene, goal);
+    }
+    if (count(goal, kinds[1]) != 1 || count(goal, kinds[2]) > 1) {
+      yaml_.place(goal).fail("a goal needs `joint_constraints`, or one of `position_constraints`");
+    }
+    const Node place = at(goal, kinds[1])[0];
+    if (const Node offset = at(place, "target_point_offset"); !offset.IsNull()) {
+      if (numbers<3>(offset, "target_point_offset") != std::array<double, 3>{}) {
+        yaml_.fail(offset, "`target_point_offset` must be 0 0 0");
+      }
+    }
+    const Node region = needed(place, "constraint_region");
+    if (count(region, "primitive_poses") != 1) yaml_.fail(region, "a place needs one of `primitive_poses`");
+    PoseNumbers pose{.at = numbers<3>(needed(at(region, "primitive_poses")[0], "position"), "position")};
+    if (count(goal, kinds[2]) == 0) {
+      scene.goal.assign(pose.at.begin(), pose.at.end());
+      return;
+    }
+    pose.turn = this->pose(at(goal, kinds[2])[0]).turn;
+    scene.goal_pose = pose.pose();
+  }
+  void take_joint_goal(Scene& scene, const Node& goal) const {
+    NamedState state;
+    std::set<std::string> seen;
+    for_each(goal, kinds[0], [&](const Node& joint) {
+      const Node name = needed(joint, "joint_name");
+      if (!seen.insert(word(name, "joint_name")).second) yaml_.fail(name, "this joint stands here twice");
+      state.names.push_back(name.Scalar());
+      state.values.push_back(number(needed(joint, "position"), "position"));
+    });
+    push_asked(scene.named_goals, std::move(state), execution_);
+  }
+};
+
+/// yaml-cpp's own words for a node that is not what its reader takes it for.
+template <class Read>
+auto without_yaml_errors(const InputFile& file, const Read& read) {
+  try {
+    return read();
+  } catch (const YAML::Exception& error) {
+    throw InputError(file.name(), "expected YAML of MoveIt: " + error.msg);
+  }
+}
+
+}  // namespace
+
+bool is_moveit_scene(std::string_view name, std::string_view bytes) {
+  constexpr std::size_t head = 4096;
+  const auto has = [](std::string_view text, std::string_view word) {
+    return text.find(word) != std::string_view::npos;
+  };
+  if (name.ends_with(".yaml") || name.ends_with(".yml")) {
+    return has(bytes, "collision_objects") || has(bytes, "robot_model_name");
+  }
+  const std::string_view begin = bytes.substr(0, head);
+  for (const std::string key : {"world:", "robot_model_name:", "allowed_collision_matrix:"}) {
+    if (begin.starts_with(key) || has(begin, "\n" + key)) return true;
+  }
+  return false;
+}
+
+Scene read_moveit_scene(const InputFile& file, const Execution& execution) {
+  return without_yaml_errors(file, [&] {
+    Scene scene = MoveItSceneReader(file, "a planning scene of MoveIt", execution).read();
+    scene.source = file.name();
+    return scene;
+  });
+}
+
+void take_moveit_request(Scene& scene, const InputFile& file, const Execution& execution) {
+  without_yaml_errors(file, [&] { MoveItRequestReader(file, "a request of MoveIt", execution).read(scene); });
+}
+
+}  // namespace warren

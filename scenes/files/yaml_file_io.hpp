@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A YAML file as a tree, and errors that name its lines. For the readers of formats that are YAML.
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "parallel/execution.hpp"
+#include "scenes/files/input_file_io.hpp"
+#include "scenes/files/scene_text.hpp"
+
+namespace warren {
+
+class YamlFile {
+ public:
+  /// what: "a map server's YAML". Throws InputError where the file is larger or no YAML of keys with values, Stopped.
+  YamlFile(const InputFile& file, std::string_view what, std::size_t most_mebibytes, const Execution& execution);
+
+  const YAML::Node& root() const { return root_; }
+  /// Its file and line.
+  scene_text::Place place(const YAML::Node& node) const { return place(node.Mark()); }
+  /// Throws InputError naming the line, and the value where the node is one.
+  [[noreturn]] void fail(const YAML::Node& node, std::string_view what) const;
+  /// `key` and `expected` are for the error: "`key` must be EXPECTED". Infinities and what is no number are numbers.
+  double number(const YAML::Node& node, std::string_view key, std::string_view expected) const;
+
+ private:
+  scene_text::Place place(const YAML::Mark& mark) const {
+    return {name_, mark.is_null() ? 0 : static_cast<std::size_t>(mark.line) + 1};
+  }
+
+  std::string name_;
+  YAML::Node root_;
+};
+
+}  // namespace warren

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scenes/files/moveit_io.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/base/rng.hpp"
+#include "scenes/files/read_world_io.hpp"
+#include "scenes/files/scene_io.hpp"
+#include "tests/seeds.hpp"
+
+namespace warren {
+namespace {
+
+const std::string scene_text = R"(robot_model_name: two_arms
+allowed_collision_matrix:
+  entry_names: [hand, finger, arm, can, cup]
+  entry_values:
+    - [false, true, false, true, false]
+    - [false, false, false, false, true]
+    - [true, true, false, false, false]
+    - [true, true, false, false, false]
+    - [true, true, false, false, false]
+  default_entry_names: [base]
+  default_entry_values: [true]
+robot_state:
+  joint_state:
+    name: [turn, slide]
+    position: [0.5, 0.25]
+  attached_collision_objects:
+    - link_name: hand
+      touch_links: [palm]
+      object:
+        id: cup
+        header: {frame_id: hand}
+        primitives: [{type: cylinder, dimensions: [0.2, 0.05]}]
+        primitive_poses: [{position: [0, 0, 0.1], orientation: [0, 0, 0, 1]}]
+world:
+  collision_objects:
+    - id: can
+      pose: {position: [1, 0, 0], orientation: {x: 0, y: 0, z: 1, w: 1}}
+      primitives:
+        - {type: box, dimensions: [0.2, 0.4, 0.6]}
+        - {type: 3, dimensions: [2, 0.25]}
+      primitive_poses:
+        - position: {x: 1, y: 0, z: 0}
+          orientation: [0, 0, 0, 1]
+        - {position: [0, 0, 0], orientation: [1, 0, 0, 1]}
+    - id: ball
+      primitives: [{type: sphere, dimensions: [0.5]}]
+      primitive_poses: [{position: [3, 2, 1], orientation: [0, 0, 0, 1]}]
+    - id: wedge
+      meshes: [{vertices: [[0, 0, 0], [1, 0, 0], {x: 0, y: 1, z: 0}, [0, 0, 1]], triangles: []}]
+      mesh_poses: [{position: [0, 0, 2], orientation: [0, 0, 0, 1]}]
+)";
+
+const std::string request_text = R"(group_name: one_arm
+start_state:
+  joint_state: {name: [slide, wrist], position: [0.125, -1]}
+goal_constraints:
+  - joint_constraints:
+      - {joint_name: turn, position: 1}
+      - {joint_name: slide, position: 0.5}
+  - joint_constraints: [{joint_name: turn, position: 2}]
+)";
+
+InputFile file_of(std::string_view text) { return InputFile::of_bytes("a.yaml", std::string(text)); }
+Scene read(std::string_view text) { return read_scene(file_of(text), {}); }
+std::string with(std::string text, std::string_view old, std::string_view now) {
+  const std::size_t at = text.find(old);
+  if (at == std::string::npos) throw std::logic_error(std::string(old));
+  return text.replace(at, old.size(), now);
+}
+
+TEST(MoveIt, ReadsWhatIsInTheWay) {
+  const Scene scene = read(scene_text);
+  ASSERT_EQ(scene.solids.size(), 3U);
+  const Solid& box = scene.solids[0];
+  EXPECT_EQ(box.name, "can");
+  EXPECT_EQ(box.half, Vec3(0.1, 0.2, 0.3));
+  EXPECT_TRUE(box.pose.translation().isApprox(Vec3(1, 1, 0), 1e-15)) << "turned with its object";
+  EXPECT_TRUE((box.pose.linear() * Vec3::UnitX()).isApprox(Vec3::UnitY(), 1e-15));
+  const Solid& cylinder = scene.solids[1];
+  EXPECT_EQ(cylinder.kind, SolidKind::cylinder);
+  EXPECT_TRUE(cylinder.half.isApprox(Vec3(0.25, 0, 1), 1e-15));
+  EXPECT_NEAR(std::abs(cylinder.pose(0, 2)), 1.0, 1e-15) << "its axis: z, about x to -y, about z to x";
+  EXPECT_EQ(scene.solids[2].corners.at(3), Vec3(0, 0, 3));
+  ASSERT_EQ(scene.spheres.size(), 1U);
+  EXPECT_EQ(scene.spheres[0].radius, 0.5);
+}
+
+TEST(MoveIt, ReadsWhatIsSaidOfTheArm) {
+  const ArmFiles arm = read(scene_text).arm.value();
+  using Pairs = std::vector<std::array<std::string, 2>>;
+  EXPECT_EQ(arm.allowed, (Pairs{{"hand", "finger"}, {"base", "hand"}, {"base", "finger"}, {"base", "arm"}}))
+      << "above the diagonal, of links alone";
+  ASSERT_EQ(arm.attached.size(), 1U);
+  EXPECT_EQ(arm.attached[0].may_touch, (std::vector<std::string>{"palm", "finger", "base"}));
+  EXPECT_EQ(arm.attached[0].solid.pose.translation(), Vec3(0, 0, 0.1));
+  EXPECT_EQ(arm.held, (std::vector<std::pair<std::string, double>>{{"slide", 0.25}, {"turn", 0.5}}));
+}
+
+TEST(MoveIt, TakesARequest) {
+  Scene scene = read(scene_text);
+  EXPECT_EQ(scene.named_start->values, (std::vector<double>{0.5, 0.25}));
+  take_moveit_request(scene, file_of(request_text), {});
+  EXPECT_EQ(scene.arm->group, "one_arm");
+  EXPECT_EQ(scene.named_start->names, (std::vector<std::string>{"slide", "wrist"}));
+  EXPECT_EQ(scene.arm->held,
+            (std::vector<std::pair<std::string, double>>{{"slide", 0.125}, {"turn", 0.5}, {"wrist", -1.0}}));
+  ASSERT_EQ(scene.named_goals.size(), 2U);
+  EXPECT_EQ(scene.named_goals[0].values, (std::vector<double>{1, 0.5}));
+}
+
+TEST(MoveIt, TakesAGoalByThePoseOfTheTool) {
+  Scene scene;
+  const std::string place =
+      "goal_constraints: [{position_constraints: [{link_name: hand, constraint_region: {primitive_poses: [{position: "
+      "[1, 2, 3]}]}}]";
+  take_moveit_request(scene, file_of(place + "}]"), {});
+  EXPECT_EQ(scene.goal, (std::vector<double>{1, 2, 3}));
+  take_moveit_request(scene, file_of(place + ", orientation_constraints: [{orientation: [0, 0, 1, 1]}]}]"), {});
+  EXPECT_TRUE(scene.goal.empty());
+  EXPECT_TRUE((*scene.goal_pose * Vec3(1, 0, 0)).isApprox(Vec3(1, 3, 3), 1e-15));
+}
+
+TEST(MoveIt, BecomesASceneThatReadsBackTheSame) {
+  Scene scene = read(scene_text);
+  take_moveit_request(scene, file_of(request_text), {});
+  std::string text;
+  write_scene_text(scene, [&](std::string_view part) { text += part; }, {});
+  const Scene back = read_scene(InputFile::of_bytes("a.scene", text), {});
+  EXPECT_EQ(scene_hash(back), scene_hash(scene));
+  EXPECT_EQ(back.arm->held, scene.arm->held);
+  EXPECT_EQ(back.named_goals.size(), 2U);
+}
+
+TEST(MoveIt, RefusesWhatItDoesNotRead) {
+  const std::string cone = "`type` must be box, sphere or cylinder (found: cone)";
+  const std::pair<std::string, std::string> scenes[] = {
+      {with(scene_text, "type: box", "type: cone"), "a.yaml:29: " + cone},
+      {with(scene_text, "[0.2, 0.4, 0.6]", "[0.2, 0.4]"), "a.yaml:29: `dimensions` must be 3 numbers"},
+      {with(scene_text, "[0.2, 0.4, 0.6]", "[0.2, -0.4, 0.6]"), "a.yaml:29: `obox`: half the sides"},
+      {with(scene_text, "[0.2, 0.4, 0.6]", "[0.2, x, 0.6]"),
+       "a.yaml:29: `dimensions` must be a number of at most 1e60 (found: x)"},
+      {with(scene_text, "[0.2, 0.4, 0.6]", "[0.2, .nan, 0.6]"), "a.yaml:29: `dimensions` must be a number"},
+      {with(scene_text, "{x: 0, y: 0, z: 1, w: 1}", "[0, 0, 0, 0]"), "a.yaml:27: a quaternion must not be 0 0 0 0"},
+      {with(scene_text, "    - id: ball", "    - planes: [{coef: [0, 0, 1, 0]}]"), "a.yaml:35: planes are not read"},
+      {with(scene_text, "frame_id: hand", "frame_id: arm"), "a.yaml:21: what is attached must be in the frame hand"},
+      {with(scene_text, "cup]", "cup, jar]"), "a.yaml:5: `entry_values` must be 6 lists of 6"},
+      {with(scene_text, "position: [0.5, 0.25]", "position: [0.5]"), "a.yaml:14: `position` must have as many numbers"},
+      {with(scene_text, "[turn, slide]", "[turn, turn]"), "a.yaml:14: this joint stands here twice (found: turn)"},
+      {with(scene_text, "[turn, slide]", "[turn, \"sl ide\"]"), "a.yaml:14: `name` must be a name without blanks"},
+      {with(scene_text, "world:", "fixed_frame_transforms: [{transform: {translation: [1, 0, 0]}}]\nworld:"),
+       "a.yaml:24: frames must stand at 0 0 0"},
+      {scene_text + "  : [", "a.yaml:"},
+  };
+  for (const auto& [text, expected] : scenes) {
+    try {
+      read(text);
+      ADD_FAILURE() << "accepted, expected " << expected;
+    } catch (const InputError& error) {
+      EXPECT_EQ(std::string(error.what()).substr(0, expected.size()), expected);
+    }
+  }
+  const std::string both = "goal_constraints: [{joint_constraints: [1], position_constraints: [1]}]";
+  for (const std::string& text :
+       {both, std::string("path_constraints: {joint_constraints: [1]}"), std::string("goal_constraints: [{}]")}) {
+    Scene scene;
+    EXPECT_THROW(take_moveit_request(scene, file_of(text), {}), InputError) << text;
+  }
+}
+
+TEST(MoveIt, AnyBytesAreReadOrRefusedInOneLine) {
+  for (const std::uint64_t seed : test::seeds(1000, 200)) {
+    SequentialRng rng(seed);
+    const bool is_request = rng.below(3) == 0;
+    std::string text = is_request ? request_text : scene_text;
+    for (std::uint64_t changes = 1 + rng.below(3); changes > 0; --changes) {
+      const std::size_t at = rng.below(text.size());
+      const std::string_view some =
+          "[]{}:,-&*!# \n\t\x01\xff"
+          "019eN~|>";
+      if (rng.below(2) == 0) {
+        text[at] = some[rng.below(some.size())];
+      } else {
+        text.erase(at, rng.below(20));
+      }
+    }
+    try {
+      Scene scene = is_request ? Scene() : read_moveit_scene(file_of(text), {});
+      if (is_request) take_moveit_request(scene, file_of(text), {});
+    } catch (const InputError& error) {
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << seed;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace warren
