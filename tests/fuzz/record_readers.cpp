@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is no world: arms' tables, answers, bodies, names of mazes.
+// What is no world: arms' tables and files, meshes, answers, bodies, names of mazes.
 #include <array>
 #include <cmath>
 
 #include "core/base/types.hpp"
 #include "scenes/files/dh_table_io.hpp"
+#include "scenes/files/mesh_io.hpp"
 #include "scenes/files/read_world_io.hpp"
+#include "scenes/files/urdf_io.hpp"
+#include "scenes/scene/convex_hull.hpp"
 #include "solve/answer/read_answer_io.hpp"
 #include "solve/question/question.hpp"
 #include "tests/fuzz/fuzz_reader.hpp"
 #include "tests/fuzz/properties.hpp"
+#include "tests/fuzz/scratch_folder.hpp"
 
 namespace warren::fuzz {
 namespace {
@@ -25,6 +29,32 @@ void read_dh_tables(std::string_view bytes) {
       demand(std::isfinite(number), "finite numbers");
   }
 }
+
+void read_urdfs(std::string_view bytes) {
+  const ArmFiles files{write_scratch("fuzzed.urdf", bytes)};
+  const auto model = read_or_refuse([&] { return read_urdf(files, fuzz_execution()); });
+  if (!model) return;
+  demand(!model->variables.empty() && model->variables.size() <= most_joints, "one to fourteen variables");
+  for (const ArmVariable& variable : model->variables)
+    demand(std::isfinite(variable.low) && variable.low <= variable.high, "limits in order");
+  for (std::size_t j = 0; j < model->joints.size(); ++j)
+    demand(model->joints[j].parent < static_cast<int>(j) && model->joints[j].variable < model->variables.size(),
+           "parents first");
+  for (const auto& [a, b] : model->pairs) demand(a < b && b < model->links.size(), "pairs of links");
+}
+
+/// A mesh whose file ends so, and its hull.
+void read_mesh_as(const char* name, std::string_view bytes) {
+  const auto mesh = read_or_refuse([&] { return read_mesh(InputFile::of_bytes(name, bytes), fuzz_execution()); });
+  if (!mesh) return;
+  for (const auto& triangle : mesh->triangles)
+    for (const std::uint32_t corner : triangle) demand(corner < mesh->points.size(), "triangles of points");
+  const auto hull = read_or_refuse([&] { return convex_hull(mesh->points, name, fuzz_execution()); });
+  if (hull) demand(!hull->corners.empty(), "a hull has corners");
+}
+void read_objs(std::string_view bytes) { read_mesh_as("fuzzed.obj", bytes); }
+void read_stls(std::string_view bytes) { read_mesh_as("fuzzed.stl", bytes); }
+void read_daes(std::string_view bytes) { read_mesh_as("fuzzed.dae", bytes); }
 
 /// Its path is one that a judge can walk: as many states as points, of one width, all finite.
 void read_answers(std::string_view bytes) {
@@ -61,10 +91,10 @@ void read_maze_names(std::string_view bytes) {
 }
 
 constexpr std::array record_table{
-    FuzzReader{"dh_table", read_dh_tables},
-    FuzzReader{"answer", read_answers},
-    FuzzReader{"body", read_bodies},
-    FuzzReader{"maze_name", read_maze_names},
+    FuzzReader{"dh_table", read_dh_tables}, FuzzReader{"urdf", read_urdfs},
+    FuzzReader{"mesh_obj", read_objs},      FuzzReader{"mesh_stl", read_stls},
+    FuzzReader{"mesh_dae", read_daes},      FuzzReader{"answer", read_answers},
+    FuzzReader{"body", read_bodies},        FuzzReader{"maze_name", read_maze_names},
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
+#include "scenes/files/scene_text.hpp"
 #include "scenes/files/solid_text.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
@@ -79,6 +81,27 @@ TEST(SceneText, ReadsEveryRobot) {
   EXPECT_TRUE(robot("puma560 self-collision radius 0.05").self_collision);
   EXPECT_EQ(robot("arm my.dh radius 0.05 tool 0.1").kind, RobotKind::arm);
   EXPECT_EQ(robot("arm my.dh radius 0.05 tool 0.1").table, "my.dh");
+}
+
+TEST(SceneText, ReadsAnArmThatFilesDescribe) {
+  const TemporaryDirectory directory;
+  const std::string line = "robot urdf a/b.urdf package-path p group g srdf c.srdf package-path q hold k 2 allow u v";
+  const Scene scene = read(directory, "hold j -0.5\n" + line + "\nallow x y\nsphere 0 0 0 1\n");
+  ASSERT_TRUE(scene.robot && scene.robot->files);
+  const ArmFiles& files = *scene.robot->files;
+  EXPECT_EQ(scene.robot->kind, RobotKind::urdf);
+  EXPECT_EQ(files.urdf, "a/b.urdf");
+  EXPECT_EQ(files.srdf, "c.srdf");
+  EXPECT_EQ(files.group, "g");
+  EXPECT_EQ(files.packages, (std::vector<std::string>{"p", "q"}));
+  EXPECT_EQ(files.held, (std::vector<std::pair<std::string, double>>{{"k", 2.0}, {"j", -0.5}}));
+  EXPECT_EQ(files.allowed, (std::vector<std::array<std::string, 2>>{{"u", "v"}, {"x", "y"}}));
+  write_scene_text(scene, directory.file("again.scene"), {});
+  const Scene again = read_scene_text(InputFile(directory.file("again.scene"), {}), {});
+  EXPECT_EQ(urdf_words(*again.robot->files), urdf_words(files));
+  EXPECT_EQ(urdf_words(files),
+            " a/b.urdf srdf c.srdf group g package-path p package-path q hold k 2 hold j -0.5 allow u v allow x y");
+  EXPECT_EQ(read(directory, "robot urdf a.urdf base x tip y\n0 0 1 1\n").robot->files->tip, "y");
 }
 
 TEST(SceneText, TakesWallsAsTheyAre) {
@@ -198,6 +221,18 @@ TEST(SceneText, RefusesBadInputInOneLineThatNamesFileAndLine) {
   const BadScene cases[] = {
       {"empty", "", ":1: the file is empty"},
       {"comments only", "# nothing\n\n", ":2: the file ends without any wall, polygon, sphere, box or bounds"},
+      {"an arm without a file", "robot urdf\n", ":1: expected `robot urdf FILE [srdf FILE]"},
+      {"half a chain", "robot urdf a base b\n", "(found: base without tip)"},
+      {"two groups", "robot urdf a srdf s group g base b tip t\n", "(found: group and base)"},
+      {"a group of nothing", "robot urdf a group g\n", "(found: group without srdf)"},
+      {"a word of an arm twice", "robot urdf a srdf s srdf t\n", "(found: srdf)"},
+      {"a word without its own", "robot urdf a package-path\n", "(found: nothing behind package-path)"},
+      {"a joint nowhere", "robot urdf a\nhold j\n", ":2: expected `hold JOINT VALUE` (found: j)"},
+      {"a joint somewhere", "robot urdf a\nhold j x\n", ":2: expected a number (found: x)"},
+      {"a joint twice", "robot urdf a\nhold j 1\nhold j 2\n", ":3: this joint is held already (found: j)"},
+      {"too much of a joint", "robot urdf a\nhold j 1 2\n", ":2: expected `hold JOINT VALUE` (found: 2)"},
+      {"a link alone", "robot urdf a\nallow x\n", ":2: expected `allow LINK LINK` (found: x)"},
+      {"a joint of nobody", "hold j 1\nsphere 0 0 0 1\n", ":1: only a scene with `robot urdf FILE` may say that"},
       {"three numbers", "0 0 1 1\n1 2 3\n", ":2: expected `wall X1 Y1 X2 Y2` (found: 3 numbers)"},
       {"one number", "17", ":1: expected `wall X1 Y1 X2 Y2` (found: 1 number)"},
       {"five numbers", "1 2 3 4 5\n", ":1: expected `wall X1 Y1 X2 Y2` (found: 5 numbers)"},
@@ -374,7 +409,8 @@ TEST(SceneText, WhatIsWrittenReadsBackTheSame) {
       {RobotKind::car, 0, 1. / 3, 0, {{-0.1, 0}, {1. / 3, 0}, {0, 1}}, SteeringKind::reeds_shepp},
       {RobotKind::puma560, 0.05, 0, 0.123, {}},
       {RobotKind::puma560, 0.05, 0, 0, {}, SteeringKind::dubins, "symmetric", {}, true},
-      {RobotKind::arm, 0.05, 0, 0, {}, SteeringKind::dubins, {}, "a/b.dh", false}};
+      {RobotKind::arm, 0.05, 0, 0, {}, SteeringKind::dubins, {}, "a/b.dh", false},
+      {RobotKind::urdf, 0, 0, 0, {}, SteeringKind::dubins, {}, {}, false, ArmFiles{"a.urdf", "", "", "x", "y"}}};
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);
     SequentialRng rng(seed);
