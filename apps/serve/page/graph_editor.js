@@ -41,7 +41,7 @@ function wordsOfChosen() {
 function showGraph() {
   const blocked = blockedEdges(), chosen = graph.selected, node = chosen && chosen.name === "nodes" ? graph.nodes.get(chosen.id) : null;
   const joined = new Set([...graph.edges.values()].map(e => Math.min(e.from, e.to) + "-" + Math.max(e.from, e.to)));
-  byId("graph-count").textContent = grouped(graph.nodes.size) + " nodes, " + grouped(graph.edges.size) + " edges each one way on " + grouped(joined.size) + " lines" + (blocked.length ? ", " + grouped(blocked.length) + " not free" : "");
+  byId("graph-count").textContent = graph.nodes.size === 0 ? "No graph yet" : grouped(graph.nodes.size) + " nodes, " + grouped(graph.edges.size) + " edges each one way on " + grouped(joined.size) + " lines" + (blocked.length ? ", " + grouped(blocked.length) + " not free" : "");
   byId("graph-why").hidden = blocked.length === 0;
   if (blocked.length) byId("graph-why").textContent = "Edge " + blocked[0].from + " to " + blocked[0].to + " is not free: " + verdictOf(blocked[0]).why + ". Nothing is saved while there are such edges.";
   byId("graph-drop").hidden = blocked.length === 0;

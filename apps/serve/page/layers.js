@@ -76,7 +76,7 @@ function renewLayers() {
   }
   const none = world.layers.filter(account => !account.there).length;
   byId("layers-folded").hidden = none === 0;
-  byId("layers-none-count").textContent = "Not of this world (" + none + ")";
+  byId("layers-none-count").textContent = "Not for this world (" + none + ")";
 }
 /// For the link: the names of those that are shown.
 const shownLayers = () => [...layers].filter(([, layer]) => layer.box.checked).map(([name]) => name).join(",");

@@ -127,7 +127,7 @@ function clearPath() {
 function drawChains(chains) {
   if (pathLine.line) pathLine.line.remove();
   const points = chains.map(chain => chain.map(p => L.latLng(p[1], p[0])));
-  pathLine.line = L.polyline(points, {color: document.documentElement.classList.contains("dark") ? "#ff6b81" : "#c8102e", weight: 4, opacity: 0.9, smoothFactor: 1, interactive: false});
+  pathLine.line = L.polyline(points, {color: document.documentElement.classList.contains("dark") ? "#ff6b81" : "#c8102e", weight: 4, opacity: 0.9, smoothFactor: 0.2, interactive: false});
   showParts();
 }
 /// Of a car, its poses and those between them on its arcs, a chord of at most 5 degrees apart; of others, the path.
