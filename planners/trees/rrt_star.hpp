@@ -167,6 +167,7 @@ class RrtStarTree {
   void note_goal(VertexId v);
   std::optional<State> next_target(double best, const Guide& guide);
   std::optional<State> next_state(const State& target);
+  bool is_of_use(const State& state, double best);
   void find_near(const State& state);
   void take_step(double best, const Guide& guide, const Execution& execution);
   std::optional<VertexId> cheapest_parent(const State& state, double rest, double best);
@@ -267,6 +268,14 @@ auto RrtStarTree<W>::next_state(const State& target) -> std::optional<State> {
   return state;
 }
 
+/// Free, and may a path through it be cheaper than the best?
+template <SteerableWorld W>
+bool RrtStarTree<W>::is_of_use(const State& state, double best) {
+  if (sampler_.least_cost(state) < best) return tree_.is_free(state, query_);
+  ++idle_samples_;
+  return false;
+}
+
 template <SteerableWorld W>
 void RrtStarTree<W>::take_step(double best, const Guide& guide, const Execution& execution) {
   best = options_.informed ? std::min(best, cost()) : infinity;
@@ -275,11 +284,12 @@ void RrtStarTree<W>::take_step(double best, const Guide& guide, const Execution&
     ++idle_samples_;
     return;
   }
+  // What a query for neighbours costs is spared where the target itself, which most of the new states are, is no use.
+  if (best < infinity && !is_of_use(*target, best)) return;
   const std::optional<State> state = next_state(*target);
   if (!state) return;
+  if (best < infinity ? *state != *target && !is_of_use(*state, best) : !tree_.is_free(*state, query_)) return;
   const double rest = best < infinity ? sampler_.rest(*state) : 0.0;
-  if (best < infinity && !(world_->distance(sampler_.start(), *state) + rest < best)) return;
-  if (!tree_.is_free(*state, query_)) return;
   const std::optional<VertexId> parent = cheapest_parent(*state, rest, best);
   if (!parent) return;
   const VertexId v = tree_.insert(*state, *parent);
