@@ -7,10 +7,9 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <charconv>
 #include <cmath>
-#include <limits>
+#include <cstring>
 #include <map>
 #include <numbers>
 #include <span>
@@ -55,31 +54,18 @@ class MeshCollector {
 
   /// Each point once, those of no triangle left out.
   Mesh take() {
-    const std::size_t count = points();
-    if (count == 0) throw InputError(name_, "the mesh has no points");
-    execution_.reserve(count * (sizeof(std::uint32_t) * 2 + sizeof(Vec3) + 1));
-    std::vector<bool> used(count, mesh_.triangles.empty());
+    if (points() == 0) throw InputError(name_, "the mesh has no points");
+    execution_.reserve(points() / 8 + 1);
+    std::vector<bool> used(points(), mesh_.triangles.empty());
     for (const MeshTriangle& triangle : mesh_.triangles)
       for (const std::uint32_t corner : triangle) used[corner] = true;
-    std::vector<std::uint32_t> order;
-    order.reserve(count);
-    for (std::uint32_t i = 0; i < count; ++i)
-      if (used[i]) order.push_back(i);
-    const auto key = [&](std::uint32_t i) {
-      return std::array{mesh_.points[i].x(), mesh_.points[i].y(), mesh_.points[i].z()};
-    };
-    polled_sort(order.begin(), order.end(), execution_,
-                [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
-    Mesh whole;
-    std::vector<std::uint32_t> numbers(count);
-    for (const std::uint32_t i : order) {
-      if (whole.points.empty() || whole.points.back() != mesh_.points[i]) whole.points.push_back(mesh_.points[i]);
-      numbers[i] = static_cast<std::uint32_t>(whole.points.size() - 1);
-    }
+    const std::size_t some = static_cast<std::size_t>(std::find(used.begin(), used.end(), true) - used.begin());
+    for (std::size_t i = 0; i < points(); ++i)
+      if (!used[i]) mesh_.points[i] = mesh_.points[some];
+    const std::vector<std::uint32_t> numbers = weld_points(mesh_.points, execution_);
     for (MeshTriangle& triangle : mesh_.triangles)
       for (std::uint32_t& corner : triangle) corner = numbers[corner];
-    whole.triangles = std::move(mesh_.triangles);
-    return whole;
+    return std::move(mesh_);
   }
 
  private:
@@ -135,12 +121,6 @@ void add_stl_corner(MeshCollector& mesh, const Vec3& point) {
   if (count % 3 == 0) mesh.add_polygon(std::array{count - 3, count - 2, count - 1});
 }
 
-std::uint32_t little_word(std::string_view bytes) {
-  std::uint32_t word = 0;
-  for (std::size_t i = 4; i-- > 0;) word = word << 8U | static_cast<unsigned char>(bytes[i]);
-  return word;
-}
-
 constexpr std::size_t stl_head = 84;
 constexpr std::size_t stl_triangle = 50;
 
@@ -161,7 +141,8 @@ Mesh read_stl_text(const InputFile& file, const Execution& execution) {
 
 Mesh read_stl(const InputFile& file, const Execution& execution) {
   const std::string_view bytes = file.bytes();
-  const std::size_t count = bytes.size() < stl_head ? 0 : little_word(bytes.substr(stl_head - 4));
+  std::uint32_t count = 0;
+  if (bytes.size() >= stl_head) std::memcpy(&count, bytes.data() + stl_head - sizeof(count), sizeof(count));
   const std::size_t size = stl_head + count * stl_triangle;
   if (size != bytes.size() && bytes.starts_with("solid")) return read_stl_text(file, execution);
   if (bytes.size() < stl_head || size > bytes.size()) {
@@ -171,12 +152,11 @@ Mesh read_stl(const InputFile& file, const Execution& execution) {
         fmt::format("{} bytes", bytes.size()));
   }
   MeshCollector mesh(file.name(), execution);
-  for (std::size_t corner = 0; corner < 3 * count; ++corner) {
-    const std::size_t at = stl_head + corner / 3 * stl_triangle + 12 * (1 + corner % 3);
-    Vec3 point;
-    for (std::size_t i = 0; i < 3; ++i)
-      point[static_cast<Eigen::Index>(i)] = double{std::bit_cast<float>(little_word(bytes.substr(at + 4 * i)))};
-    add_stl_corner(mesh, point);
+  for (std::size_t corner = 0; corner < std::size_t{3} * count; ++corner) {
+    Eigen::Vector3f point;
+    const std::size_t at = stl_head + corner / 3 * stl_triangle + sizeof(point) * (1 + corner % 3);
+    std::memcpy(point.data(), bytes.data() + at, sizeof(point));
+    add_stl_corner(mesh, point.cast<double>());
   }
   return mesh.take();
 }
@@ -186,56 +166,29 @@ Mesh read_stl(const InputFile& file, const Execution& execution) {
 constexpr std::size_t most_collada_bytes = std::size_t{256} << 20;
 constexpr std::size_t most_collada_nodes = 100'000;
 
-/// A linear part and where the origin goes.
-struct ColladaPose {
-  Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
-  Vec3 origin = Vec3::Zero();
-
-  Vec3 operator()(const Vec3& p) const { return portable_product(linear, p) + origin; }
-  ColladaPose of(const ColladaPose& inner) const {
-    return {portable_product(linear, inner.linear), (*this)(inner.origin)};
-  }
-};
-
 class ColladaReader {
  public:
   ColladaReader(const InputFile& file, const Execution& execution)
       : xml_(file, "COLLADA", most_collada_bytes, execution), execution_(execution), mesh_(file.name(), execution) {
-    const pugi::xml_node root = xml_.root();
-    for (const char* kind : {"geometry", "visual_scene", "node"}) {
-      for (const pugi::xml_node library : root.children(library_of(kind).c_str()))
-        for (const pugi::xml_node item : library.children(kind)) name(item);
+    for (const auto& [library, kind] :
+         {std::pair{"library_geometries", "geometry"}, std::pair{"library_visual_scenes", "visual_scene"},
+          std::pair{"library_nodes", "node"}}) {
+      for (const pugi::xml_node some : xml_.root().children(library))
+        for (const pugi::xml_node item : some.children(kind)) named_.emplace(item.attribute("id").value(), item);
     }
   }
 
   Mesh read() {
-    const pugi::xml_node root = xml_.root();
-    ColladaPose unit;
-    unit.linear *= xml_.number(root.child("asset").child("unit"), "meter").value_or(1.0);
-    const pugi::xml_node shown = root.child("scene").child("instance_visual_scene");
-    if (shown) {
-      left_.push_back({named(shown, "url"), unit});
-      while (!left_.empty()) visit();
-    } else {
-      for (const auto& [id, node] : named_)
-        if (std::string_view(node.name()) == "geometry") add_geometry(node, unit);
-    }
+    Eigen::Affine3d unit = Eigen::Affine3d::Identity();
+    unit.scale(xml_.number(xml_.root().child("asset").child("unit"), "meter").value_or(1.0));
+    const pugi::xml_node shown = xml_.root().child("scene").child("instance_visual_scene");
+    if (!shown) xml_.fail(xml_.root(), "it has no <scene> with an <instance_visual_scene>");
+    left_.emplace_back(named(shown, "url"), unit);
+    while (!left_.empty()) visit();
     return mesh_.take();
   }
 
  private:
-  struct Left {
-    pugi::xml_node node;
-    ColladaPose pose;
-  };
-
-  static std::string library_of(std::string_view kind) {
-    return kind == "geometry" ? "library_geometries" : fmt::format("library_{}s", kind);
-  }
-  void name(pugi::xml_node node) {
-    const pugi::xml_attribute id = node.attribute("id");
-    if (id) named_.emplace(id.value(), node);
-  }
   /// What an attribute names, "#ID".
   pugi::xml_node named(pugi::xml_node node, const char* attribute) const {
     const std::string id = xml_.word(node, attribute);
@@ -246,12 +199,12 @@ class ColladaReader {
 
   /// A node or a visual scene: its children in their order, since each transform counts for what follows it.
   void visit() {
-    const auto [node, outer] = left_.back();
+    const auto node = left_.back().first;
+    Eigen::Affine3d pose = left_.back().second;
     left_.pop_back();
     execution_.check();
     if (++visited_ > most_collada_nodes)
       xml_.fail(node, fmt::format("a scene may show at most {} nodes", most_collada_nodes));
-    ColladaPose pose = outer;
     for (const pugi::xml_node child : node.children()) {
       const std::string_view kind = child.name();
       if (kind == "node") {
@@ -263,105 +216,96 @@ class ColladaReader {
       } else if (kind == "instance_controller" || kind == "lookat" || kind == "skew") {
         xml_.fail(child, "not read in collision meshes; export the mesh as OBJ or STL");
       } else {
-        pose = pose.of(transform(child));
+        transform(child, pose);
       }
     }
   }
-  ColladaPose transform(pugi::xml_node node) const {
+  void transform(pugi::xml_node node, Eigen::Affine3d& pose) const {
     const std::string_view kind = node.name();
-    ColladaPose pose;
     std::array<double, 16> n{};
     const std::size_t count = kind == "matrix"                         ? 16
                               : kind == "rotate"                       ? 4
                               : kind == "translate" || kind == "scale" ? 3
                                                                        : 0;
-    if (count == 0) return pose;
+    if (count == 0) return;
     xml_.numbers(node, node.child_value(), std::span(n).first(count));
     const Vec3 first(n[0], n[1], n[2]);
     if (kind == "matrix") {
-      pose.linear << n[0], n[1], n[2], n[4], n[5], n[6], n[8], n[9], n[10];
-      pose.origin = {n[3], n[7], n[11]};
+      Eigen::Affine3d matrix = Eigen::Affine3d::Identity();
+      matrix.linear() << n[0], n[1], n[2], n[4], n[5], n[6], n[8], n[9], n[10];
+      matrix.translation() = Vec3(n[3], n[7], n[11]);
+      pose = pose * matrix;
     } else if (kind == "translate") {
-      pose.origin = first;
+      pose.translate(first);
     } else if (kind == "scale") {
-      pose.linear = first.asDiagonal();
+      pose.scale(first);
     } else {
       const double length = first.stableNorm();
       if (!(length > 0.0)) xml_.fail(node, "the axis has no direction");
-      pose.linear = turn_about(first / length, n[3] * (std::numbers::pi / 180.0));
+      pose.rotate(turn_about(first / length, n[3] * (std::numbers::pi / 180.0)));
     }
-    return pose;
   }
 
-  void add_geometry(pugi::xml_node geometry, const ColladaPose& pose) {
+  void add_geometry(pugi::xml_node geometry, const Eigen::Affine3d& pose) {
     const pugi::xml_node mesh = geometry.child("mesh");
     if (!mesh) xml_.fail(geometry, "only a <mesh> is read; export the mesh as OBJ or STL");
     const std::size_t first = mesh_.points();
     add_points(mesh, pose);
     for (const pugi::xml_node part : mesh.children()) {
       const std::string_view kind = part.name();
-      if (kind == "polylist") {
-        add_list(part, part.child("vcount").child_value(), first);
-      } else if (kind == "triangles") {
-        add_list(part, "3", first);
-      } else if (kind == "polygons" || kind == "tristrips" || kind == "trifans") {
-        add_list(part, "", first);
-      }
+      if (kind == "polylist") add_polygons(part, part.child("vcount").child_value(), first);
+      if (kind == "triangles") add_polygons(part, "3", first);
+      if (kind == "polygons" || kind == "tristrips" || kind == "trifans") add_polygons(part, "", first);
     }
   }
   /// All points of the mesh's <vertices>.
-  void add_points(pugi::xml_node mesh, const ColladaPose& pose) {
+  void add_points(pugi::xml_node mesh, const Eigen::Affine3d& pose) {
     const pugi::xml_node input = mesh.child("vertices").find_child_by_attribute("input", "semantic", "POSITION");
-    if (!input) xml_.fail(mesh, "its <vertices> have no <input semantic=\"POSITION\">");
-    const std::string id = xml_.word(input, "source");
-    const pugi::xml_node source =
-        mesh.find_child_by_attribute("source", "id", id.c_str() + (id.starts_with('#') ? 1 : 0));
+    const std::string_view id = input.attribute("source").value();
+    const pugi::xml_node source = mesh.find_child_by_attribute("source", "id", id.empty() ? "" : id.data() + 1);
     const pugi::xml_node accessor = source.child("technique_common").child("accessor");
     const double stride = xml_.number(accessor, "stride").value_or(3.0);
-    const double offset = xml_.number(accessor, "offset").value_or(0.0);
-    constexpr double widest = 64.0;
-    if (!source || !(stride >= 3.0 && stride <= widest && stride == std::floor(stride)) || offset != 0.0)
-      xml_.fail(input, "expected a <source> with x, y, z one behind the other", id);
+    if (!source || stride != 3.0 || xml_.number(accessor, "offset").value_or(0.0) != 0.0)
+      xml_.fail(mesh, "expected <vertices> with a POSITION whose <source> is x, y, z after x, y, z", id);
     const pugi::xml_node array = source.child("float_array");
-    NumberText text(array.child_value());
+    std::string_view text = array.child_value();
     Vec3 point;
-    for (std::size_t i = 0; !text.done(); i = i + 1 < static_cast<std::size_t>(stride) ? i + 1 : 0) {
-      double number = 0.0;
-      if (!text.next(number)) xml_.fail(array, "expected numbers", text.rest());
-      if (i < 3) point[static_cast<Eigen::Index>(i)] = number;
-      if (i == 2) mesh_.add_point(pose(point));
+    for (Eigen::Index i = 0; !text.empty(); i = (i + 1) % 3) {
+      if (!take_number(text, point[i])) xml_.fail(array, "expected numbers", text);
+      if (i == 2) mesh_.add_point(pose * point);
     }
   }
-  /// Polygons of as many corners as `counts` says, its last for all that follow; without any: all of a <p> in one.
-  void add_list(pugi::xml_node part, std::string_view counts, std::size_t first) {
+  /// Polygons of as many corners as `sizes` says, its last for all that follow; without any: all of a <p> in one.
+  void add_polygons(pugi::xml_node part, std::string_view sizes, std::size_t first) {
     std::size_t stride = 1;
     std::size_t offset = 0;
     for (const pugi::xml_node input : part.children("input")) {
       const std::size_t at = input.attribute("offset").as_uint();
-      constexpr std::size_t widest = 64;
-      if (at >= widest) xml_.fail(input, "`offset` must be below 64");
       stride = std::max(stride, at + 1);
       if (std::string_view(input.attribute("semantic").value()) == "VERTEX") offset = at;
     }
-    NumberText sizes(counts);
     std::size_t size = 0;
+    const auto next_size = [&] {
+      if (!sizes.empty() && !take_number(sizes, size)) xml_.fail(part, "expected counts of corners", sizes);
+    };
+    next_size();
     std::vector<std::uint32_t> corners;
     for (const pugi::xml_node list : part.children("p")) {
-      NumberText text(list.child_value());
-      corners.clear();
-      if (!counts.empty() && !sizes.done() && !sizes.next(size)) xml_.fail(part, "expected counts of corners");
-      for (std::size_t i = 0; !text.done(); ++i) {
-        std::size_t number = 0;
-        if (!text.next(number) || (i % stride == offset && number >= mesh_.points() - first))
-          xml_.fail(list, fmt::format("expected numbers of the {} points", mesh_.points() - first), text.rest());
-        if (i % stride == offset) push_asked(corners, static_cast<std::uint32_t>(first + number), execution_);
+      std::string_view text = list.child_value();
+      for (std::size_t i = 0; !text.empty(); ++i) {
         if (i % numbers_a_look == 0) execution_.check();
+        std::size_t number = 0;
+        const bool is_corner = i % stride == offset;
+        if (!take_number(text, number) || (is_corner && number >= mesh_.points() - first))
+          xml_.fail(list, fmt::format("expected numbers of the {} points", mesh_.points() - first), text);
+        if (is_corner) push_asked(corners, static_cast<std::uint32_t>(first + number), execution_);
         if (i % stride != stride - 1 || corners.size() != size) continue;
         mesh_.add_polygon(corners);
         corners.clear();
-        if (!sizes.done() && !sizes.next(size)) xml_.fail(part, "expected counts of corners");
+        next_size();
       }
       mesh_.add_polygon(corners);
+      corners.clear();
     }
   }
 
@@ -369,7 +313,7 @@ class ColladaReader {
   const Execution& execution_;
   MeshCollector mesh_;
   std::map<std::string, pugi::xml_node, std::less<>> named_;
-  std::vector<Left> left_;
+  std::vector<std::pair<pugi::xml_node, Eigen::Affine3d>> left_;
   std::size_t visited_ = 0;
 };
 

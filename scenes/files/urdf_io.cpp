@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -17,15 +18,284 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/enum_names.hpp"
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
 #include "scenes/files/mesh_io.hpp"
-#include "scenes/files/scene_text.hpp"
-#include "scenes/files/urdf_tree_io.hpp"
+#include "scenes/files/xml_file_io.hpp"
 #include "scenes/scene/convex_hull.hpp"
 
 namespace warren {
 namespace {
+
+constexpr std::size_t no_urdf_part = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t most_urdf_bytes = std::size_t{64} << 20;
+constexpr double no_limit = std::numeric_limits<double>::infinity();
+
+enum class UrdfJointKind : std::uint8_t { fixed, revolute, continuous, prismatic, floating, planar };
+constexpr auto enum_names(UrdfJointKind) {
+  return std::array<std::string_view, 6>{"fixed", "revolute", "continuous", "prismatic", "floating", "planar"};
+}
+
+struct UrdfJoint {
+  std::string name;
+  pugi::xml_node node;
+  UrdfJointKind kind = UrdfJointKind::fixed;
+  std::size_t above = no_urdf_part;  // number of the link that it hangs on
+  std::size_t below = no_urdf_part;  // of the link that hangs on it
+  Eigen::Isometry3d origin = Eigen::Isometry3d::Identity();
+  Vec3 axis{1.0, 0.0, 0.0};
+  double low = -no_limit;
+  double high = no_limit;
+  double speed = 0.0;
+  std::size_t leader = no_urdf_part;  // the joint that it follows, which follows none:
+  double multiplier = 1.0;            // its value is multiplier * that one's + offset
+  double offset = 0.0;
+
+  bool moves() const { return kind >= UrdfJointKind::revolute && kind <= UrdfJointKind::prismatic; }
+};
+
+struct UrdfLink {
+  std::string name;
+  pugi::xml_node node;
+  std::size_t joint = no_urdf_part;  // that it hangs on; the root has none
+  std::vector<std::size_t> joints = {};
+};
+
+Eigen::Isometry3d urdf_origin(const XmlFile& xml, pugi::xml_node node) {
+  const Vec3 rpy = xml.vector(node.child("origin"), "rpy", Vec3::Zero());
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() =
+      turn_about(Vec3::UnitZ(), rpy.z()) * turn_about(Vec3::UnitY(), rpy.y()) * turn_about(Vec3::UnitX(), rpy.x());
+  pose.translation() = xml.vector(node.child("origin"), "xyz", Vec3::Zero());
+  return pose;
+}
+
+/// Links and joints. Joints are in depth-first order, those on one link in the order of their names, as MoveIt has
+/// them.
+class UrdfTree {
+ public:
+  UrdfTree(const XmlFile& file, const Execution& execution) : xml(file), execution_(execution) {
+    constexpr std::size_t bytes_a_part = 1024;
+    const auto parts = xml.root().children();
+    execution.reserve(static_cast<std::size_t>(std::distance(parts.begin(), parts.end())) * bytes_a_part);
+    for (const pugi::xml_node node : xml.root().children("link")) {
+      links.push_back({xml.word(node, "name"), node});
+      if (!link_numbers_.emplace(links.back().name, links.size() - 1).second)
+        xml.fail(node, "a second link of this name", links.back().name);
+    }
+    for (const pugi::xml_node node : xml.root().children("joint")) add_joint(node);
+    find_root();
+    sort_joints();
+    find_leaders();
+  }
+
+  std::size_t link_named(const std::string& name) const { return number_in(link_numbers_, name); }
+  std::size_t joint_named(const std::string& name) const { return number_in(joint_numbers_, name); }
+  /// The joints between two links, in any order.
+  std::vector<std::size_t> between(std::size_t base, std::size_t tip) const {
+    const auto parent = [&](std::size_t link) { return joints[links[link].joint].above; };
+    std::vector<bool> above_base(links.size(), false);
+    for (std::size_t link = base; link != root; link = parent(link)) above_base[link] = true;
+    above_base[root] = true;
+    std::vector<std::size_t> found;
+    for (; !above_base[tip]; tip = parent(tip)) found.push_back(links[tip].joint);
+    for (; base != tip; base = parent(base)) found.push_back(links[base].joint);
+    return found;
+  }
+
+  const XmlFile& xml;
+  std::vector<UrdfLink> links;
+  std::vector<UrdfJoint> joints;
+  std::size_t root = no_urdf_part;
+
+ private:
+  using Numbers = std::map<std::string, std::size_t>;
+  static std::size_t number_in(const Numbers& numbers, const std::string& name) {
+    const auto found = numbers.find(name);
+    return found != numbers.end() ? found->second : no_urdf_part;
+  }
+
+  void add_joint(pugi::xml_node node) {
+    UrdfJoint joint{xml.word(node, "name"), node};
+    const std::string kind = xml.word(node, "type");
+    const auto known = enum_named<UrdfJointKind>(kind);
+    if (!known) xml.fail(node, "`type` must be fixed, revolute, continuous or prismatic", kind);
+    if (*known == UrdfJointKind::planar)
+      xml.fail(node, "planar joints are not planned for; make it fixed, or of two prismatic ones and a continuous one");
+    joint.kind = *known;
+    joint.above = link_of(node, "parent");
+    joint.below = link_of(node, "child");
+    joint.origin = urdf_origin(xml, node);
+    if (joint.moves()) read_motion(joint);
+    UrdfLink& below = links[joint.below];
+    if (below.joint != no_urdf_part)
+      xml.fail(node, fmt::format("its child hangs on joint {} already", joints[below.joint].name), below.name);
+    if (!joint_numbers_.emplace(joint.name, joints.size()).second)
+      xml.fail(node, "a second joint of this name", joint.name);
+    below.joint = joints.size();
+    links[joint.above].joints.push_back(joints.size());
+    joints.push_back(std::move(joint));
+  }
+  void read_motion(UrdfJoint& joint) const {
+    joint.axis = xml.vector(joint.node.child("axis"), "xyz", joint.axis);
+    if (!(joint.axis.stableNorm() > 0.0)) xml.fail(joint.node.child("axis"), "the axis has no direction");
+    joint.axis /= joint.axis.stableNorm();
+    const pugi::xml_node limit = joint.node.child("limit");
+    joint.speed = xml.number(limit, "velocity").value_or(0.0);
+    if (joint.speed < 0.0) xml.fail(limit, "`velocity` must be at least 0");
+    if (joint.kind == UrdfJointKind::continuous) return;
+    joint.low = xml.number(limit, "lower").value_or(joint.low);
+    joint.high = xml.number(limit, "upper").value_or(joint.high);
+    if (joint.low > joint.high) xml.fail(limit, "`lower` must not exceed `upper`", fmt::format("{}", joint.low));
+  }
+  std::size_t link_of(pugi::xml_node joint, const char* end) const {
+    const pugi::xml_node node = joint.child(end);
+    if (!node) xml.fail(joint, fmt::format("<{} link=\"…\"> is missing", end));
+    const std::size_t link = link_named(xml.word(node, "link"));
+    if (link == no_urdf_part) xml.fail(node, "no link has this name", xml.word(node, "link"));
+    return link;
+  }
+  void find_root() {
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      if (links[i].joint != no_urdf_part) continue;
+      if (root != no_urdf_part)
+        xml.fail(links[i].node, fmt::format("a second link that hangs on no joint, as {} does", links[root].name),
+                 links[i].name);
+      root = i;
+    }
+    if (root == no_urdf_part) xml.fail(xml.root(), "it has no <link> that hangs on no joint");
+  }
+  void sort_joints() {
+    std::vector<UrdfJoint> sorted;
+    std::vector<std::size_t> left{root};
+    while (!left.empty()) {
+      UrdfLink& link = links[left.back()];
+      left.pop_back();
+      if (link.joint != no_urdf_part) {
+        sorted.push_back(std::move(joints[link.joint]));
+        link.joint = sorted.size() - 1;
+        joint_numbers_[sorted.back().name] = link.joint;
+      }
+      std::sort(link.joints.begin(), link.joints.end(),
+                [&](std::size_t a, std::size_t b) { return joints[a].name > joints[b].name; });
+      for (const std::size_t joint : link.joints) left.push_back(joints[joint].below);
+      link.joints.clear();
+      if (sorted.size() % 64 == 0) execution_.check();
+    }
+    if (sorted.size() != joints.size()) xml.fail(xml.root(), "some joints go around in a circle");
+    joints = std::move(sorted);
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      if (joints[j].kind == UrdfJointKind::floating && joints[j].above != root)
+        xml.fail(joints[j].node, "floating joints are not planned for; make it fixed where the body is");
+      links[joints[j].above].joints.push_back(j);
+    }
+  }
+  /// Along each chain of followers: value = m (m' value' + o') + o.
+  void find_leaders() {
+    std::vector<UrdfJoint> read = joints;
+    for (UrdfJoint& joint : read) {
+      const pugi::xml_node mimic = joint.moves() ? joint.node.child("mimic") : pugi::xml_node();
+      if (!mimic) continue;
+      joint.leader = joint_named(xml.word(mimic, "joint"));
+      if (joint.leader == no_urdf_part) xml.fail(mimic, "no joint has this name", xml.word(mimic, "joint"));
+      joint.multiplier = xml.number(mimic, "multiplier").value_or(1.0);
+      joint.offset = xml.number(mimic, "offset").value_or(0.0);
+    }
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      execution_.check();
+      UrdfJoint& joint = joints[j];
+      std::size_t steps = 0;
+      for (const UrdfJoint* at = &read[j]; at->leader != no_urdf_part; at = &read[joint.leader]) {
+        joint.leader = at->leader;
+        joint.offset += joint.multiplier * at->offset;
+        joint.multiplier *= at->multiplier;
+        if (++steps > joints.size()) xml.fail(joint.node, "joints mimic each other in a circle", joint.name);
+      }
+      if (!(std::abs(joint.multiplier) <= largest_coordinate && std::abs(joint.offset) <= largest_coordinate))
+        xml.fail(joint.node, "`multiplier` and `offset` along its mimics must not exceed 1e60", joint.name);
+    }
+  }
+
+  const Execution& execution_;
+  Numbers link_numbers_;
+  Numbers joint_numbers_;
+};
+
+/// What moves, and where the tool is.
+struct UrdfGroup {
+  std::vector<bool> has;           // by joint
+  std::size_t tip = no_urdf_part;  // number of a link
+};
+
+/// Reads one group of an SRDF and those that it names: chains, joints, links (the joint that each hangs on).
+class SrdfGroupReader {
+ public:
+  SrdfGroupReader(const UrdfTree& tree, const XmlFile& srdf, const Execution& execution)
+      : tree_(tree), srdf_(srdf), execution_(execution) {
+    group_.has.assign(tree.joints.size(), false);
+  }
+
+  UrdfGroup read(const std::string& name) {
+    add_group(srdf_.root(), name);
+    for (std::size_t i = 0; i < groups_.size(); ++i) read_group(groups_[i]);
+    for (const pugi::xml_node passive : srdf_.root().children("passive_joint")) {
+      const std::size_t joint = tree_.joint_named(passive.attribute("name").value());
+      if (joint != no_urdf_part) group_.has[joint] = false;
+    }
+    return std::move(group_);
+  }
+
+ private:
+  void add_group(pugi::xml_node asked, const std::string& name) {
+    if (!seen_.insert(name).second) return;
+    execution_.check();
+    std::string known;
+    for (const pugi::xml_node group : srdf_.root().children("group")) {
+      if (group.attribute("name").value() == name) return groups_.push_back(group);
+      if (known.size() < 200) known += fmt::format("{}{}", known.empty() ? "" : ", ", group.attribute("name").value());
+    }
+    srdf_.fail(asked, known.empty() ? "it has no groups" : fmt::format("its groups are {}", known), name);
+  }
+  void read_group(pugi::xml_node group) {
+    const bool has_tip = group_.tip != no_urdf_part;
+    for (const pugi::xml_node chain : group.children("chain")) {
+      const std::size_t tip = link_named(chain, "tip_link");
+      for (const std::size_t joint : tree_.between(link_named(chain, "base_link"), tip)) group_.has[joint] = true;
+      if (!has_tip) group_.tip = tip;
+    }
+    for (const pugi::xml_node joint : group.children("joint")) add_joint(joint);
+    for (const pugi::xml_node link : group.children("link")) {
+      const std::size_t joint = tree_.links[link_named(link, "name")].joint;
+      if (joint != no_urdf_part) group_.has[joint] = true;
+    }
+    for (const pugi::xml_node inner : group.children("group")) add_group(inner, srdf_.word(inner, "name"));
+  }
+  std::size_t link_named(pugi::xml_node node, const char* attribute) const {
+    const std::string name = srdf_.word(node, attribute);
+    const std::size_t link = tree_.link_named(name);
+    if (link == no_urdf_part) srdf_.fail(node, fmt::format("{} has no link of this name", tree_.xml.name()), name);
+    return link;
+  }
+  void add_joint(pugi::xml_node node) {
+    execution_.check();
+    const std::string name = srdf_.word(node, "name");
+    const pugi::xml_node base = srdf_.root().find_child_by_attribute("virtual_joint", "name", name.c_str());
+    if (std::string_view(base.attribute("type").value()) == "fixed") return;
+    const std::size_t joint = tree_.joint_named(name);
+    if (base || (joint != no_urdf_part && tree_.joints[joint].kind == UrdfJointKind::floating))
+      srdf_.fail(node, "a base that moves is not planned for; name the joints of the arm alone", name);
+    if (joint == no_urdf_part) srdf_.fail(node, fmt::format("{} has no joint of this name", tree_.xml.name()), name);
+    group_.has[joint] = true;
+  }
+
+  const UrdfTree& tree_;
+  const XmlFile& srdf_;
+  const Execution& execution_;
+  UrdfGroup group_;
+  std::vector<pugi::xml_node> groups_;
+  std::set<std::string> seen_;
+};
 
 /// Collision meshes as hulls, each file and scale once.
 class MeshShelf {
@@ -58,19 +328,17 @@ class MeshShelf {
     const bool is_package = name.starts_with(of_package);
     const std::string path = is_package ? name.substr(of_package.size()) : name;
     if (fs::path(path).is_absolute()) return {path};
-    const std::string inner = is_package ? path.substr(std::min(path.find('/'), path.size() - 1) + 1) : path;
     std::vector<std::string> found;
-    const auto add = [&](const fs::path& folder, bool whole_first) {
-      found.push_back((folder / (whole_first ? path : inner)).string());
-      if (is_package) found.push_back((folder / (whole_first ? inner : path)).string());
-    };
-    fs::path folder = fs::path(files_.urdf).parent_path();
-    if (!is_package) add(folder, true);
-    for (const std::string& package : files_.packages) add(package, true);
     std::error_code error;
-    folder = fs::absolute(folder.empty() ? "." : folder, error).lexically_normal();
-    for (; is_package && !folder.empty(); folder = folder.parent_path()) {
-      add(folder, false);
+    fs::path folder = fs::absolute(files_.urdf, error).lexically_normal().parent_path();
+    if (!is_package) found.push_back((folder / path).string());
+    const auto add = [&](const fs::path& beside) {
+      found.push_back((beside / path).string());
+      if (is_package) found.push_back((beside / path.substr(std::min(path.find('/'), path.size() - 1) + 1)).string());
+    };
+    for (const std::string& package : files_.packages) add(package);
+    for (std::size_t up = 0; is_package && up < 64; ++up, folder = folder.parent_path()) {
+      add(folder);
       if (folder == folder.parent_path()) break;
     }
     return found;
@@ -101,10 +369,10 @@ class MeshShelf {
 class ArmModelMaker {
  public:
   ArmModelMaker(const ArmFiles& files, const UrdfTree& tree, const UrdfGroup& group, const Execution& execution)
-      : files_(files), tree_(tree), group_(group), execution_(execution), shelf_(files, tree.xml(), execution) {}
+      : files_(files), tree_(tree), group_(group), execution_(execution), shelf_(files, tree.xml, execution) {}
 
   ArmModel make(const XmlFile* srdf) {
-    model_.name = tree_.xml().root().attribute("name").value();
+    model_.name = tree_.xml.root().attribute("name").value();
     choose_variables();
     narrow_variables();
     hold_joints();
@@ -115,7 +383,7 @@ class ArmModelMaker {
     add_links();
     carry();
     pair_links(srdf);
-    model_.told.push_back(fmt::format("the tool is {}", tree_.links()[tool].name));
+    model_.told.push_back(fmt::format("the tool is {}", tree_.links[tool].name));
     model_.told.insert(model_.told.end(), shelf_.told.begin(), shelf_.told.end());
     return std::move(model_);
   }
@@ -124,15 +392,15 @@ class ArmModelMaker {
   static constexpr std::size_t no_variable = no_urdf_part;
 
   void choose_variables() {
-    variables_.assign(tree_.joints().size(), no_variable);
+    variables_.assign(tree_.joints.size(), no_variable);
     std::size_t count = 0;
-    for (std::size_t j = 0; j < tree_.joints().size(); ++j) {
-      const UrdfJoint& joint = tree_.joints()[j];
+    for (std::size_t j = 0; j < tree_.joints.size(); ++j) {
+      const UrdfJoint& joint = tree_.joints[j];
       if (!group_.has[j] || !joint.moves() || joint.leader != no_urdf_part || ++count > most_joints) continue;
       const bool continuous = joint.kind == UrdfJointKind::continuous;
       if (!continuous && !(std::isfinite(joint.low) && std::isfinite(joint.high)))
-        tree_.xml().fail(joint.node, "a joint that moves needs <limit lower=\"…\" upper=\"…\">, or type continuous",
-                         joint.name);
+        tree_.xml.fail(joint.node, "a joint that moves needs <limit lower=\"…\" upper=\"…\">, or type continuous",
+                       joint.name);
       variables_[j] = model_.variables.size();
       model_.variables.push_back({joint.name, joint.kind == UrdfJointKind::prismatic, continuous,
                                   continuous ? -std::numbers::pi : joint.low,
@@ -148,7 +416,7 @@ class ArmModelMaker {
 
   /// A variable stays where all that follow it are within their limits; it has no end only where none feels the turn.
   void narrow_variables() {
-    for (const UrdfJoint& joint : tree_.joints()) {
+    for (const UrdfJoint& joint : tree_.joints) {
       if (joint.leader == no_urdf_part || variables_[joint.leader] == no_variable) continue;
       ArmVariable& variable = model_.variables[variables_[joint.leader]];
       const bool whole = joint.multiplier == std::floor(joint.multiplier);
@@ -159,13 +427,13 @@ class ArmModelMaker {
       variable.low = std::max(variable.low, std::min(one, other));
       variable.high = std::min(variable.high, std::max(one, other));
       if (variable.low > variable.high)
-        tree_.xml().fail(joint.node, fmt::format("its limits leave no value to {}, which it mimics", variable.name),
-                         joint.name);
+        tree_.xml.fail(joint.node, fmt::format("its limits leave no value to {}, which it mimics", variable.name),
+                       joint.name);
     }
   }
 
   void hold_joints() {
-    const std::vector<UrdfJoint>& joints = tree_.joints();
+    const std::vector<UrdfJoint>& joints = tree_.joints;
     held_.assign(joints.size(), 0.0);
     for (std::size_t j = 0; j < joints.size(); ++j) held_[j] = std::min(std::max(0.0, joints[j].low), joints[j].high);
     for (const auto& [name, value] : files_.held) {
@@ -185,13 +453,13 @@ class ArmModelMaker {
   /// The group's tip; else what hangs on its last joint, on as far as there is one joint, which doesn't move.
   std::size_t tool_link() const {
     if (group_.tip != no_urdf_part) return group_.tip;
-    const std::vector<UrdfJoint>& joints = tree_.joints();
+    const std::vector<UrdfJoint>& joints = tree_.joints;
     std::size_t last = 0;
     for (std::size_t j = 0; j < joints.size(); ++j)
       if (variables_[j] != no_variable) last = j;
     std::size_t link = joints[last].below;
-    while (tree_.links()[link].joints.size() == 1) {
-      const UrdfJoint& next = joints[tree_.links()[link].joints[0]];
+    while (tree_.links[link].joints.size() == 1) {
+      const UrdfJoint& next = joints[tree_.links[link].joints[0]];
       if (next.moves()) break;
       link = next.below;
     }
@@ -200,12 +468,12 @@ class ArmModelMaker {
 
   /// Is there anything on the link or farther out that a frame of its own matters to?
   std::vector<bool> links_that_matter(std::size_t tool) const {
-    std::vector<bool> matters(tree_.links().size(), false);
+    std::vector<bool> matters(tree_.links.size(), false);
     matters[tool] = true;
     for (const AttachedSolid& attached : files_.attached) matters[carrier(attached)] = true;
-    for (std::size_t j = tree_.joints().size(); j-- > 0;) {
-      const UrdfJoint& joint = tree_.joints()[j];
-      if (tree_.links()[joint.below].node.child("collision")) matters[joint.below] = true;
+    for (std::size_t j = tree_.joints.size(); j-- > 0;) {
+      const UrdfJoint& joint = tree_.joints[j];
+      if (tree_.links[joint.below].node.child("collision")) matters[joint.below] = true;
       if (matters[joint.below]) matters[joint.above] = true;
     }
     return matters;
@@ -219,17 +487,17 @@ class ArmModelMaker {
 
   void place_links(std::size_t tool) {
     const std::vector<bool> matters = links_that_matter(tool);
-    execution_.reserve(tree_.links().size() * sizeof(Eigen::Isometry3d));
-    frames_.assign(tree_.links().size(), base_frame);
-    poses_.assign(tree_.links().size(), Eigen::Isometry3d::Identity());
-    for (std::size_t j = 0; j < tree_.joints().size(); ++j) {
+    execution_.reserve(tree_.links.size() * sizeof(Eigen::Isometry3d));
+    frames_.assign(tree_.links.size(), base_frame);
+    poses_.assign(tree_.links.size(), Eigen::Isometry3d::Identity());
+    for (std::size_t j = 0; j < tree_.joints.size(); ++j) {
       if (j % 256 == 0) execution_.check();
-      const UrdfJoint& joint = tree_.joints()[j];
-      const Eigen::Isometry3d origin = portable_product(poses_[joint.above], joint.origin);
+      const UrdfJoint& joint = tree_.joints[j];
+      const Eigen::Isometry3d origin = poses_[joint.above] * joint.origin;
       const std::size_t leader = joint.leader == no_urdf_part ? j : joint.leader;
       if (variables_[leader] == no_variable || (leader != j && !matters[joint.below])) {
         frames_[joint.below] = frames_[joint.above];
-        poses_[joint.below] = joint.moves() ? portable_product(origin, motion(joint, held_[j])) : origin;
+        poses_[joint.below] = joint.moves() ? origin * motion(joint, held_[j]) : origin;
         continue;
       }
       if (model_.joints.size() == most_frames) {
@@ -256,17 +524,17 @@ class ArmModelMaker {
 
   /// Those with solids, the root first, then depth first.
   void add_links() {
-    numbers_.assign(tree_.links().size(), no_urdf_part);
-    add_link(tree_.root());
-    for (const UrdfJoint& joint : tree_.joints()) add_link(joint.below);
+    numbers_.assign(tree_.links.size(), no_urdf_part);
+    add_link(tree_.root);
+    for (const UrdfJoint& joint : tree_.joints) add_link(joint.below);
   }
   void add_link(std::size_t number) {
-    const UrdfLink& link = tree_.links()[number];
+    const UrdfLink& link = tree_.links[number];
     ArmLink made{link.name, frames_[number], {}};
     for (const pugi::xml_node collision : link.node.children("collision")) {
       execution_.check();
       Solid solid = shape(collision.child("geometry"));
-      solid.pose = portable_product(poses_[number], urdf_origin(tree_.xml(), collision));
+      solid.pose = poses_[number] * urdf_origin(tree_.xml, collision);
       solid.name = collision.attribute("name").value();
       made.solids.push_back(std::move(solid));
     }
@@ -275,7 +543,7 @@ class ArmModelMaker {
     push_asked(model_.links, std::move(made), execution_);
   }
   Solid shape(pugi::xml_node geometry) {
-    const XmlFile& xml = tree_.xml();
+    const XmlFile& xml = tree_.xml;
     const pugi::xml_node node = geometry.find_child([](pugi::xml_node n) { return n.type() == pugi::node_element; });
     const std::string_view kind = node.name();
     Solid solid;
@@ -303,7 +571,7 @@ class ArmModelMaker {
     for (const AttachedSolid& attached : files_.attached) {
       const std::size_t link = carrier(attached);
       Solid solid = attached.solid;
-      solid.pose = portable_product(poses_[link], solid.pose);
+      solid.pose = poses_[link] * solid.pose;
       const std::string name = solid.name.empty() ? fmt::format("what {} carries", attached.link) : solid.name;
       model_.links.push_back({name, frames_[link], {std::move(solid)}});
     }
@@ -349,6 +617,9 @@ class ArmModelMaker {
       enabled.insert(std::minmax<std::string_view>(pair.attribute("link1").value(), pair.attribute("link2").value()));
     for (const pugi::xml_node node : srdf.children("disable_default_collisions")) {
       const std::string_view link = node.attribute("link").value();
+      constexpr std::size_t bytes_a_pair = 64;
+      execution_.check();
+      execution_.reserve(model_.links.size() * bytes_a_pair);
       for (const ArmLink& other : model_.links)
         if (!enabled.contains(std::minmax<std::string_view>(link, other.name))) allow(link, other.name);
     }
@@ -358,7 +629,7 @@ class ArmModelMaker {
   /// Links without solids pass on whose neighbour a link is.
   void allow_neighbours(Allowed& allowed) const {
     std::vector<std::size_t> nearest = numbers_;  // of each link, the model's link that it is or hangs on
-    for (const UrdfJoint& joint : tree_.joints()) {
+    for (const UrdfJoint& joint : tree_.joints) {
       const std::size_t above = nearest[joint.above];
       if (nearest[joint.below] == no_urdf_part) {
         nearest[joint.below] = above;
@@ -381,19 +652,19 @@ class ArmModelMaker {
   std::vector<std::size_t> numbers_;      // by link, in the model
 };
 
-UrdfGroup chosen_group(const ArmFiles& files, const UrdfTree& tree, const XmlFile* srdf) {
+UrdfGroup chosen_group(const ArmFiles& files, const UrdfTree& tree, const XmlFile* srdf, const Execution& execution) {
   if (!files.group.empty()) {
     if (srdf == nullptr) throw InputError(files.urdf, "`group` needs `srdf FILE`, whose group it names", files.group);
-    return read_srdf_group(tree, *srdf, files.group);
+    return SrdfGroupReader(tree, *srdf, execution).read(files.group);
   }
-  if (files.base.empty() && files.tip.empty()) return {std::vector<bool>(tree.joints().size(), true), no_urdf_part};
+  if (files.base.empty() && files.tip.empty()) return {std::vector<bool>(tree.joints.size(), true), no_urdf_part};
   const auto link = [&](const std::string& name) {
     const std::size_t number = tree.link_named(name);
     if (number == no_urdf_part) throw InputError(files.urdf, "has no link of this name", name);
     return number;
   };
-  UrdfGroup group{std::vector<bool>(tree.joints().size(), false), link(files.tip)};
-  for (const std::size_t joint : tree.between(files.base.empty() ? tree.root() : link(files.base), group.tip))
+  UrdfGroup group{std::vector<bool>(tree.joints.size(), false), link(files.tip)};
+  for (const std::size_t joint : tree.between(files.base.empty() ? tree.root : link(files.base), group.tip))
     group.has[joint] = true;
   return group;
 }
@@ -408,7 +679,7 @@ ArmModel read_urdf(const ArmFiles& files, const Execution& execution) {
   std::optional<XmlFile> srdf;
   if (!files.srdf.empty()) srdf.emplace(srdf_file.emplace(files.srdf, execution), "robot", most_urdf_bytes, execution);
   const XmlFile* rules = srdf ? &*srdf : nullptr;
-  const UrdfGroup group = chosen_group(files, tree, rules);
+  const UrdfGroup group = chosen_group(files, tree, rules, execution);
   return ArmModelMaker(files, tree, group, execution).make(rules);
 }
 

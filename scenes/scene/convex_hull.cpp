@@ -130,22 +130,29 @@ std::optional<FoundHull> hull_of_some(const std::vector<Vec3>& points, const Hul
   return found;
 }
 
-/// Sorted, each once.
-std::vector<Vec3> distinct_points(std::span<const Vec3> points, const Execution& execution) {
-  execution.reserve(2 * points.size() * sizeof(Vec3));
-  std::vector<Vec3> distinct(points.begin(), points.end());
-  for (Vec3& p : distinct) p.array() += 0.0;  // no negative zeros
-  polled_sort(distinct.begin(), distinct.end(), execution, [](const Vec3& a, const Vec3& b) {
-    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
-  });
-  distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
-  return distinct;
-}
-
 }  // namespace
 
+std::vector<std::uint32_t> weld_points(std::vector<Vec3>& points, const Execution& execution) {
+  execution.reserve(points.size() * (sizeof(Vec3) + 2 * sizeof(std::uint32_t)));
+  std::vector<std::uint32_t> order(points.size());
+  for (std::uint32_t i = 0; i < points.size(); ++i) order[i] = i;
+  polled_sort(order.begin(), order.end(), execution, [&](std::uint32_t a, std::uint32_t b) {
+    return std::lexicographical_compare(points[a].data(), points[a].data() + 3, points[b].data(), points[b].data() + 3);
+  });
+  std::vector<Vec3> distinct;
+  std::vector<std::uint32_t> numbers(points.size());
+  for (const std::uint32_t i : order) {
+    if (distinct.empty() || distinct.back() != points[i]) distinct.emplace_back(points[i].array() + 0.0);  // no -0
+    numbers[i] = static_cast<std::uint32_t>(distinct.size() - 1);
+  }
+  points = std::move(distinct);
+  return numbers;
+}
+
 Solid convex_hull(std::span<const Vec3> points, const std::string& where, const Execution& execution) {
-  const std::vector<Vec3> distinct = distinct_points(points, execution);
+  execution.reserve(points.size() * sizeof(Vec3));
+  std::vector<Vec3> distinct(points.begin(), points.end());
+  weld_points(distinct, execution);
   const HullFrame frame(distinct);
   const std::size_t chunks = (distinct.size() + hull_chunk - 1) / hull_chunk;
   FoundHull hull;

@@ -2,7 +2,11 @@
 // Convex hulls of points in space, by qhull.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
@@ -17,6 +21,10 @@ inline constexpr std::size_t most_hull_corners = 30'000;
 /// hull's size. Points that lie in a plane or on a line, to rounding, are all corners, without faces. Throws
 /// InputError, naming `where`, at more than most_hull_corners corners; Stopped. O(n log n).
 Solid convex_hull(std::span<const Vec3> points, const std::string& where, const Execution& execution);
+
+/// Leaves each point once, in the order of their coordinates, and says of each point that was there its number now.
+/// Fewer than 2^32 points. Throws Stopped. O(n log n).
+std::vector<std::uint32_t> weld_points(std::vector<Vec3>& points, const Execution& execution);
 
 /// What a closed surface of outward triangles holds; 0 without triangles.
 double volume_inside(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 3>> triangles);
