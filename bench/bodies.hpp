@@ -12,7 +12,9 @@
 #include "core/base/rng.hpp"
 #include "core/plane/polygon.hpp"
 #include "worlds/arms/arm_world.hpp"
+#include "worlds/arms/chain_model.hpp"
 #include "worlds/arms/puma560.hpp"
+#include "worlds/arms/serial_chain.hpp"
 #include "worlds/poses/car_world.hpp"
 #include "worlds/poses/se2_world.hpp"
 
@@ -98,21 +100,28 @@ inline Scene spheres(std::size_t n) {
   return scene;
 }
 
+inline constexpr double puma_radius = 0.05;
+
 inline ArmWorld world_of(std::size_t n, double tool = 0.0) {
-  return {spheres(n), SerialChain(puma560_table(tool)), {.radius = 0.05}};
+  return {spheres(n), model_of(puma560_table(tool), puma_radius, false), {}};
 }
 
-inline double plain_clearance(const ArmWorld& world, const Scene& scene, const JointState& q) {
+/// Of a Puma with such a tool among spheres, by a plain loop.
+inline double plain_clearance(const SerialChain& chain, const Scene& scene, const JointState& q) {
   ChainPosture at;
-  world.chain().place(q, at);
+  chain.place(q, at);
   double least = std::numeric_limits<double>::infinity();
-  for (const ArmLink& link : world.links()) {
-    const Spine spine(at.points[link.from], at.points[link.to]);
+  for (std::size_t i = 1; i < chain.point_count(); ++i) {
+    const Vec3 way = at.points[i] - at.points[i - 1];
+    const double square = way.squaredNorm();
+    if (!(square > 0.0)) continue;
     for (const Sphere& s : scene.spheres) {
-      least = std::min(least, std::sqrt(distance_square(spine, Vec3(s.x, s.y, s.z))) - s.radius);
+      const Vec3 to = Vec3(s.x, s.y, s.z) - at.points[i - 1];
+      const double t = std::clamp(to.dot(way) / square, 0.0, 1.0);
+      least = std::min(least, (to - t * way).norm() - s.radius);
     }
   }
-  return least - world.radius();
+  return least - puma_radius;
 }
 
 }  // namespace warren::bench

@@ -129,6 +129,7 @@ void count_cars(const char* space) {
 void count_arms() {
   const Scene scene = spheres(9);
   const ArmWorld world = world_of(9, 0.1);
+  const SerialChain chain(puma560_table(0.1));
   const auto ends = [&](std::size_t i) {
     const JointState a = uniform_state(world, 5, 2 * i);
     const JointState far = uniform_state(world, 5, 2 * i + 1);
@@ -142,9 +143,9 @@ void count_arms() {
   const auto keeps = [&](std::size_t i, int places, double margin) {
     const std::pair<JointState, JointState> m = ends(i);
     return all_above(places, margin,
-                     [&](double t) { return plain_clearance(world, scene, world.interpolate(m.first, m.second, t)); });
+                     [&](double t) { return plain_clearance(chain, scene, world.interpolate(m.first, m.second, t)); });
   };
-  count("a Puma 560 with a tool of 0.1 among 9 spheres", world.radius(), is_free, keeps);
+  count("a Puma 560 with a tool of 0.1 among 9 spheres", puma_radius, is_free, keeps);
 }
 
 }  // namespace

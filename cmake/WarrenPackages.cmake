@@ -10,7 +10,7 @@ endforeach()
 target_sources(warren_shared PRIVATE $<TARGET_OBJECTS:warren_planned>)  # which warren_solve only takes in
 target_include_directories(warren_shared INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 target_compile_features(warren_shared INTERFACE cxx_std_20)
-target_link_libraries(warren_shared PUBLIC Eigen3::Eigen Threads::Threads PRIVATE fmt::fmt PNG::PNG TBB::tbb yaml-cpp ZLIB::ZLIB)
+target_link_libraries(warren_shared PUBLIC Eigen3::Eigen Threads::Threads PRIVATE fmt::fmt PNG::PNG TBB::tbb yaml-cpp pugixml::pugixml Qhull::qhull_r ZLIB::ZLIB)
 if(HPDF_LIBRARY)
   target_link_libraries(warren_shared PRIVATE hpdf)
 endif()
@@ -86,7 +86,7 @@ warren_package(documents warren-doc doc "motion planning by roadmaps: documents 
 warren_package(python python3-warren python "motion planning by roadmaps: module for Python"
                "This package has the module warren for Python, with its types.")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS OFF)
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "libwarren${warren_soversion} (= ${PROJECT_VERSION}), libeigen3-dev (>= 3.4), libfmt-dev, libhpdf-dev, libpng-dev, libtbb-dev, libyaml-cpp-dev, zlib1g-dev")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "libwarren${warren_soversion} (= ${PROJECT_VERSION}), libeigen3-dev (>= 3.4), libfmt-dev, libhpdf-dev, libpng-dev, libpugixml-dev, libqhull-dev, libtbb-dev, libyaml-cpp-dev, zlib1g-dev")
 set(CPACK_DEBIAN_DOCUMENTS_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_DOCUMENTS_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "warren-doc")

@@ -15,6 +15,7 @@
 #include "scenes/files/human_units.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/stage_lines.hpp"
+#include "solve/question/question_of_arm.hpp"
 
 namespace warren {
 namespace {
@@ -73,7 +74,7 @@ void add_blocked(std::string& text, const Answer& answer, const BlockedEnd& bloc
   const std::string_view metres = metres_behind(answer.world.unit);
   if (blocked.depth) line(text, palette, "depth", fmt::format("{:.3g}{} in it", *blocked.depth, metres));
   if (!blocked.free_place.empty()) {
-    const std::string_view unit = blocked.free_place.size() == 6 ? " rad" : metres;
+    const std::string_view unit = is_arm(answer.problem.robot) && blocked.free_place.size() == answer.problem.start.size() ? " rad" : metres;
     line(text, palette, "free place",
          fmt::format("({}), {}{} away", fmt::join(blocked.free_place, ", "), human_number(blocked.distance), unit));
   }

@@ -263,7 +263,6 @@ Drawing drawing_of(const Scene& scene, const RecordedAnswer& answer, const Execu
   if (heading_rad) check_has_headings(robot);
   const std::vector<double>& start = first_given(answer.problem.start, scene.start);
   if (is_arm(robot)) {
-    if (!answer.path.empty()) check_state_width(answer, most_joints, "an arm");
     return drawing_of_arm(scene, robot, start, answer.states, subtitle_of(scene, answer), execution);
   }
   Drawing drawing{.layers = ground_of(scene, execution),

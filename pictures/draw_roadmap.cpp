@@ -98,7 +98,7 @@ class RoadmapDrawing {
     return all;
   }
   JointState joints(VertexId v) const {
-    return joint_state(std::span<const double>(arrays_.states).subspan(std::size_t{v} * most_joints, most_joints));
+    return joint_state(std::span<const double>(arrays_.states).subspan(std::size_t{v} * arrays_.dimension, arrays_.dimension));
   }
   void add_lines(Drawing& drawing) const {
     for (const EdgeStyle& style : other_edges) {

@@ -44,10 +44,10 @@ void check_length(Verdict& verdict, const RecordedAnswer& answer) {
 /// So is the lower bound.
 void check_bound(Verdict& verdict, const Scene& scene, const RecordedAnswer& answer, const Execution& execution) {
   if (!verdict.verified || !answer.lower_bound) return;
-  const auto& [robot, start, goal, clearance, contact] = verdict.problem;
+  const Problem& problem = verdict.problem;
   const ClaimedBound claim{*answer.lower_bound, answer.cost, verdict.length, answer.state_width(),
                            answer.states.numbers};
-  const JudgedBound judged = verify_bound(scene, {robot, start, goal, clearance}, claim, execution);
+  const JudgedBound judged = verify_bound(scene, {problem.robot, problem.start, problem.goal, problem.clearance}, claim, execution);
   verdict.bound = judged.verdict;
   if (judged.verdict != BoundVerdict::refuted) return;
   verdict.verified = false;

@@ -33,6 +33,7 @@
 #include "scenes/files/read_world_io.hpp"
 #include "verify/judges/verify_arm.hpp"
 #include "worlds/arms/arm_world.hpp"
+#include "worlds/arms/chain_model.hpp"
 #include "worlds/arms/puma560.hpp"
 
 namespace warren {
@@ -54,7 +55,7 @@ struct ArmRun {
   CpuWall seconds;
 };
 
-ArmWorld world_of(const Question& q) { return {q.scene, SerialChain(q.table), {.radius = q.radius}}; }
+ArmWorld world_of(const Question& q) { return {q.scene, model_of(q.table, q.radius, false), {}}; }
 
 ArmRun run_rrt_connect(const Question& q, std::uint64_t seed) {
   const Stopwatch stopwatch;
@@ -115,16 +116,17 @@ double median(std::vector<double> values) {
 
 /// Throws unless it is a path: then the table would compare something else than planners.
 double verified_length(const Question& q, const ArmRun& run, const std::string& name) {
-  ArmVerifyOptions options{.radius = q.radius};
+  ArmVerifyOptions options;
   options.start = q.start;
   options.goal = q.goal;
-  const Verification found = verify_arm(q.scene, q.table, run.path, options, one_thread());
+  const Verification found = verify_arm(q.scene, model_of(q.table, q.radius, false), run.path, options, one_thread());
   if (!found.verified) throw std::runtime_error(name + ": the path is not verified");
   return found.length;
 }
 
 JointState state_of(const std::vector<double>& numbers, const std::string& where) {
-  if (numbers.size() != most_joints) throw std::runtime_error(where + ": start and goal must be six joint angles");
+  if (numbers.size() != most_chain_joints)
+    throw std::runtime_error(where + ": start and goal must be six joint angles");
   JointState q{};
   std::copy(numbers.begin(), numbers.end(), q.begin());
   return q;

@@ -74,8 +74,8 @@ class JointStates {
  public:
   using State = JointState;
   JointStates(const ArmWorld& world, const JointState& rest) : rest_(rest) {
-    for (std::size_t j = 0; j < most_joints; ++j) {
-      if (world.chain().moves(j)) joints_.push_back(j);
+    for (std::size_t j = 0; j < world.variable_count(); ++j) {
+      if (world.kinematics().moves(j)) joints_.push_back(j);
     }
   }
   std::span<const std::size_t> joints() const { return joints_; }
@@ -191,8 +191,8 @@ void bound(Space& space, const Box& box) {
 inline void bound(ob::RealVectorStateSpace& space, const ArmWorld& world, const JointStates& states) {
   ob::RealVectorBounds bounds(space.getDimension());
   for (std::size_t i = 0; i < states.joints().size(); ++i) {
-    bounds.low[i] = world.chain().low(states.joints()[i]);
-    bounds.high[i] = world.chain().high(states.joints()[i]);
+    bounds.low[i] = world.model().variables[states.joints()[i]].low;
+    bounds.high[i] = world.model().variables[states.joints()[i]].high;
   }
   space.setBounds(bounds);
 }

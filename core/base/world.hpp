@@ -95,6 +95,26 @@ struct Motion {
 };
 inline constexpr std::size_t bunch_size = 16;
 
+/// A new state and the motion between it and one that is known to be free: is the state free, and the motion?
+enum class Step : std::uint8_t { state_blocked, motion_blocked, free };
+
+/// backward: the motion leads from the new state to the known one. A world may look at both at once
+/// (world.is_free_step(), where the motion includes its ends and has no direction): then motion_blocked says either.
+template <World W>
+Step step_to(const W& world, const typename W::State& known, const typename W::State& fresh, bool backward,
+             typename W::Query& query) {
+  if constexpr (requires { world.step_to(known, fresh, backward, query); }) {
+    return world.step_to(known, fresh, backward, query);
+  } else if constexpr (requires { world.is_free_step(known, fresh, query); }) {
+    return world.is_free_step(known, fresh, query) ? Step::free : Step::motion_blocked;
+  } else {
+    if (!world.is_free(fresh, query)) return Step::state_blocked;
+    const bool free =
+        backward ? world.is_free_motion(fresh, known, query) : world.is_free_motion(known, fresh, query);
+    return free ? Step::free : Step::motion_blocked;
+  }
+}
+
 /// Motions that this query saw refused: neither proved free nor blocked. 0 for worlds whose checks are exact.
 template <class Query>
 std::uint64_t refused_motions(const Query& query) {

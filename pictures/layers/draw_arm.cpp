@@ -40,11 +40,21 @@ JointState between(const JointState& a, const JointState& b, double t) {
 
 // An arm along a path in joint space: what its pictures ask.
 
+std::vector<std::size_t> points_apart(const SerialChain& chain) {
+  ChainPosture rest;
+  chain.place({}, rest);
+  std::vector<std::size_t> points{0};
+  for (std::size_t i = 1; i < chain.point_count(); ++i) {
+    if ((rest.points[i] - rest.points[i - 1]).norm() > 1e-12 * chain.reach()) points.push_back(i);
+  }
+  return points;
+}
+
 /// Refers to the path, which has at least one state.
 class ArmPath {
  public:
   ArmPath(const DhTable& table, std::span<const JointState> states)
-      : chain_(table), links_(links_of(chain_)), states_(states), shares_{0.0} {
+      : chain_(table), points_(points_apart(chain_)), states_(states), shares_{0.0} {
     for (std::size_t i = 1; i < states.size(); ++i) {
       shares_.push_back(shares_.back() + joint_distance(states[i - 1], states[i]));
     }
@@ -57,8 +67,8 @@ class ArmPath {
   std::vector<Vec3> spine(const JointState& q) const {
     ChainPosture at;
     chain_.place(q, at);
-    std::vector<Vec3> ends{at.points[links_.front().from]};
-    for (const ArmLink& link : links_) ends.push_back(at.points[link.to]);
+    std::vector<Vec3> ends;
+    for (const std::size_t point : points_) ends.push_back(at.points[point]);
     return ends;
   }
   Vec3 tool(const JointState& q) const {
@@ -99,7 +109,7 @@ class ArmPath {
 
  private:
   SerialChain chain_;
-  std::vector<ArmLink> links_;
+  std::vector<std::size_t> points_;  // of the chain, each apart from the one before
   std::span<const JointState> states_;
   std::vector<double> shares_;  // of each state: the length up to it
 };

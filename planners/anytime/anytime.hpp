@@ -66,6 +66,7 @@ struct AnytimeBody {
   /// The path made shorter, by draws of the seed; it may give up where it costs more than `hopeless`. Throws Stopped.
   std::function<Path<State>(const Path<State>&, double hopeless, std::uint64_t seed, const Execution&, Counters&)>
       shortened;
+  bool draws = true;  ///< does `shortened` make use of the seed? Else what it has shortened is as short as it gets
   std::function<double(const Path<State>&)> length;    ///< as answers have it
   std::function<double(const Path<State>&)> judged_s;  ///< judges a path: the seconds that it took
   std::function<void(const Path<State>&)> kept;        ///< takes each path that was the best; empty: nobody does
@@ -145,6 +146,7 @@ class AnytimeSearch {
   static constexpr std::size_t restart_count = 3;
   static constexpr double hopeless = 1.5;  // what costs so many times the best is not shortened
   static constexpr int patience = 10;      // turns without luck after which a part gets half
+  static constexpr int most_dull = 3;      // polishings without gain in a row, after which none is tried
 
   enum class Part : std::uint8_t { tree, restarts, roadmap, shorten };
   struct Found {
@@ -184,7 +186,7 @@ class AnytimeSearch {
       if (options_.gap && solution_.cost <= solution_.lower_bound * (1.0 + *options_.gap)) return end("gap");
     }
     const bool is_alone = !options_.parts.restarts && !options_.parts.roadmap;
-    if (is_alone && tree_ && tree_->is_full() && (dull_ >= 3 || !options_.parts.shorten)) return end("nodes");
+    if (is_alone && tree_ && tree_->is_full() && (dull_ >= most_dull || !options_.parts.shorten)) return end("nodes");
     return options_.iterations && solution_.iterations >= *options_.iterations && end("iterations");
   }
 
@@ -296,7 +298,8 @@ auto AnytimeSearch<W>::grown(const Execution& execution) -> std::vector<Found> {
       tasks.push_back([this, &restart](const Execution& on) { return grow_restart(restart, on); });
     }
   }
-  if (parts.shorten && has_path() && dull_ < 3) tasks.push_back([this](const Execution& on) { return polished(on); });
+  if (parts.shorten && has_path() && dull_ < most_dull)
+    tasks.push_back([this](const Execution& on) { return polished(on); });
   for (std::size_t i = 0; i < rough_.size(); ++i) {
     tasks.push_back([this, i](const Execution& on) { return shortened(rough_[i], i, on); });
   }
@@ -316,13 +319,16 @@ void AnytimeSearch<W>::take(Found& found) {
   if (found.path.empty()) return;
   const double before = solution_.cost;
   const bool is_better = found.cost < before * (1.0 - 1e-12) || !has_path();
-  if (found.by == Part::shorten) dull_ = found.cost < before * (1.0 - worth) ? 0 : dull_ + 1;
+  if (found.by == Part::shorten) {
+    const bool goes_on = body_.draws && found.cost < before * (1.0 - worth);
+    dull_ = goes_on ? 0 : body_.draws ? dull_ + 1 : most_dull;
+  }
   if (tree_ && options_.informed && found.by != Part::tree && found.cost < near * before)
     to_join_.push_back(found.path);
   const bool is_rough = options_.parts.shorten && !found.is_shortened;
   if (!is_better && is_rough && found.cost < hopeless * before) rough_.push_back(std::move(found));
   if (!is_better) return;
-  if (was_replaced_) {  // by another one in this turn: nobody has shortened it yet
+  if (was_replaced_ && dull_ < most_dull) {  // by another one in this turn: nobody has shortened it yet
     Found earlier;
     earlier.path = std::move(solution_.path);
     earlier.cost = before;
@@ -330,7 +336,7 @@ void AnytimeSearch<W>::take(Found& found) {
   }
   was_replaced_ = true;
   was_lucky_[index_of(found.by)] = true;
-  if (found.by != Part::shorten) dull_ = 0;
+  if (found.by != Part::shorten) dull_ = found.is_shortened && !body_.draws ? most_dull : 0;
   solution_.cost = found.cost;
   solution_.path = std::move(found.path);
   constexpr std::array<std::string_view, 4> names{"tree", "restarts", "roadmap", "shorten"};

@@ -52,9 +52,9 @@ class AnyQuery {
 };
 inline std::uint64_t refused_motions(const AnyQuery& query) { return query.refused(); }
 
-/// Numbers of a state and of its embedding.
+/// Numbers of a state and of its embedding, which for angles without end has more.
 template <class State>
-inline constexpr std::array<std::size_t, 2> numbers_of{std::tuple_size_v<State>, std::tuple_size_v<State>};
+inline constexpr std::array<std::size_t, 2> numbers_of{std::tuple_size_v<State>, std::tuple_size_v<State> + 2};
 template <>
 inline constexpr std::array<std::size_t, 2> numbers_of<Vec2>{2, 2};
 template <>
@@ -89,6 +89,8 @@ class AnyWorld {
     if constexpr (in_plane) return {a.x, a.y};
     return embedding(a);
   }
+  /// As the function of that name.
+  virtual Step step_to(const State& known, const State& fresh, bool backward, Query& query) const = 0;
   virtual State interpolate(const State& a, const State& b, double t) const = 0;
 
   /// at_unit() of each: to states[0] and those behind it.
@@ -162,6 +164,9 @@ class WorldView final : public AnyWorldOf<W> {
   bool is_free(const State& a, Query& query) const override { return world_.is_free(a, own(query)); }
   bool is_free_motion(const State& a, const State& b, Query& query) const override {
     return world_.is_free_motion(a, b, own(query));
+  }
+  Step step_to(const State& known, const State& fresh, bool backward, Query& query) const override {
+    return warren::step_to(world_, known, fresh, backward, own(query));
   }
   State interpolate(const State& a, const State& b, double t) const override {
     if constexpr (SteerableWorld<W>) return world_.interpolate(a, b, t);

@@ -64,7 +64,7 @@ class PartsCheck {
   }
   void check_sizes() const {
     const std::size_t d = parts_.dimension;
-    if (d != 2 && d != 3 && d != 6) fail("dimension", "expected 2, 3 or 6 numbers a state", number(d));
+    if (d < 2 || d > most_numbers) fail("dimension", "expected 2 to 14 numbers a state", number(d));
     if (parts_.first.empty()) fail("first", "expected one element more than vertices", "0");
     const std::size_t n = parts_.vertex_count();
     if (n > no_vertex) fail("first", "expected fewer than 2^32 vertices", number(n));

@@ -17,14 +17,18 @@
 
 namespace warren {
 
+/// Of a state.
+inline constexpr unsigned most_numbers = 14;
+
 /// A roadmap as plain arrays, whoever holds them: what planners leave behind, files hold and exports write. Start and
 /// goal are no part of it. Refers to arrays that live elsewhere. Any number of threads may read.
 struct RoadmapParts {
-  unsigned dimension = 2;  ///< numbers a state: 2 (x, y), 3 (x, y, heading in radians), 6 (joint angles in radians)
-  bool directed = false;   ///< an edge leads from its row to its target alone; else each edge stands twice
-  std::span<const double> states;              ///< `dimension` finite numbers a vertex
-  std::span<const EdgeEnd> first;              ///< vertex_count + 1: the ends of vertex v are first[v] .. first[v + 1]
-  std::span<const VertexId> to;                ///< where each edge end leads; the ends of a vertex ascend
+  unsigned dimension =
+      2;  ///< numbers a state: 2 (x, y), 3 (x, y, heading in radians), 4 to most_numbers (an arm's joints)
+  bool directed = false;           ///< an edge leads from its row to its target alone; else each edge stands twice
+  std::span<const double> states;  ///< `dimension` finite numbers a vertex
+  std::span<const EdgeEnd> first;  ///< vertex_count + 1: the ends of vertex v are first[v] .. first[v + 1]
+  std::span<const VertexId> to;    ///< where each edge end leads; the ends of a vertex ascend
   std::span<const std::uint64_t> edge_states;  ///< graph.hpp
   std::span<const VertexId> component;         ///< smallest vertex that free edges join each vertex with, any direction
 

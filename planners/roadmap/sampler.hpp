@@ -23,12 +23,12 @@
 
 namespace warren {
 
-/// The index-th point of the Halton sequence in bases 2, 3, 5, 7, 11, 13, shifted by a random vector of the seed
+/// The index-th point of the Halton sequence in bases 2, 3, 5, …, shifted by a random vector of the seed
 /// (Cranley-Patterson), so that seeds differ.
 template <std::size_t D>
 std::array<double, D> halton_point(std::uint64_t seed, std::uint64_t index) {
-  static_assert(D <= 6);
-  constexpr std::uint64_t bases[] = {2, 3, 5, 7, 11, 13};
+  static_assert(D <= 14);
+  constexpr std::uint64_t bases[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43};
   std::array<double, D> point;
   for (std::size_t axis = 0; axis < D; ++axis) {
     double digit = 1.0;

@@ -96,7 +96,7 @@ class Shortener {
   double length_between(const PlaceOnPath& p, const PlaceOnPath& q) const;
   bool is_free(const State& a, const State& b, typename W::Query& query, Counters& counters) const {
     ++counters.edges_checked;
-    const bool free = world_.is_free(b, query) && world_.is_free_motion(a, b, query);
+    const bool free = step_to(world_, a, b, false, query) == Step::free;
     counters.edges_free += free ? 1 : 0;
     return free;
   }

@@ -86,12 +86,11 @@ class MotionTree {
                                                   : world_->interpolate(to, states_[from], 1.0 - step / whole);
   }
   bool is_free(const State& state, typename W::Query& query) {
-    ++work_;
+    work_ += work_of_state;
     return world_->is_free(state, query);
   }
   /// Is the motion that joins a vertex with a free state free?
   bool is_free_motion(VertexId from, const State& to, typename W::Query& query, Counters& counters) {
-    constexpr std::uint64_t work_of_motion = 4;
     work_ += work_of_motion;
     ++counters.edges_checked;
     const bool forward = direction_ == GrowthDirection::forward;
@@ -102,11 +101,11 @@ class MotionTree {
   }
   /// Grows one motion from `from` all the way to `to`: its vertex, or nothing where `to` or the motion is not free.
   std::optional<VertexId> join(VertexId from, const State& to, typename W::Query& query, Counters& counters) {
-    if (!is_free(to, query)) {
-      ++counters.edges_checked;
-      return std::nullopt;
-    }
-    if (!is_free_motion(from, to, query, counters)) return std::nullopt;
+    const Step step = step_to(*world_, states_[from], to, direction_ == GrowthDirection::backward, query);
+    ++counters.edges_checked;
+    work_ += step == Step::state_blocked ? work_of_state : work_of_state + work_of_motion;
+    if (step != Step::free) return std::nullopt;
+    ++counters.edges_free;
     return add(to, from);
   }
   /// The same towards `to`, of length `step` at most (in the world's metric).
@@ -143,6 +142,9 @@ class MotionTree {
   std::vector<double> costs_;
 
  private:
+  static constexpr std::uint64_t work_of_state = 1;
+  static constexpr std::uint64_t work_of_motion = 4;
+
   void count_query(Counters& counters) {
     ++work_;
     ++counters.neighbour_queries;

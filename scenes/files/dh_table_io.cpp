@@ -50,7 +50,7 @@ class TableReader {
   }
   void read_joint(Fields& fields) {
     const std::vector<double> n = numbers(fields, 5, 6, "joint D A ALPHA LOW HIGH [OFFSET]");
-    if (table_.joints.size() == most_joints) fields.place().fail("an arm has at most 6 joints");
+    if (table_.joints.size() == most_chain_joints) fields.place().fail("an arm has at most 6 joints");
     if (n[3] > n[4]) fields.place().fail("LOW must not exceed HIGH", std::to_string(n[3]));
     table_.joints.push_back({n[0], n[1], n[2], n[3], n[4], n.size() > 5 ? n[5] : 0.0});
   }

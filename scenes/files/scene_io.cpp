@@ -166,18 +166,12 @@ class SceneReader {
     push_asked(arm().attached, std::move(attached), execution_);
   }
   void read_hold(Fields& fields) {
-    std::string joint = word_of(fields);
-    const std::vector<double>& n = numbers(fields, 1, 1);
-    const auto same = [&](const auto& held) { return held.first == joint; };
-    if (arm().held.size() == most_named) fields.place().fail(fmt::format("at most {} joints are held", most_named));
-    if (std::ranges::any_of(arm().held, same)) fields.place().fail("`hold`: this joint is held already", joint);
-    push_asked(arm().held, {std::move(joint), n[0]}, execution_);
+    warren::read_hold(fields, arm());
+    check_done(fields);
   }
   void read_allow(Fields& fields) {
-    std::string first = word_of(fields);
-    std::string second = word_of(fields);
+    warren::read_allow(fields, arm());
     check_done(fields);
-    push_asked(arm().allowed, {std::move(first), std::move(second)}, execution_);
   }
   void read_bounds(Fields& fields) {
     const std::vector<double>& n = numbers(fields, 4, 4);
@@ -262,7 +256,6 @@ class SceneReader {
   }
 
   void read_robot(Fields& fields) { scene_.robot = warren::read_robot(fields, execution_); }
-
   void check_whole() const;
   void check_state(const std::vector<double>& given, ItemNumber item) const;
   void check_arm_lines() const;
@@ -446,6 +439,9 @@ void append_robot(std::string& text, const RobotSpec& robot) {
       text +=
           fmt::format("robot {} radius {} tool {}{}\n", robot.kind == RobotKind::arm ? "arm " + robot.table : "puma560",
                       number(robot.radius), number(robot.tool), arm_words(robot));
+      break;
+    case RobotKind::urdf:
+      text += fmt::format("robot urdf{}\n", urdf_words(*robot.files));
       break;
   }
 }

@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <charconv>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -107,6 +110,9 @@ class RobotReader {
       if (robot.kind == RobotKind::arm) robot.table = fields_.word();
       if (robot.kind == RobotKind::arm && robot.table.empty()) refuse_usage("no file");
       read_sizes(robot);
+    } else if (kind == "urdf") {
+      robot.kind = RobotKind::urdf;
+      robot.files = urdf_files();
     } else {
       refuse_usage(kind.empty() ? "nothing" : kind);
     }
@@ -214,6 +220,45 @@ class RobotReader {
     if (!has("turning")) refuse_car("no turning radius");
   }
 
+  [[noreturn]] void refuse_urdf(std::string_view found) const {
+    const std::size_t word = fields_.place().line == 0 ? urdf_usage.find(' ') + 1 : 0;
+    fields_.place().fail(fmt::format("expected `{}`", urdf_usage.substr(word)), found);
+  }
+  std::string urdf_word(std::string_view before) {
+    const std::string_view word = fields_.word();
+    if (word.empty()) refuse_urdf(fmt::format("nothing behind {}", before));
+    return std::string{word};
+  }
+  /// Its words in any order, each once but package-path, hold and allow.
+  ArmFiles urdf_files() {
+    ArmFiles files{urdf_word("urdf")};
+    while (!fields_.done()) {
+      const std::string name(fields_.word());
+      std::string* const once = name == "srdf"    ? &files.srdf
+                                : name == "group" ? &files.group
+                                : name == "base"  ? &files.base
+                                : name == "tip"   ? &files.tip
+                                                  : nullptr;
+      if (once != nullptr && once->empty()) {
+        *once = urdf_word(name);
+      } else if (name == "package-path") {
+        files.packages.push_back(urdf_word(name));
+      } else if (name == "hold") {
+        read_hold(fields_, files);
+      } else if (name == "allow") {
+        read_allow(fields_, files);
+      } else {
+        refuse_urdf(name);
+      }
+      execution_.check();
+    }
+    if (files.base.empty() != files.tip.empty())
+      refuse_urdf(files.base.empty() ? "tip without base" : "base without tip");
+    if (!files.group.empty() && !files.base.empty()) refuse_urdf("group and base");
+    if (!files.group.empty() && files.srdf.empty()) refuse_urdf("group without srdf");
+    return files;
+  }
+
   /// Words of arms that are no numbers: was this one?
   bool read_arm_word(RobotSpec& robot, std::string_view name) {
     if (name == "self-collision" && !robot.self_collision) return robot.self_collision = true;
@@ -239,6 +284,38 @@ std::string arm_words(const RobotSpec& robot) {
   if (!robot.limits.empty()) words += " limits " + robot.limits;
   if (robot.self_collision) words += " self-collision";
   return words;
+}
+
+std::string urdf_words(const ArmFiles& files) {
+  std::string words = " " + files.urdf;
+  const auto add = [&](std::string_view name, const std::string& value) {
+    if (!value.empty()) words += fmt::format(" {} {}", name, value);
+  };
+  add("srdf", files.srdf);
+  add("group", files.group);
+  add("base", files.base);
+  add("tip", files.tip);
+  for (const std::string& package : files.packages) add("package-path", package);
+  for (const auto& [joint, value] : files.held) words += fmt::format(" hold {} {}", joint, value + 0.0);
+  for (const auto& [one, other] : files.allowed) words += fmt::format(" allow {} {}", one, other);
+  return words;
+}
+
+void read_hold(Fields& fields, ArmFiles& files) {
+  std::string joint(fields.word());
+  if (fields.done()) fields.place().fail("expected `hold JOINT VALUE`", joint.empty() ? "too few words" : "0 numbers");
+  const double value = fields.number();
+  for (auto& [name, held] : files.held) {
+    if (name == joint) fields.place().fail("`hold`: this joint is held already", joint);
+  }
+  files.held.emplace_back(std::move(joint), value);
+}
+
+void read_allow(Fields& fields, ArmFiles& files) {
+  std::array<std::string, 2> links;
+  for (std::string& link : links) link = fields.word();
+  if (links[1].empty()) fields.place().fail("expected `allow LINK LINK`", "too few words");
+  files.allowed.push_back(std::move(links));
 }
 
 RobotSpec read_robot(Fields& fields, const Execution& execution) { return RobotReader(fields, execution).read(); }

@@ -85,17 +85,28 @@ namespace warren {
 
 inline constexpr std::string_view robot_usage =
     "robot point|disc R|polygon X Y X Y X Y ...|car radius R turning RHO|"
-    "puma560 radius R [tool T] [limits classic|symmetric] [self-collision]|arm FILE radius R [tool T] [self-collision]";
+    "puma560 radius R [tool T] [limits classic|symmetric] [self-collision]|arm FILE radius R [tool T] [self-collision]|"
+    "urdf FILE [srdf FILE] [group NAME | base LINK tip LINK] [package-path DIR] ...";
+inline constexpr std::string_view urdf_usage =
+    "robot urdf FILE [srdf FILE] [group NAME | base LINK tip LINK] [package-path DIR] ... [hold JOINT VALUE] ... "
+    "[allow LINK LINK] ...";
 inline constexpr std::string_view car_usage =
     "robot car radius R|polygon X Y X Y X Y ... turning RHO [steering dubins|reeds-shepp]";
 
 /// The same as options take it.
 inline constexpr std::string_view robot_option =
     "point, disc R, [[X, Y], [X, Y], [X, Y], ...], polygon X Y X Y X Y ..., car radius R turning RHO, "
-    "car polygon X Y X Y X Y ... turning RHO, puma560 radius R or arm FILE radius R";
+    "car polygon X Y X Y X Y ... turning RHO, puma560 radius R, arm FILE radius R or "
+    "urdf FILE [srdf FILE] [group NAME]";
 
 /// What a puma560's or arm's line says behind its tool: empty for the defaults, else with a blank before each word.
 std::string arm_words(const RobotSpec& robot);
+/// All that a urdf's line says behind `urdf`, with a blank before each word; attached solids have lines of their own.
+std::string urdf_words(const ArmFiles& files);
+
+/// Reads what follows `hold` or `allow`, one of them, to the end of these words. Throws InputError.
+void read_hold(scene_text::Fields& fields, ArmFiles& files);
+void read_allow(scene_text::Fields& fields, ArmFiles& files);
 
 /// Reads what follows the word `robot`, to the line's end. Throws InputError naming the fields' place, Stopped.
 RobotSpec read_robot(scene_text::Fields& fields, const Execution& execution);

@@ -70,6 +70,7 @@ struct ArmModel {
   int tool_frame = base_frame;         ///< number of the joint that the tool is fixed in
   Eigen::Isometry3d tool = Eigen::Isometry3d::Identity();  ///< in that frame
   std::vector<std::string> assumed;  ///< what is taken for granted, a line each: pairs of links that always touch, …
+  std::vector<std::string> told = {};  ///< what its reader has to say, a line each: hulls against their meshes, …
 };
 
 /// How far a variable goes from one state to the next: of a continuous one within half a turn to either side.

@@ -11,6 +11,7 @@
 
 #include "core/base/rng.hpp"
 #include "parallel/chunks.hpp"
+#include "scenes/scene/arm_model.hpp"
 
 namespace warren {
 namespace {
@@ -120,15 +121,15 @@ std::size_t state_size(const RobotSpec& robot) {
       return 3;
     case RobotKind::puma560:
     case RobotKind::arm:
-      return 6;
+      return most_chain_joints;
     case RobotKind::urdf:
-      return most_joints;
+      return robot.files && robot.files->read ? robot.files->read->variables.size() : most_joints;
   }
   return 2;
 }
 
 RobotSpec with_what_is_said(RobotSpec robot, const Scene& scene) {
-  if (!robot.files || !scene.arm) return robot;
+  if (!robot.files || robot.files->read || !scene.arm) return robot;
   ArmFiles& files = *robot.files;
   const ArmFiles& said = *scene.arm;
   const bool has_group = !files.group.empty() || !files.base.empty() || !files.tip.empty();

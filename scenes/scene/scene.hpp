@@ -8,6 +8,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -100,6 +101,8 @@ struct AttachedSolid {
   std::vector<std::string> may_touch = {};  ///< links beside that one
 };
 
+struct ArmModel;  // scenes/scene/arm_model.hpp
+
 /// An arm that files describe.
 struct ArmFiles {
   std::string urdf;                        ///< a path
@@ -111,6 +114,7 @@ struct ArmFiles {
   std::vector<std::pair<std::string, double>> held = {};  ///< joints outside of the group, and where they are
   std::vector<std::array<std::string, 2>> allowed = {};   ///< pairs of links that may touch, beside the SRDF's
   std::vector<AttachedSolid> attached = {};
+  std::shared_ptr<const ArmModel> read = {};  ///< what the files say, where somebody has read them
 };
 
 /// A state of an arm by its joints' names: where their order is not known yet.

@@ -64,7 +64,7 @@ struct Explanation {
 
 /// States of any body, one after the other.
 struct StateList {
-  std::size_t width = 2;        ///< numbers a state: 2, 3 or 6
+  std::size_t width = 2;        ///< numbers a state: 2, 3, or an arm's joints
   std::vector<double> numbers;  ///< width * size() of them
 
   /// States.

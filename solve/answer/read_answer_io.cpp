@@ -15,11 +15,12 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::string_view point_expected = "[X, Y], two finite numbers (three or six for other bodies)";
+constexpr std::string_view point_expected =
+    "[X, Y], two finite numbers (three for bodies that turn, one a joint for arms)";
 constexpr std::string_view path_expected = "a list of points [X, Y]";
 
-constexpr std::size_t longest_state = 6;
-constexpr bool is_state_size(std::size_t n) { return n == 2 || n == 3 || n == 6; }
+constexpr std::size_t longest_state = most_joints;
+constexpr bool is_state_size(std::size_t n) { return n >= 1 && n <= most_joints; }
 
 /// Takes the events of the parser. Keys that matter stand at depth 1 (the answer itself) and in "world"; all others are
 /// passed over at any depth.
@@ -48,7 +49,7 @@ class AnswerReader {
   bool binary(Json::binary_t&) { return false; }
   bool start_object(std::size_t) {
     if (in("path")) refuse(path_expected, "an object");
-    if (in("start") || in("goal")) refuse(point_expected, "an object");
+    if (in_state()) refuse(point_expected, "an object");
     ++objects_;
     began_ = true;
     return true;
@@ -82,7 +83,8 @@ class AnswerReader {
     if (in("path") && arrays_ == 1) end_point();
     if (in("start") && arrays_ == 0) answer_.problem.start = numbers_;
     if (in("goal") && arrays_ == 0) answer_.problem.goal = numbers_;
-    if ((in("start") || in("goal")) && !is_state_size(numbers_.size())) refuse(point_expected);
+    if (in("goal_pose") && arrays_ == 0) take_pose();
+    if (in_state() && !is_state_size(numbers_.size())) refuse(point_expected);
     return true;
   }
   bool parse_error(std::size_t position, const std::string& token, const nlohmann::detail::exception&) {
@@ -98,10 +100,10 @@ class AnswerReader {
  private:
   bool number(double value) {
     if (!began_) refuse_kind();
-    const bool wanted = in("path") || in("start") || in("goal") || in_number();
+    const bool wanted = in("path") || in_state() || in_number();
     if (wanted && !(std::abs(value) <= largest_coordinate)) refuse("finite numbers of at most 1e60");
     if (in("path") && arrays_ != 2) refuse(path_expected, "a number");
-    if ((in("start") || in("goal")) && arrays_ != 1) refuse(point_expected, "a number");
+    if (in_state() && arrays_ != 1) refuse(point_expected, "a number");
     if (in("clearance")) {
       if (value < 0.0) refuse("a number of at least 0", fmt::format("{}", value));
       answer_.problem.clearance = value;
@@ -119,7 +121,7 @@ class AnswerReader {
   bool other(const char* found) {
     if (in("path")) refuse(path_expected, found);
     const bool missing = std::string_view(found) == "null" && arrays_ == 0;
-    if ((in("start") || in("goal")) && !missing) refuse(point_expected, found);
+    if (in_state() && !missing) refuse(point_expected, found);
     if (in_number() && !missing) refuse("a number", found);
     if (in("contact") && !missing) refuse("\"allowed\" or \"blocked\"", found);
     if (!began_) refuse_kind();
@@ -130,6 +132,14 @@ class AnswerReader {
   }
   [[noreturn]] void refuse_kind() const { throw InputError(file_, "expected one JSON object: an answer"); }
   bool in(std::string_view name) const { return objects_ == 1 && key_ == name; }
+  bool in_state() const { return in("start") || in("goal") || in("goal_pose"); }
+  void take_pose() {
+    const Eigen::Quaterniond turn = numbers_.size() == 7
+                                        ? Eigen::Quaterniond(numbers_[6], numbers_[3], numbers_[4], numbers_[5])
+                                        : Eigen::Quaterniond(0.0, 0.0, 0.0, 0.0);
+    if (!(turn.norm() > 0.0)) refuse("[X, Y, Z, QX, QY, QZ, QW]");
+    answer_.problem.goal_pose = Eigen::Translation3d(numbers_[0], numbers_[1], numbers_[2]) * turn.normalized();
+  }
   bool in_number() const { return in("clearance") || in("length") || in("lower_bound") || in("cost"); }
   void end_point() {
     constexpr std::size_t batch = 1 << 14;
@@ -138,7 +148,7 @@ class AnswerReader {
       refuse(path_expected, fmt::format("{} numbers in point {}", numbers_.size(), answer_.path.size()));
     }
     if (answer_.path.size() % batch == 0) execution_.check();
-    answer_.path.push_back({numbers_[0], numbers_[1]});
+    answer_.path.push_back({numbers_[0], numbers_.size() > 1 ? numbers_[1] : 0.0});
     if (width == 2) return;
     answer_.states.width = width;
     answer_.states.add(numbers_);

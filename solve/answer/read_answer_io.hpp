@@ -28,7 +28,7 @@ struct RecordedAnswer {
   std::optional<double> cost;             ///< the same; with a lower bound, which is of it then
   std::string file;                       ///< where it stands, for messages
   Path<Vec2> path;                        ///< where a state has two numbers
-  StateList states;                       ///< where a state has three or six; then `path` is their first two
+  StateList states;                       ///< where a state has more than two; then `path` is their first two
 
   /// Numbers a state.
   std::size_t state_width() const { return states.empty() ? 2 : states.width; }

@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "scenes/scene/arm_model.hpp"
 #include "solve/answer/explanation_text.hpp"
 #include "solve/answer/path_hash.hpp"
 #include "solve/answer/stage_lines.hpp"
@@ -165,11 +166,29 @@ void add_open_problem(JsonObject& json, const Answer& answer) {
   json.add_json("world", world.closed());
 }
 
+std::vector<double> numbers_of_pose(const Eigen::Isometry3d& pose) {
+  const Vec3 at = pose.translation();
+  const Eigen::Quaterniond turn(pose.linear());
+  return {at.x(), at.y(), at.z(), turn.x(), turn.y(), turn.z(), turn.w()};
+}
+
+void add_arm(JsonObject& json, const ArmModel& model) {
+  const auto list = [](const auto& items, const auto& name) {
+    std::string text = "[";
+    for (const auto& item : items) text += (text.size() > 1 ? ", " : "") + json_string(name(item));
+    return text + "]";
+  };
+  json.add_json("joints", list(model.variables, [](const ArmVariable& variable) { return variable.name; }));
+  json.add_json("assumed", list(model.assumed, [](const std::string& line) { return line; }));
+}
+
 void add_problem(JsonObject& json, const Answer& answer) {
   if (answer.world.kind.empty()) return add_open_problem(json, answer);
   add_state(json, "start", answer.problem.start);
   add_state(json, "goal", answer.problem.goal);
+  if (answer.problem.goal_pose) add_state(json, "goal_pose", numbers_of_pose(*answer.problem.goal_pose));
   json.add("robot", robot_text(answer.problem.robot));
+  if (answer.problem.robot.files && answer.problem.robot.files->read) add_arm(json, *answer.problem.robot.files->read);
   json.add("clearance", answer.problem.clearance);
   json.add("contact", name_of(answer.problem.contact));
   add_text(json, "sampler", answer.sampler);

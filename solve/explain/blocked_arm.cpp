@@ -14,14 +14,16 @@
 #include <vector>
 
 #include "core/base/trigonometry.hpp"
+#include "core/base/whole.hpp"
 #include "scenes/files/human_units.hpp"
 #include "solve/explain/blocked_end.hpp"
 #include "solve/explain/nearest_free.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/question/question_of_arm.hpp"
-#include "worlds/arms/arm_world.hpp"
+#include "worlds/arms/arm_kinematics.hpp"
+#include "worlds/arms/convex_motion.hpp"
+#include "worlds/arms/puma560.hpp"
 #include "worlds/arms/serial_chain.hpp"
-#include "worlds/arms/solid_index.hpp"
 #include "worlds/arms/tool_postures.hpp"
 
 namespace warren {
@@ -33,31 +35,62 @@ double norm_between(std::span<const double> a, std::span<const double> b) {
   return std::sqrt(square);
 }
 
+/// Of a segment.
+double distance_from_box(const Vec3& a, const Vec3& b, const SolidBox& box) {
+  const Vec3 low(box.low[0], box.low[1], box.low[2]);
+  const Vec3 high(box.high[0], box.high[1], box.high[2]);
+  const ConvexBody spine({SolidKind::hull, Eigen::Isometry3d::Identity(), Vec3::Zero(), {a, b}});
+  const ConvexBody body(
+      {SolidKind::box, Eigen::Isometry3d(Eigen::Translation3d(0.5 * (low + high))), 0.5 * (high - low)});
+  return std::max(0.0, plane_between(spine, {}, body, {}, std::numeric_limits<double>::infinity()).below);
+}
+
+/// Unit vectors: both ways along each joint first, then others of even density, of six joints at a time.
+std::vector<JointState> joint_directions(std::size_t width) {
+  constexpr std::size_t at_once = 6;
+  constexpr std::size_t random_directions = 180;
+  static const std::vector<Numbers<at_once>> directions = directions_around<at_once>(random_directions);
+  std::vector<JointState> spread;
+  for (std::size_t k = at_once; k < width; ++k) {
+    for (const double sign : {1.0, -1.0}) spread.emplace_back()[k] = sign;
+  }
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const std::size_t first = i < 2 * at_once || width <= at_once ? 0 : i % width;
+    JointState& direction = spread.emplace_back();
+    for (std::size_t k = 0; k < at_once; ++k) direction[(first + k) % std::max(width, at_once)] = directions[i][k];
+  }
+  return spread;
+}
+
 class BlockedArm {
  public:
   BlockedArm(const Scene& scene, const Problem& problem, const Execution& execution)
-      : scene_(scene), execution_(execution), chain_(table_of(problem.robot, execution)) {
+      : scene_(scene),
+        execution_(execution),
+        model_(arm_model_of(problem.robot, problem.clearance, execution)),
+        kinematics_(*model_) {
     problem_.robot = problem.robot;
-    problem_.table = chain_.table();
+    if (!problem.robot.files) problem_.table = table_of(problem.robot, execution);
+    problem_.model = model_;
     problem_.start = joint_state(problem.start);
     problem_.goal = problem.goal;
     problem_.clearance = problem.clearance;
-    margin_ = end_margin(scene, problem.robot, problem.clearance, chain_.reach(), execution);
+    reach_ = reach_of(problem_);
+    margin_ = end_margin(scene, problem.robot, problem.clearance, reach_, execution);
   }
 
-  const SerialChain& chain() const { return chain_; }
+  const ArmProblem& problem() const { return problem_; }
   /// What ends have beyond the clearance.
   double margin() const { return margin_; }
   /// With so much more room than is asked for.
   std::optional<Violation> met(const JointState& q, double more) const {
     execution_.check();
-    const ArmVerifyOptions options{.radius = problem_.robot.radius,
-                                   .clearance = problem_.clearance + more,
-                                   .self_collision = problem_.robot.self_collision};
-    return verify_arm(scene_, problem_.table, std::span(&q, 1), options, execution_).first_violation;
+    const ArmVerifyOptions options{.clearance = problem_.clearance + more};
+    return verify_arm(scene_, *model_, std::span(&q, 1), options, execution_).first_violation;
   }
-  /// Of the deepest link in the solid that is named, or of two links in one another.
+  /// Of the deepest link in the solid that is named, or of two links in one another. Nobody knows it of arms of files.
   std::optional<double> depth_in(const Violation& violation, const JointState& q) const {
+    if (!problem_.table) return std::nullopt;
     const std::string_view name = violation.obstacle;
     const auto numbered = [&](std::string_view word, std::size_t count) {
       const auto number = number_after(name, word);
@@ -67,13 +100,15 @@ class BlockedArm {
     if (const auto i = numbered("sphere ", scene_.spheres.size())) {
       const Sphere& s = scene_.spheres[*i];
       depth = deepest(q, [&](const Vec3& a, const Vec3& b) {
-        return s.radius - std::sqrt(distance_square(Spine(a, b), Vec3(s.x, s.y, s.z)));
+        const Vec3 way = b - a;
+        const Vec3 to = Vec3(s.x, s.y, s.z) - a;
+        return s.radius - (to - std::clamp(to.dot(way) / way.squaredNorm(), 0.0, 1.0) * way).norm();
       });
     } else if (const auto k = numbered("box ", scene_.boxes.size())) {
       const SolidBox& box = scene_.boxes[*k];
       depth = deepest(q, [&](const Vec3& a, const Vec3& b) {
         const double inside = depth_in_box(a, b, box);
-        return inside > 0.0 ? inside : -std::sqrt(distance_square(Spine(a, b), box));
+        return inside > 0.0 ? inside : -distance_from_box(a, b, box);
       });
     } else if (name.starts_with("link ")) {
       depth = -violation.distance;
@@ -81,19 +116,20 @@ class BlockedArm {
     return depth > 0.0 ? std::optional(depth) : std::nullopt;
   }
   std::optional<JointState> free_posture(const JointState& q) const {
-    constexpr std::size_t random_directions = 180;
-    static const std::vector<Numbers<most_joints>> directions = directions_around<most_joints>(random_directions);
+    const std::vector<JointState> directions = joint_directions(problem_.width());
     constexpr double digits = 1e3;
     JointState within = q;
-    for (std::size_t k = 0; k < most_joints; ++k) {
-      const double low = std::ceil(chain_.low(k) * digits) / digits;
-      const double high = std::floor(chain_.high(k) * digits) / digits;
-      if (low <= high && (q[k] < chain_.low(k) || q[k] > chain_.high(k))) within[k] = std::clamp(q[k], low, high);
+    for (std::size_t k = 0; k < problem_.width(); ++k) {
+      const ArmVariable& variable = model_->variables[k];
+      const double low = std::ceil(variable.low * digits) / digits;
+      const double high = std::floor(variable.high * digits) / digits;
+      if (variable.continuous || low > high) continue;
+      if (q[k] < variable.low || q[k] > variable.high) within[k] = std::clamp(q[k], low, high);
     }
     const auto is_free = [this](const JointState& state, double spare) {
-      return chain_.joint_outside_limits(state) == most_joints && !met(state, margin_ + spare);
+      return kinematics_.variable_outside_limits(state) == most_joints && !met(state, margin_ + spare);
     };
-    const double size = std::max(problem_.robot.radius, 0.1 * chain_.reach());
+    const double size = std::max(problem_.robot.radius, 0.1 * reach_);
     if (is_free(within, 1e-2 * size)) return within;
     const FreeSearchRange range{1e-3, 2.0 * std::numbers::pi, 1e-3 * norm_between(q, within)};
     return nearest_free_in_few_digits<most_joints>(within, directions, range, size, is_free);
@@ -102,12 +138,14 @@ class BlockedArm {
   std::vector<JointState> postures(const Vec3& place) const {
     ArmProblem there = problem_;
     there.goal = {place.x(), place.y(), place.z()};
-    return goal_states(there, chain_);
+    return goal_states(there, execution_);
   }
   /// One of them, sought where the quickly found ones are none.
   std::optional<JointState> posture(const Vec3& place) const {
     std::vector<JointState> states = postures(place);
-    if (states.empty()) states = tool_postures(chain_, place, problem_.start[5], 1, execution_).states;
+    if (states.empty() && problem_.table && has_puma560_shape(SerialChain(*problem_.table))) {
+      states = tool_postures(SerialChain(*problem_.table), place, problem_.start[5], 1, execution_).states;
+    }
     return states.empty() ? std::nullopt : std::optional(states.front());
   }
   /// Which some posture reaches that is free.
@@ -117,33 +155,41 @@ class BlockedArm {
       const std::vector<JointState> states = postures({p[0], p[1], p[2]});
       return std::any_of(states.begin(), states.end(), [&](const JointState& q) { return !met(q, margin_ + spare); });
     };
-    const FreeSearchRange range{1e-3 * chain_.reach(), chain_.reach()};
-    return nearest_free_in_few_digits<3>({place.x(), place.y(), place.z()}, directions, range, 0.1 * chain_.reach(),
-                                         is_free);
+    const FreeSearchRange range{1e-3 * reach_, reach_};
+    return nearest_free_in_few_digits<3>({place.x(), place.y(), place.z()}, directions, range, 0.1 * reach_, is_free);
   }
 
  private:
   template <class DepthOfLink>
   double deepest(const JointState& q, const DepthOfLink& depth_of) const {
-    ChainPosture posture;
-    chain_.place(q, posture);
     double most = -std::numeric_limits<double>::infinity();
-    for (const ArmLink& link : links_of(chain_)) {
-      most = std::max(most, depth_of(posture.points[link.from], posture.points[link.to]) + problem_.robot.radius);
+    ArmPosture posture;
+    kinematics_.place(q, posture);
+    for (const ArmLink& link : model_->links) {
+      const MovingFrame& frame = ArmKinematics::frame(posture, link.frame);
+      for (const Solid& capsule : link.solids) {
+        const Vec3 middle = frame.at + frame.turn * capsule.pose.translation();
+        const Vec3 half = frame.turn * (capsule.pose.linear() * Vec3(0.0, 0.0, capsule.half.z()));
+        most = std::max(most, depth_of(middle - half, middle + half) + capsule.half.x());
+      }
     }
     return most;
   }
 
   const Scene& scene_;
   const Execution& execution_;
-  SerialChain chain_;
+  std::shared_ptr<const ArmModel> model_;
+  ArmKinematics kinematics_;
   ArmProblem problem_;
+  double reach_ = 0.0;
   double margin_ = 0.0;
 };
 
 /// Of a place that no posture brings the tool to: how far it is from the base, and how far all links would reach in a
 /// line.
-void explain_reach(Answer& answer, const Vec3& place, const DhTable& table) {
+void explain_reach(Answer& answer, const Vec3& place, const ArmProblem& problem) {
+  if (!problem.table) return;
+  const DhTable& table = *problem.table;
   double reach = table.tool.translation().norm();
   for (const DhJoint& joint : table.joints) reach += portable::hypot(joint.a, joint.d);
   answer.blocked = BlockedEnd{.is_start = false, .by = "outside of what the tool reaches within the joints' limits"};
@@ -176,7 +222,7 @@ void tell_free(Answer& answer, const std::optional<Numbers<n>>& free, std::span<
 /// Of all postures there, the one that the tool's place is asked about is as good as any: the first.
 void explain_tool_place(Answer& answer, const BlockedArm& arm, const Vec3& place) {
   const std::optional<JointState> posture = arm.posture(place);
-  if (!posture) return explain_reach(answer, place, arm.chain().table());
+  if (!posture) return explain_reach(answer, place, arm.problem());
   const auto met = arm.met(*posture, arm.margin());
   if (!met) return;
   tell(answer, false, *met, arm, *posture);
@@ -210,7 +256,8 @@ void explain_blocked_arm(const Scene& scene, Answer& answer, const Execution& ex
   const bool is_start = answer.outcome == Outcome::start_blocked;
   const std::vector<double>& asked = is_start ? answer.problem.start : answer.problem.goal;
   const BlockedArm arm(scene, answer.problem, execution);
-  if (asked.size() == 3) return explain_tool_place(answer, arm, {asked[0], asked[1], asked[2]});
+  if (!is_start && asked.empty()) return;  // a pose of the tool
+  if (arm.problem().any_posture() && !is_start) return explain_tool_place(answer, arm, {asked[0], asked[1], asked[2]});
   const JointState q = joint_state(asked);
   auto met = arm.met(q, 0.0);
   const bool only_touches = !met;
@@ -218,7 +265,10 @@ void explain_blocked_arm(const Scene& scene, Answer& answer, const Execution& ex
   if (!met) return;
   tell(answer, is_start, *met, arm, q);
   answer.blocked->hint = only_touches ? std::string(touching_hint) : degrees_hint(asked);
-  tell_free(answer, arm.free_posture(q), q);
+  std::optional<JointState> free = arm.free_posture(q);
+  if (!free) return;
+  answer.blocked->free_place.assign(free->begin(), free->begin() + as_whole<std::ptrdiff_t>(asked.size()));
+  answer.blocked->distance = norm_between(*free, q);
 }
 
 }  // namespace warren

@@ -26,6 +26,7 @@
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/solve_steps.hpp"
+#include "solve/question/question_of_arm.hpp"
 #include "spatial/maps/distance_field.hpp"
 #include "verify/near/leg_boxes.hpp"
 
@@ -410,7 +411,7 @@ void explain_blocked_end(const Scene& scene, Answer& answer, const Execution& ex
   const bool any_heading = state.size() == 2 && width == 3;
   if (any_heading) state.push_back(0.0);  // one of them tells enough
   try {
-    if (width == 6) return explain_blocked_arm(scene, answer, execution);
+    if (is_arm(answer.problem.robot)) return explain_blocked_arm(scene, answer, execution);
     if (state.size() != width) return;
     BlockedEndSearch search(scene, answer.problem, state, execution);
     auto met = search.met(0.0);

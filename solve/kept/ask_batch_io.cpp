@@ -44,10 +44,11 @@ using Json = nlohmann::json;
 constexpr std::size_t longest_line = std::size_t{1} << 16;
 constexpr double empty_field = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<std::string_view, 3> plane_axes{"x", "y", "theta"};
-constexpr std::array<std::string_view, 6> joint_axes{"1", "2", "3", "4", "5", "6"};
+constexpr std::array<std::string_view, most_joints> joint_axes{"1", "2", "3",  "4",  "5",  "6",  "7",
+                                                               "8", "9", "10", "11", "12", "13", "14"};
 
 std::span<const std::string_view> axes_of(unsigned dimension) {
-  if (dimension > plane_axes.size()) return joint_axes;
+  if (dimension > plane_axes.size()) return std::span(joint_axes).first(dimension);
   return std::span(plane_axes).first(dimension);
 }
 
@@ -253,7 +254,7 @@ class BatchQuestions {
   /// A goal may have no heading, or be a place of an arm's tool.
   void check_place(const std::vector<double>& place) const {
     const bool any_heading = axes_.size() == 3 && place.size() == 2;
-    const bool of_the_tool = axes_.size() == joint_axes.size() && place.size() == 3;
+    const bool of_the_tool = axes_.size() > plane_axes.size() && place.size() == 3;
     if (place.size() == axes_.size() || (kind_ == BatchLines::goals && (any_heading || of_the_tool))) return;
     throw InputError("state", fmt::format("expected {} numbers (found: {})", axes_.size(), place.size()));
   }

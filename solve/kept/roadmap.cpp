@@ -18,6 +18,7 @@
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/sampled_roadmap.hpp"
+#include "solve/question/question_of_arm.hpp"
 
 namespace warren {
 namespace {
@@ -36,7 +37,14 @@ void refuse_what_is_asked_later(const SolveOptions& options) {
 
 /// Any start and goal: what is built does not depend on them.
 Question without_ends(const Scene& scene, Question question) {
-  const std::size_t width = state_size(robot_of(scene, question));
+  RobotSpec robot = robot_of(scene, question);
+  std::size_t width = state_size(robot);
+  if (robot.files) {
+    robot.files->read = arm_model_of(robot, 0.0, {});
+    width = robot.files->read->variables.size();
+    if (width <= 3) throw UsageError("@robot: a roadmap is kept of arms with four joints or more");
+    question.robot = std::move(robot);
+  }
   question.start.assign(width, 0.0);
   question.goal.assign(width, 0.0);
   return question;
@@ -58,8 +66,8 @@ EdgeCounts edges_of(const LatticePassages& passages, const Execution& execution)
   return {0, free, all - free};
 }
 
-/// All six numbers that a state can have, zeros for those that it lacks.
-using StateKey = std::array<double, 6>;
+/// All numbers that a state can have, zeros for those that it lacks.
+using StateKey = std::array<double, most_joints>;
 
 std::vector<StateKey> sorted_states(const RoadmapParts& parts, const Execution& execution) {
   constexpr std::size_t polled = std::size_t{1} << 16;
@@ -198,7 +206,7 @@ Roadmap update(const Roadmap& roadmap, Scene now, const Execution& execution, Up
   std::optional<OldRoadmap> old;
   const bool drawn = is_roadmap_planner(*roadmap.options.planner);
   if (drawn && !grows(roadmap.options, roadmap.world.outline(), roadmap.robot) && roadmap.lattice == nullptr &&
-      roadmap.robot.kind != RobotKind::puma560 && roadmap.robot.kind != RobotKind::arm) {
+      !is_arm(roadmap.robot)) {
     if (auto places = changed_places(roadmap.world.whole(execution), now, execution)) {
       old = {&roadmap.arrays, std::move(*places)};
     }

@@ -13,11 +13,13 @@
 #include "planners/graph/roadmap_arrays.hpp"
 #include "scenes/files/input_file_io.hpp"
 #include "scenes/files/json_text.hpp"
+#include "scenes/scene/arm_model.hpp"
 #include "solve/kept/checksum.hpp"
 #include "solve/kept/roadmap_file.hpp"
 #include "solve/kept/roadmap_sections.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/question/question.hpp"
+#include "solve/question/question_of_arm.hpp"
 
 namespace warren {
 namespace {
@@ -254,8 +256,47 @@ std::string rule_json(const ConnectionRule& rule) {
   return object.closed();
 }
 
-/// A table in a file is a part of the body: its bytes' hash, 16 hex digits.
+bool is_of_file(const RobotSpec& robot) { return robot.kind == RobotKind::arm || robot.kind == RobotKind::urdf; }
+
+void append(std::vector<double>& numbers, const Eigen::Isometry3d& pose) {
+  numbers.insert(numbers.end(), pose.matrix().data(), pose.matrix().data() + 16);
+}
+
+/// All numbers that say where an arm can be and what it meets.
+std::vector<double> numbers_of(const ArmModel& model) {
+  std::vector<double> numbers;
+  for (const ArmVariable& v : model.variables) {
+    numbers.insert(numbers.end(), {v.low, v.high, v.continuous ? 1.0 : 0.0});
+  }
+  for (const ArmJoint& joint : model.joints) {
+    numbers.insert(numbers.end(),
+                   {static_cast<double>(joint.parent), joint.axis.x(), joint.axis.y(), joint.axis.z(),
+                    joint.slides ? 1.0 : 0.0, static_cast<double>(joint.variable), joint.multiplier, joint.offset});
+    append(numbers, joint.origin);
+  }
+  for (const ArmLink& link : model.links) {
+    numbers.push_back(static_cast<double>(link.frame));
+    for (const Solid& solid : link.solids) {
+      numbers.insert(numbers.end(), {static_cast<double>(solid.kind), solid.half.x(), solid.half.y(), solid.half.z()});
+      append(numbers, solid.pose);
+      for (const Vec3& corner : solid.corners) numbers.insert(numbers.end(), corner.data(), corner.data() + 3);
+    }
+  }
+  for (const auto& [a, b] : model.pairs)
+    numbers.insert(numbers.end(), {static_cast<double>(a), static_cast<double>(b)});
+  append(numbers, model.tool);
+  return numbers;
+}
+
+/// What files say is a part of the body: the hash of a table's bytes, or of what a URDF means, 16 hex digits.
 std::string table_hash(const RobotSpec& robot, const Execution& execution) {
+  if (robot.files) {
+    RobotSpec alone = robot;  // what a world adds to it is in that world's hash
+    const ArmFiles& f = *robot.files;
+    alone.files = ArmFiles{f.urdf, f.srdf, f.group, f.base, f.tip, f.packages};
+    const std::vector<double> numbers = numbers_of(*arm_model_of(alone, 0.0, execution));
+    return fmt::format("{:016x}", checksum(std::as_bytes(std::span(numbers))));
+  }
   const InputFile table(robot.table, execution);
   return fmt::format("{:016x}", checksum(std::as_bytes(std::span(table.bytes()))));
 }
@@ -269,7 +310,7 @@ std::uint64_t component_count(const RoadmapArrays& arrays) {
 void add_recipe(JsonObject& object, const Roadmap& roadmap, const Execution& execution) {
   const SolveOptions& o = roadmap.options;
   object.add("robot", std::string_view(robot_text(roadmap.robot)));
-  if (roadmap.robot.kind == RobotKind::arm) {
+  if (is_of_file(roadmap.robot)) {
     object.add("table_hash", std::string_view(table_hash(roadmap.robot, execution)));
   }
   object.add("clearance", roadmap.clearance);
@@ -452,9 +493,9 @@ void read_meta(const std::string& where, std::string_view text, Roadmap& roadmap
   roadmap.world = KeptWorld(std::move(named));
   roadmap.world_hash = meta.text("world_hash");
   roadmap.robot = robot_value(fmt::format("{}: key \"robot\"", where), meta.text("robot"));
-  if (roadmap.robot.kind == RobotKind::arm && table_hash(roadmap.robot, execution) != meta.text("table_hash")) {
-    throw InputError(where,
-                     fmt::format("was made for another arm than {} has now; build it anew", roadmap.robot.table));
+  if (is_of_file(roadmap.robot) && table_hash(roadmap.robot, execution) != meta.text("table_hash")) {
+    throw InputError(where, fmt::format("was made for another arm than {} has now; build it anew",
+                                        roadmap.robot.files ? roadmap.robot.files->urdf : roadmap.robot.table));
   }
   roadmap.clearance = meta.number("clearance");
   if (!(roadmap.clearance >= 0.0 && roadmap.clearance <= largest_coordinate)) {

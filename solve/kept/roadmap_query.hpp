@@ -63,7 +63,7 @@ class RoadmapQuery {
   RoadmapQuery(const RoadmapQuery&) = delete;
   RoadmapQuery& operator=(const RoadmapQuery&) = delete;
 
-  /// Start and goal as Question has them: 2, 3 or 6 numbers; empty: the world file's. Says where
+  /// Start and goal as Question has them: 2 or 3 numbers, of an arm one a joint; empty: the world file's. Says where
   /// a blocked end is free, and what an estimate cost, too. Throws UsageError, InputError for a world that is not what
   /// its file promises.
   Answer ask(const std::vector<double>& start, const std::vector<double>& goal, const RoadmapSearchFields& how = {},

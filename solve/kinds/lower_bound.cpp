@@ -15,7 +15,7 @@
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/question/question_of_arm.hpp"
-#include "worlds/arms/serial_chain.hpp"
+#include "worlds/arms/arm_kinematics.hpp"
 #include "worlds/poses/dubins_curve.hpp"
 #include "worlds/poses/reeds_shepp_curve.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
@@ -127,18 +127,26 @@ double free_curve(const Problem& problem) {
 /// In joint space. A tool whose place is the goal goes no farther than its distance from each axis times the turn about
 /// it, all told: so its way is at most the root of the sum of these distances' squares times the way in joint space.
 double least_turns(const Problem& problem, const Execution& execution) {
+  const auto read = arm_model_of(problem.robot, problem.clearance, execution);
+  const ArmModel& model = *read;
   const JointState start = joint_state(problem.start);
   double sum = 0.0;
-  if (problem.goal.size() == most_joints) {
-    for (std::size_t j = 0; j < most_joints; ++j) sum += (problem.goal[j] - start[j]) * (problem.goal[j] - start[j]);
+  if (!problem.goal_pose && problem.goal.size() == model.variables.size()) {
+    for (std::size_t j = 0; j < problem.goal.size(); ++j) {
+      const double way = variable_way(model.variables[j], start[j], problem.goal[j]);
+      sum += way * way;
+    }
     return below_rounding(std::sqrt(sum), most_joints);
   }
-  const SerialChain chain(table_of(problem.robot, execution));
-  const std::size_t tool = chain.point_count() - 1;
-  for (std::size_t j = 0; j < chain.joint_count(); ++j) sum += chain.reach(j, tool) * chain.reach(j, tool);
+  const ArmKinematics kinematics(model);
+  for (std::size_t j = 0; j < model.variables.size(); ++j) {
+    const double reach = kinematics.tool_reach(j);
+    sum += reach * reach;
+  }
+  const Vec3 place = problem.goal_pose ? Vec3(problem.goal_pose->translation())
+                                       : Vec3(problem.goal[0], problem.goal[1], problem.goal[2]);
   constexpr double tolerance = 1e-9;  // of the judge, and more than what rounding does to either
-  const double way =
-      (Vec3(problem.goal[0], problem.goal[1], problem.goal[2]) - chain.tool_pose(start).translation()).norm();
+  const double way = (place - kinematics.tool_pose(start).translation()).norm();
   return sum > 0.0 ? std::max(0.0, way - tolerance) / std::sqrt(sum) * (1.0 - tolerance) : 0.0;
 }
 

@@ -43,13 +43,16 @@ bool comes_near(const std::vector<Box>& places, const Box& box, double reach);
 
 namespace detail {
 
-inline void add_numbers(Vec2 p, RawVector<double>& numbers) { numbers.insert(numbers.end(), {p.x, p.y}); }
-inline void add_numbers(const Se2& p, RawVector<double>& numbers) {
+inline void add_numbers(Vec2 p, std::size_t /*width*/, RawVector<double>& numbers) {
+  numbers.insert(numbers.end(), {p.x, p.y});
+}
+inline void add_numbers(const Se2& p, std::size_t /*width*/, RawVector<double>& numbers) {
   numbers.insert(numbers.end(), {p.x, p.y, p.theta});
 }
+/// Of an arm: as many as it has variables.
 template <std::size_t N>
-void add_numbers(const std::array<double, N>& q, RawVector<double>& numbers) {
-  numbers.insert(numbers.end(), q.begin(), q.end());
+void add_numbers(const std::array<double, N>& q, std::size_t width, RawVector<double>& numbers) {
+  numbers.insert(numbers.end(), q.begin(), q.begin() + static_cast<std::ptrdiff_t>(width));
 }
 
 template <class State>
@@ -59,17 +62,21 @@ State state_of(std::span<const double> numbers) {
   } else if constexpr (std::is_same_v<State, Se2>) {
     return {numbers[0], numbers[1], numbers[2]};
   } else {
-    State state;
-    std::copy_n(numbers.begin(), state.size(), state.begin());
+    State state{};
+    std::copy_n(numbers.begin(), numbers.size(), state.begin());
     return state;
   }
 }
 
-template <class State>
-constexpr unsigned state_width() {
-  if constexpr (std::is_same_v<State, Vec2>) return 2;
-  if constexpr (std::is_same_v<State, Se2>) return 3;
-  return 6;
+/// Has it joints?
+template <World W>
+inline constexpr bool is_arm_world = requires(const W& world) { world.model().variables; };
+
+/// Numbers that a state has where it is kept.
+template <World W>
+unsigned state_width(const W& world) {
+  if constexpr (is_arm_world<W>) return static_cast<unsigned>(world.variable_count());
+  return std::is_same_v<typename W::State, Vec2> ? 2 : 3;
 }
 
 /// The options of the roadmap's planner, as a solve of this body resolves them.
@@ -98,13 +105,13 @@ inline double reach_of(const Problem& problem) {
 /// over there would not end. Throws InputError, Stopped.
 template <World W>
 void check_drawn(const W& world, const SolveRequest& request, const Problem& problem, std::span<const double> numbers) {
-  constexpr unsigned width = state_width<typename W::State>();
-  std::array<double, width> low;
-  std::array<double, width> high;
-  if constexpr (width == 6) {
+  const unsigned width = state_width(world);
+  std::array<double, W::dimension> low;
+  std::array<double, W::dimension> high;
+  if constexpr (is_arm_world<W>) {
     for (std::size_t j = 0; j < width; ++j) {
-      low[j] = world.chain().low(j);
-      high[j] = world.chain().high(j);
+      low[j] = world.model().variables[j].low;
+      high[j] = world.model().variables[j].high;
     }
   } else {
     constexpr double turn = 2.0 * std::numbers::pi;
@@ -113,8 +120,8 @@ void check_drawn(const W& world, const SolveRequest& request, const Problem& pro
     box = box.grown(box.width() + box.height() + reach_of(problem));
     const std::array<double, 3> lows{box.min.x, box.min.y, -turn};
     const std::array<double, 3> highs{box.max.x, box.max.y, turn};
-    std::copy_n(lows.begin(), width, low.begin());
-    std::copy_n(highs.begin(), width, high.begin());
+    std::copy_n(lows.begin(), W::dimension, low.begin());
+    std::copy_n(highs.begin(), W::dimension, high.begin());
   }
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     poll(i, request.execution);
@@ -182,7 +189,7 @@ class OldMotions {
   }
   std::optional<VertexId> vertex_of(const State& state) const {
     RawVector<double> numbers;
-    add_numbers(state, numbers);
+    add_numbers(state, W::dimension, numbers);
     const std::pair<Key, VertexId> least{key_of(numbers), 0};
     const auto found = std::lower_bound(vertices_.begin(), vertices_.end(), least);
     return found == vertices_.end() || found->first != least.first ? std::nullopt : std::optional(found->second);
@@ -249,7 +256,7 @@ class OldMotions {
 /// Nothing for arms, which reach everywhere.
 template <World W>
 KnownMotions<typename W::State> known_motions(const W& world, const SolveRequest& request, const Problem& problem) {
-  if constexpr (state_width<typename W::State>() == 6) {
+  if constexpr (is_arm_world<W>) {
     return {};
   } else {
     if (request.old == nullptr) return {};
@@ -302,13 +309,13 @@ BuiltArrays build_sampled(const SolveRequest& request) {
     const StageTimer timer(execution, "contract", all.account.seconds.index, built.states.size());
     arrays.hierarchy = detail::hierarchy_of(*world, built, options.sampler, execution);
   }
-  arrays.dimension = detail::state_width<State>();
+  arrays.dimension = detail::state_width(*world);
   arrays.directed = is_one_way<World>;
   execution.reserve(built.states.size() * arrays.dimension * sizeof(double));
   arrays.states.reserve(built.states.size() * arrays.dimension);
   for (const State& state : built.states) {
     detail::poll(arrays.states.size(), execution);
-    detail::add_numbers(state, arrays.states);
+    detail::add_numbers(state, arrays.dimension, arrays.states);
   }
   arrays.candidates = std::move(built.candidates);
   arrays.edge_states = std::move(built.edge_states);
@@ -321,14 +328,14 @@ std::unique_ptr<RoadmapSession> open_sampled(const SolveRequest& request, const 
                                              const ConnectionRule& rule) {
   using World = typename Body::World;
   using State = typename World::State;
-  constexpr unsigned width = detail::state_width<State>();
-  if (arrays.dimension != width || arrays.directed != is_one_way<World>) {
-    throw InputError("roadmap", "its states are none of the body that it says it is for");
-  }
   const Body body(request);
   const RoadmapOptions options = detail::roadmap_options_of(request, body);
   auto session = std::make_unique<SessionIn<World>>();
   body.index(session->world, options.sampler);
+  const unsigned width = detail::state_width(*session->world);
+  if (arrays.dimension != width || arrays.directed != is_one_way<World>) {
+    throw InputError("roadmap", "its states are none of the body that it says it is for");
+  }
   session->view.emplace(*session->world);
   if (!(connection_rule_for(*session->view, options, request.samples) == rule)) {
     throw InputError("roadmap", "its rule is not the one that follows from its options");

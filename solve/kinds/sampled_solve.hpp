@@ -8,6 +8,7 @@
 //   World, and State = World::State
 //   has_cost                               do planners that get better make another measure small than the length?
 //   improved(world, path, how, execution, counters)   the path with less cost, on any thread
+//   improves_by_draws                      else improved() of an improved path is that path
 //   problem()                              as the answer repeats it
 //   start(), goals(world)                  all states that will do as the goal; of those that are too many, free ones
 //   knows_all_goals(), goals_tried()       where it has no goal: is there none, and else how many were tried?
@@ -57,8 +58,9 @@ namespace warren {
 /// What most bodies of sampled_solve.hpp and sampled_roadmap.hpp have in common.
 struct UsualBody {
   static constexpr bool names_pipeline = false;
-  static constexpr bool has_cost = false;         ///< is what the planners make small another measure than the length?
-  static constexpr bool judged_by_index = false;  ///< does its judge take an ObstacleIndex?
+  static constexpr bool has_cost = false;          ///< is what the planners make small another measure than the length?
+  static constexpr bool judged_by_index = false;   ///< does its judge take an ObstacleIndex?
+  static constexpr bool improves_by_draws = true;  ///< does improved() make use of its seed?
   static constexpr std::string_view noun = "body";
   static constexpr std::optional<SamplerKind> tree_sampler = std::nullopt;
 
@@ -264,6 +266,7 @@ class SampledSolve {
                             Counters& counters) {
       return body_.improved(*world_, path, {.seed = seed, .hopeless = hopeless}, on, counters);
     };
+    body.draws = Body::improves_by_draws;
     body.length = [this](const Path<State>& path) {
       return path_length(path, [this](const State& a, const State& b) { return body_.length(*world_, a, b); });
     };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joins ArmWorld with the planners that take it: an arm among spheres and boxes. A goal of three numbers is a place of
-// the tool and is met in any posture within the limits.
+// Joins ArmWorld with the planners that take it: an arm among convex solids. A goal of three numbers is a place of the
+// tool and is met in any posture within the limits.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 #include <optional>
@@ -17,6 +19,7 @@
 #include "solve/question/planner_choice.hpp"
 #include "solve/question/question_of_arm.hpp"
 #include "worlds/arms/arm_world.hpp"
+#include "worlds/arms/puma560.hpp"
 #include "worlds/arms/tool_postures.hpp"
 
 namespace warren {
@@ -44,9 +47,11 @@ class Arm : public UsualBody {
   }
   std::uint64_t goals_tried() const { return tried_; }
   bool knows_all_goals() const { return knows_all_; }
-  static std::vector<JointState> stop_at(const std::vector<double>& point) {
-    if (point.size() != most_joints) throw UsageError("@via: an arm takes six joint angles a way-point");
-    return {joint_state(point)};
+  std::vector<JointState> stop_at(const std::vector<double>& point) const {
+    if (point.size() == problem_.width()) return {joint_state(point)};
+    throw UsageError(problem_.table
+                         ? "@via: an arm takes six joint angles a way-point"
+                         : fmt::format("@via: this arm takes {} joint values a way-point", problem_.width()));
   }
   static SamplerKind choose_sampler(const SolveOptions& options, const RoadmapOptions& roadmap) {
     if (options.sampler == SamplerKind::lattice) {
@@ -59,10 +64,7 @@ class Arm : public UsualBody {
     return options.roadmap.attach.value_or(GrowingAttach{});
   }
   void index(std::optional<World>& world, SamplerKind) const {
-    const ArmOptions options{.radius = problem_.robot.radius,
-                             .clearance = problem_.clearance,
-                             .self_collision = problem_.robot.self_collision};
-    world.emplace(scene_, SerialChain(problem_.table), options, execution_);
+    world.emplace(scene_, *problem_.model, ArmOptions{.clearance = problem_.clearance}, execution_);
   }
   static bool provably_apart(const World&, const std::vector<JointState>&) { return false; }
   bool start_stands_free() const { return goal_stands_free(problem_.start); }
@@ -71,9 +73,9 @@ class Arm : public UsualBody {
     options.start.reset();
     options.goal.reset();
     options.goal_place.reset();
-    options.clearance +=
-        end_margin(scene_, problem_.robot, problem_.clearance, SerialChain(problem_.table).reach(), execution_);
-    return verify_arm(scene_, problem_.table, std::span(&q, 1), options, execution_).verified;
+    options.goal_pose.reset();
+    options.clearance += end_margin(scene_, problem_.robot, problem_.clearance, reach_of(problem_), execution_);
+    return verify_arm(scene_, *problem_.model, std::span(&q, 1), options, execution_).verified;
   }
   static double length(const World& world, const JointState& a, const JointState& b) { return world.distance(a, b); }
   Path<JointState> shortened(const World& world, Path<JointState> path, Answer& answer) const {
@@ -82,18 +84,23 @@ class Arm : public UsualBody {
                                                      {.seed = answer.seed}, execution_, answer.counters));
   }
   void judge(const World& world, const Path<JointState>& path, Answer& answer) const {
+    ArmProblem reached = problem_;
+    take_reached_goal(reached, path.back());
+    answer.problem.goal = reached.goal;
     const StageTimer timer(execution_, "verify", answer.seconds.verify, path.size());
-    const Verification found = verify_arm(scene_, problem_.table, path, problem_.verify_options(), execution_);
+    const Verification found = verify_arm(scene_, *problem_.model, path, reached.verify_options(), execution_);
     take_verdict(answer, found);
-    answer.states.width = most_joints;
+    answer.states.width = problem_.width();
     for (const JointState& q : path) {
-      const Vec3 tool = world.chain().tool_pose(q).translation();
+      const Vec3 tool = world.kinematics().tool_pose(q).translation();
       answer.path.push_back({tool.x(), tool.y()});
-      answer.states.add(q);
+      answer.states.add(std::span(q).first(problem_.width()));
     }
   }
   std::string_view cause_of_blocked(const World& world, Outcome outcome, const std::vector<JointState>& goals) const {
-    const auto is_outside = [&](const JointState& q) { return world.chain().joint_outside_limits(q) != most_joints; };
+    const auto is_outside = [&](const JointState& q) {
+      return world.kinematics().variable_outside_limits(q) != most_joints;
+    };
     if (outcome == Outcome::start_blocked) {
       return is_outside(problem_.start) ? "start_outside_limits" : "start_in_collision";
     }
@@ -105,7 +112,7 @@ class Arm : public UsualBody {
   /// A few that are quickly found, and where none of these is free others: first those of large pieces of the wrist's
   /// turns, then of smaller ones.
   std::vector<JointState> postures(const World& world) {
-    std::vector<JointState> states = goal_states(problem_, world.chain());
+    std::vector<JointState> states = goal_states(problem_, execution_);
     auto query = world.make_query();
     const auto free_of = [&](const std::vector<JointState>& all) {
       std::vector<JointState> free;
@@ -115,11 +122,16 @@ class Arm : public UsualBody {
       });
       return free;
     };
-    if (!problem_.any_posture() || !world.chain().moves(4) || !free_of(states).empty()) return states;
-    if (tip_is_blocked(scene_, problem_)) return states;
+    if (!problem_.any_posture() || !free_of(states).empty()) return states;
+    if (!problem_.table || !has_puma560_shape(SerialChain(*problem_.table))) {
+      tried_ = states.size();
+      knows_all_ = false;
+      return {};
+    }
+    if (!world.kinematics().moves(4) || tip_is_blocked(scene_, problem_)) return states;
     for (const std::size_t enough : {std::size_t{64}, std::size_t{16'384}}) {
       const ToolPostures more =
-          tool_postures(world.chain(), problem_.goal_place(), problem_.start[5], enough, execution_);
+          tool_postures(SerialChain(*problem_.table), problem_.goal_place(), problem_.start[5], enough, execution_);
       if (more.none_is_left) return {};
       tried_ = states.size() + more.states.size();
       if (std::vector<JointState> free = free_of(more.states); !free.empty()) return free;
@@ -146,11 +158,14 @@ bool fits_arm(const Scene&, const RobotSpec& robot) { return is_arm(robot); }
 
 Verdict recheck_arm(const Scene& scene, const Question& question, const RecordedAnswer& answer,
                     const Execution& execution) {
-  check_state_width(answer, most_joints, "an arm");
   const ArmProblem problem = arm_problem(scene, question, execution);
+  check_state_width(answer, problem.width(), "an arm");
   Path<JointState> path;
   for (std::size_t i = 0; i < answer.states.size(); ++i) path.push_back(joint_state(answer.states[i]));
-  const Verification found = verify_arm(scene, problem.table, path, problem.verify_options(), execution);
+  if (answer.states.empty()) {  // two joints
+    for (const Vec2 p : answer.path) path.push_back(joint_state(std::array{p.x, p.y}));
+  }
+  const Verification found = verify_arm(scene, *problem.model, path, problem.verify_options(), execution);
   return {found, problem.general()};
 }
 

@@ -124,6 +124,7 @@ class PointAmongPolygons : public UsualBody {
   using World = PolygonWorld;
   static constexpr bool names_pipeline = true;
   static constexpr bool judged_by_index = true;
+  static constexpr bool improves_by_draws = false;
 
   explicit PointAmongPolygons(const SolveRequest& request)
       : scene_(request.scene),

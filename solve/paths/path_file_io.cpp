@@ -15,6 +15,7 @@
 #include "core/base/trigonometry.hpp"
 #include "scenes/files/json_text.hpp"
 #include "scenes/files/npy_io.hpp"
+#include "scenes/scene/arm_model.hpp"
 
 namespace warren {
 namespace {
@@ -106,7 +107,11 @@ class Rows {
 std::uint64_t write_csv(Rows& rows, const PathLegs& legs, OutputFile& file) {
   const bool timed = rows.duration_s().has_value();
   std::string text = timed ? "t,s," : "s,";
-  text += legs.width() == 6 ? "q1,q2,q3,q4,q5,q6" : legs.width() == 3 ? "x,y,theta" : "x,y";
+  if (legs.shape() == LegShape::joints) {
+    for (std::size_t k = 1; k <= legs.width(); ++k) text += fmt::format("{}q{}", k > 1 ? "," : "", k);
+  } else {
+    text += legs.width() == 3 ? "x,y,theta" : "x,y";
+  }
   file.write(text + (timed ? ",speed\n" : "\n"));
   return rows.visit([&](const Row& row) {
     text.clear();
@@ -186,7 +191,7 @@ std::string_view bytes_of(std::span<const double> numbers) {
   return {reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes()};  // NOLINT: the numbers' bytes
 }
 
-/// Places alone, as doubles: x and y, with the heading where there is one, or six joints.
+/// Places alone, as doubles: x and y, with the heading where there is one, or an arm's joints.
 std::uint64_t write_array(Rows& rows, const PathLegs& legs, OutputFile& file) {
   file.write(header_of_array(rows.visit([](const Row&) {}), legs.width()));
   return rows.visit([&](const Row& row) { file.write(bytes_of(row.state.used())); });
@@ -225,7 +230,8 @@ PathFormat path_format(const std::string& file) {
 }
 
 void check_path_file(const RobotSpec& robot, const std::string& file, const PathFileOptions& options) {
-  const bool is_arm = robot.kind == RobotKind::puma560 || robot.kind == RobotKind::arm;
+  const bool is_arm =
+      robot.kind == RobotKind::puma560 || robot.kind == RobotKind::arm || robot.kind == RobotKind::urdf;
   const PathFormat format = path_format(file);
   if (is_arm && format != PathFormat::csv && format != PathFormat::npy) {
     throw UsageError("@path: the joints of an arm are written as .csv or .npy");

@@ -7,6 +7,7 @@
 
 #include "core/base/trigonometry.hpp"
 #include "core/plane/se2.hpp"
+#include "scenes/scene/arm_model.hpp"
 #include "worlds/poses/steering_curve.hpp"
 
 namespace warren {
@@ -31,6 +32,7 @@ LegShape shape_of(RobotKind kind) {
       return LegShape::driven;
     case RobotKind::puma560:
     case RobotKind::arm:
+    case RobotKind::urdf:
       return LegShape::joints;
   }
   return LegShape::straight;
@@ -174,9 +176,15 @@ double PathLegs::number(std::size_t state, std::size_t k) const {
   return k == 0 ? answer_->path[state].x : answer_->path[state].y;
 }
 
-std::array<double, 6> PathLegs::direction(std::size_t leg) const {
-  std::array<double, 6> way{};
-  for (std::size_t k = 0; k < width_; ++k) way[k] = number(leg + 1, k) - number(leg, k);
+double PathLegs::joint_turn(std::size_t i, std::size_t k) const {
+  const auto& files = answer_->problem.robot.files;
+  const double way = number(i + 1, k) - number(i, k);
+  return files && files->read ? variable_way(files->read->variables[k], 0.0, way) : way;
+}
+
+std::array<double, most_joints> PathLegs::direction(std::size_t leg) const {
+  std::array<double, most_joints> way{};
+  for (std::size_t k = 0; k < width_; ++k) way[k] = joint_turn(leg, k);
   if (shape_ == LegShape::turning || shape_ == LegShape::driven) {
     way[2] = reach_ * turn_between(number(leg, 2), number(leg + 1, 2));
   }
@@ -184,7 +192,7 @@ std::array<double, 6> PathLegs::direction(std::size_t leg) const {
 }
 
 double PathLegs::length(std::size_t i) const {
-  const std::array<double, 6> way = direction(i);
+  const std::array<double, most_joints> way = direction(i);
   if (shape_ == LegShape::joints) {
     double farthest = 0.0;
     for (const double turn : way) farthest = std::max(farthest, std::abs(turn));
@@ -214,8 +222,8 @@ int PathLegs::gear(std::size_t i) const {
 bool PathLegs::goes_on(std::size_t i, std::size_t j) const {
   constexpr double straight_on = 1e-9;  // of a sine
   if (shape_ == LegShape::driven) return gear(i) == gear(j);
-  const std::array<double, 6> in = direction(i);
-  const std::array<double, 6> out = direction(j);
+  const std::array<double, most_joints> in = direction(i);
+  const std::array<double, most_joints> out = direction(j);
   double dot = 0.0;
   double square_in = 0.0;
   double square_out = 0.0;
@@ -239,9 +247,7 @@ PathState PathLegs::at(std::size_t i, double share) const {
     return state;
   }
   for (std::size_t k = 0; k < width_; ++k) {
-    const double from = number(i, k);
-    const double to = number(i + 1, k);
-    state.numbers[k] = share >= 1.0 ? to : from + share * (to - from);
+    state.numbers[k] = share >= 1.0 ? number(i + 1, k) : number(i, k) + share * joint_turn(i, k);
   }
   if (shape_ == LegShape::turning && share > 0.0 && share < 1.0) {
     state.numbers[2] = wrapped_angle(number(i, 2) + share * turn_between(number(i, 2), number(i + 1, 2)));

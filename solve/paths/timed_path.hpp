@@ -22,8 +22,8 @@ enum class LegShape : std::uint8_t { straight, turning, driven, joints };
 
 /// A state on the path.
 struct PathState {
-  std::array<double, 6> numbers{};
-  std::size_t width = 2;  ///< 2: x, y; 3: x, y, theta; 6: joints
+  std::array<double, most_joints> numbers{};
+  std::size_t width = 2;  ///< 2: x, y; 3: x, y, theta; of arms, the joints
 
   std::span<const double> used() const { return {numbers.data(), width}; }
 };
@@ -36,8 +36,8 @@ class PathLegs {
   LegShape shape() const { return shape_; }
   std::size_t width() const { return width_; }
   std::size_t leg_count() const { return state_count_ - 1; }
-  /// In units of length: of a body that turns so much that no point of it goes farther; of an arm, the farthest turn of
-  /// a joint in rad. Leg i leads from state i to state i + 1.
+  /// In units of length: of a body that turns so much that no point of it goes farther; of an arm, the farthest way of
+  /// a joint in rad or, where it slides, m. Leg i leads from state i to state i + 1.
   double length(std::size_t i) const;
   /// Of the turning circle; infinite where the leg is straight, and for all but cars.
   double radius(std::size_t i) const;
@@ -45,8 +45,8 @@ class PathLegs {
   int gear(std::size_t i) const;
   /// May leg j follow leg i without a stop: is there no corner and no change of gear? Both have a length.
   bool goes_on(std::size_t i, std::size_t j) const;
-  /// How much joint k turns, in rad, its sign with it; arms alone.
-  double joint_turn(std::size_t i, std::size_t k) const { return number(i + 1, k) - number(i, k); }
+  /// How much joint k turns, in rad, or slides, in m, its sign with it; arms alone.
+  double joint_turn(std::size_t i, std::size_t k) const;
   /// The state at a share of leg i, 0 to 1.
   PathState at(std::size_t i, double share) const;
 
@@ -54,7 +54,7 @@ class PathLegs {
   double number(std::size_t state, std::size_t k) const;
   Se2 pose(std::size_t state) const { return {number(state, 0), number(state, 1), number(state, 2)}; }
   /// Towards where a state moves, each number in units of length.
-  std::array<double, 6> direction(std::size_t leg) const;
+  std::array<double, most_joints> direction(std::size_t leg) const;
 
   const Answer* answer_;
   LegShape shape_;
@@ -62,6 +62,9 @@ class PathLegs {
   std::size_t state_count_;
   double reach_ = 0.0;  // of a turning body's farthest point from the reference point
 };
+
+/// Joint speeds that say: as the arm's file has them.
+inline const std::vector<double> speeds_of_file{0.0};
 
 /// Numbers > 0; infinite: no limit, so that the body starts and stops at once.
 struct TravelLimits {

@@ -78,6 +78,8 @@ std::string robot_text(const RobotSpec& robot) {
       return fmt::format("puma560 radius {} tool {}{}", robot.radius, robot.tool, arm_words(robot));
     case RobotKind::arm:
       return fmt::format("arm {} radius {} tool {}{}", robot.table, robot.radius, robot.tool, arm_words(robot));
+    case RobotKind::urdf:
+      return "urdf" + urdf_words(*robot.files);
     case RobotKind::polygon:
       break;
   }

@@ -25,6 +25,7 @@ struct Question {
   std::optional<double> clearance =
       {};  ///< room around the body, 0 .. 1e60; none: the file's, else 0.1 in mazes, else 0
   std::optional<Contact> contact = {};  ///< may the path touch obstacles? none: where the planner's paths may
+  std::optional<Eigen::Isometry3d> goal_pose = {};  ///< of an arm's tool, instead of `goal`; none: the file's
 
   /// Throws UsageError for values that no problem can have.
   void validate() const;
@@ -32,14 +33,15 @@ struct Question {
 
 /// Any body among anything.
 struct Problem {
-  RobotSpec robot;                     ///< what moves
-  std::vector<double> start;           ///< 2, 3 or 6 numbers
-  std::vector<double> goal;            ///< a turning body's may have 2: any heading
-  double clearance = 0.0;              ///< around the body; finite, >= 0
-  Contact contact = Contact::blocked;  ///< may the path touch obstacles?
+  RobotSpec robot;                                  ///< what moves
+  std::vector<double> start;                        ///< 2 or 3 numbers, of an arm one a joint
+  std::vector<double> goal;                         ///< a turning body's may have 2: any heading
+  double clearance = 0.0;                           ///< around the body; finite, >= 0
+  Contact contact = Contact::blocked;               ///< may the path touch obstacles?
+  std::optional<Eigen::Isometry3d> goal_pose = {};  ///< of an arm's tool; then there is no `goal`
 
   /// The question that says all of it.
-  Question question() const { return {robot, start, goal, clearance, contact}; }
+  Question question() const { return {robot, start, goal, clearance, contact, goal_pose}; }
 };
 
 /// A point or disc among walls and polygons.

@@ -9,20 +9,69 @@
 #include <numbers>
 
 #include "core/base/error.hpp"
+#include "core/base/whole.hpp"
 #include "scenes/files/dh_table_io.hpp"
+#include "scenes/files/urdf_io.hpp"
+#include "worlds/arms/arm_inverse.hpp"
+#include "worlds/arms/arm_world.hpp"
+#include "worlds/arms/chain_model.hpp"
+#include "worlds/arms/convex_motion.hpp"
 #include "worlds/arms/puma560.hpp"
-#include "worlds/arms/solid_index.hpp"
+#include "worlds/arms/serial_chain.hpp"
+#include "worlds/arms/touching_pairs.hpp"
 
 namespace warren {
 namespace {
 
 std::vector<double> state_of(std::string_view option, const std::vector<double>& given,
-                             const std::vector<double>& in_file, bool place_too) {
+                             const std::vector<double>& in_file, std::size_t width, bool place_too) {
   const std::vector<double>& state = given.empty() ? in_file : given;
-  const char* expected = place_too ? "six joint angles, or X,Y,Z for a place of the tool" : "six joint angles";
+  const std::string angles =
+      width == most_chain_joints ? "six joint angles" : fmt::format("{} joint value{}", width, width == 1 ? "" : "s");
+  const std::string expected = place_too ? angles + ", or X,Y,Z for a place of the tool" : angles;
   if (state.empty()) throw UsageError(fmt::format("{}: the world has none; say {}", option, expected));
-  if (state.size() == most_joints || (place_too && state.size() == 3)) return state;
+  if (state.size() == width || (place_too && state.size() == 3)) return state;
   throw UsageError(fmt::format("{}: an arm takes {} (found: {} numbers)", option, expected, state.size()));
+}
+
+/// Names that are no variables are of joints that don't move. Throws UsageError where a variable is missing.
+std::vector<double> state_named(const ArmModel& model, const NamedState& named) {
+  std::vector<double> state;
+  for (const ArmVariable& variable : model.variables) {
+    const auto found = std::find(named.names.begin(), named.names.end(), variable.name);
+    if (found == named.names.end()) {
+      throw UsageError(fmt::format("the request: says nothing of joint '{}', which moves", variable.name));
+    }
+    state.push_back(named.values[as_whole<std::size_t>(found - named.names.begin())]);
+  }
+  return state;
+}
+
+/// What is asked for, else what the file says: states by names, a pose, numbers.
+void take_goal(ArmProblem& problem, const Scene& scene, const Question& options) {
+  const bool is_asked = options.goal_pose || !options.goal.empty();
+  problem.goal_pose = options.goal_pose;
+  if (!is_asked && scene.goal_pose) problem.goal_pose = scene.goal_pose;
+  if (!is_asked && !scene.named_goals.empty()) {
+    problem.goal_pose.reset();
+    problem.goal = state_named(*problem.model, scene.named_goals.front());
+    for (std::size_t i = 1; i < scene.named_goals.size(); ++i) {
+      problem.other_goals.push_back(state_named(*problem.model, scene.named_goals[i]));
+    }
+  } else if (!problem.goal_pose) {
+    problem.goal = state_of("@goal", options.goal, scene.goal, problem.width(), true);
+  }
+}
+
+/// Files write pi as 3.14159.
+void move_onto_limits(const ArmModel& model, std::span<double> state) {
+  constexpr double rounded_limits = 1e-5;
+  for (std::size_t j = 0; j < state.size(); ++j) {
+    const ArmVariable& variable = model.variables[j];
+    if (variable.continuous) continue;
+    const double within = std::clamp(state[j], variable.low, variable.high);
+    if (std::abs(state[j] - within) <= rounded_limits) state[j] = within;
+  }
 }
 
 /// Wrists to try: the start's, then all directions of the tool in steps of an eighth of a turn. Joint 6 stays, since
@@ -42,7 +91,9 @@ std::vector<std::array<double, 3>> wrists_to_try(const ArmProblem& problem, cons
 
 }  // namespace
 
-bool is_arm(const RobotSpec& robot) { return robot.kind == RobotKind::puma560 || robot.kind == RobotKind::arm; }
+bool is_arm(const RobotSpec& robot) {
+  return robot.kind == RobotKind::puma560 || robot.kind == RobotKind::arm || robot.kind == RobotKind::urdf;
+}
 
 JointState joint_state(std::span<const double> numbers) {
   JointState q{};
@@ -53,9 +104,11 @@ JointState joint_state(std::span<const double> numbers) {
 JointState ArmProblem::goal_state() const { return joint_state(goal); }
 
 ArmVerifyOptions ArmProblem::verify_options() const {
-  ArmVerifyOptions options{.radius = robot.radius, .clearance = clearance, .self_collision = robot.self_collision};
+  ArmVerifyOptions options{.clearance = clearance};
   options.start = start;
-  if (any_posture()) {
+  if (goal_pose) {
+    options.goal_pose = goal_pose;
+  } else if (any_posture()) {
     options.goal_place = goal_place();
   } else {
     options.goal = goal_state();
@@ -63,7 +116,12 @@ ArmVerifyOptions ArmProblem::verify_options() const {
   return options;
 }
 
-Problem ArmProblem::general() const { return {robot, {start.begin(), start.end()}, goal, clearance, Contact::blocked}; }
+Problem ArmProblem::general() const {
+  Problem problem{robot, {}, goal, clearance, Contact::blocked};
+  problem.start.assign(start.begin(), start.begin() + as_whole<std::ptrdiff_t>(width()));
+  problem.goal_pose = goal_pose;
+  return problem;
+}
 
 DhTable table_of(const RobotSpec& robot, const Execution& execution) {
   if (robot.kind == RobotKind::puma560) {
@@ -75,27 +133,69 @@ DhTable table_of(const RobotSpec& robot, const Execution& execution) {
   return table;
 }
 
+std::shared_ptr<const ArmModel> arm_model_of(const RobotSpec& robot, double clearance, const Execution& execution) {
+  if (robot.kind != RobotKind::urdf) {
+    return std::make_shared<ArmModel>(
+        model_of(table_of(robot, execution), robot.radius, robot.self_collision, clearance));
+  }
+  if (robot.files->read) return robot.files->read;
+  auto model = std::make_shared<ArmModel>(read_urdf(*robot.files, execution));
+  leave_out_touching(*model, execution);
+  return model;
+}
+
 ArmProblem arm_problem(const Scene& scene, const Question& options, const Execution& execution) {
   if (options.contact == Contact::allowed) {
     throw UsageError("@contact: an arm keeps off the obstacles, so 'allowed' would change nothing");
   }
   ArmProblem problem;
   problem.robot = robot_of(scene, options);
-  problem.start = joint_state(state_of("@start", options.start, scene.start, false));
-  problem.goal = state_of("@goal", options.goal, scene.goal, true);
+  if (problem.robot.kind != RobotKind::urdf) problem.table = table_of(problem.robot, execution);
   problem.clearance = clearance_of(scene, options);
-  problem.table = table_of(problem.robot, execution);
+  problem.model = arm_model_of(problem.robot, problem.clearance, execution);
+  if (problem.robot.files) problem.robot.files->read = problem.model;
+  const std::vector<double> said = scene.named_start ? state_named(*problem.model, *scene.named_start) : scene.start;
+  std::vector<double> start = state_of("@start", options.start, said, problem.width(), false);
+  take_goal(problem, scene, options);
+  if (!problem.table) {
+    move_onto_limits(*problem.model, start);
+    if (!problem.any_posture()) move_onto_limits(*problem.model, problem.goal);
+    for (std::vector<double>& goal : problem.other_goals) move_onto_limits(*problem.model, goal);
+  }
+  problem.start = joint_state(start);
   return problem;
 }
 
-std::vector<JointState> goal_states(const ArmProblem& problem, const SerialChain& chain) {
-  if (!problem.any_posture()) return {problem.goal_state()};
-  if (!has_puma560_shape(chain)) {
-    throw UsageError("@goal: a place of the tool takes an arm of the Puma 560's shape; this one takes joint angles");
+double reach_of(const ArmProblem& problem) {
+  return problem.table ? SerialChain(*problem.table).reach() : ArmKinematics(*problem.model).reach();
+}
+
+void take_reached_goal(ArmProblem& problem, const JointState& end) {
+  for (const std::vector<double>& other : problem.other_goals) {
+    if (joint_state(other) == end) problem.goal = other;
+  }
+  problem.other_goals.clear();
+}
+
+std::vector<JointState> goal_states(const ArmProblem& problem, const Execution& execution) {
+  constexpr std::size_t enough = 16;
+  const auto found = [&](const ToolGoal& goal) {
+    return postures_of_tool(ArmKinematics(*problem.model), goal, problem.start, enough, execution);
+  };
+  if (problem.goal_pose) return found({*problem.goal_pose});
+  if (!problem.any_posture()) {
+    std::vector<JointState> states{problem.goal_state()};
+    for (const std::vector<double>& other : problem.other_goals) states.push_back(joint_state(other));
+    return states;
+  }
+  std::optional<SerialChain> chain;
+  if (problem.table) chain.emplace(*problem.table);
+  if (!chain || !has_puma560_shape(*chain)) {
+    return found({Eigen::Isometry3d(Eigen::Translation3d(problem.goal_place())), true});
   }
   std::vector<JointState> states;
-  for (const auto& wrist : wrists_to_try(problem, chain)) {
-    for (const JointState& q : puma560_inverse_place(chain, problem.goal_place(), wrist)) {
+  for (const auto& wrist : wrists_to_try(problem, *chain)) {
+    for (const JointState& q : puma560_inverse_place(*chain, problem.goal_place(), wrist)) {
       if (std::find(states.begin(), states.end(), q) == states.end()) states.push_back(q);
     }
   }
@@ -103,14 +203,13 @@ std::vector<JointState> goal_states(const ArmProblem& problem, const SerialChain
 }
 
 bool tip_is_blocked(const Scene& scene, const ArmProblem& problem) {
-  const Spine tip(problem.goal_place(), problem.goal_place());
-  const double room = problem.robot.radius + problem.clearance;
-  return std::ranges::any_of(scene.spheres,
-                             [&](const Sphere& s) {
-                               return std::sqrt(distance_square(tip, Vec3(s.x, s.y, s.z))) <= room + s.radius;
-                             }) ||
-         std::ranges::any_of(scene.boxes,
-                             [&](const SolidBox& box) { return std::sqrt(distance_square(tip, box)) <= room; });
+  if (!problem.table) return false;
+  const ConvexBody tip({SolidKind::sphere, Eigen::Isometry3d(Eigen::Translation3d(problem.goal_place())),
+                        Vec3(problem.robot.radius, 0.0, 0.0)});
+  const MovingFrame still;
+  return std::ranges::any_of(solids_of(scene, {}), [&](const Solid& solid) {
+    return keep_apart(tip, still, ConvexBody(solid), still, 0.0, problem.clearance) != Apart::proved;
+  });
 }
 
 }  // namespace warren

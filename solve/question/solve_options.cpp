@@ -39,9 +39,9 @@ struct OptionCheck {
   void operator()(Option, OptionRange, const std::vector<std::vector<double>>& via) const {
     const auto is_coordinate = [](double x) { return std::abs(x) <= largest_coordinate; };
     for (const std::vector<double>& state : via) {
-      const bool known = state.size() == 2 || state.size() == 3 || state.size() == 6;
+      const bool known = !state.empty() && state.size() <= most_joints;
       if (known && std::all_of(state.begin(), state.end(), is_coordinate)) continue;
-      throw UsageError("@via: a way-point is 2, 3 or 6 numbers of at most 1e60");
+      throw UsageError("@via: a way-point is 2 or 3 numbers, of an arm one a joint, of at most 1e60");
     }
   }
 };

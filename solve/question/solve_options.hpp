@@ -101,7 +101,7 @@ struct TreeFields {
   std::optional<double> goal_bias = {};       ///< share of rrt's samples that are the goal, 0 .. 1; none: 0.05
   std::optional<std::uint64_t> nodes = {};    ///< a tree of so many gives up, 2 .. 2^31; none: 100,000
   std::optional<std::uint32_t> trees = {};    ///< grown independently at once, 1 .. 4096; none: 1
-  std::vector<std::vector<double>> via = {};  ///< way-points in their order: 2, 3 or 6 numbers each
+  std::vector<std::vector<double>> via = {};  ///< way-points in their order: 2 or 3 numbers each, of an arm one a joint
 };
 
 /// What takes turns in anytime.

@@ -18,7 +18,7 @@ void read_dh_tables(std::string_view bytes) {
   const auto table =
       read_or_refuse([&] { return read_dh_table(InputFile::of_bytes("fuzzed", bytes), fuzz_execution()); });
   if (!table) return;
-  demand(!table->joints.empty() && table->joints.size() <= most_joints, "one to six joints");
+  demand(!table->joints.empty() && table->joints.size() <= most_chain_joints, "one to six joints");
   for (const DhJoint& joint : table->joints) {
     demand(joint.low_rad <= joint.high_rad, "limits in order");
     for (const double number : {joint.alpha_rad, joint.low_rad, joint.high_rad, joint.offset_rad})
@@ -33,7 +33,7 @@ void read_answers(std::string_view bytes) {
   if (!answer) return;
   demand(!answer->path.empty(), "a path has points");
   const std::size_t width = answer->state_width();
-  demand(width == 2 || width == 3 || width == 6, "two, three or six numbers a state");
+  demand(width >= 2 && width <= most_joints, "two to fourteen numbers a state");
   demand(width == 2 || answer->states.size() == answer->path.size(), "a state a point");
   for (const Vec2 p : answer->path)
     demand(std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate, "finite points");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "tests/matrix/matrix_worlds.hpp"
@@ -52,14 +53,65 @@ ArmBody short_arm() {
 std::vector<double> arm_start() { return {-0.9, 0.3, -0.5, 0.0, 0.0, 0.0}; }
 std::vector<double> arm_goal() { return {0.9, 0.4, -0.7, 0.0, 0.0, 0.0}; }
 
-std::pair<std::string, std::string> arm_file() {
+namespace {
+
+std::string dh_table_text() {
   std::ostringstream text;
   text.precision(17);
   text << "convention standard\nangles radians\n";
   for (const ArmJoint& j : short_arm().joints) {
     text << "joint " << j.d << ' ' << j.a << ' ' << j.alpha << ' ' << j.low << ' ' << j.high << ' ' << j.offset << '\n';
   }
-  return {"three.dh", text.str()};
+  return text.str();
+}
+
+/// A standard table's arm without offsets: a link turns with its joint and is a capsule as far as the next one's axis.
+std::string urdf_text(const ArmBody& arm) {
+  std::ostringstream text;
+  text.precision(17);
+  text << "<robot name=\"arm\"><link name=\"base\"/>";
+  double d = 0.0;
+  double a = 0.0;
+  double alpha = 0.0;
+  for (std::size_t i = 0; i < arm.joints.size(); ++i) {
+    const ArmJoint& j = arm.joints[i];
+    text << "<joint name=\"q" << i + 1 << "\" type=\"revolute\"><parent link=\""
+         << (i == 0 ? "base" : "link" + std::to_string(i)) << "\"/><child link=\"link" << i + 1 << "\"/><origin xyz=\""
+         << a << " 0 " << d << "\" rpy=\"" << alpha << " 0 0\"/><axis xyz=\"0 0 1\"/><limit lower=\"" << j.low
+         << "\" upper=\"" << j.high << "\" velocity=\"1\" effort=\"1\"/></joint><link name=\"link" << i + 1 << "\">";
+    d = j.d + (i + 1 == arm.joints.size() ? arm.tool : 0.0);
+    a = j.a;
+    alpha = j.alpha;
+    const double length = std::hypot(a, d);
+    if (length > 0.0) {
+      text << "<collision><origin xyz=\"" << 0.5 * a << " 0 " << 0.5 * d << "\" rpy=\"0 " << std::atan2(a, d)
+           << " 0\"/><geometry><capsule radius=\"" << arm.radius << "\" length=\"" << length
+           << "\"/></geometry></collision>";
+    }
+    text << "</link>\n";
+  }
+  text << "</robot>\n";
+  return text.str();
+}
+
+/// Whatever may touch in an arm of a table: all of its links.
+std::string srdf_text(const ArmBody& arm) {
+  std::ostringstream text;
+  text << "<robot name=\"arm\">";
+  for (std::size_t i = 1; i <= arm.joints.size(); ++i) {
+    for (std::size_t k = 1; k < i; ++k) {
+      text << "<disable_collisions link1=\"link" << k << "\" link2=\"link" << i << "\" reason=\"Never\"/>";
+    }
+  }
+  text << "</robot>\n";
+  return text.str();
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> arm_files() {
+  const ArmBody puma = puma560_arm(link_radius, tool_length);
+  return {{"three.dh", dh_table_text()}, {"puma.urdf", urdf_text(puma)}, {"puma.srdf", srdf_text(puma)}};
 }
 
 std::vector<MatrixBody> matrix_bodies(double scale) {
@@ -79,6 +131,8 @@ std::vector<MatrixBody> matrix_bodies(double scale) {
     bodies.push_back(car_body("disc", {.radius = 0.15 * scale}, turn, reverses));
   }
   bodies.push_back({"puma", "arm", "puma560 radius 0.04 tool 0.1", {}, puma560_arm(link_radius, tool_length)});
+  bodies.push_back(
+      {"urdf", "arm", "urdf FOLDER/puma.urdf srdf FOLDER/puma.srdf", {}, puma560_arm(link_radius, tool_length)});
   bodies.push_back({"arm_file", "arm", "arm FOLDER/three.dh radius 0.04", {}, short_arm()});
   return bodies;
 }

@@ -25,9 +25,10 @@ std::string matrix_table_file() { return source_dir() + "/tests/matrix/planners.
 
 std::string Matrix::robot_of(const MatrixBody& body) const {
   std::string robot = body.robot;
-  const std::string place = "FOLDER";
-  const std::size_t at = robot.find(place);
-  if (at != std::string::npos) robot.replace(at, place.size() + 1, folder_.path(""));
+  const std::string place = "FOLDER/";
+  for (std::size_t at = robot.find(place); at != std::string::npos; at = robot.find(place)) {
+    robot.replace(at, place.size(), folder_.path(""));
+  }
   return robot;
 }
 

@@ -23,8 +23,7 @@ class Matrix : public testing::TestWithParam<MatrixWorld> {
  protected:
   Matrix() : table_(PlannerTable::read(matrix_table_file())) {
     for (const auto& [name, text] : world().files) folder_.write(name, text);
-    const auto [name, text] = arm_file();
-    folder_.write(name, text);
+    for (const auto& [name, text] : arm_files()) folder_.write(name, text);
   }
 
   void ask_everything();

@@ -42,8 +42,8 @@ struct MatrixBody {
 /// What arms are asked everywhere.
 std::vector<double> arm_start();
 std::vector<double> arm_goal();
-/// The table of the arm that has a file, for each world's folder: its name and text.
-std::pair<std::string, std::string> arm_file();
+/// The files of the arms that have some, for each world's folder: names and texts.
+std::vector<std::pair<std::string, std::string>> arm_files();
 
 /// The listed ones, and some strange ones: as many as the environment's WARREN_MATRIX_SEEDS says, for a long run.
 std::vector<MatrixWorld> matrix_worlds();

@@ -70,11 +70,12 @@ std::string folder_of(const std::string& path) {
   return slash == 0 ? "/" : path.substr(0, slash);
 }
 
-/// Throws UsageError where the file's ending promises another picture than one of `endings`, such as ".svg .png"; no
-/// ending promises nothing.
+/// Throws UsageError where the file's ending is none of `endings`, such as ".svg .png". Standard output and devices
+/// have none, and "" is no file.
 void check_picture_ending(std::string_view option, const std::string& file, std::string_view endings) {
   const std::string ending = ending_of(file);
-  if (ending.empty() || fmt::format(" {} ", endings).find(" " + ending + " ") != std::string::npos) return;
+  if (ending.empty() && (file.empty() || is_written_straight(file))) return;
+  if (fmt::format(" {} ", endings).find(" " + ending + " ") != std::string::npos) return;
   throw UsageError(fmt::format("{}: a picture here ends in one of: {} (found: '{}')", option, endings, file));
 }
 
@@ -259,6 +260,9 @@ void write_report(const Arguments& arguments, std::string_view option, const std
 }
 
 void check_plots(const Arguments& arguments) {
+  if (arguments.has("--figures") && ending_of(*arguments.value("--figures")).empty()) {
+    throw UsageError("--figures: expected a name that ends in .svg, .png or .pdf, such as k.pdf for k-length.pdf");
+  }
   for (const std::string_view option : {"--picture", "--figures"}) {
     const std::string file = arguments.value(option).value_or("");
     check_picture_ending(option, file, plot_endings);
@@ -267,9 +271,6 @@ void check_plots(const Arguments& arguments) {
   const std::string curves = arguments.value("--curves").value_or("");
   check_picture_ending("--curves", curves, fmt::format("{} .csv", plot_endings));
   check_picture("--curves", curves.ends_with(".csv") ? "" : curves);
-  if (arguments.has("--figures") && ending_of(*arguments.value("--figures")).empty()) {
-    throw UsageError("--figures: expected a name that ends in .svg, .png or .pdf, such as k.pdf for k-length.pdf");
-  }
 }
 
 void write_plots(const Arguments& arguments, const Execution& execution, bool was_stopped,

@@ -23,7 +23,7 @@ namespace warren::tools {
 namespace {
 
 constexpr OptionSpec build_specs[] = {
-    {"--output", "FILE", "file to write; by custom NAME.roadmap", {}, "-o"},
+    {"--output", "FILE", "file to write, usually NAME.roadmap", {}, "-o"},
     {"--index", "NAME",
      "auto: give a large roadmap an index, which answers without a search, where that pays; none: give it none "
      "(default: auto)",

@@ -34,7 +34,7 @@ namespace {
 constexpr OptionSpec generate_specs[] = {
     {"--output",
      "FILE",
-     "where to: .walls .scene .npy .maze .geojson .wkt .svg .png .html by ending; - is standard output",
+     "where to: .walls .scene .npy .maze .geojson .wkt .svg .png .pdf .html by ending; - is standard output",
      {},
      "-o"},
     {.name = "--seed",

@@ -17,9 +17,11 @@
 #include "scenes/files/maze_file_io.hpp"
 #include "scenes/files/output_file_io.hpp"
 #include "scenes/files/read_world_io.hpp"
+#include "solve/answer/arm_account.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/kept/roadmap_file_io.hpp"
 #include "solve/kept/roadmap_sections.hpp"
+#include "solve/question/question_of_arm.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
@@ -32,6 +34,9 @@ namespace {
 
 constexpr OptionSpec info_specs[] = {
     {"--json", "FILE", "write it as JSON; - is standard output"},
+    {"--srdf", "FILE", "of a URDF: what MoveIt says of the robot"},
+    {"--group", "NAME", "of a URDF: the group of joints that moves"},
+    {"--package-path", "DIR", "of a URDF: where package:// is looked for, beside the file's own folders"},
     {"--check", "all", "check every byte of a roadmap file, however large it is", "all"},
 };
 
@@ -68,6 +73,27 @@ std::vector<Fact> packed_facts(const Scene& scene, const InputFile& file, const 
   return facts;
 }
 
+bool is_urdf(const InputFile& file) {
+  constexpr std::size_t head = 4096;
+  return file.bytes().substr(0, head).find("<robot") != std::string_view::npos;
+}
+
+std::vector<Fact> robot_facts(const std::string& path, const Arguments& arguments, const Execution& execution) {
+  RobotSpec robot{.kind = RobotKind::urdf, .files = ArmFiles{.urdf = path}};
+  const auto said = [&](std::string_view option) { return std::string(arguments.value(option).value_or("")); };
+  robot.files->srdf = said("--srdf");
+  robot.files->group = said("--group");
+  if (const std::string folder = said("--package-path"); !folder.empty()) robot.files->packages.push_back(folder);
+  return facts_of(*arm_model_of(robot, 0.0, execution));
+}
+
+void tell(const std::vector<Fact>& facts, const std::optional<std::string>& json, const Run& run) {
+  if (json) write_file(*json, facts_json(facts), run.execution());
+  if (run.quiet() || json == "-") return;
+  for (const Fact& fact : facts)
+    print_text(fmt::format("{}{}\n", run.palette().faint(fmt::format("{:<11}", fact.name)), printable(fact.text)));
+}
+
 int info(const Arguments& arguments) {
   const auto json = output_file(arguments, "--json");
   const std::string& path = arguments.operand(0);
@@ -82,6 +108,12 @@ int info(const Arguments& arguments) {
     if (!run.quiet() && json != "-") print_text(meta);
     return exit_code::success;
   }
+  if (file && is_urdf(*file)) {
+    const std::vector<Fact> facts = robot_facts(path, arguments, run.execution());
+    run.end();
+    tell(facts, json, run);
+    return exit_code::success;
+  }
   if (check) throw UsageError("--check: is for roadmap files; a world is checked as it is read");
   StageTimes seconds;
   const bool is_packed = file && is_maze_file(file->bytes());
@@ -91,10 +123,7 @@ int info(const Arguments& arguments) {
   const std::vector<Fact> facts =
       is_packed && is_unmade(scene) ? packed_facts(scene, *file, run.execution()) : facts_of(scene, run.execution());
   run.end();
-  if (json) write_file(*json, facts_json(facts), run.execution());
-  if (run.quiet() || json == "-") return exit_code::success;
-  for (const Fact& fact : facts)
-    print_text(fmt::format("{}{}\n", run.palette().faint(fmt::format("{:<11}", fact.name)), printable(fact.text)));
+  tell(facts, json, run);
   return exit_code::success;
 }
 

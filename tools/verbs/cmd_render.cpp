@@ -30,10 +30,6 @@ constexpr OptionSpec render_specs[] = {
 std::string picture_file(const Arguments& arguments) {
   const auto file = arguments.value("--output");
   if (!file) throw UsageError("-o FILE is missing");
-  const std::string ending = ending_of(*file);
-  if (*file != "-" && !is_picture(ending)) {
-    throw UsageError("--output: a picture ends in .svg, .png, .pdf or .html (found: '" + *file + "')");
-  }
   check_picture("--output", *file);
   check_writable(*file);
   return *file;

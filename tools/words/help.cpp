@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -174,10 +175,15 @@ std::string word_help(std::string_view word, std::span<const Command> commands, 
   }
   if (!text.empty()) return text;
   std::vector<std::string_view> known;
+  std::set<std::string> choices;
   for (const Command& command : commands) {
     known.push_back(command.name);
-    for (const OptionSpec& option : command.options) known.push_back(option.name);
+    for (const OptionSpec& option : command.options) {
+      known.push_back(option.name);
+      for (const std::string& choice : words_of(option.choices)) choices.insert(choice);
+    }
   }
+  known.insert(known.end(), choices.begin(), choices.end());
   const std::string near = suggestion(word, known);
   throw UsageError(
       fmt::format("nothing is called {}{}", word, near.empty() ? "; docs/other_names.md lists words" : near));

@@ -118,7 +118,7 @@ std::size_t memory_value(std::string_view option, std::string_view text) {
 
 std::vector<double> state_value(std::string_view option, std::string_view text) {
   constexpr std::string_view expected =
-      "X,Y (or three or six numbers; angles in radians, or 90deg), each finite and at most 1e60";
+      "X,Y (three numbers of bodies that turn, one a joint of arms; angles in radians, or 90deg), each finite and at most 1e60";
   constexpr std::string_view separators = ", \t";
   std::vector<double> state;
   for (std::size_t at = text.find_first_not_of(separators); at < text.size();) {
@@ -128,7 +128,7 @@ std::vector<double> state_value(std::string_view option, std::string_view text) 
     state.push_back(*number);
     at = text.find_first_not_of(separators, end);
   }
-  if (state.size() != 2 && state.size() != 3 && state.size() != 6) refuse(option, expected, text);
+  if (state.empty() || state.size() > most_joints) refuse(option, expected, text);
   return state;
 }
 

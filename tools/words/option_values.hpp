@@ -39,7 +39,7 @@ std::optional<std::uint64_t> auto_or_count_value(std::string_view option, std::s
 double duration_value(std::string_view option, std::string_view text);
 /// Bytes, >= 1: "20GiB", "512MiB", "1e9B"; also KiB, TiB, kB, MB, GB, TB.
 std::size_t memory_value(std::string_view option, std::string_view text);
-/// Numbers apart by commas or blanks, at most largest_coordinate each; 2, 3 or 6 of them.
+/// Numbers apart by commas or blanks, at most largest_coordinate each; 1 to 14 of them.
 std::vector<double> state_value(std::string_view option, std::string_view text);
 /// Words apart by commas; none is empty or there twice.
 std::vector<std::string> list_value(std::string_view option, std::string_view text);

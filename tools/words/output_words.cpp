@@ -87,18 +87,20 @@ constexpr OptionSpec path_specs[] = {
     {"--lateral-acceleration", "A",
      "with --speed: how hard a car may corner, which makes it slow on tight arcs (default: any)"},
     {"--joint-speed", "W[,...]",
-     "with --path, for arms: add times, for turning at most so fast (rad/s): one number for all joints, or six"},
+     "with --path, for arms: add times, for turning at most so fast (rad/s): one number for all joints, or "
+     "one each, or 'file': as the URDF has them"},
     {"--joint-acceleration", "A[,...]",
-     "with --joint-speed: how hard joints speed up and brake (rad/s^2), one number or six (default: at once)"},
+     "with --joint-speed: how hard joints speed up and brake (rad/s^2), one number or one a joint (default: at once)"},
     {"--frame", "NAME", "with --path: name of the coordinate frame in .yaml and .geojson (default: map)"},
 };
 
 std::vector<double> joint_values(std::string_view option, std::string_view text) {
+  if (option == "--joint-speed" && text == "file") return speeds_of_file;
   if (number_in(text)) return {positive_value(option, text)};
   std::vector<double> values = state_value(option, text);
-  if (values.size() == 6 && std::all_of(values.begin(), values.end(), [](double x) { return x > 0.0; })) return values;
+  if (!values.empty() && values.size() <= most_joints && std::all_of(values.begin(), values.end(), [](double x) { return x > 0.0; })) return values;
   throw UsageError(
-      fmt::format("{}: expected one number above 0, or six separated by commas (found: '{}')", option, text));
+      fmt::format("{}: expected one number above 0, or one a joint, separated by commas (found: '{}')", option, text));
 }
 
 }  // namespace

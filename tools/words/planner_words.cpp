@@ -46,7 +46,7 @@ constexpr OptionSpec planner_specs[] = {
     {"--lazy",
      "[WHEN]",
      "visibility: look for edges only where the search needs them (by itself from 20000 corners on). lazy-prm always "
-     "checks its edges so, and takes the word expansion",
+     "does so, and takes --lazy expansion",
      choices_of<LazyCheck>,
      {},
      true},
@@ -84,12 +84,16 @@ constexpr OptionSpec planner_specs[] = {
      "voronoi: length takes the shortest way, clearance the widest, and of these the shortest (default: length)",
      choices_of<AxisObjective>},
     {"--step", "D",
-     "rrt, rrt-connect: longest motion that is added to a tree at once (default: a sixth of the space's diagonal)"},
-    {"--goal-bias", "F", "rrt: how often it aims at the goal instead of a random place, 0 to 1 (default: 0.05)"},
-    {"--nodes", "N", "rrt, rrt-connect: give up when a tree has so many nodes (default: 100000)"},
+     "all rrt planners: longest motion that is added to a tree at once (default: a sixth of the space's diagonal)"},
+    {"--goal-bias", "F",
+     "all rrt planners but rrt-connect: how often they aim at the goal instead of a random place, 0 to 1 (default: "
+     "0.05)"},
+    {"--nodes", "N",
+     "all rrt planners: most nodes of a tree (default: 100000; rrt-star and informed-rrt-star 16777216)"},
     {"--trees", "N", "rrt, rrt-connect: grow so many trees independently; the first to arrive answers (default: 1)"},
     {"--iterations", "N",
-     "anytime, rrt-star, informed-rrt-star: end after N turns of work, which gives the same answer on any machine"},
+     "anytime, rrt-star, informed-rrt-star: end after N turns of work, which gives the same answer on any machine. "
+     "--budget ends them, too, with the best path so far"},
     {"--gap", "SHARE",
      "anytime, rrt-star, informed-rrt-star: end when the path is proved to be at most SHARE, such as 1%, longer than "
      "the shortest"},

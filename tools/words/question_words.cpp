@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/words/question_words.hpp"
 
+#include <fmt/format.h>
+
 #include "core/base/error.hpp"
 #include "tools/words/option_values.hpp"
 
@@ -10,14 +12,17 @@ namespace {
 constexpr OptionSpec question_specs[] = {
     {"--robot", "\"BODY\"",
      "the moving body: \"point\", \"disc RADIUS\", \"polygon X Y X Y ...\" (or \"[[X, Y], ...]\"), \"car polygon X Y "
-     "... turning RHO\", \"puma560 radius R\" or \"arm FILE radius R\". X and Y of a corner count from the place that "
+     "... turning RHO\", \"puma560 radius R\", \"arm FILE radius R\" or \"urdf FILE srdf FILE group NAME\". X and Y of "
+     "a corner count from the place that "
      "--start names; RHO is the radius of the tightest turn (default: the file's, else point)"},
     {"--start", "X,Y[,THETA]",
-     "where to start: X,Y; for a body that turns X,Y,THETA (radians, or 90deg); for an arm six joint angles "
+     "where to start: X,Y; for a body that turns X,Y,THETA (radians, or 90deg); for an arm one angle a joint "
      "(default: the file's)"},
     {"--goal", "X,Y[,THETA]",
      "where to arrive, as --start. Without THETA a body that turns may arrive at any heading; an arm may also be given "
      "its tool's place X,Y,Z (default: the file's)"},
+    {"--goal-pose", "X,Y,Z,QX,QY,QZ,QW",
+     "of an arm: a pose of its tool, its place and its turn as a quaternion (default: the file's)"},
     {"--clearance", "R",
      "room to keep around the body along the whole path (default: the file's, else 0.1 in mazes, else 0)"},
     {"--contact", "WORD",
@@ -34,6 +39,17 @@ RobotSpec robot_option(std::string_view option, std::string_view text) {
   }
 }
 
+Eigen::Isometry3d pose_value(std::string_view option, std::string_view text) {
+  const std::vector<double> n = state_value(option, text);
+  const Eigen::Quaterniond turn =
+      n.size() == 7 ? Eigen::Quaterniond(n[6], n[3], n[4], n[5]) : Eigen::Quaterniond(0, 0, 0, 0);
+  if (!(turn.norm() > 0.0)) {
+    throw UsageError(
+        fmt::format("{}: expected X,Y,Z,QX,QY,QZ,QW with a quaternion that is not 0 (found: '{}')", option, text));
+  }
+  return Eigen::Translation3d(n[0], n[1], n[2]) * turn.normalized();
+}
+
 }  // namespace
 
 std::span<const OptionSpec> question_option_specs() { return question_specs; }
@@ -43,6 +59,8 @@ Question question_words(const Arguments& arguments) {
   question.robot = given_value(arguments, "--robot", robot_option);
   if (const auto text = arguments.value("--start")) question.start = state_value("--start", *text);
   if (const auto text = arguments.value("--goal")) question.goal = state_value("--goal", *text);
+  if (const auto text = arguments.value("--goal-pose")) question.goal_pose = pose_value("--goal-pose", *text);
+  if (question.goal_pose && !question.goal.empty()) throw UsageError("--goal-pose: there is a --goal, too; say one");
   question.clearance = given_value(arguments, "--clearance", number_value, 0.0, largest_coordinate);
   question.contact = given_choice<Contact>(arguments, "--contact");
   return question;

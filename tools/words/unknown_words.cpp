@@ -16,28 +16,6 @@ std::string small_letters(std::string_view word) {
   return letters;
 }
 
-}  // namespace
-
-std::string suggestion(std::string_view word, std::span<const std::string_view> known) {
-  if (const std::string here = other_name(word); !here.empty()) return "; " + here;
-  constexpr std::size_t longest = 64;  // nobody misspells an option at greater length
-  const std::string letters = small_letters(word.substr(0, longest));
-  std::string_view best;
-  std::size_t best_distance = letters.size() / 3 + 1;
-  for (const std::string_view candidate : known) {
-    const std::string its = small_letters(candidate);
-    const bool is_begun = letters.size() > 2 && its.starts_with(letters);
-    const std::size_t distance = is_begun ? 1 : edit_distance(letters, its);
-    if (distance < best_distance) {
-      best = candidate;
-      best_distance = distance;
-    }
-  }
-  return best.empty() ? "" : "; did you mean " + std::string{best} + "?";
-}
-
-namespace {
-
 constexpr std::pair<std::string_view, std::string_view> spellings[] = {
     {"--svg", "--picture"}, {"--optimize", "--optimise"}, {"--neighbors", "--neighbours"}, {"--colour", "--color"}};
 
@@ -68,13 +46,35 @@ std::string letters_of(std::string_view word) {
   return letters;
 }
 
-bool is_named(std::string_view list, const std::string& letters) {
-  for (;;) {
-    const std::size_t end = list.find(',');
-    if (letters_of(list.substr(0, end)) == letters) return true;
-    if (end == std::string_view::npos) return false;
-    list.remove_prefix(end + 1);
+struct NearRow {
+  const OtherName* row = nullptr;
+  std::string_view name;  ///< the one of its names that is meant
+};
+
+/// The first of the rows with the closest name that differs from the word in at most `most` letters.
+NearRow row_near(std::string_view word, std::size_t most) {
+  const std::string letters = letters_of(word);
+  NearRow near;
+  for (const OtherName& row : other_names()) {
+    for (std::string_view list = row.names; !list.empty();) {
+      const std::string_view name = list.substr(0, list.find(", "));
+      list.remove_prefix(std::min(name.size() + 2, list.size()));
+      const std::string its = letters_of(name);
+      const std::size_t distance = most == 0 ? its != letters : edit_distance(letters, its);
+      if (distance > most || (near.row != nullptr && distance == most)) continue;
+      near = {&row, name};
+      most = distance;
+      if (most == 0) return near;
+    }
   }
+  return near;
+}
+
+/// As the screen has it.
+std::string plain(std::string_view text) {
+  std::string words{text};
+  std::erase_if(words, [](char c) { return c == '`' || c == '\\'; });
+  return words;
 }
 
 }  // namespace
@@ -85,12 +85,28 @@ const std::vector<OtherName>& other_names() {
 }
 
 std::string other_name(std::string_view word) {
-  const auto is_it = [letters = letters_of(word)](const OtherName& row) { return is_named(row.names, letters); };
-  const auto row = std::find_if(other_names().begin(), other_names().end(), is_it);
-  if (row == other_names().end()) return {};
-  std::string text{row->here};
-  std::erase_if(text, [](char c) { return c == '`' || c == '\\'; });
-  return text;
+  const NearRow found = row_near(word, 0);
+  return found.row == nullptr ? std::string{} : plain(found.row->here);
+}
+
+std::string suggestion(std::string_view word, std::span<const std::string_view> known) {
+  if (const std::string here = other_name(word); !here.empty()) return "; " + here;
+  constexpr std::size_t longest = 64;  // nobody misspells an option at greater length
+  const std::string letters = small_letters(word.substr(0, longest));
+  std::string_view best;
+  std::size_t best_distance = letters.size() / 3 + 1;
+  for (const std::string_view candidate : known) {
+    const std::string its = small_letters(candidate);
+    const bool is_begun = letters.size() > 2 && its.starts_with(letters);
+    const std::size_t distance = is_begun ? 1 : edit_distance(letters, its);
+    if (distance < best_distance) {
+      best = candidate;
+      best_distance = distance;
+    }
+  }
+  if (!best.empty()) return "; did you mean " + std::string{best} + "?";
+  const NearRow near = row_near(word.substr(0, longest), letters.size() / 4);
+  return near.row == nullptr ? "" : "; did you mean " + plain(near.name) + "? " + plain(near.row->here);
 }
 
 std::string_view own_spelling(std::string_view option) {

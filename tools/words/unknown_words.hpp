@@ -13,7 +13,8 @@
 namespace warren::tools {
 
 /// "; WHAT IT IS HERE", or "; did you mean KNOWN?" for the earliest of the closest known words, or for one that begins
-/// so. Capitals and dashes before it count nothing; "" if more than a third of the letters would have to change.
+/// so, or "; did you mean NAME? WHAT IT IS HERE" for a misspelt word of the field. Capitals and dashes before it count
+/// nothing; "" if more than a third of the letters would have to change, a quarter for the field's.
 std::string suggestion(std::string_view word, std::span<const std::string_view> known);
 
 // Words of the field, of other planners and of ROS, and what they are here: the one table is docs/other_names.md, whose

@@ -4,292 +4,458 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
+#include "core/base/types.hpp"
 #include "core/base/whole.hpp"
+#include "verify/judges/judged_arm.hpp"
 #include "verify/judges/judged_input.hpp"
 #include "verify/judges/leg_reports.hpp"
 
 namespace warren {
 namespace {
 
-using Point = std::array<double, 3>;
-using Matrix = std::array<std::array<double, 4>, 4>;
-
-Matrix product(const Matrix& a, const Matrix& b) {
-  Matrix m{};
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t j = 0; j < 4; ++j) {
-      for (std::size_t k = 0; k < 4; ++k) m[i][j] += a[i][k] * b[k][j];
-    }
-  }
-  return m;
+/// "link 2", also where that is its name already.
+std::string with_word(std::string_view word, std::string_view name) {
+  return name.starts_with(fmt::format("{} ", word)) ? std::string(name) : fmt::format("{} {}", word, name);
 }
-
-/// The four factors of a table's row, multiplied out.
-Matrix step_of(const DhJoint& joint, DhConvention convention, double q) {
-  const auto [s, c] = portable::sin_and_cos(q + joint.offset_rad);
-  const auto [sa, ca] = portable::sin_and_cos(joint.alpha_rad);
-  const Matrix turn{{{c, -s, 0, 0}, {s, c, 0, 0}, {0, 0, 1, joint.d}, {0, 0, 0, 1}}};
-  const Matrix twist{{{1, 0, 0, joint.a}, {0, ca, -sa, 0}, {0, sa, ca, 0}, {0, 0, 0, 1}}};
-  return convention == DhConvention::standard ? product(turn, twist) : product(twist, turn);
-}
-
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Point plus(const Point& a, double t, const Point& b) { return {a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]}; }
-double product(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point crossed(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double size_of(const Point& a) { return portable::hypot(a[0], a[1], a[2]); }
-
-struct Segment3 {
-  Point a;
-  Point b;
-};
-
-double distance(const Segment3& s, const Point& p) {
-  const Point way = minus(s.b, s.a);
-  const double square = product(way, way);
-  const double t = square > 0.0 ? std::clamp(product(minus(p, s.a), way) / square, 0.0, 1.0) : 0.0;
-  return size_of(minus(p, plus(s.a, t, way)));
-}
-
-/// The distance from a box is convex along a segment: its slope's sign is halved for.
-double distance(const Segment3& s, const SolidBox& box) {
-  const Point way = minus(s.b, s.a);
-  const auto gap_at = [&](double t) {
-    Point gap = plus(s.a, t, way);
-    for (std::size_t axis = 0; axis < 3; ++axis) gap[axis] -= std::clamp(gap[axis], box.low[axis], box.high[axis]);
-    return gap;
-  };
-  constexpr int halvings = 60;
-  double low = 0.0;
-  double high = 1.0;
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = 0.5 * (low + high);
-    (product(gap_at(middle), way) > 0.0 ? high : low) = middle;
-  }
-  return std::min({size_of(gap_at(low)), size_of(gap_at(0.0)), size_of(gap_at(1.0))});
-}
-
-/// Where the lines' common perpendicular meets both segments, its length; else an end decides.
-double distance(const Segment3& s, const Segment3& t) {
-  double least = std::min({distance(s, t.a), distance(s, t.b), distance(t, s.a), distance(t, s.b)});
-  const Point u = minus(s.b, s.a);
-  const Point v = minus(t.b, t.a);
-  const Point normal = crossed(u, v);
-  const double square = product(normal, normal);
-  if (!(square > 0.0)) return least;
-  const Point apart = minus(t.a, s.a);
-  const double along_s = product(crossed(apart, v), normal) / square;
-  const double along_t = product(crossed(apart, u), normal) / square;
-  const bool inside = along_s >= 0.0 && along_s <= 1.0 && along_t >= 0.0 && along_t <= 1.0;
-  return inside ? std::min(least, std::abs(product(apart, normal)) / std::sqrt(square)) : least;
-}
-
-/// A capsule's spine: from one origin to a later one.
-struct Capsule {
-  std::size_t from;
-  std::size_t to;
-};
-
-/// Something that a capsule might meet: sphere, box or another capsule nearer to the base, by number.
-struct Pair {
-  enum class Kind : std::uint8_t { sphere, box, capsule };
-  std::size_t capsule;
-  Kind kind;
-  std::size_t other;
-};
 
 class ArmVerifier {
  public:
-  ArmVerifier(const Scene& scene, const DhTable& table, const ArmVerifyOptions& options, const Execution& execution)
-      : scene_(scene), table_(table), options_(options), execution_(execution) {
-    measure_links();
-    pair_up();
-    double largest = reach_ + options.radius + options.clearance;
-    for (const Sphere& s : scene.spheres) {
-      largest = std::max({largest, std::abs(s.x) + s.radius, std::abs(s.y) + s.radius, std::abs(s.z) + s.radius});
-    }
-    for (const SolidBox& box : scene.boxes) {
-      for (const double x : box.low) largest = std::max(largest, std::abs(x));
-      for (const double x : box.high) largest = std::max(largest, std::abs(x));
-    }
-    rounding_ = 2e-14 * largest;
-    finest_ = 1e-9 * reach_;
-    close_ = 1e-2 * (options.radius > 0.0 ? options.radius : reach_);
-  }
+  ArmVerifier(const Scene& scene, const ArmModel& model, std::span<const JointState> path,
+              const ArmVerifyOptions& options, const Execution& execution);
 
-  LegReport check(const JointState& a, const JointState& b, std::size_t number) const {
-    LegReport report;
-    const Leg leg{a, b, number};
-    check_piece(leg, 0.5, 0.5, pairs_, report);
-    return report;
-  }
   std::optional<Violation> outside_limits(const JointState& q, std::size_t number) const;
-  Point tool_at(const JointState& q) const { return origins_at(q).back(); }
+  std::optional<Violation> wrong_start(std::span<const JointState> path) const;
+  std::optional<Violation> wrong_goal(std::span<const JointState> path) const;
+  double length(std::span<const JointState> path) const;
+  JointState way(const JointState& a, const JointState& b) const;
+  std::string name_of(const JudgedBody& body, const JudgedBody& other, bool of_arm) const;
+
+  const Scene& scene;
+  const ArmModel& model;
+  const ArmVerifyOptions& options;
+  const Execution& execution;
+  JudgedArm arm;
+  std::vector<JudgedBody> obstacles;  // spheres, boxes, solids: owner counts through all of them
+  double reach = 0.0;                 // no point of the arm is farther from the base
+  double finest = 0.0;                // pieces on which bodies go less are not halved
+  double close = 0.0;                 // how sharp the least clearance shall be
 
  private:
-  struct Leg {
-    JointState a;
-    JointState b;
-    std::size_t number;
-  };
-  void measure_links();
-  void pair_up();
-  std::vector<Point> origins_at(const JointState& q) const;
-  double distance_of(const std::vector<Point>& at, const Pair& pair) const;
-  double way_of(const Leg& leg, const Pair& pair, double half) const;
-  std::string name_of(const Pair& pair) const;
-  void check_piece(const Leg& leg, double middle, double half, const std::vector<Pair>& among, LegReport& report) const;
-
-  const Scene& scene_;
-  const DhTable& table_;
-  const ArmVerifyOptions& options_;
-  const Execution& execution_;
-  std::vector<double> length_;  // from each origin to the next, the tool's last
-  std::vector<Capsule> capsules_;
-  std::vector<Pair> pairs_;
-  double reach_ = 0.0;
-  double rounding_ = 0.0;  // bounds the error of every distance computed here
-  double finest_ = 0.0;    // pieces on which a link goes less are not halved
-  double close_ = 0.0;     // how sharp the least clearance shall be
+  void measure(std::span<const JointState> path);
+  void add_obstacles();
+  void add_box(std::size_t number, SolidFrame frame, Vec3 low, Vec3 high);
+  double difference(const JointState& a, const JointState& b) const;
 };
 
-void ArmVerifier::measure_links() {
-  for (const DhJoint& joint : table_.joints) length_.push_back(portable::hypot(joint.a, joint.d));
-  length_.push_back(table_.tool.translation().norm());
-  for (const double length : length_) reach_ += length;
-  std::size_t from = 0;
-  for (std::size_t i = 0; i < length_.size(); ++i) {
-    if (length_[i] <= 1e-12 * reach_) continue;
-    capsules_.push_back({from, i + 1});
-    from = i + 1;
-  }
+ArmVerifier::ArmVerifier(const Scene& of, const ArmModel& with, std::span<const JointState> path,
+                         const ArmVerifyOptions& asked, const Execution& by)
+    : scene(of), model(with), options(asked), execution(by), arm(with, by) {
+  measure(path);
+  add_obstacles();
 }
 
-void ArmVerifier::pair_up() {
-  for (std::size_t k = 0; k < capsules_.size(); ++k) {
-    for (std::size_t i = 0; i < scene_.spheres.size(); ++i) pairs_.push_back({k, Pair::Kind::sphere, i});
-    for (std::size_t i = 0; i < scene_.boxes.size(); ++i) pairs_.push_back({k, Pair::Kind::box, i});
-    if (!options_.self_collision) continue;
-    // Capsules that the links between them can't keep apart are no pair.
-    const double always_touching = (2.0 * options_.radius + options_.clearance) * (1.0 + 1e-6);
-    double between = 0.0;
-    for (std::size_t i = k; i-- > 0;) {
-      if (between > always_touching) pairs_.push_back({k, Pair::Kind::capsule, i});
-      between += length_[capsules_[i].to - 1];
+void ArmVerifier::measure(std::span<const JointState> path) {
+  const std::size_t joints = model.joints.size();
+  std::vector<double> values(joints);
+  for (std::size_t j = 0; j < joints; ++j) {
+    const ArmJoint& joint = model.joints[j];
+    const ArmVariable& variable = model.variables[joint.variable];
+    double most = 0.0;
+    for (const JointState& q : path) most = std::max(most, std::abs(q[joint.variable]));
+    if (!variable.continuous) most = std::min(most, std::max(std::abs(variable.low), std::abs(variable.high)));
+    values[j] = std::abs(joint.multiplier) * most + std::abs(joint.offset);
+  }
+  const std::vector<Sway> sways = arm.sways(std::vector<double>(joints), values);
+  double radius = 0.0;
+  for (const JudgedBody& body : arm.bodies()) {
+    const double far = body.core.radius + sways[body.owner * (joints + 1)].reach;
+    reach = std::max(reach, far);
+    const bool is_round = body.core.kind == SolidKind::sphere || body.core.kind == SolidKind::capsule;
+    if (body.parts == 0 && is_round) radius = std::max(radius, body.core.radius);
+  }
+  finest = 1e-9 * reach;
+  close = std::max(1e-2 * radius, 1e-4 * reach);
+}
+
+void ArmVerifier::add_obstacles() {
+  std::size_t corners = 0;
+  for (const Solid& solid : scene.solids) corners += solid.corners.size();
+  const std::size_t count = scene.spheres.size() + scene.boxes.size() + scene.solids.size();
+  execution.reserve(count * sizeof(JudgedBody) + corners * sizeof(Vec3));
+  obstacles.reserve(count);
+  for (const Sphere& s : scene.spheres) {
+    JudgedBody body;
+    body.core.radius = s.radius;
+    body.frame.at = {s.x, s.y, s.z};
+    body.owner = obstacles.size();
+    obstacles.push_back(std::move(body));
+  }
+  for (const auto& [low, high] : scene.boxes) {
+    add_box(obstacles.size(), {}, {low[0], low[1], low[2]}, {high[0], high[1], high[2]});
+  }
+  for (std::size_t i = 0; i < scene.solids.size(); ++i) {
+    JudgedBody body;
+    body.core = checked_core(scene.solids[i], body.frame, fmt::format("solid {}", i));
+    body.owner = obstacles.size();
+    if (body.core.kind == SolidKind::box) {
+      add_box(body.owner, body.frame, -body.core.half, body.core.half);
+    } else {
+      obstacles.push_back(std::move(body));
     }
   }
 }
 
-std::vector<Point> ArmVerifier::origins_at(const JointState& q) const {
-  Matrix frame{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
-  std::vector<Point> origins{{0.0, 0.0, 0.0}};
-  for (std::size_t i = 0; i < table_.joints.size(); ++i) {
-    frame = product(frame, step_of(table_.joints[i], table_.convention, q[i]));
-    origins.push_back({frame[0][3], frame[1][3], frame[2][3]});
+/// Cut down to what is nearest to the arm: a box that is larger than the arm by many sizes would be told in numbers
+/// that have no digits left for the arm. Along each axis, places within the arm's reach are as far from what is left as
+/// from the whole.
+void ArmVerifier::add_box(std::size_t number, SolidFrame frame, Vec3 low, Vec3 high) {
+  const Vec3 base = -frame.seen(frame.at);
+  for (int k = 0; k < 3; ++k) {
+    const double near = std::clamp(base[k] - 2.0 * reach, low[k], high[k]);
+    high[k] = std::clamp(base[k] + 2.0 * reach, low[k], high[k]);
+    low[k] = near;
   }
-  Point tool = origins.back();
-  for (std::size_t row = 0; row < 3; ++row) {
-    for (std::size_t k = 0; k < 3; ++k) tool[row] += frame[row][k] * table_.tool.translation()[as_whole<int>(k)];
-  }
-  origins.push_back(tool);
-  return origins;
+  JudgedBody body;
+  body.core.kind = SolidKind::box;
+  body.core.half = 0.5 * (high - low);
+  body.core.far = body.core.half.norm();
+  frame.at = frame.point(low + body.core.half);
+  body.frame = frame;
+  body.owner = number;
+  obstacles.push_back(std::move(body));
 }
 
-/// Between surfaces.
-double ArmVerifier::distance_of(const std::vector<Point>& at, const Pair& pair) const {
-  const Segment3 spine{at[capsules_[pair.capsule].from], at[capsules_[pair.capsule].to]};
-  if (pair.kind == Pair::Kind::sphere) {
-    const Sphere& s = scene_.spheres[pair.other];
-    return distance(spine, Point{s.x, s.y, s.z}) - s.radius - options_.radius;
+JointState ArmVerifier::way(const JointState& a, const JointState& b) const {
+  JointState way{};
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    way[i] = i < model.variables.size() ? variable_way(model.variables[i], a[i], b[i]) : b[i] - a[i];
   }
-  if (pair.kind == Pair::Kind::box) return distance(spine, scene_.boxes[pair.other]) - options_.radius;
-  const Capsule& other = capsules_[pair.other];
-  return distance(spine, Segment3{at[other.from], at[other.to]}) - 2.0 * options_.radius;
+  return way;
 }
 
-/// How far the capsule goes against the other, at most: each joint swings it by no more than all that is between.
-double ArmVerifier::way_of(const Leg& leg, const Pair& pair, double half) const {
-  const std::size_t to = capsules_[pair.capsule].to;
-  const std::size_t first = pair.kind == Pair::Kind::capsule ? capsules_[pair.other].to - 1 : 0;
-  double way = 0.0;
-  double behind = 0.0;
-  for (std::size_t i = to; i-- > first;) {
-    behind += length_[i];
-    if (i < table_.joints.size()) way += std::abs(leg.b[i] - leg.a[i]) * behind;
+std::string ArmVerifier::name_of(const JudgedBody& body, const JudgedBody& other, bool of_arm) const {
+  const std::string own = with_word("link", model.links[body.owner].name);
+  if (of_arm) return fmt::format("{}: touches {}", own, with_word("link", model.links[other.owner].name));
+  std::size_t i = other.owner;
+  if (i < scene.spheres.size()) {
+    const Sphere& s = scene.spheres[i];
+    return fmt::format("sphere {}: {} {} {} {}", i, s.x, s.y, s.z, s.radius);
   }
-  return half * way * (1.0 + 1e-12);
+  i -= scene.spheres.size();
+  if (i < scene.boxes.size()) {
+    const auto& [low, high] = scene.boxes[i];
+    return fmt::format("box {}: {} {}", i, fmt::join(low, " "), fmt::join(high, " "));
+  }
+  i -= scene.boxes.size();
+  const Solid& solid = scene.solids[i];
+  const Vec3 at = solid.pose.translation();
+  const std::string name = solid.name.empty() ? "" : " " + solid.name;
+  return fmt::format("{} {}{}: at {} {} {}, touches {}", warren::name_of(solid.kind), i, name, at.x(), at.y(), at.z(),
+                     own);
 }
 
-std::string ArmVerifier::name_of(const Pair& pair) const {
-  if (pair.kind == Pair::Kind::capsule) return fmt::format("link {}: touches link {}", pair.other, pair.capsule);
-  if (pair.kind == Pair::Kind::sphere) {
-    const Sphere& s = scene_.spheres[pair.other];
-    return fmt::format("sphere {}: {} {} {} {}", pair.other, s.x, s.y, s.z, s.radius);
+/// One leg.
+class ArmLeg {
+ public:
+  ArmLeg(const ArmVerifier& judge, const JointState& a, const JointState& b, std::size_t number);
+  LegReport check();
+
+ private:
+  /// Two bodies that might meet: bodies of the arm; or of the arm and an obstacle.
+  struct Pair {
+    std::uint32_t body;
+    std::uint32_t other;
+    bool of_arm;
+  };
+  /// What is known of a pair on a piece.
+  struct Known {
+    double proved;    ///< they are so far apart all along, at least
+    double met;       ///< the distance in the middle, at most
+    double way;       ///< how far they go to either side, against each other
+    double rounding;  ///< of `met`, at most
+  };
+  /// How a body moves against another one, as a JudgedFrame says it.
+  struct Turning {
+    Vec3 spin;
+    Vec3 drift;
+  };
+  void check_piece(double middle, double half, std::size_t first, std::size_t last);
+  void move_to(double middle, double half);
+  void look_at_all();
+  void look(const Pair& pair);
+  void look_at_parts(const Pair& pair);
+  Known known_of(const Pair& pair);
+  double along_plane(const PlacedCore& a, const Turning& of_a, const PlacedCore& b, const Turning& of_b,
+                     const Vec3& n) const;
+  Turning moving(int joint, const JudgedFrame& against) const;
+  void watch(const JudgedBody& a, const JudgedBody& b);
+  const JudgedBody& other_of(const Pair& pair) const {
+    return pair.of_arm ? bodies_[pair.other] : judge_.obstacles[pair.other];
   }
-  const auto& [low, high] = scene_.boxes[pair.other];
-  return fmt::format("box {}: {} {}", pair.other, fmt::join(low, " "), fmt::join(high, " "));
+  const SolidFrame& frame_of(std::size_t body);
+  void keep(const Pair& pair);
+
+  const ArmVerifier& judge_;
+  const std::vector<JudgedBody>& bodies_;
+  JointState from_;
+  JointState way_;
+  LegReport report_;
+  std::size_t number_;
+  std::size_t row_;                       // joints and the base
+  std::vector<Sway> sways_;               // as JudgedArm::sways()
+  double turns_ = 0.0;                    // of all joints
+  double rounding_ = 0.0;                 // of a distance, a unit of size
+  double half_ = 0.0;                     // of the piece
+  std::vector<JudgedFrame> frames_;       // in its middle
+  std::vector<SolidFrame> placed_;        // of bodies, there
+  std::vector<std::uint32_t> placed_in_;  // the piece, by its number, for which that is true
+  std::uint32_t piece_ = 0;
+  std::vector<Pair> open_;  // of the pieces being looked at, coarse ones first
+  std::size_t work_ = 0;
+};
+
+ArmLeg::ArmLeg(const ArmVerifier& judge, const JointState& a, const JointState& b, std::size_t number)
+    : judge_(judge),
+      bodies_(judge.arm.bodies()),
+      from_(a),
+      way_(judge.way(a, b)),
+      number_(number),
+      row_(judge.model.joints.size() + 1),
+      placed_(bodies_.size()),
+      placed_in_(bodies_.size()) {
+  std::vector<double> turns;
+  std::vector<double> values;
+  rounding_ = 1e-14 + 1.5e-15 * static_cast<double>(row_);
+  for (const ArmJoint& joint : judge.model.joints) {
+    const double turn = std::abs(joint.multiplier * way_[joint.variable]);
+    const double value = std::abs(joint.multiplier * a[joint.variable]) + turn + std::abs(joint.offset);
+    turns.push_back(turn);
+    values.push_back(value);
+    if (joint.slides) continue;
+    turns_ += turn;
+    rounding_ += 4e-16 * value;
+  }
+  sways_ = judge.arm.sways(turns, values);
 }
 
-void ArmVerifier::check_piece(const Leg& leg, double middle, double half, const std::vector<Pair>& among,
-                              LegReport& report) const {
+/// The middle alone first: how near the arm comes to anything there tells which bodies need no closer look.
+LegReport ArmLeg::check() {
+  move_to(0.5, 0.0);
+  look_at_all();
+  if (report_.violation) return report_;
+  move_to(0.5, 0.5);
+  look_at_all();
+  if (!report_.violation && !open_.empty()) {
+    const std::size_t last = open_.size();
+    check_piece(0.25, 0.25, 0, last);
+    if (!report_.violation) check_piece(0.75, 0.25, 0, last);
+  }
+  return report_;
+}
+
+void ArmLeg::move_to(double middle, double half) {
+  judge_.execution.check();
+  ++report_.looks;
+  half_ = half;
+  ++piece_;
+  judge_.arm.frames_at(from_, way_, middle, frames_);
+}
+
+void ArmLeg::look_at_all() {
+  const std::vector<std::size_t>& balls = judge_.arm.balls();
+  for (const std::size_t ball : balls) {
+    for (std::size_t i = 0; i < judge_.obstacles.size() && !report_.violation; ++i) {
+      look({as_whole<std::uint32_t>(ball), as_whole<std::uint32_t>(i), false});
+    }
+  }
+  for (const auto& [a, b] : judge_.model.pairs) {
+    if (report_.violation) return;
+    look({as_whole<std::uint32_t>(balls[a]), as_whole<std::uint32_t>(balls[b]), true});
+  }
+}
+
+/// What is open of [first, last) is put behind, for the halves, and taken away again.
+void ArmLeg::check_piece(double middle, double half, std::size_t first, std::size_t last) {
+  const std::size_t before = open_.size();
+  move_to(middle, half);
+  for (std::size_t i = first; i < last && !report_.violation; ++i) look(Pair(open_[i]));
+  const std::size_t after = open_.size();
+  if (after > before && !report_.violation) check_piece(middle - 0.5 * half, 0.5 * half, before, after);
+  if (after > before && !report_.violation) check_piece(middle + 0.5 * half, 0.5 * half, before, after);
+  open_.resize(before);
+}
+
+const SolidFrame& ArmLeg::frame_of(std::size_t body) {
+  if (placed_in_[body] != piece_) {
+    placed_in_[body] = piece_;
+    placed_[body] = frames_[as_whole<std::size_t>(bodies_[body].joint + 1)].frame.frame(bodies_[body].frame);
+  }
+  return placed_[body];
+}
+
+void ArmLeg::look(const Pair& pair) {
   constexpr std::size_t most_looks = 2'000'000;  // some seconds
-  execution_.check();
-  const bool weary = ++report.looks > most_looks;
-  JointState q;
-  for (std::size_t j = 0; j < q.size(); ++j) q[j] = leg.a[j] + middle * (leg.b[j] - leg.a[j]);
-  const std::vector<Point> at = origins_at(q);
-  std::vector<Pair> open;
-  for (const Pair& pair : among) {
-    const double distance = distance_of(at, pair);
-    const double way = way_of(leg, pair, half);
-    const double proved = distance - way - rounding_;
-    report.met = std::min(report.met, distance);
-    const bool settled = proved >= report.met - close_ || way < finest_;
-    if (proved > options_.clearance && settled) {
-      report.least = std::min(report.least, proved);
-      continue;
-    }
-    if (distance <= rounding_ || distance + rounding_ < options_.clearance || way < finest_ || weary) {
-      report.least = std::min(report.least, distance);
-      report.violation = Violation{leg.number, distance, name_of(pair)};
-      return;
-    }
-    open.push_back(pair);
+  const JudgedBody& a = bodies_[pair.body];
+  const JudgedBody& b = other_of(pair);
+  const Known known = known_of(pair);
+  const double clearance = judge_.options.clearance;
+  const bool coarse = a.parts > 0 || b.parts > 0;
+  const bool finest = !coarse && !(known.way >= judge_.finest);
+  if (!coarse) report_.met = std::min(report_.met, known.met);
+  if (known.proved > clearance && (known.proved >= report_.met - judge_.close || finest)) {
+    report_.least = std::min(report_.least, known.proved);
+  } else if (coarse && known.way > a.core.radius) {
+    keep(pair);  // where the ball goes farther than it is wide, there is no use in parts
+  } else if (coarse) {
+    look_at_parts(pair);
+  } else if (known.met <= known.rounding || known.met + known.rounding < clearance || finest ||
+             report_.looks > most_looks) {
+    report_.least = std::min(report_.least, known.met);
+    report_.violation = Violation{number_, known.met, judge_.name_of(a, b, pair.of_arm)};
+  } else {
+    keep(pair);
   }
-  if (open.empty()) return;
-  check_piece(leg, middle - 0.5 * half, 0.5 * half, open, report);
-  if (!report.violation) check_piece(leg, middle + 0.5 * half, 0.5 * half, open, report);
+}
+
+void ArmLeg::look_at_parts(const Pair& pair) {
+  const JudgedBody& a = bodies_[pair.body];
+  const JudgedBody& whole = a.parts > 0 ? a : other_of(pair);
+  for (std::size_t i = 0; i < whole.parts && !report_.violation; ++i) {
+    Pair part = pair;
+    (a.parts > 0 ? part.body : part.other) = as_whole<std::uint32_t>(whole.first_part + i);
+    look(part);
+  }
+}
+
+void ArmLeg::keep(const Pair& pair) {
+  if (half_ == 0.0) return;  // the pieces are looked at later
+  if (open_.size() == open_.capacity()) judge_.execution.reserve(2 * open_.size() * sizeof(Pair));
+  open_.push_back(pair);
+}
+
+ArmLeg::Known ArmLeg::known_of(const Pair& pair) {
+  const JudgedBody& a = bodies_[pair.body];
+  const JudgedBody& b = other_of(pair);
+  const PlacedCore at_a{a.core, frame_of(pair.body)};
+  const PlacedCore at_b{b.core, pair.of_arm ? frame_of(pair.other) : b.frame};
+  const auto behind = as_whole<std::size_t>(judge_.arm.joint_behind(a.joint, b.joint) + 1);
+  const Sway& sway_a = sways_[a.owner * row_ + behind];
+  const Sway sway_b = pair.of_arm ? sways_[b.owner * row_ + behind] : Sway{};
+  const double size = sways_[a.owner * row_].reach + at_b.frame.at.norm() + b.core.far + a.core.radius + b.core.radius;
+  const double rounding = rounding_ * (1.0 + half_ * turns_) * (size + judge_.options.clearance);
+  const double way = half_ * (sway_a.speed + sway_b.speed);
+  const double radii = a.core.radius + b.core.radius;
+  const double first_order = radii + way + rounding;
+  const double wanted = std::max(judge_.options.clearance, report_.met - judge_.close);
+  constexpr double unmet = std::numeric_limits<double>::infinity();
+  const double by_balls = (at_b.frame.at - at_a.frame.at).norm() - a.core.far - b.core.far - first_order;
+  if (by_balls > wanted) return {by_balls, unmet, way, rounding};
+  watch(a, b);
+  const SolidGap gap = gap_between(at_a, at_b, std::max(0.05 * way, rounding), (wanted + first_order) * (1.0 + 1e-14));
+  Known known{gap.least - first_order, gap.most - radii, way, rounding};
+  if (known.proved > wanted || !(gap.least > 0.0)) return known;
+  const JudgedFrame& base = frames_[behind];
+  const double apart = along_plane(at_a, moving(a.joint, base), at_b, moving(b.joint, base), gap.towards);
+  const double bend = 0.5 * half_ * half_ * (sway_a.bend + sway_b.bend);
+  known.proved = std::max(known.proved, apart - radii - bend - rounding);
+  return known;
+}
+
+/// How far the cores are apart along n all along the piece, but for their bends.
+double ArmLeg::along_plane(const PlacedCore& a, const Turning& of_a, const PlacedCore& b, const Turning& of_b,
+                           const Vec3& n) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const double t : {-half_, half_}) {
+    const double drift = t * n.dot(of_b.drift - of_a.drift);
+    least = std::min(least, drift - b.reach(-n - t * n.cross(of_b.spin)) - a.reach(n + t * n.cross(of_a.spin)));
+  }
+  return least;
+}
+
+ArmLeg::Turning ArmLeg::moving(int joint, const JudgedFrame& against) const {
+  const JudgedFrame& frame = frames_[as_whole<std::size_t>(joint + 1)];
+  return {frame.spin - against.spin, frame.drift - against.drift};
+}
+
+/// Asks whether it is time to stop, now and then: measuring hulls takes long.
+void ArmLeg::watch(const JudgedBody& a, const JudgedBody& b) {
+  constexpr std::size_t corners_a_look = 1 << 14;
+  work_ += 64 + a.core.corners.size() + b.core.corners.size();
+  if (work_ < corners_a_look) return;
+  work_ = 0;
+  judge_.execution.check();
 }
 
 std::optional<Violation> ArmVerifier::outside_limits(const JointState& q, std::size_t number) const {
   for (std::size_t j = 0; j < q.size(); ++j) {
-    const bool exists = j < table_.joints.size();
-    const double low = exists ? table_.joints[j].low_rad : 0.0;
-    const double high = exists ? table_.joints[j].high_rad : 0.0;
-    const double beyond = std::max(low - q[j], q[j] - high);
-    if (beyond <= options_.tolerance) continue;
+    const ArmVariable variable = j < model.variables.size() ? model.variables[j] : ArmVariable{};
+    if (variable.continuous) continue;
+    const double beyond = std::max(variable.low - q[j], q[j] - variable.high);
+    if (beyond <= options.tolerance) continue;
+    const std::string joint = with_word("joint", variable.name.empty() ? fmt::format("{}", j + 1) : variable.name);
+    std::string text =
+        fmt::format("limits: {} at {:.9g}, which has {:.9g} to {:.9g}", joint, q[j], variable.low, variable.high);
     constexpr double degree = std::numbers::pi / 180.0;
-    return Violation{number, 0.0,
-                     fmt::format("limits: joint {} at {:.9g}, which has {:.9g} to {:.9g} ({:.6g} to {:.6g} degrees)",
-                                 j + 1, q[j], low, high, low / degree, high / degree)};
+    text += variable.slides ? " m"
+                            : fmt::format(" ({:.6g} to {:.6g} degrees)", variable.low / degree, variable.high / degree);
+    return Violation{number, 0.0, text};
   }
   return std::nullopt;
 }
 
-/// The largest difference of a joint, in radians.
-double difference(const JointState& a, const JointState& b) {
+/// The largest difference of a joint, in radians or metres.
+double ArmVerifier::difference(const JointState& a, const JointState& b) const {
   double most = 0.0;
-  for (std::size_t j = 0; j < a.size(); ++j) most = std::max(most, std::abs(a[j] - b[j]));
+  for (const double by : way(a, b)) most = std::max(most, std::abs(by));
   return most;
+}
+
+double ArmVerifier::length(std::span<const JointState> path) const {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    double square = 0.0;
+    for (const double by : way(path[i - 1], path[i])) square += by * by;
+    sum += std::sqrt(square);
+  }
+  return sum;
+}
+
+std::optional<Violation> ArmVerifier::wrong_start(std::span<const JointState> path) const {
+  if (!options.start) return std::nullopt;
+  const double off = difference(path.front(), *options.start);
+  if (off <= options.tolerance) return std::nullopt;
+  return elsewhere("start", *options.start, off, 0);
+}
+
+std::optional<Violation> ArmVerifier::wrong_goal(std::span<const JointState> path) const {
+  const std::size_t last = legs_of(path.size()) - 1;
+  if (options.goal) {
+    const double off = difference(path.back(), *options.goal);
+    if (!(off <= options.tolerance)) return elsewhere("goal", *options.goal, off, last);
+  }
+  if (!options.goal_place && !options.goal_pose) return std::nullopt;
+  const SolidFrame tool = arm.tool_at(path.back());
+  double off = 0.0;
+  Vec3 place = tool.at;
+  if (options.goal_place) {
+    place = *options.goal_place;
+    off = (tool.at - place).norm();
+  }
+  if (options.goal_pose && off <= options.tolerance) {
+    const SolidFrame wanted = rigid_frame(*options.goal_pose, "goal");
+    place = wanted.at;
+    double turn_sq = 0.0;  // twice that of the angle between the two, where that is small
+    for (std::size_t k = 0; k < 3; ++k) turn_sq += (tool.axes[k] - wanted.axes[k]).squaredNorm();
+    off = std::max((tool.at - wanted.at).norm(), std::sqrt(0.5 * turn_sq));
+  }
+  if (off <= options.tolerance) return std::nullopt;
+  return elsewhere("goal", std::array{place.x(), place.y(), place.z()}, off, last);
 }
 
 void check_input(std::span<const JointState> path, const ArmVerifyOptions& options) {
@@ -300,61 +466,26 @@ void check_input(std::span<const JointState> path, const ArmVerifyOptions& optio
     throw InputError(fmt::format("path: state {}", i), "must be numbers of at most 1e60");
   }
   check_not_negative("clearance", options.clearance);
-  check_not_negative("robot: radius", options.radius);
   check_not_negative("tolerance", options.tolerance);
-}
-
-double joint_length(std::span<const JointState> path) {
-  double sum = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    double square = 0.0;
-    for (std::size_t j = 0; j < path[i].size(); ++j) {
-      const double turn = path[i][j] - path[i - 1][j];
-      square += turn * turn;
-    }
-    sum += std::sqrt(square);
-  }
-  return sum;
-}
-
-std::optional<Violation> wrong_start(std::span<const JointState> path, const ArmVerifyOptions& options) {
-  if (!options.start) return std::nullopt;
-  const double off = difference(path.front(), *options.start);
-  if (off <= options.tolerance) return std::nullopt;
-  return elsewhere("start", *options.start, off, 0);
-}
-
-std::optional<Violation> wrong_goal(std::span<const JointState> path, const ArmVerifyOptions& options,
-                                    const ArmVerifier& arm) {
-  const std::size_t last = legs_of(path.size()) - 1;
-  if (options.goal) {
-    const double off = difference(path.back(), *options.goal);
-    if (!(off <= options.tolerance)) return elsewhere("goal", *options.goal, off, last);
-  }
-  if (!options.goal_place) return std::nullopt;
-  const Point place{options.goal_place->x(), options.goal_place->y(), options.goal_place->z()};
-  const double off = size_of(minus(arm.tool_at(path.back()), place));
-  if (off <= options.tolerance) return std::nullopt;
-  return elsewhere("goal", place, off, last);
 }
 
 }  // namespace
 
-Verification verify_arm(const Scene& scene, const DhTable& table, std::span<const JointState> path,
+Verification verify_arm(const Scene& scene, const ArmModel& model, std::span<const JointState> path,
                         const ArmVerifyOptions& options, const Execution& execution) {
   check_input(path, options);
   check_space_scene(scene);
-  const ArmVerifier arm(scene, table, options, execution);
+  const ArmVerifier judge(scene, model, path, options, execution);
   const LegReport legs = report_legs(legs_of(path.size()), 1, execution, [&](Range r) {
     const JointState& a = path[r.first];
     const JointState& b = path[std::min(r.first + 1, path.size() - 1)];
     LegReport report;
-    report.violation = arm.outside_limits(a, r.first);
-    if (!report.violation) report.violation = arm.outside_limits(b, r.first);
-    return report.violation ? report : arm.check(a, b, r.first);
+    report.violation = judge.outside_limits(a, r.first);
+    if (!report.violation) report.violation = judge.outside_limits(b, r.first);
+    return report.violation ? report : ArmLeg(judge, a, b, r.first).check();
   });
-  Verification result = verdict_on(legs, wrong_start(path, options), wrong_goal(path, options, arm));
-  result.length = joint_length(path);
+  Verification result = verdict_on(legs, judge.wrong_start(path), judge.wrong_goal(path));
+  result.length = judge.length(path);
   return result;
 }
 

@@ -12,6 +12,7 @@
 #include <tuple>
 #include <vector>
 
+#include "scenes/scene/arm_model.hpp"
 #include "verify/exact/exact_segments.hpp"
 #include "verify/judges/verify_point.hpp"
 #include "verify/near/obstacle_index.hpp"
@@ -30,11 +31,18 @@ double turn_weight(const RobotSpec& robot) {
   return farthest;
 }
 
+bool is_jointed(const RobotSpec& robot) {
+  return robot.kind == RobotKind::puma560 || robot.kind == RobotKind::arm || robot.kind == RobotKind::urdf;
+}
+
 /// From one state to another in the body's metric as if nothing were there; of a car at least the straight line.
 double free_distance(const RobotSpec& robot, std::span<const double> a, std::span<const double> b, bool in_metric) {
-  const bool is_arm = robot.kind == RobotKind::puma560 || robot.kind == RobotKind::arm;
   double sum = 0.0;
-  for (std::size_t i = 0; i < (is_arm ? a.size() : 2); ++i) sum += (b[i] - a[i]) * (b[i] - a[i]);
+  for (std::size_t i = 0; i < (is_jointed(robot) ? a.size() : 2); ++i) {
+    const bool endless = robot.files && robot.files->read && robot.files->read->variables[i].continuous;
+    const double way = endless ? std::remainder(b[i] - a[i], 2.0 * std::numbers::pi) : b[i] - a[i];
+    sum += way * way;
+  }
   if (robot.kind == RobotKind::polygon && in_metric && a.size() == 3 && b.size() == 3) {
     const double turn = turn_weight(robot) * std::remainder(b[2] - a[2], 2.0 * std::numbers::pi);
     sum += turn * turn;
@@ -210,7 +218,7 @@ JudgedBound verify_bound(const Scene& scene, const BoundQuestion& asked, const C
   if (bound > cost * (1.0 + bound_rounding)) {
     return {BoundVerdict::refuted, fmt::format("the answer says {}, its own path has {}", bound, cost)};
   }
-  const bool is_place = asked.goal.size() < 2 || (asked.start.size() > 3 && asked.goal.size() == 3);
+  const bool is_place = asked.goal.empty() || (is_jointed(asked.robot) && asked.goal.size() != asked.start.size());
   const double plain = is_place ? 0.0 : free_distance(asked.robot, asked.start, asked.goal, claim.cost.has_value());
   if (bound <= plain * (1.0 + bound_rounding)) return {BoundVerdict::checked, {}};
   try {

@@ -7,7 +7,7 @@ from ._errors import (
     UsageError as UsageError,
     WriteError as WriteError,
 )
-from ._bodies import arm as arm, car as car, disc as disc, polygon as polygon, puma560 as puma560
+from ._bodies import arm as arm, car as car, disc as disc, polygon as polygon, puma560 as puma560, urdf as urdf
 from ._worlds import World as World
 from ._making_worlds import from_geo as from_geo, grid as grid, maze as maze, read_world as read_world, scene as scene
 from ._explanations import (
@@ -29,5 +29,5 @@ from ._plots import animate as animate, plot as plot
 __all__ = ["Answer", "BlockedEnd", "Comparison", "ComponentFacts", "EdgeCounts", "Error", "Explanation", "Hint",
            "Improvement", "InputError", "MotionCounts", "NarrowPlace", "ReadError", "Roadmap", "SampleCounts", "Stopped",
            "UsageError", "Verdict", "World", "WriteError", "__version__", "animate", "arm", "build", "car", "compare", "disc", "from_geo",
-           "grid", "maze", "open_roadmap", "plot", "polygon", "puma560", "read_world", "scene", "solve", "verify"]
+           "grid", "maze", "open_roadmap", "plot", "polygon", "puma560", "read_world", "scene", "solve", "urdf", "verify"]
 __version__: str

@@ -127,3 +127,30 @@ def arm(table, radius, *, tool=0.0,
     'arm arm.dh radius 0.05'
     """
     return _core.body(f"arm {os.fspath(table)} " + _links(radius, tool, self_collision))
+
+
+def urdf(file, *, srdf=None, group=None, base=None, tip=None, package_path=()):
+    """An arm that a URDF describes: 1 to 14 joints that move, links with spheres, boxes, cylinders, capsules, meshes.
+
+    Parameters
+    ----------
+    file, srdf : str or path
+        The robot, and what MoveIt says of it; no blanks in their names.
+    group : str, optional
+        Of the SRDF: which joints move.
+    base, tip : str, optional
+        Links, instead of a group: the joints between them move. Without either all joints do.
+    package_path : str, path or list of them
+        Folders where ``package://`` is looked for, beside the file's own.
+
+    Examples
+    --------
+    >>> import warren
+    >>> warren.urdf("panda.urdf", srdf="panda.srdf", group="panda_arm")
+    'urdf panda.urdf srdf panda.srdf group panda_arm'
+    """
+    words = f"urdf {os.fspath(file)}"
+    for name, value in (("srdf", srdf), ("group", group), ("base", base), ("tip", tip)):
+        words += f" {name} {os.fspath(value)}" if value is not None else ""
+    folders = [package_path] if isinstance(package_path, (str, os.PathLike)) else package_path
+    return _core.body(words + "".join(f" package-path {os.fspath(folder)}" for folder in folders))

@@ -18,3 +18,12 @@ def puma560(
     self_collision: bool = ...,
 ) -> str: ...
 def arm(table: _Path, radius: float, *, tool: float = ..., self_collision: bool = ...) -> str: ...
+def urdf(
+    file: _Path,
+    *,
+    srdf: _Path | None = ...,
+    group: str | None = ...,
+    base: str | None = ...,
+    tip: str | None = ...,
+    package_path: _Path | list[_Path] | tuple[_Path, ...] = ...,
+) -> str: ...

@@ -192,9 +192,9 @@ void check(const Scene& scene, const SceneChange& change) {
 }
 
 std::vector<double> state_of(const OrderedJson& json, std::string_view key) {
-  constexpr std::size_t most = 6;
+  constexpr std::size_t most = most_joints;
   std::vector<double> state;
-  if (!json.is_array() || json.size() > most) refuse_word(key, "a list of at most 6 numbers");
+  if (!json.is_array() || json.size() > most) refuse_word(key, fmt::format("a list of at most {} numbers", most));
   for (const OrderedJson& number : json) {
     if (!number.is_number()) refuse_word(key, "a list of numbers");
     state.push_back(number.get<double>());

@@ -38,7 +38,11 @@ std::string RunningQuestions::told(const std::string& name, std::uint64_t from) 
     if (found == questions.end()) return false;
     const Question& question = found->second;
     first = std::max(from, question.first);
-    for (std::uint64_t i = first - question.first; i < question.told.size(); ++i) fresh.push_back(question.told[i]);
+    std::size_t points = 0;  // written on the thread of all connections: who is told only some of them asks again
+    for (std::uint64_t i = first - question.first; i < question.told.size() && points < most_points_told; ++i) {
+      fresh.push_back(question.told[i]);
+      points += question.told[i].way.size();
+    }
     return true;
   });
   if (!is_running) return "{\"running\":false}";

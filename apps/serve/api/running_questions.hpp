@@ -37,8 +37,9 @@ class RunningQuestions {
 
   static constexpr std::size_t most_told = 64;
   static constexpr std::size_t most_points = 2000;
+  static constexpr std::size_t most_points_told = 4000;  ///< at once, but for the last way's
 
-  /// Is a question of this name running, and what came from its from-th improvement on; as JSON.
+  /// Is a question of this name running, and what came from its from-th improvement on, or some of it; as JSON.
   std::string told(const std::string& name, std::uint64_t from) const;
 
  private:

@@ -49,8 +49,8 @@ struct Fault {
 
 /// Each rule, where it is broken.
 constexpr std::array faults{
-    Fault{[](OwnedParts&, RoadmapParts& p) { p.dimension = 4; },
-          "dimension: expected 2, 3 or 6 numbers a state (found: 4)"},
+    Fault{[](OwnedParts&, RoadmapParts& p) { p.dimension = 15; },
+          "dimension: expected 2 to 14 numbers a state (found: 15)"},
     Fault{[](OwnedParts&, RoadmapParts& p) { p.dimension = 3; }, "states: expected 18 elements (found: 12)"},
     Fault{[](OwnedParts&, RoadmapParts& p) { p.first = {}; },
           "first: expected one element more than vertices (found: 0)"},

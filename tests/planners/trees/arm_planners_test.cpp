@@ -13,6 +13,7 @@
 #include "tests/seeds.hpp"
 #include "verify/judges/verify_arm.hpp"
 #include "worlds/arms/arm_world.hpp"
+#include "worlds/arms/chain_model.hpp"
 #include "worlds/arms/puma560.hpp"
 
 namespace warren {
@@ -35,7 +36,7 @@ void expect_verified(const Question& q, const Path<JointState>& path) {
   ArmVerifyOptions options;
   options.start = q.start;
   options.goal = q.goal;
-  const Verification found = verify_arm(q.scene, q.table, path, options, {});
+  const Verification found = verify_arm(q.scene, model_of(q.table, 0.05, false), path, options, {});
   EXPECT_TRUE(found.verified) << (found.first_violation ? found.first_violation->obstacle : "");
 }
 
@@ -48,7 +49,7 @@ Question random_question(std::uint64_t seed) {
     const Sphere s{at(0), at(1), at(2), 0.1 + 0.1 * uniform(seed, i, 3)};
     if (std::hypot(s.x, s.y, s.z) > s.radius + 0.3) q.scene.spheres.push_back(s);
   }
-  const ArmWorld world(q.scene, SerialChain(q.table), {});
+  const ArmWorld world(q.scene, model_of(q.table, 0.05, false), {});
   auto query = world.make_query();
   for (std::uint64_t i = 0;; ++i) {
     q.start = uniform_state(world, seed + 100, 2 * i);
@@ -73,7 +74,7 @@ TEST(ArmPlanners, FindVerifiedPathsTheSameForAnyNumberOfThreads) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE(seed);
     const Question q = random_question(seed);
-    const ArmWorld world(q.scene, SerialChain(q.table), {});
+    const ArmWorld world(q.scene, model_of(q.table, 0.05, false), {});
     RoadmapOptions options = study_options(seed);
     options.samples.reset();
     RrtOptions trees;
@@ -105,9 +106,9 @@ class StudyScene : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
     question_.scene = read_world(test::source_dir() + "/" + GetParam(), {});
-    std::copy_n(question_.scene.start.begin(), most_joints, question_.start.begin());
-    std::copy_n(question_.scene.goal.begin(), most_joints, question_.goal.begin());
-    world_.emplace(question_.scene, SerialChain(question_.table), ArmOptions{});
+    std::copy_n(question_.scene.start.begin(), most_chain_joints, question_.start.begin());
+    std::copy_n(question_.scene.goal.begin(), most_chain_joints, question_.goal.begin());
+    world_.emplace(question_.scene, model_of(question_.table, 0.05, false), ArmOptions{});
   }
   Question question_;
   std::optional<ArmWorld> world_;

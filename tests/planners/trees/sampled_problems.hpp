@@ -8,6 +8,7 @@
 #include "solve/kinds/planned_worlds.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
 #include "worlds/arms/arm_world.hpp"
+#include "worlds/arms/chain_model.hpp"
 #include "worlds/arms/puma560.hpp"
 #include "worlds/plane/maze_world.hpp"
 #include "worlds/poses/car_world.hpp"
@@ -69,7 +70,7 @@ SampledProblem<W> car() {
 inline SampledProblem<ArmWorld> arm() {
   Scene scene;
   scene.spheres.push_back({0.7, 0.0, 0.2, 0.25});
-  return {ArmWorld(scene, SerialChain(puma560_table()), {}), {-1.0, 0.0, 0.5, 0, 0, 0}, {1.0, 0.0, 0.5, 0, 0, 0}};
+  return {ArmWorld(scene, model_of(puma560_table(), 0.05, false), {}), {-1.0, 0.0, 0.5, 0, 0, 0}, {1.0, 0.0, 0.5, 0, 0, 0}};
 }
 
 }  // namespace warren::sampled_problems

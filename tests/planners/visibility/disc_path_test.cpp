@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -66,6 +67,12 @@ void expect_sound(const DiscProblem& p, const DiscPath& path) {
   const Verification verdict =
       verify_path(scene_around(p.obstacles, line), line, {.radius = p.radius, .start = p.start, .goal = p.goal}, {});
   EXPECT_TRUE(verdict.verified) << (verdict.first_violation ? verdict.first_violation->obstacle : "");
+}
+
+/// Arcs but those of rounding's size: of three corners in a row, the one between may stand out once they are rounded.
+std::ptrdiff_t turns_of(const DiscPath& path) {
+  return std::count_if(path.pieces.begin(), path.pieces.end(),
+                       [](const DiscPiece& piece) { return piece.centre && piece.angle > 1e-12; });
 }
 
 /// What the oracle says, with room for doubt: `loose` finds whatever is free by 1e-9 of the radius more.
@@ -312,7 +319,7 @@ TEST(DiscPath, IsTheSameMirroredTurnedScaledAndShifted) {
       ASSERT_EQ(again.outcome, path.outcome);
       if (path.outcome != Outcome::solved) return;
       EXPECT_NEAR(again.length, scale * path.length, tolerance * scale * path.length);
-      EXPECT_EQ(again.arcs(), path.arcs());
+      EXPECT_EQ(turns_of(again), turns_of(path));
       expect_sound(other, again);
     };
     expect_same(1.0, 1e-12, [](Vec2 v) { return Vec2{-v.x, v.y}; });

@@ -25,6 +25,7 @@
 #include "verify/judges/verify_point.hpp"
 #include "verify/judges/verify_turning.hpp"
 #include "verify/near/obstacle_index.hpp"
+#include "worlds/arms/chain_model.hpp"
 #include "worlds/arms/puma560.hpp"
 
 namespace warren::any_number {
@@ -416,8 +417,9 @@ TEST(JudgesOfAnyNumber, OfArmsAgreeWithASecondJudge) {
     if (seed % 7 == 0) path[1] = path[0], path[1][seed % 6] = std::nextafter(path[0][seed % 6], 0.0);
     constexpr double radius = 0.05;
     Limits limits;
-    const ArmVerifyOptions options{.radius = radius};
-    const bool verified = verify_arm(scene, table, path, options, limits.execution).verified;
+    const ArmVerifyOptions options;
+    const ArmModel model = model_of(table, radius, false);
+    const bool verified = verify_arm(scene, model, path, options, limits.execution).verified;
     expect_as(test::bounded_arm(scene, table, radius, path[0], path[1], options.tolerance), verified, decided);
     free += verified ? 1 : 0;
   }
@@ -475,7 +477,7 @@ TEST(JudgesOfAnyNumber, OfTurningBodiesAndCarsAnswerOrRefuseInTimeAndMemory) {
 }
 
 TEST(JudgesOfAnyNumber, OfArmsAnswerOrRefuse) {
-  const DhTable table = puma560_table(0.1);
+  const ArmModel model = model_of(puma560_table(0.1), 0.05, false);
   Scene scene;
   scene.spheres.push_back({0.5, 0.5, 0.5, 0.1});
   for (const std::uint64_t seed : test::seeds(legs / 10, 50)) {
@@ -485,7 +487,7 @@ TEST(JudgesOfAnyNumber, OfArmsAnswerOrRefuse) {
       path[i][seed % 6] = any_number(seed, i, 1.0);
     }
     Limits limits;
-    const bool verified = verify_arm(scene, table, path, {}, limits.execution).verified;
+    const bool verified = verify_arm(scene, model, path, {}, limits.execution).verified;
     for (const JointState& q : path) EXPECT_TRUE(!verified || std::abs(q[seed % 6]) < 10.0);
   }
 }

@@ -11,6 +11,7 @@
 #include "verify/judges/verify_car.hpp"
 #include "verify/judges/verify_point.hpp"
 #include "verify/judges/verify_turning.hpp"
+#include "worlds/arms/chain_model.hpp"
 #include "worlds/arms/puma560.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
 
@@ -36,7 +37,7 @@ std::vector<Judge> plane_judges() {
 }
 
 Verification judged_arm(const Scene& scene) {
-  return verify_arm(scene, puma560_table(), std::vector<JointState>{JointState{}}, {}, {});
+  return verify_arm(scene, model_of(puma560_table(), 0.05, false), std::vector<JointState>{JointState{}}, {}, {});
 }
 
 void give_walls(Scene& scene) {

@@ -7,6 +7,7 @@
 #include "tests/seeds.hpp"
 #include "tests/worlds/arms/arm_oracle.hpp"
 #include "worlds/arms/arm_world.hpp"
+#include "worlds/arms/chain_model.hpp"
 #include "worlds/arms/puma560.hpp"
 
 namespace warren {
@@ -36,10 +37,11 @@ TEST(VerifyArm, AgreesWithDenseSamplingAndNeverPromisesMoreClearanceThanThereIs)
     add_boxes(scene, seed, 2);
     const DhTable table = seed % 2 == 0 ? puma560_table(0.1) : puma560_modified_table();
     const double radius = 0.04;
+    const ArmModel model = model_of(table, radius, false);
     for (std::uint64_t i = 0; i < 4; ++i) {
       const JointState a = random_state(table, seed, i);
       const std::vector<JointState> path{a, at_share(a, random_state(table, seed, i + 50), i % 2 == 0 ? 1.0 : 0.2)};
-      const Verification found = verify_arm(scene, table, path, {.radius = radius}, one_thread);
+      const Verification found = verify_arm(scene, model, path, {}, one_thread);
       const double sampled = sampled_clearance(scene, table, radius, path);
       (found.verified ? verified : refuted) += 1;
       if (found.verified) {
@@ -50,7 +52,7 @@ TEST(VerifyArm, AgreesWithDenseSamplingAndNeverPromisesMoreClearanceThanThereIs)
         ASSERT_TRUE(found.first_violation.has_value());
         EXPECT_LT(sampled, 0.01);
       }
-      EXPECT_NEAR(found.length, ArmWorld({}, SerialChain(table), {}).distance(path[0], path[1]), 1e-12);
+      EXPECT_NEAR(found.length, ArmWorld({}, model, {}).distance(path[0], path[1]), 1e-12);
     }
   }
   EXPECT_GT(verified, test::share(15, 4));
@@ -65,14 +67,14 @@ TEST(VerifyArm, PassesEveryMotionThatThePlannersAccept) {
     add_boxes(scene, seed, 3);
     const DhTable table = seed % 2 == 0 ? puma560_table(0.1) : puma560_modified_table(0.1);
     const bool self = seed % 3 == 0;
-    const ArmWorld world(scene, SerialChain(table), {.radius = 0.05, .clearance = 0.01, .self_collision = self});
-    const ArmVerifyOptions options{.radius = 0.05, .clearance = 0.01, .self_collision = self};
+    const ArmModel model = model_of(table, 0.05, self, 0.01);
+    const ArmWorld world(scene, model, {.clearance = 0.01});
     for (std::uint64_t i = 0; i < 60; ++i) {
       const JointState a = random_state(table, seed, i);
       const JointState b = at_share(a, random_state(table, seed, i + 99), i % 2 == 0 ? 1.0 : 0.2);
       if (world.judge_motion(a, b) != MotionVerdict::free) continue;
       ++accepted;
-      const Verification found = verify_arm(scene, table, std::vector{a, b}, options, one_thread);
+      const Verification found = verify_arm(scene, model, std::vector{a, b}, {.clearance = 0.01}, one_thread);
       EXPECT_TRUE(found.verified) << i << ' ' << (found.first_violation ? found.first_violation->obstacle : "");
       EXPECT_GE(found.min_clearance, 0.01);
     }
@@ -83,7 +85,7 @@ TEST(VerifyArm, PassesEveryMotionThatThePlannersAccept) {
 class VerifyArmPath : public ::testing::Test {
  protected:
   Verification verify(const std::vector<JointState>& path, const ArmVerifyOptions& options = {}) const {
-    return verify_arm(scene_, table_, path, options, one_thread);
+    return verify_arm(scene_, model_of(table_, radius_, self_collision_, options.clearance), path, options, one_thread);
   }
   std::string refusal(const std::vector<JointState>& path, const ArmVerifyOptions& options = {}) const {
     const Verification found = verify(path, options);
@@ -92,6 +94,8 @@ class VerifyArmPath : public ::testing::Test {
   }
   DhTable table_ = puma560_table();
   Scene scene_;
+  double radius_ = 0.05;
+  bool self_collision_ = false;
   JointState rest_{};
   JointState turned_{1, 0, 0, 0, 0, 0};
 };
@@ -123,12 +127,14 @@ TEST_F(VerifyArmPath, HoldsThePathToItsEndsAndLimits) {
 }
 
 TEST_F(VerifyArmPath, KeepsLinksApartOnlyWhereAskedTo) {
-  const ArmVerifyOptions thick{.radius = 0.06, .self_collision = true};
   // Upper arm and forearm lie along each other when the elbow is folded; the shoulder's offset parts them by 0.15.
   const std::vector<JointState> folded{{0, 0, -1.57, 0, 0, 0}, {0, 0, -3.5, 0, 0, 0}};
-  EXPECT_EQ(refusal(folded, thick), "");
-  EXPECT_EQ(refusal(folded, {.radius = 0.0745, .self_collision = false}), "");
-  EXPECT_EQ(refusal(folded, {.radius = 0.0745, .clearance = 0.001, .self_collision = true}), "");
+  radius_ = 0.06, self_collision_ = true;
+  EXPECT_EQ(refusal(folded), "");
+  radius_ = 0.0745, self_collision_ = false;
+  EXPECT_EQ(refusal(folded), "");
+  self_collision_ = true;
+  EXPECT_EQ(refusal(folded, {.clearance = 0.001}), "");
 }
 
 /// Three links in a plane, the last across the middle of the first: no end of either is near the other.
@@ -137,7 +143,7 @@ TEST(VerifyArm, LinksThatCrossBetweenTheirEndsCollide) {
   for (const double length : {2.0, 1.0, 2.0}) table.joints.push_back({.a = length, .low_rad = -3.0, .high_rad = 3.0});
   const auto verified = [&](double last) {
     const std::vector<JointState> path{{0.0, 2.0, last}, {0.1, 2.0, last}};
-    return verify_arm({}, table, path, {.radius = 0.05, .self_collision = true}, one_thread).verified;
+    return verify_arm({}, model_of(table, 0.05, true), path, {}, one_thread).verified;
   };
   EXPECT_FALSE(verified(2.3));
   EXPECT_TRUE(verified(0.0));
@@ -153,9 +159,9 @@ TEST_F(VerifyArmPath, IsTheSameForAnyNumberOfThreadsAndStops) {
   scene_ = scattered_spheres(3, 3);
   std::vector<JointState> path;
   for (std::uint64_t i = 0; i < 12; ++i) path.push_back(at_share(rest_, random_state(table_, 1, i), 0.1));
-  const Verification one = verify_arm(scene_, table_, path, {}, one_thread);
+  const Verification one = verify(path);
   for (const unsigned threads : {2U, 3U, 8U}) {
-    const Verification many = verify_arm(scene_, table_, path, {}, {.threads = threads});
+    const Verification many = verify_arm(scene_, model_of(table_, radius_, false), path, {}, {.threads = threads});
     EXPECT_EQ(many.verified, one.verified);
     EXPECT_EQ(many.min_clearance, one.min_clearance);
     EXPECT_EQ(many.length, one.length);

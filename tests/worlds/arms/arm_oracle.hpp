@@ -196,7 +196,7 @@ inline void add_boxes(Scene& scene, std::uint64_t seed, std::size_t count) {
 inline DhTable random_table(std::uint64_t seed, DhConvention convention) {
   DhTable table;
   table.convention = convention;
-  const std::size_t joints = 1 + random_bits(seed, 0, 99) % most_joints;
+  const std::size_t joints = 1 + random_bits(seed, 0, 99) % most_chain_joints;
   for (std::size_t i = 0; i < joints; ++i) {
     const auto length = [&](std::uint64_t axis) {
       return uniform(seed, i, axis) < 0.3 ? 0.0 : uniform(seed, i, axis + 10) - 0.5;

@@ -5,11 +5,13 @@
 
 #include <filesystem>
 #include <limits>
+#include <numbers>
 
 #include "core/base/error.hpp"
 #include "scenes/files/read_world_io.hpp"
 #include "tests/seeds.hpp"
 #include "tests/worlds/arms/arm_oracle.hpp"
+#include "worlds/arms/chain_model.hpp"
 #include "worlds/arms/puma560.hpp"
 
 namespace warren {
@@ -24,7 +26,12 @@ struct Setting {
   DhTable table;
   Scene scene;
   ArmOptions options;
+  double radius = 0.05;
+  bool self_collision = false;
 };
+ArmWorld world_of(const Setting& s) {
+  return {s.scene, model_of(s.table, s.radius, s.self_collision), s.options};
+}
 Setting setting(std::uint64_t seed) {
   Setting s;
   s.table = seed % 4 == 0   ? puma560_modified_table(0.15)
@@ -33,34 +40,26 @@ Setting setting(std::uint64_t seed) {
                             : random_table(seed, seed % 8 == 3 ? DhConvention::standard : DhConvention::modified);
   s.scene = scattered_spheres(seed, 4 + seed % 6);
   if (seed % 3 == 0) add_boxes(s.scene, seed, 4);
-  s.options.radius = seed % 5 == 0 ? 0.1 : 0.05;
+  s.radius = seed % 5 == 0 ? 0.1 : 0.05;
   return s;
 }
-bool has_length(const DhTable& table) { return !links_of(SerialChain(table)).empty(); }
+bool has_length(const DhTable& table) { return !model_of(table, 0.05, false).links.empty(); }
 
-TEST(ArmWorld, ClearanceIsTheDistanceOfTheCapsules) {
+TEST(ArmWorld, IsFreeWhereTheCapsulesKeepTheClearance) {
   for (const std::uint64_t seed : test::seeds(24)) {
     SCOPED_TRACE(seed);
-    const Setting s = setting(seed);
+    Setting s = setting(seed);
     if (!has_length(s.table)) continue;
-    const ArmWorld world(s.scene, SerialChain(s.table), s.options);
-    auto query = world.make_query();
-    for (std::uint64_t i = 0; i < 40; ++i) {
-      const JointState q = random_state(s.table, seed, i);
-      const double expected = clearance(s.scene, s.table, s.options.radius, q);
-      const double found = world.clearance(q, infinity);
-      if (expected <= 0.0) {
-        EXPECT_LE(found, 1e-9);
-      } else {
-        EXPECT_LE(found, expected + 1e-9);
-        EXPECT_GE(found, expected - 1e-8);
-      }
-      const double enough = 0.2 * uniform(seed, i, 70);
-      if (expected > enough + 1e-7) {
-        EXPECT_GT(world.clearance(q, enough), enough);
-      }
-      if (std::abs(expected) > 1e-7) {
-        EXPECT_EQ(world.is_free(q, query), expected > 0.0);
+    for (const double room : {0.0, 0.01, 0.1}) {
+      s.options.clearance = room;
+      const ArmWorld world = world_of(s);
+      auto query = world.make_query();
+      for (std::uint64_t i = 0; i < 40; ++i) {
+        const JointState q = random_state(s.table, seed, i);
+        const double expected = clearance(s.scene, s.table, s.radius, q);
+        if (std::abs(expected - room) > 1e-7) {
+          EXPECT_EQ(world.is_free(q, query), expected > room);
+        }
       }
     }
   }
@@ -71,38 +70,11 @@ JointState other_state(const DhTable& table, const JointState& a, std::uint64_t 
   return at_share(a, random_state(table, seed + 1000, i), i % 2 == 0 ? 1.0 : 0.1);
 }
 
-TEST(ArmWorld, NoPointOfTheBodyGoesFartherThanItsTravel) {
-  constexpr int steps = 500;
-  for (const std::uint64_t seed : test::seeds(24)) {
-    SCOPED_TRACE(seed);
-    const Setting s = setting(seed);
-    if (!has_length(s.table)) continue;
-    const ArmWorld world(s.scene, SerialChain(s.table), s.options);
-    for (std::uint64_t i = 0; i < 10; ++i) {
-      const JointState a = random_state(s.table, seed, i);
-      const JointState b = other_state(s.table, a, seed, i);
-      const double bound = world.travel(a, b);
-      for (const double share : {0.0, 0.3, 1.0}) {  // points of the spines
-        std::vector<double> way(spines(s.table, a).size(), 0.0);
-        auto before = spines(s.table, a);
-        for (int step = 1; step <= steps; ++step) {
-          const auto after = spines(s.table, at_share(a, b, static_cast<double>(step) / steps));
-          for (std::size_t k = 0; k < way.size(); ++k) {
-            way[k] += apart(between(before[k][0], before[k][1], share), between(after[k][0], after[k][1], share));
-          }
-          before = after;
-        }
-        for (const double length : way) EXPECT_LE(length, bound + 1e-12);
-      }
-    }
-  }
-}
-
 /// Is the motion free at so many places?
 bool sampled_free(const Setting& s, const JointState& a, const JointState& b, int places, double margin) {
   for (int i = 0; i <= places; ++i) {
     const JointState q = at_share(a, b, static_cast<double>(i) / places);
-    if (quick_clearance(s.scene, s.table, s.options.radius + margin, q) <= 0.0) return false;
+    if (quick_clearance(s.scene, s.table, s.radius + margin, q) <= 0.0) return false;
   }
   return true;
 }
@@ -116,7 +88,7 @@ TEST(ArmWorld, AcceptedMotionsAreFreeAndFewFreeOnesAreRefused) {
     Setting s = setting(seed);
     s.scene.boxes.clear();
     if (!has_length(s.table)) continue;
-    const ArmWorld world(s.scene, SerialChain(s.table), s.options);
+    const ArmWorld world = world_of(s);
     for (std::uint64_t i = 0; i < 60; ++i) {
       SCOPED_TRACE(i);
       const JointState a = random_state(s.table, seed, i);
@@ -125,7 +97,7 @@ TEST(ArmWorld, AcceptedMotionsAreFreeAndFewFreeOnesAreRefused) {
       if (verdict == MotionVerdict::free) {
         ++accepted;
         EXPECT_TRUE(sampled_free(s, a, b, 2000, 0.0));
-      } else if (sampled_free(s, a, b, 1000, 0.01 * s.options.radius)) {
+      } else if (sampled_free(s, a, b, 1000, 0.01 * s.radius)) {
         ++refused;
       }
       free_by_margin += verdict == MotionVerdict::free ? 1 : 0;
@@ -139,7 +111,6 @@ Setting study_setting() {
   Setting s;
   s.table = puma560_table();
   s.scene = scattered_spheres(4, 9);
-  s.options.radius = 0.05;
   return s;
 }
 JointState study_state(std::uint64_t index) { return random_state(puma560_table(), 99, index); }
@@ -153,7 +124,7 @@ bool study_accepts(const Setting& s, const JointState& a, const JointState& b) {
 /// six the links' very centre lines pass through a sphere.
 TEST(ArmWorld, BlocksMotionsThatTenSamplesAccept) {
   const Setting s = study_setting();
-  const ArmWorld world(s.scene, SerialChain(s.table), s.options);
+  const ArmWorld world = world_of(s);
   for (const auto& [first, second] : std::vector<std::pair<std::uint64_t, std::uint64_t>>{{1000, 1005},
                                                                                           {1012, 1015},
                                                                                           {1038, 1042},
@@ -174,7 +145,7 @@ TEST(ArmWorld, BlocksMotionsThatTenSamplesAccept) {
 
 TEST(ArmWorld, SearchFindsMotionsThatTenSamplesAcceptAndNoneThatItAcceptsItself) {
   const Setting s = study_setting();
-  const ArmWorld world(s.scene, SerialChain(s.table), s.options);
+  const ArmWorld world = world_of(s);
   std::uint64_t accepted_by_study = 0;
   std::uint64_t wrongly = 0;
   for (const std::uint64_t seed : test::seeds(120, 30)) {
@@ -197,9 +168,9 @@ TEST(ArmWorld, SelfCollisionKeepsLinksApartThatAreNoNeighbours) {
     Setting s = setting(seed);
     if (!has_length(s.table)) continue;
     s.scene = {};
-    s.options.self_collision = true;
-    s.options.radius = 0.04;
-    const ArmWorld world(s.scene, SerialChain(s.table), s.options);
+    s.self_collision = true;
+    s.radius = 0.04;
+    const ArmWorld world = world_of(s);
     const auto folded = [&](const JointState& q) {
       const auto all = spines(s.table, q);
       double least = infinity;
@@ -207,11 +178,11 @@ TEST(ArmWorld, SelfCollisionKeepsLinksApartThatAreNoNeighbours) {
         double between_them = 0.0;
         for (std::size_t k = i + 2; k < all.size(); ++k) {
           between_them += apart(all[k - 1][0], all[k - 1][1]);
-          if (between_them <= 2.0 * s.options.radius + 1e-6) continue;
+          if (between_them <= 2.0 * s.radius + 1e-6) continue;
           least = std::min(least, segments_apart(all[i][0], all[i][1], all[k][0], all[k][1]));
         }
       }
-      return least - 2.0 * s.options.radius;
+      return least - 2.0 * s.radius;
     };
     auto query = world.make_query();
     for (std::uint64_t i = 0; i < 12; ++i) {
@@ -228,14 +199,14 @@ TEST(ArmWorld, SelfCollisionKeepsLinksApartThatAreNoNeighbours) {
 }
 
 TEST(ArmWorld, SamplesStayWithinTheLimitsAndKeepIdleJointsAtRest) {
-  const ArmWorld world({}, SerialChain(puma560_table()), {});
+  const ArmWorld world({}, model_of(puma560_table(), 0.05, false), {});
   EXPECT_EQ(world.sampled_dimension(), 3U);
   for (std::uint64_t i = 0; i < 1000; ++i) {
     const JointState q = uniform_state(world, 1, i);
-    EXPECT_EQ(world.chain().joint_outside_limits(q), most_joints);
+    EXPECT_EQ(world.kinematics().variable_outside_limits(q), most_joints);
     for (std::size_t j = 3; j < 6; ++j) EXPECT_EQ(q[j], 0.0);
   }
-  const ArmWorld with_tool({}, SerialChain(puma560_table(0.1)), {});
+  const ArmWorld with_tool({}, model_of(puma560_table(0.1), 0.05, false), {});
   EXPECT_EQ(with_tool.sampled_dimension(), 5U);
 }
 
@@ -243,7 +214,7 @@ TEST(ArmWorld, SamplesStayWithinTheLimitsAndKeepIdleJointsAtRest) {
 TEST(ArmWorld, MotionsOfTheJointBehindALinkAreHeldAgainstIt) {
   DhTable table;
   for (const double length : {2.0, 1.0, 2.0}) table.joints.push_back({.a = length, .low_rad = -3.0, .high_rad = 3.0});
-  const ArmWorld world({}, SerialChain(table), {.radius = 0.05, .self_collision = true});
+  const ArmWorld world({}, model_of(table, 0.05, true), {});
   auto query = world.make_query();
   EXPECT_TRUE(world.is_free({0.0, 0.0, 2.3}, query));
   EXPECT_TRUE(world.is_free_motion({0.0, -2.0, 2.3}, {0.0, 0.0, 2.3}, query));
@@ -251,13 +222,13 @@ TEST(ArmWorld, MotionsOfTheJointBehindALinkAreHeldAgainstIt) {
 }
 
 TEST(ArmWorld, PosturesBeyondALimitAreBlocked) {
-  const ArmWorld world({}, SerialChain(puma560_table()), {.self_collision = false});
+  const ArmWorld world({}, model_of(puma560_table(), 0.05, false), {});
   auto query = world.make_query();
-  for (std::size_t j = 0; j < world.chain().joint_count(); ++j) {
+  for (std::size_t j = 0; j < world.variable_count(); ++j) {
     for (const double beyond : {-1e-6, 1e-6}) {
       JointState q = world.at_unit({0.5, 0.5, 0.5, 0.5, 0.5, 0.5});
       EXPECT_TRUE(world.is_free(q, query));
-      q[j] = beyond < 0.0 ? world.chain().low(j) : world.chain().high(j);
+      q[j] = beyond < 0.0 ? world.model().variables[j].low : world.model().variables[j].high;
       EXPECT_TRUE(world.is_free(q, query)) << j;
       q[j] += beyond;
       EXPECT_FALSE(world.is_free(q, query)) << j;
@@ -265,17 +236,15 @@ TEST(ArmWorld, PosturesBeyondALimitAreBlocked) {
   }
 }
 
-TEST(ArmWorld, MetricWeighsJointsAndTheEmbeddingHasIt) {
-  ArmOptions options;
-  options.weights = {2.0, 1.0, 1.0, 0.5, 0.5, 0.1};
-  const ArmWorld world({}, SerialChain(puma560_table(0.1)), options);
+TEST(ArmWorld, TheEmbeddingHasTheMetricOfJointsWithLimits) {
+  const ArmWorld world({}, model_of(puma560_table(0.1), 0.05, false), {});
   for (std::uint64_t i = 0; i < 200; ++i) {
     const JointState a = random_state(puma560_table(), 1, 2 * i);
     const JointState b = random_state(puma560_table(), 1, 2 * i + 1);
     double sum = 0.0;
     double plain = 0.0;
-    for (std::size_t j = 0; j < 6; ++j) {
-      sum += std::pow(options.weights[j] * (a[j] - b[j]), 2.0);
+    for (std::size_t j = 0; j < a.size(); ++j) {
+      sum += std::pow(a[j] - b[j], 2.0);
       plain += std::pow(world.embed(a)[j] - world.embed(b)[j], 2.0);
     }
     EXPECT_NEAR(world.distance(a, b), std::sqrt(sum), 1e-12);
@@ -283,8 +252,36 @@ TEST(ArmWorld, MetricWeighsJointsAndTheEmbeddingHasIt) {
   }
 }
 
+/// Joints without end: the way is the shorter one around, and a plain distance of the embeddings is no longer.
+TEST(ArmWorld, AJointWithoutEndGoesTheShorterWay) {
+  ArmModel model = model_of(puma560_table(0.1), 0.05, false);
+  for (const std::size_t j : {0U, 3U}) {
+    model.variables[j].continuous = true;
+    model.variables[j].low = -std::numbers::pi;
+    model.variables[j].high = std::numbers::pi;
+  }
+  const ArmWorld world({}, model, {});
+  auto query = world.make_query();
+  EXPECT_NEAR(world.distance({4.6}, {-1.68}), 2.0 * std::numbers::pi - 6.28, 1e-12);
+  EXPECT_TRUE(world.is_free({1000.0, 0.5, 0.5}, query));
+  for (std::uint64_t i = 0; i < 400; ++i) {
+    JointState a = uniform_state(world, 1, 2 * i);
+    const JointState b = uniform_state(world, 1, 2 * i + 1);
+    a[0] += 2.0 * std::numbers::pi * static_cast<double>(i % 3);
+    double plain = 0.0;
+    for (std::size_t j = 0; j < ArmWorld::Embedding{}.size(); ++j) {
+      plain += std::pow(world.embed(a)[j] - world.embed(b)[j], 2.0);
+    }
+    EXPECT_LE(std::sqrt(plain), world.distance(a, b) + 1e-12);
+    const JointState m = world.interpolate(a, b, 0.3);
+    EXPECT_NEAR(world.distance(a, m), 0.3 * world.distance(a, b), 1e-9);
+    EXPECT_NEAR(world.distance(m, b), 0.7 * world.distance(a, b), 1e-9);
+    EXPECT_LE(std::abs(m[0]), std::numbers::pi);
+  }
+}
+
 TEST(ArmWorld, EvenIdleJointsMoveNothingAndNeverLengthen) {
-  const ArmWorld world({}, SerialChain(puma560_table()), {});
+  const ArmWorld world({}, model_of(puma560_table(), 0.05, false), {});
   Path<JointState> path{{0, 0, 0, 1, 0, 0}, {1, 0, 0, -2, 0.5, 0}, {1, 1, 0, 0, 0, 3}, {1, 1, 2, 1, 1, 1}};
   const Path<JointState> even = with_even_idle_joints(world, path);
   const auto length = [&](const Path<JointState>& states) {
@@ -301,16 +298,14 @@ TEST(ArmWorld, EvenIdleJointsMoveNothingAndNeverLengthen) {
 }
 
 TEST(ArmWorld, RefusesBadOptions) {
-  const SerialChain chain(puma560_table());
-  const auto refuses = [&](const ArmOptions& options) { EXPECT_THROW(ArmWorld({}, chain, options), InputError); };
-  refuses({.radius = -1.0});
-  refuses({.radius = std::nan("")});
+  const ArmModel model = model_of(puma560_table(), 0.05, false);
+  const auto refuses = [&](const ArmOptions& options) { EXPECT_THROW(ArmWorld({}, model, options), InputError); };
   refuses({.clearance = -1.0});
-  refuses({.weights = {1, 1, 0, 1, 1, 1}});
+  refuses({.clearance = std::nan("")});
   refuses({.resolution = 0.0});
   DhTable point;
   point.joints.push_back({0, 0, 0, -1, 1, 0});
-  EXPECT_THROW(ArmWorld({}, SerialChain(point), {}), InputError);
+  EXPECT_THROW(ArmWorld({}, model_of(point, 0.05, false), {}), InputError);
 }
 
 }  // namespace

@@ -60,7 +60,8 @@ TEST(QueryBody, ARefusalSaysWhatIsExpected) {
       {"{\"start\": [1, 2],\n\"goal\": [1, 2}", "line 2: expected JSON"},
       {"{\"start\": [1e400, 2]}", "body: expected JSON whose numbers a double can hold"},
       {"{\"start\": [1, 2], \"start\": [3, 4]}", "body: expected each key of an object once"},
-      {"{\"start\": [1, 2, 3, 4, 5, 6, 7]}", "start: expected a list of at most 6 numbers"},
+      {"{\"start\": [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15]}",
+       "start: expected a list of at most 14 numbers"},
   };
   for (const auto& [text, said] : cases) {
     try {

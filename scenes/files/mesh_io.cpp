@@ -1,0 +1,413 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// COLLADA: a geometry stands wherever a node of the scene shows it, so points are taken once a showing, and nodes may
+// show nodes: what is visited has a bound, since a few lines can name more showings than there are atoms.
+#include "scenes/files/mesh_io.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "parallel/asked_memory.hpp"
+#include "parallel/sort.hpp"
+#include "scenes/files/scene_text.hpp"
+#include "scenes/files/xml_file_io.hpp"
+#include "scenes/scene/convex_hull.hpp"
+
+namespace warren {
+namespace {
+
+using MeshTriangle = std::array<std::uint32_t, 3>;
+
+constexpr std::size_t most_mesh_points = std::size_t{1} << 30;
+constexpr std::size_t numbers_a_look = 4096;
+
+/// Collects points and polygons, which it cuts into triangles.
+class MeshCollector {
+ public:
+  MeshCollector(const std::string& name, const Execution& execution) : name_(name), execution_(execution) {}
+
+  std::size_t points() const { return mesh_.points.size(); }
+  void add_point(const Vec3& point) {
+    if (!(point.array().abs() <= largest_coordinate).all())
+      throw InputError(name_, "a point of the mesh is not finite, or beyond 1e60");
+    if (points() == most_mesh_points) throw InputError(name_, "a mesh may have at most 2^30 points");
+    push_asked(mesh_.points, point, execution_);
+    if (points() % numbers_a_look == 0) execution_.check();
+  }
+  /// Numbers of points.
+  void add_polygon(std::span<const std::uint32_t> corners) {
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+      push_asked(mesh_.triangles, {corners[0], corners[i - 1], corners[i]}, execution_);
+      if (mesh_.triangles.size() % numbers_a_look == 0) execution_.check();
+    }
+  }
+
+  /// Each point once, those of no triangle left out.
+  Mesh take() {
+    const std::size_t count = points();
+    if (count == 0) throw InputError(name_, "the mesh has no points");
+    execution_.reserve(count * (sizeof(std::uint32_t) * 2 + sizeof(Vec3) + 1));
+    std::vector<bool> used(count, mesh_.triangles.empty());
+    for (const MeshTriangle& triangle : mesh_.triangles)
+      for (const std::uint32_t corner : triangle) used[corner] = true;
+    std::vector<std::uint32_t> order;
+    order.reserve(count);
+    for (std::uint32_t i = 0; i < count; ++i)
+      if (used[i]) order.push_back(i);
+    const auto key = [&](std::uint32_t i) {
+      return std::array{mesh_.points[i].x(), mesh_.points[i].y(), mesh_.points[i].z()};
+    };
+    polled_sort(order.begin(), order.end(), execution_,
+                [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    Mesh whole;
+    std::vector<std::uint32_t> numbers(count);
+    for (const std::uint32_t i : order) {
+      if (whole.points.empty() || whole.points.back() != mesh_.points[i]) whole.points.push_back(mesh_.points[i]);
+      numbers[i] = static_cast<std::uint32_t>(whole.points.size() - 1);
+    }
+    for (MeshTriangle& triangle : mesh_.triangles)
+      for (std::uint32_t& corner : triangle) corner = numbers[corner];
+    whole.triangles = std::move(mesh_.triangles);
+    return whole;
+  }
+
+ private:
+  const std::string& name_;
+  const Execution& execution_;
+  Mesh mesh_;
+};
+
+// Wavefront OBJ: `v X Y Z` and `f A B C …`, of which each may be A/TEXTURE/NORMAL; numbers from 1, negative: from
+// behind.
+
+std::uint32_t obj_corner(const scene_text::Place& place, std::string_view word, std::size_t points) {
+  std::int64_t number = 0;
+  const std::string_view first = word.substr(0, word.find('/'));
+  const auto [end, error] = std::from_chars(first.data(), first.data() + first.size(), number);
+  if (number < 0) number += static_cast<std::int64_t>(points) + 1;
+  if (error != std::errc() || end != first.data() + first.size() || number < 1 ||
+      number > static_cast<std::int64_t>(points)) {
+    place.fail(fmt::format("a face names one of the {} points so far", points), word);
+  }
+  return static_cast<std::uint32_t>(number - 1);
+}
+
+Mesh read_obj(const InputFile& file, const Execution& execution) {
+  MeshCollector mesh(file.name(), execution);
+  std::vector<std::uint32_t> corners;
+  TextLines lines(file, execution);
+  while (lines.next()) {
+    scene_text::Fields fields = lines.fields();
+    const std::string_view word = fields.word();
+    if (word == "v") {
+      Vec3 point;
+      for (double& x : std::span(point.data(), 3)) x = fields.number();
+      mesh.add_point(point);
+    } else if (word == "f") {
+      corners.clear();
+      while (!fields.done()) {
+        push_asked(corners, obj_corner(fields.place(), fields.word(), mesh.points()), execution);
+        if (corners.size() % numbers_a_look == 0) execution.check();
+      }
+      if (corners.size() < 3) fields.place().fail("a face has at least three corners", lines.line());
+      mesh.add_polygon(corners);
+    }
+  }
+  return mesh.take();
+}
+
+// STL: triangles of three points each.
+
+void add_stl_corner(MeshCollector& mesh, const Vec3& point) {
+  mesh.add_point(point);
+  const auto count = static_cast<std::uint32_t>(mesh.points());
+  if (count % 3 == 0) mesh.add_polygon(std::array{count - 3, count - 2, count - 1});
+}
+
+std::uint32_t little_word(std::string_view bytes) {
+  std::uint32_t word = 0;
+  for (std::size_t i = 4; i-- > 0;) word = word << 8U | static_cast<unsigned char>(bytes[i]);
+  return word;
+}
+
+constexpr std::size_t stl_head = 84;
+constexpr std::size_t stl_triangle = 50;
+
+Mesh read_stl_text(const InputFile& file, const Execution& execution) {
+  MeshCollector mesh(file.name(), execution);
+  TextLines lines(file, execution);
+  while (lines.next()) {
+    scene_text::Fields fields = lines.fields();
+    if (fields.word() != "vertex") continue;
+    Vec3 point;
+    for (double& x : std::span(point.data(), 3)) x = fields.number();
+    if (!fields.done()) fields.place().fail("expected `vertex X Y Z`", lines.line());
+    add_stl_corner(mesh, point);
+  }
+  if (mesh.points() % 3 != 0) lines.place().fail("the file ends inside a triangle");
+  return mesh.take();
+}
+
+Mesh read_stl(const InputFile& file, const Execution& execution) {
+  const std::string_view bytes = file.bytes();
+  const std::size_t count = bytes.size() < stl_head ? 0 : little_word(bytes.substr(stl_head - 4));
+  const std::size_t size = stl_head + count * stl_triangle;
+  if (size != bytes.size() && bytes.starts_with("solid")) return read_stl_text(file, execution);
+  if (bytes.size() < stl_head || size > bytes.size()) {
+    throw InputError(
+        file.name(),
+        fmt::format("expected an STL: text that begins with `solid`, or {} bytes of {} triangles", size, count),
+        fmt::format("{} bytes", bytes.size()));
+  }
+  MeshCollector mesh(file.name(), execution);
+  for (std::size_t corner = 0; corner < 3 * count; ++corner) {
+    const std::size_t at = stl_head + corner / 3 * stl_triangle + 12 * (1 + corner % 3);
+    Vec3 point;
+    for (std::size_t i = 0; i < 3; ++i)
+      point[static_cast<Eigen::Index>(i)] = double{std::bit_cast<float>(little_word(bytes.substr(at + 4 * i)))};
+    add_stl_corner(mesh, point);
+  }
+  return mesh.take();
+}
+
+// COLLADA.
+
+constexpr std::size_t most_collada_bytes = std::size_t{256} << 20;
+constexpr std::size_t most_collada_nodes = 100'000;
+
+/// A linear part and where the origin goes.
+struct ColladaPose {
+  Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
+  Vec3 origin = Vec3::Zero();
+
+  Vec3 operator()(const Vec3& p) const { return portable_product(linear, p) + origin; }
+  ColladaPose of(const ColladaPose& inner) const {
+    return {portable_product(linear, inner.linear), (*this)(inner.origin)};
+  }
+};
+
+class ColladaReader {
+ public:
+  ColladaReader(const InputFile& file, const Execution& execution)
+      : xml_(file, "COLLADA", most_collada_bytes, execution), execution_(execution), mesh_(file.name(), execution) {
+    const pugi::xml_node root = xml_.root();
+    for (const char* kind : {"geometry", "visual_scene", "node"}) {
+      for (const pugi::xml_node library : root.children(library_of(kind).c_str()))
+        for (const pugi::xml_node item : library.children(kind)) name(item);
+    }
+  }
+
+  Mesh read() {
+    const pugi::xml_node root = xml_.root();
+    ColladaPose unit;
+    unit.linear *= xml_.number(root.child("asset").child("unit"), "meter").value_or(1.0);
+    const pugi::xml_node shown = root.child("scene").child("instance_visual_scene");
+    if (shown) {
+      left_.push_back({named(shown, "url"), unit});
+      while (!left_.empty()) visit();
+    } else {
+      for (const auto& [id, node] : named_)
+        if (std::string_view(node.name()) == "geometry") add_geometry(node, unit);
+    }
+    return mesh_.take();
+  }
+
+ private:
+  struct Left {
+    pugi::xml_node node;
+    ColladaPose pose;
+  };
+
+  static std::string library_of(std::string_view kind) {
+    return kind == "geometry" ? "library_geometries" : fmt::format("library_{}s", kind);
+  }
+  void name(pugi::xml_node node) {
+    const pugi::xml_attribute id = node.attribute("id");
+    if (id) named_.emplace(id.value(), node);
+  }
+  /// What an attribute names, "#ID".
+  pugi::xml_node named(pugi::xml_node node, const char* attribute) const {
+    const std::string id = xml_.word(node, attribute);
+    const auto found = named_.find(std::string_view(id).substr(id.starts_with('#') ? 1 : 0));
+    if (found == named_.end()) xml_.fail(node, "nothing in this file has this id", id);
+    return found->second;
+  }
+
+  /// A node or a visual scene: its children in their order, since each transform counts for what follows it.
+  void visit() {
+    const auto [node, outer] = left_.back();
+    left_.pop_back();
+    execution_.check();
+    if (++visited_ > most_collada_nodes)
+      xml_.fail(node, fmt::format("a scene may show at most {} nodes", most_collada_nodes));
+    ColladaPose pose = outer;
+    for (const pugi::xml_node child : node.children()) {
+      const std::string_view kind = child.name();
+      if (kind == "node") {
+        push_asked(left_, {child, pose}, execution_);
+      } else if (kind == "instance_node") {
+        push_asked(left_, {named(child, "url"), pose}, execution_);
+      } else if (kind == "instance_geometry") {
+        add_geometry(named(child, "url"), pose);
+      } else if (kind == "instance_controller" || kind == "lookat" || kind == "skew") {
+        xml_.fail(child, "not read in collision meshes; export the mesh as OBJ or STL");
+      } else {
+        pose = pose.of(transform(child));
+      }
+    }
+  }
+  ColladaPose transform(pugi::xml_node node) const {
+    const std::string_view kind = node.name();
+    ColladaPose pose;
+    std::array<double, 16> n{};
+    const std::size_t count = kind == "matrix"                         ? 16
+                              : kind == "rotate"                       ? 4
+                              : kind == "translate" || kind == "scale" ? 3
+                                                                       : 0;
+    if (count == 0) return pose;
+    xml_.numbers(node, node.child_value(), std::span(n).first(count));
+    const Vec3 first(n[0], n[1], n[2]);
+    if (kind == "matrix") {
+      pose.linear << n[0], n[1], n[2], n[4], n[5], n[6], n[8], n[9], n[10];
+      pose.origin = {n[3], n[7], n[11]};
+    } else if (kind == "translate") {
+      pose.origin = first;
+    } else if (kind == "scale") {
+      pose.linear = first.asDiagonal();
+    } else {
+      const double length = first.stableNorm();
+      if (!(length > 0.0)) xml_.fail(node, "the axis has no direction");
+      pose.linear = turn_about(first / length, n[3] * (std::numbers::pi / 180.0));
+    }
+    return pose;
+  }
+
+  void add_geometry(pugi::xml_node geometry, const ColladaPose& pose) {
+    const pugi::xml_node mesh = geometry.child("mesh");
+    if (!mesh) xml_.fail(geometry, "only a <mesh> is read; export the mesh as OBJ or STL");
+    const std::size_t first = mesh_.points();
+    add_points(mesh, pose);
+    for (const pugi::xml_node part : mesh.children()) {
+      const std::string_view kind = part.name();
+      if (kind == "polylist") {
+        add_list(part, part.child("vcount").child_value(), first);
+      } else if (kind == "triangles") {
+        add_list(part, "3", first);
+      } else if (kind == "polygons" || kind == "tristrips" || kind == "trifans") {
+        add_list(part, "", first);
+      }
+    }
+  }
+  /// All points of the mesh's <vertices>.
+  void add_points(pugi::xml_node mesh, const ColladaPose& pose) {
+    const pugi::xml_node input = mesh.child("vertices").find_child_by_attribute("input", "semantic", "POSITION");
+    if (!input) xml_.fail(mesh, "its <vertices> have no <input semantic=\"POSITION\">");
+    const std::string id = xml_.word(input, "source");
+    const pugi::xml_node source =
+        mesh.find_child_by_attribute("source", "id", id.c_str() + (id.starts_with('#') ? 1 : 0));
+    const pugi::xml_node accessor = source.child("technique_common").child("accessor");
+    const double stride = xml_.number(accessor, "stride").value_or(3.0);
+    const double offset = xml_.number(accessor, "offset").value_or(0.0);
+    constexpr double widest = 64.0;
+    if (!source || !(stride >= 3.0 && stride <= widest && stride == std::floor(stride)) || offset != 0.0)
+      xml_.fail(input, "expected a <source> with x, y, z one behind the other", id);
+    const pugi::xml_node array = source.child("float_array");
+    NumberText text(array.child_value());
+    Vec3 point;
+    for (std::size_t i = 0; !text.done(); i = i + 1 < static_cast<std::size_t>(stride) ? i + 1 : 0) {
+      double number = 0.0;
+      if (!text.next(number)) xml_.fail(array, "expected numbers", text.rest());
+      if (i < 3) point[static_cast<Eigen::Index>(i)] = number;
+      if (i == 2) mesh_.add_point(pose(point));
+    }
+  }
+  /// Polygons of as many corners as `counts` says, its last for all that follow; without any: all of a <p> in one.
+  void add_list(pugi::xml_node part, std::string_view counts, std::size_t first) {
+    std::size_t stride = 1;
+    std::size_t offset = 0;
+    for (const pugi::xml_node input : part.children("input")) {
+      const std::size_t at = input.attribute("offset").as_uint();
+      constexpr std::size_t widest = 64;
+      if (at >= widest) xml_.fail(input, "`offset` must be below 64");
+      stride = std::max(stride, at + 1);
+      if (std::string_view(input.attribute("semantic").value()) == "VERTEX") offset = at;
+    }
+    NumberText sizes(counts);
+    std::size_t size = 0;
+    std::vector<std::uint32_t> corners;
+    for (const pugi::xml_node list : part.children("p")) {
+      NumberText text(list.child_value());
+      corners.clear();
+      if (!counts.empty() && !sizes.done() && !sizes.next(size)) xml_.fail(part, "expected counts of corners");
+      for (std::size_t i = 0; !text.done(); ++i) {
+        std::size_t number = 0;
+        if (!text.next(number) || (i % stride == offset && number >= mesh_.points() - first))
+          xml_.fail(list, fmt::format("expected numbers of the {} points", mesh_.points() - first), text.rest());
+        if (i % stride == offset) push_asked(corners, static_cast<std::uint32_t>(first + number), execution_);
+        if (i % numbers_a_look == 0) execution_.check();
+        if (i % stride != stride - 1 || corners.size() != size) continue;
+        mesh_.add_polygon(corners);
+        corners.clear();
+        if (!sizes.done() && !sizes.next(size)) xml_.fail(part, "expected counts of corners");
+      }
+      mesh_.add_polygon(corners);
+    }
+  }
+
+  XmlFile xml_;
+  const Execution& execution_;
+  MeshCollector mesh_;
+  std::map<std::string, pugi::xml_node, std::less<>> named_;
+  std::vector<Left> left_;
+  std::size_t visited_ = 0;
+};
+
+/// Has each side of a triangle one that goes the other way?
+bool is_closed(const Mesh& mesh, const Execution& execution) {
+  std::array<std::vector<std::uint64_t>, 2> sides;
+  execution.reserve(mesh.triangles.size() * 6 * sizeof(std::uint64_t));
+  for (const MeshTriangle& t : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint64_t a = t[i];
+      const std::uint64_t b = t[(i + 1) % 3];
+      if (a == b) continue;
+      sides[0].push_back(a << 32U | b);
+      sides[1].push_back(b << 32U | a);
+    }
+  }
+  for (auto& some : sides) polled_sort(some.begin(), some.end(), execution);
+  return sides[0] == sides[1];
+}
+
+}  // namespace
+
+Mesh read_mesh(const InputFile& file, const Execution& execution) {
+  std::string ending = file.name().substr(std::min(file.name().size(), file.name().find_last_of("./") + 1));
+  for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  if (ending == "obj") return read_obj(file, execution);
+  if (ending == "stl") return read_stl(file, execution);
+  if (ending == "dae") return ColladaReader(file, execution).read();
+  throw InputError(file.name(), "expected a mesh of an ending that is known: .obj, .stl, .dae", ending);
+}
+
+std::string hull_excess(const Mesh& mesh, const Solid& hull, const Execution& execution) {
+  if (hull.faces.empty()) return "flat, its points as they are";
+  const double volume = volume_inside(hull.corners, hull.faces);
+  const double inside = std::abs(volume_inside(mesh.points, mesh.triangles));
+  if (!is_closed(mesh, execution) || !(inside > 1e-6 * volume))
+    return "the mesh is not closed, so nobody knows by how much the hull is larger";
+  return fmt::format("{:.2f} times its volume", volume / inside);
+}
+
+}  // namespace warren

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshes: Wavefront OBJ, STL (binary or text), COLLADA. Only where their surface is counts: normals, colours and the
+// like are passed over.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "parallel/execution.hpp"
+#include "scenes/files/input_file_io.hpp"
+#include "scenes/scene/scene.hpp"
+
+namespace warren {
+
+/// Triangles and their corners, each point once, in the order of their coordinates; those of no triangle are left out,
+/// but where there are no triangles at all.
+struct Mesh {
+  std::vector<Vec3> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// By the ending of the file's name, .obj, .stl or .dae. COLLADA: all that its scene shows, in metres by its <unit>;
+/// its <up_axis> turns nothing, as in RViz and MoveIt. Throws InputError naming file and, of text, line; Stopped.
+Mesh read_mesh(const InputFile& file, const Execution& execution);
+
+/// What the mesh's hull has more than the mesh: "1.32 times its volume", where the mesh is closed.
+std::string hull_excess(const Mesh& mesh, const Solid& hull, const Execution& execution);
+
+}  // namespace warren

@@ -1,0 +1,415 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Joints that don't move are folded into the poses of what hangs on them, so that each link stands in the frame of the
+// last joint above it that moves. All walks go along the joints in depth-first order, none is recursive: URDFs may have
+// any depth.
+#include "scenes/files/urdf_io.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "parallel/asked_memory.hpp"
+#include "scenes/files/mesh_io.hpp"
+#include "scenes/files/scene_text.hpp"
+#include "scenes/files/urdf_tree_io.hpp"
+#include "scenes/scene/convex_hull.hpp"
+
+namespace warren {
+namespace {
+
+/// Collision meshes as hulls, each file and scale once.
+class MeshShelf {
+ public:
+  MeshShelf(const ArmFiles& files, const XmlFile& xml, const Execution& execution)
+      : files_(files), xml_(xml), execution_(execution) {}
+
+  const Solid& hull(pugi::xml_node mesh) {
+    const std::string path = found(mesh, xml_.word(mesh, "filename"));
+    const Vec3 scale = xml_.vector(mesh, "scale", Vec3::Ones());
+    const auto [at, is_new] = hulls_.try_emplace({path, {scale.x(), scale.y(), scale.z()}});
+    if (!is_new) return at->second;
+    Mesh read = read_mesh(InputFile(path, execution_), execution_);
+    for (Vec3& point : read.points) point = point.cwiseProduct(scale);
+    at->second = convex_hull(read.points, path, execution_);
+    told.push_back(fmt::format("hull of {}: {}", std::filesystem::path(path).filename().string(),
+                               hull_excess(read, at->second, execution_)));
+    return at->second;
+  }
+
+  std::vector<std::string> told;  ///< a line a mesh
+
+ private:
+  /// Where a mesh may be, in this order.
+  std::vector<std::string> places(const std::string& name) const {
+    namespace fs = std::filesystem;
+    constexpr std::string_view of_package = "package://";
+    constexpr std::string_view of_file = "file://";
+    if (name.starts_with(of_file)) return {name.substr(of_file.size())};
+    const bool is_package = name.starts_with(of_package);
+    const std::string path = is_package ? name.substr(of_package.size()) : name;
+    if (fs::path(path).is_absolute()) return {path};
+    const std::string inner = is_package ? path.substr(std::min(path.find('/'), path.size() - 1) + 1) : path;
+    std::vector<std::string> found;
+    const auto add = [&](const fs::path& folder, bool whole_first) {
+      found.push_back((folder / (whole_first ? path : inner)).string());
+      if (is_package) found.push_back((folder / (whole_first ? inner : path)).string());
+    };
+    fs::path folder = fs::path(files_.urdf).parent_path();
+    if (!is_package) add(folder, true);
+    for (const std::string& package : files_.packages) add(package, true);
+    std::error_code error;
+    folder = fs::absolute(folder.empty() ? "." : folder, error).lexically_normal();
+    for (; is_package && !folder.empty(); folder = folder.parent_path()) {
+      add(folder, false);
+      if (folder == folder.parent_path()) break;
+    }
+    return found;
+  }
+  std::string found(pugi::xml_node mesh, const std::string& name) const {
+    const std::vector<std::string> tried = places(name);
+    for (const std::string& place : tried) {
+      std::error_code error;
+      if (std::filesystem::is_regular_file(place, error)) return place;
+    }
+    constexpr std::size_t most_shown = 6;
+    std::string shown;
+    for (std::size_t i = 0; i < std::min(most_shown, tried.size()); ++i)
+      shown += fmt::format("{}{}", i == 0 ? "" : ", ", tried[i]);
+    xml_.fail(mesh,
+              fmt::format("the mesh is not there; looked for {}{}; `package-path DIR` says where its package is", shown,
+                          tried.size() > most_shown ? " and in the folders above" : ""),
+              name);
+  }
+
+  const ArmFiles& files_;
+  const XmlFile& xml_;
+  const Execution& execution_;
+  std::map<std::pair<std::string, std::array<double, 3>>, Solid> hulls_;
+};
+
+/// Makes the model of a tree whose group is known.
+class ArmModelMaker {
+ public:
+  ArmModelMaker(const ArmFiles& files, const UrdfTree& tree, const UrdfGroup& group, const Execution& execution)
+      : files_(files), tree_(tree), group_(group), execution_(execution), shelf_(files, tree.xml(), execution) {}
+
+  ArmModel make(const XmlFile* srdf) {
+    model_.name = tree_.xml().root().attribute("name").value();
+    choose_variables();
+    narrow_variables();
+    hold_joints();
+    const std::size_t tool = tool_link();
+    place_links(tool);
+    model_.tool_frame = frames_[tool];
+    model_.tool = poses_[tool];
+    add_links();
+    carry();
+    pair_links(srdf);
+    model_.told.push_back(fmt::format("the tool is {}", tree_.links()[tool].name));
+    model_.told.insert(model_.told.end(), shelf_.told.begin(), shelf_.told.end());
+    return std::move(model_);
+  }
+
+ private:
+  static constexpr std::size_t no_variable = no_urdf_part;
+
+  void choose_variables() {
+    variables_.assign(tree_.joints().size(), no_variable);
+    std::size_t count = 0;
+    for (std::size_t j = 0; j < tree_.joints().size(); ++j) {
+      const UrdfJoint& joint = tree_.joints()[j];
+      if (!group_.has[j] || !joint.moves() || joint.leader != no_urdf_part || ++count > most_joints) continue;
+      const bool continuous = joint.kind == UrdfJointKind::continuous;
+      if (!continuous && !(std::isfinite(joint.low) && std::isfinite(joint.high)))
+        tree_.xml().fail(joint.node, "a joint that moves needs <limit lower=\"…\" upper=\"…\">, or type continuous",
+                         joint.name);
+      variables_[j] = model_.variables.size();
+      model_.variables.push_back({joint.name, joint.kind == UrdfJointKind::prismatic, continuous,
+                                  continuous ? -std::numbers::pi : joint.low,
+                                  continuous ? std::numbers::pi : joint.high, joint.speed});
+    }
+    constexpr std::string_view advice = "choose some by `group NAME` of an SRDF, or by `base LINK tip LINK`";
+    if (count == 0) throw InputError(files_.urdf, fmt::format("no joint moves on its own; {}", advice));
+    if (count > most_joints) {
+      throw InputError(files_.urdf, fmt::format("at most {} joints can be planned for; {}", most_joints, advice),
+                       fmt::format("{} joints", count));
+    }
+  }
+
+  /// A variable stays where all that follow it are within their limits; it has no end only where none feels the turn.
+  void narrow_variables() {
+    for (const UrdfJoint& joint : tree_.joints()) {
+      if (joint.leader == no_urdf_part || variables_[joint.leader] == no_variable) continue;
+      ArmVariable& variable = model_.variables[variables_[joint.leader]];
+      const bool whole = joint.multiplier == std::floor(joint.multiplier);
+      if (joint.kind != UrdfJointKind::continuous || !whole) variable.continuous = false;
+      if (joint.multiplier == 0.0) continue;
+      const double one = (joint.low - joint.offset) / joint.multiplier;
+      const double other = (joint.high - joint.offset) / joint.multiplier;
+      variable.low = std::max(variable.low, std::min(one, other));
+      variable.high = std::min(variable.high, std::max(one, other));
+      if (variable.low > variable.high)
+        tree_.xml().fail(joint.node, fmt::format("its limits leave no value to {}, which it mimics", variable.name),
+                         joint.name);
+    }
+  }
+
+  void hold_joints() {
+    const std::vector<UrdfJoint>& joints = tree_.joints();
+    held_.assign(joints.size(), 0.0);
+    for (std::size_t j = 0; j < joints.size(); ++j) held_[j] = std::min(std::max(0.0, joints[j].low), joints[j].high);
+    for (const auto& [name, value] : files_.held) {
+      const std::size_t joint = tree_.joint_named(name);
+      if (joint == no_urdf_part && value != 0.0)
+        throw InputError(files_.urdf, "has no joint of this name to hold", name);
+      if (joint != no_urdf_part && joints[joint].moves()) held_[joint] = value;
+    }
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      if (joints[j].leader != no_urdf_part)
+        held_[j] = joints[j].multiplier * held_[joints[j].leader] + joints[j].offset;
+      if (joints[j].kind == UrdfJointKind::floating)
+        model_.assumed.push_back(fmt::format("joint {}, which floats, is where its origin is", joints[j].name));
+    }
+  }
+
+  /// The group's tip; else what hangs on its last joint, on as far as there is one joint, which doesn't move.
+  std::size_t tool_link() const {
+    if (group_.tip != no_urdf_part) return group_.tip;
+    const std::vector<UrdfJoint>& joints = tree_.joints();
+    std::size_t last = 0;
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      if (variables_[j] != no_variable) last = j;
+    std::size_t link = joints[last].below;
+    while (tree_.links()[link].joints.size() == 1) {
+      const UrdfJoint& next = joints[tree_.links()[link].joints[0]];
+      if (next.moves()) break;
+      link = next.below;
+    }
+    return link;
+  }
+
+  /// Is there anything on the link or farther out that a frame of its own matters to?
+  std::vector<bool> links_that_matter(std::size_t tool) const {
+    std::vector<bool> matters(tree_.links().size(), false);
+    matters[tool] = true;
+    for (const AttachedSolid& attached : files_.attached) matters[carrier(attached)] = true;
+    for (std::size_t j = tree_.joints().size(); j-- > 0;) {
+      const UrdfJoint& joint = tree_.joints()[j];
+      if (tree_.links()[joint.below].node.child("collision")) matters[joint.below] = true;
+      if (matters[joint.below]) matters[joint.above] = true;
+    }
+    return matters;
+  }
+  std::size_t carrier(const AttachedSolid& attached) const {
+    const std::size_t link = tree_.link_named(attached.link);
+    if (link == no_urdf_part)
+      throw InputError(files_.urdf, "has no link of this name to attach a body to", attached.link);
+    return link;
+  }
+
+  void place_links(std::size_t tool) {
+    const std::vector<bool> matters = links_that_matter(tool);
+    execution_.reserve(tree_.links().size() * sizeof(Eigen::Isometry3d));
+    frames_.assign(tree_.links().size(), base_frame);
+    poses_.assign(tree_.links().size(), Eigen::Isometry3d::Identity());
+    for (std::size_t j = 0; j < tree_.joints().size(); ++j) {
+      if (j % 256 == 0) execution_.check();
+      const UrdfJoint& joint = tree_.joints()[j];
+      const Eigen::Isometry3d origin = portable_product(poses_[joint.above], joint.origin);
+      const std::size_t leader = joint.leader == no_urdf_part ? j : joint.leader;
+      if (variables_[leader] == no_variable || (leader != j && !matters[joint.below])) {
+        frames_[joint.below] = frames_[joint.above];
+        poses_[joint.below] = joint.moves() ? portable_product(origin, motion(joint, held_[j])) : origin;
+        continue;
+      }
+      if (model_.joints.size() == most_frames) {
+        throw InputError(files_.urdf,
+                         fmt::format("at most {} joints may move, those that mimic others included; choose fewer by "
+                                     "`group NAME` of an SRDF, or by `base LINK tip LINK`",
+                                     most_frames));
+      }
+      frames_[joint.below] = static_cast<int>(model_.joints.size());
+      model_.joints.push_back({joint.name, frames_[joint.above], origin, joint.axis,
+                               joint.kind == UrdfJointKind::prismatic, variables_[leader], joint.multiplier,
+                               joint.offset});
+    }
+  }
+  static Eigen::Isometry3d motion(const UrdfJoint& joint, double value) {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    if (joint.kind == UrdfJointKind::prismatic) {
+      pose.translation() = value * joint.axis;
+    } else {
+      pose.linear() = turn_about(joint.axis, value);
+    }
+    return pose;
+  }
+
+  /// Those with solids, the root first, then depth first.
+  void add_links() {
+    numbers_.assign(tree_.links().size(), no_urdf_part);
+    add_link(tree_.root());
+    for (const UrdfJoint& joint : tree_.joints()) add_link(joint.below);
+  }
+  void add_link(std::size_t number) {
+    const UrdfLink& link = tree_.links()[number];
+    ArmLink made{link.name, frames_[number], {}};
+    for (const pugi::xml_node collision : link.node.children("collision")) {
+      execution_.check();
+      Solid solid = shape(collision.child("geometry"));
+      solid.pose = portable_product(poses_[number], urdf_origin(tree_.xml(), collision));
+      solid.name = collision.attribute("name").value();
+      made.solids.push_back(std::move(solid));
+    }
+    if (made.solids.empty()) return;
+    numbers_[number] = model_.links.size();
+    push_asked(model_.links, std::move(made), execution_);
+  }
+  Solid shape(pugi::xml_node geometry) {
+    const XmlFile& xml = tree_.xml();
+    const pugi::xml_node node = geometry.find_child([](pugi::xml_node n) { return n.type() == pugi::node_element; });
+    const std::string_view kind = node.name();
+    Solid solid;
+    if (kind == "mesh") {
+      const Solid& hull = shelf_.hull(node);
+      execution_.reserve(hull.corners.size() * sizeof(Vec3) + hull.faces.size() * sizeof(hull.faces[0]));
+      return hull;
+    }
+    if (kind == "box") {
+      solid.kind = SolidKind::box;
+      solid.half = 0.5 * xml.vector(node, "size", Vec3::Constant(-1.0));
+      if (!(solid.half.array() >= 0.0).all()) xml.fail(node, "`size` must be three numbers of at least 0");
+    } else if (kind == "sphere") {
+      solid.half.x() = xml.size(node, "radius");
+    } else if (kind == "cylinder" || kind == "capsule") {
+      solid.kind = kind == "capsule" ? SolidKind::capsule : SolidKind::cylinder;
+      solid.half = {xml.size(node, "radius"), 0.0, 0.5 * xml.size(node, "length")};
+    } else {
+      xml.fail(node ? node : geometry, "<geometry> must be a box, cylinder, capsule, sphere or mesh", kind);
+    }
+    return solid;
+  }
+
+  void carry() {
+    for (const AttachedSolid& attached : files_.attached) {
+      const std::size_t link = carrier(attached);
+      Solid solid = attached.solid;
+      solid.pose = portable_product(poses_[link], solid.pose);
+      const std::string name = solid.name.empty() ? fmt::format("what {} carries", attached.link) : solid.name;
+      model_.links.push_back({name, frames_[link], {std::move(solid)}});
+    }
+  }
+
+  /// Numbers of links that may touch, the lower first; those of one's own name too.
+  using Allowed = std::set<std::pair<std::size_t, std::size_t>>;
+  static std::pair<std::size_t, std::size_t> ordered(std::size_t a, std::size_t b) { return std::minmax(a, b); }
+
+  void pair_links(const XmlFile* srdf) {
+    const std::size_t count = model_.links.size();
+    const std::size_t own = count - files_.attached.size();
+    std::multimap<std::string_view, std::size_t> named;
+    for (std::size_t i = 0; i < count; ++i) named.emplace(model_.links[i].name, i);
+    Allowed allowed;
+    const auto allow = [&](std::string_view one, std::string_view other) {
+      const auto [first, last] = named.equal_range(one);
+      const auto [others, end] = named.equal_range(other);
+      for (auto a = first; a != last; ++a)
+        for (auto b = others; b != end; ++b) allowed.insert(ordered(a->second, b->second));
+    };
+    if (srdf != nullptr) allow_by_srdf(srdf->root(), allow);
+    for (const auto& [one, other] : files_.allowed) allow(one, other);
+    for (std::size_t i = own; i < count; ++i) {
+      for (const std::string& link : files_.attached[i - own].may_touch) {
+        const auto [first, last] = named.equal_range(link);
+        for (auto a = first; a != last; ++a) allowed.insert(ordered(a->second, i));
+      }
+    }
+    allow_neighbours(allowed);
+    for (std::size_t a = 0; a < count; ++a) {
+      execution_.check();
+      for (std::size_t b = a + 1; b < count; ++b) {
+        if (model_.links[a].frame == model_.links[b].frame || allowed.contains({a, b})) continue;
+        push_asked(model_.pairs, {static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b)}, execution_);
+      }
+    }
+  }
+  template <class Allow>
+  void allow_by_srdf(pugi::xml_node srdf, const Allow& allow) const {
+    std::set<std::pair<std::string_view, std::string_view>> enabled;
+    for (const pugi::xml_node pair : srdf.children("enable_collisions"))
+      enabled.insert(std::minmax<std::string_view>(pair.attribute("link1").value(), pair.attribute("link2").value()));
+    for (const pugi::xml_node node : srdf.children("disable_default_collisions")) {
+      const std::string_view link = node.attribute("link").value();
+      for (const ArmLink& other : model_.links)
+        if (!enabled.contains(std::minmax<std::string_view>(link, other.name))) allow(link, other.name);
+    }
+    for (const pugi::xml_node pair : srdf.children("disable_collisions"))
+      allow(pair.attribute("link1").value(), pair.attribute("link2").value());
+  }
+  /// Links without solids pass on whose neighbour a link is.
+  void allow_neighbours(Allowed& allowed) const {
+    std::vector<std::size_t> nearest = numbers_;  // of each link, the model's link that it is or hangs on
+    for (const UrdfJoint& joint : tree_.joints()) {
+      const std::size_t above = nearest[joint.above];
+      if (nearest[joint.below] == no_urdf_part) {
+        nearest[joint.below] = above;
+      } else if (above != no_urdf_part) {
+        allowed.insert(ordered(above, nearest[joint.below]));
+      }
+    }
+  }
+
+  const ArmFiles& files_;
+  const UrdfTree& tree_;
+  const UrdfGroup& group_;
+  const Execution& execution_;
+  MeshShelf shelf_;
+  ArmModel model_;
+  std::vector<std::size_t> variables_;    // by joint
+  std::vector<double> held_;              // by joint
+  std::vector<int> frames_;               // by link
+  std::vector<Eigen::Isometry3d> poses_;  // by link, in its frame
+  std::vector<std::size_t> numbers_;      // by link, in the model
+};
+
+UrdfGroup chosen_group(const ArmFiles& files, const UrdfTree& tree, const XmlFile* srdf) {
+  if (!files.group.empty()) {
+    if (srdf == nullptr) throw InputError(files.urdf, "`group` needs `srdf FILE`, whose group it names", files.group);
+    return read_srdf_group(tree, *srdf, files.group);
+  }
+  if (files.base.empty() && files.tip.empty()) return {std::vector<bool>(tree.joints().size(), true), no_urdf_part};
+  const auto link = [&](const std::string& name) {
+    const std::size_t number = tree.link_named(name);
+    if (number == no_urdf_part) throw InputError(files.urdf, "has no link of this name", name);
+    return number;
+  };
+  UrdfGroup group{std::vector<bool>(tree.joints().size(), false), link(files.tip)};
+  for (const std::size_t joint : tree.between(files.base.empty() ? tree.root() : link(files.base), group.tip))
+    group.has[joint] = true;
+  return group;
+}
+
+}  // namespace
+
+ArmModel read_urdf(const ArmFiles& files, const Execution& execution) {
+  const InputFile file(files.urdf, execution);
+  const XmlFile xml(file, "robot", most_urdf_bytes, execution);
+  const UrdfTree tree(xml, execution);
+  std::optional<InputFile> srdf_file;
+  std::optional<XmlFile> srdf;
+  if (!files.srdf.empty()) srdf.emplace(srdf_file.emplace(files.srdf, execution), "robot", most_urdf_bytes, execution);
+  const XmlFile* rules = srdf ? &*srdf : nullptr;
+  const UrdfGroup group = chosen_group(files, tree, rules);
+  return ArmModelMaker(files, tree, group, execution).make(rules);
+}
+
+}  // namespace warren

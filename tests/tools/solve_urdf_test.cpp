@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Arms that a URDF describes: solved, judged, kept, timed, told, refused.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/process.hpp"
+
+namespace warren::test {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A base that turns without end, a shoulder, an elbow, a slide with a ball at its end, and a finger that follows the
+/// slide.
+constexpr const char* crane_urdf = R"(<?xml version="1.0"?>
+<robot name="crane">
+  <link name="world"/>
+  <link name="column"><collision><origin xyz="0 0 0.2"/><geometry><cylinder radius="0.06" length="0.4"/></geometry></collision></link>
+  <link name="upper"><collision><origin xyz="0.25 0 0"/><geometry><box size="0.5 0.06 0.06"/></geometry></collision></link>
+  <link name="lower"><collision><origin xyz="0.2 0 0" rpy="0 1.5707963267948966 0"/><geometry><capsule radius="0.04" length="0.4"/></geometry></collision></link>
+  <link name="hook"><collision><geometry><sphere radius="0.05"/></geometry></collision></link>
+  <link name="finger"><collision><geometry><sphere radius="0.02"/></geometry></collision></link>
+  <joint name="base" type="continuous"><parent link="world"/><child link="column"/><axis xyz="0 0 1"/><limit velocity="2" effort="1"/></joint>
+  <joint name="shoulder" type="revolute"><parent link="column"/><child link="upper"/><origin xyz="0 0 0.4"/><axis xyz="0 1 0"/><limit lower="-2" upper="2" velocity="1" effort="1"/></joint>
+  <joint name="elbow" type="revolute"><parent link="upper"/><child link="lower"/><origin xyz="0.5 0 0"/><axis xyz="0 1 0"/><limit lower="-2.5" upper="2.5" velocity="1" effort="1"/></joint>
+  <joint name="slide" type="prismatic"><parent link="lower"/><child link="hook"/><origin xyz="0.5 0 0"/><axis xyz="1 0 0"/><limit lower="0" upper="0.2" velocity="0.5" effort="1"/></joint>
+  <joint name="grip" type="prismatic"><parent link="hook"/><child link="finger"/><origin xyz="0.06 0 0"/><axis xyz="0 1 0"/><limit lower="0" upper="0.2" velocity="0.5" effort="1"/><mimic joint="slide" multiplier="0.1"/></joint>
+</robot>
+)";
+
+constexpr const char* crane_srdf = R"(<robot name="crane">
+  <group name="arm"><chain base_link="world" tip_link="hook"/></group>
+  <disable_collisions link1="hook" link2="finger" reason="Adjacent"/>
+</robot>
+)";
+
+/// A pillar and a turned board in the way.
+constexpr const char* yard = R"(cylinder 0.7 0 0 0.7 0 1 0.1
+obox 0 0.8 0.5 0 0 0.3826834 0.9238795 0.2 0.02 0.2
+capsule 0 -0.8 0 0 -0.8 0.6 0.05
+start -0.9 0.3 0.2 0
+goal 0.9 0.3 0.2 0.1
+)";
+
+class SolveUrdf : public ::testing::Test {
+ protected:
+  SolveUrdf() {
+    folder_.write("crane.srdf", crane_srdf);
+    robot_ = "urdf " + folder_.write("crane.urdf", crane_urdf) + " srdf " + folder_.path("crane.srdf") + " group arm";
+    file_ = folder_.write("yard.scene", "robot urdf crane.urdf srdf crane.srdf group arm\n" + std::string(yard));
+  }
+  Json solved(std::vector<std::string> more, int code = 0) const {
+    std::vector<std::string> arguments{"solve", file_, "--json", "-"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    SCOPED_TRACE(shown(arguments));
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    return outcome.out.empty() ? Json() : Json::parse(outcome.out);
+  }
+  Folder folder_;
+  std::string robot_;
+  std::string file_;
+};
+
+TEST_F(SolveUrdf, EveryPlannerSolvesAndTheJudgeAgrees) {
+  for (const char* planner : {"rrt-connect", "rrt", "prm", "lazy-prm", "anytime", "rrt-star"}) {
+    std::vector<std::string> more{"--planner", planner, "--seed", "3"};
+    const bool goes_on = std::string(planner) == "anytime" || std::string(planner) == "rrt-star";
+    if (goes_on) more.insert(more.end(), {"--iterations", "6"});
+    const Json answer = solved(more);
+    EXPECT_EQ(answer["status"], "solved") << planner;
+    EXPECT_EQ(answer["verified"], true) << planner;
+    EXPECT_EQ(answer["joints"], Json::parse(R"(["base", "shoulder", "elbow", "slide"])"));
+    EXPECT_EQ(answer["path"].front(), Json::parse("[-0.9, 0.3, 0.2, 0.0]"));
+    EXPECT_LE(answer["lower_bound"], answer["length"]);
+  }
+}
+
+TEST_F(SolveUrdf, AnswersAreTheSameForAnyNumberOfThreads) {
+  for (const char* planner : {"rrt-connect", "prm"}) {
+    std::string first;
+    for (const char* threads : {"1", "2", "8"}) {
+      Json answer = solved({"--planner", planner, "--optimise", "--threads", threads});
+      for (const char* key : {"stages_s", "solve_s", "threads", "peak_memory_bytes"}) answer.erase(key);
+      if (first.empty()) first = answer.dump();
+      EXPECT_EQ(answer.dump(), first);
+    }
+  }
+}
+
+TEST_F(SolveUrdf, AJointWithoutEndGoesTheShorterWay) {
+  const Json answer = solved({"--start", "4.6,-1,0,0", "--goal", "-1.68,-1,0,0"});
+  EXPECT_EQ(answer["status"], "solved");
+  EXPECT_NEAR(answer["length"], 2.0 * M_PI - 6.28, 1e-9);
+  EXPECT_EQ(answer["optimal"], true);
+  const std::string file = folder_.path("short.json");
+  ASSERT_EQ(run({"solve", file_, "--start", "4.6,-1,0,0", "--goal", "-1.68,-1,0,0", "--json", file, "--quiet"}).code,
+            0);
+  EXPECT_EQ(run({"verify", file_, file}).code, 0);
+}
+
+TEST_F(SolveUrdf, PlacesAndPosesOfTheToolAreGoals) {
+  const Json place = solved({"--goal", "0.4,0.5,0.5"});
+  EXPECT_EQ(place["status"], "solved");
+  EXPECT_EQ(place["path"].back().size(), 4U);
+  const Json pose = solved({"--goal-pose", "-1.0,0,0.4,0,0,1,0"});  // stretched out to the other side
+  EXPECT_EQ(pose["status"], "solved");
+  EXPECT_EQ(pose["verified"], true);
+  const std::string file = folder_.path("pose.json");
+  ASSERT_EQ(run({"solve", file_, "--goal-pose", "-1.0,0,0.4,0,0,1,0", "--json", file, "--quiet"}).code, 0);
+  EXPECT_EQ(run({"verify", file_, file}).code, 0);
+  const Json far = solved({"--goal", "5,5,5"}, 1);
+  EXPECT_EQ(far["status"], "goal_blocked");
+  EXPECT_EQ(far["cause"], "goal_not_found");
+}
+
+TEST_F(SolveUrdf, EndsThatAreBlockedAreTold) {
+  const Json in_pillar = solved({"--start", "0,0,0,0"}, 1);
+  EXPECT_EQ(in_pillar["status"], "start_blocked");
+  EXPECT_EQ(in_pillar["cause"], "start_in_collision");
+  EXPECT_EQ(in_pillar["blocked"]["free_place"].size(), 4U);
+  const Json beyond = solved({"--goal", "0.9,0.3,0.2,0.3"}, 1);
+  EXPECT_EQ(beyond["cause"], "goal_outside_limits");
+  EXPECT_NE(beyond["blocked"]["by"].get<std::string>().find("slide"), std::string::npos) << beyond["blocked"];
+  const Json rounded = solved({"--goal", "0.9,0.3,0.2,0.2000009"});  // a file that rounds its limits
+  EXPECT_EQ(rounded["path"].back()[3], 0.2);
+}
+
+TEST_F(SolveUrdf, ARoadmapIsKeptAndKnowsItsRobot) {
+  const std::string roadmap = folder_.path("crane.roadmap");
+  const Outcome built = run({"build", file_, "-o", roadmap, "--samples", "400", "--quiet"});
+  ASSERT_EQ(built.code, 0) << built.err;
+  const Outcome asked = run({"ask", roadmap, "--start", "-0.9,0.3,0.2,0", "--goal", "0.9,0.3,0.2,0.1", "--json", "-"});
+  EXPECT_EQ(asked.code, 0) << asked.err;
+  EXPECT_EQ(Json::parse(asked.out)["verified"], true);
+  std::string other = crane_urdf;
+  other.replace(other.find("radius=\"0.05\""), 13, "radius=\"0.07\"");
+  folder_.write("crane.urdf", other);
+  const Outcome stale = run({"ask", roadmap, "--start", "-0.9,0.3,0.2,0", "--goal", "0.9,0.3,0.2,0.1"});
+  EXPECT_EQ(stale.code, 65);
+  EXPECT_NE(stale.err.find("another arm"), std::string::npos) << stale.err;
+}
+
+TEST_F(SolveUrdf, IsTimedByItsFile) {
+  const std::string path = folder_.path("crane.csv");
+  const Outcome outcome = run({"solve", file_, "--path", path, "--joint-speed", "file", "--quiet"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(folder_.read("crane.csv").substr(0, 20), "t,s,q1,q2,q3,q4,spee");
+  EXPECT_EQ(run({"solve", file_, "--path", path, "--joint-speed", "1,1,1", "--quiet"}).code, 2);
+}
+
+TEST_F(SolveUrdf, InfoTellsWhatIsInIt) {
+  const Outcome outcome =
+      run({"info", folder_.path("crane.urdf"), "--srdf", folder_.path("crane.srdf"), "--group", "arm"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  for (const char* said : {"base: turns without end", "slide: slides 0 to 0.2 m", "moving joints"}) {
+    EXPECT_NE(outcome.out.find(said), std::string::npos) << outcome.out;
+  }
+}
+
+TEST_F(SolveUrdf, SaysWhatIsWrongInOneLine) {
+  struct Case {
+    std::vector<std::string> arguments;
+    const char* says;
+    int code;
+  };
+  const std::vector<Case> cases = {{{"--start", "0,0"}, "4 joint values", 2},
+                                   {{"--goal", "0,0"}, "place of the tool", 2},
+                                   {{"--via", "0,0"}, "4 joint values", 2},
+                                   {{"--goal-pose", "0,0,1,0,0,0,0"}, "quaternion", 2},
+                                   {{"--robot", "urdf " + folder_.path("none.urdf")}, "none.urdf", 66},
+                                   {{"--robot", robot_ + "s"}, "arms", 65}};
+  for (const Case& c : cases) {
+    std::vector<std::string> arguments{"solve", file_};
+    arguments.insert(arguments.end(), c.arguments.begin(), c.arguments.end());
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, c.code) << shown(arguments) << outcome.err;
+    EXPECT_NE(outcome.err.find(c.says), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  }
+}
+
+}  // namespace
+}  // namespace warren::test

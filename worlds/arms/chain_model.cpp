@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// In the notation of serial_chain.hpp: the model's frame i turns with joint i and has its axis for z, at the point
+// where the sequence Rz ... begins; frame i of the table stands at its `tail`.
+#include "worlds/arms/chain_model.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "core/base/error.hpp"
+#include "core/base/whole.hpp"
+#include "worlds/arms/serial_chain.hpp"
+
+namespace warren {
+namespace {
+
+using Eigen::Isometry3d;
+
+/// What one row of a table does while its joint is at 0.
+Isometry3d step_of(DhConvention convention, DhJoint row) {
+  row.offset_rad = 0.0;
+  DhTable table;
+  table.convention = convention;
+  table.joints = {row};
+  return SerialChain(table).frame({}, 1);
+}
+
+Isometry3d along_z(double d) { return Isometry3d(Eigen::Translation3d(0.0, 0.0, d)); }
+
+/// A frame between two points, whose z leads from one to the other.
+Isometry3d frame_between(const Vec3& a, const Vec3& b) {
+  Isometry3d frame = Isometry3d::Identity();
+  const Vec3 z = (b - a).normalized();
+  Eigen::Index least = 0;
+  z.cwiseAbs().minCoeff(&least);
+  const Vec3 x = z.cross(Vec3::Unit(least)).normalized();
+  frame.linear() << x, z.cross(x), z;
+  frame.translation() = 0.5 * (a + b);
+  return frame;
+}
+
+/// Adds capsules as the frames are made.
+class ChainLinks {
+ public:
+  ChainLinks(ArmModel& model, double radius, double shortest) : model_(model), radius_(radius), shortest_(shortest) {}
+  void add(int frame, const Vec3& from, const Vec3& to) {
+    const double length = (to - from).norm();
+    if (length <= shortest_) return;
+    ArmLink link;
+    link.name = "link " + std::to_string(model_.links.size());
+    link.frame = frame;
+    Solid capsule;
+    capsule.kind = SolidKind::capsule;
+    capsule.pose = frame_between(from, to);
+    capsule.half = Vec3(radius_, radius_, 0.5 * length);
+    link.solids.push_back(std::move(capsule));
+    model_.links.push_back(std::move(link));
+  }
+
+ private:
+  ArmModel& model_;
+  double radius_;
+  double shortest_;
+};
+
+/// Links that what is between them keeps so near that they always touch are no use to keep apart.
+void add_pairs(ArmModel& model, double touch) {
+  for (std::size_t near = 0; near < model.links.size(); ++near) {
+    double between = 0.0;
+    for (std::size_t far = near + 2; far < model.links.size(); ++far) {
+      between += 2.0 * model.links[far - 1].solids.front().half.z();
+      if (between > touch) model.pairs.push_back({as_whole<std::uint32_t>(near), as_whole<std::uint32_t>(far)});
+    }
+  }
+}
+
+}  // namespace
+
+ArmModel model_of(const DhTable& table, double radius, bool self_collision, double clearance) {
+  const SerialChain chain(table);
+  for (const double length : {radius, clearance}) {
+    if (!(length >= 0.0 && length <= largest_coordinate)) {
+      throw InputError("arm", "radius and clearance must be numbers from 0 to 1e60", std::to_string(length));
+    }
+  }
+  ArmModel model;
+  model.name = "arm";
+  for (std::size_t i = 0; i < std::max(most_chain_joints, table.joints.size()); ++i) {
+    ArmVariable variable;
+    variable.name = "joint " + std::to_string(i + 1);
+    variable.low = chain.low(i);
+    variable.high = chain.high(i);
+    model.variables.push_back(variable);
+  }
+  ChainLinks links(model, radius, 1e-12 * chain.reach());
+  const bool modified = table.convention == DhConvention::modified;
+  Isometry3d tail = Isometry3d::Identity();
+  for (std::size_t i = 0; i < table.joints.size(); ++i) {
+    DhJoint row = table.joints[i];
+    const Isometry3d step = step_of(table.convention, row);
+    row.d = 0.0;
+    ArmJoint joint;
+    joint.name = model.variables[i].name;
+    joint.parent = as_whole<int>(i) - 1;
+    joint.origin = modified ? tail * step_of(table.convention, row) : tail;
+    joint.variable = i;
+    joint.offset = table.joints[i].offset_rad;
+    model.joints.push_back(joint);
+    if (modified) {
+      links.add(joint.parent, tail.translation(), (tail * step).translation());
+      tail = along_z(table.joints[i].d);
+    } else {
+      tail = step;
+      links.add(as_whole<int>(i), Vec3::Zero(), tail.translation());
+    }
+  }
+  model.tool_frame = as_whole<int>(table.joints.size()) - 1;
+  model.tool = tail * table.tool;
+  links.add(model.tool_frame, tail.translation(), model.tool.translation());
+  if (model.links.empty()) throw InputError("arm", "has no link of any length");
+  const double rounding = 1e-12 * (chain.reach() + radius + clearance);
+  if (self_collision) add_pairs(model, (2.0 * radius + clearance) * (1.0 + 1e-9) + rounding);
+  return model;
+}
+
+}  // namespace warren
