@@ -109,8 +109,8 @@ bool is_among(std::initializer_list<std::string_view> options, const tools::Opti
 /// Those that say how `warren build` works, not where things are written.
 tools::Command building() {
   return of_verb("build", tools::build_command(), [](const tools::OptionSpec& spec) {
-    return !is_among({"--output", "--no-world", "--map-rules", "--request", "--threads", "--budget", "--memory", "--quiet",
-                      "--progress", "--color", "--trace"},
+    return !is_among({"--output", "--no-world", "--map-rules", "--request", "--threads", "--budget", "--memory",
+                      "--quiet", "--progress", "--color", "--trace"},
                      spec);
   });
 }
@@ -198,9 +198,9 @@ py::array lengths(KeptRoadmap& kept, const py::object& from, const py::object& t
       arguments_of(each_to_each ? made_once<asking_matrix>() : made_once<asking_pairs>(), keywords));
   const std::size_t width = state_size(kept.roadmap().robot);
   const NumberRows starts = rows_of(from, "starts", {width});
-  const NumberRows goals = width == 3   ? rows_of(to, "goals", {3, 2})
+  const NumberRows goals = width == 3  ? rows_of(to, "goals", {3, 2})
                            : width > 3 ? rows_of(to, "goals", {width, 3})
-                                        : rows_of(to, "goals", {2});
+                                       : rows_of(to, "goals", {2});
   if (!each_to_each && starts.rows != goals.rows && starts.rows != 1 && goals.rows != 1) {
     throw py::value_error("starts and goals: expected as many of both, or one of either (found: " +
                           std::to_string(starts.rows) + " and " + std::to_string(goals.rows) + ")");

@@ -204,7 +204,7 @@ class MoveItStates : public MoveItNodes {
     const std::string name = type.IsScalar() ? type.Scalar() : "";
     const Node size = needed(shape, "dimensions");
     const auto solid = [&](std::string_view word, const std::vector<double>& numbers) {
-      return solid_of_numbers(*solid_word_named(word), numbers, yaml_.place(shape));
+      return solid_of_numbers(*solid_word_named(word), numbers, yaml_.place(shape), execution_);
     };
     const auto& [x, y, z] = pose.at;
     if (name == "box" || name == "1") {
@@ -229,8 +229,8 @@ class MoveItStates : public MoveItNodes {
       for (const double c : Vec3(pose * Vec3(x, y, z))) push_asked(all, c, execution_);
     });
     if (all.empty()) yaml_.place(shape).fail("a mesh needs `vertices`");
-    execution_.reserve(2 * all.size() * sizeof(double));
-    return solid_of_numbers(*solid_word_named("hull"), all, yaml_.place(shape));
+    execution_.reserve(3 * all.size() * sizeof(double));
+    return solid_of_numbers(*solid_word_named("hull"), all, yaml_.place(shape), execution_);
   }
 };
 

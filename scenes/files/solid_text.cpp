@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
+#include "scenes/scene/convex_hull.hpp"
 
 namespace warren {
 namespace {
@@ -134,7 +136,8 @@ std::array<double, 4> quaternion_of_turn(const Eigen::Matrix3d& turn) {
   return quaternion;
 }
 
-Solid solid_of_numbers(const SolidWord& word, std::span<const double> numbers, const scene_text::Place& place) {
+Solid solid_of_numbers(const SolidWord& word, std::span<const double> numbers, const scene_text::Place& place,
+                       const Execution& execution) {
   if (const std::string_view fault = fault_of(word.name, numbers); !fault.empty()) {
     std::string found;
     append_numbers(found, numbers);
@@ -153,9 +156,11 @@ Solid solid_of_numbers(const SolidWord& word, std::span<const double> numbers, c
     solid.half = turned ? point_at(numbers, 7) : Vec3(0.5 * (point_at(numbers, 3) - first).cwiseAbs());
     if (turned) solid.pose.linear() = turn_of_quaternion(numbers[3], numbers[4], numbers[5], numbers[6]);
   } else if (word.name == "hull") {
-    solid.kind = SolidKind::hull;
-    for (std::size_t i = 0; i < numbers.size(); i += 3) solid.corners.push_back(point_at(numbers, i));
-    solid.given.clear();
+    std::vector<Vec3> points;
+    for (std::size_t i = 0; i < numbers.size(); i += 3) points.push_back(point_at(numbers, i));
+    std::vector<double> given = std::move(solid.given);
+    solid = convex_hull(points, place.text(), execution);
+    solid.given = std::move(given);
   } else {
     solid.kind = word.name == "capsule" ? SolidKind::capsule : SolidKind::cylinder;
     stretch(solid, numbers);
@@ -175,8 +180,8 @@ Solid read_solid(const SolidWord& word, scene_text::Fields& fields, const Execut
     fields.place().fail(fmt::format("expected `{}`", word.usage),
                         fmt::format("{} number{}", numbers.size(), numbers.size() == 1 ? "" : "s"));
   }
-  execution.reserve(2 * numbers.size() * sizeof(double));
-  return solid_of_numbers(word, numbers, fields.place());
+  execution.reserve(3 * numbers.size() * sizeof(double));
+  return solid_of_numbers(word, numbers, fields.place(), execution);
 }
 
 std::string solid_text(const Solid& solid) {

@@ -36,8 +36,9 @@ inline constexpr std::array<SolidWord, 6> solid_words = {{
 const SolidWord* solid_word_named(std::string_view name);
 
 /// The solid of these numbers, whose count is right. Throws InputError naming the place: a negative size, a cylinder
-/// without length, a quaternion of zeros.
-Solid solid_of_numbers(const SolidWord& word, std::span<const double> numbers, const scene_text::Place& place);
+/// without length, a quaternion of zeros, a hull as convex_hull() says. Throws Stopped.
+Solid solid_of_numbers(const SolidWord& word, std::span<const double> numbers, const scene_text::Place& place,
+                       const Execution& execution);
 
 /// Reads the numbers behind the word, to the line's end. Throws InputError, Stopped.
 Solid read_solid(const SolidWord& word, scene_text::Fields& fields, const Execution& execution);
