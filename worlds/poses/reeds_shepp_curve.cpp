@@ -13,6 +13,7 @@
 #include "worlds/poses/reeds_shepp_curve.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -108,19 +109,23 @@ SteeringWord word_of(const Solved& w) {
   return word;
 }
 
-/// The shortest of all words that are longer than `longer_than`.
+/// The shortest word, the first of those that are as long: among many that only turn, rounding would choose. That it
+/// ends at the goal is asked where `sure`.
 class Shortest {
  public:
-  explicit Shortest(double longer_than) : longer_than_(longer_than) {}
+  Shortest(const Se2& goal, double off, bool sure) : goal_(goal), off_(off), sure_(sure) {}
   /// Is it worth to go on with a word that has at least this length?
-  bool worth(double at_least) const { return at_least < best_.length; }
+  bool worth(double at_least) const { return at_least < best_.length - (as_long + off_); }
   void take(const Solved& word) {
-    if (word.length < best_.length && word.length > longer_than_) best_ = word;
+    if (worth(word.length) && (!sure_ || ends_at(word_of(word), goal_, off_))) best_ = word;
   }
   const Solved& best() const { return best_; }
 
  private:
-  double longer_than_;
+  static constexpr double as_long = 1e-12;
+  Se2 goal_;
+  double off_;
+  bool sure_;
   Solved best_;
 };
 
@@ -146,19 +151,19 @@ class Enumeration {
   Enumeration(const Se2& goal, double off, Taker& taker)
       : taker_(taker), off_(off), same_(1e-12 + off), touching_(1e-11 + 8.0 * off) {
     const auto [s, c] = portable::sin_and_cos(goal.theta);
-    for (const bool mirrored : {false, true}) {
-      const double side = mirrored ? -1.0 : 1.0;
-      Frame frame({mirrored, false, false}, {goal.x, side * goal.y}, side * goal.theta, side * s, c);
-      // The goal seen the other way round: turned words, last piece first.
-      Frame back({mirrored, false, true}, {goal.x * c + goal.y * s, side * (goal.x * s - goal.y * c)},
-                 side * goal.theta, side * s, c);
-      for (int time = 0; time < 2; ++time) {
-        solve_all(frame);
-        solve_quarter(back);
-        frame.reverse();
-        back.reverse();
-      }
-    }
+    const auto four = [&, s = s, c = c](bool from_goal, double x, double y) {
+      const Frame plain({false, false, from_goal}, {x, y}, goal.theta, s, c);
+      const Frame mirrored({true, false, from_goal}, {x, -y}, -goal.theta, -s, c);
+      std::array all{plain, mirrored, plain, mirrored};
+      all[2].reverse();
+      all[3].reverse();
+      return all;
+    };
+    const auto there = four(false, goal.x, goal.y);
+    for (const Frame& frame : there) solve_straight(frame);
+    for (const Frame& frame : there) solve_arcs(frame);
+    // The goal seen the other way round: turned words, last piece first.
+    for (const Frame& frame : four(true, goal.x * c + goal.y * s, goal.x * s - goal.y * c)) solve_quarter(frame);
   }
 
  private:
@@ -188,7 +193,8 @@ class Enumeration {
   void take(const Frame& frame, Shape shape, double first, double middle, double last, double fixed) {
     taker_.take({fixed + std::abs(first) + std::abs(last), shape, frame.change, first, middle, last});
   }
-  void solve_all(const Frame& f);
+  void solve_straight(const Frame& f);
+  void solve_arcs(const Frame& f);
   void solve_four_arcs(const Frame& f);
   void solve_quarter(const Frame& f);
   void solve_two_quarters(const Frame& f);
@@ -200,14 +206,13 @@ class Enumeration {
 };
 
 template <class Taker>
-void Enumeration<Taker>::solve_all(const Frame& f) {
-  const double one_circle = 1e-9 + 4.0 * off_;
+void Enumeration<Taker>::solve_straight(const Frame& f) {
   if (worth(f.to_left.size)) {
     const double first = f.to_left.angle;
-    take(f, Shape::lsl, first, f.to_left.size, wrapped(f.phi - first), f.to_left.size);
     // What rounding alone turns, or drives between two circles that are one, is no piece.
+    if (f.to_left.size <= 1e-9 + 4.0 * off_) take(f, Shape::lsl, 0.0, 0.0, f.phi, 0.0);
     if (f.to_left.size * std::abs(first) <= 4.0 * off_) take(f, Shape::lsl, 0.0, f.to_left.size, f.phi, f.to_left.size);
-    if (f.to_left.size <= one_circle) take(f, Shape::lsl, 0.0, 0.0, f.phi, 0.0);
+    take(f, Shape::lsl, first, f.to_left.size, wrapped(f.phi - first), f.to_left.size);
   }
   if (f.to_right.size >= 2.0 - touching_) {
     const double straight = tangent(f.to_right.size);
@@ -216,6 +221,10 @@ void Enumeration<Taker>::solve_all(const Frame& f) {
       take(f, Shape::lsr, first, straight, wrapped(first - f.phi), straight);
     }
   }
+}
+
+template <class Taker>
+void Enumeration<Taker>::solve_arcs(const Frame& f) {
   if (f.to_left.size <= 4.0 + touching_) {
     const double arc = 2.0 * portable::asin(std::min(0.25 * f.to_left.size, 1.0));
     if (worth(arc)) {
@@ -283,29 +292,19 @@ bool precedes(const Se2& a, const Se2& b) {
 
 SteeringWord driven_back(const SteeringWord& word) {
   SteeringWord back = word;
-  for (std::size_t i = 0; i < word.count; ++i) {
-    const SteeringPiece& piece = word.pieces[word.count - 1U - i];
-    back.pieces[i] = {piece.steer, -piece.length};
-  }
+  std::reverse(back.pieces.begin(), back.pieces.begin() + back.count);
+  for (SteeringPiece& piece : back.pieces) piece.length = -piece.length;
   return back;
 }
 
 SteeringWord shortest_onwards(const Se2& a, const Se2& b, double turning_radius) noexcept {
   const Se2 goal = seen_from(a, b, turning_radius);
   const double off = off_by_rounding(a, b, turning_radius);
-  double longer_than = -1.0;
-  for (;;) {
-    Shortest shortest(longer_than);
-    Enumeration<Shortest>(goal, off, shortest);
-    const Solved& solved = shortest.best();
-    if (!std::isfinite(solved.length)) break;
-    const SteeringWord word = word_of(solved);
-    if (ends_at(word, goal, off)) return word;
-    longer_than = solved.length;
-  }
-  Shortest any(-1.0);
+  Shortest any(goal, off, false);
   Enumeration<Shortest>(goal, off, any);
-  return word_of(any.best());
+  Shortest sure(goal, off, true);
+  if (!ends_at(word_of(any.best()), goal, off)) Enumeration<Shortest>(goal, off, sure);
+  return word_of(std::isfinite(sure.best().length) ? sure.best() : any.best());
 }
 
 }  // namespace
