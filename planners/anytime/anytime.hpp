@@ -4,10 +4,10 @@
 // best everywhere: restarts are in the open, the roadmap in mazes, the tree where it is narrow; the shortener makes
 // something of the variety that they find.
 //
-// Work is counted, not timed: a state check is 1, an edge check 4, a neighbour query 1. A turn is a list of tasks with
-// fixed numbers, each a function of what was known when the turn began; they run on as many threads as there are, and
-// their results are taken in the order of their numbers. So as many turns give the same bytes on any machine, with any
-// number of threads. A turn that a stop cuts is thrown away.
+// Work is counted, not timed: a state check is 1, an edge check 4, each neighbour that a query gives 1. A turn is a
+// list of tasks with fixed numbers, each a function of what was known when the turn began; they run on as many threads
+// as there are, and their results are taken in the order of their numbers. So as many turns give the same bytes on any
+// machine, with any number of threads. A turn that a stop cuts is thrown away.
 //
 // The cost is the sum of the world's metric. It comes near the best there is; how near is said by a lower bound that
 // whoever asks has proved. Asymptotically optimal, as its tree is. That there is no path is never proved.
