@@ -359,6 +359,11 @@ std::string body_text(const RobotSpec& robot, std::string_view metres) {
       return fmt::format("a car, turning radius {}{}", human_number(robot.turning_radius), metres);
     case RobotKind::disc:
       return fmt::format("a disc of radius {}{}", human_number(robot.radius), metres);
+    case RobotKind::urdf: {
+      const ArmFiles& files = robot.files.value();
+      const std::string name = files.urdf.substr(files.urdf.find_last_of('/') + 1);
+      return files.group.empty() ? name : fmt::format("{}, group {}", name, files.group);
+    }
     default:
       return fmt::format("{}, links of radius {}", name_of(robot.kind), human_number(robot.radius));
   }
