@@ -196,7 +196,7 @@ Drawing drawing_of_arm(const Scene& scene, const RobotSpec& robot, const std::ve
   Path<JointState> path;
   for (std::size_t i = 0; i < states.size(); ++i) path.push_back(joint_state(states[i]));
   if (path.empty()) path.push_back(joint_state(start));
-  ArmViews views = arm_views(scene, table_of(robot, execution), robot.radius, path, execution);
+  ArmViews views = arm_views(scene, *arm_model_of(robot, 0.0, execution), path, execution);
   return {.layers = std::move(views.layers),
           .stage = std::move(views.stage),
           .panels = std::move(views.panels),
@@ -359,6 +359,11 @@ std::string body_text(const RobotSpec& robot, std::string_view metres) {
       return fmt::format("a car, turning radius {}{}", human_number(robot.turning_radius), metres);
     case RobotKind::disc:
       return fmt::format("a disc of radius {}{}", human_number(robot.radius), metres);
+    case RobotKind::urdf: {
+      const ArmFiles& files = robot.files.value();
+      const std::string name = files.urdf.substr(files.urdf.find_last_of('/') + 1);
+      return files.group.empty() ? name : fmt::format("{}, group {}", name, files.group);
+    }
     default:
       return fmt::format("{}, links of radius {}", name_of(robot.kind), human_number(robot.radius));
   }

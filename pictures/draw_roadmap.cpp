@@ -98,7 +98,8 @@ class RoadmapDrawing {
     return all;
   }
   JointState joints(VertexId v) const {
-    return joint_state(std::span<const double>(arrays_.states).subspan(std::size_t{v} * arrays_.dimension, arrays_.dimension));
+    return joint_state(
+        std::span<const double>(arrays_.states).subspan(std::size_t{v} * arrays_.dimension, arrays_.dimension));
   }
   void add_lines(Drawing& drawing) const {
     for (const EdgeStyle& style : other_edges) {
@@ -161,7 +162,7 @@ class RoadmapDrawing {
     for (const EdgeStyle& style : other_edges) add(style);
     add({EdgeState::free, "free", "free edge", colors::components[0]});
     ArmViews views =
-        arm_roadmap_views(scene_, table_of(roadmap_.robot, execution_), roadmap_.robot.radius,
+        arm_roadmap_views(scene_, *arm_model_of(roadmap_.robot, 0.0, execution_),
                           scene_.start.empty() ? JointState{} : joint_state(scene_.start), states, lines, execution_);
     return {.layers = std::move(views.layers),
             .stage = std::move(views.stage),

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A ray a sample, two by two samples a pixel. Each solid asks the rays of the pixels around its own picture for the
-// place where they enter it; of each ray the nearest place is kept, with whose it is, and shaded at the end. All
-// lengths are in reaches of the view, so tiny and huge worlds look alike.
+// place where they enter it; of each ray the nearest place is kept, with whose it is, and shaded at the end: of the
+// world and of all else apart, so that what an obstacle hides is seen through it. All lengths are in reaches of the
+// view, so tiny and huge worlds look alike.
 
 #include "pictures/formats/solid_raster.hpp"
 
@@ -44,6 +45,12 @@ struct Reach {
   }
 };
 
+/// Of each ray.
+struct Nearest {
+  RawVector<float> depth;
+  RawVector<std::uint32_t> whose;
+};
+
 class SolidRaster {
  public:
   SolidRaster(const SolidView& view, Parts parts, std::size_t width, std::size_t height, const Execution& execution)
@@ -53,15 +60,17 @@ class SolidRaster {
         columns_(samples_a_side * width),
         rows_(samples_a_side * height) {
     const std::size_t count = columns_ * rows_;
-    execution.reserve(count * (sizeof(float) + sizeof(std::uint32_t)));
+    execution.reserve(2 * count * (sizeof(float) + sizeof(std::uint32_t)));
     take_camera(view);
     take_solids(view, parts);
-    depth_.resize(count);
-    whose_.resize(count);
-    for (std::size_t row = 0; row < rows_; ++row) {
-      if (row % 64 == 0) execution.check();
-      std::fill_n(depth_.data() + row * columns_, columns_, std::numeric_limits<float>::infinity());
-      std::fill_n(whose_.data() + row * columns_, columns_, nobody);
+    for (Nearest& nearest : nearest_) {
+      nearest.depth.resize(count);
+      nearest.whose.resize(count);
+      for (std::size_t row = 0; row < rows_; ++row) {
+        if (row % 64 == 0) execution.check();
+        std::fill_n(nearest.depth.data() + row * columns_, columns_, std::numeric_limits<float>::infinity());
+        std::fill_n(nearest.whose.data() + row * columns_, columns_, nobody);
+      }
     }
   }
 
@@ -103,6 +112,7 @@ class SolidRaster {
       const SeenSolid& s = view.solids[i];
       if (!parts.has(s.part)) continue;
       solids_.push_back({near(s.a), near(s.b), s.radius / view.reach, s.color, s.part});
+      if (s.c) solids_.back().c = near(*s.c);
       take_shadow(solids_.back());
     }
   }
@@ -113,6 +123,10 @@ class SolidRaster {
     const Vec2 b = shadow_place(s.b);
     if (s.radius < 0.0) {
       PolygonSet outline;
+      if (s.c) {
+        outline.add(std::array{a, b, shadow_place(*s.c)});
+        return shadows_.fill(outline, 1.0, execution_);
+      }
       outline.add(std::array{a, Vec2{b.x, a.y}, b, Vec2{a.x, b.y}});
       return shadows_.fill(outline, 1.0, execution_);
     }
@@ -121,6 +135,7 @@ class SolidRaster {
   /// Asks the rays of the samples that the solid may cover.
   void mark(std::uint32_t i) {
     const SeenSolid& s = solids_[i];
+    Nearest& nearest = nearest_[s.part == Part::world ? 0 : 1];
     const Reach reach = reach_of(s);
     const auto clamped = [](double v, std::size_t size) {
       return static_cast<std::size_t>(std::clamp(v, 0.0, static_cast<double>(size)));
@@ -135,9 +150,9 @@ class SolidRaster {
         const Vec3 way = ray(row, column);
         const double t = enter_solid(eye_, way, s);
         const std::size_t sample = row * columns_ + column;
-        if (!(t > 0.0) || !(static_cast<float>(t) < depth_[sample])) continue;
-        depth_[sample] = static_cast<float>(t);
-        whose_[sample] = i;
+        if (!(t > 0.0) || !(static_cast<float>(t) < nearest.depth[sample])) continue;
+        nearest.depth[sample] = static_cast<float>(t);
+        nearest.whose[sample] = i;
       }
     }
   }
@@ -159,7 +174,8 @@ class SolidRaster {
     const auto middle = [](const Box& box) { return 0.5 * (box.min + box.max); };
     if (s.radius < 0.0) {
       Box box;
-      for (int corner = 0; corner < 8; ++corner) {
+      for (const Vec3& p : {s.a, s.b, s.c.value_or(s.a)}) box.include(box_around(p, 0.0));
+      for (int corner = 0; corner < 8 && !s.c; ++corner) {
         box.include(box_around({(corner & 1) != 0 ? s.a.x() : s.b.x(), (corner & 2) != 0 ? s.a.y() : s.b.y(),
                                 (corner & 4) != 0 ? s.a.z() : s.b.z()},
                                0.0));
@@ -183,9 +199,17 @@ class SolidRaster {
   Vec3 color_of(std::size_t row, std::size_t column) const {
     const Vec3 way = ray(row, column);
     const std::size_t sample = row * columns_ + column;
-    if (whose_[sample] == nobody) return floor_color(way);
-    const SeenSolid& s = solids_[whose_[sample]];
-    const Vec3 normal = normal_at(eye_ + static_cast<double>(depth_[sample]) * way, s);
+    const auto& [world, rest] = nearest_;
+    if (world.whose[sample] == nobody && rest.whose[sample] == nobody) return floor_color(way);
+    if (!(world.depth[sample] < rest.depth[sample])) return lit(rest, sample, way);
+    const Vec3 color = lit(world, sample, way);
+    constexpr double through = 0.4;
+    return rest.whose[sample] == nobody ? color : Vec3(color + through * (lit(rest, sample, way) - color));
+  }
+  Vec3 lit(const Nearest& nearest, std::size_t sample, const Vec3& way) const {
+    const SeenSolid& s = solids_[nearest.whose[sample]];
+    const double depth = nearest.depth[sample];
+    const Vec3 normal = normal_at(eye_ + depth * way, s);
     // From the left, above, and from where the eye is.
     const Vec3 light = (-0.45 * right_ + 0.75 * Vec3::UnitZ() - 0.6 * forward_).normalized();
     constexpr double darkest = 0.5;
@@ -195,7 +219,7 @@ class SolidRaster {
     const double square = glance * glance;
     const double gloss = shine * square * square * square * square;
     const Vec3 color = ink(s.color) * bright;
-    return in_air(color + gloss * (ink(colors::paper) - color), depth_[sample]);
+    return in_air(color + gloss * (ink(colors::paper) - color), depth);
   }
 
   Vec3 floor_color(const Vec3& ray) const {
@@ -251,8 +275,7 @@ class SolidRaster {
   double square_ = 1.0;
   std::vector<SeenSolid> solids_;
   Mask shadows_{1, 1, {}};
-  RawVector<float> depth_;
-  RawVector<std::uint32_t> whose_;
+  std::array<Nearest, 2> nearest_;  // of the world, of all else
 };
 
 }  // namespace
@@ -306,13 +329,27 @@ double enter_box(const Vec3& eye, const Vec3& ray, const SeenSolid& s) {
   }
   return from <= to ? from : no_hit;
 }
+/// Anticlockwise seen from the eye; sides that two faces share are asked alike, so that no ray passes between them.
+double enter_face(const Vec3& eye, const Vec3& ray, const SeenSolid& s) {
+  const Vec3 a = s.a - eye;
+  const Vec3 b = s.b - eye;
+  const Vec3 c = *s.c - eye;
+  const double volume = a.dot(b.cross(c));
+  if (!(volume < 0.0)) return no_hit;
+  const double at_a = ray.dot(b.cross(c));
+  const double at_b = ray.dot(c.cross(a));
+  const double at_c = ray.dot(a.cross(b));
+  return at_a <= 0.0 && at_b <= 0.0 && at_c <= 0.0 ? volume / (at_a + at_b + at_c) : no_hit;
+}
 }  // namespace
 
 double enter_solid(const Vec3& eye, const Vec3& ray, const SeenSolid& s) {
+  if (s.c) return enter_face(eye, ray, s);
   return s.radius < 0.0 ? enter_box(eye, ray, s) : enter_swept_ball(eye, ray, s);
 }
 
 Vec3 normal_at(const Vec3& p, const SeenSolid& s) {
+  if (s.c) return (s.b - s.a).cross(*s.c - s.a).normalized();
   if (s.radius < 0.0) {
     const Vec3 half = 0.5 * (s.b - s.a);
     const Vec3 off = p - 0.5 * (s.a + s.b);

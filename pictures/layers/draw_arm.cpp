@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The three views stand as in a technical drawing: from above over the one from the front, the one from the side to
-// the right of it, the perspective above that. In the projections a sphere is a circle, a box a rectangle, a capsule a
-// stadium.
+// the right of it, the perspective above that. In the projections every solid is the outline of its hull. All arms are
+// models: links of solids that stand in the frames of joints. Of a solid balls that go along a line are drawn as they
+// are, all else as triangles.
 
 #include "pictures/layers/draw_arm.hpp"
 
@@ -14,68 +15,183 @@
 #include <numbers>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/types.hpp"
+#include "parallel/asked_memory.hpp"
 #include "parallel/execution.hpp"
 #include "pictures/model/axis.hpp"
 #include "scenes/scene/scene.hpp"
-#include "worlds/arms/arm_world.hpp"
-#include "worlds/arms/serial_chain.hpp"
+#include "worlds/arms/arm_kinematics.hpp"
+#include "worlds/rasters/convex_pieces.hpp"
 
 namespace warren {
 namespace {
 
-double joint_distance(const JointState& a, const JointState& b) {
-  double square = 0.0;
-  for (std::size_t j = 0; j < most_joints; ++j) square += (b[j] - a[j]) * (b[j] - a[j]);
-  return std::sqrt(square);
+constexpr int round_corners = 24;  // of a cylinder
+
+Vec3 corner(const std::array<double, 3>& c) { return {c[0], c[1], c[2]}; }
+
+/// A ball where it is small, or the corners of anything else: the hull of these is the hull of the solid.
+template <class Take>
+void for_each_point(const SeenSolid& s, const Take& take) {
+  if (s.radius >= 0.0) {
+    take(s.a, s.radius);
+    if (s.a != s.b) take(s.b, s.radius);
+  } else if (s.c) {
+    for (const Vec3& p : {s.a, s.b, *s.c}) take(p, 0.0);
+  } else {
+    for (int k = 0; k < 8; ++k) {
+      take(Vec3{((k & 1) != 0 ? s.a : s.b).x(), ((k & 2) != 0 ? s.a : s.b).y(), ((k & 4) != 0 ? s.a : s.b).z()}, 0.0);
+    }
+  }
 }
 
-JointState between(const JointState& a, const JointState& b, double t) {
-  JointState q;
-  for (std::size_t j = 0; j < most_joints; ++j) q[j] = a[j] + t * (b[j] - a[j]);
-  return q;
+using Shapes = std::vector<SeenSolid>;
+
+void add_face(Shapes& shapes, const Vec3& a, const Vec3& b, const Vec3& c) {
+  shapes.push_back({a, b, -1.0, {}, Part::body, c});
+}
+
+/// Between two rings of as many corners, seen from outside anticlockwise from below to above; and the lids.
+void add_prism(Shapes& shapes, const std::vector<Vec3>& below, const std::vector<Vec3>& above) {
+  for (std::size_t i = 0, j = below.size() - 1; i < below.size(); j = i++) {
+    add_face(shapes, below[j], below[i], above[i]);
+    add_face(shapes, below[j], above[i], above[j]);
+    if (i < 2) continue;
+    add_face(shapes, below[0], below[i], below[i - 1]);
+    add_face(shapes, above[0], above[i - 1], above[i]);
+  }
+}
+
+/// As it stands in its own frame.
+Shapes shapes_of(const Solid& solid) {
+  const Vec3 rise{0.0, 0.0, solid.half.z()};
+  Shapes shapes;
+  if (solid.kind == SolidKind::sphere || solid.kind == SolidKind::capsule) {
+    const Vec3 reach = solid.kind == SolidKind::sphere ? Vec3(Vec3::Zero()) : rise;
+    shapes.push_back({-reach, reach, solid.half.x(), {}, Part::body});
+  } else if (solid.kind == SolidKind::hull) {
+    for (const auto& [a, b, c] : solid.faces) add_face(shapes, solid.corners[a], solid.corners[b], solid.corners[c]);
+  } else {
+    std::vector<Vec3> ring;
+    if (solid.kind == SolidKind::box) {
+      for (const auto& [x, y] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
+        ring.emplace_back(x * solid.half.x(), y * solid.half.y(), 0.0);
+      }
+    } else {
+      for (const Vec2 p : circle_outline({}, solid.half.x(), round_corners)) ring.emplace_back(p.x, p.y, 0.0);
+    }
+    std::vector<Vec3> above = ring;
+    for (Vec3& p : ring) p -= rise;
+    for (Vec3& p : above) p += rise;
+    add_prism(shapes, ring, above);
+  }
+  return shapes;
+}
+
+SeenSolid moved(const SeenSolid& s, const Eigen::Isometry3d& to) {
+  SeenSolid there = s;
+  there.a = to * s.a;
+  there.b = to * s.b;
+  if (s.c) there.c = to * *s.c;
+  return there;
+}
+Shapes moved(const Shapes& shapes, const Eigen::Isometry3d& to) {
+  Shapes there;
+  for (const SeenSolid& s : shapes) there.push_back(moved(s, to));
+  return there;
+}
+
+/// Of all solids that only arms meet, each as its shapes.
+std::vector<Shapes> obstacles_of(const Scene& scene, const Execution& execution) {
+  std::vector<Shapes> all;
+  const auto add = [&](Shapes shapes) {
+    for (SeenSolid& s : shapes) {
+      s.color = colors::blocked_cell;
+      s.part = Part::world;
+    }
+    push_asked(all, std::move(shapes), execution);
+    execution.check();
+  };
+  for (const Sphere& s : scene.spheres) add({{{s.x, s.y, s.z}, {s.x, s.y, s.z}, s.radius}});
+  for (const auto& [low, high] : scene.boxes) add({{corner(low), corner(high), -1.0}});
+  for (const Solid& solid : scene.solids) add(moved(shapes_of(solid), solid.pose));
+  return all;
 }
 
 // An arm along a path in joint space: what its pictures ask.
 
-std::vector<std::size_t> points_apart(const SerialChain& chain) {
-  ChainPosture rest;
-  chain.place({}, rest);
-  std::vector<std::size_t> points{0};
-  for (std::size_t i = 1; i < chain.point_count(); ++i) {
-    if ((rest.points[i] - rest.points[i - 1]).norm() > 1e-12 * chain.reach()) points.push_back(i);
+/// Frames of joints in the order in which a line goes through the tree, and back from where it ends to where it parts.
+void walk(const ArmModel& model, int from, std::vector<int>& line, std::size_t& used) {
+  line.push_back(from);
+  used = line.size();
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    if (model.joints[j].parent != from) continue;
+    walk(model, static_cast<int>(j), line, used);
+    line.push_back(from);
   }
-  return points;
 }
 
 /// Refers to the path, which has at least one state.
 class ArmPath {
  public:
-  ArmPath(const DhTable& table, std::span<const JointState> states)
-      : chain_(table), points_(points_apart(chain_)), states_(states), shares_{0.0} {
+  ArmPath(const ArmModel& model, std::span<const JointState> states) : kinematics_(model), states_(states) {
+    for (const ArmLink& link : model.links) {
+      for (const Solid& solid : link.solids) solids_.push_back({link.frame, moved(shapes_of(solid), solid.pose)});
+    }
+    std::size_t used = 0;
+    walk(model, base_frame, line_, used);
+    line_.resize(used);
     for (std::size_t i = 1; i < states.size(); ++i) {
-      shares_.push_back(shares_.back() + joint_distance(states[i - 1], states[i]));
+      shares_.push_back(shares_.back() + distance(states[i - 1], states[i]));
     }
   }
 
+  /// A solid of a link, in the frame of a joint.
+  struct Fixed {
+    int frame;
+    Shapes shapes;
+  };
+  const std::vector<Fixed>& solids() const { return solids_; }
   std::span<const JointState> states() const { return states_; }
   /// In joint space.
   double length() const { return shares_.back(); }
-  /// The ends of the links, from the base.
+  /// Of the base, then of each joint.
+  std::vector<Eigen::Isometry3d> frames(const JointState& q) const {
+    ArmPosture posture;
+    kinematics_.place(q, posture);
+    std::vector<Eigen::Isometry3d> all;
+    for (int number = base_frame; number < static_cast<int>(kinematics_.model().joints.size()); ++number) {
+      const MovingFrame& frame = ArmKinematics::frame(posture, number);
+      Eigen::Isometry3d& to = all.emplace_back(Eigen::Isometry3d::Identity());
+      to.linear() = frame.turn;
+      to.translation() = frame.at;
+    }
+    return all;
+  }
+  /// Each solid of the links where it is.
+  std::vector<Shapes> bodies(const JointState& q) const {
+    const std::vector<Eigen::Isometry3d> at = frames(q);
+    std::vector<Shapes> all;
+    for (const Fixed& solid : solids_)
+      all.push_back(moved(solid.shapes, at[static_cast<std::size_t>(solid.frame + 1)]));
+    return all;
+  }
+  /// A line through the origins of the frames, and to the tool.
   std::vector<Vec3> spine(const JointState& q) const {
-    ChainPosture at;
-    chain_.place(q, at);
-    std::vector<Vec3> ends;
-    for (const std::size_t point : points_) ends.push_back(at.points[point]);
-    return ends;
+    const std::vector<Eigen::Isometry3d> at = frames(q);
+    std::vector<Vec3> points;
+    for (const int frame : line_) {
+      points.push_back(at[static_cast<std::size_t>(frame + 1)].translation());
+      if (frame != kinematics_.model().tool_frame) continue;
+      points.push_back(tool(q));
+      if (frame != line_.back()) points.push_back(points[points.size() - 2]);
+    }
+    return points;
   }
-  Vec3 tool(const JointState& q) const {
-    ChainPosture at;
-    chain_.place(q, at);
-    return at.points[chain_.point_count() - 1];
-  }
+  Vec3 tool(const JointState& q) const { return kinematics_.tool_pose(q).translation(); }
 
   /// Where it is when that share of the length is behind, 0 .. 1.
   JointState at(double moment) const {
@@ -108,18 +224,34 @@ class ArmPath {
   }
 
  private:
-  SerialChain chain_;
-  std::vector<std::size_t> points_;  // of the chain, each apart from the one before
+  double distance(const JointState& a, const JointState& b) const {
+    double square = 0.0;
+    for (std::size_t j = 0; j < kinematics_.size(); ++j) {
+      const double way = variable_way(kinematics_.model().variables[j], a[j], b[j]);
+      square += way * way;
+    }
+    return std::sqrt(square);
+  }
+  JointState between(const JointState& a, const JointState& b, double t) const {
+    JointState q{};
+    for (std::size_t j = 0; j < kinematics_.size(); ++j) {
+      q[j] = a[j] + t * variable_way(kinematics_.model().variables[j], a[j], b[j]);
+    }
+    return q;
+  }
+
+  ArmKinematics kinematics_;
+  std::vector<Fixed> solids_;
+  std::vector<int> line_;
   std::span<const JointState> states_;
-  std::vector<double> shares_;  // of each state: the length up to it
+  std::vector<double> shares_{0.0};  // of each state: the length up to it
 };
 
 // An arm and its obstacles as solids, seen in perspective.
 
-Vec3 corner(const std::array<double, 3>& c) { return {c[0], c[1], c[2]}; }
-
 /// The obstacles alone, seen from the front, the right and above, in `box`. low, high: of all that is to be seen.
-SolidView solids_of(const Scene& scene, const Box& box, const Vec3& low, const Vec3& high, const Execution& execution) {
+SolidView solids_of(const std::vector<Shapes>& obstacles, const Box& box, const Vec3& low, const Vec3& high,
+                    const Execution& execution) {
   constexpr double azimuth_rad = -0.3 * std::numbers::pi;
   constexpr double rise_rad = 0.13 * std::numbers::pi;
   constexpr double floor_a_reach = 1.3;
@@ -128,20 +260,15 @@ SolidView solids_of(const Scene& scene, const Box& box, const Vec3& low, const V
   view.azimuth_rad = azimuth_rad;
   view.rise_rad = rise_rad;
   view.target = 0.5 * (low + high);
-  execution.reserve((scene.spheres.size() + scene.boxes.size()) * sizeof(SeenSolid));
   double reach = 0.0;
   const auto include = [&](const Vec3& p, double radius) {
     reach = std::max(reach, (p - view.target).norm() + radius);
   };
-  for (const Sphere& s : scene.spheres) {
-    const Vec3 centre{s.x, s.y, s.z};
-    if (s.radius > 0.0) view.solids.push_back({centre, centre, s.radius, colors::blocked_cell, Part::world});
-    include(centre, s.radius);
-  }
-  for (const auto& [from, to] : scene.boxes) {
-    view.solids.push_back({corner(from), corner(to), -1.0, colors::blocked_cell, Part::world});
-    for (int k = 0; k < 8; ++k) {
-      include({(k & 1) != 0 ? from[0] : to[0], (k & 2) != 0 ? from[1] : to[1], (k & 4) != 0 ? from[2] : to[2]}, 0.0);
+  for (const Shapes& shapes : obstacles) {
+    execution.check();
+    for (const SeenSolid& s : shapes) {
+      for_each_point(s, include);
+      if (s.radius != 0.0) push_asked(view.solids, s, execution);
     }
   }
   // What is not an obstacle is inside of low and high.
@@ -156,16 +283,19 @@ SolidView solids_of(const Scene& scene, const Box& box, const Vec3& low, const V
   view.floor = {view.target.x() - half, view.target.y() - half, low.z()};
   return view;
 }
-/// The arm at start and goal and, paler, between them; and the tool's way. radius: of the links.
+/// The arm at start and goal and, paler, between them; and the tool's way. radius: five times that of this line.
 void add_arm(SolidView& view, const ArmPath& path, double radius, const Execution& execution) {
   constexpr int postures = 5;
   constexpr double trace_pieces = 200.0;
   constexpr unsigned pale = 45;
   const auto add = [&](const JointState& q, Rgb color, double by) {
-    const std::vector<Vec3> spine = path.spine(q);
-    const double r = std::max(by * radius, least_radius * view.reach);
-    for (std::size_t i = 1; i < spine.size(); ++i) {
-      view.solids.push_back({spine[i - 1], spine[i], r, color, Part::body});
+    execution.check();
+    for (const Shapes& shapes : path.bodies(q)) {
+      for (SeenSolid s : shapes) {
+        s.color = color;
+        if (s.radius >= 0.0) s.radius = std::max(by * s.radius, least_radius * view.reach);
+        push_asked(view.solids, s, execution);
+      }
     }
   };
   add(path.states().front(), colors::start, 1.0);
@@ -183,18 +313,18 @@ void add_arm(SolidView& view, const ArmPath& path, double radius, const Executio
   }
 }
 
-/// The outline of a capsule seen from far.
-std::vector<Vec2> stadium(Vec2 a, Vec2 b, double radius) {
-  constexpr int half = 12;
-  const double heading = a == b ? 0.0 : portable::atan2(b.y - a.y, b.x - a.x);
+/// Of a convex solid, seen from far.
+std::vector<Vec2> outline_of(const Projection& view, const Shapes& shapes) {
   std::vector<Vec2> points;
-  for (const auto& [end, turn] : {std::pair{b, -0.5}, std::pair{a, 0.5}}) {
-    for (int i = 0; i <= half; ++i) {
-      const double angle = heading + std::numbers::pi * (turn + static_cast<double>(i) / half);
-      points.push_back(end + Vec2{radius * portable::cos(angle), radius * portable::sin(angle)});
-    }
+  for (const SeenSolid& s : shapes) {
+    for_each_point(s, [&](const Vec3& p, double radius) {
+      const Vec2 at = view.at(p);
+      if (!(radius > 0.0)) return points.push_back(at);
+      const std::vector<Vec2> circle = circle_outline(at, radius, 64);
+      points.insert(points.end(), circle.begin(), circle.end());
+    });
   }
-  return points;
+  return convex_hull(std::move(points));
 }
 
 std::vector<Vec2> seen_from(const Projection& view, std::span<const Vec3> points) {
@@ -206,8 +336,8 @@ std::vector<Vec2> seen_from(const Projection& view, std::span<const Vec3> points
 class ArmDrawing {
  public:
   /// seen: all states that the views have room for.
-  ArmDrawing(const Scene& scene, double radius, const ArmPath& seen, const Execution& execution)
-      : scene_(scene), radius_(radius), execution_(execution) {
+  ArmDrawing(const Scene& scene, const ArmPath& seen, const Execution& execution)
+      : scene_(scene), execution_(execution), obstacles_(obstacles_of(scene, execution)) {
     measure(seen);
     lay_out();
   }
@@ -222,7 +352,7 @@ class ArmDrawing {
     } else {
       views.layers = {sweep(path), start, arm_at("goal", path, path.states().back(), colors::goal), trace(path)};
     }
-    views.solids = solids_of(scene_, perspective_, low_, high_, execution_);
+    views.solids = solids_of(obstacles_, perspective_, low_, high_, execution_);
     add_arm(views.solids, path, radius_, execution_);
     views.panels = panels(views.solids.square);
     constexpr double moments = 120.0;
@@ -231,7 +361,9 @@ class ArmDrawing {
       views.arm.moments.push_back(at.moment);
       views.arm.spines.push_back(path.spine(at.q));
       views.arm.tools.push_back(path.tool(at.q));
+      views.arm.frames.push_back(path.frames(at.q));
     }
+    for (const ArmPath::Fixed& solid : path.solids()) views.arm.links.push_back({solid.frame + 1, solid.shapes});
     return views;
   }
 
@@ -268,16 +400,40 @@ class ArmDrawing {
     high_ = high_.cwiseMax(p + Vec3::Constant(radius));
   }
   void measure(const ArmPath& seen) {
-    include(Vec3::Zero(), radius_);
-    for (const Sphere& s : scene_.spheres) include({s.x, s.y, s.z}, s.radius);
-    for (const auto& [low, high] : scene_.boxes) {
-      include(corner(low), 0.0);
-      include(corner(high), 0.0);
+    const auto take = [this](const Vec3& p, double radius) { include(p, radius); };
+    for (const Shapes& shapes : obstacles_) {
+      execution_.check();
+      for (const SeenSolid& s : shapes) for_each_point(s, take);
+    }
+    // Of links with many corners the boxes around them, in their frames.
+    std::vector<ArmPath::Fixed> rough;
+    for (const ArmPath::Fixed& solid : seen.solids()) {
+      if (solid.shapes.empty()) continue;
+      const bool is_ball = solid.shapes.front().radius >= 0.0;
+      if (is_ball) radius_ = std::max(radius_, solid.shapes.front().radius);
+      SeenSolid around = solid.shapes.front();
+      for (const SeenSolid& s : solid.shapes) {
+        if (is_ball) break;
+        for (const Vec3& p : {s.a, s.b, *s.c}) {
+          around.a = around.a.cwiseMin(p);
+          around.b = around.b.cwiseMax(p);
+        }
+      }
+      around.c.reset();
+      rough.push_back({solid.frame, {around}});
     }
     constexpr double places = 60.0;
     for (const ArmPath::Place& at : seen.places(places, execution_)) {
-      for (const Vec3& end : seen.spine(at.q)) include(end, radius_);
+      const std::vector<Eigen::Isometry3d> frames = seen.frames(at.q);
+      for (const ArmPath::Fixed& solid : rough) {
+        const Eigen::Isometry3d& frame = frames[static_cast<std::size_t>(solid.frame + 1)];
+        for_each_point(solid.shapes.front(), [&](const Vec3& p, double radius) { include(frame * p, radius); });
+      }
+      include(seen.tool(at.q), 0.0);
     }
+    include(Vec3::Zero(), radius_);
+    constexpr double thin = 0.012;
+    if (!(radius_ > 0.0)) radius_ = thin * (high_ - low_).maxCoeff();
   }
   /// Above the view from the side, and beyond where that is narrow, stands the perspective.
   void lay_out() {
@@ -293,16 +449,11 @@ class ArmDrawing {
     perspective_ = {low, low + Vec2{side, side}};
   }
   void add_obstacles(const Projection& view, Scene& stage) const {
-    constexpr std::size_t obstacles_a_poll = 256;
-    for (std::size_t i = 0; i < scene_.spheres.size(); ++i) {
-      if (i % obstacles_a_poll == 0) execution_.check();
-      const Sphere& s = scene_.spheres[i];
-      if (s.radius > 0.0) stage.polygons.push_back({circle_outline(view.at({s.x, s.y, s.z}), s.radius, 64)});
-    }
-    for (const auto& [low, high] : scene_.boxes) {
-      const Vec2 a = view.at(corner(low));
-      const Vec2 b = view.at(corner(high));
-      stage.polygons.push_back({{a, {b.x, a.y}, b, {a.x, b.y}}});
+    for (const Shapes& shapes : obstacles_) {
+      execution_.check();
+      if (shapes.empty() || shapes.front().radius == 0.0) continue;
+      stage.polygons.push_back({outline_of(view, shapes)});
+      if (stage.polygons.back().corners.size() < 3) stage.polygons.pop_back();
     }
   }
   std::vector<AxesPanel> panels(double square) const {
@@ -329,12 +480,7 @@ class ArmDrawing {
                        .width = 0.5 * widths::edge,
                        .closed = true};
     for (const ArmPath::Place& at : path.places(bodies, execution_)) {
-      const std::vector<Vec3> spine = path.spine(at.q);
-      for (const Projection& view : views_) {
-        for (std::size_t i = 1; i < spine.size(); ++i) {
-          layer.lines.add(stadium(view.at(spine[i - 1]), view.at(spine[i]), radius_));
-        }
-      }
+      add_outlines(layer, path.bodies(at.q));
     }
     return layer;
   }
@@ -344,10 +490,18 @@ class ArmDrawing {
                        .label = std::string("arm at the ") + id,
                        .part = Part::body,
                        .color = color,
-                       .width = widths::wall};
-    const std::vector<Vec3> spine = path.spine(q);
-    for (const Projection& view : views_) layer.lines.add(seen_from(view, spine));
+                       .width = widths::edge,
+                       .closed = true,
+                       .fill = mixed(color, colors::paper, 45),
+                       .opacity = 0.7};
+    add_outlines(layer, path.bodies(q));
     return layer;
+  }
+  void add_outlines(PictureLayer& layer, const std::vector<Shapes>& bodies) const {
+    execution_.check();
+    for (const Projection& view : views_) {
+      for (const Shapes& shapes : bodies) layer.lines.add(outline_of(view, shapes));
+    }
   }
   PictureLayer trace(const ArmPath& path) const {
     constexpr double pieces = 400.0;
@@ -363,8 +517,9 @@ class ArmDrawing {
   }
 
   const Scene& scene_;
-  double radius_;
   const Execution& execution_;
+  std::vector<Shapes> obstacles_;
+  double radius_ = 0.0;  ///< of lines that stand for the arm
   Vec3 low_ = Vec3::Zero();
   Vec3 high_ = Vec3::Zero();
   double room_ = 1.0;  // around each view
@@ -433,14 +588,14 @@ class Places {
 
 }  // namespace
 
-ArmViews arm_roadmap_views(const Scene& scene, const DhTable& table, double radius, const JointState& start,
+ArmViews arm_roadmap_views(const Scene& scene, const ArmModel& model, const JointState& start,
                            std::span<const JointState> states, std::span<const ToolLines> lines,
                            const Execution& execution) {
   std::vector<JointState> seen{start};
   seen.insert(seen.end(), states.begin(), states.end());
-  const ArmPath all(table, seen);
-  const ArmPath stands(table, std::span(seen).first(1));
-  const ArmDrawing drawing(scene, radius, all, execution);
+  const ArmPath all(model, seen);
+  const ArmPath stands(model, std::span(seen).first(1));
+  const ArmDrawing drawing(scene, all, execution);
   ArmViews views = drawing.draw(stands);
   std::vector<Vec3> tools;
   constexpr std::size_t states_a_poll = 1 << 10;
@@ -454,10 +609,10 @@ ArmViews arm_roadmap_views(const Scene& scene, const DhTable& table, double radi
   return views;
 }
 
-ArmViews arm_views(const Scene& scene, const DhTable& table, double radius, std::span<const JointState> path,
+ArmViews arm_views(const Scene& scene, const ArmModel& model, std::span<const JointState> path,
                    const Execution& execution) {
-  const ArmPath along(table, path);
-  return ArmDrawing(scene, radius, along, execution).draw(along);
+  const ArmPath along(model, path);
+  return ArmDrawing(scene, along, execution).draw(along);
 }
 
 }  // namespace warren

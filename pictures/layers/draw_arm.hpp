@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // An arm's path in a picture: three orthogonal projections side by side (from above, from the front, from the side)
-// with the obstacles, the links' capsules at intervals along the path, and the tool's trace; beside them the same in
+// with the obstacles, the links' outlines at intervals along the path, and the tool's trace; beside them the same in
 // perspective.
 #pragma once
 
@@ -9,6 +9,7 @@
 
 #include "parallel/execution.hpp"
 #include "pictures/model/picture.hpp"
+#include "scenes/scene/arm_model.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace warren {
@@ -30,12 +31,12 @@ struct ToolLines {
   std::vector<Edge> edges;
 };
 
-/// radius: of the links. A path of one state shows the arm as it stands; none is empty. Throws Stopped.
-ArmViews arm_views(const Scene& scene, const DhTable& table, double radius, std::span<const JointState> path,
+/// A path of one state shows the arm as it stands; none is empty. Throws Stopped.
+ArmViews arm_views(const Scene& scene, const ArmModel& model, std::span<const JointState> path,
                    const Execution& execution);
 
 /// The arm as it stands at `start`, the tool's places at `states` and lines between these.
-ArmViews arm_roadmap_views(const Scene& scene, const DhTable& table, double radius, const JointState& start,
+ArmViews arm_roadmap_views(const Scene& scene, const ArmModel& model, const JointState& start,
                            std::span<const JointState> states, std::span<const ToolLines> lines,
                            const Execution& execution);
 

@@ -34,7 +34,18 @@ std::vector<Vec2> mark_outline(MarkShape shape, double radius);
 /// Corners of a circle, anticlockwise from the right where y runs up.
 std::vector<Vec2> circle_outline(Vec2 middle, double radius, int corners);
 
-// An arm that moves: where the ends of its links are at moments of its path.
+/// A ball that went from a to b (a == b: a ball), the box between these corners, or the face of a body: a triangle,
+/// anticlockwise from outside, which is seen from there alone.
+struct SeenSolid {
+  Vec3 a;
+  Vec3 b;
+  double radius = 0.0;  ///< of the ball; < 0: a box or a face
+  Rgb color = {};
+  Part part = Part::world;
+  std::optional<Vec3> c = {};  ///< of a face, the third corner
+};
+
+// An arm that moves: where its joints are at moments of its path.
 
 /// From space into a picture's world: which axes run right and up, and where the space's zero stands.
 struct Projection {
@@ -44,11 +55,18 @@ struct Projection {
 };
 
 struct MovingArm {
-  double radius = 0.0;                 ///< of the links
+  double radius = 0.0;                 ///< of the line
   std::vector<Projection> views = {};  ///< that show it
   std::vector<double> moments = {};    ///< 0 .. 1, by the way in joint space; as many as spines, none or at least one
   std::vector<Vec3> tools = {};        ///< the tool's way; a line
-  std::vector<std::vector<Vec3>> spines = {};  ///< the ends of its links, from the base; all of one size
+  std::vector<std::vector<Vec3>> spines = {};  ///< a line through its joints, from the base; all of one size
+  std::vector<std::vector<Eigen::Isometry3d>> frames = {};  ///< of the base and its joints, as many as moments
+  /// A solid of it, in one of the frames.
+  struct Link {
+    int frame;
+    std::vector<SeenSolid> shapes;
+  };
+  std::vector<Link> links = {};
 };
 
 // A body that moves along a picture's path.
@@ -62,15 +80,6 @@ struct MovingBody {
 };
 
 // Solids of space seen in perspective, as one part of a picture: plain data; formats/solid_raster.cpp draws them.
-
-/// A ball that went from a to b (a == b: a ball), or the box between these corners.
-struct SeenSolid {
-  Vec3 a;
-  Vec3 b;
-  double radius = 0.0;  ///< of the ball; < 0: a box
-  Rgb color = {};
-  Part part = Part::world;
-};
 
 /// A floor with squares below the solids, and shadows on it, makes depth readable; what is far is paler.
 struct SolidView {

@@ -2,19 +2,33 @@
 // An arm that moves: in its projections, and in perspective, where a ray a pixel finds what is nearest to the eye. What
 // stands still is found once for a view; then each moment asks the links' rays alone.
 "use strict";
-const arm = picture.arm ? {...picture.arm, spheres: numbers(picture.arm.spheres), boxes: numbers(picture.arm.boxes), spines: numbers(picture.arm.spines),
+const arm = picture.arm ? {...picture.arm, spheres: numbers(picture.arm.spheres), boxes: numbers(picture.arm.boxes), faces: numbers(picture.arm.faces),
+  links: numbers(picture.arm.links), frames: numbers(picture.arm.frames), spines: numbers(picture.arm.spines),
   tools: numbers(picture.arm.tools), moments: numbers(picture.arm.moments), turned: 0} : null;
 const shadowSide = 256;
+const cross3 = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const dot3 = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const rgb = color => [1, 3, 5].map(i => parseInt(color.slice(i, i + 2), 16));
 
-/// The ends of the links at a moment: x, y, z, ...
-function spineAt(share) {
+/// n numbers of each moment, at one between them.
+function numbersAt(all, n, share) {
   let low = 0, high = arm.moments.length - 1;
   while (high - low > 1) { const middle = (low + high) >> 1; if (arm.moments[middle] <= share) low = middle; else high = middle; }
-  const n = 3 * arm.ends, a = arm.spines.subarray(n * low, n * low + n), b = arm.spines.subarray(n * high, n * high + n);
+  const a = all.subarray(n * low, n * low + n), b = all.subarray(n * high, n * high + n);
   const t = high > low ? Math.min(1, Math.max(0, (share - arm.moments[low]) / (arm.moments[high] - arm.moments[low]))) : 0;
   return a.map((v, i) => v + t * (b[i] - v));
+}
+/// A line through the joints at a moment: x, y, z, ...
+const spineAt = share => numbersAt(arm.spines, 3 * arm.ends, share);
+/// The links at a moment: balls that go from a to b, faces a, b, c. Of each frame: where its axes point, and its origin.
+function linksAt(share, by, color) {
+  const f = numbersAt(arm.frames, 12 * arm.joints, share), all = [], ink = rgb(shade(color));
+  for (let i = 0; i < arm.links.length; i += 11) {
+    const o = 12 * arm.links[i], r = arm.links[i + 1];
+    const at = k => [0, 1, 2].map(d => f[o + 9 + d] + f[o + d] * arm.links[i + k] + f[o + 3 + d] * arm.links[i + k + 1] + f[o + 6 + d] * arm.links[i + k + 2]);
+    all.push(r < 0 ? {a: at(2), b: at(5), c: at(8), r, color: ink} : {a: at(2), b: at(5), r: Math.max(by * r, arm.least), color: ink});
+  }
+  return all;
 }
 /// Balls that go along a line of points.
 function tubes(points, radius, color) {
@@ -26,15 +40,26 @@ function solidsThatStand() {
   const all = [], grey = rgb(isDark() ? "#94a3b8" : arm.colors.solid);
   for (let i = 0; i < arm.spheres.length; i += 4) { const c = [...arm.spheres.slice(i, i + 3)]; all.push({a: c, b: c, r: arm.spheres[i + 3], color: grey}); }
   for (let i = 0; i < arm.boxes.length; i += 6) all.push({a: [...arm.boxes.slice(i, i + 3)], b: [...arm.boxes.slice(i + 3, i + 6)], r: -1, color: grey});
-  if (arm.moments.length > 1) all.push(...tubes(spineAt(1), arm.radius, arm.colors.goal), ...tubes(arm.tools, 0.2 * arm.radius, picture.pathColor));
-  return [...all, ...tubes(spineAt(0), arm.radius, arm.colors.start)];
+  for (let i = 0; i < arm.faces.length; i += 9) all.push({a: [...arm.faces.slice(i, i + 3)], b: [...arm.faces.slice(i + 3, i + 6)], c: [...arm.faces.slice(i + 6, i + 9)], r: -1, color: grey});
+  if (arm.moments.length > 1) all.push(...linksAt(1, 1, arm.colors.goal), ...tubes(arm.tools, 0.2 * arm.radius, picture.pathColor));
+  return [...all, ...linksAt(0, 1, arm.colors.start)];
 }
 
 const enterBall = (eye, ray, c, r) => {
   const x = eye[0] - c[0], y = eye[1] - c[1], z = eye[2] - c[2], b = x * ray[0] + y * ray[1] + z * ray[2], root = b * b - x * x - y * y - z * z + r * r;
   return root < 0 ? Infinity : -b - Math.sqrt(root);
 };
+/// Of a face: what its sides and all of it span with the eye; below 0 where it is seen.
+function takeSides(eye, s) {
+  const [a, b, c] = [s.a, s.b, s.c].map(p => p.map((v, k) => v - eye[k]));
+  s.sides = [cross3(b, c), cross3(c, a), cross3(a, b)];
+  s.volume = dot3(a, s.sides[0]);
+}
 function enterSolid(eye, ray, s) {
+  if (s.c) {
+    const [a, b, c] = s.sides.map(side => dot3(ray, side));
+    return a <= 0 && b <= 0 && c <= 0 ? s.volume / (a + b + c) : Infinity;
+  }
   if (s.r < 0) {
     let from = -Infinity, to = Infinity;
     for (let k = 0; k < 3; ++k) {
@@ -57,6 +82,10 @@ function enterSolid(eye, ray, s) {
   return enterBall(eye, ray, s.a, s.r);
 }
 function normalOf(p, s) {
+  if (s.c) {
+    const n = cross3(s.b.map((v, k) => v - s.a[k]), s.c.map((v, k) => v - s.a[k])), length = Math.sqrt(dot3(n, n));
+    return n.map(v => v / length);
+  }
   if (s.r < 0) {
     const shares = [0, 1, 2].map(k => (2 * p[k] - s.a[k] - s.b[k]) / (s.b[k] - s.a[k] || 1)), face = shares.reduce((best, v, k) => Math.abs(v) > Math.abs(shares[best]) ? k : best, 0);
     return [0, 1, 2].map(k => k === face ? Math.sign(shares[k]) : 0);
@@ -100,8 +129,12 @@ class Eye {
     to[4 * i + 3] = 255;
   }
   draw(s) {
+    if (s.c) {
+      takeSides(this.at, s);
+      if (!(s.volume < 0)) return;
+    }
     const seen = p => { const off = p.map((v, k) => v - this.at[k]), z = Math.max(dot3(this.forward, off), 1e-3 * arm.reach); return [this.side / 2 + this.zoom * dot3(this.right, off) / z, this.side / 2 - this.zoom * dot3(this.up, off) / z, z]; };
-    const corners = s.r < 0 ? Array.from({length: 8}, (_, i) => seen([i & 1 ? s.a[0] : s.b[0], i & 2 ? s.a[1] : s.b[1], i & 4 ? s.a[2] : s.b[2]])) : [seen(s.a), seen(s.b)];
+    const corners = s.c ? [s.a, s.b, s.c].map(seen) : s.r < 0 ? Array.from({length: 8}, (_, i) => seen([i & 1 ? s.a[0] : s.b[0], i & 2 ? s.a[1] : s.b[1], i & 4 ? s.a[2] : s.b[2]])) : [seen(s.a), seen(s.b)];
     const room = s.r < 0 ? 1 : Math.max(...corners.map(c => 1.25 * this.zoom * s.r / Math.max(c[2] - s.r, 1e-3 * arm.reach))) + 1;
     const reach = axis => [Math.max(0, Math.floor(Math.min(...corners.map(c => c[axis])) - room)), Math.min(this.side, Math.ceil(Math.max(...corners.map(c => c[axis])) + room))];
     const [x0, x1] = reach(0), [y0, y1] = reach(1);
@@ -139,6 +172,12 @@ function shadowsOf(solids) {
   context.lineCap = "round";
   for (const s of solids) {
     const at = p => [k * (p[0] - arm.floor[0]), k * (p[1] - arm.floor[1])], a = at(s.a), b = at(s.b);
+    if (s.c) {
+      context.beginPath();
+      for (const p of [a, b, at(s.c)]) context.lineTo(...p);
+      context.fill();
+      continue;
+    }
     if (s.r < 0) { context.fillRect(...a, b[0] - a[0], b[1] - a[1]); continue; }
     context.lineWidth = 2 * s.r * k;
     context.beginPath();
@@ -166,7 +205,7 @@ function eyeAt(share, side) {
   const rest = eyeAtRest(side);
   if (!motion.isOn) return rest;
   const eye = Object.assign(Object.create(Eye.prototype), rest, {depth: rest.depth.slice(), floor: rest.floor.slice(), image: new ImageData(rest.image.data.slice(), side)});
-  const links = tubes(spineAt(share), 1.02 * arm.radius, arm.colors.moving), dark = shadowsOf(links);
+  const links = linksAt(share, 1.02, arm.colors.moving), dark = shadowsOf(links);
   for (let i = 0; i < eye.floor.length; ++i) {
     const at = eye.floor[i];
     if (at < 0 || dark[at] <= arm.shadows[at]) continue;
@@ -184,13 +223,28 @@ function drawArm(context) {
     context.drawImage(canvas, px, py, size, size);
   }
   if (!motion.isOn) return;
-  const spine = spineAt(motion.share);
+  const shapes = linksAt(motion.share, 1, arm.colors.moving);
   context.lineCap = context.lineJoin = "round";
-  context.lineWidth = Math.max(2 * arm.radius * view.scale, 2);
-  context.strokeStyle = shade(arm.colors.moving) + "99";
+  context.fillStyle = context.strokeStyle = shade(arm.colors.moving) + "99";
   for (const [right, up, x, y] of arm.views) {
-    context.beginPath();
-    for (let i = 0; i < spine.length; i += 3) context.lineTo(screenX(x + spine[i + right]), screenY(y + spine[i + up]));
-    context.stroke();
+    const at = p => [screenX(x + p[right]), screenY(y + p[up])], lines = new Map(), faces = new Path2D();
+    for (const s of shapes) {
+      const [a, b, c] = [s.a, s.b, s.c ?? s.b].map(at);
+      if (!s.c) {
+        if (!lines.has(s.r)) lines.set(s.r, new Path2D());
+        lines.get(s.r).moveTo(...a);
+        lines.get(s.r).lineTo(b[0] + 1e-3, b[1]);
+      } else if ((b[0] - a[0]) * (c[1] - a[1]) > (b[1] - a[1]) * (c[0] - a[0])) {  // half of the faces cover all that a body does
+        faces.moveTo(...a);
+        faces.lineTo(...b);
+        faces.lineTo(...c);
+        faces.closePath();
+      }
+    }
+    context.fill(faces);
+    for (const [r, line] of lines) {
+      context.lineWidth = Math.max(2 * r * view.scale, 2);
+      context.stroke(line);
+    }
   }
 }

@@ -406,11 +406,34 @@ class PageWriter {
     spheres.end();
     auto boxes = numbers<float>("boxes");
     for (const SeenSolid& s : solids.solids) {
-      if (s.radius >= 0.0 || !parts_.has(s.part)) continue;
+      if (s.radius >= 0.0 || s.c || !parts_.has(s.part)) continue;
       boxes.add(place(s.a));
       boxes.add(place(s.b));
     }
     boxes.end();
+    auto faces = numbers<float>("faces");
+    for (const SeenSolid& s : solids.solids) {
+      if (!s.c || s.part != Part::world || !parts_.has(s.part)) continue;
+      for (const Vec3& p : {s.a, s.b, *s.c}) faces.add(place(p));
+    }
+    faces.end();
+    auto links = numbers<float>("links");
+    for (const MovingArm::Link& link : arm.links) {
+      for (const SeenSolid& s : link.shapes) {
+        links.add(static_cast<double>(link.frame));
+        links.add(s.radius);
+        for (const Vec3& p : {s.a, s.b, s.c.value_or(s.a)}) links.add(p);
+      }
+    }
+    links.end();
+    auto frames = numbers<float>("frames");
+    for (const std::vector<Eigen::Isometry3d>& posture : arm.frames) {
+      for (const Eigen::Isometry3d& frame : posture) {
+        for (int axis = 0; axis < 3; ++axis) frames.add(Vec3(frame.linear().col(axis)));
+        frames.add(place(frame.translation()));
+      }
+    }
+    frames.end();
     numbers<float>("tools", parts_.has(Part::path) ? arm.tools : std::vector<Vec3>{}, place);
     auto spines = numbers<float>("spines");
     for (const std::vector<Vec3>& spine : arm.spines) {
@@ -435,6 +458,7 @@ class PageWriter {
                {"radius", arm.radius},
                {"least", least_radius * solids.reach},
                {"ends", arm.spines.front().size()},
+               {"joints", arm.frames.empty() ? 0 : arm.frames.front().size()},
                {"colors",
                 {{"solid", css_color(colors::blocked_cell)},
                  {"start", css_color(colors::start)},

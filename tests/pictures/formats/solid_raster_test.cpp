@@ -40,6 +40,37 @@ TEST(SolidRaster, WhatIsNearerHidesWhatIsFarInAnyOrder) {
   }
 }
 
+TEST(SolidRaster, WhatAnObstacleHidesIsSeenThroughIt) {
+  const SeenSolid front{{0.4, -0.5, -0.4}, {0.5, 0.5, 0.4}, -1.0, blue, Part::world};
+  const SeenSolid behind{{-0.5, 0, 0}, {-0.5, 0, 0}, 0.2, red, Part::body};
+  SolidView view = view_along_x();
+  view.solids = {front};
+  const Image alone = draw_solids(view, Parts::all(), 100, 100, {});
+  view.solids.push_back(behind);
+  const Image both = draw_solids(view, Parts::all(), 100, 100, {});
+  EXPECT_GT(both.row(50)[150], alone.row(50)[150] + 20) << "redder in the middle";
+  EXPECT_EQ(both.row(50)[90], alone.row(50)[90]) << "and as it was beside it";
+}
+
+TEST(SolidRaster, AFaceIsMetFromOutsideWhereItIs) {
+  const SeenSolid face{{0, 0, 0}, {0, 1, 0}, -1.0, red, Part::body, Vec3{0, 0, 1}};
+  const SeenSolid back{{0, 0, 0}, {0, 0, 1}, -1.0, red, Part::body, Vec3{0, 1, 0}};
+  EXPECT_EQ(normal_at({0, 0.1, 0.1}, face), Vec3(1, 0, 0));
+  const Vec3 eye{3, 0.5, -0.5};
+  for (double y = -0.95; y < 2.0; y += 0.1) {
+    for (double z = -0.95; z < 2.0; z += 0.1) {
+      const Vec3 way = Vec3(0, y, z) - eye;
+      const double t = enter_solid(eye, way.normalized(), face);
+      if (y > 0.0 && z > 0.0 && y + z < 1.0) {
+        EXPECT_NEAR(t, way.norm(), 1e-12);
+      } else if (y < 0.0 || z < 0.0 || y + z > 1.0) {
+        EXPECT_FALSE(std::isfinite(t)) << y << " " << z;
+      }
+      EXPECT_FALSE(std::isfinite(enter_solid(eye, way.normalized(), back))) << "from inside";
+    }
+  }
+}
+
 TEST(SolidRaster, PartsThatAreNotShownAreNotThere) {
   SolidView view = view_along_x();
   view.solids = {{{0, 0, 0}, {0, 0, 0}, 0.3, red, Part::body}};
