@@ -63,7 +63,8 @@ struct AnytimeOptions {
 /// What differs from body to body. shortened and length are called from several threads at once.
 template <class State>
 struct AnytimeBody {
-  /// The path made shorter, by draws of the seed; it may give up where it costs more than `hopeless`. Throws Stopped.
+  /// The path made shorter, by draws of the seed; it may give up where it won't cost less than `hopeless`. Throws
+  /// Stopped.
   std::function<Path<State>(const Path<State>&, double hopeless, std::uint64_t seed, const Execution&, Counters&)>
       shortened;
   bool draws = true;  ///< does `shortened` make use of the seed? Else what it has shortened is as short as it gets
@@ -145,6 +146,7 @@ class AnytimeSearch {
   static constexpr std::uint64_t largest_share = 16'384;
   static constexpr std::size_t restart_count = 3;
   static constexpr double hopeless = 1.5;  // what costs so many times the best is not shortened
+  static constexpr double near = 1.05;     // nor any more what won't come so near it
   static constexpr int patience = 10;      // turns without luck after which a part gets half
   static constexpr int most_dull = 3;      // polishings without gain in a row, after which none is tried
 
@@ -219,6 +221,7 @@ class AnytimeSearch {
   std::vector<Found> rough_;   // paths that are to be shortened in the next turn, since they may come to something
   bool is_straight_ = false;   // the best path is one motion to the nearest of all goals
   bool is_enough_ = false;     // whoever is told says so
+  bool is_shortened_ = false;  // is the best path one that the shortener made?
   bool was_replaced_ = false;  // the best path is of this turn
   std::uint64_t share_ = first_share;
   std::array<int, 4> idle_{};        // turns since a part brought something
@@ -313,7 +316,6 @@ auto AnytimeSearch<W>::grown(const Execution& execution) -> std::vector<Found> {
 /// The best path of a turn is shortened as the best path that there is; others that come near it, as rough ones.
 template <SteerableWorld W>
 void AnytimeSearch<W>::take(Found& found) {
-  constexpr double near = 1.05;
   constexpr double worth = 1e-4;
   solution_.counters += found.counters;
   if (found.path.empty()) return;
@@ -328,7 +330,7 @@ void AnytimeSearch<W>::take(Found& found) {
   const bool is_rough = options_.parts.shorten && !found.is_shortened;
   if (!is_better && is_rough && found.cost < hopeless * before) rough_.push_back(std::move(found));
   if (!is_better) return;
-  if (was_replaced_ && dull_ < most_dull) {  // by another one in this turn: nobody has shortened it yet
+  if (was_replaced_ && !is_shortened_) {  // by another one in this turn: nobody has shortened it yet
     Found earlier;
     earlier.path = std::move(solution_.path);
     earlier.cost = before;
@@ -337,6 +339,7 @@ void AnytimeSearch<W>::take(Found& found) {
   was_replaced_ = true;
   was_lucky_[index_of(found.by)] = true;
   if (found.by != Part::shorten) dull_ = found.is_shortened && !body_.draws ? most_dull : 0;
+  is_shortened_ = found.is_shortened;
   solution_.cost = found.cost;
   solution_.path = std::move(found.path);
   constexpr std::array<std::string_view, 4> names{"tree", "restarts", "roadmap", "shorten"};
@@ -440,7 +443,7 @@ auto AnytimeSearch<W>::shortened(const Found& rough, std::uint64_t number, const
   Found found(rough.by);
   found.is_shortened = true;
   const std::uint64_t seed = random_bits(options_.trees.seed, solution_.iterations, 8 + number);
-  found.path = body_.shortened(rough.path, hopeless * solution_.cost, seed, execution, found.counters);
+  found.path = body_.shortened(rough.path, near * solution_.cost, seed, execution, found.counters);
   found.cost = cost_of(found.path);
   return found;
 }
