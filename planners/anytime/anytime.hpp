@@ -142,7 +142,8 @@ class AnytimeSearch {
     solution_.outcome = has_path() ? Outcome::solved : Outcome::stopped;
     return std::move(solution_);
   }
-  static constexpr std::uint64_t first_share = 256;
+  static constexpr std::uint64_t first_share = 64;  // without a path
+  static constexpr std::uint64_t better_share = 256;
   static constexpr std::uint64_t largest_share = 16'384;
   static constexpr std::size_t restart_count = 3;
   static constexpr double hopeless = 1.5;  // what costs so many times the best is not shortened
@@ -360,10 +361,10 @@ template <SteerableWorld W>
 void AnytimeSearch<W>::adapt(bool had_path) {
   for (std::size_t part = 0; part < idle_.size(); ++part) idle_[part] = was_lucky_[part] ? 0 : idle_[part] + 1;
   if (has_path() && !had_path) {  // from first path to better ones
-    share_ = first_share;
+    share_ = better_share;
     idle_ = {};
   } else {
-    share_ = std::min(largest_share, has_path() ? share_ + share_ / 4 : 2 * share_);
+    share_ = std::min(largest_share, share_ + share_ / (has_path() ? 4 : 2));
   }
 }
 
@@ -384,7 +385,8 @@ auto AnytimeSearch<W>::grow_tree(const Execution& execution) -> Found {
   return found;
 }
 
-/// One pair of trees, from turn to turn, until it arrives or has grown too large.
+/// One pair of trees, from turn to turn, until it arrives or has grown too large. Each has a whole share until there is
+/// a path, since they are most often the first to arrive, then its part of one.
 template <SteerableWorld W>
 auto AnytimeSearch<W>::grow_restart(Restart& restart, const Execution& execution) -> Found {
   Found found(Part::restarts);
@@ -398,7 +400,7 @@ auto AnytimeSearch<W>::grow_restart(Restart& restart, const Execution& execution
     if (has_path()) restart.trees->bound(solution_.cost * (1.0 + restart.looseness));
   }
   RrtConnectSearch<W>& trees = *restart.trees;
-  trees.advance_by_work(share_of(Part::restarts) / restart_count, execution);
+  trees.advance_by_work(share_of(Part::restarts) / (has_path() ? restart_count : 1), execution);
   found.counters = counted_since(restart.counted, trees.counters());
   restart.counted = trees.counters();
   if (trees.arrived()) {
@@ -414,9 +416,10 @@ template <SteerableWorld W>
 auto AnytimeSearch<W>::draw_roadmap(const Execution& execution) -> Found {
   constexpr std::uint64_t first_samples = 50;
   constexpr std::uint64_t most_doublings = 20;
+  constexpr std::uint64_t least_credit = 1'000;  // what the first may well take: trees often arrive before
   Found found(Part::roadmap);
   credit_ += share_of(Part::roadmap);
-  if (credit_ < 2 * roadmap_work_) return found;
+  if (credit_ < std::max(least_credit, 2 * roadmap_work_)) return found;
   RoadmapOptions options = options_.roadmap;
   options.samples = first_samples << std::min(roadmaps_, most_doublings);
   options.seed = random_bits(options_.trees.seed, roadmaps_, 14);
