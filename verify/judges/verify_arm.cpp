@@ -310,7 +310,7 @@ void ArmLeg::look(const Pair& pair) {
   if (!coarse) report_.met = std::min(report_.met, known.met);
   if (known.proved > clearance && (known.proved >= report_.met - judge_.close || finest)) {
     report_.least = std::min(report_.least, known.proved);
-  } else if (coarse && known.way > a.core.radius) {
+  } else if (coarse && known.way > std::max({a.core.radius, b.core.radius, judge_.finest})) {
     keep(pair);  // where the ball goes farther than it is wide, there is no use in parts
   } else if (coarse) {
     look_at_parts(pair);
