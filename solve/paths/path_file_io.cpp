@@ -10,6 +10,7 @@
 #include <numbers>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
@@ -197,6 +198,29 @@ std::uint64_t write_array(Rows& rows, const PathLegs& legs, OutputFile& file) {
   return rows.visit([&](const Row& row) { file.write(bytes_of(row.state.used())); });
 }
 
+/// The speeds that the arm's file gives its joints, where these are asked for.
+PathFileOptions with_own_speeds(const Answer& answer, const PathLegs& legs, PathFileOptions options) {
+  if (!options.limits || options.limits->joint_speed.empty()) return options;
+  std::vector<double>& speeds = options.limits->joint_speed;
+  if (speeds == speeds_of_file) {
+    const auto& files = answer.problem.robot.files;
+    if (!files || !files->read) throw UsageError("@joint_speed: 'file' is for an arm of a URDF, which has its speeds");
+    speeds.clear();
+    for (const ArmVariable& variable : files->read->variables) {
+      if (!(variable.speed > 0.0)) {
+        throw UsageError(fmt::format("@joint_speed: the file gives joint '{}' no speed; say numbers", variable.name));
+      }
+      speeds.push_back(variable.speed);
+    }
+  }
+  for (const std::vector<double>* each : {&std::as_const(speeds), &options.limits->joint_acceleration}) {
+    if (each->size() <= 1 || each->size() == legs.width()) continue;
+    throw UsageError(fmt::format("{}: expected one number, or {} for this arm (found: {})",
+                                 each == &speeds ? "@joint_speed" : "@joint_acceleration", legs.width(), each->size()));
+  }
+  return options;
+}
+
 }  // namespace
 
 void PathArrayFile::begin(std::uint64_t points) {
@@ -264,7 +288,8 @@ PathFileAccount write_path(const Answer& answer, const std::string& file, const 
                            const Execution& execution, OutputFile& out) {
   check_path_file(answer.problem.robot, file, options);
   const PathLegs legs(answer);
-  Rows rows(legs, options, execution);
+  const PathFileOptions resolved = with_own_speeds(answer, legs, options);
+  Rows rows(legs, resolved, execution);
   PathFileAccount account{0, rows.duration_s()};
   switch (path_format(file)) {
     case PathFormat::csv:
