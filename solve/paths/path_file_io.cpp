@@ -213,10 +213,11 @@ PathFileOptions with_own_speeds(const Answer& answer, const PathLegs& legs, Path
       speeds.push_back(variable.speed);
     }
   }
-  for (const std::vector<double>* each : {&std::as_const(speeds), &options.limits->joint_acceleration}) {
-    if (each->size() <= 1 || each->size() == legs.width()) continue;
-    throw UsageError(fmt::format("{}: expected one number, or {} for this arm (found: {})",
-                                 each == &speeds ? "@joint_speed" : "@joint_acceleration", legs.width(), each->size()));
+  for (const auto& [name, each] :
+       {std::pair{"@joint_speed", speeds}, std::pair{"@joint_acceleration", options.limits->joint_acceleration}}) {
+    if (each.size() <= 1 || each.size() == legs.width()) continue;
+    throw UsageError(
+        fmt::format("{}: expected one number, or {} for this arm (found: {})", name, legs.width(), each.size()));
   }
   return options;
 }
@@ -254,8 +255,7 @@ PathFormat path_format(const std::string& file) {
 }
 
 void check_path_file(const RobotSpec& robot, const std::string& file, const PathFileOptions& options) {
-  const bool is_arm =
-      robot.kind == RobotKind::puma560 || robot.kind == RobotKind::arm || robot.kind == RobotKind::urdf;
+  const bool is_arm = robot.kind == RobotKind::puma560 || robot.kind == RobotKind::arm || robot.kind == RobotKind::urdf;
   const PathFormat format = path_format(file);
   if (is_arm && format != PathFormat::csv && format != PathFormat::npy) {
     throw UsageError("@path: the joints of an arm are written as .csv or .npy");
