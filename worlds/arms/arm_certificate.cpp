@@ -5,6 +5,8 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -36,6 +38,7 @@ struct ArmBlock {
 
 /// Two solids, or a solid and an obstacle, of which balls and boxes don't say enough.
 struct ArmUnsure {
+  std::uint32_t item;
   std::uint32_t solid;
   std::uint32_t other;
   unsigned lanes;
@@ -54,8 +57,9 @@ struct ArmScratch {
   std::vector<std::uint32_t> items;
   std::vector<ArmUnsure> unsure;
   std::vector<ArmBlock<T>> blocks;
+  std::vector<std::uint32_t> order;  // items, those that stopped motions last before the others
+  std::size_t order_links = 0;       // that it is for: so many lanes of links
   std::uint64_t stamp = 0;
-  std::uint32_t hot = 0;  // the item that stopped a motion last
 
   void fit(const ArmSetup& setup) {
     const std::size_t items_needed = setup.link_lanes + setup.pair_lanes;
@@ -159,6 +163,7 @@ class alignas(32) ArmMotion {
     auto& stack = scratch_.blocks;
     stack.clear();
     scratch_.items.clear();
+    fit_order();
     ArmBlock<T> whole{};
     for (unsigned i = 0; i < width; ++i) whole.middle[i] = (T(i) + T(0.5)) / width;
     whole.half = T(0.5) / width;
@@ -213,6 +218,7 @@ class alignas(32) ArmMotion {
     slack_ = tables_.slack + tables_.way_slack * speed_ * half_;
     placed_ = 0;
     open_ = 0;
+    scratch_.unsure.clear();
     ++scratch_.stamp;
     ArmFrameLanes<T>& base = scratch_.frames[0];
     base = ArmFrameLanes<T>{};
@@ -377,7 +383,7 @@ class alignas(32) ArmMotion {
                                 (lanes_at<T>(&b[1][first]) <= high_y) & (lanes_at<T>(&b[4][first]) >= low_y) &
                                 (lanes_at<T>(&b[2][first]) <= high_z) & (lanes_at<T>(&b[5][first]) >= low_z);
       for (unsigned bits = bits_of<T>(meets); bits != 0; bits &= bits - 1) {
-        const auto obstacle = static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(std::countr_zero(bits));
+        const auto obstacle = as_whole<std::uint32_t>(first) + as_whole<std::uint32_t>(std::countr_zero(bits));
         Lanes3<T> gap;
         const Lanes<T> square = gap_of(obstacle, hull.at, gap);
         const T all = need + tables_.obstacles[obstacle].inflate;
@@ -420,12 +426,13 @@ class alignas(32) ArmMotion {
       open |= left;
       return;
     }
-    for (ArmUnsure& unsure : scratch_.unsure) {
+    for (std::size_t i = first_unsure_; i < scratch_.unsure.size(); ++i) {
+      ArmUnsure& unsure = scratch_.unsure[i];
       if (unsure.solid != solid || unsure.other != other) continue;
       unsure.lanes |= left;
       return;
     }
-    scratch_.unsure.push_back({solid, other, left});
+    scratch_.unsure.push_back({item_, solid, other, left});
   }
 
   /// Balls of a link that are not parted from the hull of another one.
@@ -479,50 +486,47 @@ class alignas(32) ArmMotion {
     return false;
   }
 
-  /// Pairs come after the links' lanes. True: it meets something.
+  /// Pairs come after the links' lanes. True: it surely meets something.
   [[gnu::always_inline]] inline bool look_at(std::uint32_t item) {
     unsigned open = 0;
-    scratch_.unsure.clear();
+    item_ = item;
+    first_unsure_ = scratch_.unsure.size();
     const bool is_link = item < setup_.link_lanes;
-    const auto pair = item - static_cast<std::uint32_t>(setup_.link_lanes);
-    if (is_link ? look_at_link(item, open) : look_at_pair(pair, open)) {
-      scratch_.hot = item;
-      return true;
-    }
-    if (!scratch_.unsure.empty() && settle(item, open)) {
-      scratch_.hot = item;
-      return true;
-    }
+    const auto pair = as_whole<std::uint32_t>(item - setup_.link_lanes);
+    if (is_link ? look_at_link(item, open) : look_at_pair(pair, open)) return true;
     if (open != 0) scratch_.items.push_back(item);
     open_ |= open;
     return false;
   }
 
-  /// The block's items, for the first block all, the one that stopped a motion last before the others. True: one meets.
-  [[gnu::always_inline]] inline bool look_at_items(const ArmBlock<T>& block, bool is_first) {
+  /// What stopped a motion is asked first of the next one: a hit is a hit in any order.
+  [[gnu::always_inline]] inline void fit_order() {
     const std::size_t all = setup_.moving + setup_.pairs.size();
-    const std::uint32_t hot = scratch_.hot;
-    const std::size_t end = is_first ? all + 1 : block.end_item;
-    for (std::size_t i = is_first ? 0 : block.first_item; i < end; ++i) {
-      std::uint32_t item = hot;
-      if (!is_first) {
-        item = scratch_.items[i];
-      } else if (i > 0) {
-        item = item_of(i - 1);
-        if (item == hot) continue;
-      } else if (hot >= setup_.moving && (hot < setup_.link_lanes || hot >= setup_.link_lanes + setup_.pairs.size())) {
-        continue;  // of another arm
-      }
-      if (look_at(item)) return true;
+    if (scratch_.order.size() == all && scratch_.order_links == setup_.link_lanes) return;
+    scratch_.order.clear();
+    scratch_.order_links = setup_.link_lanes;
+    for (std::size_t i = 0; i < all; ++i) {
+      scratch_.order.push_back(as_whole<std::uint32_t>(i < setup_.moving ? i : i - setup_.moving + setup_.link_lanes));
     }
-    return false;
   }
-  [[gnu::always_inline]] inline std::uint32_t item_of(std::size_t i) const {
-    return static_cast<std::uint32_t>(i < setup_.moving ? i : i - setup_.moving + setup_.link_lanes);
+  /// The block's items, for the first block all. True: one surely meets something.
+  [[gnu::always_inline]] inline bool look_at_items(const ArmBlock<T>& block, bool is_first) {
+    const std::size_t first = is_first ? 0 : block.first_item;
+    const std::size_t end = is_first ? scratch_.order.size() : block.end_item;
+    for (std::size_t i = first; i < end; ++i) {
+      const std::uint32_t item = is_first ? scratch_.order[i] : scratch_.items[i];
+      if (!look_at(item)) continue;
+      if (is_first)
+        std::rotate(scratch_.order.begin(), scratch_.order.begin() + as_whole<std::ptrdiff_t>(i),
+                    scratch_.order.begin() + as_whole<std::ptrdiff_t>(i) + 1);
+      return true;
+    }
+    return !scratch_.unsure.empty() && settle(block.end_item);
   }
 
-  /// The convex bodies themselves, lane by lane, for what their balls leave open.
-  bool settle(std::uint32_t item, unsigned& open);
+  /// The convex bodies themselves, lane by lane, for what their balls leave open. True: two surely meet. Items that
+  /// stay open are noted from first_item on.
+  bool settle(std::size_t first_item);
   bool surely_meet(const ConvexBody& one, std::size_t slot, const ConvexBody& other, std::size_t other_slot,
                    unsigned lane);
 
@@ -532,7 +536,7 @@ class alignas(32) ArmMotion {
       std::array<unsigned, width / 2> pieces;
       unsigned count = 0;
       for (; open_ != 0 && count < width / 2; open_ &= open_ - 1) {
-        pieces[count++] = static_cast<unsigned>(std::countr_zero(open_));
+        pieces[count++] = as_whole<unsigned>(std::countr_zero(open_));
       }
       const unsigned each = width / std::bit_ceil(count);
       ArmBlock<T> part;
@@ -562,22 +566,26 @@ class alignas(32) ArmMotion {
   T half_;
   T slack_;
   std::size_t placed_;
-  unsigned open_;  // lanes
+  std::uint32_t item_ = 0;        // that is looked at
+  std::size_t first_unsure_ = 0;  // of it
+  unsigned open_;                 // lanes
 };
 
 template <class T>
-bool ArmMotion<T>::settle(std::uint32_t item, unsigned& open) {
-  const bool is_link = item < setup_.link_lanes;
-  const ArmSetup::Pair pair = is_link ? ArmSetup::Pair{item, 0, 0} : setup_.pairs[item - setup_.link_lanes];
-  const std::size_t slot = setup_.links[pair.a].slot;
-  const std::size_t other_slot = is_link ? 0 : setup_.links[pair.b].slot;
-  const double bend = double{scratch_.bends[item]} * (is_link ? 1.0 : 0.5);  // of a pair it is that of both
+bool ArmMotion<T>::settle(std::size_t first_item) {
   const double room = setup_.clearance + double{slack_};
   for (const ArmUnsure& unsure : scratch_.unsure) {
+    const bool is_link = unsure.item < setup_.link_lanes;
+    const ArmSetup::Pair pair =
+        is_link ? ArmSetup::Pair{unsure.item, 0, 0} : setup_.pairs[unsure.item - setup_.link_lanes];
+    const std::size_t slot = setup_.links[pair.a].slot;
+    const std::size_t other_slot = is_link ? 0 : setup_.links[pair.b].slot;
+    const double bend = double{scratch_.bends[unsure.item]} * (is_link ? 1.0 : 0.5);  // of a pair it is that of both
     const ConvexBody& one = setup_.solids[unsure.solid];
     const ConvexBody& other = is_link ? setup_.bodies[unsure.other] : setup_.solids[unsure.other];
+    unsigned open = 0;
     for (unsigned lanes = unsure.lanes; lanes != 0; lanes &= lanes - 1) {
-      const auto lane = static_cast<unsigned>(std::countr_zero(lanes));
+      const auto lane = as_whole<unsigned>(std::countr_zero(lanes));
       const MovingFrame at = frame_of(slot, pair.common, lane, bend);
       const MovingFrame other_at = frame_of(other_slot, pair.common, lane, is_link ? 0.0 : bend);
       const Apart apart = keep_apart(one, at, other, other_at, double{half_}, room);
@@ -585,6 +593,10 @@ bool ArmMotion<T>::settle(std::uint32_t item, unsigned& open) {
       if (apart == Apart::meet && surely_meet(one, slot, other, other_slot, lane)) return true;
       open |= 1U << lane;
     }
+    open_ |= open;
+    auto& items = scratch_.items;
+    const auto noted = items.begin() + as_whole<std::ptrdiff_t>(first_item);
+    if (open != 0 && std::find(noted, items.end(), unsure.item) == items.end()) items.push_back(unsure.item);
   }
   return false;
 }

@@ -15,6 +15,8 @@
 #include <limits>
 #include <type_traits>
 
+#include "core/base/whole.hpp"
+
 #pragma GCC diagnostic ignored "-Wpsabi"  // what is always inlined has no way of passing values that could change
 
 namespace warren::detail {
@@ -87,13 +89,13 @@ template <class T>
   if constexpr (sizeof(T) == 4) {
     const auto low = __builtin_shufflevector(mask, mask, 0, 1, 2, 3);
     const auto high = __builtin_shufflevector(mask, mask, 4, 5, 6, 7);
-    return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(low)) |
-                                 _mm_movemask_ps(reinterpret_cast<__m128>(high)) << 4);
+    return as_whole<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(low)) |
+                              _mm_movemask_ps(reinterpret_cast<__m128>(high)) << 4);
   } else {
     const auto low = __builtin_shufflevector(mask, mask, 0, 1);
     const auto high = __builtin_shufflevector(mask, mask, 2, 3);
-    return static_cast<unsigned>(_mm_movemask_pd(reinterpret_cast<__m128d>(low)) |
-                                 _mm_movemask_pd(reinterpret_cast<__m128d>(high)) << 2);
+    return as_whole<unsigned>(_mm_movemask_pd(reinterpret_cast<__m128d>(low)) |
+                              _mm_movemask_pd(reinterpret_cast<__m128d>(high)) << 2);
   }
 #else
   unsigned bits = 0;

@@ -53,7 +53,7 @@ class ArmCover {
  private:
   static int parts(double half, double unit, int most) {
     if (!(half > unit)) return 1;
-    return half < most * unit ? static_cast<int>(std::ceil(half / unit)) : most;
+    return half < most * unit ? bounded_whole<int>(std::ceil(half / unit)) : most;
   }
   void add(const Vec3& centre, double outer, double inner) {
     const Vec3 at = solid_.pose * centre;
@@ -117,7 +117,7 @@ class ArmCover {
 Doubles::Ball ball_around(std::span<const Doubles::Ball> balls) {
   Vec3 centre(balls[0].x, balls[0].y, balls[0].z);
   double most = 0.0;
-  constexpr int steps = 300;
+  constexpr int steps = 100;
   for (int step = 1; step <= steps; ++step) {
     Vec3 far = centre;
     most = 0.0;
