@@ -24,6 +24,7 @@
 #include "planners/graph/any_world.hpp"
 #include "planners/shorten/shortcut.hpp"
 #include "planners/trees/rrt_connect.hpp"
+#include "scenes/files/moveit_io.hpp"
 #include "scenes/files/read_world_io.hpp"
 #include "solve/question/question_of_arm.hpp"
 #include "verify/judges/verify_arm.hpp"
@@ -79,6 +80,8 @@ struct Settings {
   std::string robot;
   std::vector<std::string> folders;
   std::optional<double> step;
+  std::string sampler;
+  double worth = 0.03;
   std::uint64_t nodes = 100'000;
   std::uint64_t seed = 1;
   int repeats = 3;
@@ -122,6 +125,7 @@ Planned<World> plan(const World& world, const ArmProblem& problem, const Setting
   options.seed = settings.seed;
   options.nodes = settings.nodes;
   options.step = settings.step;
+  options.sampler = enum_named<SamplerKind>(settings.sampler);
   const Execution execution = alone();
   const JointState goal = problem.goal_state();
   Planned<World> planned;
@@ -133,7 +137,7 @@ Planned<World> plan(const World& world, const ArmProblem& problem, const Setting
   const auto length = [&](const JointState& a, const JointState& b) { return world.distance(a, b); };
   Counters counters;
   planned.shortened = improve_path(view, planned.solution.path, length,
-                                   {.seed = settings.seed, .worth = 0.03, .patience = 1}, execution, counters);
+                                   {.seed = settings.seed, .worth = settings.worth, .patience = 1}, execution, counters);
   planned.shorten_s = thread_seconds() - begun;
   return planned;
 }
@@ -161,11 +165,11 @@ Row run(const std::string& set, const fs::path& scene_file, const RobotSpec& rob
   std::string number = scene_file.stem().string().substr(5);
   Row row{set, number};
   double begun = thread_seconds();
-  const Scene scene = read_world(scene_file.string(), alone());
+  Scene asked = read_world(scene_file.string(), alone());
+  const InputFile request((scene_file.parent_path() / ("request" + number + ".yaml")).string(), alone());
+  take_moveit_request(asked, request, alone());
   Question question;
   question.robot = robot;
-  const Scene asked =
-      with_request(scene, (scene_file.parent_path() / ("request" + number + ".yaml")).string(), alone());
   const ArmProblem problem = arm_problem(asked, question, alone());
   row.read_s = thread_seconds() - begun;
   begun = thread_seconds();
@@ -194,6 +198,7 @@ Row run(const std::string& set, const fs::path& scene_file, const RobotSpec& rob
   rrt.seed = settings.seed;
   rrt.nodes = settings.nodes;
   rrt.step = settings.step;
+  rrt.sampler = enum_named<SamplerKind>(settings.sampler);
   rrt_connect(WorldView(recording), problem.start, std::span(&goal, 1), rrt, alone());
   time_edges(row, world, motions);
   const SampledWorld sampled(asked, *problem.model, options);
@@ -299,6 +304,8 @@ int run_all(int argc, char** argv) {
   app.add_option("ROBOT", settings.robot, "its words, \"urdf FILE srdf FILE\"")->required();
   app.add_option("SET", settings.folders, "folders of sceneNNNN.yaml and requestNNNN.yaml")->required();
   app.add_option("--step", settings.step, "longest motion of a tree (default: the planner's)");
+  app.add_option("--sampler", settings.sampler, "of the trees (default: the planner's)");
+  app.add_option("--worth", settings.worth, "a round of shortening that takes off a smaller share is the last");
   app.add_option("--nodes", settings.nodes, "of both trees");
   app.add_option("--seed", settings.seed);
   app.add_option("--repeats", settings.repeats, "the least of so many is told");

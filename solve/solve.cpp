@@ -23,7 +23,10 @@ namespace {
 Question merged(Question question, const Question& answer) {
   if (!question.robot) question.robot = answer.robot;
   if (question.start.empty()) question.start = answer.start;
-  if (question.goal.empty()) question.goal = answer.goal;
+  if (question.goal.empty() && !question.goal_pose) {
+    question.goal = answer.goal;
+    question.goal_pose = answer.goal_pose;
+  }
   if (!question.clearance) question.clearance = answer.clearance;
   if (!question.contact) question.contact = answer.contact;
   return question;

@@ -187,7 +187,12 @@ void put(Ar& ar, std::array<std::string, 2>& both) {
   }
 WARREN_ARCHIVED(Solid, kind, pose, half, corners, faces, name, given)
 WARREN_ARCHIVED(AttachedSolid, link, solid, may_touch)
-WARREN_ARCHIVED(ArmFiles, urdf, srdf, group, base, tip, packages, held, allowed, attached)
+template <class Ar>
+void put(Ar& ar, ArmFiles& whole) {
+  auto& [urdf, srdf, group, base, tip, packages, held, allowed, attached, read] = whole;
+  all(ar, urdf, srdf, group, base, tip, packages, held, allowed, attached);
+  if constexpr (Ar::reads) read.reset();  // whoever asks again reads the files
+}
 WARREN_ARCHIVED(NamedState, names, values)
 WARREN_ARCHIVED(RobotSpec, kind, radius, turning_radius, tool, outline, steering, limits, table, self_collision, files)
 WARREN_ARCHIVED(ScenePolygon, corners, line)
@@ -202,7 +207,7 @@ WARREN_ARCHIVED(RefutedPath, violation, length, cost, path, states)
 WARREN_ARCHIVED(BlockedEnd, is_start, by, free_place, distance, hint, room, needed, depth)
 WARREN_ARCHIVED(Hint, verb, words, why)
 WARREN_ARCHIVED(Explanation, components, narrowest, hints, stopped)
-WARREN_ARCHIVED(Problem, robot, start, goal, clearance, contact)
+WARREN_ARCHIVED(Problem, robot, start, goal, clearance, contact, goal_pose)
 WARREN_ARCHIVED(WorldAccount, source, kind, walls, polygons, hash, spheres, boxes, unit, solids)
 WARREN_ARCHIVED(NamedFigure, name, value)
 WARREN_ARCHIVED(StageCost, name, wall_s, cpu_s)

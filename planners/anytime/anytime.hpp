@@ -4,10 +4,10 @@
 // best everywhere: restarts are in the open, the roadmap in mazes, the tree where it is narrow; the shortener makes
 // something of the variety that they find.
 //
-// Work is counted, not timed: a state check is 1, an edge check 4, a neighbour query 1. A turn is a list of tasks with
-// fixed numbers, each a function of what was known when the turn began; they run on as many threads as there are, and
-// their results are taken in the order of their numbers. So as many turns give the same bytes on any machine, with any
-// number of threads. A turn that a stop cuts is thrown away.
+// Work is counted, not timed: a state check is 1, an edge check 4, each neighbour that a query gives 1. A turn is a
+// list of tasks with fixed numbers, each a function of what was known when the turn began; they run on as many threads
+// as there are, and their results are taken in the order of their numbers. So as many turns give the same bytes on any
+// machine, with any number of threads. A turn that a stop cuts is thrown away.
 //
 // The cost is the sum of the world's metric. It comes near the best there is; how near is said by a lower bound that
 // whoever asks has proved. Asymptotically optimal, as its tree is. That there is no path is never proved.
@@ -63,7 +63,8 @@ struct AnytimeOptions {
 /// What differs from body to body. shortened and length are called from several threads at once.
 template <class State>
 struct AnytimeBody {
-  /// The path made shorter, by draws of the seed; it may give up where it costs more than `hopeless`. Throws Stopped.
+  /// The path made shorter, by draws of the seed; it may give up where it won't cost less than `hopeless`. Throws
+  /// Stopped.
   std::function<Path<State>(const Path<State>&, double hopeless, std::uint64_t seed, const Execution&, Counters&)>
       shortened;
   bool draws = true;  ///< does `shortened` make use of the seed? Else what it has shortened is as short as it gets
@@ -141,10 +142,12 @@ class AnytimeSearch {
     solution_.outcome = has_path() ? Outcome::solved : Outcome::stopped;
     return std::move(solution_);
   }
-  static constexpr std::uint64_t first_share = 256;
+  static constexpr std::uint64_t first_share = 64;  // without a path
+  static constexpr std::uint64_t better_share = 256;
   static constexpr std::uint64_t largest_share = 16'384;
   static constexpr std::size_t restart_count = 3;
   static constexpr double hopeless = 1.5;  // what costs so many times the best is not shortened
+  static constexpr double near = 1.05;     // nor any more what won't come so near it
   static constexpr int patience = 10;      // turns without luck after which a part gets half
   static constexpr int most_dull = 3;      // polishings without gain in a row, after which none is tried
 
@@ -219,6 +222,7 @@ class AnytimeSearch {
   std::vector<Found> rough_;   // paths that are to be shortened in the next turn, since they may come to something
   bool is_straight_ = false;   // the best path is one motion to the nearest of all goals
   bool is_enough_ = false;     // whoever is told says so
+  bool is_shortened_ = false;  // is the best path one that the shortener made?
   bool was_replaced_ = false;  // the best path is of this turn
   std::uint64_t share_ = first_share;
   std::array<int, 4> idle_{};        // turns since a part brought something
@@ -313,7 +317,6 @@ auto AnytimeSearch<W>::grown(const Execution& execution) -> std::vector<Found> {
 /// The best path of a turn is shortened as the best path that there is; others that come near it, as rough ones.
 template <SteerableWorld W>
 void AnytimeSearch<W>::take(Found& found) {
-  constexpr double near = 1.05;
   constexpr double worth = 1e-4;
   solution_.counters += found.counters;
   if (found.path.empty()) return;
@@ -328,7 +331,7 @@ void AnytimeSearch<W>::take(Found& found) {
   const bool is_rough = options_.parts.shorten && !found.is_shortened;
   if (!is_better && is_rough && found.cost < hopeless * before) rough_.push_back(std::move(found));
   if (!is_better) return;
-  if (was_replaced_ && dull_ < most_dull) {  // by another one in this turn: nobody has shortened it yet
+  if (was_replaced_ && !is_shortened_) {  // by another one in this turn: nobody has shortened it yet
     Found earlier;
     earlier.path = std::move(solution_.path);
     earlier.cost = before;
@@ -337,6 +340,7 @@ void AnytimeSearch<W>::take(Found& found) {
   was_replaced_ = true;
   was_lucky_[index_of(found.by)] = true;
   if (found.by != Part::shorten) dull_ = found.is_shortened && !body_.draws ? most_dull : 0;
+  is_shortened_ = found.is_shortened;
   solution_.cost = found.cost;
   solution_.path = std::move(found.path);
   constexpr std::array<std::string_view, 4> names{"tree", "restarts", "roadmap", "shorten"};
@@ -357,10 +361,10 @@ template <SteerableWorld W>
 void AnytimeSearch<W>::adapt(bool had_path) {
   for (std::size_t part = 0; part < idle_.size(); ++part) idle_[part] = was_lucky_[part] ? 0 : idle_[part] + 1;
   if (has_path() && !had_path) {  // from first path to better ones
-    share_ = first_share;
+    share_ = better_share;
     idle_ = {};
   } else {
-    share_ = std::min(largest_share, has_path() ? share_ + share_ / 4 : 2 * share_);
+    share_ = std::min(largest_share, share_ + share_ / (has_path() ? 4 : 2));
   }
 }
 
@@ -381,7 +385,8 @@ auto AnytimeSearch<W>::grow_tree(const Execution& execution) -> Found {
   return found;
 }
 
-/// One pair of trees, from turn to turn, until it arrives or has grown too large.
+/// One pair of trees, from turn to turn, until it arrives or has grown too large. Each has a whole share until there is
+/// a path, since they are most often the first to arrive, then its part of one.
 template <SteerableWorld W>
 auto AnytimeSearch<W>::grow_restart(Restart& restart, const Execution& execution) -> Found {
   Found found(Part::restarts);
@@ -395,7 +400,7 @@ auto AnytimeSearch<W>::grow_restart(Restart& restart, const Execution& execution
     if (has_path()) restart.trees->bound(solution_.cost * (1.0 + restart.looseness));
   }
   RrtConnectSearch<W>& trees = *restart.trees;
-  trees.advance_by_work(share_of(Part::restarts) / restart_count, execution);
+  trees.advance_by_work(share_of(Part::restarts) / (has_path() ? restart_count : 1), execution);
   found.counters = counted_since(restart.counted, trees.counters());
   restart.counted = trees.counters();
   if (trees.arrived()) {
@@ -411,9 +416,10 @@ template <SteerableWorld W>
 auto AnytimeSearch<W>::draw_roadmap(const Execution& execution) -> Found {
   constexpr std::uint64_t first_samples = 50;
   constexpr std::uint64_t most_doublings = 20;
+  constexpr std::uint64_t least_credit = 1'000;  // what the first may well take: trees often arrive before
   Found found(Part::roadmap);
   credit_ += share_of(Part::roadmap);
-  if (credit_ < 2 * roadmap_work_) return found;
+  if (credit_ < std::max(least_credit, 2 * roadmap_work_)) return found;
   RoadmapOptions options = options_.roadmap;
   options.samples = first_samples << std::min(roadmaps_, most_doublings);
   options.seed = random_bits(options_.trees.seed, roadmaps_, 14);
@@ -440,7 +446,7 @@ auto AnytimeSearch<W>::shortened(const Found& rough, std::uint64_t number, const
   Found found(rough.by);
   found.is_shortened = true;
   const std::uint64_t seed = random_bits(options_.trees.seed, solution_.iterations, 8 + number);
-  found.path = body_.shortened(rough.path, hopeless * solution_.cost, seed, execution, found.counters);
+  found.path = body_.shortened(rough.path, near * solution_.cost, seed, execution, found.counters);
   found.cost = cost_of(found.path);
   return found;
 }

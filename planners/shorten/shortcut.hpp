@@ -276,6 +276,7 @@ template <SteerableWorld W, class Length>
 auto Shortener<W, Length>::improved(double worth, std::uint32_t patience, double hopeless) -> Path<State> {
   constexpr std::size_t cuts = 16;
   constexpr std::uint64_t drifts = 4;
+  constexpr double ahead = 2.0;  // so many times what it took off is what a round promises
   double best = whole();
   unsure_ = noise * best;
   skip();
@@ -291,8 +292,9 @@ auto Shortener<W, Length>::improved(double worth, std::uint32_t patience, double
     thin();
     const double now = whole();
     idle = best - now > worth * best ? 0 : idle + 1;
+    const double promised = now - ahead * (best - now);
     best = std::min(best, now);
-    if (best > hopeless) break;
+    if (promised > hopeless) break;
   }
   return std::move(path_);
 }
@@ -402,7 +404,8 @@ struct ImproveOptions {
   std::uint32_t rounds = 400;  ///< at most
   double worth = 2e-3;         ///< a round that takes off less than this share of the length is idle; >= 0
   std::uint32_t patience = 1;  ///< so many idle rounds in a row are the end; >= 1
-  double hopeless = std::numeric_limits<double>::infinity();  ///< it gives up where a round leaves more than so much
+  /// It gives up where twice what a round took off would not bring the path below so much.
+  double hopeless = std::numeric_limits<double>::infinity();
 };
 
 /// As shortcut_path(), for searches that go on.

@@ -43,7 +43,7 @@ class MotionTree {
   VertexId parent(VertexId v) const { return parents_[v]; }  ///< no_vertex for roots
   /// Of the motions between v and its root, in the world's metric.
   double cost(VertexId v) const { return costs_[v]; }
-  /// What growing has taken: a state check 1, a motion check 4, a neighbour query 1.
+  /// What growing has taken: a state check 1, a motion check 4, a neighbour query 1 for each neighbour that it gives.
   std::uint64_t work() const { return work_; }
 
   /// Asks for what the tree takes while it doubles, once it has doubled, and so many more bytes a state. Throws
@@ -65,13 +65,15 @@ class MotionTree {
   }
 
   VertexId nearest(const State& to, Counters& counters) {
-    count_query(counters);
+    ++counters.neighbour_queries;
+    ++work_;
     return index_.nearest(embedded(*world_, to)).id;
   }
   /// The k nearest by the embedding.
   void nearest(const State& to, std::size_t k, std::vector<Neighbour>& out, Counters& counters) {
-    count_query(counters);
+    ++counters.neighbour_queries;
     index_.nearest(embedded(*world_, to), k, out);
+    work_ += out.size();
   }
   /// Of the motion that joins a vertex with a state, in the tree's direction.
   double length(VertexId from, const State& to) const {
@@ -144,11 +146,6 @@ class MotionTree {
  private:
   static constexpr std::uint64_t work_of_state = 1;
   static constexpr std::uint64_t work_of_motion = 4;
-
-  void count_query(Counters& counters) {
-    ++work_;
-    ++counters.neighbour_queries;
-  }
 
   const W* world_;
   GrowthDirection direction_;

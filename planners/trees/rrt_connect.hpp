@@ -18,6 +18,7 @@
 
 #include "planners/graph/any_world.hpp"
 #include "planners/graph/no_path.hpp"
+#include "planners/trees/informed_sampler.hpp"
 #include "planners/trees/motion_tree.hpp"
 #include "planners/trees/way_over_places.hpp"
 
@@ -46,9 +47,12 @@ class RrtConnectSearch {
   }
 
   /// Before anything has grown: only paths that cost less are of use. A state is added only where its cost in its tree
-  /// and the metric from there to the other end are less together. The way over places, which is the same whatever the
-  /// bound, is not tried.
+  /// and the metric from there to the other end are less together, and samples are drawn where they may be. The way
+  /// over places, which is the same whatever the bound, is not tried.
   void bound(double most) {
+    std::vector<State> goals;
+    for (VertexId goal = 0; goal < goal_count_; ++goal) goals.push_back(trees_[1].state(goal));
+    informed_.emplace(*world_, trees_[0].state(0), std::span<const State>(goals), seed_);
     most_ = most;
     begun_ = true;
   }
@@ -59,8 +63,8 @@ class RrtConnectSearch {
   void advance_by_work(std::uint64_t more, const Execution& execution) {
     advance_while([this, until = work() + more] { return work() < until; }, execution);
   }
-  /// A state check 1, a motion check 4, a neighbour query 1; without what samplers look at.
-  std::uint64_t work() const { return trees_[0].work() + trees_[1].work(); }
+  /// That of the trees, and 1 for each sample that came to nothing; without what samplers look at.
+  std::uint64_t work() const { return trees_[0].work() + trees_[1].work() + idle_samples_; }
   bool arrived() const { return arrived_; }
   bool gave_up() const { return node_count() >= options_->nodes || counters_.samples >= most_steps(); }
   const Counters& counters() const { return counters_; }
@@ -84,6 +88,7 @@ class RrtConnectSearch {
   /// Trees that are shut in on all sides never get their nodes.
   std::uint64_t most_steps() const { return 64 * options_->nodes; }
   std::size_t node_count() const { return trees_[0].size() + trees_[1].size(); }
+  std::optional<State> next_target();
   void take_step();
   double least_rest(std::size_t side, const State& state) const;
   bool is_worth(std::size_t side, VertexId from, const State& next) const {
@@ -100,7 +105,9 @@ class RrtConnectSearch {
   const W* world_;
   const RrtOptions* options_;
   double step_;
-  double most_ = unbounded;  // what a path may cost, and less
+  double most_ = unbounded;                     // what a path may cost, and less
+  std::optional<InformedSampler<W>> informed_;  // where it is bounded
+  std::uint64_t idle_samples_ = 0;
   std::uint64_t seed_;
   typename W::Query query_;
   std::array<MotionTree<W>, 2> trees_;  // from the start, from the goals
@@ -195,17 +202,24 @@ void RrtConnectSearch<W>::meet(std::size_t side, VertexId grown) {
 }
 
 template <SteerableWorld W>
+auto RrtConnectSearch<W>::next_target() -> std::optional<State> {
+  const std::uint64_t index = counters_.samples++;
+  // The first targets are the other tree's roots: in the open that is all.
+  if (index < 2) return trees_[1 - turn_].state(0);
+  if (informed_) return informed_->informed(index, most_);
+  return target_state(*world_, options_->sampler_of(index), seed_, index, query_);
+}
+
+template <SteerableWorld W>
 void RrtConnectSearch<W>::take_step() {
   MotionTree<W>& mine = trees_[turn_];
-  const MotionTree<W>& other = trees_[1 - turn_];
-  // The first targets are the other tree's roots: in the open that is all.
-  const bool straight = counters_.samples < 2;
-  const State target =
-      straight ? other.state(0)
-               : target_state(*world_, options_->sampler_of(counters_.samples), seed_, counters_.samples, query_);
-  ++counters_.samples;
-  const VertexId from = mine.nearest(target, counters_);
-  const State next = mine.towards(from, target, step_);
+  const std::optional<State> target = next_target();
+  if (!target) {
+    ++idle_samples_;
+    return;
+  }
+  const VertexId from = mine.nearest(*target, counters_);
+  const State next = mine.towards(from, *target, step_);
   if (is_worth(turn_, from, next)) {
     if (const auto grown = mine.join(from, next, query_, counters_)) meet(turn_, *grown);
   }

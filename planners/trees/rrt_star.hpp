@@ -138,7 +138,7 @@ class RrtStarTree {
   std::size_t size() const { return tree_.size(); }
   bool is_full() const { return tree_.size() >= options_.nodes; }
   const Counters& counters() const { return counters_; }
-  /// A state check 1, a motion check 4, a neighbour query 1, a sample that came to nothing 1.
+  /// That of its tree, and 1 for each sample that came to nothing.
   std::uint64_t work() const { return tree_.work() + idle_samples_; }
   /// For keep_trees(), and whoever wants to look.
   const MotionTree<W>& tree() const { return tree_; }

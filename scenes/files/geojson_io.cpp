@@ -155,7 +155,7 @@ class Reader {
   Reader(const std::string& file, const std::size_t& line, const Execution& execution)
       : file_(file), line_(line), execution_(execution), pieces_(file, execution) {}
 
-  bool null() { return scalar("null"); }
+  bool null() { return position_.size() >= 2 || scalar("null"); }  // a height that nobody knows is no height
   bool boolean(bool) { return scalar("true or false"); }
   bool number_integer(Json::number_integer_t value) { return number(static_cast<double>(value)); }
   bool number_unsigned(Json::number_unsigned_t value) { return number(static_cast<double>(value)); }

@@ -175,17 +175,18 @@ Scene read_unchecked(const InputFile& file, const Execution& execution, MapServe
 
 WorldFormat format_of(const InputFile& file) {
   const std::string_view bytes = file.bytes();
+  const std::string_view name = file.name();
+  const bool is_yaml = name.ends_with(".yaml") || name.ends_with(".yml");
   if (is_npy(bytes)) return WorldFormat::npy;
   if (is_maze_file(bytes)) return WorldFormat::maze;
   if (is_png(bytes) || is_pgm(bytes) || is_bmp(bytes)) return WorldFormat::image;
   if (bytes.starts_with("type ")) return WorldFormat::moving_ai;
   if (names_image(bytes)) return WorldFormat::ros_map;
   if (is_micromouse(bytes)) return WorldFormat::micromouse;
-  if (is_geojson(bytes)) return WorldFormat::geojson;
+  if (is_geojson(bytes)) return is_yaml ? WorldFormat::ros_map : WorldFormat::geojson;  // YAML may be in braces
   if (is_wkt(bytes)) return WorldFormat::wkt;
   if (is_ring_list(bytes)) return WorldFormat::ring_list;
   if (is_moveit_scene(file.name(), bytes)) return WorldFormat::moveit;
-  const std::string_view name = file.name();
   if (name.ends_with(".npy")) return WorldFormat::npy;
   if (name.ends_with(".maze")) return WorldFormat::maze;
   if (name.ends_with(".png") || name.ends_with(".pgm") || name.ends_with(".bmp")) return WorldFormat::image;
@@ -194,7 +195,7 @@ WorldFormat format_of(const InputFile& file) {
   if (name.ends_with(".wkt")) return WorldFormat::wkt;
   if (name.ends_with(".poly") || name.ends_with(".environment")) return WorldFormat::ring_list;
   if (name.ends_with(".map")) return WorldFormat::moving_ai;
-  if (name.ends_with(".yaml") || name.ends_with(".yml")) return WorldFormat::ros_map;
+  if (is_yaml) return WorldFormat::ros_map;
   return WorldFormat::scene;
 }
 

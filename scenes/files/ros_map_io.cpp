@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A pixel's class depends on one number (and its alpha), so classes are looked up in a table, made once. Of Nav2 the
 // number is the grey of 8 bits that GraphicsMagick makes of the pixel, which Nav2's map_io looks at alone: the luma,
-// rounded to 16 bits, of which the high 8 are kept (n / 257). Of ROS 1 it is the sum of the colours, for their mean: at
+// rounded to 16 bits and then down to 8 (n / 257). Of ROS 1 it is the sum of the colours, for their mean: at
 // most 4 x 65535 + 1 entries.
 #include "scenes/files/ros_map_io.hpp"
 

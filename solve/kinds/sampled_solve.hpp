@@ -62,7 +62,8 @@ struct UsualBody {
   static constexpr bool judged_by_index = false;   ///< does its judge take an ObstacleIndex?
   static constexpr bool improves_by_draws = true;  ///< does improved() make use of its seed?
   static constexpr std::string_view noun = "body";
-  static constexpr std::optional<SamplerKind> tree_sampler = std::nullopt;
+  /// What nobody asked for of the trees.
+  static void suit(RrtOptions&) {}
 
   template <class World, class State>
   static std::vector<State> best_first(const World&, const std::vector<State>& goals) {
@@ -146,7 +147,7 @@ class SampledSolve {
   void describe_better() {
     tree_options_ = tree_options(request_.options);
     tree_options_.nodes = request_.options.trees.nodes.value_or(std::uint64_t{1} << 24U);
-    if (!tree_options_.sampler) tree_options_.sampler = body_.tree_sampler;
+    body_.suit(tree_options_);
     roadmap_options_.seed = request_.options.seed;
     roadmap_options_.sampler = body_.choose_sampler(request_.options, roadmap_options_);
     if (takes_all_places(roadmap_options_.sampler))
@@ -159,7 +160,7 @@ class SampledSolve {
   }
   void describe_trees() {
     tree_options_ = tree_options(request_.options);
-    if (!tree_options_.sampler) tree_options_.sampler = body_.tree_sampler;
+    body_.suit(tree_options_);
     for (const std::vector<double>& point : request_.options.trees.via)
       body_.stop_at(point);  // refused before the work
     answer_.sampler = sampler_name(tree_options_);

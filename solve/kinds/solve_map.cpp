@@ -182,7 +182,9 @@ Answer solve_over_cells(const SolveRequest& request) {
 class BodyOnMap : public UsualBody {
  public:
   using World = GridWorld;
-  static constexpr std::optional<SamplerKind> tree_sampler = SamplerKind::uniform;
+  static void suit(RrtOptions& options) {
+    if (!options.sampler) options.sampler = SamplerKind::uniform;
+  }
 
   explicit BodyOnMap(const SolveRequest& request)
       : map_(*request.scene.map),

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
@@ -197,6 +198,30 @@ std::uint64_t write_array(Rows& rows, const PathLegs& legs, OutputFile& file) {
   return rows.visit([&](const Row& row) { file.write(bytes_of(row.state.used())); });
 }
 
+/// The speeds that the arm's file gives its joints, where these are asked for.
+PathFileOptions with_own_speeds(const Answer& answer, const PathLegs& legs, PathFileOptions options) {
+  if (!options.limits || options.limits->joint_speed.empty()) return options;
+  std::vector<double>& speeds = options.limits->joint_speed;
+  if (speeds == speeds_of_file) {
+    const auto& files = answer.problem.robot.files;
+    if (!files || !files->read) throw UsageError("@joint_speed: 'file' is for an arm of a URDF, which has its speeds");
+    speeds.clear();
+    for (const ArmVariable& variable : files->read->variables) {
+      if (!(variable.speed > 0.0)) {
+        throw UsageError(fmt::format("@joint_speed: the file gives joint '{}' no speed; say numbers", variable.name));
+      }
+      speeds.push_back(variable.speed);
+    }
+  }
+  for (const auto& [name, each] :
+       {std::pair{"@joint_speed", speeds}, std::pair{"@joint_acceleration", options.limits->joint_acceleration}}) {
+    if (each.size() <= 1 || each.size() == legs.width()) continue;
+    throw UsageError(
+        fmt::format("{}: expected one number, or {} for this arm (found: {})", name, legs.width(), each.size()));
+  }
+  return options;
+}
+
 }  // namespace
 
 void PathArrayFile::begin(std::uint64_t points) {
@@ -230,8 +255,7 @@ PathFormat path_format(const std::string& file) {
 }
 
 void check_path_file(const RobotSpec& robot, const std::string& file, const PathFileOptions& options) {
-  const bool is_arm =
-      robot.kind == RobotKind::puma560 || robot.kind == RobotKind::arm || robot.kind == RobotKind::urdf;
+  const bool is_arm = robot.kind == RobotKind::puma560 || robot.kind == RobotKind::arm || robot.kind == RobotKind::urdf;
   const PathFormat format = path_format(file);
   if (is_arm && format != PathFormat::csv && format != PathFormat::npy) {
     throw UsageError("@path: the joints of an arm are written as .csv or .npy");
@@ -264,7 +288,8 @@ PathFileAccount write_path(const Answer& answer, const std::string& file, const 
                            const Execution& execution, OutputFile& out) {
   check_path_file(answer.problem.robot, file, options);
   const PathLegs legs(answer);
-  Rows rows(legs, options, execution);
+  const PathFileOptions resolved = with_own_speeds(answer, legs, options);
+  Rows rows(legs, resolved, execution);
   PathFileAccount account{0, rows.duration_s()};
   switch (path_format(file)) {
     case PathFormat::csv:

@@ -85,7 +85,7 @@ Command build_command() {
   Command command{"build", "WORLD", "build a roadmap once, for many questions", {}, build_roadmap_file};
   add_options(command.options, build_specs);
   add_kept_options(command);
-  add_options(command.options, question_option_specs(), {"--start", "--goal", "--contact"});
+  add_options(command.options, question_option_specs(), {"--start", "--goal", "--goal-pose", "--contact"});
   add_options(command.options, world_option_specs());
   add_options(command.options, run_option_specs());
   return command;

@@ -162,7 +162,7 @@ Command query_command() {
     }
   }
   for (const std::string_view name : {"--robot", "--clearance", "--contact"}) command.foreign.emplace_back(name, fixed);
-  add_options(command.options, question_option_specs(), {"--robot", "--clearance", "--contact"});
+  add_options(command.options, question_option_specs(), {"--robot", "--clearance", "--contact", "--goal-pose"});
   add_options(command.options, world_option_specs());
   add_options(command.options, answer_output_specs());
   add_options(command.options, path_option_specs());

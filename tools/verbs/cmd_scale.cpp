@@ -126,7 +126,7 @@ Command scale_command() {
   add_options(command.options, study_specs);
   add_options(command.options, maze_option_specs());
   add_options(command.options, roadmap_option_specs(), {"--planner", "--sampler", "--seed"});
-  add_options(command.options, question_option_specs(), {"--start", "--goal"});
+  add_options(command.options, question_option_specs(), {"--start", "--goal", "--goal-pose"});
   add_options(command.options, run_option_specs(), {"--budget", "--threads"});
   return command;
 }

@@ -30,23 +30,20 @@ Vec3 off_core(const SolidCore& core, const Vec3& p) {
 /// From the core to the segment's nearest point: how far it is off is convex along the segment, and its slope's sign is
 /// halved for.
 Vec3 off_core(const SolidCore& core, const Vec3& middle, const Vec3& half) {
-  Vec3 best = off_core(core, middle);
-  if (half.isZero(0.0)) return best;
-  const auto consider = [&](double t) {
-    const Vec3 off = off_core(core, middle + t * half);
-    if (off.squaredNorm() < best.squaredNorm()) best = off;
-    return off.dot(half) > 0.0;
-  };
-  if (!consider(-1.0) && consider(1.0)) {
-    constexpr int halvings = 56;
-    double low = -1.0;
-    double high = 1.0;
-    for (int i = 0; i < halvings && !best.isZero(0.0); ++i) {
-      const double t = 0.5 * (low + high);
-      (consider(t) ? high : low) = t;
-    }
+  const auto off_at = [&](double t) { return off_core(core, middle + t * half); };
+  if (half.isZero(0.0)) return off_at(0.0);
+  constexpr int halvings = 56;
+  double low = -1.0;
+  double high = 1.0;
+  for (int i = 0; i < halvings; ++i) {
+    const double t = 0.5 * (low + high);
+    const Vec3 off = off_at(t);
+    if (off.isZero(0.0)) return off;
+    (off.dot(half) > 0.0 ? high : low) = t;
   }
-  return best;
+  const Vec3 before = off_at(low);
+  const Vec3 behind = off_at(high);
+  return before.squaredNorm() < behind.squaredNorm() ? before : behind;
 }
 
 /// The point nearest to 0 among all mixtures of at most four points.

@@ -310,7 +310,7 @@ void ArmLeg::look(const Pair& pair) {
   if (!coarse) report_.met = std::min(report_.met, known.met);
   if (known.proved > clearance && (known.proved >= report_.met - judge_.close || finest)) {
     report_.least = std::min(report_.least, known.proved);
-  } else if (coarse && known.way > a.core.radius) {
+  } else if (coarse && known.way > std::max({a.core.radius, b.core.radius, judge_.finest})) {
     keep(pair);  // where the ball goes farther than it is wide, there is no use in parts
   } else if (coarse) {
     look_at_parts(pair);
@@ -430,14 +430,14 @@ std::optional<Violation> ArmVerifier::wrong_start(std::span<const JointState> pa
   if (!options.start) return std::nullopt;
   const double off = difference(path.front(), *options.start);
   if (off <= options.tolerance) return std::nullopt;
-  return elsewhere("start", *options.start, off, 0);
+  return elsewhere("start", std::span(*options.start).first(model.variables.size()), off, 0);
 }
 
 std::optional<Violation> ArmVerifier::wrong_goal(std::span<const JointState> path) const {
   const std::size_t last = legs_of(path.size()) - 1;
   if (options.goal) {
     const double off = difference(path.back(), *options.goal);
-    if (!(off <= options.tolerance)) return elsewhere("goal", *options.goal, off, last);
+    if (!(off <= options.tolerance)) return elsewhere("goal", std::span(*options.goal).first(model.variables.size()), off, last);
   }
   if (!options.goal_place && !options.goal_pose) return std::nullopt;
   const SolidFrame tool = arm.tool_at(path.back());

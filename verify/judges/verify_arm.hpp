@@ -46,7 +46,7 @@ struct ArmVerifyOptions {
 /// least one state, all finite (InputError otherwise); a single state is a leg of length zero. A leg that runs within a
 /// millionth of the arm's size of an obstacle, beyond the clearance, may count as not free. min_clearance is of the arm
 /// along the path: a lower bound, within a hundredth of the largest radius of its spheres and capsules, or, where that
-/// is less, a ten-thousandth of its size; where the path is not free, the least distance met. The length's angles are
+/// is more, a ten-thousandth of its size; where the path is not free, the least distance met. The length's angles are
 /// radians. The same for any number of threads.
 Verification verify_arm(const Scene& scene, const ArmModel& model, std::span<const JointState> path,
                         const ArmVerifyOptions& options, const Execution& execution);

@@ -170,7 +170,7 @@ class ToolSearch {
 
 std::vector<JointState> postures_of_tool(const ArmKinematics& arm, const ToolGoal& goal, const JointState& seed,
                                          std::size_t enough, const Execution& execution) {
-  constexpr std::size_t most_in_vain = 60;
+  constexpr std::size_t most_in_vain = 100;
   const std::vector<ArmVariable>& variables = arm.model().variables;
   const auto apart = [&](const JointState& a, const JointState& b) {
     double most = 0.0;

@@ -21,7 +21,7 @@ struct ToolGoal {
 
 /// States within the limits that do, to 1e-9 of the world's unit and 1e-9 rad; any two differ by more than 1e-6 in some
 /// variable, nearest to the seed first (each variable by its own unit, the wrap counts); variables that do not move the
-/// tool stay as the seed has them. At most `enough`, >= 1; after 60 starts in vain, or 10 for each that is asked for,
+/// tool stay as the seed has them. At most `enough`, >= 1; after 100 starts, or 10 for each that is asked for,
 /// none more. Deterministic. Throws Stopped.
 std::vector<JointState> postures_of_tool(const ArmKinematics& arm, const ToolGoal& goal, const JointState& seed,
                                          std::size_t enough, const Execution& execution = {});

@@ -30,8 +30,8 @@ inline constexpr JointSet all_joints = ~JointSet{0};
 /// Immutable after construction; any number of threads may ask.
 class ArmKinematics {
  public:
-  /// Throws InputError for a model with no variable, too many of anything, limits upside down or numbers of joints,
-  /// variables and links that are none.
+  /// Throws InputError for a model with no variable, too many of anything, limits upside down, axes not of length 1, or
+  /// numbers of joints, variables and links that are none.
   explicit ArmKinematics(ArmModel model);
 
   const ArmModel& model() const { return model_; }

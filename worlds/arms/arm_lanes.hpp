@@ -77,7 +77,7 @@ template <class T>
 [[gnu::always_inline]] inline Lanes<T> magnitude(Lanes<T> a) {
   using Whole = LaneMask<T>;
   using Bits = std::remove_reference_t<decltype(Whole{}[0])>;
-  return (Lanes<T>)((Whole)a & std::numeric_limits<Bits>::max());
+  return reinterpret_cast<Lanes<T>>(reinterpret_cast<Whole>(a) & std::numeric_limits<Bits>::max());
 }
 
 /// A bit a lane.
@@ -87,11 +87,13 @@ template <class T>
   if constexpr (sizeof(T) == 4) {
     const auto low = __builtin_shufflevector(mask, mask, 0, 1, 2, 3);
     const auto high = __builtin_shufflevector(mask, mask, 4, 5, 6, 7);
-    return static_cast<unsigned>(_mm_movemask_ps((__m128)low) | _mm_movemask_ps((__m128)high) << 4);
+    return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(low)) |
+                                 _mm_movemask_ps(reinterpret_cast<__m128>(high)) << 4);
   } else {
     const auto low = __builtin_shufflevector(mask, mask, 0, 1);
     const auto high = __builtin_shufflevector(mask, mask, 2, 3);
-    return static_cast<unsigned>(_mm_movemask_pd((__m128d)low) | _mm_movemask_pd((__m128d)high) << 2);
+    return static_cast<unsigned>(_mm_movemask_pd(reinterpret_cast<__m128d>(low)) |
+                                 _mm_movemask_pd(reinterpret_cast<__m128d>(high)) << 2);
   }
 #else
   unsigned bits = 0;
@@ -171,10 +173,10 @@ template <class T>
   }
   using Whole = LaneMask<T>;
   constexpr int to_sign = is_float ? 30 : 62;  // from bit 1 to the highest
-  const Whole turns = (Whole)shifted;
+  const Whole turns = reinterpret_cast<Whole>(shifted);
   const Whole odd = (turns & 1) != 0;
-  sine = (Lanes<T>)((Whole)chosen<T>(odd, c, s) ^ ((turns & 2) << to_sign));
-  cosine = (Lanes<T>)((Whole)chosen<T>(odd, s, c) ^ (((turns + 1) & 2) << to_sign));
+  sine = reinterpret_cast<Lanes<T>>(reinterpret_cast<Whole>(chosen<T>(odd, c, s)) ^ ((turns & 2) << to_sign));
+  cosine = reinterpret_cast<Lanes<T>>(reinterpret_cast<Whole>(chosen<T>(odd, s, c)) ^ (((turns + 1) & 2) << to_sign));
 }
 
 /// A vector of space in every lane.

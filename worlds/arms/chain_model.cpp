@@ -38,29 +38,16 @@ Isometry3d frame_between(const Vec3& a, const Vec3& b) {
   return frame;
 }
 
-/// Adds capsules as the frames are made.
-class ChainLinks {
- public:
-  ChainLinks(ArmModel& model, double radius, double shortest) : model_(model), radius_(radius), shortest_(shortest) {}
-  void add(int frame, const Vec3& from, const Vec3& to) {
-    const double length = (to - from).norm();
-    if (length <= shortest_) return;
-    ArmLink link;
-    link.name = "link " + std::to_string(model_.links.size());
-    link.frame = frame;
-    Solid capsule;
-    capsule.kind = SolidKind::capsule;
-    capsule.pose = frame_between(from, to);
-    capsule.half = Vec3(radius_, radius_, 0.5 * length);
-    link.solids.push_back(std::move(capsule));
-    model_.links.push_back(std::move(link));
-  }
-
- private:
-  ArmModel& model_;
-  double radius_;
-  double shortest_;
-};
+/// Nothing is added between points that are no farther apart than `shortest`.
+void add_capsule(ArmModel& model, int frame, const Vec3& from, const Vec3& to, double radius, double shortest) {
+  const double length = (to - from).norm();
+  if (length <= shortest) return;
+  Solid capsule;
+  capsule.kind = SolidKind::capsule;
+  capsule.pose = frame_between(from, to);
+  capsule.half = Vec3(radius, radius, 0.5 * length);
+  model.links.push_back({"link " + std::to_string(model.links.size()), frame, {capsule}});
+}
 
 /// Links that what is between them keeps so near that they always touch are no use to keep apart.
 void add_pairs(ArmModel& model, double touch) {
@@ -91,7 +78,9 @@ ArmModel model_of(const DhTable& table, double radius, bool self_collision, doub
     variable.high = chain.high(i);
     model.variables.push_back(variable);
   }
-  ChainLinks links(model, radius, 1e-12 * chain.reach());
+  const auto add_link = [&](int frame, const Vec3& from, const Vec3& to) {
+    add_capsule(model, frame, from, to, radius, 1e-12 * chain.reach());
+  };
   const bool modified = table.convention == DhConvention::modified;
   Isometry3d tail = Isometry3d::Identity();
   for (std::size_t i = 0; i < table.joints.size(); ++i) {
@@ -106,16 +95,16 @@ ArmModel model_of(const DhTable& table, double radius, bool self_collision, doub
     joint.offset = table.joints[i].offset_rad;
     model.joints.push_back(joint);
     if (modified) {
-      links.add(joint.parent, tail.translation(), (tail * step).translation());
+      add_link(joint.parent, tail.translation(), (tail * step).translation());
       tail = along_z(table.joints[i].d);
     } else {
       tail = step;
-      links.add(as_whole<int>(i), Vec3::Zero(), tail.translation());
+      add_link(as_whole<int>(i), Vec3::Zero(), tail.translation());
     }
   }
   model.tool_frame = as_whole<int>(table.joints.size()) - 1;
   model.tool = tail * table.tool;
-  links.add(model.tool_frame, tail.translation(), model.tool.translation());
+  add_link(model.tool_frame, tail.translation(), model.tool.translation());
   if (model.links.empty()) throw InputError("arm", "has no link of any length");
   const double rounding = 1e-12 * (chain.reach() + radius + clearance);
   if (self_collision) add_pairs(model, (2.0 * radius + clearance) * (1.0 + 1e-9) + rounding);

@@ -87,33 +87,32 @@ void ConvexBody::look(const Corners& corners, const Vec3& direction, Farthest& b
   for (std::size_t i = 0; i < lanes; ++i) {
     along[i] = direction.x() * corners.x[i] + direction.y() * corners.y[i] + direction.z() * corners.z[i];
   }
+  std::array<double, lanes> high = along;
+  for (std::size_t half = lanes / 2; half > 0; half /= 2) {
+    for (std::size_t i = 0; i < half; ++i) high[i] = std::max(high[i], high[i + half]);
+  }
+  if (!(high[0] > best.along)) return;
   std::size_t most = 0;
-  for (std::size_t i = 1; i < lanes; ++i) most = along[i] > along[most] ? i : most;
-  if (along[most] > best.along) best = {along[most], {corners.x[most], corners.y[most], corners.z[most]}};
+  while (most + 1 < lanes && along[most] < high[0]) ++most;
+  best = {along[most], {corners.x[most], corners.y[most], corners.z[most]}};
 }
 
-Vec3 ConvexBody::hull_support(const Vec3& direction) const {
+Vec3 ConvexBody::hull_support(const Vec3& direction, std::size_t& near) const {
   const double length = upwards * direction.norm();
-  const auto most_along = [&](const Corners& group) { return direction.dot(group.centre) + length * group.radius; };
-  std::size_t first = 0;
-  double most = most_along(corners_[0]);
-  for (std::size_t i = 1; i < corners_.size(); ++i) {
-    const double along = most_along(corners_[i]);
-    if (along > most) {
-      most = along;
-      first = i;
-    }
-  }
   Farthest best{-std::numeric_limits<double>::infinity(), centre_};
+  const std::size_t first = near < corners_.size() ? near : 0;
   look(corners_[first], direction, best);
   for (std::size_t i = 0; i < corners_.size(); ++i) {
-    if (i != first && most_along(corners_[i]) > best.along) look(corners_[i], direction, best);
+    const double before = best.along;
+    if (i == first || !(direction.dot(corners_[i].centre) + length * corners_[i].radius > before)) continue;
+    look(corners_[i], direction, best);
+    if (best.along > before) near = i;
   }
   return best.corner;
 }
 
-Vec3 ConvexBody::core_support(const Vec3& direction) const {
-  if (!corners_.empty()) return hull_support(direction);
+Vec3 ConvexBody::core_support(const Vec3& direction, std::size_t& near) const {
+  if (!corners_.empty()) return hull_support(direction, near);
   Vec3 point = centre_;
   for (std::size_t i = 0; i < edge_count_; ++i) {
     if (direction.dot(edges_[i]) < 0.0) {
@@ -133,8 +132,8 @@ Vec3 ConvexBody::core_support(const Vec3& direction) const {
 
 Vec3 ConvexBody::support(const Vec3& direction) const {
   const double length = direction.norm();
-  if (!(length > 0.0)) return core_support(direction);
-  return core_support(direction) + (margin_ / length) * direction;
+  const Vec3 of_core = core_support(direction);
+  return length > 0.0 ? Vec3(of_core + (margin_ / length) * direction) : of_core;
 }
 
 }  // namespace warren

@@ -25,7 +25,12 @@ class ConvexBody {
   explicit ConvexBody(const Solid& solid);
 
   /// A point of the core that lies farthest in a direction of any length, up to rounding (a few 1e-16 of its size).
-  Vec3 core_support(const Vec3& direction) const;
+  /// `near` says where a hull is looked at first, any number, and becomes what is best next for a direction much alike.
+  Vec3 core_support(const Vec3& direction, std::size_t& near) const;
+  Vec3 core_support(const Vec3& direction) const {
+    std::size_t near = 0;
+    return core_support(direction, near);
+  }
   /// The same of the whole body.
   Vec3 support(const Vec3& direction) const;
   /// The body is what is within this of the core; >= 0.
@@ -51,7 +56,7 @@ class ConvexBody {
   void take_corners(std::vector<Vec3> corners);
   void split_corners(std::vector<Vec3>& corners, std::size_t begin, std::size_t end);
   static void look(const Corners& corners, const Vec3& direction, Farthest& best);
-  Vec3 hull_support(const Vec3& direction) const;
+  Vec3 hull_support(const Vec3& direction, std::size_t& near) const;
 
   Vec3 centre_ = Vec3::Zero();
   std::array<Vec3, 3> edges_;     // the core is the centre and up to so much of each to either side,

@@ -19,8 +19,8 @@ struct PlacedBody {
     for (int side = 0; side < 3; ++side) linear.col(side) += t * frame.spin.cross(frame.turn.col(side));
     shift += t * frame.velocity;
   }
-  Vec3 support(const ConvexBody& body, const Vec3& direction) const {
-    return linear * body.core_support(linear.transpose() * direction) + shift;
+  Vec3 support(const ConvexBody& body, const Vec3& direction, std::size_t& near) const {
+    return linear * body.core_support(linear.transpose() * direction, near) + shift;
   }
   Eigen::Matrix3d linear;
   Vec3 shift;
@@ -30,24 +30,29 @@ struct PlacedBody {
 struct CoreDifference {
   CoreDifference(const ConvexBody& first, const MovingFrame& at_first, const ConvexBody& second,
                  const MovingFrame& at_second, double half)
-      : a(first), b(second), ends(half > 0.0 ? 2 : 1) {
+      : a(first),
+        b(second),
+        ends(half > 0.0 ? 2 : 1),
+        b_rests(at_second.spin.isZero(0.0) && at_second.velocity.isZero(0.0)) {
     for (std::size_t end = 0; end < ends; ++end) {
       at_a[end] = PlacedBody(at_first, end == 0 ? -half : half);
       at_b[end] = PlacedBody(at_second, end == 0 ? -half : half);
     }
   }
   /// What lies least along n.
-  Vec3 lowest(const Vec3& n) const {
-    Vec3 least = at_b[0].support(b, -n) - at_a[0].support(a, n);
-    if (ends == 2) {
-      const Vec3 other = at_b[1].support(b, -n) - at_a[1].support(a, n);
-      if (n.dot(other) < n.dot(least)) least = other;
-    }
-    return least;
+  Vec3 lowest(const Vec3& n) {
+    const Vec3 of_b = at_b[0].support(b, -n, near_b);
+    const Vec3 least = of_b - at_a[0].support(a, n, near_a);
+    if (ends == 1) return least;
+    const Vec3 other = (b_rests ? of_b : at_b[1].support(b, -n, near_b)) - at_a[1].support(a, n, near_a);
+    return n.dot(other) < n.dot(least) ? other : least;
   }
   const ConvexBody& a;
   const ConvexBody& b;
   std::size_t ends;
+  bool b_rests;
+  std::size_t near_a = 0;
+  std::size_t near_b = 0;
   std::array<PlacedBody, 2> at_a;
   std::array<PlacedBody, 2> at_b;
 };
@@ -151,7 +156,7 @@ struct DistanceBounds {
 };
 
 /// Of the origin from the cores' differences, until it is above `enough`, below `too_near`, or known.
-DistanceBounds bounds_of(const CoreDifference& cores, const Vec3& first, double enough, double too_near) {
+DistanceBounds bounds_of(CoreDifference cores, const Vec3& first, double enough, double too_near) {
   constexpr int most_steps = 64;
   DistanceBounds bounds;
   NearestOfHull hull;

@@ -18,7 +18,7 @@ namespace warren {
 
 struct ReedsSheppCurve {
   /// The way from b to a is the way from a to b, driven back. That has to be seen to: between near poses whose headings
-  /// differ more, many words are as long as the turn, and which of them is the shortest is a matter of rounding.
+  /// differ more, many words are as long as the turn. Of such the first that is tried is taken, anywhere.
   static constexpr bool one_way = false;
 
   /// The shortest word from a to b; turning_radius > 0.

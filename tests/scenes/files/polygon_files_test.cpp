@@ -79,7 +79,7 @@ TEST(GeoJson, RolesLinesAndHeightsAreUnderstood) {
     {"type":"Feature","properties":{"role":"start"},"geometry":{"type":"Point","coordinates":[1,2,9]}},
     {"type":"Feature","properties":{"role":"goal"},"geometry":{"type":"Point","coordinates":[3.5,-4e0]}},
     {"type":"Feature","properties":{"role":"tree"},"geometry":{"type":"Point","coordinates":[7,7]}},
-    {"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[1,1,5],[2,2,5],[3,1,5]]}},
+    {"type":"Feature","properties":{},"geometry":{"type":"LineString","coordinates":[[1,1,5],[2,2,null],[3,1,null,null]]}},
     {"type":"Feature","properties":{},"geometry":{"type":"MultiLineString","coordinates":[[[5,5],[6,6]],[[7,7],[8,8]]]}}]})");
   ASSERT_TRUE(scene.bounds);
   EXPECT_EQ(scene.bounds->max, (Vec2{50, 20}));
@@ -108,6 +108,7 @@ TEST(GeoJson, WhatIsNoneIsRefusedWithItsLine) {
   expect_refused(polygon("[[[0,0],[4],[0,3],[0,0]]]"), "two or three numbers");
   expect_refused(polygon("[[[0,0],[4,\"0\"],[0,3],[0,0]]]"), "expected numbers");
   expect_refused(polygon("[[[0,0],[4,null],[0,3],[0,0]]]"), "expected numbers");
+  expect_refused(polygon("[[[0,0],[4,0],null,[0,0]]]"), "expected numbers");
   expect_refused(polygon("[[[0,0],[4,{}],[0,3],[0,0]]]"), "expected numbers");
   expect_refused(polygon("[[[0,0],[4,1e300],[0,3],[0,0]]]"), "1e60");
   expect_refused(polygon("[[[0,0],[4,NaN],[0,3],[0,0]]]"), "not JSON");

@@ -7,12 +7,12 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <random>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/rng.hpp"
 #include "scenes/files/mesh_io.hpp"
 #include "scenes/files/urdf_io.hpp"
 #include "scenes/scene/convex_hull.hpp"
@@ -41,32 +41,32 @@ constexpr std::string_view srdf = R"(<robot name="r">
 
 /// The text with some changes.
 std::string mutated(std::string text, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
+  SequentialRng rng(seed);
   constexpr std::array<std::string_view, 12> words{"-1", "1e999", "nan", "0", "1e60",       "",
                                                    "\"", "<",     ">",   "a", "4294967296", "\xff"};
   for (std::uint64_t changes = 1 + seed % 4; changes > 0 && !text.empty(); --changes) {
-    const std::size_t at = random() % text.size();
-    const std::size_t length = 1 + random() % std::min<std::size_t>(text.size() - at, 40);
+    const std::size_t at = rng.next() % text.size();
+    const std::size_t length = 1 + rng.next() % std::min<std::size_t>(text.size() - at, 40);
     std::size_t end = at;
-    switch (random() % 6) {
+    switch (rng.next() % 16) {
       case 0:
-        text[at] = static_cast<char>(random());
+        text[at] = static_cast<char>(rng.next());
         break;
       case 1:
         text.erase(at, length);
         break;
       case 2:
-        text.insert(random() % text.size(), text.substr(at, length));
+        text.insert(rng.next() % text.size(), text.substr(at, length));
         break;
       case 3:
         text.resize(at);
         break;
       case 4:
-        text.insert(at, words[random() % words.size()]);
+        text.insert(at, words[rng.next() % words.size()]);
         break;
       default:  // a word for another one
         while (end < text.size() && std::isalnum(static_cast<unsigned char>(text[end])) != 0) ++end;
-        text.replace(at, end - at, words[random() % words.size()]);
+        text.replace(at, end - at, words[rng.next() % words.size()]);
     }
   }
   return text;

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/base/error.hpp"
+#include "scenes/files/read_world_io.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
 #include "tests/scenes/files/test_images.hpp"
 
@@ -174,6 +175,18 @@ TEST(RosMap, TheModeMayBeInAnyLetterCase) {
   }
   EXPECT_EQ(counts_of(fixture.read(yaml_text("mode: Scale\n"))), (Counts{2, 2, 0, 2}));
   EXPECT_EQ(counts_of(fixture.read(yaml_text("mode: Raw\n"))), (Counts{1, 0, 4, 1}));
+}
+
+/// What ends in .yaml is one, though its braces look like JSON.
+TEST(RosMap, KeysMayStandInBraces) {
+  const Fixture fixture("P2 3 1 255\n0 254 205\n");
+  for (
+      const char* text :
+      {"{image: map.pgm, resolution: 0.5, origin: [0, 0, 0], negate: false, occupied_thresh: .65, free_thresh: .196}",
+       R"({"image": "map.pgm", "resolution": 0.5, "origin": [0, 0, 0], "negate": 0, "occupied_thresh": 0.65, "free_thresh": 0.196})"}) {
+    EXPECT_EQ(counts_of(fixture.read(text)), (Counts{1, 1, 1, 0})) << text;
+    EXPECT_EQ(format_of(InputFile(fixture.directory().write("a.yml", text), {})), WorldFormat::ros_map);
+  }
 }
 
 TEST(RosMap, TheImageIsFoundBesideTheYamlOrByItsAbsolutePath) {

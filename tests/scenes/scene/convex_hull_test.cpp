@@ -5,19 +5,27 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <numbers>
-#include <random>
 #include <utility>
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/rng.hpp"
 #include "tests/seeds.hpp"
 
 namespace warren {
 namespace {
 
 constexpr std::array<double, 2> ends{-1.0, 1.0};
+
+/// From -half to half.
+struct Draws {
+  SequentialRng rng;
+  double operator()(double half) { return half * (static_cast<double>(rng.next() >> 11U) * 0x1.0p-52 - 1.0); }
+};
 
 std::vector<Vec3> cube(double half, const Vec3& middle = Vec3::Zero()) {
   std::vector<Vec3> points;
@@ -45,10 +53,9 @@ void expect_hull_of(const Solid& hull, const std::vector<Vec3>& points, double s
 
 TEST(ConvexHull, OfACubeFullOfPointsIsItsCorners) {
   std::vector<Vec3> points = cube(0.5);
-  std::mt19937_64 random(1);
-  std::uniform_real_distribution<double> inside(-0.5, 0.5);
-  for (int i = 0; i < 500; ++i) points.emplace_back(inside(random), inside(random), inside(random));
-  for (int i = 0; i < 100; ++i) points.emplace_back(inside(random), inside(random), 0.5);
+  Draws draw{SequentialRng(1)};
+  for (int i = 0; i < 500; ++i) points.emplace_back(draw(0.5), draw(0.5), draw(0.5));
+  for (int i = 0; i < 100; ++i) points.emplace_back(draw(0.5), draw(0.5), 0.5);
   points.insert(points.end(), points.begin(), points.begin() + 8);
   const Solid hull = convex_hull(points, "cube", {});
   EXPECT_EQ(hull.corners.size(), 8U);
@@ -60,13 +67,12 @@ TEST(ConvexHull, OfACubeFullOfPointsIsItsCorners) {
 TEST(ConvexHull, HoldsItsPointsWhateverTheirSizeAndPlace) {
   for (const std::uint64_t seed : test::seeds(400, 40)) {
     SCOPED_TRACE(seed);
-    std::mt19937_64 random(seed);
-    std::normal_distribution<double> around;
+    Draws draw{SequentialRng(seed)};
     const double size = std::pow(10.0, static_cast<double>(seed % 24) - 12.0);
-    const Vec3 middle = size * static_cast<double>(seed % 5) * Vec3(around(random), around(random), around(random));
+    const Vec3 middle = size * static_cast<double>(seed % 5) * Vec3(draw(3.0), draw(3.0), draw(3.0));
     std::vector<Vec3> points;
     for (std::uint64_t i = 0; i < 4 + seed % 60; ++i) {
-      Vec3 p(around(random), around(random), around(random));
+      Vec3 p(draw(3.0), draw(3.0), draw(3.0));
       if (seed % 3 == 1) p.normalize();
       if (seed % 3 == 2) p = (2.0 * p).array().round();  // many in one plane
       points.push_back(middle + size * p);
@@ -94,10 +100,9 @@ TEST(ConvexHull, OfFlatPointsIsThePointsThemselves) {
 
 TEST(ConvexHull, OfManyPointsIsMadeChunkByChunk) {
   std::vector<Vec3> points = cube(1.0, {5.0, 0.0, 0.0});
-  std::mt19937_64 random(3);
-  std::uniform_real_distribution<double> inside(-1.0, 1.0);
-  for (int i = 0; i < 70'000; ++i) points.emplace_back(5.0 + inside(random), inside(random), inside(random));
-  for (int i = 0; i < 20'000; ++i) points.emplace_back(4.0, inside(random), inside(random));
+  Draws draw{SequentialRng(3)};
+  for (int i = 0; i < 70'000; ++i) points.emplace_back(5.0 + draw(1.0), draw(1.0), draw(1.0));
+  for (int i = 0; i < 20'000; ++i) points.emplace_back(4.0, draw(1.0), draw(1.0));
   const Solid hull = convex_hull(points, "cube", {});
   EXPECT_EQ(hull.corners.size(), 8U);
   expect_hull_of(hull, points, 2.0);

@@ -127,6 +127,33 @@ TEST(SteeringCurve, TwoArcsStayTwoArcsFarFromTheOrigin) {
   }
 }
 
+/// Between near poses many words are as long as the turn: far from the origin the same one is driven as near it.
+TEST(SteeringCurve, OfReedsSheppCurvesThatAreAsLongTheSameIsTakenAnywhere) {
+  for (std::uint64_t i = 0; i < 2000; ++i) {
+    const auto between = [i](std::uint64_t axis, double low, double high) {
+      return low + (high - low) * uniform(12, i, axis);
+    };
+    const auto driven_at = [&](double offset) {
+      const Se2 a{offset + between(0, 0, 0.5), between(1, 0, 0.5) - offset, between(2, -3, 3)};
+      const Se2 b{offset + between(3, 0, 0.5), between(4, 0, 0.5) - offset, a.theta + between(5, 1.5, 3)};
+      const SteeringCurve curve(a, b, ReedsSheppCurve::shortest(a, b, 1.0), 1.0);
+      std::vector<double> pieces;
+      for (std::size_t k = 0; k < curve.piece_count(); ++k) {
+        pieces.push_back(static_cast<double>(curve.piece(k).steer));
+        pieces.push_back(curve.piece(k).length);
+      }
+      return pieces;
+    };
+    const std::vector<double> near = driven_at(0.0);
+    for (const double offset : {1e3, 1e5, 1e7}) {
+      SCOPED_TRACE(::testing::Message() << offset << ' ' << i);
+      const std::vector<double> far = driven_at(offset);
+      ASSERT_EQ(far.size(), near.size());
+      for (std::size_t k = 0; k < far.size(); ++k) EXPECT_NEAR(far[k], near[k], 1e-9 + 4e-14 * offset);
+    }
+  }
+}
+
 TEST(SteeringCurve, BackingUpNeverMakesLongerAndTheWayBackIsAsLong) {
   for (std::uint64_t i = 0; i < many / 4; ++i) {
     const Se2 a = random_pose(3, 2 * i);

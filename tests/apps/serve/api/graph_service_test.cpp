@@ -143,6 +143,36 @@ TEST(GraphService, EdgesMayShareTheirIdsAndLeadFromANodeToItself) {
   EXPECT_EQ(graphs.why(Place::save_graph, twice.dump()), "the id 1 is given to two nodes");
 }
 
+/// Nav2's graph saver gives edges no coordinates at all, operations stand in an object by their names, metadata hold
+/// objects and lists, and two nodes may stand at one place. What is not known here stays as it was.
+TEST(GraphService, AGraphAsNav2SavesItStaysWhatItWas) {
+  constexpr const char* file =
+      R"({"crs":{"properties":{"name":"urn:ogc:def:crs:EPSG::3857"},"type":"name"},"date_generated":"Wed","features":[
+{"geometry":{"coordinates":[5,5],"type":"Point"},"properties":{"frame":"map","id":0,
+ "metadata":{"region":{"properties":{"class_type":"living_room","number_of_lights":10},"x_values":[1.0,-1.0]}},
+ "operations":{"stop":{"metadata":{"wait_for":5.0},"trigger":"NODE","type":"stop"}}},"type":"Feature"},
+{"geometry":{"coordinates":[95,5],"type":"Point"},"properties":{"frame":"map","id":1},"type":"Feature"},
+{"geometry":{"coordinates":[95,5],"type":"Point"},"properties":{"frame":"map","id":33},"type":"Feature"},
+{"geometry":{"type":"MultiLineString"},"properties":{"cost":10.0,"endid":1,"id":9,"metadata":{"speed_limit":0.85},
+ "operations":{"take_picture":{"metadata":{"resolution":[1080,720]},"trigger":"ON_EXIT","type":"take_picture"}},
+ "overridable":false,"startid":0},"type":"Feature"},
+{"geometry":{"type":"MultiLineString"},"properties":{"cost":0.0,"endid":33,"id":8,"overridable":true,"startid":0},"type":"Feature"},
+{"geometry":{"type":"MultiLineString"},"properties":{"cost":0.0,"endid":33,"id":10,"overridable":true,"startid":1},"type":"Feature"}
+],"name":"graph","type":"FeatureCollection"})";
+  Graphs graphs;
+  const HttpResponse opened = graphs.asked(Place::open_graph, file);
+  ASSERT_EQ(opened.status, 200U) << opened.body;
+  expect_all_free(Json::parse(opened.body));
+  const Json saved = graphs.json(Place::save_graph, opened.body);
+  expect_that_nav2_loads(saved);
+  const Json given = Json::parse(file);
+  EXPECT_EQ(saved.at("date_generated"), "Wed");
+  ASSERT_EQ(saved.at("features").size(), given.at("features").size());
+  for (std::size_t i = 0; i < saved.at("features").size(); ++i) {
+    EXPECT_EQ(saved.at("features")[i].at("properties"), given.at("features")[i].at("properties")) << i;
+  }
+}
+
 TEST(GraphService, AnEdgeThroughAWallIsToldAndNotSaved) {
   Graphs graphs;
   Json graph = graphs.json(Place::open_graph, route);
