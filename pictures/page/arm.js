@@ -138,9 +138,11 @@ class Eye {
     const room = s.r < 0 ? 1 : Math.max(...corners.map(c => 1.25 * this.zoom * s.r / Math.max(c[2] - s.r, 1e-3 * arm.reach))) + 1;
     const reach = axis => [Math.max(0, Math.floor(Math.min(...corners.map(c => c[axis])) - room)), Math.min(this.side, Math.ceil(Math.max(...corners.map(c => c[axis])) + room))];
     const [x0, x1] = reach(0), [y0, y1] = reach(1);
+    const edges = (s.c ? s.sides : []).map(side => [dot3(side, this.forward), dot3(side, this.right) / this.zoom, dot3(side, this.up) / this.zoom]);
     for (let y = y0; y < y1; ++y) {
       for (let x = x0; x < x1; ++x) {
-        const ray = this.ray(x, y), t = enterSolid(this.at, ray, s), i = y * this.side + x;
+        if (edges.some(e => e[0] + e[1] * (x + 0.5 - this.side / 2) + e[2] * (this.side / 2 - y - 0.5) > 0)) continue;
+        const ray = this.ray(x, y), t = Math.fround(enterSolid(this.at, ray, s)), i = y * this.side + x;
         if (!(t > 0 && t < this.depth[i])) continue;
         this.depth[i] = t;
         this.floor[i] = -1;

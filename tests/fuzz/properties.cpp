@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "scenes/files/solid_text.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 
 namespace warren::fuzz {
@@ -53,7 +54,8 @@ bool same_solids(const Scene& a, const Scene& b) {
   };
   const auto same_box = [](const SolidBox& s, const SolidBox& t) { return s.low == t.low && s.high == t.high; };
   return std::equal(a.spheres.begin(), a.spheres.end(), b.spheres.begin(), b.spheres.end(), same_sphere) &&
-         std::equal(a.boxes.begin(), a.boxes.end(), b.boxes.begin(), b.boxes.end(), same_box);
+         std::equal(a.boxes.begin(), a.boxes.end(), b.boxes.begin(), b.boxes.end(), same_box) &&
+         std::ranges::equal(a.solids, b.solids, {}, solid_text, solid_text);
 }
 
 }  // namespace
