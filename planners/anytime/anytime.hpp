@@ -188,8 +188,7 @@ class AnytimeSearch {
       if (is_straight_ || solution_.cost <= solution_.lower_bound * (1.0 + equal)) return end("optimum");
       if (options_.gap && solution_.cost <= solution_.lower_bound * (1.0 + *options_.gap)) return end("gap");
     }
-    const bool is_alone = !options_.parts.restarts && !options_.parts.roadmap;
-    if (is_alone && tree_ && tree_->is_full() && (dull_ >= most_dull || !options_.parts.shorten)) return end("nodes");
+    if (is_alone() && tree_ && tree_->is_full() && (dull_ >= most_dull || !options_.parts.shorten)) return end("nodes");
     return options_.iterations && solution_.iterations >= *options_.iterations && end("iterations");
   }
 
@@ -205,7 +204,11 @@ class AnytimeSearch {
   Found draw_roadmap(const Execution& execution);
   Found polished(const Execution& execution) const;
   Found shortened(const Found& rough, std::uint64_t number, const Execution& execution) const;
-  std::uint64_t share_of(Part part) const { return share_ / (idle_[index_of(part)] >= patience ? 2 : 1); }
+  std::uint64_t share_of(Part part) const {
+    return (is_alone() ? 4 : 1) * share_ / (idle_[index_of(part)] >= patience ? 2 : 1);
+  }
+  /// A tree by itself has the turns of all, and never had to let others come first.
+  bool is_alone() const { return !options_.parts.restarts && !options_.parts.roadmap; }
   static std::size_t index_of(Part part) { return static_cast<std::size_t>(part); }
 
   const W& world_;
@@ -224,7 +227,7 @@ class AnytimeSearch {
   bool is_enough_ = false;     // whoever is told says so
   bool is_shortened_ = false;  // is the best path one that the shortener made?
   bool was_replaced_ = false;  // the best path is of this turn
-  std::uint64_t share_ = first_share;
+  std::uint64_t share_ = is_alone() ? better_share : first_share;
   std::array<int, 4> idle_{};        // turns since a part brought something
   std::array<bool, 4> was_lucky_{};  // in this turn
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
@@ -364,7 +367,7 @@ void AnytimeSearch<W>::adapt(bool had_path) {
     share_ = better_share;
     idle_ = {};
   } else {
-    share_ = std::min(largest_share, share_ + share_ / (has_path() ? 4 : 2));
+    share_ = std::min(largest_share, share_ + share_ / (has_path() ? 4 : is_alone() ? 1 : 2));
   }
 }
 

@@ -95,7 +95,7 @@ TEST(RrtStar, ApproachesTheShortestPath) {
       SCOPED_TRACE(testing::Message() << "seed " << seed << " informed " << informed);
       const RrtStarOptions options{.seed = seed, .step = 1.0, .informed = informed};
       const double most = informed ? 1.02 : 1.03;
-      const std::uint64_t work = informed ? 60'000 : 180'000;  // mostly neighbours, each of which counts
+      const std::uint64_t work = informed ? 120'000 : 240'000;  // mostly neighbours, each of which counts
       const double open = cost_after(in_the_open, work, options);
       EXPECT_GE(open, 6.0 - 1e-12);
       EXPECT_LE(open, 6.0 * most);
