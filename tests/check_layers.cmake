@@ -111,7 +111,8 @@ only(environment "[^_a-z](secure_)?getenv[(]" "${above}")
 only(exits "[^_a-z.](exit|_exit|_Exit|quick_exit|abort|system)[(]" "${above}")
 only(chance "random_device|default_random_engine|_distribution<|[^_a-z]s?rand[(]" "^$")
 only(engines "mt19937" "${above}")
-only(shared_ownership "shared_ptr|make_shared" "^(tests|bench/rivals)/")
+only(shared_ownership "shared_ptr|make_shared"
+     "^(tests|bench/rivals)/|^scenes/scene/scene[.]hpp$|^solve/(question/question_of|explain/blocked)_arm[.][ch]pp$")
 only(texts "#include <fmt/" "${above}|${texts}")
 only(pictures "#include <png" "${above}|^scenes/files/png_io[.]cpp$")
 only(pdf "#include <hpdf" "^pictures/formats/pdf_surface[.]cpp$")
@@ -220,7 +221,7 @@ endfunction()
 
 # The judges share plain data with what they judge, and loops over cores; no index, no predicate, no motion. What they
 # stand on, however many includes away, is theirs alone or one of these.
-set(shared_with_judges "^(parallel/|core/base/|core/plane/(cell_walls|se2|wall_set)[.]|scenes/scene/(occupancy_map|scene)[.])")
+set(shared_with_judges "^(parallel/|core/base/|core/plane/(cell_walls|se2|wall_set)[.]|scenes/scene/(arm_model|occupancy_map|scene)[.])")
 function(check_judges)
   reach("^verify/" judges)
   reach("^(spatial|planners|worlds)/" judged)

@@ -219,6 +219,10 @@ Roadmap read_roadmap(std::unique_ptr<RoadmapFile> opened, const Execution& execu
   if (file.header().recipe_hash != hash_of(recipe_json(roadmap, execution))) {
     throw InputError(file.name(), "header and meta name different bodies or options");
   }
+  if (roadmap.robot.files) {  // once for all questions
+    roadmap.robot = with_what_is_said(std::move(roadmap.robot), roadmap.world.outline());
+    roadmap.robot.files->read = arm_model_of(roadmap.robot, roadmap.clearance, execution);
+  }
   if (roadmap.lattice == nullptr) {
     check_world_of(roadmap.world.outline(), roadmap.options, roadmap.question(), file.name());
     roadmap.arrays = read_arrays(file, roadmap, execution);

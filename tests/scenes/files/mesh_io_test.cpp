@@ -14,7 +14,7 @@
 namespace warren {
 namespace {
 
-Mesh read(const std::string& name, std::string_view bytes) { return read_mesh(InputFile::of_bytes(name, bytes), {}); }
+Mesh read_as_mesh(const std::string& name, std::string_view bytes) { return read_mesh(InputFile::of_bytes(name, bytes), {}); }
 
 /// The wedge of test_meshes.hpp.
 void expect_wedge(const Mesh& mesh) {
@@ -26,37 +26,37 @@ void expect_wedge(const Mesh& mesh) {
 }
 
 TEST(MeshIo, ReadsObj) {
-  expect_wedge(read("a.obj", test_meshes::obj));
-  expect_wedge(read("a.OBJ", test_meshes::obj_from_behind));
+  expect_wedge(read_as_mesh("a.obj", test_meshes::obj));
+  expect_wedge(read_as_mesh("a.OBJ", test_meshes::obj_from_behind));
 }
 
 TEST(MeshIo, ReadsStl) {
-  expect_wedge(read("a.stl", test_meshes::stl_text()));
-  expect_wedge(read("dir.v1/a.STL", test_meshes::stl_bytes()));
+  expect_wedge(read_as_mesh("a.stl", test_meshes::stl_text()));
+  expect_wedge(read_as_mesh("dir.v1/a.STL", test_meshes::stl_bytes()));
   std::string named = test_meshes::stl_bytes();
   named.replace(0, 5, "solid");
-  expect_wedge(read("a.stl", named));
+  expect_wedge(read_as_mesh("a.stl", named));
 }
 
 TEST(MeshIo, ReadsColladaWithItsNodesAndItsUnit) {
-  expect_wedge(read("a.dae", test_meshes::dae("<translate>0 0 0</translate>", "1")));
-  expect_wedge(read("a.dae", test_meshes::dae("<scale>100 100 100</scale>", "0.01")));
-  const Mesh turned = read("a.dae", test_meshes::dae("<translate>5 0 0</translate><rotate>0 0 1 90</rotate>", "1"));
+  expect_wedge(read_as_mesh("a.dae", test_meshes::dae("<translate>0 0 0</translate>", "1")));
+  expect_wedge(read_as_mesh("a.dae", test_meshes::dae("<scale>100 100 100</scale>", "0.01")));
+  const Mesh turned = read_as_mesh("a.dae", test_meshes::dae("<translate>5 0 0</translate><rotate>0 0 1 90</rotate>", "1"));
   EXPECT_LT((turned.points.back() - Vec3(5, 2, 0)).norm(), 1e-15);
-  const Mesh moved = read("a.dae", test_meshes::dae("<matrix>1 0 0 5 0 1 0 6 0 0 1 7 0 0 0 1</matrix>", "1"));
+  const Mesh moved = read_as_mesh("a.dae", test_meshes::dae("<matrix>1 0 0 5 0 1 0 6 0 0 1 7 0 0 0 1</matrix>", "1"));
   EXPECT_EQ(moved.points.front(), Vec3(5, 6, 7));
 }
 
 TEST(MeshIo, TellsHowMuchAHullAdds) {
-  const Mesh open = read("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n");
+  const Mesh open = read_as_mesh("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n");
   EXPECT_NE(hull_excess(open, convex_hull(open.points, "p", {}), {}).find("not closed"), std::string::npos);
-  const Mesh flat = read("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const Mesh flat = read_as_mesh("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_NE(hull_excess(flat, convex_hull(flat.points, "p", {}), {}).find("flat"), std::string::npos);
 }
 
 TEST(MeshIo, LeavesOutPointsOfNoTriangle) {
-  EXPECT_EQ(read("a.obj", "v 0 0 0\nv 1 0 0\nv 9 9 9\nv 0 1 0\nf 1 2 4\n").points.size(), 3U);
-  EXPECT_EQ(read("a.obj", "v 0 0 0\nv 1 0 0\nv 9 9 9\nv 0 1 0\n").points.size(), 4U);
+  EXPECT_EQ(read_as_mesh("a.obj", "v 0 0 0\nv 1 0 0\nv 9 9 9\nv 0 1 0\nf 1 2 4\n").points.size(), 3U);
+  EXPECT_EQ(read_as_mesh("a.obj", "v 0 0 0\nv 1 0 0\nv 9 9 9\nv 0 1 0\n").points.size(), 4U);
 }
 
 TEST(MeshIo, RefusesBadInputInOneLine) {
@@ -102,7 +102,7 @@ TEST(MeshIo, RefusesBadInputInOneLine) {
   for (const Case& c : cases) {
     SCOPED_TRACE(c.says);
     try {
-      read(c.name, c.bytes);
+      read_as_mesh(c.name, c.bytes);
       ADD_FAILURE() << "was taken";
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find(c.says), std::string::npos) << error.what();

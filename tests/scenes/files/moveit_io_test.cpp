@@ -69,7 +69,7 @@ goal_constraints:
 )";
 
 InputFile file_of(std::string_view text) { return InputFile::of_bytes("a.yaml", std::string(text)); }
-Scene read(std::string_view text) { return read_scene(file_of(text), {}); }
+Scene read_moveit(std::string_view text) { return read_scene(file_of(text), {}); }
 std::string with(std::string text, std::string_view old, std::string_view now) {
   const std::size_t at = text.find(old);
   if (at == std::string::npos) throw std::logic_error(std::string(old));
@@ -77,7 +77,7 @@ std::string with(std::string text, std::string_view old, std::string_view now) {
 }
 
 TEST(MoveIt, ReadsWhatIsInTheWay) {
-  const Scene scene = read(scene_text);
+  const Scene scene = read_moveit(scene_text);
   ASSERT_EQ(scene.solids.size(), 3U);
   const Solid& box = scene.solids[0];
   EXPECT_EQ(box.name, "can");
@@ -94,7 +94,7 @@ TEST(MoveIt, ReadsWhatIsInTheWay) {
 }
 
 TEST(MoveIt, ReadsWhatIsSaidOfTheArm) {
-  const ArmFiles arm = read(scene_text).arm.value();
+  const ArmFiles arm = read_moveit(scene_text).arm.value();
   using Pairs = std::vector<std::array<std::string, 2>>;
   EXPECT_EQ(arm.allowed, (Pairs{{"hand", "finger"}, {"base", "hand"}, {"base", "finger"}, {"base", "arm"}}))
       << "above the diagonal, of links alone";
@@ -105,7 +105,7 @@ TEST(MoveIt, ReadsWhatIsSaidOfTheArm) {
 }
 
 TEST(MoveIt, TakesARequest) {
-  Scene scene = read(scene_text);
+  Scene scene = read_moveit(scene_text);
   EXPECT_EQ(scene.named_start->values, (std::vector<double>{0.5, 0.25}));
   take_moveit_request(scene, file_of(request_text), {});
   EXPECT_EQ(scene.arm->group, "one_arm");
@@ -129,7 +129,7 @@ TEST(MoveIt, TakesAGoalByThePoseOfTheTool) {
 }
 
 TEST(MoveIt, BecomesASceneThatReadsBackTheSame) {
-  Scene scene = read(scene_text);
+  Scene scene = read_moveit(scene_text);
   take_moveit_request(scene, file_of(request_text), {});
   std::string text;
   write_scene_text(scene, [&](std::string_view part) { text += part; }, {});
@@ -161,7 +161,7 @@ TEST(MoveIt, RefusesWhatItDoesNotRead) {
   };
   for (const auto& [text, expected] : scenes) {
     try {
-      read(text);
+      read_moveit(text);
       ADD_FAILURE() << "accepted, expected " << expected;
     } catch (const InputError& error) {
       EXPECT_EQ(std::string(error.what()).substr(0, expected.size()), expected);
