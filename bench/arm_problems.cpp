@@ -136,8 +136,9 @@ Planned<World> plan(const World& world, const ArmProblem& problem, const Setting
   begun = thread_seconds();
   const auto length = [&](const JointState& a, const JointState& b) { return world.distance(a, b); };
   Counters counters;
-  planned.shortened = improve_path(view, planned.solution.path, length,
-                                   {.seed = settings.seed, .worth = settings.worth, .patience = 1}, execution, counters);
+  planned.shortened =
+      improve_path(view, planned.solution.path, length, {.seed = settings.seed, .worth = settings.worth, .patience = 1},
+                   execution, counters);
   planned.shorten_s = thread_seconds() - begun;
   return planned;
 }

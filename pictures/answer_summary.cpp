@@ -74,7 +74,8 @@ void add_blocked(std::string& text, const Answer& answer, const BlockedEnd& bloc
   const std::string_view metres = metres_behind(answer.world.unit);
   if (blocked.depth) line(text, palette, "depth", fmt::format("{:.3g}{} in it", *blocked.depth, metres));
   if (!blocked.free_place.empty()) {
-    const std::string_view unit = is_arm(answer.problem.robot) && blocked.free_place.size() == answer.problem.start.size() ? " rad" : metres;
+    const std::string_view unit =
+        is_arm(answer.problem.robot) && blocked.free_place.size() == answer.problem.start.size() ? " rad" : metres;
     line(text, palette, "free place",
          fmt::format("({}), {}{} away", fmt::join(blocked.free_place, ", "), human_number(blocked.distance), unit));
   }

@@ -50,7 +50,8 @@ void check_bound(Verdict& verdict, const Scene& scene, const RecordedAnswer& ans
   const Problem& problem = verdict.problem;
   const ClaimedBound claim{*answer.lower_bound, answer.cost, verdict.length, answer.state_width(),
                            answer.states.numbers};
-  const JudgedBound judged = verify_bound(scene, {problem.robot, problem.start, problem.goal, problem.clearance}, claim, execution);
+  const JudgedBound judged =
+      verify_bound(scene, {problem.robot, problem.start, problem.goal, problem.clearance}, claim, execution);
   verdict.bound = judged.verdict;
   if (judged.verdict != BoundVerdict::refuted) return;
   verdict.verified = false;

@@ -109,8 +109,7 @@ Step step_to(const W& world, const typename W::State& known, const typename W::S
     return world.is_free_step(known, fresh, query) ? Step::free : Step::motion_blocked;
   } else {
     if (!world.is_free(fresh, query)) return Step::state_blocked;
-    const bool free =
-        backward ? world.is_free_motion(fresh, known, query) : world.is_free_motion(known, fresh, query);
+    const bool free = backward ? world.is_free_motion(fresh, known, query) : world.is_free_motion(known, fresh, query);
     return free ? Step::free : Step::motion_blocked;
   }
 }

@@ -70,7 +70,9 @@ State state_of(std::span<const double> numbers) {
 
 /// Has it joints?
 template <World W>
-inline constexpr bool is_arm_world = requires(const W& world) { world.model().variables; };
+inline constexpr bool is_arm_world = requires(const W& world) {
+  world.model().variables;
+};
 
 /// Numbers that a state has where it is kept.
 template <World W>

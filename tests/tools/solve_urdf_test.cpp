@@ -130,7 +130,8 @@ TEST_F(SolveUrdf, ARoadmapIsKeptAndKnowsItsRobot) {
   const std::string roadmap = folder_.path("crane.roadmap");
   const Outcome built = run({"build", file_, "-o", roadmap, "--samples", "400", "--quiet"});
   ASSERT_EQ(built.code, 0) << built.err;
-  const Outcome asked = run({"query", roadmap, "--start", "-0.9,0.3,0.2,0", "--goal", "0.9,0.3,0.2,0.1", "--json", "-"});
+  const Outcome asked =
+      run({"query", roadmap, "--start", "-0.9,0.3,0.2,0", "--goal", "0.9,0.3,0.2,0.1", "--json", "-"});
   EXPECT_EQ(asked.code, 0) << asked.err;
   EXPECT_EQ(Json::parse(asked.out)["verified"], true);
   std::string other = crane_urdf;

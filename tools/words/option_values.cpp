@@ -118,7 +118,8 @@ std::size_t memory_value(std::string_view option, std::string_view text) {
 
 std::vector<double> state_value(std::string_view option, std::string_view text) {
   constexpr std::string_view expected =
-      "X,Y (three numbers of bodies that turn, one a joint of arms; angles in radians, or 90deg), each finite and at most 1e60";
+      "X,Y (three numbers of bodies that turn, one a joint of arms; angles in radians, or 90deg), each finite and at "
+      "most 1e60";
   constexpr std::string_view separators = ", \t";
   std::vector<double> state;
   for (std::size_t at = text.find_first_not_of(separators); at < text.size();) {

@@ -437,7 +437,8 @@ std::optional<Violation> ArmVerifier::wrong_goal(std::span<const JointState> pat
   const std::size_t last = legs_of(path.size()) - 1;
   if (options.goal) {
     const double off = difference(path.back(), *options.goal);
-    if (!(off <= options.tolerance)) return elsewhere("goal", std::span(*options.goal).first(model.variables.size()), off, last);
+    if (!(off <= options.tolerance))
+      return elsewhere("goal", std::span(*options.goal).first(model.variables.size()), off, last);
   }
   if (!options.goal_place && !options.goal_pose) return std::nullopt;
   const SolidFrame tool = arm.tool_at(path.back());

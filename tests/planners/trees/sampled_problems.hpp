@@ -70,7 +70,8 @@ SampledProblem<W> car() {
 inline SampledProblem<ArmWorld> arm() {
   Scene scene;
   scene.spheres.push_back({0.7, 0.0, 0.2, 0.25});
-  return {ArmWorld(scene, model_of(puma560_table(), 0.05, false), {}), {-1.0, 0.0, 0.5, 0, 0, 0}, {1.0, 0.0, 0.5, 0, 0, 0}};
+  return {
+      ArmWorld(scene, model_of(puma560_table(), 0.05, false), {}), {-1.0, 0.0, 0.5, 0, 0, 0}, {1.0, 0.0, 0.5, 0, 0, 0}};
 }
 
 }  // namespace warren::sampled_problems

@@ -14,7 +14,9 @@
 namespace warren {
 namespace {
 
-Mesh read_as_mesh(const std::string& name, std::string_view bytes) { return read_mesh(InputFile::of_bytes(name, bytes), {}); }
+Mesh read_as_mesh(const std::string& name, std::string_view bytes) {
+  return read_mesh(InputFile::of_bytes(name, bytes), {});
+}
 
 /// The wedge of test_meshes.hpp.
 void expect_wedge(const Mesh& mesh) {
@@ -41,7 +43,8 @@ TEST(MeshIo, ReadsStl) {
 TEST(MeshIo, ReadsColladaWithItsNodesAndItsUnit) {
   expect_wedge(read_as_mesh("a.dae", test_meshes::dae("<translate>0 0 0</translate>", "1")));
   expect_wedge(read_as_mesh("a.dae", test_meshes::dae("<scale>100 100 100</scale>", "0.01")));
-  const Mesh turned = read_as_mesh("a.dae", test_meshes::dae("<translate>5 0 0</translate><rotate>0 0 1 90</rotate>", "1"));
+  const Mesh turned =
+      read_as_mesh("a.dae", test_meshes::dae("<translate>5 0 0</translate><rotate>0 0 1 90</rotate>", "1"));
   EXPECT_LT((turned.points.back() - Vec3(5, 2, 0)).norm(), 1e-15);
   const Mesh moved = read_as_mesh("a.dae", test_meshes::dae("<matrix>1 0 0 5 0 1 0 6 0 0 1 7 0 0 0 1</matrix>", "1"));
   EXPECT_EQ(moved.points.front(), Vec3(5, 6, 7));

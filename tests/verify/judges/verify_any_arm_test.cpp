@@ -16,7 +16,7 @@
 namespace warren {
 namespace {
 
-const Execution one_thread{.threads = 1};
+const Execution any_arm_alone{.threads = 1};
 
 Solid moved(Solid solid, const Eigen::Matrix4d& frame) {
   solid.pose.matrix() = frame * solid.pose.matrix();
@@ -101,7 +101,7 @@ TEST(VerifyAnyArm, AgreesWithDenseSamplingAndMeasuresTheClearance) {
       const JointState q = between(drawn.model, drawn.path[0], drawn.path[1], k / double{steps});
       sampled = std::min(sampled, clearance_at(drawn.scene, drawn.model, q));
     }
-    const Verification found = verify_arm(drawn.scene, drawn.model, drawn.path, {}, one_thread);
+    const Verification found = verify_arm(drawn.scene, drawn.model, drawn.path, {}, any_arm_alone);
     (found.verified ? free : refuted) += 1;
     if (!found.verified) {
       EXPECT_LT(sampled, 0.02) << found.first_violation->obstacle;
@@ -111,9 +111,11 @@ TEST(VerifyAnyArm, AgreesWithDenseSamplingAndMeasuresTheClearance) {
     EXPECT_LE(found.min_clearance, sampled + 1e-9);
     EXPECT_GE(found.min_clearance, sampled - 0.02);
     // Just below what it has it keeps, just above it does not.
-    EXPECT_TRUE(verify_arm(drawn.scene, drawn.model, drawn.path, {.clearance = 0.999 * found.min_clearance}, one_thread)
-                    .verified);
-    EXPECT_FALSE(verify_arm(drawn.scene, drawn.model, drawn.path, {.clearance = sampled + 1e-9}, one_thread).verified);
+    EXPECT_TRUE(
+        verify_arm(drawn.scene, drawn.model, drawn.path, {.clearance = 0.999 * found.min_clearance}, any_arm_alone)
+            .verified);
+    EXPECT_FALSE(
+        verify_arm(drawn.scene, drawn.model, drawn.path, {.clearance = sampled + 1e-9}, any_arm_alone).verified);
   }
   EXPECT_GT(free, test::share(30, 1));
   EXPECT_GT(refuted, test::share(30, 1));
@@ -136,7 +138,7 @@ TEST(VerifyAnyArm, RefutesWhatIsPlantedBetweenSamples) {
     Solid speck{.kind = random_arm::kinds[seed % 4], .half = {1e-4, 1e-4, 1e-4}};
     speck.pose.translation() = frame.point(core.support(frame.seen(n))) + (core.radius + 0.9e-4) * n;
     drawn.scene.solids = {speck};
-    const Verification found = verify_arm(drawn.scene, drawn.model, drawn.path, {}, one_thread);
+    const Verification found = verify_arm(drawn.scene, drawn.model, drawn.path, {}, any_arm_alone);
     EXPECT_FALSE(found.verified);
   }
 }
@@ -145,14 +147,14 @@ TEST(VerifyAnyArm, SaysTheSameOfATurnedAndMovedWorld) {
   for (const std::uint64_t seed : test::seeds(100, 10)) {
     SCOPED_TRACE(seed);
     Drawn drawn(seed);
-    const Verification here = verify_arm(drawn.scene, drawn.model, drawn.path, {}, one_thread);
+    const Verification here = verify_arm(drawn.scene, drawn.model, drawn.path, {}, any_arm_alone);
     const Eigen::Isometry3d way = random_arm::Draw(seed + 5000).pose(3.0);
     for (Solid& solid : drawn.scene.solids) solid = moved(solid, way.matrix());
     for (ArmJoint& joint : drawn.model.joints) {
       if (joint.parent == base_frame) joint.origin = way * joint.origin;
     }
     for (Solid& solid : drawn.model.links.back().solids) solid = moved(solid, way.matrix());
-    const Verification there = verify_arm(drawn.scene, drawn.model, drawn.path, {}, one_thread);
+    const Verification there = verify_arm(drawn.scene, drawn.model, drawn.path, {}, any_arm_alone);
     EXPECT_EQ(there.verified, here.verified);
     if (here.verified) EXPECT_NEAR(there.min_clearance, here.min_clearance, 0.01);
   }
@@ -172,7 +174,7 @@ class VerifyFinger : public ::testing::Test {
     model_.tool.translation() = Vec3(1.0, 0.0, 0.0);
   }
   std::string refusal(const std::vector<JointState>& path, const ArmVerifyOptions& options = {}) const {
-    const Verification found = verify_arm(scene_, model_, path, options, one_thread);
+    const Verification found = verify_arm(scene_, model_, path, options, any_arm_alone);
     EXPECT_EQ(found.verified, !found.first_violation);
     return found.first_violation ? found.first_violation->obstacle : "";
   }
@@ -191,7 +193,7 @@ TEST_F(VerifyFinger, GoesTheShorterWayAroundAndUpEvenly) {
   EXPECT_EQ(refusal({{1.0}, {-1.0}}).substr(0, 15), "cylinder 0 can:");
   EXPECT_EQ(refusal({{100.0}, {101.0}}), "cylinder 0 can: at 0.9 0 0, touches link finger");  // 32 pi is 100.53
   EXPECT_EQ(refusal({{1.0, 0.0}, {-1.0, 0.5}}), "");
-  EXPECT_NEAR(verify_arm(scene_, model_, std::vector<JointState>{{3.0}, {-3.0, 0.3}}, {}, one_thread).length,
+  EXPECT_NEAR(verify_arm(scene_, model_, std::vector<JointState>{{3.0}, {-3.0, 0.3}}, {}, any_arm_alone).length,
               std::hypot(2.0 * std::numbers::pi - 6.0, 0.3), 1e-12);
 }
 

@@ -29,9 +29,7 @@ struct Setting {
   double radius = 0.05;
   bool self_collision = false;
 };
-ArmWorld world_of(const Setting& s) {
-  return {s.scene, model_of(s.table, s.radius, s.self_collision), s.options};
-}
+ArmWorld world_of(const Setting& s) { return {s.scene, model_of(s.table, s.radius, s.self_collision), s.options}; }
 Setting setting(std::uint64_t seed) {
   Setting s;
   s.table = seed % 4 == 0   ? puma560_modified_table(0.15)
