@@ -130,8 +130,8 @@ int serve(const Arguments& arguments) {
 Command serve_command() {
   Command command{"serve", "FILE", "show a world or a roadmap in the browser, and answer by HTTP", {}, serve};
   add_options(command.options, serve_specs);
-  add_options(command.options, question_option_specs(), {"--start", "--goal", "--contact"});
-  add_options(command.options, world_option_specs());
+  add_options(command.options, question_option_specs(), {"--start", "--goal", "--goal-pose", "--contact"});
+  add_options(command.options, world_option_specs(), {"--request"});
   add_options(command.options, run_option_specs(), {"--budget", "--trace"});
   constexpr std::string_view in_the_page = "is chosen in the page, or in each request";
   for (const std::string_view name : {"--start", "--goal", "--planner", "--optimise"}) {

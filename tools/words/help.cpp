@@ -323,6 +323,8 @@ warren completion bash # the script for bash
 
 constexpr std::pair<std::string_view, std::string_view> most_used[] = {
     {"solve", "--robot --start --goal --clearance --planner --samples --optimise --explain --picture --json"},
+    {"verify", "--robot --start --goal --clearance --contact --explain --json --budget"},
+    {"convert", "--cell --request --map-rules --show --heading --size --title --budget"},
     {"render", "--output --answer --animate --show --heading --size --dpi --title --world --budget"},
     {"export", "--output --unchecked --frame --world --show --heading --size --dpi --title --budget"},
     {"generate", "--output --algorithm --loops --unit-walls --corners --seed --show --size --title --budget"},

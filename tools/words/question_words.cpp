@@ -12,12 +12,11 @@ namespace {
 constexpr OptionSpec question_specs[] = {
     {"--robot", "\"BODY\"",
      "the moving body: \"point\", \"disc RADIUS\", \"polygon X Y X Y ...\" (or \"[[X, Y], ...]\"), \"car polygon X Y "
-     "... turning RHO\", \"puma560 radius R\", \"arm FILE radius R\" or \"urdf FILE srdf FILE group NAME\". X and Y of "
-     "a corner count from the place that "
-     "--start names; RHO is the radius of the tightest turn (default: the file's, else point)"},
+     "... turning RHO\", \"puma560 radius R\", \"arm FILE radius R\" or \"urdf FILE\". X and Y of a corner count from "
+     "the place that --start names; RHO is the radius of the tightest turn (default: the file's, else point)"},
     {"--start", "X,Y[,THETA]",
-     "where to start: X,Y; for a body that turns X,Y,THETA (radians, or 90deg); for an arm one angle a joint "
-     "(default: the file's)"},
+     "where to start: X,Y; for a body that turns X,Y,THETA (radians, or 90deg); for an arm one number a "
+     "joint (default: the file's)"},
     {"--goal", "X,Y[,THETA]",
      "where to arrive, as --start. Without THETA a body that turns may arrive at any heading; an arm may also be given "
      "its tool's place X,Y,Z (default: the file's)"},

@@ -80,7 +80,7 @@ TEST(Usage, ValuesOutsideTheirRangeAreRefused) {
       {{"solve", "maze:5x7", "--memory", "0B"}, 2, "--memory"},
       {{"solve", "maze:5x7", "--memory", "20"}, 2, "--memory"},
       {{"solve", "maze:5x7", "--memory", "-1GiB"}, 2, "--memory"},
-      {{"solve", "maze:5x7", "--start", "1"}, 2, "--start: expected X,Y"},
+      {{"solve", "maze:5x7", "--start", "1"}, 2, "--start: a point or disc takes X,Y"},
       {{"solve", "maze:5x7", "--start", "1,nan"}, 2, "--start"},
       {{"solve", "maze:5x7", "--start", "1,inf"}, 2, "--start"},
       {{"solve", "maze:5x7", "--start", "1e308,1"}, 2, "--start"},
