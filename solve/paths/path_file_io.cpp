@@ -202,7 +202,7 @@ std::uint64_t write_array(Rows& rows, const PathLegs& legs, OutputFile& file) {
 PathFileOptions with_own_speeds(const Answer& answer, const PathLegs& legs, PathFileOptions options) {
   if (!options.limits || options.limits->joint_speed.empty()) return options;
   std::vector<double>& speeds = options.limits->joint_speed;
-  if (speeds == speeds_of_file) {
+  if (speeds.size() == 1 && speeds.front() == speed_of_file) {
     const auto& files = answer.problem.robot.files;
     if (!files || !files->read) throw UsageError("@joint_speed: 'file' is for an arm of a URDF, which has its speeds");
     speeds.clear();

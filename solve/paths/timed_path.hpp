@@ -63,8 +63,8 @@ class PathLegs {
   double reach_ = 0.0;  // of a turning body's farthest point from the reference point
 };
 
-/// Joint speeds that say: as the arm's file has them.
-inline const std::vector<double> speeds_of_file{0.0};
+/// As the only joint speed: as the arm's file has them.
+inline constexpr double speed_of_file = 0.0;
 
 /// Numbers > 0; infinite: no limit, so that the body starts and stops at once.
 struct TravelLimits {

@@ -95,7 +95,7 @@ constexpr OptionSpec path_specs[] = {
 };
 
 std::vector<double> joint_values(std::string_view option, std::string_view text) {
-  if (option == "--joint-speed" && text == "file") return speeds_of_file;
+  if (option == "--joint-speed" && text == "file") return {speed_of_file};
   if (number_in(text)) return {positive_value(option, text)};
   std::vector<double> values = state_value(option, text);
   if (!values.empty() && values.size() <= most_joints &&
