@@ -37,7 +37,7 @@ TEST(QueryBody, RefusesEverythingElse) {
                                   std::string("{\"start\": [null]}"),
                                   std::string("{\"start\": [1e999]}"),
                                   std::string("{\"start\": [NaN]}"),
-                                  std::string("{\"start\": [1,2,3,4,5,6,7]}"),
+                                  std::string("{\"start\": [1,2,3,4,5,6,7,8,9,10,11,12,13,14,15]}"),
                                   std::string("{\"optimise\": 1}"),
                                   std::string("{\"planner\": \"magic\"}"),
                                   std::string("{\"planner\": 1}"),
