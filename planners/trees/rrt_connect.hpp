@@ -50,11 +50,12 @@ class RrtConnectSearch {
   /// and the metric from there to the other end are less together, and samples are drawn where they may be. The way
   /// over places, which is the same whatever the bound, is not tried.
   void bound(double most) {
+    begun_ = true;
+    if (most == unbounded) return;
     std::vector<State> goals;
     for (VertexId goal = 0; goal < goal_count_; ++goal) goals.push_back(trees_[1].state(goal));
     informed_.emplace(*world_, trees_[0].state(0), std::span<const State>(goals), seed_);
     most_ = most;
-    begun_ = true;
   }
   void advance(std::uint64_t steps, const Execution& execution) {
     advance_while([&steps] { return steps-- > 0; }, execution);

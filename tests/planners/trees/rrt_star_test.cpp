@@ -223,13 +223,14 @@ TEST(RrtConnectBound, PathsAreCheaperThanIt) {
   }
 }
 
-TEST(RrtConnectBound, AWideOneChangesNothing) {
+/// A finite one draws where a path within it may lead, however wide it is.
+TEST(RrtConnectBound, AnInfiniteOneChangesNothing) {
   const SampledProblem<Se2World> problem = problems::body(3);
   const RrtOptions options{.places = false};
   const std::span<const Se2> goals(&problem.goal, 1);
   detail::RrtConnectSearch<AnyWorld<Se2>> plain(problem.view, problem.start, goals, options, 1.0, 3);
   detail::RrtConnectSearch<AnyWorld<Se2>> wide(problem.view, problem.start, goals, options, 1.0, 3);
-  wide.bound(1e9);
+  wide.bound(std::numeric_limits<double>::infinity());
   plain.advance(10'000, {});
   wide.advance_by_work(1'000'000, {});
   ASSERT_TRUE(plain.arrived());
