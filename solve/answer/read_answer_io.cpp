@@ -96,7 +96,8 @@ class AnswerReader {
     if (answer_.path.empty()) throw InputError(file_, "key \"path\" has no points: there is nothing to check");
     for (const auto& [name, state] : {std::pair{"start", &answer_.problem.start}, {"goal", &answer_.problem.goal}}) {
       key_ = name;  // one number is for arms of one joint
-      if (state->size() == 1 && answer_.problem.robot.kind != RobotKind::urdf) refuse(point_expected);
+      const bool of_arm = answer_.problem.robot && answer_.problem.robot->kind == RobotKind::urdf;
+      if (state->size() == 1 && !of_arm) refuse(point_expected);
     }
     return std::move(answer_);
   }
