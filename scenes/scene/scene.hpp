@@ -55,7 +55,7 @@ constexpr auto enum_names(SolidKind) {
 
 /// A closed convex body anywhere in space: an obstacle of arms, or a part of an arm's link.
 struct Solid {
-  SolidKind kind = SolidKind::sphere;
+  SolidKind kind = SolidKind::sphere;                      ///< which of the members below mean something
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< of its own frame, whose z is a cylinder's axis
   /// sphere: x is the radius. box: half its sides. cylinder, capsule: x is the radius, z half the length of the axis (a
   /// capsule's without its caps). All >= 0. hull: unused.
@@ -113,8 +113,8 @@ struct ArmFiles {
   std::vector<std::string> packages = {};  ///< folders where package:// is looked for, in this order
   std::vector<std::pair<std::string, double>> held = {};  ///< joints outside of the group, and where they are
   std::vector<std::array<std::string, 2>> allowed = {};   ///< pairs of links that may touch, beside the SRDF's
-  std::vector<AttachedSolid> attached = {};
-  std::shared_ptr<const ArmModel> read = {};  ///< what the files say, where somebody has read them
+  std::vector<AttachedSolid> attached = {};               ///< what the arm carries
+  std::shared_ptr<const ArmModel> read = {};              ///< what the files say, where somebody has read them
 };
 
 /// A state of an arm by its joints' names: where their order is not known yet.

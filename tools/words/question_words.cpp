@@ -18,8 +18,9 @@ constexpr OptionSpec question_specs[] = {
      "where to start: X,Y; for a body that turns X,Y,THETA (radians, or 90deg); for an arm one number a "
      "joint (default: the file's)"},
     {"--goal", "X,Y[,THETA]",
-     "where to arrive, as --start. Without THETA a body that turns may arrive at any heading; an arm may also be given "
-     "its tool's place X,Y,Z (default: the file's)"},
+     "where to arrive, as --start. Without THETA a body that turns may arrive at any heading; of an arm X,Y,Z is a "
+     "place "
+     "of its tool (default: the file's)"},
     {"--goal-pose", "X,Y,Z,QX,QY,QZ,QW",
      "of an arm: a pose of its tool, its place and its turn as a quaternion (default: the file's)"},
     {"--clearance", "R",

@@ -71,7 +71,7 @@ struct Cursor {
 
 SerialChain::SerialChain(const DhTable& table) : table_(table), modified_(table.convention == DhConvention::modified) {
   const std::size_t n = table.joints.size();
-  if (n == 0 || n > most_joints) {
+  if (n == 0 || n > most_chain_joints) {
     throw InputError("arm", "must have from 1 to 6 joints", std::to_string(n));
   }
   for (std::size_t i = 0; i < n; ++i) check(table.joints[i], i);

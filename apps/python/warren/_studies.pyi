@@ -69,6 +69,7 @@ def compare(
     robot: str | None = ...,
     start: _State | None = ...,
     goal: _State | None = ...,
+    goal_pose: _State | None = ...,
     clearance: _Listed = ...,
     contact: _Listed = ...,
     budget: float | str | None = ...,

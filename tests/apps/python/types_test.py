@@ -31,12 +31,12 @@ def keywords_of_stub(name):
 
 
 @pytest.mark.parametrize("name, verb, other, without", [
-    ("solve", "solve", {"world", "keep", "on_improvement"}, {"map_rules"}),
-    ("verify", "verify", {"world", "path"}, {"map_rules"}),
-    ("build", "build", {"world"}, {"map_rules"}),
-    ("query", "query", {"keep"}, {"map_rules"}),
-    ("lengths", "query", {"starts", "goals"}, {"map_rules", "start", "goal", "explain", "bound"}),
-    ("compare", "compare", {"world"}, {"map_rules"}),
+    ("solve", "solve", {"world", "keep", "on_improvement"}, {"map_rules", "request"}),
+    ("verify", "verify", {"world", "path"}, {"map_rules", "request"}),
+    ("build", "build", {"world"}, {"map_rules", "request"}),
+    ("query", "query", {"keep"}, {"map_rules", "request"}),
+    ("lengths", "query", {"starts", "goals"}, {"map_rules", "request", "start", "goal", "explain", "bound"}),
+    ("compare", "compare", {"world"}, {"map_rules", "request"}),
 ])
 def test_the_keywords_are_the_long_options_of_the_program(program, name, verb, other, without):
     theirs = set(program.help_options(verb)) - OUTPUTS - without
@@ -46,7 +46,7 @@ def test_the_keywords_are_the_long_options_of_the_program(program, name, verb, o
 def test_the_choices_of_a_stub_are_those_of_the_program(program):
     stub = (PACKAGE / "_worlds.pyi").read_text() + (PACKAGE / "_solving.pyi").read_text()
     for name, (_, choices) in program.help_options("solve").items():
-        if name in OUTPUTS | LIMITS | {"map_rules"} or not choices:
+        if name in OUTPUTS | LIMITS | {"map_rules", "request"} or not choices:
             continue
         assert ", ".join(f'"{choice}"' for choice in choices) in stub, name
 

@@ -38,7 +38,7 @@ template <int D>
 std::vector<PointOf<D>> even_points(std::size_t n) {
   std::vector<PointOf<D>> points(n);
   for (std::size_t i = 0; i < n; ++i) {
-    std::array<double, 8> v{};
+    std::array<double, 16> v{};
     for (std::size_t axis = 0; axis < D; ++axis) v[axis] = uniform(11, i, axis);
     points[i] = test::make_point<D>(v);
   }

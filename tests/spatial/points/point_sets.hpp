@@ -19,7 +19,7 @@ double axis_value(const std::array<double, D>& p, int axis) {
 }
 
 template <int D>
-PointOf<D> make_point(const std::array<double, 8>& values) {
+PointOf<D> make_point(const std::array<double, 16>& values) {
   if constexpr (D == 2) {
     return {values[0], values[1]};
   } else {
@@ -61,7 +61,7 @@ struct PointSet {
 /// Even, clustered, equal, collinear, lattice (plain and turned), tiny, huge, far off and mixed sets of about n points.
 template <int D>
 std::vector<PointSet<D>> point_sets(std::uint64_t seed, std::size_t n) {
-  using Values = std::array<double, 8>;
+  using Values = std::array<double, 16>;
   const auto u = [&](std::uint64_t i, std::uint64_t axis) { return uniform(seed, i, axis); };
   const auto make = [&](std::string name, std::size_t count, auto value) {
     PointSet<D> set{std::move(name), {}};

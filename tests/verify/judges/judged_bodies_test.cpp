@@ -127,7 +127,7 @@ TEST(JudgedBodies, CarsOfAnyBodyAreJudgedAsDenseSamplesAre) {
               free, met);
     }
   }
-  EXPECT_GT(free, test::share(40));
+  EXPECT_GT(free, test::share(40, 2));
   EXPECT_GT(met, test::share(80));
 }
 

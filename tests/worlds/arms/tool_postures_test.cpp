@@ -15,7 +15,7 @@ using namespace arm_oracle;
 /// Joints at their limits, too: there least is left around what reaches.
 JointState state_within(const DhTable& table, std::uint64_t i) {
   JointState q = random_state(table, 11, i);
-  for (std::size_t k = 0; k < q.size(); ++k) {
+  for (std::size_t k = 0; k < table.joints.size(); ++k) {
     const std::uint64_t bits = random_bits(i, k);
     if (bits % 4 == 0) q[k] = bits % 8 == 0 ? table.joints[k].low_rad : table.joints[k].high_rad;
   }
