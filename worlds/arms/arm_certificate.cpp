@@ -57,8 +57,8 @@ struct ArmScratch {
   std::vector<std::uint32_t> items;
   std::vector<ArmUnsure> unsure;
   std::vector<ArmBlock<T>> blocks;
-  std::vector<std::uint32_t> order;  // items, those that stopped motions last before the others
-  std::size_t order_links = 0;       // that it is for: so many lanes of links
+  std::vector<std::uint32_t> order;          // items, those that stopped motions last before the others
+  std::array<std::size_t, 3> order_sizes{};  // that it is for: lanes of links, links that move, pairs
   std::uint64_t stamp = 0;
 
   void fit(const ArmSetup& setup) {
@@ -502,9 +502,10 @@ class alignas(32) ArmMotion {
   /// What stopped a motion is asked first of the next one: a hit is a hit in any order.
   [[gnu::always_inline]] inline void fit_order() {
     const std::size_t all = setup_.moving + setup_.pairs.size();
-    if (scratch_.order.size() == all && scratch_.order_links == setup_.link_lanes) return;
+    const std::array<std::size_t, 3> sizes{setup_.link_lanes, setup_.moving, setup_.pairs.size()};
+    if (scratch_.order_sizes == sizes) return;  // of any arm with these sizes it is an order of all that there is
     scratch_.order.clear();
-    scratch_.order_links = setup_.link_lanes;
+    scratch_.order_sizes = sizes;
     for (std::size_t i = 0; i < all; ++i) {
       scratch_.order.push_back(as_whole<std::uint32_t>(i < setup_.moving ? i : i - setup_.moving + setup_.link_lanes));
     }

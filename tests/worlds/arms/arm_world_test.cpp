@@ -219,6 +219,28 @@ TEST(ArmWorld, MotionsOfTheJointBehindALinkAreHeldAgainstIt) {
   EXPECT_FALSE(world.is_free_motion({0.0, -2.0, 2.3}, {0.0, 2.0, 2.3}, query));
 }
 
+/// Three links and a pair, then four links and none: what was looked at first of the one must not hide a link of the
+/// other.
+TEST(ArmWorld, AnArmThatWasAskedBeforeHidesNoLink) {
+  const auto straight = [](std::size_t links, double length) {
+    DhTable table;
+    for (std::size_t i = 0; i < links; ++i) table.joints.push_back({.a = length, .low_rad = -3.0, .high_rad = 3.0});
+    return table;
+  };
+  Scene at_the_last;
+  at_the_last.spheres.push_back({1.8, 0.0, 0.0, 0.05});
+  const ArmWorld three({}, model_of(straight(3, 1.0), 0.05, true), {});
+  const ArmWorld four(at_the_last, model_of(straight(4, 0.5), 0.05, false), {});
+  ASSERT_EQ(three.model().pairs.size(), 1U);
+  auto query = three.make_query();
+  auto other = four.make_query();
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_TRUE(three.is_free({0.0, 0.5, 0.5}, query));
+    EXPECT_FALSE(four.is_free({}, other));
+    EXPECT_FALSE(four.is_free_motion({0.01}, {-0.01}, other));
+  }
+}
+
 TEST(ArmWorld, PosturesBeyondALimitAreBlocked) {
   const ArmWorld world({}, model_of(puma560_table(), 0.05, false), {});
   auto query = world.make_query();
