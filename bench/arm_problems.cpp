@@ -144,7 +144,7 @@ Planned<World> plan(const World& world, const ArmProblem& problem, const Setting
 }
 
 bool judged(const Scene& scene, const ArmProblem& problem, const Path<JointState>& path) {
-  return verify_arm(scene, *problem.model, path, problem.verify_options(), alone()).verified;
+  return verify_arm(scene, problem.model, path, problem.verify_options(), alone()).verified;
 }
 
 void time_edges(Row& row, const ArmWorld& world, const std::vector<std::pair<JointState, JointState>>& asked) {
@@ -175,7 +175,7 @@ Row run(const std::string& set, const fs::path& scene_file, const RobotSpec& rob
   row.read_s = thread_seconds() - begun;
   begun = thread_seconds();
   const ArmOptions options;
-  const ArmWorld world(asked, *problem.model, options);
+  const ArmWorld world(asked, problem.model, options);
   row.index_s = thread_seconds() - begun;
   std::optional<Planned<ArmWorld>> best;
   for (int i = 0; i < settings.repeats; ++i) {
@@ -192,7 +192,7 @@ Row run(const std::string& set, const fs::path& scene_file, const RobotSpec& rob
     row.verified = judged(asked, problem, best->solution.path) && judged(asked, problem, best->shortened);
   }
   std::vector<std::pair<JointState, JointState>> motions;
-  RecordingWorld recording(asked, *problem.model, options);
+  RecordingWorld recording(asked, problem.model, options);
   recording.asked = &motions;
   const JointState goal = problem.goal_state();
   RrtOptions rrt;
@@ -202,7 +202,7 @@ Row run(const std::string& set, const fs::path& scene_file, const RobotSpec& rob
   rrt.sampler = enum_named<SamplerKind>(settings.sampler);
   rrt_connect(WorldView(recording), problem.start, std::span(&goal, 1), rrt, alone());
   time_edges(row, world, motions);
-  const SampledWorld sampled(asked, *problem.model, options);
+  const SampledWorld sampled(asked, problem.model, options);
   const Planned<SampledWorld> seen = plan(sampled, problem, settings);
   row.sampled_solved = seen.solution.outcome == Outcome::solved;
   row.sampled_first_refuted = row.sampled_solved && !judged(asked, problem, seen.solution.path);

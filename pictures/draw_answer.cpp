@@ -196,7 +196,7 @@ Drawing drawing_of_arm(const Scene& scene, const RobotSpec& robot, const std::ve
   Path<JointState> path;
   for (std::size_t i = 0; i < states.size(); ++i) path.push_back(joint_state(states[i]));
   if (path.empty()) path.push_back(joint_state(start));
-  ArmViews views = arm_views(scene, *arm_model_of(robot, 0.0, execution), path, execution);
+  ArmViews views = arm_views(scene, arm_model_of(robot, 0.0, execution), path, execution);
   return {.layers = std::move(views.layers),
           .stage = std::move(views.stage),
           .panels = std::move(views.panels),

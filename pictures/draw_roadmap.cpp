@@ -162,7 +162,7 @@ class RoadmapDrawing {
     for (const EdgeStyle& style : other_edges) add(style);
     add({EdgeState::free, "free", "free edge", colors::components[0]});
     ArmViews views =
-        arm_roadmap_views(scene_, *arm_model_of(roadmap_.robot, 0.0, execution_),
+        arm_roadmap_views(scene_, arm_model_of(roadmap_.robot, 0.0, execution_),
                           scene_.start.empty() ? JointState{} : joint_state(scene_.start), states, lines, execution_);
     return {.layers = std::move(views.layers),
             .stage = std::move(views.stage),

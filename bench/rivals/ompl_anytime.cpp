@@ -167,7 +167,7 @@ struct ArmTask {
 
   explicit ArmTask(const Scene& scene)
       : problem(arm_problem(scene, {}, one_thread())),
-        world(scene, *problem.model, {.clearance = problem.clearance}),
+        world(scene, problem.model, {.clearance = problem.clearance}),
         states(world, problem.start),
         start(problem.start),
         goals{problem.goal_state()} {}
@@ -178,7 +178,7 @@ struct ArmTask {
     return vectors;
   }
   Verification judged(const Scene& scene, const Path<JointState>& path) const {
-    return verify_arm(scene, *problem.model, path, problem.verify_options(), one_thread());
+    return verify_arm(scene, problem.model, path, problem.verify_options(), one_thread());
   }
 };
 

@@ -86,7 +86,7 @@ namespace warren {
 inline constexpr std::string_view robot_usage =
     "robot point|disc R|polygon X Y X Y X Y ...|car radius R turning RHO|"
     "puma560 radius R [tool T] [limits classic|symmetric] [self-collision]|arm FILE radius R [tool T] [self-collision]|"
-    "urdf FILE [srdf FILE] [group NAME | base LINK tip LINK] [package-path DIR] ...";
+    "urdf FILE [srdf FILE] [group NAME] ...";
 inline constexpr std::string_view urdf_usage =
     "robot urdf FILE [srdf FILE] [group NAME | base LINK tip LINK] [package-path DIR] ... [hold JOINT VALUE] ... "
     "[allow LINK LINK] ...";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// An arm as plain data: joints in a tree, links with their solids, which links may not touch each other. What planners
-// and judges of arms have in common; read from a URDF (scenes/files/urdf_io.hpp) or made of a Denavit-Hartenberg table
-// (worlds/arms/chain_model.hpp).
+// Solids of space, and an arm as plain data: joints in a tree, links with their solids, which links may not touch each
+// other. What planners and judges of arms have in common; read from a URDF (scenes/files/urdf_io.hpp) or made of a
+// Denavit-Hartenberg table (worlds/arms/chain_model.hpp).
 //
 // Where a joint's frame is: frame(joint) = frame(parent) * origin * motion(axis, value), with value = multiplier *
 // q[variable] + offset; a revolute joint turns by `value` about its axis, a prismatic one slides by it along the axis.
@@ -17,11 +17,40 @@
 #include <numbers>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "scenes/scene/scene.hpp"
+#include "core/base/enum_names.hpp"
 
 namespace warren {
+
+using Vec3 = Eigen::Vector3d;  ///< a point or vector of space; units of the world
+
+/// What a Solid is.
+enum class SolidKind : std::uint8_t { sphere, box, cylinder, capsule, hull };
+constexpr auto enum_names(SolidKind) {
+  return std::array<std::string_view, 5>{"sphere", "box", "cylinder", "capsule", "hull"};
+}
+
+/// A closed convex body anywhere in space: an obstacle of arms, or a part of an arm's link.
+struct Solid {
+  SolidKind kind = SolidKind::sphere;                      ///< which of the members below mean something
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< of its own frame, whose z is a cylinder's axis
+  /// sphere: x is the radius. box: half its sides. cylinder, capsule: x is the radius, z half the length of the axis (a
+  /// capsule's without its caps). All >= 0. hull: unused.
+  Vec3 half = Vec3::Zero();
+  std::vector<Vec3> corners = {};                        ///< hull: at least one, in its own frame, each on the outside
+  std::vector<std::array<std::uint32_t, 3>> faces = {};  ///< hull: triangles of corners, counter-clockwise from outside
+  std::string name = {};                                 ///< in messages; may be empty
+  /// The numbers of its line in a scene (scenes/files/solid_text.hpp), so that it is written as it was read; whoever
+  /// changes the members above clears them. Empty: none are known.
+  std::vector<double> given = {};
+};
+
+/// Numbers that an arm's state may have: joints that move on their own.
+inline constexpr std::size_t most_joints = 14;
+/// Joint angles in radians, of joints that slide metres; those that an arm lacks are 0.
+using JointState = std::array<double, most_joints>;
 
 /// Joints that move, of one arm; those that mimic another one included.
 inline constexpr std::size_t most_frames = 32;

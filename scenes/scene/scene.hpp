@@ -8,7 +8,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,6 +19,7 @@
 #include "core/base/types.hpp"
 #include "core/plane/wall_set.hpp"
 #include "parallel/execution.hpp"
+#include "scenes/scene/arm_model.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 
 namespace warren {
@@ -30,8 +30,6 @@ struct ScenePolygon {
   std::vector<Vec2> corners;  ///< in order, the last joined to the first
   std::size_t line = 0;       ///< of its file, from 1
 };
-
-using Vec3 = Eigen::Vector3d;  ///< a point or vector of space; units of the world
 
 /// A closed ball.
 struct Sphere {
@@ -45,27 +43,6 @@ struct Sphere {
 struct SolidBox {
   std::array<double, 3> low;   ///< least x, y, z
   std::array<double, 3> high;  ///< >= low
-};
-
-/// What a Solid is.
-enum class SolidKind : std::uint8_t { sphere, box, cylinder, capsule, hull };
-constexpr auto enum_names(SolidKind) {
-  return std::array<std::string_view, 5>{"sphere", "box", "cylinder", "capsule", "hull"};
-}
-
-/// A closed convex body anywhere in space: an obstacle of arms, or a part of an arm's link.
-struct Solid {
-  SolidKind kind = SolidKind::sphere;                      ///< which of the members below mean something
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< of its own frame, whose z is a cylinder's axis
-  /// sphere: x is the radius. box: half its sides. cylinder, capsule: x is the radius, z half the length of the axis (a
-  /// capsule's without its caps). All >= 0. hull: unused.
-  Vec3 half = Vec3::Zero();
-  std::vector<Vec3> corners = {};                        ///< hull: at least one, in its own frame, each on the outside
-  std::vector<std::array<std::uint32_t, 3>> faces = {};  ///< hull: triangles of corners, counter-clockwise from outside
-  std::string name = {};                                 ///< in messages; may be empty
-  /// The numbers of its line in a scene (scenes/files/solid_text.hpp), so that it is written as it was read; whoever
-  /// changes the members above clears them. Empty: none are known.
-  std::vector<double> given = {};
 };
 
 /// "this is a maze": walls lie on the unit grid, cell centres at 1..cols x 1..rows.
@@ -101,8 +78,6 @@ struct AttachedSolid {
   std::vector<std::string> may_touch = {};  ///< links beside that one
 };
 
-struct ArmModel;  // scenes/scene/arm_model.hpp
-
 /// An arm that files describe.
 struct ArmFiles {
   std::string urdf;                        ///< a path
@@ -114,7 +89,7 @@ struct ArmFiles {
   std::vector<std::pair<std::string, double>> held = {};  ///< joints outside of the group, and where they are
   std::vector<std::array<std::string, 2>> allowed = {};   ///< pairs of links that may touch, beside the SRDF's
   std::vector<AttachedSolid> attached = {};               ///< what the arm carries
-  std::shared_ptr<const ArmModel> read = {};              ///< what the files say, where somebody has read them
+  std::optional<ArmModel> read = {};                      ///< what the files say, where somebody has read them
 };
 
 /// A state of an arm by its joints' names: where their order is not known yet.
@@ -277,11 +252,6 @@ class WallFold {
 
 // A Denavit-Hartenberg table of a serial chain of revolute joints, as plain data: what planners and judges of arms have
 // in common. What it means is said in worlds/arms/serial_chain.hpp.
-
-/// Numbers that an arm's state may have: joints that move on their own.
-inline constexpr std::size_t most_joints = 14;
-/// Joint angles in radians, of joints that slide metres; those that an arm lacks are 0.
-using JointState = std::array<double, most_joints>;
 
 /// Joints that a Denavit-Hartenberg table may have; states of its arm have as many numbers.
 inline constexpr std::size_t most_chain_joints = 6;

@@ -68,7 +68,7 @@ class BlockedArm {
       : scene_(scene),
         execution_(execution),
         model_(arm_model_of(problem.robot, problem.clearance, execution)),
-        kinematics_(*model_) {
+        kinematics_(model_) {
     problem_.robot = problem.robot;
     if (!problem.robot.files) problem_.table = table_of(problem.robot, execution);
     problem_.model = model_;
@@ -86,7 +86,7 @@ class BlockedArm {
   std::optional<Violation> met(const JointState& q, double more) const {
     execution_.check();
     const ArmVerifyOptions options{.clearance = problem_.clearance + more};
-    return verify_arm(scene_, *model_, std::span(&q, 1), options, execution_).first_violation;
+    return verify_arm(scene_, model_, std::span(&q, 1), options, execution_).first_violation;
   }
   /// Of the deepest link in the solid that is named, or of two links in one another. Nobody knows it of arms of files.
   std::optional<double> depth_in(const Violation& violation, const JointState& q) const {
@@ -120,7 +120,7 @@ class BlockedArm {
     constexpr double digits = 1e3;
     JointState within = q;
     for (std::size_t k = 0; k < problem_.width(); ++k) {
-      const ArmVariable& variable = model_->variables[k];
+      const ArmVariable& variable = model_.variables[k];
       const double low = std::ceil(variable.low * digits) / digits;
       const double high = std::floor(variable.high * digits) / digits;
       if (variable.continuous || low > high) continue;
@@ -165,7 +165,7 @@ class BlockedArm {
     double most = -std::numeric_limits<double>::infinity();
     ArmPosture posture;
     kinematics_.place(q, posture);
-    for (const ArmLink& link : model_->links) {
+    for (const ArmLink& link : model_.links) {
       const MovingFrame& frame = ArmKinematics::frame(posture, link.frame);
       for (const Solid& capsule : link.solids) {
         const Vec3 middle = frame.at + frame.turn * capsule.pose.translation();
@@ -178,7 +178,7 @@ class BlockedArm {
 
   const Scene& scene_;
   const Execution& execution_;
-  std::shared_ptr<const ArmModel> model_;
+  ArmModel model_;
   ArmKinematics kinematics_;
   ArmProblem problem_;
   double reach_ = 0.0;

@@ -127,8 +127,7 @@ double free_curve(const Problem& problem) {
 /// In joint space. A tool whose place is the goal goes no farther than its distance from each axis times the turn about
 /// it, all told: so its way is at most the root of the sum of these distances' squares times the way in joint space.
 double least_turns(const Problem& problem, const Execution& execution) {
-  const auto read = arm_model_of(problem.robot, problem.clearance, execution);
-  const ArmModel& model = *read;
+  const ArmModel model = arm_model_of(problem.robot, problem.clearance, execution);
   const JointState start = joint_state(problem.start);
   double sum = 0.0;
   if (!problem.goal_pose && problem.goal.size() == model.variables.size()) {

@@ -71,7 +71,7 @@ class Arm : public UsualBody {
     if (!options.step) options.step = usual_step;
   }
   void index(std::optional<World>& world, SamplerKind) const {
-    world.emplace(scene_, *problem_.model, ArmOptions{.clearance = problem_.clearance}, execution_);
+    world.emplace(scene_, problem_.model, ArmOptions{.clearance = problem_.clearance}, execution_);
   }
   static bool provably_apart(const World&, const std::vector<JointState>&) { return false; }
   bool start_stands_free() const { return goal_stands_free(problem_.start); }
@@ -82,7 +82,7 @@ class Arm : public UsualBody {
     options.goal_place.reset();
     options.goal_pose.reset();
     options.clearance += end_margin(scene_, problem_.robot, problem_.clearance, reach_of(problem_), execution_);
-    return verify_arm(scene_, *problem_.model, std::span(&q, 1), options, execution_).verified;
+    return verify_arm(scene_, problem_.model, std::span(&q, 1), options, execution_).verified;
   }
   static double length(const World& world, const JointState& a, const JointState& b) { return world.distance(a, b); }
   Path<JointState> shortened(const World& world, Path<JointState> path, Answer& answer) const {
@@ -95,7 +95,7 @@ class Arm : public UsualBody {
     take_reached_goal(reached, path.back());
     answer.problem.goal = reached.goal;
     const StageTimer timer(execution_, "verify", answer.seconds.verify, path.size());
-    const Verification found = verify_arm(scene_, *problem_.model, path, reached.verify_options(), execution_);
+    const Verification found = verify_arm(scene_, problem_.model, path, reached.verify_options(), execution_);
     take_verdict(answer, found);
     answer.states.width = problem_.width();
     for (const JointState& q : path) {
@@ -172,7 +172,7 @@ Verdict recheck_arm(const Scene& scene, const Question& question, const Recorded
   if (answer.states.empty()) {  // two joints
     for (const Vec2 p : answer.path) path.push_back(joint_state(std::array{p.x, p.y}));
   }
-  const Verification found = verify_arm(scene, *problem.model, path, problem.verify_options(), execution);
+  const Verification found = verify_arm(scene, problem.model, path, problem.verify_options(), execution);
   return {found, problem.general()};
 }
 

@@ -54,9 +54,9 @@ void take_goal(ArmProblem& problem, const Scene& scene, const Question& options)
   if (!is_asked && scene.goal_pose) problem.goal_pose = scene.goal_pose;
   if (!is_asked && !scene.named_goals.empty()) {
     problem.goal_pose.reset();
-    problem.goal = state_named(*problem.model, scene.named_goals.front());
+    problem.goal = state_named(problem.model, scene.named_goals.front());
     for (std::size_t i = 1; i < scene.named_goals.size(); ++i) {
-      problem.other_goals.push_back(state_named(*problem.model, scene.named_goals[i]));
+      problem.other_goals.push_back(state_named(problem.model, scene.named_goals[i]));
     }
   } else if (!problem.goal_pose) {
     problem.goal = state_of("@goal", options.goal, scene.goal, problem.width(), true);
@@ -133,14 +133,13 @@ DhTable table_of(const RobotSpec& robot, const Execution& execution) {
   return table;
 }
 
-std::shared_ptr<const ArmModel> arm_model_of(const RobotSpec& robot, double clearance, const Execution& execution) {
+ArmModel arm_model_of(const RobotSpec& robot, double clearance, const Execution& execution) {
   if (robot.kind != RobotKind::urdf) {
-    return std::make_shared<ArmModel>(
-        model_of(table_of(robot, execution), robot.radius, robot.self_collision, clearance));
+    return model_of(table_of(robot, execution), robot.radius, robot.self_collision, clearance);
   }
-  if (robot.files->read) return robot.files->read;
-  auto model = std::make_shared<ArmModel>(read_urdf(*robot.files, execution));
-  leave_out_touching(*model, execution);
+  if (robot.files->read) return *robot.files->read;
+  ArmModel model = read_urdf(*robot.files, execution);
+  leave_out_touching(model, execution);
   return model;
 }
 
@@ -154,20 +153,20 @@ ArmProblem arm_problem(const Scene& scene, const Question& options, const Execut
   problem.clearance = clearance_of(scene, options);
   problem.model = arm_model_of(problem.robot, problem.clearance, execution);
   if (problem.robot.files) problem.robot.files->read = problem.model;
-  const std::vector<double> said = scene.named_start ? state_named(*problem.model, *scene.named_start) : scene.start;
+  const std::vector<double> said = scene.named_start ? state_named(problem.model, *scene.named_start) : scene.start;
   std::vector<double> start = state_of("@start", options.start, said, problem.width(), false);
   take_goal(problem, scene, options);
   if (!problem.table) {
-    move_onto_limits(*problem.model, start);
-    if (!problem.any_posture()) move_onto_limits(*problem.model, problem.goal);
-    for (std::vector<double>& goal : problem.other_goals) move_onto_limits(*problem.model, goal);
+    move_onto_limits(problem.model, start);
+    if (!problem.any_posture()) move_onto_limits(problem.model, problem.goal);
+    for (std::vector<double>& goal : problem.other_goals) move_onto_limits(problem.model, goal);
   }
   problem.start = joint_state(start);
   return problem;
 }
 
 double reach_of(const ArmProblem& problem) {
-  return problem.table ? SerialChain(*problem.table).reach() : ArmKinematics(*problem.model).reach();
+  return problem.table ? SerialChain(*problem.table).reach() : ArmKinematics(problem.model).reach();
 }
 
 void take_reached_goal(ArmProblem& problem, const JointState& end) {
@@ -180,7 +179,7 @@ void take_reached_goal(ArmProblem& problem, const JointState& end) {
 std::vector<JointState> goal_states(const ArmProblem& problem, const Execution& execution) {
   constexpr std::size_t enough = 16;
   const auto found = [&](const ToolGoal& goal) {
-    return postures_of_tool(ArmKinematics(*problem.model), goal, problem.start, enough, execution);
+    return postures_of_tool(ArmKinematics(problem.model), goal, problem.start, enough, execution);
   };
   if (problem.goal_pose) return found({*problem.goal_pose});
   if (!problem.any_posture()) {

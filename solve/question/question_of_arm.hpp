@@ -2,7 +2,6 @@
 // The question that is asked of an arm: which arm, from which joint angles to which, or to which place of its tool.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -17,14 +16,14 @@ namespace warren {
 struct ArmProblem {
   RobotSpec robot;
   std::optional<DhTable> table;  ///< of puma560 and arm
-  std::shared_ptr<const ArmModel> model;
+  ArmModel model;
   JointState start{};
   std::vector<double> goal;  ///< a number a variable, or the 3 coordinates of the tool's place; empty: see below
   std::vector<std::vector<double>> other_goals;  ///< that do as well
   std::optional<Eigen::Isometry3d> goal_pose{};  ///< of the tool, instead
   double clearance = 0.0;
 
-  std::size_t width() const { return model->variables.size(); }  ///< numbers of a state
+  std::size_t width() const { return model.variables.size(); }  ///< numbers of a state
   bool any_posture() const { return goal.size() != width(); }
   JointState goal_state() const;  ///< of one number a variable
   Vec3 goal_place() const { return {goal[0], goal[1], goal[2]}; }
@@ -39,7 +38,7 @@ DhTable table_of(const RobotSpec& robot, const Execution& execution);
 
 /// What the arm's files say: reads them, unless that was done. The clearance counts where links of a table's arm may
 /// not touch. Throws InputError, ReadError, UsageError, Stopped.
-std::shared_ptr<const ArmModel> arm_model_of(const RobotSpec& robot, double clearance, const Execution& execution);
+ArmModel arm_model_of(const RobotSpec& robot, double clearance, const Execution& execution);
 
 /// Upper bound of the distance of any point of the arm from its base.
 double reach_of(const ArmProblem& problem);

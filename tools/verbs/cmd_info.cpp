@@ -84,7 +84,7 @@ std::vector<Fact> robot_facts(const std::string& path, const Arguments& argument
   robot.files->srdf = said("--srdf");
   robot.files->group = said("--group");
   if (const std::string folder = said("--package-path"); !folder.empty()) robot.files->packages.push_back(folder);
-  return facts_of(*arm_model_of(robot, 0.0, execution));
+  return facts_of(arm_model_of(robot, 0.0, execution));
 }
 
 void tell(const std::vector<Fact>& facts, const std::optional<std::string>& json, const Run& run) {

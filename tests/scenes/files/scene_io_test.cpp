@@ -358,7 +358,7 @@ TEST(SceneText, RefusesBadInputInOneLineThatNamesFileAndLine) {
       const std::string expected = directory.file("a.scene") + bad.expected;
       EXPECT_EQ(std::string(error.what()).substr(0, expected.size()), expected);
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-      EXPECT_LT(std::string(error.what()).size(), directory.path().size() + 340);
+      EXPECT_LT(std::string(error.what()).size(), directory.path().size() + 300);
     }
   }
 }

@@ -92,7 +92,7 @@ struct Drawn {
 TEST(VerifyAnyArm, AgreesWithDenseSamplingAndMeasuresTheClearance) {
   std::size_t free = 0;
   std::size_t refuted = 0;
-  for (const std::uint64_t seed : test::seeds(200, 12)) {
+  for (const std::uint64_t seed : test::seeds(200, 30)) {
     SCOPED_TRACE(seed);
     const Drawn drawn(seed);
     double sampled = std::numeric_limits<double>::infinity();
@@ -117,8 +117,8 @@ TEST(VerifyAnyArm, AgreesWithDenseSamplingAndMeasuresTheClearance) {
     EXPECT_FALSE(
         verify_arm(drawn.scene, drawn.model, drawn.path, {.clearance = sampled + 1e-9}, any_arm_alone).verified);
   }
-  EXPECT_GE(free, test::share(30, 0));
-  EXPECT_GE(refuted, test::share(30, 0));
+  EXPECT_GT(free, test::share(30, 1));
+  EXPECT_GT(refuted, test::share(30, 1));  // of any thirty that follow each other two are
 }
 
 /// A speck within a link at an odd moment, found by no even sampling.
