@@ -24,7 +24,7 @@
 #include "planners/graph/any_world.hpp"
 #include "planners/shorten/shortcut.hpp"
 #include "planners/trees/rrt_connect.hpp"
-#include "scenes/files/moveit_io.hpp"
+#include "scenes/arms/moveit_io.hpp"
 #include "scenes/files/read_world_io.hpp"
 #include "solve/question/question_of_arm.hpp"
 #include "verify/judges/verify_arm.hpp"

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "core/base/printable.hpp"
-#include "scenes/files/human_units.hpp"
 #include "scenes/scene/scene.hpp"
+#include "scenes/text/human_units.hpp"
 #include "solve/answer/stage_lines.hpp"
 #include "solve/question/question_of_arm.hpp"
 

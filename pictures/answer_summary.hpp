@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "scenes/files/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 #include "solve/answer/answer.hpp"
 
 namespace warren {

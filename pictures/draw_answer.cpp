@@ -14,8 +14,8 @@
 #include "pictures/layers/draw_arm.hpp"
 #include "pictures/layers/draw_bodies.hpp"
 #include "pictures/layers/draw_cells.hpp"
-#include "scenes/files/human_units.hpp"
 #include "scenes/scene/scene.hpp"
+#include "scenes/text/human_units.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/question/question_of_arm.hpp"
 #include "solve/question/solve_options.hpp"
@@ -116,14 +116,15 @@ void add_roadmap(Drawing& drawing, const Answer& answer, ByProducts& made, const
 
 /// Paths that were the best before, the older the fainter.
 PictureLayer improvements_layer(const Answer& answer, PolygonSet paths) {
-  PictureLayer layer{.id = "improvements",
-                     .label = counted(paths.size(), "path before it", "paths before it"),
-                     .part = Part::search,
-                     .color = colors::path,
-                     .width = widths::outline,
-                     .lines = std::move(paths),
-                     .over_roadmap = true};
-  layer.label += fmt::format(", the first {} long", human_number(answer.improvements.front().length));
+  PictureLayer layer{
+      .id = "improvements",
+      .label = fmt::format("{}, the first {} long", counted(paths.size(), "path before it", "paths before it"),
+                           human_number(answer.improvements.front().length)),
+      .part = Part::search,
+      .color = colors::path,
+      .width = widths::outline,
+      .over_roadmap = true};
+  layer.lines = std::move(paths);
   constexpr double faintest = 0.15;
   constexpr double strongest = 0.6;
   for (std::size_t i = 0; i < layer.lines.size(); ++i) {

@@ -15,7 +15,7 @@
 #include "pictures/layers/draw_arm.hpp"
 #include "pictures/layers/draw_bodies.hpp"
 #include "pictures/layers/draw_cells.hpp"
-#include "scenes/files/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/kept/export_roadmap.hpp"
 #include "solve/question/question_of_arm.hpp"

@@ -16,7 +16,7 @@
 #include "apps/distributed/shared_solve.hpp"
 #include "core/base/error.hpp"
 #include "parallel/execution.hpp"
-#include "scenes/files/input_file_io.hpp"
+#include "scenes/text/input_file_io.hpp"
 #include "solve/kept/checksum.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"

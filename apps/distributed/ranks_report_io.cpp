@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "core/base/enum_names.hpp"
-#include "scenes/files/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 
 namespace warren::distributed {
 namespace {

@@ -11,7 +11,7 @@
 #include "apps/python/keywords.hpp"
 #include "apps/python/library_calls.hpp"
 #include "pictures/answer_summary.hpp"
-#include "scenes/files/output_file_io.hpp"
+#include "scenes/text/output_file_io.hpp"
 #include "solve/answer/explanation_text.hpp"
 #include "solve/answer/write_answer_io.hpp"
 #include "solve/paths/path_file_io.hpp"

@@ -10,7 +10,7 @@
 #include "pictures/draw_answer.hpp"
 #include "pictures/draw_roadmap.hpp"
 #include "pictures/formats/write_picture.hpp"
-#include "scenes/files/output_file_io.hpp"
+#include "scenes/text/output_file_io.hpp"
 #include "solve/answer/world_account.hpp"
 #include "tools/words/output_words.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"

@@ -8,7 +8,7 @@
 #include "apps/python/keywords.hpp"
 #include "apps/studies/comparison_report.hpp"
 #include "parallel/execution.hpp"
-#include "scenes/files/input_file_io.hpp"
+#include "scenes/text/input_file_io.hpp"
 #include "solve/answer/explanation_text.hpp"
 #include "solve/explain_answer.hpp"
 #include "solve/kinds/kind_of_problem.hpp"

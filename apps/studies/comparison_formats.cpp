@@ -14,7 +14,7 @@
 #include "apps/studies/comparison_report.hpp"
 #include "apps/studies/machine.hpp"
 #include "core/base/printable.hpp"
-#include "scenes/files/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 #include "solve/answer/write_answer_io.hpp"
 
 namespace warren::studies {

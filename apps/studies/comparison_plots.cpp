@@ -15,8 +15,8 @@
 #include "apps/studies/comparison_report.hpp"
 #include "apps/studies/statistics.hpp"
 #include "pictures/plots/plot.hpp"
-#include "scenes/files/human_units.hpp"
 #include "scenes/scene/scene.hpp"
+#include "scenes/text/human_units.hpp"
 
 namespace warren::studies {
 namespace {

@@ -12,8 +12,8 @@
 #include "apps/studies/machine.hpp"
 #include "apps/studies/study_report.hpp"
 #include "core/base/printable.hpp"
-#include "scenes/files/human_units.hpp"
 #include "scenes/scene/scene.hpp"
+#include "scenes/text/human_units.hpp"
 
 namespace warren::studies {
 namespace {

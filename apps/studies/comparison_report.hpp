@@ -13,7 +13,7 @@
 #include "apps/studies/study_report.hpp"
 #include "pictures/plots/plot.hpp"
 #include "pictures/plots/plot_sheet.hpp"
-#include "scenes/files/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 
 namespace warren::studies {
 

@@ -25,8 +25,8 @@
 #include "pictures/layers/lines_side_by_side.hpp"
 #include "pictures/model/picture.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
-#include "scenes/files/human_units.hpp"
 #include "scenes/scene/scene.hpp"
+#include "scenes/text/human_units.hpp"
 #include "solve/answer/world_account.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
 

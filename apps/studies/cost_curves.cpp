@@ -14,7 +14,7 @@
 #include "apps/studies/comparison.hpp"
 #include "apps/studies/comparison_report.hpp"
 #include "pictures/plots/plot.hpp"
-#include "scenes/files/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 #include "solve/question/solve_options.hpp"
 
 namespace warren::studies {

@@ -12,8 +12,8 @@
 #include "apps/studies/bfs_funnel_baseline.hpp"
 #include "core/base/error.hpp"
 #include "pictures/plots/plot.hpp"
-#include "scenes/files/human_units.hpp"
 #include "scenes/mazes/maze_generator.hpp"
+#include "scenes/text/human_units.hpp"
 #include "solve/answer/answer.hpp"
 
 namespace warren::studies {

@@ -13,7 +13,7 @@
 #include "apps/studies/machine.hpp"
 #include "apps/studies/maze_trial.hpp"
 #include "pictures/plots/plot_sheet.hpp"
-#include "scenes/files/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 
 namespace warren::studies {
 // Finds the largest size that fits by trying: starts small, doubles the area while it fits, then bisects on the side.

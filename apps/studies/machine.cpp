@@ -19,7 +19,7 @@
 #include "core/base/page_pool.hpp"
 #include "core/base/raw_vector.hpp"
 #include "parallel/chunks.hpp"
-#include "scenes/files/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 
 namespace warren::studies {
 namespace {

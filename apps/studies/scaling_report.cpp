@@ -14,7 +14,7 @@
 #include "apps/studies/scaling_study.hpp"
 #include "apps/studies/study_report.hpp"
 #include "pictures/plots/plot.hpp"
-#include "scenes/files/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 
 namespace warren::studies {
 namespace {

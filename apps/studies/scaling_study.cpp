@@ -11,7 +11,7 @@
 
 #include "apps/studies/machine.hpp"
 #include "apps/studies/statistics.hpp"
-#include "scenes/files/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 #include "solve/answer/answer.hpp"
 
 namespace warren::studies {

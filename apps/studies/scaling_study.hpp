@@ -20,7 +20,7 @@
 #include "apps/studies/machine.hpp"
 #include "apps/studies/maze_trial.hpp"
 #include "core/base/types.hpp"
-#include "scenes/files/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 
 namespace warren::studies {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/files/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 
 namespace warren::studies {
 

@@ -14,8 +14,8 @@
 
 #include "bench/report.hpp"
 #include "core/base/rng.hpp"
-#include "scenes/files/output_file_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
+#include "scenes/text/output_file_io.hpp"
 #include "solve/kept/ask_batch_io.hpp"
 #include "solve/kept/roadmap_file_io.hpp"
 

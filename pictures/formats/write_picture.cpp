@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "scenes/files/output_file_io.hpp"
+#include "scenes/text/output_file_io.hpp"
 
 namespace warren {
 

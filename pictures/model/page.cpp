@@ -14,8 +14,8 @@
 
 #include "pictures/model/axis.hpp"
 #include "pictures/model/letters.hpp"
-#include "scenes/files/human_units.hpp"
 #include "scenes/scene/scene.hpp"
+#include "scenes/text/human_units.hpp"
 
 namespace warren {
 namespace {

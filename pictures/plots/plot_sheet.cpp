@@ -10,7 +10,7 @@
 
 #include "pictures/formats/markup.hpp"
 #include "pictures/formats/surface.hpp"
-#include "scenes/files/output_file_io.hpp"
+#include "scenes/text/output_file_io.hpp"
 
 namespace warren {
 namespace {

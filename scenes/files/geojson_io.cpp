@@ -17,11 +17,11 @@
 #include "core/base/error.hpp"
 #include "core/base/types.hpp"
 #include "parallel/asked_memory.hpp"
-#include "scenes/files/json_text.hpp"
-#include "scenes/files/output_file_io.hpp"
-#include "scenes/files/scene_text.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "scenes/scene/rings.hpp"
+#include "scenes/text/json_text.hpp"
+#include "scenes/text/output_file_io.hpp"
+#include "scenes/text/scene_text.hpp"
 
 namespace warren {
 namespace {

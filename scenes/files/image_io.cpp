@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "scenes/files/output_file_io.hpp"
 #include "scenes/files/png_io.hpp"
-#include "scenes/files/scene_text.hpp"
+#include "scenes/text/output_file_io.hpp"
+#include "scenes/text/scene_text.hpp"
 
 namespace warren {
 namespace {

@@ -14,8 +14,8 @@
 
 #include "core/base/error.hpp"
 #include "core/base/raw_vector.hpp"
-#include "scenes/files/output_file_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
+#include "scenes/text/output_file_io.hpp"
 
 namespace warren {
 namespace {

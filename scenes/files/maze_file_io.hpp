@@ -11,9 +11,9 @@
 #include "core/plane/cell_walls.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/execution.hpp"
-#include "scenes/files/input_file_io.hpp"
 #include "scenes/mazes/cell_bits.hpp"
 #include "scenes/scene/scene.hpp"
+#include "scenes/text/input_file_io.hpp"
 
 namespace warren {
 

@@ -10,7 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
-#include "scenes/files/scene_text.hpp"
+#include "scenes/text/scene_text.hpp"
 
 namespace warren {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
-#include "scenes/files/output_file_io.hpp"
-#include "scenes/files/scene_text.hpp"
+#include "scenes/text/output_file_io.hpp"
+#include "scenes/text/scene_text.hpp"
 
 namespace warren {
 namespace {

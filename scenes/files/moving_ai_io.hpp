@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "parallel/execution.hpp"
-#include "scenes/files/input_file_io.hpp"
 #include "scenes/scene/occupancy_map.hpp"
+#include "scenes/text/input_file_io.hpp"
 
 namespace warren {
 

@@ -17,9 +17,9 @@
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
-#include "scenes/files/output_file_io.hpp"
-#include "scenes/files/scene_text.hpp"
 #include "scenes/mazes/maze_generator.hpp"
+#include "scenes/text/output_file_io.hpp"
+#include "scenes/text/scene_text.hpp"
 
 namespace warren {
 namespace {

@@ -11,11 +11,11 @@
 #include "core/base/raw_vector.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/execution.hpp"
-#include "scenes/files/input_file_io.hpp"
 #include "scenes/files/npy_io.hpp"
 #include "scenes/mazes/cell_bits.hpp"
 #include "scenes/mazes/spanning_maze.hpp"
 #include "scenes/scene/scene.hpp"
+#include "scenes/text/input_file_io.hpp"
 
 namespace warren {
 

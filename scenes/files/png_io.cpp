@@ -15,7 +15,7 @@
 #include <stdexcept>
 
 #include "core/base/error.hpp"
-#include "scenes/files/output_file_io.hpp"
+#include "scenes/text/output_file_io.hpp"
 
 namespace warren {
 namespace {

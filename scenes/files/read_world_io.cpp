@@ -8,12 +8,12 @@
 #include <set>
 
 #include "core/base/error.hpp"
+#include "scenes/arms/moveit_io.hpp"
 #include "scenes/files/geojson_io.hpp"
 #include "scenes/files/image_io.hpp"
 #include "scenes/files/maze_file_io.hpp"
 #include "scenes/files/maze_image_io.hpp"
 #include "scenes/files/micromouse_io.hpp"
-#include "scenes/files/moveit_io.hpp"
 #include "scenes/files/moving_ai_io.hpp"
 #include "scenes/files/npy_io.hpp"
 #include "scenes/files/png_io.hpp"

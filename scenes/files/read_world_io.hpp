@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "parallel/execution.hpp"
-#include "scenes/files/input_file_io.hpp"
 #include "scenes/files/ros_map_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/scene/scene.hpp"
+#include "scenes/text/input_file_io.hpp"
 
 namespace warren {
 

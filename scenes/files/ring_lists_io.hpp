@@ -13,8 +13,8 @@
 #include <string_view>
 
 #include "parallel/execution.hpp"
-#include "scenes/files/input_file_io.hpp"
 #include "scenes/scene/scene.hpp"
+#include "scenes/text/input_file_io.hpp"
 
 namespace warren {
 

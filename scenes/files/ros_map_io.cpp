@@ -17,8 +17,8 @@
 
 #include "core/base/error.hpp"
 #include "scenes/files/image_io.hpp"
-#include "scenes/files/output_file_io.hpp"
-#include "scenes/files/yaml_file_io.hpp"
+#include "scenes/text/output_file_io.hpp"
+#include "scenes/text/yaml_file_io.hpp"
 
 namespace warren {
 namespace {

@@ -17,10 +17,10 @@
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
-#include "scenes/files/output_file_io.hpp"
-#include "scenes/files/scene_text.hpp"
-#include "scenes/files/solid_text.hpp"
+#include "scenes/arms/solid_text.hpp"
 #include "scenes/mazes/maze_generator.hpp"
+#include "scenes/text/output_file_io.hpp"
+#include "scenes/text/scene_text.hpp"
 
 namespace warren {
 namespace {

@@ -11,10 +11,10 @@
 
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
-#include "scenes/files/output_file_io.hpp"
-#include "scenes/files/scene_text.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "scenes/scene/rings.hpp"
+#include "scenes/text/output_file_io.hpp"
+#include "scenes/text/scene_text.hpp"
 
 namespace warren {
 namespace {

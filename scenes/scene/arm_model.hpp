@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Solids of space, and an arm as plain data: joints in a tree, links with their solids, which links may not touch each
-// other. What planners and judges of arms have in common; read from a URDF (scenes/files/urdf_io.hpp) or made of a
+// other. What planners and judges of arms have in common; read from a URDF (scenes/arms/urdf_io.hpp) or made of a
 // Denavit-Hartenberg table (worlds/arms/chain_model.hpp).
 //
 // Where a joint's frame is: frame(joint) = frame(parent) * origin * motion(axis, value), with value = multiplier *
@@ -42,7 +42,7 @@ struct Solid {
   std::vector<Vec3> corners = {};                        ///< hull: at least one, in its own frame, each on the outside
   std::vector<std::array<std::uint32_t, 3>> faces = {};  ///< hull: triangles of corners, counter-clockwise from outside
   std::string name = {};                                 ///< in messages; may be empty
-  /// The numbers of its line in a scene (scenes/files/solid_text.hpp), so that it is written as it was read; whoever
+  /// The numbers of its line in a scene (scenes/arms/solid_text.hpp), so that it is written as it was read; whoever
   /// changes the members above clears them. Empty: none are known.
   std::vector<double> given = {};
 };

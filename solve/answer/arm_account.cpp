@@ -6,8 +6,8 @@
 #include <array>
 #include <string>
 
-#include "scenes/files/human_units.hpp"
-#include "scenes/files/json_text.hpp"
+#include "scenes/text/human_units.hpp"
+#include "scenes/text/json_text.hpp"
 
 namespace warren {
 namespace {

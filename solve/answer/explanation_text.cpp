@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "core/base/printable.hpp"
-#include "scenes/files/human_units.hpp"
-#include "scenes/files/json_text.hpp"
+#include "scenes/text/human_units.hpp"
+#include "scenes/text/json_text.hpp"
 #include "solve/question/solve_options.hpp"
 
 namespace warren {

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.hpp"
-#include "scenes/files/json_text.hpp"
-#include "scenes/files/scene_text.hpp"
+#include "scenes/text/json_text.hpp"
+#include "scenes/text/scene_text.hpp"
 
 namespace warren {
 namespace {

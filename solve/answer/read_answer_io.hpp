@@ -12,8 +12,8 @@
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
-#include "scenes/files/input_file_io.hpp"
 #include "scenes/scene/scene.hpp"
+#include "scenes/text/input_file_io.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/question/question.hpp"
 

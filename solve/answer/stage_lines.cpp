@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-#include "scenes/files/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 
 namespace warren {
 namespace {

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <utility>
 
-#include "scenes/files/human_units.hpp"
-#include "scenes/files/json_text.hpp"
 #include "scenes/files/scene_io.hpp"
 #include "scenes/scene/scene.hpp"
+#include "scenes/text/human_units.hpp"
+#include "scenes/text/json_text.hpp"
 #include "solve/question/question.hpp"
 
 namespace warren {

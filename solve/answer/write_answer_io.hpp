@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "parallel/execution.hpp"
-#include "scenes/files/json_text.hpp"
+#include "scenes/text/json_text.hpp"
 #include "solve/answer/answer.hpp"
 
 namespace warren {

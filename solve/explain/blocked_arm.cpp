@@ -15,7 +15,7 @@
 
 #include "core/base/trigonometry.hpp"
 #include "core/base/whole.hpp"
-#include "scenes/files/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 #include "solve/explain/blocked_end.hpp"
 #include "solve/explain/nearest_free.hpp"
 #include "solve/kinds/solve_steps.hpp"

@@ -21,7 +21,7 @@
 #include "core/base/trigonometry.hpp"
 #include "core/plane/geometry.hpp"
 #include "core/plane/se2.hpp"
-#include "scenes/files/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 #include "solve/explain/nearest_free.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/question_of_pose.hpp"

@@ -17,9 +17,9 @@
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
-#include "scenes/files/human_units.hpp"
-#include "scenes/files/json_text.hpp"
-#include "scenes/files/scene_text.hpp"
+#include "scenes/text/human_units.hpp"
+#include "scenes/text/json_text.hpp"
+#include "scenes/text/scene_text.hpp"
 #include "solve/kept/roadmap.hpp"
 
 namespace warren {

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "parallel/execution.hpp"
-#include "scenes/files/input_file_io.hpp"
+#include "scenes/text/input_file_io.hpp"
 #include "solve/kept/roadmap_query.hpp"
 
 namespace warren {

@@ -9,7 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
-#include "scenes/files/output_file_io.hpp"
+#include "scenes/text/output_file_io.hpp"
 #include "solve/kept/checksum.hpp"
 
 namespace warren {

@@ -5,7 +5,7 @@
 // A file of up to 64 MiB is checked whole when it is opened. Of a larger one the header, the zeros between sections and
 // the sections of up to 1 MiB are; each other block of 1 MiB is checked before it is first given out and never again: a
 // bit a block says so. Whoever reads parts of a large section pays a load and a test for each of them.
-// A mapped file must not change or become shorter while it is open (scenes/files/input_file_io.hpp).
+// A mapped file must not change or become shorter while it is open (scenes/text/input_file_io.hpp).
 #pragma once
 
 #include <array>
@@ -23,8 +23,8 @@
 #include "parallel/chunks.hpp"
 #include "parallel/execution.hpp"
 #include "parallel/once.hpp"
-#include "scenes/files/input_file_io.hpp"
-#include "scenes/files/output_file_io.hpp"
+#include "scenes/text/input_file_io.hpp"
+#include "scenes/text/output_file_io.hpp"
 
 namespace warren {
 // What the elements of a section are, in NumPy's words: '<' (little-endian; '|' for single bytes), a letter (u

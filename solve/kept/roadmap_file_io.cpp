@@ -11,9 +11,9 @@
 
 #include "core/base/error.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
-#include "scenes/files/input_file_io.hpp"
-#include "scenes/files/json_text.hpp"
 #include "scenes/scene/arm_model.hpp"
+#include "scenes/text/input_file_io.hpp"
+#include "scenes/text/json_text.hpp"
 #include "solve/kept/checksum.hpp"
 #include "solve/kept/roadmap_file.hpp"
 #include "solve/kept/roadmap_sections.hpp"

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "parallel/execution.hpp"
-#include "scenes/files/output_file_io.hpp"
+#include "scenes/text/output_file_io.hpp"
 #include "solve/kept/roadmap.hpp"
 #include "solve/kept/roadmap_file.hpp"
 

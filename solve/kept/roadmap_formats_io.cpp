@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "core/base/error.hpp"
-#include "scenes/files/json_text.hpp"
-#include "scenes/files/output_file_io.hpp"
+#include "scenes/text/json_text.hpp"
+#include "scenes/text/output_file_io.hpp"
 
 namespace warren {
 namespace {

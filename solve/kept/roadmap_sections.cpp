@@ -12,8 +12,8 @@
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/lengths/route_index.hpp"
-#include "scenes/files/input_file_io.hpp"
 #include "scenes/files/scene_io.hpp"
+#include "scenes/text/input_file_io.hpp"
 #include "solve/kept/maze_bits.hpp"
 
 namespace warren {

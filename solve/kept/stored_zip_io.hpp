@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "scenes/files/output_file_io.hpp"
+#include "scenes/text/output_file_io.hpp"
 
 namespace warren {
 

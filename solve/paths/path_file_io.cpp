@@ -14,9 +14,9 @@
 
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
-#include "scenes/files/json_text.hpp"
 #include "scenes/files/npy_io.hpp"
 #include "scenes/scene/arm_model.hpp"
+#include "scenes/text/json_text.hpp"
 
 namespace warren {
 namespace {

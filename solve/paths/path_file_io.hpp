@@ -11,7 +11,7 @@
 
 #include "core/base/solution.hpp"
 #include "parallel/execution.hpp"
-#include "scenes/files/output_file_io.hpp"
+#include "scenes/text/output_file_io.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/paths/timed_path.hpp"
 

@@ -10,8 +10,8 @@
 
 #include "core/base/error.hpp"
 #include "core/base/whole.hpp"
-#include "scenes/files/dh_table_io.hpp"
-#include "scenes/files/urdf_io.hpp"
+#include "scenes/arms/dh_table_io.hpp"
+#include "scenes/arms/urdf_io.hpp"
 #include "worlds/arms/arm_inverse.hpp"
 #include "worlds/arms/arm_world.hpp"
 #include "worlds/arms/chain_model.hpp"

@@ -4,10 +4,10 @@
 #include <algorithm>
 
 #include "core/base/error.hpp"
-#include "scenes/files/input_file_io.hpp"
 #include "scenes/files/maze_file_io.hpp"
 #include "scenes/files/npy_maze_io.hpp"
 #include "scenes/mazes/spanning_maze.hpp"
+#include "scenes/text/input_file_io.hpp"
 #include "verify/streamed/looked_up_walls.hpp"
 
 namespace warren {

@@ -11,8 +11,8 @@
 #include "apps/serve/api/world_service.hpp"
 #include "apps/serve/http/beast_words.hpp"
 #include "apps/serve/http/http_message.hpp"
-#include "scenes/files/input_file_io.hpp"
 #include "scenes/files/read_world_io.hpp"
+#include "scenes/text/input_file_io.hpp"
 #include "tests/fuzz/fuzz_reader.hpp"
 #include "tests/fuzz/properties.hpp"
 

@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "pictures/answer_summary.hpp"
-#include "scenes/files/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 
 namespace warren::tools {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "scenes/files/human_units.hpp"  // IWYU pragma: export
+#include "scenes/text/human_units.hpp"  // IWYU pragma: export
 
 namespace warren::tools {
 

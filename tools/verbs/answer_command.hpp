@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "pictures/model/picture_options.hpp"
-#include "scenes/files/output_file_io.hpp"
 #include "scenes/scene/scene.hpp"
+#include "scenes/text/output_file_io.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/answer/by_products.hpp"
 #include "solve/kept/roadmap.hpp"

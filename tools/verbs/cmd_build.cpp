@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/base/error.hpp"
-#include "scenes/files/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/kept/roadmap_file_io.hpp"
 #include "solve/kinds/kind_of_problem.hpp"

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "scenes/files/input_file_io.hpp"
-#include "scenes/files/output_file_io.hpp"
+#include "scenes/text/input_file_io.hpp"
+#include "scenes/text/output_file_io.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/terminal.hpp"

@@ -4,7 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "pictures/formats/write_picture.hpp"
-#include "scenes/files/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 #include "solve/kept/export_roadmap.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "scenes/files/output_file_io.hpp"
+#include "scenes/text/output_file_io.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/terminal.hpp"
 #include "tools/words/command.hpp"

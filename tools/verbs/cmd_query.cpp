@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "scenes/files/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 #include "solve/explain_answer.hpp"
 #include "solve/kept/ask_batch_io.hpp"
 #include "solve/kept/roadmap_file_io.hpp"

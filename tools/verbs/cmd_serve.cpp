@@ -13,7 +13,7 @@
 #include "apps/serve/http/http_server.hpp"
 #include "core/base/error.hpp"
 #include "core/base/solution.hpp"
-#include "scenes/files/input_file_io.hpp"
+#include "scenes/text/input_file_io.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/signals.hpp"

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "core/base/error.hpp"
-#include "scenes/files/human_units.hpp"
-#include "scenes/files/output_file_io.hpp"
+#include "scenes/text/human_units.hpp"
+#include "scenes/text/output_file_io.hpp"
 #include "solve/kept/roadmap_file_io.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"

@@ -8,9 +8,9 @@
 #include <string_view>
 
 #include "core/base/error.hpp"
-#include "scenes/files/human_units.hpp"
-#include "scenes/files/output_file_io.hpp"
 #include "scenes/scene/scene.hpp"
+#include "scenes/text/human_units.hpp"
+#include "scenes/text/output_file_io.hpp"
 #include "solve/answer/explanation_text.hpp"
 #include "solve/answer/read_answer_io.hpp"
 #include "solve/answer/write_answer_io.hpp"

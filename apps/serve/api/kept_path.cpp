@@ -14,7 +14,7 @@
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
 #include "parallel/chunks.hpp"
-#include "scenes/files/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 #include "solve/paths/timed_path.hpp"
 
 namespace warren::serve {

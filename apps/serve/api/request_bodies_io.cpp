@@ -15,10 +15,10 @@
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
 #include "core/plane/polygon.hpp"
-#include "scenes/files/human_units.hpp"
-#include "scenes/files/json_text.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
+#include "scenes/text/human_units.hpp"
+#include "scenes/text/json_text.hpp"
 #include "solve/question/question.hpp"
 
 namespace warren::serve {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "apps/serve/api/request_bodies_io.hpp"
-#include "scenes/files/json_text.hpp"
+#include "scenes/text/json_text.hpp"
 
 namespace warren::serve {
 

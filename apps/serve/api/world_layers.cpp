@@ -11,9 +11,9 @@
 #include "apps/serve/api/kept_path.hpp"
 #include "apps/serve/graphs/route_graph.hpp"
 #include "core/base/error.hpp"
-#include "scenes/files/human_units.hpp"
-#include "scenes/files/json_text.hpp"
 #include "scenes/scene/scene.hpp"
+#include "scenes/text/human_units.hpp"
+#include "scenes/text/json_text.hpp"
 #include "solve/question/question.hpp"
 
 namespace warren::serve {

@@ -10,7 +10,7 @@
 
 #include "apps/serve/http/http_message.hpp"
 #include "core/base/types.hpp"
-#include "scenes/files/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 
 namespace warren::serve {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "apps/serve/graphs/edge_judge.hpp"
 #include "apps/serve/http/http_message.hpp"
-#include "scenes/files/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 #include "solve/kept/export_roadmap.hpp"
 
 namespace warren::serve {

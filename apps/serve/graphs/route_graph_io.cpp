@@ -14,7 +14,7 @@
 #include "apps/serve/http/http_message.hpp"
 #include "core/base/types.hpp"
 #include "core/plane/se2.hpp"
-#include "scenes/files/json_text.hpp"
+#include "scenes/text/json_text.hpp"
 
 namespace warren::serve {
 namespace {

@@ -8,7 +8,7 @@
 #include <charconv>
 #include <string>
 
-#include "scenes/files/json_text.hpp"
+#include "scenes/text/json_text.hpp"
 
 namespace warren::serve {
 

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "scenes/files/input_file_io.hpp"
 #include "scenes/files/read_world_io.hpp"
+#include "scenes/text/input_file_io.hpp"
 
 namespace warren::serve {
 

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "apps/studies/study_report.hpp"
-#include "scenes/files/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 
 namespace warren::studies {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "scenes/files/dh_table_io.hpp"
+#include "scenes/arms/dh_table_io.hpp"
 #include "scenes/files/geojson_io.hpp"
 #include "scenes/files/maze_image_io.hpp"
 #include "scenes/files/micromouse_io.hpp"

@@ -11,9 +11,9 @@
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
-#include "scenes/files/scene_text.hpp"
-#include "scenes/files/solid_text.hpp"
+#include "scenes/arms/solid_text.hpp"
 #include "scenes/mazes/maze_generator.hpp"
+#include "scenes/text/scene_text.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
 
 namespace warren {

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "core/base/error.hpp"
-#include "scenes/files/input_file_io.hpp"
+#include "scenes/text/input_file_io.hpp"
 #include "tests/tools/process.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/signals.hpp"

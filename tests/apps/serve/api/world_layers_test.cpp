@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/serve/api/world_service.hpp"
-#include "scenes/files/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 #include "tests/apps/serve/tiles/read_inks.hpp"
 #include "tests/apps/serve/town.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "scenes/files/human_units.hpp"
 #include "scenes/mazes/maze_generator.hpp"
+#include "scenes/text/human_units.hpp"
 #include "solve/solve.hpp"
 #include "tests/apps/serve/town.hpp"
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/plane/geometry.hpp"
-#include "scenes/files/input_file_io.hpp"
 #include "scenes/files/read_world_io.hpp"
+#include "scenes/text/input_file_io.hpp"
 #include "tests/apps/serve/tiles/read_inks.hpp"
 #include "tests/apps/serve/town.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"

@@ -10,7 +10,7 @@
 
 #include "apps/serve/tiles/web_tile.hpp"
 #include "scenes/files/image_io.hpp"
-#include "scenes/files/input_file_io.hpp"
+#include "scenes/text/input_file_io.hpp"
 
 namespace warren::test {
 

@@ -12,8 +12,8 @@
 
 #include "apps/serve/tiles/web_tile.hpp"
 #include "scenes/files/image_io.hpp"
-#include "scenes/files/input_file_io.hpp"
 #include "scenes/files/read_world_io.hpp"
+#include "scenes/text/input_file_io.hpp"
 #include "tests/apps/serve/tiles/read_tile.hpp"
 
 namespace warren::serve {

@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "parallel/execution.hpp"
-#include "scenes/files/input_file_io.hpp"
-#include "scenes/files/scene_text.hpp"
+#include "scenes/text/input_file_io.hpp"
+#include "scenes/text/scene_text.hpp"
 
 namespace warren {
 

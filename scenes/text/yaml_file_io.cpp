@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenes/files/yaml_file_io.hpp"
+#include "scenes/text/yaml_file_io.hpp"
 
 #include <fmt/format.h>
 

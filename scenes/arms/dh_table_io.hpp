@@ -8,8 +8,8 @@
 #pragma once
 
 #include "parallel/execution.hpp"
-#include "scenes/files/input_file_io.hpp"
 #include "scenes/scene/scene.hpp"
+#include "scenes/text/input_file_io.hpp"
 
 namespace warren {
 

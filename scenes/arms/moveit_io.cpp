@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenes/files/moveit_io.hpp"
+#include "scenes/arms/moveit_io.hpp"
 
 #include <fmt/format.h>
 
@@ -14,8 +14,8 @@
 
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
-#include "scenes/files/solid_text.hpp"
-#include "scenes/files/yaml_file_io.hpp"
+#include "scenes/arms/solid_text.hpp"
+#include "scenes/text/yaml_file_io.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenes/files/dh_table_io.hpp"
+#include "scenes/arms/dh_table_io.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scenes/files/scene_text.hpp"
+#include "scenes/text/scene_text.hpp"
 
 namespace warren {
 namespace {

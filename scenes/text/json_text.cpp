@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenes/files/json_text.hpp"
+#include "scenes/text/json_text.hpp"
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "core/base/printable.hpp"
-#include "scenes/files/scene_text.hpp"
+#include "scenes/text/scene_text.hpp"
 
 namespace warren {
 namespace {

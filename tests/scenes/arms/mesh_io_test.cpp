@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenes/files/mesh_io.hpp"
+#include "scenes/arms/mesh_io.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "scenes/scene/convex_hull.hpp"
-#include "tests/scenes/files/test_meshes.hpp"
+#include "tests/scenes/arms/test_meshes.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenes/files/scene_text.hpp"
+#include "scenes/text/scene_text.hpp"
 
 #include <fmt/format.h>
 

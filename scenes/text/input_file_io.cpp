@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenes/files/input_file_io.hpp"
+#include "scenes/text/input_file_io.hpp"
 
 #include <fcntl.h>
 #include <poll.h>

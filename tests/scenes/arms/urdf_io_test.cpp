@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Robots of a few links, whose frames are worked out here by Eigen's own rotations.
-#include "scenes/files/urdf_io.hpp"
+#include "scenes/arms/urdf_io.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "tests/scenes/arms/test_meshes.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
-#include "tests/scenes/files/test_meshes.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenes/files/output_file_io.hpp"
+#include "scenes/text/output_file_io.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -13,11 +13,11 @@
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
-#include "scenes/files/mesh_io.hpp"
-#include "scenes/files/urdf_io.hpp"
+#include "scenes/arms/mesh_io.hpp"
+#include "scenes/arms/urdf_io.hpp"
 #include "scenes/scene/convex_hull.hpp"
+#include "tests/scenes/arms/test_meshes.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
-#include "tests/scenes/files/test_meshes.hpp"
 #include "tests/seeds.hpp"
 
 namespace warren {

@@ -2,7 +2,7 @@
 // Joints that don't move are folded into the poses of what hangs on them, so that each link stands in the frame of the
 // last joint above it that moves. All walks go along the joints in depth-first order, none is recursive: URDFs may have
 // any depth.
-#include "scenes/files/urdf_io.hpp"
+#include "scenes/arms/urdf_io.hpp"
 
 #include <fmt/format.h>
 
@@ -21,8 +21,8 @@
 #include "core/base/enum_names.hpp"
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
-#include "scenes/files/mesh_io.hpp"
-#include "scenes/files/xml_file_io.hpp"
+#include "scenes/arms/mesh_io.hpp"
+#include "scenes/arms/xml_file_io.hpp"
 #include "scenes/scene/convex_hull.hpp"
 
 namespace warren {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "parallel/execution.hpp"
-#include "scenes/files/scene_text.hpp"
 #include "scenes/scene/scene.hpp"
+#include "scenes/text/scene_text.hpp"
 
 namespace warren {
 

@@ -17,8 +17,8 @@
 
 #include "core/plane/wall_set.hpp"
 #include "parallel/execution.hpp"
-#include "scenes/files/input_file_io.hpp"
 #include "scenes/scene/scene.hpp"
+#include "scenes/text/input_file_io.hpp"
 
 namespace warren::scene_text {
 

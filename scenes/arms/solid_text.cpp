@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenes/files/solid_text.hpp"
+#include "scenes/arms/solid_text.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // COLLADA: a geometry stands wherever a node of the scene shows it, so points are taken once a showing, and nodes may
 // show nodes: what is visited has a bound, since a few lines can name more showings than there are atoms.
-#include "scenes/files/mesh_io.hpp"
+#include "scenes/arms/mesh_io.hpp"
 
 #include <fmt/format.h>
 
@@ -19,9 +19,9 @@
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
 #include "parallel/sort.hpp"
-#include "scenes/files/scene_text.hpp"
-#include "scenes/files/xml_file_io.hpp"
+#include "scenes/arms/xml_file_io.hpp"
 #include "scenes/scene/convex_hull.hpp"
+#include "scenes/text/scene_text.hpp"
 
 namespace warren {
 namespace {

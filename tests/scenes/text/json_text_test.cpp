@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenes/files/json_text.hpp"
+#include "scenes/text/json_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenes/files/human_units.hpp"
+#include "scenes/text/human_units.hpp"
 
 #include <fmt/format.h>
 

@@ -20,9 +20,9 @@
 #include "core/base/trigonometry.hpp"
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
-#include "scenes/files/input_file_io.hpp"
-#include "scenes/files/scene_text.hpp"
 #include "scenes/scene/scene.hpp"
+#include "scenes/text/input_file_io.hpp"
+#include "scenes/text/scene_text.hpp"
 
 namespace warren {
 
