@@ -23,7 +23,10 @@ namespace {
 Question merged(Question question, const Question& answer) {
   if (!question.robot) question.robot = answer.robot;
   if (question.start.empty()) question.start = answer.start;
-  if (question.goal.empty() && !question.goal_pose) {
+  const bool has_goal = !question.goal.empty() || question.goal_pose;
+  if (!has_goal && question.rule.empty()) question.rule = answer.rule;
+  if (question.prices.empty()) question.prices = answer.prices;
+  if (!has_goal) {
     question.goal = answer.goal;
     question.goal_pose = answer.goal_pose;
   }
@@ -152,7 +155,8 @@ Verdict verify_within(const Scene& scene, const Question& question, const Record
   const Question asked = merged(question, answer.problem);
   Verdict verdict = verifying_kind(scene, asked).verify(scene, asked, answer, execution);
   check_length(verdict, answer);
-  const bool is_same = !question.robot && question.start.empty() && question.goal.empty() && !question.clearance;
+  const bool is_same = !question.robot && question.start.empty() && question.goal.empty() && !question.clearance &&
+                       question.prices.empty() && question.rule.empty();
   if (is_same) check_bound(verdict, scene, answer, execution);
   return verdict;
 }

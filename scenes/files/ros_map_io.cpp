@@ -6,7 +6,6 @@
 #include "scenes/files/ros_map_io.hpp"
 
 #include <fmt/format.h>
-#include <pwd.h>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +16,7 @@
 
 #include "core/base/error.hpp"
 #include "scenes/files/image_io.hpp"
+#include "scenes/files/mask_io.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "scenes/text/yaml_file_io.hpp"
 
@@ -237,20 +237,10 @@ class Classifier {
   OccupancyMap& map_;
 };
 
-std::string image_path(const std::string& yaml, const std::string& image) {
-  if (image.starts_with("/")) return image;
-  if (image.starts_with("~/")) {
-    const passwd* user = ::getpwuid(::getuid());
-    return (user == nullptr ? std::string{} : std::string{user->pw_dir}) + image.substr(1);
-  }
-  const std::size_t slash = yaml.rfind('/');
-  return slash == std::string::npos ? image : yaml.substr(0, slash + 1) + image;
-}
-
 /// Reads the image that the YAML names; answers its path.
 std::string read_pixels(const std::string& yaml, const Description& description, const ImageSink& sink,
                         const Execution& execution) {
-  std::string path = image_path(yaml, description.image);
+  std::string path = path_beside(yaml, description.image);
   std::optional<InputFile> image;
   try {
     image.emplace(path, execution);

@@ -132,6 +132,11 @@ ChosenSolver builder_of(const SolveOptions& options, const Scene& scene, const Q
                     "for all questions",
                     scene.source));
   }
+  if (const auto words = words_of(words_in(prices_of(scene, question))); !words.empty()) {
+    throw UsageError(
+        fmt::format("@{}: a roadmap that is kept knows no prices and no forbidden areas; 'warren solve' does",
+                    name_of(words.front())));
+  }
   return solver;
 }
 

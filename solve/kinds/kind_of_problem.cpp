@@ -101,6 +101,7 @@ void refuse_ignored(const SolveOptions& options, PlannerKind planner, const std:
 
 /// "clearance_price" of the question, "map.scene: its line 'area'" of the world's file.
 std::string place_of_word(AskedWord word, const Scene& scene, const Question& question) {
+  if (word == AskedWord::goal_heading && question.rule.region) return "@goal_region";
   if (words_in(question).has(word)) return fmt::format("@{}", name_of(word));
   std::string line{name_of(word)};
   if (word == AskedWord::areas || word == AskedWord::speed_zones || word == AskedWord::keep_out_factor) line = "mask";
@@ -128,9 +129,9 @@ void refuse_ignored_words(AskedWords asked, const PlannerChoice& chosen, const S
                               : all.empty() ? "no planner of this version takes it"
                                             : fmt::format("{} for {}", takers_text(all), listed(problems));
     const bool is_factor = word == AskedWord::keep_out_factor || word == AskedWord::unknown_factor;
+    const std::string_view what = is_factor ? "its factor" : word == AskedWord::goal_heading ? "its angle" : "it";
     throw UsageError(fmt::format("{}: {} would ignore {} for {}; {}", place_of_word(word, scene, question),
-                                 name_of(chosen.planner), is_factor ? "its factor" : "it", fitting.front()->problem,
-                                 taken));
+                                 name_of(chosen.planner), what, fitting.front()->problem, taken));
   }
 }
 

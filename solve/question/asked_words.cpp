@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "core/base/error.hpp"
-#include "solve/question/question_of_arm.hpp"
+#include "scenes/text/price_text.hpp"
 
 namespace warren {
 namespace {
@@ -78,6 +79,7 @@ AskedWords words_in(const GoalRule& rule) {
   if (!rule.others.empty()) words = words | AskedWords{AskedWord::goal};
   if (rule.tolerance) words = words | AskedWords{AskedWord::goal_tolerance};
   if (rule.region) words = words | AskedWords{AskedWord::goal_region};
+  if (rule.heading_rad) words = words | AskedWords{AskedWord::goal_heading};
   if (!rule.visit.empty() || rule.back) words = words | AskedWords{AskedWord::visit};
   return words;
 }
@@ -88,6 +90,13 @@ std::vector<AskedWord> words_of(AskedWords words) {
     if (words.has(static_cast<AskedWord>(i))) list.push_back(static_cast<AskedWord>(i));
   }
   return list;
+}
+
+PricedArea area_value(const std::string& where, std::string_view text) {
+  scene_text::Fields fields(text, {where, 0});
+  Prices prices;
+  read_price(*std::ranges::find(price_line_words, "area", &PriceWord::name), fields, prices, {});
+  return std::move(prices.areas.front());
 }
 
 void check_prices(const Prices& prices) {
@@ -118,6 +127,9 @@ void check_goal_rule(const GoalRule& rule) {
   if (rule.region && rule.tolerance) {
     throw UsageError("@goal_region: any place in it is as good, which leaves nothing to @goal_tolerance; say one");
   }
+  if (rule.heading_rad && !(*rule.heading_rad >= 0.0 && *rule.heading_rad <= 3.15)) {
+    refuse_number(rule.region ? "goal_region" : "goal_tolerance", "an angle", "from 0 to 3.15 rad", *rule.heading_rad);
+  }
   check_places("goal", rule.others);
   check_places("visit", rule.visit);
   constexpr std::size_t most_visits = 12;
@@ -132,13 +144,18 @@ void check_goal_rule(const GoalRule& rule) {
 }
 
 void check_asked(const Scene& scene, const Question& question) {
-  const Prices prices = prices_of(scene, question);
-  check_prices(prices);
+  const auto& clearance = question.prices.clearance ? question.prices.clearance : scene.prices.clearance;
+  for (const Prices* prices : {&scene.prices, &question.prices}) {
+    check_prices(*prices);
+    for (const PriceMask& mask : prices->masks) {
+      if (!mask.read) throw UsageError(fmt::format("{}: nobody has read this mask yet; read_masks() does", mask.file));
+    }
+  }
   check_goal_rule(question.rule);
   if (question.prices.unknown && !scene.map) {
     throw UsageError(fmt::format("@unknown: only maps have unknown cells, and {} is none", scene.source));
   }
-  if (prices.clearance && question.contact == Contact::allowed) {
+  if (clearance && question.contact == Contact::allowed) {
     throw UsageError("@contact: what pays for nearness keeps off, so 'allowed' contradicts @clearance_price");
   }
   if (question.goal_pose && !question.rule.empty()) {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -16,7 +17,8 @@
 
 namespace warren {
 
-/// A word each; keep_out_factor and unknown_factor are the factors that two of them may have, which are prices.
+/// A word each; keep_out_factor and unknown_factor are the factors that two of them may have, which are prices;
+/// goal_heading is the angle of a tolerance or region.
 enum class AskedWord : std::uint8_t {
   clearance_price,
   area,
@@ -29,13 +31,14 @@ enum class AskedWord : std::uint8_t {
   goal,
   goal_tolerance,
   goal_region,
+  goal_heading,
   visit
 };
-/// The options that say them: two words share one.
+/// The options that say them: some say two.
 constexpr auto enum_names(AskedWord) {
-  return std::array<std::string_view, 12>{"clearance_price", "area",     "areas",   "speed_zones", "keep_out",
-                                          "unknown",         "keep_out", "unknown", "goal",        "goal_tolerance",
-                                          "goal_region",     "visit"};
+  return std::array<std::string_view, 13>{
+      "clearance_price", "area", "areas",          "speed_zones", "keep_out",       "unknown", "keep_out",
+      "unknown",         "goal", "goal_tolerance", "goal_region", "goal_tolerance", "visit"};
 }
 /// Enumerators of AskedWord.
 inline constexpr std::size_t asked_word_count = enum_names(AskedWord{}).size();
@@ -84,6 +87,9 @@ inline AskedWords words_in(const Scene& scene, const Question& question) {
 }
 /// In the order of the enumeration.
 std::vector<AskedWord> words_of(AskedWords words);
+
+/// Reads "F X Y X Y X Y ..."; throws InputError naming `where`.
+PricedArea area_value(const std::string& where, std::string_view text);
 
 /// Throws UsageError for prices and rules that no world can be asked for: numbers out of range, areas of two corners.
 void check_prices(const Prices& prices);

@@ -21,6 +21,8 @@ struct GoalRule {
   std::optional<double> tolerance = {};  ///< a goal that can't be reached: the nearest place to it that can, so far off
                                          ///< at most, >= 0 or infinite
   std::optional<double> region = {};     ///< any place so near to the goal, the cheapest; >= 0
+  /// Of bodies that turn: the heading in the tolerance or region may be off by so much; none: not at all. 0 .. pi
+  std::optional<double> heading_rad = {};
   std::vector<std::vector<double>> visit = {};  ///< places on the way, in the cheapest order
   bool back = false;                            ///< the path ends where it started
 
@@ -84,7 +86,11 @@ RobotSpec robot_of(const Scene& scene, const Question& options);
 /// Room around the body: the options', else the file's, else 0.1 in mazes, else 0.
 double clearance_of(const Scene& scene, const Question& options);
 
-/// The file's prices and the question's: areas, masks and forbidden areas of both, else the question's word.
+/// Of a disc, or of a polygon between two parallel lines; of arms 0.
+double least_width(const RobotSpec& robot);
+
+/// The file's prices and the question's: areas, masks and forbidden areas of both, else the question's word; the reach
+/// of a price of clearance is the body's least width where nobody says it. Throws UsageError for a point without one.
 Prices prices_of(const Scene& scene, const Question& question);
 
 /// The question's rule; the file's other goals where the question says no goal.

@@ -322,4 +322,8 @@ void check_not_written(const Arguments& arguments, const std::optional<RobotSpec
   if (robot) check_not_written(arguments, robot->table);
 }
 
+void check_not_written(const Arguments& arguments, const Prices& prices) {
+  for (const PriceMask& mask : prices.masks) check_not_written(arguments, mask.file);
+}
+
 }  // namespace warren::tools

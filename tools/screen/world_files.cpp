@@ -124,6 +124,7 @@ Scene load_world(const InputFile& file, const Arguments& arguments, const Execut
     take_moveit_request(scene, InputFile(*name, execution), execution);
   }
   check_not_written(arguments, scene.robot);
+  check_not_written(arguments, scene.prices);
   return scene;
 }
 

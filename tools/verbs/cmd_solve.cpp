@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "scenes/files/mask_io.hpp"
 #include "scenes/files/read_world_io.hpp"
 #include "solve/explain_answer.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
@@ -45,6 +46,7 @@ class SolveCommand : public AnswerCommand {
         question_(question_words(arguments)),
         options_(solve_words(arguments)) {
     check_not_written(arguments, question_.robot);
+    check_not_written(arguments, question_.prices);
     check_solver_options(options_);
   }
 
@@ -64,6 +66,7 @@ class SolveCommand : public AnswerCommand {
   }
   Answer find(const Run& run, StageTimes& before, ByProducts* keep) override {
     scene_ = load_planned_world(arguments_.operand(0), options_.roadmap.pipeline, arguments_, run.execution(), before);
+    read_masks(question_.prices, run.execution());
     check_outputs_of(robot_of(scene_, question_));
     if (is_unmade(scene_) && arguments_.has("--explain")) {
       throw UsageError("--explain: looks at walls that are held, and these are made tile by tile");
@@ -119,6 +122,7 @@ Command solve_command() {
   Command command{"solve", "WORLD", "find a path, verify it, print a summary", {}, {}};
   add_options(command.options, solve_option_specs());
   add_options(command.options, question_option_specs());
+  add_options(command.options, asked_option_specs());
   add_options(command.options, world_option_specs());
   add_options(command.options, answer_output_specs());
   add_options(command.options, path_option_specs());

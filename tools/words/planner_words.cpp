@@ -165,12 +165,7 @@ struct OptionReader {
     for (const std::string& word : list_value(flag, text)) field.push_back(choice_value<AnytimePart>(flag, word));
   }
   static void read(std::string_view flag, std::string_view text, OptionRange, std::vector<std::vector<double>>& field) {
-    for (;;) {
-      const std::size_t end = text.find(';');
-      field.push_back(state_value(flag, text.substr(0, end)));
-      if (end == std::string_view::npos) return;
-      text.remove_prefix(end + 1);
-    }
+    field = states_value(flag, text);
   }
 };
 
