@@ -32,8 +32,7 @@ std::optional<VisitingOrder> best_order(const TourCosts& costs) {
     std::size_t chosen = 0;
     for (std::size_t next = 0; next < count; ++next) {
       if (!holds(left, next)) continue;
-      const std::uint64_t leg =
-          found.order.empty() ? costs.from_start[next] : costs.between[found.order.back()][next];
+      const std::uint64_t leg = found.order.empty() ? costs.from_start[next] : costs.between[found.order.back()][next];
       const std::uint64_t cost = over(left, next, leg);
       if (cost >= best) continue;
       best = cost;
