@@ -354,8 +354,9 @@ class Choosing {
       places.push_back(place);
     }
     const std::size_t count = rule_.visit.size();
-    TourCosts costs{std::vector(count, no_way), std::vector(count, std::vector(count, no_way)),
-                    std::vector(count, open_end_ ? std::uint64_t{0} : no_way)};
+    const std::vector<std::uint64_t> row(count, no_leg);
+    TourCosts costs{row, std::vector(count, row),
+                    std::vector<std::uint64_t>(count, open_end_ ? 0 : no_leg)};
     for (std::size_t j = 0; j < count; ++j) {
       const auto found = ways_.costs(places, ways_.entries(places[j + 1]));
       if (!found[0]) {
@@ -363,11 +364,11 @@ class Choosing {
         return false;
       }
       costs.from_start[j] = *found[0];
-      for (std::size_t i = 0; i < count; ++i) costs.between[i][j] = found[i + 1].value_or(no_way);
+      for (std::size_t i = 0; i < count; ++i) costs.between[i][j] = found[i + 1].value_or(no_leg);
     }
     if (!open_end_) {
       const auto found = ways_.costs(std::span(places).subspan(1), ends_);
-      for (std::size_t i = 0; i < count; ++i) costs.to_end[i] = found[i].value_or(no_way);
+      for (std::size_t i = 0; i < count; ++i) costs.to_end[i] = found[i].value_or(no_leg);
     }
     const auto best = best_order(costs);
     if (!best) return false;
@@ -431,7 +432,7 @@ double tour_bound(Vec2 start, std::span<const Vec2> places, std::span<const Vec2
     return static_cast<std::uint64_t>(distance(a, b) / unit * (1.0 - 0x1p-50));
   };
   const auto to_ends = [&](Vec2 from) {
-    std::uint64_t least = ends.empty() ? 0 : no_way;
+    std::uint64_t least = ends.empty() ? 0 : no_leg;
     for (const Vec2 end : ends) least = std::min(least, units(from, end));
     return least;
   };

@@ -137,7 +137,7 @@ class CellSolve {
       const std::vector<double>& asked = answer_.goal_reached->asked;
       answer_.path = cut_at_region(std::move(answer_.path), {asked[0], asked[1]}, *problem_.rule.region);
       reached.goal = answer_.path.back();
-      answer_.goal_reached->distance = distance(reached.goal, {asked[0], asked[1]});
+      answer_.goal_reached->distance = distance(reached.goal, Vec2{asked[0], asked[1]});
       answer_.problem.goal = {reached.goal.x, reached.goal.y};
     }
     verify_solved_on_map(answer_, map_, reached, true, request_.execution);

@@ -154,7 +154,7 @@ TEST(PriceField, AStopEndsIt) {
 
 /// The least of all permutations, and of equal ones the first.
 VisitingOrder by_permutations(const TourCosts& costs) {
-  VisitingOrder best{{}, no_way};
+  VisitingOrder best{{}, no_leg};
   std::vector<std::uint64_t> order;
   for (std::size_t i = 0; i < costs.to_end.size(); ++i) order.push_back(i);
   do {
@@ -173,7 +173,7 @@ TEST(VisitingOrder, IsTheLexicographicallyLeastOfTheCheapest) {
     std::uint64_t at = 0;
     const auto cost = [&] {
       const std::uint64_t bits = random_bits(seed, ++at, 3);
-      return seed % 3 == 0 && bits % 4 == 0 ? no_way : bits % (seed % 2 == 0 ? 3 : 1000);
+      return seed % 3 == 0 && bits % 4 == 0 ? no_leg : bits % (seed % 2 == 0 ? 3 : 1000);
     };
     TourCosts costs;
     for (std::size_t i = 0; i < count; ++i) {
@@ -184,7 +184,7 @@ TEST(VisitingOrder, IsTheLexicographicallyLeastOfTheCheapest) {
     }
     const VisitingOrder expected = by_permutations(costs);
     const auto found = best_order(costs);
-    ASSERT_EQ(found.has_value(), expected.cost < no_way);
+    ASSERT_EQ(found.has_value(), expected.cost < no_leg);
     if (!found) continue;
     EXPECT_EQ(found->cost, expected.cost);
     EXPECT_EQ(found->order, expected.order);
