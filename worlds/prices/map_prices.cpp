@@ -17,7 +17,13 @@ namespace warren {
 namespace {
 
 constexpr double half_diagonal = 0.70710678118654757;
-constexpr double on_line = 1e-9;  // cells: so near to a border the lesser factor counts
+constexpr double units = 1 << 20;  // of steps, a cell
+constexpr double on_line = 1e-9;   // cells: so near to a border the lesser factor counts
+
+Cell cell_of(const OccupancyMap& map, Vec2 p) {
+  return {bounded_whole<std::uint32_t>(p.x, 0.0, map.width() - 1.0),
+          bounded_whole<std::uint32_t>(p.y, 0.0, map.height() - 1.0)};
+}
 
 /// The pieces of a leg, cell by cell: calls piece(cell, from, to), which says how far beyond `to` nothing is to be
 /// seen.
@@ -42,10 +48,7 @@ void walk_cells(const OccupancyMap& map, Vec2 a, Vec2 u, double length, const Pi
     const double to = std::min({columns.next(), rows.next(), length});
     double seen = 0.0;
     if (to > t) {
-      const Vec2 middle = a + 0.5 * (t + to) * u;
-      const Cell cell{bounded_whole<std::uint32_t>(middle.x, 0.0, map.width() - 1.0),
-                      bounded_whole<std::uint32_t>(middle.y, 0.0, map.height() - 1.0)};
-      seen = piece(cell, t, to);
+      seen = piece(cell_of(map, a + 0.5 * (t + to) * u), t, to);
     }
     t = to + seen;
     if (columns.next() <= t) columns.go_on(t);
@@ -292,22 +295,43 @@ PriceParts MapPrices::parts(Vec2 a, Vec2 b, Scratch& scratch) const {
 
 double MapPrices::cost(Vec2 a, Vec2 b, Scratch& scratch) const { return distance(a, b) + parts(a, b, scratch).sum(); }
 
-std::array<std::uint64_t, 8> MapPrices::half_steps(Cell cell, Scratch& scratch) const {
-  constexpr double units = 1 << 20;
-  std::array<std::uint64_t, 8> weights{};
+double MapPrices::nearness_at(Vec2 p, Scratch& scratch) const {
+  if (!(reach_ > 0.0)) return 0.0;
+  const Vec2 at = map_point(map_, p);
+  const Cell cell = cell_of(map_, at);
+  gather(cell, at, {1.0, 0.0}, reach_, scratch);
+  double least = reach_;
+  for (const StretchDistance& thing : scratch.things) least = std::min(least, thing(0.0));
+  const double share = 1.0 - least / reach_;
+  return price_ * share * share;
+}
+
+/// From the middle of a cell to the place of its rim where the step leaves it; in cells.
+double MapPrices::half_step(Cell cell, unsigned direction, Scratch& scratch) const {
   const Vec2 middle{cell.x + 0.5, cell.y + 0.5};
-  const double nearest = reach_ > 0.0 ? field_->distance(cell.x, cell.y) : 0.0;
-  const bool is_near = reach_ > 0.0 && nearest - half_diagonal < reach_;
-  for (unsigned step = 0; step < weights.size(); ++step) {
-    const double length = is_diagonal(step) ? half_diagonal : 0.5;
-    const Vec2 u =
-        (0.5 / length) * Vec2{static_cast<double>(cell_steps[step][0]), static_cast<double>(cell_steps[step][1])};
-    double cost = length;
-    if (is_near) cost += price_ * nearness_in(cell, middle, u, length, scratch);
-    if (is_near_area(cell)) cost += areas_in(middle, u, length, scratch);
-    weights[step] = bounded_whole<std::uint64_t>(std::ceil(units * cost));
-  }
-  return weights;
+  const double length = is_diagonal(direction) ? half_diagonal : 0.5;
+  const auto [dx, dy] = cell_steps[direction];
+  const Vec2 u = (0.5 / length) * Vec2{static_cast<double>(dx), static_cast<double>(dy)};
+  double cost = length;
+  if (reach_ > 0.0) cost += price_ * nearness_in(cell, middle, u, length, scratch);
+  if (is_near_area(cell)) cost += areas_in(middle, u, length, scratch);
+  return cost;
+}
+
+double MapPrices::step(Cell from, unsigned direction, Scratch& scratch) const {
+  const auto [dx, dy] = cell_steps[direction];
+  const Cell to{from.x + static_cast<std::uint32_t>(dx), from.y + static_cast<std::uint32_t>(dy)};
+  const auto back = static_cast<unsigned>(std::size(cell_steps)) - 1 - direction;
+  return half_step(from, direction, scratch) + half_step(to, back, scratch);
+}
+
+std::uint64_t MapPrices::step_up(Cell from, unsigned direction, Scratch& scratch) const {
+  return bounded_whole<std::uint64_t>(std::ceil(units * step(from, direction, scratch)));
+}
+
+std::uint64_t MapPrices::step_down(Cell from, unsigned direction, Scratch& scratch) const {
+  constexpr double rounding = 1e-4;  // units: far more than the sum is off by
+  return bounded_whole<std::uint64_t>(std::floor(units * step(from, direction, scratch) - rounding));
 }
 
 }  // namespace warren

@@ -4,7 +4,6 @@
 // blocked square lies to one side of the leg or beyond a corner, and of each row of squares only the nearest two count.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -16,6 +15,7 @@
 #include "scenes/scene/occupancy_map.hpp"
 #include "scenes/scene/prices.hpp"
 #include "spatial/maps/distance_field.hpp"
+#include "spatial/maps/free_cells.hpp"
 
 namespace warren {
 
@@ -43,9 +43,15 @@ class MapPrices {
   PriceParts parts(Vec2 a, Vec2 b, Scratch& scratch) const;
   /// The leg's length and what it costs beyond.
   double cost(Vec2 a, Vec2 b, Scratch& scratch) const;
-  /// From the middle of a free cell to the eight places of its rim where the steps of cell_steps
-  /// (spatial/maps/free_cells.hpp) leave it: whole units of 2^-20 cell, rounded up. A step weighs two of them.
-  std::array<std::uint64_t, 8> half_steps(Cell cell, Scratch& scratch) const;
+  /// The leg from the middle of a free cell to that of its free neighbour; direction: of cell_steps
+  /// (spatial/maps/free_cells.hpp). Whole units of 2^-20 cell, rounded up; there and back weigh the same.
+  std::uint64_t step_up(Cell from, unsigned direction, Scratch& scratch) const;
+  /// The same, rounded down: no more than what the leg costs.
+  std::uint64_t step_down(Cell from, unsigned direction, Scratch& scratch) const;
+  /// The factor of length at a place of the world, >= 1; on borders the lesser.
+  double factor_at(Vec2 p) const { return has_areas_ ? factor(map_point(map_, p)) : 1.0; }
+  /// What nearness costs at a free place of the map, a unit of length.
+  double nearness_at(Vec2 p, Scratch& scratch) const;
 
  private:
   struct Area {
@@ -66,6 +72,8 @@ class MapPrices {
   double areas(Vec2 a, Vec2 b, Scratch& scratch) const;
   double areas_in(Vec2 p, Vec2 u, double length, Scratch& scratch) const;
   double factor(Vec2 p) const;
+  double half_step(Cell cell, unsigned direction, Scratch& scratch) const;
+  double step(Cell from, unsigned direction, Scratch& scratch) const;
   bool is_near_area(Cell cell) const { return has_areas_ && touched_.holds(cell.x, cell.y); }
 
   const OccupancyMap& map_;

@@ -76,7 +76,7 @@ TEST(MapPrices, CostsAddUpOverPieces) {
   }
 }
 
-TEST(MapPrices, HalfStepsAreLegsRoundedUp) {
+TEST(MapPrices, StepsAreLegsRoundedUpAndDown) {
   MapPrices::Scratch scratch;
   constexpr double units = 1 << 20;
   for (const std::uint64_t seed : seeds(20, 4)) {
@@ -86,14 +86,17 @@ TEST(MapPrices, HalfStepsAreLegsRoundedUp) {
     const MapPrices priced(effective, 0.0, prices, {});
     for (std::uint32_t y = 1; y + 1 < map.height(); ++y) {
       for (std::uint32_t x = 1; x + 1 < map.width(); ++x) {
-        if (effective.blocked.test(x, y)) continue;
-        const auto halves = priced.half_steps({x, y}, scratch);
         for (unsigned step = 0; step < 8; ++step) {
-          const Vec2 by{0.5 * cell_steps[step][0], 0.5 * cell_steps[step][1]};
-          const Vec2 middle{x + 0.5, y + 0.5};
-          const double cost = priced.cost(world_point(effective, middle), world_point(effective, middle + by), scratch);
+          const Cell to{x + static_cast<std::uint32_t>(cell_steps[step][0]),
+                        y + static_cast<std::uint32_t>(cell_steps[step][1])};
+          if (effective.blocked.test(x, y) || effective.blocked.test(to.x, to.y)) continue;
+          const double cost = priced.cost(cell_centre(map, {x, y}), cell_centre(map, to), scratch);
           const double exact = cost / map.cell * units;
-          EXPECT_NEAR(static_cast<double>(halves[step]), exact, 1.0 + 1e-6 * exact) << x << ' ' << y << ' ' << step;
+          const std::uint64_t up = priced.step_up({x, y}, step, scratch);
+          EXPECT_NEAR(static_cast<double>(up), exact + 0.5, 0.5 + 1e-5 * exact) << x << ' ' << y << ' ' << step;
+          EXPECT_EQ(up, priced.step_up(to, 7 - step, scratch));
+          EXPECT_LE(priced.step_down({x, y}, step, scratch), up);
+          EXPECT_GE(priced.step_down({x, y}, step, scratch) + 2, up);
         }
       }
     }
