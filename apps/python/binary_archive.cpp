@@ -205,7 +205,7 @@ WARREN_ARCHIVED(PriceMask, kind, file, factor, base, multiplier, read)
 WARREN_ARCHIVED(KeepOut, corners, line)
 WARREN_ARCHIVED(Prices, clearance, areas, masks, keep_out, unknown)
 WARREN_ARCHIVED(Scene, walls, polygons, seams, spheres, boxes, solids, bounds, clearance, maze, formula, packed, robot,
-                arm, start, goal, named_start, named_goals, goal_pose, grid, prices, map, source)
+                arm, start, goal, other_goals, named_start, named_goals, goal_pose, grid, prices, map, source)
 WARREN_ARCHIVED(StateList, width, numbers)
 WARREN_ARCHIVED(Violation, leg, distance, obstacle)
 WARREN_ARCHIVED(RefutedPath, violation, length, cost, path, states)

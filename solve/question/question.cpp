@@ -9,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/plane/se2.hpp"
 #include "scenes/text/scene_text.hpp"
+#include "solve/question/asked_words.hpp"
 #include "solve/question/question_of_arm.hpp"
 
 namespace warren {
@@ -107,6 +108,12 @@ Prices prices_of(const Scene& scene, const Question& question) {
   return prices;
 }
 
+GoalRule rule_of(const Scene& scene, const Question& question) {
+  GoalRule rule = question.rule;
+  if (question.goal.empty() && !question.goal_pose && rule.others.empty()) rule.others = scene.other_goals;
+  return rule;
+}
+
 void Question::validate() const {
   const auto is_coordinate = [](double x) { return std::abs(x) <= largest_coordinate; };
   for (const auto& [name, state] : {std::pair{"start", &start}, std::pair{"goal", &goal}}) {
@@ -116,6 +123,8 @@ void Question::validate() const {
   if (clearance && !(*clearance >= 0.0 && *clearance <= largest_coordinate)) {
     throw UsageError(fmt::format("@clearance: must be a number from 0 to 1e60 (found: {})", *clearance));
   }
+  check_prices(prices);
+  check_goal_rule(rule);
 }
 
 WallProblem wall_problem(const Scene& scene, const Question& options, Contact usual) {
@@ -128,7 +137,7 @@ WallProblem wall_problem(const Scene& scene, const Question& options, Contact us
   problem.goal = plane_state("@goal", options.goal, scene.goal);
   problem.clearance = clearance_of(scene, options);
   problem.prices = prices_of(scene, options);
-  problem.rule = options.rule;
+  problem.rule = rule_of(scene, options);
   problem.contact = options.contact.value_or(problem.reach() > 0.0 ? Contact::blocked : usual);
   if (problem.contact == Contact::allowed && problem.reach() > 0.0) {
     throw UsageError(

@@ -87,6 +87,9 @@ double clearance_of(const Scene& scene, const Question& options);
 /// The file's prices and the question's: areas, masks and forbidden areas of both, else the question's word.
 Prices prices_of(const Scene& scene, const Question& question);
 
+/// The question's rule; the file's other goals where the question says no goal.
+GoalRule rule_of(const Scene& scene, const Question& question);
+
 /// The problem of a point or disc. A heading in the file (of a body that was overridden) means nothing to them. Throws
 /// UsageError where start or goal are missing or have the wrong size, where contact contradicts the clearance, and
 /// where the body is another. `usual` is the contact that nobody asked for.
