@@ -131,6 +131,20 @@ struct AlternativePath {
   Path<Vec2> path;                   ///< as Answer::path
 };
 
+/// What makes homotopy classes on a map: cells that a body's middle may not enter, which hang together by sides or
+/// corners and do not reach the map's border.
+struct MapHole {
+  std::uint32_t id = 0;  ///< from 1, by the lowest cell of each, row by row from below
+  Box box;               ///< around its cells, in world coordinates
+};
+
+/// What became of an older path that was to be kept.
+struct KeptRoute {
+  bool kept = false;                ///< does the path go on along it?
+  std::optional<double> kept_cost;  ///< of its rest, with the leg that joins it; none: it is not free
+  std::optional<double> new_cost;   ///< of the path that was planned anew; none: there is none
+};
+
 /// What is left to say of a path whose points were handed on as they were made (core/base/solution.hpp).
 struct HandedPath {
   std::uint64_t points = 0;  ///< their number
@@ -160,6 +174,9 @@ struct Answer {
   std::optional<GoalReached> goal_reached;    ///< where the question left a choice of places
   std::vector<std::uint64_t> order;           ///< of places to visit, from 0, as they are visited
   std::vector<AlternativePath> alternatives;  ///< the cheapest first; the answer's own path is none of them
+  std::vector<std::int32_t> passed;           ///< where alternatives were asked: the class of the answer's own path
+  std::vector<MapHole> holes;                 ///< those that the classes name
+  std::optional<KeptRoute> keeping;           ///< where an older path was to be kept
   std::optional<double> turn_rad;             ///< all turning along the path, of bodies that turn
   Problem problem;                            ///< what was asked, with what the world's file and the defaults add
   WorldAccount world;                         ///< of which world

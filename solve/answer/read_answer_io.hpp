@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/cell_potential.hpp"
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
@@ -22,16 +23,17 @@ namespace warren {
 
 /// A path that a file holds, and what it says of its problem: the program's own answers, or a path of anybody.
 struct RecordedAnswer {
-  Question problem;                         ///< what the answer says of the problem
-  std::optional<std::string> world_hash;    ///< of the world that it is for; none: the file doesn't say
-  std::optional<double> length;             ///< that it claims
-  std::optional<double> lower_bound;        ///< the same
-  std::optional<double> cost;               ///< the same; with a lower bound, which is of it then
-  std::optional<PriceParts> price;          ///< the same
-  std::optional<std::uint64_t> goal_index;  ///< of several goals, the one that it says is reached
-  std::string file;                         ///< where it stands, for messages
-  Path<Vec2> path;                          ///< where a state has two numbers
-  StateList states;                         ///< where a state has more than two; then `path` is their first two
+  Question problem;                          ///< what the answer says of the problem
+  std::optional<std::string> world_hash;     ///< of the world that it is for; none: the file doesn't say
+  std::optional<double> length;              ///< that it claims
+  std::optional<double> lower_bound;         ///< the same
+  std::optional<double> cost;                ///< the same; with a lower bound, which is of it then
+  std::optional<PriceParts> price;           ///< the same
+  std::optional<std::uint64_t> goal_index;   ///< of several goals, the one that it says is reached
+  std::optional<CellPotential> certificate;  ///< of the lower bound of all paths, from a file beside the answer
+  std::string file;                          ///< where it stands, for messages
+  Path<Vec2> path;                           ///< where a state has two numbers
+  StateList states;                          ///< where a state has more than two; then `path` is their first two
 
   /// Numbers a state.
   std::size_t state_width() const { return states.empty() ? 2 : states.width; }

@@ -84,6 +84,13 @@ AskedWords words_in(const GoalRule& rule) {
   return words;
 }
 
+AskedWords words_in(const RouteRule& route) {
+  AskedWords words;
+  if (route.alternatives) words = words | AskedWords{AskedWord::alternatives};
+  if (!route.keep_to.empty()) words = words | AskedWords{AskedWord::keep_to};
+  return words;
+}
+
 std::vector<AskedWord> words_of(AskedWords words) {
   std::vector<AskedWord> list;
   for (std::size_t i = 0; i < asked_word_count; ++i) {
@@ -141,6 +148,25 @@ void check_goal_rule(const GoalRule& rule) {
   if (!rule.visit.empty() && (!rule.others.empty() || rule.tolerance || rule.region)) {
     throw UsageError("@visit: is for one goal, and that exactly; several goals, a tolerance or a region are for none");
   }
+}
+
+void check_route_rule(const RouteRule& route) {
+  if (route.alternatives && !(*route.alternatives >= 1 && *route.alternatives <= most_alternatives)) {
+    refuse_number("alternatives", "the number of paths", fmt::format("from 1 to {}", most_alternatives),
+                  *route.alternatives);
+  }
+  if (route.hole && !(*route.hole >= 0.0 && *route.hole <= largest_coordinate)) {
+    refuse_number("alternatives", "the size of a hole", "from 0 to 1e60", *route.hole);
+  }
+  if (route.stretch && !(*route.stretch >= 1.0 && *route.stretch <= largest_coordinate)) {
+    refuse_number("stretch", "a share of the least cost", "from 1 to 1e60", *route.stretch);
+  }
+  if (route.stretch && !route.alternatives) throw UsageError("@stretch: is for @alternatives");
+  if (route.unless_gain && !(*route.unless_gain >= 0.0 && *route.unless_gain < 1.0)) {
+    refuse_number("unless_gain", "a share of the cost", "from 0 to below 1", *route.unless_gain);
+  }
+  if (route.unless_gain && route.keep_to.empty()) throw UsageError("@unless_gain: is for @keep_to");
+  check_places("keep_to", route.keep_to);
 }
 
 void check_asked(const Scene& scene, const Question& question) {

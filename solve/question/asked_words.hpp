@@ -32,13 +32,16 @@ enum class AskedWord : std::uint8_t {
   goal_tolerance,
   goal_region,
   goal_heading,
-  visit
+  visit,
+  alternatives,
+  keep_to
 };
 /// The options that say them: some say two.
 constexpr auto enum_names(AskedWord) {
-  return std::array<std::string_view, 13>{
-      "clearance_price", "area", "areas",          "speed_zones", "keep_out",       "unknown", "keep_out",
-      "unknown",         "goal", "goal_tolerance", "goal_region", "goal_tolerance", "visit"};
+  return std::array<std::string_view, 15>{
+      "clearance_price", "area",           "areas",   "speed_zones",  "keep_out",
+      "unknown",         "keep_out",       "unknown", "goal",         "goal_tolerance",
+      "goal_region",     "goal_tolerance", "visit",   "alternatives", "keep_to"};
 }
 /// Enumerators of AskedWord.
 inline constexpr std::size_t asked_word_count = enum_names(AskedWord{}).size();
@@ -71,6 +74,8 @@ inline constexpr AskedWords restriction_words{AskedWord::keep_out, AskedWord::un
 inline constexpr AskedWords price_words{AskedWord::clearance_price, AskedWord::area,
                                         AskedWord::areas,           AskedWord::speed_zones,
                                         AskedWord::keep_out_factor, AskedWord::unknown_factor};
+/// What asks for other ways than the cheapest: homotopy classes, an older path.
+inline constexpr AskedWords route_words{AskedWord::alternatives, AskedWord::keep_to};
 /// What leaves a choice of goals, or of their order.
 inline constexpr AskedWords goal_words{AskedWord::goal, AskedWord::goal_tolerance, AskedWord::goal_region,
                                        AskedWord::visit};
@@ -79,11 +84,15 @@ inline constexpr AskedWords goal_words{AskedWord::goal, AskedWord::goal_toleranc
 AskedWords words_in(const Prices& prices);
 /// The words that a rule of goals says.
 AskedWords words_in(const GoalRule& rule);
+/// The words that a rule of ways says.
+AskedWords words_in(const RouteRule& route);
 /// The words that a question says, whatever the world's file says.
-inline AskedWords words_in(const Question& question) { return words_in(question.prices) | words_in(question.rule); }
+inline AskedWords words_in(const Question& question) {
+  return words_in(question.prices) | words_in(question.rule) | words_in(question.route);
+}
 /// The words of both.
 inline AskedWords words_in(const Scene& scene, const Question& question) {
-  return words_in(prices_of(scene, question)) | words_in(rule_of(scene, question));
+  return words_in(prices_of(scene, question)) | words_in(rule_of(scene, question)) | words_in(question.route);
 }
 /// In the order of the enumeration.
 std::vector<AskedWord> words_of(AskedWords words);
@@ -94,6 +103,7 @@ PricedArea area_value(const std::string& where, std::string_view text);
 /// Throws UsageError for prices and rules that no world can be asked for: numbers out of range, areas of two corners.
 void check_prices(const Prices& prices);
 void check_goal_rule(const GoalRule& rule);
+void check_route_rule(const RouteRule& route);
 /// Throws UsageError for what this world and body give no meaning to: unknown cells where there is no map, a reach that
 /// nobody says of a body without width, a price of nearness where the path may touch.
 void check_asked(const Scene& scene, const Question& question);

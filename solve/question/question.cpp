@@ -160,6 +160,7 @@ void Question::validate() const {
   }
   check_prices(prices);
   check_goal_rule(rule);
+  check_route_rule(route);
 }
 
 WallProblem wall_problem(const Scene& scene, const Question& options, Contact usual) {

@@ -3,6 +3,7 @@
 // makes with what the world's file says and the documented defaults.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -30,6 +31,22 @@ struct GoalRule {
   bool empty() const { return others.empty() && !tolerance && !region && visit.empty() && !back; }
 };
 
+/// Which of the ways is taken, and which others are told. Nothing said: one of the cheapest, alone.
+struct RouteRule {
+  std::optional<std::uint32_t> alternatives =
+      {};                              ///< cheapest homotopy classes, 1 .. most_alternatives; of each a path
+  std::optional<double> hole = {};     ///< obstacles so far across make classes, >= 0; none: the body's length; 0: all
+  std::optional<double> stretch = {};  ///< alternatives cost so many times the best at most, >= 1; none: 1.5
+  std::vector<std::vector<double>> keep_to = {};  ///< states of an older path, whose rest is kept where it is free
+  std::optional<double> unless_gain = {};  ///< unless a new path costs less by this share of the rest's cost, 0 .. 1;
+                                           ///< none: 0.05
+
+  /// Is anything said?
+  bool empty() const { return !alternatives && !hole && !stretch && keep_to.empty() && !unless_gain; }
+};
+/// More classes are not searched.
+inline constexpr std::uint32_t most_alternatives = 64;
+
 /// What is asked of a world: what is not said here is as the world's file says, and else as documented. A state is X, Y
 /// of a point or disc; X, Y, THETA (radians) of a body that turns, whose goal may lack THETA: any heading; six joint
 /// angles of an arm (radians), whose goal may be the three coordinates of a place of its tool.
@@ -43,6 +60,7 @@ struct Question {
   std::optional<Eigen::Isometry3d> goal_pose = {};  ///< of an arm's tool, instead of `goal`; none: the file's
   Prices prices = {};                               ///< beside the file's; of two words for one thing this one counts
   GoalRule rule = {};                               ///< what reaching the goal means
+  RouteRule route = {};                             ///< which of the ways
 
   /// Throws UsageError for values that no problem can have.
   void validate() const;
