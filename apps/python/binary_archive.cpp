@@ -221,11 +221,13 @@ WARREN_ARCHIVED(NamedFigure, name, value)
 WARREN_ARCHIVED(StageCost, name, wall_s, cpu_s)
 WARREN_ARCHIVED(HandedPath, points, hash)
 WARREN_ARCHIVED(Improvement, iterations, seconds, cost, length, by, lower_bound)
+WARREN_ARCHIVED(MapHole, id, box)
+WARREN_ARCHIVED(KeptRoute, kept, kept_cost, new_cost)
 WARREN_ARCHIVED(Answer, outcome, stop_reason, verified, blocked, explained, refuted, length, min_clearance, raw_length,
                 optimal, lower_bound, improvements, iterations, ended_by, cost, price, bound_of, goal_index,
-                goal_reached, order, alternatives, turn_rad, problem, world, planner, pipeline, sampler, search, seed,
-                threads, options, roadmap, cells, figures, path_figures, separation, counters, seconds, costs, solve_s,
-                peak_memory_bytes, path, handed, states, tells_path)
+                goal_reached, order, alternatives, passed, holes, keeping, turn_rad, problem, world, planner, pipeline,
+                sampler, search, seed, threads, options, roadmap, cells, figures, path_figures, separation, counters,
+                seconds, costs, solve_s, peak_memory_bytes, path, handed, states, tells_path)
 #undef WARREN_ARCHIVED
 
 }  // namespace

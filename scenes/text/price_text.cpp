@@ -132,20 +132,20 @@ class PriceReader {
   const Execution& execution_;
 };
 
-std::string number(double x) { return fmt::format("{}", x + 0.0); }  // no negative zeros
+std::string digits_of(double x) { return fmt::format("{}", x + 0.0); }  // no negative zeros
 
 std::string corners_text(const std::vector<Vec2>& corners) {
   std::string text;
-  for (const Vec2 p : corners) text += fmt::format(" {} {}", number(p.x), number(p.y));
+  for (const Vec2 p : corners) text += fmt::format(" {} {}", digits_of(p.x), digits_of(p.y));
   return text;
 }
 
 std::string mask_text(const PriceMask& mask, const std::string& file) {
   const std::string text = "mask " + word_of_file(file);
-  const std::string factor = mask.factor ? ' ' + number(*mask.factor) : "";
+  const std::string factor = mask.factor ? ' ' + digits_of(*mask.factor) : "";
   if (mask.kind == MaskKind::areas) return text + " areas" + factor;
   if (mask.kind == MaskKind::keep_out) return text + " keep-out" + factor;
-  return fmt::format("{} speed {} {}", text, number(mask.base), number(mask.multiplier));
+  return fmt::format("{} speed {} {}", text, digits_of(mask.base), digits_of(mask.multiplier));
 }
 
 }  // namespace
@@ -158,14 +158,14 @@ std::vector<std::string> price_lines(const Prices& prices,
                                      const std::function<std::string(const std::string&)>& name_of_file) {
   std::vector<std::string> lines;
   if (const auto& clearance = prices.clearance) {
-    const std::string reach = clearance->reach ? ' ' + number(*clearance->reach) : "";
-    lines.push_back(fmt::format("clearance-price {}{}", number(clearance->price), reach));
+    const std::string reach = clearance->reach ? ' ' + digits_of(*clearance->reach) : "";
+    lines.push_back(fmt::format("clearance-price {}{}", digits_of(clearance->price), reach));
   }
   for (const PricedArea& area : prices.areas)
-    lines.push_back(fmt::format("area {}{}", number(area.factor), corners_text(area.corners)));
+    lines.push_back(fmt::format("area {}{}", digits_of(area.factor), corners_text(area.corners)));
   for (const PriceMask& mask : prices.masks) lines.push_back(mask_text(mask, name_of_file(mask.file)));
   for (const KeepOut& area : prices.keep_out) lines.push_back("keep-out" + corners_text(area.corners));
-  if (prices.unknown) lines.push_back("unknown " + number(*prices.unknown));
+  if (prices.unknown) lines.push_back("unknown " + digits_of(*prices.unknown));
   return lines;
 }
 

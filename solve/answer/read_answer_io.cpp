@@ -272,6 +272,15 @@ RecordedAnswer read_answer(const InputFile& input, const Execution& execution) {
   return answer;
 }
 
+std::vector<std::vector<double>> states_of(const RecordedAnswer& answer) {
+  std::vector<std::vector<double>> states;
+  for (std::size_t i = 0; i < answer.states.size(); ++i)
+    states.emplace_back(answer.states[i].begin(), answer.states[i].end());
+  if (!states.empty()) return states;
+  for (const Vec2 p : answer.path) states.push_back({p.x, p.y});
+  return states;
+}
+
 void check_state_width(const RecordedAnswer& answer, std::size_t width, std::string_view body) {
   if (answer.state_width() == width) return;
   throw InputError(fmt::format("{}: key \"path\"", answer.file),

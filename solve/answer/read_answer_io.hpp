@@ -50,6 +50,9 @@ RecordedAnswer read_answer(const std::string& file, const Execution& execution);
 /// The same for a file that is open already.
 RecordedAnswer read_answer(const InputFile& input, const Execution& execution);
 
+/// All states of its path.
+std::vector<std::vector<double>> states_of(const RecordedAnswer& answer);
+
 /// Throws InputError unless each state of the path has so many numbers; `body` is whose they are.
 void check_state_width(const RecordedAnswer& answer, std::size_t width, std::string_view body);
 

@@ -156,10 +156,30 @@ std::string reached_json(const GoalReached& reached) {
   return json.closed();
 }
 
+std::string class_json(const std::vector<std::int32_t>& passed) {
+  std::string text = "[";
+  for (const std::int32_t hole : passed) text.append(text.size() > 1 ? ", " : "").append(std::to_string(hole));
+  return text + "]";
+}
+
+std::string holes_json(const std::vector<MapHole>& holes) {
+  std::string text = "[";
+  for (const MapHole& hole : holes) {
+    JsonObject json;
+    json.add("id", hole.id);
+    const Box& b = hole.box;
+    json.add_json("box", json_list(std::span<const double>(std::array{b.min.x, b.min.y, b.max.x, b.max.y})));
+    text.append(text.size() > 1 ? ", " : "").append(json.closed());
+  }
+  return text + "]";
+}
+
 /// Which of the goals was reached and in which order places were visited, where there was a choice.
 void add_choices(JsonObject& json, const Answer& answer) {
   if (answer.goal_index) json.add("goal_index", *answer.goal_index);
   if (answer.goal_reached) json.add_json("goal_reached", reached_json(*answer.goal_reached));
+  if (!answer.passed.empty() || !answer.alternatives.empty()) json.add_json("class", class_json(answer.passed));
+  if (!answer.holes.empty()) json.add_json("holes", holes_json(answer.holes));
   if (!answer.order.empty()) json.add_json("order", json_list(std::span(answer.order)));
 }
 
@@ -173,6 +193,11 @@ void add_quality(JsonObject& json, const Answer& answer) {
   if (const auto gap = gap_of(answer)) json.add("gap", *gap);
   if (!answer.bound_of.empty()) json.add("bound_of", answer.bound_of);
   add_choices(json, answer);
+  if (answer.keeping) {
+    json.add("kept", answer.keeping->kept);
+    json.add_or_null("kept_cost", answer.keeping->kept_cost.has_value(), answer.keeping->kept_cost.value_or(0.0));
+    json.add_or_null("new_cost", answer.keeping->new_cost.has_value(), answer.keeping->new_cost.value_or(0.0));
+  }
   if (answer.turn_rad) json.add("turn_rad", *answer.turn_rad);
   if (!answer.iterations) return;
   json.add("iterations", *answer.iterations);
@@ -332,9 +357,7 @@ void append_alternative(std::string& text, const AlternativePath& other) {
   json.add("cost", other.cost);
   json.add("length", other.length);
   json.add_json("price", price_json(other.price));
-  std::string passed;
-  for (const std::int32_t hole : other.passed) passed += fmt::format("{}{}", passed.empty() ? "" : ", ", hole);
-  json.add_json("class", '[' + passed + ']');
+  json.add_json("class", class_json(other.passed));
   json.add("min_clearance", other.min_clearance);
   text += json.open() + ", \"path\": ";
 }

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "scenes/files/mask_io.hpp"
 #include "scenes/files/read_world_io.hpp"
 #include "solve/explain_answer.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
@@ -66,7 +65,7 @@ class SolveCommand : public AnswerCommand {
   }
   Answer find(const Run& run, StageTimes& before, ByProducts* keep) override {
     scene_ = load_planned_world(arguments_.operand(0), options_.roadmap.pipeline, arguments_, run.execution(), before);
-    read_masks(question_.prices, run.execution());
+    read_asked_files(question_, arguments_, run.execution());
     check_outputs_of(robot_of(scene_, question_));
     if (is_unmade(scene_) && arguments_.has("--explain")) {
       throw UsageError("--explain: looks at walls that are held, and these are made tile by tile");

@@ -95,6 +95,14 @@ constexpr OptionSpec asked_specs[] = {
     {"--visit", "\"X,Y; X,Y; ...\"",
      "pass these places, at most 12, in the order that costs least, then go to the goal"},
     {"--return", "", "with --visit: end at the start; there is no goal then"},
+    {"--alternatives", "K[,SIZE]",
+     "also tell other ways: of each of the K cheapest classes the cheapest path. Paths are of one class where "
+     "obstacles "
+     "at least SIZE across are on the same sides of them (default of SIZE: the body's length; 0: all)"},
+    {"--stretch", "S", "with --alternatives: they cost at most S times as much as the cheapest (default: 1.5)"},
+    {"--keep-to", "OLD.json",
+     "go on along the path of this older answer, unless that is blocked now or a new one is clearly cheaper"},
+    {"--unless-gain", "SHARE", "with --keep-to: by which share of the cost, such as 10% (default: 5%)"},
 };
 constexpr std::size_t price_count = 6;
 
@@ -181,6 +189,24 @@ GoalRule goal_words(const Arguments& arguments) {
   return rule;
 }
 
+/// "K" or "K,SIZE"; keep_to is a file, which is read later.
+RouteRule route_words(const Arguments& arguments) {
+  RouteRule route;
+  if (const auto text = arguments.value("--alternatives")) {
+    const std::string_view words = *text;
+    const std::size_t comma = words.find(',');
+    route.alternatives =
+        static_cast<std::uint32_t>(count_value("--alternatives", words.substr(0, comma), 1, most_alternatives));
+    if (comma != std::string_view::npos)
+      route.hole = number_value("--alternatives", words.substr(comma + 1), 0.0, largest_coordinate);
+  }
+  route.stretch = given_value(arguments, "--stretch", number_value, 1.0, largest_coordinate);
+  if (route.stretch && !route.alternatives) throw UsageError("--stretch: is for --alternatives");
+  route.unless_gain = given_value(arguments, "--unless-gain", share_value);
+  if (route.unless_gain.value_or(0.0) >= 1.0) throw UsageError("--unless-gain: expected a share below 1, such as 5%");
+  return route;
+}
+
 }  // namespace
 
 std::span<const OptionSpec> question_option_specs() { return question_specs; }
@@ -228,6 +254,7 @@ Question question_words(const Arguments& arguments) {
   question.contact = given_choice<Contact>(arguments, "--contact");
   question.prices = price_words(arguments);
   question.rule = goal_words(arguments);
+  question.route = route_words(arguments);
   return question;
 }
 

@@ -21,7 +21,8 @@ std::span<const OptionSpec> price_option_specs();
 /// What these say. Throws UsageError. The files are not read yet: read_masks() does.
 Prices price_words(const Arguments& arguments);
 
-/// Nothing where nothing is said; masks are named, not read: read_masks() does. Throws UsageError for values that no
+/// Nothing where nothing is said; masks and an older answer are named, not read:
+/// read_asked_files() does (tools/screen/world_files.hpp). Throws UsageError for values that no
 /// problem can have.
 Question question_words(const Arguments& arguments);
 
