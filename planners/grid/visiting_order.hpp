@@ -14,9 +14,9 @@ namespace warren {
 /// Places whose order is proved: half a million steps.
 inline constexpr std::size_t most_visited = 12;
 /// There is no way; sums of 14 of them fit.
-inline constexpr std::uint64_t no_way = std::uint64_t{1} << 60;
+inline constexpr std::uint64_t no_leg = std::uint64_t{1} << 60;
 
-/// Costs between places, all of one unit, below no_way or no_way.
+/// Costs between places, all of one unit, below no_leg or no_leg.
 struct TourCosts {
   std::vector<std::uint64_t> from_start;            ///< to each place
   std::vector<std::vector<std::uint64_t>> between;  ///< from row to column

@@ -12,7 +12,8 @@ namespace {
 
 class Puller {
  public:
-  Puller(const Path<Vec2>& path, const PricedLegs& legs, const Execution& execution) : legs_(legs), execution_(execution) {
+  Puller(const Path<Vec2>& path, const PricedLegs& legs, const Execution& execution)
+      : legs_(legs), execution_(execution) {
     for (const Vec2 place : path) vertices_.push_back({place, 0.0, legs.step, true});
     for (std::size_t i = 1; i < vertices_.size(); ++i) vertices_[i].leg = cost(vertices_[i - 1].place, path[i]);
   }
@@ -37,9 +38,9 @@ class Puller {
  private:
   struct Vertex {
     Vec2 place;
-    double leg = 0.0;     // what the leg to it costs
-    double step = 0.0;    // of its next move
-    bool is_new = true;   // has anything beside it changed since it was tried?
+    double leg = 0.0;    // what the leg to it costs
+    double step = 0.0;   // of its next move
+    bool is_new = true;  // has anything beside it changed since it was tried?
   };
 
   double cost(Vec2 a, Vec2 b) const { return legs_.cost(a, b); }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Pulls a path of the plane taut where a way costs more than its length: vertices are left out, moved, and put in, each
-// wherever the exact cost of the legs falls and the legs are free by the caller's check. Descent, so the path never gets
-// dearer and stays in its homotopy class as far as short moves do; it is no proof of anything. One thread, no chance:
-// the same bytes everywhere.
+// wherever the exact cost of the legs falls and the legs are free by the caller's check. Descent, so the path never
+// gets dearer and stays in its homotopy class as far as short moves do; it is no proof of anything. One thread, no
+// chance: the same bytes everywhere.
 #pragma once
 
 #include <functional>

@@ -21,7 +21,7 @@
 namespace warren {
 
 /// No price or factor is above: sums of whole numbers hold it.
-inline constexpr double largest_price = 1e4;
+inline constexpr double largest_price = 1000.0;
 
 /// P and D above.
 struct ClearancePrice {

@@ -56,11 +56,6 @@ WaysOverCells::WaysOverCells(const OccupancyMap& map, const WallProblem& problem
 
 bool WaysOverCells::stands_free(Vec2 place) const { return stands_free_on_map(map_, problem_, place, execution_); }
 
-bool WaysOverCells::is_joined(Vec2 place, Cell cell) const {
-  const Vec2 leg[] = {place, cell_centre(map_, cell)};
-  return verify_on_map(map_, leg, {.clearance = problem_.reach()}, execution_).verified;
-}
-
 std::uint64_t WaysOverCells::leg_cost(Vec2 a, Vec2 b) const {
   const double cost = prices_.cost ? prices_.cost(a, b) : distance(a, b);
   return static_cast<std::uint64_t>(std::ceil(cost / map_.cell * static_cast<double>(units_a_cell)));
@@ -179,7 +174,8 @@ std::optional<WaysOverCells::Nearest> WaysOverCells::nearest_place(Vec2 to) {
   for_each_set(*joined_, execution_, [&](Cell c) {
     if (const double d = distance_of(c); d <= near) candidates.emplace_back(d, c);
   });
-  std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
   constexpr std::size_t most = 64;
   if (candidates.size() > most) candidates.resize(most);
   std::optional<Nearest> best;
@@ -201,7 +197,9 @@ std::optional<WaysOverCells::Nearest> WaysOverCells::nearest_place(Vec2 to) {
 /// middle get by small moves.
 std::optional<WaysOverCells::Nearest> WaysOverCells::slid(Vec2 to, Cell from) const {
   const Vec2 centre = cell_centre(map_, from);
-  const auto may = [&](Vec2 place) { return stands_free(place) && is_joined(place, from); };
+  const auto may = [&](Vec2 place) {
+    return stands_free(place) && is_joined(map_, problem_.reach(), place, from, execution_);
+  };
   if (!may(centre)) return std::nullopt;
   double share = 0.0;
   const auto at = [&](double t) { return centre + t * (to - centre); };
@@ -274,8 +272,8 @@ class Choosing {
  private:
   bool is_free(Vec2 place) const {
     const auto cell = cell_at(map_, place);
-    return cell && ((starts_on_water(map_, problem_.start) && starts_on_water(map_, place)) ||
-                    ways_.stands_free(place));
+    return cell &&
+           ((starts_on_water(map_, problem_.start) && starts_on_water(map_, place)) || ways_.stands_free(place));
   }
   void check_stop(std::string_view option, std::string_view noun, std::size_t number, Vec2 place) const {
     if (is_free(place)) return;
@@ -356,8 +354,9 @@ class Choosing {
       places.push_back(place);
     }
     const std::size_t count = rule_.visit.size();
-    TourCosts costs{std::vector(count, no_way), std::vector(count, std::vector(count, no_way)),
-                    std::vector(count, open_end_ ? std::uint64_t{0} : no_way)};
+    const std::vector<std::uint64_t> row(count, no_leg);
+    TourCosts costs{row, std::vector(count, row),
+                    std::vector<std::uint64_t>(count, open_end_ ? 0 : no_leg)};
     for (std::size_t j = 0; j < count; ++j) {
       const auto found = ways_.costs(places, ways_.entries(places[j + 1]));
       if (!found[0]) {
@@ -365,11 +364,11 @@ class Choosing {
         return false;
       }
       costs.from_start[j] = *found[0];
-      for (std::size_t i = 0; i < count; ++i) costs.between[i][j] = found[i + 1].value_or(no_way);
+      for (std::size_t i = 0; i < count; ++i) costs.between[i][j] = found[i + 1].value_or(no_leg);
     }
     if (!open_end_) {
       const auto found = ways_.costs(std::span(places).subspan(1), ends_);
-      for (std::size_t i = 0; i < count; ++i) costs.to_end[i] = found[i].value_or(no_way);
+      for (std::size_t i = 0; i < count; ++i) costs.to_end[i] = found[i].value_or(no_leg);
     }
     const auto best = best_order(costs);
     if (!best) return false;
@@ -385,7 +384,7 @@ class Choosing {
       const std::vector<WaysOverCells::Entry> ends = is_last ? ends_ : ways_.entries(choice_.stops[leg]);
       auto way = leg == 0 && is_last && first_ ? std::move(first_) : ways_.cheapest(from, ends);
       if (!way) {
-        choice_.unreached = {choice_.stops[leg]};
+        choice_.unreached = is_last ? goals_ : std::vector{choice_.stops[leg]};
         choice_.ways.clear();
         return;
       }
@@ -429,9 +428,11 @@ double tour_bound(Vec2 start, std::span<const Vec2> places, std::span<const Vec2
   }
   if (!(longest > 0.0)) return 0.0;
   const double unit = longest * 0x1p-40;  // no leg is longer than twice that
-  const auto units = [&](Vec2 a, Vec2 b) { return static_cast<std::uint64_t>(distance(a, b) / unit * (1.0 - 0x1p-50)); };
+  const auto units = [&](Vec2 a, Vec2 b) {
+    return static_cast<std::uint64_t>(distance(a, b) / unit * (1.0 - 0x1p-50));
+  };
   const auto to_ends = [&](Vec2 from) {
-    std::uint64_t least = ends.empty() ? 0 : no_way;
+    std::uint64_t least = ends.empty() ? 0 : no_leg;
     for (const Vec2 end : ends) least = std::min(least, units(from, end));
     return least;
   };

@@ -73,8 +73,6 @@ class WaysOverCells {
   double distance_bound(Vec2 to);
 
   bool stands_free(Vec2 place) const;
-  /// Does the body get from a place to the middle of a cell in a straight line?
-  bool is_joined(Vec2 place, Cell cell) const;
   std::uint64_t expanded() const { return expanded_; }
 
  private:
@@ -100,10 +98,10 @@ struct GoalChoice {
   std::optional<std::uint64_t> goal_index;
   std::optional<GoalReached> reached;
   std::vector<std::uint64_t> order;
-  std::vector<Vec2> stops;                 ///< in their order, the goal excluded
-  std::vector<WaysOverCells::Way> ways;    ///< from stop to stop
-  std::optional<Vec2> nearest;             ///< where nothing that is asked can be reached: what can
-  std::vector<Vec2> unreached;             ///< where a stop, or each of the goals, can't be reached over the cells
+  std::vector<Vec2> stops;               ///< in their order, the goal excluded
+  std::vector<WaysOverCells::Way> ways;  ///< from stop to stop
+  std::optional<Vec2> nearest;           ///< where nothing that is asked can be reached: what can
+  std::vector<Vec2> unreached;           ///< where a stop, or each of the goals, can't be reached over the cells
 };
 
 /// Decides. via: way-points in the order that is asked; open_end: the question names no goal, its visits are all.
