@@ -43,8 +43,8 @@ class PricedTriangles {
     execution.reserve(sizeof(float) * 4 * cells + 3 * sizeof(std::uint32_t) * cells);
     // Where the middle of the cell is nearer than this, all of the cell is nearer than what is kept.
     if (question.keeps > half_diagonal) {
-      constexpr double rounding = 1e-9;
-      outside_ = blocked_for_disc(blocked_, question.keeps - half_diagonal - rounding, execution);
+      constexpr double rounding = 1e-8;
+      outside_ = blocked_for_disc(blocked_, question.keeps * (1.0 - rounding) - half_diagonal, execution);
     }
     prices_.assign(4 * cells, 1.0F - 0x1p-23F);
     if (question.price > 0.0) price(execution);
