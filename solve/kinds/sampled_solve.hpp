@@ -196,27 +196,33 @@ class SampledSolve {
   }
   /// The counts are those of all goals that were tried.
   void plan_roadmaps() {
+    if (!request_.options.trees.via.empty()) {  // one roadmap a leg: the same samples, as many as the leg needs
+      const auto plan = [&](const State& start, std::span<const State> goals, std::size_t) {
+        return plan_roadmap(start, goals.front());
+      };
+      return take(plan_through<State>(body_.start(), stops(), plan));
+    }
     const std::vector<State> in_order = body_.best_first(*world_, goals_);
     std::vector<State> goals = detail::free_states(*world_, std::span<const State>(in_order));
     if (goals.empty()) goals.push_back(in_order.front());
     Counters before;
     for (const State& goal : goals) {
-      take(plan_roadmap(goal));
+      take(plan_roadmap(body_.start(), goal));
       answer_.counters += before;
       before = answer_.counters;
       if (answer_.outcome != Outcome::not_connected || apart_) break;
     }
   }
-  Solution<State> plan_roadmap(const State& goal) {
+  Solution<State> plan_roadmap(const State& start, const State& goal) {
     const bool lazy = request_.planner == PlannerKind::lazy_prm;
     if (asked_ != nullptr) {
-      return ask_roadmap(*asked_, body_.start(), goal, roadmap_options_, execution(), *request_.asked.scratch, kept());
+      return ask_roadmap(*asked_, start, goal, roadmap_options_, execution(), *request_.asked.scratch, kept());
     }
     if constexpr (is_one_way<World>) {
-      return one_way_prm<State>(*view_, body_.start(), goal, roadmap_options_, lazy, execution(), kept());
+      return one_way_prm<State>(*view_, start, goal, roadmap_options_, lazy, execution(), kept());
     } else {
       const auto planner = lazy ? lazy_prm<State> : prm<State>;
-      return planner(*view_, body_.start(), goal, roadmap_options_, execution(), kept());
+      return planner(*view_, start, goal, roadmap_options_, execution(), kept());
     }
   }
   AnytimeOptions better_options() const {

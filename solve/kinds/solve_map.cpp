@@ -13,6 +13,7 @@
 #include "planners/grid/skeleton_planner.hpp"
 #include "planners/shorten/shortcut.hpp"
 #include "solve/kinds/geometric_roadmaps.hpp"
+#include "solve/kinds/goals_on_map.hpp"
 #include "solve/kinds/map_steps.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/sampled_roadmap.hpp"
@@ -26,16 +27,67 @@
 namespace warren {
 namespace {
 
+std::vector<Vec2> way_points(const SolveRequest& request) {
+  std::vector<Vec2> points;
+  for (const std::vector<double>& point : request.options.trees.via) {
+    if (point.size() != 2) throw UsageError("@via: a point or disc takes X,Y");
+    points.push_back({point[0], point[1]});
+  }
+  if (!points.empty() && !request.question.rule.visit.empty()) {
+    throw UsageError("@visit: finds the order of its places, and @via says one; leave one of them out");
+  }
+  return points;
+}
+
+/// Does the question name no goal but places to visit?
+bool has_open_end(const SolveRequest& request) {
+  const GoalRule& rule = request.question.rule;
+  return !rule.visit.empty() && !rule.back && request.question.goal.empty() && request.scene.goal.empty();
+}
+
+/// What the cells have decided, in the answer; `outcome`: of who plans to it.
+void take_choice(Answer& answer, const GoalChoice& choice, Outcome outcome) {
+  answer.outcome = outcome;
+  if (choice.outcome == Outcome::solved) answer.problem.goal = {choice.goal.x, choice.goal.y};
+  answer.goal_index = choice.goal_index;
+  answer.goal_reached = choice.reached;
+  answer.order = choice.order;
+  if (choice.nearest) {
+    answer.figures.push_back({"nearest_reachable_x", choice.nearest->x});
+    answer.figures.push_back({"nearest_reachable_y", choice.nearest->y});
+  }
+}
+void take_choice(Answer& answer, const GoalChoice& choice) { take_choice(answer, choice, choice.outcome); }
+
+/// What the cells do not join may be proved to be apart: all that would do.
+void prove_apart(Answer& answer, const OccupancyMap& map, const Bitmap& closed, const WallProblem& problem,
+                 const GoalChoice& choice, const Execution& execution) {
+  if (answer.outcome != Outcome::not_connected || choice.unreached.empty()) return;
+  const StageTimer timer(execution, "proof", answer.seconds.search);
+  const bool apart = std::all_of(choice.unreached.begin(), choice.unreached.end(), [&](Vec2 place) {
+    WallProblem to_place = problem;
+    to_place.goal = place;
+    return provably_apart(map, closed, to_place, execution);
+  });
+  if (apart) answer.outcome = Outcome::infeasible;
+}
+
 /// One solve by grid: the steps share the question and fill in the answer. What is not found may be proved infeasible.
 class CellSolve {
  public:
   CellSolve(const SolveRequest& request, const WallProblem& problem)
-      : request_(request), map_(*request.scene.map), problem_(problem) {
+      : request_(request),
+        map_(*request.scene.map),
+        problem_(problem),
+        chooses_(!problem.rule.empty() || !request.options.trees.via.empty()) {
     grid_.diagonal = request.options.grid.diagonal.value_or(Diagonal::sqrt2);
     grid_.method =
         grid_method(request.options, grid_.diagonal == Diagonal::sqrt2 ? GridMethod::jump_points : GridMethod::astar);
     if (grid_.method == GridMethod::jump_points && grid_.diagonal != Diagonal::sqrt2) {
       throw UsageError("@search: jump points need @diagonal sqrt2");
+    }
+    if (chooses_ && request.options.search) {
+      throw UsageError("@search: choices of goals and stops are searched by one field over the cells; leave it out");
     }
     answer_.problem = problem.general();
     answer_.planner = name_of(PlannerKind::grid);
@@ -47,6 +99,7 @@ class CellSolve {
   }
 
   void run() {
+    if (chooses_) return run_chosen();
     const auto start = cell_at(map_, problem_.start);
     const auto goal = cell_at(map_, problem_.goal);
     answer_.outcome = blocked_end(start, goal);
@@ -57,7 +110,7 @@ class CellSolve {
       stay(answer_, problem_);
       count(1, 0.0);
     } else {
-      search(cells_joined_to(problem_.start, *start), cells_joined_to(problem_.goal, *goal));
+      search(joined(problem_.start, *start), joined(problem_.goal, *goal));
       if (answer_.outcome != Outcome::solved) return prove();
     }
     if (request_.options.optimise) optimise();
@@ -66,6 +119,58 @@ class CellSolve {
   Answer& answer() { return answer_; }
 
  private:
+  /// Where there is more to decide than the way to one place.
+  void run_chosen() {
+    if (!stands_free(problem_.start)) {
+      answer_.outcome = Outcome::start_blocked;
+      return;
+    }
+    index();
+    const GoalChoice choice = choose();
+    take_choice(answer_, choice);
+    if (choice.outcome != Outcome::solved)
+      return prove_apart(answer_, map_, closed_, problem_, choice, request_.execution);
+    WallProblem reached = problem_;
+    reached.goal = choice.goal;
+    take_ways(choice);
+    if (problem_.rule.region) {
+      const std::vector<double>& asked = answer_.goal_reached->asked;
+      answer_.path = cut_at_region(std::move(answer_.path), {asked[0], asked[1]}, *problem_.rule.region);
+      reached.goal = answer_.path.back();
+      answer_.goal_reached->distance = distance(reached.goal, Vec2{asked[0], asked[1]});
+      answer_.problem.goal = {reached.goal.x, reached.goal.y};
+    }
+    verify_solved_on_map(answer_, map_, reached, true, request_.execution);
+  }
+
+  GoalChoice choose() {
+    const StageTimer timer(request_.execution, "search", answer_.seconds.search, map_.blocked.size());
+    answer_.search = "field";
+    WaysOverCells ways(map_, problem_, closed_, blocked(), grid_.diagonal, {}, request_.execution);
+    GoalChoice choice = choose_goal(ways, map_, problem_, way_points(request_), has_open_end(request_));
+    answer_.counters.expanded += ways.expanded();
+    return choice;
+  }
+
+  /// Leg by leg, so that no stop is cut off.
+  void take_ways(const GoalChoice& choice) {
+    std::uint64_t cells = 0;
+    double cost = 0.0;
+    double raw = 0.0;
+    Path<Vec2> whole{problem_.start};
+    for (const WaysOverCells::Way& way : choice.ways) {
+      cells += way.cells.size();
+      cost += cost_of(way.cells, grid_.diagonal);
+      answer_.path = path_over_cells(map_, way.from, way.cells, way.end.place);
+      if (request_.options.optimise) optimise();
+      raw += answer_.raw_length.value_or(0.0);
+      whole.insert(whole.end(), answer_.path.begin() + 1, answer_.path.end());
+    }
+    if (request_.options.optimise) answer_.raw_length = raw;
+    answer_.path = std::move(whole);
+    count(cells, cost);
+  }
+
   bool stands_free(Vec2 p) const { return stands_free_on_map(map_, problem_, p, request_.execution); }
   Outcome blocked_end(const std::optional<Cell>& start, const std::optional<Cell>& goal) const {
     if (!start || !stands_free(problem_.start)) return Outcome::start_blocked;
@@ -82,38 +187,8 @@ class CellSolve {
     }
   }
   const Bitmap& blocked() const { return blocked_.empty() ? closed_ : blocked_; }
-
-  /// Does the robot get from a point to the middle of a cell in a straight line?
-  bool is_joined(Vec2 p, Cell cell) const {
-    const Vec2 leg[] = {p, cell_centre(map_, cell)};
-    return verify_on_map(map_, leg, {.clearance = problem_.reach()}, request_.execution).verified;
-  }
-
-  /// The cells by whose middles a path may begin or end at p, the nearest first, one of those that steps join nearby: a
-  /// point's own; a disc may fit where it stands and not at the middle of its cell, but at one of those around it.
-  std::vector<Cell> cells_joined_to(Vec2 p, Cell own) const {
-    if (problem_.reach() == 0.0 || (!blocked().test(own.x, own.y) && is_joined(p, own))) return {own};
-    constexpr std::int64_t around = 2;
-    constexpr std::size_t most = 3;  // each may cost a search
-    std::vector<std::pair<double, Cell>> free;
-    for (std::int64_t y = std::int64_t{own.y} - around; y <= std::int64_t{own.y} + around; ++y) {
-      for (std::int64_t x = std::int64_t{own.x} - around; x <= std::int64_t{own.x} + around; ++x) {
-        if (x < 0 || y < 0 || x >= map_.width() || y >= map_.height() || blocked().holds(x, y)) continue;
-        const Cell cell{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)};
-        if (is_joined(p, cell)) free.emplace_back(distance(p, cell_centre(map_, cell)), cell);
-      }
-    }
-    std::stable_sort(free.begin(), free.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    std::vector<Cell> cells;
-    const auto beside = [](Cell a, Cell b) {
-      return (a.x == b.x || a.y == b.y) && a.x - b.x + 1 < 3 && a.y - b.y + 1 < 3;
-    };
-    for (const auto& candidate : free) {
-      const Cell cell = candidate.second;
-      const bool is_known = std::any_of(cells.begin(), cells.end(), [&](Cell known) { return beside(known, cell); });
-      if (!is_known && cells.size() < most) cells.push_back(cell);
-    }
-    return cells;
+  std::vector<Cell> joined(Vec2 p, Cell own) const {
+    return cells_joined_to(map_, blocked(), problem_.reach(), p, own, request_.execution);
   }
 
   void choose_method() {
@@ -165,6 +240,7 @@ class CellSolve {
   const SolveRequest& request_;
   const OccupancyMap& map_;
   WallProblem problem_;
+  bool chooses_;
   GridSearchOptions grid_;
   Bitmap closed_;   // to a point
   Bitmap blocked_;  // to a disc's middle; empty: the robot is a point
@@ -237,6 +313,48 @@ class BodyOnMap : public UsualBody {
   WallProblem problem_;
 };
 
+/// The planner reaches what the cells have chosen: the path's stops and its goal.
+Answer solve_chosen(const SolveRequest& request) {
+  const WallProblem problem = map_problem(request.scene, request.question);
+  const OccupancyMap& map = *request.scene.map;
+  Answer chosen;
+  chosen.problem = problem.general();
+  chosen.planner = name_of(request.planner);
+  chosen.seed = request.options.seed;
+  chosen.options = given_figures(request.options);
+  GoalChoice choice;
+  answer_within_limits(chosen, [&] {
+    const StageTimer timer(request.execution, "search", chosen.seconds.search, map.blocked.size());
+    if (!stands_free_on_map(map, problem, problem.start, request.execution)) {
+      chosen.outcome = Outcome::start_blocked;
+      return;
+    }
+    const Bitmap closed = closed_cells(map, problem.start);
+    const Bitmap wide = blocked_for_disc(closed, problem.reach() / map.cell, request.execution);
+    WaysOverCells ways(map, problem, closed, wide, Diagonal::sqrt2, {}, request.execution);
+    choice = choose_goal(ways, map, problem, {}, has_open_end(request));
+    chosen.counters.expanded += ways.expanded();
+    take_choice(chosen, choice);
+    if (choice.outcome != Outcome::solved) prove_apart(chosen, map, closed, problem, choice, request.execution);
+  });
+  if (choice.outcome != Outcome::solved) return chosen;
+  Question question = request.question;
+  question.goal = {choice.goal.x, choice.goal.y};
+  question.rule = {};
+  SolveOptions options = request.options;
+  for (const Vec2 stop : choice.stops) options.trees.via.push_back({stop.x, stop.y});
+  SolveRequest to_goal{options,           request.scene, question,     request.planner,
+                       request.execution, request.keep,  request.asked};
+  Answer answer = solve_sampled<BodyOnMap>(to_goal);
+  answer.options = given_figures(request.options);
+  answer.problem = problem.general();
+  answer.counters.expanded += chosen.counters.expanded;
+  answer.seconds.search += chosen.seconds.search;
+  answer.solve_s += chosen.solve_s;
+  take_choice(answer, choice, answer.outcome);
+  return answer;
+}
+
 NamedLines lines_of(const OccupancyMap& map, const std::vector<std::pair<Cell, Cell>>& steps) {
   NamedLines lines{"medial_axis", {}};
   for (const auto& [from, to] : steps) lines.lines.add(std::array{cell_centre(map, from), cell_centre(map, to)});
@@ -307,11 +425,11 @@ class SkeletonSolve {
 };
 
 constexpr PlannerChoice occupancy_planners[] = {
-    {PlannerKind::grid, OptionSet{Option::search, Option::diagonal, Option::optimise}},
-    {PlannerKind::prm, prm_takes | point_takes},
-    {PlannerKind::lazy_prm, lazy_prm_takes | point_takes},
-    {PlannerKind::rrt, rrt_options},
-    {PlannerKind::rrt_connect, rrt_connect_options},
+    {PlannerKind::grid, OptionSet{Option::search, Option::diagonal, Option::optimise, Option::via}, goal_words},
+    {PlannerKind::prm, prm_takes | point_takes | OptionSet{Option::via}, goal_words},
+    {PlannerKind::lazy_prm, lazy_prm_takes | point_takes | OptionSet{Option::via}, goal_words},
+    {PlannerKind::rrt, rrt_options, goal_words},
+    {PlannerKind::rrt_connect, rrt_connect_options, goal_words},
     {PlannerKind::rrt_star, rrt_star_options},
     {PlannerKind::informed_rrt_star, rrt_star_options},
     {PlannerKind::anytime, anytime_options},
@@ -328,7 +446,8 @@ Answer solve_occupancy(const SolveRequest& request) {
     case PlannerKind::voronoi:
       return solve_on_skeleton(request);
     default:
-      return solve_sampled<BodyOnMap>(request);
+      return rule_of(request.scene, request.question).empty() ? solve_sampled<BodyOnMap>(request)
+                                                              : solve_chosen(request);
   }
 }
 

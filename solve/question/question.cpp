@@ -134,7 +134,9 @@ WallProblem wall_problem(const Scene& scene, const Question& options, Contact us
     throw UsageError(fmt::format("{}: expected a point or disc", options.robot ? "@robot" : scene.source));
   }
   problem.start = plane_state("@start", options.start, scene.start);
-  problem.goal = plane_state("@goal", options.goal, scene.goal);
+  problem.goal = problem.start;
+  const bool ends_anywhere = !options.rule.visit.empty() && options.goal.empty() && scene.goal.empty();
+  if (!options.rule.back && !ends_anywhere) problem.goal = plane_state("@goal", options.goal, scene.goal);
   problem.clearance = clearance_of(scene, options);
   problem.prices = prices_of(scene, options);
   problem.rule = rule_of(scene, options);

@@ -92,7 +92,8 @@ GoalRule rule_of(const Scene& scene, const Question& question);
 
 /// The problem of a point or disc. A heading in the file (of a body that was overridden) means nothing to them. Throws
 /// UsageError where start or goal are missing or have the wrong size, where contact contradicts the clearance, and
-/// where the body is another. `usual` is the contact that nobody asked for.
+/// where the body is another. The goal of who comes back, and of visits without one, is the start. `usual` is the
+/// contact that nobody asked for.
 WallProblem wall_problem(const Scene& scene, const Question& options, Contact usual = Contact::blocked);
 
 /// wall_problem for a planner that keeps off the obstacles, as `how` says; throws UsageError where the path is to be
