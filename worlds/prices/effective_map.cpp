@@ -119,7 +119,7 @@ void add_polygon_cells(Bitmap& cells, std::span<const Vec2> corners, const Execu
 }
 
 OccupancyMap effective_map(const OccupancyMap& map, const Prices& prices, const Execution& execution) {
-  execution.reserve(map.blocked.bytes() + map.unknown.bytes() + map.water.bytes());
+  execution.reserve(2 * map.blocked.bytes() + map.unknown.bytes() + map.water.bytes());
   OccupancyMap effective = map;
   if (prices.unknown && !map.unknown.empty()) {
     for (std::uint32_t y = 0; y < map.height(); ++y) {
@@ -128,10 +128,11 @@ OccupancyMap effective_map(const OccupancyMap& map, const Prices& prices, const 
       for (std::size_t w = 0; w < blocked.size(); ++w) blocked[w] &= ~unknown[w];
     }
   }
+  Bitmap forbidden = cell_bitmap(map.width(), map.height(), execution);
   for (const KeepOut& area : prices.keep_out) {
     std::vector<Vec2> corners;
     for (const Vec2 p : area.corners) corners.push_back(corner_in_cells(map, p));
-    add_polygon_cells(effective.blocked, corners, execution);
+    add_polygon_cells(forbidden, corners, execution);
   }
   for (const PriceMask& mask : prices.masks) {
     if (!mask.read) continue;
@@ -140,9 +141,17 @@ OccupancyMap effective_map(const OccupancyMap& map, const Prices& prices, const 
       for (std::uint32_t x = 0; x < mask.read->width; ++x) {
         const int value = mask.read->values[std::size_t{y} * mask.read->width + x];
         if (value > 0 && !mask_factor(mask, value))
-          add_polygon_cells(effective.blocked, mask_square(map, *mask.read, x, y), execution);
+          add_polygon_cells(forbidden, mask_square(map, *mask.read, x, y), execution);
       }
     }
+  }
+  for (std::uint32_t y = 0; y < map.height(); ++y) {
+    const auto closed = forbidden.row(y);
+    const auto blocked = effective.blocked.row(y);
+    for (std::size_t w = 0; w < closed.size(); ++w) blocked[w] |= closed[w];
+    if (map.water.empty()) continue;  // it is blocked all the same: but to paths that begin on it
+    const auto water = effective.water.row(y);
+    for (std::size_t w = 0; w < closed.size(); ++w) water[w] &= ~closed[w];
   }
   std::uint64_t blocked = 0;
   for (const std::uint64_t word : effective.blocked.words()) blocked += as_whole<std::uint64_t>(std::popcount(word));

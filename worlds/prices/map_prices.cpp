@@ -320,8 +320,8 @@ double MapPrices::half_step(Cell cell, unsigned direction, Scratch& scratch) con
 
 double MapPrices::step(Cell from, unsigned direction, Scratch& scratch) const {
   const auto [dx, dy] = cell_steps[direction];
-  const Cell to{from.x + static_cast<std::uint32_t>(dx), from.y + static_cast<std::uint32_t>(dy)};
-  const auto back = static_cast<unsigned>(std::size(cell_steps)) - 1 - direction;
+  const Cell to{as_whole<std::uint32_t>(std::int64_t{from.x} + dx), as_whole<std::uint32_t>(std::int64_t{from.y} + dy)};
+  const auto back = as_whole<unsigned>(cell_steps.size()) - 1 - direction;
   return half_step(from, direction, scratch) + half_step(to, back, scratch);
 }
 
