@@ -16,6 +16,7 @@
 #include "solve/kinds/goals_on_map.hpp"
 #include "solve/kinds/map_steps.hpp"
 #include "solve/kinds/plane_steps.hpp"
+#include "solve/kinds/priced_motions.hpp"
 #include "solve/kinds/sampled_roadmap.hpp"
 #include "solve/kinds/sampled_solve.hpp"
 #include "solve/kinds/solve_steps.hpp"
@@ -23,6 +24,7 @@
 #include "spatial/maps/distance_field.hpp"
 #include "verify/judges/verify_map.hpp"
 #include "worlds/plane/grid_world.hpp"
+#include "worlds/prices/map_prices.hpp"
 
 namespace warren {
 namespace {
@@ -298,7 +300,14 @@ class BodyOnMap : public UsualBody {
     return starts_on_water(map_, problem_.start) || stands_free_on_map(map_, problem_, goal, execution_);
   }
   static double length(const World&, Vec2 a, Vec2 b) { return World::distance(a, b); }
+  const MotionCost& price_motions(const World& world) {
+    if (!problem_.prices.empty()) {
+      cost_ = motion_cost<MapPrices>(world.map(), problem_.robot.radius, problem_.prices, execution_);
+    }
+    return cost_;
+  }
   Path<Vec2> shortened(const World& world, Path<Vec2> path, Answer& answer) const {
+    if (cost_) return pulled_taut(world, std::move(path), cost_, map_.cell, execution_);
     return shorter_path(WorldView(world), std::move(path), World::distance, {.seed = answer.seed}, execution_,
                         answer.counters);
   }
@@ -311,6 +320,7 @@ class BodyOnMap : public UsualBody {
   const OccupancyMap& map_;
   const Execution& execution_;
   WallProblem problem_;
+  MotionCost cost_;  // empty: nothing has a price
 };
 
 /// The planner reaches what the cells have chosen: the path's stops and its goal.
@@ -426,14 +436,16 @@ class SkeletonSolve {
 
 constexpr PlannerChoice occupancy_planners[] = {
     {PlannerKind::grid, OptionSet{Option::search, Option::diagonal, Option::optimise, Option::via}, goal_words},
-    {PlannerKind::prm, prm_takes | point_takes | OptionSet{Option::via}, goal_words},
-    {PlannerKind::lazy_prm, lazy_prm_takes | point_takes | OptionSet{Option::via}, goal_words},
-    {PlannerKind::rrt, rrt_options, goal_words},
-    {PlannerKind::rrt_connect, rrt_connect_options, goal_words},
-    {PlannerKind::rrt_star, rrt_star_options},
-    {PlannerKind::informed_rrt_star, rrt_star_options},
-    {PlannerKind::anytime, anytime_options},
-    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound}}};
+    {PlannerKind::prm, prm_takes | point_takes | OptionSet{Option::via}, goal_words | price_words | restriction_words},
+    {PlannerKind::lazy_prm, lazy_prm_takes | point_takes | OptionSet{Option::via},
+     goal_words | price_words | restriction_words},
+    {PlannerKind::rrt, rrt_options, goal_words | restriction_words},
+    {PlannerKind::rrt_connect, rrt_connect_options, goal_words | restriction_words},
+    {PlannerKind::rrt_star, rrt_star_options, restriction_words},
+    {PlannerKind::informed_rrt_star, rrt_star_options, restriction_words},
+    {PlannerKind::anytime, anytime_options, restriction_words},
+    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound},
+     restriction_words}};
 
 bool fits_occupancy(const Scene& scene, const RobotSpec& robot) {
   return scene.map && (robot.kind == RobotKind::point || robot.kind == RobotKind::disc);

@@ -37,14 +37,14 @@ double AreaFactors::factor(Vec2 p) const {
     if (area.factor > greatest && area.box.contains(p) && is_inside(area.corners, p)) greatest = area.factor;
   }
   for (const Mask& mask : masks_) {
-    const MaskCells& cells = *mask.mask->read;
+    const MaskCells& cells = *mask.mask.read;
     const Vec2 from = p - mask.origin;
     const double area = cross(mask.right, mask.up);
     const Vec2 in_mask{cross(from, mask.up) / area, cross(mask.right, from) / area};
     greatest = std::max(greatest, least_around(in_mask, [&](std::int64_t x, std::int64_t y) {
                           if (x < 0 || y < 0 || x >= cells.width || y >= cells.height) return 1.0;
                           const auto at = as_whole<std::size_t>(y * cells.width + x);
-                          return mask_factor(*mask.mask, cells.values[at]).value_or(1.0);
+                          return mask_factor(mask.mask, cells.values[at]).value_or(1.0);
                         }));
   }
   return greatest;
@@ -70,8 +70,8 @@ void AreaFactors::cut(Vec2 p, Vec2 u, double length, std::vector<double>& cuts) 
       const double last = std::min(std::max(at, to), most);
       for (double line = std::max(std::ceil(std::min(at, to)), 0.0); line <= last; ++line) add((line - at) / slope);
     };
-    lines(cross(p - mask.origin, mask.up) / area, cross(u, mask.up) / area, mask.mask->read->width);
-    lines(cross(mask.right, p - mask.origin) / area, cross(mask.right, u) / area, mask.mask->read->height);
+    lines(cross(p - mask.origin, mask.up) / area, cross(u, mask.up) / area, mask.mask.read->width);
+    lines(cross(mask.right, p - mask.origin) / area, cross(mask.right, u) / area, mask.mask.read->height);
   }
   cuts.push_back(length);
   std::sort(cuts.begin(), cuts.end());

@@ -17,7 +17,7 @@
 
 namespace warren {
 
-/// Refers to the masks of the prices. Immutable.
+/// Copies what it needs of the prices. Immutable.
 class AreaFactors {
  public:
   static constexpr double on_border = 1e-9;
@@ -75,7 +75,7 @@ class AreaFactors {
 
  private:
   struct Mask {
-    const PriceMask* mask;
+    PriceMask mask;
     Vec2 origin;  // of its cell (0, 0)
     Vec2 right;   // a step of its columns, and of its rows
     Vec2 up;
@@ -101,7 +101,7 @@ void AreaFactors::add_mask(const PriceMask& mask, const Placed& placed) {
   const Vec2 origin = placed(mask_corner(*mask.read, 0.0, 0.0));
   const Vec2 across = placed(mask_corner(*mask.read, width, 0.0)) - origin;
   const Vec2 along = placed(mask_corner(*mask.read, 0.0, height)) - origin;
-  masks_.push_back({&mask, origin, (1.0 / width) * across, (1.0 / height) * along});
+  masks_.push_back({mask, origin, (1.0 / width) * across, (1.0 / height) * along});
 }
 
 }  // namespace warren

@@ -25,7 +25,7 @@ class SidePrices {
     std::vector<double> cuts;
   };
 
-  /// Refers to the sides of what is blocked, keep-out polygons among them, and to the masks. radius: of the disc, >= 0.
+  /// Refers to the sides of what is blocked, keep-out polygons among them. radius: of the disc, >= 0.
   /// Throws UsageError as clearance_reach().
   SidePrices(const WallIndex& sides, double radius, const Prices& prices);
 
