@@ -27,6 +27,7 @@ struct RecordedAnswer {
   std::optional<double> length;              ///< that it claims
   std::optional<double> lower_bound;         ///< the same
   std::optional<double> cost;                ///< the same; with a lower bound, which is of it then
+  std::optional<PriceParts> price;           ///< the same
   std::optional<CellPotential> certificate;  ///< of the lower bound of all paths, from a file beside the answer
   std::string file;                          ///< where it stands, for messages
   Path<Vec2> path;                           ///< where a state has two numbers

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -17,6 +18,8 @@
 #include "solve/kinds/goals_on_map.hpp"
 #include "solve/kinds/map_steps.hpp"
 #include "solve/kinds/plane_steps.hpp"
+#include "solve/kinds/priced_motions.hpp"
+#include "solve/kinds/routes_on_map.hpp"
 #include "solve/kinds/sampled_roadmap.hpp"
 #include "solve/kinds/sampled_solve.hpp"
 #include "solve/kinds/solve_steps.hpp"
@@ -122,8 +125,18 @@ class CellSolve {
       search(joined(problem_.start, *start), joined(problem_.goal, *goal));
       if (answer_.outcome != Outcome::solved) return prove();
     }
-    if (request_.options.optimise) optimise();
+    if (wants_taut()) optimise();
     verify_solved_on_map(answer_, map_, problem_, true, request_.execution);
+  }
+  /// Where the question asks for other ways than the cheapest.
+  void add_alternatives() {
+    const RouteRule& route = request_.question.route;
+    if (!route.alternatives || !answer_.verified) return;
+    WallProblem reached = problem_;
+    reached.goal = answer_.path.back();
+    std::function<PriceParts(Vec2, Vec2)> parts;
+    if (prices_) parts = [this](Vec2 a, Vec2 b) { return prices_->parts(a, b, scratch_); };
+    take_alternatives(answer_, route, {map_, reached, closed_, blocked(), leg_prices(), parts}, request_.execution);
   }
   Answer& answer() { return answer_; }
 
@@ -193,7 +206,7 @@ class CellSolve {
       weight += way.cost;
       cost += cost_of(way.cells, grid_.diagonal);
       answer_.path = path_over_cells(map_, way.from, way.cells, way.end.place);
-      if (prices_ || request_.options.optimise) optimise();
+      if (wants_taut()) optimise();
       raw += answer_.raw_length.value_or(0.0);
       whole.insert(whole.end(), answer_.path.begin() + 1, answer_.path.end());
     }
@@ -206,6 +219,8 @@ class CellSolve {
     }
   }
 
+  /// Paths over cells alone are farther from any bound than gaps that are asked for.
+  bool wants_taut() const { return prices_ || request_.options.optimise || request_.options.anytime.gap; }
   bool stands_free(Vec2 p) const { return stands_free_on_map(map_, problem_, p, request_.execution); }
   Outcome blocked_end(const std::optional<Cell>& start, const std::optional<Cell>& goal) const {
     if (!start || !stands_free(problem_.start)) return Outcome::start_blocked;
@@ -301,7 +316,10 @@ class CellSolve {
 
 Answer solve_over_cells(const SolveRequest& request) {
   CellSolve solve(request, map_problem(request.scene, request.question));
-  answer_within_limits(solve.answer(), [&] { solve.run(); });
+  answer_within_limits(solve.answer(), [&] {
+    solve.run();
+    solve.add_alternatives();
+  });
   return std::move(solve.answer());
 }
 
@@ -350,7 +368,14 @@ class BodyOnMap : public UsualBody {
     return starts_on_water(map_, problem_.start) || stands_free_on_map(map_, problem_, goal, execution_);
   }
   static double length(const World&, Vec2 a, Vec2 b) { return World::distance(a, b); }
+  const MotionCost& price_motions(const World& world) {
+    if (!problem_.prices.empty()) {
+      cost_ = motion_cost<MapPrices>(world.map(), problem_.robot.radius, problem_.prices, execution_);
+    }
+    return cost_;
+  }
   Path<Vec2> shortened(const World& world, Path<Vec2> path, Answer& answer) const {
+    if (cost_) return pulled_taut(world, std::move(path), cost_, map_.cell, execution_);
     return shorter_path(WorldView(world), std::move(path), World::distance, {.seed = answer.seed}, execution_,
                         answer.counters);
   }
@@ -363,6 +388,7 @@ class BodyOnMap : public UsualBody {
   const OccupancyMap& map_;
   const Execution& execution_;
   WallProblem problem_;
+  MotionCost cost_;  // empty: nothing has a price
 };
 
 /// The planner reaches what the cells have chosen: the path's stops and its goal.
@@ -478,16 +504,19 @@ class SkeletonSolve {
 };
 
 constexpr PlannerChoice occupancy_planners[] = {
-    {PlannerKind::grid, OptionSet{Option::search, Option::diagonal, Option::optimise, Option::via},
+    {PlannerKind::grid,
+     OptionSet{Option::search, Option::diagonal, Option::optimise, Option::via, Option::bound, Option::gap},
+     goal_words | price_words | restriction_words | route_words},
+    {PlannerKind::prm, prm_takes | point_takes | OptionSet{Option::via}, goal_words | price_words | restriction_words},
+    {PlannerKind::lazy_prm, lazy_prm_takes | point_takes | OptionSet{Option::via},
      goal_words | price_words | restriction_words},
-    {PlannerKind::prm, prm_takes | point_takes | OptionSet{Option::via}, goal_words},
-    {PlannerKind::lazy_prm, lazy_prm_takes | point_takes | OptionSet{Option::via}, goal_words},
-    {PlannerKind::rrt, rrt_options, goal_words},
-    {PlannerKind::rrt_connect, rrt_connect_options, goal_words},
-    {PlannerKind::rrt_star, rrt_star_options},
-    {PlannerKind::informed_rrt_star, rrt_star_options},
-    {PlannerKind::anytime, anytime_options},
-    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound}}};
+    {PlannerKind::rrt, rrt_options, goal_words | restriction_words},
+    {PlannerKind::rrt_connect, rrt_connect_options, goal_words | restriction_words},
+    {PlannerKind::rrt_star, rrt_star_options, restriction_words},
+    {PlannerKind::informed_rrt_star, rrt_star_options, restriction_words},
+    {PlannerKind::anytime, anytime_options, restriction_words},
+    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound},
+     restriction_words}};
 
 bool fits_occupancy(const Scene& scene, const RobotSpec& robot) {
   return scene.map && (robot.kind == RobotKind::point || robot.kind == RobotKind::disc);
