@@ -61,7 +61,8 @@ struct ByProducts {
   /// far, the oldest first, at most most_improved; curves as chords. The planner adds each path before it tells
   /// Execution::on_improvement of it, on the same thread: whoever is told may look at the last.
   PolygonSet improved;
-  /// Of bounds of all paths on a map, the proof; kept where `bound_of` is "all".
+  bool wants_certificate = false;  ///< shall there be the next one? Then the bound is what it proves
+  /// Of a bound of all paths on a map, the proof.
   std::optional<CellPotential> certificate;
 };
 

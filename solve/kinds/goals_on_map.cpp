@@ -355,8 +355,7 @@ class Choosing {
     }
     const std::size_t count = rule_.visit.size();
     const std::vector<std::uint64_t> row(count, no_leg);
-    TourCosts costs{row, std::vector(count, row),
-                    std::vector<std::uint64_t>(count, open_end_ ? 0 : no_leg)};
+    TourCosts costs{row, std::vector(count, row), std::vector<std::uint64_t>(count, open_end_ ? 0 : no_leg)};
     for (std::size_t j = 0; j < count; ++j) {
       const auto found = ways_.costs(places, ways_.entries(places[j + 1]));
       if (!found[0]) {
@@ -421,6 +420,9 @@ GoalChoice choose_goal(WaysOverCells& ways, const OccupancyMap& map, const WallP
   return Choosing(ways, map, problem, open_end).chosen(via);
 }
 
+namespace {
+
+/// Straight from the start over all places, in any order, to one of the ends; without ends to nowhere else.
 double tour_bound(Vec2 start, std::span<const Vec2> places, std::span<const Vec2> ends) {
   double longest = 0.0;
   for (const auto list : {places, ends}) {
@@ -445,6 +447,23 @@ double tour_bound(Vec2 start, std::span<const Vec2> places, std::span<const Vec2
     for (const Vec2 next : places) row.push_back(units(place, next));
   }
   return static_cast<double>(best_order(costs)->cost) * unit * (1.0 - 0x1p-50);
+}
+
+}  // namespace
+
+std::optional<double> bound_of_choice(const WallProblem& asked, bool open_end) {
+  const GoalRule& rule = asked.rule;
+  const bool one_place = rule.others.empty() && !rule.region && rule.visit.empty() && !rule.back;
+  if (one_place || rule.tolerance) return std::nullopt;
+  std::vector<Vec2> places;
+  for (const std::vector<double>& place : rule.visit) places.push_back({place[0], place[1]});
+  std::vector<Vec2> ends;
+  if (!open_end) ends.push_back(rule.back ? asked.start : asked.goal);
+  if (!open_end && !rule.back) {
+    for (const std::vector<double>& other : rule.others) ends.push_back({other[0], other[1]});
+  }
+  constexpr double rounding = 0x1p-40;
+  return std::max(0.0, (tour_bound(asked.start, places, ends) - rule.region.value_or(0.0)) * (1.0 - rounding));
 }
 
 Path<Vec2> cut_at_region(Path<Vec2> path, Vec2 place, double radius) {

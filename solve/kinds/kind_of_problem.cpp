@@ -113,7 +113,7 @@ std::string place_of_word(AskedWord word, const Scene& scene, const Question& qu
 void refuse_ignored_words(AskedWords asked, const PlannerChoice& chosen, const Scene& scene, const Question& question,
                           const std::vector<const SolveKind*>& fitting) {
   for (const AskedWord word : words_of(asked)) {
-    if (chosen.words.has(word)) continue;
+    if (chosen.words.has(word) || word == AskedWord::keep_to) continue;  // solve() keeps routes, whoever plans
     const auto takes = [&](const PlannerChoice& choice) { return choice.words.has(word); };
     const auto is_here = [&](const SolveKind& kind) {
       return std::find(fitting.begin(), fitting.end(), &kind) != fitting.end();
@@ -164,7 +164,8 @@ std::optional<PlannerKind> planner_for_words(AskedWords asked, const SolveOption
   const std::vector<Option> wanted = options_in(given(options));
   const std::vector<AskedWord> words = words_of(asked);
   const auto takes_all = [&](const PlannerChoice& choice) {
-    return std::all_of(words.begin(), words.end(), [&](AskedWord word) { return choice.words.has(word); }) &&
+    return std::all_of(words.begin(), words.end(),
+                       [&](AskedWord word) { return choice.words.has(word) || word == AskedWord::keep_to; }) &&
            std::all_of(wanted.begin(), wanted.end(), [&](Option option) { return choice.options.has(option); });
   };
   std::optional<PlannerKind> first;
@@ -228,7 +229,14 @@ ChosenSolver choose_solver(const SolveOptions& options, const Scene& scene, cons
   if (!asked && !words.empty()) asked = planner_for_words(words, options, usual, fitting);
   ChosenSolver chosen{&first, asked.value_or(usual)};
   const auto has_it = [&](const SolveKind* kind) { return choice_in(*kind, chosen.planner) != nullptr; };
-  const auto found = std::find_if(fitting.begin(), fitting.end(), has_it);
+  const std::vector<AskedWord> listed_words = words_of(words);
+  const auto takes_all = [&](const SolveKind* kind) {
+    const PlannerChoice* choice = choice_in(*kind, chosen.planner);
+    return choice != nullptr && std::all_of(listed_words.begin(), listed_words.end(),
+                                            [&](AskedWord word) { return choice->words.has(word); });
+  };
+  auto found = std::find_if(fitting.begin(), fitting.end(), takes_all);
+  if (found == fitting.end()) found = std::find_if(fitting.begin(), fitting.end(), has_it);
   if (found == fitting.end()) refuse_planner(chosen.planner, fitting);
   chosen.kind = *found;
   const PlannerChoice& choice = *choice_in(*chosen.kind, chosen.planner);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -11,11 +12,14 @@
 #include "core/base/error.hpp"
 #include "planners/grid/grid_search.hpp"
 #include "planners/grid/skeleton_planner.hpp"
+#include "planners/shorten/priced_taut.hpp"
 #include "planners/shorten/shortcut.hpp"
 #include "solve/kinds/geometric_roadmaps.hpp"
 #include "solve/kinds/goals_on_map.hpp"
 #include "solve/kinds/map_steps.hpp"
 #include "solve/kinds/plane_steps.hpp"
+#include "solve/kinds/priced_motions.hpp"
+#include "solve/kinds/routes_on_map.hpp"
 #include "solve/kinds/sampled_roadmap.hpp"
 #include "solve/kinds/sampled_solve.hpp"
 #include "solve/kinds/solve_steps.hpp"
@@ -23,6 +27,7 @@
 #include "spatial/maps/distance_field.hpp"
 #include "verify/judges/verify_map.hpp"
 #include "worlds/plane/grid_world.hpp"
+#include "worlds/prices/map_prices.hpp"
 
 namespace warren {
 namespace {
@@ -80,14 +85,21 @@ class CellSolve {
         map_(*request.scene.map),
         problem_(problem),
         chooses_(!problem.rule.empty() || !request.options.trees.via.empty()) {
+    if (const Prices& prices = problem.prices; !prices.empty()) {
+      prices_.emplace(map_, problem.robot.radius, prices, request.execution);
+      if (!prices_->is_priced()) prices_.reset();
+    }
+    if (prices_ && request.options.grid.diagonal) {
+      throw UsageError("@diagonal: where ways have a price steps weigh what they cost; leave it out");
+    }
+    if ((chooses_ || prices_) && request.options.search) {
+      throw UsageError("@search: prices, choices of goals and stops take one field over the cells; leave it out");
+    }
     grid_.diagonal = request.options.grid.diagonal.value_or(Diagonal::sqrt2);
     grid_.method =
         grid_method(request.options, grid_.diagonal == Diagonal::sqrt2 ? GridMethod::jump_points : GridMethod::astar);
     if (grid_.method == GridMethod::jump_points && grid_.diagonal != Diagonal::sqrt2) {
       throw UsageError("@search: jump points need @diagonal sqrt2");
-    }
-    if (chooses_ && request.options.search) {
-      throw UsageError("@search: choices of goals and stops are searched by one field over the cells; leave it out");
     }
     answer_.problem = problem.general();
     answer_.planner = name_of(PlannerKind::grid);
@@ -99,7 +111,7 @@ class CellSolve {
   }
 
   void run() {
-    if (chooses_) return run_chosen();
+    if (chooses_ || prices_) return run_chosen();
     const auto start = cell_at(map_, problem_.start);
     const auto goal = cell_at(map_, problem_.goal);
     answer_.outcome = blocked_end(start, goal);
@@ -113,8 +125,18 @@ class CellSolve {
       search(joined(problem_.start, *start), joined(problem_.goal, *goal));
       if (answer_.outcome != Outcome::solved) return prove();
     }
-    if (request_.options.optimise) optimise();
+    if (wants_taut()) optimise();
     verify_solved_on_map(answer_, map_, problem_, true, request_.execution);
+  }
+  /// Where the question asks for other ways than the cheapest.
+  void add_alternatives() {
+    const RouteRule& route = request_.question.route;
+    if (!route.alternatives || !answer_.verified) return;
+    WallProblem reached = problem_;
+    reached.goal = answer_.path.back();
+    std::function<PriceParts(Vec2, Vec2)> parts;
+    if (prices_) parts = [this](Vec2 a, Vec2 b) { return prices_->parts(a, b, scratch_); };
+    take_alternatives(answer_, route, {map_, reached, closed_, blocked(), leg_prices(), parts}, request_.execution);
   }
   Answer& answer() { return answer_; }
 
@@ -141,12 +163,32 @@ class CellSolve {
       answer_.problem.goal = {reached.goal.x, reached.goal.y};
     }
     verify_solved_on_map(answer_, map_, reached, true, request_.execution);
+    if (prices_ && answer_.verified) take_price();
+  }
+
+  LegPrices leg_prices() {
+    if (!prices_) return {};
+    return {[this](Vec2 a, Vec2 b) { return prices_->cost(a, b, scratch_); },
+            [this](Cell from, unsigned direction) { return prices_->step_up(from, direction, scratch_); }};
+  }
+
+  /// In the world's unit, all parts.
+  void take_price() {
+    PriceParts price;
+    for (std::size_t i = 1; i < answer_.path.size(); ++i) {
+      const PriceParts leg = prices_->parts(answer_.path[i - 1], answer_.path[i], scratch_);
+      price.clearance += leg.clearance;
+      price.areas += leg.areas;
+    }
+    answer_.price = price;
+    answer_.cost = answer_.length + price.sum();
+    answer_.lower_bound = bound_of_choice(problem_, has_open_end(request_));
   }
 
   GoalChoice choose() {
     const StageTimer timer(request_.execution, "search", answer_.seconds.search, map_.blocked.size());
     answer_.search = "field";
-    WaysOverCells ways(map_, problem_, closed_, blocked(), grid_.diagonal, {}, request_.execution);
+    WaysOverCells ways(map_, problem_, closed_, blocked(), grid_.diagonal, leg_prices(), request_.execution);
     GoalChoice choice = choose_goal(ways, map_, problem_, way_points(request_), has_open_end(request_));
     answer_.counters.expanded += ways.expanded();
     return choice;
@@ -155,22 +197,30 @@ class CellSolve {
   /// Leg by leg, so that no stop is cut off.
   void take_ways(const GoalChoice& choice) {
     std::uint64_t cells = 0;
+    std::uint64_t weight = 0;
     double cost = 0.0;
     double raw = 0.0;
     Path<Vec2> whole{problem_.start};
     for (const WaysOverCells::Way& way : choice.ways) {
       cells += way.cells.size();
+      weight += way.cost;
       cost += cost_of(way.cells, grid_.diagonal);
       answer_.path = path_over_cells(map_, way.from, way.cells, way.end.place);
-      if (request_.options.optimise) optimise();
+      if (wants_taut()) optimise();
       raw += answer_.raw_length.value_or(0.0);
       whole.insert(whole.end(), answer_.path.begin() + 1, answer_.path.end());
     }
-    if (request_.options.optimise) answer_.raw_length = raw;
+    if (answer_.raw_length) answer_.raw_length = raw;
     answer_.path = std::move(whole);
     count(cells, cost);
+    if (prices_) {
+      const double in_cells = static_cast<double>(weight) / static_cast<double>(units_a_cell);
+      answer_.path_figures.push_back({"cells_cost", in_cells * map_.cell});
+    }
   }
 
+  /// Paths over cells alone are farther from any bound than gaps that are asked for.
+  bool wants_taut() const { return prices_ || request_.options.optimise || request_.options.anytime.gap; }
   bool stands_free(Vec2 p) const { return stands_free_on_map(map_, problem_, p, request_.execution); }
   Outcome blocked_end(const std::optional<Cell>& start, const std::optional<Cell>& goal) const {
     if (!start || !stands_free(problem_.start)) return Outcome::start_blocked;
@@ -233,14 +283,31 @@ class CellSolve {
     map.blocked = closed_;
     const GridWorld world(map, problem_.reach(), request_.execution);
     answer_.raw_length = path_length(answer_.path, GridWorld::distance);
+    if (prices_) return pull(world);
     answer_.path = shorter_path(WorldView(world), std::move(answer_.path), GridWorld::distance, {.seed = answer_.seed},
                                 request_.execution, answer_.counters);
+  }
+
+  /// Under the price, off the grid.
+  void pull(const GridWorld& world) {
+    GridWorld::Query query = world.make_query();
+    const PricedLegs legs{leg_prices().cost,
+                          [&](Vec2 a, Vec2 b) {
+                            ++answer_.counters.edges_checked;
+                            const bool free = world.is_free_motion(a, b, query);
+                            answer_.counters.edges_free += free ? 1 : 0;
+                            return free;
+                          },
+                          map_.cell};
+    answer_.path = priced_taut(std::move(answer_.path), legs, request_.execution);
   }
 
   const SolveRequest& request_;
   const OccupancyMap& map_;
   WallProblem problem_;
   bool chooses_;
+  std::optional<MapPrices> prices_;  // where something is priced
+  MapPrices::Scratch scratch_;
   GridSearchOptions grid_;
   Bitmap closed_;   // to a point
   Bitmap blocked_;  // to a disc's middle; empty: the robot is a point
@@ -249,7 +316,10 @@ class CellSolve {
 
 Answer solve_over_cells(const SolveRequest& request) {
   CellSolve solve(request, map_problem(request.scene, request.question));
-  answer_within_limits(solve.answer(), [&] { solve.run(); });
+  answer_within_limits(solve.answer(), [&] {
+    solve.run();
+    solve.add_alternatives();
+  });
   return std::move(solve.answer());
 }
 
@@ -298,7 +368,14 @@ class BodyOnMap : public UsualBody {
     return starts_on_water(map_, problem_.start) || stands_free_on_map(map_, problem_, goal, execution_);
   }
   static double length(const World&, Vec2 a, Vec2 b) { return World::distance(a, b); }
+  const MotionCost& price_motions(const World& world) {
+    if (!problem_.prices.empty()) {
+      cost_ = motion_cost<MapPrices>(world.map(), problem_.robot.radius, problem_.prices, execution_);
+    }
+    return cost_;
+  }
   Path<Vec2> shortened(const World& world, Path<Vec2> path, Answer& answer) const {
+    if (cost_) return pulled_taut(world, std::move(path), cost_, map_.cell, execution_);
     return shorter_path(WorldView(world), std::move(path), World::distance, {.seed = answer.seed}, execution_,
                         answer.counters);
   }
@@ -311,6 +388,7 @@ class BodyOnMap : public UsualBody {
   const OccupancyMap& map_;
   const Execution& execution_;
   WallProblem problem_;
+  MotionCost cost_;  // empty: nothing has a price
 };
 
 /// The planner reaches what the cells have chosen: the path's stops and its goal.
@@ -352,6 +430,7 @@ Answer solve_chosen(const SolveRequest& request) {
   answer.seconds.search += chosen.seconds.search;
   answer.solve_s += chosen.solve_s;
   take_choice(answer, choice, answer.outcome);
+  if (answer.verified) answer.lower_bound = bound_of_choice(problem, has_open_end(request));
   return answer;
 }
 
@@ -425,15 +504,19 @@ class SkeletonSolve {
 };
 
 constexpr PlannerChoice occupancy_planners[] = {
-    {PlannerKind::grid, OptionSet{Option::search, Option::diagonal, Option::optimise, Option::via}, goal_words},
-    {PlannerKind::prm, prm_takes | point_takes | OptionSet{Option::via}, goal_words},
-    {PlannerKind::lazy_prm, lazy_prm_takes | point_takes | OptionSet{Option::via}, goal_words},
-    {PlannerKind::rrt, rrt_options, goal_words},
-    {PlannerKind::rrt_connect, rrt_connect_options, goal_words},
-    {PlannerKind::rrt_star, rrt_star_options},
-    {PlannerKind::informed_rrt_star, rrt_star_options},
-    {PlannerKind::anytime, anytime_options},
-    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound}}};
+    {PlannerKind::grid,
+     OptionSet{Option::search, Option::diagonal, Option::optimise, Option::via, Option::bound, Option::gap},
+     goal_words | price_words | restriction_words | route_words},
+    {PlannerKind::prm, prm_takes | point_takes | OptionSet{Option::via}, goal_words | price_words | restriction_words},
+    {PlannerKind::lazy_prm, lazy_prm_takes | point_takes | OptionSet{Option::via},
+     goal_words | price_words | restriction_words},
+    {PlannerKind::rrt, rrt_options, goal_words | restriction_words},
+    {PlannerKind::rrt_connect, rrt_connect_options, goal_words | restriction_words},
+    {PlannerKind::rrt_star, rrt_star_options, restriction_words},
+    {PlannerKind::informed_rrt_star, rrt_star_options, restriction_words},
+    {PlannerKind::anytime, anytime_options, restriction_words},
+    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound},
+     restriction_words}};
 
 bool fits_occupancy(const Scene& scene, const RobotSpec& robot) {
   return scene.map && (robot.kind == RobotKind::point || robot.kind == RobotKind::disc);
