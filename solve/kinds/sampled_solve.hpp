@@ -21,6 +21,7 @@
 //   start_stands_free(), goal_stands_free(state)   by the verification
 //   length(world, a, b)                    of a motion: what shortening shortens
 //   shortened(world, path, answer)         the path made shorter
+//   on_lattice(world, goals, answer)       of planner grid, where there is one: a path over its lattice
 //   judge(world, path, answer)             verifies; fills in the path and what is said of it
 //   cause_of_blocked(world, outcome, goals)
 //   price_motions(world)                   what motions cost beyond their distance; empty: nothing, or not there
@@ -104,6 +105,8 @@ class SampledSolve {
     answer_.planner = name_of(request.planner);
     if (gets_better(request.planner)) {
       describe_better();
+    } else if (on_lattice()) {
+      answer_.seed = request.options.seed;
     } else {
       by_roadmap() ? describe_roadmap() : describe_trees();
     }
@@ -129,8 +132,10 @@ class SampledSolve {
 
  private:
   const Execution& execution() const { return request_.execution; }
+  bool on_lattice() const { return request_.planner == PlannerKind::grid; }
   void plan() {
     if (gets_better(request_.planner)) return plan_better();
+    if (on_lattice()) return plan_on_lattice();
     by_roadmap() ? plan_roadmaps() : plan_trees();
   }
   bool by_roadmap() const { return is_roadmap_planner(request_.planner); }
@@ -185,7 +190,7 @@ class SampledSolve {
   }
   /// What grows until start and goal connect, where they never can: a roadmap for one round and trees for a few nodes.
   void bound_growth() {
-    if (asked_ != nullptr) return;
+    if (asked_ != nullptr || on_lattice()) return;
     const bool grows = by_roadmap() ? !roadmap_options_.samples && !takes_all_places(roadmap_options_.sampler)
                                     : !request_.options.trees.nodes;
     if (!grows || !request_.scene.map) return;
@@ -344,14 +349,31 @@ class SampledSolve {
     answer_.iterations = found.iterations;
     answer_.ended_by = found.ended_by;
     answer_.optimal = found.ended_by == "optimum";
-    const bool is_stopped = enum_named<StopReason>(found.ended_by).has_value();
-    if (is_stopped) answer_.stop_reason = found.stop_reason;
-    if (is_stopped && own_ != nullptr && own_->deadline != nullptr) {
-      last_.emplace(std::numeric_limits<double>::infinity(), own_->deadline->memory_bytes());
-      own_->deadline = &*last_;
-    }
+    end_limits(found.stop_reason);
     take(std::move(found));
     if (request_.options.optimise && answer_.outcome == Outcome::solved) shorten_better();
+  }
+  /// Where a stop ended the search: its path is judged in the time that it takes.
+  void end_limits(StopReason reason) {
+    if (!enum_named<StopReason>(answer_.ended_by)) return;
+    answer_.stop_reason = reason;
+    if (own_ == nullptr || own_->deadline == nullptr) return;
+    last_.emplace(std::numeric_limits<double>::infinity(), own_->deadline->memory_bytes());
+    own_->deadline = &*last_;
+  }
+  void plan_on_lattice() {
+    if constexpr (requires { body_.on_lattice(*world_, goals_, answer_); }) {
+      const std::vector<State> goals = detail::free_states(*world_, std::span<const State>(goals_));
+      auto query = world_->make_query();
+      if (const bool is_free = world_->is_free(body_.start(), query); !is_free || goals.empty()) {
+        answer_.outcome = is_free ? Outcome::goal_blocked : Outcome::start_blocked;
+        return;
+      }
+      path_ = body_.on_lattice(*world_, goals, answer_);
+      answer_.outcome = path_.empty() ? Outcome::not_connected : Outcome::solved;
+      if (!path_.empty()) answer_.lower_bound = bound(BoundEffort::simple);
+      end_limits(answer_.stop_reason.value_or(StopReason::time));
+    }
   }
   /// Of planners that leave it to who asks: in the metric that they make small, and never to a path that costs more.
   void shorten_better() {
@@ -435,7 +457,7 @@ class SampledSolve {
   /// little; what is told of work and sizes is of all trees. What is dear then stays so, since one that wanders is made
   /// better only near where it goes.
   void choose_path() {
-    const std::size_t count = by_roadmap() ? 1 : body_.paths_weighed();
+    const std::size_t count = by_roadmap() || on_lattice() ? 1 : body_.paths_weighed();
     if (count < 2) return;
     double least = body_.price_once_shorter(*world_, path_, answer_);
     constexpr double as_cheap = 1e-6;  // rounding does not choose
@@ -472,7 +494,7 @@ class SampledSolve {
     }
     const std::optional<double> cost = cost_of_better();
     body_.judge(*world_, std::move(path_), answer_);
-    answer_.cost = cost;
+    if (!on_lattice()) answer_.cost = cost;
   }
   std::optional<double> cost_of_better() const {
     if (!Body::has_cost || !gets_better(request_.planner)) return std::nullopt;
@@ -506,7 +528,7 @@ class SampledSolve {
 /// SolveKind::solve for a body.
 template <class Body>
 Answer solve_sampled(const SolveRequest& request) {
-  if (!gets_better(request.planner)) return SampledSolve(request, Body(request)).run();
+  if (!gets_better(request.planner) && request.planner != PlannerKind::grid) return SampledSolve(request, Body(request)).run();
   Execution execution = request.execution;
   SolveRequest own{request.options, request.scene, request.question, request.planner, execution, request.keep};
   return SampledSolve(own, Body(own), &execution).run();
