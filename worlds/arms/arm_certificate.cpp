@@ -104,6 +104,7 @@ class alignas(32) ArmMotion {
       if (drive.slides) {
         if (!(std::min(from, from + turn) >= drive.low && std::max(from, from + turn) <= drive.high)) return false;
       } else if (!(std::abs(from) <= 3.5)) {
+        if (!(std::abs(from) <= drive.most_value)) return false;
         from = std::remainder(from, 2.0 * std::numbers::pi);
       }
       start_[slot] = static_cast<T>(from);
@@ -171,7 +172,7 @@ class alignas(32) ArmMotion {
     while (!stack.empty()) {
       const ArmBlock<T> block = stack.back();
       stack.pop_back();
-      if (++blocks > most_blocks) return MotionVerdict::refused;
+      if (++blocks + bodies_looked_at_ / 2 > most_blocks) return MotionVerdict::refused;
       scratch_.items.resize(block.end_item);
       begin(block);
       if (look_at_items(block, blocks == 1)) return MotionVerdict::blocked;
@@ -570,6 +571,7 @@ class alignas(32) ArmMotion {
   std::uint32_t item_ = 0;        // that is looked at
   std::size_t first_unsure_ = 0;  // of it
   unsigned open_;                 // lanes
+  unsigned bodies_looked_at_ = 0;  // pairs of convex bodies, a lane each; large ones count more than once
 };
 
 template <class T>
@@ -584,8 +586,10 @@ bool ArmMotion<T>::settle(std::size_t first_item) {
     const double bend = double{scratch_.bends[unsure.item]} * (is_link ? 1.0 : 0.5);  // of a pair it is that of both
     const ConvexBody& one = setup_.solids[unsure.solid];
     const ConvexBody& other = is_link ? setup_.bodies[unsure.other] : setup_.solids[unsure.other];
+    const auto cost = as_whole<unsigned>(one.cost() + other.cost());
     unsigned open = 0;
     for (unsigned lanes = unsure.lanes; lanes != 0; lanes &= lanes - 1) {
+      bodies_looked_at_ += cost;
       const auto lane = as_whole<unsigned>(std::countr_zero(lanes));
       const MovingFrame at = frame_of(slot, pair.common, lane, bend);
       const MovingFrame other_at = frame_of(other_slot, pair.common, lane, is_link ? 0.0 : bend);
@@ -621,6 +625,7 @@ template <class T>
 [[gnu::always_inline]] inline MotionVerdict judge_by_lanes(const ArmSetup& setup, const ArmTables<T>& tables,
                                                            std::span<const double> q, std::span<const double> way,
                                                            double bend_factor) {
+  if (!(tables.slack < T(1e30))) return MotionVerdict::refused;
   ArmMotion<T> motion(setup, tables, arm_scratch<T>());
   if (!motion.take(q, way)) return MotionVerdict::refused;
   motion.bound_bends(static_cast<T>(bend_factor));

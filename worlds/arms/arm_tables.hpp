@@ -60,6 +60,7 @@ struct ArmDrive {
   double low = 0.0;  // values, of a joint that slides
   double high = 0.0;
   double most_way = 0.0;    // of the value
+  double most_value = 0.0;  // its size, of a joint that turns
   double most_reach = 0.0;  // largest of all links
 };
 
