@@ -180,6 +180,7 @@ RecordedAnswer recorded(const Answer& answer) {
   record.length = answer.length;
   record.lower_bound = answer.lower_bound;
   record.cost = answer.cost;
+  record.price = answer.price;
   record.file = "answer";
   record.path = answer.path;
   record.states = answer.states;

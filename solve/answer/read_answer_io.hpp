@@ -26,6 +26,7 @@ struct RecordedAnswer {
   std::optional<double> length;           ///< that it claims
   std::optional<double> lower_bound;      ///< the same
   std::optional<double> cost;             ///< the same; with a lower bound, which is of it then
+  std::optional<PriceParts> price;        ///< the same
   std::string file;                       ///< where it stands, for messages
   Path<Vec2> path;                        ///< where a state has two numbers
   StateList states;                       ///< where a state has more than two; then `path` is their first two

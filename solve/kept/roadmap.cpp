@@ -167,6 +167,10 @@ void check_buildable(const Scene& scene, const Question& question, const SolveOp
   options.validate();
   refuse_what_is_asked_later(options);
   check_solver_options(options);
+  if (const AskedWords words = words_in(prices_of(scene, question)); !words.empty()) {
+    throw UsageError(fmt::format("@{}: kept roadmaps hold neither prices nor forbidden areas; solve takes them",
+                                 name_of(words_of(words).front())));
+  }
   builder_of(options, scene, without_ends(scene, question));
 }
 

@@ -227,7 +227,14 @@ ChosenSolver choose_solver(const SolveOptions& options, const Scene& scene, cons
   if (!asked && !words.empty()) asked = planner_for_words(words, options, usual, fitting);
   ChosenSolver chosen{&first, asked.value_or(usual)};
   const auto has_it = [&](const SolveKind* kind) { return choice_in(*kind, chosen.planner) != nullptr; };
-  const auto found = std::find_if(fitting.begin(), fitting.end(), has_it);
+  const std::vector<AskedWord> listed_words = words_of(words);
+  const auto takes_all = [&](const SolveKind* kind) {
+    const PlannerChoice* choice = choice_in(*kind, chosen.planner);
+    return choice != nullptr && std::all_of(listed_words.begin(), listed_words.end(),
+                                            [&](AskedWord word) { return choice->words.has(word); });
+  };
+  auto found = std::find_if(fitting.begin(), fitting.end(), takes_all);
+  if (found == fitting.end()) found = std::find_if(fitting.begin(), fitting.end(), has_it);
   if (found == fitting.end()) refuse_planner(chosen.planner, fitting);
   chosen.kind = *found;
   const PlannerChoice& choice = *choice_in(*chosen.kind, chosen.planner);

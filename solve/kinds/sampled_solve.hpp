@@ -23,6 +23,7 @@
 //   shortened(world, path, answer)         the path made shorter
 //   judge(world, path, answer)             verifies; fills in the path and what is said of it
 //   cause_of_blocked(world, outcome, goals)
+//   price_motions(world)                   what motions cost beyond their distance; empty: nothing, or not there
 #pragma once
 
 #include <fmt/format.h>
@@ -177,6 +178,9 @@ class SampledSolve {
       world_ = &*own_world_;
     }
     view_.emplace(*world_);
+    if constexpr (requires { body_.price_motions(*world_); }) {
+      if (asked_ == nullptr) view_->motion_cost = body_.price_motions(*world_);
+    }
     goals_ = body_.goals(*world_);
   }
   /// What grows until start and goal connect, where they never can: a roadmap for one round and trees for a few nodes.

@@ -17,6 +17,7 @@
 #include "solve/kinds/goals_on_map.hpp"
 #include "solve/kinds/map_steps.hpp"
 #include "solve/kinds/plane_steps.hpp"
+#include "solve/kinds/priced_motions.hpp"
 #include "solve/kinds/sampled_roadmap.hpp"
 #include "solve/kinds/sampled_solve.hpp"
 #include "solve/kinds/solve_steps.hpp"
@@ -39,6 +40,21 @@ std::vector<Vec2> way_points(const SolveRequest& request) {
     throw UsageError("@visit: finds the order of its places, and @via says one; leave one of them out");
   }
   return points;
+}
+
+/// none: nothing is priced.
+std::optional<MapPrices> priced_map(const OccupancyMap& map, const WallProblem& problem, const Execution& execution) {
+  std::optional<MapPrices> prices;
+  if (!problem.prices.empty()) prices.emplace(map, problem.robot.radius, problem.prices, execution);
+  if (prices && !prices->is_priced()) prices.reset();
+  return prices;
+}
+
+/// Refers to both.
+LegPrices leg_prices(const std::optional<MapPrices>& prices, MapPrices::Scratch& scratch) {
+  if (!prices) return {};
+  return {[&](Vec2 a, Vec2 b) { return prices->cost(a, b, scratch); },
+          [&](Cell from, unsigned direction) { return prices->step_up(from, direction, scratch); }};
 }
 
 /// Does the question name no goal but places to visit?
@@ -81,11 +97,8 @@ class CellSolve {
       : request_(request),
         map_(*request.scene.map),
         problem_(problem),
-        chooses_(!problem.rule.empty() || !request.options.trees.via.empty()) {
-    if (const Prices& prices = problem.prices; !prices.empty()) {
-      prices_.emplace(map_, problem.robot.radius, prices, request.execution);
-      if (!prices_->is_priced()) prices_.reset();
-    }
+        chooses_(!problem.rule.empty() || !request.options.trees.via.empty()),
+        prices_(priced_map(map_, problem, request.execution)) {
     if (prices_ && request.options.grid.diagonal) {
       throw UsageError("@diagonal: where ways have a price steps weigh what they cost; leave it out");
     }
@@ -150,32 +163,14 @@ class CellSolve {
       answer_.problem.goal = {reached.goal.x, reached.goal.y};
     }
     verify_solved_on_map(answer_, map_, reached, true, request_.execution);
-    if (prices_ && answer_.verified) take_price();
-  }
-
-  LegPrices leg_prices() {
-    if (!prices_) return {};
-    return {[this](Vec2 a, Vec2 b) { return prices_->cost(a, b, scratch_); },
-            [this](Cell from, unsigned direction) { return prices_->step_up(from, direction, scratch_); }};
-  }
-
-  /// In the world's unit, all parts.
-  void take_price() {
-    PriceParts price;
-    for (std::size_t i = 1; i < answer_.path.size(); ++i) {
-      const PriceParts leg = prices_->parts(answer_.path[i - 1], answer_.path[i], scratch_);
-      price.clearance += leg.clearance;
-      price.areas += leg.areas;
-    }
-    answer_.price = price;
-    answer_.cost = answer_.length + price.sum();
-    answer_.lower_bound = bound_of_choice(problem_, has_open_end(request_));
+    if (prices_ && answer_.verified) answer_.lower_bound = bound_of_choice(problem_, has_open_end(request_));
   }
 
   GoalChoice choose() {
     const StageTimer timer(request_.execution, "search", answer_.seconds.search, map_.blocked.size());
     answer_.search = "field";
-    WaysOverCells ways(map_, problem_, closed_, blocked(), grid_.diagonal, leg_prices(), request_.execution);
+    WaysOverCells ways(map_, problem_, closed_, blocked(), grid_.diagonal, leg_prices(prices_, scratch_),
+                       request_.execution);
     GoalChoice choice = choose_goal(ways, map_, problem_, way_points(request_), has_open_end(request_));
     answer_.counters.expanded += ways.expanded();
     return choice;
@@ -276,7 +271,7 @@ class CellSolve {
   /// Under the price, off the grid.
   void pull(const GridWorld& world) {
     GridWorld::Query query = world.make_query();
-    const PricedLegs legs{leg_prices().cost,
+    const PricedLegs legs{leg_prices(prices_, scratch_).cost,
                           [&](Vec2 a, Vec2 b) {
                             ++answer_.counters.edges_checked;
                             const bool free = world.is_free_motion(a, b, query);
@@ -350,7 +345,14 @@ class BodyOnMap : public UsualBody {
     return starts_on_water(map_, problem_.start) || stands_free_on_map(map_, problem_, goal, execution_);
   }
   static double length(const World&, Vec2 a, Vec2 b) { return World::distance(a, b); }
+  const MotionCost& price_motions(const World& world) {
+    if (!problem_.prices.empty()) {
+      cost_ = motion_cost<MapPrices>(world.map(), problem_.robot.radius, problem_.prices, execution_);
+    }
+    return cost_;
+  }
   Path<Vec2> shortened(const World& world, Path<Vec2> path, Answer& answer) const {
+    if (cost_) return pulled_taut(world, std::move(path), cost_, map_.cell, execution_);
     return shorter_path(WorldView(world), std::move(path), World::distance, {.seed = answer.seed}, execution_,
                         answer.counters);
   }
@@ -363,6 +365,7 @@ class BodyOnMap : public UsualBody {
   const OccupancyMap& map_;
   const Execution& execution_;
   WallProblem problem_;
+  MotionCost cost_;  // empty: nothing has a price
 };
 
 /// The planner reaches what the cells have chosen: the path's stops and its goal.
@@ -383,7 +386,9 @@ Answer solve_chosen(const SolveRequest& request) {
     }
     const Bitmap closed = closed_cells(map, problem.start);
     const Bitmap wide = blocked_for_disc(closed, problem.reach() / map.cell, request.execution);
-    WaysOverCells ways(map, problem, closed, wide, Diagonal::sqrt2, {}, request.execution);
+    const std::optional<MapPrices> prices = priced_map(map, problem, request.execution);
+    MapPrices::Scratch scratch;
+    WaysOverCells ways(map, problem, closed, wide, Diagonal::sqrt2, leg_prices(prices, scratch), request.execution);
     choice = choose_goal(ways, map, problem, {}, has_open_end(request));
     chosen.counters.expanded += ways.expanded();
     take_choice(chosen, choice);
@@ -480,14 +485,16 @@ class SkeletonSolve {
 constexpr PlannerChoice occupancy_planners[] = {
     {PlannerKind::grid, OptionSet{Option::search, Option::diagonal, Option::optimise, Option::via},
      goal_words | price_words | restriction_words},
-    {PlannerKind::prm, prm_takes | point_takes | OptionSet{Option::via}, goal_words},
-    {PlannerKind::lazy_prm, lazy_prm_takes | point_takes | OptionSet{Option::via}, goal_words},
-    {PlannerKind::rrt, rrt_options, goal_words},
-    {PlannerKind::rrt_connect, rrt_connect_options, goal_words},
-    {PlannerKind::rrt_star, rrt_star_options},
-    {PlannerKind::informed_rrt_star, rrt_star_options},
-    {PlannerKind::anytime, anytime_options},
-    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound}}};
+    {PlannerKind::prm, prm_takes | point_takes | OptionSet{Option::via}, goal_words | price_words | restriction_words},
+    {PlannerKind::lazy_prm, lazy_prm_takes | point_takes | OptionSet{Option::via},
+     goal_words | price_words | restriction_words},
+    {PlannerKind::rrt, rrt_options, goal_words | restriction_words},
+    {PlannerKind::rrt_connect, rrt_connect_options, goal_words | restriction_words},
+    {PlannerKind::rrt_star, rrt_star_options, restriction_words},
+    {PlannerKind::informed_rrt_star, rrt_star_options, restriction_words},
+    {PlannerKind::anytime, anytime_options, restriction_words},
+    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound},
+     restriction_words}};
 
 bool fits_occupancy(const Scene& scene, const RobotSpec& robot) {
   return scene.map && (robot.kind == RobotKind::point || robot.kind == RobotKind::disc);

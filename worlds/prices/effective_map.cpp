@@ -7,10 +7,10 @@
 #include <cmath>
 #include <utility>
 
-#include "core/base/trigonometry.hpp"
 #include "core/base/whole.hpp"
 #include "core/plane/geometry.hpp"
 #include "core/plane/polygon.hpp"
+#include "worlds/prices/area_factors.hpp"
 
 namespace warren {
 namespace {
@@ -71,6 +71,30 @@ std::optional<double> mask_factor(const PriceMask& mask, int value) {
   return 1.0;
 }
 
+namespace {
+
+std::array<Vec2, 4> mask_square_in_world(const MaskCells& mask, std::uint32_t x, std::uint32_t y) {
+  return {mask_corner(mask, x, y), mask_corner(mask, x + 1.0, y), mask_corner(mask, x + 1.0, y + 1.0),
+          mask_corner(mask, x, y + 1.0)};
+}
+
+/// Calls each(cells, x, y) for all blocked cells of the masks.
+template <class Each>
+void for_blocked(const Prices& prices, const Execution& execution, const Each& each) {
+  for (const PriceMask& mask : prices.masks) {
+    if (!mask.read) continue;
+    for (std::uint32_t y = 0; y < mask.read->height; ++y) {
+      execution.check();
+      for (std::uint32_t x = 0; x < mask.read->width; ++x) {
+        const int value = mask.read->values[std::size_t{y} * mask.read->width + x];
+        if (value > 0 && !mask_factor(mask, value)) each(*mask.read, x, y);
+      }
+    }
+  }
+}
+
+}  // namespace
+
 Vec2 corner_in_cells(const OccupancyMap& map, Vec2 in_world) {
   constexpr double near = 1e-9;
   Vec2 p = map_point(map, in_world);
@@ -82,13 +106,9 @@ Vec2 corner_in_cells(const OccupancyMap& map, Vec2 in_world) {
 }
 
 std::array<Vec2, 4> mask_square(const OccupancyMap& map, const MaskCells& mask, std::uint32_t x, std::uint32_t y) {
-  const auto [sine, cosine] = portable::sin_and_cos(mask.yaw_rad);
-  const auto corner = [&](double column, double row) {
-    const Vec2 p{mask.cell * column, mask.cell * row};
-    const Vec2 turned = mask.yaw_rad == 0.0 ? p : Vec2{cosine * p.x - sine * p.y, sine * p.x + cosine * p.y};
-    return corner_in_cells(map, mask.origin + turned);
-  };
-  return {corner(x, y), corner(x + 1.0, y), corner(x + 1.0, y + 1.0), corner(x, y + 1.0)};
+  std::array<Vec2, 4> corners = mask_square_in_world(mask, x, y);
+  for (Vec2& p : corners) p = corner_in_cells(map, p);
+  return corners;
 }
 
 void add_polygon_cells(Bitmap& cells, std::span<const Vec2> corners, const Execution& execution) {
@@ -119,7 +139,7 @@ void add_polygon_cells(Bitmap& cells, std::span<const Vec2> corners, const Execu
 }
 
 OccupancyMap effective_map(const OccupancyMap& map, const Prices& prices, const Execution& execution) {
-  execution.reserve(map.blocked.bytes() + map.unknown.bytes() + map.water.bytes());
+  execution.reserve(2 * map.blocked.bytes() + map.unknown.bytes() + map.water.bytes());
   OccupancyMap effective = map;
   if (prices.unknown && !map.unknown.empty()) {
     for (std::uint32_t y = 0; y < map.height(); ++y) {
@@ -128,26 +148,41 @@ OccupancyMap effective_map(const OccupancyMap& map, const Prices& prices, const 
       for (std::size_t w = 0; w < blocked.size(); ++w) blocked[w] &= ~unknown[w];
     }
   }
+  Bitmap forbidden = cell_bitmap(map.width(), map.height(), execution);
   for (const KeepOut& area : prices.keep_out) {
     std::vector<Vec2> corners;
     for (const Vec2 p : area.corners) corners.push_back(corner_in_cells(map, p));
-    add_polygon_cells(effective.blocked, corners, execution);
+    add_polygon_cells(forbidden, corners, execution);
   }
-  for (const PriceMask& mask : prices.masks) {
-    if (!mask.read) continue;
-    for (std::uint32_t y = 0; y < mask.read->height; ++y) {
-      execution.check();
-      for (std::uint32_t x = 0; x < mask.read->width; ++x) {
-        const int value = mask.read->values[std::size_t{y} * mask.read->width + x];
-        if (value > 0 && !mask_factor(mask, value))
-          add_polygon_cells(effective.blocked, mask_square(map, *mask.read, x, y), execution);
-      }
-    }
+  for_blocked(prices, execution, [&](const MaskCells& cells, std::uint32_t x, std::uint32_t y) {
+    add_polygon_cells(forbidden, mask_square(map, cells, x, y), execution);
+  });
+  for (std::uint32_t y = 0; y < map.height(); ++y) {
+    const auto closed = forbidden.row(y);
+    const auto blocked = effective.blocked.row(y);
+    for (std::size_t w = 0; w < closed.size(); ++w) blocked[w] |= closed[w];
+    if (map.water.empty()) continue;  // it is blocked all the same: but to paths that begin on it
+    const auto water = effective.water.row(y);
+    for (std::size_t w = 0; w < closed.size(); ++w) water[w] &= ~closed[w];
   }
   std::uint64_t blocked = 0;
   for (const std::uint64_t word : effective.blocked.words()) blocked += as_whole<std::uint64_t>(std::popcount(word));
   effective.free = map.blocked.size() - blocked;
   return effective;
+}
+
+Scene restricted_scene(const Scene& scene, const Prices& prices, const Execution& execution) {
+  Scene restricted = scene;
+  if (restricted.map) {
+    restricted.map = effective_map(*scene.map, prices, execution);
+    return restricted;
+  }
+  for (const KeepOut& area : prices.keep_out) restricted.polygons.push_back({area.corners, area.line});
+  for_blocked(prices, execution, [&](const MaskCells& cells, std::uint32_t x, std::uint32_t y) {
+    const std::array<Vec2, 4> square = mask_square_in_world(cells, x, y);
+    restricted.polygons.push_back({{square.begin(), square.end()}, 0});
+  });
+  return restricted;
 }
 
 }  // namespace warren

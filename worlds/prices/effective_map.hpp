@@ -13,6 +13,7 @@
 #include "parallel/execution.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "scenes/scene/prices.hpp"
+#include "scenes/scene/scene.hpp"
 
 namespace warren {
 
@@ -21,6 +22,10 @@ bool restricts(const Prices& prices);
 
 /// The map as it is planned on. Masks have been read. Throws Stopped.
 OccupancyMap effective_map(const OccupancyMap& map, const Prices& prices, const Execution& execution);
+
+/// The scene as it is planned in, which restricts(): on a map the map above; else keep-out polygons and the masks'
+/// blocked cells are polygons more. Masks have been read. Throws Stopped.
+Scene restricted_scene(const Scene& scene, const Prices& prices, const Execution& execution);
 
 /// A mask's value in that use: its factor, >= 1; none: blocked.
 std::optional<double> mask_factor(const PriceMask& mask, int value);

@@ -9,7 +9,6 @@
 #include "core/base/error.hpp"
 #include "core/base/whole.hpp"
 #include "core/plane/geometry.hpp"
-#include "core/plane/polygon.hpp"
 #include "spatial/maps/free_cells.hpp"
 #include "worlds/prices/effective_map.hpp"
 
@@ -76,18 +75,6 @@ std::int64_t previous_set(std::span<const std::uint64_t> row, std::int64_t first
   return last - 1;
 }
 
-bool is_inside(std::span<const Vec2> corners, Vec2 p) {
-  bool inside = false;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    Segment side = polygon_side(corners, i);
-    if (distance(p, side) <= on_line) return false;
-    if ((side.a.x <= p.x) == (side.b.x <= p.x)) continue;
-    if (side.a.x > side.b.x) std::swap(side.a, side.b);
-    if (orient2d(side.a, side.b, p) < 0) inside = !inside;
-  }
-  return inside;
-}
-
 }  // namespace
 
 double clearance_reach(const ClearancePrice& price, double radius) {
@@ -96,41 +83,33 @@ double clearance_reach(const ClearancePrice& price, double radius) {
   throw UsageError("@clearance-price: a point has no width to reach as far as: say P,D");
 }
 
+double clearance_scale(const ClearancePrice& price, double radius) {
+  const double share = (clearance_reach(price, radius) + radius) / clearance_reach(price, radius);
+  return price.price * share * share;
+}
+
 MapPrices::MapPrices(const OccupancyMap& effective, double radius, const Prices& prices, const Execution& execution)
-    : map_(effective), unknown_(prices.unknown.value_or(1.0)) {
+    : map_(effective),
+      areas_(prices, [&](Vec2 p) { return corner_in_cells(effective, p); }),
+      unknown_(effective.unknown.empty() ? 1.0 : prices.unknown.value_or(1.0)) {
   if (prices.clearance && prices.clearance->price > 0.0) {
     const double reach = clearance_reach(*prices.clearance, radius);
     reach_ = (reach + radius) / map_.cell;
-    price_ = prices.clearance->price * (reach_ * map_.cell / reach) * (reach_ * map_.cell / reach);
+    price_ = clearance_scale(*prices.clearance, radius);
     field_.emplace(map_.blocked, CellDistance::squares, true, execution);
   }
-  for (const PricedArea& area : prices.areas) {
-    if (!(area.factor > 1.0)) continue;
-    Area own{area.factor, {}, {}};
-    for (const Vec2 p : area.corners) own.corners.push_back(corner_in_cells(map_, p));
-    for (const Vec2 p : own.corners) own.box.include(p);
-    areas_.push_back(std::move(own));
-  }
-  const bool any_unknown = unknown_ > 1.0 && !map_.unknown.empty();
-  for (const PriceMask& mask : prices.masks) {
-    if (!mask.read) continue;
-    const std::array<Vec2, 4> square = mask_square(map_, *mask.read, 0, 0);
-    const std::array<Vec2, 4> last = mask_square(map_, *mask.read, mask.read->width, mask.read->height);
-    // The axes from one far corner, so that their rounding is that of one cell.
-    const Vec2 across = mask_square(map_, *mask.read, mask.read->width, 0)[0] - square[0];
-    const Vec2 along = last[0] - across - square[0];
-    masks_.push_back({&mask, square[0], (1.0 / mask.read->width) * across, (1.0 / mask.read->height) * along});
-  }
-  has_areas_ = any_unknown || !areas_.empty() || !masks_.empty();
+  const bool any_unknown = unknown_ > 1.0;
+  has_areas_ = any_unknown || !areas_.empty();
   if (!has_areas_) return;
   touched_ = cell_bitmap(map_.width(), map_.height(), execution);
-  for (const Area& area : areas_) add_polygon_cells(touched_, area.corners, execution);
-  for (const Mask& mask : masks_) {
-    const MaskCells& cells = *mask.mask->read;
+  for (const AreaFactors::Area& area : areas_.areas()) add_polygon_cells(touched_, area.corners, execution);
+  for (const PriceMask& mask : prices.masks) {
+    if (!mask.read) continue;
+    const MaskCells& cells = *mask.read;
     for (std::uint32_t y = 0; y < cells.height; ++y) {
       execution.check();
       for (std::uint32_t x = 0; x < cells.width; ++x) {
-        const auto of_cell = mask_factor(*mask.mask, cells.values[std::size_t{y} * cells.width + x]);
+        const auto of_cell = mask_factor(mask, cells.values[std::size_t{y} * cells.width + x]);
         if (of_cell && *of_cell > 1.0) add_polygon_cells(touched_, mask_square(map_, cells, x, y), execution);
       }
     }
@@ -203,73 +182,16 @@ double MapPrices::nearness(Vec2 a, Vec2 b, Scratch& scratch) const {
 }
 
 double MapPrices::factor(Vec2 p) const {
-  const auto least_around = [](Vec2 at, const auto& of_cell) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const double dy : {-on_line, on_line}) {
-      for (const double dx : {-on_line, on_line}) {
-        least = std::min(least, of_cell(bounded_whole<std::int64_t>(std::floor(at.x + dx)),
-                                        bounded_whole<std::int64_t>(std::floor(at.y + dy))));
-      }
-    }
-    return least;
-  };
-  double greatest = 1.0;
-  for (const Area& area : areas_) {
-    if (area.factor > greatest && area.box.contains(p) && is_inside(area.corners, p)) greatest = area.factor;
-  }
-  if (unknown_ > greatest && !map_.unknown.empty()) {
-    greatest = std::max(greatest, least_around(p, [&](std::int64_t x, std::int64_t y) {
-                          return map_.unknown.holds(x, y) ? unknown_ : 1.0;
-                        }));
-  }
-  for (const Mask& mask : masks_) {
-    const MaskCells& cells = *mask.mask->read;
-    const Vec2 from = p - mask.origin;
-    const double area = cross(mask.right, mask.up);
-    const Vec2 in_mask{cross(from, mask.up) / area, cross(mask.right, from) / area};
-    greatest = std::max(greatest, least_around(in_mask, [&](std::int64_t x, std::int64_t y) {
-                          if (x < 0 || y < 0 || x >= cells.width || y >= cells.height) return 1.0;
-                          const auto at = as_whole<std::size_t>(y * cells.width + x);
-                          return mask_factor(*mask.mask, cells.values[at]).value_or(1.0);
-                        }));
-  }
-  return greatest;
+  const double of_areas = areas_.factor(p);
+  if (!(unknown_ > of_areas)) return of_areas;
+  return std::max(of_areas, AreaFactors::least_around(p, [&](std::int64_t x, std::int64_t y) {
+                    return map_.unknown.holds(x, y) ? unknown_ : 1.0;
+                  }));
 }
 
 /// The integral of factor - 1 over a piece in one cell.
 double MapPrices::areas_in(Vec2 p, Vec2 u, double length, Scratch& scratch) const {
-  std::vector<double>& cuts = scratch.cuts;
-  cuts.assign(1, 0.0);
-  const Vec2 end = p + length * u;
-  const Box box = box_of({p, end});
-  const auto cut = [&](double t) {
-    if (t > 0.0 && t < length) cuts.push_back(t);
-  };
-  for (const Area& area : areas_) {
-    if (!area.box.meets(box)) continue;
-    for (std::size_t i = 0; i < area.corners.size(); ++i) {
-      const Segment side = polygon_side(area.corners, i);
-      if (!box_of(side).meets(box)) continue;
-      cut(cross(side.a - p, side.b - side.a) / cross(u, side.b - side.a));  // NaN where it runs along
-    }
-  }
-  for (const Mask& mask : masks_) {
-    const double area = cross(mask.right, mask.up);
-    const auto lines = [&](double at, double slope) {
-      const double to = at + slope * length;
-      for (double line = std::ceil(std::min(at, to)); line <= std::max(at, to); ++line) cut((line - at) / slope);
-    };
-    lines(cross(p - mask.origin, mask.up) / area, cross(u, mask.up) / area);
-    lines(cross(mask.right, p - mask.origin) / area, cross(mask.right, u) / area);
-  }
-  cuts.push_back(length);
-  std::sort(cuts.begin(), cuts.end());
-  double sum = 0.0;
-  for (std::size_t i = 1; i < cuts.size(); ++i) {
-    if (!(cuts[i] > cuts[i - 1])) continue;
-    sum += (cuts[i] - cuts[i - 1]) * (factor(p + 0.5 * (cuts[i - 1] + cuts[i]) * u) - 1.0);
-  }
-  return sum;
+  return areas_.over(p, u, length, scratch.cuts, [&](Vec2 at) { return factor(at); });
 }
 
 double MapPrices::areas(Vec2 a, Vec2 b, Scratch& scratch) const {
@@ -320,8 +242,8 @@ double MapPrices::half_step(Cell cell, unsigned direction, Scratch& scratch) con
 
 double MapPrices::step(Cell from, unsigned direction, Scratch& scratch) const {
   const auto [dx, dy] = cell_steps[direction];
-  const Cell to{from.x + static_cast<std::uint32_t>(dx), from.y + static_cast<std::uint32_t>(dy)};
-  const auto back = static_cast<unsigned>(std::size(cell_steps)) - 1 - direction;
+  const Cell to{as_whole<std::uint32_t>(std::int64_t{from.x} + dx), as_whole<std::uint32_t>(std::int64_t{from.y} + dy)};
+  const auto back = as_whole<unsigned>(cell_steps.size()) - 1 - direction;
   return half_step(from, direction, scratch) + half_step(to, back, scratch);
 }
 

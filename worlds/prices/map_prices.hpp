@@ -16,11 +16,15 @@
 #include "scenes/scene/prices.hpp"
 #include "spatial/maps/distance_field.hpp"
 #include "spatial/maps/free_cells.hpp"
+#include "worlds/prices/area_factors.hpp"
 
 namespace warren {
 
 /// The reach D of a clearance price. Throws UsageError where neither it nor the body's width says one.
 double clearance_reach(const ClearancePrice& price, double radius);
+
+/// (1 - (d - radius) / D)^2 is so much, over the price, as (1 - d / (D + radius))^2.
+double clearance_scale(const ClearancePrice& price, double radius);
 
 /// Immutable; any number of threads may ask, each with its own Scratch.
 class MapPrices {
@@ -54,18 +58,6 @@ class MapPrices {
   double nearness_at(Vec2 p, Scratch& scratch) const;
 
  private:
-  struct Area {
-    double factor;
-    std::vector<Vec2> corners;  // in cells
-    Box box;
-  };
-  struct Mask {
-    const PriceMask* mask;
-    Vec2 origin;  // of its cell (0, 0), in the map's cells
-    Vec2 right;   // a step of its columns, and of its rows, in the map's cells
-    Vec2 up;
-  };
-
   double nearness(Vec2 a, Vec2 b, Scratch& scratch) const;
   double nearness_in(Cell cell, Vec2 p, Vec2 u, double length, Scratch& scratch) const;
   void gather(Cell cell, Vec2 p, Vec2 u, double limit, Scratch& scratch) const;
@@ -80,8 +72,7 @@ class MapPrices {
   double price_ = 0.0;  // of an integral over cells
   double reach_ = 0.0;  // of the middle, cells; 0: nearness costs nothing
   std::optional<DistanceField> field_;
-  std::vector<Area> areas_;
-  std::vector<Mask> masks_;
+  AreaFactors areas_;  // in cells
   double unknown_ = 1.0;
   bool has_areas_ = false;
   Bitmap touched_;  // cells in which some factor may be above 1

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "core/base/rng.hpp"
@@ -32,6 +33,18 @@ inline OccupancyMap random_map(std::uint64_t seed) {
     map.yaw_rad = 0.3;
   }
   return map;
+}
+
+/// Every fourth as long as the map; some between middles, corners, along borders.
+inline std::pair<Vec2, Vec2> random_leg(const OccupancyMap& map, std::uint64_t seed, std::uint64_t i) {
+  const auto place = [&](std::uint64_t k) {
+    const Vec2 p{map.width() * uniform(seed, i, k), map.height() * uniform(seed, i, k + 1)};
+    return i % 3 == 0 ? Vec2{std::round(2.0 * p.x) / 2.0, std::round(2.0 * p.y) / 2.0} : p;
+  };
+  const Vec2 a = place(0);
+  Vec2 b = i % 4 == 0 ? place(2) : a + 0.15 * (place(2) - a);
+  if (i % 6 == 3) b = i % 12 == 3 ? Vec2{a.x, std::round(b.y)} : a + Vec2{2.0, 2.0};
+  return {world_point(map, a), world_point(map, b)};
 }
 
 inline Prices random_prices(const OccupancyMap& map, std::uint64_t seed) {
@@ -67,11 +80,12 @@ inline Prices random_prices(const OccupancyMap& map, std::uint64_t seed) {
 inline double distance_to_blocked(const OccupancyMap& map, Vec2 p) {  // in cells
   double least = std::min({p.x, p.y, map.width() - p.x, map.height() - p.y});
   for (std::uint32_t y = 0; y < map.height(); ++y) {
-    for (std::uint32_t x = 0; x < map.width(); ++x) {
+    const double up = std::max({0.0, y - p.y, p.y - y - 1.0});
+    for (std::uint32_t x = 0; up < least && x < map.width(); ++x) {
       if (!map.blocked.test(x, y)) continue;
       const double dx = std::max({0.0, x - p.x, p.x - x - 1.0});
       const double dy = std::max({0.0, y - p.y, p.y - y - 1.0});
-      least = std::min(least, std::hypot(dx, dy));
+      least = std::min(least, std::sqrt(dx * dx + dy * dy));
     }
   }
   return least;
@@ -87,42 +101,130 @@ inline bool is_inside(const std::vector<Vec2>& corners, Vec2 p) {
   return std::abs(turned) > 3.0;
 }
 
+/// Open areas: on a border the lesser factor counts.
 inline double brute_factor(const OccupancyMap& map, Vec2 world, const Prices& prices) {
+  const double near = 1e-9 * map.cell;
+  std::vector<Vec2> around;
+  for (const Vec2 by : {Vec2{-near, -near}, Vec2{near, -near}, Vec2{-near, near}, Vec2{near, near}}) {
+    around.push_back(world + by);
+  }
+  const auto least = [&](const auto& of_place) {
+    double factor = of_place(around[0]);
+    for (const Vec2 p : around) factor = std::min(factor, of_place(p));
+    return factor;
+  };
   double factor = 1.0;
-  for (const PricedArea& area : prices.areas)
-    if (is_inside(area.corners, world)) factor = std::max(factor, area.factor);
-  const Vec2 p = map_point(map, world);
-  if (prices.unknown &&
-      map.unknown.holds(static_cast<std::int64_t>(std::floor(p.x)), static_cast<std::int64_t>(std::floor(p.y))))
-    factor = std::max(factor, *prices.unknown);
+  for (const PricedArea& area : prices.areas) {
+    factor = std::max(factor, least([&](Vec2 p) { return is_inside(area.corners, p) ? area.factor : 1.0; }));
+  }
+  if (prices.unknown) {
+    factor = std::max(factor, least([&](Vec2 w) {
+                        const Vec2 p = map_point(map, w);
+                        const auto x = static_cast<std::int64_t>(std::floor(p.x));
+                        const auto y = static_cast<std::int64_t>(std::floor(p.y));
+                        return map.unknown.holds(x, y) ? *prices.unknown : 1.0;
+                      }));
+  }
   for (const PriceMask& mask : prices.masks) {
-    const MaskCells& cells = *mask.read;
-    const Vec2 d = world - cells.origin;
-    const double s = std::sin(cells.yaw_rad);
-    const double c = std::cos(cells.yaw_rad);
-    const double x = std::floor((c * d.x + s * d.y) / cells.cell);
-    const double y = std::floor((-s * d.x + c * d.y) / cells.cell);
-    if (x < 0 || y < 0 || x >= cells.width || y >= cells.height) continue;
-    const int value = cells.values[static_cast<std::size_t>(y) * cells.width + static_cast<std::size_t>(x)];
-    if (value > 0 && value < 100) factor = std::max(factor, 1.0 + (*mask.factor - 1.0) * value / 100.0);
+    factor = std::max(factor, least([&](Vec2 w) {
+                        const MaskCells& cells = *mask.read;
+                        const Vec2 d = w - cells.origin;
+                        const double s = std::sin(cells.yaw_rad);
+                        const double c = std::cos(cells.yaw_rad);
+                        const double x = std::floor((c * d.x + s * d.y) / cells.cell);
+                        const double y = std::floor((-s * d.x + c * d.y) / cells.cell);
+                        if (x < 0 || y < 0 || x >= cells.width || y >= cells.height) return 1.0;
+                        const int value =
+                            cells.values[static_cast<std::size_t>(y) * cells.width + static_cast<std::size_t>(x)];
+                        return value > 0 && value < 100 ? 1.0 + (*mask.factor - 1.0) * value / 100.0 : 1.0;
+                      }));
   }
   return factor;
 }
 
-/// By the middles of many small pieces. Only of masks of kind areas.
+/// Where a leg passes into another factor: the places between which it is searched for, and some more.
+inline std::vector<double> brute_cuts(const OccupancyMap& map, Vec2 a, Vec2 b, const Prices& prices) {
+  std::vector<double> cuts{0.0, 1.0};
+  const auto cross_line = [&](Vec2 p, Vec2 q) {  // the whole line
+    const double from = cross(q - p, a - p);
+    const double to = cross(q - p, b - p);
+    if ((from < 0.0) != (to < 0.0)) cuts.push_back(from / (from - to));
+  };
+  for (const PricedArea& area : prices.areas) {
+    for (std::size_t i = 0; i < area.corners.size(); ++i) {
+      cross_line(area.corners[i], area.corners[(i + 1) % area.corners.size()]);
+    }
+  }
+  for (std::uint32_t x = 0; x <= map.width(); ++x)
+    cross_line(world_point(map, {1.0 * x, 0}), world_point(map, {1.0 * x, 1}));
+  for (std::uint32_t y = 0; y <= map.height(); ++y)
+    cross_line(world_point(map, {0, 1.0 * y}), world_point(map, {1, 1.0 * y}));
+  for (const PriceMask& mask : prices.masks) {
+    const Vec2 along{std::cos(mask.read->yaw_rad), std::sin(mask.read->yaw_rad)};
+    const Vec2 up{-along.y, along.x};
+    for (std::uint32_t i = 0; i <= std::max(mask.read->width, mask.read->height); ++i) {
+      const Vec2 x = mask.read->origin + i * mask.read->cell * along;
+      const Vec2 y = mask.read->origin + i * mask.read->cell * up;
+      cross_line(x, x + up);
+      cross_line(y, y + along);
+    }
+  }
+  std::sort(cuts.begin(), cuts.end());
+  return cuts;
+}
+
+/// By Gauss's ten points, halved until both halves say the same: at kinks and jumps as deep as doubles go.
+template <class Of>
+double gauss(const Of& of, double from, double to) {
+  static constexpr double places[] = {0.1488743389816312, 0.4333953941292472, 0.6794095682990244, 0.8650633666889845,
+                                      0.9739065285171717};
+  static constexpr double weights[] = {0.2955242247147529, 0.2692667193099963, 0.2190863625159820, 0.1494513491505806,
+                                       0.0666713443086881};
+  const double middle = 0.5 * (from + to);
+  const double half = 0.5 * (to - from);
+  double sum = 0.0;
+  for (int i = 0; i < 5; ++i) sum += weights[i] * (of(middle - half * places[i]) + of(middle + half * places[i]));
+  return half * sum;
+}
+template <class Of>
+double integral(const Of& of, double from, double to, double whole, int depth) {
+  const double middle = 0.5 * (from + to);
+  const double left = gauss(of, from, middle);
+  const double right = gauss(of, middle, to);
+  if (depth == 0 || std::abs(left + right - whole) < 1e-14) return left + right;
+  return integral(of, from, middle, left, depth - 1) + integral(of, middle, to, right, depth - 1);
+}
+template <class Of>
+double integral(const Of& of, double from, double to, int pieces) {
+  double sum = 0.0;
+  for (int i = 0; i < pieces; ++i) {
+    const double a = from + (to - from) * i / pieces;
+    const double b = from + (to - from) * (i + 1) / pieces;
+    sum += integral(of, a, b, gauss(of, a, b), 36);
+  }
+  return sum;
+}
+
+/// By quadrature, good to some 1e-12 of a cell. Only of masks of kind areas.
 inline PriceParts brute_parts(const OccupancyMap& effective, Vec2 a, Vec2 b, const Prices& prices, double radius) {
   PriceParts parts;
   const double length = distance(a, b);
-  const int pieces = static_cast<int>(std::ceil(400.0 * (1.0 + length / effective.cell)));
-  for (int i = 0; i < pieces; ++i) {
-    const Vec2 p = a + (i + 0.5) / pieces * (b - a);
-    const double step = length / pieces;
-    if (prices.clearance) {
-      const double reach = prices.clearance->reach.value_or(2.0 * radius);
-      const double gap = effective.cell * distance_to_blocked(effective, map_point(effective, p)) - radius;
-      if (gap < reach) parts.clearance += step * prices.clearance->price * (1.0 - gap / reach) * (1.0 - gap / reach);
-    }
-    parts.areas += step * (brute_factor(effective, p, prices) - 1.0);
+  const int pieces = static_cast<int>(std::ceil(1.0 + 150.0 * length / effective.cell));
+  const auto at = [&](double t) { return a + (t * effective.cell / length) * (b - a); };
+  const double cells = length / effective.cell;
+  if (!(cells > 0.0)) return parts;
+  if (prices.clearance) {
+    const double reach = prices.clearance->reach.value_or(2.0 * radius);
+    const auto near = [&](double t) {
+      const double gap = effective.cell * distance_to_blocked(effective, map_point(effective, at(t))) - radius;
+      return gap < reach ? prices.clearance->price * (1.0 - gap / reach) * (1.0 - gap / reach) : 0.0;
+    };
+    parts.clearance = effective.cell * integral(near, 0.0, cells, pieces);
+  }
+  const std::vector<double> cuts = brute_cuts(effective, a, b, prices);
+  for (std::size_t i = 1; i < cuts.size(); ++i) {
+    const double middle = 0.5 * (cuts[i - 1] + cuts[i]);
+    parts.areas += (cuts[i] - cuts[i - 1]) * length * (brute_factor(effective, a + middle * (b - a), prices) - 1.0);
   }
   return parts;
 }
