@@ -19,6 +19,7 @@
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "verify/judges/effective_scene.hpp"
+#include "verify/judges/verify_potential.hpp"
 #include "verify/judges/verify_price.hpp"
 #include "worlds/prices/effective_map.hpp"
 
