@@ -117,6 +117,7 @@ class CellSolve {
     answer_.planner = name_of(PlannerKind::grid);
     answer_.seed = request.options.seed;
     if (request.options.optimise) answer_.options.push_back({"optimise", true});
+    if (const auto gap = request.options.anytime.gap) answer_.options.push_back({"gap", *gap});
     if (request.options.grid.diagonal) {
       answer_.options.push_back({"diagonal", std::string(name_of(grid_.diagonal))});
     }
