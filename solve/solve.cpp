@@ -40,7 +40,6 @@ Question merged(Question question, const Question& answer) {
   }
   if (!question.clearance) question.clearance = answer.clearance;
   if (!question.contact) question.contact = answer.contact;
-  if (question.prices.empty()) question.prices = answer.prices;
   return question;
 }
 
