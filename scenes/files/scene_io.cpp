@@ -52,7 +52,7 @@ class SceneReader {
     bool once;
     void (SceneReader::*read)(Fields&);
   };
-  static constexpr std::size_t item_count = 23;
+  static constexpr std::size_t item_count = 24;
   static constexpr std::size_t numbers_per_look = 4096;
   static constexpr std::size_t most_named = 1024;  // joints
   static const std::array<Item, item_count> items;
@@ -63,7 +63,8 @@ class SceneReader {
     goal_item = 13,
     attach_item = 15,
     hold_item = 16,
-    allow_item = 17
+    allow_item = 17,
+    tool_item = 18
   };
 
   void refuse_other_encodings() const {
@@ -174,6 +175,10 @@ class SceneReader {
   }
   void read_allow(Fields& fields) {
     warren::read_allow(fields, arm());
+    check_done(fields);
+  }
+  void read_tool(Fields& fields) {
+    arm().tool = word_of(fields);
     check_done(fields);
   }
   void read_bounds(Fields& fields) {
@@ -313,6 +318,7 @@ const std::array<SceneReader::Item, SceneReader::item_count> SceneReader::items 
      &SceneReader::read_attach},
     {"hold", "hold JOINT VALUE", false, &SceneReader::read_hold},
     {"allow", "allow LINK LINK", false, &SceneReader::read_allow},
+    {"tool", "tool LINK", true, &SceneReader::read_tool},
     {price_line_words[0].name, price_line_words[0].usage, price_line_words[0].once, &SceneReader::read_prices},
     {price_line_words[1].name, price_line_words[1].usage, price_line_words[1].once, &SceneReader::read_prices},
     {price_line_words[2].name, price_line_words[2].usage, price_line_words[2].once, &SceneReader::read_prices},
@@ -340,7 +346,7 @@ void SceneReader::check_arm_lines() const {
     place_of(goal_item).fail("an arm's goals are several where all are `goal joints NAME VALUE ...`");
   }
   if (!scene_.robot || scene_.robot->kind == RobotKind::urdf) return;
-  for (const ItemNumber item : {attach_item, hold_item, allow_item}) {
+  for (const ItemNumber item : {attach_item, hold_item, allow_item, tool_item}) {
     if (first_lines_[item] > 0) place_of(item).fail(fmt::format("`{}` takes a `robot urdf`", items[item].name));
   }
   const bool has_names = scene_.named_start.has_value();
@@ -496,6 +502,7 @@ void append_pose(std::string& text, const Eigen::Isometry3d& pose) {
 void append_arm(std::string& text, const ArmFiles& arm) {
   for (const auto& [joint, value] : arm.held) text += fmt::format("hold {} {}\n", joint, number(value));
   for (const auto& [first, second] : arm.allowed) text += fmt::format("allow {} {}\n", first, second);
+  if (!arm.tool.empty()) text += fmt::format("tool {}\n", arm.tool);
   for (const AttachedSolid& attached : arm.attached) {
     text += "attach " + attached.link;
     for (const std::string& link : attached.may_touch) text += ' ' + link;

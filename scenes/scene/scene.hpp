@@ -90,7 +90,8 @@ struct ArmFiles {
   std::vector<std::pair<std::string, double>> held = {};  ///< joints outside of the group, and where they are
   std::vector<std::array<std::string, 2>> allowed = {};   ///< pairs of links that may touch, beside the SRDF's
   std::vector<AttachedSolid> attached = {};               ///< what the arm carries
-  std::optional<ArmModel> read = {};                      ///< what the files say, where somebody has read them
+  std::string tool = {};  ///< the link whose frame the tool is; empty: the group's tip, or what hangs on its last joint
+  std::optional<ArmModel> read = {};  ///< what the files say, where somebody has read them
 };
 
 /// A state of an arm by its joints' names: where their order is not known yet.

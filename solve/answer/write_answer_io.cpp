@@ -235,14 +235,18 @@ std::vector<double> numbers_of_pose(const Eigen::Isometry3d& pose) {
   return {at.x(), at.y(), at.z(), turn.x(), turn.y(), turn.z(), turn.w()};
 }
 
-void add_arm(JsonObject& json, const ArmModel& model) {
+void add_arm(JsonObject& json, const ArmModel& model, const std::vector<std::string>& told) {
   const auto list = [](const auto& items, const auto& name) {
     std::string text = "[";
     for (const auto& item : items) text += (text.size() > 1 ? ", " : "") + json_string(name(item));
     return text + "]";
   };
   json.add_json("joints", list(model.variables, [](const ArmVariable& variable) { return variable.name; }));
-  json.add_json("assumed", list(model.assumed, [](const std::string& line) { return line; }));
+  const auto line_itself = [](const std::string& line) { return line; };
+  json.add_json("assumed", list(model.assumed, line_itself));
+  std::vector<std::string> all = model.told;
+  all.insert(all.end(), told.begin(), told.end());
+  json.add_json("told", list(all, line_itself));
 }
 
 /// What the question says beyond start, goal and body, so that a judge knows it.
@@ -273,7 +277,9 @@ void add_problem(JsonObject& json, const Answer& answer) {
   if (answer.problem.goal_pose) add_state(json, "goal_pose", numbers_of_pose(*answer.problem.goal_pose));
   json.add("robot", robot_text(answer.problem.robot));
   add_asked(json, answer.problem);
-  if (answer.problem.robot.files && answer.problem.robot.files->read) add_arm(json, *answer.problem.robot.files->read);
+  if (answer.problem.robot.files && answer.problem.robot.files->read) {
+    add_arm(json, *answer.problem.robot.files->read, answer.problem.told);
+  }
   json.add("clearance", answer.problem.clearance);
   json.add("contact", name_of(answer.problem.contact));
   add_text(json, "sampler", answer.sampler);

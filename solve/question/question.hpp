@@ -76,6 +76,7 @@ struct Problem {
   std::optional<Eigen::Isometry3d> goal_pose = {};  ///< of an arm's tool; then there is no `goal`
   Prices prices = {};                               ///< the file's and the question's
   GoalRule rule = {};                               ///< as asked
+  std::vector<std::string> told = {};  ///< what became of the question, a line each: ends moved onto limits
 
   /// The question that says all of it.
   Question question() const { return {robot, start, goal, clearance, contact, goal_pose, prices, rule}; }

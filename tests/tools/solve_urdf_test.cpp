@@ -76,6 +76,13 @@ TEST_F(SolveUrdf, EveryPlannerSolvesAndTheJudgeAgrees) {
   }
 }
 
+TEST_F(SolveUrdf, EndsThatAreMovedOntoALimitAreTold) {
+  const Json answer = solved({"--goal", "0.9,0.3,0.2,0.2000003"});
+  EXPECT_EQ(answer["goal"][3], 0.2);
+  EXPECT_EQ(answer["told"].back(), "goal: slide is moved from 0.2000003 onto its limit, 0.2");
+  solved({"--goal", "0.9,0.3,0.2,0.2001"}, 1);
+}
+
 TEST_F(SolveUrdf, AnswersAreTheSameForAnyNumberOfThreads) {
   for (const char* planner : {"rrt-connect", "prm"}) {
     std::string first;
