@@ -19,6 +19,7 @@
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "verify/judges/effective_scene.hpp"
+#include "verify/judges/verify_potential.hpp"
 #include "verify/judges/verify_price.hpp"
 #include "worlds/prices/effective_map.hpp"
 
@@ -157,10 +158,6 @@ void check_certificate(Verdict& verdict, const Scene& scene, const RecordedAnswe
 void check_bound(Verdict& verdict, const Scene& scene, const RecordedAnswer& answer, const Execution& execution) {
   if (!verdict.verified || !answer.lower_bound) return;
   const Problem& problem = verdict.problem;
-  if (!problem.rule.visit.empty()) {  // a way that passes the stops by would be shorter
-    verdict.bound = BoundVerdict::unchecked;
-    return;
-  }
   if (answer.certificate) return check_certificate(verdict, scene, answer, execution);
   if (answer.price && answer.cost) {  // of costs, not of lengths: the judge's search knows none
     constexpr double rounding = 1e-9;
@@ -171,6 +168,10 @@ void check_bound(Verdict& verdict, const Scene& scene, const RecordedAnswer& ans
     verdict.bound = BoundVerdict::refuted;
     verdict.verified = false;
     verdict.first_violation = Violation{.leg = 0, .distance = 0.0, .obstacle = "lower_bound: above the path's cost"};
+    return;
+  }
+  if (!problem.rule.visit.empty()) {  // a way that passes the stops by would be shorter
+    verdict.bound = BoundVerdict::unchecked;
     return;
   }
   const ClaimedBound claim{*answer.lower_bound, answer.cost, verdict.length, answer.state_width(),

@@ -86,7 +86,7 @@ HoleCuts::HoleCuts(const Bitmap& blocked, double least, const Execution& executi
     const auto [x, top] = lowest[i];
     std::uint32_t low = top;
     while (low > 0 && !ends_at(x, low - 1) && !ends_at(x + 1, low - 1)) cut_cells_.set(x, --low);
-    if (low < top) cuts_.push_back({x, low, top, bounded_whole<std::int32_t>(static_cast<double>(i + 1))});
+    if (low < top) cuts_.push_back({x, low, top, as_whole<std::int32_t>(i + 1)});
   }
   std::sort(cuts_.begin(), cuts_.end(),
             [](const Cut& a, const Cut& b) { return std::tie(a.column, a.low) < std::tie(b.column, b.low); });

@@ -324,8 +324,8 @@ std::optional<PricePotential> price_potential(const PotentialQuestion& question,
     const double worst = marching.damp();
     const double bound = marching.fall() / worst / parts;
     best.sweeps = sweep + 1;
-    if (bound > best.bound) {
-      best.bound = bound;
+    if (bound > best.bound || best.values.values.empty()) {
+      best.bound = std::max(bound, 0.0);
       best.values = marching.values();
       divided_by = worst;
     }
@@ -333,7 +333,6 @@ std::optional<PricePotential> price_potential(const PotentialQuestion& question,
     if (best.bound >= effort.enough && effort.enough > 0.0) break;
     if (worst < flat) break;
   }
-  if (best.values.values.empty()) best.values = marching.values();
   // Steps and differences are rounded to 2^-53 of themselves: this is more than all of that.
   constexpr double rounding = 1e-11;
   const double scale = (1.0 - rounding) / (divided_by * parts);

@@ -180,7 +180,7 @@ std::vector<State> rest_of_route(const std::vector<State>& route, const State& s
 void keep_to_route(Answer& answer, const Scene& scene, const Question& question, const SolveOptions& options,
                    const SolveKind& kind, const Execution& execution) {
   const RouteRule& rule = question.route;
-  if (rule.keep_to.empty()) return;
+  if (rule.keep_to.empty() || answer.problem.start.empty()) return;
   if (rule.alternatives) throw UsageError("@alternatives: and @keep_to are two questions; ask one of them");
   if (!question.rule.visit.empty() || question.rule.back) {
     throw UsageError("@keep_to: is for a way to a goal; of places to visit nobody knows which are left");

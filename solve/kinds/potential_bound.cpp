@@ -88,7 +88,7 @@ void prove_on_map(Answer& answer, const Scene& scene, const SolveOptions& option
   bound = std::max(bound, proved_bound(scene, answer.problem, BoundOf::length, BoundEffort::exact, execution));
   const bool is_reached = gap && cost <= bound * (1.0 + *gap);
   if (keeps || !is_reached) {
-    Proved proved = proved_by_potential(answer, *scene.map, keeps && is_reached ? std::optional(1e9) : gap, execution);
+    Proved proved = proved_by_potential(answer, *scene.map, gap, execution);
     bound = keeps ? proved.bound : std::max(bound, proved.bound);
     if (keeps && !proved.proof.values.empty()) keep->certificate = std::move(proved.proof);
   }

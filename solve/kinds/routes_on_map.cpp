@@ -189,6 +189,7 @@ void take_alternatives(Answer& answer, const RouteRule& route, const RoutesAsked
     throw UsageError(
         "@alternatives: are of ways from a start to a goal; places to visit and regions leave no such two");
   }
+  if (asked.problem.start == asked.problem.goal) return;
   const StageTimer timer(execution, "alternatives", answer.seconds.optimise, asked.map.blocked.size());
   Routes routes(route, asked, execution);
   std::vector<AlternativePath> paths = routes.find(std::size_t{1} + *route.alternatives);

@@ -44,6 +44,21 @@ std::vector<Vec2> way_points(const SolveRequest& request) {
   return points;
 }
 
+/// none: nothing is priced.
+std::optional<MapPrices> priced_map(const OccupancyMap& map, const WallProblem& problem, const Execution& execution) {
+  std::optional<MapPrices> prices;
+  if (!problem.prices.empty()) prices.emplace(map, problem.robot.radius, problem.prices, execution);
+  if (prices && !prices->is_priced()) prices.reset();
+  return prices;
+}
+
+/// Refers to both.
+LegPrices leg_prices(const std::optional<MapPrices>& prices, MapPrices::Scratch& scratch) {
+  if (!prices) return {};
+  return {[&](Vec2 a, Vec2 b) { return prices->cost(a, b, scratch); },
+          [&](Cell from, unsigned direction) { return prices->step_up(from, direction, scratch); }};
+}
+
 /// Does the question name no goal but places to visit?
 bool has_open_end(const SolveRequest& request) {
   const GoalRule& rule = request.question.rule;
@@ -84,11 +99,8 @@ class CellSolve {
       : request_(request),
         map_(*request.scene.map),
         problem_(problem),
-        chooses_(!problem.rule.empty() || !request.options.trees.via.empty()) {
-    if (const Prices& prices = problem.prices; !prices.empty()) {
-      prices_.emplace(map_, problem.robot.radius, prices, request.execution);
-      if (!prices_->is_priced()) prices_.reset();
-    }
+        chooses_(!problem.rule.empty() || !request.options.trees.via.empty()),
+        prices_(priced_map(map_, problem, request.execution)) {
     if (prices_ && request.options.grid.diagonal) {
       throw UsageError("@diagonal: where ways have a price steps weigh what they cost; leave it out");
     }
@@ -105,6 +117,7 @@ class CellSolve {
     answer_.planner = name_of(PlannerKind::grid);
     answer_.seed = request.options.seed;
     if (request.options.optimise) answer_.options.push_back({"optimise", true});
+    if (const auto gap = request.options.anytime.gap) answer_.options.push_back({"gap", *gap});
     if (request.options.grid.diagonal) {
       answer_.options.push_back({"diagonal", std::string(name_of(grid_.diagonal))});
     }
@@ -163,32 +176,14 @@ class CellSolve {
       answer_.problem.goal = {reached.goal.x, reached.goal.y};
     }
     verify_solved_on_map(answer_, map_, reached, true, request_.execution);
-    if (prices_ && answer_.verified) take_price();
-  }
-
-  LegPrices leg_prices() {
-    if (!prices_) return {};
-    return {[this](Vec2 a, Vec2 b) { return prices_->cost(a, b, scratch_); },
-            [this](Cell from, unsigned direction) { return prices_->step_up(from, direction, scratch_); }};
-  }
-
-  /// In the world's unit, all parts.
-  void take_price() {
-    PriceParts price;
-    for (std::size_t i = 1; i < answer_.path.size(); ++i) {
-      const PriceParts leg = prices_->parts(answer_.path[i - 1], answer_.path[i], scratch_);
-      price.clearance += leg.clearance;
-      price.areas += leg.areas;
-    }
-    answer_.price = price;
-    answer_.cost = answer_.length + price.sum();
-    answer_.lower_bound = bound_of_choice(problem_, has_open_end(request_));
+    if (prices_ && answer_.verified) answer_.lower_bound = bound_of_choice(problem_, has_open_end(request_));
   }
 
   GoalChoice choose() {
     const StageTimer timer(request_.execution, "search", answer_.seconds.search, map_.blocked.size());
     answer_.search = "field";
-    WaysOverCells ways(map_, problem_, closed_, blocked(), grid_.diagonal, leg_prices(), request_.execution);
+    WaysOverCells ways(map_, problem_, closed_, blocked(), grid_.diagonal, leg_prices(prices_, scratch_),
+                       request_.execution);
     GoalChoice choice = choose_goal(ways, map_, problem_, way_points(request_), has_open_end(request_));
     answer_.counters.expanded += ways.expanded();
     return choice;
@@ -291,7 +286,7 @@ class CellSolve {
   /// Under the price, off the grid.
   void pull(const GridWorld& world) {
     GridWorld::Query query = world.make_query();
-    const PricedLegs legs{leg_prices().cost,
+    const PricedLegs legs{leg_prices(prices_, scratch_).cost,
                           [&](Vec2 a, Vec2 b) {
                             ++answer_.counters.edges_checked;
                             const bool free = world.is_free_motion(a, b, query);
@@ -409,7 +404,9 @@ Answer solve_chosen(const SolveRequest& request) {
     }
     const Bitmap closed = closed_cells(map, problem.start);
     const Bitmap wide = blocked_for_disc(closed, problem.reach() / map.cell, request.execution);
-    WaysOverCells ways(map, problem, closed, wide, Diagonal::sqrt2, {}, request.execution);
+    const std::optional<MapPrices> prices = priced_map(map, problem, request.execution);
+    MapPrices::Scratch scratch;
+    WaysOverCells ways(map, problem, closed, wide, Diagonal::sqrt2, leg_prices(prices, scratch), request.execution);
     choice = choose_goal(ways, map, problem, {}, has_open_end(request));
     chosen.counters.expanded += ways.expanded();
     take_choice(chosen, choice);

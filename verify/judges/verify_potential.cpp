@@ -35,7 +35,7 @@ class BlockedColumns {
   template <class Visit>
   void around(std::int64_t x, std::uint32_t y, const Visit& visit) const {
     constexpr double endless = std::numeric_limits<double>::infinity();
-    if (x < 0 || x >= static_cast<std::int64_t>(columns_.size())) return visit(-endless, endless);
+    if (x < 0 || x >= as_whole<std::int64_t>(columns_.size())) return visit(-endless, endless);
     const std::vector<std::uint32_t>& rows = columns_[as_whole<std::size_t>(x)];
     const auto above = std::lower_bound(rows.begin(), rows.end(), y);
     if (above == rows.end()) {
