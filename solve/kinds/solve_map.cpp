@@ -149,7 +149,8 @@ class CellSolve {
     reached.goal = answer_.path.back();
     std::function<PriceParts(Vec2, Vec2)> parts;
     if (prices_) parts = [this](Vec2 a, Vec2 b) { return prices_->parts(a, b, scratch_); };
-    take_alternatives(answer_, route, {map_, reached, closed_, blocked(), leg_prices(), parts}, request_.execution);
+    take_alternatives(answer_, route, {map_, reached, closed_, blocked(), leg_prices(prices_, scratch_), parts},
+                      request_.execution);
   }
   Answer& answer() { return answer_; }
 
