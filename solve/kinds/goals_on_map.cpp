@@ -61,13 +61,16 @@ std::uint64_t WaysOverCells::leg_cost(Vec2 a, Vec2 b) const {
   return static_cast<std::uint64_t>(std::ceil(cost / map_.cell * static_cast<double>(units_a_cell)));
 }
 
+WaysOverCells::Entry WaysOverCells::entry(Vec2 place, Cell cell, std::size_t goal) const {
+  return {cell, leg_cost(place, cell_centre(map_, cell)), place, goal};
+}
+
 std::vector<WaysOverCells::Entry> WaysOverCells::entries(Vec2 place, std::size_t goal) const {
   const auto own = cell_at(map_, place);
   if (!own) return {};
-  const auto entry = [&](Cell cell) { return Entry{cell, leg_cost(place, cell_centre(map_, cell)), place, goal}; };
   std::vector<Entry> entries;
   for (const Cell cell : cells_joined_to(map_, wide_, problem_.reach(), place, *own, execution_)) {
-    if (!wide_.test(cell.x, cell.y)) entries.push_back(entry(cell));
+    if (!wide_.test(cell.x, cell.y)) entries.push_back(entry(place, cell, goal));
   }
   return entries;
 }
@@ -176,7 +179,7 @@ std::optional<WaysOverCells::Nearest> WaysOverCells::nearest_place(Vec2 to) {
   });
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  constexpr std::size_t most = 64;
+  constexpr std::size_t most = 16;
   if (candidates.size() > most) candidates.resize(most);
   std::optional<Nearest> best;
   for (const auto& candidate : candidates) {
@@ -314,8 +317,7 @@ class Choosing {
   bool take_nearest() {
     const auto found = nearest();
     if (!found || !(found->first.distance <= *rule_.tolerance)) return fail();
-    ends_ = ways_.entries(found->first.place, found->second);
-    if (ends_.empty()) return fail();
+    ends_ = {ways_.entry(found->first.place, found->first.cell, found->second)};
     first_ = ways_.cheapest(problem_.start, ends_);
     return first_ ? true : fail();
   }
