@@ -3,7 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <utility>
 
 #include "core/base/solution.hpp"
@@ -16,16 +15,15 @@ namespace warren {
 /// What a free motion costs; empty: its length.
 using MotionCost = std::function<double(const Vec2&, const Vec2&)>;
 
-/// LegPrices(arguments…), as a cost that is the same both ways to the last bit and that any number of threads may ask;
-/// empty where nothing is priced.
-template <class LegPrices, class... Arguments>
-MotionCost motion_cost(const Arguments&... arguments) {
-  auto prices = std::make_shared<const LegPrices>(arguments...);
-  if (!prices->is_priced()) return {};
-  return [prices = std::move(prices)](const Vec2& a, const Vec2& b) {
+/// The cost of legs, the same both ways to the last bit; any number of threads may ask. Empty where nothing is priced.
+/// Refers to the prices.
+template <class LegPrices>
+MotionCost motion_cost(const LegPrices& prices) {
+  if (!prices.is_priced()) return {};
+  return [&prices](const Vec2& a, const Vec2& b) {
     thread_local typename LegPrices::Scratch scratch;
     const bool is_forward = a.x < b.x || (a.x == b.x && a.y < b.y);
-    return is_forward ? prices->cost(a, b, scratch) : prices->cost(b, a, scratch);
+    return is_forward ? prices.cost(a, b, scratch) : prices.cost(b, a, scratch);
   };
 }
 

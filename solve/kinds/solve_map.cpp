@@ -366,7 +366,7 @@ class BodyOnMap : public UsualBody {
   static double length(const World&, Vec2 a, Vec2 b) { return World::distance(a, b); }
   const MotionCost& price_motions(const World& world) {
     if (!problem_.prices.empty()) {
-      cost_ = motion_cost<MapPrices>(world.map(), problem_.robot.radius, problem_.prices, execution_);
+      cost_ = motion_cost(prices_.emplace(world.map(), problem_.robot.radius, problem_.prices, execution_));
     }
     return cost_;
   }
@@ -384,6 +384,7 @@ class BodyOnMap : public UsualBody {
   const OccupancyMap& map_;
   const Execution& execution_;
   WallProblem problem_;
+  std::optional<MapPrices> prices_;
   MotionCost cost_;  // empty: nothing has a price
 };
 

@@ -151,7 +151,7 @@ class PointAmongPolygons : public UsualBody {
   static double length(const World&, Vec2 a, Vec2 b) { return World::distance(a, b); }
   const MotionCost& price_motions(const World& world) {
     if (!problem_.prices.empty()) {
-      cost_ = motion_cost<SidePrices>(world.sides(), problem_.robot.radius, problem_.prices);
+      cost_ = motion_cost(prices_.emplace(world.sides(), problem_.robot.radius, problem_.prices));
     }
     return cost_;
   }
@@ -175,6 +175,7 @@ class PointAmongPolygons : public UsualBody {
   const Execution& execution_;
   const ObstacleIndex* judged_;
   WallProblem problem_;
+  std::optional<SidePrices> prices_;
   MotionCost cost_;  // empty: nothing has a price
 };
 
