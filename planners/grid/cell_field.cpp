@@ -9,13 +9,6 @@
 #include "spatial/maps/free_cells.hpp"
 
 namespace warren {
-namespace {
-
-constexpr std::uint32_t unknown = CellField::never;
-constexpr std::uint32_t blocked = CellField::never - 1;
-constexpr std::uint32_t largest = blocked - 1;
-
-}  // namespace
 
 CellField::CellField(std::uint32_t width, std::uint32_t height, double ratio, std::function<bool(Cell)> passable,
                      const Execution& execution)

@@ -5,6 +5,7 @@
 // within which no value depends on another, so each is final when its bucket is. 4 bytes a cell.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -30,6 +31,10 @@ class CellField {
   std::uint32_t at(Cell cell);
 
  private:
+  static constexpr std::uint32_t unknown = never;
+  static constexpr std::uint32_t blocked = never - 1;
+  static constexpr std::uint32_t largest = never - 2;
+
   void reach(std::uint32_t x, std::uint32_t y, std::uint32_t value);
   void settle_bucket();
 

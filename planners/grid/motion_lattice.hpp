@@ -96,7 +96,8 @@ class LatticeSearch {
         execution_(execution),
         gears_(options.gear_change > 0 ? 2 : 1),
         per_cell_(space.headings() * gears_),
-        is_dead_(space.starts().size(), 0) {
+        is_dead_(space.starts().size(), 0),
+        starts_left_(space.starts().size(), 0) {
     const std::size_t cells = std::size_t{space.width()} * space.height();
     execution.reserve(cells * sizeof(std::uint32_t));
     assign_polled(blocks_, cells, none, [&] { execution.check(); });
@@ -105,6 +106,8 @@ class LatticeSearch {
   /// Throws Stopped where it is stopped before the first round ends.
   LatticeSolution run() {
     const auto begin = std::chrono::steady_clock::now();
+    for (std::size_t i = 0; i < starts_left_.size(); ++i)
+      starts_left_[i] = space_.at_least(space_.starts()[i].cell, space_.starts()[i].heading);
     if (const std::optional<LatticeShot> direct = space_.direct_shot(no_goal, options_.gear_change)) {
       goal_cost_ = direct->cost;
       shot_ = *direct;
@@ -212,7 +215,7 @@ class LatticeSearch {
     const auto starts = space_.starts();
     for (std::uint32_t i = 0; i < starts.size(); ++i) {
       if (is_dead_[i] != 0) continue;
-      const std::uint64_t at_least = space_.at_least(starts[i].cell, starts[i].heading);
+      const std::uint64_t at_least = starts_left_[i];
       if (at_least == no_way || starts[i].cost + at_least >= goal_cost_) continue;
       open_.push_back({key_of(starts[i].cost, at_least), start_flag + i});
     }
@@ -297,8 +300,7 @@ class LatticeSearch {
       if ((entry.node & start_flag) == 0) {
         if (is_open(entry.node)) take(nodes_[entry.node].cost, nodes_[entry.node].at_least);
       } else {
-        const LatticeStart& start = space_.starts()[entry.node - start_flag];
-        take(start.cost, space_.at_least(start.cell, start.heading));
+        take(space_.starts()[entry.node - start_flag].cost, starts_left_[entry.node - start_flag]);
       }
     }
     for (const std::uint32_t node : waiting_) take(nodes_[node].cost, nodes_[node].at_least);
@@ -351,7 +353,8 @@ class LatticeSearch {
   std::vector<Node> nodes_;
   std::vector<Entry> open_;  // a heap; entries that no longer say what their node does are passed over
   std::vector<std::uint32_t> waiting_;
-  std::vector<std::uint8_t> is_dead_;  // starts that were looked at
+  std::vector<std::uint8_t> is_dead_;       // starts that were looked at
+  std::vector<std::uint64_t> starts_left_;  // what is left from each
   std::uint64_t weight_ = 0;
   std::uint8_t round_ = 0;
   std::uint64_t since_shot_ = 0;

@@ -73,7 +73,7 @@ MotionSet::MotionSet(const MotionSetOptions& options, const Execution& execution
 std::uint32_t MotionSet::nearest_heading(double radians) const {
   std::uint32_t nearest = 0;
   for (std::uint32_t k = 1; k < headings(); ++k) {
-    if (std::abs(turn_between(radians, radians_[k])) < std::abs(turn_between(radians, radians_[nearest]))) nearest = k;
+    if (std::abs(warren::turn_between(radians, radians_[k])) < std::abs(warren::turn_between(radians, radians_[nearest]))) nearest = k;
   }
   return nearest;
 }
@@ -111,7 +111,7 @@ void MotionSet::add_shapes(std::uint32_t from, const Execution& execution) {
 void MotionSet::add_turns(std::uint32_t from, std::uint32_t to) {
   const Vector& v = vectors_[from];
   const Vector& w = vectors_[to];
-  const double turn = turn_between(radians_[from], radians_[to]);
+  const double turn = warren::turn_between(radians_[from], radians_[to]);
   const double tangent = options_.turning_radius * portable::tan(0.5 * std::abs(turn));
   const std::int64_t cells = cross_of(v, w);
   const std::int64_t parts = std::abs(cells);
@@ -147,7 +147,7 @@ void MotionSet::add_motions(std::uint32_t number) {
     const std::uint32_t to = (shape.to + q * headings() / 4) % headings();
     const Vector d = turned({shape.dx, shape.dy}, q);
     if (shape.word.count == 0) {
-      const double turn = std::abs(turn_between(radians_[from], radians_[to]));
+      const double turn = std::abs(warren::turn_between(radians_[from], radians_[to]));
       const auto cost = bounded_whole<std::uint64_t>(std::round(options_.turn_cost * turn / cost_unit));
       motions_[from].push_back({0, 0, to, 0, cost, {}, number, q});
       motions_[to].push_back({0, 0, from, 0, cost, {}, number, q});

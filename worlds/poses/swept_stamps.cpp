@@ -26,7 +26,7 @@ class ShapeSweep {
       : outline_(outline),
         reach_(reach),
         from_rad_(motions.heading_rad(shape.from)),
-        turn_rad_(turn_between(from_rad_, motions.heading_rad(shape.to))),
+        turn_rad_(warren::turn_between(from_rad_, motions.heading_rad(shape.to))),
         on_spot_(shape.word.count == 0),
         curve_({0.0, 0.0, from_rad_}, {1.0 * shape.dx, 1.0 * shape.dy, motions.heading_rad(shape.to)}, shape.word,
                motions.turning_radius()) {
