@@ -119,7 +119,7 @@ int verify_answer(const Arguments& arguments) {
 Command verify_command() {
   Command command{"verify", "WORLD ANSWER.json", "re-check an answer independently", {}, verify_answer};
   add_options(command.options, question_option_specs());
-  add_options(command.options, asked_option_specs());
+  add_options(command.options, asked_option_specs(), {"--alternatives", "--stretch", "--keep-to", "--unless-gain"});
   add_options(command.options, verify_specs);
   add_options(command.options, world_option_specs());
   add_options(command.options, run_option_specs());
