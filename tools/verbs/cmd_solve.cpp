@@ -25,6 +25,9 @@ namespace {
 
 constexpr OptionSpec solve_specs[] = {
     {"--save-roadmap", "FILE", "prm, lazy-prm: keep the roadmap in this file, to ask it again with 'warren query'"},
+    {"--certificate", "FILE",
+     "on a map, for a point or disc: prove a lower bound of all paths, and keep its proof in this file (.npy), which "
+     "'warren verify --certificate FILE' checks"},
     {"--resume", "FILE",
      "with --pipeline streamed: keep finished parts of the work in FILE; a run that was ended goes on from there when "
      "it is started again"},
