@@ -141,7 +141,7 @@ Answer solve_within(const Scene& scene, const Question& question, const SolveOpt
   }
   answer.costs = account.costs();
   answer.threads = thread_count(execution.threads);
-  answer.peak_memory_bytes = peak_resident_bytes();
+  tell_memory(answer, execution);
   return answer;
 }
 
@@ -172,7 +172,7 @@ Answer solve_explained(const Scene& scene, const Question& question, const Solve
   Answer answer = solve_within(scene, question, options, execution, keep, taker);
   price_heuristic(scene, question, options, execution, answer);
   explain_blocked_end(scene, answer, execution);
-  answer.peak_memory_bytes = peak_resident_bytes();
+  tell_memory(answer, execution);
   return answer;
 }
 
