@@ -25,8 +25,8 @@ struct AskedWith {
   bool is_kept = false;         ///< of a kept roadmap: another one takes `warren build`
 };
 
-/// What would likely help where there is no path, or where more turns may better it: options that this world, body and planner take, with numbers, so that
-/// they can be tried as they stand, the likeliest first. O(1) but for the world's
+/// What would likely help where there is no path, or where more turns may better it: options that this world, body and
+/// planner take, with numbers, so that they can be tried as they stand, the likeliest first. O(1) but for the world's
 /// box.
 std::vector<Hint> hints_for(const Scene& scene, const AskedWith& asked, const Answer& answer);
 
