@@ -15,6 +15,7 @@
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/answer/stage_lines.hpp"
+#include "solve/explain_answer.hpp"
 #include "solve/question/question_of_arm.hpp"
 
 namespace warren {
@@ -57,7 +58,7 @@ std::string headline(const Answer& answer, const Palette& palette) {
       return palette.doubtful("not connected") + ": " + why_not_connected(answer);
     default:
       return palette.doubtful("stopped") + ": " +
-             std::string{answer.stop_reason ? text_of(*answer.stop_reason) : "before the end"};
+             (answer.stop_reason ? stop_text(*answer.stop_reason, answer.wanted_memory_bytes) : "before the end");
   }
 }
 
@@ -138,7 +139,7 @@ void add_path(std::string& text, const Answer& answer, const Palette& palette) {
 
 /// Why it got no better than it is.
 std::string end_text(const Answer& answer) {
-  if (answer.stop_reason) return std::string(text_of(*answer.stop_reason));
+  if (answer.stop_reason) return stop_text(*answer.stop_reason, answer.wanted_memory_bytes);
   if (answer.ended_by == "optimum") return "there is no better one";
   if (answer.ended_by == "lattice") return "the lattice has no better one";
   if (answer.ended_by == "gap") return "as near to the best as --gap asks for";
@@ -253,6 +254,8 @@ std::string summary_of(const Answer& answer, const Palette& palette, std::span<c
     line(text, palette, "planner", planner_text(answer));
   }
   add_strange_headings(text, answer.problem, palette);
+  const std::string_view less_memory = what_takes_less_memory(answer);
+  if (!less_memory.empty() && !answer.explained) line(text, palette, "try", less_memory);
   if (answer.blocked) add_blocked(text, answer, *answer.blocked, palette);
   if (answer.verified) add_path(text, answer, palette);
   add_quality(text, answer, palette);

@@ -271,7 +271,7 @@ Answer solve_within(const Scene& scene, const Question& question, const SolveOpt
   }
   answer.costs = account.costs();
   answer.threads = thread_count(execution.threads);
-  answer.peak_memory_bytes = peak_resident_bytes();
+  tell_memory(answer, execution);
   return answer;
 }
 
@@ -308,7 +308,7 @@ Answer solve_explained(const Scene& scene, const Question& question, const Solve
   const Prices prices = is_blocked(answer.outcome) ? prices_of(scene, question) : Prices{};
   const std::optional<Scene> effective = effective_scene(scene, prices, execution);
   explain_blocked_end(effective ? *effective : scene, answer, execution);
-  answer.peak_memory_bytes = peak_resident_bytes();
+  tell_memory(answer, execution);
   return answer;
 }
 

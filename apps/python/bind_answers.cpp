@@ -11,6 +11,7 @@
 #include "apps/python/keywords.hpp"
 #include "apps/python/library_calls.hpp"
 #include "pictures/answer_summary.hpp"
+#include "scenes/text/human_units.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "solve/answer/explanation_text.hpp"
 #include "solve/answer/write_answer_io.hpp"
@@ -205,7 +206,8 @@ void bind_answers(py::module_& module) {
   answers.def_property_readonly("path", &path_of);
   figure(answers, "status", [](const Answer& a) { return name_of(a.outcome); });
   figure(answers, "stop_reason", [](const Answer& a) {
-    return a.stop_reason ? std::optional(std::pair(name_of(*a.stop_reason), text_of(*a.stop_reason))) : std::nullopt;
+    using Told = std::optional<std::pair<std::string_view, std::string>>;
+    return a.stop_reason ? Told({name_of(*a.stop_reason), stop_text(*a.stop_reason, a.wanted_memory_bytes)}) : Told{};
   });
   figure(answers, "verified", [](const Answer& a) { return a.verified; });
   figure(answers, "optimal", [](const Answer& a) { return a.optimal; });

@@ -196,6 +196,7 @@ struct Answer {
   StageTimes seconds;                     ///< of each stage, wall-clock
   std::vector<StageCost> costs;           ///< of each link of the chain that solve() ran, verifying included
   double solve_s = 0.0;                   ///< of the whole call, wall-clock
+  std::size_t wanted_memory_bytes = 0;    ///< stopped by memory: the least that it needs, as far as known; else 0
   std::size_t peak_memory_bytes = 0;      ///< the most that the process has held so far
   Path<Vec2> path;  ///< of the reference point in the plane, as pictures show it; a point's or disc's states
   std::optional<HandedPath> handed;  ///< instead of `path`, where solve_within() was given a taker and used it
@@ -215,6 +216,13 @@ inline std::optional<double> gap_of(const Answer& answer) {
 inline std::uint64_t path_points(const Answer& answer) {
   if (answer.handed) return answer.handed->points;
   return answer.states.empty() ? answer.path.size() : answer.states.size();
+}
+
+/// What the process has held, and what was refused it. Called where an answer is complete.
+inline void tell_memory(Answer& answer, const Execution& execution) {
+  answer.peak_memory_bytes = peak_resident_bytes();
+  const bool is_refused = answer.stop_reason == StopReason::memory && execution.deadline != nullptr;
+  answer.wanted_memory_bytes = is_refused ? execution.deadline->wanted_bytes() : 0;
 }
 
 /// Stages with the names that JSON and summary give them, in the order of the work.

@@ -211,7 +211,7 @@ Answer solve_streamed_within(const Scene& scene, const Question& question, const
   Answer answer = solve_streamed(scene, problem, planner_options(options, scene, problem), execution, help);
   tell_bound(answer, scene, options, execution);
   answer.threads = thread_count(execution.threads);
-  answer.peak_memory_bytes = peak_resident_bytes();
+  tell_memory(answer, execution);
   return answer;
 }
 

@@ -97,7 +97,7 @@ void AnswerCommand::answer(const Run& run) {
   answer_.seconds.generate += before.generate;
   answer_.threads = run.threads();
   answer_.tells_path = !arguments_.has("--no-path");
-  answer_.peak_memory_bytes = peak_resident_bytes();
+  tell_memory(answer_, run.execution());
 }
 
 /// What is on disk says the same as the exit code: a stop while something is written makes it a stopped answer, one

@@ -9,7 +9,7 @@ from ._errors import (
 )
 from ._bodies import arm as arm, car as car, disc as disc, polygon as polygon, puma560 as puma560, urdf as urdf
 from ._worlds import World as World
-from ._making_worlds import from_geo as from_geo, grid as grid, maze as maze, read_world as read_world, scene as scene
+from ._making_worlds import example as example, from_geo as from_geo, grid as grid, maze as maze, read_world as read_world, scene as scene
 from ._explanations import (
     BlockedEnd as BlockedEnd,
     ComponentFacts as ComponentFacts,
@@ -30,6 +30,7 @@ from ._plots import animate as animate, plot as plot
 __all__ = ["Alternative", "Answer", "BlockedEnd", "Comparison", "ComponentFacts", "EdgeCounts", "Error",
            "Explanation", "GoalReached", "Hint", "Improvement", "InputError", "KeptRoute", "MotionCounts",
            "NarrowPlace", "ReadError", "Roadmap", "SampleCounts", "Stopped", "UsageError", "Verdict", "World",
-           "WriteError", "__version__", "animate", "arm", "build", "car", "compare", "disc", "from_geo", "grid",
-           "maze", "open_roadmap", "plot", "polygon", "puma560", "read_world", "scene", "solve", "urdf", "verify"]
+           "WriteError", "__version__", "animate", "arm", "build", "car", "compare", "disc", "example", "from_geo",
+           "grid", "maze", "open_roadmap", "plot", "polygon", "puma560", "read_world", "scene", "solve", "urdf",
+           "verify"]
 __version__: str
