@@ -87,9 +87,7 @@ class AnyWorld {
     return metric(a, b);
   }
   /// What a free motion costs, >= its distance; the same both ways.
-  double cost(const State& a, const State& b) const {
-    return motion_cost ? motion_cost(a, b) : distance(a, b);
-  }
+  double cost(const State& a, const State& b) const { return motion_cost ? motion_cost(a, b) : distance(a, b); }
   Embedding embed(const State& a) const {
     if constexpr (in_plane) return {a.x, a.y};
     return embedding(a);

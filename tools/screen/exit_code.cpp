@@ -73,7 +73,8 @@ int run_with_errors_told(std::string_view program, std::string_view hint, const 
     die_if_unheard();
     return complain(program, exit_code::unwritable, error.what());
   } catch (const Stopped& stopped) {
-    return complain(program, exit_code_of(stopped.reason), "stopped: " + stop_text(stopped.reason, stopped.wanted_bytes));
+    return complain(program, exit_code_of(stopped.reason),
+                    "stopped: " + stop_text(stopped.reason, stopped.wanted_bytes));
   } catch (const std::bad_alloc&) {
     return say_memory_is_out();
   } catch (const std::exception& error) {

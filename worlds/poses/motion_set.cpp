@@ -73,7 +73,9 @@ MotionSet::MotionSet(const MotionSetOptions& options, const Execution& execution
 std::uint32_t MotionSet::nearest_heading(double radians) const {
   std::uint32_t nearest = 0;
   for (std::uint32_t k = 1; k < headings(); ++k) {
-    if (std::abs(warren::turn_between(radians, radians_[k])) < std::abs(warren::turn_between(radians, radians_[nearest]))) nearest = k;
+    if (std::abs(warren::turn_between(radians, radians_[k])) <
+        std::abs(warren::turn_between(radians, radians_[nearest])))
+      nearest = k;
   }
   return nearest;
 }
