@@ -133,6 +133,10 @@ void check_bound(Verdict& verdict, const Scene& scene, const RecordedAnswer& ans
     verdict.first_violation = Violation{.leg = 0, .distance = 0.0, .obstacle = "lower_bound: above the path's cost"};
     return;
   }
+  if (!problem.rule.visit.empty()) {  // a way that passes the stops by would be shorter
+    verdict.bound = BoundVerdict::unchecked;
+    return;
+  }
   const ClaimedBound claim{*answer.lower_bound, answer.cost, verdict.length, answer.state_width(),
                            answer.states.numbers};
   const JudgedBound judged =

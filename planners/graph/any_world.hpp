@@ -88,8 +88,7 @@ class AnyWorld {
   }
   /// What a free motion costs, >= its distance; the same both ways.
   double cost(const State& a, const State& b) const {
-    if (!motion_cost) return distance(a, b);
-    return a < b ? motion_cost(a, b) : motion_cost(b, a);
+    return motion_cost ? motion_cost(a, b) : distance(a, b);
   }
   Embedding embed(const State& a) const {
     if constexpr (in_plane) return {a.x, a.y};

@@ -63,7 +63,7 @@ PriceField::PriceField(StepWeights& weights, std::span<const Goal> goals, std::s
       towards_(towards.begin(), towards.end()),
       goals_(goals.begin(), goals.end()),
       costs_(zeros<std::uint64_t>(weights.cells().number_end(), execution)),
-      queue_(static_cast<double>(units_a_cell) / 8.0) {  // few cells a bucket, and most steps within a turn of them
+      queue_(static_cast<double>(units_a_cell) / 64.0) {  // few cells a bucket, and most steps within a turn of them
   for (std::size_t i = 0; i < goals_.size(); ++i) {
     const VertexId v = weights_.cells().number(goals_[i].cell);
     if (!weights_.cells().is_free(v)) continue;

@@ -29,6 +29,7 @@ void refuse_what_is_asked_later(const SolveOptions& options) {
     if (question_options.has(option)) {
       throw UsageError(fmt::format("@{}: is for a question; say it when the roadmap is asked", name_of(option)));
     }
+    if (option == Option::via) throw UsageError("@via: a roadmap that is kept is asked way by way; solve takes it");
     if (work_options.has(option)) {
       throw UsageError(fmt::format("@{}: a roadmap that is kept is made in one way; leave it out", name_of(option)));
     }
@@ -170,6 +171,10 @@ void check_buildable(const Scene& scene, const Question& question, const SolveOp
   if (const AskedWords words = words_in(prices_of(scene, question)); !words.empty()) {
     throw UsageError(fmt::format("@{}: kept roadmaps hold neither prices nor forbidden areas; solve takes them",
                                  name_of(words_of(words).front())));
+  }
+  if (const AskedWords words = words_in(question.rule); !words.empty()) {
+    throw UsageError(
+        fmt::format("@{}: kept roadmaps are asked for one goal; solve takes it", name_of(words_of(words).front())));
   }
   builder_of(options, scene, without_ends(scene, question));
 }

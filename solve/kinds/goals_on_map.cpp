@@ -61,13 +61,16 @@ std::uint64_t WaysOverCells::leg_cost(Vec2 a, Vec2 b) const {
   return static_cast<std::uint64_t>(std::ceil(cost / map_.cell * static_cast<double>(units_a_cell)));
 }
 
+WaysOverCells::Entry WaysOverCells::entry(Vec2 place, Cell cell, std::size_t goal) const {
+  return {cell, leg_cost(place, cell_centre(map_, cell)), place, goal};
+}
+
 std::vector<WaysOverCells::Entry> WaysOverCells::entries(Vec2 place, std::size_t goal) const {
   const auto own = cell_at(map_, place);
   if (!own) return {};
-  const auto entry = [&](Cell cell) { return Entry{cell, leg_cost(place, cell_centre(map_, cell)), place, goal}; };
   std::vector<Entry> entries;
   for (const Cell cell : cells_joined_to(map_, wide_, problem_.reach(), place, *own, execution_)) {
-    if (!wide_.test(cell.x, cell.y)) entries.push_back(entry(cell));
+    if (!wide_.test(cell.x, cell.y)) entries.push_back(entry(place, cell, goal));
   }
   return entries;
 }
@@ -176,7 +179,7 @@ std::optional<WaysOverCells::Nearest> WaysOverCells::nearest_place(Vec2 to) {
   });
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  constexpr std::size_t most = 64;
+  constexpr std::size_t most = 16;
   if (candidates.size() > most) candidates.resize(most);
   std::optional<Nearest> best;
   for (const auto& candidate : candidates) {
@@ -314,8 +317,7 @@ class Choosing {
   bool take_nearest() {
     const auto found = nearest();
     if (!found || !(found->first.distance <= *rule_.tolerance)) return fail();
-    ends_ = ways_.entries(found->first.place, found->second);
-    if (ends_.empty()) return fail();
+    ends_ = {ways_.entry(found->first.place, found->first.cell, found->second)};
     first_ = ways_.cheapest(problem_.start, ends_);
     return first_ ? true : fail();
   }
@@ -355,8 +357,7 @@ class Choosing {
     }
     const std::size_t count = rule_.visit.size();
     const std::vector<std::uint64_t> row(count, no_leg);
-    TourCosts costs{row, std::vector(count, row),
-                    std::vector<std::uint64_t>(count, open_end_ ? 0 : no_leg)};
+    TourCosts costs{row, std::vector(count, row), std::vector<std::uint64_t>(count, open_end_ ? 0 : no_leg)};
     for (std::size_t j = 0; j < count; ++j) {
       const auto found = ways_.costs(places, ways_.entries(places[j + 1]));
       if (!found[0]) {
@@ -421,6 +422,9 @@ GoalChoice choose_goal(WaysOverCells& ways, const OccupancyMap& map, const WallP
   return Choosing(ways, map, problem, open_end).chosen(via);
 }
 
+namespace {
+
+/// Straight from the start over all places, in any order, to one of the ends; without ends to nowhere else.
 double tour_bound(Vec2 start, std::span<const Vec2> places, std::span<const Vec2> ends) {
   double longest = 0.0;
   for (const auto list : {places, ends}) {
@@ -445,6 +449,23 @@ double tour_bound(Vec2 start, std::span<const Vec2> places, std::span<const Vec2
     for (const Vec2 next : places) row.push_back(units(place, next));
   }
   return static_cast<double>(best_order(costs)->cost) * unit * (1.0 - 0x1p-50);
+}
+
+}  // namespace
+
+std::optional<double> bound_of_choice(const WallProblem& asked, bool open_end) {
+  const GoalRule& rule = asked.rule;
+  const bool one_place = rule.others.empty() && !rule.region && rule.visit.empty() && !rule.back;
+  if (one_place || rule.tolerance) return std::nullopt;
+  std::vector<Vec2> places;
+  for (const std::vector<double>& place : rule.visit) places.push_back({place[0], place[1]});
+  std::vector<Vec2> ends;
+  if (!open_end) ends.push_back(rule.back ? asked.start : asked.goal);
+  if (!open_end && !rule.back) {
+    for (const std::vector<double>& other : rule.others) ends.push_back({other[0], other[1]});
+  }
+  constexpr double rounding = 0x1p-40;
+  return std::max(0.0, (tour_bound(asked.start, places, ends) - rule.region.value_or(0.0)) * (1.0 - rounding));
 }
 
 Path<Vec2> cut_at_region(Path<Vec2> path, Vec2 place, double radius) {

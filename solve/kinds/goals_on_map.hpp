@@ -44,6 +44,8 @@ class WaysOverCells {
     Vec2 place;
     std::size_t goal = 0;  ///< its number among those that were asked
   };
+  /// By a cell to whose middle the place is joined.
+  Entry entry(Vec2 place, Cell cell, std::size_t goal) const;
   /// Of a place: a point's own cell; a disc may fit where it stands and not at the middle of its cell, but at one of
   /// those around it.
   std::vector<Entry> entries(Vec2 place, std::size_t goal = 0) const;
@@ -109,8 +111,9 @@ struct GoalChoice {
 GoalChoice choose_goal(WaysOverCells& ways, const OccupancyMap& map, const WallProblem& problem,
                        std::span<const Vec2> via, bool open_end);
 
-/// No path that visits these places in any order is shorter; end: none: wherever it ends. World units.
-double tour_bound(Vec2 start, std::span<const Vec2> places, std::span<const Vec2> ends);
+/// No path that does what is asked is shorter: straight ways between what may be chosen, world units. none: where
+/// nothing but a tolerance is asked, whose path is compared with those to its own end.
+std::optional<double> bound_of_choice(const WallProblem& asked, bool open_end);
 
 /// A path cut where it first comes as near to a place.
 Path<Vec2> cut_at_region(Path<Vec2> path, Vec2 place, double radius);

@@ -11,6 +11,7 @@
 #include "core/base/error.hpp"
 #include "planners/grid/grid_search.hpp"
 #include "planners/grid/skeleton_planner.hpp"
+#include "planners/shorten/priced_taut.hpp"
 #include "planners/shorten/shortcut.hpp"
 #include "solve/kinds/geometric_roadmaps.hpp"
 #include "solve/kinds/goals_on_map.hpp"
@@ -39,6 +40,21 @@ std::vector<Vec2> way_points(const SolveRequest& request) {
     throw UsageError("@visit: finds the order of its places, and @via says one; leave one of them out");
   }
   return points;
+}
+
+/// none: nothing is priced.
+std::optional<MapPrices> priced_map(const OccupancyMap& map, const WallProblem& problem, const Execution& execution) {
+  std::optional<MapPrices> prices;
+  if (!problem.prices.empty()) prices.emplace(map, problem.robot.radius, problem.prices, execution);
+  if (prices && !prices->is_priced()) prices.reset();
+  return prices;
+}
+
+/// Refers to both.
+LegPrices leg_prices(const std::optional<MapPrices>& prices, MapPrices::Scratch& scratch) {
+  if (!prices) return {};
+  return {[&](Vec2 a, Vec2 b) { return prices->cost(a, b, scratch); },
+          [&](Cell from, unsigned direction) { return prices->step_up(from, direction, scratch); }};
 }
 
 /// Does the question name no goal but places to visit?
@@ -81,15 +97,19 @@ class CellSolve {
       : request_(request),
         map_(*request.scene.map),
         problem_(problem),
-        chooses_(!problem.rule.empty() || !request.options.trees.via.empty()) {
+        chooses_(!problem.rule.empty() || !request.options.trees.via.empty()),
+        prices_(priced_map(map_, problem, request.execution)) {
+    if (prices_ && request.options.grid.diagonal) {
+      throw UsageError("@diagonal: where ways have a price steps weigh what they cost; leave it out");
+    }
+    if ((chooses_ || prices_) && request.options.search) {
+      throw UsageError("@search: prices, choices of goals and stops take one field over the cells; leave it out");
+    }
     grid_.diagonal = request.options.grid.diagonal.value_or(Diagonal::sqrt2);
     grid_.method =
         grid_method(request.options, grid_.diagonal == Diagonal::sqrt2 ? GridMethod::jump_points : GridMethod::astar);
     if (grid_.method == GridMethod::jump_points && grid_.diagonal != Diagonal::sqrt2) {
       throw UsageError("@search: jump points need @diagonal sqrt2");
-    }
-    if (chooses_ && request.options.search) {
-      throw UsageError("@search: choices of goals and stops are searched by one field over the cells; leave it out");
     }
     answer_.problem = problem.general();
     answer_.planner = name_of(PlannerKind::grid);
@@ -101,7 +121,7 @@ class CellSolve {
   }
 
   void run() {
-    if (chooses_) return run_chosen();
+    if (chooses_ || prices_) return run_chosen();
     const auto start = cell_at(map_, problem_.start);
     const auto goal = cell_at(map_, problem_.goal);
     answer_.outcome = blocked_end(start, goal);
@@ -143,12 +163,14 @@ class CellSolve {
       answer_.problem.goal = {reached.goal.x, reached.goal.y};
     }
     verify_solved_on_map(answer_, map_, reached, true, request_.execution);
+    if (prices_ && answer_.verified) answer_.lower_bound = bound_of_choice(problem_, has_open_end(request_));
   }
 
   GoalChoice choose() {
     const StageTimer timer(request_.execution, "search", answer_.seconds.search, map_.blocked.size());
     answer_.search = "field";
-    WaysOverCells ways(map_, problem_, closed_, blocked(), grid_.diagonal, {}, request_.execution);
+    WaysOverCells ways(map_, problem_, closed_, blocked(), grid_.diagonal, leg_prices(prices_, scratch_),
+                       request_.execution);
     GoalChoice choice = choose_goal(ways, map_, problem_, way_points(request_), has_open_end(request_));
     answer_.counters.expanded += ways.expanded();
     return choice;
@@ -157,20 +179,26 @@ class CellSolve {
   /// Leg by leg, so that no stop is cut off.
   void take_ways(const GoalChoice& choice) {
     std::uint64_t cells = 0;
+    std::uint64_t weight = 0;
     double cost = 0.0;
     double raw = 0.0;
     Path<Vec2> whole{problem_.start};
     for (const WaysOverCells::Way& way : choice.ways) {
       cells += way.cells.size();
+      weight += way.cost;
       cost += cost_of(way.cells, grid_.diagonal);
       answer_.path = path_over_cells(map_, way.from, way.cells, way.end.place);
-      if (request_.options.optimise) optimise();
+      if (prices_ || request_.options.optimise) optimise();
       raw += answer_.raw_length.value_or(0.0);
       whole.insert(whole.end(), answer_.path.begin() + 1, answer_.path.end());
     }
-    if (request_.options.optimise) answer_.raw_length = raw;
+    if (answer_.raw_length) answer_.raw_length = raw;
     answer_.path = std::move(whole);
     count(cells, cost);
+    if (prices_) {
+      const double in_cells = static_cast<double>(weight) / static_cast<double>(units_a_cell);
+      answer_.path_figures.push_back({"cells_cost", in_cells * map_.cell});
+    }
   }
 
   bool stands_free(Vec2 p) const { return stands_free_on_map(map_, problem_, p, request_.execution); }
@@ -235,14 +263,31 @@ class CellSolve {
     map.blocked = closed_;
     const GridWorld world(map, problem_.reach(), request_.execution);
     answer_.raw_length = path_length(answer_.path, GridWorld::distance);
+    if (prices_) return pull(world);
     answer_.path = shorter_path(WorldView(world), std::move(answer_.path), GridWorld::distance, {.seed = answer_.seed},
                                 request_.execution, answer_.counters);
+  }
+
+  /// Under the price, off the grid.
+  void pull(const GridWorld& world) {
+    GridWorld::Query query = world.make_query();
+    const PricedLegs legs{leg_prices(prices_, scratch_).cost,
+                          [&](Vec2 a, Vec2 b) {
+                            ++answer_.counters.edges_checked;
+                            const bool free = world.is_free_motion(a, b, query);
+                            answer_.counters.edges_free += free ? 1 : 0;
+                            return free;
+                          },
+                          map_.cell};
+    answer_.path = priced_taut(std::move(answer_.path), legs, request_.execution);
   }
 
   const SolveRequest& request_;
   const OccupancyMap& map_;
   WallProblem problem_;
   bool chooses_;
+  std::optional<MapPrices> prices_;  // where something is priced
+  MapPrices::Scratch scratch_;
   GridSearchOptions grid_;
   Bitmap closed_;   // to a point
   Bitmap blocked_;  // to a disc's middle; empty: the robot is a point
@@ -342,7 +387,9 @@ Answer solve_chosen(const SolveRequest& request) {
     }
     const Bitmap closed = closed_cells(map, problem.start);
     const Bitmap wide = blocked_for_disc(closed, problem.reach() / map.cell, request.execution);
-    WaysOverCells ways(map, problem, closed, wide, Diagonal::sqrt2, {}, request.execution);
+    const std::optional<MapPrices> prices = priced_map(map, problem, request.execution);
+    MapPrices::Scratch scratch;
+    WaysOverCells ways(map, problem, closed, wide, Diagonal::sqrt2, leg_prices(prices, scratch), request.execution);
     choice = choose_goal(ways, map, problem, {}, has_open_end(request));
     chosen.counters.expanded += ways.expanded();
     take_choice(chosen, choice);
@@ -363,6 +410,7 @@ Answer solve_chosen(const SolveRequest& request) {
   answer.seconds.search += chosen.seconds.search;
   answer.solve_s += chosen.solve_s;
   take_choice(answer, choice, answer.outcome);
+  if (answer.verified) answer.lower_bound = bound_of_choice(problem, has_open_end(request));
   return answer;
 }
 
@@ -436,7 +484,8 @@ class SkeletonSolve {
 };
 
 constexpr PlannerChoice occupancy_planners[] = {
-    {PlannerKind::grid, OptionSet{Option::search, Option::diagonal, Option::optimise, Option::via}, goal_words},
+    {PlannerKind::grid, OptionSet{Option::search, Option::diagonal, Option::optimise, Option::via},
+     goal_words | price_words | restriction_words},
     {PlannerKind::prm, prm_takes | point_takes | OptionSet{Option::via}, goal_words | price_words | restriction_words},
     {PlannerKind::lazy_prm, lazy_prm_takes | point_takes | OptionSet{Option::via},
      goal_words | price_words | restriction_words},
