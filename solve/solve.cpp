@@ -89,6 +89,11 @@ void check_price(Verdict& verdict, const Scene& judged, const RecordedAnswer& an
   const Problem& problem = verdict.problem;
   if (!verdict.verified) return;
   const auto price = judged_price(judged, problem.prices, problem.robot, answer, execution);
+  if (answer.price && !asks_price(problem.prices)) {
+    verdict.verified = false;
+    verdict.first_violation =
+        Violation{.leg = 0, .distance = 0.0, .obstacle = "price: the answer claims one, its question has none"};
+  }
   if (!price) return;
   const auto check = [&](std::string_view name, double said, double found) {
     if (!verdict.verified || std::abs(said - found) <= rounding * (1.0 + std::abs(found))) return;
