@@ -90,11 +90,16 @@ void judge_prices(Answer& answer, const Scene& scene, const Question& question, 
 }
 
 /// Cost and price that an answer claims are a part of what is verified.
-void check_price(Verdict& verdict, const Scene& judged, const RecordedAnswer& answer, const Execution& execution) {
+void check_price(Verdict& verdict, const Scene& judged, const Prices& prices, const RecordedAnswer& answer,
+                 const Execution& execution) {
   constexpr double rounding = 1e-9;
-  const Problem& problem = verdict.problem;
   if (!verdict.verified) return;
-  const auto price = judged_price(judged, problem.prices, problem.robot, answer, execution);
+  const auto price = judged_price(judged, prices, verdict.problem.robot, answer, execution);
+  if (answer.price && !asks_price(prices)) {
+    verdict.verified = false;
+    verdict.first_violation =
+        Violation{.leg = 0, .distance = 0.0, .obstacle = "price: the answer claims one, its question has none"};
+  }
   if (!price) return;
   const auto check = [&](std::string_view name, double said, double found) {
     if (!verdict.verified || std::abs(said - found) <= rounding * (1.0 + std::abs(found))) return;
@@ -280,11 +285,12 @@ Verdict verify_within(const Scene& scene, const Question& question, const Record
   question.validate();
   check_same_world(answer, answer.file, scene, execution);
   const Question asked = merged(question, answer.problem);
-  const std::optional<Scene> effective = effective_scene(scene, prices_of(scene, asked), execution);
+  const Prices prices = prices_of(scene, asked);
+  const std::optional<Scene> effective = effective_scene(scene, prices, execution);
   const Scene& judged = effective ? *effective : scene;
   Verdict verdict = verifying_kind(judged, asked).verify(judged, asked, answer, execution);
   check_length(verdict, answer);
-  check_price(verdict, judged, answer, execution);
+  check_price(verdict, judged, prices, answer, execution);
   const bool is_same = !question.robot && question.start.empty() && question.goal.empty() && !question.clearance &&
                        question.prices.empty() && question.rule.empty();
   if (is_same) check_bound(verdict, judged, answer, execution);
