@@ -268,7 +268,7 @@ TEST(GoalsOnMap, AStopThatIsBlockedIsNamed) {
     solve(scene, question, by(PlannerKind::grid));
     ADD_FAILURE();
   } catch (const UsageError& error) {
-    EXPECT_STREQ(error.what(), "@visit: the point does not fit at place 2");
+    EXPECT_STREQ(error.what(), "visit: the point does not fit at place 2");
   }
   SolveOptions options = by(PlannerKind::grid);
   options.search = SearchMethod::astar;
