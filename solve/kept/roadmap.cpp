@@ -123,6 +123,7 @@ std::string_view why_nothing_is_kept(PlannerKind planner) {
 
 ChosenSolver builder_of(const SolveOptions& options, const Scene& scene, const Question& question) {
   const ChosenSolver solver = choose_solver(options, scene, question);
+  if (!question.route.keep_to.empty()) throw UsageError("@keep_to: is of one question; a roadmap is for many");
   if (solver.kind->build == nullptr || !keeps_roadmap(solver.planner)) {
     throw UsageError(fmt::format("@planner: {} makes no roadmap that is kept: {}; prm and lazy-prm do",
                                  name_of(solver.planner), why_nothing_is_kept(solver.planner)));
