@@ -95,6 +95,22 @@ TEST_F(SolveUrdf, AnswersAreTheSameForAnyNumberOfThreads) {
   }
 }
 
+TEST_F(SolveUrdf, SolidsBeyondWhatFloatsHoldAreAnswered) {
+  for (const std::string solid : {R"(<box size="1e60 0.1 1"/>)", R"(<cylinder radius="1e60" length="1"/>)",
+                                  R"(<cylinder radius="1" length="1e60"/>)", R"(<sphere radius="1e30"/>)"}) {
+    SCOPED_TRACE(solid);
+    const std::string urdf = folder_.write(
+        "large.urdf", R"(<robot name="r"><link name="b"/><link name="l"><collision><geometry>)" + solid +
+                          R"(</geometry></collision></link><joint name="j" type="revolute"><parent link="b"/>)"
+                          R"(<child link="l"/><axis xyz="0 0 1"/><limit lower="-2" upper="2"/></joint></robot>)");
+    const std::string scene =
+        folder_.write("large.scene", "sphere 3 3 3 0.5\nrobot urdf " + urdf + "\nstart 0\ngoal 1\n");
+    const Outcome outcome = run({"solve", scene, "--json", "-"});
+    EXPECT_EQ(outcome.code, 1) << outcome.err;
+    EXPECT_EQ(Json::parse(outcome.out, nullptr, false).value("status", ""), "start_blocked");
+  }
+}
+
 TEST_F(SolveUrdf, AJointWithoutEndGoesTheShorterWay) {
   const Json answer = solved({"--start", "4.6,-1,0,0", "--goal", "-1.68,-1,0,0"});
   EXPECT_EQ(answer["status"], "solved");

@@ -673,7 +673,7 @@ ArmJudges judges_by([[maybe_unused]] InstructionSet set) {
 MotionVerdict judge_arm_motion_by(const ArmJudges& judges, const ArmSetup& setup, std::span<const double> q,
                                   std::span<const double> way, double bend_factor) {
   if (setup.always_meets) return MotionVerdict::blocked;
-  MotionVerdict verdict = judges.floats(setup, q, way, bend_factor);
+  MotionVerdict verdict = setup.floats_hold ? judges.floats(setup, q, way, bend_factor) : MotionVerdict::refused;
   if (verdict == MotionVerdict::refused) verdict = judges.doubles(setup, q, way, bend_factor);
   return verdict == MotionVerdict::free && setup.always_touches ? MotionVerdict::refused : verdict;
 }

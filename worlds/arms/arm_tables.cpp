@@ -488,6 +488,8 @@ ArmSetup::ArmSetup(const ArmModel& model, std::span<const Solid> obstacles, doub
   builder.take_obstacles(obstacles, execution);
   copy_tables(doubles, floats);
   builder.take_slack(floats);
+  constexpr float most_slack = 1e3F;  // of sizes up to 3e8, which floats tell apart by tens
+  floats_hold = floats.slack < most_slack;
   builder.take_slack(doubles);
 }
 

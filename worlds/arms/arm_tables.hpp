@@ -95,6 +95,7 @@ struct ArmSetup {
   double resolution;
   bool always_touches = false;  // what never moves is not proved free
   bool always_meets = false;    // and does touch
+  bool floats_hold = true;      // is all so small that products of squares are numbers, too?
   ArmTables<float> floats;
   ArmTables<double> doubles;
 };
