@@ -65,16 +65,19 @@ def main():
     parser.add_argument("folder")
     parser.add_argument("--worlds", type=int, default=20, help="of BARN")
     parser.add_argument("--steering", default="reeds-shepp")
+    parser.add_argument("--planner", default="grid")
+    parser.add_argument("--only", default="", help="a part of the names")
     parser.add_argument("--words", default="", help="further words of solve")
     asked = parser.parse_args()
     wrong = 0
     worlds = list(tpcap(asked.folder)) + list(barn(asked.folder))[:asked.worlds]
+    worlds = [world for world in worlds if asked.only in world[0]]
     with tempfile.TemporaryDirectory() as folder:
         for name, robot, lines in worlds:
             world, answer = os.path.join(folder, "world.scene"), os.path.join(folder, "answer.json")
             with open(world, "w", encoding="ascii") as file:
                 file.write("\n".join(lines + [f"robot {robot} steering {asked.steering}"]) + "\n")
-            words = [asked.program, "solve", world, "--planner", "grid", "--json", answer, *asked.words.split()]
+            words = [asked.program, "solve", world, "--planner", asked.planner, "--json", answer, *asked.words.split()]
             done = subprocess.run(words, capture_output=True, text=True, check=False)
             if not os.path.exists(answer):
                 print(f"{name:12} {done.stderr.strip()}")

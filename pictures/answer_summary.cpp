@@ -140,6 +140,7 @@ void add_path(std::string& text, const Answer& answer, const Palette& palette) {
 std::string end_text(const Answer& answer) {
   if (answer.stop_reason) return std::string(text_of(*answer.stop_reason));
   if (answer.ended_by == "optimum") return "there is no better one";
+  if (answer.ended_by == "lattice") return "the lattice has no better one";
   if (answer.ended_by == "gap") return "as near to the best as --gap asks for";
   if (answer.ended_by == "iterations") return "all turns are done";
   if (answer.ended_by == "nodes") return "its tree has all --nodes";

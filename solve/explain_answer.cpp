@@ -282,7 +282,8 @@ class Hints {
     };
     if (in_plane && offer_planner(PlannerKind::visibility, "finds every way that there is, or proves that none is"))
       return;
-    if (scene_.map && offer_planner(PlannerKind::grid, "finds what the map's cells allow, or proves that none is"))
+    const bool is_car = body == RobotKind::car;  // of which its lattice proves nothing
+    if (scene_.map && !is_car && offer_planner(PlannerKind::grid, "finds what the map's cells allow, or proves that none is"))
       return;
     for (const PlannerKind other : {PlannerKind::lazy_prm, PlannerKind::rrt_connect, PlannerKind::prm}) {
       if (is_roadmap_planner(other) && is_roadmap_planner(*options_.planner)) continue;

@@ -17,9 +17,11 @@ namespace {
 
 constexpr double exactly = 1e-10;  // cells and radians: what is so near to a state is it
 
-double cell_of(const Scene& scene, const RobotSpec& robot, const CarLatticeOptions& options) {
+double cell_of(const Scene& scene, const Box& box, double turning_radius, const CarLatticeOptions& options) {
   constexpr double share = 0.125;
-  return scene.map ? scene.map->cell : options.cell.value_or(share * robot.turning_radius);
+  constexpr double cells_a_side = 2000.0;
+  const double usual = std::max(share * turning_radius, std::max(box.width(), box.height()) / cells_a_side);
+  return scene.map ? scene.map->cell : options.cell.value_or(usual);
 }
 
 MotionSetOptions motion_options(const RobotSpec& robot, const CarLatticeOptions& options, double cell) {
@@ -51,10 +53,10 @@ CarLattice::CarLattice(const CarBody& body, const Scene& scene, const RobotSpec&
       radius_(robot.turning_radius),
       start_(start),
       goals_(goals.begin(), goals.end()),
-      cell_(cell_of(scene, robot, options)),
+      cell_(cell_of(scene, body.box(), robot.turning_radius, options)),
       motions_(motion_options(robot, options, cell_), execution),
       query_(body.make_query()) {
-  lay_out(scene, start, options);
+  lay_out(scene, start);
   const double disc = disc_in(robot) + options.clearance - MotionSet::slack * cell_;
   if (scene.map) {
     if (disc > 0.0) no_middle_ = blocked_for_disc(scene.map->blocked, disc / cell_ * (1.0 - 1e-9), execution);
@@ -75,7 +77,7 @@ CarLattice::CarLattice(const CarBody& body, const Scene& scene, const RobotSpec&
 
 /// Among walls and polygons the start is in the middle of a cell, so that what lies far from the origin is planned as
 /// it would be near; one cell lies beyond the box all around.
-void CarLattice::lay_out(const Scene& scene, const Se2& start, const CarLatticeOptions& options) {
+void CarLattice::lay_out(const Scene& scene, const Se2& start) {
   if (scene.map) {
     width_ = scene.map->width();
     height_ = scene.map->height();
@@ -94,8 +96,8 @@ void CarLattice::lay_out(const Scene& scene, const Se2& start, const CarLatticeO
   if (!(wide * high <= most)) {
     throw UsageError(
         fmt::format("@cell: {} is too small: the world has {:.6g} x {:.6g} such cells, and {:.0e} are the "
-                    "most that a lattice of a car has{}",
-                    cell_, wide, high, most, options.cell ? "" : "; say a larger one"));
+                    "most that a lattice of a car has",
+                    cell_, wide, high, most));
   }
   width_ = static_cast<std::uint32_t>(wide);
   height_ = static_cast<std::uint32_t>(high);

@@ -26,7 +26,7 @@ namespace warren {
 
 struct CarLatticeOptions {
   std::uint32_t headings = 16;  ///< 16 or 32
-  std::optional<double> cell;   ///< distance of states, > 0; none: an eighth of the turning radius; a map has its own
+  std::optional<double> cell;   ///< distance of states, > 0; none: the usual one; a map has its own
   double clearance = 0.0;       ///< room around the body; >= 0
   DrivingPrice price;           ///< of gears
   double turn_cost = 0.0;       ///< of a radian, in units of length; >= 0
@@ -72,7 +72,7 @@ class CarLattice {
   Vec2 place_of(double x, double y) const;  // of cells, in the world
   Vec2 in_cells(const Se2& pose) const;     // the middle of cell (0, 0) is (0, 0)
   SteeringCurve curve(const Se2& a, const Se2& b) const { return {a, b, shortest_(a, b, radius_), radius_}; }
-  void lay_out(const Scene& scene, const Se2& start, const CarLatticeOptions& options);
+  void lay_out(const Scene& scene, const Se2& start);
   void index_map(const OccupancyMap& map, const RobotSpec& robot, double clearance);
   void index_plane(const Scene& scene, double disc);
   void join_start(const Se2& start);

@@ -494,7 +494,13 @@ class SampledSolve {
     }
     const std::optional<double> cost = cost_of_better();
     body_.judge(*world_, std::move(path_), answer_);
-    if (!on_lattice()) answer_.cost = cost;
+    if (!on_lattice()) {
+      answer_.cost = cost;
+    } else if (answer_.lower_bound) {
+      constexpr double as_good = 1e-9;
+      const double paid = answer_.cost.value_or(answer_.length);
+      answer_.optimal = paid - *answer_.lower_bound <= as_good * paid;
+    }
   }
   std::optional<double> cost_of_better() const {
     if (!Body::has_cost || !gets_better(request_.planner)) return std::nullopt;
@@ -528,7 +534,8 @@ class SampledSolve {
 /// SolveKind::solve for a body.
 template <class Body>
 Answer solve_sampled(const SolveRequest& request) {
-  if (!gets_better(request.planner) && request.planner != PlannerKind::grid) return SampledSolve(request, Body(request)).run();
+  if (!gets_better(request.planner) && request.planner != PlannerKind::grid)
+    return SampledSolve(request, Body(request)).run();
   Execution execution = request.execution;
   SolveRequest own{request.options, request.scene, request.question, request.planner, execution, request.keep};
   return SampledSolve(own, Body(own), &execution).run();

@@ -147,14 +147,14 @@ class Car : public PoseBody {
 template <class Curve>
 void Car<Curve>::check_lattice() const {
   if (grid_.cell && scene().map) throw UsageError("@cell: on a map the grid's positions are the middles of its cells");
-  const std::uint32_t headings = grid_.angles.value_or(16);
-  if (headings != 16 && headings != 32) throw UsageError("@angles: a car's lattice has 16 or 32");
+  const std::uint32_t headings = grid_.headings.value_or(16);
+  if (headings != 16 && headings != 32) throw UsageError("@headings: a car's lattice has 16 or 32");
 }
 
 template <class Curve>
 Path<Se2> Car<Curve>::on_lattice(const World& world, std::span<const Se2> goals, Answer& answer) const {
   CarLatticeOptions options;
-  options.headings = grid_.angles.value_or(options.headings);
+  options.headings = grid_.headings.value_or(options.headings);
   options.cell = grid_.cell;
   if (!options.cell && scene().grid) options.cell = scene().grid->cell;
   options.clearance = question().clearance;
@@ -179,7 +179,7 @@ Path<Se2> Car<Curve>::on_lattice(const World& world, std::span<const Se2> goals,
   answer.counters.edges_checked += found.checked;
   answer.counters.refused += lattice->refused();
   answer.iterations = found.rounds;
-  answer.ended_by = found.ended_by;
+  answer.ended_by = found.ended_by == "optimum" ? "lattice" : found.ended_by;  // others may be better
   answer.improvements = std::move(found.improvements);
   if (!found.found()) return {};
   if (enum_named<StopReason>(found.ended_by)) answer.stop_reason = found.stop_reason;
@@ -192,7 +192,7 @@ Path<Se2> Car<Curve>::on_lattice(const World& world, std::span<const Se2> goals,
 
 constexpr OptionSet shape_options{Option::steering, Option::turning_radius};
 constexpr OptionSet curve_options = shape_options | OptionSet{Option::cusp_cost, Option::reverse_cost};
-constexpr OptionSet lattice_options{Option::cell,     Option::angles,   Option::turn_cost,
+constexpr OptionSet lattice_options{Option::cell,     Option::headings,   Option::turn_cost,
                                     Option::optimise, Option::iterations, Option::gap};
 constexpr PlannerChoice car_planners[] = {{PlannerKind::rrt_connect, rrt_connect_options | curve_options},
                                           {PlannerKind::rrt, rrt_options | curve_options},

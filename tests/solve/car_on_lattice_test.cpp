@@ -91,7 +91,7 @@ TEST(CarOnLattice, PricesAreWhatThePathPays) {
 TEST(CarOnLattice, AGapOfZeroEndsAtTheOptimumAndRoundsAreCounted) {
   SolveOptions asked = options();
   asked.anytime.gap = 0.0;
-  EXPECT_EQ(solve(two_rooms(6), question(SteeringKind::dubins), asked).ended_by, "optimum");
+  EXPECT_EQ(solve(two_rooms(6), question(SteeringKind::dubins), asked).ended_by, "lattice");
   asked.anytime.iterations = 1;
   const Answer one = solve(two_rooms(6), question(SteeringKind::dubins), asked);
   EXPECT_EQ(one.iterations, 1U);
@@ -156,7 +156,7 @@ TEST(CarOnLattice, IsTheSameForAnyNumberOfThreads) {
 
 TEST(CarOnLattice, RefusesWhatItHasNoUseFor) {
   SolveOptions asked = options();
-  asked.grid.angles = 20;
+  asked.grid.headings = 20;
   EXPECT_THROW(solve(two_rooms(6), question(SteeringKind::dubins), asked), UsageError);
   asked = options();
   asked.grid.cell = 0.2;

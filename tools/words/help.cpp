@@ -215,7 +215,7 @@ constexpr NamedGroup option_groups[] = {
      "--sampler --samplers --samples --neighbours --radius --neighbour-index --attach --lazy --pipeline"},
     {"Trees", "--step --goal-bias --nodes --trees"},
     {"Better with time", "--iterations --gap --parts --bound"},
-    {"Grids", "--cell --angles --face-motion --step-cost --turn-cost --diagonal --layers"},
+    {"Grids", "--cell --angles --headings --face-motion --step-cost --turn-cost --diagonal --layers"},
     {"Visibility graph, cells, medial axis", "--full --sampled-edges --doors --objective"},
     {"Cars", "--steering --turning-radius"},
     {"Search", "--search --searches --heuristic --queue --queues"},

@@ -62,9 +62,12 @@ constexpr OptionSpec planner_specs[] = {
      "grid in a scene: how far apart its positions are (default: the file's grid line, else a 400th of the longer "
      "side)"},
     {"--angles", "N", "grid: number of headings for a body that turns (default: the file's grid line, else 72)"},
+    {"--headings", "N", "grid, for a car: headings of the lattice that its motions join, 16 or 32 (default: 16)"},
     {"--face-motion", "", "grid: a body that turns moves only the way it faces"},
     {"--step-cost", "C", "grid in a scene, or for a body that turns: cost of a step to the next position (default: 1)"},
-    {"--turn-cost", "C", "grid: cost of a turn to the next heading, for a body that turns (default: 1)"},
+    {"--turn-cost", "C",
+     "grid: cost of a turn to the next heading, for a body that turns (default: 1); of a radian for a car (default: "
+     "0)"},
     {"--diagonal", "NAME",
      "grid: cost of a diagonal step, sqrt2 or 1 (unit) times that of a straight one; none: there are none (default: "
      "sqrt2)",

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "core/base/types.hpp"
+#include "core/base/whole.hpp"
 #include "parallel/execution.hpp"
 #include "worlds/poses/steering_curve.hpp"
 
@@ -61,7 +62,7 @@ class MotionSet {
   /// Throws Stopped. Options out of range are the caller's bug.
   MotionSet(const MotionSetOptions& options, const Execution& execution);
 
-  std::uint32_t headings() const { return static_cast<std::uint32_t>(motions_.size()); }
+  std::uint32_t headings() const { return as_whole<std::uint32_t>(motions_.size()); }
   double heading_rad(std::uint32_t k) const { return radians_[k]; }
   /// The heading nearest to an angle.
   std::uint32_t nearest_heading(double radians) const;

@@ -62,6 +62,7 @@ def solve(
     seed: int | None = ...,
     cell: float | None = ...,
     angles: int | None = ...,
+    headings: int | None = ...,
     face_motion: bool | None = ...,
     step_cost: float | None = ...,
     turn_cost: float | None = ...,
