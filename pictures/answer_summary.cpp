@@ -113,6 +113,18 @@ std::string planner_text(const Answer& answer) {
   return text;
 }
 
+/// The parts of a price that are paid.
+std::string price_text(const Answer& answer) {
+  const PriceParts& price = *answer.price;
+  std::string text = "with the length";
+  for (const auto& [part, paid] :
+       {std::pair{"nearness", price.clearance}, std::pair{"areas", price.areas}, std::pair{"turning", price.turning},
+        std::pair{"changes of gear", price.cusps}, std::pair{"driving backwards", price.reverse}}) {
+    if (paid > 0.0) text += fmt::format(", {} for {}", length_text(answer, paid), part);
+  }
+  return text;
+}
+
 void add_path(std::string& text, const Answer& answer, const Palette& palette) {
   std::string length = palette.strong(length_text(answer, answer.length));
   if (answer.raw_length) length += fmt::format(" (before --optimise: {})", length_text(answer, *answer.raw_length));
@@ -124,7 +136,9 @@ void add_path(std::string& text, const Answer& answer, const Palette& palette) {
   }
   line(text, palette, "length", length + fmt::format(", {}", counted(path_points(answer), "point", "points")));
   if (answer.cost) {
-    const std::string_view of_what = answer.iterations ? "turning counted" : "in steps from cell to cell";
+    const std::string of_what = answer.price        ? price_text(answer)
+                                : answer.iterations ? "turning counted"
+                                                    : "in steps from cell to cell";
     line(text, palette, "cost",
          fmt::format("{}, {}{}", human_number(*answer.cost), of_what, answer.optimal ? " (the least there is)" : ""));
   }

@@ -189,8 +189,8 @@ WARREN_ARCHIVED(Solid, kind, pose, half, corners, faces, name, given)
 WARREN_ARCHIVED(AttachedSolid, link, solid, may_touch)
 template <class Ar>
 void put(Ar& ar, ArmFiles& whole) {
-  auto& [urdf, srdf, group, base, tip, packages, held, allowed, attached, read] = whole;
-  all(ar, urdf, srdf, group, base, tip, packages, held, allowed, attached);
+  auto& [urdf, srdf, group, base, tip, packages, held, allowed, attached, tool, read] = whole;
+  all(ar, urdf, srdf, group, base, tip, packages, held, allowed, attached, tool);
   if constexpr (Ar::reads) read.reset();  // whoever asks again reads the files
 }
 WARREN_ARCHIVED(NamedState, names, values)
@@ -213,7 +213,7 @@ WARREN_ARCHIVED(BlockedEnd, is_start, by, free_place, distance, hint, room, need
 WARREN_ARCHIVED(Hint, verb, words, why)
 WARREN_ARCHIVED(Explanation, components, narrowest, hints, stopped)
 WARREN_ARCHIVED(GoalRule, others, tolerance, region, heading_rad, visit, back)
-WARREN_ARCHIVED(Problem, robot, start, goal, clearance, contact, goal_pose, prices, rule)
+WARREN_ARCHIVED(Problem, robot, start, goal, clearance, contact, goal_pose, prices, rule, told)
 WARREN_ARCHIVED(GoalReached, asked, distance, distance_bound)
 WARREN_ARCHIVED(AlternativePath, cost, length, price, min_clearance, passed, path)
 WARREN_ARCHIVED(WorldAccount, source, kind, walls, polygons, hash, spheres, boxes, unit, solids)
@@ -227,7 +227,7 @@ WARREN_ARCHIVED(Answer, outcome, stop_reason, verified, blocked, explained, refu
                 optimal, lower_bound, improvements, iterations, ended_by, cost, price, bound_of, goal_index,
                 goal_reached, order, alternatives, passed, holes, keeping, turn_rad, problem, world, planner, pipeline,
                 sampler, search, seed, threads, options, roadmap, cells, figures, path_figures, separation, counters,
-                seconds, costs, solve_s, peak_memory_bytes, path, handed, states, tells_path)
+                seconds, costs, solve_s, wanted_memory_bytes, peak_memory_bytes, path, handed, states, tells_path)
 #undef WARREN_ARCHIVED
 
 }  // namespace
