@@ -28,8 +28,8 @@ constexpr OptionSpec question_specs[] = {
      "joint (default: the file's)"},
     {"--goal",
      "X,Y[,THETA]",
-     "where to arrive, as --start. Without THETA a body that turns may arrive at any heading; of an arm X,Y,Z is a "
-     "place of its tool. Several times: the goal that is cheapest to reach (default: the file's)",
+     "where to arrive, as --start; without THETA at any heading. X,Y,Z: a place of an arm's tool. Several times: the "
+     "cheapest to reach (default: the file's)",
      {},
      {},
      false,

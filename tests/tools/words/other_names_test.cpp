@@ -113,7 +113,7 @@ TEST(OtherNames, AreTypedAsPeopleTypeThem) {
       {{"help", "obstacles"}, 0, ""},
       {{"help", "tolerence"},
        2,
-       "nothing is called tolerence; did you mean tolerance? not here: the goal is met exactly"},
+       "nothing is called tolerence; did you mean tolerance? --goal-tolerance R"},
       {{"help", "dijsktra"}, 2, "did you mean dijkstra?"},
       {{"help", "Latice"}, 2, "did you mean lattice?"},
       {{"solve", "maze:5x5", "--infaltion", "1"}, 2, "did you mean inflation? --clearance R"},
