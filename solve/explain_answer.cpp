@@ -185,9 +185,11 @@ class Hints {
     if (answer_.ended_by != "iterations" || !options_.anytime.iterations) return;
     const std::uint64_t more = four_times(*options_.anytime.iterations);
     const bool is_found = answer_.outcome == Outcome::solved;
+    constexpr double hardly = 1e-3;
+    if (is_found && gap_of(answer_).value_or(1.0) <= hardly) return;
     if (more <= *options_.anytime.iterations || (!is_found && answer_.outcome != Outcome::not_connected)) return;
     offer({"--iterations", fmt::format("{}", more)},
-          is_found ? "the path gets better with more" : "all turns are done, and none has found a way yet",
+          is_found ? "the path may get better with more" : "all turns are done, and none has found a way yet",
           [&](SolveOptions& options) { options.anytime.iterations = more; });
   }
   void say(std::string why) { hints_.push_back({{}, {}, std::move(why)}); }
