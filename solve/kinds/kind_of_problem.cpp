@@ -261,6 +261,14 @@ bool planner_takes(PlannerKind planner, Option option) {
   return std::find(takers.begin(), takers.end(), planner) != takers.end();
 }
 
+bool planner_takes(PlannerKind planner, Option option, const Scene& scene, const Question& question) {
+  const std::vector<const SolveKind*> fitting = fitting_kinds(scene, robot_of(scene, question));
+  return std::any_of(fitting.begin(), fitting.end(), [&](const SolveKind* kind) {
+    const PlannerChoice* choice = choice_in(*kind, planner);
+    return choice != nullptr && choice->options.has(option);
+  });
+}
+
 bool planner_takes(PlannerKind planner, AskedWord word) {
   const auto takers =
       planners_where([&](const SolveKind&, const PlannerChoice& choice) { return choice.words.has(word); });

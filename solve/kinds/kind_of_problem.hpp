@@ -162,6 +162,8 @@ const SolveKind& verifying_kind(const Scene& scene, const Question& question);
 
 /// Does the planner take the option for some kind of problem?
 bool planner_takes(PlannerKind planner, Option option);
+/// The same for this problem alone.
+bool planner_takes(PlannerKind planner, Option option, const Scene& scene, const Question& question);
 /// Does it respect the word for some kind of problem?
 bool planner_takes(PlannerKind planner, AskedWord word);
 
