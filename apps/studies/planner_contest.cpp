@@ -327,6 +327,8 @@ Answer solve_contender(const Scene& scene, const PlannerContender& contender, st
   return answer;
 }
 
+namespace {
+
 /// An option that some planner takes in this world is not for those that take it in others alone.
 std::vector<PlannerContender> without_strange_options(std::vector<PlannerContender> contenders, const Scene& scene) {
   const auto takes = [&](const PlannerContender& contender, Option option) {
@@ -344,6 +346,8 @@ std::vector<PlannerContender> without_strange_options(std::vector<PlannerContend
   }
   return contenders;
 }
+
+}  // namespace
 
 void run_planner_contest(const Scene& scene, const PlannerContestOptions& options, const Execution& execution,
                          Comparison& comparison) {

@@ -92,8 +92,8 @@ constexpr OptionSpec asked_specs[] = {
      "ANGLE: "
      "so much may the heading be off"},
     {"--goal-region", "R[,ANGLE]", "any place at most R away from the goal will do: the one that is cheapest to reach"},
-    {"--visit", "\"X,Y; X,Y; ...\"",
-     "pass these places, at most 12, in the order that costs least, then go to the goal"},
+    {"--visit", "PLACES",
+     "pass these places, \"X,Y; X,Y; ...\", at most 12, in the order that costs least, then go to the goal"},
     {"--return", "", "with --visit: end at the start; there is no goal then"},
     {"--alternatives", "K[,SIZE]",
      "also tell other ways: of each of the K cheapest classes the cheapest path. Paths are of one class where "
