@@ -86,7 +86,7 @@ void expect_alternatives(const Scene& scene, const Question& question, std::size
 
 TEST(Alternatives, AreFreePathsOfDifferentClassesTheCheapestFirst) {
   const Scene scene = scene_of(blocks(40, 30, 8, 3));
-  Question question{.start = {1.2, 15.1}, .goal = {38.5, 14.2}};
+  Question question{.start = {2.0, 17.1}, .goal = {34.0, 17.6}};
   question.route.alternatives = 4;
   expect_alternatives(scene, question, 4);
   question.robot = RobotSpec{.kind = RobotKind::disc, .radius = 1.3};
@@ -100,7 +100,7 @@ TEST(Alternatives, AreFreePathsOfDifferentClassesTheCheapestFirst) {
 
 TEST(Alternatives, SmallHolesMakeNoClass) {
   const Scene scene = scene_of(blocks(40, 30, 8, 3));
-  Question question{.start = {1.2, 15.1}, .goal = {38.5, 14.2}};
+  Question question{.start = {2.0, 17.1}, .goal = {34.0, 17.6}};
   question.route.alternatives = 4;
   question.route.hole = 3.5;
   const Answer answer = solve(scene, question, by_grid());
@@ -265,7 +265,7 @@ void expect_bound(const Scene& scene, const Question& question, double gap, doub
 
 TEST(BoundOfAll, IsProvedByItsCertificate) {
   const Scene scene = scene_of(blocks(40, 30, 8, 3));
-  Question question{.start = {1.2, 15.1}, .goal = {38.5, 14.2}};
+  Question question{.start = {2.0, 17.1}, .goal = {34.0, 17.6}};
   expect_bound(scene, question, 0.06, 0.9);
   question.prices.clearance = ClearancePrice{2.0, 2.0};
   expect_bound(scene, question, 0.06, 0.8);
