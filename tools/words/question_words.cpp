@@ -51,8 +51,9 @@ constexpr OptionSpec asked_specs[] = {
      "(default "
      "of D: the body's least width)"},
     {"--area",
-     "\"F X Y X Y X Y ...\"",
-     "in this polygon a metre costs F metres, F at least 1; may be given several times: the greatest counts",
+     "AREA",
+     "\"F X Y X Y X Y ...\": in this polygon a metre costs F metres, F at least 1; may be given several times: the "
+     "greatest counts",
      {},
      {},
      false,

@@ -181,9 +181,10 @@ TEST(Potential, OneValueRaisedIsRefused) {
     SCOPED_TRACE(seed);
     auto one = made(seed);
     if (!one || one->asked.start == one->asked.goal) continue;
-    if (one->asked.claim.keeps > 0.0) continue;  // a part of the start's cell may be none of its middle's
     const auto parts = one->proof.width / one->asked.map.width();
-    const std::size_t at = one->proof.middle(one->asked.start.x * parts, one->asked.start.y * parts);
+    // Of a disc a part of the start's cell may be none of its middle's: the part at the middle of the cell is.
+    const std::size_t at =
+        one->proof.middle(one->asked.start.x * parts + parts / 2, one->asked.start.y * parts + parts / 2);
     one->proof.values[at] += 5.0 * (1.0 + one->asked.claim.price) * one->asked.map.cell;
     EXPECT_EQ(verify_potential(one->asked.map, one->asked.claim, one->proof, execution).verdict, BoundVerdict::refuted);
     ++refused;
