@@ -222,7 +222,7 @@ endfunction()
 
 # The judges share plain data with what they judge, and loops over cores; no index, no predicate, no motion. What they
 # stand on, however many includes away, is theirs alone or one of these.
-set(shared_with_judges "^(parallel/|core/base/|core/plane/(cell_walls|se2|wall_set)[.]|scenes/scene/(arm_model|occupancy_map|prices|scene)[.])")
+set(shared_with_judges "^(parallel/|core/base/|core/plane/(cell_walls|se2|wall_set)[.]|scenes/scene/(arm_model|occupancy_map|scene)[.])")
 function(check_judges)
   reach("^verify/" judges)
   reach("^(spatial|planners|worlds)/" judged)

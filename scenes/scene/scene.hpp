@@ -21,7 +21,6 @@
 #include "parallel/execution.hpp"
 #include "scenes/scene/arm_model.hpp"
 #include "scenes/scene/occupancy_map.hpp"
-#include "scenes/scene/prices.hpp"
 
 namespace warren {
 
@@ -146,7 +145,6 @@ struct Scene {
   std::vector<NamedState> named_goals;         ///< instead of `goal`; any of them
   std::optional<Eigen::Isometry3d> goal_pose;  ///< of the arm's tool, instead of `goal`
   std::optional<GridSpec> grid;                ///< that the file asks for
-  Prices prices;                               ///< of places and of nearness, that the file asks for
   /// Cells instead of walls and polygons. Walls beside a map are its own borders (add_map_walls) and no obstacles more.
   std::optional<OccupancyMap> map;
   std::string source;  ///< file name or maze:... as given

@@ -114,23 +114,6 @@ struct BlockedEnd {
   std::optional<double> depth = {};
 };
 
-/// Where a path ends that had a choice, and what was asked.
-struct GoalReached {
-  std::vector<double> asked;             ///< the goal that was meant
-  double distance = 0.0;                 ///< of the path's end to it
-  std::optional<double> distance_bound;  ///< proved: no place that can be reached is nearer
-};
-
-/// The cheapest path of another homotopy class.
-struct AlternativePath {
-  double cost = 0.0;                 ///< as Answer::cost
-  double length = 0.0;               ///< as Answer::length
-  PriceParts price;                  ///< as Answer::price
-  double min_clearance = 0.0;        ///< as Answer::min_clearance
-  std::vector<std::int32_t> passed;  ///< its class: holes whose cuts it crosses, below 0 from the other side
-  Path<Vec2> path;                   ///< as Answer::path
-};
-
 /// What is left to say of a path whose points were handed on as they were made (core/base/solution.hpp).
 struct HandedPath {
   std::uint64_t points = 0;  ///< their number
@@ -154,21 +137,15 @@ struct Answer {
   std::optional<std::uint64_t> iterations;  ///< the turns that these have done: as many give the same answer
   std::string ended_by;        ///< of these: optimum, gap, iterations, caller, or as stop_reason; empty: of the others
   std::optional<double> cost;  ///< in the planner's own units, where that is not the length
-  std::optional<PriceParts> price;  ///< where prices were asked: then cost is length and all its parts
-  std::string bound_of;             ///< of a priced lower bound: "all" paths, or those over the "lattice"; else empty
-  std::optional<std::uint64_t> goal_index;    ///< of several goals, from 0: the one that is reached
-  std::optional<GoalReached> goal_reached;    ///< where the question left a choice of places
-  std::vector<std::uint64_t> order;           ///< of places to visit, from 0, as they are visited
-  std::vector<AlternativePath> alternatives;  ///< the cheapest first; the answer's own path is none of them
-  std::optional<double> turn_rad;             ///< all turning along the path, of bodies that turn
-  Problem problem;                            ///< what was asked, with what the world's file and the defaults add
-  WorldAccount world;                         ///< of which world
-  std::string planner;                        ///< who found it: "prm", "rrt-connect", …
-  std::string pipeline;                       ///< plain, tiled or streamed; only for prm
-  std::string sampler;                        ///< empty: the planner has none
-  std::string search;                         ///< empty: the planner has none
-  std::uint64_t seed = 1;                     ///< of all that was random
-  unsigned threads = 1;                       ///< that worked
+  std::optional<double> turn_rad;    ///< all turning along the path, of bodies that turn
+  Problem problem;                   ///< what was asked, with what the world's file and the defaults add
+  WorldAccount world;                ///< of which world
+  std::string planner;               ///< who found it: "prm", "rrt-connect", …
+  std::string pipeline;              ///< plain, tiled or streamed; only for prm
+  std::string sampler;               ///< empty: the planner has none
+  std::string search;                ///< empty: the planner has none
+  std::uint64_t seed = 1;            ///< of all that was random
+  unsigned threads = 1;              ///< that worked
   std::vector<NamedFigure> options;  ///< those that were given, and those that were chosen where that tells something
   RoadmapSize roadmap;               ///< that was searched
   std::optional<CellCount> cells;    ///< of planners that make some

@@ -96,17 +96,6 @@ double clearance_of(const Scene& scene, const Question& options) {
   return scene.maze ? clearance_in_mazes : 0.0;
 }
 
-Prices prices_of(const Scene& scene, const Question& question) {
-  Prices prices = scene.prices;
-  const Prices& asked = question.prices;
-  prices.areas.insert(prices.areas.end(), asked.areas.begin(), asked.areas.end());
-  prices.masks.insert(prices.masks.end(), asked.masks.begin(), asked.masks.end());
-  prices.keep_out.insert(prices.keep_out.end(), asked.keep_out.begin(), asked.keep_out.end());
-  if (asked.clearance) prices.clearance = asked.clearance;
-  if (asked.unknown) prices.unknown = asked.unknown;
-  return prices;
-}
-
 void Question::validate() const {
   const auto is_coordinate = [](double x) { return std::abs(x) <= largest_coordinate; };
   for (const auto& [name, state] : {std::pair{"start", &start}, std::pair{"goal", &goal}}) {
@@ -127,8 +116,6 @@ WallProblem wall_problem(const Scene& scene, const Question& options, Contact us
   problem.start = plane_state("@start", options.start, scene.start);
   problem.goal = plane_state("@goal", options.goal, scene.goal);
   problem.clearance = clearance_of(scene, options);
-  problem.prices = prices_of(scene, options);
-  problem.rule = options.rule;
   problem.contact = options.contact.value_or(problem.reach() > 0.0 ? Contact::blocked : usual);
   if (problem.contact == Contact::allowed && problem.reach() > 0.0) {
     throw UsageError(

@@ -15,19 +15,6 @@
 
 namespace warren {
 
-/// What reaching the goal means. Points and discs; nothing said: to be at the goal.
-struct GoalRule {
-  std::vector<std::vector<double>> others = {};  ///< goals beside `goal`: the cheapest to reach is taken
-  std::optional<double> tolerance = {};  ///< a goal that can't be reached: the nearest place to it that can, so far off
-                                         ///< at most, >= 0 or infinite
-  std::optional<double> region = {};     ///< any place so near to the goal, the cheapest; >= 0
-  std::vector<std::vector<double>> visit = {};  ///< places on the way, in the cheapest order
-  bool back = false;                            ///< the path ends where it started
-
-  /// Is anything said?
-  bool empty() const { return others.empty() && !tolerance && !region && visit.empty() && !back; }
-};
-
 /// What is asked of a world: what is not said here is as the world's file says, and else as documented. A state is X, Y
 /// of a point or disc; X, Y, THETA (radians) of a body that turns, whose goal may lack THETA: any heading; six joint
 /// angles of an arm (radians), whose goal may be the three coordinates of a place of its tool.
@@ -39,8 +26,6 @@ struct Question {
       {};  ///< room around the body, 0 .. 1e60; none: the file's, else 0.1 in mazes, else 0
   std::optional<Contact> contact = {};  ///< may the path touch obstacles? none: where the planner's paths may
   std::optional<Eigen::Isometry3d> goal_pose = {};  ///< of an arm's tool, instead of `goal`; none: the file's
-  Prices prices = {};                               ///< beside the file's; of two words for one thing this one counts
-  GoalRule rule = {};                               ///< what reaching the goal means
 
   /// Throws UsageError for values that no problem can have.
   void validate() const;
@@ -54,11 +39,9 @@ struct Problem {
   double clearance = 0.0;                           ///< around the body; finite, >= 0
   Contact contact = Contact::blocked;               ///< may the path touch obstacles?
   std::optional<Eigen::Isometry3d> goal_pose = {};  ///< of an arm's tool; then there is no `goal`
-  Prices prices = {};                               ///< the file's and the question's
-  GoalRule rule = {};                               ///< as asked
 
   /// The question that says all of it.
-  Question question() const { return {robot, start, goal, clearance, contact, goal_pose, prices, rule}; }
+  Question question() const { return {robot, start, goal, clearance, contact, goal_pose}; }
 };
 
 /// A point or disc among walls and polygons.
@@ -68,24 +51,17 @@ struct WallProblem {
   Vec2 goal;                           ///< of the reference point
   double clearance = 0.0;              ///< around the body; finite, >= 0
   Contact contact = Contact::blocked;  ///< may the path touch obstacles?
-  Prices prices = {};                  ///< the file's and the question's
-  GoalRule rule = {};                  ///< as asked
 
   /// Distance that the reference point keeps from every wall.
   double reach() const { return clearance + robot.radius; }
   /// The same as a problem of any body.
-  Problem general() const {
-    return {robot, {start.x, start.y}, {goal.x, goal.y}, clearance, contact, {}, prices, rule};
-  }
+  Problem general() const { return {robot, {start.x, start.y}, {goal.x, goal.y}, clearance, contact}; }
 };
 
 /// The body that is asked about: the options', else the file's, else a point.
 RobotSpec robot_of(const Scene& scene, const Question& options);
 /// Room around the body: the options', else the file's, else 0.1 in mazes, else 0.
 double clearance_of(const Scene& scene, const Question& options);
-
-/// The file's prices and the question's: areas, masks and forbidden areas of both, else the question's word.
-Prices prices_of(const Scene& scene, const Question& question);
 
 /// The problem of a point or disc. A heading in the file (of a body that was overridden) means nothing to them. Throws
 /// UsageError where start or goal are missing or have the wrong size, where contact contradicts the clearance, and
