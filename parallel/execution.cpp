@@ -123,6 +123,7 @@ Deadline::Deadline(const Deadline* whole, double seconds) : Deadline(seconds) {
   if (whole == nullptr) return;
   memory_bytes_ = whole->memory_bytes_;
   signal_ = whole->signal_;
+  whole_ = whole;
   if (whole->end_ && (!end_ || *whole->end_ < *end_)) end_ = whole->end_;
 }
 
@@ -140,6 +141,14 @@ double Deadline::seconds_left() const noexcept {
   return std::max(0.0, std::chrono::duration<double>(*end_ - Clock::now()).count());
 }
 
+void Deadline::refuse(std::size_t wanted) const {
+  for (const Deadline* told = this; told != nullptr; told = told->whole_) {
+    std::size_t most = told->wanted_.load(std::memory_order_relaxed);
+    while (most < wanted && !told->wanted_.compare_exchange_weak(most, wanted, std::memory_order_relaxed)) continue;
+  }
+  throw Stopped{StopReason::memory, wanted};
+}
+
 void Deadline::reserve(std::size_t bytes) const {
   check();
   if (memory_bytes_ == std::numeric_limits<std::size_t>::max()) return;
@@ -153,7 +162,7 @@ void Deadline::reserve(std::size_t bytes) const {
     give_freed_pages_back();
     held = resident_bytes();
   }
-  if (!fits(held)) throw Stopped{StopReason::memory};
+  if (!fits(held)) refuse(bytes + std::min(held, std::numeric_limits<std::size_t>::max() - bytes));
   unasked_.store((memory_bytes_ - held - bytes) / 64, std::memory_order_relaxed);
 }
 

@@ -17,11 +17,12 @@
 namespace warren {
 /// Thrown where a budget ended or a signal came. Whoever solves makes it an answer; what() is the reason's name.
 struct Stopped : Error {
-  /// For this reason.
-  explicit Stopped(StopReason why) noexcept : reason(why) {}
+  /// For this reason; bytes: what memory was wanted, 0: not known.
+  explicit Stopped(StopReason why, std::size_t bytes = 0) noexcept : reason(why), wanted_bytes(bytes) {}
   /// The reason's name: "budget", "memory", "SIGINT", "SIGTERM" or "SIGHUP".
   const char* what() const noexcept override { return name_of(reason).data(); }
-  StopReason reason;  ///< a limit, or a signal
+  StopReason reason;         ///< a limit, or a signal
+  std::size_t wanted_bytes;  ///< of memory: the least that the process would have held; 0: of others, and not known
 };
 
 /// Set by a signal handler, read by all threads: 0, or the signal's number.
@@ -56,12 +57,18 @@ class Deadline {
   double seconds_left() const noexcept;
   /// What the process may hold in all.
   std::size_t memory_bytes() const { return memory_bytes_; }
+  /// The most that the process would have held with what was refused; 0: nothing was.
+  std::size_t wanted_bytes() const { return wanted_.load(std::memory_order_relaxed); }
 
  private:
+  [[noreturn]] void refuse(std::size_t wanted) const;
+
   std::optional<Clock::time_point> end_;
   std::size_t memory_bytes_ = std::numeric_limits<std::size_t>::max();
   const SignalFlag* signal_ = nullptr;
+  const Deadline* whole_ = nullptr;
   mutable std::atomic<std::size_t> unasked_{0};  // bytes that may be granted without a look
+  mutable std::atomic<std::size_t> wanted_{0};
 };
 
 /// Bytes that this process holds now (resident set), and the most it has held, without the pages that the calling

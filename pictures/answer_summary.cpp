@@ -15,6 +15,7 @@
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/answer/stage_lines.hpp"
+#include "solve/explain_answer.hpp"
 #include "solve/question/question_of_arm.hpp"
 
 namespace warren {
@@ -57,7 +58,7 @@ std::string headline(const Answer& answer, const Palette& palette) {
       return palette.doubtful("not connected") + ": " + why_not_connected(answer);
     default:
       return palette.doubtful("stopped") + ": " +
-             std::string{answer.stop_reason ? text_of(*answer.stop_reason) : "before the end"};
+             (answer.stop_reason ? stop_text(*answer.stop_reason, answer.wanted_memory_bytes) : "before the end");
   }
 }
 
@@ -112,6 +113,18 @@ std::string planner_text(const Answer& answer) {
   return text;
 }
 
+/// The parts of a price that are paid.
+std::string price_text(const Answer& answer) {
+  const PriceParts& price = *answer.price;
+  std::string text = "with the length";
+  for (const auto& [part, paid] :
+       {std::pair{"nearness", price.clearance}, std::pair{"areas", price.areas}, std::pair{"turning", price.turning},
+        std::pair{"changes of gear", price.cusps}, std::pair{"driving backwards", price.reverse}}) {
+    if (paid > 0.0) text += fmt::format(", {} for {}", length_text(answer, paid), part);
+  }
+  return text;
+}
+
 void add_path(std::string& text, const Answer& answer, const Palette& palette) {
   std::string length = palette.strong(length_text(answer, answer.length));
   if (answer.raw_length) length += fmt::format(" (before --optimise: {})", length_text(answer, *answer.raw_length));
@@ -123,7 +136,9 @@ void add_path(std::string& text, const Answer& answer, const Palette& palette) {
   }
   line(text, palette, "length", length + fmt::format(", {}", counted(path_points(answer), "point", "points")));
   if (answer.cost) {
-    const std::string_view of_what = answer.iterations ? "turning counted" : "in steps from cell to cell";
+    const std::string of_what = answer.price        ? price_text(answer)
+                                : answer.iterations ? "turning counted"
+                                                    : "in steps from cell to cell";
     line(text, palette, "cost",
          fmt::format("{}, {}{}", human_number(*answer.cost), of_what, answer.optimal ? " (the least there is)" : ""));
   }
@@ -138,8 +153,9 @@ void add_path(std::string& text, const Answer& answer, const Palette& palette) {
 
 /// Why it got no better than it is.
 std::string end_text(const Answer& answer) {
-  if (answer.stop_reason) return std::string(text_of(*answer.stop_reason));
+  if (answer.stop_reason) return stop_text(*answer.stop_reason, answer.wanted_memory_bytes);
   if (answer.ended_by == "optimum") return "there is no better one";
+  if (answer.ended_by == "lattice") return "the lattice has no better one";
   if (answer.ended_by == "gap") return "as near to the best as --gap asks for";
   if (answer.ended_by == "iterations") return "all turns are done";
   if (answer.ended_by == "nodes") return "its tree has all --nodes";
@@ -252,6 +268,8 @@ std::string summary_of(const Answer& answer, const Palette& palette, std::span<c
     line(text, palette, "planner", planner_text(answer));
   }
   add_strange_headings(text, answer.problem, palette);
+  const std::string_view less_memory = what_takes_less_memory(answer);
+  if (!less_memory.empty() && !answer.explained) line(text, palette, "try", less_memory);
   if (answer.blocked) add_blocked(text, answer, *answer.blocked, palette);
   if (answer.verified) add_path(text, answer, palette);
   add_quality(text, answer, palette);

@@ -14,6 +14,7 @@
 #include "pictures/layers/draw_arm.hpp"
 #include "pictures/layers/draw_bodies.hpp"
 #include "pictures/layers/draw_cells.hpp"
+#include "pictures/layers/draw_prices.hpp"
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/answer/world_account.hpp"
@@ -187,8 +188,42 @@ void add_improvements(Drawing& drawing, const Scene& scene, const Answer& answer
   drawing.path_label += fmt::format(", {} long", human_number(answer.length));
 }
 
-std::vector<PictureLayer> ground_of(const Scene& scene, const Execution& execution) {
-  return scene.map ? cells_of_map(*scene.map, execution) : std::vector<PictureLayer>{};
+/// Obstacles that are cells, and what prices say of the ground.
+std::vector<PictureLayer> ground_of(const Scene& scene, const RobotSpec& robot, const Prices& prices,
+                                    const Execution& execution) {
+  std::vector<PictureLayer> layers = scene.map ? cells_of_map(*scene.map, execution) : std::vector<PictureLayer>{};
+  if (prices.empty()) return layers;
+  const bool is_round = robot.outline.empty();
+  for (PictureLayer& layer : price_layers(prices, scene.map, is_round ? robot.radius : 0.0, execution))
+    layers.push_back(std::move(layer));
+  return layers;
+}
+
+/// The other goals, the places to visit, and the other ways.
+void add_choices(Drawing& drawing, const GoalRule& rule, std::span<const AlternativePath> others) {
+  PictureLayer places{.id = "places",
+                      .label = rule.visit.empty() ? "other goals" : "places to visit",
+                      .swatch = MarkShape::star,
+                      .part = Part::path,
+                      .color = colors::goal,
+                      .width = 2.0 * widths::path,
+                      .over_roadmap = true};
+  for (const auto* states : {&rule.others, &rule.visit}) {
+    for (const std::vector<double>& state : *states) {
+      const Vec2 p = *plane_point(state);
+      places.lines.add(std::array{p, p});
+    }
+  }
+  if (!places.lines.empty()) drawing.layers.push_back(std::move(places));
+  if (others.empty()) return;
+  PictureLayer ways{.id = "alternatives",
+                    .label = counted(others.size(), "other way", "other ways"),
+                    .part = Part::path,
+                    .color = colors::body,
+                    .width = widths::search_tree,
+                    .over_roadmap = true};
+  for (const AlternativePath& other : others) ways.lines.add(other.path);
+  drawing.layers.push_back(std::move(ways));
 }
 
 /// Views instead of the world.
@@ -234,7 +269,7 @@ Drawing drawing_of(const Scene& scene, const Answer& answer, ByProducts made, co
   if (is_arm(problem.robot)) {
     return drawing_of_arm(scene, problem.robot, problem.start, states, subtitle_of(scene, answer), execution);
   }
-  Drawing drawing{.layers = ground_of(scene, execution),
+  Drawing drawing{.layers = ground_of(scene, problem.robot, problem.prices, execution),
                   .path = answer.refuted ? answer.refuted->path : answer.path,
                   .start = plane_point(problem.start),
                   .goal = plane_point(problem.goal),
@@ -255,6 +290,7 @@ Drawing drawing_of(const Scene& scene, const Answer& answer, ByProducts made, co
     drawing.path_turns = std::move(made.arcs.turns);
   }
   add_improvements(drawing, scene, answer, made);
+  add_choices(drawing, problem.rule, answer.alternatives);
   return drawing;
 }
 
@@ -266,7 +302,7 @@ Drawing drawing_of(const Scene& scene, const RecordedAnswer& answer, const Execu
   if (is_arm(robot)) {
     return drawing_of_arm(scene, robot, start, answer.states, subtitle_of(scene, answer), execution);
   }
-  Drawing drawing{.layers = ground_of(scene, execution),
+  Drawing drawing{.layers = ground_of(scene, robot, answer.problem.prices, execution),
                   .path = answer.path,
                   .start = plane_point(start),
                   .goal = plane_point(first_given(answer.problem.goal, scene.goal)),
@@ -276,6 +312,7 @@ Drawing drawing_of(const Scene& scene, const RecordedAnswer& answer, const Execu
     add_heading(drawing, scene, robot, clearance_of(scene, answer.problem), {}, *heading_rad, execution);
   }
   if (answer.state_width() == state_size(robot)) add_bodies(drawing, robot, answer.states);
+  add_choices(drawing, answer.problem.rule, {});
   return drawing;
 }
 

@@ -168,6 +168,7 @@ class Hints {
   std::vector<Hint> all() && {
     add_stopped();
     add_free_place();
+    add_iterations();
     if (answer_.outcome == Outcome::not_connected && !answer_.refuted) add_connecting();
     return std::move(hints_);
   }
@@ -177,8 +178,19 @@ class Hints {
     if (answer_.outcome != Outcome::stopped) return;
     if (answer_.stop_reason == StopReason::time) say("a longer --budget: 'time went to' says which stage took it");
     if (answer_.stop_reason == StopReason::memory) say("more --memory, or a question that takes less of it");
-    if (answer_.stop_reason == StopReason::memory && answer_.world.source.starts_with("maze:"))
-      say("mazes of algorithm=mst are forgotten tile by tile with --pipeline streamed --no-path");
+    if (const std::string_view less = what_takes_less_memory(answer_); !less.empty()) say(std::string{less});
+  }
+  /// Of planners that get better, where all their turns are done and a better path may be.
+  void add_iterations() {
+    if (answer_.ended_by != "iterations" || !options_.anytime.iterations) return;
+    const std::uint64_t more = four_times(*options_.anytime.iterations);
+    const bool is_found = answer_.outcome == Outcome::solved;
+    constexpr double hardly = 1e-3;
+    if (is_found && gap_of(answer_).value_or(1.0) <= hardly) return;
+    if (more <= *options_.anytime.iterations || (!is_found && answer_.outcome != Outcome::not_connected)) return;
+    offer({"--iterations", fmt::format("{}", more)},
+          is_found ? "the path may get better with more" : "all turns are done, and none has found a way yet",
+          [&](SolveOptions& options) { options.anytime.iterations = more; });
   }
   void say(std::string why) { hints_.push_back({{}, {}, std::move(why)}); }
 
@@ -282,7 +294,9 @@ class Hints {
     };
     if (in_plane && offer_planner(PlannerKind::visibility, "finds every way that there is, or proves that none is"))
       return;
-    if (scene_.map && offer_planner(PlannerKind::grid, "finds what the map's cells allow, or proves that none is"))
+    const bool is_car = body == RobotKind::car;  // of which its lattice proves nothing
+    if (scene_.map && !is_car &&
+        offer_planner(PlannerKind::grid, "finds what the map's cells allow, or proves that none is"))
       return;
     for (const PlannerKind other : {PlannerKind::lazy_prm, PlannerKind::rrt_connect, PlannerKind::prm}) {
       if (is_roadmap_planner(other) && is_roadmap_planner(*options_.planner)) continue;
@@ -346,6 +360,12 @@ void explain_answer(const Scene& scene, const AskedWith& asked, Answer& answer, 
   explained.narrowest =
       narrowest_place(scene, answer.problem.question(), recorded(answer), answer.min_clearance, execution);
   if (explained.narrowest) explained.narrowest->one_sample_in = one_sample_in(scene, answer, execution);
+}
+
+std::string_view what_takes_less_memory(const Answer& answer) {
+  const bool is_out = answer.outcome == Outcome::stopped && answer.stop_reason == StopReason::memory;
+  if (!is_out || !answer.world.source.starts_with("maze:")) return {};
+  return "mazes of algorithm=mst are forgotten tile by tile with --pipeline streamed --no-path";
 }
 
 void explain_stop(Answer& answer) {

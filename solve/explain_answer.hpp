@@ -25,8 +25,8 @@ struct AskedWith {
   bool is_kept = false;         ///< of a kept roadmap: another one takes `warren build`
 };
 
-/// What would likely help where there is no path: options that this world, body and planner take, with numbers, so that
-/// they can be tried as they stand, the likeliest first. O(1) but for the world's
+/// What would likely help where there is no path, or where more turns may better it: options that this world, body and
+/// planner take, with numbers, so that they can be tried as they stand, the likeliest first. O(1) but for the world's
 /// box.
 std::vector<Hint> hints_for(const Scene& scene, const AskedWith& asked, const Answer& answer);
 
@@ -34,6 +34,9 @@ std::vector<Hint> hints_for(const Scene& scene, const AskedWith& asked, const An
 /// make_by_products() have kept. Throws Stopped.
 void explain_answer(const Scene& scene, const AskedWith& asked, Answer& answer, const ByProducts& made,
                     const Execution& execution);
+
+/// Where memory ended an answer: the way that holds less, as one line; empty where none is known.
+std::string_view what_takes_less_memory(const Answer& answer);
 
 /// The same of an answer that was stopped before its world was read.
 void explain_stop(Answer& answer);

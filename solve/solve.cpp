@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -10,10 +11,17 @@
 #include "solve/explain/blocked_end.hpp"
 #include "solve/kept/roadmap.hpp"
 #include "solve/kept/roadmap_query.hpp"
+#include "solve/kinds/keep_route.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/lower_bound.hpp"
+#include "solve/kinds/map_steps.hpp"
+#include "solve/kinds/potential_bound.hpp"
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/solve_steps.hpp"
+#include "verify/judges/effective_scene.hpp"
+#include "verify/judges/verify_potential.hpp"
+#include "verify/judges/verify_price.hpp"
+#include "worlds/prices/effective_map.hpp"
 
 namespace warren {
 namespace {
@@ -23,13 +31,90 @@ namespace {
 Question merged(Question question, const Question& answer) {
   if (!question.robot) question.robot = answer.robot;
   if (question.start.empty()) question.start = answer.start;
-  if (question.goal.empty() && !question.goal_pose) {
+  const bool has_goal = !question.goal.empty() || question.goal_pose;
+  if (!has_goal && question.rule.empty()) question.rule = answer.rule;
+  if (question.prices.empty()) question.prices = answer.prices;
+  if (!has_goal) {
     question.goal = answer.goal;
     question.goal_pose = answer.goal_pose;
   }
   if (!question.clearance) question.clearance = answer.clearance;
   if (!question.contact) question.contact = answer.contact;
   return question;
+}
+
+/// The scene as it is planned in where prices close and open places of it; else itself. Refers to it.
+class RestrictedScene {
+ public:
+  RestrictedScene(const Scene& scene, const Question& question, const Execution& execution) : scene_(scene) {
+    const Prices prices = prices_of(scene, question);
+    if (restricts(prices)) copy_ = restricted_scene(scene, prices, execution);
+  }
+  const Scene& get() const { return copy_ ? *copy_ : scene_; }
+
+ private:
+  const Scene& scene_;
+  std::optional<Scene> copy_;
+};
+
+/// Is anything asked that makes places dear?
+bool asks_price(const Prices& prices) {
+  const AskedWords asked = words_in(prices);
+  const std::vector<AskedWord> words = words_of(price_words);
+  return std::any_of(words.begin(), words.end(), [&](AskedWord word) { return asked.has(word); });
+}
+
+/// What a path costs beside its length, where that is asked and a judge of this body's prices is there.
+std::optional<PriceParts> judged_price(const Scene& scene, const Prices& prices, const RobotSpec& robot,
+                                       const RecordedAnswer& answer, const Execution& execution) {
+  const bool has_judge = robot.kind == RobotKind::point || robot.kind == RobotKind::disc;
+  if (!has_judge || !asks_price(prices) || answer.path.empty()) return std::nullopt;
+  return verify_price(scene, answer.path, prices, robot.radius, execution);
+}
+
+/// By the verification's own view of what the prices close and open, and what the path costs.
+void judge_prices(Answer& answer, const Scene& scene, const Question& question, const Execution& execution) {
+  const Prices prices = prices_of(scene, question);
+  if (!answer.verified || prices.empty()) return;
+  const StageTimer timer(execution, "verify", answer.seconds.verify, path_points(answer));
+  const std::optional<Scene> effective = effective_scene(scene, prices, execution);
+  const Scene& judged = effective ? *effective : scene;
+  const RecordedAnswer record = recorded(answer);
+  const Question asked = answer.problem.question();
+  const Verdict verdict = verifying_kind(judged, asked).verify(judged, asked, record, execution);
+  if (!verdict.verified) fail_verification(answer, verdict.first_violation.value_or(Violation{}));
+  const auto price = judged_price(judged, prices, answer.problem.robot, record, execution);
+  if (!price) return;
+  answer.price = price;
+  answer.cost = answer.length + price->sum();
+}
+
+/// Cost and price that an answer claims are a part of what is verified.
+void check_price(Verdict& verdict, const Scene& judged, const Prices& prices, const RecordedAnswer& answer,
+                 const Execution& execution) {
+  constexpr double rounding = 1e-9;
+  if (!verdict.verified) return;
+  const auto price = judged_price(judged, prices, verdict.problem.robot, answer, execution);
+  if (answer.price && !asks_price(prices)) {
+    verdict.verified = false;
+    verdict.first_violation =
+        Violation{.leg = 0, .distance = 0.0, .obstacle = "price: the answer claims one, its question has none"};
+  }
+  if (!price) return;
+  const auto check = [&](std::string_view name, double said, double found) {
+    if (!verdict.verified || std::abs(said - found) <= rounding * (1.0 + std::abs(found))) return;
+    verdict.verified = false;
+    const std::string what = fmt::format("{}: the answer says {}, its path has {}", name, said, found);
+    verdict.first_violation = Violation{.leg = 0, .distance = 0.0, .obstacle = what};
+  };
+  if (answer.price) {
+    check("price: clearance", answer.price->clearance, price->clearance);
+    check("price: areas", answer.price->areas, price->areas);
+    check("price: turning", answer.price->turning, 0.0);
+    check("price: cusps", answer.price->cusps, 0.0);
+    check("price: reverse", answer.price->reverse, 0.0);
+  }
+  if (answer.cost) check("cost", *answer.cost, verdict.length + price->sum());
 }
 
 /// The length that an answer claims is a part of what is verified.
@@ -44,10 +129,56 @@ void check_length(Verdict& verdict, const RecordedAnswer& answer) {
                 .obstacle = fmt::format("length: the answer says {}, its path has {}", *answer.length, verdict.length)};
 }
 
+/// A bound of all paths on a map, with its proof.
+void check_certificate(Verdict& verdict, const Scene& scene, const RecordedAnswer& answer, const Execution& execution) {
+  const Problem& problem = verdict.problem;
+  const bool is_plain = problem.robot.kind == RobotKind::point || problem.robot.kind == RobotKind::disc;
+  if (!scene.map || !is_plain) throw UsageError("@certificate: proves bounds of points and discs on maps");
+  if (!problem.rule.others.empty() || problem.rule.region) {  // of one goal
+    verdict.bound = BoundVerdict::unchecked;
+    return;
+  }
+  PotentialClaim claim{.start = {problem.start[0], problem.start[1]},
+                       .goal = answer.path.back(),
+                       .keeps = problem.robot.radius + problem.clearance,
+                       .radius = problem.robot.radius,
+                       .lower_bound = *answer.lower_bound};
+  if (const auto& clearance = problem.prices.clearance; clearance && clearance->price > 0.0) {
+    claim.price = clearance->price;
+    claim.reach = clearance->reach.value_or(2.0 * problem.robot.radius);
+  }
+  OccupancyMap map = *scene.map;
+  map.blocked = closed_cells(map, claim.start);
+  JudgedBound judged = verify_potential(map, claim, *answer.certificate, execution);
+  const double cost = answer.price ? answer.cost.value_or(verdict.length) : verdict.length;
+  constexpr double rounding = 1e-9;
+  if (*answer.lower_bound > cost * (1.0 + rounding)) judged = {BoundVerdict::refuted, "above the path's cost"};
+  verdict.bound = judged.verdict;
+  if (judged.verdict != BoundVerdict::refuted) return;
+  verdict.verified = false;
+  verdict.first_violation = Violation{.leg = 0, .distance = 0.0, .obstacle = "lower_bound: " + judged.what};
+}
+
 /// So is the lower bound.
 void check_bound(Verdict& verdict, const Scene& scene, const RecordedAnswer& answer, const Execution& execution) {
   if (!verdict.verified || !answer.lower_bound) return;
   const Problem& problem = verdict.problem;
+  if (answer.certificate) return check_certificate(verdict, scene, answer, execution);
+  if (answer.price && answer.cost) {  // of costs, not of lengths: the judge's search knows none
+    constexpr double rounding = 1e-9;
+    const Path<Vec2>& path = answer.path;
+    const bool is_straight = path.empty() || *answer.lower_bound <= distance(path.front(), path.back());
+    verdict.bound = is_straight ? BoundVerdict::checked : BoundVerdict::unchecked;
+    if (*answer.lower_bound <= *answer.cost * (1.0 + rounding)) return;
+    verdict.bound = BoundVerdict::refuted;
+    verdict.verified = false;
+    verdict.first_violation = Violation{.leg = 0, .distance = 0.0, .obstacle = "lower_bound: above the path's cost"};
+    return;
+  }
+  if (!problem.rule.visit.empty()) {  // a way that passes the stops by would be shorter
+    verdict.bound = BoundVerdict::unchecked;
+    return;
+  }
   const ClaimedBound claim{*answer.lower_bound, answer.cost, verdict.length, answer.state_width(),
                            answer.states.numbers};
   const JudgedBound judged =
@@ -126,13 +257,17 @@ Answer solve_within(const Scene& scene, const Question& question, const SolveOpt
   Answer answer;
   answer.world.source = scene.source;
   try {
-    const ChosenSolver solver = choose_solver(options, scene, question);
+    const RestrictedScene restricted(scene, question, execution);
+    const ChosenSolver solver = choose_solver(options, restricted.get(), question);
     WorldAccount world = account_of(scene, execution);
-    const PlannedScene planned(scene, question, solver.planner, execution);
+    const PlannedScene planned(restricted.get(), question, solver.planner, execution);
     SolveRequest request{options, planned.get(), question, solver.planner, accounted, keep};
     request.taker = taker;
     answer = solver.kind->solve(request);
+    keep_to_route(answer, restricted.get(), question, options, *solver.kind, accounted);
+    judge_prices(answer, scene, question, accounted);
     tell_bound(answer, planned.get(), options, accounted);
+    prove_on_map(answer, planned.get(), options, keep, accounted);
     if (answer.world.kind.empty()) answer.world = std::move(world);
   } catch (const Stopped& stopped) {
     answer.stop_reason = stopped.reason;
@@ -141,7 +276,7 @@ Answer solve_within(const Scene& scene, const Question& question, const SolveOpt
   }
   answer.costs = account.costs();
   answer.threads = thread_count(execution.threads);
-  answer.peak_memory_bytes = peak_resident_bytes();
+  tell_memory(answer, execution);
   return answer;
 }
 
@@ -150,10 +285,15 @@ Verdict verify_within(const Scene& scene, const Question& question, const Record
   question.validate();
   check_same_world(answer, answer.file, scene, execution);
   const Question asked = merged(question, answer.problem);
-  Verdict verdict = verifying_kind(scene, asked).verify(scene, asked, answer, execution);
+  const Prices prices = prices_of(scene, asked);
+  const std::optional<Scene> effective = effective_scene(scene, prices, execution);
+  const Scene& judged = effective ? *effective : scene;
+  Verdict verdict = verifying_kind(judged, asked).verify(judged, asked, answer, execution);
   check_length(verdict, answer);
-  const bool is_same = !question.robot && question.start.empty() && question.goal.empty() && !question.clearance;
-  if (is_same) check_bound(verdict, scene, answer, execution);
+  check_price(verdict, judged, prices, answer, execution);
+  const bool is_same = !question.robot && question.start.empty() && question.goal.empty() && !question.clearance &&
+                       question.prices.empty() && question.rule.empty();
+  if (is_same) check_bound(verdict, judged, answer, execution);
   return verdict;
 }
 
@@ -171,16 +311,19 @@ Answer solve_explained(const Scene& scene, const Question& question, const Solve
                        const Execution& execution, ByProducts* keep, PathTaker* taker) {
   Answer answer = solve_within(scene, question, options, execution, keep, taker);
   price_heuristic(scene, question, options, execution, answer);
-  explain_blocked_end(scene, answer, execution);
-  answer.peak_memory_bytes = peak_resident_bytes();
+  const Prices prices = is_blocked(answer.outcome) ? prices_of(scene, question) : Prices{};
+  const std::optional<Scene> effective = effective_scene(scene, prices, execution);
+  explain_blocked_end(effective ? *effective : scene, answer, execution);
+  tell_memory(answer, execution);
   return answer;
 }
 
 void make_by_products(const Scene& scene, const Question& question, const SolveOptions& options,
                       const Execution& execution, ByProducts& keep) {
-  const ChosenSolver solver = choose_solver(options, scene, question);
+  const RestrictedScene restricted(scene, question, execution);
+  const ChosenSolver solver = choose_solver(options, restricted.get(), question);
   if (solver.kind->make_by_products == nullptr) return;
-  solver.kind->make_by_products({options, scene, question, solver.planner, execution, &keep});
+  solver.kind->make_by_products({options, restricted.get(), question, solver.planner, execution, &keep});
 }
 
 Answer solve_and_keep(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,

@@ -189,8 +189,8 @@ WARREN_ARCHIVED(Solid, kind, pose, half, corners, faces, name, given)
 WARREN_ARCHIVED(AttachedSolid, link, solid, may_touch)
 template <class Ar>
 void put(Ar& ar, ArmFiles& whole) {
-  auto& [urdf, srdf, group, base, tip, packages, held, allowed, attached, read] = whole;
-  all(ar, urdf, srdf, group, base, tip, packages, held, allowed, attached);
+  auto& [urdf, srdf, group, base, tip, packages, held, allowed, attached, tool, read] = whole;
+  all(ar, urdf, srdf, group, base, tip, packages, held, allowed, attached, tool);
   if constexpr (Ar::reads) read.reset();  // whoever asks again reads the files
 }
 WARREN_ARCHIVED(NamedState, names, values)
@@ -199,24 +199,35 @@ WARREN_ARCHIVED(ScenePolygon, corners, line)
 WARREN_ARCHIVED(OccupancyMap, format, blocked, unknown, water, free, occupied, unknown_count, between, grey_free, cell,
                 origin, yaw_rad, start, goal, source, image)
 WARREN_ARCHIVED(PackedMaze, file, hash)
+WARREN_ARCHIVED(PricedArea, factor, corners, line)
+WARREN_ARCHIVED(MaskCells, width, height, values, cell, origin, yaw_rad)
+WARREN_ARCHIVED(PriceMask, kind, file, factor, base, multiplier, read)
+WARREN_ARCHIVED(KeepOut, corners, line)
+WARREN_ARCHIVED(Prices, clearance, areas, masks, keep_out, unknown)
 WARREN_ARCHIVED(Scene, walls, polygons, seams, spheres, boxes, solids, bounds, clearance, maze, formula, packed, robot,
-                arm, start, goal, named_start, named_goals, goal_pose, grid, map, source)
+                arm, start, goal, other_goals, named_start, named_goals, goal_pose, grid, prices, map, source)
 WARREN_ARCHIVED(StateList, width, numbers)
 WARREN_ARCHIVED(Violation, leg, distance, obstacle)
 WARREN_ARCHIVED(RefutedPath, violation, length, cost, path, states)
 WARREN_ARCHIVED(BlockedEnd, is_start, by, free_place, distance, hint, room, needed, depth)
 WARREN_ARCHIVED(Hint, verb, words, why)
 WARREN_ARCHIVED(Explanation, components, narrowest, hints, stopped)
-WARREN_ARCHIVED(Problem, robot, start, goal, clearance, contact, goal_pose)
+WARREN_ARCHIVED(GoalRule, others, tolerance, region, heading_rad, visit, back)
+WARREN_ARCHIVED(Problem, robot, start, goal, clearance, contact, goal_pose, prices, rule, told)
+WARREN_ARCHIVED(GoalReached, asked, distance, distance_bound)
+WARREN_ARCHIVED(AlternativePath, cost, length, price, min_clearance, passed, path)
 WARREN_ARCHIVED(WorldAccount, source, kind, walls, polygons, hash, spheres, boxes, unit, solids)
 WARREN_ARCHIVED(NamedFigure, name, value)
 WARREN_ARCHIVED(StageCost, name, wall_s, cpu_s)
 WARREN_ARCHIVED(HandedPath, points, hash)
 WARREN_ARCHIVED(Improvement, iterations, seconds, cost, length, by, lower_bound)
+WARREN_ARCHIVED(MapHole, id, box)
+WARREN_ARCHIVED(KeptRoute, kept, kept_cost, new_cost)
 WARREN_ARCHIVED(Answer, outcome, stop_reason, verified, blocked, explained, refuted, length, min_clearance, raw_length,
-                optimal, lower_bound, improvements, iterations, ended_by, cost, turn_rad, problem, world, planner,
-                pipeline, sampler, search, seed, threads, options, roadmap, cells, figures, path_figures, separation,
-                counters, seconds, costs, solve_s, peak_memory_bytes, path, handed, states, tells_path)
+                optimal, lower_bound, improvements, iterations, ended_by, cost, price, bound_of, goal_index,
+                goal_reached, order, alternatives, passed, holes, keeping, turn_rad, problem, world, planner, pipeline,
+                sampler, search, seed, threads, options, roadmap, cells, figures, path_figures, separation, counters,
+                seconds, costs, solve_s, wanted_memory_bytes, peak_memory_bytes, path, handed, states, tells_path)
 #undef WARREN_ARCHIVED
 
 }  // namespace

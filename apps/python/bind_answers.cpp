@@ -11,6 +11,7 @@
 #include "apps/python/keywords.hpp"
 #include "apps/python/library_calls.hpp"
 #include "pictures/answer_summary.hpp"
+#include "scenes/text/human_units.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "solve/answer/explanation_text.hpp"
 #include "solve/answer/write_answer_io.hpp"
@@ -73,6 +74,52 @@ py::object blocked_of(const Answer& answer) {
   blocked["needed"] = answer.blocked->needed;
   blocked["depth"] = answer.blocked->depth;
   return blocked;
+}
+
+py::dict price_of(const PriceParts& price) {
+  py::dict parts;
+  parts["clearance"] = price.clearance;
+  parts["areas"] = price.areas;
+  parts["turning"] = price.turning;
+  parts["cusps"] = price.cusps;
+  parts["reverse"] = price.reverse;
+  return parts;
+}
+
+py::object price_or_none(const Answer& answer) {
+  return answer.price ? py::object(price_of(*answer.price)) : py::object(py::none());
+}
+
+py::object reached_of(const Answer& answer) {
+  if (!answer.goal_reached) return py::none();
+  const GoalReached& reached = *answer.goal_reached;
+  return py::make_tuple(py::tuple(py::cast(reached.asked)), reached.distance, reached.distance_bound);
+}
+
+py::list alternatives_of(const Answer& answer) {
+  py::list all;
+  for (const AlternativePath& other : answer.alternatives) {
+    RawVector<double> numbers;
+    for (const Vec2 p : other.path) numbers.insert(numbers.end(), {p.x, p.y});
+    all.append(py::make_tuple(other.cost, other.length, price_of(other.price), other.min_clearance,
+                              py::tuple(py::cast(other.passed)),
+                              array_of<double>(std::move(numbers), {static_cast<py::ssize_t>(other.path.size()), 2})));
+  }
+  return all;
+}
+
+py::list holes_of(const Answer& answer) {
+  py::list all;
+  for (const MapHole& hole : answer.holes) {
+    const Box& b = hole.box;
+    all.append(py::make_tuple(hole.id, py::make_tuple(b.min.x, b.min.y, b.max.x, b.max.y)));
+  }
+  return all;
+}
+
+py::object keeping_of(const Answer& answer) {
+  if (!answer.keeping) return py::none();
+  return py::make_tuple(answer.keeping->kept, answer.keeping->kept_cost, answer.keeping->new_cost);
 }
 
 /// States at even steps along the path, its own states among them: one row each; and how far along they are.
@@ -159,7 +206,8 @@ void bind_answers(py::module_& module) {
   answers.def_property_readonly("path", &path_of);
   figure(answers, "status", [](const Answer& a) { return name_of(a.outcome); });
   figure(answers, "stop_reason", [](const Answer& a) {
-    return a.stop_reason ? std::optional(std::pair(name_of(*a.stop_reason), text_of(*a.stop_reason))) : std::nullopt;
+    using Told = std::optional<std::pair<std::string_view, std::string>>;
+    return a.stop_reason ? Told({name_of(*a.stop_reason), stop_text(*a.stop_reason, a.wanted_memory_bytes)}) : Told{};
   });
   figure(answers, "verified", [](const Answer& a) { return a.verified; });
   figure(answers, "optimal", [](const Answer& a) { return a.optimal; });
@@ -169,6 +217,17 @@ void bind_answers(py::module_& module) {
   figure(answers, "min_clearance", [](const Answer& a) { return a.verified ? a.min_clearance : unknown; });
   figure(answers, "raw_length", [](const Answer& a) { return a.raw_length.value_or(unknown); });
   figure(answers, "cost", [](const Answer& a) { return a.cost.value_or(unknown); });
+  figure(answers, "price", &price_or_none);
+  figure(answers, "cost_error", [](const Answer& a) { return a.price ? a.price->error : unknown; });
+  figure(answers, "bound_of",
+         [](const Answer& a) { return a.bound_of.empty() ? std::nullopt : std::optional(a.bound_of); });
+  figure(answers, "goal_index", [](const Answer& a) { return a.goal_index; });
+  figure(answers, "goal_reached", &reached_of);
+  figure(answers, "order", [](const Answer& a) { return a.order; });
+  figure(answers, "passed", [](const Answer& a) { return py::tuple(py::cast(a.passed)); });
+  figure(answers, "alternatives", &alternatives_of);
+  figure(answers, "holes", &holes_of);
+  figure(answers, "keeping", &keeping_of);
   figure(answers, "iterations", [](const Answer& a) { return a.iterations; });
   figure(answers, "ended_by",
          [](const Answer& a) { return a.ended_by.empty() ? std::nullopt : std::optional(a.ended_by); });

@@ -8,11 +8,13 @@
 #include "apps/python/keywords.hpp"
 #include "apps/studies/comparison_report.hpp"
 #include "parallel/execution.hpp"
+#include "scenes/files/mask_io.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "solve/answer/explanation_text.hpp"
 #include "solve/explain_answer.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/solve.hpp"
+#include "tools/screen/world_files.hpp"
 #include "tools/verbs/cmd_compare.hpp"
 #include "tools/words/planner_words.hpp"
 #include "tools/words/question_words.hpp"
@@ -21,20 +23,35 @@ namespace warren::python {
 namespace py = pybind11;
 namespace {
 
-tools::Command solving() { return command_of("solve", {tools::solve_option_specs(), tools::question_option_specs()}); }
+tools::Command solving() {
+  return command_of("solve",
+                    {tools::solve_option_specs(), tools::question_option_specs(), tools::asked_option_specs()});
+}
 constexpr tools::OptionSpec narrow_spec[] = {{"--explain", "", "say where along the path there is least room"}};
-tools::Command verifying() { return command_of("verify", {tools::question_option_specs(), narrow_spec}); }
+tools::Command verifying() {
+  return command_of("verify", {tools::question_option_specs(), tools::asked_option_specs(), narrow_spec},
+                    {"--alternatives", "--stretch", "--keep-to", "--unless-gain"});
+}
+
+/// keep_to may be an answer, which no command line holds: it is taken out, and a gain is left.
+std::optional<Answer> take_old_answer(py::dict& keywords) {
+  if (!keywords.contains("keep_to") || !py::isinstance<KeptAnswer>(keywords["keep_to"])) return std::nullopt;
+  return py::object(keywords.attr("pop")("keep_to")).cast<const KeptAnswer&>().answer;
+}
 
 /// The answer as the program makes it; a stopped one, too, unless Python's handler of a signal raises.
 KeptAnswer solve_scene(const Scene& scene, py::dict keywords, bool keep, bool explain, py::object on_improvement) {
   CallLimits limits = take_limits(keywords);
   limits.tell_improvements(std::move(on_improvement));
+  const std::optional<Answer> old = take_old_answer(keywords);
   const tools::Arguments words = arguments_of(made_once<solving>(), keywords);
-  const Question question = tools::question_words(words);
+  Question question = tools::question_words(words);
   const SolveOptions options = tools::solve_words(words);
   check_solver_options(options);
   KeptAnswer kept;
   kept.answer = limits.run([&](const Execution& execution) {
+    tools::read_asked_files(question, words, execution);
+    if (old) question.route.keep_to = states_of(recorded(*old));
     Answer answer = solve_explained(scene, question, options, execution, keep || explain ? &kept.made : nullptr);
     const auto complete = [&] {
       if (answer.outcome != Outcome::stopped) make_by_products(scene, question, options, execution, kept.made);
@@ -66,13 +83,14 @@ py::dict told(const Verdict& verdict, const std::optional<NarrowPlace>& narrow) 
 }
 
 /// With explain the narrowest place of a free path, too; "ended" says what stopped the search for it.
-py::dict judge(const Scene& scene, const RecordedAnswer& answer, py::dict keywords) {
+py::dict judge(const Scene& scene, RecordedAnswer answer, py::dict keywords) {
   CallLimits limits = take_limits(keywords);
   const tools::Arguments words = arguments_of(made_once<verifying>(), keywords);
-  const Question question = tools::question_words(words);
+  Question question = tools::question_words(words);
   std::optional<NarrowPlace> narrow;
   std::optional<StopReason> ended;
   const Verdict verdict = limits.run([&](const Execution& execution) {
+    read_masks(question.prices.empty() ? answer.problem.prices : question.prices, execution);
     Verdict said = verify_within(scene, question, answer, execution);
     if (!words.has("--explain") || !said.verified) return said;
     try {

@@ -31,6 +31,7 @@
 #include "solve/answer/world_account.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "tools/screen/world_files.hpp"
+#include "tools/verbs/example_files.hpp"
 #include "tools/words/question_words.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
 
@@ -267,6 +268,14 @@ Scene read_text(const std::string& name, const std::string& text, const py::dict
   return scene;
 }
 
+/// Its files are read from the folder, which is empty; the world is called as its own file is.
+Scene read_example(const std::string& name, const std::string& folder) {
+  const tools::Example example = tools::example_named(name);
+  Scene scene = read_named(tools::write_example_files(example, folder), {});
+  scene.source = example.files.front();
+  return scene;
+}
+
 Scene made_of_arrays(const py::dict& parts, const py::dict& keywords) {
   Scene scene = scene_of_arrays(parts);
   take_question(scene, keywords);
@@ -438,6 +447,7 @@ void bind_worlds(py::module_& module) {
                       [](const py::bytes& b) { return from_bytes<Scene>(b); }));
   module.def("read_world", &read_named);
   module.def("read_text", &read_text);
+  module.def("example", &read_example);
   module.def("scene", &made_of_arrays);
   module.def("cells", &made_of_cells);
   module.def("body", [](const std::string& text) { return robot_value("robot", text), text; });

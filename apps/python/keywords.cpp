@@ -22,6 +22,27 @@ std::string option_of(std::string_view keyword) {
   return option;
 }
 
+/// Keywords that say the same more shortly, or because the word itself is Python's.
+constexpr std::pair<std::string_view, std::string_view> other_keywords[] = {
+    {"goals", "goal"}, {"tolerance", "goal_tolerance"}, {"region", "goal_region"}, {"return_", "return"}};
+
+std::string_view own_keyword(std::string_view keyword) {
+  for (const auto& [other, own] : other_keywords) {
+    if (keyword == other) return own;
+  }
+  return keyword;
+}
+
+bool is_list(py::handle value) { return PySequence_Check(value.ptr()) != 0 && !py::isinstance<py::str>(value); }
+
+/// Is it several values of an option that may be given several times? One value begins with or has a number.
+bool is_several(py::handle value) {
+  if (!is_list(value)) return false;
+  const auto items = py::reinterpret_borrow<py::sequence>(value);
+  return std::all_of(items.begin(), items.end(),
+                     [](py::handle item) { return is_list(item) || py::isinstance<py::str>(item); });
+}
+
 std::string keyword_of(std::string_view option) { return with_keywords(std::string(option)); }
 
 [[noreturn]] void refuse_type(const std::string& keyword, std::string_view expected, py::handle found) {
@@ -55,6 +76,20 @@ void add_flag(const tools::OptionSpec& spec, const std::string& keyword, py::han
   } else {
     words.push_back(std::string(spec.name) + "=" + word_of(value, keyword));
   }
+}
+
+/// areas=[(F, polygon), ...] are what --area says, which beside it has files.
+void add_several(const tools::OptionSpec& spec, const std::string& keyword, py::handle value,
+                 std::vector<std::string>& words) {
+  const py::object plain =
+      py::hasattr(value, "tolist") ? value.attr("tolist")() : py::reinterpret_borrow<py::object>(value);
+  const auto add = [&](py::handle item) {
+    const bool is_polygon = spec.name == "--areas" && is_list(item) && py::len(item) == 2 &&
+                            is_list(py::reinterpret_borrow<py::sequence>(item)[1]);
+    words.push_back(std::string(is_polygon ? "--area" : spec.name) + "=" + word_of(item, keyword));
+  };
+  if (!is_several(plain)) return add(plain);
+  for (const py::handle item : py::reinterpret_borrow<py::sequence>(plain)) add(item);
 }
 
 }  // namespace
@@ -105,11 +140,13 @@ tools::Arguments arguments_of(const tools::Command& command, const py::dict& key
   for (const auto& [name, value] : keywords) {
     if (value.is_none()) continue;
     const auto keyword = name.cast<std::string>();
-    const std::string option = option_of(keyword);
+    const std::string option = option_of(own_keyword(keyword));
     const tools::OptionSpec* spec = tools::option_named(command, option);
     if (spec == nullptr) refuse_keyword(command, keyword);
     if (spec->value.empty() || spec->value_optional) {
       if (!value.is(py::bool_(false))) add_flag(*spec, keyword, value, words);
+    } else if (spec->may_repeat) {
+      add_several(*spec, keyword, value, words);
     } else {
       words.push_back(option + "=" + word_of(value, keyword));
     }

@@ -13,6 +13,7 @@
 
 #include "core/base/error.hpp"
 #include "parallel/execution.hpp"
+#include "scenes/text/human_units.hpp"
 
 namespace warren::python {
 namespace py = pybind11;
@@ -79,10 +80,10 @@ void set_usage(std::string_view line) {
   set("UsageError", where, what, value);
 }
 
-void set_stopped(StopReason reason) {
+void set_stopped(StopReason reason, std::size_t wanted_bytes) {
   const py::object type = error_class("Stopped");
   const std::string_view name = name_of(reason);
-  PyErr_SetObject(type.ptr(), type(std::string(name), std::string(text_of(reason)), py::none()).ptr());
+  PyErr_SetObject(type.ptr(), type(std::string(name), stop_text(reason, wanted_bytes), py::none()).ptr());
 }
 
 }  // namespace
@@ -216,7 +217,7 @@ void translate_errors() {
     } catch (const WriteError& error) {
       set("WriteError", error);
     } catch (const Stopped& stopped) {
-      set_stopped(stopped.reason);
+      set_stopped(stopped.reason, stopped.wanted_bytes);
     }
   });
 }

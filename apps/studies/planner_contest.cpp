@@ -327,9 +327,33 @@ Answer solve_contender(const Scene& scene, const PlannerContender& contender, st
   return answer;
 }
 
+namespace {
+
+/// An option that some planner takes in this world is not for those that take it in others alone.
+std::vector<PlannerContender> without_strange_options(std::vector<PlannerContender> contenders, const Scene& scene) {
+  const auto takes = [&](const PlannerContender& contender, Option option) {
+    return planner_takes(*contender.options.planner, option, scene, contender.question);
+  };
+  const std::vector<PlannerContender> all = contenders;
+  for (PlannerContender& contender : contenders) {
+    for (const Option option : options_in(given(contender.options))) {
+      if (takes(contender, option)) continue;
+      const bool is_for_others = std::any_of(all.begin(), all.end(), [&](const PlannerContender& other) {
+        return given(other.options).has(option) && takes(other, option);
+      });
+      if (is_for_others) copy_option(option, contender.options, {});
+    }
+  }
+  return contenders;
+}
+
+}  // namespace
+
 void run_planner_contest(const Scene& scene, const PlannerContestOptions& options, const Execution& execution,
                          Comparison& comparison) {
-  PlannerContest(scene, options, execution, comparison).run();
+  PlannerContestOptions here = options;
+  here.contenders = without_strange_options(options.contenders, scene);
+  PlannerContest(scene, here, execution, comparison).run();
 }
 
 std::vector<PlannerContender> deal_planners(const PlannerDeal& deal) {

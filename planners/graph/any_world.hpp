@@ -9,6 +9,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <span>
@@ -85,6 +86,8 @@ class AnyWorld {
     if constexpr (in_plane) return warren::distance(a, b);
     return metric(a, b);
   }
+  /// What a free motion costs, >= its distance; the same both ways.
+  double cost(const State& a, const State& b) const { return motion_cost ? motion_cost(a, b) : distance(a, b); }
   Embedding embed(const State& a) const {
     if constexpr (in_plane) return {a.x, a.y};
     return embedding(a);
@@ -130,6 +133,9 @@ class AnyWorld {
   virtual PlaceGrid free_places(const State& a) const = 0;
   virtual Vec2 place_of(const State& a) const = 0;
   virtual State shifted(const State& a, Vec2 to) const = 0;
+
+  /// Where motions cost more than their distance: what a free one costs. Any number of threads may ask.
+  std::function<double(const State&, const State&)> motion_cost;
 
  protected:
   virtual double metric(const State& a, const State& b) const = 0;

@@ -101,7 +101,8 @@ class DeadEndSeals {
 /// vertex. Radius rule: the graph isn't built either, the neighbours of a milestone are asked of the index when the
 /// search expands it. k rule: the candidates are a graph, since a milestone's k nearest alone would miss those that
 /// count it among theirs. Either way it is the graph that prm checks as a whole, so the path is the same; one to six
-/// checks an expansion instead of one a candidate. Belongs to one thread; each side of a search has its own. Throws
+/// checks an expansion instead of one a candidate. Where motions have a price the distance stands for it until then: it
+/// is not more. Belongs to one thread; each side of a search has its own. Throws
 /// Stopped between checks. Vertices: milestones, then start, then goal (whose edges were checked by attach()).
 template <World W>
 class LazyGraph {
@@ -141,8 +142,8 @@ class LazyGraph {
       visit_milestones(v, visit);
     }
     for (const Edge& e : end_edges_) {
-      if (e.from == v) visit(e.to, world_.distance(states_[v], states_[e.to]));
-      if (e.to == v) visit(e.from, world_.distance(states_[v], states_[e.from]));
+      if (e.from == v) visit(e.to, world_.cost(states_[v], states_[e.to]));
+      if (e.to == v) visit(e.from, world_.cost(states_[v], states_[e.from]));
     }
   }
 
@@ -189,7 +190,7 @@ class LazyGraph {
       const auto i = static_cast<std::size_t>(std::countr_zero(free));
       const auto [v, w] = wanted_.edges()[i];
       if (recorded_ != nullptr) recorded_->push_back({std::min(v, w), std::max(v, w)});
-      visit(w, lengths_[i]);
+      visit(w, world_.motion_cost ? world_.cost(states_[v], states_[w]) : lengths_[i]);
     }
     wanted_.clear();
     clock_.lap(StagePart::rest);
@@ -355,7 +356,7 @@ template <World W>
 DeadEnds LazyPlan<W>::find_dead_ends() const {
   constexpr double longest_motion = 2.0;
   if constexpr (W::in_plane) {
-    if (rule_.neighbours != 0 || !(rule_.radius <= longest_motion)) return {};
+    if (rule_.neighbours != 0 || !(rule_.radius <= longest_motion) || world_.motion_cost) return {};
     CellSides cells = world_.cell_sides(states_.size() / 2, execution_);
     if (cells.open.empty()) return {};
     std::vector<std::size_t> kept{cells.cell_of(this->start_), cells.cell_of(this->goal_)};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// PRM: the probabilistic roadmap method (Kavraki, Svestka, Latombe, Overmars 1996), every candidate edge checked.
+// PRM: the probabilistic roadmap method (Kavraki, Svestka, Latombe, Overmars 1996), every candidate edge checked. Where
+// motions have a price edges weigh it (AnyWorld::motion_cost), else their distance.
 //
 // A round draws milestones, indexes them, checks the candidate edges on all cores, assembles the graph, finds its
 // components (on what the search's reduction leaves of it, where there is one) and, where start and goal are joined,
@@ -83,7 +84,7 @@ void PrmPlan<W>::assemble(const EdgeParts& edges) {
 
 template <World W>
 bool PrmPlan<W>::search() {
-  const auto distance = [this](VertexId v, VertexId w) { return world_.distance(states_[v], states_[w]); };
+  const auto distance = [this](VertexId v, VertexId w) { return world_.cost(states_[v], states_[w]); };
   const HeuristicKind heuristic = this->options_.heuristic;
   const auto estimate = [&](VertexId v, VertexId w) {
     return estimated_way(world_, heuristic, states_[v], states_[w]);

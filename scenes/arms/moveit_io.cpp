@@ -252,10 +252,20 @@ class MoveItSceneReader : public MoveItStates {
     for_each(world, "collision_objects", [&](const Node& object) { take_object(object); });
     take_state(scene_, at(root, "robot_state"));
     take_matrix(at(root, "allowed_collision_matrix"));
+    refuse_sizes(root, "link_padding", "padding", 0.0);
+    refuse_sizes(root, "link_scale", "scale", 1.0);
     return std::move(scene_);
   }
 
  private:
+  /// Links are as large as their files say.
+  void refuse_sizes(const Node& root, const char* list, const char* key, double usual) const {
+    for_each(root, list, [&](const Node& link) {
+      const Node size = needed(link, key);
+      if (number(size, key) == usual) return;
+      yaml_.fail(size, fmt::format("`{}` must be {}: links are not made larger; `clearance` keeps room", list, usual));
+    });
+  }
   void take_object(const Node& object) {
     if (const Node id = at(object, "id"); id.IsScalar()) ids_.insert(id.Scalar());
     if (const Node frame = at(at(object, "header"), "frame_id"); frame.IsScalar() && !frame.Scalar().empty()) {
@@ -375,6 +385,12 @@ class MoveItRequestReader : public MoveItStates {
       if (numbers<3>(offset, "target_point_offset") != std::array<double, 3>{}) {
         yaml_.fail(offset, "`target_point_offset` must be 0 0 0");
       }
+    }
+    if (const Node link = at(place, "link_name"); !link.IsNull()) arm_of(scene).tool = word(link, "link_name");
+    if (count(goal, kinds[2]) > 0) {
+      const Node link = at(at(goal, kinds[2])[0], "link_name");
+      const bool same = !link.IsScalar() || link.Scalar() == arm_of(scene).tool;
+      if (!same) yaml_.fail(link, "place and turn must be of one link, here " + arm_of(scene).tool);
     }
     const Node region = needed(place, "constraint_region");
     if (count(region, "primitive_poses") != 1) yaml_.fail(region, "a place needs one of `primitive_poses`");

@@ -47,6 +47,8 @@ struct UrdfJoint {
   Vec3 axis{1.0, 0.0, 0.0};
   double low = -no_limit;
   double high = no_limit;
+  double soft_low = -no_limit;  // a controller's, which are told, not kept
+  double soft_high = no_limit;
   double speed = 0.0;
   std::size_t leader = no_urdf_part;  // the joint that it follows, which follows none:
   double multiplier = 1.0;            // its value is multiplier * that one's + offset
@@ -148,6 +150,9 @@ class UrdfTree {
     joint.low = xml.number(limit, "lower").value_or(joint.low);
     joint.high = xml.number(limit, "upper").value_or(joint.high);
     if (joint.low > joint.high) xml.fail(limit, "`lower` must not exceed `upper`", fmt::format("{}", joint.low));
+    const pugi::xml_node safety = joint.node.child("safety_controller");
+    joint.soft_low = xml.number(safety, "soft_lower_limit").value_or(joint.low);
+    joint.soft_high = xml.number(safety, "soft_upper_limit").value_or(joint.high);
   }
   std::size_t link_of(pugi::xml_node joint, const char* end) const {
     const pugi::xml_node node = joint.child(end);
@@ -401,6 +406,10 @@ class ArmModelMaker {
       if (!continuous && !(std::isfinite(joint.low) && std::isfinite(joint.high)))
         tree_.xml.fail(joint.node, "a joint that moves needs <limit lower=\"…\" upper=\"…\">, or type continuous",
                        joint.name);
+      if (joint.soft_low > joint.low || joint.soft_high < joint.high) {
+        model_.told.push_back(fmt::format("{} keeps <limit>, {} to {}, not its soft limits, {} to {}", joint.name,
+                                          joint.low, joint.high, joint.soft_low, joint.soft_high));
+      }
       variables_[j] = model_.variables.size();
       model_.variables.push_back({joint.name, joint.kind == UrdfJointKind::prismatic, continuous,
                                   continuous ? -std::numbers::pi : joint.low,
@@ -450,8 +459,13 @@ class ArmModelMaker {
     }
   }
 
-  /// The group's tip; else what hangs on its last joint, on as far as there is one joint, which doesn't move.
+  /// As said; the group's tip; else what hangs on its last joint, on as far as there is one joint, which doesn't move.
   std::size_t tool_link() const {
+    if (!files_.tool.empty()) {
+      const std::size_t link = tree_.link_named(files_.tool);
+      if (link == no_urdf_part) throw InputError(files_.urdf, "has no link of this name to be the tool", files_.tool);
+      return link;
+    }
     if (group_.tip != no_urdf_part) return group_.tip;
     const std::vector<UrdfJoint>& joints = tree_.joints;
     std::size_t last = 0;

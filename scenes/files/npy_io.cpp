@@ -36,6 +36,26 @@ class HeaderParser {
   explicit HeaderParser(const InputFile& file) : name_(file.name()), bytes_(file.bytes()) {}
 
   NpyWalls parse() {
+    const NpyWalls header = parsed();
+    if (shape_.size() != 2 || shape_[1] != 4) {
+      fail("expected shape (n, 4), a wall x1 y1 x2 y2 a row", shape_text_);
+    }
+    return {header.is_float, shape_[0], header.data};
+  }
+  /// Where the numbers of a potential begin, and its columns and rows of corners.
+  std::size_t parse_potential(std::size_t& columns, std::size_t& rows) {
+    const NpyWalls header = parsed();
+    if (header.is_float) fail("expected numbers of type <f8", "<f4");
+    if (shape_.size() != 3 || shape_[0] != 2 || shape_[1] < 2 || shape_[2] < 2) {
+      fail("expected a certificate, of shape (2, rows + 1, columns + 1)", shape_text_);
+    }
+    rows = shape_[1];
+    columns = shape_[2];
+    return header.data;
+  }
+
+ private:
+  NpyWalls parsed() {
     if (!is_npy(bytes_)) fail("expected a .npy file, which begins with \\x93NUMPY", bytes_.substr(0, 8));
     NpyWalls header;
     rest_ = dictionary(header.data);
@@ -43,8 +63,6 @@ class HeaderParser {
     if (!has_type_ || !has_order_ || !has_shape_) fail("the header must have descr, fortran_order and shape", rest_);
     return header;
   }
-
- private:
   [[noreturn]] void fail(std::string_view what, std::string_view found) const {
     scene_text::Place{name_, 0}.fail(what, found);
   }
@@ -79,7 +97,7 @@ class HeaderParser {
       } else if (key == "fortran_order") {
         parse_order();
       } else if (key == "shape") {
-        parse_shape(header);
+        parse_shape();
       } else {
         fail("unknown entry in the header", key);
       }
@@ -102,16 +120,14 @@ class HeaderParser {
     rest_.remove_prefix(5);
     has_order_ = true;
   }
-  void parse_shape(NpyWalls& header) {
-    const std::string_view shown = rest_.substr(0, rest_.find(')') + 1);
-    std::vector<std::size_t> shape;
+  void parse_shape() {
+    shape_text_ = rest_.substr(0, rest_.find(')') + 1);
+    shape_.clear();
     expect('(');
     while (!accept(')')) {
-      shape.push_back(whole_number());
-      if (!accept(',') && !rest_.starts_with(')')) fail("expected a shape like (28, 4)", shown);
+      shape_.push_back(whole_number());
+      if (!accept(',') && !rest_.starts_with(')')) fail("expected a shape like (28, 4)", shape_text_);
     }
-    if (shape.size() != 2 || shape[1] != 4) fail("expected shape (n, 4), a wall x1 y1 x2 y2 a row", shown);
-    header.walls = shape[0];
     has_shape_ = true;
   }
 
@@ -148,6 +164,8 @@ class HeaderParser {
   const std::string& name_;
   std::string_view bytes_;
   std::string_view rest_;
+  std::string_view shape_text_;
+  std::vector<std::size_t> shape_;
   bool has_type_ = false;
   bool has_order_ = false;
   bool has_shape_ = false;
@@ -337,6 +355,34 @@ void write_npy(const Scene& scene, const std::string& path, const Execution& exe
     }
   });
   file.commit();
+}
+
+void write_npy(const CellPotential& potential, const std::string& path, const Execution& execution) {
+  const std::uint64_t shape[] = {2, std::uint64_t{potential.height} + 1, std::uint64_t{potential.width} + 1};
+  OutputFile file(path, execution);
+  file.write(npy_header("<f8", shape));
+  const auto bytes = std::as_bytes(std::span(potential.values));
+  file.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});  // NOLINT: the numbers' bytes
+  file.commit();
+}
+
+CellPotential read_potential_npy(const InputFile& file, const Execution& execution) {
+  std::size_t columns = 0;
+  std::size_t rows = 0;
+  const std::size_t data = HeaderParser(file).parse_potential(columns, rows);
+  constexpr std::size_t most = std::size_t{1} << 32U;
+  const std::size_t held = file.bytes().size() - data;
+  if (columns >= most || rows >= most || held / sizeof(double) / 2 / columns != rows ||
+      held != 2 * rows * columns * sizeof(double)) {
+    throw InputError(file.name(),
+                     fmt::format("expected 2 x {} x {} numbers of 8 bytes behind the header", rows, columns),
+                     fmt::format("{} bytes", held));
+  }
+  execution.reserve(held);
+  CellPotential potential{static_cast<std::uint32_t>(columns - 1), static_cast<std::uint32_t>(rows - 1),
+                          std::vector<double>(2 * rows * columns)};
+  std::memcpy(potential.values.data(), file.bytes().data() + data, held);
+  return potential;
 }
 
 std::string npy_header(std::string_view type, std::span<const std::uint64_t> shape) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/cell_potential.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/mazes/maze_walls.hpp"
 #include "scenes/scene/scene.hpp"
@@ -38,6 +39,12 @@ Scene read_npy(const InputFile& file, const Execution& execution);
 void write_npy(const Scene& scene, const std::string& path, const Execution& execution);
 /// Writes the walls of a maze while they are made. Throws WriteError, Stopped.
 void write_npy(const WallStrips& walls, const std::string& path, const Execution& execution);
+
+/// A potential (core/base/cell_potential) as an array of doubles of shape (2, rows + 1, columns + 1): values at
+/// corners, then at the middles of cells, of which the last row and column mean nothing. Throws WriteError, Stopped.
+void write_npy(const CellPotential& potential, const std::string& path, const Execution& execution);
+/// Reads what that writes. Throws InputError for anything else, Stopped.
+CellPotential read_potential_npy(const InputFile& file, const Execution& execution);
 
 /// What stands before the numbers of a NumPy array: a Python literal, padded so that the numbers begin on a multiple of
 /// 64 bytes. The header, format version 1, of an array in C order. `type` as NumPy spells it: "<f8", "<i4", "|S3". A

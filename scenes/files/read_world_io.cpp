@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scenes/files/read_world_io.hpp"
+#include "scenes/files/mask_io.hpp"
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@
 #include "scenes/arms/moveit_io.hpp"
 #include "scenes/files/geojson_io.hpp"
 #include "scenes/files/image_io.hpp"
+#include "scenes/files/mask_io.hpp"
 #include "scenes/files/maze_file_io.hpp"
 #include "scenes/files/maze_image_io.hpp"
 #include "scenes/files/micromouse_io.hpp"
@@ -211,6 +213,7 @@ Scene read_scene(const InputFile& file, const Execution& execution, MapServerRul
   }
   Scene scene = read_unchecked(file, execution, rules);
   check_polygons(scene, execution);
+  read_masks(scene.prices, execution);
   return scene;
 }
 
@@ -238,6 +241,8 @@ std::vector<std::string_view> parts_left_out(const Scene& scene, std::string_vie
     lose(scene.robot || scene.arm, "robot");
     lose(scene.clearance.has_value(), "clearance");
     lose(scene.grid.has_value(), "grid");
+    lose(!scene.other_goals.empty() && keeps_ends, "other goals");
+    lose(!scene.prices.empty(), "prices and areas");
   }
   lose(is_map && has_solids(scene), "solids");
   const OccupancyMap* const map = scene.map ? &*scene.map : becomes;

@@ -6,7 +6,6 @@
 #include "scenes/files/ros_map_io.hpp"
 
 #include <fmt/format.h>
-#include <pwd.h>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +16,7 @@
 
 #include "core/base/error.hpp"
 #include "scenes/files/image_io.hpp"
+#include "scenes/files/mask_io.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "scenes/text/yaml_file_io.hpp"
 
@@ -24,7 +24,11 @@ namespace warren {
 namespace {
 
 enum class Mode : std::uint8_t { trinary, scale, raw };
-enum class Class : std::uint8_t { free, occupied, unknown, between };
+
+// A cell's value, as a map server publishes it: 0 free, 100 occupied, -1 unknown, else between.
+constexpr std::int8_t free_value = 0;
+constexpr std::int8_t occupied_value = 100;
+constexpr std::int8_t unknown_value = -1;
 
 struct Description {
   std::string image;
@@ -119,33 +123,30 @@ class DescriptionReader {
   const YAML::Node& root_;
 };
 
-/// What a pixel of brightness 0 … 1 is, its alpha apart.
-Class class_of(double brightness, const Description& d, MapServerRules rules) {
+/// The value of a pixel of brightness 0 … 1, its alpha apart.
+std::int8_t value_of(double brightness, const Description& d, MapServerRules rules) {
   const bool ros1 = rules == MapServerRules::ros1;
   if (d.mode == Mode::raw) {
     const double value = 255.0 * (d.negate && ros1 ? 1.0 - brightness : brightness);
-    constexpr double occupied = 100.0;
     const double whole = ros1 ? std::floor(value) : std::round(value);
-    if (whole > occupied) return Class::unknown;
-    return whole == 0.0 ? Class::free : whole == occupied ? Class::occupied : Class::between;
+    return whole > occupied_value ? unknown_value : static_cast<std::int8_t>(whole);
   }
   const double p = d.negate ? brightness : 1.0 - brightness;
-  if (!ros1 && p <= d.free_thresh) return Class::free;  // applied last there, so it wins
-  if (ros1 ? p > d.occupied_thresh : p >= d.occupied_thresh) return Class::occupied;
-  if (p < d.free_thresh) return Class::free;
-  if (d.mode == Mode::trinary) return Class::unknown;
+  if (!ros1 && p <= d.free_thresh) return free_value;  // applied last there, so it wins
+  if (ros1 ? p > d.occupied_thresh : p >= d.occupied_thresh) return occupied_value;
+  if (p < d.free_thresh) return free_value;
+  if (d.mode == Mode::trinary) return unknown_value;
   const double ratio = (p - d.free_thresh) / (d.occupied_thresh - d.free_thresh);
   const double value = ros1 ? std::floor(1.0 + 98.0 * ratio) : std::round(100.0 * ratio);
-  return value <= 0.0 ? Class::free : value >= 100.0 ? Class::occupied : Class::between;
+  return static_cast<std::int8_t>(std::clamp(value, 0.0, 100.0));
 }
 
-/// Takes pixels and fills in the map.
-class Classifier {
+/// The values of an image's pixels.
+class PixelValues {
  public:
-  Classifier(const Description& description, MapServerRules rules, OccupancyMap& map)
-      : description_(description), rules_(rules), map_(map) {}
+  PixelValues(const Description& description, MapServerRules rules) : description_(description), rules_(rules) {}
 
-  void begin(const ImageHeader& header, const Execution& execution) {
+  void begin(const ImageHeader& header) {
     header_ = header;
     const bool alpha_is_colour = rules_ == MapServerRules::ros1 && description_.mode == Mode::trinary;
     colours_ = header.channels - (header.has_alpha() && !alpha_is_colour ? 1 : 0);
@@ -154,47 +155,33 @@ class Classifier {
     judges_alpha_ = header.has_alpha() && looks_at_alpha;
     const bool by_luma = rules_ == MapServerRules::nav2 && colours_ > 1;
     const std::size_t brightest = by_luma ? 255 : std::size_t{colours_} * header.maximum;
-    classes_.resize(brightest + 1);
+    values_.resize(brightest + 1);
     for (std::size_t i = 0; i <= brightest; ++i) {
       double brightness = static_cast<double>(i) / static_cast<double>(brightest);
       if (rules_ == MapServerRules::nav2) brightness = high_byte((i * 65535 + brightest / 2) / brightest) / 255.0;
-      classes_[i] = class_of(brightness, description_, rules_);
+      values_[i] = value_of(brightness, description_, rules_);
     }
-    map_.blocked = cell_bitmap(header.width, header.height, execution);
-    map_.unknown = cell_bitmap(header.width, header.height, execution);
   }
 
-  void row(const PixelRun& run) {
+  /// take(x, y, value, pixel) for each pixel of the run, y from the bottom.
+  template <class Take>
+  void row(const PixelRun& run, const Take& take) const {
     const std::uint32_t y = header_.height - 1 - run.y;
     std::uint32_t x = run.first_x;
     for (const std::uint16_t* pixel = run.samples.data(); pixel != run.samples.data() + run.samples.size();
          pixel += header_.channels, x += run.step_x) {
-      const Class kind = class_at(pixel);
-      ++counts_[static_cast<std::size_t>(kind)];
-      if (kind == Class::free) {
-        map_.grey_free += is_saved_unknown(pixel) ? 1 : 0;
-        continue;
-      }
-      map_.blocked.set(x, y);
-      if (kind == Class::unknown) map_.unknown.set(x, y);
+      take(x, y, value_at(pixel), pixel);
     }
   }
 
-  void end() {
-    map_.free = counts_[static_cast<std::size_t>(Class::free)];
-    map_.occupied = counts_[static_cast<std::size_t>(Class::occupied)];
-    map_.unknown_count = counts_[static_cast<std::size_t>(Class::unknown)];
-    map_.between = counts_[static_cast<std::size_t>(Class::between)];
-    if (map_.unknown_count == 0) map_.unknown = Bitmap();
-  }
-
- private:
   /// As map_saver writes what it does not know.
   bool is_saved_unknown(const std::uint16_t* pixel) const {
     constexpr unsigned grey = 205;
     return header_.maximum == 255 && !description_.negate && description_.mode != Mode::raw &&
            std::all_of(pixel, pixel + colours_, [](unsigned value) { return value == grey; });
   }
+
+ private:
   static unsigned high_byte(std::uint64_t deep) { return static_cast<unsigned>(deep / 257); }
   unsigned number_of(const std::uint16_t* pixel) const {
     if (colours_ == 1) return pixel[0];
@@ -202,41 +189,58 @@ class Classifier {
     const unsigned deep = 65535 / header_.maximum;  // coloured images have 255 or 65535
     return high_byte((std::uint64_t{deep} * (299U * pixel[0] + 587U * pixel[1] + 114U * pixel[2]) + 500) / 1000);
   }
-  Class class_at(const std::uint16_t* pixel) const {
-    const Class kind = classes_[number_of(pixel)];
-    if (!judges_alpha_) return kind;
+  std::int8_t value_at(const std::uint16_t* pixel) const {
+    const std::int8_t value = values_[number_of(pixel)];
+    if (!judges_alpha_) return value;
     const unsigned alpha = pixel[header_.channels - 1];
-    if (rules_ == MapServerRules::nav2) return alpha < header_.maximum ? Class::unknown : kind;
-    return alpha == 0 && kind == Class::between ? Class::unknown : kind;
+    if (rules_ == MapServerRules::nav2) return alpha < header_.maximum ? unknown_value : value;
+    const bool is_between = value > free_value && value < occupied_value;
+    return alpha == 0 && is_between ? unknown_value : value;
   }
 
   const Description& description_;
   MapServerRules rules_;
-  OccupancyMap& map_;
   ImageHeader header_;
   unsigned colours_ = 1;
   bool judges_alpha_ = false;
-  std::vector<Class> classes_;
-  std::array<std::uint64_t, 4> counts_{};
+  std::vector<std::int8_t> values_;
 };
 
-std::string image_path(const std::string& yaml, const std::string& image) {
-  if (image.starts_with("/")) return image;
-  if (image.starts_with("~/")) {
-    const passwd* user = ::getpwuid(::getuid());
-    return (user == nullptr ? std::string{} : std::string{user->pw_dir}) + image.substr(1);
-  }
-  const std::size_t slash = yaml.rfind('/');
-  return slash == std::string::npos ? image : yaml.substr(0, slash + 1) + image;
-}
+/// Takes values and fills in the map.
+class Classifier {
+ public:
+  explicit Classifier(OccupancyMap& map) : map_(map) {}
 
-void read_pixels(const std::string& yaml, const Description& description, MapServerRules rules, OccupancyMap& map,
-                 const Execution& execution) {
-  const std::string path = image_path(yaml, description.image);
-  map.image = path;
-  Classifier classifier(description, rules, map);
-  const ImageSink sink{[&](const ImageHeader& header) { classifier.begin(header, execution); },
-                       [&](const PixelRun& run) { classifier.row(run); }};
+  void begin(const ImageHeader& header, const Execution& execution) {
+    map_.blocked = cell_bitmap(header.width, header.height, execution);
+    map_.unknown = cell_bitmap(header.width, header.height, execution);
+  }
+
+  void row(const PixelValues& values, const PixelRun& run) {
+    values.row(run, [&](std::uint32_t x, std::uint32_t y, std::int8_t value, const std::uint16_t* pixel) {
+      if (value == free_value) {
+        ++map_.free;
+        map_.grey_free += values.is_saved_unknown(pixel) ? 1 : 0;
+        return;
+      }
+      map_.blocked.set(x, y);
+      ++(value == occupied_value ? map_.occupied : value == unknown_value ? map_.unknown_count : map_.between);
+      if (value == unknown_value) map_.unknown.set(x, y);
+    });
+  }
+
+  void end() {
+    if (map_.unknown_count == 0) map_.unknown = Bitmap();
+  }
+
+ private:
+  OccupancyMap& map_;
+};
+
+/// Reads the image that the YAML names; answers its path.
+std::string read_pixels(const std::string& yaml, const Description& description, const ImageSink& sink,
+                        const Execution& execution) {
+  std::string path = path_beside(yaml, description.image);
   std::optional<InputFile> image;
   try {
     image.emplace(path, execution);
@@ -245,7 +249,16 @@ void read_pixels(const std::string& yaml, const Description& description, MapSer
                     std::string_view(error.what()).substr(std::string_view(error.what()).rfind(": ") + 2));
   }
   read_image(*image, sink, execution);
-  classifier.end();
+  return path;
+}
+
+Description read_description(const InputFile& yaml, const Execution& execution) {
+  const Description description = DescriptionReader(yaml, execution).read();
+  if (description.mode != Mode::raw && description.free_thresh > description.occupied_thresh) {
+    throw InputError(yaml.name(), "`free_thresh` must not be above `occupied_thresh`",
+                     fmt::format("{} > {}", description.free_thresh, description.occupied_thresh));
+  }
+  return description;
 }
 
 /// As it is where nothing in it means anything to YAML, else quoted.
@@ -269,19 +282,47 @@ std::string yaml_text(std::string_view text) {
 }  // namespace
 
 OccupancyMap read_ros_map(const InputFile& yaml, const Execution& execution, MapServerRules rules) {
-  const Description description = DescriptionReader(yaml, execution).read();
-  if (description.mode != Mode::raw && description.free_thresh > description.occupied_thresh) {
-    throw InputError(yaml.name(), "`free_thresh` must not be above `occupied_thresh`",
-                     fmt::format("{} > {}", description.free_thresh, description.occupied_thresh));
-  }
+  const Description description = read_description(yaml, execution);
   OccupancyMap map;
   map.format = MapFormat::ros;
   map.source = yaml.name();
   map.cell = description.resolution;
   map.origin = {description.origin[0], description.origin[1]};
   map.yaw_rad = description.origin[2];
-  read_pixels(yaml.name(), description, rules, map, execution);
+  PixelValues values(description, rules);
+  Classifier classifier(map);
+  const ImageSink sink{[&](const ImageHeader& header) {
+                         values.begin(header);
+                         classifier.begin(header, execution);
+                       },
+                       [&](const PixelRun& run) { classifier.row(values, run); }};
+  map.image = read_pixels(yaml.name(), description, sink, execution);
+  classifier.end();
   return map;
+}
+
+MaskCells read_mask(const InputFile& yaml, const Execution& execution, MapServerRules rules) {
+  const Description description = read_description(yaml, execution);
+  MaskCells mask;
+  mask.cell = description.resolution;
+  mask.origin = {description.origin[0], description.origin[1]};
+  mask.yaw_rad = description.origin[2];
+  PixelValues values(description, rules);
+  const ImageSink sink{[&](const ImageHeader& header) {
+                         values.begin(header);
+                         mask.width = header.width;
+                         mask.height = header.height;
+                         execution.reserve(std::size_t{mask.width} * mask.height);
+                         mask.values.resize(std::size_t{mask.width} * mask.height);
+                       },
+                       [&](const PixelRun& run) {
+                         values.row(run,
+                                    [&](std::uint32_t x, std::uint32_t y, std::int8_t value, const std::uint16_t*) {
+                                      mask.values[std::size_t{y} * mask.width + x] = value;
+                                    });
+                       }};
+  read_pixels(yaml.name(), description, sink, execution);
+  return mask;
 }
 
 std::string map_image_of(const std::string& yaml) { return yaml.substr(0, yaml.rfind('.')) + ".pgm"; }

@@ -12,6 +12,7 @@
 
 #include "parallel/execution.hpp"
 #include "scenes/scene/occupancy_map.hpp"
+#include "scenes/scene/prices.hpp"
 #include "scenes/text/input_file_io.hpp"
 
 namespace warren {
@@ -25,6 +26,9 @@ constexpr auto enum_names(MapServerRules) { return std::array<std::string_view, 
 /// ReadError naming the image and who asks for it, Stopped.
 OccupancyMap read_ros_map(const InputFile& yaml, const Execution& execution,
                           MapServerRules rules = MapServerRules::nav2);
+
+/// The same files as a mask: the values that a map server publishes. Throws as read_ros_map.
+MaskCells read_mask(const InputFile& yaml, const Execution& execution, MapServerRules rules = MapServerRules::nav2);
 
 /// NAME.pgm, the image that write_ros_map writes beside NAME.yaml.
 std::string map_image_of(const std::string& yaml);

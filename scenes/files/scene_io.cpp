@@ -18,8 +18,10 @@
 #include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
 #include "scenes/arms/solid_text.hpp"
+#include "scenes/files/mask_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/text/output_file_io.hpp"
+#include "scenes/text/price_text.hpp"
 #include "scenes/text/scene_text.hpp"
 
 namespace warren {
@@ -50,7 +52,7 @@ class SceneReader {
     bool once;
     void (SceneReader::*read)(Fields&);
   };
-  static constexpr std::size_t item_count = 18;
+  static constexpr std::size_t item_count = 24;
   static constexpr std::size_t numbers_per_look = 4096;
   static constexpr std::size_t most_named = 1024;  // joints
   static const std::array<Item, item_count> items;
@@ -61,7 +63,8 @@ class SceneReader {
     goal_item = 13,
     attach_item = 15,
     hold_item = 16,
-    allow_item = 17
+    allow_item = 17,
+    tool_item = 18
   };
 
   void refuse_other_encodings() const {
@@ -82,7 +85,7 @@ class SceneReader {
     item_ = std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.name == name; });
     if (item_ == items.end()) refuse_word(fields.place(), name, line);
     std::size_t& first = first_lines_[static_cast<std::size_t>(item_ - items.begin())];
-    const bool one_of_several = item_ == &items[goal_item] && !scene_.named_goals.empty();
+    const bool one_of_several = item_ == &items[goal_item] && !scene_.goal_pose;
     if (item_->once && first != 0 && !one_of_several) {
       fields.place().fail(fmt::format("a second `{}` line; the first is line {}", name, first), line);
     }
@@ -174,6 +177,10 @@ class SceneReader {
     warren::read_allow(fields, arm());
     check_done(fields);
   }
+  void read_tool(Fields& fields) {
+    arm().tool = word_of(fields);
+    check_done(fields);
+  }
   void read_bounds(Fields& fields) {
     const std::vector<double>& n = numbers(fields, 4, 4);
     if (!(n[0] < n[2])) refuse(fields.place(), fmt::format("XMIN must be less than XMAX = {}", n[2]), n[0]);
@@ -197,14 +204,17 @@ class SceneReader {
       scene_.named_start = named_state(fields, word_of(fields));
     }
   }
-  /// Several goals are all by names.
+  /// Several goals are all by names, or all of the plane.
   void read_goal(Fields& fields) {
     const bool has_word = !fields.done() && !fields.number_follows();
     const std::string word = has_word ? word_of(fields) : std::string();
-    if (!scene_.named_goals.empty() && word != "joints") {
-      fields.place().fail("goals are several where all are `goal joints NAME VALUE ...`");
+    if ((!scene_.named_goals.empty() && word != "joints") || (!scene_.goal.empty() && has_word)) {
+      fields.place().fail("goals are several where all are `goal joints NAME VALUE ...` or all `goal X Y [THETA]`");
     }
-    if (!has_word) {
+    if (!has_word && !scene_.goal.empty()) {
+      push_asked(scene_.other_goals, state(fields), execution_);
+      check_other_goal(fields.place());
+    } else if (!has_word) {
       scene_.goal = state(fields);
     } else if (word == "pose") {
       scene_.goal_pose = pose(fields);
@@ -214,6 +224,13 @@ class SceneReader {
   }
   /// 2, 3 or 6 numbers; of an arm of files as many as it has joints, which is known at the end.
   std::vector<double> state(Fields& fields) { return numbers(fields, 1, most_joints); }
+  void check_other_goal(const Place& place) const {
+    for (const std::size_t count : {scene_.goal.size(), scene_.other_goals.back().size()}) {
+      if (count == 2 || count == 3) continue;
+      place.fail("several goals are places of the plane, `goal X Y [THETA]` each",
+                 fmt::format("{} number{}", count, count == 1 ? "" : "s"));
+    }
+  }
   NamedState named_state(Fields& fields, std::string_view word) {
     if (word != "joints" || fields.done()) fields.place().fail(fmt::format("expected `{}`", item_->usage), word);
     NamedState state;
@@ -256,6 +273,14 @@ class SceneReader {
     return static_cast<std::uint32_t>(value);
   }
 
+  void read_prices(Fields& fields) {
+    const auto word = std::ranges::find(price_line_words, item_->name, &PriceWord::name);
+    read_price(*word, fields, scene_.prices, execution_);
+    if (item_->name == "mask") {
+      std::string& file = scene_.prices.masks.back().file;
+      file = path_beside(file_.name(), file);
+    }
+  }
   void read_robot(Fields& fields) { scene_.robot = warren::read_robot(fields, execution_); }
   void check_whole() const;
   void check_state(const std::vector<double>& given, ItemNumber item) const;
@@ -293,6 +318,12 @@ const std::array<SceneReader::Item, SceneReader::item_count> SceneReader::items 
      &SceneReader::read_attach},
     {"hold", "hold JOINT VALUE", false, &SceneReader::read_hold},
     {"allow", "allow LINK LINK", false, &SceneReader::read_allow},
+    {"tool", "tool LINK", true, &SceneReader::read_tool},
+    {price_line_words[0].name, price_line_words[0].usage, price_line_words[0].once, &SceneReader::read_prices},
+    {price_line_words[1].name, price_line_words[1].usage, price_line_words[1].once, &SceneReader::read_prices},
+    {price_line_words[2].name, price_line_words[2].usage, price_line_words[2].once, &SceneReader::read_prices},
+    {price_line_words[3].name, price_line_words[3].usage, price_line_words[3].once, &SceneReader::read_prices},
+    {price_line_words[4].name, price_line_words[4].usage, price_line_words[4].once, &SceneReader::read_prices},
 }};
 
 void SceneReader::check_whole() const {
@@ -302,14 +333,20 @@ void SceneReader::check_whole() const {
   }
   check_state(scene_.start, start_item);
   check_state(scene_.goal, goal_item);
+  for (const std::vector<double>& goal : scene_.other_goals) check_state(goal, goal_item);
   check_arm_lines();
   if (scene_.maze) check_maze();
 }
 
 /// Without a robot's line the question names an arm, or says what is wrong.
 void SceneReader::check_arm_lines() const {
+  const bool has_plane_robot = !scene_.robot || scene_.robot->kind == RobotKind::point ||
+                               scene_.robot->kind == RobotKind::disc || state_size(*scene_.robot) == 3;
+  if (!scene_.other_goals.empty() && !has_plane_robot) {
+    place_of(goal_item).fail("an arm's goals are several where all are `goal joints NAME VALUE ...`");
+  }
   if (!scene_.robot || scene_.robot->kind == RobotKind::urdf) return;
-  for (const ItemNumber item : {attach_item, hold_item, allow_item}) {
+  for (const ItemNumber item : {attach_item, hold_item, allow_item, tool_item}) {
     if (first_lines_[item] > 0) place_of(item).fail(fmt::format("`{}` takes a `robot urdf`", items[item].name));
   }
   const bool has_names = scene_.named_start.has_value();
@@ -465,6 +502,7 @@ void append_pose(std::string& text, const Eigen::Isometry3d& pose) {
 void append_arm(std::string& text, const ArmFiles& arm) {
   for (const auto& [joint, value] : arm.held) text += fmt::format("hold {} {}\n", joint, number(value));
   for (const auto& [first, second] : arm.allowed) text += fmt::format("allow {} {}\n", first, second);
+  if (!arm.tool.empty()) text += fmt::format("tool {}\n", arm.tool);
   for (const AttachedSolid& attached : arm.attached) {
     text += "attach " + attached.link;
     for (const std::string& link : attached.may_touch) text += ' ' + link;
@@ -472,7 +510,7 @@ void append_arm(std::string& text, const ArmFiles& arm) {
   }
 }
 
-std::string head_of(const Scene& scene) {
+std::string head_of(const Scene& scene, const std::string& path) {
   std::string text;
   if (scene.maze) append_line(text, "maze", scene.maze->rows, scene.maze->cols);
   if (scene.bounds) {
@@ -483,11 +521,14 @@ std::string head_of(const Scene& scene) {
   if (scene.robot) append_robot(text, *scene.robot);
   append_state(text, "start", scene.start);
   append_state(text, "goal", scene.goal);
+  for (const std::vector<double>& goal : scene.other_goals) append_state(text, "goal", goal);
   if (scene.named_start) append_named(text, "start", *scene.named_start);
   for (const NamedState& goal : scene.named_goals) append_named(text, "goal", goal);
   if (scene.goal_pose) append_pose(text, *scene.goal_pose);
   if (scene.grid) append_line(text, "grid", scene.grid->cell, scene.grid->angles);
   if (scene.arm) append_arm(text, *scene.arm);
+  const auto name = [&](const std::string& file) { return name_beside(path, file); };
+  for (const std::string& line : price_lines(scene.prices, name)) text += line + '\n';
   return text;
 }
 
@@ -525,14 +566,10 @@ void write_items(std::size_t count, std::size_t chunk, const SceneTextSink& writ
   }
 }
 
-}  // namespace
-
-Scene read_scene_text(const InputFile& file, const Execution& execution) { return SceneReader(file, execution).read(); }
-
-/// The writer of scene text: shortest decimal numbers that read back the same, half-integers (mazes) by integer digits.
-/// Walls are formatted in parallel, a batch of chunks at a time, and written in their order.
-void write_scene_text(const Scene& scene, const SceneTextSink& write, const Execution& execution) {
-  write(head_of(scene));
+/// Shortest decimal numbers that read back the same, half-integers (mazes) by integer digits. Walls are formatted in
+/// parallel, a batch of chunks at a time, and written in their order. `path`: of the file, beside which masks are.
+void write_text(const Scene& scene, const std::string& path, const SceneTextSink& write, const Execution& execution) {
+  write(head_of(scene, path));
   write_items(scene.polygons.size(), line_grain / 16, write, execution, [&](std::string& text, std::size_t i) {
     append_points(text, "polygon", scene.polygons[i].corners, execution);
   });
@@ -543,11 +580,19 @@ void write_scene_text(const Scene& scene, const SceneTextSink& write, const Exec
   });
 }
 
+}  // namespace
+
+Scene read_scene_text(const InputFile& file, const Execution& execution) { return SceneReader(file, execution).read(); }
+
+void write_scene_text(const Scene& scene, const SceneTextSink& write, const Execution& execution) {
+  write_text(scene, "-", write, execution);
+}
+
 void write_scene_text(const Scene& scene, const std::string& path, const Execution& execution) {
   if (execution.progress != nullptr) execution.progress->begin("write", scene.polygons.size() + scene.walls.size());
   OutputFile file(path, execution);
-  write_scene_text(
-      scene, [&](std::string_view text) { file.write(text); }, execution);
+  write_text(
+      scene, path, [&](std::string_view text) { file.write(text); }, execution);
   file.commit();
 }
 

@@ -134,6 +134,7 @@ RobotSpec with_what_is_said(RobotSpec robot, const Scene& scene) {
   const ArmFiles& said = *scene.arm;
   const bool has_group = !files.group.empty() || !files.base.empty() || !files.tip.empty();
   if (!has_group) files.group = said.group;
+  if (files.tool.empty()) files.tool = said.tool;
   for (const auto& joint : said.held) {
     const auto same = [&](const auto& other) { return other.first == joint.first; };
     if (std::ranges::none_of(files.held, same)) files.held.push_back(joint);

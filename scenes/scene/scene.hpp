@@ -21,6 +21,7 @@
 #include "parallel/execution.hpp"
 #include "scenes/scene/arm_model.hpp"
 #include "scenes/scene/occupancy_map.hpp"
+#include "scenes/scene/prices.hpp"
 
 namespace warren {
 
@@ -89,7 +90,8 @@ struct ArmFiles {
   std::vector<std::pair<std::string, double>> held = {};  ///< joints outside of the group, and where they are
   std::vector<std::array<std::string, 2>> allowed = {};   ///< pairs of links that may touch, beside the SRDF's
   std::vector<AttachedSolid> attached = {};               ///< what the arm carries
-  std::optional<ArmModel> read = {};                      ///< what the files say, where somebody has read them
+  std::string tool = {};  ///< the link whose frame the tool is; empty: the group's tip, or what hangs on its last joint
+  std::optional<ArmModel> read = {};  ///< what the files say, where somebody has read them
 };
 
 /// A state of an arm by its joints' names: where their order is not known yet.
@@ -139,12 +141,14 @@ struct Scene {
   /// Of the arm, beside what its robot's line says: group, joints held, links that may touch, attached solids; `urdf`
   /// is empty. with_what_is_said() joins the two.
   std::optional<ArmFiles> arm;
-  std::vector<double> start;                   ///< 2, 3 or 6 numbers, of an arm of files up to 14; empty: none
-  std::vector<double> goal;                    ///< the same; an arm's 3 are a place of its tool
-  std::optional<NamedState> named_start;       ///< instead of `start`
-  std::vector<NamedState> named_goals;         ///< instead of `goal`; any of them
-  std::optional<Eigen::Isometry3d> goal_pose;  ///< of the arm's tool, instead of `goal`
-  std::optional<GridSpec> grid;                ///< that the file asks for
+  std::vector<double> start;                     ///< 2, 3 or 6 numbers, of an arm of files up to 14; empty: none
+  std::vector<double> goal;                      ///< the same; an arm's 3 are a place of its tool
+  std::optional<NamedState> named_start;         ///< instead of `start`
+  std::vector<std::vector<double>> other_goals;  ///< beside `goal`, of the plane; any of them
+  std::vector<NamedState> named_goals;           ///< instead of `goal`; any of them
+  std::optional<Eigen::Isometry3d> goal_pose;    ///< of the arm's tool, instead of `goal`
+  std::optional<GridSpec> grid;                  ///< that the file asks for
+  Prices prices;                                 ///< of places and of nearness, that the file asks for
   /// Cells instead of walls and polygons. Walls beside a map are its own borders (add_map_walls) and no obstacles more.
   std::optional<OccupancyMap> map;
   std::string source;  ///< file name or maze:... as given

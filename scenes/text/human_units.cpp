@@ -41,6 +41,12 @@ std::string human_bytes(double bytes) {
   return fmt::format("{:.{}f} {}", bytes, unit == 0 || bytes >= 100.0 ? 0 : 1, units[unit]);
 }
 
+std::string stop_text(StopReason reason, std::size_t wanted_bytes) {
+  std::string text{text_of(reason)};
+  if (reason != StopReason::memory || wanted_bytes == 0) return text;
+  return text + fmt::format(", {} at least", human_bytes(static_cast<double>(wanted_bytes)));
+}
+
 std::string grouped(std::uint64_t count) {
   const std::string digits = std::to_string(count);
   std::string text;

@@ -2,9 +2,12 @@
 // Numbers as people read them: "12.3 M", "4.1 ms", "8.6 MiB", "1 683".
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
+
+#include "core/base/solution.hpp"
 
 namespace warren {
 
@@ -16,6 +19,9 @@ std::string grouped(std::uint64_t count);     ///< 1 683 000, by groups of three
 /// "1 wall", "1 683 walls"
 std::string counted(std::uint64_t count, std::string_view one, std::string_view many);
 std::string human_number(double value);  ///< six significant digits, and all before the point up to 1e15
+
+/// Why it was stopped, with the memory that was wanted where that is known (> 0).
+std::string stop_text(StopReason reason, std::size_t wanted_bytes);
 
 /// CSV as RFC 4180 has it: fields between commas, quoted where they must be. A text as a field, made printable (so it
 /// has no ends of lines): in quotes where it holds a comma or a quote.

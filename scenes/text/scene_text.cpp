@@ -238,6 +238,7 @@ class RobotReader {
                                 : name == "group" ? &files.group
                                 : name == "base"  ? &files.base
                                 : name == "tip"   ? &files.tip
+                                : name == "tool"  ? &files.tool
                                                   : nullptr;
       if (once != nullptr && once->empty()) {
         *once = urdf_word(name);
@@ -295,6 +296,7 @@ std::string urdf_words(const ArmFiles& files) {
   add("group", files.group);
   add("base", files.base);
   add("tip", files.tip);
+  add("tool", files.tool);
   for (const std::string& package : files.packages) add("package-path", package);
   for (const auto& [joint, value] : files.held) words += fmt::format(" hold {} {}", joint, value + 0.0);
   for (const auto& [one, other] : files.allowed) words += fmt::format(" allow {} {}", one, other);

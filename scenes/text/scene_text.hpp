@@ -88,8 +88,8 @@ inline constexpr std::string_view robot_usage =
     "puma560 radius R [tool T] [limits classic|symmetric] [self-collision]|arm FILE radius R [tool T] [self-collision]|"
     "urdf FILE [srdf FILE] [group NAME] ...";
 inline constexpr std::string_view urdf_usage =
-    "robot urdf FILE [srdf FILE] [group NAME | base LINK tip LINK] [package-path DIR] ... [hold JOINT VALUE] ... "
-    "[allow LINK LINK] ...";
+    "robot urdf FILE [srdf FILE] [group NAME | base LINK tip LINK] [tool LINK] [package-path DIR] ... "
+    "[hold JOINT VALUE] ... [allow LINK LINK] ...";
 inline constexpr std::string_view car_usage =
     "robot car radius R|polygon X Y X Y X Y ... turning RHO [steering dubins|reeds-shepp]";
 

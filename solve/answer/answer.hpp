@@ -114,6 +114,37 @@ struct BlockedEnd {
   std::optional<double> depth = {};
 };
 
+/// Where a path ends that had a choice, and what was asked.
+struct GoalReached {
+  std::vector<double> asked;             ///< the goal that was meant
+  double distance = 0.0;                 ///< of the path's end to it
+  std::optional<double> distance_bound;  ///< proved: no place that can be reached is nearer
+};
+
+/// The cheapest path of another homotopy class.
+struct AlternativePath {
+  double cost = 0.0;                 ///< as Answer::cost
+  double length = 0.0;               ///< as Answer::length
+  PriceParts price;                  ///< as Answer::price
+  double min_clearance = 0.0;        ///< as Answer::min_clearance
+  std::vector<std::int32_t> passed;  ///< its class: holes whose cuts it crosses, below 0 from the other side
+  Path<Vec2> path;                   ///< as Answer::path
+};
+
+/// What makes homotopy classes on a map: cells that a body's middle may not enter, which hang together by sides or
+/// corners and do not reach the map's border.
+struct MapHole {
+  std::uint32_t id = 0;  ///< from 1, by the lowest cell of each, row by row from below
+  Box box;               ///< around its cells, in world coordinates
+};
+
+/// What became of an older path that was to be kept.
+struct KeptRoute {
+  bool kept = false;                ///< does the path go on along it?
+  std::optional<double> kept_cost;  ///< of its rest, with the leg that joins it; none: it is not free
+  std::optional<double> new_cost;   ///< of the path that was planned anew; none: there is none
+};
+
 /// What is left to say of a path whose points were handed on as they were made (core/base/solution.hpp).
 struct HandedPath {
   std::uint64_t points = 0;  ///< their number
@@ -135,17 +166,26 @@ struct Answer {
   std::optional<double> lower_bound;  ///< proved: no path has less cost or, where that is not told, length
   std::vector<Improvement> improvements;  ///< of planners that get better with time: each path that was the best so far
   std::optional<std::uint64_t> iterations;  ///< the turns that these have done: as many give the same answer
-  std::string ended_by;        ///< of these: optimum, gap, iterations, caller, or as stop_reason; empty: of the others
-  std::optional<double> cost;  ///< in the planner's own units, where that is not the length
-  std::optional<double> turn_rad;    ///< all turning along the path, of bodies that turn
-  Problem problem;                   ///< what was asked, with what the world's file and the defaults add
-  WorldAccount world;                ///< of which world
-  std::string planner;               ///< who found it: "prm", "rrt-connect", …
-  std::string pipeline;              ///< plain, tiled or streamed; only for prm
-  std::string sampler;               ///< empty: the planner has none
-  std::string search;                ///< empty: the planner has none
-  std::uint64_t seed = 1;            ///< of all that was random
-  unsigned threads = 1;              ///< that worked
+  std::string ended_by;  ///< of these: optimum, lattice, gap, iterations, caller, or as stop_reason; empty: others
+  std::optional<double> cost;       ///< in the planner's own units, where that is not the length
+  std::optional<PriceParts> price;  ///< where prices were asked: then cost is length and all its parts
+  std::string bound_of;             ///< of a priced lower bound: "all" paths, or those over the "lattice"; else empty
+  std::optional<std::uint64_t> goal_index;    ///< of several goals, from 0: the one that is reached
+  std::optional<GoalReached> goal_reached;    ///< where the question left a choice of places
+  std::vector<std::uint64_t> order;           ///< of places to visit, from 0, as they are visited
+  std::vector<AlternativePath> alternatives;  ///< the cheapest first; the answer's own path is none of them
+  std::vector<std::int32_t> passed;           ///< where alternatives were asked: the class of the answer's own path
+  std::vector<MapHole> holes;                 ///< those that the classes name
+  std::optional<KeptRoute> keeping;           ///< where an older path was to be kept
+  std::optional<double> turn_rad;             ///< all turning along the path, of bodies that turn
+  Problem problem;                            ///< what was asked, with what the world's file and the defaults add
+  WorldAccount world;                         ///< of which world
+  std::string planner;                        ///< who found it: "prm", "rrt-connect", …
+  std::string pipeline;                       ///< plain, tiled or streamed; only for prm
+  std::string sampler;                        ///< empty: the planner has none
+  std::string search;                         ///< empty: the planner has none
+  std::uint64_t seed = 1;                     ///< of all that was random
+  unsigned threads = 1;                       ///< that worked
   std::vector<NamedFigure> options;  ///< those that were given, and those that were chosen where that tells something
   RoadmapSize roadmap;               ///< that was searched
   std::optional<CellCount> cells;    ///< of planners that make some
@@ -156,6 +196,7 @@ struct Answer {
   StageTimes seconds;                     ///< of each stage, wall-clock
   std::vector<StageCost> costs;           ///< of each link of the chain that solve() ran, verifying included
   double solve_s = 0.0;                   ///< of the whole call, wall-clock
+  std::size_t wanted_memory_bytes = 0;    ///< stopped by memory: the least that it needs, as far as known; else 0
   std::size_t peak_memory_bytes = 0;      ///< the most that the process has held so far
   Path<Vec2> path;  ///< of the reference point in the plane, as pictures show it; a point's or disc's states
   std::optional<HandedPath> handed;  ///< instead of `path`, where solve_within() was given a taker and used it
@@ -175,6 +216,13 @@ inline std::optional<double> gap_of(const Answer& answer) {
 inline std::uint64_t path_points(const Answer& answer) {
   if (answer.handed) return answer.handed->points;
   return answer.states.empty() ? answer.path.size() : answer.states.size();
+}
+
+/// What the process has held, and what was refused it. Called where an answer is complete.
+inline void tell_memory(Answer& answer, const Execution& execution) {
+  answer.peak_memory_bytes = peak_resident_bytes();
+  const bool is_refused = answer.stop_reason == StopReason::memory && execution.deadline != nullptr;
+  answer.wanted_memory_bytes = is_refused ? execution.deadline->wanted_bytes() : 0;
 }
 
 /// Stages with the names that JSON and summary give them, in the order of the work.

@@ -46,9 +46,13 @@ std::vector<Fact> facts_of(const ArmModel& model) {
     if (solids[kind] > 0) facts.push_back(counted_fact(kinds[kind], solids[kind]));
   }
   facts.push_back(counted_fact("pairs", model.pairs.size()));
-  for (std::size_t i = 0; i < model.assumed.size(); ++i) {
-    facts.push_back({fmt::format("assumed {}", i + 1), model.assumed[i], json_string(model.assumed[i])});
-  }
+  const auto add_lines = [&](const char* name, const std::vector<std::string>& lines) {
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      facts.push_back({fmt::format("{} {}", name, i + 1), lines[i], json_string(lines[i])});
+    }
+  };
+  add_lines("assumed", model.assumed);
+  add_lines("told", model.told);
   return facts;
 }
 

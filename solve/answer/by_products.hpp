@@ -5,10 +5,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/bitmap.hpp"
+#include "core/base/cell_potential.hpp"
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
 #include "core/plane/se2.hpp"
@@ -59,6 +61,9 @@ struct ByProducts {
   /// far, the oldest first, at most most_improved; curves as chords. The planner adds each path before it tells
   /// Execution::on_improvement of it, on the same thread: whoever is told may look at the last.
   PolygonSet improved;
+  bool wants_certificate = false;  ///< shall there be the next one? Then the bound is what it proves
+  /// Of a bound of all paths on a map, the proof.
+  std::optional<CellPotential> certificate;
 };
 
 }  // namespace warren

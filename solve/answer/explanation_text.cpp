@@ -290,6 +290,7 @@ std::string notes_text(const Answer& answer, const Palette& palette) {
   if (!answer.explained) add("samples", samples_note(answer));
   add("note", lazy_note(answer));
   add("note", doors_note(answer));
+  for (const std::string& line : answer.problem.told) add("note", line);
   return text;
 }
 

@@ -3,12 +3,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.hpp"
+#include "core/base/whole.hpp"
 #include "scenes/text/json_text.hpp"
+#include "scenes/text/price_text.hpp"
 #include "scenes/text/scene_text.hpp"
+#include "solve/question/asked_words.hpp"
 
 namespace warren {
 namespace {
@@ -29,7 +34,10 @@ class AnswerReader {
   AnswerReader(const std::string& file, const Execution& execution) : file_(file), execution_(execution) {}
 
   bool null() { return other("null"); }
-  bool boolean(bool) { return other("true or false"); }
+  bool boolean(bool value) {
+    if (in("return")) answer_.problem.rule.back = value;
+    return in("return") || other("true or false");
+  }
   bool number_integer(Json::number_integer_t value) { return number(static_cast<double>(value)); }
   bool number_unsigned(Json::number_unsigned_t value) { return number(static_cast<double>(value)); }
   bool number_float(Json::number_float_t value, const std::string&) { return number(value); }
@@ -39,6 +47,10 @@ class AnswerReader {
       answer_.problem.contact = text == "allowed" ? Contact::allowed : Contact::blocked;
     } else if (in("robot")) {
       answer_.problem.robot = robot_value(fmt::format("{}: key \"robot\"", file_), text);
+    } else if (in("prices") && arrays_ == 1) {
+      take_price(text);
+    } else if (in("goal_tolerance") && text == "inf") {
+      answer_.problem.rule.tolerance = std::numeric_limits<double>::infinity();
     } else if (objects_ == 2 && key_ == "world" && inner_key_ == "hash") {
       answer_.world_hash = text;
     } else {
@@ -49,7 +61,8 @@ class AnswerReader {
   bool binary(Json::binary_t&) { return false; }
   bool start_object(std::size_t) {
     if (in("path")) refuse(path_expected, "an object");
-    if (in_state()) refuse(point_expected, "an object");
+    if (in_state() || in_states()) refuse(point_expected, "an object");
+    if (in("price")) answer_.price.emplace();
     ++objects_;
     began_ = true;
     return true;
@@ -72,7 +85,7 @@ class AnswerReader {
   }
   bool start_array(std::size_t) {
     if (objects_ == 0) refuse_kind();
-    if (in("path") && arrays_ >= 2) refuse(path_expected, "a deeper list");
+    if ((in("path") || in_states()) && arrays_ >= 2) refuse(path_expected, "a deeper list");
     if (in_number()) refuse("a number", "a list");
     ++arrays_;
     numbers_.clear();
@@ -81,6 +94,10 @@ class AnswerReader {
   bool end_array() {
     --arrays_;
     if (in("path") && arrays_ == 1) end_point();
+    if (in_states() && arrays_ == 1) {
+      if (numbers_.size() < 2) refuse(point_expected, fmt::format("{} numbers", numbers_.size()));
+      (in("goals") ? goals_ : answer_.problem.rule.visit).push_back(numbers_);
+    }
     if (in("start") && arrays_ == 0) answer_.problem.start = numbers_;
     if (in("goal") && arrays_ == 0) answer_.problem.goal = numbers_;
     if (in("goal_pose") && arrays_ == 0) take_pose();
@@ -99,16 +116,45 @@ class AnswerReader {
       const bool of_arm = answer_.problem.robot && answer_.problem.robot->kind == RobotKind::urdf;
       if (state->size() == 1 && !of_arm) refuse(point_expected);
     }
+    GoalRule& rule = answer_.problem.rule;
+    if (!goals_.empty()) rule.others.assign(goals_.begin() + 1, goals_.end());  // the first is "goal"
+    if (answer_.price) answer_.price->error = cost_error_;
+    try {
+      check_prices(answer_.problem.prices);
+      check_goal_rule(rule);
+    } catch (const UsageError& error) {
+      throw InputError(file_, error.spelled("", '_'));
+    }
     return std::move(answer_);
   }
 
  private:
+  void take_price(const std::string& line) {
+    const std::string where = fmt::format("{}: key \"prices\"", file_);
+    scene_text::Fields fields(line, {where, 0});
+    const std::string_view name = fields.word();
+    const auto word = std::ranges::find(price_line_words, name, &PriceWord::name);
+    if (word == price_line_words.end()) refuse("lines of a scene's prices", line);
+    read_price(*word, fields, answer_.problem.prices, execution_);
+  }
+  void take_part(double value) {
+    PriceParts& parts = *answer_.price;
+    double* const part = inner_key_ == "clearance" ? &parts.clearance
+                         : inner_key_ == "areas"   ? &parts.areas
+                         : inner_key_ == "turning" ? &parts.turning
+                         : inner_key_ == "cusps"   ? &parts.cusps
+                         : inner_key_ == "reverse" ? &parts.reverse
+                                                   : nullptr;
+    if (part != nullptr) *part = value;
+  }
   bool number(double value) {
     if (!began_) refuse_kind();
-    const bool wanted = in("path") || in_state() || in_number();
+    const bool wanted = in("path") || in_state() || in_states() || in_number();
     if (wanted && !(std::abs(value) <= largest_coordinate)) refuse("finite numbers of at most 1e60");
     if (in("path") && arrays_ != 2) refuse(path_expected, "a number");
+    if (in_states() && arrays_ != 2) refuse(path_expected, "a number");
     if (in_state() && arrays_ != 1) refuse(point_expected, "a number");
+    if (objects_ == 2 && arrays_ == 0 && key_ == "price" && answer_.price) take_part(value);
     if (in("clearance")) {
       if (value < 0.0) refuse("a number of at least 0", fmt::format("{}", value));
       answer_.problem.clearance = value;
@@ -116,6 +162,11 @@ class AnswerReader {
     if (in("length")) answer_.length = value;
     if (in("lower_bound")) answer_.lower_bound = value;
     if (in("cost")) answer_.cost = value;
+    if (in("cost_error")) cost_error_ = value;
+    if (in("goal_tolerance")) answer_.problem.rule.tolerance = value;
+    if (in("goal_region")) answer_.problem.rule.region = value;
+    if (in("goal_heading_rad")) answer_.problem.rule.heading_rad = value;
+    if (in("goal_index") && arrays_ == 0 && value >= 0.0) answer_.goal_index = bounded_whole<std::uint64_t>(value);
     if (wanted && arrays_ > 0) {
       if (numbers_.size() >= longest_state) refuse(in("path") ? path_expected : point_expected, "more numbers");
       numbers_.push_back(value);
@@ -126,7 +177,7 @@ class AnswerReader {
   bool other(const char* found) {
     if (in("path")) refuse(path_expected, found);
     const bool missing = std::string_view(found) == "null" && arrays_ == 0;
-    if (in_state() && !missing) refuse(point_expected, found);
+    if ((in_state() || in_states()) && !missing) refuse(point_expected, found);
     if (in_number() && !missing) refuse("a number", found);
     if (in("contact") && !missing) refuse("\"allowed\" or \"blocked\"", found);
     if (!began_) refuse_kind();
@@ -145,7 +196,11 @@ class AnswerReader {
     if (!(turn.norm() > 0.0)) refuse("[X, Y, Z, QX, QY, QZ, QW]");
     answer_.problem.goal_pose = Eigen::Translation3d(numbers_[0], numbers_[1], numbers_[2]) * turn.normalized();
   }
-  bool in_number() const { return in("clearance") || in("length") || in("lower_bound") || in("cost"); }
+  bool in_states() const { return in("goals") || in("visit"); }
+  bool in_number() const {
+    return in("clearance") || in("length") || in("lower_bound") || in("cost") || in("cost_error") ||
+           in("goal_tolerance") || in("goal_region") || in("goal_heading_rad");
+  }
   void end_point() {
     constexpr std::size_t batch = 1 << 14;
     const std::size_t width = answer_.path.empty() ? numbers_.size() : answer_.state_width();
@@ -166,6 +221,8 @@ class AnswerReader {
   std::string inner_key_;  // of an object in it
   int objects_ = 0;
   int arrays_ = 0;
+  std::vector<std::vector<double>> goals_;  // all, where there are several
+  double cost_error_ = 0.0;
   std::vector<double> numbers_;  // of the array that is being read
   bool has_path_ = false;
   bool began_ = false;
@@ -180,6 +237,8 @@ RecordedAnswer recorded(const Answer& answer) {
   record.length = answer.length;
   record.lower_bound = answer.lower_bound;
   record.cost = answer.cost;
+  record.price = answer.price;
+  record.goal_index = answer.goal_index;
   record.file = "answer";
   record.path = answer.path;
   record.states = answer.states;
@@ -211,6 +270,15 @@ RecordedAnswer read_answer(const InputFile& input, const Execution& execution) {
   RecordedAnswer answer = reader.finish();
   answer.file = input.name();
   return answer;
+}
+
+std::vector<std::vector<double>> states_of(const RecordedAnswer& answer) {
+  std::vector<std::vector<double>> states;
+  for (std::size_t i = 0; i < answer.states.size(); ++i)
+    states.emplace_back(answer.states[i].begin(), answer.states[i].end());
+  if (!states.empty()) return states;
+  for (const Vec2 p : answer.path) states.push_back({p.x, p.y});
+  return states;
 }
 
 void check_state_width(const RecordedAnswer& answer, std::size_t width, std::string_view body) {

@@ -3,12 +3,14 @@
 // a path of millions of points takes its own memory only.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/base/cell_potential.hpp"
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "parallel/execution.hpp"
@@ -21,14 +23,17 @@ namespace warren {
 
 /// A path that a file holds, and what it says of its problem: the program's own answers, or a path of anybody.
 struct RecordedAnswer {
-  Question problem;                       ///< what the answer says of the problem
-  std::optional<std::string> world_hash;  ///< of the world that it is for; none: the file doesn't say
-  std::optional<double> length;           ///< that it claims
-  std::optional<double> lower_bound;      ///< the same
-  std::optional<double> cost;             ///< the same; with a lower bound, which is of it then
-  std::string file;                       ///< where it stands, for messages
-  Path<Vec2> path;                        ///< where a state has two numbers
-  StateList states;                       ///< where a state has more than two; then `path` is their first two
+  Question problem;                          ///< what the answer says of the problem
+  std::optional<std::string> world_hash;     ///< of the world that it is for; none: the file doesn't say
+  std::optional<double> length;              ///< that it claims
+  std::optional<double> lower_bound;         ///< the same
+  std::optional<double> cost;                ///< the same; with a lower bound, which is of it then
+  std::optional<PriceParts> price;           ///< the same
+  std::optional<std::uint64_t> goal_index;   ///< of several goals, the one that it says is reached
+  std::optional<CellPotential> certificate;  ///< of the lower bound of all paths, from a file beside the answer
+  std::string file;                          ///< where it stands, for messages
+  Path<Vec2> path;                           ///< where a state has two numbers
+  StateList states;                          ///< where a state has more than two; then `path` is their first two
 
   /// Numbers a state.
   std::size_t state_width() const { return states.empty() ? 2 : states.width; }
@@ -39,10 +44,14 @@ RecordedAnswer recorded(const Answer& answer);
 /// A path alone, as states of as many numbers each.
 RecordedAnswer recorded(std::span<const std::vector<double>> states);
 
-/// "-" is standard input. Throws ReadError, InputError naming file and key, Stopped.
+/// Masks are named, not read: read_masks() does. "-" is standard input. Throws ReadError, InputError naming file and
+/// key, Stopped.
 RecordedAnswer read_answer(const std::string& file, const Execution& execution);
 /// The same for a file that is open already.
 RecordedAnswer read_answer(const InputFile& input, const Execution& execution);
+
+/// All states of its path.
+std::vector<std::vector<double>> states_of(const RecordedAnswer& answer);
 
 /// Throws InputError unless each state of the path has so many numbers; `body` is whose they are.
 void check_state_width(const RecordedAnswer& answer, std::size_t width, std::string_view body);

@@ -10,6 +10,7 @@
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/json_text.hpp"
+#include "scenes/text/price_text.hpp"
 #include "solve/question/question.hpp"
 
 namespace warren {
@@ -141,6 +142,20 @@ std::vector<Fact> obstacle_facts(const Scene& scene, const WorldAccount& world, 
   return facts;
 }
 
+/// How many there are of each; the whole lines in JSON.
+Fact prices_fact(const Prices& prices) {
+  std::string text;
+  const auto add = [&](const std::string& words) { text += (text.empty() ? "" : ", ") + words; };
+  if (const auto& clearance = prices.clearance) add(fmt::format("nearness {}", rounded_text(clearance->price)));
+  if (!prices.areas.empty()) add(counted(prices.areas.size(), "area", "areas"));
+  if (!prices.masks.empty()) add(counted(prices.masks.size(), "mask", "masks"));
+  if (!prices.keep_out.empty()) add(counted(prices.keep_out.size(), "forbidden area", "forbidden areas"));
+  if (prices.unknown) add(fmt::format("unknown {}", rounded_text(*prices.unknown)));
+  std::string json = "[";
+  for (const std::string& line : price_lines(prices)) json += (json.size() > 1 ? ", " : "") + json_string(line);
+  return {"prices", std::move(text), json + "]"};
+}
+
 void add_problem_facts(const Scene& scene, std::vector<Fact>& facts) {
   if (scene.maze) {
     facts.push_back({"maze", fmt::format("{} rows, {} columns", scene.maze->rows, scene.maze->cols),
@@ -150,6 +165,8 @@ void add_problem_facts(const Scene& scene, std::vector<Fact>& facts) {
   if (scene.robot) facts.push_back(text_fact("robot", robot_text(*scene.robot)));
   if (!scene.start.empty()) facts.push_back(state_fact("start", scene.start));
   if (!scene.goal.empty()) facts.push_back(state_fact("goal", scene.goal));
+  if (!scene.other_goals.empty()) facts.push_back(count_fact("other goals", scene.other_goals.size()));
+  if (!scene.prices.empty()) facts.push_back(prices_fact(scene.prices));
   if (scene.grid) {
     facts.push_back({"grid", fmt::format("cell {}, {} angles", rounded_text(scene.grid->cell), scene.grid->angles),
                      fmt::format("[{}, {}]", json_number(scene.grid->cell), scene.grid->angles)});

@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <span>
 #include <string_view>
 #include <type_traits>
 #include <variant>
 
 #include "scenes/scene/arm_model.hpp"
+#include "scenes/text/price_text.hpp"
 #include "solve/answer/explanation_text.hpp"
 #include "solve/answer/path_hash.hpp"
 #include "solve/answer/stage_lines.hpp"
@@ -129,12 +131,73 @@ std::string improvements_json(const Answer& answer) {
   return text + "]";
 }
 
+std::string price_json(const PriceParts& price) {
+  JsonObject json;
+  json.add("clearance", price.clearance);
+  json.add("areas", price.areas);
+  json.add("turning", price.turning);
+  json.add("cusps", price.cusps);
+  json.add("reverse", price.reverse);
+  return json.closed();
+}
+
+std::string list_json(const std::vector<std::vector<double>>& states) {
+  std::string text = "[";
+  for (const std::vector<double>& state : states)
+    text.append(text.size() > 1 ? ", " : "").append(json_list(std::span(state)));
+  return text + "]";
+}
+
+std::string reached_json(const GoalReached& reached) {
+  JsonObject json;
+  add_state(json, "asked", reached.asked);
+  json.add("distance", reached.distance);
+  json.add_or_null("distance_bound", reached.distance_bound.has_value(), reached.distance_bound.value_or(0.0));
+  return json.closed();
+}
+
+std::string class_json(const std::vector<std::int32_t>& passed) {
+  std::string text = "[";
+  for (const std::int32_t hole : passed) text.append(text.size() > 1 ? ", " : "").append(std::to_string(hole));
+  return text + "]";
+}
+
+std::string holes_json(const std::vector<MapHole>& holes) {
+  std::string text = "[";
+  for (const MapHole& hole : holes) {
+    JsonObject json;
+    json.add("id", hole.id);
+    const Box& b = hole.box;
+    json.add_json("box", json_list(std::span<const double>(std::array{b.min.x, b.min.y, b.max.x, b.max.y})));
+    text.append(text.size() > 1 ? ", " : "").append(json.closed());
+  }
+  return text + "]";
+}
+
+/// Which of the goals was reached and in which order places were visited, where there was a choice.
+void add_choices(JsonObject& json, const Answer& answer) {
+  if (answer.goal_index) json.add("goal_index", *answer.goal_index);
+  if (answer.goal_reached) json.add_json("goal_reached", reached_json(*answer.goal_reached));
+  if (!answer.passed.empty() || !answer.alternatives.empty()) json.add_json("class", class_json(answer.passed));
+  if (!answer.holes.empty()) json.add_json("holes", holes_json(answer.holes));
+  if (!answer.order.empty()) json.add_json("order", json_list(std::span(answer.order)));
+}
+
 /// How good the path is, as far as that is proved, and how it came to be.
 void add_quality(JsonObject& json, const Answer& answer) {
   if (answer.optimal) json.add("optimal", true);
   if (answer.cost) json.add("cost", *answer.cost);
+  if (answer.price) json.add_json("price", price_json(*answer.price));
+  if (answer.price) json.add("cost_error", answer.price->error);
   if (answer.lower_bound) json.add("lower_bound", *answer.lower_bound);
   if (const auto gap = gap_of(answer)) json.add("gap", *gap);
+  if (!answer.bound_of.empty()) json.add("bound_of", answer.bound_of);
+  add_choices(json, answer);
+  if (answer.keeping) {
+    json.add("kept", answer.keeping->kept);
+    json.add_or_null("kept_cost", answer.keeping->kept_cost.has_value(), answer.keeping->kept_cost.value_or(0.0));
+    json.add_or_null("new_cost", answer.keeping->new_cost.has_value(), answer.keeping->new_cost.value_or(0.0));
+  }
   if (answer.turn_rad) json.add("turn_rad", *answer.turn_rad);
   if (!answer.iterations) return;
   json.add("iterations", *answer.iterations);
@@ -172,14 +235,39 @@ std::vector<double> numbers_of_pose(const Eigen::Isometry3d& pose) {
   return {at.x(), at.y(), at.z(), turn.x(), turn.y(), turn.z(), turn.w()};
 }
 
-void add_arm(JsonObject& json, const ArmModel& model) {
+void add_arm(JsonObject& json, const ArmModel& model, const std::vector<std::string>& told) {
   const auto list = [](const auto& items, const auto& name) {
     std::string text = "[";
     for (const auto& item : items) text += (text.size() > 1 ? ", " : "") + json_string(name(item));
     return text + "]";
   };
   json.add_json("joints", list(model.variables, [](const ArmVariable& variable) { return variable.name; }));
-  json.add_json("assumed", list(model.assumed, [](const std::string& line) { return line; }));
+  const auto line_itself = [](const std::string& line) { return line; };
+  json.add_json("assumed", list(model.assumed, line_itself));
+  std::vector<std::string> all = model.told;
+  all.insert(all.end(), told.begin(), told.end());
+  json.add_json("told", list(all, line_itself));
+}
+
+/// What the question says beyond start, goal and body, so that a judge knows it.
+void add_asked(JsonObject& json, const Problem& problem) {
+  const GoalRule& rule = problem.rule;
+  if (!rule.others.empty()) {
+    std::vector<std::vector<double>> goals{problem.goal};
+    goals.insert(goals.end(), rule.others.begin(), rule.others.end());
+    json.add_json("goals", list_json(goals));
+  }
+  if (rule.tolerance)
+    json.add_json("goal_tolerance", std::isinf(*rule.tolerance) ? "\"inf\"" : json_number(*rule.tolerance));
+  if (rule.region) json.add("goal_region", *rule.region);
+  if (rule.heading_rad) json.add("goal_heading_rad", *rule.heading_rad);
+  if (!rule.visit.empty()) json.add_json("visit", list_json(rule.visit));
+  if (rule.back) json.add("return", true);
+  if (problem.prices.empty()) return;
+  std::string text = "[";
+  for (const std::string& line : price_lines(problem.prices))
+    text.append(text.size() > 1 ? ", " : "").append(json_string(line));
+  json.add_json("prices", text + "]");
 }
 
 void add_problem(JsonObject& json, const Answer& answer) {
@@ -188,7 +276,10 @@ void add_problem(JsonObject& json, const Answer& answer) {
   add_state(json, "goal", answer.problem.goal);
   if (answer.problem.goal_pose) add_state(json, "goal_pose", numbers_of_pose(*answer.problem.goal_pose));
   json.add("robot", robot_text(answer.problem.robot));
-  if (answer.problem.robot.files && answer.problem.robot.files->read) add_arm(json, *answer.problem.robot.files->read);
+  add_asked(json, answer.problem);
+  if (answer.problem.robot.files && answer.problem.robot.files->read) {
+    add_arm(json, *answer.problem.robot.files->read, answer.problem.told);
+  }
   json.add("clearance", answer.problem.clearance);
   json.add("contact", name_of(answer.problem.contact));
   add_text(json, "sampler", answer.sampler);
@@ -267,6 +358,16 @@ void write_states(const Path<Vec2>& path, const StateList& states, const Executi
   }
 }
 
+void append_alternative(std::string& text, const AlternativePath& other) {
+  JsonObject json;
+  json.add("cost", other.cost);
+  json.add("length", other.length);
+  json.add_json("price", price_json(other.price));
+  json.add_json("class", class_json(other.passed));
+  json.add("min_clearance", other.min_clearance);
+  text += json.open() + ", \"path\": ";
+}
+
 /// The same of a refuted one.
 std::string refuted_head(const RefutedPath& refuted) {
   std::string text = fmt::format("\"length\": {}", json_number(refuted.length));
@@ -320,6 +421,16 @@ void write_answer_json(const Answer& answer, const Execution& execution,
     write(fmt::format("\"refuted\": {{{}, \"path\": ", refuted_head(*answer.refuted)));
     write_states(answer.refuted->path, answer.refuted->states, execution, write);
     write("},\n ");
+  }
+  if (!answer.alternatives.empty()) {
+    std::string text = "\"alternatives\": [";
+    for (const AlternativePath& other : answer.alternatives) {
+      append_alternative(text, other);
+      write(text);
+      write_states(answer.tells_path ? other.path : Path<Vec2>{}, {}, execution, write);
+      text = "},\n  ";
+    }
+    write("}],\n ");
   }
   write("\"path\": ");
   if (answer.tells_path) {

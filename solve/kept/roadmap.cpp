@@ -29,6 +29,7 @@ void refuse_what_is_asked_later(const SolveOptions& options) {
     if (question_options.has(option)) {
       throw UsageError(fmt::format("@{}: is for a question; say it when the roadmap is asked", name_of(option)));
     }
+    if (option == Option::via) throw UsageError("@via: a roadmap that is kept is asked way by way; solve takes it");
     if (work_options.has(option)) {
       throw UsageError(fmt::format("@{}: a roadmap that is kept is made in one way; leave it out", name_of(option)));
     }
@@ -122,6 +123,7 @@ std::string_view why_nothing_is_kept(PlannerKind planner) {
 
 ChosenSolver builder_of(const SolveOptions& options, const Scene& scene, const Question& question) {
   const ChosenSolver solver = choose_solver(options, scene, question);
+  if (!question.route.keep_to.empty()) throw UsageError("@keep_to: is of one question; a roadmap is for many");
   if (solver.kind->build == nullptr || !keeps_roadmap(solver.planner)) {
     throw UsageError(fmt::format("@planner: {} makes no roadmap that is kept: {}; prm and lazy-prm do",
                                  name_of(solver.planner), why_nothing_is_kept(solver.planner)));
@@ -131,6 +133,11 @@ ChosenSolver builder_of(const SolveOptions& options, const Scene& scene, const Q
         fmt::format("{}: on a map with water the free cells follow from the start, so there is no roadmap "
                     "for all questions",
                     scene.source));
+  }
+  if (const auto words = words_of(words_in(prices_of(scene, question))); !words.empty()) {
+    throw UsageError(
+        fmt::format("@{}: a roadmap that is kept knows no prices and no forbidden areas; 'warren solve' does",
+                    name_of(words.front())));
   }
   return solver;
 }
@@ -167,6 +174,14 @@ void check_buildable(const Scene& scene, const Question& question, const SolveOp
   options.validate();
   refuse_what_is_asked_later(options);
   check_solver_options(options);
+  if (const AskedWords words = words_in(prices_of(scene, question)); !words.empty()) {
+    throw UsageError(fmt::format("@{}: kept roadmaps hold neither prices nor forbidden areas; solve takes them",
+                                 name_of(words_of(words).front())));
+  }
+  if (const AskedWords words = words_in(question.rule); !words.empty()) {
+    throw UsageError(
+        fmt::format("@{}: kept roadmaps are asked for one goal; solve takes it", name_of(words_of(words).front())));
+  }
   builder_of(options, scene, without_ends(scene, question));
 }
 

@@ -298,6 +298,7 @@ std::string table_hash(const RobotSpec& robot, const Execution& execution) {
     RobotSpec alone = robot;  // what a world adds to it is in that world's hash
     const ArmFiles& f = *robot.files;
     alone.files = ArmFiles{f.urdf, f.srdf, f.group, f.base, f.tip, f.packages};
+    alone.files->tool = f.tool;
     const std::vector<double> numbers = numbers_of(arm_model_of(alone, 0.0, execution));
     return fmt::format("{:016x}", checksum(std::as_bytes(std::span(numbers))));
   }

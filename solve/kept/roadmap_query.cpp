@@ -34,7 +34,7 @@ Question question_of(const Roadmap& roadmap, const std::vector<double>& start, c
 /// The answer with what does not depend on the question.
 Answer finished(Answer answer, const Execution& execution) {
   answer.threads = thread_count(execution.threads);
-  answer.peak_memory_bytes = peak_resident_bytes();
+  tell_memory(answer, execution);
   return answer;
 }
 

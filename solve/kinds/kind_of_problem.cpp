@@ -52,8 +52,9 @@ std::vector<PlannerKind> planners_where(const Holds& holds) {
 std::vector<PlannerKind> planners_of(const std::vector<const SolveKind*>& kinds) {
   std::vector<PlannerKind> planners;
   for (const SolveKind* kind : kinds) {
-    for (const auto& [planner, options] : kind->planners) {
-      if (std::find(planners.begin(), planners.end(), planner) == planners.end()) planners.push_back(planner);
+    for (const PlannerChoice& choice : kind->planners) {
+      if (std::find(planners.begin(), planners.end(), choice.planner) == planners.end())
+        planners.push_back(choice.planner);
     }
   }
   return planners;
@@ -98,6 +99,42 @@ void refuse_ignored(const SolveOptions& options, PlannerKind planner, const std:
   }
 }
 
+/// "clearance_price" of the question, "map.scene: its line 'area'" of the world's file.
+std::string place_of_word(AskedWord word, const Scene& scene, const Question& question) {
+  if (word == AskedWord::goal_heading && question.rule.region) return "@goal_region";
+  if (words_in(question).has(word)) return fmt::format("@{}", name_of(word));
+  std::string line{name_of(word)};
+  if (word == AskedWord::areas || word == AskedWord::speed_zones || word == AskedWord::keep_out_factor) line = "mask";
+  std::replace(line.begin(), line.end(), '_', '-');
+  return fmt::format("{}: its line '{}'", scene.source, line);
+}
+
+/// Refuses the first of the words that the planner of this kind would ignore.
+void refuse_ignored_words(AskedWords asked, const PlannerChoice& chosen, const Scene& scene, const Question& question,
+                          const std::vector<const SolveKind*>& fitting) {
+  for (const AskedWord word : words_of(asked)) {
+    if (chosen.words.has(word) || word == AskedWord::keep_to) continue;  // solve() keeps routes, whoever plans
+    const auto takes = [&](const PlannerChoice& choice) { return choice.words.has(word); };
+    const auto is_here = [&](const SolveKind& kind) {
+      return std::find(fitting.begin(), fitting.end(), &kind) != fitting.end();
+    };
+    const auto here = planners_where(
+        [&](const SolveKind& kind, const PlannerChoice& choice) { return is_here(kind) && takes(choice); });
+    std::vector<std::string_view> problems;
+    for (const SolveKind& kind : solve_kinds()) {
+      if (std::any_of(kind.planners.begin(), kind.planners.end(), takes)) problems.push_back(kind.problem);
+    }
+    const auto all = planners_where([&](const SolveKind&, const PlannerChoice& choice) { return takes(choice); });
+    const std::string taken = !here.empty() ? takers_text(here)
+                              : all.empty() ? "no planner of this version takes it"
+                                            : fmt::format("{} for {}", takers_text(all), listed(problems));
+    const bool is_factor = word == AskedWord::keep_out_factor || word == AskedWord::unknown_factor;
+    const std::string_view what = is_factor ? "its factor" : word == AskedWord::goal_heading ? "its angle" : "it";
+    throw UsageError(fmt::format("{}: {} would ignore {} for {}; {}", place_of_word(word, scene, question),
+                                 name_of(chosen.planner), what, fitting.front()->problem, taken));
+  }
+}
+
 std::vector<const SolveKind*> fitting_kinds(const Scene& scene, const RobotSpec& robot) {
   std::vector<const SolveKind*> fitting;
   for (const SolveKind& kind : solve_kinds()) {
@@ -119,6 +156,27 @@ PlannerKind usual_planner_of(const SolveKind& kind, const SolveOptions& options,
                              const Question& question) {
   const bool wants_better = options.anytime.gap || options.anytime.iterations || !options.anytime.parts.empty();
   return wants_better ? PlannerKind::anytime : kind.usual_planner(options, scene, question);
+}
+
+/// The usual planner where it respects all the words and takes all the options, else the first that does; none: nobody.
+std::optional<PlannerKind> planner_for_words(AskedWords asked, const SolveOptions& options, PlannerKind usual,
+                                             const std::vector<const SolveKind*>& fitting) {
+  const std::vector<Option> wanted = options_in(given(options));
+  const std::vector<AskedWord> words = words_of(asked);
+  const auto takes_all = [&](const PlannerChoice& choice) {
+    return std::all_of(words.begin(), words.end(),
+                       [&](AskedWord word) { return choice.words.has(word) || word == AskedWord::keep_to; }) &&
+           std::all_of(wanted.begin(), wanted.end(), [&](Option option) { return choice.options.has(option); });
+  };
+  std::optional<PlannerKind> first;
+  for (const SolveKind* kind : fitting) {
+    for (const PlannerChoice& choice : kind->planners) {
+      if (!takes_all(choice)) continue;
+      if (choice.planner == usual) return usual;
+      if (!first) first = choice.planner;
+    }
+  }
+  return first;
 }
 
 /// Only maps have corridors and cells that are known.
@@ -164,13 +222,26 @@ ChosenSolver choose_solver(const SolveOptions& options, const Scene& scene, cons
   check_plannable(scene, question);
   const std::vector<const SolveKind*> fitting = fitting_kinds(scene, robot_of(scene, question));
   const SolveKind& first = first_kind(fitting);
-  const std::optional<PlannerKind> asked = options.planner;
-  ChosenSolver chosen{&first, asked ? *asked : usual_planner_of(first, options, scene, question)};
+  check_asked(scene, question);
+  const AskedWords words = words_in(scene, question);
+  std::optional<PlannerKind> asked = options.planner;
+  const PlannerKind usual = asked ? *asked : usual_planner_of(first, options, scene, question);
+  if (!asked && !words.empty()) asked = planner_for_words(words, options, usual, fitting);
+  ChosenSolver chosen{&first, asked.value_or(usual)};
   const auto has_it = [&](const SolveKind* kind) { return choice_in(*kind, chosen.planner) != nullptr; };
-  const auto found = std::find_if(fitting.begin(), fitting.end(), has_it);
+  const std::vector<AskedWord> listed_words = words_of(words);
+  const auto takes_all = [&](const SolveKind* kind) {
+    const PlannerChoice* choice = choice_in(*kind, chosen.planner);
+    return choice != nullptr && std::all_of(listed_words.begin(), listed_words.end(),
+                                            [&](AskedWord word) { return choice->words.has(word); });
+  };
+  auto found = std::find_if(fitting.begin(), fitting.end(), takes_all);
+  if (found == fitting.end()) found = std::find_if(fitting.begin(), fitting.end(), has_it);
   if (found == fitting.end()) refuse_planner(chosen.planner, fitting);
   chosen.kind = *found;
-  refuse_ignored(options, chosen.planner, {*choice_in(*chosen.kind, chosen.planner)}, fitting);
+  const PlannerChoice& choice = *choice_in(*chosen.kind, chosen.planner);
+  refuse_ignored(options, chosen.planner, {choice}, fitting);
+  refuse_ignored_words(words, choice, scene, question, fitting);
   check_corridors(options, scene);
   return chosen;
 }
@@ -185,10 +256,23 @@ const SolveKind& verifying_kind(const Scene& scene, const Question& question) {
 }
 
 bool planner_takes(PlannerKind planner, Option option) {
-  return std::any_of(solve_kinds().begin(), solve_kinds().end(), [&](const SolveKind& kind) {
-    const PlannerChoice* choice = choice_in(kind, planner);
+  const auto takers =
+      planners_where([&](const SolveKind&, const PlannerChoice& choice) { return choice.options.has(option); });
+  return std::find(takers.begin(), takers.end(), planner) != takers.end();
+}
+
+bool planner_takes(PlannerKind planner, Option option, const Scene& scene, const Question& question) {
+  const std::vector<const SolveKind*> fitting = fitting_kinds(scene, robot_of(scene, question));
+  return std::any_of(fitting.begin(), fitting.end(), [&](const SolveKind* kind) {
+    const PlannerChoice* choice = choice_in(*kind, planner);
     return choice != nullptr && choice->options.has(option);
   });
+}
+
+bool planner_takes(PlannerKind planner, AskedWord word) {
+  const auto takers =
+      planners_where([&](const SolveKind&, const PlannerChoice& choice) { return choice.words.has(word); });
+  return std::find(takers.begin(), takers.end(), planner) != takers.end();
 }
 
 std::vector<PlannerKind> planners_there_are() {

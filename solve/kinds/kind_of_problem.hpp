@@ -4,8 +4,9 @@
 // kind_of_problem.cpp.
 //
 // To add a planner to a kind: a line in the `NAME_planners` of its file with the options that it takes beyond planner
-// and seed (every other one is refused, by name, before the planner sees it), and a branch in its solve_NAME(). An
-// option that nobody had yet: solve_options.hpp. To add a kind: its file or a place in one, its declaration below, its
+// and seed (every other one is refused, by name, before the planner sees it), the words of questions that it respects
+// (asked_words.hpp: prices, restrictions, goals; the same), and a branch in its solve_NAME(). An option that nobody had
+// yet: solve_options.hpp. To add a kind: its file or a place in one, its declaration below, its
 // line in the table. Several kinds may fit a world (walls are plane obstacles too): the first in the table that has the
 // planner solves it, and the first that has any planner is asked for the default.
 #pragma once
@@ -26,6 +27,7 @@
 #include "solve/answer/answer.hpp"
 #include "solve/answer/by_products.hpp"
 #include "solve/answer/read_answer_io.hpp"
+#include "solve/question/asked_words.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"
@@ -68,10 +70,11 @@ struct RoadmapAsked {
   const ObstacleIndex* judged() const { return session != nullptr && session->judged ? &*session->judged : nullptr; }
 };
 
-/// One planner of a kind, and the options that it takes.
+/// One planner of a kind, the options that it takes, and the words of questions beyond start, goal and body.
 struct PlannerChoice {
   PlannerKind planner;
   OptionSet options;
+  AskedWords words = {};  ///< all others are refused by name
 };
 
 /// A roadmap of the world as it was, and where that has changed since.
@@ -159,6 +162,10 @@ const SolveKind& verifying_kind(const Scene& scene, const Question& question);
 
 /// Does the planner take the option for some kind of problem?
 bool planner_takes(PlannerKind planner, Option option);
+/// The same for this problem alone.
+bool planner_takes(PlannerKind planner, Option option, const Scene& scene, const Question& question);
+/// Does it respect the word for some kind of problem?
+bool planner_takes(PlannerKind planner, AskedWord word);
 
 /// The planners that solve some kind of problem, in their order.
 std::vector<PlannerKind> planners_there_are();

@@ -173,7 +173,7 @@ void tell_bound(Answer& answer, const Scene& scene, const SolveOptions& options,
     answer.lower_bound = below_rounding(cost, answer.roadmap.milestones);
   } else {
     const bool in_metric = gets_better(enum_named<PlannerKind>(answer.planner).value_or(PlannerKind::prm));
-    if (answer.cost && !in_metric) return;
+    if (answer.cost && !answer.price && !in_metric) return;
     const bool exact = options.bound || options.anytime.gap;
     double seconds = 0.0;
     std::optional<StageTimer> timer;
@@ -181,6 +181,7 @@ void tell_bound(Answer& answer, const Scene& scene, const SolveOptions& options,
     answer.lower_bound = proved_bound(scene, answer.problem, in_metric ? BoundOf::metric : BoundOf::length,
                                       exact ? BoundEffort::exact : BoundEffort::simple, execution);
   }
+  if (answer.price && answer.bound_of.empty()) answer.bound_of = "all";
   constexpr double rounding = 1e-9;
   answer.optimal |= cost - *answer.lower_bound <= rounding * cost;
 }

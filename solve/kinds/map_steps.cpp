@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/kinds/map_steps.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "core/base/error.hpp"
 #include "planners/grid/grid_search.hpp"
 #include "scenes/files/moving_ai_io.hpp"
@@ -59,6 +62,37 @@ bool provably_apart(const OccupancyMap& map, const RobotSpec& robot, const Se2& 
   const auto from = cell_at(map, placed(start, robot.outline.front()));
   const auto to = cell_at(map, placed(goal, robot.outline.front()));
   return from && to && !cells_connect(map.blocked, *from, *to, false, execution);
+}
+
+bool is_joined(const OccupancyMap& map, double reach, Vec2 p, Cell cell, const Execution& execution) {
+  const Vec2 leg[] = {p, cell_centre(map, cell)};
+  return verify_on_map(map, leg, {.clearance = reach}, execution).verified;
+}
+
+std::vector<Cell> cells_joined_to(const OccupancyMap& map, const Bitmap& wide, double reach, Vec2 p, Cell own,
+                                  const Execution& execution) {
+  if (reach == 0.0 || (!wide.test(own.x, own.y) && is_joined(map, reach, p, own, execution))) return {own};
+  constexpr std::int64_t around = 2;
+  constexpr std::size_t most = 3;  // each may cost a search
+  std::vector<std::pair<double, Cell>> free;
+  for (std::int64_t y = std::int64_t{own.y} - around; y <= std::int64_t{own.y} + around; ++y) {
+    for (std::int64_t x = std::int64_t{own.x} - around; x <= std::int64_t{own.x} + around; ++x) {
+      if (x < 0 || y < 0 || x >= map.width() || y >= map.height() || wide.holds(x, y)) continue;
+      const Cell cell{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)};
+      if (is_joined(map, reach, p, cell, execution)) free.emplace_back(distance(p, cell_centre(map, cell)), cell);
+    }
+  }
+  std::stable_sort(free.begin(), free.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Cell> cells;
+  const auto beside = [](Cell a, Cell b) {
+    return (a.x == b.x || a.y == b.y) && a.x - b.x + 1 < 3 && a.y - b.y + 1 < 3;
+  };
+  for (const auto& candidate : free) {
+    const Cell cell = candidate.second;
+    const bool is_known = std::any_of(cells.begin(), cells.end(), [&](Cell known) { return beside(known, cell); });
+    if (!is_known && cells.size() < most) cells.push_back(cell);
+  }
+  return cells;
 }
 
 Path<Vec2> path_over_cells(const OccupancyMap& map, Vec2 start, std::span<const Cell> cells, Vec2 goal) {

@@ -44,6 +44,15 @@ bool provably_apart(const OccupancyMap& map, const Bitmap& closed, const WallPro
 bool provably_apart(const OccupancyMap& map, const RobotSpec& robot, const Se2& start, const Se2& goal,
                     const Execution& execution);
 
+/// Does a body that keeps `reach` get from a point to the middle of a cell in a straight line?
+bool is_joined(const OccupancyMap& map, double reach, Vec2 p, Cell cell, const Execution& execution);
+
+/// The cells by whose middles a path may begin or end at p, the nearest first, one of those that steps join nearby: a
+/// point's own; a disc may fit where it stands and not at the middle of its cell, but at one of those around it. wide:
+/// where its middle may not be.
+std::vector<Cell> cells_joined_to(const OccupancyMap& map, const Bitmap& wide, double reach, Vec2 p, Cell own,
+                                  const Execution& execution);
+
 /// From the start over the middles of the cells where the path turns to the goal; each cell is a neighbour of the one
 /// before.
 Path<Vec2> path_over_cells(const OccupancyMap& map, Vec2 start, std::span<const Cell> cells, Vec2 goal);

@@ -24,8 +24,8 @@ std::vector<double> state_of(std::string_view option, const std::vector<double>&
 
 bool wants_borders(const Scene& scene, const Question& question, PlannerKind planner) {
   if (!scene.map || scene.walls.size() > 0) return false;
-  if (planner == PlannerKind::grid || planner == PlannerKind::voronoi) return false;
   const RobotKind body = robot_of(scene, question).kind;
+  if (planner == PlannerKind::voronoi || (planner == PlannerKind::grid && body != RobotKind::car)) return false;
   return body != RobotKind::point && body != RobotKind::disc;
 }
 

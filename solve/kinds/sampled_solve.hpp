@@ -21,8 +21,10 @@
 //   start_stands_free(), goal_stands_free(state)   by the verification
 //   length(world, a, b)                    of a motion: what shortening shortens
 //   shortened(world, path, answer)         the path made shorter
+//   on_lattice(world, goals, answer)       of planner grid, where there is one: a path over its lattice
 //   judge(world, path, answer)             verifies; fills in the path and what is said of it
 //   cause_of_blocked(world, outcome, goals)
+//   price_motions(world)                   what motions cost beyond their distance; empty: nothing, or not there
 #pragma once
 
 #include <fmt/format.h>
@@ -103,6 +105,8 @@ class SampledSolve {
     answer_.planner = name_of(request.planner);
     if (gets_better(request.planner)) {
       describe_better();
+    } else if (on_lattice()) {
+      answer_.seed = request.options.seed;
     } else {
       by_roadmap() ? describe_roadmap() : describe_trees();
     }
@@ -128,8 +132,10 @@ class SampledSolve {
 
  private:
   const Execution& execution() const { return request_.execution; }
+  bool on_lattice() const { return request_.planner == PlannerKind::grid; }
   void plan() {
     if (gets_better(request_.planner)) return plan_better();
+    if (on_lattice()) return plan_on_lattice();
     by_roadmap() ? plan_roadmaps() : plan_trees();
   }
   bool by_roadmap() const { return is_roadmap_planner(request_.planner); }
@@ -177,11 +183,14 @@ class SampledSolve {
       world_ = &*own_world_;
     }
     view_.emplace(*world_);
+    if constexpr (requires { body_.price_motions(*world_); }) {
+      if (asked_ == nullptr) view_->motion_cost = body_.price_motions(*world_);
+    }
     goals_ = body_.goals(*world_);
   }
   /// What grows until start and goal connect, where they never can: a roadmap for one round and trees for a few nodes.
   void bound_growth() {
-    if (asked_ != nullptr) return;
+    if (asked_ != nullptr || on_lattice()) return;
     const bool grows = by_roadmap() ? !roadmap_options_.samples && !takes_all_places(roadmap_options_.sampler)
                                     : !request_.options.trees.nodes;
     if (!grows || !request_.scene.map) return;
@@ -196,27 +205,33 @@ class SampledSolve {
   }
   /// The counts are those of all goals that were tried.
   void plan_roadmaps() {
+    if (!request_.options.trees.via.empty()) {  // one roadmap a leg: the same samples, as many as the leg needs
+      const auto plan = [&](const State& start, std::span<const State> goals, std::size_t) {
+        return plan_roadmap(start, goals.front());
+      };
+      return take(plan_through<State>(body_.start(), stops(), plan));
+    }
     const std::vector<State> in_order = body_.best_first(*world_, goals_);
     std::vector<State> goals = detail::free_states(*world_, std::span<const State>(in_order));
     if (goals.empty()) goals.push_back(in_order.front());
     Counters before;
     for (const State& goal : goals) {
-      take(plan_roadmap(goal));
+      take(plan_roadmap(body_.start(), goal));
       answer_.counters += before;
       before = answer_.counters;
       if (answer_.outcome != Outcome::not_connected || apart_) break;
     }
   }
-  Solution<State> plan_roadmap(const State& goal) {
+  Solution<State> plan_roadmap(const State& start, const State& goal) {
     const bool lazy = request_.planner == PlannerKind::lazy_prm;
     if (asked_ != nullptr) {
-      return ask_roadmap(*asked_, body_.start(), goal, roadmap_options_, execution(), *request_.asked.scratch, kept());
+      return ask_roadmap(*asked_, start, goal, roadmap_options_, execution(), *request_.asked.scratch, kept());
     }
     if constexpr (is_one_way<World>) {
-      return one_way_prm<State>(*view_, body_.start(), goal, roadmap_options_, lazy, execution(), kept());
+      return one_way_prm<State>(*view_, start, goal, roadmap_options_, lazy, execution(), kept());
     } else {
       const auto planner = lazy ? lazy_prm<State> : prm<State>;
-      return planner(*view_, body_.start(), goal, roadmap_options_, execution(), kept());
+      return planner(*view_, start, goal, roadmap_options_, execution(), kept());
     }
   }
   AnytimeOptions better_options() const {
@@ -334,14 +349,31 @@ class SampledSolve {
     answer_.iterations = found.iterations;
     answer_.ended_by = found.ended_by;
     answer_.optimal = found.ended_by == "optimum";
-    const bool is_stopped = enum_named<StopReason>(found.ended_by).has_value();
-    if (is_stopped) answer_.stop_reason = found.stop_reason;
-    if (is_stopped && own_ != nullptr && own_->deadline != nullptr) {
-      last_.emplace(std::numeric_limits<double>::infinity(), own_->deadline->memory_bytes());
-      own_->deadline = &*last_;
-    }
+    end_limits(found.stop_reason);
     take(std::move(found));
     if (request_.options.optimise && answer_.outcome == Outcome::solved) shorten_better();
+  }
+  /// Where a stop ended the search: its path is judged in the time that it takes.
+  void end_limits(StopReason reason) {
+    if (!enum_named<StopReason>(answer_.ended_by)) return;
+    answer_.stop_reason = reason;
+    if (own_ == nullptr || own_->deadline == nullptr) return;
+    last_.emplace(std::numeric_limits<double>::infinity(), own_->deadline->memory_bytes());
+    own_->deadline = &*last_;
+  }
+  void plan_on_lattice() {
+    if constexpr (requires { body_.on_lattice(*world_, goals_, answer_); }) {
+      const std::vector<State> goals = detail::free_states(*world_, std::span<const State>(goals_));
+      auto query = world_->make_query();
+      if (const bool is_free = world_->is_free(body_.start(), query); !is_free || goals.empty()) {
+        answer_.outcome = is_free ? Outcome::goal_blocked : Outcome::start_blocked;
+        return;
+      }
+      path_ = body_.on_lattice(*world_, goals, answer_);
+      answer_.outcome = path_.empty() ? Outcome::not_connected : Outcome::solved;
+      if (!path_.empty()) answer_.lower_bound = bound(BoundEffort::simple);
+      end_limits(answer_.stop_reason.value_or(StopReason::time));
+    }
   }
   /// Of planners that leave it to who asks: in the metric that they make small, and never to a path that costs more.
   void shorten_better() {
@@ -425,7 +457,7 @@ class SampledSolve {
   /// little; what is told of work and sizes is of all trees. What is dear then stays so, since one that wanders is made
   /// better only near where it goes.
   void choose_path() {
-    const std::size_t count = by_roadmap() ? 1 : body_.paths_weighed();
+    const std::size_t count = by_roadmap() || on_lattice() ? 1 : body_.paths_weighed();
     if (count < 2) return;
     double least = body_.price_once_shorter(*world_, path_, answer_);
     constexpr double as_cheap = 1e-6;  // rounding does not choose
@@ -462,7 +494,13 @@ class SampledSolve {
     }
     const std::optional<double> cost = cost_of_better();
     body_.judge(*world_, std::move(path_), answer_);
-    answer_.cost = cost;
+    if (!on_lattice()) {
+      answer_.cost = cost;
+    } else if (answer_.lower_bound) {
+      constexpr double as_good = 1e-9;
+      const double paid = answer_.cost.value_or(answer_.length);
+      answer_.optimal = paid - *answer_.lower_bound <= as_good * paid;
+    }
   }
   std::optional<double> cost_of_better() const {
     if (!Body::has_cost || !gets_better(request_.planner)) return std::nullopt;
@@ -496,7 +534,8 @@ class SampledSolve {
 /// SolveKind::solve for a body.
 template <class Body>
 Answer solve_sampled(const SolveRequest& request) {
-  if (!gets_better(request.planner)) return SampledSolve(request, Body(request)).run();
+  if (!gets_better(request.planner) && request.planner != PlannerKind::grid)
+    return SampledSolve(request, Body(request)).run();
   Execution execution = request.execution;
   SolveRequest own{request.options, request.scene, request.question, request.planner, execution, request.keep};
   return SampledSolve(own, Body(own), &execution).run();

@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "planners/grid/motion_lattice.hpp"
 #include "planners/shorten/redrive.hpp"
+#include "solve/kinds/car_lattice.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/pose_body.hpp"
 #include "solve/kinds/question_of_pose.hpp"
@@ -50,10 +52,15 @@ class Car : public PoseBody {
 
   explicit Car(const SolveRequest& request)
       : PoseBody(request, car_problem(request.scene, request.question, request.options.car)),
-        asked_(request.options.car) {
+        asked_(request.options.car),
+        grid_(request.options.grid),
+        anytime_(request.options.anytime),
+        on_lattice_(request.planner == PlannerKind::grid),
+        optimise_(request.options.optimise) {
+    if (on_lattice_) check_lattice();
     if (!asked_.cusp_cost && !asked_.reverse_cost) return;
     const std::string_view option = name_of(asked_.cusp_cost ? Option::cusp_cost : Option::reverse_cost);
-    if (!request.options.optimise)
+    if (!request.options.optimise && !on_lattice_)
       throw UsageError(fmt::format("@{} prices what @optimise drives: ask for it", option));
     if (Curve::one_way) throw UsageError(fmt::format("@{}: a car with @steering dubins has one gear", option));
   }
@@ -74,6 +81,8 @@ class Car : public PoseBody {
         .verified;
   }
   static double length(const World& world, const Se2& a, const Se2& b) { return world.distance(a, b); }
+  /// The path of least price over the lattice, near enough; empty: there is none.
+  Path<Se2> on_lattice(const World& world, std::span<const Se2> goals, Answer& answer) const;
   Path<Se2> shortened(const World& world, Path<Se2> path, Answer& answer) const {
     const auto curve_length = [&](const Se2& a, const Se2& b) { return length(world, a, b); };
     path = shortcut(world, std::move(path), curve_length, answer);
@@ -90,6 +99,13 @@ class Car : public PoseBody {
     answer.path_figures.push_back({"steering", std::string(name_of(question().robot.steering))});
     answer.path_figures.push_back({"cusps", std::uint64_t{found.cusps}});
     answer.path_figures.push_back({"reversed_length", found.reversed});
+    if (!on_lattice_ || !(asked_.cusp_cost || asked_.reverse_cost || grid_.turn_cost)) return;
+    const DrivingPrice asked = price_on_lattice();
+    answer.price = PriceParts{.turning = grid_.turn_cost.value_or(0.0) * found.turn_rad,
+                              .cusps = asked.cusp * static_cast<double>(found.cusps),
+                              .reverse = (asked.reverse - 1.0) * found.reversed};
+    answer.cost = found.length + answer.price->sum();
+    answer.bound_of = "all";
   }
   /// Of how many trees.
   std::size_t paths_weighed() const { return is_length_alone() ? 1 : 4; }
@@ -106,6 +122,13 @@ class Car : public PoseBody {
   DrivingPrice price() const {
     return {asked_.cusp_cost.value_or(question().robot.turning_radius), asked_.reverse_cost.value_or(1.0)};
   }
+  /// Unasked, only what is driven anew has a price.
+  DrivingPrice price_on_lattice() const {
+    DrivingPrice on_lattice = price();
+    if (!asked_.cusp_cost && !optimise_) on_lattice.cusp = 0.0;
+    return on_lattice;
+  }
+  void check_lattice() const;
   bool is_length_alone() const { return Curve::one_way || (price().cusp == 0.0 && price().reverse == 1.0); }
   /// With fewer changes of gear, and less of it backwards, as their prices have it.
   Path<Se2> redriven(const World& world, Path<Se2> path, Answer& answer) const {
@@ -115,17 +138,70 @@ class Car : public PoseBody {
   }
 
   CarFields asked_;
+  GridFields grid_;
+  AnytimeFields anytime_;
+  bool on_lattice_;
+  bool optimise_;
 };
+
+template <class Curve>
+void Car<Curve>::check_lattice() const {
+  if (grid_.cell && scene().map) throw UsageError("@cell: on a map the grid's positions are the middles of its cells");
+  const std::uint32_t headings = grid_.headings.value_or(16);
+  if (headings != 16 && headings != 32) throw UsageError("@headings: a car's lattice has 16 or 32");
+}
+
+template <class Curve>
+Path<Se2> Car<Curve>::on_lattice(const World& world, std::span<const Se2> goals, Answer& answer) const {
+  CarLatticeOptions options;
+  options.headings = grid_.headings.value_or(options.headings);
+  options.cell = grid_.cell;
+  if (!options.cell && scene().grid) options.cell = scene().grid->cell;
+  options.clearance = question().clearance;
+  options.price = price_on_lattice();
+  options.turn_cost = grid_.turn_cost.value_or(0.0);
+  std::optional<CarLattice> lattice;
+  {
+    const StageTimer timer(execution(), "stamps", answer.seconds.index);
+    lattice.emplace(world.body(), scene(), question().robot, Curve::shortest, question().start, goals, options,
+                    execution());
+  }
+  const StageTimer timer(execution(), "search", answer.seconds.search);
+  LatticeSearchOptions search;
+  search.gear_change = lattice->units_of(options.price.cusp);
+  search.gap = anytime_.gap.value_or(search.gap);
+  search.iterations = anytime_.iterations;
+  search.unit = lattice->unit();
+  LatticeSolution found = LatticeSearch(*lattice, search, execution()).run();
+  answer.figures.push_back({"headings", std::uint64_t{options.headings}});
+  answer.figures.push_back({"cell", lattice->cell()});
+  answer.counters.expanded = found.expanded;
+  answer.counters.edges_checked += found.checked;
+  answer.counters.refused += lattice->refused();
+  answer.iterations = found.rounds;
+  answer.ended_by = found.ended_by == "optimum" ? "lattice" : found.ended_by;  // others may be better
+  answer.improvements = std::move(found.improvements);
+  if (!found.found()) return {};
+  if (enum_named<StopReason>(found.ended_by)) answer.stop_reason = found.stop_reason;
+  const auto bound = static_cast<double>(std::min(found.bound, found.path.cost));
+  answer.figures.push_back({"lattice_cost", search.unit * static_cast<double>(found.path.cost)});
+  answer.figures.push_back({"lattice_bound", search.unit * bound * (1.0 - 1e-6)});
+  answer.figures.push_back({"lattice_gap", static_cast<double>(found.path.cost) / bound - 1.0});
+  return lattice->poses(found.path);
+}
 
 constexpr OptionSet shape_options{Option::steering, Option::turning_radius};
 constexpr OptionSet curve_options = shape_options | OptionSet{Option::cusp_cost, Option::reverse_cost};
+constexpr OptionSet lattice_options{Option::cell,     Option::headings,   Option::turn_cost,
+                                    Option::optimise, Option::iterations, Option::gap};
 constexpr PlannerChoice car_planners[] = {{PlannerKind::rrt_connect, rrt_connect_options | curve_options},
                                           {PlannerKind::rrt, rrt_options | curve_options},
                                           {PlannerKind::prm, prm_takes | curve_options},
                                           {PlannerKind::lazy_prm, lazy_prm_takes | curve_options},
                                           {PlannerKind::rrt_star, rrt_star_options | shape_options},
                                           {PlannerKind::informed_rrt_star, rrt_star_options | shape_options},
-                                          {PlannerKind::anytime, anytime_options | shape_options}};
+                                          {PlannerKind::anytime, anytime_options | shape_options},
+                                          {PlannerKind::grid, lattice_options | curve_options}};
 
 bool fits_car(const Scene&, const RobotSpec& robot) { return robot.kind == RobotKind::car; }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -11,10 +12,14 @@
 #include "core/base/error.hpp"
 #include "planners/grid/grid_search.hpp"
 #include "planners/grid/skeleton_planner.hpp"
+#include "planners/shorten/priced_taut.hpp"
 #include "planners/shorten/shortcut.hpp"
 #include "solve/kinds/geometric_roadmaps.hpp"
+#include "solve/kinds/goals_on_map.hpp"
 #include "solve/kinds/map_steps.hpp"
 #include "solve/kinds/plane_steps.hpp"
+#include "solve/kinds/priced_motions.hpp"
+#include "solve/kinds/routes_on_map.hpp"
 #include "solve/kinds/sampled_roadmap.hpp"
 #include "solve/kinds/sampled_solve.hpp"
 #include "solve/kinds/solve_steps.hpp"
@@ -22,15 +27,86 @@
 #include "spatial/maps/distance_field.hpp"
 #include "verify/judges/verify_map.hpp"
 #include "worlds/plane/grid_world.hpp"
+#include "worlds/prices/map_prices.hpp"
 
 namespace warren {
 namespace {
+
+std::vector<Vec2> way_points(const SolveRequest& request) {
+  std::vector<Vec2> points;
+  for (const std::vector<double>& point : request.options.trees.via) {
+    if (point.size() != 2) throw UsageError("@via: a point or disc takes X,Y");
+    points.push_back({point[0], point[1]});
+  }
+  if (!points.empty() && !request.question.rule.visit.empty()) {
+    throw UsageError("@visit: finds the order of its places, and @via says one; leave one of them out");
+  }
+  return points;
+}
+
+/// none: nothing is priced.
+std::optional<MapPrices> priced_map(const OccupancyMap& map, const WallProblem& problem, const Execution& execution) {
+  std::optional<MapPrices> prices;
+  if (!problem.prices.empty()) prices.emplace(map, problem.robot.radius, problem.prices, execution);
+  if (prices && !prices->is_priced()) prices.reset();
+  return prices;
+}
+
+/// Refers to both.
+LegPrices leg_prices(const std::optional<MapPrices>& prices, MapPrices::Scratch& scratch) {
+  if (!prices) return {};
+  return {[&](Vec2 a, Vec2 b) { return prices->cost(a, b, scratch); },
+          [&](Cell from, unsigned direction) { return prices->step_up(from, direction, scratch); }};
+}
+
+/// Does the question name no goal but places to visit?
+bool has_open_end(const SolveRequest& request) {
+  const GoalRule& rule = request.question.rule;
+  return !rule.visit.empty() && !rule.back && request.question.goal.empty() && request.scene.goal.empty();
+}
+
+/// What the cells have decided, in the answer; `outcome`: of who plans to it.
+void take_choice(Answer& answer, const GoalChoice& choice, Outcome outcome) {
+  answer.outcome = outcome;
+  if (choice.outcome == Outcome::solved) answer.problem.goal = {choice.goal.x, choice.goal.y};
+  answer.goal_index = choice.goal_index;
+  answer.goal_reached = choice.reached;
+  answer.order = choice.order;
+  if (choice.nearest) {
+    answer.figures.push_back({"nearest_reachable_x", choice.nearest->x});
+    answer.figures.push_back({"nearest_reachable_y", choice.nearest->y});
+  }
+}
+void take_choice(Answer& answer, const GoalChoice& choice) { take_choice(answer, choice, choice.outcome); }
+
+/// What the cells do not join may be proved to be apart: all that would do.
+void prove_apart(Answer& answer, const OccupancyMap& map, const Bitmap& closed, const WallProblem& problem,
+                 const GoalChoice& choice, const Execution& execution) {
+  if (answer.outcome != Outcome::not_connected || choice.unreached.empty()) return;
+  const StageTimer timer(execution, "proof", answer.seconds.search);
+  const bool apart = std::all_of(choice.unreached.begin(), choice.unreached.end(), [&](Vec2 place) {
+    WallProblem to_place = problem;
+    to_place.goal = place;
+    return provably_apart(map, closed, to_place, execution);
+  });
+  if (apart) answer.outcome = Outcome::infeasible;
+}
 
 /// One solve by grid: the steps share the question and fill in the answer. What is not found may be proved infeasible.
 class CellSolve {
  public:
   CellSolve(const SolveRequest& request, const WallProblem& problem)
-      : request_(request), map_(*request.scene.map), problem_(problem) {
+      : request_(request),
+        map_(*request.scene.map),
+        problem_(problem),
+        chooses_(!problem.rule.empty() || !request.options.trees.via.empty()),
+        prices_(priced_map(map_, problem, request.execution)) {
+    if (prices_ && request.options.grid.diagonal) {
+      throw UsageError("@diagonal: where ways have a price steps weigh what they cost; leave it out");
+    }
+    if ((chooses_ || prices_) && request.options.search) {
+      throw UsageError("@search: prices, choices of goals and stops take one field over the cells; leave it out");
+    }
     grid_.diagonal = request.options.grid.diagonal.value_or(Diagonal::sqrt2);
     grid_.method =
         grid_method(request.options, grid_.diagonal == Diagonal::sqrt2 ? GridMethod::jump_points : GridMethod::astar);
@@ -41,12 +117,14 @@ class CellSolve {
     answer_.planner = name_of(PlannerKind::grid);
     answer_.seed = request.options.seed;
     if (request.options.optimise) answer_.options.push_back({"optimise", true});
+    if (const auto gap = request.options.anytime.gap) answer_.options.push_back({"gap", *gap});
     if (request.options.grid.diagonal) {
       answer_.options.push_back({"diagonal", std::string(name_of(grid_.diagonal))});
     }
   }
 
   void run() {
+    if (chooses_ || prices_) return run_chosen();
     const auto start = cell_at(map_, problem_.start);
     const auto goal = cell_at(map_, problem_.goal);
     answer_.outcome = blocked_end(start, goal);
@@ -57,15 +135,88 @@ class CellSolve {
       stay(answer_, problem_);
       count(1, 0.0);
     } else {
-      search(cells_joined_to(problem_.start, *start), cells_joined_to(problem_.goal, *goal));
+      search(joined(problem_.start, *start), joined(problem_.goal, *goal));
       if (answer_.outcome != Outcome::solved) return prove();
     }
-    if (request_.options.optimise) optimise();
+    if (wants_taut()) optimise();
     verify_solved_on_map(answer_, map_, problem_, true, request_.execution);
+  }
+  /// Where the question asks for other ways than the cheapest.
+  void add_alternatives() {
+    const RouteRule& route = request_.question.route;
+    if (!route.alternatives || !answer_.verified) return;
+    WallProblem reached = problem_;
+    reached.goal = answer_.path.back();
+    std::function<PriceParts(Vec2, Vec2)> parts;
+    if (prices_) parts = [this](Vec2 a, Vec2 b) { return prices_->parts(a, b, scratch_); };
+    take_alternatives(answer_, route, {map_, reached, closed_, blocked(), leg_prices(prices_, scratch_), parts},
+                      request_.execution);
   }
   Answer& answer() { return answer_; }
 
  private:
+  /// Where there is more to decide than the way to one place.
+  void run_chosen() {
+    if (!stands_free(problem_.start)) {
+      answer_.outcome = Outcome::start_blocked;
+      return;
+    }
+    index();
+    const GoalChoice choice = choose();
+    take_choice(answer_, choice);
+    if (choice.outcome != Outcome::solved)
+      return prove_apart(answer_, map_, closed_, problem_, choice, request_.execution);
+    WallProblem reached = problem_;
+    reached.goal = choice.goal;
+    take_ways(choice);
+    if (problem_.rule.region) {
+      const std::vector<double>& asked = answer_.goal_reached->asked;
+      answer_.path = cut_at_region(std::move(answer_.path), {asked[0], asked[1]}, *problem_.rule.region);
+      reached.goal = answer_.path.back();
+      answer_.goal_reached->distance = distance(reached.goal, Vec2{asked[0], asked[1]});
+      answer_.problem.goal = {reached.goal.x, reached.goal.y};
+    }
+    verify_solved_on_map(answer_, map_, reached, true, request_.execution);
+    if (prices_ && answer_.verified) answer_.lower_bound = bound_of_choice(problem_, has_open_end(request_));
+  }
+
+  GoalChoice choose() {
+    const StageTimer timer(request_.execution, "search", answer_.seconds.search, map_.blocked.size());
+    answer_.search = "field";
+    WaysOverCells ways(map_, problem_, closed_, blocked(), grid_.diagonal, leg_prices(prices_, scratch_),
+                       request_.execution);
+    GoalChoice choice = choose_goal(ways, map_, problem_, way_points(request_), has_open_end(request_));
+    answer_.counters.expanded += ways.expanded();
+    return choice;
+  }
+
+  /// Leg by leg, so that no stop is cut off.
+  void take_ways(const GoalChoice& choice) {
+    std::uint64_t cells = 0;
+    std::uint64_t weight = 0;
+    double cost = 0.0;
+    double raw = 0.0;
+    Path<Vec2> whole{problem_.start};
+    for (const WaysOverCells::Way& way : choice.ways) {
+      cells += way.cells.size();
+      weight += way.cost;
+      cost += cost_of(way.cells, grid_.diagonal);
+      answer_.path = path_over_cells(map_, way.from, way.cells, way.end.place);
+      if (wants_taut()) optimise();
+      raw += answer_.raw_length.value_or(0.0);
+      whole.insert(whole.end(), answer_.path.begin() + 1, answer_.path.end());
+    }
+    if (answer_.raw_length) answer_.raw_length = raw;
+    answer_.path = std::move(whole);
+    count(cells, cost);
+    if (prices_) {
+      const double in_cells = static_cast<double>(weight) / static_cast<double>(units_a_cell);
+      answer_.path_figures.push_back({"cells_cost", in_cells * map_.cell});
+    }
+  }
+
+  /// Paths over cells alone are farther from any bound than gaps that are asked for.
+  bool wants_taut() const { return prices_ || request_.options.optimise || request_.options.anytime.gap; }
   bool stands_free(Vec2 p) const { return stands_free_on_map(map_, problem_, p, request_.execution); }
   Outcome blocked_end(const std::optional<Cell>& start, const std::optional<Cell>& goal) const {
     if (!start || !stands_free(problem_.start)) return Outcome::start_blocked;
@@ -82,38 +233,8 @@ class CellSolve {
     }
   }
   const Bitmap& blocked() const { return blocked_.empty() ? closed_ : blocked_; }
-
-  /// Does the robot get from a point to the middle of a cell in a straight line?
-  bool is_joined(Vec2 p, Cell cell) const {
-    const Vec2 leg[] = {p, cell_centre(map_, cell)};
-    return verify_on_map(map_, leg, {.clearance = problem_.reach()}, request_.execution).verified;
-  }
-
-  /// The cells by whose middles a path may begin or end at p, the nearest first, one of those that steps join nearby: a
-  /// point's own; a disc may fit where it stands and not at the middle of its cell, but at one of those around it.
-  std::vector<Cell> cells_joined_to(Vec2 p, Cell own) const {
-    if (problem_.reach() == 0.0 || (!blocked().test(own.x, own.y) && is_joined(p, own))) return {own};
-    constexpr std::int64_t around = 2;
-    constexpr std::size_t most = 3;  // each may cost a search
-    std::vector<std::pair<double, Cell>> free;
-    for (std::int64_t y = std::int64_t{own.y} - around; y <= std::int64_t{own.y} + around; ++y) {
-      for (std::int64_t x = std::int64_t{own.x} - around; x <= std::int64_t{own.x} + around; ++x) {
-        if (x < 0 || y < 0 || x >= map_.width() || y >= map_.height() || blocked().holds(x, y)) continue;
-        const Cell cell{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)};
-        if (is_joined(p, cell)) free.emplace_back(distance(p, cell_centre(map_, cell)), cell);
-      }
-    }
-    std::stable_sort(free.begin(), free.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    std::vector<Cell> cells;
-    const auto beside = [](Cell a, Cell b) {
-      return (a.x == b.x || a.y == b.y) && a.x - b.x + 1 < 3 && a.y - b.y + 1 < 3;
-    };
-    for (const auto& candidate : free) {
-      const Cell cell = candidate.second;
-      const bool is_known = std::any_of(cells.begin(), cells.end(), [&](Cell known) { return beside(known, cell); });
-      if (!is_known && cells.size() < most) cells.push_back(cell);
-    }
-    return cells;
+  std::vector<Cell> joined(Vec2 p, Cell own) const {
+    return cells_joined_to(map_, blocked(), problem_.reach(), p, own, request_.execution);
   }
 
   void choose_method() {
@@ -158,13 +279,31 @@ class CellSolve {
     map.blocked = closed_;
     const GridWorld world(map, problem_.reach(), request_.execution);
     answer_.raw_length = path_length(answer_.path, GridWorld::distance);
+    if (prices_) return pull(world);
     answer_.path = shorter_path(WorldView(world), std::move(answer_.path), GridWorld::distance, {.seed = answer_.seed},
                                 request_.execution, answer_.counters);
+  }
+
+  /// Under the price, off the grid.
+  void pull(const GridWorld& world) {
+    GridWorld::Query query = world.make_query();
+    const PricedLegs legs{leg_prices(prices_, scratch_).cost,
+                          [&](Vec2 a, Vec2 b) {
+                            ++answer_.counters.edges_checked;
+                            const bool free = world.is_free_motion(a, b, query);
+                            answer_.counters.edges_free += free ? 1 : 0;
+                            return free;
+                          },
+                          map_.cell};
+    answer_.path = priced_taut(std::move(answer_.path), legs, request_.execution);
   }
 
   const SolveRequest& request_;
   const OccupancyMap& map_;
   WallProblem problem_;
+  bool chooses_;
+  std::optional<MapPrices> prices_;  // where something is priced
+  MapPrices::Scratch scratch_;
   GridSearchOptions grid_;
   Bitmap closed_;   // to a point
   Bitmap blocked_;  // to a disc's middle; empty: the robot is a point
@@ -173,7 +312,10 @@ class CellSolve {
 
 Answer solve_over_cells(const SolveRequest& request) {
   CellSolve solve(request, map_problem(request.scene, request.question));
-  answer_within_limits(solve.answer(), [&] { solve.run(); });
+  answer_within_limits(solve.answer(), [&] {
+    solve.run();
+    solve.add_alternatives();
+  });
   return std::move(solve.answer());
 }
 
@@ -222,7 +364,14 @@ class BodyOnMap : public UsualBody {
     return starts_on_water(map_, problem_.start) || stands_free_on_map(map_, problem_, goal, execution_);
   }
   static double length(const World&, Vec2 a, Vec2 b) { return World::distance(a, b); }
+  const MotionCost& price_motions(const World& world) {
+    if (!problem_.prices.empty()) {
+      cost_ = motion_cost(prices_.emplace(world.map(), problem_.robot.radius, problem_.prices, execution_));
+    }
+    return cost_;
+  }
   Path<Vec2> shortened(const World& world, Path<Vec2> path, Answer& answer) const {
+    if (cost_) return pulled_taut(world, std::move(path), cost_, map_.cell, execution_);
     return shorter_path(WorldView(world), std::move(path), World::distance, {.seed = answer.seed}, execution_,
                         answer.counters);
   }
@@ -235,7 +384,54 @@ class BodyOnMap : public UsualBody {
   const OccupancyMap& map_;
   const Execution& execution_;
   WallProblem problem_;
+  std::optional<MapPrices> prices_;
+  MotionCost cost_;  // empty: nothing has a price
 };
+
+/// The planner reaches what the cells have chosen: the path's stops and its goal.
+Answer solve_chosen(const SolveRequest& request) {
+  const WallProblem problem = map_problem(request.scene, request.question);
+  const OccupancyMap& map = *request.scene.map;
+  Answer chosen;
+  chosen.problem = problem.general();
+  chosen.planner = name_of(request.planner);
+  chosen.seed = request.options.seed;
+  chosen.options = given_figures(request.options);
+  GoalChoice choice;
+  answer_within_limits(chosen, [&] {
+    const StageTimer timer(request.execution, "search", chosen.seconds.search, map.blocked.size());
+    if (!stands_free_on_map(map, problem, problem.start, request.execution)) {
+      chosen.outcome = Outcome::start_blocked;
+      return;
+    }
+    const Bitmap closed = closed_cells(map, problem.start);
+    const Bitmap wide = blocked_for_disc(closed, problem.reach() / map.cell, request.execution);
+    const std::optional<MapPrices> prices = priced_map(map, problem, request.execution);
+    MapPrices::Scratch scratch;
+    WaysOverCells ways(map, problem, closed, wide, Diagonal::sqrt2, leg_prices(prices, scratch), request.execution);
+    choice = choose_goal(ways, map, problem, {}, has_open_end(request));
+    chosen.counters.expanded += ways.expanded();
+    take_choice(chosen, choice);
+    if (choice.outcome != Outcome::solved) prove_apart(chosen, map, closed, problem, choice, request.execution);
+  });
+  if (choice.outcome != Outcome::solved) return chosen;
+  Question question = request.question;
+  question.goal = {choice.goal.x, choice.goal.y};
+  question.rule = {};
+  SolveOptions options = request.options;
+  for (const Vec2 stop : choice.stops) options.trees.via.push_back({stop.x, stop.y});
+  SolveRequest to_goal{options,           request.scene, question,     request.planner,
+                       request.execution, request.keep,  request.asked};
+  Answer answer = solve_sampled<BodyOnMap>(to_goal);
+  answer.options = given_figures(request.options);
+  answer.problem = problem.general();
+  answer.counters.expanded += chosen.counters.expanded;
+  answer.seconds.search += chosen.seconds.search;
+  answer.solve_s += chosen.solve_s;
+  take_choice(answer, choice, answer.outcome);
+  if (answer.verified) answer.lower_bound = bound_of_choice(problem, has_open_end(request));
+  return answer;
+}
 
 NamedLines lines_of(const OccupancyMap& map, const std::vector<std::pair<Cell, Cell>>& steps) {
   NamedLines lines{"medial_axis", {}};
@@ -307,15 +503,19 @@ class SkeletonSolve {
 };
 
 constexpr PlannerChoice occupancy_planners[] = {
-    {PlannerKind::grid, OptionSet{Option::search, Option::diagonal, Option::optimise}},
-    {PlannerKind::prm, prm_takes | point_takes},
-    {PlannerKind::lazy_prm, lazy_prm_takes | point_takes},
-    {PlannerKind::rrt, rrt_options},
-    {PlannerKind::rrt_connect, rrt_connect_options},
-    {PlannerKind::rrt_star, rrt_star_options},
-    {PlannerKind::informed_rrt_star, rrt_star_options},
-    {PlannerKind::anytime, anytime_options},
-    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound}}};
+    {PlannerKind::grid,
+     OptionSet{Option::search, Option::diagonal, Option::optimise, Option::via, Option::bound, Option::gap},
+     goal_words | price_words | restriction_words | route_words},
+    {PlannerKind::prm, prm_takes | point_takes | OptionSet{Option::via}, goal_words | price_words | restriction_words},
+    {PlannerKind::lazy_prm, lazy_prm_takes | point_takes | OptionSet{Option::via},
+     goal_words | price_words | restriction_words},
+    {PlannerKind::rrt, rrt_options, goal_words | restriction_words},
+    {PlannerKind::rrt_connect, rrt_connect_options, goal_words | restriction_words},
+    {PlannerKind::rrt_star, rrt_star_options, restriction_words},
+    {PlannerKind::informed_rrt_star, rrt_star_options, restriction_words},
+    {PlannerKind::anytime, anytime_options, restriction_words},
+    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound},
+     restriction_words}};
 
 bool fits_occupancy(const Scene& scene, const RobotSpec& robot) {
   return scene.map && (robot.kind == RobotKind::point || robot.kind == RobotKind::disc);
@@ -328,7 +528,8 @@ Answer solve_occupancy(const SolveRequest& request) {
     case PlannerKind::voronoi:
       return solve_on_skeleton(request);
     default:
-      return solve_sampled<BodyOnMap>(request);
+      return rule_of(request.scene, request.question).empty() ? solve_sampled<BodyOnMap>(request)
+                                                              : solve_chosen(request);
   }
 }
 

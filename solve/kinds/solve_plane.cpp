@@ -19,10 +19,12 @@
 #include "solve/kinds/geometric_roadmaps.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/plane_steps.hpp"
+#include "solve/kinds/priced_motions.hpp"
 #include "solve/kinds/sampled_roadmap.hpp"
 #include "solve/kinds/sampled_solve.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "worlds/plane/polygon_world.hpp"
+#include "worlds/prices/side_prices.hpp"
 
 namespace warren {
 namespace {
@@ -88,15 +90,16 @@ NamedLines lines_of(const MedialAxis& axis) {
 }
 
 constexpr PlannerChoice plane_planners[] = {
-    {PlannerKind::prm, plane_takes},
-    {PlannerKind::lazy_prm, plane_takes},
-    {PlannerKind::rrt, rrt_options},
-    {PlannerKind::rrt_connect, rrt_connect_options},
-    {PlannerKind::rrt_star, rrt_star_options},
-    {PlannerKind::informed_rrt_star, rrt_star_options},
-    {PlannerKind::anytime, anytime_options},
+    {PlannerKind::prm, plane_takes, price_words | restriction_words},
+    {PlannerKind::lazy_prm, plane_takes, price_words | restriction_words},
+    {PlannerKind::rrt, rrt_options, restriction_words},
+    {PlannerKind::rrt_connect, rrt_connect_options, restriction_words},
+    {PlannerKind::rrt_star, rrt_star_options, restriction_words},
+    {PlannerKind::informed_rrt_star, rrt_star_options, restriction_words},
+    {PlannerKind::anytime, anytime_options, restriction_words},
     {PlannerKind::visibility,
-     OptionSet{Option::full, Option::lazy, Option::sampled_edges, Option::search, Option::queue, Option::bound}},
+     OptionSet{Option::full, Option::lazy, Option::sampled_edges, Option::search, Option::queue, Option::bound},
+     restriction_words},
     {PlannerKind::cells, OptionSet{Option::doors, Option::search, Option::queue, Option::bound}},
     {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound}}};
 
@@ -146,7 +149,16 @@ class PointAmongPolygons : public UsualBody {
   bool start_stands_free() const { return stands_free(scene_, problem_, problem_.start, execution_, judged_); }
   bool goal_stands_free(Vec2 goal) const { return stands_free(scene_, problem_, goal, execution_, judged_); }
   static double length(const World&, Vec2 a, Vec2 b) { return World::distance(a, b); }
+  const MotionCost& price_motions(const World& world) {
+    if (!problem_.prices.empty()) {
+      cost_ = motion_cost(prices_.emplace(world.sides(), problem_.robot.radius, problem_.prices));
+    }
+    return cost_;
+  }
   Path<Vec2> shortened(const World& world, const Path<Vec2>& path, Answer&) const {
+    constexpr double steps_a_path = 100.0;
+    const double step = path_length(path, World::distance) / steps_a_path;
+    if (cost_ && step > 0.0) return pulled_taut(world, Path<Vec2>(path), cost_, step, execution_);
     return taut_path(world.sides(), path, world.planning_clearance(), execution_);
   }
   static Path<Vec2> improved(const World& world, const Path<Vec2>& path, const ImproveOptions&,
@@ -163,6 +175,8 @@ class PointAmongPolygons : public UsualBody {
   const Execution& execution_;
   const ObstacleIndex* judged_;
   WallProblem problem_;
+  std::optional<SidePrices> prices_;
+  MotionCost cost_;  // empty: nothing has a price
 };
 
 Answer solve_plane(const SolveRequest& request) {

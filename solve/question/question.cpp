@@ -5,11 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 
 #include "core/base/error.hpp"
 #include "core/plane/se2.hpp"
 #include "scenes/text/scene_text.hpp"
+#include "solve/question/asked_words.hpp"
 #include "solve/question/question_of_arm.hpp"
+#include "worlds/rasters/convex_pieces.hpp"
 
 namespace warren {
 namespace {
@@ -96,6 +100,55 @@ double clearance_of(const Scene& scene, const Question& options) {
   return scene.maze ? clearance_in_mazes : 0.0;
 }
 
+double least_width(const RobotSpec& robot) {
+  if (robot.outline.empty()) return 2.0 * robot.radius;
+  const ConvexPiece hull = convex_hull(robot.outline);
+  const std::size_t n = hull.size();
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0, far = 0; i < n; ++i) {  // the farthest corner goes around with the side
+    const Vec2 side = hull[(i + 1) % n] - hull[i];
+    const auto off = [&](std::size_t corner) { return cross(side, hull[corner % n] - hull[i]) / norm(side); };
+    far = std::max(far, i);
+    while (off(far + 1) > off(far)) ++far;
+    least = std::min(least, off(far));
+  }
+  return least;
+}
+
+Prices prices_of(const Scene& scene, const Question& question) {
+  Prices prices = scene.prices;
+  const Prices& asked = question.prices;
+  const auto add = [](auto& to, const auto& more, const auto& is_same) {
+    for (const auto& one : more) {
+      if (std::none_of(to.begin(), to.end(), [&](const auto& there) { return is_same(there, one); })) to.push_back(one);
+    }
+  };
+  add(prices.areas, asked.areas,
+      [](const PricedArea& a, const PricedArea& b) { return a.factor == b.factor && a.corners == b.corners; });
+  add(prices.masks, asked.masks, [](const PriceMask& a, const PriceMask& b) {
+    return a.kind == b.kind && a.file == b.file && a.factor == b.factor && a.base == b.base &&
+           a.multiplier == b.multiplier;
+  });
+  add(prices.keep_out, asked.keep_out, [](const KeepOut& a, const KeepOut& b) { return a.corners == b.corners; });
+  if (asked.clearance) prices.clearance = asked.clearance;
+  if (asked.unknown) prices.unknown = asked.unknown;
+  if (prices.clearance && !prices.clearance->reach) {
+    const RobotSpec robot = robot_of(scene, question);
+    prices.clearance->reach = least_width(robot);
+    if (!(*prices.clearance->reach > 0.0)) {
+      throw UsageError(fmt::format("@clearance_price: a {} has no width from which nothing is to be paid; say P,D",
+                                   name_of(robot.kind)));
+    }
+  }
+  return prices;
+}
+
+GoalRule rule_of(const Scene& scene, const Question& question) {
+  GoalRule rule = question.rule;
+  if (question.goal.empty() && !question.goal_pose && rule.others.empty()) rule.others = scene.other_goals;
+  return rule;
+}
+
 void Question::validate() const {
   const auto is_coordinate = [](double x) { return std::abs(x) <= largest_coordinate; };
   for (const auto& [name, state] : {std::pair{"start", &start}, std::pair{"goal", &goal}}) {
@@ -105,6 +158,9 @@ void Question::validate() const {
   if (clearance && !(*clearance >= 0.0 && *clearance <= largest_coordinate)) {
     throw UsageError(fmt::format("@clearance: must be a number from 0 to 1e60 (found: {})", *clearance));
   }
+  check_prices(prices);
+  check_goal_rule(rule);
+  check_route_rule(route);
 }
 
 WallProblem wall_problem(const Scene& scene, const Question& options, Contact usual) {
@@ -114,8 +170,12 @@ WallProblem wall_problem(const Scene& scene, const Question& options, Contact us
     throw UsageError(fmt::format("{}: expected a point or disc", options.robot ? "@robot" : scene.source));
   }
   problem.start = plane_state("@start", options.start, scene.start);
-  problem.goal = plane_state("@goal", options.goal, scene.goal);
+  problem.goal = problem.start;
+  const bool ends_anywhere = !options.rule.visit.empty() && options.goal.empty() && scene.goal.empty();
+  if (!options.rule.back && !ends_anywhere) problem.goal = plane_state("@goal", options.goal, scene.goal);
   problem.clearance = clearance_of(scene, options);
+  problem.prices = prices_of(scene, options);
+  problem.rule = rule_of(scene, options);
   problem.contact = options.contact.value_or(problem.reach() > 0.0 ? Contact::blocked : usual);
   if (problem.contact == Contact::allowed && problem.reach() > 0.0) {
     throw UsageError(

@@ -3,6 +3,7 @@
 // makes with what the world's file says and the documented defaults.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,6 +16,37 @@
 
 namespace warren {
 
+/// What reaching the goal means. Points and discs; nothing said: to be at the goal.
+struct GoalRule {
+  std::vector<std::vector<double>> others = {};  ///< goals beside `goal`: the cheapest to reach is taken
+  std::optional<double> tolerance = {};  ///< a goal that can't be reached: the nearest place to it that can, so far off
+                                         ///< at most, >= 0 or infinite
+  std::optional<double> region = {};     ///< any place so near to the goal, the cheapest; >= 0
+  /// Of bodies that turn: the heading in the tolerance or region may be off by so much; none: not at all. 0 .. pi
+  std::optional<double> heading_rad = {};
+  std::vector<std::vector<double>> visit = {};  ///< places on the way, in the cheapest order
+  bool back = false;                            ///< the path ends where it started
+
+  /// Is anything said?
+  bool empty() const { return others.empty() && !tolerance && !region && visit.empty() && !back; }
+};
+
+/// Which of the ways is taken, and which others are told. Nothing said: one of the cheapest, alone.
+struct RouteRule {
+  std::optional<std::uint32_t> alternatives =
+      {};                              ///< cheapest homotopy classes, 1 .. most_alternatives; of each a path
+  std::optional<double> hole = {};     ///< obstacles so far across make classes, >= 0; none: the body's length; 0: all
+  std::optional<double> stretch = {};  ///< alternatives cost so many times the best at most, >= 1; none: 1.5
+  std::vector<std::vector<double>> keep_to = {};  ///< states of an older path, whose rest is kept where it is free
+  std::optional<double> unless_gain = {};  ///< unless a new path costs less by this share of the rest's cost, 0 .. 1;
+                                           ///< none: 0.05
+
+  /// Is anything said?
+  bool empty() const { return !alternatives && !hole && !stretch && keep_to.empty() && !unless_gain; }
+};
+/// More classes are not searched.
+inline constexpr std::uint32_t most_alternatives = 64;
+
 /// What is asked of a world: what is not said here is as the world's file says, and else as documented. A state is X, Y
 /// of a point or disc; X, Y, THETA (radians) of a body that turns, whose goal may lack THETA: any heading; six joint
 /// angles of an arm (radians), whose goal may be the three coordinates of a place of its tool.
@@ -26,6 +58,9 @@ struct Question {
       {};  ///< room around the body, 0 .. 1e60; none: the file's, else 0.1 in mazes, else 0
   std::optional<Contact> contact = {};  ///< may the path touch obstacles? none: where the planner's paths may
   std::optional<Eigen::Isometry3d> goal_pose = {};  ///< of an arm's tool, instead of `goal`; none: the file's
+  Prices prices = {};                               ///< beside the file's; of two words for one thing this one counts
+  GoalRule rule = {};                               ///< what reaching the goal means
+  RouteRule route = {};                             ///< which of the ways
 
   /// Throws UsageError for values that no problem can have.
   void validate() const;
@@ -39,9 +74,12 @@ struct Problem {
   double clearance = 0.0;                           ///< around the body; finite, >= 0
   Contact contact = Contact::blocked;               ///< may the path touch obstacles?
   std::optional<Eigen::Isometry3d> goal_pose = {};  ///< of an arm's tool; then there is no `goal`
+  Prices prices = {};                               ///< the file's and the question's
+  GoalRule rule = {};                               ///< as asked
+  std::vector<std::string> told = {};  ///< what became of the question, a line each: ends moved onto limits
 
   /// The question that says all of it.
-  Question question() const { return {robot, start, goal, clearance, contact, goal_pose}; }
+  Question question() const { return {robot, start, goal, clearance, contact, goal_pose, prices, rule}; }
 };
 
 /// A point or disc among walls and polygons.
@@ -51,11 +89,15 @@ struct WallProblem {
   Vec2 goal;                           ///< of the reference point
   double clearance = 0.0;              ///< around the body; finite, >= 0
   Contact contact = Contact::blocked;  ///< may the path touch obstacles?
+  Prices prices = {};                  ///< the file's and the question's
+  GoalRule rule = {};                  ///< as asked
 
   /// Distance that the reference point keeps from every wall.
   double reach() const { return clearance + robot.radius; }
   /// The same as a problem of any body.
-  Problem general() const { return {robot, {start.x, start.y}, {goal.x, goal.y}, clearance, contact}; }
+  Problem general() const {
+    return {robot, {start.x, start.y}, {goal.x, goal.y}, clearance, contact, {}, prices, rule};
+  }
 };
 
 /// The body that is asked about: the options', else the file's, else a point.
@@ -63,9 +105,20 @@ RobotSpec robot_of(const Scene& scene, const Question& options);
 /// Room around the body: the options', else the file's, else 0.1 in mazes, else 0.
 double clearance_of(const Scene& scene, const Question& options);
 
+/// Of a disc, or of a polygon between two parallel lines; of arms 0.
+double least_width(const RobotSpec& robot);
+
+/// The file's prices and the question's: areas, masks and forbidden areas of both, else the question's word; the reach
+/// of a price of clearance is the body's least width where nobody says it. Throws UsageError for a point without one.
+Prices prices_of(const Scene& scene, const Question& question);
+
+/// The question's rule; the file's other goals where the question says no goal.
+GoalRule rule_of(const Scene& scene, const Question& question);
+
 /// The problem of a point or disc. A heading in the file (of a body that was overridden) means nothing to them. Throws
 /// UsageError where start or goal are missing or have the wrong size, where contact contradicts the clearance, and
-/// where the body is another. `usual` is the contact that nobody asked for.
+/// where the body is another. The goal of who comes back, and of visits without one, is the start. `usual` is the
+/// contact that nobody asked for.
 WallProblem wall_problem(const Scene& scene, const Question& options, Contact usual = Contact::blocked);
 
 /// wall_problem for a planner that keeps off the obstacles, as `how` says; throws UsageError where the path is to be

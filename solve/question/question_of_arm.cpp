@@ -64,13 +64,17 @@ void take_goal(ArmProblem& problem, const Scene& scene, const Question& options)
 }
 
 /// Files write pi as 3.14159.
-void move_onto_limits(const ArmModel& model, std::span<double> state) {
+void move_onto_limits(const ArmModel& model, std::string_view end, std::span<double> state,
+                      std::vector<std::string>& told) {
   constexpr double rounded_limits = 1e-5;
   for (std::size_t j = 0; j < state.size(); ++j) {
     const ArmVariable& variable = model.variables[j];
     if (variable.continuous) continue;
     const double within = std::clamp(state[j], variable.low, variable.high);
-    if (std::abs(state[j] - within) <= rounded_limits) state[j] = within;
+    if (state[j] == within || !(std::abs(state[j] - within) <= rounded_limits)) continue;
+    told.push_back(
+        fmt::format("{}: {} is moved from {:.9g} onto its limit, {:.9g}", end, variable.name, state[j], within));
+    state[j] = within;
   }
 }
 
@@ -120,6 +124,7 @@ Problem ArmProblem::general() const {
   Problem problem{robot, {}, goal, clearance, Contact::blocked};
   problem.start.assign(start.begin(), start.begin() + as_whole<std::ptrdiff_t>(width()));
   problem.goal_pose = goal_pose;
+  problem.told = told;
   return problem;
 }
 
@@ -157,9 +162,9 @@ ArmProblem arm_problem(const Scene& scene, const Question& options, const Execut
   std::vector<double> start = state_of("@start", options.start, said, problem.width(), false);
   take_goal(problem, scene, options);
   if (!problem.table) {
-    move_onto_limits(problem.model, start);
-    if (!problem.any_posture()) move_onto_limits(problem.model, problem.goal);
-    for (std::vector<double>& goal : problem.other_goals) move_onto_limits(problem.model, goal);
+    move_onto_limits(problem.model, "start", start, problem.told);
+    if (!problem.any_posture()) move_onto_limits(problem.model, "goal", problem.goal, problem.told);
+    for (std::vector<double>& goal : problem.other_goals) move_onto_limits(problem.model, "goal", goal, problem.told);
   }
   problem.start = joint_state(start);
   return problem;

@@ -22,6 +22,7 @@ struct ArmProblem {
   std::vector<std::vector<double>> other_goals;  ///< that do as well
   std::optional<Eigen::Isometry3d> goal_pose{};  ///< of the tool, instead
   double clearance = 0.0;
+  std::vector<std::string> told{};  ///< ends that were moved onto a limit, a line a joint
 
   std::size_t width() const { return model.variables.size(); }  ///< numbers of a state
   bool any_posture() const { return goal.size() != width(); }
@@ -47,7 +48,7 @@ double reach_of(const ArmProblem& problem);
 void take_reached_goal(ArmProblem& problem, const JointState& end);
 
 /// Throws UsageError where start or goal are missing or have the wrong size. Ends that are beyond a limit of an arm of
-/// files by at most 1e-5 are moved onto it.
+/// files by at most 1e-5 are moved onto it, and told.
 ArmProblem arm_problem(const Scene& scene, const Question& options, const Execution& execution);
 
 /// States with the tool at the goal's place or pose. Of an arm of the Puma 560's shape all branches within the limits,

@@ -121,11 +121,12 @@ struct AnytimeFields {
 struct GridFields {
   std::optional<double> cell = {};           ///< distance of positions, > 0; none: the file's, else a 400th of the side
   std::optional<std::uint32_t> angles = {};  ///< headings, 1 .. 1,000,000; none: the file's, else 72
-  bool face_motion = false;                  ///< the body moves only where it faces
-  std::optional<double> step_cost = {};      ///< of a step to the side, > 0; none: 1
-  std::optional<double> turn_cost = {};      ///< of a turn to the next heading, > 0; none: 1
-  std::optional<Diagonal> diagonal = {};     ///< what a diagonal step costs; none: sqrt2
-  std::optional<LayerKind> layers = {};      ///< none: exact
+  std::optional<std::uint32_t> headings = {};  ///< of a car's lattice: 16 or 32; none: 16
+  bool face_motion = false;                    ///< the body moves only where it faces
+  std::optional<double> step_cost = {};        ///< of a step to the side, > 0; none: 1
+  std::optional<double> turn_cost = {};        ///< of a turn to the next heading, > 0; none: 1
+  std::optional<Diagonal> diagonal = {};       ///< what a diagonal step costs; none: sqrt2
+  std::optional<LayerKind> layers = {};        ///< none: exact
 };
 
 /// cells.
@@ -213,16 +214,18 @@ enum class Option : std::uint8_t {
   iterations,
   gap,
   parts,
-  bound
+  bound,
+  headings
 };
 constexpr auto enum_names(Option) {
-  return std::array<std::string_view, 36>{
+  return std::array<std::string_view, 37>{
       "sampler",   "samples",         "neighbours",     "radius",    "search",       "queue",
       "lazy",      "pipeline",        "optimise",       "cell",      "angles",       "face_motion",
       "step_cost", "turn_cost",       "diagonal",       "layers",    "full",         "sampled_edges",
       "doors",     "objective",       "step",           "goal_bias", "nodes",        "trees",
       "via",       "steering",        "turning_radius", "cusp_cost", "reverse_cost", "attach",
-      "heuristic", "neighbour_index", "iterations",     "gap",       "parts",        "bound"};
+      "heuristic", "neighbour_index", "iterations",     "gap",       "parts",        "bound",
+      "headings"};
 }
 /// Enumerators of Option.
 inline constexpr std::size_t option_count = enum_names(Option{}).size();
@@ -292,6 +295,7 @@ void visit_options(const Visit& visit, Of&... of) {
   visit(Option::attach, {}, of.roadmap.attach...);
   visit(Option::cell, {}, of.grid.cell...);
   visit(Option::angles, {1, 1'000'000}, of.grid.angles...);
+  visit(Option::headings, {16, 32}, of.grid.headings...);
   visit(Option::face_motion, {}, of.grid.face_motion...);
   visit(Option::step_cost, {}, of.grid.step_cost...);
   visit(Option::turn_cost, {}, of.grid.turn_cost...);

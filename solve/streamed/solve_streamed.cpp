@@ -207,11 +207,12 @@ Answer solve_streamed_within(const Scene& scene, const Question& question, const
   options.validate();
   check_solver_options(options);
   if (!choose_solver(options, scene, question).kind->unmade) throw UsageError("@pipeline: these walls are held");
+  if (!question.route.keep_to.empty()) throw UsageError("@keep_to: nobody holds these walls, to judge an older path");
   const WallProblem problem = keeping_off(scene, question, "prm keeps off the walls");
   Answer answer = solve_streamed(scene, problem, planner_options(options, scene, problem), execution, help);
   tell_bound(answer, scene, options, execution);
   answer.threads = thread_count(execution.threads);
-  answer.peak_memory_bytes = peak_resident_bytes();
+  tell_memory(answer, execution);
   return answer;
 }
 

@@ -67,6 +67,24 @@ inline constexpr std::array<std::array<int, 2>, 8> cell_steps{
     {{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
 constexpr bool is_diagonal(unsigned step) { return step == 0 || step == 2 || step == 5 || step == 7; }
 
+/// Those and a knight's, of fields that bound ways in 16 or more directions from below.
+inline constexpr std::array<std::array<int, 2>, 16> knight_steps{{{1, 0},
+                                                                  {0, 1},
+                                                                  {-1, 0},
+                                                                  {0, -1},
+                                                                  {1, 1},
+                                                                  {-1, 1},
+                                                                  {-1, -1},
+                                                                  {1, -1},
+                                                                  {2, 1},
+                                                                  {1, 2},
+                                                                  {-1, 2},
+                                                                  {-2, 1},
+                                                                  {-2, -1},
+                                                                  {-1, -2},
+                                                                  {1, -2},
+                                                                  {2, -1}}};
+
 /// Which steps are allowed: sides only; or diagonals too, where both cells beside them are free (Moving AI's rule); or
 /// diagonals wherever the cell that they lead to is free.
 enum class StepRule : std::uint8_t { four, eight, eight_squeezing };

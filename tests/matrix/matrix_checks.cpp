@@ -73,9 +73,9 @@ std::optional<std::string> Matrix::wrong_with(const MatrixBody& body, const std:
   return wrong_with_path(world().plane, body.plane, question, path);
 }
 
-/// All but grid, whose cost is its own, tell a bound that their path is not below.
+/// All but grid, whose cost is its own where it is no car's, tell a bound that their path is not below.
 void Matrix::check_bound(const std::string& planner, const ProgramAnswer& answer) {
-  EXPECT_EQ(answer.lower_bound.empty(), planner == "grid");
+  EXPECT_TRUE(planner == "grid" || !answer.lower_bound.empty());
   if (answer.lower_bound.empty()) {
     EXPECT_TRUE(answer.gap.empty());
     return;
@@ -225,8 +225,9 @@ void Matrix::check_explained(const ProgramAnswer& answer, const std::string& sum
   const bool tries = summary.find("\n  try ") != std::string::npos;
   if (answer.status == "not_connected") {
     EXPECT_TRUE(tries) << summary;
-  } else if (answer.status == "solved" || answer.status == "infeasible") {
-    EXPECT_FALSE(tries) << summary;
+  } else if (answer.status == "solved" || answer.status == "infeasible") {  // a path that is found may get better
+    const bool may_get_better = summary.find("\n  try           --iterations") != std::string::npos;
+    EXPECT_EQ(tries, may_get_better && answer.status == "solved") << summary;
   }
 }
 

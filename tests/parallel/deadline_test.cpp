@@ -51,6 +51,20 @@ TEST(Deadline, RefusesBytesBeyondItsMemory) {
   EXPECT_EQ(deadline.memory_bytes(), limit);
 }
 
+TEST(Deadline, TellsTheMostThatWasRefusedAndSoDoesTheWhole) {
+  constexpr std::size_t gibibyte = std::size_t{1} << 30;
+  const Deadline whole(forever, resident_bytes() + gibibyte);
+  EXPECT_EQ(whole.wanted_bytes(), 0U);
+  const Deadline part(&whole, forever);
+  for (const std::size_t bytes : {4 * gibibyte, 2 * gibibyte}) EXPECT_EQ(reason_of(part, bytes), StopReason::memory);
+  for (const Deadline* asked : {&whole, &part}) {
+    EXPECT_GE(asked->wanted_bytes(), 4 * gibibyte);
+    EXPECT_LT(asked->wanted_bytes(), 4 * gibibyte + whole.memory_bytes());
+  }
+  EXPECT_EQ(reason_of(whole, std::numeric_limits<std::size_t>::max()), StopReason::memory);
+  EXPECT_EQ(whole.wanted_bytes(), std::numeric_limits<std::size_t>::max());
+}
+
 TEST(Deadline, GrantsThatItGaveUnaskedCountTowardsTheLimit) {
   constexpr std::size_t step = std::size_t{1} << 16;  // far less than a 64th of what is left at first
   give_freed_pages_back();                            // memory that other tests left at hand would be held already

@@ -76,6 +76,13 @@ TEST_F(SolveUrdf, EveryPlannerSolvesAndTheJudgeAgrees) {
   }
 }
 
+TEST_F(SolveUrdf, EndsThatAreMovedOntoALimitAreTold) {
+  const Json answer = solved({"--goal", "0.9,0.3,0.2,0.2000003"});
+  EXPECT_EQ(answer["goal"][3], 0.2);
+  EXPECT_EQ(answer["told"].back(), "goal: slide is moved from 0.2000003 onto its limit, 0.2");
+  solved({"--goal", "0.9,0.3,0.2,0.2001"}, 1);
+}
+
 TEST_F(SolveUrdf, AnswersAreTheSameForAnyNumberOfThreads) {
   for (const char* planner : {"rrt-connect", "prm"}) {
     std::string first;
@@ -85,6 +92,22 @@ TEST_F(SolveUrdf, AnswersAreTheSameForAnyNumberOfThreads) {
       if (first.empty()) first = answer.dump();
       EXPECT_EQ(answer.dump(), first);
     }
+  }
+}
+
+TEST_F(SolveUrdf, SolidsBeyondWhatFloatsHoldAreAnswered) {
+  for (const std::string solid : {R"(<box size="1e60 0.1 1"/>)", R"(<cylinder radius="1e60" length="1"/>)",
+                                  R"(<cylinder radius="1" length="1e60"/>)", R"(<sphere radius="1e30"/>)"}) {
+    SCOPED_TRACE(solid);
+    const std::string urdf = folder_.write(
+        "large.urdf", R"(<robot name="r"><link name="b"/><link name="l"><collision><geometry>)" + solid +
+                          R"(</geometry></collision></link><joint name="j" type="revolute"><parent link="b"/>)"
+                          R"(<child link="l"/><axis xyz="0 0 1"/><limit lower="-2" upper="2"/></joint></robot>)");
+    const std::string scene =
+        folder_.write("large.scene", "sphere 3 3 3 0.5\nrobot urdf " + urdf + "\nstart 0\ngoal 1\n");
+    const Outcome outcome = run({"solve", scene, "--json", "-"});
+    EXPECT_EQ(outcome.code, 1) << outcome.err;
+    EXPECT_EQ(Json::parse(outcome.out, nullptr, false).value("status", ""), "start_blocked");
   }
 }
 

@@ -17,6 +17,7 @@
 #include "core/base/error.hpp"
 #include "core/base/printable.hpp"
 #include "parallel/execution.hpp"
+#include "scenes/text/human_units.hpp"
 #include "solve/question/limits.hpp"
 #include "tools/screen/run_of_verb.hpp"
 
@@ -72,7 +73,8 @@ int run_with_errors_told(std::string_view program, std::string_view hint, const 
     die_if_unheard();
     return complain(program, exit_code::unwritable, error.what());
   } catch (const Stopped& stopped) {
-    return complain(program, exit_code_of(stopped.reason), fmt::format("stopped: {}", text_of(stopped.reason)));
+    return complain(program, exit_code_of(stopped.reason),
+                    "stopped: " + stop_text(stopped.reason, stopped.wanted_bytes));
   } catch (const std::bad_alloc&) {
     return say_memory_is_out();
   } catch (const std::exception& error) {

@@ -80,9 +80,9 @@ void check_picture_ending(std::string_view option, const std::string& file, std:
 }
 
 /// Of all verbs: the options whose values are files that are written, and that are read. Operands are read.
-constexpr std::array<std::string_view, 15> output_options{
-    "--path",  "--json",   "--picture", "--table",  "--html",         "--csv",    "--runs",  "--log",
-    "--trace", "--output", "--keep",    "--report", "--save-roadmap", "--resume", "--curves"};
+constexpr std::array<std::string_view, 16> output_options{
+    "--path",  "--json",   "--picture", "--table",  "--html",         "--csv",    "--runs",   "--log",
+    "--trace", "--output", "--keep",    "--report", "--save-roadmap", "--resume", "--curves", "--certificate"};
 constexpr std::array<std::string_view, 5> input_options{"--answer", "--map", "--batch", "--matrix", "--world"};
 
 /// Where a file is, or will be: two are the same file exactly if their places are equal.
@@ -320,6 +320,10 @@ void check_not_written(const Arguments& arguments, const std::string& input) {
 
 void check_not_written(const Arguments& arguments, const std::optional<RobotSpec>& robot) {
   if (robot) check_not_written(arguments, robot->table);
+}
+
+void check_not_written(const Arguments& arguments, const Prices& prices) {
+  for (const PriceMask& mask : prices.masks) check_not_written(arguments, mask.file);
 }
 
 }  // namespace warren::tools

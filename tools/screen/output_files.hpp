@@ -56,5 +56,7 @@ void check_outputs(const Arguments& arguments);
 void check_not_written(const Arguments& arguments, const std::string& input);
 /// The same for an arm's table.
 void check_not_written(const Arguments& arguments, const std::optional<RobotSpec>& robot);
+/// The same of the masks.
+void check_not_written(const Arguments& arguments, const Prices& prices);
 
 }  // namespace warren::tools

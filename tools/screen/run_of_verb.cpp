@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "core/base/printable.hpp"
+#include "scenes/text/human_units.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "solve/question/limits.hpp"
 #include "tools/screen/exit_code.hpp"
@@ -87,7 +88,7 @@ void Run::note(std::string_view line) const {
 void Run::conclude(bool standard_output_taken, std::optional<StopReason> stopped,
                    const std::function<std::string()>& summary) const {
   if (!quiet_ && !standard_output_taken) return print_text(summary());
-  if (stopped) fmt::print(stderr, "warren: stopped: {}\n", text_of(*stopped));
+  if (stopped) fmt::print(stderr, "warren: stopped: {}\n", stop_text(*stopped, deadline_.wanted_bytes()));
 }
 
 Execution Run::execution_for_what_is_left(bool has_used_its_time) {

@@ -19,10 +19,12 @@
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/layers/draw_cells.hpp"
 #include "scenes/arms/moveit_io.hpp"
+#include "scenes/files/mask_io.hpp"
 #include "scenes/files/npy_io.hpp"
 #include "scenes/files/npy_maze_io.hpp"
 #include "scenes/files/read_world_io.hpp"
 #include "scenes/text/human_units.hpp"
+#include "solve/answer/read_answer_io.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/kept/roadmap_file.hpp"
 #include "solve/kept/roadmap_file_io.hpp"
@@ -124,6 +126,7 @@ Scene load_world(const InputFile& file, const Arguments& arguments, const Execut
     take_moveit_request(scene, InputFile(*name, execution), execution);
   }
   check_not_written(arguments, scene.robot);
+  check_not_written(arguments, scene.prices);
   return scene;
 }
 
@@ -215,6 +218,14 @@ int draw_roadmap(const Arguments& arguments, const std::string& file, const Pict
                        grouped(edges.unchecked));
   });
   return exit_code::success;
+}
+
+void read_asked_files(Question& question, const Arguments& arguments, const Execution& execution) {
+  read_masks(question.prices, execution);
+  const auto old = arguments.value("--keep-to");
+  if (!old) return;
+  check_not_written(arguments, *old);
+  question.route.keep_to = states_of(read_answer(*old, execution));
 }
 
 }  // namespace warren::tools

@@ -15,6 +15,7 @@
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "solve/kept/roadmap.hpp"
+#include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"
 #include "tools/words/command.hpp"
 
@@ -63,5 +64,8 @@ bool is_roadmap_named(const std::string& file);
 
 /// The picture of ROADMAP in a file. The exit code; throws as load_roadmap and write_picture do.
 int draw_roadmap(const Arguments& arguments, const std::string& file, const PictureOptions& options);
+
+/// Reads what the words of a question name: masks, and the answer of --keep-to. Throws as their readers do.
+void read_asked_files(Question& question, const Arguments& arguments, const Execution& execution);
 
 }  // namespace warren::tools

@@ -11,6 +11,7 @@
 #include "pictures/draw_answer.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/layers/draw_bodies.hpp"
+#include "scenes/files/npy_io.hpp"
 #include "solve/answer/explanation_text.hpp"
 #include "solve/answer/write_answer_io.hpp"
 #include "solve/explain_answer.hpp"
@@ -46,6 +47,7 @@ AnswerCommand::AnswerCommand(const Arguments& arguments, std::string_view keep)
       svg_(output_file(arguments, "--picture").value_or("")),
       roadmap_(output_file(arguments, keep).value_or("")),
       path_(output_file(arguments, "--path").value_or("")),
+      certificate_(arguments.has("--certificate") ? output_file(arguments, "--certificate").value_or("") : ""),
       path_options_(path_words(arguments)),
       picture_options_(picture_words(arguments, arguments.has("--picture"), "--picture FILE", svg_)) {
   check_picture("--picture", svg_);
@@ -72,7 +74,8 @@ bool AnswerCommand::takes_standard_output() const {
 
 /// Only a file that is put into its place when all is verified may be begun before.
 bool AnswerCommand::hands_path_on() const {
-  if (!arguments_.has("--no-path") || !svg_.empty() || explains_ || keeps_roadmap()) return false;
+  if (!arguments_.has("--no-path") || !svg_.empty() || explains_ || keeps_roadmap() || !certificate_.empty())
+    return false;
   if (path_.empty()) return true;
   return path_format(path_) == PathFormat::npy && !path_options_.every && !is_written_straight(path_);
 }
@@ -81,7 +84,9 @@ void AnswerCommand::answer(const Run& run) {
   StageTimes before;
   if (hands_path_on()) handed_on_.emplace(path_, run.execution());
   try {
-    answer_ = find(run, before, svg_.empty() && !explains_ ? nullptr : &by_products_);
+    by_products_.wants_certificate = !certificate_.empty();
+    const bool keeps = !svg_.empty() || explains_ || by_products_.wants_certificate;
+    answer_ = find(run, before, keeps ? &by_products_ : nullptr);
   } catch (const Stopped& stopped) {
     answer_.stop_reason = stopped.reason;
   } catch (const std::bad_alloc&) {
@@ -92,7 +97,7 @@ void AnswerCommand::answer(const Run& run) {
   answer_.seconds.generate += before.generate;
   answer_.threads = run.threads();
   answer_.tells_path = !arguments_.has("--no-path");
-  answer_.peak_memory_bytes = peak_resident_bytes();
+  tell_memory(answer_, run.execution());
 }
 
 /// What is on disk says the same as the exit code: a stop while something is written makes it a stopped answer, one
@@ -122,6 +127,13 @@ void AnswerCommand::write_outputs(Run& run) {
 /// follows the picture.
 void AnswerCommand::write_finished(const Execution& execution) {
   const bool has_path = !path_.empty() && answer_.verified;
+  if (by_products_.certificate) {
+    write_npy(*by_products_.certificate, certificate_, execution);
+    written_.push_back(certificate_);
+  } else if (!certificate_.empty() && !arguments_.has("--quiet")) {
+    say_on_standard_error(
+        "warren: note: --certificate: there is no bound of all paths to prove, so it is not written\n");
+  }
   std::optional<OutputFile> kept;
   std::optional<OutputFile> json;
   const bool kept_follows = keeps_roadmap() && is_written_straight(roadmap_);

@@ -74,6 +74,7 @@ class AnswerCommand {
   std::string svg_;
   std::string roadmap_;
   std::string path_;
+  std::string certificate_;  // where the proof of a bound goes; empty: nowhere
   std::optional<PathArrayFile> handed_on_;
   PathFileOptions path_options_;
   PictureOptions picture_options_;

@@ -23,14 +23,6 @@ namespace {
 
 constexpr OptionSpec example_specs[] = {{"--output", "FOLDER", "where to (default: where you are)", {}, "-o"}};
 
-/// A row of the table.
-struct Example {
-  std::string_view name;  ///< "flat"
-  std::vector<std::string_view> files;
-  std::string_view sight;    ///< what to see
-  std::string_view command;  ///< that shows it
-};
-
 /// `puma` by its name of before, which scripts may know.
 Example former_example() {
   return {"puma-seed",
@@ -56,21 +48,6 @@ std::vector<std::string_view> quoted(std::string_view text) {
   return parts;
 }
 
-std::vector<Example> examples() {
-  std::vector<Example> all;
-  std::string_view table = bytes_of("README.md");
-  while (!table.empty()) {
-    const std::string_view row = table.substr(0, table.find('\n'));
-    table.remove_prefix(row.size() + 1);
-    if (!row.starts_with("| `")) continue;
-    const std::size_t bar = row.find(" | ");
-    const std::string_view says = row.substr(bar + 3);
-    const auto files = quoted(row.substr(0, bar));
-    all.push_back({files[0].substr(0, files[0].find('.')), files, says.substr(0, says.find(": `")), quoted(says)[0]});
-  }
-  return all;
-}
-
 std::string list_of(const std::vector<Example>& all) {
   std::string text;
   for (const Example& example : all) text += fmt::format("{:<12} {}\n", example.name, example.sight);
@@ -86,31 +63,56 @@ bool is_there(const std::string& file, std::string_view bytes) {
 }
 
 int write_example(const Example& example, const std::string& folder) {
-  std::vector<std::pair<std::string, std::string_view>> missing;
-  for (const std::string_view name : example.files) {
-    const std::string file = folder.empty() ? std::string{name} : fmt::format("{}/{}", folder, name);
-    if (!is_there(file, bytes_of(name))) missing.emplace_back(file, bytes_of(name));
-  }
-  for (const auto& [file, bytes] : missing) write_file(file, bytes, {});
+  write_example_files(example, folder);
   print_text(fmt::format("{}: {}\ntry{}: {}\n", fmt::join(example.files, ", "), example.sight,
                          folder.empty() ? "" : " in " + folder, example.command));
   return exit_code::success;
 }
 
 int example(const Arguments& arguments) {
-  const std::vector<Example> all = examples();
   if (arguments.operand_count() == 0) {
-    print_text(list_of(all));
+    print_text(list_of(examples()));
     return exit_code::success;
   }
-  std::vector<std::string_view> names;
-  for (const Example& each : all) names.push_back(each.name);
-  const std::string folder = arguments.value("--output").value_or("");
-  if (arguments.operand(0) == "puma-seed") return write_example(former_example(), folder);
-  return write_example(all[choice_value("NAME", arguments.operand(0), names)], folder);
+  return write_example(example_named(arguments.operand(0)), arguments.value("--output").value_or(""));
 }
 
 }  // namespace
+
+std::vector<Example> examples() {
+  std::vector<Example> all;
+  std::string_view table = bytes_of("README.md");
+  while (!table.empty()) {
+    const std::string_view row = table.substr(0, table.find('\n'));
+    table.remove_prefix(row.size() + 1);
+    if (!row.starts_with("| `")) continue;
+    const std::size_t bar = row.find(" | ");
+    const std::string_view says = row.substr(bar + 3);
+    const auto files = quoted(row.substr(0, bar));
+    all.push_back({files[0].substr(0, files[0].find('.')), files, says.substr(0, says.find(": `")), quoted(says)[0]});
+  }
+  return all;
+}
+
+Example example_named(std::string_view name) {
+  if (name == "puma-seed") return former_example();
+  const std::vector<Example> all = examples();
+  std::vector<std::string_view> names;
+  for (const Example& each : all) names.push_back(each.name);
+  return all[choice_value("NAME", name, names)];
+}
+
+std::string write_example_files(const Example& example, const std::string& folder) {
+  const auto place = [&](std::string_view name) {
+    return folder.empty() ? std::string{name} : fmt::format("{}/{}", folder, name);
+  };
+  std::vector<std::string_view> missing;
+  for (const std::string_view name : example.files) {
+    if (!is_there(place(name), bytes_of(name))) missing.push_back(name);
+  }
+  for (const std::string_view name : missing) write_file(place(name), bytes_of(name), {});
+  return place(example.files.front());
+}
 
 Command example_command() {
   Command command{"example", "[NAME]", "write a world to try things on, or list them", {}, example};

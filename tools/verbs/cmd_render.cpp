@@ -2,9 +2,12 @@
 // warren render: a picture of a world, with an answer's path on it, or of a roadmap.
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "core/base/error.hpp"
 #include "pictures/draw_answer.hpp"
 #include "pictures/formats/write_picture.hpp"
+#include "scenes/files/mask_io.hpp"
 #include "solve/answer/read_answer_io.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/question/question.hpp"
@@ -15,6 +18,7 @@
 #include "tools/screen/world_files.hpp"
 #include "tools/words/command.hpp"
 #include "tools/words/output_words.hpp"
+#include "tools/words/question_words.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren::tools {
@@ -43,6 +47,15 @@ void check_animation(const Arguments& arguments, const std::string& file) {
   }
 }
 
+/// Those of the command line, else the answer's, and the world's.
+void take_prices(const Arguments& arguments, const Scene& scene, Question& drawn, const Execution& execution) {
+  Prices asked = price_words(arguments);
+  if (!asked.empty()) drawn.prices = std::move(asked);
+  check_not_written(arguments, drawn.prices);
+  read_masks(drawn.prices, execution);
+  drawn.prices = prices_of(scene, drawn);
+}
+
 int render(const Arguments& arguments) {
   const std::string file = picture_file(arguments);
   const PictureOptions options = picture_words(arguments, true, {}, file);
@@ -59,6 +72,7 @@ int render(const Arguments& arguments) {
   RecordedAnswer answer;
   if (answer_file) answer = read_answer(*answer_file, run.execution());
   Scene scene = load_world(arguments.operand(0), arguments, run.execution(), seconds);
+  take_prices(arguments, scene, answer.problem, run.execution());
   check_not_written(arguments, answer.problem.robot);
   if (answer_file) check_plannable(scene, answer.problem);
   add_map_walls(scene, run.execution());
@@ -87,6 +101,7 @@ Command render_command() {
   Command command{"render", "FILE", "draw a world, with the path of an answer, or a roadmap", {}, render};
   add_options(command.options, render_specs);
   add_options(command.options, picture_option_specs());
+  add_options(command.options, price_option_specs());
   add_options(command.options, world_option_specs());
   add_options(command.options, run_option_specs());
   return command;

@@ -25,6 +25,9 @@ namespace {
 
 constexpr OptionSpec solve_specs[] = {
     {"--save-roadmap", "FILE", "prm, lazy-prm: keep the roadmap in this file, to ask it again with 'warren query'"},
+    {"--certificate", "FILE",
+     "on a map, for a point or disc: prove a lower bound of all paths, and keep its proof in this file (.npy), which "
+     "'warren verify --certificate FILE' checks"},
     {"--resume", "FILE",
      "with --pipeline streamed: keep finished parts of the work in FILE; a run that was ended goes on from there when "
      "it is started again"},
@@ -45,6 +48,7 @@ class SolveCommand : public AnswerCommand {
         question_(question_words(arguments)),
         options_(solve_words(arguments)) {
     check_not_written(arguments, question_.robot);
+    check_not_written(arguments, question_.prices);
     check_solver_options(options_);
   }
 
@@ -64,6 +68,7 @@ class SolveCommand : public AnswerCommand {
   }
   Answer find(const Run& run, StageTimes& before, ByProducts* keep) override {
     scene_ = load_planned_world(arguments_.operand(0), options_.roadmap.pipeline, arguments_, run.execution(), before);
+    read_asked_files(question_, arguments_, run.execution());
     check_outputs_of(robot_of(scene_, question_));
     if (is_unmade(scene_) && arguments_.has("--explain")) {
       throw UsageError("--explain: looks at walls that are held, and these are made tile by tile");
@@ -119,6 +124,7 @@ Command solve_command() {
   Command command{"solve", "WORLD", "find a path, verify it, print a summary", {}, {}};
   add_options(command.options, solve_option_specs());
   add_options(command.options, question_option_specs());
+  add_options(command.options, asked_option_specs());
   add_options(command.options, world_option_specs());
   add_options(command.options, answer_output_specs());
   add_options(command.options, path_option_specs());

@@ -8,6 +8,8 @@
 #include <string_view>
 
 #include "core/base/error.hpp"
+#include "scenes/files/mask_io.hpp"
+#include "scenes/files/npy_io.hpp"
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/output_file_io.hpp"
@@ -29,6 +31,7 @@ namespace {
 
 constexpr OptionSpec verify_specs[] = {
     {"--json", "FILE", "write the verdict as JSON; - is standard output"},
+    {"--certificate", "FILE", "the proof of the answer's lower bound, as 'warren solve --certificate FILE' keeps it"},
     {"--explain", "", "say where along the path there is least room"},
 };
 
@@ -80,11 +83,17 @@ int verify_answer(const Arguments& arguments) {
     throw UsageError(fmt::format("the world comes first, then its answer: warren verify {} {}", arguments.operand(1),
                                  arguments.operand(0)));
   }
-  const Question question = question_words(arguments);
+  Question question = question_words(arguments);
   check_not_written(arguments, question.robot);
+  check_not_written(arguments, question.prices);
   Run run(arguments);
   StageTimes seconds;
-  const RecordedAnswer answer = read_answer(arguments.operand(1), run.execution());
+  RecordedAnswer answer = read_answer(arguments.operand(1), run.execution());
+  check_not_written(arguments, answer.problem.prices);
+  read_masks(question.prices.empty() ? answer.problem.prices : question.prices, run.execution());
+  if (const auto proof = arguments.value("--certificate")) {
+    answer.certificate = read_potential_npy(InputFile(*proof, run.execution()), run.execution());
+  }
   const Scene scene = load_planned_world(arguments.operand(0), std::nullopt, arguments, run.execution(), seconds);
   check_not_written(arguments, answer.problem.robot);
   Verdict verdict;
@@ -110,6 +119,7 @@ int verify_answer(const Arguments& arguments) {
 Command verify_command() {
   Command command{"verify", "WORLD ANSWER.json", "re-check an answer independently", {}, verify_answer};
   add_options(command.options, question_option_specs());
+  add_options(command.options, asked_option_specs(), {"--alternatives", "--stretch", "--keep-to", "--unless-gain"});
   add_options(command.options, verify_specs);
   add_options(command.options, world_option_specs());
   add_options(command.options, run_option_specs());

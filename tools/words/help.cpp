@@ -206,13 +206,16 @@ struct NamedGroup {
 /// What stands in none is the verb's own.
 constexpr std::string_view own = "Options";
 constexpr NamedGroup option_groups[] = {
-    {"Question", "--robot --start --goal --via --clearance --contact --map-rules --request"},
+    {"Question",
+     "--robot --start --goal --via --clearance --contact --map-rules --request --goal-tolerance --goal-region --visit "
+     "--return --alternatives --stretch --keep-to --unless-gain"},
+    {"Prices and areas", "--clearance-price --area --areas --speed-zones --keep-out --unknown"},
     {"Planner", "--planner --planners --seed"},
     {"Roadmaps of samples",
      "--sampler --samplers --samples --neighbours --radius --neighbour-index --attach --lazy --pipeline"},
     {"Trees", "--step --goal-bias --nodes --trees"},
     {"Better with time", "--iterations --gap --parts --bound"},
-    {"Grids", "--cell --angles --face-motion --step-cost --turn-cost --diagonal --layers"},
+    {"Grids", "--cell --angles --headings --face-motion --step-cost --turn-cost --diagonal --layers"},
     {"Visibility graph, cells, medial axis", "--full --sampled-edges --doors --objective"},
     {"Cars", "--steering --turning-radius"},
     {"Search", "--search --searches --heuristic --queue --queues"},

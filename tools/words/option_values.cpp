@@ -133,6 +133,16 @@ std::vector<double> state_value(std::string_view option, std::string_view text) 
   return state;
 }
 
+std::vector<std::vector<double>> states_value(std::string_view option, std::string_view text) {
+  std::vector<std::vector<double>> states;
+  for (;;) {
+    const std::size_t end = text.find(';');
+    states.push_back(state_value(option, text.substr(0, end)));
+    if (end == std::string_view::npos) return states;
+    text.remove_prefix(end + 1);
+  }
+}
+
 std::vector<std::string> list_value(std::string_view option, std::string_view text) {
   std::vector<std::string> words;
   for (std::size_t at = 0; at <= text.size();) {

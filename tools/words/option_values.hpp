@@ -41,6 +41,8 @@ double duration_value(std::string_view option, std::string_view text);
 std::size_t memory_value(std::string_view option, std::string_view text);
 /// Numbers apart by commas or blanks, at most largest_coordinate each; 1 to 14 of them.
 std::vector<double> state_value(std::string_view option, std::string_view text);
+/// Such states apart by semicolons: one or more.
+std::vector<std::vector<double>> states_value(std::string_view option, std::string_view text);
 /// Words apart by commas; none is empty or there twice.
 std::vector<std::string> list_value(std::string_view option, std::string_view text);
 /// One of the words; a misspelt one is told the closest.

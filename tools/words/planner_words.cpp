@@ -62,9 +62,12 @@ constexpr OptionSpec planner_specs[] = {
      "grid in a scene: how far apart its positions are (default: the file's grid line, else a 400th of the longer "
      "side)"},
     {"--angles", "N", "grid: number of headings for a body that turns (default: the file's grid line, else 72)"},
+    {"--headings", "N", "grid, for a car: headings of the lattice that its motions join, 16 or 32 (default: 16)"},
     {"--face-motion", "", "grid: a body that turns moves only the way it faces"},
     {"--step-cost", "C", "grid in a scene, or for a body that turns: cost of a step to the next position (default: 1)"},
-    {"--turn-cost", "C", "grid: cost of a turn to the next heading, for a body that turns (default: 1)"},
+    {"--turn-cost", "C",
+     "grid: cost of a turn to the next heading, for a body that turns (default: 1); of a radian for a car (default: "
+     "0)"},
     {"--diagonal", "NAME",
      "grid: cost of a diagonal step, sqrt2 or 1 (unit) times that of a straight one; none: there are none (default: "
      "sqrt2)",
@@ -101,8 +104,8 @@ constexpr OptionSpec planner_specs[] = {
      "anytime: what takes turns, separated by commas: tree, restarts, roadmap, shorten (default: all)"},
     {"--bound", "", "also prove a lower bound, how short no path can be, as near as can be; takes time of its own"},
     {"--via", "STATES",
-     "rrt, rrt-connect: waypoints to pass in this order, separated by semicolons: \"X,Y; X,Y,THETA\", or six joint "
-     "angles each"},
+     "rrt, rrt-connect, and of points and discs grid, prm and lazy-prm: waypoints to pass in this order, separated by "
+     "semicolons: \"X,Y; X,Y,THETA\", or six joint angles each"},
     {"--steering", "WORD",
      "how a car drives: dubins forwards only, reeds-shepp backwards too (default: the file's, else dubins)",
      choices_of<SteeringKind>},
@@ -165,12 +168,7 @@ struct OptionReader {
     for (const std::string& word : list_value(flag, text)) field.push_back(choice_value<AnytimePart>(flag, word));
   }
   static void read(std::string_view flag, std::string_view text, OptionRange, std::vector<std::vector<double>>& field) {
-    for (;;) {
-      const std::size_t end = text.find(';');
-      field.push_back(state_value(flag, text.substr(0, end)));
-      if (end == std::string_view::npos) return;
-      text.remove_prefix(end + 1);
-    }
+    field = states_value(flag, text);
   }
 };
 

@@ -13,7 +13,17 @@ namespace warren::tools {
 /// --robot --start --goal --clearance --contact
 std::span<const OptionSpec> question_option_specs();
 
-/// Nothing where nothing is said. Throws UsageError for values that no problem can have.
+/// Prices, restrictions and choices of goals, which only planners for one question take.
+std::span<const OptionSpec> asked_option_specs();
+/// --clearance-price --area --areas --speed-zones --keep-out --unknown: a part of these.
+std::span<const OptionSpec> price_option_specs();
+
+/// What these say. Throws UsageError. The files are not read yet: read_masks() does.
+Prices price_words(const Arguments& arguments);
+
+/// Nothing where nothing is said; masks and an older answer are named, not read:
+/// read_asked_files() does (tools/screen/world_files.hpp). Throws UsageError for values that no
+/// problem can have.
 Question question_words(const Arguments& arguments);
 
 // What a command line says about the making of mazes.

@@ -22,8 +22,8 @@ struct SceneParts {
   explicit SceneParts(const Scene& scene) {
     // Every member by its name, so that one more in Scene does not compile before it is said here what it means.
     const auto& [scene_walls, scene_polygons, seams, scene_spheres, scene_boxes, scene_solids, scene_bounds, clearance,
-                 maze, formula, packed, robot, arm, start, goal, named_start, named_goals, goal_pose, grid, scene_map,
-                 source] = scene;
+                 maze, formula, packed, robot, arm, start, goal, other_goals, named_start, named_goals, goal_pose, grid,
+                 prices, scene_map, source] = scene;
     walls = scene_walls.size() > 0;      // where they are left out there are none: judged by verify_among_cells alone
     polygons = !scene_polygons.empty();  // the seams lie between them
     bounds = scene_bounds.has_value();

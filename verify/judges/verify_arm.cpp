@@ -68,7 +68,8 @@ void ArmVerifier::measure(std::span<const JointState> path) {
     const ArmVariable& variable = model.variables[joint.variable];
     double most = 0.0;
     for (const JointState& q : path) most = std::max(most, std::abs(q[joint.variable]));
-    if (!variable.continuous) most = std::min(most, std::max(std::abs(variable.low), std::abs(variable.high)));
+    const double limit = std::max(std::abs(variable.low), std::abs(variable.high)) + options.tolerance;
+    if (!variable.continuous) most = std::min(most, limit);
     values[j] = std::abs(joint.multiplier) * most + std::abs(joint.offset);
   }
   const std::vector<Sway> sways = arm.sways(std::vector<double>(joints), values);

@@ -47,7 +47,7 @@ struct ArmUnsure {
 /// Kept for the next motion; what it holds then changes no verdict.
 template <class T>
 struct ArmScratch {
-  std::array<ArmFrameLanes<T>, most_frames + 1> frames;
+  std::array<ArmFrameLanes<T>, most_frames + 1> frames{};  // the first one is the base's
   std::vector<ArmBallLanes<T>> hulls;
   std::vector<ArmBallLanes<T>> balls;
   std::vector<std::uint64_t> hull_stamps;  // of the block that they are of
@@ -61,6 +61,11 @@ struct ArmScratch {
   std::array<std::size_t, 3> order_sizes{};  // that it is for: lanes of links, links that move, pairs
   std::uint64_t stamp = 0;
 
+  ArmScratch() {
+    frames[0].x.x += T(1);
+    frames[0].y.y += T(1);
+    frames[0].z.z += T(1);
+  }
   void fit(const ArmSetup& setup) {
     const std::size_t items_needed = setup.link_lanes + setup.pair_lanes;
     if (hulls.size() < setup.links.size()) hulls.resize(setup.links.size());
@@ -104,6 +109,7 @@ class alignas(32) ArmMotion {
       if (drive.slides) {
         if (!(std::min(from, from + turn) >= drive.low && std::max(from, from + turn) <= drive.high)) return false;
       } else if (!(std::abs(from) <= 3.5)) {
+        if (!(std::abs(from) <= drive.most_value)) return false;
         from = std::remainder(from, 2.0 * std::numbers::pi);
       }
       start_[slot] = static_cast<T>(from);
@@ -115,9 +121,10 @@ class alignas(32) ArmMotion {
   /// How much the arm may turn away from what it does at a moment: (1) of the head comment, links and pairs in lanes.
   [[gnu::always_inline]] inline void bound_bends(T factor) {
     const std::size_t slots = setup_.drives.size();
-    std::array<T, most_frames + 1> turned{};  // by the slot and those before it
-    std::array<T, most_frames + 1> own{};
-    std::array<T, most_frames + 1> before{};
+    std::array<T, most_frames + 1> turned;  // by the slot and those before it
+    std::array<T, most_frames + 1> own;
+    std::array<T, most_frames + 1> before;
+    turned[0] = T(0);
     for (std::size_t slot = 1; slot < slots; ++slot) {
       const ArmDrive& drive = setup_.drives[slot];
       size_[slot] = std::abs(way_[slot]);
@@ -171,7 +178,7 @@ class alignas(32) ArmMotion {
     while (!stack.empty()) {
       const ArmBlock<T> block = stack.back();
       stack.pop_back();
-      if (++blocks > most_blocks) return MotionVerdict::refused;
+      if (++blocks + bodies_looked_at_ / 2 > most_blocks) return MotionVerdict::refused;
       scratch_.items.resize(block.end_item);
       begin(block);
       if (look_at_items(block, blocks == 1)) return MotionVerdict::blocked;
@@ -220,11 +227,6 @@ class alignas(32) ArmMotion {
     open_ = 0;
     scratch_.unsure.clear();
     ++scratch_.stamp;
-    ArmFrameLanes<T>& base = scratch_.frames[0];
-    base = ArmFrameLanes<T>{};
-    base.x.x += T(1);
-    base.y.y += T(1);
-    base.z.z += T(1);
   }
 
   /// Slots up to this one.
@@ -435,18 +437,21 @@ class alignas(32) ArmMotion {
     scratch_.unsure.push_back({item_, solid, other, left});
   }
 
+  /// Is a ball not parted from the hull of another link, in some lane?
+  [[gnu::always_inline]] inline bool is_near(std::uint32_t ball, std::uint32_t other, T room) const {
+    const ArmBallLanes<T>& hull = scratch_.hulls[other];
+    Lanes3<T> gap;
+    Lanes3<T> velocity;
+    subtract<T>(scratch_.balls[ball].at, hull.at, gap);
+    subtract<T>(scratch_.balls[ball].velocity, hull.velocity, velocity);
+    const T need = tables_.hulls[other].outer + tables_.balls[ball].outer + room;
+    return bits_of<T>(is_parted(dot_of<T>(gap, gap), gap, velocity, need)) != all_lanes<T>;
+  }
   /// Balls of a link that are not parted from the hull of another one.
   [[gnu::always_inline]] inline std::size_t near_balls(std::uint32_t link, std::uint32_t other, T room) {
-    const ArmBallLanes<T>& hull = scratch_.hulls[other];
-    const T need = tables_.hulls[other].outer + room;
     std::size_t count = 0;
     for (std::uint32_t i = setup_.links[link].first_ball; i < setup_.links[link].end_ball; ++i) {
-      Lanes3<T> gap;
-      Lanes3<T> velocity;
-      subtract<T>(scratch_.balls[i].at, hull.at, gap);
-      subtract<T>(scratch_.balls[i].velocity, hull.velocity, velocity);
-      const T all = need + tables_.balls[i].outer;
-      if (bits_of<T>(is_parted(dot_of<T>(gap, gap), gap, velocity, all)) != all_lanes<T>) scratch_.near[count++] = i;
+      if (is_near(i, other, room)) scratch_.near[count++] = i;
     }
     return count;
   }
@@ -467,6 +472,7 @@ class alignas(32) ArmMotion {
     const std::size_t count = near_balls(b, a, room);
     if (count == 0) return false;
     for (std::uint32_t i = setup_.links[a].first_ball; i < setup_.links[a].end_ball; ++i) {
+      if (count > 1 && !is_near(i, b, room)) continue;
       const ArmBallLanes<T>& ball = scratch_.balls[i];
       for (std::size_t n = 0; n < count; ++n) {
         const std::uint32_t other = scratch_.near[n];
@@ -567,9 +573,10 @@ class alignas(32) ArmMotion {
   T half_;
   T slack_;
   std::size_t placed_;
-  std::uint32_t item_ = 0;        // that is looked at
-  std::size_t first_unsure_ = 0;  // of it
-  unsigned open_;                 // lanes
+  std::uint32_t item_ = 0;         // that is looked at
+  std::size_t first_unsure_ = 0;   // of it
+  unsigned open_;                  // lanes
+  unsigned bodies_looked_at_ = 0;  // pairs of convex bodies, a lane each; large ones count more than once
 };
 
 template <class T>
@@ -584,8 +591,10 @@ bool ArmMotion<T>::settle(std::size_t first_item) {
     const double bend = double{scratch_.bends[unsure.item]} * (is_link ? 1.0 : 0.5);  // of a pair it is that of both
     const ConvexBody& one = setup_.solids[unsure.solid];
     const ConvexBody& other = is_link ? setup_.bodies[unsure.other] : setup_.solids[unsure.other];
+    const auto cost = as_whole<unsigned>(one.cost() + other.cost());
     unsigned open = 0;
     for (unsigned lanes = unsure.lanes; lanes != 0; lanes &= lanes - 1) {
+      bodies_looked_at_ += cost;
       const auto lane = as_whole<unsigned>(std::countr_zero(lanes));
       const MovingFrame at = frame_of(slot, pair.common, lane, bend);
       const MovingFrame other_at = frame_of(other_slot, pair.common, lane, is_link ? 0.0 : bend);
@@ -621,6 +630,7 @@ template <class T>
 [[gnu::always_inline]] inline MotionVerdict judge_by_lanes(const ArmSetup& setup, const ArmTables<T>& tables,
                                                            std::span<const double> q, std::span<const double> way,
                                                            double bend_factor) {
+  if (!(tables.slack < T(1e30))) return MotionVerdict::refused;
   ArmMotion<T> motion(setup, tables, arm_scratch<T>());
   if (!motion.take(q, way)) return MotionVerdict::refused;
   motion.bound_bends(static_cast<T>(bend_factor));
@@ -663,7 +673,7 @@ ArmJudges judges_by([[maybe_unused]] InstructionSet set) {
 MotionVerdict judge_arm_motion_by(const ArmJudges& judges, const ArmSetup& setup, std::span<const double> q,
                                   std::span<const double> way, double bend_factor) {
   if (setup.always_meets) return MotionVerdict::blocked;
-  MotionVerdict verdict = judges.floats(setup, q, way, bend_factor);
+  MotionVerdict verdict = setup.floats_hold ? judges.floats(setup, q, way, bend_factor) : MotionVerdict::refused;
   if (verdict == MotionVerdict::refused) verdict = judges.doubles(setup, q, way, bend_factor);
   return verdict == MotionVerdict::free && setup.always_touches ? MotionVerdict::refused : verdict;
 }

@@ -257,7 +257,8 @@ class ArmBuilder {
       const auto& at = tables_.frames[slot].at;
       const double length = portable::hypot(at[0], at[1], at[2]);
       const Error& before = errors[drive.parent];
-      const double value = u * (7.0 + 3.0 * drive.most_way);
+      // The value itself is told in doubles; that is reduced by turns, whose number has 53 bits.
+      const double value = u * (7.0 + 3.0 * drive.most_way) + 3 * unit_rounding<double> * drive.most_value;
       errors[slot].turn = before.turn + 16 * u + 2 * double{largest_sine_error<T>} + 1.5 * (drive.slides ? 0.0 : value);
       errors[slot].at = before.at + before.turn * length + 7 * u * length + 2 * u * far_;
       if (!drive.slides) continue;
@@ -313,6 +314,7 @@ class ArmBuilder {
     drive.high = std::max(low, high) + rounding;
     drive.most_way =
         variable.continuous ? 2.0 * std::numbers::pi * std::abs(joint.multiplier) + rounding : drive.high - drive.low;
+    drive.most_value = std::max({1000.0, std::abs(drive.low), std::abs(drive.high)});
     const Eigen::Matrix3d own = z_turned_to(joint.axis);
     const Eigen::Matrix3d& above = turns_[drive.parent];
     const Eigen::Matrix3d turn = above.transpose() * joint.origin.linear() * own;
@@ -486,6 +488,8 @@ ArmSetup::ArmSetup(const ArmModel& model, std::span<const Solid> obstacles, doub
   builder.take_obstacles(obstacles, execution);
   copy_tables(doubles, floats);
   builder.take_slack(floats);
+  constexpr float most_slack = 1e3F;  // of sizes up to 3e8, which floats tell apart by tens
+  floats_hold = floats.slack < most_slack;
   builder.take_slack(doubles);
 }
 

@@ -60,6 +60,7 @@ struct ArmDrive {
   double low = 0.0;  // values, of a joint that slides
   double high = 0.0;
   double most_way = 0.0;    // of the value
+  double most_value = 0.0;  // its size, of a joint that turns
   double most_reach = 0.0;  // largest of all links
 };
 
@@ -94,6 +95,7 @@ struct ArmSetup {
   double resolution;
   bool always_touches = false;  // what never moves is not proved free
   bool always_meets = false;    // and does touch
+  bool floats_hold = true;      // is all so small that products of squares are numbers, too?
   ArmTables<float> floats;
   ArmTables<double> doubles;
 };

@@ -39,6 +39,8 @@ class ConvexBody {
   const Vec3& centre() const { return centre_; }
   /// Of that ball.
   double radius() const { return radius_; }
+  /// What a support costs against that of a box, about: a hull of 1,000 corners is 2 more than one of few.
+  std::size_t cost() const { return 1 + corners_.size() / 32; }
 
  private:
   static constexpr std::size_t lanes = 16;

@@ -133,7 +133,8 @@ class Shortest {
 class All {
  public:
   All(double longest, const std::function<void(const SteeringWord&)>& visit) : longest_(longest), visit_(visit) {}
-  bool worth(double at_least) const { return at_least <= longest_; }
+  /// Bounds are sums of other roundings than lengths.
+  bool worth(double at_least) const { return at_least <= longest_ + 1e-12 * longest_; }
   void take(const Solved& word) {
     if (word.length <= longest_) visit_(word_of(word));
   }
@@ -175,6 +176,9 @@ class Enumeration {
     Polar to_right;
     Frame(const Change& how, Vec2 goal, double theta, double s, double c)
         : change(how), phi(theta), to_left({goal.x - s, goal.y + c - 1.0}), to_right({goal.x + s, goal.y - c - 1.0}) {}
+    /// What the first and the last arc turn at least, both together, if what lies between them turns so far: most
+    /// words are too long by that, and need no arctangents.
+    double turn(double between = 0.0) const { return std::abs(wrapped(phi - between)); }
     /// In time: x, and so heading and turning centres, the other way.
     void reverse() {
       change.reversed = true;
@@ -207,16 +211,16 @@ class Enumeration {
 
 template <class Taker>
 void Enumeration<Taker>::solve_straight(const Frame& f) {
-  if (worth(f.to_left.size)) {
+  // What rounding alone turns, or drives between two circles that are one, is no piece.
+  if (f.to_left.size <= 1e-9 + 4.0 * off_) take(f, Shape::lsl, 0.0, 0.0, f.phi, 0.0);
+  if (worth(f.to_left.size + f.turn())) {
     const double first = f.to_left.angle;
-    // What rounding alone turns, or drives between two circles that are one, is no piece.
-    if (f.to_left.size <= 1e-9 + 4.0 * off_) take(f, Shape::lsl, 0.0, 0.0, f.phi, 0.0);
     if (f.to_left.size * std::abs(first) <= 4.0 * off_) take(f, Shape::lsl, 0.0, f.to_left.size, f.phi, f.to_left.size);
     take(f, Shape::lsl, first, f.to_left.size, wrapped(f.phi - first), f.to_left.size);
   }
   if (f.to_right.size >= 2.0 - touching_) {
     const double straight = tangent(f.to_right.size);
-    if (worth(straight)) {
+    if (worth(straight + f.turn())) {
       const double first = wrapped(f.to_right.angle + portable::atan2(2.0, straight));
       take(f, Shape::lsr, first, straight, wrapped(first - f.phi), straight);
     }
@@ -227,7 +231,7 @@ template <class Taker>
 void Enumeration<Taker>::solve_arcs(const Frame& f) {
   if (f.to_left.size <= 4.0 + touching_) {
     const double arc = 2.0 * portable::asin(std::min(0.25 * f.to_left.size, 1.0));
-    if (worth(arc)) {
+    if (worth(std::max(arc, f.turn()))) {
       const double first = wrapped(f.to_left.angle - 0.5 * arc + std::numbers::pi);
       take(f, Shape::lrl, first, -arc, wrapped(f.phi - first - arc), arc);
     }
@@ -242,7 +246,7 @@ void Enumeration<Taker>::solve_four_arcs(const Frame& f) {
   const double out_cosine = 0.25 * (2.0 + f.to_right.size);
   if (out_cosine <= 1.0 + touching_) {
     const double arc = arc_of(out_cosine);
-    if (worth(2.0 * arc)) {
+    if (worth(2.0 * arc + f.turn(-2.0 * arc))) {
       const double first = wrapped(f.to_right.angle + arc + quarter);
       take(f, Shape::lrlr_out, first, arc, wrapped(first - 2.0 * arc - f.phi), 2.0 * arc);
     }
@@ -250,7 +254,7 @@ void Enumeration<Taker>::solve_four_arcs(const Frame& f) {
   const double in_cosine = (20.0 - f.to_right.size * f.to_right.size) / 16.0;
   if (in_cosine >= -1.0 && in_cosine <= 1.0 + touching_) {
     const double arc = arc_of(in_cosine);
-    if (worth(2.0 * arc)) {
+    if (worth(2.0 * arc + f.turn())) {
       const double first = wrapped(f.to_right.angle + quarter + portable::atan2(portable::sin(arc), 2.0 - in_cosine));
       take(f, Shape::lrlr_in, first, -arc, wrapped(first - f.phi), 2.0 * arc);
     }
@@ -262,13 +266,13 @@ void Enumeration<Taker>::solve_quarter(const Frame& f) {
   if (f.to_left.size >= 2.0 - touching_) {
     const double across = root(f.to_left.size * f.to_left.size - 4.0);
     const double straight = 2.0 - across;
-    if (worth(quarter + std::abs(straight))) {
+    if (worth(quarter + std::abs(straight) + f.turn(quarter))) {
       const double first = wrapped(f.to_left.angle + portable::atan2(across, -2.0));
       take(f, Shape::lrsl, first, straight, wrapped(f.phi - first - quarter), quarter + std::abs(straight));
     }
   }
   const double straight = 2.0 - f.to_right.size;
-  if (worth(quarter + std::abs(straight))) {
+  if (worth(quarter + std::abs(straight) + f.turn(quarter))) {
     const double first = wrapped(f.to_right.angle + quarter);
     take(f, Shape::lrsr, first, straight, wrapped(first + quarter - f.phi), quarter + std::abs(straight));
   }
@@ -279,7 +283,7 @@ void Enumeration<Taker>::solve_two_quarters(const Frame& f) {
   if (f.to_right.size < 2.0 - touching_) return;
   const double across = root(f.to_right.size * f.to_right.size - 4.0);
   const double straight = 4.0 - across;
-  if (!worth(2.0 * quarter + std::abs(straight))) return;
+  if (!worth(2.0 * quarter + std::abs(straight) + f.turn())) return;
   const double first = wrapped(f.to_right.angle + portable::atan2(across, -2.0));
   take(f, Shape::lrslr, first, straight, wrapped(first - f.phi), 2.0 * quarter + std::abs(straight));
 }
@@ -302,9 +306,11 @@ SteeringWord shortest_onwards(const Se2& a, const Se2& b, double turning_radius)
   const double off = off_by_rounding(a, b, turning_radius);
   Shortest any(goal, off, false);
   Enumeration<Shortest>(goal, off, any);
+  const SteeringWord word = word_of(any.best());
+  if (ends_at(word, goal, off)) return word;
   Shortest sure(goal, off, true);
-  if (!ends_at(word_of(any.best()), goal, off)) Enumeration<Shortest>(goal, off, sure);
-  return word_of(std::isfinite(sure.best().length) ? sure.best() : any.best());
+  Enumeration<Shortest>(goal, off, sure);
+  return std::isfinite(sure.best().length) ? word_of(sure.best()) : word;
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 import json
 import os
 
-from typing import NamedTuple
+from typing import Any, Dict, NamedTuple, Optional, Tuple
 
 from . import _core
 from ._explanations import BlockedEnd, explanation
@@ -28,6 +28,40 @@ class Improvement(NamedTuple):
 
 
 Improvement.__module__ = "warren"
+
+
+class Alternative(NamedTuple):
+    """The cheapest path of another homotopy class: `passed` are the holes whose cuts it crosses, below 0 from the other
+    side; all else is as of :class:`Answer`."""
+
+    cost: float
+    length: float
+    price: Dict[str, float]
+    min_clearance: float
+    passed: Tuple[int, ...]
+    path: Any
+
+
+class GoalReached(NamedTuple):
+    """Where a path ends that had a choice: the goal that was meant, how far the end is from it, and, where that is
+    proved, how near no place is that can be reached."""
+
+    asked: Tuple[float, ...]
+    distance: float
+    distance_bound: Optional[float]
+
+
+class KeptRoute(NamedTuple):
+    """What became of an older path: was it kept, what its rest costs (None: it is not free), and what a new path does
+    (None: there is none)."""
+
+    kept: bool
+    kept_cost: Optional[float]
+    new_cost: Optional[float]
+
+
+for _kind in (Alternative, GoalReached, KeptRoute):
+    _kind.__module__ = "warren"
 
 
 class Answer(Pictured):
@@ -88,7 +122,41 @@ class Answer(Pictured):
     length = told("length", "Of the path, of a car its curve, of an arm in radians; nan without a verified path.")
     min_clearance = told("min_clearance", "The least room around the body along the path; nan without a verified path.")
     raw_length = told("raw_length", "The length before the path was pulled taut; nan where it wasn't.")
-    cost = told("cost", "In the planner's own units; nan where that is the length.")
+    cost = told("cost", """Length and all prices, where prices were asked; else in the planner's own units; nan where
+        that is the length.""")
+    price = told("price", """What is paid beyond the length, where prices were asked: a dict of "clearance", "areas",
+        "turning", "cusps" and "reverse"; else None.""")
+    cost_error = told("cost_error", "The cost may be off by so much at most; nan without prices.")
+    bound_of = told("bound_of", """Of what a priced lower bound is: "all" paths, or those over the "lattice"; None of
+        others.""")
+    goal_index = told("goal_index", "Of several goals the one that is reached, from 0; None where there was one.")
+
+    @property
+    def goal_reached(self):
+        """Where the path ends, as a :class:`GoalReached`, where the question left a choice; else None."""
+        said = self._core.goal_reached
+        return None if said is None else GoalReached(*said)
+
+    order = told("order", "Of places to visit, from 0, as they are visited: a list of int.")
+    passed = told("passed", """The class of the path where alternatives were asked: holes whose cuts it crosses, below 0
+        from the other side.""")
+
+    @property
+    def alternatives(self):
+        """The cheapest paths of other classes, the cheapest first: a list of :class:`Alternative`."""
+        return [Alternative(*figures) for figures in self._core.alternatives]
+
+    @property
+    def holes(self):
+        """The holes that classes name: a dict of their boxes (x, y, x, y)."""
+        return dict(self._core.holes)
+
+    @property
+    def keeping(self):
+        """What became of the path that was to be kept, as a :class:`KeptRoute`; else None."""
+        said = self._core.keeping
+        return None if said is None else KeptRoute(*said)
+
     iterations = told("iterations", """The turns of a planner that gets better, which `iterations=` repeats on any machine;
         None of the others.""")
     ended_by = told("ended_by", '''What ended a planner that gets better: "optimum", "gap", "iterations", "caller" (`on_improvement`

@@ -16,6 +16,24 @@ class Improvement(NamedTuple):
     by: str
     lower_bound: float
 
+class Alternative(NamedTuple):
+    cost: float
+    length: float
+    price: dict[str, float]
+    min_clearance: float
+    passed: tuple[int, ...]
+    path: _Floats
+
+class GoalReached(NamedTuple):
+    asked: tuple[float, ...]
+    distance: float
+    distance_bound: float | None
+
+class KeptRoute(NamedTuple):
+    kept: bool
+    kept_cost: float | None
+    new_cost: float | None
+
 class Answer(Pictured):
     world: World
     def __init__(self, core: Any, world: World) -> None: ...
@@ -44,6 +62,26 @@ class Answer(Pictured):
     def raw_length(self) -> float: ...
     @property
     def cost(self) -> float: ...
+    @property
+    def price(self) -> dict[str, float] | None: ...
+    @property
+    def cost_error(self) -> float: ...
+    @property
+    def bound_of(self) -> Literal["all", "lattice"] | None: ...
+    @property
+    def goal_index(self) -> int | None: ...
+    @property
+    def goal_reached(self) -> GoalReached | None: ...
+    @property
+    def order(self) -> list[int]: ...
+    @property
+    def passed(self) -> tuple[int, ...]: ...
+    @property
+    def alternatives(self) -> list[Alternative]: ...
+    @property
+    def holes(self) -> dict[int, tuple[float, float, float, float]]: ...
+    @property
+    def keeping(self) -> KeptRoute | None: ...
     @property
     def iterations(self) -> int | None: ...
     @property

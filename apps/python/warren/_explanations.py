@@ -108,7 +108,8 @@ class Explanation(NamedTuple):
     """What an answer means, of those that were asked with `explain=True`.
 
     `components` is None where the planner has no roadmap in which edges lead both ways, `narrowest` where there is no
-    path, or one that touches; `hints` are there where there is no path, the likeliest first; `stopped_by` names the limit
+    path, or one that touches; `hints` are there where there is no path, or where
+    more turns may better it, the likeliest first; `stopped_by` names the limit
     that ended the explanation before it was whole ("budget", "memory", a signal).
 
     Examples

@@ -2,6 +2,7 @@
 """Worlds read from files, made of arrays and of geometries."""
 import json
 import os
+import tempfile
 from collections.abc import Iterable, Mapping
 from operator import index
 
@@ -40,6 +41,32 @@ def read_world(source, **options):
     """
     name = os.fsdecode(source)
     return World(_core.read_world(os.fsencode(name), options), name if name.startswith("maze:") else None)
+
+
+def example(name):
+    """One of the worlds that `warren example` writes.
+
+    Parameters
+    ----------
+    name : str
+        "flat", "parking-lot", "walls" or another; an unknown one is refused with a list of all.
+
+    Returns
+    -------
+    World
+
+    Raises
+    ------
+    UsageError
+
+    Examples
+    --------
+    >>> import warren
+    >>> warren.solve(warren.example("parking-lot"), planner="rrt-connect").status
+    'solved'
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        return World(_core.example(name, folder))
 
 
 def maze(rows, cols, *, seed=None, algorithm=None,
@@ -87,7 +114,7 @@ def grid(cells, cell=1.0, origin=(0.0, 0.0), *, yaw=0.0,
     Parameters
     ----------
     cells : ndarray or lists, (rows, columns) of bool or whole numbers
-        What is not 0 is blocked; row 0 is the top, as in images. Of bool and uint8 read where it lies, in any layout.
+        What is not 0 is blocked; row 0 is the top, as in images. Floats are taken where all are whole. Of bool and uint8 read where it lies, in any layout.
     cell : float
         Side of a cell, in world units.
     origin : (float, float)
@@ -126,6 +153,13 @@ def grid(cells, cell=1.0, origin=(0.0, 0.0), *, yaw=0.0,
             raise TypeError("cells: expected rows of one length") from None
     if not isinstance(cells, np.ndarray):
         raise TypeError(f"cells: expected an array or lists of bool or whole numbers (found: {type(cells).__name__})")
+    if cells.dtype.kind == "f":
+        broken = np.argwhere(~np.isfinite(cells) | (cells != np.rint(cells)))
+        if len(broken):
+            at = tuple(int(i) for i in broken[0])
+            raise TypeError(f"cells: expected bool or whole numbers (found: {cells[at]} at {at}); say what is blocked, as in "
+                            "cells > 0.5")
+        cells = cells != 0
     if cells.dtype.kind in "iu" and cells.itemsize > 1 or cells.dtype.kind == "i":
         cells = cells != 0
     said = {"start": start, "goal": goal, "robot": robot, "clearance": clearance}

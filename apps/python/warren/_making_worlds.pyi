@@ -16,6 +16,7 @@ def read_world(
     memory: int | str | None = ...,
     progress: _Progress | None = ...,
 ) -> World: ...
+def example(name: str) -> World: ...
 def maze(
     rows: int,
     cols: int,

@@ -8,7 +8,11 @@ _KINDS = {"N": "int", "K": "int", "NAME": "str", "WORD": "str", "TIME": "float o
           "LIST": "list of str or str", "N|auto": "int or 'auto'", "K|auto|star": "int, 'auto' or 'star'",
           "R|auto|star": "float, 'auto' or 'star'", "R[,STEP]": "float or (float, float)", "D|TIME": "float or str",
           "W[,...]": "float or sequence of float", "A[,...]": "float or sequence of float",
-          "SHARE": "float or str"}
+          "SHARE": "float or str", "P[,D]": "float or (float, float)", "R[,ANGLE]": "float or (float, float)",
+          '"F X Y X Y X Y ..."': "(float, polygon) or list of them", "FILE,F": "(str, float), or list of them or of (float, polygon)",
+          "FILE[,F]": "str, (str, float) or list of them", "FILE[,BASE,MULTIPLIER]": "str, (str, float, float) or list of them",
+          "blocked|F": "float or 'blocked'", '"X,Y; X,Y; ..."': "sequence of sequences of float",
+          "K[,SIZE]": "int or (int, float)", "OLD.json": "Answer, str or path"}
 
 LIMITS = """
 threads : int, optional

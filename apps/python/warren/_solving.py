@@ -36,6 +36,8 @@ def solve(world, start=None, goal=None, *, keep=False, explain=False, on_improve
     start, goal : sequence of float, optional
         x, y of a point or disc; x, y, theta (radians) of a body that turns, whose goal may lack theta; six joint angles
         of an arm, whose goal may be the three coordinates of a place of its tool (default: the world's).
+    goals, tolerance, region, return_
+        Short for `goal` with several places, `goal_tolerance`, `goal_region` and `return`.
     keep : bool
         Shall the answer keep what the planner made on its way, for pictures and plots? It takes memory.
     explain : bool
@@ -73,7 +75,8 @@ def solve(world, start=None, goal=None, *, keep=False, explain=False, on_improve
     """
     there = as_world(world)
     options["start"] = start
-    options["goal"] = goal
+    if goal is not None or "goals" not in options:
+        options["goal"] = goal
     if on_improvement is not None and not callable(on_improvement):
         raise TypeError(f"on_improvement: expected a function (found: {type(on_improvement).__name__})")
     tell = None if on_improvement is None else lambda *figures: on_improvement(Improvement(*figures))
@@ -112,6 +115,8 @@ def verify(world, path, **options):
         Whose states are judged; a name is of a file with an answer as JSON.
     start, goal : sequence of float, optional
         Where the path must begin and end (default: the answer's, else the world's, else its own ends).
+    goals, tolerance, region, return_
+        As :func:`solve` has them.
     {options}
 
     Returns

@@ -26,6 +26,10 @@ from ._worlds import (
     _World,
 )
 
+_Polygon = ArrayLike | Sequence[Sequence[float]]
+_Areas = tuple[float, _Polygon] | Sequence[tuple[float, _Polygon]] | str | Sequence[str]
+_Masks = _Path | tuple[_Path, float] | tuple[_Path, float, float] | Sequence[_Path | tuple[_Path, float] | tuple[_Path, float, float]]
+
 class Verdict(NamedTuple):
     verified: bool
     length: float
@@ -58,6 +62,7 @@ def solve(
     seed: int | None = ...,
     cell: float | None = ...,
     angles: int | None = ...,
+    headings: int | None = ...,
     face_motion: bool | None = ...,
     step_cost: float | None = ...,
     turn_cost: float | None = ...,
@@ -84,6 +89,23 @@ def solve(
     robot: str | None = ...,
     clearance: float | None = ...,
     contact: _Contact | None = ...,
+    clearance_price: float | tuple[float, float] | str | None = ...,
+    area: _Areas | None = ...,
+    areas: _Masks | _Areas | None = ...,
+    speed_zones: _Masks | None = ...,
+    keep_out: _Masks | None = ...,
+    unknown: float | Literal["blocked"] | None = ...,
+    goals: Sequence[_State] | None = ...,
+    goal_tolerance: float | tuple[float, float] | str | None = ...,
+    tolerance: float | tuple[float, float] | str | None = ...,
+    goal_region: float | tuple[float, float] | str | None = ...,
+    region: float | tuple[float, float] | str | None = ...,
+    visit: Sequence[_State] | str | None = ...,
+    return_: bool | None = ...,
+    alternatives: int | tuple[int, float] | str | None = ...,
+    stretch: float | None = ...,
+    keep_to: Answer | _Path | None = ...,
+    unless_gain: float | str | None = ...,
     threads: int | None = ...,
     budget: float | str | None = ...,
     memory: int | str | None = ...,
@@ -99,6 +121,19 @@ def verify(
     robot: str | None = ...,
     clearance: float | None = ...,
     contact: _Contact | None = ...,
+    clearance_price: float | tuple[float, float] | str | None = ...,
+    area: _Areas | None = ...,
+    areas: _Masks | _Areas | None = ...,
+    speed_zones: _Masks | None = ...,
+    keep_out: _Masks | None = ...,
+    unknown: float | Literal["blocked"] | None = ...,
+    goals: Sequence[_State] | None = ...,
+    goal_tolerance: float | tuple[float, float] | str | None = ...,
+    tolerance: float | tuple[float, float] | str | None = ...,
+    goal_region: float | tuple[float, float] | str | None = ...,
+    region: float | tuple[float, float] | str | None = ...,
+    visit: Sequence[_State] | str | None = ...,
+    return_: bool | None = ...,
     explain: bool | None = ...,
     threads: int | None = ...,
     budget: float | str | None = ...,

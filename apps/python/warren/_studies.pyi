@@ -43,6 +43,7 @@ def compare(
     optimise: bool | None = ...,
     cell: _Listed = ...,
     angles: _Listed = ...,
+    headings: _Listed = ...,
     face_motion: bool | None = ...,
     step_cost: _Listed = ...,
     turn_cost: _Listed = ...,

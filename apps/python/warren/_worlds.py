@@ -20,7 +20,7 @@ def _row(number):
 class World(Pictured):
     """Where a body may be: a maze, a map of cells, polygons and walls, or an arm's solids.
 
-    Made by :func:`read_world`, :func:`maze`, :func:`grid`, :func:`scene` and :func:`from_geo`. Never changes; any number
+    Made by :func:`read_world`, :func:`example`, :func:`maze`, :func:`grid`, :func:`scene` and :func:`from_geo`. Never changes; any number
     of threads may use it at once. What its arrays show they don't own: they are read-only and keep the world alive.
 
     Examples

@@ -32,6 +32,7 @@
 #include "apps/serve/http/task_crew.hpp"
 #include "core/base/error.hpp"
 #include "parallel/execution.hpp"
+#include "scenes/text/human_units.hpp"
 
 namespace warren::serve {
 namespace {
@@ -161,7 +162,7 @@ bool has_gone(Tcp::socket& socket) {
 
 HttpResponse said_of(const Stopped& stopped) {
   if (stopped.reason == StopReason::memory) {
-    return error_response(503, "memory", "", "this needs more memory than there is");
+    return error_response(503, "memory", "", stop_text(stopped.reason, stopped.wanted_bytes));
   }
   return error_response(504, "budget", "budget_ms", "this takes longer than it may");
 }

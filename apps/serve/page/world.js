@@ -52,8 +52,19 @@ function placeMap(center, zoom) {
   addTiles();
   for (const end of ["start", "goal"]) showHeading(end);  // by pixels, which are others at the same zoom
 }
-/// Its box fills the window but for the axes: zooms need not be whole.
-const fitWhole = options => map.fitBounds(map.whole, {paddingTopLeft: [44, 12], paddingBottomRight: [12, 28], ...options});
+/// Its box fills the window but for the axes and arrows that reach beyond it: zooms need not be whole.
+function fitWhole(options) {
+  const zoom = map.getBoundsZoom(map.whole, false, L.point(56, 40)), pixels = place => map.project(place, zoom);
+  const low = pixels(map.whole.getSouthWest()), high = pixels(map.whole.getNorthEast());
+  const room = {left: 44, top: 12, right: 12, bottom: 28};
+  for (const end of ["start", "goal"].filter(end => question[end] && turns())) {
+    const mark = pixels(latLng(question[end])), angle = headingShown(end) || 0, reach = handleReach + 16;
+    const x = mark.x + reach * Math.cos(angle), y = mark.y - reach * Math.sin(angle);
+    const beyond = {left: low.x - x, top: high.y - y, right: x - high.x, bottom: y - low.y};
+    for (const side in room) room[side] = Math.max(room[side], beyond[side]);
+  }
+  map.fitBounds(map.whole, {paddingTopLeft: [room.left, room.top], paddingBottomRight: [room.right, room.bottom], ...options});
+}
 
 // Axes along the left and the lower edge, and a bar of a round length, in the world's unit.
 const ScaleBar = L.Control.Scale.extend({

@@ -18,7 +18,10 @@ LIMITS = {"threads", "budget", "memory", "progress"}
 OUTPUTS = {"json", "picture", "figures", "table", "path", "every", "speed", "acceleration", "lateral_acceleration", "joint_speed",
            "joint_acceleration", "frame", "save_roadmap", "quiet", "color", "trace", "help", "output", "no_world", "csv",
            "runs", "log", "pictures", "batch", "lengths_only", "matrix", "world", "keep", "animate",
-           "curves", "title", "dpi", "size", "show", "heading", "html", "no_path", "resume"}
+           "curves", "title", "dpi", "size", "show", "heading", "html", "no_path", "resume",
+           "certificate"}
+# Other words for options, and for one that is a word of Python's.
+OTHERS = {"goals", "tolerance", "region", "return_"}
 
 
 def keywords_of_stub(name):
@@ -31,8 +34,8 @@ def keywords_of_stub(name):
 
 
 @pytest.mark.parametrize("name, verb, other, without", [
-    ("solve", "solve", {"world", "keep", "on_improvement"}, {"map_rules", "request"}),
-    ("verify", "verify", {"world", "path"}, {"map_rules", "request"}),
+    ("solve", "solve", {"world", "keep", "on_improvement"} | OTHERS, {"map_rules", "request", "return"}),
+    ("verify", "verify", {"world", "path"} | OTHERS, {"map_rules", "request", "return"}),
     ("build", "build", {"world"}, {"map_rules", "request"}),
     ("query", "query", {"keep"}, {"map_rules", "request"}),
     ("lengths", "query", {"starts", "goals"}, {"map_rules", "request", "start", "goal", "explain", "bound"}),

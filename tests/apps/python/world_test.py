@@ -118,6 +118,14 @@ def test_parts_that_make_no_world_are_refused(parts, error, said):
         warren.scene(**parts)
 
 
+def test_examples_are_those_of_the_program():
+    world = warren.example("flat")
+    assert world.source == "flat.yaml" and world.hash == warren.read_world(WORLDS / "flat.yaml").hash
+    assert warren.solve(warren.example("parking-lot")).verified
+    with pytest.raises(warren.UsageError, match="flat.*parking-lot"):
+        warren.example("nosuch")
+
+
 def test_cells_are_read_where_they_lie():
     cells = np.zeros((6, 8), np.uint8)
     cells[0, 3] = 7
@@ -128,12 +136,15 @@ def test_cells_are_read_where_they_lie():
     # The top row is the highest: the cell at row 0 is blocked at y 22.5 .. 23.
     assert warren.solve(world, (11.75, 22.75), (10.1, 20.1), planner="grid").status == "start_blocked"
     for given in (cells.astype(int), -cells.astype(np.int8), cells.astype(np.uint32) << 8, cells.tolist(),
-                  tuple(map(tuple, (cells != 0).tolist())), np.ma.array(cells)):
+                  tuple(map(tuple, (cells != 0).tolist())), np.ma.array(cells), cells.astype(float),
+                  cells.astype(np.float32).tolist()):
         assert warren.grid(given, 0.5, (10, 20)).hash == world.hash
-    for wrong in (cells.astype(float), cells[0], cells.astype(float).tolist(), []):
+    for wrong in (cells[0], []):
         with pytest.raises(TypeError, match=r"cells: expected bool or uint8 \(rows, columns\)"):
             warren.grid(wrong)
     for wrong, said in ((5, "an array or lists"), ([[0, 1], [0]], "rows of one length"),
+                        (cells * 0.1, r"bool or whole numbers .found: 0.7.* at \(0, 3\).; .* cells > 0.5"),
+                        ([[0.0, float("nan")]], r"bool or whole numbers .found: nan at \(0, 1\)"),
                         (np.ma.masked_greater(cells, 0), "a mask hides"), ([np.ma.masked_less([0, 1], 1)], "an array or lists")):
         with pytest.raises(TypeError, match=f"cells: (expected )?{said}"):
             warren.grid(wrong)

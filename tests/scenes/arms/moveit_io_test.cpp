@@ -130,6 +130,33 @@ TEST(MoveIt, TakesAGoalByThePoseOfTheTool) {
   EXPECT_TRUE((*scene.goal_pose * Vec3(1, 0, 0)).isApprox(Vec3(1, 3, 3), 1e-15));
 }
 
+TEST(MoveIt, AGoalIsOfTheLinkThatItNames) {
+  Scene scene;
+  const std::string place =
+      "position_constraints: [{link_name: palm, constraint_region: {primitive_poses: [{position: [1, 2, 3]}]}}]";
+  const auto request = [&](const std::string& link) {
+    return "goal_constraints: [{" + place + ", orientation_constraints: [{link_name: " + link +
+           ", orientation: [0, 0, 0, 1]}]}]";
+  };
+  take_moveit_request(scene, file_of(request("palm")), {});
+  EXPECT_EQ(scene.arm->tool, "palm");
+  std::string text;
+  write_scene_text(scene, [&](std::string_view part) { text += part; }, {});
+  EXPECT_EQ(read_scene(InputFile::of_bytes("a.scene", text), {}).arm->tool, "palm");
+  EXPECT_THROW(take_moveit_request(scene, file_of(request("hand")), {}), InputError);
+}
+
+/// What makes links larger than their files say is refused, not passed over.
+TEST(MoveIt, LinksAreAsLargeAsTheirFilesSay) {
+  const auto scene = [](const std::string& padding, const std::string& scale) {
+    return scene_text + "link_padding: [{link_name: hand, padding: " + padding +
+           "}]\nlink_scale: [{link_name: hand, scale: " + scale + "}]\n";
+  };
+  EXPECT_NO_THROW(read_moveit(scene("0", "1")));
+  EXPECT_THROW(read_moveit(scene("0.01", "1")), InputError);
+  EXPECT_THROW(read_moveit(scene("0", "1.1")), InputError);
+}
+
 TEST(MoveIt, BecomesASceneThatReadsBackTheSame) {
   Scene scene = read_moveit(scene_text);
   take_moveit_request(scene, file_of(request_text), {});

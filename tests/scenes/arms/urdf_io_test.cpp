@@ -197,6 +197,26 @@ TEST_F(Urdf, AChainIsTakenByItsEnds) {
   expect_refused(two_arms(), files, "has no link of this name (found: nobody)");
 }
 
+TEST_F(Urdf, TheToolIsTheLinkThatIsNamed) {
+  ArmFiles files;
+  files.base = "base";
+  files.tip = "finger";
+  files.tool = "left_hand";
+  const ArmModel model = read(two_arms(), files);
+  EXPECT_EQ(model.told[0], "the tool is left_hand");
+  const std::vector<double> state{0.2, 0.5, -0.4, 0.01};
+  expect_near(pose_in(model, model.tool_frame, state) * model.tool, pose_of(model, "left_hand", state));
+  files.tool = "nobody";
+  expect_refused(two_arms(), files, "has no link of this name to be the tool (found: nobody)");
+}
+
+TEST_F(Urdf, SoftLimitsAreToldNotKept) {
+  const std::string limits = "<limit lower=\"-1\" upper=\"2\"/><safety_controller soft_lower_limit=\"-0.9\"/>";
+  const ArmModel model = read(robot(link("a") + link("b") + joint("j", "revolute", "a", "b", limits)));
+  EXPECT_EQ(model.variables[0].low, -1.0);
+  EXPECT_EQ(model.told[0], "j keeps <limit>, -1 to 2, not its soft limits, -0.9 to 2");
+}
+
 TEST_F(Urdf, JointsOutsideAreHeldWhereTheirLimitsOrTheSceneSay) {
   ArmFiles files;
   files.group = "right";

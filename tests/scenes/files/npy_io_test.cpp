@@ -282,5 +282,28 @@ TEST(Npy, ReadingAndWritingStopAtTheDeadlineAndAskForMemoryFirst) {
   EXPECT_EQ(directory.entries(), 1U);
 }
 
+TEST(Npy, HoldsPotentials) {
+  const TemporaryDirectory directory;
+  CellPotential potential{2, 1, {}};
+  for (std::size_t i = 0; i < potential.size(); ++i) potential.values.push_back(0.1 * static_cast<double>(i));
+  write_npy(potential, directory.file("u.npy"), {});
+  EXPECT_EQ(directory.read("u.npy"), npy(dictionary("<f8", "(2, 2, 3)"), bytes_of<double>(potential.values)));
+  const CellPotential back = read_potential_npy(InputFile(directory.file("u.npy"), {}), {});
+  EXPECT_EQ(back.width, 2U);
+  EXPECT_EQ(back.height, 1U);
+  EXPECT_EQ(back.values, potential.values);
+  const auto refuses = [&](const std::string& content) {
+    EXPECT_THROW(read_potential_npy(InputFile(directory.write("b.npy", content), {}), {}), InputError);
+  };
+  const std::string numbers = bytes_of<double>(potential.values);
+  refuses(npy(dictionary("<f8", "(2, 2, 3)"), numbers.substr(8)));
+  refuses(npy(dictionary("<f8", "(2, 2, 3)"), numbers + std::string(8, ' ')));
+  refuses(npy(dictionary("<f8", "(3, 2, 2)"), numbers));
+  refuses(npy(dictionary("<f8", "(12, 1)"), numbers));
+  refuses(npy(dictionary("<f4", "(2, 2, 3)"), numbers));
+  refuses(npy(dictionary("<f8", "(2, 4294967297, 4294967297)"), numbers));
+  refuses("no array");
+}
+
 }  // namespace
 }  // namespace warren

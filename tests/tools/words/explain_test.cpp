@@ -50,6 +50,14 @@ TEST(Explain, AMazeIsOneComponentAndAllOfItIsKept) {
   EXPECT_EQ(told["hints"].size(), 0U);
 }
 
+TEST(Explain, PlannersThatGetBetterAreToldMoreTurns) {
+  const Folder folder;
+  const std::string shut = folder.write("shut.scene", shut_world);
+  EXPECT_TRUE(any_hint(explained({"solve", shut, "--planner", "anytime", "--iterations", "8"}, 1), "--iterations 32"));
+  const std::string open = folder.write("open.scene", "bounds 0 0 10 4\nwall 5 0 5 3\nstart 1 1\ngoal 9 1\n");
+  EXPECT_TRUE(any_hint(explained({"solve", open, "--planner", "rrt-star", "--iterations", "20"}), "--iterations 80"));
+}
+
 TEST(Explain, AWallMakesTwoComponentsAndTheGapStandsAtIt) {
   const Folder folder;
   const std::string world = folder.write("w.scene", shut_world);

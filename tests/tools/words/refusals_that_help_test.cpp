@@ -95,8 +95,13 @@ TEST(RefusalsThatHelp, UnknownCellsAreToldFromOccupiedOnesAndWhereTheyAre) {
 }
 
 TEST(RefusalsThatHelp, AMazeThatDoesNotFitIsToldWhatTakesLess) {
-  expect_said(said({"solve", "maze:20000x20000", "--memory", "100MiB", "--explain"}, 124),
-              {"it needs more memory than it may hold", "--pipeline streamed --no-path"});
+  const Words ask{"solve", "maze:20000x20000", "--memory", "100MiB"};
+  for (const Words& more : {Words{}, Words{"--explain"}}) {
+    expect_said(said(joined(ask, more), 124),
+                {"it needs more memory than it may hold, ", " at least\n", "try           mazes of algorithm=mst",
+                 "--pipeline streamed --no-path"});
+  }
+  EXPECT_NE(run(joined(ask, {"--quiet"})).err.find("may hold, "), std::string::npos);
 }
 
 TEST(RefusalsThatHelp, WhatWasNotDoneIsNotCounted) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <limits>
 #include <vector>
 
@@ -245,6 +246,62 @@ TEST(ArmCertificate, MotionsThatJustTouchAreNotFree) {
   const Attack whole = attack(1.0, test::share(400, 20));
   EXPECT_EQ(whole.missed, 0);
   EXPECT_EQ(whole.forgone, 0);
+}
+
+/// A rod that turns about z, with a ball at its end; nothing to be kept apart, so obstacles alone can stop it.
+ArmModel rod(double at) {
+  ArmModel model;
+  model.name = "rod";
+  model.variables = {{.name = "turn", .low = -3.0, .high = 3.0}};
+  model.joints = {{.name = "turn", .axis = Vec3::UnitZ()}};
+  Solid ball;
+  ball.half.x() = 0.1;
+  ball.pose.translation().x() = at;
+  model.links = {{"tip", 0, {ball}}};
+  return model;
+}
+
+TEST(ArmCertificate, NumbersThatAreNoneOrTooLargeProveNothing) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Solid wall;  // right of the rod's way at 0
+  wall.kind = SolidKind::box;
+  wall.half = Vec3(0.5, 0.5, 0.5);
+  wall.pose.translation().x() = 5.0;
+  const ArmCertificate near(rod(1.0), {&wall, 1}, 0.0, 1e-5);
+  EXPECT_TRUE(near.is_free(JointState{}));
+  for (const double angle : {nan, infinity, -infinity, 1e9}) EXPECT_FALSE(near.is_free(JointState{angle}));
+  for (const double way : {nan, infinity}) EXPECT_NE(near.motion(JointState{}, JointState{way}), MotionVerdict::free);
+  for (const double size : {1e15, 1e30, 1e39, 1e45, 1e59}) {
+    SCOPED_TRACE(size);
+    wall.half = Vec3::Constant(0.5 * size);
+    wall.pose.translation().x() = size;
+    EXPECT_FALSE(ArmCertificate(rod(size), {&wall, 1}, 0.0, 1e-5).is_free(JointState{}));
+    Solid ball;  // holds the base, as far as numbers tell
+    ball.half.x() = size;
+    ball.pose.translation().x() = size;
+    EXPECT_FALSE(ArmCertificate(rod(1.0), {&ball, 1}, 0.0, 1e-5).is_free(JointState{}));
+  }
+}
+
+/// Two rough bodies that nearly touch all along: what would take seconds is given up.
+TEST(ArmCertificate, HullsThatNearlyTouchAreGivenUpInTime) {
+  Solid plate;
+  plate.kind = SolidKind::hull;
+  Draw draw(3);
+  for (int i = 0; i < 1000; ++i) plate.corners.push_back(Vec3(3.0 * draw.number(), 3.0 * draw.number(), -0.5));
+  plate.corners.push_back(Vec3(0.0, 0.0, -1.0));
+  ArmModel model = rod(1.0);
+  Solid& foot = model.links[0].solids[0];
+  foot.kind = SolidKind::hull;
+  for (int i = 0; i < 1000; ++i) {
+    foot.corners.push_back(0.5 * Vec3(draw.number(), draw.number(), 0.0) + Vec3(0.0, 0.0, -0.5 + 3e-9));
+  }
+  foot.corners.push_back(Vec3(0.0, 0.0, 0.5));
+  const ArmCertificate certificate(model, {&plate, 1}, 0.0, 1e-12);
+  const auto begun = std::clock();
+  EXPECT_EQ(certificate.motion(JointState{-1.0}, JointState{2.0}), MotionVerdict::refused);
+  EXPECT_LT(static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC, 5.0);
 }
 
 TEST(ArmCertificate, TheAttackWouldSeeABoundTooSmall) { EXPECT_GT(attack(0.1, 20).missed, 0); }

@@ -1,0 +1,367 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// ARA* over a lattice of cells and headings whose motions end on its states: Likhachev, Gordon, Thrun, NIPS 2003.
+// Rounds with falling weights of the estimate: 3, 1.5, 1.2, 1.05, 1. Each goes on from what the one before left open,
+// and tells a bound that no path over the lattice falls below: the least cost + estimate of all that is open. So the
+// first path comes early, and how much it may cost too much is proved, not promised.
+//
+// All costs are whole numbers and ties go by the order in which states were met, so as many rounds are the same path
+// anywhere. A round that a stop cuts is thrown away. States are made when they are met: a block of a cell's headings at
+// a time. From states near a goal a curve leads to its very pose (a join: an edge like others); from states farther
+// away one is tried now and then (a shot). What a shot costs counts, but the bound is that of the lattice and its
+// joins.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/bitmap.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/base/solution.hpp"
+#include "parallel/execution.hpp"
+
+namespace warren {
+
+/// A state by which a path may begin, and what leads there from the start. Gears: 1, -1, 0 of none.
+struct LatticeStart {
+  Cell cell;
+  std::uint32_t heading = 0;
+  std::uint64_t cost = 0;  ///< in the lattice's units
+  std::int8_t gear = 0;    ///< in which it gets there
+};
+
+/// A curve from a state to a goal.
+struct LatticeShot {
+  std::size_t goal = 0;    ///< of the space's goals
+  std::uint64_t cost = 0;  ///< in units, a change of gear before it not included
+  std::int8_t first_gear = 0;
+};
+
+struct LatticeSearchOptions {
+  std::uint64_t gear_change = 0;            ///< what it costs, in units
+  double gap = 0.05;                        ///< the search ends when the bound is proved to be so near; >= 0
+  std::optional<std::uint64_t> iterations;  ///< rounds, >= 1; none: as many as it takes
+  double unit = 1.0;                        ///< of cost, in the world's: what improvements tell
+};
+
+/// A motion from a state, by its number among those from its heading.
+struct LatticeStep {
+  Cell cell;
+  std::uint32_t heading = 0;
+  std::uint32_t motion = 0;
+};
+
+struct LatticePath {
+  std::size_t start = 0;           ///< of the space's starts
+  std::vector<LatticeStep> steps;  ///< states and the motions that lead on from them
+  LatticeStep last;                ///< where the shot begins
+  bool is_direct = false;          ///< the shot begins at the start itself; nothing else means anything
+  LatticeShot shot;
+  std::uint64_t cost = std::numeric_limits<std::uint64_t>::max();  ///< the largest: there is no path
+};
+
+struct LatticeSolution {
+  LatticePath path;
+  std::uint64_t bound = 0;  ///< no path over the lattice costs less, but by shots
+  std::uint64_t rounds = 0;
+  std::uint64_t expanded = 0;
+  std::uint64_t checked = 0;  ///< motions
+  std::vector<Improvement> improvements;
+  std::string ended_by;  ///< optimum, gap, iterations, caller or the name of a StopReason; empty: no path
+  StopReason stop_reason = StopReason::time;
+
+  bool found() const { return path.cost != std::numeric_limits<std::uint64_t>::max(); }
+};
+
+/// Space: width(), height(), headings(); motions_from(heading): a span of what has dx, dy, to, gear and cost;
+/// is_free(cell, motion); at_least(cell, heading): a consistent estimate, `no_way` where none leads to a goal;
+/// starts(), is_free_start(i); joins(cell): is a goal so near that all states there are joined to it?
+/// shot(cell, heading, gear, most, gear_change): the cheapest free one for less than `most`, changes of gear included,
+/// also before it; direct_shot(gear_change): from the start itself. shot_pause(at_least): how many states are expanded
+/// between two shots from states that are not joined.
+template <class Space>
+class LatticeSearch {
+ public:
+  static constexpr std::uint64_t no_way = std::numeric_limits<std::uint64_t>::max();
+
+  LatticeSearch(Space& space, const LatticeSearchOptions& options, const Execution& execution)
+      : space_(space),
+        options_(options),
+        execution_(execution),
+        gears_(options.gear_change > 0 ? 2 : 1),
+        per_cell_(space.headings() * gears_),
+        is_dead_(space.starts().size(), 0),
+        starts_left_(space.starts().size(), 0) {
+    const std::size_t cells = std::size_t{space.width()} * space.height();
+    execution.reserve(cells * sizeof(std::uint32_t));
+    assign_polled(blocks_, cells, none, [&] { execution.check(); });
+  }
+
+  /// Throws Stopped where it is stopped before the first round ends.
+  LatticeSolution run() {
+    const auto begin = std::chrono::steady_clock::now();
+    for (std::size_t i = 0; i < starts_left_.size(); ++i)
+      starts_left_[i] = space_.at_least(space_.starts()[i].cell, space_.starts()[i].heading);
+    if (const std::optional<LatticeShot> direct = space_.direct_shot(no_goal, options_.gear_change)) {
+      goal_cost_ = direct->cost;
+      shot_ = *direct;
+    }
+    for (const std::uint32_t weight : weights) {
+      try {
+        improve(weight);
+      } catch (const Stopped& stopped) {
+        if (!solution_.found()) throw;
+        solution_.ended_by = name_of(stopped.reason);
+        solution_.stop_reason = stopped.reason;
+        return std::move(solution_);
+      }
+      ++solution_.rounds;
+      if (goal_cost_ == no_goal) return std::move(solution_);  // all that can be reached was looked at
+      const bool goes_on = goal_cost_ >= solution_.path.cost || take_path(begin);
+      solution_.bound = std::max(solution_.bound, std::min(goal_cost_, least_open()));
+      if (!goes_on) {
+        solution_.ended_by = "caller";
+      } else if (solution_.bound >= solution_.path.cost) {
+        solution_.ended_by = "optimum";
+      } else if (static_cast<double>(solution_.path.cost) <=
+                 (1.0 + options_.gap) * static_cast<double>(solution_.bound)) {
+        solution_.ended_by = "gap";
+      } else if (options_.iterations && solution_.rounds >= *options_.iterations) {
+        solution_.ended_by = "iterations";
+      }
+      if (!solution_.ended_by.empty()) break;
+    }
+    return std::move(solution_);
+  }
+
+ private:
+  static constexpr std::uint32_t weights[] = {60, 30, 24, 21, 20};  // of the estimate, in 20ths
+  static constexpr std::uint64_t parts = 20;
+  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint32_t start_flag = std::uint32_t{1} << 31U;
+  static constexpr std::uint64_t unmet = std::numeric_limits<std::uint64_t>::max();
+  static constexpr std::uint64_t no_goal = std::uint64_t{1} << 56U;  // 60 of it fit, and a path costs less
+
+  struct Node {
+    std::uint64_t cost = unmet;
+    std::uint64_t at_least = unmet;  // unmet: nobody has asked
+    std::uint32_t parent = none;     // none: a start
+    std::uint16_t via = 0;           // motion, or start
+    std::uint8_t closed = 0;         // the round in which it was expanded
+    bool waits = false;              // for the next round
+  };
+  struct Entry {
+    std::uint64_t key;
+    std::uint32_t node;  // or start_flag + start
+    /// Heaps have the largest in front: the least key, of these the latest.
+    friend bool operator<(const Entry& a, const Entry& b) { return a.key != b.key ? a.key > b.key : a.node < b.node; }
+  };
+
+  Cell cell_of(std::uint32_t node) const { return cells_[node / per_cell_]; }
+  std::uint32_t heading_of(std::uint32_t node) const { return node % per_cell_ / gears_; }
+  /// Of the last motion; 0 where gears cost nothing.
+  std::int8_t gear_of(std::uint32_t node) const {
+    if (gears_ == 1) return 0;
+    return nodes_[node].parent == none && space_.starts()[nodes_[node].via].gear == 0 ? std::int8_t{0}
+           : node % gears_ == 0                                                       ? std::int8_t{1}
+                                                                                      : std::int8_t{-1};
+  }
+  std::uint32_t node_at(Cell cell, std::uint32_t heading, std::int8_t gear) {
+    std::uint32_t& block = blocks_[std::size_t{cell.y} * space_.width() + cell.x];
+    if (block == none) {
+      if (nodes_.size() + per_cell_ >= start_flag) throw Stopped(StopReason::memory);
+      if (nodes_.size() + per_cell_ > nodes_.capacity()) {
+        const std::size_t more = std::max<std::size_t>(2 * nodes_.capacity(), 1024 * per_cell_);
+        execution_.reserve(more * (sizeof(Node) + 1));
+        nodes_.reserve(more);
+      }
+      block = static_cast<std::uint32_t>(cells_.size());
+      cells_.push_back(cell);
+      nodes_.resize(nodes_.size() + per_cell_);
+    }
+    const std::uint32_t node = block * per_cell_ + heading * gears_ + (gears_ == 2 && gear < 0 ? 1 : 0);
+    if (nodes_[node].at_least == unmet) nodes_[node].at_least = space_.at_least(cell, heading);
+    return node;
+  }
+  std::uint64_t key_of(std::uint64_t cost, std::uint64_t at_least) const { return parts * cost + weight_ * at_least; }
+  void push(std::uint64_t key, std::uint32_t node) {
+    open_.push_back({key, node});
+    std::push_heap(open_.begin(), open_.end());
+  }
+
+  /// What is open stays, with other keys; what waited joins it.
+  void begin_round(std::uint32_t weight) {
+    weight_ = weight;
+    std::vector<std::uint32_t> left = std::move(waiting_);
+    waiting_.clear();
+    for (const Entry& entry : open_) {
+      if ((entry.node & start_flag) == 0 && is_open(entry.node)) left.push_back(entry.node);
+    }
+    std::sort(left.begin(), left.end());
+    left.erase(std::unique(left.begin(), left.end()), left.end());
+    ++round_;
+    open_.clear();
+    for (const std::uint32_t node : left) {
+      nodes_[node].waits = false;
+      if (nodes_[node].cost + nodes_[node].at_least < goal_cost_)
+        open_.push_back({key_of(nodes_[node].cost, nodes_[node].at_least), node});
+    }
+    const auto starts = space_.starts();
+    for (std::uint32_t i = 0; i < starts.size(); ++i) {
+      if (is_dead_[i] != 0) continue;
+      const std::uint64_t at_least = starts_left_[i];
+      if (at_least == no_way || starts[i].cost + at_least >= goal_cost_) continue;
+      open_.push_back({key_of(starts[i].cost, at_least), start_flag + i});
+    }
+    std::make_heap(open_.begin(), open_.end());
+  }
+  bool is_open(std::uint32_t node) const { return nodes_[node].closed != round_; }
+
+  void improve(std::uint32_t weight) {
+    begin_round(weight);
+    while (!open_.empty() && open_.front().key < parts * goal_cost_) {
+      std::pop_heap(open_.begin(), open_.end());
+      const Entry top = open_.back();
+      open_.pop_back();
+      if ((top.node & start_flag) != 0) {
+        begin_at(top.node - start_flag);
+      } else if (is_open(top.node) && top.key == key_of(nodes_[top.node].cost, nodes_[top.node].at_least)) {
+        expand(top.node);
+      }
+    }
+  }
+  /// The curve to a start's state is checked when it is the next, as few are.
+  void begin_at(std::uint32_t number) {
+    execution_.check();
+    const LatticeStart& start = space_.starts()[number];
+    is_dead_[number] = 1;
+    if (!space_.is_free_start(number)) return;
+    arrive(node_at(start.cell, start.heading, start.gear), start.cost, none, static_cast<std::uint16_t>(number));
+  }
+  void arrive(std::uint32_t number, std::uint64_t cost, std::uint32_t parent, std::uint16_t via) {
+    Node& node = nodes_[number];
+    if (cost >= node.cost) return;
+    node.cost = cost;
+    node.parent = parent;
+    node.via = via;
+    if (is_open(number)) return push(key_of(cost, node.at_least), number);
+    if (!node.waits) waiting_.push_back(number);
+    node.waits = true;
+  }
+  void expand(std::uint32_t number) {
+    constexpr std::uint64_t a_poll = 64;
+    if (++solution_.expanded % a_poll == 0) execution_.check();
+    nodes_[number].closed = round_;
+    const Cell cell = cell_of(number);
+    const std::uint32_t heading = heading_of(number);
+    const std::int8_t gear = gear_of(number);
+    const std::uint64_t cost = nodes_[number].cost;
+    ++since_shot_;
+    if (space_.joins(cell) || since_shot_ > space_.shot_pause(nodes_[number].at_least))
+      shoot(number, cell, heading, gear);
+    const auto motions = space_.motions_from(heading);
+    for (std::size_t m = 0; m < motions.size(); ++m) {
+      const auto& motion = motions[m];
+      const std::int64_t x = std::int64_t{cell.x} + motion.dx;
+      const std::int64_t y = std::int64_t{cell.y} + motion.dy;
+      if (x < 0 || y < 0 || x >= space_.width() || y >= space_.height()) continue;
+      const std::int8_t next_gear = motion.gear == 0 ? gear : motion.gear;
+      const bool changes = gear != 0 && next_gear != gear;
+      const std::uint64_t there = cost + motion.cost + (changes ? options_.gear_change : 0);
+      const Cell to{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)};
+      const std::uint32_t next = node_at(to, motion.to, next_gear);
+      const Node& node = nodes_[next];
+      if (there >= node.cost || node.at_least == no_way || there + node.at_least >= goal_cost_) continue;
+      ++solution_.checked;
+      if (space_.is_free(cell, motion)) arrive(next, there, number, static_cast<std::uint16_t>(m));
+    }
+  }
+  void shoot(std::uint32_t number, Cell cell, std::uint32_t heading, std::int8_t gear) {
+    since_shot_ = 0;
+    const std::uint64_t cost = nodes_[number].cost;
+    const std::optional<LatticeShot> shot = space_.shot(cell, heading, gear, goal_cost_ - cost, options_.gear_change);
+    if (!shot) return;
+    goal_cost_ = cost + shot->cost;
+    goal_node_ = number;
+    shot_ = *shot;
+  }
+
+  /// Of what is open or waits.
+  std::uint64_t least_open() const {
+    std::uint64_t least = no_goal;
+    const auto take = [&](std::uint64_t cost, std::uint64_t at_least) { least = std::min(least, cost + at_least); };
+    for (const Entry& entry : open_) {
+      if ((entry.node & start_flag) == 0) {
+        if (is_open(entry.node)) take(nodes_[entry.node].cost, nodes_[entry.node].at_least);
+      } else {
+        take(space_.starts()[entry.node - start_flag].cost, starts_left_[entry.node - start_flag]);
+      }
+    }
+    for (const std::uint32_t node : waiting_) take(nodes_[node].cost, nodes_[node].at_least);
+    return least;
+  }
+
+  /// false: who is told has enough.
+  bool take_path(std::chrono::steady_clock::time_point begin) {
+    LatticePath path;
+    path.cost = goal_cost_;
+    path.shot = shot_;
+    path.is_direct = goal_node_ == none;
+    if (path.is_direct) return tell(std::move(path), begin);
+    path.last = {cell_of(goal_node_), heading_of(goal_node_), 0};
+    path.cost = shot_.cost;
+    std::uint32_t node = goal_node_;
+    for (; nodes_[node].parent != none; node = nodes_[node].parent) {
+      const std::uint32_t parent = nodes_[node].parent;
+      const std::int8_t gear = gear_of(parent);
+      const auto& motion = space_.motions_from(heading_of(parent))[nodes_[node].via];
+      const bool changes = gear != 0 && motion.gear != 0 && motion.gear != gear;
+      path.cost += motion.cost + (changes ? options_.gear_change : 0);
+      path.steps.push_back({cell_of(parent), heading_of(parent), nodes_[node].via});
+    }
+    std::reverse(path.steps.begin(), path.steps.end());
+    path.start = nodes_[node].via;
+    path.cost += space_.starts()[path.start].cost;  // since some state was met it may have become cheaper
+    goal_cost_ = path.cost;
+    return tell(std::move(path), begin);
+  }
+  bool tell(LatticePath path, std::chrono::steady_clock::time_point begin) {
+    solution_.path = std::move(path);
+    Improvement better;
+    better.iterations = solution_.rounds;
+    better.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    better.cost = better.length = options_.unit * static_cast<double>(goal_cost_);
+    better.by = "lattice";
+    better.lower_bound = 0.0;
+    solution_.improvements.push_back(better);
+    return execution_.on_improvement == nullptr || (*execution_.on_improvement)(better);
+  }
+
+  Space& space_;
+  const LatticeSearchOptions& options_;
+  const Execution& execution_;
+  std::uint32_t gears_;
+  std::uint32_t per_cell_;
+  RawVector<std::uint32_t> blocks_;  // by cell
+  std::vector<Cell> cells_;          // by block
+  std::vector<Node> nodes_;
+  std::vector<Entry> open_;  // a heap; entries that no longer say what their node does are passed over
+  std::vector<std::uint32_t> waiting_;
+  std::vector<std::uint8_t> is_dead_;       // starts that were looked at
+  std::vector<std::uint64_t> starts_left_;  // what is left from each
+  std::uint64_t weight_ = 0;
+  std::uint8_t round_ = 0;
+  std::uint64_t since_shot_ = 0;
+  std::uint64_t goal_cost_ = no_goal;
+  std::uint32_t goal_node_ = none;
+  LatticeShot shot_;
+  LatticeSolution solution_;
+};
+
+}  // namespace warren

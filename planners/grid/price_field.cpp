@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "planners/grid/price_field.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <new>
+#include <utility>
+
+#include "core/base/whole.hpp"
+
+namespace warren {
+namespace {
+
+/// Numbers of the system's pages of zeros, which it gives where they are touched.
+template <class Number>
+Number* zeros(std::size_t count, const Execution& execution) {
+  execution.reserve(count * sizeof(Number));
+  auto* block = static_cast<Number*>(std::calloc(count, sizeof(Number)));
+  if (block == nullptr) throw std::bad_alloc();
+  return block;
+}
+
+StepRule rule_of(Diagonal diagonal) { return diagonal == Diagonal::none ? StepRule::four : StepRule::eight; }
+
+}  // namespace
+
+StepWeights::StepWeights(const Bitmap& blocked, Diagonal diagonal, const Execution& execution)
+    : StepWeights(blocked, rule_of(diagonal), execution) {
+  if (diagonal != Diagonal::unit) return;
+  diagonal_at_least_ = units_a_cell;
+  for (unsigned s = 0; s < steps_there_are; ++s) lengths_[s] = units_a_cell;
+}
+
+StepWeights::StepWeights(const Bitmap& blocked, StepRule rule, const Execution& execution)
+    : cells_((execution.reserve(blocked.size() / 8), blocked)),
+      allowed_(&allowed_steps(rule)),
+      diagonal_at_least_(rule == StepRule::four ? 2 * units_a_cell : units_a_diagonal) {
+  const auto stride = static_cast<std::int64_t>(cells_.stride());
+  for (unsigned s = 0; s < steps_there_are; ++s) {
+    offsets_[s] = static_cast<VertexId>(cell_steps[s][1] * stride + cell_steps[s][0]);  // wraps around for steps back
+    lengths_[s] = is_diagonal(s) ? units_a_diagonal : units_a_cell;
+  }
+}
+
+StepWeights::StepWeights(const Bitmap& blocked, Weigh weigh, const Execution& execution)
+    : StepWeights(blocked, StepRule::eight, execution) {
+  weigh_ = std::move(weigh);
+  known_.reset(zeros<std::uint32_t>(std::size_t{back_steps} * cells_.number_end(), execution));
+}
+
+std::uint64_t StepWeights::first_weight(VertexId lower, unsigned direction) {
+  const std::uint64_t weight = std::max(weigh_(cells_.cell(lower), direction), lengths_[direction]);
+  if (weight <= std::numeric_limits<std::uint32_t>::max()) {  // dearer ones are asked for again
+    known_[std::size_t{back_steps} * lower + direction - back_steps] = static_cast<std::uint32_t>(weight);
+  }
+  return weight;
+}
+
+PriceField::PriceField(StepWeights& weights, std::span<const Goal> goals, std::span<const Cell> towards,
+                       const Execution& execution)
+    : weights_(weights),
+      towards_(towards.begin(), towards.end()),
+      goals_(goals.begin(), goals.end()),
+      costs_(zeros<std::uint64_t>(weights.cells().number_end(), execution)),
+      queue_(static_cast<double>(units_a_cell) / 64.0) {  // few cells a bucket, and most steps within a turn of them
+  for (std::size_t i = 0; i < goals_.size(); ++i) {
+    const VertexId v = weights_.cells().number(goals_[i].cell);
+    if (!weights_.cells().is_free(v)) continue;
+    goal_cells_.emplace_back(v, i);
+    reach(v, goals_[i].cost);
+  }
+  std::sort(goal_cells_.begin(), goal_cells_.end());
+}
+
+std::uint64_t PriceField::estimate(VertexId v) const {
+  if (towards_.empty()) return 0;
+  const Cell cell = weights_.cells().cell(v);
+  std::uint64_t least = unreached;
+  for (const Cell to : towards_) least = std::min(least, weights_.at_least(cell, to));
+  return least;
+}
+
+void PriceField::reach(VertexId v, std::uint64_t cost) {
+  if (cost >= known(v)) return;
+  costs_[v] = cost + 1;
+  queue_.push(v, key(v));
+}
+
+void PriceField::expand(VertexId v) {
+  const std::uint64_t here = known(v);
+  for (unsigned rest = weights_.allowed(v); rest != 0; rest &= rest - 1) {
+    const auto s = static_cast<unsigned>(std::countr_zero(rest));
+    const VertexId w = v + weights_.offset(s);
+    // A weight may be dear to find: not where the length alone is too much.
+    if (here + weights_.length(s) < known(w)) reach(w, here + weights_.weight(v, s));
+  }
+}
+
+/// is_done(): is the question answered by what is settled?
+template <class IsDone>
+void PriceField::settle_until(const IsDone& is_done, const Execution& execution) {
+  std::uint64_t turns = 0;
+  while (!queue_.empty()) {
+    const QueueEntry next = queue_.pop();
+    if (next.key > least_key_) least_key_ = next.key;
+    if (is_done()) return queue_.push(next.vertex, next.key);
+    if (++turns % expansions_per_poll == 0) execution.check();
+    if (next.key != key(next.vertex)) continue;  // stale
+    ++expanded_;
+    expand(next.vertex);
+  }
+  least_key_ = std::numeric_limits<double>::infinity();
+}
+
+std::optional<std::uint64_t> PriceField::cost(Cell from, const Execution& execution) {
+  const VertexId v = weights_.cells().number(from);
+  if (!weights_.cells().is_free(v)) return std::nullopt;
+  if (!is_settled(v)) settle_until([&] { return is_settled(v); }, execution);
+  if (known(v) == unreached) return std::nullopt;
+  return known(v);
+}
+
+void PriceField::settle_all(const Execution& execution) {
+  settle_until([] { return false; }, execution);
+}
+
+std::pair<std::vector<Cell>, std::size_t> PriceField::path(Cell from, const Execution& execution) {
+  std::vector<Cell> cells{from};
+  VertexId v = weights_.cells().number(from);
+  for (;;) {
+    if (cells.size() % expansions_per_poll == 0) execution.check();
+    for (auto goal = std::lower_bound(goal_cells_.begin(), goal_cells_.end(), std::pair{v, std::size_t{0}});
+         goal != goal_cells_.end() && goal->first == v; ++goal) {
+      if (goals_[goal->second].cost == known(v)) return {cells, goal->second};
+    }
+    for (unsigned rest = weights_.allowed(v); rest != 0; rest &= rest - 1) {
+      const auto s = static_cast<unsigned>(std::countr_zero(rest));
+      const VertexId w = v + weights_.offset(s);
+      if (known(w) >= known(v) || known(w) + weights_.weight(v, s) != known(v)) continue;
+      v = w;
+      break;
+    }
+    cells.push_back(weights_.cells().cell(v));
+  }
+}
+
+}  // namespace warren

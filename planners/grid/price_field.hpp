@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What it costs at least to get from any cell to a set of goals, over steps to the eight neighbours, whose weights are
+// whole numbers. Whole numbers add up without rounding, so that the least sums are the same whatever the order of work:
+// for any queue, any heuristic, and after any repair. A path follows the first of cell_steps that loses nothing, so it
+// is unique, too.
+//
+// The search runs from the goals (Dijkstra), towards the cells that are asked for where these are few (A*, by what
+// steps cost at least), and goes on only when more is asked. Keys are rounded to doubles and their order decides
+// nothing: a cell is expanded again where it gets cheaper, and is settled once every key that is left is greater.
+//
+// 8 bytes a cell, of weights 16 more, of which the system gives only the pages that are touched.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/base/bitmap.hpp"
+#include "core/search/search_queues.hpp"
+#include "parallel/execution.hpp"
+#include "planners/grid/grid_search.hpp"
+#include "spatial/maps/free_cells.hpp"
+
+namespace warren {
+
+/// Whole units of weight a cell's side.
+inline constexpr std::uint64_t units_a_cell = std::uint64_t{1} << 20;
+/// The diagonal of a cell, rounded up.
+inline constexpr std::uint64_t units_a_diagonal = 1'482'911;
+
+/// What steps weigh, looked up once each. Not for several threads at once: it remembers.
+class StepWeights {
+ public:
+  /// Of the step from a cell in the direction of cell_steps, one of the last four (the others are these backwards).
+  using Weigh = std::function<std::uint64_t(Cell from, unsigned direction)>;
+
+  /// Steps that weigh their length. Throws InputError for maps of about 2^32 cells, Stopped.
+  StepWeights(const Bitmap& blocked, Diagonal diagonal, const Execution& execution);
+  /// The same by another rule: diagonals of sqrt(2).
+  StepWeights(const Bitmap& blocked, StepRule rule, const Execution& execution);
+  /// Steps of all eight directions, that weigh what `weigh` says, and no less than their length.
+  StepWeights(const Bitmap& blocked, Weigh weigh, const Execution& execution);
+
+  const FreeCells& cells() const { return cells_; }
+  /// Bits of cell_steps.
+  unsigned allowed(VertexId v) const { return (*allowed_)[cells_.around(v)]; }
+  VertexId offset(unsigned step) const { return offsets_[step]; }
+  /// Of a step, and what it weighs at least.
+  std::uint64_t length(unsigned step) const { return lengths_[step]; }
+  /// Of an allowed step.
+  std::uint64_t weight(VertexId from, unsigned step) {
+    if (!known_) return lengths_[step];
+    const bool is_forward = step >= back_steps;
+    const VertexId lower = is_forward ? from : from + offsets_[step];
+    const unsigned direction = is_forward ? step : steps_there_are - 1 - step;
+    const std::uint32_t known = known_[std::size_t{back_steps} * lower + direction - back_steps];
+    return known != 0 ? known : first_weight(lower, direction);
+  }
+  /// What no way between the cells weighs less than; consistent.
+  std::uint64_t at_least(Cell a, Cell b) const {
+    const std::uint32_t dx = a.x < b.x ? b.x - a.x : a.x - b.x;
+    const std::uint32_t dy = a.y < b.y ? b.y - a.y : a.y - b.y;
+    const std::uint64_t both = dx < dy ? dx : dy;
+    return both * diagonal_at_least_ + (dx + std::uint64_t{dy} - 2 * both) * units_a_cell;
+  }
+
+ private:
+  static constexpr unsigned steps_there_are = 8;
+  static constexpr unsigned back_steps = 4;
+  struct Free {
+    void operator()(std::uint32_t* block) const { std::free(block); }
+  };
+  std::uint64_t first_weight(VertexId lower, unsigned direction);
+
+  FreeCells cells_;
+  const std::array<std::uint8_t, 512>* allowed_;
+  std::array<VertexId, steps_there_are> offsets_{};
+  std::array<std::uint64_t, steps_there_are> lengths_{};
+  std::uint64_t diagonal_at_least_;
+  Weigh weigh_;
+  std::unique_ptr<std::uint32_t[], Free> known_;  // four a cell, 0: not known yet; none: lengths
+};
+
+/// The costs to a set of goals. Refers to the weights.
+class PriceField {
+ public:
+  /// A cell to be reached, and what it costs beyond.
+  struct Goal {
+    Cell cell;
+    std::uint64_t cost = 0;  ///< units
+  };
+
+  /// Blocked goals are left out. towards: where the costs will be asked for; empty: anywhere. Throws Stopped.
+  PriceField(StepWeights& weights, std::span<const Goal> goals, std::span<const Cell> towards,
+             const Execution& execution);
+
+  /// The least cost from a cell to a goal, in units; none: there is no way. Throws Stopped.
+  std::optional<std::uint64_t> cost(Cell from, const Execution& execution);
+  /// The cells of the cheapest way, and the first of the goals at its end; cost(from) is there. Throws Stopped.
+  std::pair<std::vector<Cell>, std::size_t> path(Cell from, const Execution& execution);
+  /// Everything that can be reached. Throws Stopped.
+  void settle_all(const Execution& execution);
+  /// Is its cost known, or an upper bound of it? After settle_all(): can it be reached?
+  bool reached(Cell c) const { return costs_[weights_.cells().number(c)] != 0; }
+  /// Cells that were expanded, again and again.
+  std::uint64_t expanded() const { return expanded_; }
+
+ private:
+  struct Free {
+    void operator()(std::uint64_t* block) const { std::free(block); }
+  };
+  static constexpr std::uint64_t unreached = ~std::uint64_t{0};
+  /// One is added to what stands there, so that pages of zeros are cells that nobody has reached.
+  std::uint64_t known(VertexId v) const { return costs_[v] - 1; }
+  double key(VertexId v) const { return static_cast<double>(known(v) + estimate(v)); }
+  std::uint64_t estimate(VertexId v) const;
+  bool is_settled(VertexId v) const { return known(v) != unreached && key(v) < least_key_; }
+  void reach(VertexId v, std::uint64_t cost);
+  void expand(VertexId v);
+  template <class IsDone>
+  void settle_until(const IsDone& is_done, const Execution& execution);
+
+  StepWeights& weights_;
+  std::vector<Cell> towards_;
+  std::vector<Goal> goals_;
+  std::vector<std::pair<VertexId, std::size_t>> goal_cells_;  // sorted
+  std::unique_ptr<std::uint64_t[], Free> costs_;
+  BucketQueue queue_;
+  double least_key_ = 0.0;  // of all that is in the queue, once everything below was expanded
+  std::uint64_t expanded_ = 0;
+};
+
+}  // namespace warren

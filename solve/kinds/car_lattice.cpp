@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/kinds/car_lattice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/base/error.hpp"
+#include "core/plane/geometry.hpp"
+#include "core/plane/polygon.hpp"
+
+namespace warren {
+namespace {
+
+constexpr double exactly = 1e-10;  // cells and radians: what is so near to a state is it
+
+double cell_of(const Scene& scene, const Box& box, double turning_radius, const CarLatticeOptions& options) {
+  constexpr double share = 0.125;
+  constexpr double cells_a_side = 2000.0;
+  const double usual = std::max(share * turning_radius, std::max(box.width(), box.height()) / cells_a_side);
+  return scene.map ? scene.map->cell : options.cell.value_or(usual);
+}
+
+MotionSetOptions motion_options(const RobotSpec& robot, const CarLatticeOptions& options, double cell) {
+  return {.headings = options.headings,
+          .turning_radius = robot.turning_radius / cell,
+          .reverses = robot.steering != SteeringKind::dubins,
+          .turns_on_spot = false,
+          .reverse_cost = options.price.reverse,
+          .turn_cost = options.turn_cost / cell};
+}
+
+/// The largest disc around the reference point that the body holds, or 0.
+double disc_in(const RobotSpec& robot) {
+  if (robot.outline.empty()) return robot.radius;
+  if (!contains(robot.outline, Vec2{})) return 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  for_each_side(robot.outline, [&](Vec2 a, Vec2 b) { least = std::min(least, distance(Vec2{}, Segment{a, b})); });
+  return least;
+}
+
+}  // namespace
+
+CarLattice::CarLattice(const CarBody& body, const Scene& scene, const RobotSpec& robot, ShortestWord shortest,
+                       const Se2& start, std::span<const Se2> goals, const CarLatticeOptions& options,
+                       const Execution& execution)
+    : body_(body),
+      execution_(execution),
+      shortest_(shortest),
+      radius_(robot.turning_radius),
+      start_(start),
+      goals_(goals.begin(), goals.end()),
+      cell_(cell_of(scene, body.box(), robot.turning_radius, options)),
+      motions_(motion_options(robot, options, cell_), execution),
+      query_(body.make_query()) {
+  lay_out(scene, start);
+  const double disc = disc_in(robot) + options.clearance - MotionSet::slack * cell_;
+  if (scene.map) {
+    if (disc > 0.0) no_middle_ = blocked_for_disc(scene.map->blocked, disc / cell_ * (1.0 - 1e-9), execution);
+    index_map(*scene.map, robot, options.clearance);
+  } else if (disc > 0.0) {
+    index_plane(scene, disc);
+  }
+  join_reach_ = 2.0 * motions_.turning_radius() + 2.0;
+  for (const Se2& goal : goals_) goal_cells_.push_back(in_cells(goal));
+  const auto fits = [this](Cell cell) {
+    if (no_middle_) return !no_middle_->test(cell.x, cell.y);
+    return !disc_ || disc_->clearance(pose_of(cell, 0), 0.0, *disc_query_) > 0.0;
+  };
+  field_.emplace(width_, height_, motions_.relaxed_ratio(), fits, execution);
+  seed_field();
+  join_start(start);
+}
+
+/// Among walls and polygons the start is in the middle of a cell, so that what lies far from the origin is planned as
+/// it would be near; one cell lies beyond the box all around.
+void CarLattice::lay_out(const Scene& scene, const Se2& start) {
+  if (scene.map) {
+    width_ = scene.map->width();
+    height_ = scene.map->height();
+    yaw_rad_ = scene.map->yaw_rad;
+    origin_ = scene.map->origin + Rotation(yaw_rad_)(Vec2{0.5 * cell_, 0.5 * cell_});
+    return;
+  }
+  Box box = body_.box();
+  box.include(start.position());
+  const auto cells = [&](double length) { return std::ceil(length / cell_) + 1.0; };
+  const double left = cells(start.x - box.min.x);
+  const double below = cells(start.y - box.min.y);
+  const double wide = left + cells(box.max.x - start.x) + 1.0;
+  const double high = below + cells(box.max.y - start.y) + 1.0;
+  constexpr double most = 1e8;
+  if (!(wide * high <= most)) {
+    throw UsageError(
+        fmt::format("@cell: {} is too small: the world has {:.6g} x {:.6g} such cells, and {:.0e} are the "
+                    "most that a lattice of a car has",
+                    cell_, wide, high, most));
+  }
+  width_ = static_cast<std::uint32_t>(wide);
+  height_ = static_cast<std::uint32_t>(high);
+  origin_ = start.position() - cell_ * Vec2{left, below};
+}
+
+/// What planning keeps beyond the clearance is what worlds/poses/car_world keeps, and what coordinates are rounded by.
+void CarLattice::index_map(const OccupancyMap& map, const RobotSpec& robot, double clearance) {
+  constexpr double more = 1e-9;
+  constexpr double ulps = 16.0 * std::numeric_limits<double>::epsilon();
+  const double farthest = std::abs(map.origin.x) + std::abs(map.origin.y) + cell_ * (1.0 * width_ + height_);
+  const double reach = (clearance + robot.radius) * (1.0 + more) + more * radius_ + ulps * farthest;
+  std::vector<Vec2> outline;
+  for (const Vec2 p : robot.outline) outline.push_back((1.0 / cell_) * p);
+  if (outline.empty()) outline.push_back({});
+  free_.emplace(map.blocked);
+  stamps_.emplace(motions_, outline, reach / cell_, execution_);
+}
+
+void CarLattice::index_plane(const Scene& scene, double disc) {
+  disc_.emplace(scene, CarOptions{.turning_radius = radius_, .radius = disc * (1.0 - 1e-6)}, execution_);
+  disc_query_ = disc_->make_query();
+}
+
+Vec2 CarLattice::place_of(double x, double y) const {
+  const Vec2 p{cell_ * x, cell_ * y};
+  return origin_ + (yaw_rad_ == 0.0 ? p : Rotation(yaw_rad_)(p));
+}
+
+Vec2 CarLattice::in_cells(const Se2& pose) const {
+  return (1.0 / cell_) * Rotation(-yaw_rad_)(pose.position() - origin_);
+}
+
+Se2 CarLattice::pose_of(Cell cell, std::uint32_t heading) const {
+  const Vec2 p = place_of(cell.x, cell.y);
+  return {p.x, p.y, wrapped_angle(motions_.heading_rad(heading) + yaw_rad_)};
+}
+
+std::uint64_t CarLattice::units_of(double length) const {
+  return static_cast<std::uint64_t>(std::llround(length / unit()));
+}
+
+/// From these cells a goal is joined: by a way no shorter than straight on.
+void CarLattice::seed_field() {
+  for (const Vec2 goal : goal_cells_) {
+    const auto within = [](double x, std::uint32_t end) {
+      return static_cast<std::uint32_t>(std::clamp(x, 0.0, static_cast<double>(end)));
+    };
+    const std::uint32_t top = within(goal.y + join_reach_ + 1.0, height_);
+    const std::uint32_t right = within(goal.x + join_reach_ + 1.0, width_);
+    for (std::uint32_t y = within(goal.y - join_reach_, height_); y < top; ++y) {
+      for (std::uint32_t x = within(goal.x - join_reach_, width_); x < right; ++x) {
+        const double apart = distance(Vec2{1.0 * x, 1.0 * y}, goal);
+        if (apart <= join_reach_) field_->seed({x, y}, apart * (1.0 - 1e-9));
+      }
+    }
+  }
+}
+
+/// A start on the lattice is its state. Any other is joined to states in a disc around it, up to a quarter turn away.
+void CarLattice::join_start(const Se2& start) {
+  constexpr double cells_tried = 120.0;
+  constexpr std::uint64_t far = 3;  // turning radii that a join takes
+  const Vec2 at = in_cells(start);
+  const double heading = start.theta - yaw_rad_;
+  const std::uint32_t nearest = motions_.nearest_heading(heading);
+  const Vec2 middle{std::round(at.x), std::round(at.y)};
+  const auto is_inside = [&](double x, double y) { return x >= 0.0 && y >= 0.0 && x < width_ && y < height_; };
+  const auto cell_at = [](double x, double y) {
+    return Cell{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)};
+  };
+  if (is_inside(middle.x, middle.y) && distance(at, middle) <= exactly &&
+      std::abs(turn_between(heading, motions_.heading_rad(nearest))) <= exactly) {
+    starts_.push_back({cell_at(middle.x, middle.y), nearest, 0, 0});
+    return;
+  }
+  const double reach = 2.0 * motions_.turning_radius() + 1.5;
+  const double stride = std::max(1.0, std::floor(reach * std::sqrt(std::numbers::pi / cells_tried)));
+  const std::uint64_t most = units_of(far * radius_ + 4.0 * cell_);
+  const std::uint32_t quarter = headings() / 4;
+  for (double y = middle.y - stride * std::floor(reach / stride); y <= at.y + reach; y += stride) {
+    for (double x = middle.x - stride * std::floor(reach / stride); x <= at.x + reach; x += stride) {
+      if (!is_inside(x, y) || distance({x, y}, at) > reach) continue;
+      execution_.check();
+      for (std::uint32_t i = 0; i <= 2 * quarter; ++i) {
+        const std::uint32_t k = (nearest + headings() - quarter + i) % headings();
+        LatticeShot priced;
+        const Cell cell = cell_at(x, y);
+        const SteeringWord word = shortest_(start, pose_of(cell, k), radius_);
+        const std::uint64_t cost = curve_cost(word, 0, priced);
+        const std::int8_t gear = word.count == 0 || word.pieces[word.count - 1].length >= 0.0 ? 1 : -1;
+        if (cost <= most) starts_.push_back({cell, k, cost, gear});
+      }
+    }
+  }
+}
+
+bool CarLattice::is_free(Cell from, const LatticeMotion& motion) {
+  if (stamps_) return stamps_->is_free(*free_, from, motion);
+  const Cell to{static_cast<std::uint32_t>(std::int64_t{from.x} + motion.dx),
+                static_cast<std::uint32_t>(std::int64_t{from.y} + motion.dy)};
+  const Se2 end = pose_of(to, motion.to);
+  Se2 begin = pose_of(from, 0);
+  double turn = 0.0;
+  for (const SteeringPiece& piece : motion.word.used()) turn += static_cast<double>(piece.steer) * piece.length;
+  begin.theta = wrapped_angle(end.theta - turn);
+  return body_.is_free_curve({begin, end, motion.word, radius_}, query_);
+}
+
+std::uint64_t CarLattice::at_least(Cell cell, std::uint32_t heading) {
+  constexpr double finest = CellField::unit / MotionSet::cost_unit;
+  constexpr double near = 6.0;  // turning radii: farther away the estimate is that far, whatever the curve
+  const std::uint32_t steps = field_->at(cell);
+  if (steps == CellField::never) return LatticeSearch<CarLattice>::no_way;
+  const std::uint64_t by_steps = steps * static_cast<std::uint64_t>(finest);
+  if (goals_.size() != 1) return by_steps;
+  const double most = near * motions_.turning_radius();
+  double cells = most;
+  if (distance(Vec2{1.0 * cell.x, 1.0 * cell.y}, goal_cells_.front()) < most) {
+    const SteeringWord word = shortest_(pose_of(cell, heading), goals_.front(), radius_);
+    cells = std::min(most, word.length * motions_.turning_radius());
+  }
+  const auto by_curve = static_cast<std::uint64_t>(cells * (1.0 - 1e-6) / MotionSet::cost_unit);
+  return std::max(by_steps, by_curve);
+}
+
+bool CarLattice::is_free_start(std::size_t number) {
+  const LatticeStart& start = starts_[number];
+  return body_.is_free_curve(curve(start_, pose_of(start.cell, start.heading)), query_);
+}
+
+bool CarLattice::joins(Cell cell) const {
+  return std::any_of(goal_cells_.begin(), goal_cells_.end(), [&](Vec2 goal) {
+    return distance(Vec2{1.0 * cell.x, 1.0 * cell.y}, goal) <= join_reach_;
+  });
+}
+
+std::uint64_t CarLattice::shot_pause(std::uint64_t at_least) const {
+  return static_cast<std::uint64_t>(static_cast<double>(at_least) * MotionSet::cost_unit / motions_.turning_radius());
+}
+
+std::uint64_t CarLattice::curve_cost(const SteeringWord& word, std::uint64_t gear_change, LatticeShot& shot) const {
+  std::uint64_t cost = motions_.cost_of(word);
+  std::int8_t gear = 0;
+  for (const SteeringPiece& piece : word.used()) {
+    if (std::abs(piece.length) < SteeringCurve::nothing) continue;
+    const std::int8_t next = piece.length < 0.0 ? -1 : 1;
+    if (gear == 0) shot.first_gear = next;
+    if (gear == -next) cost += gear_change;
+    gear = next;
+  }
+  return cost;
+}
+
+std::optional<LatticeShot> CarLattice::shot(Cell cell, std::uint32_t heading, std::int8_t gear, std::uint64_t most,
+                                            std::uint64_t gear_change) {
+  return shot_from(pose_of(cell, heading), gear, most, gear_change);
+}
+
+std::optional<LatticeShot> CarLattice::direct_shot(std::uint64_t most, std::uint64_t gear_change) {
+  return shot_from(start_, 0, most, gear_change);
+}
+
+std::optional<LatticeShot> CarLattice::shot_from(const Se2& from, std::int8_t gear, std::uint64_t most,
+                                                 std::uint64_t gear_change) {
+  std::optional<LatticeShot> best;
+  for (std::size_t i = 0; i < goals_.size(); ++i) {
+    const SteeringWord word = shortest_(from, goals_[i], radius_);
+    LatticeShot found{.goal = i};
+    found.cost = curve_cost(word, gear_change, found);
+    if (gear != 0 && found.first_gear == -gear) found.cost += gear_change;
+    if (found.cost >= most || !body_.is_free_curve({from, goals_[i], word, radius_}, query_)) continue;
+    most = found.cost;
+    best = found;
+  }
+  return best;
+}
+
+Path<Se2> CarLattice::poses(const LatticePath& path) const {
+  std::vector<Se2> poses{start_};
+  const auto is_there = [&](const Se2& pose) {
+    return distance(poses.back().position(), pose.position()) <= exactly * cell_ &&
+           std::abs(turn_between(poses.back().theta, pose.theta)) <= exactly;
+  };
+  const auto drive = [&](const SteeringCurve& way) {
+    if (!is_there(way.joint(way.piece_count()))) append_joints(poses, way);
+  };
+  if (path.is_direct) {
+    drive(curve(start_, goals_[path.shot.goal]));
+    return {poses.begin(), poses.end()};
+  }
+  const LatticeStep& first = path.steps.empty() ? path.last : path.steps.front();
+  drive(curve(start_, pose_of(first.cell, first.heading)));
+  for (std::size_t i = 0; i < path.steps.size(); ++i) {
+    const LatticeStep& next = i + 1 < path.steps.size() ? path.steps[i + 1] : path.last;
+    const LatticeMotion& motion = motions_.from(path.steps[i].heading)[path.steps[i].motion];
+    drive({pose_of(path.steps[i].cell, path.steps[i].heading), pose_of(next.cell, next.heading), motion.word, radius_});
+  }
+  drive(curve(poses.back(), goals_[path.shot.goal]));
+  // Straights that follow each other are one.
+  Path<Se2> fewer;
+  for (const Se2& pose : poses) {
+    const auto goes_on = [&](const Se2& a, const Se2& b) {
+      return std::abs(turn_between(a.theta, b.theta)) <= 1e-12 &&
+             std::abs(turn_between(b.theta, pose.theta)) <= 1e-12 &&
+             dot(b.position() - a.position(), pose.position() - b.position()) > 0.0;
+    };
+    while (fewer.size() > 1 && goes_on(fewer[fewer.size() - 2], fewer.back())) fewer.pop_back();
+    fewer.push_back(pose);
+  }
+  return fewer;
+}
+
+}  // namespace warren

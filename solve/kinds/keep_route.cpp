@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/kinds/keep_route.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "core/base/error.hpp"
+#include "core/plane/se2.hpp"
+#include "solve/question/question_of_arm.hpp"
+#include "verify/judges/verify_price.hpp"
+
+namespace warren {
+namespace {
+
+using State = std::vector<double>;
+
+/// Of bodies of the plane the place counts, of arms all joints.
+std::size_t compared(const State& state) { return state.size() <= 3 ? 2 : state.size(); }
+
+/// The state at a share of the motion; a heading turns the shorter way.
+State between(const State& a, const State& b, double share) {
+  if (share <= 0.0) return a;
+  if (share >= 1.0) return b;
+  State state = a;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double way = a.size() == 3 && i == 2 ? turn_between(a[2], b[2]) : b[i] - a[i];
+    state[i] += share * way;
+  }
+  return state;
+}
+
+struct OnRoute {
+  double share = 0.0;  // of the motion
+  double distance = std::numeric_limits<double>::infinity();
+};
+
+OnRoute nearest_on(const State& a, const State& b, const State& to) {
+  double along = 0.0;
+  double length_sq = 0.0;
+  for (std::size_t i = 0; i < compared(to); ++i) {
+    along += (b[i] - a[i]) * (to[i] - a[i]);
+    length_sq += (b[i] - a[i]) * (b[i] - a[i]);
+  }
+  OnRoute found;
+  found.share = length_sq > 0.0 ? std::clamp(along / length_sq, 0.0, 1.0) : 0.0;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < compared(to); ++i) {
+    const double off = a[i] + found.share * (b[i] - a[i]) - to[i];
+    sum += off * off;
+  }
+  found.distance = std::sqrt(sum);
+  return found;
+}
+
+/// How far the body reaches: so far from its route it is still on it.
+double extent(const RobotSpec& robot) {
+  double farthest = robot.radius;
+  for (const Vec2 p : robot.outline) farthest = std::max(farthest, norm(p));
+  return farthest;
+}
+
+bool is_plain(const RobotSpec& robot) { return robot.kind == RobotKind::point || robot.kind == RobotKind::disc; }
+
+RecordedAnswer path_of(const std::vector<State>& states, const Question& question) {
+  RecordedAnswer path = recorded(std::span(states));
+  path.problem = question;
+  return path;
+}
+
+/// Of the route's rest, as it is now: how long, how free; none: it is not free.
+struct Cost {
+  Verdict verdict;
+  PriceParts price;
+  double sum = 0.0;
+};
+
+std::optional<Cost> cost_now(const std::vector<State>& states, const Scene& scene, const Question& question,
+                             const Problem& problem, const SolveKind& kind, const Execution& execution) {
+  Question asked = question;
+  asked.route = {};
+  asked.rule = {};
+  asked.goal = states.back();
+  asked.goal_pose.reset();
+  const RecordedAnswer path = path_of(states, asked);
+  Cost cost;
+  cost.verdict = kind.verify(scene, asked, path, execution);
+  if (!cost.verdict.verified) return std::nullopt;
+  if (is_plain(problem.robot) && !problem.prices.empty()) {
+    cost.price = verify_price(scene, path.path, problem.prices, problem.robot.radius, execution);
+  }
+  cost.sum = cost.verdict.length + cost.price.sum();
+  return cost;
+}
+
+bool ends_at(const State& end, const State& goal) {
+  constexpr double rounding = 1e-9;
+  for (std::size_t i = 0; i < std::min(end.size(), goal.size()); ++i) {
+    const double off = end.size() == 3 && i == 2 ? turn_between(end[i], goal[i]) : end[i] - goal[i];
+    if (std::abs(off) > rounding * (1.0 + std::abs(goal[i]))) return false;
+  }
+  return true;
+}
+
+void check_route(const std::vector<State>& route, const Answer& answer) {
+  const Problem& problem = answer.problem;
+  if (answer.price && !is_plain(problem.robot)) {
+    throw UsageError("@keep_to: of bodies that turn the price of an older path is not compared; ask without prices");
+  }
+  if (problem.robot.kind == RobotKind::polygon &&
+      gets_better(enum_named<PlannerKind>(answer.planner).value_or(PlannerKind::prm))) {
+    throw UsageError("@keep_to: compares lengths, and this planner minimises turns as well; take another one");
+  }
+  for (const State& state : route) {
+    if (state.size() == problem.start.size()) continue;
+    throw UsageError(
+        fmt::format("@keep_to: the path's states have {} numbers, the body's {}", state.size(), problem.start.size()));
+  }
+  // Several goals may do: what the question leaves open, the path that is planned anew has decided.
+  std::vector<State> goals = problem.rule.others;
+  goals.push_back(problem.goal);
+  const bool is_open = problem.goal_pose || problem.rule.region || problem.rule.tolerance || is_arm(problem.robot);
+  if (is_open ||
+      std::any_of(goals.begin(), goals.end(), [&](const State& goal) { return ends_at(route.back(), goal); })) {
+    return;
+  }
+  throw UsageError("@keep_to: the path ends at another place than the goal");
+}
+
+void take(Answer& answer, const std::vector<State>& states, const Cost& cost) {
+  const RecordedAnswer path = path_of(states, {});
+  answer.outcome = Outcome::solved;
+  answer.stop_reason.reset();
+  answer.verified = true;
+  answer.path = path.path;
+  answer.states = path.states;
+  answer.length = cost.verdict.length;
+  answer.min_clearance = cost.verdict.min_clearance;
+  answer.raw_length.reset();
+  answer.optimal = false;
+  answer.path_figures.clear();
+  if (answer.price || cost.price.sum() > 0.0) {
+    answer.price = cost.price;
+    answer.cost = cost.sum;
+  } else {
+    answer.cost.reset();  // of the planner's own steps
+  }
+  if (!answer.turn_rad) return;
+  double turn = 0.0;
+  for (std::size_t i = 1; i < states.size(); ++i) turn += std::abs(turn_between(states[i - 1][2], states[i][2]));
+  answer.turn_rad = turn;
+}
+
+}  // namespace
+
+std::vector<State> rest_of_route(const std::vector<State>& route, const State& start, double slack, bool is_cut) {
+  if (route.empty()) return {};
+  if (route.size() == 1) return {start, route.front()};
+  std::vector<OnRoute> on(route.size() - 1);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < on.size(); ++i) {
+    on[i] = nearest_on(route[i], route[i + 1], start);
+    least = std::min(least, on[i].distance);
+  }
+  std::size_t leg = 0;
+  while (on[leg].distance > least + slack) ++leg;
+  while (leg + 1 < on.size() && on[leg + 1].distance < on[leg].distance) ++leg;  // on with this pass
+  std::vector<State> rest{start};
+  const State place = between(route[leg], route[leg + 1], on[leg].share);
+  if (is_cut && place != start && on[leg].share < 1.0) rest.push_back(place);
+  for (std::size_t i = leg + 1; i < route.size(); ++i) {
+    if (route[i] != rest.back()) rest.push_back(route[i]);
+  }
+  return rest;
+}
+
+void keep_to_route(Answer& answer, const Scene& scene, const Question& question, const SolveOptions& options,
+                   const SolveKind& kind, const Execution& execution) {
+  const RouteRule& rule = question.route;
+  if (rule.keep_to.empty() || answer.problem.start.empty()) return;
+  if (rule.alternatives) throw UsageError("@alternatives: and @keep_to are two questions; ask one of them");
+  if (!question.rule.visit.empty() || question.rule.back) {
+    throw UsageError("@keep_to: is for a way to a goal; of places to visit nobody knows which are left");
+  }
+  if (!options.trees.via.empty()) throw UsageError("@keep_to: nobody knows which places of @via are left");
+  check_route(rule.keep_to, answer);
+  const StageTimer timer(execution, "keep", answer.seconds.verify, rule.keep_to.size());
+  const Problem& problem = answer.problem;
+  const double slack = extent(problem.robot) + (scene.map ? scene.map->cell : 0.0);
+  const bool is_car = problem.robot.kind == RobotKind::car;
+  const std::vector<State> rest = rest_of_route(rule.keep_to, problem.start, slack, !is_car);
+  KeptRoute told;
+  const std::optional<Cost> kept = cost_now(rest, scene, question, problem, kind, execution);
+  if (kept) told.kept_cost = kept->sum;
+  if (answer.verified) {
+    told.new_cost = answer.length;
+    if (is_plain(problem.robot) && !problem.prices.empty()) {
+      *told.new_cost += verify_price(scene, answer.path, problem.prices, problem.robot.radius, execution).sum();
+    }
+  }
+  const double gain = rule.unless_gain.value_or(usual_unless_gain);
+  told.kept = kept && (!told.new_cost || (1.0 - gain) * kept->sum <= *told.new_cost);
+  if (told.kept) take(answer, rest, *kept);
+  answer.keeping = told;
+}
+
+}  // namespace warren

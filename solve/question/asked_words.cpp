@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/question/asked_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "scenes/text/price_text.hpp"
+
+namespace warren {
+namespace {
+
+[[noreturn]] void refuse_number(std::string_view option, std::string_view what, std::string_view range, double found) {
+  throw UsageError(fmt::format("@{}: {} is a number {} (found: {})", option, what, range, found));
+}
+
+void check_factor(std::string_view option, double factor) {
+  if (factor >= 1.0 && factor <= largest_price) return;
+  refuse_number(option, "a factor", fmt::format("from 1 to {}", largest_price), factor);
+}
+
+void check_area(std::string_view option, const std::vector<Vec2>& corners) {
+  if (corners.size() < 3) throw UsageError(fmt::format("@{}: an area takes three corners or more", option));
+  const auto is_coordinate = [](Vec2 p) {
+    return std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate;
+  };
+  if (std::all_of(corners.begin(), corners.end(), is_coordinate)) return;
+  throw UsageError(fmt::format("@{}: coordinates are numbers of at most 1e60", option));
+}
+
+void check_mask(const PriceMask& mask) {
+  const bool is_speed = mask.kind == MaskKind::speed;
+  const std::string_view option = is_speed ? "speed_zones" : mask.kind == MaskKind::keep_out ? "keep_out" : "areas";
+  if (mask.kind == MaskKind::areas && !mask.factor) {
+    throw UsageError("@areas: a mask needs the factor of its value 100: FILE,F");
+  }
+  if (mask.factor) check_factor(option, *mask.factor);
+  constexpr double most = 1e6;
+  if (is_speed && !(std::abs(mask.base) <= most && std::abs(mask.multiplier) <= most)) {
+    throw UsageError("@speed_zones: base and multiplier are numbers from -1e6 to 1e6, in per cent");
+  }
+}
+
+void check_places(std::string_view option, const std::vector<std::vector<double>>& places) {
+  for (const std::vector<double>& place : places) {
+    const auto is_coordinate = [](double x) { return std::abs(x) <= largest_coordinate; };
+    const bool known = place.size() >= 2 && place.size() <= most_joints;
+    if (known && std::all_of(place.begin(), place.end(), is_coordinate)) continue;
+    throw UsageError(fmt::format("@{}: a place is X,Y or X,Y,THETA, each at most 1e60", option));
+  }
+}
+
+}  // namespace
+
+AskedWords words_in(const Prices& prices) {
+  AskedWords words;
+  const auto add = [&](bool is_said, AskedWord word) {
+    if (is_said) words = words | AskedWords{word};
+  };
+  add(prices.clearance.has_value(), AskedWord::clearance_price);
+  add(!prices.areas.empty(), AskedWord::area);
+  for (const PriceMask& mask : prices.masks) {
+    add(mask.kind == MaskKind::areas, AskedWord::areas);
+    add(mask.kind == MaskKind::speed, AskedWord::speed_zones);
+    add(mask.kind == MaskKind::keep_out, mask.factor ? AskedWord::keep_out_factor : AskedWord::keep_out);
+  }
+  add(!prices.keep_out.empty(), AskedWord::keep_out);
+  add(prices.unknown.has_value(), AskedWord::unknown);
+  add(prices.unknown.value_or(1.0) > 1.0, AskedWord::unknown_factor);
+  return words;
+}
+
+AskedWords words_in(const GoalRule& rule) {
+  AskedWords words;
+  if (!rule.others.empty()) words = words | AskedWords{AskedWord::goal};
+  if (rule.tolerance) words = words | AskedWords{AskedWord::goal_tolerance};
+  if (rule.region) words = words | AskedWords{AskedWord::goal_region};
+  if (rule.heading_rad) words = words | AskedWords{AskedWord::goal_heading};
+  if (!rule.visit.empty() || rule.back) words = words | AskedWords{AskedWord::visit};
+  return words;
+}
+
+AskedWords words_in(const RouteRule& route) {
+  AskedWords words;
+  if (route.alternatives) words = words | AskedWords{AskedWord::alternatives};
+  if (!route.keep_to.empty()) words = words | AskedWords{AskedWord::keep_to};
+  return words;
+}
+
+std::vector<AskedWord> words_of(AskedWords words) {
+  std::vector<AskedWord> list;
+  for (std::size_t i = 0; i < asked_word_count; ++i) {
+    if (words.has(static_cast<AskedWord>(i))) list.push_back(static_cast<AskedWord>(i));
+  }
+  return list;
+}
+
+PricedArea area_value(const std::string& where, std::string_view text) {
+  scene_text::Fields fields(text, {where, 0});
+  Prices prices;
+  read_price(*std::ranges::find(price_line_words, "area", &PriceWord::name), fields, prices, {});
+  return std::move(prices.areas.front());
+}
+
+void check_prices(const Prices& prices) {
+  if (const auto& clearance = prices.clearance) {
+    if (!(clearance->price >= 0.0 && clearance->price <= largest_price)) {
+      refuse_number("clearance_price", "a price", fmt::format("from 0 to {}", largest_price), clearance->price);
+    }
+    if (clearance->reach && !(*clearance->reach > 0.0 && *clearance->reach <= largest_coordinate)) {
+      refuse_number("clearance_price", "the distance from which nothing is paid", "above 0", *clearance->reach);
+    }
+  }
+  for (const PricedArea& area : prices.areas) {
+    check_factor("area", area.factor);
+    check_area("area", area.corners);
+  }
+  for (const PriceMask& mask : prices.masks) check_mask(mask);
+  for (const KeepOut& area : prices.keep_out) check_area("keep_out", area.corners);
+  if (prices.unknown) check_factor("unknown", *prices.unknown);
+}
+
+void check_goal_rule(const GoalRule& rule) {
+  if (rule.tolerance && !(*rule.tolerance >= 0.0)) {
+    refuse_number("goal_tolerance", "a distance", "from 0 on, or inf", *rule.tolerance);
+  }
+  if (rule.region && !(*rule.region >= 0.0 && *rule.region <= largest_coordinate)) {
+    refuse_number("goal_region", "a distance", "from 0 to 1e60", *rule.region);
+  }
+  if (rule.region && rule.tolerance) {
+    throw UsageError("@goal_region: any place in it is as good, which leaves nothing to @goal_tolerance; say one");
+  }
+  if (rule.heading_rad && !(*rule.heading_rad >= 0.0 && *rule.heading_rad <= 3.15)) {
+    refuse_number(rule.region ? "goal_region" : "goal_tolerance", "an angle", "from 0 to 3.15 rad", *rule.heading_rad);
+  }
+  check_places("goal", rule.others);
+  check_places("visit", rule.visit);
+  constexpr std::size_t most_visits = 12;
+  if (rule.visit.size() > most_visits) {
+    throw UsageError(fmt::format("@visit: takes {} places at most, for which the best order is proved (found: {})",
+                                 most_visits, rule.visit.size()));
+  }
+  if (rule.visit.empty() && rule.back) throw UsageError("@return: is for @visit, the places on the way");
+  if (!rule.visit.empty() && (!rule.others.empty() || rule.tolerance || rule.region)) {
+    throw UsageError("@visit: is for one goal, and that exactly; several goals, a tolerance or a region are for none");
+  }
+}
+
+void check_route_rule(const RouteRule& route) {
+  if (route.alternatives && !(*route.alternatives >= 1 && *route.alternatives <= most_alternatives)) {
+    refuse_number("alternatives", "the number of paths", fmt::format("from 1 to {}", most_alternatives),
+                  *route.alternatives);
+  }
+  if (route.hole && !(*route.hole >= 0.0 && *route.hole <= largest_coordinate)) {
+    refuse_number("alternatives", "the size of a hole", "from 0 to 1e60", *route.hole);
+  }
+  if (route.stretch && !(*route.stretch >= 1.0 && *route.stretch <= largest_coordinate)) {
+    refuse_number("stretch", "a share of the least cost", "from 1 to 1e60", *route.stretch);
+  }
+  if (route.stretch && !route.alternatives) throw UsageError("@stretch: is for @alternatives");
+  if (route.unless_gain && !(*route.unless_gain >= 0.0 && *route.unless_gain < 1.0)) {
+    refuse_number("unless_gain", "a share of the cost", "from 0 to below 1", *route.unless_gain);
+  }
+  if (route.unless_gain && route.keep_to.empty()) throw UsageError("@unless_gain: is for @keep_to");
+  check_places("keep_to", route.keep_to);
+}
+
+void check_asked(const Scene& scene, const Question& question) {
+  const auto& clearance = question.prices.clearance ? question.prices.clearance : scene.prices.clearance;
+  for (const Prices* prices : {&scene.prices, &question.prices}) {
+    check_prices(*prices);
+    for (const PriceMask& mask : prices->masks) {
+      if (!mask.read) throw UsageError(fmt::format("{}: nobody has read this mask yet; read_masks() does", mask.file));
+    }
+  }
+  check_goal_rule(question.rule);
+  if (question.prices.unknown && !scene.map) {
+    throw UsageError(fmt::format("@unknown: only maps have unknown cells, and {} is none", scene.source));
+  }
+  if (clearance && question.contact == Contact::allowed) {
+    throw UsageError("@contact: what pays for nearness keeps off, so 'allowed' contradicts @clearance_price");
+  }
+  if (question.goal_pose && !question.rule.empty()) {
+    throw UsageError("@goal_pose: is one pose of an arm's tool; several goals and rules of goals are for the plane");
+  }
+}
+
+}  // namespace warren

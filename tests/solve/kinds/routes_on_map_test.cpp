@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Alternatives, routes that are kept, and bounds of all paths, as solve() answers them on maps.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/base/error.hpp"
+#include "core/base/rng.hpp"
+#include "solve/kinds/keep_route.hpp"
+#include "solve/solve.hpp"
+#include "tests/planners/grid/class_oracle.hpp"
+#include "tests/seeds.hpp"
+#include "verify/judges/verify_classes.hpp"
+#include "verify/judges/verify_map.hpp"
+
+namespace warren {
+namespace {
+
+Scene scene_of(const Bitmap& blocked) {
+  Scene scene;
+  scene.source = "map";
+  OccupancyMap map;
+  map.blocked = blocked;
+  map.occupied = blocked.count();
+  map.free = blocked.size() - map.occupied;
+  scene.map = map;
+  return scene;
+}
+
+/// Blocks as wide and high as that, one every `every` cells, off the border.
+Bitmap blocks(std::uint32_t width, std::uint32_t height, std::uint32_t every, std::uint32_t size) {
+  Bitmap blocked(width, height);
+  for (std::uint32_t y = every / 2; y + size < height; y += every) {
+    for (std::uint32_t x = every / 2; x + size < width; x += every) {
+      for (std::uint32_t row = 0; row < size; ++row) blocked.set_run(y + row, x, x + size);
+    }
+  }
+  return blocked;
+}
+
+SolveOptions by_grid() {
+  SolveOptions options;
+  options.planner = PlannerKind::grid;
+  return options;
+}
+
+double length_of(const Path<Vec2>& path) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) length += distance(path[i - 1], path[i]);
+  return length;
+}
+
+void expect_alternatives(const Scene& scene, const Question& question, std::size_t least) {
+  const Answer answer = solve(scene, question, by_grid());
+  ASSERT_TRUE(answer.verified);
+  ASSERT_GE(answer.alternatives.size(), least);
+  ASSERT_LE(answer.alternatives.size(), *question.route.alternatives);
+  const double stretch = question.route.stretch.value_or(1.5);
+  const double reach = answer.problem.robot.radius + answer.problem.clearance;
+  std::vector<Path<Vec2>> paths{answer.path};
+  std::set<std::vector<std::int32_t>> classes{answer.passed};
+  double before = answer.price ? *answer.cost : answer.length;
+  const double best = before;
+  std::set<std::uint32_t> told;
+  for (const MapHole& hole : answer.holes) told.insert(hole.id);
+  for (const AlternativePath& path : answer.alternatives) {
+    const VerifyOptions options{.clearance = reach,
+                                .start = Vec2{question.start[0], question.start[1]},
+                                .goal = Vec2{question.goal[0], question.goal[1]}};
+    EXPECT_TRUE(verify_on_map(*scene.map, path.path, options, {}).verified);
+    EXPECT_NEAR(path.length, length_of(path.path), 1e-9 * path.length);
+    EXPECT_NEAR(path.cost, path.length + path.price.sum(), 1e-9 * path.cost);
+    EXPECT_GE(path.cost, before);
+    EXPECT_LE(path.cost, stretch * best);
+    EXPECT_TRUE(classes.insert(path.passed).second);
+    for (const std::int32_t letter : path.passed)
+      EXPECT_TRUE(told.contains(static_cast<std::uint32_t>(std::abs(letter))));
+    before = path.cost;
+    paths.push_back(path.path);
+  }
+  const ClassRule rule{reach, question.route.hole.value_or(2.0 * answer.problem.robot.radius)};
+  EXPECT_FALSE(same_class(judged_classes(*scene.map, rule, paths, {})));
+}
+
+TEST(Alternatives, AreFreePathsOfDifferentClassesTheCheapestFirst) {
+  const Scene scene = scene_of(blocks(40, 30, 8, 3));
+  Question question{.start = {2.0, 17.1}, .goal = {34.0, 17.6}};
+  question.route.alternatives = 4;
+  expect_alternatives(scene, question, 4);
+  question.robot = RobotSpec{.kind = RobotKind::disc, .radius = 1.3};
+  expect_alternatives(scene, question, 4);
+  question.route.stretch = 1.02;
+  expect_alternatives(scene, question, 0);
+  question.route.stretch.reset();
+  question.prices.clearance = ClearancePrice{2.0, 1.5};
+  expect_alternatives(scene, question, 3);
+}
+
+TEST(Alternatives, SmallHolesMakeNoClass) {
+  const Scene scene = scene_of(blocks(40, 30, 8, 3));
+  Question question{.start = {2.0, 17.1}, .goal = {34.0, 17.6}};
+  question.route.alternatives = 4;
+  question.route.hole = 3.5;
+  const Answer answer = solve(scene, question, by_grid());
+  ASSERT_TRUE(answer.verified);
+  EXPECT_TRUE(answer.alternatives.empty());
+  EXPECT_TRUE(answer.holes.empty());
+}
+
+TEST(Alternatives, OnRandomMaps) {
+  for (const std::uint64_t seed : test::seeds(300, 12)) {
+    SCOPED_TRACE(seed);
+    SequentialRng rng(seed);
+    Bitmap blocked(24, 24);
+    for (int n = 0; n < 14; ++n) {
+      const auto x = static_cast<std::uint32_t>(1 + rng.below(20));
+      const auto y = static_cast<std::uint32_t>(1 + rng.below(20));
+      for (std::uint32_t row = 0; row < 1 + rng.below(3); ++row) blocked.set_run(y + row, x, x + 1 + rng.below(3));
+    }
+    for (std::uint32_t y = 0; y < 24; ++y) {
+      for (const std::uint32_t x : {0U, 1U, 22U, 23U}) blocked.clear(x, y);
+    }
+    Question question{.start = {0.7, 1.0 + static_cast<double>(rng.below(21))},
+                      .goal = {23.3, 1.0 + static_cast<double>(rng.below(21))}};
+    question.route.alternatives = static_cast<std::uint32_t>(1 + rng.below(5));
+    if (seed % 2 == 0) question.robot = RobotSpec{.kind = RobotKind::disc, .radius = 0.6};
+    if (seed % 3 == 0) question.prices.clearance = ClearancePrice{3.0, 1.0};
+    if (solve(scene_of(blocked), {question.robot, question.start, question.goal}, by_grid()).verified) {
+      expect_alternatives(scene_of(blocked), question, 0);
+    }
+  }
+}
+
+using States = std::vector<std::vector<double>>;
+
+States states_of(const Path<Vec2>& path) {
+  States states;
+  for (const Vec2 p : path) states.push_back({p.x, p.y});
+  return states;
+}
+
+TEST(KeepRoute, TheRestBeginsWhereTheRobotIs) {
+  const States route{{0, 0}, {10, 0}, {10, 10}};
+  EXPECT_EQ(rest_of_route(route, {4, 1}, 0.0, true), (States{{4, 1}, {4, 0}, {10, 0}, {10, 10}}));
+  EXPECT_EQ(rest_of_route(route, {4, 0}, 0.0, true), (States{{4, 0}, {10, 0}, {10, 10}}));
+  EXPECT_EQ(rest_of_route(route, {4, 1}, 0.0, false), (States{{4, 1}, {10, 0}, {10, 10}}));
+  EXPECT_EQ(rest_of_route(route, {10, 10}, 0.0, true), (States{{10, 10}}));
+}
+
+TEST(KeepRoute, ProgressDoesNotJumpToALaterPass) {
+  const States route{{0, 0}, {10, 0}, {10, 5}, {5, 5}, {5, -5}};  // comes by again at (5, 0)
+  for (double x = 0.0; x <= 10.0; x += 0.25) {
+    const States rest = rest_of_route(route, {x, 0.2}, 0.5, true);
+    EXPECT_EQ(rest.size(), x < 10.0 ? 6U : 4U) << x;  // all that was to come still is
+  }
+  const States second = rest_of_route(route, {5.1, 3.0}, 0.5, true);
+  EXPECT_EQ(second, (States{{5.1, 3.0}, {5, 3}, {5, -5}}));
+}
+
+/// Two ways around a block, of which the lower one is shorter by little, or by more.
+Scene around_a_block(std::uint32_t low) {
+  Bitmap blocked(30, 24);
+  for (std::uint32_t y = low; y < 17; ++y) blocked.set_run(y, 12, 18);
+  return scene_of(blocked);
+}
+
+TEST(KeepRoute, NoiseOfPricesDoesNotChangeIt) {
+  const Scene scene = around_a_block(7);
+  Question question{.start = {2.0, 12.0}, .goal = {28.0, 12.0}};
+  question.prices.clearance = ClearancePrice{2.0, 3.0};
+  Answer before = solve(scene, question, by_grid());
+  ASSERT_TRUE(before.verified);
+  const bool is_above = std::any_of(before.path.begin(), before.path.end(), [](Vec2 p) { return p.y > 16.0; });
+  for (const std::uint64_t seed : test::seeds(1000, 12)) {
+    SCOPED_TRACE(seed);
+    SequentialRng rng(seed);
+    // Areas above and below that pay up to 4 % more: as if all prices were off by up to 2 % either way.
+    question.prices.areas = {
+        {1.0 + 0.04 * static_cast<double>(rng.below(1000)) / 1000.0, {{0, 12}, {30, 12}, {30, 24}, {0, 24}}},
+        {1.0 + 0.04 * static_cast<double>(rng.below(1000)) / 1000.0, {{0, 0}, {30, 0}, {30, 12}, {0, 12}}}};
+    question.route.keep_to = states_of(before.path);
+    const Answer answer = solve(scene, question, by_grid());
+    ASSERT_TRUE(answer.verified);
+    ASSERT_TRUE(answer.keeping);
+    EXPECT_TRUE(answer.keeping->kept);
+    EXPECT_EQ(std::any_of(answer.path.begin(), answer.path.end(), [](Vec2 p) { return p.y > 16.0; }), is_above);
+    EXPECT_NEAR(*answer.keeping->kept_cost, *answer.cost, 1e-9);
+    before = answer;
+  }
+}
+
+TEST(KeepRoute, ChangesWhereAMuchCheaperWayOpensOrTheOldOneIsBlocked) {
+  const Scene scene = around_a_block(0);  // the way below is closed
+  Question question{.start = {2.0, 6.0}, .goal = {28.0, 6.0}};
+  const Answer above = solve(scene, question, by_grid());
+  ASSERT_TRUE(above.verified);
+  question.route.keep_to = states_of(above.path);
+  const Answer kept = solve(scene, question, by_grid());
+  ASSERT_TRUE(kept.keeping);
+  EXPECT_TRUE(kept.keeping->kept);
+  const Scene open = around_a_block(7);
+  const Answer changed = solve(open, question, by_grid());
+  ASSERT_TRUE(changed.keeping);
+  EXPECT_FALSE(changed.keeping->kept);
+  EXPECT_GT(*changed.keeping->kept_cost, 1.1 * *changed.keeping->new_cost);
+  EXPECT_LT(changed.length, above.length);
+  question.route.unless_gain = 0.9;
+  EXPECT_TRUE(solve(open, question, by_grid()).keeping->kept);
+  Scene blocked = around_a_block(7);
+  for (std::uint32_t y = 17; y < 24; ++y) blocked.map->blocked.set(15, y);
+  const Answer forced = solve(blocked, question, by_grid());
+  EXPECT_FALSE(forced.keeping->kept);
+  EXPECT_FALSE(forced.keeping->kept_cost);
+  EXPECT_TRUE(forced.verified);
+}
+
+TEST(KeepRoute, OfPolygonsAndOtherPlannersToo) {
+  const Scene scene = around_a_block(7);
+  Question question{
+      .robot = RobotSpec{.kind = RobotKind::polygon, .outline = {{-0.5, -0.3}, {0.5, -0.3}, {0.5, 0.3}, {-0.5, 0.3}}},
+      .start = {2.0, 12.0, 0.0},
+      .goal = {28.0, 12.0, 0.0}};
+  SolveOptions options;
+  options.planner = PlannerKind::rrt_connect;
+  options.optimise = true;
+  const Answer first = solve(scene, question, options);
+  ASSERT_TRUE(first.verified);
+  for (std::size_t i = 0; i < first.states.size(); ++i) {
+    const auto state = first.states[i];
+    question.route.keep_to.emplace_back(state.begin(), state.end());
+  }
+  options.seed = 2;
+  const Answer second = solve(scene, question, options);
+  ASSERT_TRUE(second.keeping);
+  EXPECT_TRUE(second.keeping->kept_cost);
+  if (second.keeping->kept) {
+    EXPECT_EQ(second.states.numbers, first.states.numbers);
+  }
+  question.route.keep_to.back()[0] = 20.0;
+  EXPECT_THROW(solve(scene, question, options), UsageError);
+}
+
+void expect_bound(const Scene& scene, const Question& question, double gap, double worth) {
+  SolveOptions options = by_grid();
+  options.anytime.gap = gap;
+  ByProducts keep;
+  keep.wants_certificate = true;
+  const Answer answer = solve(scene, question, options, {}, &keep);
+  ASSERT_TRUE(answer.verified);
+  EXPECT_EQ(answer.bound_of, "all");
+  ASSERT_TRUE(keep.certificate);
+  const double cost = answer.price ? *answer.cost : answer.length;
+  EXPECT_LE(*answer.lower_bound, cost);
+  EXPECT_GE(*answer.lower_bound, worth * cost);
+  RecordedAnswer record = recorded(answer);
+  record.certificate = keep.certificate;
+  const Verdict verdict = verify(scene, record);
+  EXPECT_TRUE(verdict.verified) << (verdict.first_violation ? verdict.first_violation->obstacle : "");
+  EXPECT_EQ(verdict.bound, BoundVerdict::checked);
+  record.lower_bound = *record.lower_bound * 1.02;
+  EXPECT_FALSE(verify(scene, record).verified);
+}
+
+TEST(BoundOfAll, IsProvedByItsCertificate) {
+  const Scene scene = scene_of(blocks(40, 30, 8, 3));
+  Question question{.start = {2.0, 17.1}, .goal = {34.0, 17.6}};
+  expect_bound(scene, question, 0.06, 0.9);
+  question.prices.clearance = ClearancePrice{2.0, 2.0};
+  expect_bound(scene, question, 0.06, 0.8);
+  question.robot = RobotSpec{.kind = RobotKind::disc, .radius = 0.7};
+  expect_bound(scene, question, 0.06, 0.8);
+}
+
+}  // namespace
+}  // namespace warren

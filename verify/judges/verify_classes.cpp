@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "verify/judges/verify_classes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/base/whole.hpp"
+
+namespace warren {
+namespace {
+
+/// Cells whose middle is nearer than what is kept to a closed blocked square or to the map's outside: the nearest
+/// blocked row of each column, then all columns that may be near enough.
+Bitmap cells_without_room(const OccupancyMap& map, double keeps, const Execution& execution) {
+  if (!(keeps > 0.0)) return map.blocked;
+  const double half_cells = 2.0 * keeps / map.cell;
+  const double needed_sq = half_cells * half_cells;
+  const auto width = std::int64_t{map.width()};
+  const auto height = std::int64_t{map.height()};
+  const auto around = std::min(width, bounded_whole<std::int64_t>(0.5 * half_cells + 2.0, 1.0, 1e9));
+  execution.reserve(sizeof(std::int32_t) * map.blocked.size() + map.blocked.bytes());
+  std::vector<std::int32_t> rows_off(as_whole<std::size_t>(width * height));  // to the nearest blocked row
+  const auto at = [&](std::int64_t x, std::int64_t y) -> std::int32_t& {
+    return rows_off[as_whole<std::size_t>(y * width + x)];
+  };
+  for (std::int64_t x = 0; x < width; ++x) {
+    execution.check();
+    std::int32_t off = 0;
+    for (std::int64_t y = 0; y < height; ++y) at(x, y) = off = map.blocked.holds(x, y) ? 0 : off + 1;
+    off = 0;
+    for (std::int64_t y = height; y-- > 0;) {
+      off = map.blocked.holds(x, y) ? 0 : off + 1;
+      at(x, y) = std::min(at(x, y), off);
+    }
+  }
+  const auto gap = [](std::int64_t cells) { return static_cast<double>(std::max<std::int64_t>(2 * cells - 1, 0)); };
+  Bitmap closed(map.width(), map.height());
+  for (std::int64_t y = 0; y < height; ++y) {
+    execution.check();
+    for (std::int64_t x = 0; x < width; ++x) {
+      bool is_near = false;
+      for (std::int64_t c = x - around; c <= x + around && !is_near; ++c) {
+        const double rows = c < 0 || c >= width ? 0.0 : gap(at(c, y));
+        const double columns = gap(std::abs(c - x));
+        is_near = rows * rows + columns * columns < needed_sq;
+      }
+      if (is_near) closed.set(as_whole<std::uint32_t>(x), as_whole<std::uint32_t>(y));
+    }
+  }
+  return closed;
+}
+
+/// Where a ray begins: the middle of a cell.
+struct Ray {
+  double x;
+  double y;
+  std::int32_t hole;
+};
+
+/// Components by joining runs of a row with those of the row before.
+class Holes {
+ public:
+  Holes(const Bitmap& closed, double least, const Execution& execution) {
+    std::vector<std::size_t> before;  // runs of the row below
+    for (std::uint32_t y = 0; y < closed.height(); ++y) {
+      execution.check();
+      std::vector<std::size_t> here;
+      for (std::uint32_t x = 0; x < closed.width(); ++x) {
+        if (!closed.test(x, y)) continue;
+        const std::uint32_t first = x;
+        while (x + 1 < closed.width() && closed.test(x + 1, y)) ++x;
+        here.push_back(runs_.size());
+        runs_.push_back({first, x, y, runs_.size()});
+        for (const std::size_t below : before) {
+          const Run& run = runs_[below];
+          if (run.first <= x + 1 && first <= run.last + 1) join(below, here.back());
+        }
+      }
+      before = std::move(here);
+    }
+    struct Extent {
+      Run right;  // that reaches farthest
+      std::uint32_t low_x, high_x, low_y, high_y;
+    };
+    std::map<std::size_t, Extent> holes;
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      const Run& run = runs_[i];
+      const auto [known, is_new] = holes.try_emplace(root(i), Extent{run, run.first, run.last, run.row, run.row});
+      if (is_new) continue;
+      Extent& extent = known->second;
+      if (run.last > extent.right.last) extent.right = run;
+      extent.low_x = std::min(extent.low_x, run.first);
+      extent.high_x = std::max(extent.high_x, run.last);
+      extent.high_y = run.row;
+    }
+    for (const auto& [number, e] : holes) {
+      const bool at_border =
+          e.low_x == 0 || e.low_y == 0 || e.high_x + 1 == closed.width() || e.high_y + 1 == closed.height();
+      if (at_border || std::max(e.high_x - e.low_x, e.high_y - e.low_y) + 1.0 < least) continue;
+      rays_.push_back({e.right.last + 0.5, e.right.row + 0.5, as_whole<std::int32_t>(rays_.size() + 1)});
+    }
+    std::stable_sort(rays_.begin(), rays_.end(), [](const Ray& a, const Ray& b) { return a.y < b.y; });
+  }
+
+  /// A leg up from below a ray's height to it or above crosses it; rays of one height lie one on the other in the order
+  /// of their holes.
+  void follow(Vec2 a, Vec2 b, std::vector<std::int32_t>& word) const {
+    const bool up = a.y < b.y;
+    const double low = std::min(a.y, b.y);
+    const double high = std::max(a.y, b.y);
+    const auto first =
+        std::upper_bound(rays_.begin(), rays_.end(), low, [](double y, const Ray& r) { return y < r.y; });
+    const auto last =
+        std::upper_bound(rays_.begin(), rays_.end(), high, [](double y, const Ray& r) { return y < r.y; });
+    for (auto i = 0; i < last - first; ++i) {
+      const Ray& ray = up ? first[i] : *(last - 1 - i);
+      const double x = a.x + (b.x - a.x) * ((ray.y - a.y) / (b.y - a.y));
+      if (x <= ray.x) continue;
+      const std::int32_t letter = up ? ray.hole : -ray.hole;
+      if (!word.empty() && word.back() == -letter) {
+        word.pop_back();
+      } else {
+        word.push_back(letter);
+      }
+    }
+  }
+
+ private:
+  struct Run {
+    std::uint32_t first;
+    std::uint32_t last;
+    std::uint32_t row;
+    std::size_t of;
+  };
+  std::size_t root(std::size_t i) {
+    while (runs_[i].of != i) i = runs_[i].of = runs_[runs_[i].of].of;
+    return i;
+  }
+  void join(std::size_t a, std::size_t b) {
+    const std::size_t ra = root(a);
+    const std::size_t rb = root(b);
+    runs_[std::max(ra, rb)].of = std::min(ra, rb);
+  }
+
+  std::vector<Run> runs_;
+  std::vector<Ray> rays_;
+};
+
+}  // namespace
+
+std::vector<std::vector<std::int32_t>> judged_classes(const OccupancyMap& map, const ClassRule& rule,
+                                                      std::span<const Path<Vec2>> paths, const Execution& execution) {
+  const Holes holes(cells_without_room(map, rule.keeps, execution), rule.hole / map.cell * (1.0 - 1e-12), execution);
+  std::vector<std::vector<std::int32_t>> classes(paths.size());
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    for (std::size_t leg = 1; leg < paths[i].size(); ++leg) {
+      execution.check();
+      holes.follow(map_point(map, paths[i][leg - 1]), map_point(map, paths[i][leg]), classes[i]);
+    }
+  }
+  return classes;
+}
+
+std::optional<std::pair<std::size_t, std::size_t>> same_class(const std::vector<std::vector<std::int32_t>>& classes) {
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    for (std::size_t j = i + 1; j < classes.size(); ++j) {
+      if (classes[i] == classes[j]) return std::pair{i, j};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace warren

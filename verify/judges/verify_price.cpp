@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "verify/judges/verify_price.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/base/trigonometry.hpp"
+#include "core/base/whole.hpp"
+#include "verify/exact/exact_segments.hpp"
+#include "verify/exact/leg_cost.hpp"
+#include "verify/judges/effective_scene.hpp"
+#include "verify/near/obstacle_index.hpp"
+
+namespace warren {
+namespace {
+
+using exact::SquaredDistance;
+
+/// A leg by arc length.
+struct Ray {
+  Vec2 from;
+  Vec2 u;
+  double length;
+
+  explicit Ray(const Segment& leg) : from(leg.a), length(distance(leg.a, leg.b)) {
+    u = (1.0 / length) * (leg.b - leg.a);
+  }
+  Vec2 at(double t) const { return from + t * u; }
+};
+
+/// Where a leg passes the lines 0, 1, 2, … of a grid, along one of its axes.
+void add_lines(double at, double slope, double length, std::vector<double>& cuts) {
+  if (slope == 0.0) return;
+  const double end = at + slope * length;
+  for (double line = std::ceil(std::min(at, end)); line <= std::max(at, end); line += 1.0) {
+    const double t = (line - at) / slope;
+    if (t > 0.0 && t < length) cuts.push_back(t);
+  }
+}
+
+/// Calls piece(from, to) for all between two cuts, and the ends.
+template <class Piece>
+void for_pieces(std::vector<double>& cuts, double length, const Execution& execution, const Piece& piece) {
+  cuts.push_back(0.0);
+  cuts.push_back(length);
+  std::sort(cuts.begin(), cuts.end());
+  for (std::size_t i = 1; i < cuts.size(); ++i) {
+    execution.check();
+    if (cuts[i] > cuts[i - 1]) piece(cuts[i - 1], cuts[i]);
+  }
+}
+
+/// Nearness among the cells of a map; lengths in cells.
+class NearCells {
+ public:
+  /// reach: of the middle.
+  NearCells(const OccupancyMap& map, bool on_water, double reach, const Execution& execution)
+      : map_(map), on_water_(on_water), reach_(reach), execution_(execution) {}
+
+  double over(const Ray& ray) {
+    cuts_.clear();
+    add_lines(ray.from.x, ray.u.x, ray.length, cuts_);
+    add_lines(ray.from.y, ray.u.y, ray.length, cuts_);
+    double sum = 0.0;
+    for_pieces(cuts_, ray.length, execution_, [&](double from, double to) {
+      sum += over_piece(ray.at(from), ray.u, to - from, ray.at(0.5 * (from + to)));
+    });
+    return sum;
+  }
+
+ private:
+  bool closed(std::int64_t x, std::int64_t y) const {
+    return on_water_ ? !map_.water.holds(x, y) : map_.blocked.holds(x, y);
+  }
+
+  double over_piece(Vec2 p, Vec2 u, double length, Vec2 middle) {
+    const auto x = bounded_whole<std::int64_t>(std::floor(middle.x), 0.0, map_.width() - 1.0);
+    const auto y = bounded_whole<std::int64_t>(std::floor(middle.y), 0.0, map_.height() - 1.0);
+    for (std::int64_t around = 1;; around *= 2) {
+      things_ = {SquaredDistance::to_line(p.x, -u.x), SquaredDistance::to_line(p.y, -u.y),
+                 SquaredDistance::to_line(map_.width() - p.x, u.x), SquaredDistance::to_line(map_.height() - p.y, u.y)};
+      for (std::int64_t row = y - around; row <= y + around; ++row) {
+        for (std::int64_t column = x - around; column <= x + around; ++column) add_cell(x, y, column, row, p, u);
+      }
+      double enough = std::numeric_limits<double>::infinity();
+      for (const SquaredDistance& q : things_) enough = std::min(enough, std::max(q.at(0.0), q.at(length)));
+      const auto seen = static_cast<double>(around);  // what is not in the window is at least so far away
+      if (seen >= reach_ || seen * seen >= enough) return nearness_.over(things_, length, reach_);
+    }
+  }
+
+  /// As the piece in cell (x, y) sees it: by one side, or by a corner. None behind another blocked cell.
+  void add_cell(std::int64_t x, std::int64_t y, std::int64_t column, std::int64_t row, Vec2 p, Vec2 u) {
+    if (column < 0 || row < 0 || column >= map_.width() || row >= map_.height() || !closed(column, row)) return;
+    const std::int64_t right = (column > x) - (column < x);
+    const std::int64_t up = (row > y) - (row < y);
+    const auto hides = [&](std::int64_t at_x, std::int64_t at_y) {
+      return (at_x != x || at_y != y) && closed(at_x, at_y);
+    };
+    if (right != 0 && hides(column - right, row)) return;
+    if (up != 0 && hides(column, row - up)) return;
+    const double off_x = static_cast<double>(right > 0 ? column : column + 1) - p.x;
+    const double off_y = static_cast<double>(up > 0 ? row : row + 1) - p.y;
+    if (right != 0 && up != 0) return things_.push_back(SquaredDistance::to_place({off_x, off_y}, u));
+    if (right != 0) return things_.push_back(SquaredDistance::to_line(off_x, u.x));
+    if (up != 0) return things_.push_back(SquaredDistance::to_line(off_y, u.y));
+    things_.push_back(SquaredDistance::to_line(0.0, 0.0));
+  }
+
+  const OccupancyMap& map_;
+  bool on_water_;
+  double reach_;
+  const Execution& execution_;
+  exact::NearnessCost nearness_;
+  std::vector<SquaredDistance> things_;
+  std::vector<double> cuts_;
+};
+
+/// Nearness among walls, sides of polygons and bounds.
+class NearSides {
+ public:
+  NearSides(const Scene& scene, double reach, const Execution& execution)
+      : index_(scene, execution), reach_(reach), execution_(execution) {}
+
+  double over(const Ray& ray) {
+    const Segment leg{ray.from, ray.at(ray.length)};
+    const Box box = box_of(leg);
+    near_.clear();
+    cuts_.clear();
+    index_.sides().for_each([&](const Box& block) { return exact::gap_sq(block, box) > reach_ * reach_; },
+                            [&](std::size_t number) {
+                              const Segment side = index_.obstacles().segment(number);
+                              if (exact::gap_sq(box_of(side), box) > reach_ * reach_) return;
+                              near_.push_back(side);
+                              for (const Vec2 end : {side.a, side.b}) {
+                                const double along = dot(ray.u, side.b - side.a);
+                                const double t = dot(end - ray.from, side.b - side.a) / along;
+                                if (t > 0.0 && t < ray.length) cuts_.push_back(t);
+                              }
+                            });
+    double sum = 0.0;
+    for_pieces(cuts_, ray.length, execution_, [&](double from, double to) {
+      things_.clear();
+      const Vec2 p = ray.at(from);
+      const Vec2 middle = ray.at(0.5 * (from + to));
+      for (const Segment& side : near_) things_.push_back(seen(side, p, ray.u, middle));
+      sum += nearness_.over(things_, to - from, reach_);
+    });
+    return sum;
+  }
+
+ private:
+  static SquaredDistance seen(const Segment& side, Vec2 p, Vec2 u, Vec2 middle) {
+    const Vec2 along = side.b - side.a;
+    const double foot = dot(middle - side.a, along);
+    if (!(foot > 0.0)) return SquaredDistance::to_place(side.a - p, u);
+    if (foot >= dot(along, along)) return SquaredDistance::to_place(side.b - p, u);
+    const double length = norm(along);
+    const double turned = cross(along, middle - side.a) < 0.0 ? -1.0 / length : 1.0 / length;
+    return SquaredDistance::to_line(turned * cross(along, p - side.a), -turned * cross(along, u));
+  }
+
+  const ObstacleIndex index_;
+  double reach_;
+  const Execution& execution_;
+  exact::NearnessCost nearness_;
+  std::vector<Segment> near_;
+  std::vector<SquaredDistance> things_;
+  std::vector<double> cuts_;
+};
+
+/// The factors of places: of areas, masks and unknown cells. In cells of the map; without one, in the world.
+class Factors {
+ public:
+  Factors(const Scene& scene, const Prices& prices, const Execution& execution)
+      : map_(scene.map ? &*scene.map : nullptr), execution_(execution) {
+    if (map_ != nullptr && !map_->unknown.empty()) unknown_ = prices.unknown.value_or(1.0);
+    for (const PricedArea& area : prices.areas) {
+      if (!(area.factor > 1.0)) continue;
+      areas_.push_back({area.factor, {}});
+      for (const Vec2 p : area.corners) areas_.back().corners.push_back(map_ != nullptr ? judged_corner(*map_, p) : p);
+    }
+    for (const PriceMask& mask : prices.masks) masks_.push_back(&mask);
+  }
+  bool any() const { return unknown_ > 1.0 || !areas_.empty() || !masks_.empty(); }
+
+  /// The integral of factor - 1 over a leg of the world, in the world's unit.
+  double over(const Segment& leg) {
+    const Segment own = map_ != nullptr ? Segment{map_point(*map_, leg.a), map_point(*map_, leg.b)} : leg;
+    const Ray ray(own);
+    cuts_.clear();
+    for (const Area& area : areas_) {
+      for (std::size_t i = 0; i < area.corners.size(); ++i) {
+        const Segment side = area.side(i);
+        const Vec2 along = side.b - side.a;
+        const double t = cross(side.a - ray.from, along) / cross(ray.u, along);
+        if (t > 0.0 && t < ray.length) cuts_.push_back(t);  // not NaN, where it runs along
+      }
+    }
+    if (unknown_ > 1.0) {
+      add_lines(ray.from.x, ray.u.x, ray.length, cuts_);
+      add_lines(ray.from.y, ray.u.y, ray.length, cuts_);
+    }
+    const double to_world = distance(leg.a, leg.b) / ray.length;
+    for (const PriceMask* mask : masks_) {
+      const Vec2 from = in_mask(*mask->read, leg.a);
+      const Vec2 by = (1.0 / ray.length) * (in_mask(*mask->read, leg.b) - from);
+      add_lines(from.x, by.x, ray.length, cuts_);
+      add_lines(from.y, by.y, ray.length, cuts_);
+    }
+    double sum = 0.0;
+    for_pieces(cuts_, ray.length, execution_, [&](double from, double to) {
+      const double middle = 0.5 * (from + to);
+      sum += (to - from) * (factor(ray.at(middle), leg.a + (middle / ray.length) * (leg.b - leg.a)) - 1.0);
+    });
+    return sum * to_world;
+  }
+
+ private:
+  static constexpr double on_border = 1e-9;
+  struct Area {
+    double factor;
+    std::vector<Vec2> corners;
+    Segment side(std::size_t i) const { return {corners[i], corners[i + 1 == corners.size() ? 0 : i + 1]}; }
+    /// In the open polygon, and not within `on_border` of its outline. By how often it is wound around the place.
+    bool holds(Vec2 p) const {
+      int wound = 0;
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Segment s = side(i);
+        if (exact::distance(s, {p, p}) <= on_border) return false;
+        if ((s.a.y <= p.y) == (s.b.y <= p.y)) continue;
+        const int left = exact::side_of(s.a, s.b, p);
+        if (s.a.y <= p.y ? left > 0 : left < 0) wound += left;
+      }
+      return wound != 0;
+    }
+  };
+
+  static Vec2 in_mask(const MaskCells& mask, Vec2 in_world) {
+    const auto [sine, cosine] = portable::sin_and_cos(mask.yaw_rad);
+    const Vec2 d = in_world - mask.origin;
+    const Vec2 turned = mask.yaw_rad == 0.0 ? d : Vec2{cosine * d.x + sine * d.y, cosine * d.y - sine * d.x};
+    return (1.0 / mask.cell) * turned;
+  }
+
+  /// The least of the cells that the place is in, or on the border of.
+  template <class OfCell>
+  static double least_at(Vec2 p, const OfCell& of_cell) {
+    const auto cell = [](double x) { return bounded_whole<std::int64_t>(std::floor(x)); };
+    return std::min(
+        {of_cell(cell(p.x - on_border), cell(p.y - on_border)), of_cell(cell(p.x + on_border), cell(p.y - on_border)),
+         of_cell(cell(p.x - on_border), cell(p.y + on_border)), of_cell(cell(p.x + on_border), cell(p.y + on_border))});
+  }
+
+  double factor(Vec2 p, Vec2 in_world) const {
+    double greatest = 1.0;
+    for (const Area& area : areas_) {
+      if (area.factor > greatest && area.holds(p)) greatest = area.factor;
+    }
+    if (unknown_ > greatest) {
+      greatest = std::max(greatest, least_at(p, [&](std::int64_t x, std::int64_t y) {
+                            return map_->unknown.holds(x, y) ? unknown_ : 1.0;
+                          }));
+    }
+    for (const PriceMask* mask : masks_) {
+      const MaskCells& cells = *mask->read;
+      greatest = std::max(
+          greatest, least_at(in_mask(cells, in_world), [&](std::int64_t x, std::int64_t y) {
+            if (x < 0 || y < 0 || x >= cells.width || y >= cells.height) return 1.0;
+            return judged_factor(*mask, cells.values[as_whole<std::size_t>(y * cells.width + x)]).value_or(1.0);
+          }));
+    }
+    return greatest;
+  }
+
+  const OccupancyMap* map_;
+  const Execution& execution_;
+  double unknown_ = 1.0;
+  std::vector<Area> areas_;
+  std::vector<const PriceMask*> masks_;
+  std::vector<double> cuts_;
+};
+
+}  // namespace
+
+PriceParts verify_price(const Scene& scene, std::span<const Vec2> path, const Prices& prices, double radius,
+                        const Execution& execution) {
+  PriceParts parts;
+  Factors factors(scene, prices, execution);
+  std::optional<NearCells> near_cells;
+  std::optional<NearSides> near_sides;
+  double reach = 0.0;
+  if (prices.clearance && prices.clearance->price > 0.0) {
+    reach = prices.clearance->reach.value_or(2.0 * radius);
+    if (!(reach > 0.0)) throw InputError("clearance_price", "says no reach, and a point has no width");
+    if (scene.map) {
+      const OccupancyMap& map = *scene.map;
+      const auto first = cell_at(map, path.front());
+      const bool on_water = first && !map.water.empty() && map.water.test(first->x, first->y);
+      near_cells.emplace(map, on_water, (reach + radius) / map.cell, execution);
+    } else {
+      near_sides.emplace(scene, reach + radius, execution);
+    }
+  }
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Segment leg{path[i - 1], path[i]};
+    if (!(distance(leg.a, leg.b) > 0.0)) continue;
+    if (factors.any()) parts.areas += factors.over(leg);
+    if (!(reach > 0.0)) continue;
+    // (1 - (d - r) / D)^2 is ((D + r) / D)^2 times (1 - d / (D + r))^2
+    const double scale = prices.clearance->price * ((reach + radius) / reach) * ((reach + radius) / reach);
+    if (near_cells) {
+      const Segment own{map_point(*scene.map, leg.a), map_point(*scene.map, leg.b)};
+      parts.clearance += scale * scene.map->cell * near_cells->over(Ray(own));
+    } else {
+      parts.clearance += scale * near_sides->over(Ray(leg));
+    }
+  }
+  return parts;
+}
+
+}  // namespace warren

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/poses/motion_set.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <queue>
+#include <utility>
+
+#include "core/base/trigonometry.hpp"
+#include "core/base/whole.hpp"
+#include "core/plane/geometry.hpp"
+#include "core/plane/se2.hpp"
+#include "spatial/maps/free_cells.hpp"
+
+namespace warren {
+namespace {
+
+using Vector = std::array<std::int32_t, 2>;
+
+/// Of the first eighth of a full turn, the other end left out.
+std::vector<Vector> first_eighth(std::uint32_t headings) {
+  if (headings == 16) return {{1, 0}, {2, 1}};
+  return {{1, 0}, {3, 1}, {2, 1}, {3, 2}};
+}
+
+Vector turned(Vector v, std::uint32_t quarters) {
+  for (std::uint32_t i = 0; i < quarters; ++i) v = {-v[1], v[0]};
+  return v;
+}
+
+/// All, by their angle.
+std::vector<Vector> heading_vectors(std::uint32_t headings) {
+  std::vector<Vector> quarter = first_eighth(headings);
+  const std::vector<Vector> eighth = quarter;
+  quarter.push_back({1, 1});
+  for (auto v = eighth.rbegin(); v + 1 != eighth.rend(); ++v) quarter.push_back({(*v)[1], (*v)[0]});
+  std::vector<Vector> all;
+  for (std::uint32_t q = 0; q < 4; ++q) {
+    for (const Vector& v : quarter) all.push_back(turned(v, q));
+  }
+  return all;
+}
+
+double norm_of(const Vector& v) { return std::sqrt(1.0 * v[0] * v[0] + 1.0 * v[1] * v[1]); }
+
+std::int64_t cross_of(const Vector& a, const Vector& b) {
+  return std::int64_t{a[0]} * b[1] - std::int64_t{a[1]} * b[0];
+}
+
+SteeringWord reversed(const SteeringWord& word) {
+  SteeringWord back;
+  for (std::size_t i = word.count; i-- > 0;) back.add(word.pieces[i].steer, -word.pieces[i].length);
+  return back;
+}
+
+}  // namespace
+
+MotionSet::MotionSet(const MotionSetOptions& options, const Execution& execution)
+    : options_(options), vectors_(heading_vectors(options.headings)) {
+  for (const Vector& v : vectors_) radians_.push_back(wrapped_angle(portable::atan2(v[1], v[0])));
+  motions_.resize(vectors_.size());
+  for (std::uint32_t k = 0; k < options.headings / 4; ++k) add_shapes(k, execution);
+  for (std::uint32_t i = 0; i < shapes_.size(); ++i) {
+    execution.check();
+    relaxed_ratio_ = std::max(relaxed_ratio_, ratio_of(shapes_[i]));
+    add_motions(i);
+  }
+}
+
+std::uint32_t MotionSet::nearest_heading(double radians) const {
+  std::uint32_t nearest = 0;
+  for (std::uint32_t k = 1; k < headings(); ++k) {
+    if (std::abs(warren::turn_between(radians, radians_[k])) <
+        std::abs(warren::turn_between(radians, radians_[nearest])))
+      nearest = k;
+  }
+  return nearest;
+}
+
+std::uint64_t MotionSet::cost_of(const SteeringWord& word) const {
+  double cost = 0.0;
+  for (const SteeringPiece& piece : word.used()) {
+    const double length = std::abs(piece.length);
+    cost += options_.turning_radius * length * (piece.length < 0.0 ? options_.reverse_cost : 1.0);
+    if (piece.steer != Steer::straight) cost += options_.turn_cost * length;
+  }
+  return bounded_whole<std::uint64_t>(std::round(cost / cost_unit));
+}
+
+void MotionSet::add_shapes(std::uint32_t from, const Execution& execution) {
+  const Vector& v = vectors_[from];
+  const double unit = norm_of(v);
+  const auto longer = bounded_whole<std::int32_t>(std::ceil(options_.turning_radius / unit), 2, 64);
+  for (const std::int32_t count : {1, longer}) {
+    MotionShape shape{from, from, count * v[0], count * v[1]};
+    shape.word.add(Steer::straight, count * unit / options_.turning_radius);
+    shapes_.push_back(shape);
+  }
+  for (const std::uint32_t apart : {1U, 2U}) {
+    execution.check();
+    add_turns(from, (from + apart) % headings());
+    add_turns(from, (from + headings() - apart) % headings());
+  }
+  if (!options_.turns_on_spot) return;
+  shapes_.push_back({from, (from + 1) % headings()});
+}
+
+/// Of the ends a v + b w with lengths of at least rho tan(turn / 2) those that are such neither a v nor a w nearer. a
+/// and b are multiples of 1 / |v x w|: as many ends as that, one for each part of a.
+void MotionSet::add_turns(std::uint32_t from, std::uint32_t to) {
+  const Vector& v = vectors_[from];
+  const Vector& w = vectors_[to];
+  const double turn = warren::turn_between(radians_[from], radians_[to]);
+  const double tangent = options_.turning_radius * portable::tan(0.5 * std::abs(turn));
+  const std::int64_t cells = cross_of(v, w);
+  const std::int64_t parts = std::abs(cells);
+  const auto least = [&](const Vector& u) {
+    return bounded_whole<std::int64_t>(std::ceil(tangent / norm_of(u) * static_cast<double>(parts)));
+  };
+  const std::int64_t first = std::max<std::int64_t>(least(v), 1);
+  const std::int64_t second = std::max<std::int64_t>(least(w), 1);
+  // From any a on, `parts` of them after each other, the first b that makes a whole end.
+  for (std::int64_t a = first; a < first + parts; ++a) {
+    for (std::int64_t b = second; b < second + parts; ++b) {
+      const std::int64_t x = a * v[0] + b * w[0];
+      const std::int64_t y = a * v[1] + b * w[1];
+      if (x % parts != 0 || y % parts != 0) continue;
+      MotionShape shape{from, to, as_whole<std::int32_t>(x / parts), as_whole<std::int32_t>(y / parts)};
+      const auto along = [&](std::int64_t n, const Vector& u) {
+        const double length = static_cast<double>(n) / static_cast<double>(parts) * norm_of(u);
+        return std::max(0.0, length - tangent) / options_.turning_radius;
+      };
+      shape.word.add(Steer::straight, along(a, v));
+      shape.word.add(turn > 0.0 ? Steer::left : Steer::right, std::abs(turn));
+      shape.word.add(Steer::straight, along(b, w));
+      shapes_.push_back(shape);
+    }
+  }
+}
+
+/// In all four quarters, backwards too.
+void MotionSet::add_motions(std::uint32_t number) {
+  const MotionShape& shape = shapes_[number];
+  for (std::uint32_t q = 0; q < 4; ++q) {
+    const std::uint32_t from = (shape.from + q * headings() / 4) % headings();
+    const std::uint32_t to = (shape.to + q * headings() / 4) % headings();
+    const Vector d = turned({shape.dx, shape.dy}, q);
+    if (shape.word.count == 0) {
+      const double turn = std::abs(warren::turn_between(radians_[from], radians_[to]));
+      const auto cost = bounded_whole<std::uint64_t>(std::round(options_.turn_cost * turn / cost_unit));
+      motions_[from].push_back({0, 0, to, 0, cost, {}, number, q});
+      motions_[to].push_back({0, 0, from, 0, cost, {}, number, q});
+      continue;
+    }
+    motions_[from].push_back({d[0], d[1], to, 1, cost_of(shape.word), shape.word, number, q});
+    if (!options_.reverses) continue;
+    const SteeringWord back = reversed(shape.word);
+    motions_[to].push_back({-d[0], -d[1], from, -1, cost_of(back), back, number, q});
+  }
+}
+
+/// The shortest chain of steps to the motion's end over cells whose middles are within `slack` of its way, against its
+/// length: a Dijkstra among a few dozen cells.
+double MotionSet::ratio_of(const MotionShape& shape) const {
+  if (shape.word.count == 0) return 1.0;
+  const double rho = options_.turning_radius;
+  const SteeringCurve curve({0.0, 0.0, radians_[shape.from]}, {1.0 * shape.dx, 1.0 * shape.dy, radians_[shape.to]},
+                            shape.word, rho);
+  // Between its points the way bends by less than 1/100 cell.
+  const double spacing = std::min(0.25, 0.25 * std::sqrt(0.08 * rho));
+  const double pieces = std::ceil(curve.length() / spacing);
+  std::vector<Vec2> way;
+  for (double i = 0.0; i <= pieces; i += 1.0) way.push_back(curve.at(curve.length() * i / pieces).position());
+  const Box box = curve.box().grown(2.0);
+  const auto low_x = bounded_whole<std::int32_t>(std::floor(box.min.x), least_whole<std::int32_t>);
+  const auto low_y = bounded_whole<std::int32_t>(std::floor(box.min.y), least_whole<std::int32_t>);
+  const auto width = bounded_whole<std::int32_t>(std::ceil(box.max.x)) - low_x + 1;
+  const auto height = bounded_whole<std::int32_t>(std::ceil(box.max.y)) - low_y + 1;
+  const auto number = [&](std::int32_t x, std::int32_t y) {
+    return as_whole<std::size_t>(y - low_y) * as_whole<std::size_t>(width) + as_whole<std::size_t>(x - low_x);
+  };
+  const auto is_beside = [&](std::int32_t x, std::int32_t y) {
+    for (std::size_t i = 1; i < way.size(); ++i) {
+      if (distance(Vec2{1.0 * x, 1.0 * y}, Segment{way[i - 1], way[i]}) <= slack - 0.01) return true;
+    }
+    return false;
+  };
+  constexpr double unknown = -1.0;
+  constexpr double never = std::numeric_limits<double>::infinity();
+  std::vector<double> reached(as_whole<std::size_t>(width) * as_whole<std::size_t>(height), unknown);
+  using Entry = std::pair<double, Vector>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  reached[number(0, 0)] = 0.0;
+  open.push({0.0, {0, 0}});
+  while (!open.empty()) {
+    const auto [cost, at] = open.top();
+    open.pop();
+    if (at[0] == shape.dx && at[1] == shape.dy) return cost / curve.length();
+    if (cost > reached[number(at[0], at[1])]) continue;
+    for (const auto& step : knight_steps) {
+      const Vector to{at[0] + step[0], at[1] + step[1]};
+      if (to[0] < low_x || to[1] < low_y || to[0] >= low_x + width || to[1] >= low_y + height) continue;
+      double& there = reached[number(to[0], to[1])];
+      if (there == unknown) there = is_beside(to[0], to[1]) ? never : -2.0;
+      const double sum = cost + norm_of(step);
+      if (there < 0.0 || sum >= there) continue;
+      there = sum;
+      open.push({sum, to});
+    }
+  }
+  return never;  // no chain of neighbours is that far from a way
+}
+
+}  // namespace warren

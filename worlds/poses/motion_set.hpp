@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a car may do on a lattice of cells and headings. The headings point along (1, 0), (2, 1), (1, 1), ... (32 of
+// them: (3, 1) and (3, 2) too), so that motions end exactly on states: straights, and straight-arc-straight between two
+// headings up to two apart. Two lines through states meet at some point; where it lies rho tan(turn / 2) or more from
+// both ends, an arc of the turning radius joins them. If an end does, so do all ends farther along either heading: kept
+// are the ends that no other leads to so, as many as the two headings' vectors span cells. Backwards the same is driven
+// the other way round. A drive that turns on the spot turns to the next heading either way.
+//
+// Costs are whole numbers, so that no order of additions changes a search. relaxed_ratio() compares the motions with
+// the knight_steps of spatial/maps/free_cells: wherever a motion leads, a chain of steps leads along cells whose
+// middles are within `slack` of its way, no longer than the ratio times the motion. So what steps cost, divided by the
+// ratio, bounds what motions cost.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/types.hpp"
+#include "core/base/whole.hpp"
+#include "parallel/execution.hpp"
+#include "worlds/poses/steering_curve.hpp"
+
+namespace warren {
+
+struct MotionSetOptions {
+  std::uint32_t headings = 16;  ///< 16 or 32
+  double turning_radius = 1.0;  ///< in cells; > 0
+  bool reverses = false;        ///< does it drive backwards?
+  bool turns_on_spot = false;   ///< a differential drive
+  double reverse_cost = 1.0;    ///< of a cell backwards; >= 1
+  double turn_cost = 0.0;       ///< cells a radian, whatever the way; >= 0
+};
+
+/// One motion from a heading, wherever it begins.
+struct LatticeMotion {
+  std::int32_t dx = 0;      ///< cells
+  std::int32_t dy = 0;      ///< the same
+  std::uint32_t to = 0;     ///< heading at its end
+  std::int8_t gear = 1;     ///< 1 forwards, -1 backwards, 0: turns on the spot
+  std::uint64_t cost = 0;   ///< in units of cost_unit
+  SteeringWord word = {};   ///< of the turning radius; empty: turns on the spot
+  std::uint32_t shape = 0;  ///< which of shapes() it sweeps, after quarter_turns; backwards from its end
+  std::uint32_t quarter_turns = 0;
+};
+
+/// A motion as it is at the first quarter of the headings, forwards.
+struct MotionShape {
+  std::uint32_t from = 0;  ///< heading
+  std::uint32_t to = 0;
+  std::int32_t dx = 0;
+  std::int32_t dy = 0;
+  SteeringWord word = {};  ///< empty: turns on the spot
+};
+
+/// Immutable.
+class MotionSet {
+ public:
+  static constexpr double cost_unit = 0x1p-20;  ///< cells
+  static constexpr double slack = 0.75;         ///< cells
+  /// Throws Stopped. Options out of range are the caller's bug.
+  MotionSet(const MotionSetOptions& options, const Execution& execution);
+
+  std::uint32_t headings() const { return as_whole<std::uint32_t>(motions_.size()); }
+  double heading_rad(std::uint32_t k) const { return radians_[k]; }
+  /// The heading nearest to an angle.
+  std::uint32_t nearest_heading(double radians) const;
+  std::span<const LatticeMotion> from(std::uint32_t heading) const { return motions_[heading]; }
+  std::span<const MotionShape> shapes() const { return shapes_; }
+  double turning_radius() const { return options_.turning_radius; }  ///< in cells
+  /// At least 1: see above.
+  double relaxed_ratio() const { return relaxed_ratio_; }
+  /// What a curve costs, in units rounded to the nearest; its changes of gear are not in it.
+  std::uint64_t cost_of(const SteeringWord& word) const;
+
+ private:
+  void add_shapes(std::uint32_t from, const Execution& execution);
+  void add_turns(std::uint32_t from, std::uint32_t to);
+  void add_motions(std::uint32_t shape);
+  double ratio_of(const MotionShape& shape) const;
+
+  MotionSetOptions options_;
+  std::vector<std::array<std::int32_t, 2>> vectors_;
+  std::vector<double> radians_;
+  std::vector<MotionShape> shapes_;
+  std::vector<std::vector<LatticeMotion>> motions_;  // by heading
+  double relaxed_ratio_ = 1.0;
+};
+
+}  // namespace warren

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/prices/effective_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+#include "core/base/whole.hpp"
+#include "core/plane/geometry.hpp"
+#include "core/plane/polygon.hpp"
+#include "worlds/prices/area_factors.hpp"
+
+namespace warren {
+namespace {
+
+/// Does the closed segment meet the open unit square at `low`? Three axes part what does not: x, y, and across it.
+bool meets_square(const Segment& s, Vec2 low) {
+  const Box box = box_of(s);
+  const Vec2 high = low + Vec2{1.0, 1.0};
+  if (!(box.max.x > low.x && box.min.x < high.x && box.max.y > low.y && box.min.y < high.y)) return false;
+  if (s.a == s.b) return true;
+  bool left = false;
+  bool right = false;
+  for (const Vec2 corner : {low, Vec2{high.x, low.y}, high, Vec2{low.x, high.y}}) {
+    const int side = orient2d(s.a, s.b, corner);
+    left |= side > 0;
+    right |= side < 0;
+  }
+  return left && right;
+}
+
+/// Is the point, on no side, inside? Counts the sides above it.
+bool holds(std::span<const Vec2> corners, Vec2 p) {
+  bool inside = false;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    Segment side = polygon_side(corners, i);
+    if ((side.a.x <= p.x) == (side.b.x <= p.x)) continue;
+    if (side.a.x > side.b.x) std::swap(side.a, side.b);
+    if (orient2d(side.a, side.b, p) < 0) inside = !inside;
+  }
+  return inside;
+}
+
+}  // namespace
+
+bool restricts(const Prices& prices) {
+  if (!prices.keep_out.empty() || prices.unknown) return true;
+  return std::any_of(prices.masks.begin(), prices.masks.end(), [](const PriceMask& mask) {
+    for (int value = 1; value <= 100; ++value)
+      if (!mask_factor(mask, value)) return true;
+    return false;
+  });
+}
+
+std::optional<double> mask_factor(const PriceMask& mask, int value) {
+  if (value <= 0) return 1.0;
+  switch (mask.kind) {
+    case MaskKind::areas:
+      if (value >= 100) return std::nullopt;
+      return 1.0 + (mask.factor.value_or(1.0) - 1.0) * value / 100.0;
+    case MaskKind::keep_out:
+      return value >= 100 ? mask.factor : std::optional(1.0);
+    case MaskKind::speed: {
+      const double limit = mask.base + mask.multiplier * value;  // per cent
+      if (!(limit > 0.0)) return std::nullopt;
+      return std::clamp(100.0 / limit, 1.0, largest_price);
+    }
+  }
+  return 1.0;
+}
+
+namespace {
+
+std::array<Vec2, 4> mask_square_in_world(const MaskCells& mask, std::uint32_t x, std::uint32_t y) {
+  return {mask_corner(mask, x, y), mask_corner(mask, x + 1.0, y), mask_corner(mask, x + 1.0, y + 1.0),
+          mask_corner(mask, x, y + 1.0)};
+}
+
+/// Calls each(cells, x, y) for all blocked cells of the masks.
+template <class Each>
+void for_blocked(const Prices& prices, const Execution& execution, const Each& each) {
+  for (const PriceMask& mask : prices.masks) {
+    if (!mask.read) continue;
+    for (std::uint32_t y = 0; y < mask.read->height; ++y) {
+      execution.check();
+      for (std::uint32_t x = 0; x < mask.read->width; ++x) {
+        const int value = mask.read->values[std::size_t{y} * mask.read->width + x];
+        if (value > 0 && !mask_factor(mask, value)) each(*mask.read, x, y);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Vec2 corner_in_cells(const OccupancyMap& map, Vec2 in_world) {
+  constexpr double near = 1e-9;
+  Vec2 p = map_point(map, in_world);
+  for (double* x : {&p.x, &p.y}) {
+    const double line = std::round(*x);
+    if (std::abs(*x - line) <= near) *x = line + 0.0;
+  }
+  return p;
+}
+
+std::array<Vec2, 4> mask_square(const OccupancyMap& map, const MaskCells& mask, std::uint32_t x, std::uint32_t y) {
+  std::array<Vec2, 4> corners = mask_square_in_world(mask, x, y);
+  for (Vec2& p : corners) p = corner_in_cells(map, p);
+  return corners;
+}
+
+void add_polygon_cells(Bitmap& cells, std::span<const Vec2> corners, const Execution& execution) {
+  Box box;
+  for (const Vec2 p : corners) box.include(p);
+  const auto first = [](double low, std::uint32_t end) {
+    return bounded_whole<std::uint32_t>(std::floor(low), 0.0, end);
+  };
+  const auto last = [](double high, std::uint32_t end) {
+    return bounded_whole<std::uint32_t>(std::ceil(high), 0.0, end);
+  };
+  const std::uint32_t first_x = first(box.min.x, cells.width());
+  const std::uint32_t last_x = last(box.max.x, cells.width());
+  for (std::uint32_t y = first(box.min.y, cells.height()); y < last(box.max.y, cells.height()); ++y) {
+    execution.check();
+    std::vector<std::size_t> sides;  // that come near the row
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Box side = box_of(polygon_side(corners, i));
+      if (side.max.y > y && side.min.y < y + 1.0) sides.push_back(i);
+    }
+    for (std::uint32_t x = first_x; x < last_x; ++x) {
+      const Vec2 low{static_cast<double>(x), static_cast<double>(y)};
+      const bool is_met = std::any_of(sides.begin(), sides.end(),
+                                      [&](std::size_t i) { return meets_square(polygon_side(corners, i), low); });
+      if (is_met || holds(corners, low + Vec2{0.5, 0.5})) cells.set(x, y);
+    }
+  }
+}
+
+OccupancyMap effective_map(const OccupancyMap& map, const Prices& prices, const Execution& execution) {
+  execution.reserve(2 * map.blocked.bytes() + map.unknown.bytes() + map.water.bytes());
+  OccupancyMap effective = map;
+  if (prices.unknown && !map.unknown.empty()) {
+    for (std::uint32_t y = 0; y < map.height(); ++y) {
+      const auto unknown = map.unknown.row(y);
+      const auto blocked = effective.blocked.row(y);
+      for (std::size_t w = 0; w < blocked.size(); ++w) blocked[w] &= ~unknown[w];
+    }
+  }
+  Bitmap forbidden = cell_bitmap(map.width(), map.height(), execution);
+  for (const KeepOut& area : prices.keep_out) {
+    std::vector<Vec2> corners;
+    for (const Vec2 p : area.corners) corners.push_back(corner_in_cells(map, p));
+    add_polygon_cells(forbidden, corners, execution);
+  }
+  for_blocked(prices, execution, [&](const MaskCells& cells, std::uint32_t x, std::uint32_t y) {
+    add_polygon_cells(forbidden, mask_square(map, cells, x, y), execution);
+  });
+  for (std::uint32_t y = 0; y < map.height(); ++y) {
+    const auto closed = forbidden.row(y);
+    const auto blocked = effective.blocked.row(y);
+    for (std::size_t w = 0; w < closed.size(); ++w) blocked[w] |= closed[w];
+    if (map.water.empty()) continue;  // it is blocked all the same: but to paths that begin on it
+    const auto water = effective.water.row(y);
+    for (std::size_t w = 0; w < closed.size(); ++w) water[w] &= ~closed[w];
+  }
+  std::uint64_t blocked = 0;
+  for (const std::uint64_t word : effective.blocked.words()) blocked += as_whole<std::uint64_t>(std::popcount(word));
+  effective.free = map.blocked.size() - blocked;
+  return effective;
+}
+
+Scene restricted_scene(const Scene& scene, const Prices& prices, const Execution& execution) {
+  Scene restricted = scene;
+  if (restricted.map) {
+    restricted.map = effective_map(*scene.map, prices, execution);
+    return restricted;
+  }
+  for (const KeepOut& area : prices.keep_out) restricted.polygons.push_back({area.corners, area.line});
+  for_blocked(prices, execution, [&](const MaskCells& cells, std::uint32_t x, std::uint32_t y) {
+    const std::array<Vec2, 4> square = mask_square_in_world(cells, x, y);
+    restricted.polygons.push_back({{square.begin(), square.end()}, 0});
+  });
+  return restricted;
+}
+
+}  // namespace warren

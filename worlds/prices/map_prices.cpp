@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "worlds/prices/map_prices.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "core/base/error.hpp"
+#include "core/base/whole.hpp"
+#include "core/plane/geometry.hpp"
+#include "spatial/maps/free_cells.hpp"
+#include "worlds/prices/effective_map.hpp"
+
+namespace warren {
+namespace {
+
+constexpr double half_diagonal = 0.70710678118654757;
+constexpr double units = 1 << 20;  // of steps, a cell
+constexpr double on_line = 1e-9;   // cells: so near to a border the lesser factor counts
+
+Cell cell_of(const OccupancyMap& map, Vec2 p) {
+  return {bounded_whole<std::uint32_t>(p.x, 0.0, map.width() - 1.0),
+          bounded_whole<std::uint32_t>(p.y, 0.0, map.height() - 1.0)};
+}
+
+/// The pieces of a leg, cell by cell: calls piece(cell, from, to), which says how far beyond `to` nothing is to be
+/// seen.
+template <class Piece>
+void walk_cells(const OccupancyMap& map, Vec2 a, Vec2 u, double length, const Piece& piece) {
+  struct Lines {
+    double at;     // where the leg begins
+    double slope;  // by arc length
+    double line;   // the next one
+    void go_on(double t) {
+      line = slope > 0.0 ? std::floor(at + slope * t) + 1.0 : std::ceil(at + slope * t) - 1.0;
+      if (next() <= t) line += slope > 0.0 ? 1.0 : -1.0;
+    }
+    double next() const { return slope == 0.0 ? std::numeric_limits<double>::infinity() : (line - at) / slope; }
+  };
+  Lines columns{a.x, u.x, 0.0};
+  Lines rows{a.y, u.y, 0.0};
+  double t = 0.0;
+  columns.go_on(t);
+  rows.go_on(t);
+  while (t < length) {
+    const double to = std::min({columns.next(), rows.next(), length});
+    double seen = 0.0;
+    if (to > t) {
+      seen = piece(cell_of(map, a + 0.5 * (t + to) * u), t, to);
+    }
+    t = to + seen;
+    if (columns.next() <= t) columns.go_on(t);
+    if (rows.next() <= t) rows.go_on(t);
+  }
+}
+
+/// The next set bit of a row at or after `first`, up to `last`; none: beyond `last`.
+std::int64_t next_set(std::span<const std::uint64_t> row, std::int64_t first, std::int64_t last) {
+  for (std::int64_t w = first / 64; w <= last / 64; ++w) {
+    std::uint64_t bits = row[as_whole<std::size_t>(w)];
+    if (w == first / 64) bits &= ~std::uint64_t{0} << first % 64;
+    if (bits != 0) return 64 * w + std::countr_zero(bits);
+  }
+  return last + 1;
+}
+
+/// The one before, at or before `first`, down to `last`; none: below `last`.
+std::int64_t previous_set(std::span<const std::uint64_t> row, std::int64_t first, std::int64_t last) {
+  for (std::int64_t w = first / 64; w >= last / 64; --w) {
+    std::uint64_t bits = row[as_whole<std::size_t>(w)];
+    if (w == first / 64) bits &= ~std::uint64_t{0} >> (63 - first % 64);
+    if (bits != 0) return 64 * w + 63 - std::countl_zero(bits);
+  }
+  return last - 1;
+}
+
+}  // namespace
+
+double clearance_reach(const ClearancePrice& price, double radius) {
+  if (price.reach) return *price.reach;
+  if (radius > 0.0) return 2.0 * radius;
+  throw UsageError("@clearance-price: a point has no width to reach as far as: say P,D");
+}
+
+double clearance_scale(const ClearancePrice& price, double radius) {
+  const double share = (clearance_reach(price, radius) + radius) / clearance_reach(price, radius);
+  return price.price * share * share;
+}
+
+MapPrices::MapPrices(const OccupancyMap& effective, double radius, const Prices& prices, const Execution& execution)
+    : map_(effective),
+      areas_(prices, [&](Vec2 p) { return corner_in_cells(effective, p); }),
+      unknown_(effective.unknown.empty() ? 1.0 : prices.unknown.value_or(1.0)) {
+  if (prices.clearance && prices.clearance->price > 0.0) {
+    const double reach = clearance_reach(*prices.clearance, radius);
+    reach_ = (reach + radius) / map_.cell;
+    price_ = clearance_scale(*prices.clearance, radius);
+    field_.emplace(map_.blocked, CellDistance::squares, true, execution);
+  }
+  const bool any_unknown = unknown_ > 1.0;
+  has_areas_ = any_unknown || !areas_.empty();
+  if (!has_areas_) return;
+  touched_ = cell_bitmap(map_.width(), map_.height(), execution);
+  for (const AreaFactors::Area& area : areas_.areas()) add_polygon_cells(touched_, area.corners, execution);
+  for (const PriceMask& mask : prices.masks) {
+    if (!mask.read) continue;
+    const MaskCells& cells = *mask.read;
+    for (std::uint32_t y = 0; y < cells.height; ++y) {
+      execution.check();
+      for (std::uint32_t x = 0; x < cells.width; ++x) {
+        const auto of_cell = mask_factor(mask, cells.values[std::size_t{y} * cells.width + x]);
+        if (of_cell && *of_cell > 1.0) add_polygon_cells(touched_, mask_square(map_, cells, x, y), execution);
+      }
+    }
+  }
+  for (std::uint32_t y = 0; any_unknown && y < map_.height(); ++y) {
+    const auto unknown = map_.unknown.row(y);
+    const auto touched = touched_.row(y);
+    for (std::size_t w = 0; w < touched.size(); ++w) touched[w] |= unknown[w];
+  }
+}
+
+/// All that may be nearest to a piece from `p` in one cell, of what is within the limit.
+void MapPrices::gather(Cell cell, Vec2 p, Vec2 u, double limit, Scratch& scratch) const {
+  std::vector<StretchDistance>& things = scratch.things;
+  things.clear();
+  const std::int64_t width = map_.width();
+  const std::int64_t height = map_.height();
+  const std::int64_t x = cell.x;
+  const std::int64_t y = cell.y;
+  const auto far = bounded_whole<std::int64_t>(std::ceil(limit), 1.0, 4294967296.0);
+  if (x < far) things.push_back(StretchDistance::side(p.x, u.x));
+  if (y < far) things.push_back(StretchDistance::side(p.y, u.y));
+  if (width - 1 - x < far) things.push_back(StretchDistance::side(static_cast<double>(width) - p.x, -u.x));
+  if (height - 1 - y < far) things.push_back(StretchDistance::side(static_cast<double>(height) - p.y, -u.y));
+  const std::int64_t left_end = std::max<std::int64_t>(0, x - far);
+  const std::int64_t right_end = std::min(width - 1, x + far);
+  for (std::int64_t row = std::max<std::int64_t>(0, y - far); row <= std::min(height - 1, y + far); ++row) {
+    const auto bits = map_.blocked.row(as_whole<std::uint32_t>(row));
+    const double above = static_cast<double>(row) - p.y;  // the side that looks at the piece, if it is above
+    const double below = p.y - static_cast<double>(row + 1);
+    const std::int64_t right = next_set(bits, x, right_end);
+    if (right == x) {
+      if (row != y) things.push_back(row > y ? StretchDistance::side(above, -u.y) : StretchDistance::side(below, u.y));
+      continue;
+    }
+    const double edge_y = static_cast<double>(row > y ? row : row + 1);
+    if (right <= right_end) {
+      const auto edge_x = static_cast<double>(right);
+      things.push_back(row == y ? StretchDistance::side(edge_x - p.x, -u.x)
+                                : StretchDistance::corner({edge_x, edge_y}, p, u));
+    }
+    const std::int64_t left = previous_set(bits, x, left_end);
+    if (left >= left_end) {
+      const auto edge_x = static_cast<double>(left + 1);
+      things.push_back(row == y ? StretchDistance::side(p.x - edge_x, u.x)
+                                : StretchDistance::corner({edge_x, edge_y}, p, u));
+    }
+  }
+}
+
+double MapPrices::nearness_in(Cell cell, Vec2 p, Vec2 u, double length, Scratch& scratch) const {
+  const double nearest = field_->distance(cell.x, cell.y);
+  if (nearest - half_diagonal >= reach_) return 0.0;
+  gather(cell, p, u, std::min(reach_, nearest + half_diagonal), scratch);
+  return scratch.sum.integral(scratch.things, 0.0, length, reach_);
+}
+
+double MapPrices::nearness(Vec2 a, Vec2 b, Scratch& scratch) const {
+  const double length = distance(a, b);
+  if (!(length > 0.0)) return 0.0;
+  const Vec2 u = (1.0 / length) * (b - a);
+  double sum = 0.0;
+  walk_cells(map_, a, u, length, [&](Cell cell, double from, double to) {
+    sum += nearness_in(cell, a + from * u, u, to - from, scratch);
+    const Vec2 end = a + to * u;
+    const double room = field_->distance(cell.x, cell.y) - distance(end, Vec2{cell.x + 0.5, cell.y + 0.5}) - reach_;
+    return std::max(0.0, room);
+  });
+  return sum;
+}
+
+double MapPrices::factor(Vec2 p) const {
+  const double of_areas = areas_.factor(p);
+  if (!(unknown_ > of_areas)) return of_areas;
+  return std::max(of_areas, AreaFactors::least_around(p, [&](std::int64_t x, std::int64_t y) {
+                    return map_.unknown.holds(x, y) ? unknown_ : 1.0;
+                  }));
+}
+
+/// The integral of factor - 1 over a piece in one cell.
+double MapPrices::areas_in(Vec2 p, Vec2 u, double length, Scratch& scratch) const {
+  return areas_.over(p, u, length, scratch.cuts, [&](Vec2 at) { return factor(at); });
+}
+
+double MapPrices::areas(Vec2 a, Vec2 b, Scratch& scratch) const {
+  const double length = distance(a, b);
+  if (!(length > 0.0)) return 0.0;
+  const Vec2 u = (1.0 / length) * (b - a);
+  double sum = 0.0;
+  walk_cells(map_, a, u, length, [&](Cell cell, double from, double to) {
+    if (is_near_area(cell)) sum += areas_in(a + from * u, u, to - from, scratch);
+    return 0.0;
+  });
+  return sum;
+}
+
+PriceParts MapPrices::parts(Vec2 a, Vec2 b, Scratch& scratch) const {
+  const Vec2 p = map_point(map_, a);
+  const Vec2 q = map_point(map_, b);
+  PriceParts parts;
+  if (reach_ > 0.0) parts.clearance = map_.cell * price_ * nearness(p, q, scratch);
+  if (has_areas_) parts.areas = map_.cell * areas(p, q, scratch);
+  return parts;
+}
+
+double MapPrices::cost(Vec2 a, Vec2 b, Scratch& scratch) const { return distance(a, b) + parts(a, b, scratch).sum(); }
+
+double MapPrices::nearness_at(Vec2 p, Scratch& scratch) const {
+  if (!(reach_ > 0.0)) return 0.0;
+  const Vec2 at = map_point(map_, p);
+  const Cell cell = cell_of(map_, at);
+  gather(cell, at, {1.0, 0.0}, reach_, scratch);
+  double least = reach_;
+  for (const StretchDistance& thing : scratch.things) least = std::min(least, thing(0.0));
+  const double share = 1.0 - least / reach_;
+  return price_ * share * share;
+}
+
+/// From the middle of a cell to the place of its rim where the step leaves it; in cells.
+double MapPrices::half_step(Cell cell, unsigned direction, Scratch& scratch) const {
+  const Vec2 middle{cell.x + 0.5, cell.y + 0.5};
+  const double length = is_diagonal(direction) ? half_diagonal : 0.5;
+  const auto [dx, dy] = cell_steps[direction];
+  const Vec2 u = (0.5 / length) * Vec2{static_cast<double>(dx), static_cast<double>(dy)};
+  double cost = length;
+  if (reach_ > 0.0) cost += price_ * nearness_in(cell, middle, u, length, scratch);
+  if (is_near_area(cell)) cost += areas_in(middle, u, length, scratch);
+  return cost;
+}
+
+double MapPrices::step(Cell from, unsigned direction, Scratch& scratch) const {
+  const auto [dx, dy] = cell_steps[direction];
+  const Cell to{as_whole<std::uint32_t>(std::int64_t{from.x} + dx), as_whole<std::uint32_t>(std::int64_t{from.y} + dy)};
+  const auto back = as_whole<unsigned>(cell_steps.size()) - 1 - direction;
+  return half_step(from, direction, scratch) + half_step(to, back, scratch);
+}
+
+std::uint64_t MapPrices::step_up(Cell from, unsigned direction, Scratch& scratch) const {
+  return bounded_whole<std::uint64_t>(std::ceil(units * step(from, direction, scratch)));
+}
+
+std::uint64_t MapPrices::step_down(Cell from, unsigned direction, Scratch& scratch) const {
+  constexpr double rounding = 1e-4;  // units: far more than the sum is off by
+  return bounded_whole<std::uint64_t>(std::floor(units * step(from, direction, scratch) - rounding));
+}
+
+}  // namespace warren

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What straight legs cost among the cells of a map (scenes/scene/prices.hpp): exact but for rounding. A leg is walked
+// cell by cell; where the distance transform says that nothing is near it goes on as far as it can. In one cell every
+// blocked square lies to one side of the leg or beyond a corner, and of each row of squares only the nearest two count.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/base/bitmap.hpp"
+#include "core/plane/nearness.hpp"
+#include "parallel/execution.hpp"
+#include "scenes/scene/occupancy_map.hpp"
+#include "scenes/scene/prices.hpp"
+#include "spatial/maps/distance_field.hpp"
+#include "spatial/maps/free_cells.hpp"
+#include "worlds/prices/area_factors.hpp"
+
+namespace warren {
+
+/// The reach D of a clearance price. Throws UsageError where neither it nor the body's width says one.
+double clearance_reach(const ClearancePrice& price, double radius);
+
+/// (1 - (d - radius) / D)^2 is so much, over the price, as (1 - d / (D + radius))^2.
+double clearance_scale(const ClearancePrice& price, double radius);
+
+/// Immutable; any number of threads may ask, each with its own Scratch.
+class MapPrices {
+ public:
+  /// What a thread that asks holds.
+  struct Scratch {
+    NearnessSum sum;
+    std::vector<StretchDistance> things;
+    std::vector<double> cuts;
+  };
+
+  /// Refers to the map, which is the effective one (worlds/prices/effective_map.hpp): what is unknown and not blocked
+  /// costs prices.unknown. radius: of the disc, world units, >= 0. Masks have been read. Throws UsageError as
+  /// clearance_reach(), Stopped.
+  MapPrices(const OccupancyMap& effective, double radius, const Prices& prices, const Execution& execution);
+
+  /// Does any leg cost more than its length?
+  bool is_priced() const { return reach_ > 0.0 || has_areas_; }
+  /// Of a straight leg of the middle that touches nothing blocked, world coordinates.
+  PriceParts parts(Vec2 a, Vec2 b, Scratch& scratch) const;
+  /// The leg's length and what it costs beyond.
+  double cost(Vec2 a, Vec2 b, Scratch& scratch) const;
+  /// The leg from the middle of a free cell to that of its free neighbour; direction: of cell_steps
+  /// (spatial/maps/free_cells.hpp). Whole units of 2^-20 cell, rounded up; there and back weigh the same.
+  std::uint64_t step_up(Cell from, unsigned direction, Scratch& scratch) const;
+  /// The same, rounded down: no more than what the leg costs.
+  std::uint64_t step_down(Cell from, unsigned direction, Scratch& scratch) const;
+  /// The factor of length at a place of the world, >= 1; on borders the lesser.
+  double factor_at(Vec2 p) const { return has_areas_ ? factor(map_point(map_, p)) : 1.0; }
+  /// What nearness costs at a free place of the map, a unit of length.
+  double nearness_at(Vec2 p, Scratch& scratch) const;
+
+ private:
+  double nearness(Vec2 a, Vec2 b, Scratch& scratch) const;
+  double nearness_in(Cell cell, Vec2 p, Vec2 u, double length, Scratch& scratch) const;
+  void gather(Cell cell, Vec2 p, Vec2 u, double limit, Scratch& scratch) const;
+  double areas(Vec2 a, Vec2 b, Scratch& scratch) const;
+  double areas_in(Vec2 p, Vec2 u, double length, Scratch& scratch) const;
+  double factor(Vec2 p) const;
+  double half_step(Cell cell, unsigned direction, Scratch& scratch) const;
+  double step(Cell from, unsigned direction, Scratch& scratch) const;
+  bool is_near_area(Cell cell) const { return has_areas_ && touched_.holds(cell.x, cell.y); }
+
+  const OccupancyMap& map_;
+  double price_ = 0.0;  // of an integral over cells
+  double reach_ = 0.0;  // of the middle, cells; 0: nearness costs nothing
+  std::optional<DistanceField> field_;
+  AreaFactors areas_;  // in cells
+  double unknown_ = 1.0;
+  bool has_areas_ = false;
+  Bitmap touched_;  // cells in which some factor may be above 1
+};
+
+}  // namespace warren
