@@ -219,8 +219,8 @@ void add_choices(Drawing& drawing, const GoalRule& rule, std::span<const Alterna
   PictureLayer ways{.id = "alternatives",
                     .label = counted(others.size(), "other way", "other ways"),
                     .part = Part::path,
-                    .color = colors::body,
-                    .width = widths::search_tree,
+                    .color = mixed(colors::path, colors::paper, 45),
+                    .width = 0.7 * widths::path,
                     .over_roadmap = true};
   for (const AlternativePath& other : others) ways.lines.add(other.path);
   drawing.layers.push_back(std::move(ways));
@@ -410,7 +410,9 @@ std::string body_text(const RobotSpec& robot, std::string_view metres) {
 std::string outcome_text(const Answer& answer, std::string_view metres) {
   if (answer.refuted) return fmt::format("refuted, length {}{}", human_number(answer.refuted->length), metres);
   if (!answer.verified) return std::string(name_of(answer.outcome));
-  return fmt::format("length {}{}{}, clearance {}{}", human_number(answer.length), metres,
+  const std::string cost =
+      answer.price && answer.cost ? fmt::format("cost {}{}, ", human_number(*answer.cost), metres) : "";
+  return fmt::format("{}length {}{}{}, clearance {}{}", cost, human_number(answer.length), metres,
                      answer.optimal ? " (the shortest)" : "", human_number(answer.min_clearance), metres);
 }
 

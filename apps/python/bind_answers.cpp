@@ -199,6 +199,22 @@ void figure(Class& answers, const char* name, const Get& get) {
   answers.def_property_readonly(name, [get](const KeptAnswer& kept) { return get(kept.answer); });
 }
 
+/// Of prices, goals that are many, and other ways.
+void bind_prices(py::class_<KeptAnswer>& answers) {
+  figure(answers, "cost", [](const Answer& a) { return a.cost.value_or(unknown); });
+  figure(answers, "price", &price_or_none);
+  figure(answers, "cost_error", [](const Answer& a) { return a.price ? a.price->error : unknown; });
+  figure(answers, "bound_of",
+         [](const Answer& a) { return a.bound_of.empty() ? std::nullopt : std::optional(a.bound_of); });
+  figure(answers, "goal_index", [](const Answer& a) { return a.goal_index; });
+  figure(answers, "goal_reached", &reached_of);
+  figure(answers, "order", [](const Answer& a) { return a.order; });
+  figure(answers, "passed", [](const Answer& a) { return py::tuple(py::cast(a.passed)); });
+  figure(answers, "alternatives", &alternatives_of);
+  figure(answers, "holes", &holes_of);
+  figure(answers, "keeping", &keeping_of);
+}
+
 }  // namespace
 
 void bind_answers(py::module_& module) {
@@ -216,18 +232,7 @@ void bind_answers(py::module_& module) {
   figure(answers, "length", [](const Answer& a) { return a.verified ? a.length : unknown; });
   figure(answers, "min_clearance", [](const Answer& a) { return a.verified ? a.min_clearance : unknown; });
   figure(answers, "raw_length", [](const Answer& a) { return a.raw_length.value_or(unknown); });
-  figure(answers, "cost", [](const Answer& a) { return a.cost.value_or(unknown); });
-  figure(answers, "price", &price_or_none);
-  figure(answers, "cost_error", [](const Answer& a) { return a.price ? a.price->error : unknown; });
-  figure(answers, "bound_of",
-         [](const Answer& a) { return a.bound_of.empty() ? std::nullopt : std::optional(a.bound_of); });
-  figure(answers, "goal_index", [](const Answer& a) { return a.goal_index; });
-  figure(answers, "goal_reached", &reached_of);
-  figure(answers, "order", [](const Answer& a) { return a.order; });
-  figure(answers, "passed", [](const Answer& a) { return py::tuple(py::cast(a.passed)); });
-  figure(answers, "alternatives", &alternatives_of);
-  figure(answers, "holes", &holes_of);
-  figure(answers, "keeping", &keeping_of);
+  bind_prices(answers);
   figure(answers, "iterations", [](const Answer& a) { return a.iterations; });
   figure(answers, "ended_by",
          [](const Answer& a) { return a.ended_by.empty() ? std::nullopt : std::optional(a.ended_by); });

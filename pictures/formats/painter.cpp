@@ -402,7 +402,7 @@ class Painter {
     }
     if (entry.fill) {
       constexpr double half = 6.0;
-      Pen pen{.width = std::clamp(entry.width, 0.8, 2.0), .fill = entry.fill};
+      Pen pen{.width = std::clamp(entry.width, 0.8, 2.0), .fill = entry.fill, .opacity = entry.opacity};
       if (!entry.lines.empty()) pen.stroke = entry.lines.front();
       surface_.take_pen(pen);
       return surface_.chain(std::array{Vec2{at.x + 2.0, at.y - half}, Vec2{at.x + swatch_width - 2.0, at.y - half},

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "pictures/layers/draw_cells.hpp"
@@ -144,8 +145,10 @@ class PriceLayers {
   std::vector<PictureLayer> layers_;
 };
 
-/// Free cells whose middle is nearer than that to a blocked one.
-std::optional<PictureLayer> near_obstacles(const OccupancyMap& map, double reach, const Execution& execution) {
+/// Free cells whose middle is nearer than that to a blocked one. Layers of several reaches lie upon each other: the
+/// nearer the dearer.
+std::optional<PictureLayer> near_obstacles(const OccupancyMap& map, double reach, std::string id, std::string label,
+                                           const Execution& execution) {
   Bitmap near = blocked_for_disc(map.blocked, reach / map.cell, execution);
   for (std::uint32_t y = 0; y < near.height(); ++y) {
     execution.check();
@@ -155,7 +158,7 @@ std::optional<PictureLayer> near_obstacles(const OccupancyMap& map, double reach
   }
   if (near.count() == 0) return std::nullopt;
   const auto at = [&](Vec2 p) { return world_point(map, p); };
-  PictureLayer layer = cells_layer("nearness", "nearness costs", near, at, execution);
+  PictureLayer layer = cells_layer(std::move(id), std::move(label), near, at, execution);
   layer.fill = colors::search_tree;
   layer.opacity = 0.1;
   layer.blocks = false;
@@ -168,8 +171,11 @@ std::vector<PictureLayer> price_layers(const Prices& prices, const std::optional
                                        const Execution& execution) {
   std::vector<PictureLayer> layers;
   if (map && prices.clearance && prices.clearance->reach && prices.clearance->price > 0.0) {
-    if (auto near = near_obstacles(*map, *prices.clearance->reach + radius, execution))
-      layers.push_back(std::move(*near));
+    for (const auto& [share, id, label] :
+         {std::tuple{1.0, "nearness", "nearness costs"}, {0.6, "nearness_more", ""}, {0.3, "nearness_most", ""}}) {
+      if (auto near = near_obstacles(*map, share * *prices.clearance->reach + radius, id, label, execution))
+        layers.push_back(std::move(*near));
+    }
   }
   for (PictureLayer& layer : PriceLayers(prices, execution).take()) layers.push_back(std::move(layer));
   return layers;

@@ -439,6 +439,7 @@ class LegendMaker {
     }
     LegendEntry entry{.label = layer.label, .width = layer.width, .fill = layer.fill, .mark = layer.swatch};
     if (layer.swatch && !layer.fill) entry.fill = layer.color;
+    if (layer.fill && layer.part == Part::world) entry.opacity = layer.opacity;
     if (layer.width > 0.0) entry.lines = {layer.color};
     entries_.push_back(std::move(entry));
   }

@@ -22,6 +22,7 @@ struct LegendEntry {
   std::optional<Rgb> fill = {};        ///< of an area, outlined by the first of `lines`
   std::optional<Rgb> dot = {};         ///< on the line
   std::optional<MarkShape> mark = {};  ///< alone, filled with `fill`
+  double opacity = 1.0;                ///< of an area
 };
 
 /// Throws Stopped.

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "core/base/error.hpp"
+#include "scenes/scene/arm_model.hpp"
 #include "tools/words/unknown_words.hpp"
 
 namespace warren::tools {

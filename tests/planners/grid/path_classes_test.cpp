@@ -80,6 +80,22 @@ TEST(PathClasses, OneHoleHasTwoSidesAndTurnsAroundIt) {
   EXPECT_EQ(cheapest_classes(weights, field, cuts, start, goal, {.count = 3, .stretch = 1.2}, execution).size(), 2U);
 }
 
+void expect_path(const Bitmap& blocked, const class_oracle::Weigh& weigh, const HoleCuts& cuts, const ClassPath& path) {
+  std::uint64_t cost = 0;
+  std::vector<std::int32_t> passed;
+  for (std::size_t i = 1; i < path.cells.size(); ++i) {
+    const Cell from = path.cells[i - 1];
+    const unsigned step = step_between(from, path.cells[i]);
+    ASSERT_TRUE(grid_oracle::may_step(blocked, static_cast<int>(from.x), static_cast<int>(from.y), cell_steps[step][0],
+                                      cell_steps[step][1], Diagonal::sqrt2));
+    cost += weigh(from, path.cells[i]);
+    if (const std::int32_t letter = cuts.letter(from, step)) class_oracle::append(passed, letter);
+  }
+  EXPECT_EQ(cost, path.cost);
+  EXPECT_EQ(passed, path.passed);
+  EXPECT_EQ(cuts.word(middles(path.cells)), path.passed);
+}
+
 void expect_classes(std::uint64_t seed, bool is_weighed) {
   SCOPED_TRACE(seed);
   SequentialRng rng(seed);
@@ -130,19 +146,7 @@ void expect_classes(std::uint64_t seed, bool is_weighed) {
     words.insert(class_oracle::word_of(rays, path.cells));
     ASSERT_EQ(path.cells.front(), start);
     ASSERT_EQ(path.cells.back(), goal);
-    std::uint64_t cost = 0;
-    std::vector<std::int32_t> passed;
-    for (std::size_t i = 1; i < path.cells.size(); ++i) {
-      const unsigned step = step_between(path.cells[i - 1], path.cells[i]);
-      ASSERT_TRUE(grid_oracle::may_step(blocked, static_cast<int>(path.cells[i - 1].x),
-                                        static_cast<int>(path.cells[i - 1].y), cell_steps[step][0], cell_steps[step][1],
-                                        Diagonal::sqrt2));
-      cost += weigh(path.cells[i - 1], path.cells[i]);
-      if (const std::int32_t letter = cuts.letter(path.cells[i - 1], step)) class_oracle::append(passed, letter);
-    }
-    EXPECT_EQ(cost, path.cost);
-    EXPECT_EQ(passed, path.passed);
-    EXPECT_EQ(cuts.word(middles(path.cells)), path.passed);
+    expect_path(blocked, weigh, cuts, path);
   }
   EXPECT_EQ(costs, *expected);
   EXPECT_EQ(words.size(), found.size());
