@@ -13,7 +13,7 @@
 namespace warren {
 namespace {
 
-OccupancyMap speckled_map(std::uint64_t seed) {
+OccupancyMap sparse_map(std::uint64_t seed) {
   OccupancyMap map;
   map.blocked = Bitmap(90, 50);
   for (int i = 0; i < 60; ++i) {
@@ -31,7 +31,7 @@ OccupancyMap speckled_map(std::uint64_t seed) {
 TEST(GridWorld, AgreesWithTheVerificationOnRandomMotions) {
   for (std::uint64_t seed = 0; seed < 24; ++seed) {
     SCOPED_TRACE(seed);
-    const OccupancyMap map = speckled_map(seed);
+    const OccupancyMap map = sparse_map(seed);
     const double radius = map.cell * std::array{0.0, 0.3, 0.5, 1.7}[seed / 2 % 4];
     const GridWorld world(map, radius, {});
     auto query = world.make_query();
@@ -72,7 +72,7 @@ TEST(GridWorld, OutsideIsBlockedAndBadRadiiAreRefused) {
 TEST(GridWorld, CorridorStatesAreMostlyFreeAndAPureFunctionOfSeedAndIndex) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);
-    const OccupancyMap map = speckled_map(seed);
+    const OccupancyMap map = sparse_map(seed);
     const double radius = map.cell * std::array{0.0, 0.3, 0.5, 1.7}[seed / 2 % 4];
     const GridWorld world(map, radius, {.threads = 1}, MapMilestones::corridors);
     const GridWorld again(map, radius, {.threads = 3}, MapMilestones::corridors);
@@ -86,7 +86,7 @@ TEST(GridWorld, CorridorStatesAreMostlyFreeAndAPureFunctionOfSeedAndIndex) {
     }
     EXPECT_GT(free, 180);
   }
-  const GridWorld plain(speckled_map(0), 0.0, {});
+  const GridWorld plain(sparse_map(0), 0.0, {});
   EXPECT_EQ(plain.corridor_state(3, 4), uniform_state(plain, 3, 4));  // none were asked for
 }
 
