@@ -154,6 +154,15 @@ void read_price(const PriceWord& word, Fields& fields, Prices& prices, const Exe
   PriceReader(word, fields, prices, execution).read();
 }
 
+void read_price_line(std::string_view line, const std::string& where, Prices& prices, const Execution& execution) {
+  Fields fields(line, {where, 0});
+  const std::string_view name = fields.word();
+  const auto word = std::ranges::find(price_line_words, name, &PriceWord::name);
+  if (word == price_line_words.end())
+    scene_text::Place{where, 0}.fail("expected lines of a scene's prices, such as 'clearance-price 3 0.5'", line);
+  read_price(*word, fields, prices, execution);
+}
+
 std::vector<std::string> price_lines(const Prices& prices,
                                      const std::function<std::string(const std::string&)>& name_of_file) {
   std::vector<std::string> lines;

@@ -31,6 +31,9 @@ inline constexpr std::array<PriceWord, 5> price_line_words{
 /// are named, not read (scenes/files/mask_io.hpp). Throws InputError naming the fields' place, Stopped.
 void read_price(const PriceWord& word, scene_text::Fields& fields, Prices& prices, const Execution& execution);
 
+/// Reads such a line from its word on. Throws InputError naming `where`, Stopped.
+void read_price_line(std::string_view line, const std::string& where, Prices& prices, const Execution& execution);
+
 /// A line each, which read_price reads back the same; name_of_file(file): what a mask's file is to be called.
 std::vector<std::string> price_lines(const Prices& prices,
                                      const std::function<std::string(const std::string&)>& name_of_file);

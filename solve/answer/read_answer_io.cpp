@@ -48,7 +48,7 @@ class AnswerReader {
     } else if (in("robot")) {
       answer_.problem.robot = robot_value(fmt::format("{}: key \"robot\"", file_), text);
     } else if (in("prices") && arrays_ == 1) {
-      take_price(text);
+      read_price_line(text, fmt::format("{}: key \"prices\"", file_), answer_.problem.prices, execution_);
     } else if (in("goal_tolerance") && text == "inf") {
       answer_.problem.rule.tolerance = std::numeric_limits<double>::infinity();
     } else if (objects_ == 2 && key_ == "world" && inner_key_ == "hash") {
@@ -129,14 +129,6 @@ class AnswerReader {
   }
 
  private:
-  void take_price(const std::string& line) {
-    const std::string where = fmt::format("{}: key \"prices\"", file_);
-    scene_text::Fields fields(line, {where, 0});
-    const std::string_view name = fields.word();
-    const auto word = std::ranges::find(price_line_words, name, &PriceWord::name);
-    if (word == price_line_words.end()) refuse("lines of a scene's prices", line);
-    read_price(*word, fields, answer_.problem.prices, execution_);
-  }
   void take_part(double value) {
     PriceParts& parts = *answer_.price;
     double* const part = inner_key_ == "clearance" ? &parts.clearance

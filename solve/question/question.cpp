@@ -115,9 +115,7 @@ double least_width(const RobotSpec& robot) {
   return least;
 }
 
-Prices prices_of(const Scene& scene, const Question& question) {
-  Prices prices = scene.prices;
-  const Prices& asked = question.prices;
+void add_prices(Prices& prices, const Prices& asked) {
   const auto add = [](auto& to, const auto& more, const auto& is_same) {
     for (const auto& one : more) {
       if (std::none_of(to.begin(), to.end(), [&](const auto& there) { return is_same(there, one); })) to.push_back(one);
@@ -132,6 +130,11 @@ Prices prices_of(const Scene& scene, const Question& question) {
   add(prices.keep_out, asked.keep_out, [](const KeepOut& a, const KeepOut& b) { return a.corners == b.corners; });
   if (asked.clearance) prices.clearance = asked.clearance;
   if (asked.unknown) prices.unknown = asked.unknown;
+}
+
+Prices prices_of(const Scene& scene, const Question& question) {
+  Prices prices = scene.prices;
+  add_prices(prices, question.prices);
   if (prices.clearance && !prices.clearance->reach) {
     const RobotSpec robot = robot_of(scene, question);
     prices.clearance->reach = least_width(robot);

@@ -112,6 +112,9 @@ double least_width(const RobotSpec& robot);
 /// of a price of clearance is the body's least width where nobody says it. Throws UsageError for a point without one.
 Prices prices_of(const Scene& scene, const Question& question);
 
+/// Adds what is asked to what is there: areas, masks and forbidden areas of both; of other words what is asked counts.
+void add_prices(Prices& prices, const Prices& asked);
+
 /// The question's rule; the file's other goals where the question says no goal.
 GoalRule rule_of(const Scene& scene, const Question& question);
 

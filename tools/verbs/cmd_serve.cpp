@@ -45,11 +45,16 @@ constexpr OptionSpec serve_specs[] = {
 
 std::unique_ptr<serve::ServedWorld> load_served(const Arguments& arguments, const Run& run) {
   const std::string& file = arguments.operand(0);
-  const Question body = question_words(arguments);
+  Question body = question_words(arguments);
+  read_asked_files(body, arguments, run.execution());
   StageTimes seconds;
   if (is_roadmap_named(file)) {
     for (const std::string_view name : {"--robot", "--clearance"}) {
       if (arguments.has(name)) throw UsageError(fmt::format("{}: the roadmap was built with its own", name));
+    }
+    for (const OptionSpec& word : price_option_specs()) {
+      if (arguments.has(word.name))
+        throw UsageError(fmt::format("{}: a roadmap knows no prices; serve its world", word.name));
     }
     check_rules_of_maps(arguments);
     return std::make_unique<serve::ServedWorld>(load_roadmap(arguments, run.execution(), seconds), run.execution());
@@ -131,6 +136,7 @@ Command serve_command() {
   Command command{"serve", "FILE", "show a world or a roadmap in the browser, and answer by HTTP", {}, serve};
   add_options(command.options, serve_specs);
   add_options(command.options, question_option_specs(), {"--start", "--goal", "--goal-pose", "--contact"});
+  add_options(command.options, price_option_specs());
   add_options(command.options, world_option_specs(), {"--request"});
   add_options(command.options, run_option_specs(), {"--budget", "--trace"});
   constexpr std::string_view in_the_page = "is chosen in the page, or in each request";

@@ -51,7 +51,7 @@ RouteGraph GraphService::built(std::string_view body, const Execution& execution
   judge(execution);  // or there are no such graphs
   const bool is_as_it_is = options.kind == GraphKind::roadmap && !options.samples && !options.neighbours;
   if (world_.query() != nullptr && is_as_it_is) return graph_of_roadmap(world_.query()->roadmap(), execution);
-  return built_graph(world_.whole(execution), world_.robot(), world_.clearance(), options, execution);
+  return built_graph(world_.barred(execution), world_.robot(), world_.clearance(), options, execution);
 }
 
 HttpResponse GraphService::told(const RouteGraph& graph, const Execution& execution) const {

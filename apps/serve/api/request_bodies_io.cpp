@@ -19,6 +19,7 @@
 #include "scenes/scene/plane_obstacles.hpp"
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/json_text.hpp"
+#include "scenes/text/price_text.hpp"
 #include "solve/question/question.hpp"
 
 namespace warren::serve {
@@ -207,6 +208,69 @@ bool flag_of(const OrderedJson& json, std::string_view key) {
   return json.get<bool>();
 }
 
+double number_of(const OrderedJson& json, std::string_view key) {
+  if (!json.is_number()) refuse_word(key, "a number");
+  return json.get<double>();
+}
+
+std::vector<std::vector<double>> states_of(const OrderedJson& json, const std::string& key) {
+  std::vector<std::vector<double>> states;
+  for_each_in(json, key, most_corners,
+              [&](const OrderedJson& state, const std::string& place) { states.push_back(state_of(state, place)); });
+  return states;
+}
+
+/// Lines as answers have them. Files are not for whoever asks to choose.
+Prices prices_of(const OrderedJson& json) {
+  Prices prices;
+  for_each_in(json, "prices", most_corners, [&](const OrderedJson& line, const std::string& place) {
+    if (!line.is_string()) refuse_word(place, "a line, such as 'clearance-price 3 0.5'");
+    read_price_line(line.get<std::string>(), place, prices, Execution());
+  });
+  if (!prices.masks.empty())
+    refuse_word("prices", "no masks: --areas, --speed-zones, --keep-out give the service's own");
+  return prices;
+}
+
+/// Prices, choices of goals and of ways, by the names that answers have. Is it such a word?
+bool take_asked(const std::string& key, const OrderedJson& value, ServedQuestion& question) {
+  GoalRule& rule = question.rule;
+  RouteRule& route = question.route;
+  if (key == "prices") {
+    question.prices = prices_of(value);
+  } else if (key == "goals") {
+    rule.others = states_of(value, key);
+    if (rule.others.empty()) refuse_word(key, "one or more");
+    question.goal = rule.others.front();
+    rule.others.erase(rule.others.begin());
+  } else if (key == "goal_tolerance") {
+    rule.tolerance = value == "inf" ? std::numeric_limits<double>::infinity() : number_of(value, key);
+  } else if (key == "goal_region") {
+    rule.region = number_of(value, key);
+  } else if (key == "goal_heading_rad") {
+    rule.heading_rad = number_of(value, key);
+  } else if (key == "visit") {
+    rule.visit = states_of(value, key);
+  } else if (key == "return") {
+    rule.back = flag_of(value, key);
+  } else if (key == "alternatives") {
+    const double count = number_of(value, key);
+    if (!(count >= 1.0 && count <= most_alternatives)) refuse_word(key, fmt::format("1 to {}", most_alternatives));
+    route.alternatives = static_cast<std::uint32_t>(count);
+  } else if (key == "hole") {
+    route.hole = number_of(value, key);
+  } else if (key == "stretch") {
+    route.stretch = number_of(value, key);
+  } else if (key == "keep_to") {
+    route.keep_to = states_of(value, key);
+  } else if (key == "unless_gain") {
+    route.unless_gain = number_of(value, key);
+  } else {
+    return false;
+  }
+  return true;
+}
+
 double budget_of(const OrderedJson& json) {
   constexpr double a_ms = 1e-3;
   if (!json.is_number() || !(json.get<double>() > 0.0)) refuse_word("budget_ms", "a number above 0");
@@ -260,8 +324,11 @@ void take(const std::string& key, const OrderedJson& value, QueryBody& body) {
     body.question.budget_s = budget_of(value);
   } else if (key == "watch") {
     body.watch = watch_of(value);
-  } else {
-    refuse_word("body", "the keys start, goal, robot, clearance, optimise, planner, budget_ms, explain, path, watch");
+  } else if (!take_asked(key, value, body.question)) {
+    refuse_word("body",
+                "the keys start, goal, robot, clearance, optimise, planner, budget_ms, explain, path, watch, prices, "
+                "goals, goal_tolerance, goal_region, goal_heading_rad, visit, return, alternatives, hole, stretch, "
+                "keep_to, unless_gain");
   }
 }
 

@@ -9,6 +9,7 @@
 #include "solve/kept/roadmap.hpp"
 #include "solve/question/question.hpp"
 #include "solve/solve.hpp"
+#include "verify/judges/effective_scene.hpp"
 
 namespace warren::serve {
 namespace {
@@ -48,11 +49,13 @@ ServedWorld::ServedWorld(Scene scene, const Question& body, const Execution& exe
   check_plannable(scene, body);
   clearance_ = clearance_of(scene, body);
   const SolveOptions as_usual{.planner = PlannerKind::prm};
-  if (is_asked_by_roadmap(scene, body, as_usual)) {
+  const Prices prices = prices_of(scene, body);
+  if (prices.empty() && is_asked_by_roadmap(scene, body, as_usual)) {
     roadmap_ = std::make_unique<Roadmap>(build_within(std::move(scene), body, as_usual, execution));
     let_walls_go(*roadmap_, execution);
   } else {
     hash_ = scene_hash(scene, execution);
+    barred_ = effective_scene(scene, prices, execution);
     scene_ = std::make_unique<Scene>(std::move(scene));
   }
   describe(execution);
@@ -104,7 +107,8 @@ std::unique_ptr<ServedWorld> ServedWorld::changed(Scene now, const Execution& ex
 }
 
 const EdgeJudge& ServedWorld::judge(const Execution& execution) const {
-  return judge_.get(execution, [&] { return std::make_unique<EdgeJudge>(whole(execution), box_, robot_, clearance_); });
+  return judge_.get(execution,
+                    [&] { return std::make_unique<EdgeJudge>(barred(execution), box_, robot_, clearance_); });
 }
 
 bool ServedWorld::is_own(const RobotSpec& robot, double clearance) const {
@@ -149,7 +153,14 @@ Answer ServedWorld::ask(const ServedQuestion& question, const Execution& executi
   ByProducts& made = watched != nullptr ? *watched : own;
   ByProducts* const keep = question.explains ? &made : watched;
   Question asked = body_asked(question.robot, question.clearance);
-  if (query_ && is_own(*asked.robot, *asked.clearance)) {
+  add_prices(asked.prices, question.prices);
+  asked.rule = question.rule;
+  asked.route = question.route;
+  const bool is_plain = asked.prices.empty() && asked.rule.empty() && asked.route.empty();
+  if (is_roadmap_ && !is_plain) {
+    throw UsageError("a roadmap knows no prices and no choice of goals or ways; 'warren serve' of its world does");
+  }
+  if (query_ && is_plain && is_own(*asked.robot, *asked.clearance)) {
     if (question.planner && *question.planner != roadmap_->options.planner) {
       throw UsageError("@planner: the roadmap was built with its own");
     }

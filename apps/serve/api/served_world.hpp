@@ -35,6 +35,9 @@ struct ServedQuestion {
   bool optimise = false;                    ///< pull the path taut
   std::optional<PlannerKind> planner = {};  ///< none: the usual one; of a roadmap its own alone
   std::optional<double> budget_s = {};      ///< none: the service's
+  Prices prices = {};                       ///< beside the service's; masks are its own alone
+  GoalRule rule = {};                       ///< what reaching the goal means
+  RouteRule route = {};                     ///< which of the ways
   bool explains = false;  ///< say what would help, too; of the lattices of large mazes nothing is said
 };
 
@@ -62,6 +65,9 @@ class ServedWorld {
   const Box& box() const { return box_; }
   /// All of it. Throws Stopped, InputError.
   const Scene& whole(const Execution& execution) const { return roadmap_ ? roadmap_->world.whole(execution) : *scene_; }
+  /// All of it, and what the file's and the service's words forbid; unknown cells that they open are free. Throws
+  /// Stopped, InputError.
+  const Scene& barred(const Execution& execution) const { return barred_ ? *barred_ : whole(execution); }
   /// The same for one request. Throws Stopped, InputError.
   Scene copy_of_whole(const Execution& execution) const {
     return roadmap_ ? roadmap_->world.copy_of_whole(execution) : *scene_;
@@ -100,6 +106,7 @@ class ServedWorld {
 
   Question body_ = {};
   std::unique_ptr<Scene> scene_;  // nullptr where there is a roadmap
+  std::optional<Scene> barred_;   // none: as it is
   std::unique_ptr<Roadmap> roadmap_;
   std::unique_ptr<RoadmapQuery> query_;
   std::unique_ptr<WorldTiles> tiles_;

@@ -17,6 +17,8 @@
 #include "apps/serve/page/served_files.hpp"
 #include "core/base/error.hpp"
 #include "parallel/execution.hpp"
+#include "pictures/formats/markup.hpp"
+#include "pictures/layers/draw_prices.hpp"
 #include "scenes/files/scene_io.hpp"
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/human_units.hpp"
@@ -101,8 +103,31 @@ void add_line(std::string& text, std::string_view name, std::string_view kind, s
 }
 
 /// warren.service/1: what a page needs to show the world and to ask of this body.
+/// Prices and forbidden areas of file and service, as areas to be drawn; of finer ones than a page draws the words
+/// alone.
+std::string ground_json(const ServedWorld& world, const Question& body, const Execution& execution) {
+  constexpr std::size_t most_points = 300'000;
+  const Scene& outline = world.outline();
+  const double radius = body.robot->outline.empty() ? body.robot->radius : 0.0;
+  std::string text;
+  std::size_t points = 0;
+  for (const PictureLayer& layer : price_layers(prices_of(outline, body), outline.map, radius, execution)) {
+    std::vector<std::vector<Vec2>> chains;
+    points += layer.lines.corners.size();
+    for (std::size_t i = 0; i < layer.lines.size() && points <= most_points; ++i)
+      chains.emplace_back(layer.lines[i].begin(), layer.lines[i].end());
+    JsonObject json;
+    json.add("label", layer.label);
+    json.add("color", css_color(layer.fill.value_or(layer.color)));
+    json.add("opacity", layer.opacity);
+    json.add_json("chains", json_chains(chains, execution));
+    text += (text.empty() ? "" : ",") + json.closed();
+  }
+  return "[" + text + "]";
+}
+
 std::string description_json(const ServedWorld& world, const Question& body, const WorldLayers& layers,
-                             const ServiceLimits& limits) {
+                             const ServiceLimits& limits, const Execution& execution) {
   const Scene& outline = world.outline();
   const bool asks_roadmap = world.query() != nullptr && world.is_own(*body.robot, *body.clearance);
   JsonObject json;
@@ -127,6 +152,7 @@ std::string description_json(const ServedWorld& world, const Question& body, con
   json.add("wants_token", limits.wants_token);
   json.add_json("tiles", tiles_json(world.tiles().grid(), world.hash()));
   json.add_json("layers", layers.json(*body.robot));
+  json.add_json("ground", ground_json(world, body, execution));
   return json.closed() + "\n";
 }
 /// In the text format of Prometheus.
@@ -251,7 +277,7 @@ HttpResponse PathService::clearance(const KeptPath& kept, const HttpRequest& req
   if (way.states.empty()) way.path = kept.curve.whole(execution);
   std::optional<EdgeJudge> other;
   if (!world_.is_own(way.problem.robot, world_.clearance())) {
-    other.emplace(world_.whole(execution), world_.box(), way.problem.robot, world_.clearance());
+    other.emplace(world_.barred(execution), world_.box(), way.problem.robot, world_.clearance());
   }
   std::string text;
   for (const PathPlace& place : places_along(way, count, execution)) {
@@ -285,7 +311,7 @@ WorldService::WorldService(const ServedWorld& world, const ServiceLimits& limits
     : world_(world),
       limits_(limits),
       layers_(world),
-      world_json_(description_json(world, world.body_asked({}, {}), layers_, limits)),
+      world_json_(description_json(world, world.body_asked({}, {}), layers_, limits, Execution())),
       graphs_(world),
       tiles_(limits.tile_bytes),
       paths_(world, limits) {}
@@ -352,7 +378,8 @@ HttpResponse WorldService::work(const HttpRequest& request, const SignalFlag& go
   }
   if (asked.place == Place::batch) return batch(request, execution);
   if (asked.place == Place::scene) return scene(request, execution);
-  if (asked.place == Place::world) return {.body = description_json(world_, body_in(request), layers_, limits_)};
+  if (asked.place == Place::world)
+    return {.body = description_json(world_, body_in(request), layers_, limits_, execution)};
   if (is_of_graphs(asked.place)) return graphs_.answer(asked.place, request.body, execution);
   return paths_.answer(asked, request, execution);
 }

@@ -2,7 +2,7 @@
 // The question, and the answer to it. While an answer is under way the latest question waits, so that a drag asks as
 // often as answers come.
 "use strict";
-const question = {robot: "", clearance: "", start: null, goal: null, planner: "", optimise: false, startHeading: null, goalHeading: null};
+const question = {robot: "", clearance: "", asked: {price: "", unknown: "", tolerance: "", ways: ""}, start: null, goal: null, planner: "", optimise: false, startHeading: null, goalHeading: null};
 const answer = {text: null, json: null, id: null, start: null, asked: null};  // asked: the question, as it was sent
 // The path that the service had let go last, and the answer that it was of; what shall be saved when it is there again.
 const lost = {id: null, json: null, saving: null};
@@ -21,7 +21,18 @@ function bodyOf(q) {
   if (getsBetter(q.planner)) body.budget_ms = betterBudget;
   if (q.robot) body.robot = q.robot;
   if (q.clearance) body.clearance = Number(q.clearance);
+  const {price, unknown, tolerance, ways} = q.asked, prices = [];
+  if (price) prices.push("clearance-price " + price.replaceAll(",", " "));
+  if (unknown) prices.push("unknown " + unknown);
+  if (prices.length) body.prices = prices;
+  if (tolerance) body.goal_tolerance = tolerance === "inf" ? "inf" : Number(tolerance);
+  if (ways) body.alternatives = Number(ways);
   return body;
+}
+/// The same as options of the command line.
+function askedOptions(asked) {
+  const options = {price: "--clearance-price", unknown: "--unknown", tolerance: "--goal-tolerance", ways: "--alternatives"};
+  return Object.keys(options).filter(word => asked[word]).flatMap(word => [options[word], asked[word].replace(/[\s,]+/g, ",")]);
 }
 
 /// Milliseconds by name, as Server-Timing has them.
@@ -106,6 +117,7 @@ function take(reply, text, passed, asked) {
   answer.start = json.status === "start_blocked" ? null : json.start.slice(0, 2).join(",");
   answer.id = reply.headers.get("Warren-Path");
   if (answer.id) showPath(asDriven(json.path).map(p => [p[0], p[1]]), answer.id);
+  showOtherWays(json.alternatives || []);
   say(inWords(json));
   showWays(json);
   showAnswer(json, [...serverTimes(reply), ["there and back", passed]]);
@@ -139,7 +151,8 @@ const grouped = text => String(text).replace(/^(-?)(\d+)/, (_, sign, whole) => s
 const shown = number => grouped(written(number));
 function inWords(json) {
   const unit = world.unit ? " " + world.unit : "";
-  if (json.status === "solved") return "Solved: " + shown(json.length) + unit + (json.optimal ? ", the shortest there is" : "");
+  const reached = json.goal_reached && json.goal_reached.distance > 0 ? ", " + shown(json.goal_reached.distance) + unit + " from the goal" : "";
+  if (json.status === "solved") return "Solved: " + shown(json.length) + unit + (json.optimal ? ", the shortest there is" : "") + reached;
   if (json.status === "start_blocked") return "The body does not fit at the start" + reason(json);
   if (json.status === "goal_blocked") return "The body does not fit at the goal" + reason(json);
   if (json.status === "not_connected") return "No path was found.";

@@ -24,6 +24,9 @@ function showAnswer(json, times) {
   if (json) {
     const add = (name, value) => { if (value !== null && value !== undefined) rows.push([name, typeof value === "number" ? grouped(value) : value]); };
     add("length", json.verified ? shown(json.length) : null);
+    add("cost", json.verified && json.price ? shown(json.cost) : null);
+    for (const [part, cost] of Object.entries(json.verified && json.price || {})) if (cost > 0) add("of it " + part, shown(cost));
+    add("other ways", json.alternatives && json.alternatives.length || null);
     add("clearance", json.verified && json.min_clearance !== null ? shown(json.min_clearance) : null);
     add("points", json.path_points || (json.path.length || null));
     add("verified", json.verified ? "yes" : null);
@@ -90,6 +93,7 @@ function linkText() {
   const state = end => question[end] ? stateOf(question[end], question[end + "Heading"]).join(",") : "";
   for (const end of ["start", "goal"]) words.push(end + "=" + state(end));
   for (const part of ["robot", "clearance", "planner"]) if (question[part]) words.push(part + "=" + encodeURIComponent(question[part]));
+  for (const [word, text] of Object.entries(question.asked)) if (text) words.push(word + "=" + encodeURIComponent(text));
   if (question.optimise) words.push("optimise=1");
   if (shownLayers()) words.push("layers=" + shownLayers());
   if (hiddenParts()) words.push("hide=" + hiddenParts());
@@ -131,6 +135,7 @@ function readLink(words) {
   if (!words.has("start") && !words.has("goal")) takeOwnEnds();
   question.planner = world.planners.includes(words.get("planner")) ? words.get("planner") : "";
   question.optimise = words.get("optimise") === "1";
+  for (const word in question.asked) question.asked[word] = world.opened_as === "world" && words.get(word) || "";
   takeLayers(words.get("layers"));
   hideParts(words.get("hide"));
   const at = numbers("at");
@@ -157,6 +162,7 @@ function fillField(id, text) {
 /// other: what of the world is of the body that is asked; of one that can't be, nothing is drawn.
 function showBody(other) {
   Object.assign(world, other);
+  if (map) showGround();
   byId("about").textContent = [world.description, ...(world.robot ? [world.robot] : []), ...(world.clearance > 0 ? ["clearance " + shown(world.clearance)] : [])].join(", ");
   fillField("robot", question.robot);
   fillField("clearance-asked", question.clearance);
@@ -181,6 +187,8 @@ function takeOwnEnds() {
 function showQuestion() {
   byId("planner").value = question.planner;
   byId("optimise").checked = question.optimise;
+  for (const word in question.asked) byId(word).value = question.asked[word];
+  if (Object.values(question.asked).some(text => text)) byId("more").open = true;
   showEnd("start");
   showEnd("goal");
   ask();
@@ -199,6 +207,7 @@ function commandText() {
   words.push("--start", stateOf(question.start, question.startHeading === null ? 0 : question.startHeading).join(","));
   words.push("--goal", stateOf(question.goal, question.goalHeading).join(","));
   if (question.planner) words.push("--planner", question.planner);
+  words.push(...askedOptions(question.asked));
   if (question.optimise) words.push("--optimise");
   return words.map(quoted).join(" ");
 }
@@ -260,13 +269,14 @@ function setDark(on) {
   graphLayer.draw();
   showSweep();
   for (const end of ["start", "goal"]) showBodyAt(end);
-  if (pathLine.line) pathLine.line.setStyle({color: on ? "#ff6b81" : "#c8102e"});
+  for (const line of [pathLine.line, pathLine.others]) if (line) line.setStyle({color: pathColor()});
 }
 function wireControls() {
   byId("question").addEventListener("submit", event => { event.preventDefault(); ask(); });
   for (const end of ["start", "goal"]) byId(end).addEventListener("change", () => readField(end));
   byId("planner").addEventListener("change", event => { question.planner = event.target.value; keepLink(); ask(); });
   for (const id of ["robot", "clearance-asked"]) byId(id).addEventListener("change", readBody);
+  for (const word in question.asked) byId(word).addEventListener("change", event => { question.asked[word] = event.target.value.trim(); keepLink(); ask(); });
   byId("optimise").addEventListener("change", event => { question.optimise = event.target.checked; keepLink(); ask(); });
   byId("swap").addEventListener("click", () => {
     for (const part of ["", "Heading"]) [question["start" + part], question["goal" + part]] = [question["goal" + part], question["start" + part]];

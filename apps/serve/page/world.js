@@ -8,7 +8,7 @@ const placeOf = at => ({x: at.lng, y: at.lat});
 let world = null;  // what /api/world says
 let map = null;
 let tiles = null;
-const pathLine = {line: null, id: null, whole: true, asked: 0};
+const pathLine = {line: null, others: null, id: null, whole: true, asked: 0};
 
 /// Digits that a pixel can tell; none in mazes whose cells are pixels or less, where that is the middle of a cell.
 function digits() {
@@ -31,11 +31,25 @@ function addTiles() {
   showParts();
 }
 // What lies on the map without being a layer, each with a box.
-const parts = ["world", "path"];
+const parts = ["world", "ground", "path"];
+let ground = null;  // what is dear or forbidden
 function showParts() {
-  for (const [part, drawn] of [["world", tiles], ["path", pathLine.line]]) {
+  for (const [part, drawn] of [["world", tiles], ["ground", ground], ["path", pathLine.line], ["path", pathLine.others]]) {
     if (drawn) byId("show-" + part).checked ? drawn.addTo(map) : drawn.remove();
   }
+}
+/// Prices and forbidden areas of this body, under all that is drawn later.
+function showGround() {
+  if (ground) ground.remove();
+  const areas = world.ground.map(area => [area, area.chains.map(chain => chain.map(([x, y]) => L.latLng(y, x)))]);
+  ground = L.layerGroup(areas.map(([area, rings]) => L.polygon(rings, {pane: "tilePane", stroke: false, fillColor: area.color, fillOpacity: area.opacity, fillRule: "evenodd", interactive: false})));
+  byId("ground-box").hidden = byId("ground-legend").hidden = areas.length === 0;
+  byId("ground-legend").replaceChildren(...world.ground.filter(area => area.label).map(area => {
+    const ink = elementOf("span", {className: "ink"});
+    Object.assign(ink.style, {backgroundColor: area.color, opacity: Math.max(0.15, area.opacity)});
+    return elementOf("li", {}, ink, area.label + (area.chains.length ? "" : ", too fine to be drawn here"));
+  }));
+  showParts();
 }
 /// For the link: the names of those that are not shown.
 const hiddenParts = () => parts.filter(part => !byId("show-" + part).checked).join(",");
@@ -103,6 +117,7 @@ function openMap() {
   new ScaleBar({imperial: false}).addTo(map);
   addAxes();
   addTiles();
+  showGround();
   map.on("mousemove", e => { byId("readout").textContent = rounded(e.latlng.lng) + ", " + rounded(e.latlng.lat) + (world.unit ? " " + world.unit : ""); });
   map.on("moveend", showSeenPath);
   new ResizeObserver(() => map.invalidateSize({pan: false})).observe(map.getContainer());  // windows are not all that resizes it
@@ -132,15 +147,23 @@ function putMark(mark, place) {
 
 function clearPath() {
   if (pathLine.line) pathLine.line.remove();
-  pathLine.line = pathLine.id = null;
+  if (pathLine.others) pathLine.others.remove();
+  pathLine.line = pathLine.others = pathLine.id = null;
   ++pathLine.asked;
 }
 function drawChains(chains) {
   if (pathLine.line) pathLine.line.remove();
   const points = chains.map(chain => chain.map(p => L.latLng(p[1], p[0])));
-  pathLine.line = L.polyline(points, {color: document.documentElement.classList.contains("dark") ? "#ff6b81" : "#c8102e", weight: 4, opacity: 0.9, smoothFactor: 0.2, interactive: false});
+  pathLine.line = L.polyline(points, {color: pathColor(), weight: 4, opacity: 0.9, smoothFactor: 0.2, interactive: false});
   showParts();
 }
+/// The cheapest of each other class, thinner.
+function showOtherWays(ways) {
+  if (ways.length === 0) return;
+  pathLine.others = L.polyline(ways.map(way => way.path.map(p => L.latLng(p[1], p[0]))), {color: pathColor(), weight: 2.5, opacity: 0.5, interactive: false});
+  showParts();
+}
+const pathColor = () => document.documentElement.classList.contains("dark") ? "#ff6b81" : "#c8102e";
 /// Of a car, its poses and those between them on its arcs, a chord of at most 5 degrees apart; of others, the path.
 function asDriven(path) {
   if (!world.robot.startsWith("car") || path.length === 0) return path;

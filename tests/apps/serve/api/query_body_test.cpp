@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -25,6 +27,37 @@ TEST(QueryBody, SaysWhatIsAsked) {
   EXPECT_TRUE(read_query_body("{}").tells_path);
 }
 
+TEST(QueryBody, TakesPricesAndChoicesByTheNamesOfAnAnswer) {
+  const ServedQuestion asked =
+      read_query_body(
+          R"({"prices": ["clearance-price 3 0.5", "area 4 1 1 2 1 2 2", "keep-out 5 5 6 5 6 6", "unknown 2"],
+      "goals": [[1, 2], [3, 4]], "goal_tolerance": "inf", "goal_heading_rad": 0.5, "visit": [[7, 8]], "return": true,
+      "alternatives": 3, "hole": 0.25, "stretch": 2, "keep_to": [[0, 0], [1, 2]], "unless_gain": 0.1})")
+          .question;
+  EXPECT_EQ(asked.prices.clearance->price, 3.0);
+  EXPECT_EQ(asked.prices.clearance->reach, 0.5);
+  EXPECT_EQ(asked.prices.areas.at(0).factor, 4.0);
+  EXPECT_EQ(asked.prices.keep_out.at(0).corners.size(), 3U);
+  EXPECT_EQ(asked.prices.unknown, 2.0);
+  EXPECT_EQ(asked.goal, (std::vector<double>{1.0, 2.0}));
+  EXPECT_EQ(asked.rule.others, (std::vector<std::vector<double>>{{3.0, 4.0}}));
+  EXPECT_TRUE(std::isinf(*asked.rule.tolerance));
+  EXPECT_EQ(asked.rule.heading_rad, 0.5);
+  EXPECT_EQ(asked.rule.visit.size(), 1U);
+  EXPECT_TRUE(asked.rule.back);
+  EXPECT_EQ(asked.route.alternatives, 3U);
+  EXPECT_EQ(asked.route.hole, 0.25);
+  EXPECT_EQ(asked.route.stretch, 2.0);
+  EXPECT_EQ(asked.route.keep_to.size(), 2U);
+  EXPECT_EQ(asked.route.unless_gain, 0.1);
+  EXPECT_EQ(read_query_body(R"({"goal_region": 2})").question.rule.region, 2.0);
+}
+
+TEST(QueryBody, AFileIsNotForWhoeverAsksToChoose) {
+  for (const char* line : {"mask /etc/passwd areas 2", "mask a.yaml keep-out"})
+    EXPECT_THROW(read_query_body(fmt::format(R"({{"prices": ["{}"]}})", line)), HttpError) << line;
+}
+
 TEST(QueryBody, RefusesEverythingElse) {
   for (const std::string& text : {std::string(),
                                   std::string("[]"),
@@ -44,6 +77,14 @@ TEST(QueryBody, RefusesEverythingElse) {
                                   std::string("{\"budget_ms\": 0}"),
                                   std::string("{\"budget_ms\": -1}"),
                                   std::string("{\"budget_ms\": \"1\"}"),
+                                  std::string("{\"prices\": \"unknown 2\"}"),
+                                  std::string("{\"prices\": [2]}"),
+                                  std::string("{\"goals\": []}"),
+                                  std::string("{\"goals\": [1, 2]}"),
+                                  std::string("{\"goal_tolerance\": \"far\"}"),
+                                  std::string("{\"alternatives\": 0}"),
+                                  std::string("{\"alternatives\": 1e9}"),
+                                  std::string("{\"return\": 1}"),
                                   std::string("{\"file\": \"/etc/passwd\"}"),
                                   std::string("{\"start\": [1,2], }"),
                                   std::string("{\"start\": [1,2], \"start\": [3,4]}"),

@@ -282,6 +282,64 @@ TEST(WorldService, ClearanceAlongAPathIsThatOfItsJudgeOnMapsAndRoadmaps) {
   }
 }
 
+/// 40 x 20 free cells, the right half of them dear, a block in the middle forbidden by the service's own words.
+Question priced_body() {
+  Question body{.robot = RobotSpec{.kind = RobotKind::disc, .radius = 0.4}};
+  body.prices.keep_out.push_back({{{15, 0}, {25, 0}, {25, 15}, {15, 15}}});
+  return body;
+}
+Scene open_map(const TemporaryDirectory& folder) {
+  std::string map = "type octile\nheight 20\nwidth 40\nmap\n";
+  for (int row = 0; row < 20; ++row) map += std::string(40, '.') + "\n";
+  folder.write("a.map", map);
+  return read_world(folder.file("a.map"), {});
+}
+
+TEST(WorldService, WhatTheServiceForbidsBindsAnswersEdgesAndClearance) {
+  const TemporaryDirectory folder;
+  Served served(open_map(folder), priced_body());
+  const Json answer = Json::parse(served.query({{"start", {5, 5}}, {"goal", {35, 5}}}).body);
+  ASSERT_EQ(answer.at("status"), "solved");
+  EXPECT_GT(answer.at("length").get<double>(), 36.0);  // around, not 30 through it
+  const Json through = Json::parse(served.post("/api/check", R"({"edges": [[5, 5, 35, 5], [5, 17, 35, 17]]})").body);
+  EXPECT_FALSE(through.at("edges")[0].at("free"));
+  EXPECT_TRUE(through.at("edges")[1].at("free"));
+  const Json ground = Json::parse(served.get("/api/world").body).at("ground");
+  ASSERT_EQ(ground.size(), 1U);
+  EXPECT_EQ(ground[0].at("label"), "keep out");
+  EXPECT_EQ(ground[0].at("chains")[0].size(), 4U);
+}
+
+TEST(WorldService, PricesAndChoicesOfAQuestionAreThoseOfSolve) {
+  const TemporaryDirectory folder;
+  Served served(open_map(folder), priced_body());
+  Question asked = priced_body();
+  asked.start = {5, 5};
+  asked.goal = {20, 5};  // forbidden
+  asked.prices.clearance = ClearancePrice{3.0, 2.0};
+  asked.rule.tolerance = 6.0;
+  const Answer expected = solve(open_map(folder), asked);
+  ASSERT_TRUE(expected.verified);
+  const Json answer = Json::parse(
+      served
+          .post("/api/query",
+                R"({"start": [5, 5], "goal": [20, 5], "prices": ["clearance-price 3 2"], "goal_tolerance": 6})")
+          .body);
+  ASSERT_EQ(answer.at("status"), "solved");
+  EXPECT_EQ(answer.at("cost").get<double>(), *expected.cost);
+  EXPECT_GT(answer.at("price").at("clearance").get<double>(), 0.0);
+  EXPECT_GT(answer.at("goal_reached").at("distance").get<double>(), 4.0);
+}
+
+TEST(WorldService, ARoadmapKnowsNoPrices) {
+  const TemporaryDirectory folder;
+  Served served(build(open_map(folder), {}, {.planner = PlannerKind::prm}));
+  const HttpResponse refused =
+      served.post("/api/query", R"({"start": [5, 5], "goal": [20, 5], "prices": ["unknown 2"]})");
+  EXPECT_EQ(refused.status, 400U);
+  EXPECT_NE(refused.body.find("a roadmap knows no prices"), std::string::npos) << refused.body;
+}
+
 TEST(WorldService, TheSweepIsTheBodyOnItsWay) {
   const std::string hall = "bounds 0 0 100 60\nwall 50 0 50 25\nwall 50 40 50 60\nstart 10 30 0\ngoal 90 30 0\n";
   for (const char* robot : {"disc 2", "polygon -4 -1 4 -1 4 1 -4 1", "car polygon -1 -1 4 -1 4 1 -1 1 turning 5"}) {
