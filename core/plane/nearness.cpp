@@ -11,9 +11,14 @@
 namespace warren {
 namespace {
 
-double least_on(const StretchDistance& thing, double from, double to) {
-  if (!thing.is_side) return thing(std::clamp(thing.foot, from, to));
-  return std::min(thing(from), thing(to));
+/// Distances are compared by their squares.
+double squared(const StretchDistance& thing, double t) {
+  const double side = thing.at_begin + thing.slope * t;
+  return thing.is_side ? side * side : (t - thing.foot) * (t - thing.foot) + thing.apart_sq;
+}
+double least_squared(const StretchDistance& thing, double from, double to) {
+  if (!thing.is_side) return squared(thing, std::clamp(thing.foot, from, to));
+  return std::min(squared(thing, from), squared(thing, to));
 }
 
 /// The integral of sqrt(v^2 + k) between two places of which `from_d` and `to_d` are the values.
@@ -79,11 +84,12 @@ std::pair<double, double> ends_of_reach(const StretchDistance& thing, double rea
 
 double NearnessSum::integral(std::span<const StretchDistance> things, double from, double to, double reach) {
   if (!(to > from)) return 0.0;
-  double enough = reach;  // what is everywhere farther than this is nowhere the nearest, or beyond the reach
-  for (const StretchDistance& thing : things) enough = std::min(enough, std::max(thing(from), thing(to)));
+  double enough = reach * reach;  // what is everywhere farther than this is nowhere the nearest, or beyond the reach
+  for (const StretchDistance& thing : things)
+    enough = std::min(enough, std::max(squared(thing, from), squared(thing, to)));
   near_.clear();
   for (const StretchDistance& thing : things) {
-    if (least_on(thing, from, to) <= enough) near_.push_back(thing);
+    if (least_squared(thing, from, to) <= enough) near_.push_back(thing);
   }
   cuts_.assign(1, from);
   for (std::size_t i = 0; i < near_.size(); ++i) {
@@ -102,9 +108,9 @@ double NearnessSum::integral(std::span<const StretchDistance> things, double fro
   for (std::size_t c = 1; c < cuts_.size(); ++c) {
     const double middle = 0.5 * (cuts_[c - 1] + cuts_[c]);
     const StretchDistance* nearest = nullptr;
-    double least = reach;
+    double least = reach * reach;
     for (const StretchDistance& thing : near_) {
-      const double d = thing(middle);
+      const double d = squared(thing, middle);
       if (d < least) {
         least = d;
         nearest = &thing;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -21,13 +22,16 @@ class Puller {
   Path<Vec2> pulled() {
     constexpr double worth = 1e-4;
     constexpr int turns = 60;
+    double older = std::numeric_limits<double>::infinity();  // two turns ago: one may be but halved steps
+    double before = whole();
     for (int turn = 0; turn < turns && vertices_.size() > 1; ++turn) {
-      const double before = whole();
       noise_ = 1e-9 * before;
       leave_out();
       move();
       put_in();
-      if (before - whole() <= worth * before && finest()) break;
+      const double now = whole();
+      if (older - now <= worth * now) break;
+      older = std::exchange(before, now);
     }
     leave_out();
     Path<Vec2> path;
@@ -50,9 +54,6 @@ class Puller {
     return sum;
   }
   double least_step() const { return legs_.step / 64.0; }
-  bool finest() const {
-    return std::all_of(vertices_.begin(), vertices_.end(), [&](const Vertex& v) { return v.step <= legs_.step / 8.0; });
-  }
 
   /// Each vertex that is not worth its corner, as far back as that goes.
   void leave_out() {

@@ -20,7 +20,7 @@ struct PricedLegs {
   double step = 1.0;                        ///< the first move of a vertex, about a cell; the last is a 64th of it
 };
 
-/// The path, no dearer, its ends the same. Ends where a whole turn saves less than a ten-thousandth. Throws Stopped.
+/// The path, no dearer, its ends the same. Ends where two turns save less than a ten-thousandth. Throws Stopped.
 Path<Vec2> priced_taut(Path<Vec2> path, const PricedLegs& legs, const Execution& execution);
 
 }  // namespace warren

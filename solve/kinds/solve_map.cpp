@@ -44,12 +44,11 @@ std::vector<Vec2> way_points(const SolveRequest& request) {
   return points;
 }
 
-/// none: nothing is priced.
-std::optional<MapPrices> priced_map(const OccupancyMap& map, const WallProblem& problem, const Execution& execution) {
-  std::optional<MapPrices> prices;
+/// Left empty where nothing is priced.
+void take_prices(std::optional<MapPrices>& prices, const OccupancyMap& map, const WallProblem& problem,
+                 const Execution& execution) {
   if (!problem.prices.empty()) prices.emplace(map, problem.robot.radius, problem.prices, execution);
   if (prices && !prices->is_priced()) prices.reset();
-  return prices;
 }
 
 /// Refers to both.
@@ -99,8 +98,11 @@ class CellSolve {
       : request_(request),
         map_(*request.scene.map),
         problem_(problem),
-        chooses_(!problem.rule.empty() || !request.options.trees.via.empty()),
-        prices_(priced_map(map_, problem, request.execution)) {
+        chooses_(!problem.rule.empty() || !request.options.trees.via.empty()) {
+    {
+      const StageTimer timer(request.execution, "index", answer_.seconds.index, map_.blocked.size());
+      take_prices(prices_, map_, problem, request.execution);
+    }
     if (prices_ && request.options.grid.diagonal) {
       throw UsageError("@diagonal: where ways have a price steps weigh what they cost; leave it out");
     }
@@ -228,10 +230,15 @@ class CellSolve {
   void index() {
     const StageTimer timer(request_.execution, "index", answer_.seconds.index, map_.blocked.size());
     closed_ = closed_cells(map_, problem_.start);
-    if (problem_.reach() > 0.0) {
-      blocked_ = blocked_for_disc(closed_, problem_.reach() / map_.cell, request_.execution);
+    const double reach = problem_.reach() / map_.cell;
+    const DistanceField* made = distances();
+    if (reach > 0.0) {
+      blocked_ = made != nullptr ? blocked_for_disc(closed_, *made, reach, request_.execution)
+                                 : blocked_for_disc(closed_, reach, request_.execution);
     }
   }
+  /// Of closed_, where there are any; nullptr otherwise.
+  const DistanceField* distances() const { return prices_ && map_.water.empty() ? prices_->distances() : nullptr; }
   const Bitmap& blocked() const { return blocked_.empty() ? closed_ : blocked_; }
   std::vector<Cell> joined(Vec2 p, Cell own) const {
     return cells_joined_to(map_, blocked(), problem_.reach(), p, own, request_.execution);
@@ -277,7 +284,8 @@ class CellSolve {
     const StageTimer timer(request_.execution, "optimise", answer_.seconds.optimise, answer_.path.size());
     OccupancyMap map = map_;
     map.blocked = closed_;
-    const GridWorld world(map, problem_.reach(), request_.execution);
+    const GridWorld world = distances() != nullptr ? GridWorld(map, problem_.reach(), *distances())
+                                                   : GridWorld(map, problem_.reach(), request_.execution);
     answer_.raw_length = path_length(answer_.path, GridWorld::distance);
     if (prices_) return pull(world);
     answer_.path = shorter_path(WorldView(world), std::move(answer_.path), GridWorld::distance, {.seed = answer_.seed},
@@ -406,7 +414,8 @@ Answer solve_chosen(const SolveRequest& request) {
     }
     const Bitmap closed = closed_cells(map, problem.start);
     const Bitmap wide = blocked_for_disc(closed, problem.reach() / map.cell, request.execution);
-    const std::optional<MapPrices> prices = priced_map(map, problem, request.execution);
+    std::optional<MapPrices> prices;
+    take_prices(prices, map, problem, request.execution);
     MapPrices::Scratch scratch;
     WaysOverCells ways(map, problem, closed, wide, Diagonal::sqrt2, leg_prices(prices, scratch), request.execution);
     choice = choose_goal(ways, map, problem, {}, has_open_end(request));

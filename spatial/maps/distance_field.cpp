@@ -145,7 +145,10 @@ double DistanceField::distance(std::uint32_t x, std::uint32_t y) const {
 
 Bitmap blocked_for_disc(const Bitmap& blocked, double radius, const Execution& execution) {
   if (!(radius > 0.0)) return blocked;
-  const DistanceField field(blocked, CellDistance::squares, true, execution);
+  return blocked_for_disc(blocked, DistanceField(blocked, CellDistance::squares, true, execution), radius, execution);
+}
+
+Bitmap blocked_for_disc(const Bitmap& blocked, const DistanceField& field, double radius, const Execution& execution) {
   const double least = 4.0 * radius * radius;
   Bitmap result = blocked;
   constexpr std::size_t rows = 64;

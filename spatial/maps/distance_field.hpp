@@ -43,5 +43,7 @@ class DistanceField {
 /// The cells where the middle of a disc may not be: blocked ones, and those whose middle is nearer than `radius` (in
 /// cells, >= 0) to a blocked closed square or to the outside of the map. Exact. O(cells).
 Bitmap blocked_for_disc(const Bitmap& blocked, double radius, const Execution& execution);
+/// The same by a field that is there: of these cells, to squares, with the outside blocked.
+Bitmap blocked_for_disc(const Bitmap& blocked, const DistanceField& field, double radius, const Execution& execution);
 
 }  // namespace warren

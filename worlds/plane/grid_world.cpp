@@ -59,12 +59,16 @@ GridWorld::GridWorld(const OccupancyMap& map, double radius, const Execution& ex
   if (milestones == MapMilestones::corridors) corridors_.emplace(map_, *field_, reach_, execution);
 }
 
+GridWorld::GridWorld(const OccupancyMap& map, double radius, const DistanceField& distances)
+    : map_(map), reach_(planning_reach(map, radius)), given_(&distances) {}
+
 bool GridWorld::lies_in_the_open(const Segment& leg) const {
-  if (!field_) return false;
+  const DistanceField* field = distances();
+  if (field == nullptr) return false;
   const Vec2 middle = 0.5 * (leg.a + leg.b);
   const auto x = bounded_whole<std::uint32_t>(middle.x);
   const auto y = bounded_whole<std::uint32_t>(middle.y);
-  const double room = field_->distance(x, y) - warren::distance(middle, Vec2{x + 0.5, y + 0.5});
+  const double room = field->distance(x, y) - warren::distance(middle, Vec2{x + 0.5, y + 0.5});
   return room > 0.5 * warren::distance(leg.a, leg.b) + reach_ + margin;
 }
 
@@ -107,8 +111,9 @@ bool GridWorld::row_is_free(const Segment& leg, std::int64_t row) const {
 double GridWorld::suggested_samples(const Execution& execution) const {
   constexpr double samples_a_square = 4.5;  // as among walls: worlds/plane/maze_world.cpp
   constexpr double fewest = 500.0;
-  if (!field_) return static_cast<double>(map_.free);
-  const double squares = 0.5 * CorridorCells(*field_, reach_, execution).weight();
+  const DistanceField* field = distances();
+  if (field == nullptr) return static_cast<double>(map_.free);
+  const double squares = 0.5 * CorridorCells(*field, reach_, execution).weight();
   if (corridors_) return std::max(fewest, samples_a_square * squares);  // which hardly ever fall on what is blocked
   const double free_share = static_cast<double>(map_.free) / static_cast<double>(map_.blocked.size());
   return std::max(fewest, free_share > 0.0 ? samples_a_square * squares / free_share : 0.0);

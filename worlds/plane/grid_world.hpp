@@ -33,6 +33,8 @@ class GridWorld {
   /// cell wide.
   GridWorld(const OccupancyMap& map, double radius, const Execution& execution,
             MapMilestones milestones = MapMilestones::anywhere);
+  /// The same, and refers to distances that are there: to the map's blocked squares and to its outside.
+  GridWorld(const OccupancyMap& map, double radius, const DistanceField& distances);
 
   Query make_query() const { return {}; }
   State at_unit(const std::array<double, 2>& u) const {
@@ -70,9 +72,12 @@ class GridWorld {
   /// Is all that is within half the leg of its middle free, by the middle's cell's distance from all squares?
   bool lies_in_the_open(const Segment& leg) const;
 
+  const DistanceField* distances() const { return given_ != nullptr ? given_ : field_ ? &*field_ : nullptr; }
+
   OccupancyMap map_;
   double reach_;  // cells
-  std::optional<DistanceField> field_;
+  const DistanceField* given_ = nullptr;
+  std::optional<DistanceField> field_;  // where none was given
   std::optional<CorridorPoints> corridors_;
   Bitmap milestone_cells_;
 };

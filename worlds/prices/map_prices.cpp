@@ -121,49 +121,66 @@ MapPrices::MapPrices(const OccupancyMap& effective, double radius, const Prices&
   }
 }
 
-/// All that may be nearest to a piece from `p` in one cell, of what is within the limit.
-void MapPrices::gather(Cell cell, Vec2 p, Vec2 u, double limit, Scratch& scratch) const {
-  std::vector<StretchDistance>& things = scratch.things;
-  things.clear();
+/// All that may be nearest to a place of the cell, of what is within reach: whatever is farther from the middle than
+/// the nearest by more than the cell's diagonal is not. Kept, for legs come back to the same cells.
+std::span<const MapPrices::Site> MapPrices::sites(Cell cell, Scratch& scratch) const {
+  const std::size_t number = std::size_t{cell.y} * map_.width() + cell.x;
+  if (scratch.of != this) scratch.kept.assign(Scratch::kept_cells, {});
+  scratch.of = this;
+  Scratch::Sites& kept = scratch.kept[number % Scratch::kept_cells];
+  if (kept.cell == number) return kept.sites;
+  kept.cell = number;
+  kept.sites.clear();
+  const double nearest = field_->distance(cell.x, cell.y);
+  const double limit = std::min(reach_, nearest + half_diagonal);
+  const double most = limit + half_diagonal + on_line;
+  const Vec2 middle{cell.x + 0.5, cell.y + 0.5};
+  const auto take = [&](std::int64_t edge_x, std::int64_t edge_y, int dx, int dy) {
+    const Vec2 at{dx == 0 ? middle.x : static_cast<double>(edge_x), dy == 0 ? middle.y : static_cast<double>(edge_y)};
+    const Vec2 away = at - middle;
+    if (dot(away, away) <= most * most) kept.sites.push_back({at, static_cast<double>(dx), static_cast<double>(dy)});
+  };
   const std::int64_t width = map_.width();
   const std::int64_t height = map_.height();
   const std::int64_t x = cell.x;
   const std::int64_t y = cell.y;
-  const auto far = bounded_whole<std::int64_t>(std::ceil(limit), 1.0, 4294967296.0);
-  if (x < far) things.push_back(StretchDistance::side(p.x, u.x));
-  if (y < far) things.push_back(StretchDistance::side(p.y, u.y));
-  if (width - 1 - x < far) things.push_back(StretchDistance::side(static_cast<double>(width) - p.x, -u.x));
-  if (height - 1 - y < far) things.push_back(StretchDistance::side(static_cast<double>(height) - p.y, -u.y));
+  const auto far = bounded_whole<std::int64_t>(limit, 0.0, 4294967296.0) + 1;
+  if (x < far) take(0, 0, -1, 0);
+  if (y < far) take(0, 0, 0, -1);
+  if (width - 1 - x < far) take(width, 0, 1, 0);
+  if (height - 1 - y < far) take(0, height, 0, 1);
   const std::int64_t left_end = std::max<std::int64_t>(0, x - far);
   const std::int64_t right_end = std::min(width - 1, x + far);
   for (std::int64_t row = std::max<std::int64_t>(0, y - far); row <= std::min(height - 1, y + far); ++row) {
     const auto bits = map_.blocked.row(as_whole<std::uint32_t>(row));
-    const double above = static_cast<double>(row) - p.y;  // the side that looks at the piece, if it is above
-    const double below = p.y - static_cast<double>(row + 1);
+    const int dy = row > y ? 1 : row < y ? -1 : 0;
+    const std::int64_t edge_y = row > y ? row : row + 1;  // the side that looks at the cell
     const std::int64_t right = next_set(bits, x, right_end);
     if (right == x) {
-      if (row != y) things.push_back(row > y ? StretchDistance::side(above, -u.y) : StretchDistance::side(below, u.y));
+      if (row != y) take(0, edge_y, 0, dy);
       continue;
     }
-    const double edge_y = static_cast<double>(row > y ? row : row + 1);
-    if (right <= right_end) {
-      const auto edge_x = static_cast<double>(right);
-      things.push_back(row == y ? StretchDistance::side(edge_x - p.x, -u.x)
-                                : StretchDistance::corner({edge_x, edge_y}, p, u));
-    }
+    if (right <= right_end) take(right, edge_y, 1, dy);
     const std::int64_t left = previous_set(bits, x, left_end);
-    if (left >= left_end) {
-      const auto edge_x = static_cast<double>(left + 1);
-      things.push_back(row == y ? StretchDistance::side(p.x - edge_x, u.x)
-                                : StretchDistance::corner({edge_x, edge_y}, p, u));
-    }
+    if (left >= left_end) take(left + 1, edge_y, -1, dy);
+  }
+  return kept.sites;
+}
+
+/// What they are to a piece of that cell which begins at `p`.
+void MapPrices::gather(Cell cell, Vec2 p, Vec2 u, Scratch& scratch) const {
+  scratch.things.clear();
+  for (const Site& site : sites(cell, scratch)) {
+    const Vec2 away = site.at - p;
+    scratch.things.push_back(site.dx == 0.0   ? StretchDistance::side(site.dy * away.y, -site.dy * u.y)
+                             : site.dy == 0.0 ? StretchDistance::side(site.dx * away.x, -site.dx * u.x)
+                                              : StretchDistance::corner(site.at, p, u));
   }
 }
 
 double MapPrices::nearness_in(Cell cell, Vec2 p, Vec2 u, double length, Scratch& scratch) const {
-  const double nearest = field_->distance(cell.x, cell.y);
-  if (nearest - half_diagonal >= reach_) return 0.0;
-  gather(cell, p, u, std::min(reach_, nearest + half_diagonal), scratch);
+  if (field_->distance(cell.x, cell.y) - half_diagonal >= reach_) return 0.0;
+  gather(cell, p, u, scratch);
   return scratch.sum.integral(scratch.things, 0.0, length, reach_);
 }
 
@@ -221,7 +238,7 @@ double MapPrices::nearness_at(Vec2 p, Scratch& scratch) const {
   if (!(reach_ > 0.0)) return 0.0;
   const Vec2 at = map_point(map_, p);
   const Cell cell = cell_of(map_, at);
-  gather(cell, at, {1.0, 0.0}, reach_, scratch);
+  gather(cell, at, {1.0, 0.0}, scratch);
   double least = reach_;
   for (const StretchDistance& thing : scratch.things) least = std::min(least, thing(0.0));
   const double share = 1.0 - least / reach_;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -29,11 +30,24 @@ double clearance_scale(const ClearancePrice& price, double radius);
 /// Immutable; any number of threads may ask, each with its own Scratch.
 class MapPrices {
  public:
-  /// What a thread that asks holds.
+  /// A blocked square as seen from a cell: a side where it is straight right, left, above or below, else a corner.
+  struct Site {
+    Vec2 at;
+    double dx;  // -1, 0, 1: which way it lies
+    double dy;
+  };
+  /// What a thread that asks holds; of one MapPrices, which keeps in it what is near to some thousand cells.
   struct Scratch {
+    static constexpr std::size_t kept_cells = 4096;
+    struct Sites {
+      std::size_t cell = std::numeric_limits<std::size_t>::max();
+      std::vector<Site> sites;
+    };
     NearnessSum sum;
     std::vector<StretchDistance> things;
     std::vector<double> cuts;
+    std::vector<Sites> kept;
+    const MapPrices* of = nullptr;
   };
 
   /// Refers to the map, which is the effective one (worlds/prices/effective_map.hpp): what is unknown and not blocked
@@ -41,6 +55,8 @@ class MapPrices {
   /// clearance_reach(), Stopped.
   MapPrices(const OccupancyMap& effective, double radius, const Prices& prices, const Execution& execution);
 
+  /// Distances to the map's blocked squares and its outside; nullptr where nearness costs nothing.
+  const DistanceField* distances() const { return field_ ? &*field_ : nullptr; }
   /// Does any leg cost more than its length?
   bool is_priced() const { return reach_ > 0.0 || has_areas_; }
   /// Of a straight leg of the middle that touches nothing blocked, world coordinates.
@@ -60,7 +76,8 @@ class MapPrices {
  private:
   double nearness(Vec2 a, Vec2 b, Scratch& scratch) const;
   double nearness_in(Cell cell, Vec2 p, Vec2 u, double length, Scratch& scratch) const;
-  void gather(Cell cell, Vec2 p, Vec2 u, double limit, Scratch& scratch) const;
+  std::span<const Site> sites(Cell cell, Scratch& scratch) const;
+  void gather(Cell cell, Vec2 p, Vec2 u, Scratch& scratch) const;
   double areas(Vec2 a, Vec2 b, Scratch& scratch) const;
   double areas_in(Vec2 p, Vec2 u, double length, Scratch& scratch) const;
   double factor(Vec2 p) const;

@@ -134,6 +134,7 @@ TEST(PlannerDeal, EveryOptionReachesThePlannersThatTakeIt) {
   all.anytime = {.iterations = 9, .gap = 0.1, .parts = {AnytimePart::tree}};
   all.grid = {.cell = 0.5, .angles = 8, .face_motion = true, .step_cost = 2.0, .turn_cost = 3.0};
   all.grid.diagonal = Diagonal::unit;
+  all.grid.headings = 32;
   all.grid.layers = LayerKind::exact;
   all.cells.doors = DoorKind::funnel;
   all.axis.objective = AxisObjective::clearance;
