@@ -91,6 +91,10 @@ double NearnessSum::integral(std::span<const StretchDistance> things, double fro
   for (const StretchDistance& thing : things) {
     if (least_squared(thing, from, to) <= enough) near_.push_back(thing);
   }
+  if (near_.empty()) return 0.0;
+  if (near_.size() == 1 && std::max(squared(near_[0], from), squared(near_[0], to)) <= reach * reach) {
+    return integral_of_one(near_[0], from, to, reach);  // the usual case: nothing to cut at
+  }
   cuts_.assign(1, from);
   for (std::size_t i = 0; i < near_.size(); ++i) {
     const auto at = ends_of_reach(near_[i], reach);
