@@ -5,8 +5,8 @@
 // is unique, too.
 //
 // The search runs from the goals (Dijkstra), towards the cells that are asked for where these are few (A*, by what
-// steps cost at least), and goes on only when more is asked. Buckets of keys are emptied in no order: a cell is expanded
-// again where it gets cheaper, and is settled once its bucket is empty.
+// steps cost at least), and goes on only when more is asked. Buckets of keys are emptied in no order: a cell is
+// expanded again where it gets cheaper, and is settled once its bucket is empty.
 //
 // 8 bytes a cell, of weights 16 more, of which the system gives only the pages that are touched.
 #pragma once

@@ -87,8 +87,8 @@ class MapPrices {
   bool is_near_area(Cell cell) const { return has_areas_ && touched_.holds(cell.x, cell.y); }
 
   const OccupancyMap& map_;
-  double price_ = 0.0;  // of an integral over cells
-  double reach_ = 0.0;  // of the middle, cells; 0: nearness costs nothing
+  double price_ = 0.0;         // of an integral over cells
+  double reach_ = 0.0;         // of the middle, cells; 0: nearness costs nothing
   std::uint32_t open_sq_ = 0;  // cells whose distance is no less are beyond the reach
   std::optional<DistanceField> field_;
   AreaFactors areas_;  // in cells
