@@ -333,7 +333,7 @@ Answer kept_and_solved(Scene scene, const Question& question, const SolveOptions
 }  // namespace
 
 Answer solve_within(const Scene& scene, const Question& question, const SolveOptions& options,
-                    const Execution& execution, ByProducts* keep, PathTaker* taker) {
+                    const Execution& execution, ByProducts* keep, PathTaker* taker, KeptWays* kept) {
   question.validate();
   options.validate();
   check_solver_options(options);
@@ -349,6 +349,7 @@ Answer solve_within(const Scene& scene, const Question& question, const SolveOpt
     const PlannedScene planned(restricted.get(), question, solver.planner, execution);
     SolveRequest request{options, planned.get(), question, solver.planner, accounted, keep};
     request.taker = taker;
+    request.kept = kept;
     answer = solver.kind->solve(request);
     keep_to_route(answer, restricted.get(), question, options, *solver.kind, accounted);
     judge_prices(answer, scene, question, accounted);
@@ -395,8 +396,8 @@ void price_heuristic(const Scene& scene, const Question& question, const SolveOp
 }
 
 Answer solve_explained(const Scene& scene, const Question& question, const SolveOptions& options,
-                       const Execution& execution, ByProducts* keep, PathTaker* taker) {
-  Answer answer = solve_within(scene, question, options, execution, keep, taker);
+                       const Execution& execution, ByProducts* keep, PathTaker* taker, KeptWays* kept) {
+  Answer answer = solve_within(scene, question, options, execution, keep, taker, kept);
   price_heuristic(scene, question, options, execution, answer);
   const Prices prices = is_blocked(answer.outcome) ? prices_of(scene, question) : Prices{};
   const std::optional<Scene> effective = effective_scene(scene, prices, execution);

@@ -100,6 +100,7 @@ class PriceField {
   struct Goal {
     Cell cell;
     std::uint64_t cost = 0;  ///< units
+    bool operator==(const Goal&) const = default;
   };
 
   /// Blocked goals are left out. towards: where the costs will be asked for; empty: anywhere. Throws Stopped.
