@@ -19,6 +19,7 @@
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "verify/judges/effective_scene.hpp"
+#include "verify/judges/verify_classes.hpp"
 #include "verify/judges/verify_potential.hpp"
 #include "verify/judges/verify_price.hpp"
 #include "worlds/prices/effective_map.hpp"
@@ -117,6 +118,11 @@ void check_price(Verdict& verdict, const Scene& judged, const Prices& prices, co
   if (answer.cost) check("cost", *answer.cost, verdict.length + price->sum());
 }
 
+void refute(Verdict& verdict, std::string what) {
+  verdict.verified = false;
+  verdict.first_violation = Violation{.leg = 0, .distance = 0.0, .obstacle = std::move(what)};
+}
+
 /// The length that an answer claims is a part of what is verified.
 void check_length(Verdict& verdict, const RecordedAnswer& answer) {
   constexpr double rounding = 1e-9;
@@ -127,6 +133,86 @@ void check_length(Verdict& verdict, const RecordedAnswer& answer) {
       Violation{.leg = 0,
                 .distance = 0.0,
                 .obstacle = fmt::format("length: the answer says {}, its path has {}", *answer.length, verdict.length)};
+}
+
+/// The classes that an answer tells, its own path's first, and the holes that they name.
+void check_classes(Verdict& verdict, const OccupancyMap& judged, const RecordedAnswer& answer,
+                   const Execution& execution) {
+  const Problem& problem = verdict.problem;
+  std::vector<Path<Vec2>> paths{answer.path};
+  std::vector<std::vector<std::int32_t>> claimed{answer.passed};
+  for (const AlternativePath& other : answer.alternatives) {
+    paths.push_back(other.path);
+    claimed.push_back(other.passed);
+  }
+  OccupancyMap map = judged;
+  map.blocked = closed_cells(map, {problem.start[0], problem.start[1]});
+  const ClassRule rule{problem.robot.radius + problem.clearance, answer.hole_size.value_or(2.0 * problem.robot.radius)};
+  const JudgedClasses found = judged_classes(map, rule, paths, execution);
+  if (const auto same = same_class(found.classes)) {
+    return refute(verdict, fmt::format("alternatives: paths {} and {} are of one class", same->first, same->second));
+  }
+  for (std::size_t i = 0; i < claimed.size(); ++i) {
+    if (claimed[i] != found.told[i]) return refute(verdict, fmt::format("class: of path {} it is another", i));
+  }
+  for (const MapHole& hole : answer.holes) {
+    bool is_there = hole.id >= 1 && hole.id <= found.holes.size();
+    if (is_there) {
+      const Box& cells = found.holes[hole.id - 1];
+      Box box;
+      box.include(world_point(map, cells.min));
+      box.include(world_point(map, cells.max));
+      box.include(world_point(map, {cells.min.x, cells.max.y}));
+      box.include(world_point(map, {cells.max.x, cells.min.y}));
+      const double off = distance(box.min, hole.box.min) + distance(box.max, hole.box.max);
+      is_there = off <= 1e-9 * (map.cell + norm(box.min) + norm(box.max));
+    }
+    if (!is_there) return refute(verdict, fmt::format("holes: there is no hole {} in this box", hole.id));
+  }
+}
+
+/// Other paths are verified as the answer's own is: free, as long and as dear as they say, each of a class of its own,
+/// the cheapest first.
+void check_alternatives(Verdict& verdict, const Scene& judged, const Question& asked, const Prices& prices,
+                        const RecordedAnswer& answer, const Execution& execution) {
+  if (!verdict.verified || (answer.alternatives.empty() && answer.passed.empty())) return;
+  const bool is_plain = verdict.problem.robot.kind == RobotKind::point || verdict.problem.robot.kind == RobotKind::disc;
+  if (!judged.map || !is_plain) return refute(verdict, "alternatives: classes are of points and discs on maps");
+  const auto same = [](double said, double found) {
+    return said == found || std::abs(said - found) <= 1e-9 * (1.0 + std::abs(found));
+  };
+  double before = answer.price ? answer.cost.value_or(verdict.length) : verdict.length;
+  for (std::size_t i = 0; i < answer.alternatives.size(); ++i) {
+    const AlternativePath& other = answer.alternatives[i];
+    const std::string name = fmt::format("alternatives: path {}: ", i + 1);
+    if (other.path.empty()) return refute(verdict, name + "it has no points");
+    if (other.path.front() != answer.path.front() || other.path.back() != answer.path.back()) {
+      return refute(verdict, name + "it leads from or to another place");
+    }
+    RecordedAnswer record;
+    record.file = answer.file;
+    record.path = other.path;
+    record.length = other.length;
+    record.goal_index = answer.goal_index;
+    record.cost = other.cost;
+    if (answer.price) record.price = other.price;
+    Verdict one = verifying_kind(judged, asked).verify(judged, asked, record, execution);
+    check_length(one, record);
+    check_price(one, judged, prices, record, execution);
+    if (one.verified && !same(other.cost, other.length + other.price.sum()))
+      refute(one, "cost: not the sum of its parts");
+    if (one.verified && !same(other.min_clearance, one.min_clearance)) refute(one, "min_clearance: it is another");
+    if (one.verified && other.cost < before && !same(other.cost, before))
+      refute(one, "cost: less than of the one before");
+    if (!one.verified) {
+      verdict.verified = false;
+      verdict.first_violation = one.first_violation.value_or(Violation{});
+      verdict.first_violation->obstacle = name + verdict.first_violation->obstacle;
+      return;
+    }
+    before = other.cost;
+  }
+  check_classes(verdict, *judged.map, answer, execution);
 }
 
 /// A bound of all paths on a map, with its proof.
@@ -247,7 +333,7 @@ Answer kept_and_solved(Scene scene, const Question& question, const SolveOptions
 }  // namespace
 
 Answer solve_within(const Scene& scene, const Question& question, const SolveOptions& options,
-                    const Execution& execution, ByProducts* keep, PathTaker* taker) {
+                    const Execution& execution, ByProducts* keep, PathTaker* taker, KeptWays* kept) {
   question.validate();
   options.validate();
   check_solver_options(options);
@@ -263,6 +349,7 @@ Answer solve_within(const Scene& scene, const Question& question, const SolveOpt
     const PlannedScene planned(restricted.get(), question, solver.planner, execution);
     SolveRequest request{options, planned.get(), question, solver.planner, accounted, keep};
     request.taker = taker;
+    request.kept = kept;
     answer = solver.kind->solve(request);
     keep_to_route(answer, restricted.get(), question, options, *solver.kind, accounted);
     judge_prices(answer, scene, question, accounted);
@@ -291,6 +378,7 @@ Verdict verify_within(const Scene& scene, const Question& question, const Record
   Verdict verdict = verifying_kind(judged, asked).verify(judged, asked, answer, execution);
   check_length(verdict, answer);
   check_price(verdict, judged, prices, answer, execution);
+  check_alternatives(verdict, judged, asked, prices, answer, execution);
   const bool is_same = !question.robot && question.start.empty() && question.goal.empty() && !question.clearance &&
                        question.prices.empty() && question.rule.empty();
   if (is_same) check_bound(verdict, judged, answer, execution);
@@ -308,8 +396,8 @@ void price_heuristic(const Scene& scene, const Question& question, const SolveOp
 }
 
 Answer solve_explained(const Scene& scene, const Question& question, const SolveOptions& options,
-                       const Execution& execution, ByProducts* keep, PathTaker* taker) {
-  Answer answer = solve_within(scene, question, options, execution, keep, taker);
+                       const Execution& execution, ByProducts* keep, PathTaker* taker, KeptWays* kept) {
+  Answer answer = solve_within(scene, question, options, execution, keep, taker, kept);
   price_heuristic(scene, question, options, execution, answer);
   const Prices prices = is_blocked(answer.outcome) ? prices_of(scene, question) : Prices{};
   const std::optional<Scene> effective = effective_scene(scene, prices, execution);

@@ -16,6 +16,7 @@
 namespace warren {
 
 struct Roadmap;  // solve/kept/roadmap.hpp
+class KeptWays;  // solve/kinds/kept_ways.hpp
 
 /// Finds a path and verifies it, by code that shares nothing with the planner. What neither question nor options say is
 /// as the world's file says, and else what is fastest and most honest for the problem. No path is an answer, and so is
@@ -34,8 +35,10 @@ Verdict verify(const Scene& scene, const RecordedAnswer& answer, const Question&
 
 /// The answer alone, with an execution that goes on: its deadline is running already. `taker`, where given, may receive
 /// the path's points while they are made, before they are verified; the answer then has `handed` instead of them.
+/// `kept`: of solves of the same question before (solve/replanner.hpp).
 Answer solve_within(const Scene& scene, const Question& question, const SolveOptions& options,
-                    const Execution& execution, ByProducts* keep = nullptr, PathTaker* taker = nullptr);
+                    const Execution& execution, ByProducts* keep = nullptr, PathTaker* taker = nullptr,
+                    KeptWays* kept = nullptr);
 /// verify() with an execution that goes on.
 Verdict verify_within(const Scene& scene, const Question& question, const RecordedAnswer& answer,
                       const Execution& execution);
@@ -43,7 +46,8 @@ Verdict verify_within(const Scene& scene, const Question& question, const Record
 /// solve_within(), and what solve() says beside the path: where a blocked end is free, and what an estimate of options
 /// cost where it is not the straight line.
 Answer solve_explained(const Scene& scene, const Question& question, const SolveOptions& options,
-                       const Execution& execution, ByProducts* keep = nullptr, PathTaker* taker = nullptr);
+                       const Execution& execution, ByProducts* keep = nullptr, PathTaker* taker = nullptr,
+                       KeptWays* kept = nullptr);
 
 /// Says what an estimate of options cost, where it is not the straight line (solve/kinds/solve_steps.hpp).
 void price_heuristic(const Scene& scene, const Question& question, const SolveOptions& options,

@@ -225,9 +225,10 @@ WARREN_ARCHIVED(MapHole, id, box)
 WARREN_ARCHIVED(KeptRoute, kept, kept_cost, new_cost)
 WARREN_ARCHIVED(Answer, outcome, stop_reason, verified, blocked, explained, refuted, length, min_clearance, raw_length,
                 optimal, lower_bound, improvements, iterations, ended_by, cost, price, bound_of, goal_index,
-                goal_reached, order, alternatives, passed, holes, keeping, turn_rad, problem, world, planner, pipeline,
-                sampler, search, seed, threads, options, roadmap, cells, figures, path_figures, separation, counters,
-                seconds, costs, solve_s, wanted_memory_bytes, peak_memory_bytes, path, handed, states, tells_path)
+                goal_reached, order, alternatives, passed, holes, hole_size, keeping, turn_rad, problem, world, planner,
+                pipeline, sampler, search, seed, threads, options, roadmap, cells, figures, path_figures, separation,
+                counters, seconds, costs, solve_s, wanted_memory_bytes, peak_memory_bytes, path, handed, states,
+                tells_path)
 #undef WARREN_ARCHIVED
 
 }  // namespace

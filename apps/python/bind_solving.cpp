@@ -3,16 +3,23 @@
 
 #include <pybind11/stl.h>
 
+#include <array>
+#include <memory>
+#include <utility>
+#include <vector>
+
 #include "apps/python/arrays.hpp"
 #include "apps/python/bind.hpp"
 #include "apps/python/keywords.hpp"
 #include "apps/studies/comparison_report.hpp"
 #include "parallel/execution.hpp"
 #include "scenes/files/mask_io.hpp"
+#include "scenes/files/npy_io.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "solve/answer/explanation_text.hpp"
 #include "solve/explain_answer.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
+#include "solve/replanner.hpp"
 #include "solve/solve.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/verbs/cmd_compare.hpp"
@@ -39,20 +46,46 @@ std::optional<Answer> take_old_answer(py::dict& keywords) {
   return py::object(keywords.attr("pop")("keep_to")).cast<const KeptAnswer&>().answer;
 }
 
+/// hole is the second half of --alternatives.
+void join_hole(py::dict& keywords) {
+  if (!keywords.contains("hole")) return;
+  const py::object hole = keywords.attr("pop")("hole");
+  if (hole.is_none()) return;
+  const py::object count = keywords.attr("get")("alternatives");
+  if (count.is_none()) throw UsageError("hole: is for alternatives");
+  keywords["alternatives"] = word_of(count, "alternatives") + "," + word_of(hole, "hole");
+}
+
+/// A file; none: nobody asks.
+std::optional<std::string> take_certificate(py::dict& keywords) {
+  if (!keywords.contains("certificate")) return std::nullopt;
+  const py::object file = keywords.attr("pop")("certificate");
+  return file.is_none() ? std::nullopt : std::optional(word_of(file, "certificate"));
+}
+
+void write_certificate(const ByProducts& made, const std::string& file, const Execution& execution) {
+  if (made.certificate) return write_npy(*made.certificate, file, execution);
+  constexpr const char* none = "certificate: there is no bound of all paths to prove, so it is not written";
+  if (PyErr_WarnEx(PyExc_UserWarning, none, 1) != 0) throw py::error_already_set();
+}
+
 /// The answer as the program makes it; a stopped one, too, unless Python's handler of a signal raises.
 KeptAnswer solve_scene(const Scene& scene, py::dict keywords, bool keep, bool explain, py::object on_improvement) {
   CallLimits limits = take_limits(keywords);
   limits.tell_improvements(std::move(on_improvement));
   const std::optional<Answer> old = take_old_answer(keywords);
+  const std::optional<std::string> certificate = take_certificate(keywords);
+  join_hole(keywords);
   const tools::Arguments words = arguments_of(made_once<solving>(), keywords);
   Question question = tools::question_words(words);
   const SolveOptions options = tools::solve_words(words);
   check_solver_options(options);
   KeptAnswer kept;
+  kept.made.wants_certificate = certificate.has_value();
   kept.answer = limits.run([&](const Execution& execution) {
     tools::read_asked_files(question, words, execution);
     if (old) question.route.keep_to = states_of(recorded(*old));
-    Answer answer = solve_explained(scene, question, options, execution, keep || explain ? &kept.made : nullptr);
+    Answer answer = solve_explained(scene, question, options, execution, keep || explain || certificate ? &kept.made : nullptr);
     const auto complete = [&] {
       if (answer.outcome != Outcome::stopped) make_by_products(scene, question, options, execution, kept.made);
     };
@@ -65,6 +98,7 @@ KeptAnswer solve_scene(const Scene& scene, py::dict keywords, bool keep, bool ex
     }
     return answer;
   });
+  if (certificate) write_certificate(kept.made, *certificate, Execution());
   return finished(std::move(kept), keep, limits);
 }
 
@@ -85,12 +119,14 @@ py::dict told(const Verdict& verdict, const std::optional<NarrowPlace>& narrow) 
 /// With explain the narrowest place of a free path, too; "ended" says what stopped the search for it.
 py::dict judge(const Scene& scene, RecordedAnswer answer, py::dict keywords) {
   CallLimits limits = take_limits(keywords);
+  const std::optional<std::string> certificate = take_certificate(keywords);
   const tools::Arguments words = arguments_of(made_once<verifying>(), keywords);
   Question question = tools::question_words(words);
   std::optional<NarrowPlace> narrow;
   std::optional<StopReason> ended;
   const Verdict verdict = limits.run([&](const Execution& execution) {
     read_masks(question.prices.empty() ? answer.problem.prices : question.prices, execution);
+    if (certificate) answer.certificate = read_potential_npy(InputFile(*certificate, execution), execution);
     Verdict said = verify_within(scene, question, answer, execution);
     if (!words.has("--explain") || !said.verified) return said;
     try {
@@ -138,6 +174,30 @@ tools::Command comparing() {
   return command;
 }
 
+/// A copy of the world is changed.
+std::unique_ptr<Replanner> replanner_of(const Scene& scene, py::dict keywords) {
+  join_hole(keywords);
+  const tools::Arguments words = arguments_of(made_once<solving>(), keywords);
+  Question question = tools::question_words(words);
+  const SolveOptions options = tools::solve_words(words);
+  check_solver_options(options);
+  CallLimits().run([&](const Execution& execution) { tools::read_asked_files(question, words, execution); });
+  return std::make_unique<Replanner>(scene, std::move(question), options);
+}
+
+void change_cells(Replanner& replanner, const std::vector<std::array<std::uint32_t, 2>>& cells, bool blocked) {
+  std::vector<CellChange> changes;
+  for (const auto& [x, y] : cells) changes.push_back({{x, y}, blocked});
+  replanner.update(changes);
+}
+
+KeptAnswer replanned(Replanner& replanner, const std::vector<double>& start, py::dict keywords) {
+  CallLimits limits = take_limits(keywords);
+  KeptAnswer kept;
+  kept.answer = limits.run([&](const Execution& execution) { return replanner.solve_within(start, execution); });
+  return finished(std::move(kept), false, limits);
+}
+
 /// Without a world random graphs alone.
 studies::Comparison compare(const Scene* scene, py::dict keywords) {
   if (keywords.contains("budget") && !keywords["budget"].is_none()) {
@@ -183,6 +243,13 @@ void bind_solving(py::module_& module) {
     const RecordedAnswer answer = limits.run([&](const Execution& execution) { return read_answer(file, execution); });
     return judge(scene, answer, keywords);
   });
+  py::class_<Replanner>(module, "Replanner")
+      .def(py::init(&replanner_of))
+      .def("change_cells", &change_cells)
+      .def("change_box", [](Replanner& replanner, double left, double low, double right, double high,
+                            bool blocked) { replanner.update({{left, low}, {right, high}}, blocked); })
+      .def("solve", &replanned)
+      .def("scene", [](const Replanner& replanner) { return replanner.scene(); });
   module.def("solve_keywords", [] { return keyword_table(made_once<solving>()); });
   module.def("verify_keywords", [] { return keyword_table(made_once<verifying>()); });
 }

@@ -66,9 +66,8 @@ PriceField::PriceField(StepWeights& weights, std::span<const Goal> goals, std::s
       buckets_(bucket_count) {
   for (std::size_t i = 0; i < goals_.size(); ++i) {
     const VertexId v = weights_.cells().number(goals_[i].cell);
-    if (!weights_.cells().is_free(v)) continue;
     goal_cells_.emplace_back(v, i);
-    if (goals_[i].cost < known(v)) reach(v, goals_[i].cost);
+    if (weights_.cells().is_free(v) && goals_[i].cost < known(v)) reach(v, goals_[i].cost);
   }
   std::sort(goal_cells_.begin(), goal_cells_.end());
 }
@@ -116,7 +115,7 @@ void PriceField::settle_until(const IsDone& is_done, const Execution& execution)
     for (std::size_t i = 0; i < bucket.size(); ++i) {  // which grows
       const VertexId v = bucket[i];
       if (++turns % expansions_per_poll == 0) execution.check();
-      if ((costs_[v] & is_expanded) != 0) continue;  // stale
+      if (costs_[v] == 0 || (costs_[v] & is_expanded) != 0) continue;  // lost by a repair, or stale
       if (bucket_of(v) > current_) {
         later.push_back(v);
         continue;
@@ -142,6 +141,61 @@ std::optional<std::uint64_t> PriceField::cost(Cell from, const Execution& execut
 
 void PriceField::settle_all(const Execution& execution) {
   settle_until([] { return false; }, execution);
+}
+
+std::uint64_t PriceField::over_neighbours(VertexId v, std::uint64_t enough) {
+  if (!weights_.cells().is_free(v)) return unreached;
+  std::uint64_t least = unreached;
+  for (auto goal = std::lower_bound(goal_cells_.begin(), goal_cells_.end(), std::pair{v, std::size_t{0}});
+       goal != goal_cells_.end() && goal->first == v; ++goal) {
+    least = std::min(least, goals_[goal->second].cost);
+  }
+  for (unsigned rest = weights_.allowed(v); rest != 0 && least > enough; rest &= rest - 1) {
+    const auto s = static_cast<unsigned>(std::countr_zero(rest));
+    const VertexId w = v + weights_.offset(s);
+    if (costs_[w] == 0 || known(w) + weights_.length(s) >= least) continue;
+    least = std::min(least, known(w) + weights_.weight(v, s));
+  }
+  return least;
+}
+
+/// Costs are looked at in their order, so that all that a cell's may rest on are decided before it (Ramalingam and
+/// Reps, 1996).
+bool PriceField::repair(std::span<const Cell> touched, std::uint64_t most, const Execution& execution) {
+  const auto dearer = [](const auto& a, const auto& b) { return b < a; };
+  std::vector<std::pair<std::uint64_t, VertexId>> doubtful;
+  std::vector<VertexId> renewed;
+  const auto doubt = [&](VertexId v) {
+    if (costs_[v] == 0) return;
+    doubtful.emplace_back(known(v), v);
+    std::push_heap(doubtful.begin(), doubtful.end(), dearer);
+  };
+  for (const Cell c : touched) {
+    renewed.push_back(weights_.cells().number(c));
+    doubt(renewed.back());
+  }
+  for (std::uint64_t lost = 0; !doubtful.empty();) {
+    std::pop_heap(doubtful.begin(), doubtful.end(), dearer);
+    const auto [cost, v] = doubtful.back();
+    doubtful.pop_back();
+    if (costs_[v] == 0 || over_neighbours(v, cost) <= cost) continue;
+    costs_[v] = 0;
+    renewed.push_back(v);
+    if (++lost > most) return false;
+    if (lost % expansions_per_poll == 0) execution.check();
+    for (unsigned s = 0; s < 8; ++s) {
+      const VertexId w = v + weights_.offset(s);
+      if (costs_[w] != 0 && known(w) > cost) doubt(w);
+    }
+  }
+  for (const VertexId v : renewed) {
+    const std::uint64_t cost = over_neighbours(v, 0);
+    if (cost >= known(v)) continue;
+    costs_[v] = cost + 1;
+    current_ = std::min(current_, bucket_of(v));
+    queue(v);
+  }
+  return true;
 }
 
 std::pair<std::vector<Cell>, std::size_t> PriceField::path(Cell from, const Execution& execution) {

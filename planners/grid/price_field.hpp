@@ -11,6 +11,7 @@
 // 8 bytes a cell, of weights 16 more, of which the system gives only the pages that are touched.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdlib>
@@ -61,6 +62,12 @@ class StepWeights {
     const std::uint32_t known = known_[std::size_t{back_steps} * lower + direction - back_steps];
     return known != 0 ? known : first_weight(lower, direction);
   }
+  /// From now on the cell is free, or blocked. What steps near it weigh is forgotten by forget() alone.
+  void change(Cell c, bool is_free) { cells_.change(c, is_free); }
+  /// The steps from a cell in the last four directions are weighed anew.
+  void forget(Cell c) {
+    if (known_) std::fill_n(&known_[std::size_t{back_steps} * cells_.number(c)], back_steps, 0U);
+  }
   /// What no way between the cells weighs less than; consistent.
   std::uint64_t at_least(Cell a, Cell b) const {
     const std::uint32_t dx = a.x < b.x ? b.x - a.x : a.x - b.x;
@@ -93,6 +100,7 @@ class PriceField {
   struct Goal {
     Cell cell;
     std::uint64_t cost = 0;  ///< units
+    bool operator==(const Goal&) const = default;
   };
 
   /// Blocked goals are left out. towards: where the costs will be asked for; empty: anywhere. Throws Stopped.
@@ -103,6 +111,11 @@ class PriceField {
   std::optional<std::uint64_t> cost(Cell from, const Execution& execution);
   /// The cells of the cheapest way, and the first of the goals at its end; cost(from) is there. Throws Stopped.
   std::pair<std::vector<Cell>, std::size_t> path(Cell from, const Execution& execution);
+  /// After a change of cells or weights: costs are as a new field's again. touched: all cells that became free or
+  /// blocked, and both ends of each step that weighs something else or is no more allowed or not. Costs that rest on
+  /// such a step are lost, and found anew where somebody asks. false: more than `most` are lost; the field is of no use
+  /// then. Throws Stopped, and is of no use then either.
+  bool repair(std::span<const Cell> touched, std::uint64_t most, const Execution& execution);
   /// Everything that can be reached. Throws Stopped.
   void settle_all(const Execution& execution);
   /// Is its cost known, or an upper bound of it? After settle_all(): can it be reached?
@@ -124,6 +137,8 @@ class PriceField {
   std::uint64_t bucket_of(VertexId v) const { return (known(v) + estimate(v)) / (units_a_cell / 16); }
   std::uint64_t estimate(VertexId v) const;
   bool is_settled(VertexId v) const { return known(v) != unreached && bucket_of(v) < current_; }
+  /// What a goal in the cell costs, or the way over the cheapest of its neighbours.
+  std::uint64_t over_neighbours(VertexId v, std::uint64_t enough);
   void reach(VertexId v, std::uint64_t cost);
   void queue(VertexId v);
   void expand(VertexId v);

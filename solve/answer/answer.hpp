@@ -176,16 +176,17 @@ struct Answer {
   std::vector<AlternativePath> alternatives;  ///< the cheapest first; the answer's own path is none of them
   std::vector<std::int32_t> passed;           ///< where alternatives were asked: the class of the answer's own path
   std::vector<MapHole> holes;                 ///< those that the classes name
-  std::optional<KeptRoute> keeping;           ///< where an older path was to be kept
-  std::optional<double> turn_rad;             ///< all turning along the path, of bodies that turn
-  Problem problem;                            ///< what was asked, with what the world's file and the defaults add
-  WorldAccount world;                         ///< of which world
-  std::string planner;                        ///< who found it: "prm", "rrt-connect", …
-  std::string pipeline;                       ///< plain, tiled or streamed; only for prm
-  std::string sampler;                        ///< empty: the planner has none
-  std::string search;                         ///< empty: the planner has none
-  std::uint64_t seed = 1;                     ///< of all that was random
-  unsigned threads = 1;                       ///< that worked
+  std::optional<double> hole_size;   ///< where alternatives are told: the longer side of a hole's box, at least
+  std::optional<KeptRoute> keeping;  ///< where an older path was to be kept
+  std::optional<double> turn_rad;    ///< all turning along the path, of bodies that turn
+  Problem problem;                   ///< what was asked, with what the world's file and the defaults add
+  WorldAccount world;                ///< of which world
+  std::string planner;               ///< who found it: "prm", "rrt-connect", …
+  std::string pipeline;              ///< plain, tiled or streamed; only for prm
+  std::string sampler;               ///< empty: the planner has none
+  std::string search;                ///< empty: the planner has none
+  std::uint64_t seed = 1;            ///< of all that was random
+  unsigned threads = 1;              ///< that worked
   std::vector<NamedFigure> options;  ///< those that were given, and those that were chosen where that tells something
   RoadmapSize roadmap;               ///< that was searched
   std::optional<CellCount> cells;    ///< of planners that make some

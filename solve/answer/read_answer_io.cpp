@@ -36,7 +36,8 @@ class AnswerReader {
   bool null() { return other("null"); }
   bool boolean(bool value) {
     if (in("return")) answer_.problem.rule.back = value;
-    return in("return") || other("true or false");
+    if (in("kept")) keeping().kept = value;
+    return in("return") || in("kept") || other("true or false");
   }
   bool number_integer(Json::number_integer_t value) { return number(static_cast<double>(value)); }
   bool number_unsigned(Json::number_unsigned_t value) { return number(static_cast<double>(value)); }
@@ -51,6 +52,8 @@ class AnswerReader {
       read_price_line(text, fmt::format("{}: key \"prices\"", file_), answer_.problem.prices, execution_);
     } else if (in("goal_tolerance") && text == "inf") {
       answer_.problem.rule.tolerance = std::numeric_limits<double>::infinity();
+    } else if (in("bound_of")) {
+      answer_.bound_of = text;
     } else if (objects_ == 2 && key_ == "world" && inner_key_ == "hash") {
       answer_.world_hash = text;
     } else {
@@ -63,6 +66,9 @@ class AnswerReader {
     if (in("path")) refuse(path_expected, "an object");
     if (in_state() || in_states()) refuse(point_expected, "an object");
     if (in("price")) answer_.price.emplace();
+    if (in("goal_reached")) answer_.goal_reached.emplace();
+    if (in("alternatives")) answer_.alternatives.emplace_back();
+    if (in("holes")) answer_.holes.emplace_back();
     ++objects_;
     began_ = true;
     return true;
@@ -80,6 +86,8 @@ class AnswerReader {
       }
     } else if (objects_ == 2) {
       inner_key_ = name;
+    } else if (objects_ == 3) {
+      innermost_key_ = name;
     }
     return true;
   }
@@ -98,6 +106,7 @@ class AnswerReader {
       if (numbers_.size() < 2) refuse(point_expected, fmt::format("{} numbers", numbers_.size()));
       (in("goals") ? goals_ : answer_.problem.rule.visit).push_back(numbers_);
     }
+    if (objects_ == 2) end_inner_list();
     if (in("start") && arrays_ == 0) answer_.problem.start = numbers_;
     if (in("goal") && arrays_ == 0) answer_.problem.goal = numbers_;
     if (in("goal_pose") && arrays_ == 0) take_pose();
@@ -129,15 +138,56 @@ class AnswerReader {
   }
 
  private:
-  void take_part(double value) {
-    PriceParts& parts = *answer_.price;
-    double* const part = inner_key_ == "clearance" ? &parts.clearance
-                         : inner_key_ == "areas"   ? &parts.areas
-                         : inner_key_ == "turning" ? &parts.turning
-                         : inner_key_ == "cusps"   ? &parts.cusps
-                         : inner_key_ == "reverse" ? &parts.reverse
-                                                   : nullptr;
+  static void take_part(PriceParts& parts, std::string_view name, double value) {
+    double* const part = name == "clearance" ? &parts.clearance
+                         : name == "areas"   ? &parts.areas
+                         : name == "turning" ? &parts.turning
+                         : name == "cusps"   ? &parts.cusps
+                         : name == "reverse" ? &parts.reverse
+                                             : nullptr;
     if (part != nullptr) *part = value;
+  }
+  KeptRoute& keeping() { return answer_.keeping ? *answer_.keeping : answer_.keeping.emplace(); }
+  /// In the list of that name, in one of its objects.
+  bool in_one_of(std::string_view name) const { return objects_ >= 2 && key_ == name && arrays_ >= 1; }
+
+  /// A number of an object in the answer, where it matters.
+  void take_inner(double value) {
+    if (in_one_of("alternatives")) {
+      AlternativePath& other = answer_.alternatives.back();
+      if (objects_ == 3 && inner_key_ == "price") take_part(other.price, innermost_key_, value);
+      if (objects_ == 2 && inner_key_ == "cost") other.cost = value;
+      if (objects_ == 2 && inner_key_ == "length") other.length = value;
+      if (objects_ == 2 && inner_key_ == "min_clearance") other.min_clearance = value;
+      if (objects_ == 2 && inner_key_ == "class") other.passed.push_back(bounded_whole<std::int32_t>(value));
+      if (objects_ == 2 && inner_key_ == "path") take_number(value);
+    } else if (in_one_of("holes")) {
+      if (inner_key_ == "id") answer_.holes.back().id = bounded_whole<std::uint32_t>(value, 0.0);
+      if (inner_key_ == "box") take_number(value);
+    } else if (objects_ == 2 && key_ == "price" && arrays_ == 0) {
+      take_part(*answer_.price, inner_key_, value);
+    } else if (objects_ == 2 && key_ == "goal_reached") {
+      if (inner_key_ == "asked" && arrays_ == 1 && answer_.goal_reached->asked.size() < longest_state) {
+        answer_.goal_reached->asked.push_back(value);
+      }
+      if (inner_key_ == "distance") answer_.goal_reached->distance = value;
+      if (inner_key_ == "distance_bound") answer_.goal_reached->distance_bound = value;
+    }
+  }
+  void take_number(double value) {
+    if (!(std::abs(value) <= largest_coordinate)) refuse("finite numbers of at most 1e60");
+    if (numbers_.size() >= 4) refuse("four numbers at most");
+    numbers_.push_back(value);
+  }
+  void end_inner_list() {
+    if (in_one_of("alternatives") && inner_key_ == "path" && arrays_ == 2) {
+      if (numbers_.size() != 2) refuse(path_expected, fmt::format("a point of {} numbers", numbers_.size()));
+      answer_.alternatives.back().path.push_back({numbers_[0], numbers_[1]});
+    }
+    if (in_one_of("holes") && inner_key_ == "box" && arrays_ == 1) {
+      if (numbers_.size() != 4) refuse("a box of four numbers", fmt::format("{} numbers", numbers_.size()));
+      answer_.holes.back().box = {{numbers_[0], numbers_[1]}, {numbers_[2], numbers_[3]}};
+    }
   }
   bool number(double value) {
     if (!began_) refuse_kind();
@@ -146,7 +196,12 @@ class AnswerReader {
     if (in("path") && arrays_ != 2) refuse(path_expected, "a number");
     if (in_states() && arrays_ != 2) refuse(path_expected, "a number");
     if (in_state() && arrays_ != 1) refuse(point_expected, "a number");
-    if (objects_ == 2 && arrays_ == 0 && key_ == "price" && answer_.price) take_part(value);
+    if (objects_ >= 2) take_inner(value);
+    if (in("order") && arrays_ == 1) answer_.order.push_back(bounded_whole<std::uint64_t>(value, 0.0));
+    if (in("class") && arrays_ == 1) answer_.passed.push_back(bounded_whole<std::int32_t>(value));
+    if (in("hole_size")) answer_.hole_size = value;
+    if (in("kept_cost")) keeping().kept_cost = value;
+    if (in("new_cost")) keeping().new_cost = value;
     if (in("clearance")) {
       if (value < 0.0) refuse("a number of at least 0", fmt::format("{}", value));
       answer_.problem.clearance = value;
@@ -190,7 +245,7 @@ class AnswerReader {
   }
   bool in_states() const { return in("goals") || in("visit"); }
   bool in_number() const {
-    return in("clearance") || in("length") || in("lower_bound") || in("cost") || in("cost_error") ||
+    return in("clearance") || in("length") || in("lower_bound") || in("cost") || in("cost_error") || in("hole_size") ||
            in("goal_tolerance") || in("goal_region") || in("goal_heading_rad");
   }
   void end_point() {
@@ -209,8 +264,9 @@ class AnswerReader {
   const std::string& file_;
   const Execution& execution_;
   RecordedAnswer answer_;
-  std::string key_;        // of the answer itself
-  std::string inner_key_;  // of an object in it
+  std::string key_;            // of the answer itself
+  std::string inner_key_;      // of an object in it
+  std::string innermost_key_;  // of an object in that
   int objects_ = 0;
   int arrays_ = 0;
   std::vector<std::vector<double>> goals_;  // all, where there are several
@@ -231,6 +287,14 @@ RecordedAnswer recorded(const Answer& answer) {
   record.cost = answer.cost;
   record.price = answer.price;
   record.goal_index = answer.goal_index;
+  record.bound_of = answer.bound_of;
+  record.goal_reached = answer.goal_reached;
+  record.order = answer.order;
+  record.alternatives = answer.alternatives;
+  record.passed = answer.passed;
+  record.holes = answer.holes;
+  record.hole_size = answer.hole_size;
+  record.keeping = answer.keeping;
   record.file = "answer";
   record.path = answer.path;
   record.states = answer.states;

@@ -178,7 +178,8 @@ std::string holes_json(const std::vector<MapHole>& holes) {
 void add_choices(JsonObject& json, const Answer& answer) {
   if (answer.goal_index) json.add("goal_index", *answer.goal_index);
   if (answer.goal_reached) json.add_json("goal_reached", reached_json(*answer.goal_reached));
-  if (!answer.passed.empty() || !answer.alternatives.empty()) json.add_json("class", class_json(answer.passed));
+  if (answer.hole_size) json.add_json("class", class_json(answer.passed));
+  if (answer.hole_size) json.add("hole_size", *answer.hole_size);
   if (!answer.holes.empty()) json.add_json("holes", holes_json(answer.holes));
   if (!answer.order.empty()) json.add_json("order", json_list(std::span(answer.order)));
 }

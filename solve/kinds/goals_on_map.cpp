@@ -45,14 +45,18 @@ Vec2 nearest_in(Cell cell, Vec2 to, double off) {
 }  // namespace
 
 WaysOverCells::WaysOverCells(const OccupancyMap& map, const WallProblem& problem, const Bitmap& closed,
-                             const Bitmap& wide, Diagonal diagonal, LegPrices prices, const Execution& execution)
+                             const Bitmap& wide, Diagonal diagonal, LegPrices prices, const Execution& execution,
+                             KeptWays* kept)
     : map_(map),
       problem_(problem),
       closed_(closed),
       wide_(wide),
       execution_(execution),
       prices_(std::move(prices)),
-      weights_(prices_.step ? StepWeights(wide, prices_.step, execution) : StepWeights(wide, diagonal, execution)) {}
+      kept_(kept),
+      weights_(kept != nullptr ? kept->weights()
+               : prices_.step  ? own_weights_.emplace(wide, prices_.step, execution)
+                               : own_weights_.emplace(wide, diagonal, execution)) {}
 
 bool WaysOverCells::stands_free(Vec2 place) const { return stands_free_on_map(map_, problem_, place, execution_); }
 
@@ -108,7 +112,10 @@ std::optional<WaysOverCells::Way> WaysOverCells::cheapest(Vec2 from, std::span<c
   std::vector<Cell> towards;
   for (const Entry& begin : begins) towards.push_back(begin.cell);
   if (goals.empty() || begins.empty()) return std::nullopt;
-  PriceField field(weights_, goals, towards, execution_);
+  std::optional<PriceField> own;
+  PriceField& field =
+      kept_ != nullptr ? kept_->field(goals, towards, execution_) : own.emplace(weights_, goals, towards, execution_);
+  const std::uint64_t before = field.expanded();
   std::optional<Way> best;
   Cell first;
   for (const Entry& begin : begins) {
@@ -117,7 +124,7 @@ std::optional<WaysOverCells::Way> WaysOverCells::cheapest(Vec2 from, std::span<c
     best = Way{{}, *cost + begin.cost, from, {}};
     first = begin.cell;
   }
-  expanded_ += field.expanded();
+  expanded_ += field.expanded() - before;
   if (!best) return std::nullopt;
   auto [cells, end] = field.path(first, execution_);
   best->cells = std::move(cells);

@@ -19,6 +19,7 @@
 #include "planners/grid/price_field.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "solve/answer/answer.hpp"
+#include "solve/kinds/kept_ways.hpp"
 #include "solve/question/question.hpp"
 
 namespace warren {
@@ -33,9 +34,10 @@ struct LegPrices {
 /// thread.
 class WaysOverCells {
  public:
-  /// Refers to map and problem. closed: cells that the body may not touch; wide: where its middle may not be.
+  /// Refers to map and problem, and to what is kept of solves before, where something is. closed: cells that the body
+  /// may not touch; wide: where its middle may not be.
   WaysOverCells(const OccupancyMap& map, const WallProblem& problem, const Bitmap& closed, const Bitmap& wide,
-                Diagonal diagonal, LegPrices prices, const Execution& execution);
+                Diagonal diagonal, LegPrices prices, const Execution& execution, KeptWays* kept = nullptr);
 
   /// A cell by which a place is reached, and what the leg between them costs.
   struct Entry {
@@ -88,7 +90,9 @@ class WaysOverCells {
   const Bitmap& wide_;
   const Execution& execution_;
   LegPrices prices_;
-  StepWeights weights_;
+  KeptWays* kept_;
+  std::optional<StepWeights> own_weights_;  // where none are kept
+  StepWeights& weights_;
   std::optional<Bitmap> joined_;  // cells that steps join to the start
   std::uint64_t expanded_ = 0;
 };

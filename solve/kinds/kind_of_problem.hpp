@@ -83,6 +83,8 @@ struct OldRoadmap {
   std::vector<Box> places;
 };
 
+class KeptWays;  // solve/kinds/kept_ways.hpp
+
 /// Everything that a solve is given. Refers to what it names.
 struct SolveRequest {
   const SolveOptions& options;
@@ -96,6 +98,7 @@ struct SolveRequest {
   bool many = true;                 ///< open(): will there be more than one question?
   std::uint64_t samples = 0;        ///< open(): of the roadmap's last round
   bool index = false;               ///< build(): make an index where it pays
+  KeptWays* kept = nullptr;         ///< of solves before on this map, and for those that follow
   PathTaker* taker = nullptr;       ///< receives the path instead of the answer, where it is made in pieces
 };
 

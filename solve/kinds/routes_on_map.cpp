@@ -77,6 +77,7 @@ class Routes {
     return holes;
   }
   std::uint64_t expanded() const { return expanded_; }
+  double hole() const { return hole_; }
 
  private:
   std::vector<ClassPath> over_cells(std::size_t count) {
@@ -165,7 +166,7 @@ class Routes {
     std::vector<Path<Vec2>> all;
     for (const AlternativePath& path : paths) all.push_back(path.path);
     const ClassRule rule{asked_.problem.reach(), hole_};
-    if (same_class(judged_classes(closed_, rule, all, execution_))) {
+    if (same_class(judged_classes(closed_, rule, all, execution_).classes)) {
       throw std::logic_error("two alternatives are of one class by the judge's cuts");
     }
   }
@@ -208,6 +209,7 @@ void take_alternatives(Answer& answer, const RouteRule& route, const RoutesAsked
   }
   paths.erase(paths.begin());
   answer.alternatives = std::move(paths);
+  if (!answer.passed.empty() || !answer.alternatives.empty()) answer.hole_size = routes.hole();
 }
 
 }  // namespace warren

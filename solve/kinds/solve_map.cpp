@@ -16,6 +16,7 @@
 #include "planners/shorten/shortcut.hpp"
 #include "solve/kinds/geometric_roadmaps.hpp"
 #include "solve/kinds/goals_on_map.hpp"
+#include "solve/kinds/kept_ways.hpp"
 #include "solve/kinds/map_steps.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/priced_motions.hpp"
@@ -45,17 +46,18 @@ std::vector<Vec2> way_points(const SolveRequest& request) {
 }
 
 /// Left empty where nothing is priced.
-void take_prices(std::optional<MapPrices>& prices, const OccupancyMap& map, const WallProblem& problem,
-                 const Execution& execution) {
+const MapPrices* take_prices(std::optional<MapPrices>& prices, const OccupancyMap& map, const WallProblem& problem,
+                             const Execution& execution) {
   if (!problem.prices.empty()) prices.emplace(map, problem.robot.radius, problem.prices, execution);
   if (prices && !prices->is_priced()) prices.reset();
+  return prices ? &*prices : nullptr;
 }
 
 /// Refers to both.
-LegPrices leg_prices(const std::optional<MapPrices>& prices, MapPrices::Scratch& scratch) {
-  if (!prices) return {};
-  return {[&](Vec2 a, Vec2 b) { return prices->cost(a, b, scratch); },
-          [&](Cell from, unsigned direction) { return prices->step_up(from, direction, scratch); }};
+LegPrices leg_prices(const MapPrices* prices, MapPrices::Scratch& scratch) {
+  if (prices == nullptr) return {};
+  return {[prices, &scratch](Vec2 a, Vec2 b) { return prices->cost(a, b, scratch); },
+          [prices, &scratch](Cell from, unsigned direction) { return prices->step_up(from, direction, scratch); }};
 }
 
 /// Does the question name no goal but places to visit?
@@ -101,7 +103,13 @@ class CellSolve {
         chooses_(!problem.rule.empty() || !request.options.trees.via.empty()) {
     {
       const StageTimer timer(request.execution, "index", answer_.seconds.index, map_.blocked.size());
-      take_prices(prices_, map_, problem, request.execution);
+      const bool keeps = request.kept != nullptr && !problem.prices.empty() && map_.water.empty();
+      if (keeps && request.kept->update(map_, problem, request.execution)) {
+        kept_ = request.kept;
+        prices_ = &kept_->prices();
+      } else {
+        prices_ = take_prices(own_prices_, map_, problem, request.execution);
+      }
     }
     if (prices_ && request.options.grid.diagonal) {
       throw UsageError("@diagonal: where ways have a price steps weigh what they cost; leave it out");
@@ -150,8 +158,8 @@ class CellSolve {
     WallProblem reached = problem_;
     reached.goal = answer_.path.back();
     std::function<PriceParts(Vec2, Vec2)> parts;
-    if (prices_) parts = [this](Vec2 a, Vec2 b) { return prices_->parts(a, b, scratch_); };
-    take_alternatives(answer_, route, {map_, reached, closed_, blocked(), leg_prices(prices_, scratch_), parts},
+    if (prices_) parts = [this](Vec2 a, Vec2 b) { return prices_->parts(a, b, scratch()); };
+    take_alternatives(answer_, route, {map_, reached, closed_, blocked(), leg_prices(prices_, scratch()), parts},
                       request_.execution);
   }
   Answer& answer() { return answer_; }
@@ -185,8 +193,8 @@ class CellSolve {
   GoalChoice choose() {
     const StageTimer timer(request_.execution, "search", answer_.seconds.search, map_.blocked.size());
     answer_.search = "field";
-    WaysOverCells ways(map_, problem_, closed_, blocked(), grid_.diagonal, leg_prices(prices_, scratch_),
-                       request_.execution);
+    WaysOverCells ways(map_, problem_, closed_, blocked(), grid_.diagonal, leg_prices(prices_, scratch()),
+                       request_.execution, kept_);
     GoalChoice choice = choose_goal(ways, map_, problem_, way_points(request_), has_open_end(request_));
     answer_.counters.expanded += ways.expanded();
     return choice;
@@ -218,6 +226,7 @@ class CellSolve {
   }
 
   /// Paths over cells alone are farther from any bound than gaps that are asked for.
+  MapPrices::Scratch& scratch() { return kept_ != nullptr ? kept_->scratch() : scratch_; }
   bool wants_taut() const { return prices_ || request_.options.optimise || request_.options.anytime.gap; }
   bool stands_free(Vec2 p) const { return stands_free_on_map(map_, problem_, p, request_.execution); }
   Outcome blocked_end(const std::optional<Cell>& start, const std::optional<Cell>& goal) const {
@@ -232,7 +241,9 @@ class CellSolve {
     closed_ = closed_cells(map_, problem_.start);
     const double reach = problem_.reach() / map_.cell;
     const DistanceField* made = distances();
-    if (reach > 0.0) {
+    if (kept_ != nullptr) {
+      blocked_ = kept_->wide();
+    } else if (reach > 0.0) {
       blocked_ = made != nullptr ? blocked_for_disc(closed_, *made, reach, request_.execution)
                                  : blocked_for_disc(closed_, reach, request_.execution);
     }
@@ -295,10 +306,18 @@ class CellSolve {
   /// Under the price, off the grid.
   void pull(const GridWorld& world) {
     GridWorld::Query query = world.make_query();
-    const PricedLegs legs{leg_prices(prices_, scratch_).cost,
+    const PricedLegs legs{[&](Vec2 a, Vec2 b) {
+                            if (kept_ == nullptr) return prices_->cost(a, b, scratch_);
+                            std::optional<double>& known = kept_->leg(a, b).cost;
+                            if (!known) known = prices_->cost(a, b, scratch());
+                            return *known;
+                          },
                           [&](Vec2 a, Vec2 b) {
                             ++answer_.counters.edges_checked;
-                            const bool free = world.is_free_motion(a, b, query);
+                            std::optional<bool> known;
+                            std::optional<bool>& told = kept_ != nullptr ? kept_->leg(a, b).is_free : known;
+                            if (!told) told = world.is_free_motion(a, b, query);
+                            const bool free = *told;
                             answer_.counters.edges_free += free ? 1 : 0;
                             return free;
                           },
@@ -310,7 +329,9 @@ class CellSolve {
   const OccupancyMap& map_;
   WallProblem problem_;
   bool chooses_;
-  std::optional<MapPrices> prices_;  // where something is priced
+  KeptWays* kept_ = nullptr;
+  std::optional<MapPrices> own_prices_;  // where none are kept
+  const MapPrices* prices_ = nullptr;    // where something is priced
   MapPrices::Scratch scratch_;
   GridSearchOptions grid_;
   Bitmap closed_;   // to a point
@@ -415,9 +436,10 @@ Answer solve_chosen(const SolveRequest& request) {
     const Bitmap closed = closed_cells(map, problem.start);
     const Bitmap wide = blocked_for_disc(closed, problem.reach() / map.cell, request.execution);
     std::optional<MapPrices> prices;
-    take_prices(prices, map, problem, request.execution);
+    const MapPrices* priced = take_prices(prices, map, problem, request.execution);
     MapPrices::Scratch scratch;
-    WaysOverCells ways(map, problem, closed, wide, Diagonal::sqrt2, leg_prices(prices, scratch), request.execution);
+    WaysOverCells ways(map, problem, closed, wide, Diagonal::sqrt2, leg_prices(prices ? &*prices : nullptr, scratch),
+                       request.execution);
     choice = choose_goal(ways, map, problem, {}, has_open_end(request));
     chosen.counters.expanded += ways.expanded();
     take_choice(chosen, choice);

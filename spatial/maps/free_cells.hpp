@@ -16,7 +16,7 @@
 
 namespace warren {
 
-/// Immutable; any number of threads may read. Cells are numbered by VertexId: number(x, y) = (y + 1) stride + x + 64.
+/// Any number of threads may read. Cells are numbered by VertexId: number(x, y) = (y + 1) stride + x + 64.
 class FreeCells {
  public:
   FreeCells() = default;
@@ -36,6 +36,12 @@ class FreeCells {
     auto row = bounded_whole<VertexId>(from_margin * per_stride_);
     if (from_margin - row * stride_ >= stride_) from_margin < row* stride_ ? --row : ++row;  // the product was rounded
     return {from_margin - row * stride_, row - 1};
+  }
+  /// Not while another thread reads.
+  void change(Cell c, bool is_free) {
+    const VertexId v = number(c);
+    const std::uint64_t bit = std::uint64_t{1} << v % 64;
+    words_[v / 64] = is_free ? words_[v / 64] | bit : words_[v / 64] & ~bit;
   }
   bool is_free(VertexId v) const { return (words_[v / 64] >> v % 64 & 1U) != 0; }
   /// Bit i: is cell first + i free? `first` may be any number of a cell, less at most a row, 64 and one.

@@ -12,7 +12,7 @@ import tempfile
 
 from pages import DRAWN, ROOT, commands_of, differing_pictures, prepared
 
-PAGES = ['README.md', 'docs/tutorial.md', 'docs/gallery.md', 'docs/reports.md', 'docs/service.md', 'docs/algorithms.md',
+PAGES = ['README.md', 'docs/tutorial.md', 'docs/gallery.md', 'docs/reports.md', 'docs/service.md', 'docs/behaviour_tree.md', 'docs/algorithms.md',
          'docs/other_names.md', 'examples/worlds/README.md']
 TAKES_LONG = re.compile(r'largest|scale|5000x5000|big\.npy --budget|100000x100000|--sizes|--curves')
 

@@ -8,7 +8,7 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-LIMITS = {'README.md': 30, 'docs/tutorial.md': 30, 'docs/service.md': 30, 'docs/python.md': 30, 'docs/file_formats.md': 30,
+LIMITS = {'README.md': 30, 'docs/tutorial.md': 30, 'docs/service.md': 30, 'docs/behaviour_tree.md': 30, 'docs/python.md': 30, 'docs/file_formats.md': 30,
           'docs/other_names.md': 30, 'docs/gallery.md': 30, 'docs/reports.md': 35, 'docs/algorithms.md': 40, 'docs/performance.md': 60}
 
 BOTH_WORDS = ('docs/other_names.md', 'docs/file_formats.md')  # they say that --svg is another name of --picture

@@ -6,11 +6,18 @@
 #include <string>
 #include <string_view>
 
+#include "apps/serve/graphs/edge_judge.hpp"
+#include "apps/serve/graphs/route_graph_io.hpp"
+#include "apps/serve/graphs/simplify_graph.hpp"
+#include "apps/serve/http/http_message.hpp"
 #include "core/base/error.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "scenes/files/read_world_io.hpp"
 #include "scenes/files/ros_map_io.hpp"
+#include "scenes/text/input_file_io.hpp"
+#include "scenes/text/output_file_io.hpp"
 #include "solve/answer/world_account.hpp"
+#include "solve/kinds/solve_steps.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
@@ -20,6 +27,8 @@
 #include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"
 #include "tools/words/output_words.hpp"
+#include "tools/words/question_words.hpp"
+#include "worlds/prices/effective_map.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren::tools {
@@ -35,7 +44,65 @@ constexpr OptionSpec convert_specs[] = {
      {},
      "-o"},
     {"--cell", "C", "make a map of walls or polygons, with cells of this side"},
+    {"--simplify", "D",
+     "WORLD is a route graph of Nav2: leave out the nodes of chains that stay within D metres of a straight edge. "
+     "Nodes "
+     "and edges that somebody has written metadata, operations or headings on stay, and so do costs and directions"},
+    {"--world", "WORLD", "with --simplify: make only edges along which the body goes free in this world"},
+    {"--robot", "\"BODY\"", "with --world: the body (default: the world's, else point)"},
+    {"--clearance", "R", "with --world: room to keep around the body (default: the world's, else 0)"},
 };
+
+/// Only edges that the verification finds free are new.
+class FreeEdges {
+ public:
+  FreeEdges(const Arguments& arguments, const Execution& execution, StageTimes& seconds) : execution_(execution) {
+    const auto name = arguments.value("--world");
+    for (const char* option : {"--robot", "--clearance"}) {
+      if (!name && arguments.has(option)) throw UsageError(fmt::format("{}: is for --world", option));
+    }
+    if (!name) return;
+    const Question body = question_words(arguments);
+    scene_ = load_world(*name, arguments, execution, seconds);
+    const RobotSpec robot = robot_of(scene_, body);
+    serve::check_drives_edges(robot);
+    const Prices prices = prices_of(scene_, body);
+    if (restricts(prices)) scene_ = restricted_scene(scene_, prices, execution);
+    judge_.emplace(scene_, room_of(scene_, execution), robot, clearance_of(scene_, body));
+  }
+  serve::MayLead may_lead() const {
+    if (!judge_) return {};
+    return [this](Vec2 a, Vec2 b) { return judge_->judge({{{.at = a}, {.at = b}}}, execution_).front().free; };
+  }
+
+ private:
+  const Execution& execution_;
+  Scene scene_;
+  std::optional<serve::EdgeJudge> judge_;
+};
+
+int simplify_graph(const Arguments& arguments, const std::string& file) {
+  const double within = *given_value(arguments, "--simplify", number_value, 0.0, largest_coordinate);
+  if (!file.ends_with(".geojson")) throw UsageError("--simplify: a route graph is written as -o FILE.geojson");
+  Run run(arguments);
+  StageTimes seconds;
+  const FreeEdges edges(arguments, run.execution(), seconds);
+  const InputFile input(arguments.operand(0), run.execution());
+  serve::RouteGraph graph;
+  try {
+    graph = serve::read_nav2_graph(input.bytes(), run.execution());
+    const serve::RouteGraph few = serve::simplified(graph, within, edges.may_lead(), run.execution());
+    write_file(file, serve::nav2_graph_text(few, serve::ends_of(few), run.execution()), run.execution());
+    run.end();
+    if (!run.quiet() && file != "-") {
+      print_text(fmt::format("{}: {} of {} nodes, {} of {} edges\n", run.palette().strong(file), few.nodes.size(),
+                             graph.nodes.size(), few.edges.size(), graph.edges.size()));
+    }
+  } catch (const serve::HttpError& error) {
+    throw InputError(input.name(), error.what());
+  }
+  return exit_code::success;
+}
 
 /// The map that the scene is, or that it becomes with cells of the side that --cell says.
 OccupancyMap map_for(const Scene& scene, const std::optional<double>& cell, const Execution& execution) {
@@ -80,6 +147,10 @@ int convert(const Arguments& arguments) {
   const auto file = arguments.value("--output");
   if (!file) throw UsageError("-o FILE is missing");
   check_map_or_world_file(*file);
+  if (arguments.has("--simplify")) return simplify_graph(arguments, *file);
+  for (const char* option : {"--world", "--robot", "--clearance"}) {
+    if (arguments.has(option)) throw UsageError(fmt::format("{}: is for --simplify", option));
+  }
   if (!is_map_ending(*file) && !file->ends_with(".png") && arguments.has("--cell")) {
     throw UsageError("--cell: only maps have cells: .map, .yaml, .pgm and .png");
   }

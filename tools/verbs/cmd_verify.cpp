@@ -53,7 +53,10 @@ void print_verdict(const Verdict& v, std::string_view metres, const Palette& pal
                            v.bound == BoundVerdict::absent ? "" : fmt::format(", lower bound {}", name_of(v.bound))));
   } else {
     const Violation violation = v.first_violation.value_or(Violation{});
-    if (violation.obstacle.starts_with("length:") || violation.obstacle.starts_with("lower_bound:")) {
+    if (violation.obstacle.starts_with("length:") || violation.obstacle.starts_with("lower_bound:") ||
+        violation.obstacle.starts_with("alternatives:") || violation.obstacle.starts_with("class:") ||
+        violation.obstacle.starts_with("holes:") || violation.obstacle.starts_with("price:") ||
+        violation.obstacle.starts_with("cost:")) {
       return print_text(fmt::format("{}, {}\n", palette.bad("refuted"), violation.obstacle));
     }
     const std::string distance = human_number(violation.distance);

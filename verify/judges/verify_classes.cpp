@@ -83,7 +83,7 @@ class Holes {
       Run right;  // that reaches farthest
       std::uint32_t low_x, high_x, low_y, high_y;
     };
-    std::map<std::size_t, Extent> holes;
+    std::map<std::size_t, Extent> holes;  // by the first run of each: of its lowest cells the leftmost
     for (std::size_t i = 0; i < runs_.size(); ++i) {
       const Run& run = runs_[i];
       const auto [known, is_new] = holes.try_emplace(root(i), Extent{run, run.first, run.last, run.row, run.row});
@@ -94,13 +94,43 @@ class Holes {
       extent.high_x = std::max(extent.high_x, run.last);
       extent.high_y = run.row;
     }
+    Bitmap ends = closed;  // where cuts end: small holes are passed over
     for (const auto& [number, e] : holes) {
       const bool at_border =
           e.low_x == 0 || e.low_y == 0 || e.high_x + 1 == closed.width() || e.high_y + 1 == closed.height();
-      if (at_border || std::max(e.high_x - e.low_x, e.high_y - e.low_y) + 1.0 < least) continue;
-      rays_.push_back({e.right.last + 0.5, e.right.row + 0.5, as_whole<std::int32_t>(rays_.size() + 1)});
+      if (!at_border && std::max(e.high_x - e.low_x, e.high_y - e.low_y) + 1.0 < least) {
+        for (std::size_t i = number; i < runs_.size() && runs_[i].row <= e.high_y; ++i) {
+          for (std::uint32_t x = runs_[i].first; root(i) == number && x <= runs_[i].last; ++x) {
+            ends.clear(x, runs_[i].row);
+          }
+        }
+      } else if (!at_border) {
+        rays_.push_back({e.right.last + 0.5, e.right.row + 0.5, as_whole<std::int32_t>(rays_.size() + 1)});
+        boxes_.push_back({{1.0 * e.low_x, 1.0 * e.low_y}, {e.high_x + 1.0, e.high_y + 1.0}});
+        cuts_.push_back({runs_[number].first, runs_[number].row, runs_[number].row});
+      }
+    }
+    for (Cut& cut : cuts_) {
+      while (cut.low > 0 && !ends.test(cut.column, cut.low - 1) && !ends.test(cut.column + 1, cut.low - 1)) --cut.low;
     }
     std::stable_sort(rays_.begin(), rays_.end(), [](const Ray& a, const Ray& b) { return a.y < b.y; });
+  }
+
+  const std::vector<Box>& boxes() const { return boxes_; }
+
+  /// A place on a cut counts as one to its right. Cuts of one column have no row in common.
+  void follow_told(Vec2 a, Vec2 b, std::vector<std::int32_t>& word) const {
+    std::vector<std::pair<double, std::int32_t>> met;
+    for (std::size_t i = 0; i < cuts_.size(); ++i) {
+      const double x = cuts_[i].column + 1.0;
+      if ((a.x < x) == (b.x < x)) continue;
+      const double y = a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x));
+      if (y < cuts_[i].low || y >= cuts_[i].high) continue;
+      const auto hole = as_whole<std::int32_t>(i + 1);
+      met.emplace_back(std::abs(x - a.x), a.x < b.x ? hole : -hole);
+    }
+    std::sort(met.begin(), met.end());
+    for (const auto& [off, letter] : met) add(letter, word);
   }
 
   /// A leg up from below a ray's height to it or above crosses it; rays of one height lie one on the other in the order
@@ -117,16 +147,24 @@ class Holes {
       const Ray& ray = up ? first[i] : *(last - 1 - i);
       const double x = a.x + (b.x - a.x) * ((ray.y - a.y) / (b.y - a.y));
       if (x <= ray.x) continue;
-      const std::int32_t letter = up ? ray.hole : -ray.hole;
-      if (!word.empty() && word.back() == -letter) {
-        word.pop_back();
-      } else {
-        word.push_back(letter);
-      }
+      add(up ? ray.hole : -ray.hole, word);
     }
   }
 
  private:
+  static void add(std::int32_t letter, std::vector<std::int32_t>& word) {
+    if (!word.empty() && word.back() == -letter) {
+      word.pop_back();
+    } else {
+      word.push_back(letter);
+    }
+  }
+  /// Below a hole's lowest cell, on the line to the next column.
+  struct Cut {
+    std::uint32_t column;
+    std::uint32_t low;
+    std::uint32_t high;
+  };
   struct Run {
     std::uint32_t first;
     std::uint32_t last;
@@ -145,21 +183,28 @@ class Holes {
 
   std::vector<Run> runs_;
   std::vector<Ray> rays_;
+  std::vector<Box> boxes_;
+  std::vector<Cut> cuts_;
 };
 
 }  // namespace
 
-std::vector<std::vector<std::int32_t>> judged_classes(const OccupancyMap& map, const ClassRule& rule,
-                                                      std::span<const Path<Vec2>> paths, const Execution& execution) {
+JudgedClasses judged_classes(const OccupancyMap& map, const ClassRule& rule, std::span<const Path<Vec2>> paths,
+                             const Execution& execution) {
   const Holes holes(cells_without_room(map, rule.keeps, execution), rule.hole / map.cell * (1.0 - 1e-12), execution);
-  std::vector<std::vector<std::int32_t>> classes(paths.size());
+  JudgedClasses judged{.classes = std::vector<std::vector<std::int32_t>>(paths.size()), .told = {}, .holes = {}};
+  judged.told.resize(paths.size());
+  judged.holes = holes.boxes();
   for (std::size_t i = 0; i < paths.size(); ++i) {
     for (std::size_t leg = 1; leg < paths[i].size(); ++leg) {
       execution.check();
-      holes.follow(map_point(map, paths[i][leg - 1]), map_point(map, paths[i][leg]), classes[i]);
+      const Vec2 from = map_point(map, paths[i][leg - 1]);
+      const Vec2 to = map_point(map, paths[i][leg]);
+      holes.follow(from, to, judged.classes[i]);
+      holes.follow_told(from, to, judged.told[i]);
     }
   }
-  return classes;
+  return judged;
 }
 
 std::optional<std::pair<std::size_t, std::size_t>> same_class(const std::vector<std::vector<std::int32_t>>& classes) {

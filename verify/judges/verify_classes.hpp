@@ -23,10 +23,17 @@ struct ClassRule {
   double hole = 0.0;   ///< the longer side of a hole's box, at least
 };
 
-/// The class of each path, by numbers of holes from 1 in the judge's own order. `map`: as the question closes and opens
+/// By the judge's own cuts the class of each path, and what an answer would say of it.
+struct JudgedClasses {
+  std::vector<std::vector<std::int32_t>> classes;  ///< by rays to the right
+  std::vector<std::vector<std::int32_t>> told;     ///< by cuts that lead down, as answers tell it
+  std::vector<Box> holes;                          ///< the first is number 1; in cells of the map
+};
+
+/// Holes are numbered by the lowest cell of each, row by row from below. `map`: as the question closes and opens
 /// it. Throws Stopped.
-std::vector<std::vector<std::int32_t>> judged_classes(const OccupancyMap& map, const ClassRule& rule,
-                                                      std::span<const Path<Vec2>> paths, const Execution& execution);
+JudgedClasses judged_classes(const OccupancyMap& map, const ClassRule& rule, std::span<const Path<Vec2>> paths,
+                             const Execution& execution);
 
 /// Two paths that are of one class; none: all differ.
 std::optional<std::pair<std::size_t, std::size_t>> same_class(const std::vector<std::vector<std::int32_t>>& classes);

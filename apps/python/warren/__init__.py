@@ -14,7 +14,7 @@ from ._making_worlds import example, from_geo, grid, maze, read_world, scene
 from ._explanations import (BlockedEnd, ComponentFacts, Explanation, Hint, MotionCounts, NarrowPlace,
                             SampleCounts)
 from ._answers import Alternative, Answer, GoalReached, Improvement, KeptRoute
-from ._solving import Verdict, solve, verify
+from ._solving import Replanner, Verdict, solve, verify
 from ._roadmaps import EdgeCounts, Roadmap
 from ._building import build, open_roadmap
 from ._studies import Comparison, compare
@@ -22,7 +22,7 @@ from ._plots import animate, plot
 
 __all__ = ["Alternative", "Answer", "BlockedEnd", "Comparison", "ComponentFacts", "EdgeCounts", "Error",
            "Explanation", "GoalReached", "Hint", "Improvement", "InputError", "KeptRoute", "MotionCounts",
-           "NarrowPlace", "ReadError", "Roadmap", "SampleCounts", "Stopped", "UsageError", "Verdict", "World",
+           "NarrowPlace", "ReadError", "Replanner", "Roadmap", "SampleCounts", "Stopped", "UsageError", "Verdict", "World",
            "WriteError", "__version__", "animate", "arm", "build", "car", "compare", "disc", "example", "from_geo",
            "grid", "maze", "open_roadmap", "plot", "polygon", "puma560", "read_world", "scene", "solve", "urdf",
            "verify"]

@@ -21,7 +21,7 @@ from ._explanations import (
 )
 from ._answers import (Alternative as Alternative, Answer as Answer, GoalReached as GoalReached, Improvement as Improvement,
                        KeptRoute as KeptRoute)
-from ._solving import Verdict as Verdict, solve as solve, verify as verify
+from ._solving import Replanner as Replanner, Verdict as Verdict, solve as solve, verify as verify
 from ._roadmaps import EdgeCounts as EdgeCounts, Roadmap as Roadmap
 from ._building import build as build, open_roadmap as open_roadmap
 from ._studies import Comparison as Comparison, compare as compare
@@ -29,7 +29,7 @@ from ._plots import animate as animate, plot as plot
 
 __all__ = ["Alternative", "Answer", "BlockedEnd", "Comparison", "ComponentFacts", "EdgeCounts", "Error",
            "Explanation", "GoalReached", "Hint", "Improvement", "InputError", "KeptRoute", "MotionCounts",
-           "NarrowPlace", "ReadError", "Roadmap", "SampleCounts", "Stopped", "UsageError", "Verdict", "World",
+           "NarrowPlace", "ReadError", "Replanner", "Roadmap", "SampleCounts", "Stopped", "UsageError", "Verdict", "World",
            "WriteError", "__version__", "animate", "arm", "build", "car", "compare", "disc", "example", "from_geo",
            "grid", "maze", "open_roadmap", "plot", "polygon", "puma560", "read_world", "scene", "solve", "urdf",
            "verify"]

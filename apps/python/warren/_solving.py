@@ -11,6 +11,7 @@ from ._errors import Stopped
 from ._explanations import NarrowPlace, narrow_place
 from ._options import documented
 from ._making_worlds import as_world
+from ._worlds import World
 
 
 def finished(core, world):
@@ -38,6 +39,10 @@ def solve(world, start=None, goal=None, *, keep=False, explain=False, on_improve
         of an arm, whose goal may be the three coordinates of a place of its tool (default: the world's).
     goals, tolerance, region, return_
         Short for `goal` with several places, `goal_tolerance`, `goal_region` and `return`.
+    hole : float
+        With `alternatives`: how large a hole is that makes classes (default: the body's length; 0: all).
+    certificate : str or path
+        Where the proof of a bound of all paths is written, `.npy`; :func:`verify` checks it.
     keep : bool
         Shall the answer keep what the planner made on its way, for pictures and plots? It takes memory.
     explain : bool
@@ -83,6 +88,65 @@ def solve(world, start=None, goal=None, *, keep=False, explain=False, on_improve
     return finished(_core.solve(there._core, options, keep, explain, tell), there)
 
 
+class Replanner:
+    """One question asked again and again while cells of a map change and the robot moves on.
+
+    Each answer is that of :func:`solve` in the world as it is then, but for the account of the work: what a change does not
+    touch is not done anew. That pays for points and discs by `grid` with prices; other questions are solved afresh. One
+    thread at a time.
+
+    Parameters
+    ----------
+    world : World, str, path, ndarray, or geometry
+        A map, as :func:`solve` takes it; it stays as it is, a copy is changed.
+    start, goal, options
+        As :func:`solve` has them, but for limits.
+
+    Examples
+    --------
+    >>> import numpy, warren
+    >>> room = warren.grid(numpy.zeros((20, 20), bool))
+    >>> robot = warren.Replanner(room, (1.5, 10.5), (18.5, 10.5), clearance_price=(3, 2))
+    >>> before = robot.solve()
+    >>> robot.update(box=(8, 5, 12, 16))
+    >>> after = robot.solve(start=(2.5, 10.5))
+    >>> before.status, after.status, after.length > before.length - 1
+    ('solved', 'solved', True)
+    >>> warren.solve(robot.world, (2.5, 10.5), (18.5, 10.5), clearance_price=(3, 2)).path.tolist() == after.path.tolist()
+    True
+    """
+
+    __slots__ = ("_core",)
+
+    def __init__(self, world, start=None, goal=None, **options):
+        options["start"] = start
+        if goal is not None or "goals" not in options:
+            options["goal"] = goal
+        self._core = _core.Replanner(as_world(world)._core, options)
+
+    def update(self, cells=None, *, box=None, blocked=True):
+        """Makes cells (x from the left, y from below, from 0) blocked or free, or all whose middle is in a box (left, low,
+        right, high) of the world. What was unknown is known then."""
+        if (cells is None) == (box is None):
+            raise TypeError("update: expected cells, or box=")
+        if box is not None:
+            self._core.change_box(*(float(side) for side in box), bool(blocked))
+        else:
+            self._core.change_cells([(int(x), int(y)) for x, y in cells], bool(blocked))
+
+    def solve(self, start=None, **limits):
+        """The answer from there, or from the start before. threads, budget, memory and progress are as of :func:`solve`."""
+        return finished(self._core.solve([] if start is None else [float(x) for x in start], limits), self.world)
+
+    @property
+    def world(self):
+        """The world as it is now."""
+        return World(self._core.scene())
+
+
+Replanner.__module__ = "warren"
+
+
 class Verdict(NamedTuple):
     """What the judge says of a path.
 
@@ -117,6 +181,8 @@ def verify(world, path, **options):
         Where the path must begin and end (default: the answer's, else the world's, else its own ends).
     goals, tolerance, region, return_
         As :func:`solve` has them.
+    certificate : str or path
+        The proof of the answer's bound, as :func:`solve` writes it.
     {options}
 
     Returns

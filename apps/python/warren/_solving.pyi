@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any, Literal, NamedTuple
 
 from numpy.typing import ArrayLike
@@ -29,6 +29,13 @@ from ._worlds import (
 _Polygon = ArrayLike | Sequence[Sequence[float]]
 _Areas = tuple[float, _Polygon] | Sequence[tuple[float, _Polygon]] | str | Sequence[str]
 _Masks = _Path | tuple[_Path, float] | tuple[_Path, float, float] | Sequence[_Path | tuple[_Path, float] | tuple[_Path, float, float]]
+
+class Replanner:
+    def __init__(self, world: _World, start: _State | None = ..., goal: _State | None = ..., **options: Any) -> None: ...
+    def update(self, cells: Iterable[tuple[int, int]] | None = ..., *, box: Sequence[float] | None = ..., blocked: bool = ...) -> None: ...
+    def solve(self, start: _State | None = ..., **limits: Any) -> Answer: ...
+    @property
+    def world(self) -> World: ...
 
 class Verdict(NamedTuple):
     verified: bool
@@ -103,9 +110,11 @@ def solve(
     visit: Sequence[_State] | str | None = ...,
     return_: bool | None = ...,
     alternatives: int | tuple[int, float] | str | None = ...,
+    hole: float | None = ...,
     stretch: float | None = ...,
     keep_to: Answer | _Path | None = ...,
     unless_gain: float | str | None = ...,
+    certificate: _Path | None = ...,
     threads: int | None = ...,
     budget: float | str | None = ...,
     memory: int | str | None = ...,
@@ -134,6 +143,7 @@ def verify(
     region: float | tuple[float, float] | str | None = ...,
     visit: Sequence[_State] | str | None = ...,
     return_: bool | None = ...,
+    certificate: _Path | None = ...,
     explain: bool | None = ...,
     threads: int | None = ...,
     budget: float | str | None = ...,

@@ -21,7 +21,7 @@ OUTPUTS = {"json", "picture", "figures", "table", "path", "every", "speed", "acc
            "curves", "title", "dpi", "size", "show", "heading", "html", "no_path", "resume",
            "certificate"}
 # Other words for options, and for one that is a word of Python's.
-OTHERS = {"goals", "tolerance", "region", "return_"}
+OTHERS = {"goals", "tolerance", "region", "return_", "hole", "certificate"}
 
 
 def keywords_of_stub(name):

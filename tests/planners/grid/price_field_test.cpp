@@ -75,6 +75,62 @@ StepWeights priced(const Bitmap& map, std::uint64_t seed) {
           Execution{}};
 }
 
+/// Cells that come and go, and steps that get dearer and cheaper: what is asked after a repair is what a new field
+/// says, to the unit and cell by cell, wherever it is asked and however much was known before.
+TEST(PriceField, RepairedItIsAsANewOne) {
+  for (const std::uint64_t seed : test::seeds(1000, 40)) {
+    SCOPED_TRACE(seed);
+    SequentialRng rng(seed);
+    std::uint64_t cells = 0;  // drawn
+    Bitmap map = random_map(seed);
+    std::vector<std::uint64_t> extra(map.size());  // what a cell adds to the steps from and to it
+    const auto weigh = [&extra, width = map.width()](Cell from, unsigned s) {
+      const std::size_t to = (from.y + static_cast<std::size_t>(cell_steps[s][1])) * width + from.x +
+                             static_cast<std::size_t>(cell_steps[s][0]);
+      return (is_diagonal(s) ? units_a_diagonal : units_a_cell) + extra[from.y * std::size_t{width} + from.x] +
+             extra[to];
+    };
+    StepWeights weights(map, weigh, {});
+    std::vector<PriceField::Goal> goals;
+    for (std::uint64_t i = 0; i <= rng.below(3); ++i)
+      goals.push_back({random_cell(map, seed, cells++), rng.below(3 * units_a_cell)});
+    const std::vector<Cell> starts{random_cell(map, seed, cells++), random_cell(map, seed, cells++)};
+    const std::span<const Cell> towards = seed % 3 == 0 ? std::span<const Cell>() : std::span(starts);
+    std::optional<PriceField> field(std::in_place, weights, goals, towards, Execution{});
+    for (int change = 0; change < 6; ++change) {
+      if (!map.test(starts[0].x, starts[0].y)) field->cost(starts[0], {});
+      std::vector<Cell> touched;
+      const Cell at = random_cell(map, seed, cells++);
+      for (std::uint64_t n = rng.below(6); n-- > 0;) {
+        const Cell c{std::min<std::uint32_t>(map.width() - 1, at.x + static_cast<std::uint32_t>(rng.below(3))),
+                     std::min<std::uint32_t>(map.height() - 1, at.y + static_cast<std::uint32_t>(rng.below(3)))};
+        if (rng.below(2) == 0) {
+          const bool free = map.test(c.x, c.y);
+          free ? map.clear(c.x, c.y) : map.set(c.x, c.y);
+          weights.change(c, free);
+        } else {
+          extra[c.y * std::size_t{map.width()} + c.x] = rng.below(2) * rng.below(9 * units_a_cell);
+        }
+        for (std::uint32_t y = c.y - std::min(c.y, 1U); y <= std::min(c.y + 1, map.height() - 1); ++y) {
+          for (std::uint32_t x = c.x - std::min(c.x, 1U); x <= std::min(c.x + 1, map.width() - 1); ++x) {
+            weights.forget({x, y});
+            touched.push_back({x, y});
+          }
+        }
+      }
+      if (!field->repair(touched, map.size() / 2, {})) field.emplace(weights, goals, towards, Execution{});
+      StepWeights new_weights(map, weigh, {});
+      PriceField fresh(new_weights, goals, towards, {});
+      for (const Cell start : starts) {
+        if (map.test(start.x, start.y)) continue;
+        const auto cost = field->cost(start, {});
+        ASSERT_EQ(cost, fresh.cost(start, {}));
+        if (cost) ASSERT_EQ(field->path(start, {}), fresh.path(start, {}));
+      }
+    }
+  }
+}
+
 TEST(PriceField, CostsAreThoseOfAPlainDijkstraToTheUnit) {
   for (const std::uint64_t seed : test::seeds(500, 25)) {
     SCOPED_TRACE(seed);

@@ -80,8 +80,9 @@ void expect_alternatives(const Scene& scene, const Question& question, std::size
     before = path.cost;
     paths.push_back(path.path);
   }
+  EXPECT_TRUE(verify(scene, answer).verified);
   const ClassRule rule{reach, question.route.hole.value_or(2.0 * answer.problem.robot.radius)};
-  EXPECT_FALSE(same_class(judged_classes(*scene.map, rule, paths, {})));
+  EXPECT_FALSE(same_class(judged_classes(*scene.map, rule, paths, {}).classes));
 }
 
 TEST(Alternatives, AreFreePathsOfDifferentClassesTheCheapestFirst) {
@@ -96,6 +97,38 @@ TEST(Alternatives, AreFreePathsOfDifferentClassesTheCheapestFirst) {
   question.route.stretch.reset();
   question.prices.clearance = ClearancePrice{2.0, 1.5};
   expect_alternatives(scene, question, 3);
+}
+
+TEST(Alternatives, AJudgeChecksPathsCostsClassesAndHoles) {
+  const Scene scene = scene_of(blocks(40, 30, 8, 3));
+  Question question{.start = {2.0, 17.1}, .goal = {34.0, 17.6}};
+  question.robot = RobotSpec{.kind = RobotKind::disc, .radius = 0.8};
+  question.prices.clearance = ClearancePrice{2.0, 1.5};
+  question.route.alternatives = 4;
+  const Answer answer = solve(scene, question, by_grid());
+  ASSERT_GE(answer.alternatives.size(), 3U);
+  ASSERT_TRUE(verify(scene, answer).verified);
+  const auto refused = [&](const char* what, const auto& change) {
+    Answer other = answer;
+    change(other);
+    const Verdict verdict = verify(scene, other);
+    EXPECT_FALSE(verdict.verified) << what;
+    if (verdict.first_violation) EXPECT_NE(verdict.first_violation->obstacle.find(what), std::string::npos) << what;
+  };
+  refused("path 2: cost", [](Answer& a) { a.alternatives[1].cost += 1e-6; });
+  refused("path 1: length", [](Answer& a) { a.alternatives[0].length *= 1.0 - 1e-6; });
+  refused("path 3: price", [](Answer& a) { a.alternatives[2].price.clearance += 1e-6; });
+  refused("path 1: min_clearance", [](Answer& a) { a.alternatives[0].min_clearance += 0.01; });
+  refused("path 2: cost", [](Answer& a) { std::swap(a.alternatives[0], a.alternatives[2]); });
+  refused("cell", [](Answer& a) { a.alternatives[0].path = {a.path.front(), {5.5, 5.5}, a.path.back()}; });
+  refused("another place", [](Answer& a) { a.alternatives[0].path.pop_back(); });
+  refused("no points", [](Answer& a) { a.alternatives[0].path.clear(); });
+  refused("class: of path 1", [](Answer& a) { a.alternatives[0].passed.push_back(1); });
+  refused("class: of path 0", [](Answer& a) { a.passed = a.alternatives[0].passed; });
+  refused("no hole", [](Answer& a) { a.holes[0].box.max.x += 1.0; });
+  refused("no hole", [](Answer& a) { a.holes[0].id = 99; });
+  refused("class", [](Answer& a) { a.hole_size = 50.0; });
+  refused("one class", [](Answer& a) { a.alternatives[0] = a.alternatives[1]; });
 }
 
 TEST(Alternatives, SmallHolesMakeNoClass) {

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/kinds/kept_ways.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+#include "core/base/whole.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::size_t most_legs = 1 << 18;
+
+/// Calls visit(cell) where the bitmaps, of one size, differ; an empty one has no bits.
+template <class Visit>
+void for_each_other(const Bitmap& a, const Bitmap& b, const Visit& visit) {
+  const Bitmap& sized = a.empty() ? b : a;
+  for (std::uint32_t y = 0; y < sized.height(); ++y) {
+    for (std::size_t w = 0; w < sized.row(y).size(); ++w) {
+      const std::uint64_t in_a = a.empty() ? 0 : a.row(y)[w];
+      const std::uint64_t in_b = b.empty() ? 0 : b.row(y)[w];
+      for (std::uint64_t rest = in_a ^ in_b; rest != 0; rest &= rest - 1) {
+        visit(Cell{as_whole<std::uint32_t>(64 * w + as_whole<std::size_t>(std::countr_zero(rest))), y});
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::size_t KeptWays::HashOfEnds::operator()(const Ends& ends) const {
+  std::uint64_t hash = 0;
+  for (const double x : {ends.a.x, ends.a.y, ends.b.x, ends.b.y}) {
+    hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15ULL;
+    hash ^= hash >> 29U;
+  }
+  return hash;
+}
+
+KeptWays::Leg& KeptWays::leg(Vec2 a, Vec2 b) {
+  if (legs_.size() >= most_legs) legs_.clear();
+  return legs_[{a, b}];
+}
+
+void KeptWays::forget() {
+  field_.reset();
+  weights_.reset();
+  prices_.reset();
+  legs_.clear();
+}
+
+bool KeptWays::is_same_frame(const OccupancyMap& map) const {
+  return map.width() == map_.width() && map.height() == map_.height() && map.cell == map_.cell &&
+         map.origin == map_.origin && map.yaw_rad == map_.yaw_rad && map.unknown.empty() == map_.unknown.empty();
+}
+
+bool KeptWays::update(const OccupancyMap& map, const WallProblem& problem, const Execution& execution) {
+  try {
+    if (!weights_ || !is_same_frame(map)) {
+      make(map, problem, execution);
+    } else {
+      std::vector<Cell> changed;
+      for_each_other(map.blocked, map_.blocked, [&](Cell c) { changed.push_back(c); });
+      for_each_other(map.unknown, map_.unknown, [&](Cell c) { changed.push_back(c); });
+      if (!changed.empty()) change(map, problem, changed, execution);
+    }
+  } catch (...) {
+    forget();
+    throw;
+  }
+  if (!prices_->is_priced()) forget();
+  return prices_.has_value();
+}
+
+void KeptWays::make(const OccupancyMap& map, const WallProblem& problem, const Execution& execution) {
+  forget();
+  map_ = map;
+  prices_.emplace(map_, problem.robot.radius, problem.prices, execution);
+  scratch_ = {};
+  wide_ = prices_->distances() != nullptr
+              ? blocked_for_disc(map_.blocked, *prices_->distances(), problem.reach() / map_.cell, execution)
+              : blocked_for_disc(map_.blocked, problem.reach() / map_.cell, execution);
+  weights_.emplace(
+      wide_, [this](Cell from, unsigned direction) { return prices_->step_up(from, direction, scratch_); }, execution);
+}
+
+void KeptWays::change(const OccupancyMap& map, const WallProblem& problem, const std::vector<Cell>& changed,
+                      const Execution& execution) {
+  map_ = map;
+  prices_.emplace(map_, problem.robot.radius, problem.prices, execution);
+  scratch_ = {};
+  Bitmap wide = prices_->distances() != nullptr
+                    ? blocked_for_disc(map_.blocked, *prices_->distances(), problem.reach() / map_.cell, execution)
+                    : blocked_for_disc(map_.blocked, problem.reach() / map_.cell, execution);
+  for_each_other(wide, wide_, [&](Cell c) { weights_->change(c, !wide.test(c.x, c.y)); });
+  wide_ = std::move(wide);
+  // What a step weighs rests on the squares within the reach of its two cells; which steps there are on the cells
+  // around, of which a square closes those within the body's reach.
+  double reach = problem.reach() / map_.cell;
+  if (const auto& clearance = problem.prices.clearance) {
+    reach = std::max(reach, (clearance_reach(*clearance, problem.robot.radius) + problem.robot.radius) / map_.cell);
+  }
+  const auto around = bounded_whole<std::uint32_t>(std::ceil(reach) + 3.0, 0.0, 1e9);
+  Bitmap near(map_.width(), map_.height());
+  for (const Cell c : changed) {
+    const std::uint32_t last = std::min(c.x + around, map_.width() - 1) + 1;
+    for (std::uint32_t y = c.y - std::min(c.y, around); y <= std::min(c.y + around, map_.height() - 1); ++y) {
+      near.set_run(y, c.x - std::min(c.x, around), last);
+    }
+    execution.check();
+  }
+  std::vector<Cell> touched;
+  for_each_other(near, {}, [&](Cell c) {
+    touched.push_back(c);
+    weights_->forget(c);
+  });
+  forget_legs(changed, reach + 3.0);
+  constexpr std::uint64_t share = 3;
+  if (field_ && !field_->repair(touched, fresh_ / share, execution)) field_.reset();
+}
+
+void KeptWays::forget_legs(const std::vector<Cell>& changed, double reach) {
+  constexpr std::size_t few = 1024;
+  if (changed.size() > few) return legs_.clear();
+  std::erase_if(legs_, [&](const auto& known) {
+    Box box;
+    box.include(map_point(map_, known.first.a));
+    box.include(map_point(map_, known.first.b));
+    return std::any_of(changed.begin(), changed.end(), [&](Cell c) {
+      return c.x + 1.0 + reach >= box.min.x && c.x - reach <= box.max.x && c.y + 1.0 + reach >= box.min.y &&
+             c.y - reach <= box.max.y;
+    });
+  });
+}
+
+PriceField& KeptWays::field(std::span<const PriceField::Goal> goals, std::span<const Cell> towards,
+                            const Execution& execution) {
+  const bool is_same = field_ && std::equal(goals.begin(), goals.end(), goals_.begin(), goals_.end()) &&
+                       std::equal(towards.begin(), towards.end(), towards_.begin(), towards_.end());
+  if (is_same) {
+    if (fresh_ == 0) fresh_ = field_->expanded();
+    return *field_;
+  }
+  goals_.assign(goals.begin(), goals.end());
+  towards_.assign(towards.begin(), towards.end());
+  fresh_ = 0;
+  return field_.emplace(*weights_, goals_, towards_, execution);
+}
+
+}  // namespace warren

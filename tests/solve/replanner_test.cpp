@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/replanner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "core/base/rng.hpp"
+#include "solve/solve.hpp"
+#include "tests/seeds.hpp"
+#include "tests/solve/answer_bytes.hpp"
+
+namespace warren {
+namespace {
+
+Scene scene_of(const Bitmap& blocked, double cell) {
+  Scene scene;
+  scene.source = "map";
+  OccupancyMap map;
+  map.blocked = blocked;
+  map.cell = cell;
+  map.origin = {-1.0, 2.0};
+  map.occupied = blocked.count();
+  map.free = blocked.size() - map.occupied;
+  scene.map = map;
+  return scene;
+}
+
+/// All but the account of the work: a repair looks at fewer cells.
+std::string bytes_of(Answer answer) {
+  answer.counters.expanded = 0;
+  return test::bytes_of(std::move(answer));
+}
+
+/// Blocks that come and go, prices, discs and points, another start now and then.
+void expect_fresh_bytes(std::uint64_t seed, int changes) {
+  SCOPED_TRACE(seed);
+  SequentialRng rng(seed);
+  const auto below = [&](std::uint64_t n) { return static_cast<std::uint32_t>(rng.below(n)); };
+  const std::uint32_t width = 20 + below(40);
+  const std::uint32_t height = 20 + below(40);
+  Bitmap blocked(width, height);
+  for (int n = 0; n < 12; ++n) {
+    const std::uint32_t x = below(width - 6);
+    for (std::uint32_t y = below(height - 6), rows = 1 + below(5); rows-- > 0; ++y)
+      blocked.set_run(y, x, x + 1 + below(5));
+  }
+  Question question{.goal = {-1.0 + 0.25 * (width - 2.5), 2.0 + 0.25 * (height - 2.5)}};
+  question.start = {-0.4, 2.6};
+  question.robot = seed % 3 == 0 ? RobotSpec{} : RobotSpec{.kind = RobotKind::disc, .radius = 0.1 + 0.1 * below(3)};
+  if (seed % 4 != 1) question.prices.clearance = ClearancePrice{3.0, 0.2 + 0.3 * below(4)};
+  if (seed % 4 < 2) question.prices.areas.push_back({2.5, {{1.0, 3.0}, {4.0, 3.0}, {2.0, 9.0}}, 0});
+  SolveOptions options;
+  options.planner = PlannerKind::grid;
+  Replanner replanner(scene_of(blocked, 0.25), question, options);
+  for (int change = 0; change < changes; ++change) {
+    if (change % 5 == 4) question.start = {-0.9 + 0.25 * below(4), 2.1 + 0.25 * below(4)};
+    const Answer again = replanner.solve(question.start);
+    const Answer fresh = solve(replanner.scene(), question, options);
+    ASSERT_EQ(bytes_of(again), bytes_of(fresh)) << "change " << change;
+    std::vector<CellChange> cells;
+    const Cell at{below(width), below(height)};
+    const bool comes = rng.below(2) == 0;
+    for (std::uint32_t n = below(9); n-- > 0;) {
+      cells.push_back({{std::min(width - 1, at.x + below(3)), std::min(height - 1, at.y + below(3))}, comes});
+    }
+    replanner.update(cells);
+  }
+}
+
+TEST(Replanner, AnswersAreTheBytesOfAFreshSolve) {
+  for (const std::uint64_t seed : test::seeds(100, 4)) expect_fresh_bytes(seed, 10);
+}
+
+TEST(Replanner, ABoxOfCellsIsWhatItsCellsAre) {
+  Question question{.start = {-0.5, 2.5}, .goal = {3.5, 6.5}};
+  question.prices.clearance = ClearancePrice{2.0, 0.5};
+  SolveOptions options;
+  options.planner = PlannerKind::grid;
+  Replanner replanner(scene_of(Bitmap(20, 20), 0.25), question, options);
+  const double before = *replanner.solve().cost;
+  replanner.update({{0.0, 3.0}, {2.0, 6.0}}, true);
+  EXPECT_EQ(replanner.scene().map->blocked.count(), 8U * 12U);
+  EXPECT_EQ(replanner.scene().map->occupied, 8U * 12U);
+  const Answer around = replanner.solve();
+  EXPECT_GT(*around.cost, before);
+  EXPECT_EQ(bytes_of(around), bytes_of(solve(replanner.scene(), question, options)));
+  replanner.update({{0.0, 3.0}, {2.0, 6.0}}, false);
+  EXPECT_EQ(*replanner.solve().cost, before);
+}
+
+TEST(Replanner, WhatCantChangeIsRefused) {
+  Scene walls;
+  walls.bounds = Box{{0.0, 0.0}, {1.0, 1.0}};
+  const std::array<CellChange, 1> outside{CellChange{{20, 3}}};
+  EXPECT_THROW(Replanner(walls, {}).update(outside), UsageError);
+  Replanner replanner(scene_of(Bitmap(20, 20), 0.25), {});
+  EXPECT_THROW(replanner.update(outside), InputError);
+  EXPECT_EQ(replanner.scene().map->occupied, 0U);
+}
+
+}  // namespace
+}  // namespace warren
