@@ -19,6 +19,7 @@
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "verify/judges/effective_scene.hpp"
+#include "verify/judges/verify_body_price.hpp"
 #include "verify/judges/verify_classes.hpp"
 #include "verify/judges/verify_potential.hpp"
 #include "verify/judges/verify_price.hpp"
@@ -65,11 +66,13 @@ bool asks_price(const Prices& prices) {
   return std::any_of(words.begin(), words.end(), [&](AskedWord word) { return asked.has(word); });
 }
 
-/// What a path costs beside its length, where that is asked and a judge of this body's prices is there.
+/// What a path costs beside its length, where that is asked of a body whose prices have a judge.
 std::optional<PriceParts> judged_price(const Scene& scene, const Prices& prices, const RobotSpec& robot,
                                        const RecordedAnswer& answer, const Execution& execution) {
-  const bool has_judge = robot.kind == RobotKind::point || robot.kind == RobotKind::disc;
-  if (!has_judge || !asks_price(prices) || answer.path.empty()) return std::nullopt;
+  const bool turns = robot.kind == RobotKind::polygon || robot.kind == RobotKind::car;
+  if (!asks_price(prices) || answer.path.empty()) return std::nullopt;
+  if (turns) return verify_body_price(scene, poses_of(answer.states), robot, prices, execution);
+  if (robot.kind != RobotKind::point && robot.kind != RobotKind::disc) return std::nullopt;
   return verify_price(scene, answer.path, prices, robot.radius, execution);
 }
 
@@ -84,10 +87,29 @@ void judge_prices(Answer& answer, const Scene& scene, const Question& question, 
   const Question asked = answer.problem.question();
   const Verdict verdict = verifying_kind(judged, asked).verify(judged, asked, record, execution);
   if (!verdict.verified) fail_verification(answer, verdict.first_violation.value_or(Violation{}));
-  const auto price = judged_price(judged, prices, answer.problem.robot, record, execution);
+  auto price = judged_price(judged, prices, answer.problem.robot, record, execution);
   if (!price) return;
+  if (answer.price) {  // of a car: what its judge has counted
+    price->turning = answer.price->turning;
+    price->cusps = answer.price->cusps;
+    price->reverse = answer.price->reverse;
+  }
   answer.price = price;
   answer.cost = answer.length + price->sum();
+}
+
+/// What driving costs, as the answer says that it was asked, by what the judge has counted; none: nobody asked.
+/// places_too: do they have prices?
+std::optional<PriceParts> driving_price(const RecordedAnswer& answer, const Verdict& verdict, bool places_too) {
+  const AskedDriving& asked = answer.driving;
+  const RobotSpec& robot = verdict.problem.robot;
+  const bool is_asked = asked.turn_cost || asked.cusp_cost || asked.reverse_cost;
+  if (robot.kind != RobotKind::car || !is_asked) return std::nullopt;
+  const double usual_cusp =
+      asked.optimise && !places_too && robot.steering != SteeringKind::dubins ? robot.turning_radius : 0.0;
+  return PriceParts{.turning = asked.turn_cost.value_or(0.0) * verdict.turn_rad,
+                    .cusps = asked.cusp_cost.value_or(usual_cusp) * static_cast<double>(verdict.cusps),
+                    .reverse = (asked.reverse_cost.value_or(1.0) - 1.0) * verdict.reversed};
 }
 
 /// Cost and price that an answer claims are a part of what is verified.
@@ -95,27 +117,35 @@ void check_price(Verdict& verdict, const Scene& judged, const Prices& prices, co
                  const Execution& execution) {
   constexpr double rounding = 1e-9;
   if (!verdict.verified) return;
-  const auto price = judged_price(judged, prices, verdict.problem.robot, answer, execution);
-  if (answer.price && !asks_price(prices)) {
+  const auto refute = [&](std::string what) {
     verdict.verified = false;
-    verdict.first_violation =
-        Violation{.leg = 0, .distance = 0.0, .obstacle = "price: the answer claims one, its question has none"};
+    verdict.first_violation = Violation{.leg = 0, .distance = 0.0, .obstacle = std::move(what)};
+  };
+  const auto asked = judged_price(judged, prices, verdict.problem.robot, answer, execution);
+  const auto driving = driving_price(answer, verdict, asked.has_value());
+  if (!asked && !(answer.price && driving)) {
+    if (answer.price) refute("price: the answer claims one, its question has none");
+    return;
   }
-  if (!price) return;
+  PriceParts price = asked.value_or(PriceParts{});
+  if (driving) {
+    price.turning = driving->turning;
+    price.cusps = driving->cusps;
+    price.reverse = driving->reverse;
+  }
   const auto check = [&](std::string_view name, double said, double found) {
     if (!verdict.verified || std::abs(said - found) <= rounding * (1.0 + std::abs(found))) return;
-    verdict.verified = false;
-    const std::string what = fmt::format("{}: the answer says {}, its path has {}", name, said, found);
-    verdict.first_violation = Violation{.leg = 0, .distance = 0.0, .obstacle = what};
+    refute(fmt::format("{}: the answer says {}, its path has {}", name, said, found));
   };
   if (answer.price) {
-    check("price: clearance", answer.price->clearance, price->clearance);
-    check("price: areas", answer.price->areas, price->areas);
-    check("price: turning", answer.price->turning, 0.0);
-    check("price: cusps", answer.price->cusps, 0.0);
-    check("price: reverse", answer.price->reverse, 0.0);
+    check("price: clearance", answer.price->clearance, price.clearance);
+    check("price: areas", answer.price->areas, price.areas);
+    check("price: turning", answer.price->turning, price.turning);
+    check("price: cusps", answer.price->cusps, price.cusps);
+    check("price: reverse", answer.price->reverse, price.reverse);
+    check("cost_error", answer.price->error, price.error);
   }
-  if (answer.cost) check("cost", *answer.cost, verdict.length + price->sum());
+  if (answer.cost) check("cost", *answer.cost, verdict.length + price.sum());
 }
 
 void refute(Verdict& verdict, std::string what) {
@@ -351,6 +381,7 @@ Answer solve_within(const Scene& scene, const Question& question, const SolveOpt
     request.taker = taker;
     request.kept = kept;
     answer = solver.kind->solve(request);
+    answer.problem.prices = prices_of(scene, question);
     keep_to_route(answer, restricted.get(), question, options, *solver.kind, accounted);
     judge_prices(answer, scene, question, accounted);
     tell_bound(answer, planned.get(), options, accounted);

@@ -37,6 +37,7 @@ class AnswerReader {
   bool boolean(bool value) {
     if (in("return")) answer_.problem.rule.back = value;
     if (in("kept")) keeping().kept = value;
+    if (in_option("optimise")) answer_.driving.optimise = value;
     return in("return") || in("kept") || other("true or false");
   }
   bool number_integer(Json::number_integer_t value) { return number(static_cast<double>(value)); }
@@ -202,6 +203,9 @@ class AnswerReader {
     if (in("hole_size")) answer_.hole_size = value;
     if (in("kept_cost")) keeping().kept_cost = value;
     if (in("new_cost")) keeping().new_cost = value;
+    if (in_option("turn_cost")) answer_.driving.turn_cost = value;
+    if (in_option("cusp_cost")) answer_.driving.cusp_cost = value;
+    if (in_option("reverse_cost")) answer_.driving.reverse_cost = value;
     if (in("clearance")) {
       if (value < 0.0) refuse("a number of at least 0", fmt::format("{}", value));
       answer_.problem.clearance = value;
@@ -235,6 +239,9 @@ class AnswerReader {
   }
   [[noreturn]] void refuse_kind() const { throw InputError(file_, "expected one JSON object: an answer"); }
   bool in(std::string_view name) const { return objects_ == 1 && key_ == name; }
+  bool in_option(std::string_view name) const {
+    return objects_ == 2 && arrays_ == 0 && key_ == "options" && inner_key_ == name;
+  }
   bool in_state() const { return in("start") || in("goal") || in("goal_pose"); }
   void take_pose() {
     const Eigen::Quaterniond turn = numbers_.size() == 7
@@ -286,6 +293,13 @@ RecordedAnswer recorded(const Answer& answer) {
   record.lower_bound = answer.lower_bound;
   record.cost = answer.cost;
   record.price = answer.price;
+  const auto number = [&](std::string_view name) -> std::optional<double> {
+    const Figure* figure = figure_named(answer.options, name);
+    const double* value = figure != nullptr ? std::get_if<double>(figure) : nullptr;
+    return value != nullptr ? std::optional(*value) : std::nullopt;
+  };
+  record.driving = {number("turn_cost"), number("cusp_cost"), number("reverse_cost"),
+                    figure_named(answer.options, "optimise") != nullptr};
   record.goal_index = answer.goal_index;
   record.bound_of = answer.bound_of;
   record.goal_reached = answer.goal_reached;

@@ -21,6 +21,14 @@
 
 namespace warren {
 
+/// What a car's turns and gears cost, as an answer says that it was asked.
+struct AskedDriving {
+  std::optional<double> turn_cost;     ///< of a radian
+  std::optional<double> cusp_cost;     ///< of a change of gear
+  std::optional<double> reverse_cost;  ///< of a unit of length backwards
+  bool optimise = false;               ///< then a change of gear costs a turning radius where nobody says it
+};
+
 /// A path that a file holds, and what it says of its problem: the program's own answers, or a path of anybody.
 struct RecordedAnswer {
   Question problem;                         ///< what the answer says of the problem
@@ -29,6 +37,7 @@ struct RecordedAnswer {
   std::optional<double> lower_bound;        ///< the same
   std::optional<double> cost;               ///< the same; with a lower bound, which is of it then
   std::optional<PriceParts> price;          ///< the same
+  AskedDriving driving;                     ///< behind the parts of that price
   std::optional<std::uint64_t> goal_index;  ///< of several goals, the one that it says is reached
   std::string bound_of;                     ///< as Answer::bound_of, and so all until the certificate
   std::optional<GoalReached> goal_reached;

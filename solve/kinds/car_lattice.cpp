@@ -55,8 +55,14 @@ CarLattice::CarLattice(const CarBody& body, const Scene& scene, const RobotSpec&
       goals_(goals.begin(), goals.end()),
       cell_(cell_of(scene, body.box(), robot.turning_radius, options)),
       motions_(motion_options(robot, options, cell_), execution),
-      query_(body.make_query()) {
+      query_(body.make_query()),
+      prices_(options.prices) {
   lay_out(scene, start);
+  if (prices_ != nullptr) {
+    const std::size_t states = std::size_t{width_} * height_ * headings();
+    execution.reserve(states * sizeof(float));
+    assign_polled(dear_, states, -1.0F, [&] { execution.check(); });
+  }
   const double disc = disc_in(robot) + options.clearance - MotionSet::slack * cell_;
   if (scene.map) {
     if (disc > 0.0) no_middle_ = blocked_for_disc(scene.map->blocked, disc / cell_ * (1.0 - 1e-9), execution);
@@ -189,7 +195,8 @@ void CarLattice::join_start(const Se2& start) {
         const SteeringWord word = shortest_(start, pose_of(cell, k), radius_);
         const std::uint64_t cost = curve_cost(word, 0, priced);
         const std::int8_t gear = word.count == 0 || word.pieces[word.count - 1].length >= 0.0 ? 1 : -1;
-        if (cost <= most) starts_.push_back({cell, k, cost, gear});
+        if (cost > most) continue;
+        starts_.push_back({cell, k, cost + extra(curve(start, pose_of(cell, k))), gear});
       }
     }
   }
@@ -205,6 +212,24 @@ bool CarLattice::is_free(Cell from, const LatticeMotion& motion) {
   for (const SteeringPiece& piece : motion.word.used()) turn += static_cast<double>(piece.steer) * piece.length;
   begin.theta = wrapped_angle(end.theta - turn);
   return body_.is_free_curve({begin, end, motion.word, radius_}, query_);
+}
+
+double CarLattice::dear_at(Cell cell, std::uint32_t heading) {
+  float& dear = dear_[(std::size_t{cell.y} * width_ + cell.x) * headings() + heading];
+  if (dear < 0.0F) dear = static_cast<float>(prices_->at(body_, pose_of(cell, heading), query_));
+  return dear;
+}
+
+std::uint64_t CarLattice::extra(Cell from, std::uint32_t heading, const LatticeMotion& motion) {
+  if (prices_ == nullptr) return 0;
+  const Cell to{static_cast<std::uint32_t>(std::int64_t{from.x} + motion.dx),
+                static_cast<std::uint32_t>(std::int64_t{from.y} + motion.dy)};
+  return units_of(0.5 * radius_ * motion.word.length * (dear_at(from, heading) + dear_at(to, motion.to)));
+}
+
+std::uint64_t CarLattice::extra(const SteeringCurve& way) {
+  if (prices_ == nullptr) return 0;
+  return units_of(prices_->over(body_, way.length(), query_, [&](double t) { return way.at(t * way.length()); }));
 }
 
 std::uint64_t CarLattice::at_least(Cell cell, std::uint32_t heading) {
@@ -269,7 +294,10 @@ std::optional<LatticeShot> CarLattice::shot_from(const Se2& from, std::int8_t ge
     LatticeShot found{.goal = i};
     found.cost = curve_cost(word, gear_change, found);
     if (gear != 0 && found.first_gear == -gear) found.cost += gear_change;
-    if (found.cost >= most || !body_.is_free_curve({from, goals_[i], word, radius_}, query_)) continue;
+    const SteeringCurve way{from, goals_[i], word, radius_};
+    if (found.cost >= most || !body_.is_free_curve(way, query_)) continue;
+    found.cost += extra(way);
+    if (found.cost >= most) continue;
     most = found.cost;
     best = found;
   }

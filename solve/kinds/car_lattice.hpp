@@ -11,12 +11,14 @@
 #include <span>
 #include <vector>
 
+#include "core/base/raw_vector.hpp"
 #include "core/base/solution.hpp"
 #include "core/plane/se2.hpp"
 #include "parallel/execution.hpp"
 #include "planners/grid/cell_field.hpp"
 #include "planners/grid/motion_lattice.hpp"
 #include "scenes/scene/scene.hpp"
+#include "solve/kinds/priced_motions.hpp"
 #include "spatial/maps/free_cells.hpp"
 #include "worlds/poses/car_world.hpp"
 #include "worlds/poses/motion_set.hpp"
@@ -25,11 +27,12 @@
 namespace warren {
 
 struct CarLatticeOptions {
-  std::uint32_t headings = 16;  ///< 16 or 32
-  std::optional<double> cell;   ///< distance of states, > 0; none: the usual one; a map has its own
-  double clearance = 0.0;       ///< room around the body; >= 0
-  DrivingPrice price;           ///< of gears
-  double turn_cost = 0.0;       ///< of a radian, in units of length; >= 0
+  std::uint32_t headings = 16;         ///< 16 or 32
+  std::optional<double> cell;          ///< distance of states, > 0; none: the usual one; a map has its own
+  double clearance = 0.0;              ///< room around the body; >= 0
+  DrivingPrice price;                  ///< of gears
+  double turn_cost = 0.0;              ///< of a radian, in units of length; >= 0
+  const PosePrices* prices = nullptr;  ///< of places; nullptr: all cost their length
 };
 
 /// Refers to body and execution. One search at a time.
@@ -47,6 +50,8 @@ class CarLattice {
   std::uint32_t headings() const { return motions_.headings(); }
   std::span<const LatticeMotion> motions_from(std::uint32_t heading) const { return motions_.from(heading); }
   bool is_free(Cell from, const LatticeMotion& motion);
+  /// What places make dear: by the mean of both ends.
+  std::uint64_t extra(Cell from, std::uint32_t heading, const LatticeMotion& motion);
   std::uint64_t at_least(Cell cell, std::uint32_t heading);
   std::span<const LatticeStart> starts() const { return starts_; }
   bool is_free_start(std::size_t number);
@@ -79,6 +84,8 @@ class CarLattice {
   void seed_field();
   std::optional<LatticeShot> shot_from(const Se2& pose, std::int8_t gear, std::uint64_t most,
                                        std::uint64_t gear_change);
+  double dear_at(Cell cell, std::uint32_t heading);
+  std::uint64_t extra(const SteeringCurve& way);
   std::uint64_t curve_cost(const SteeringWord& word, std::uint64_t gear_change, LatticeShot& shot) const;
 
   const CarBody& body_;
@@ -95,6 +102,8 @@ class CarLattice {
   std::uint32_t height_ = 0;
   MotionSet motions_;
   CarBody::Query query_;
+  const PosePrices* prices_;
+  RawVector<float> dear_;              // of states, a unit of length; below 0: nobody has asked
   std::optional<FreeCells> free_;      // maps
   std::optional<SweptStamps> stamps_;  // maps
   std::optional<Bitmap> no_middle_;    // maps: where the disc does not fit

@@ -11,6 +11,7 @@
 #include "core/base/error.hpp"
 #include "core/plane/se2.hpp"
 #include "solve/question/question_of_arm.hpp"
+#include "verify/judges/verify_body_price.hpp"
 #include "verify/judges/verify_price.hpp"
 
 namespace warren {
@@ -71,6 +72,14 @@ RecordedAnswer path_of(const std::vector<State>& states, const Question& questio
   return path;
 }
 
+/// What places make dear.
+PriceParts price_of(const Path<Vec2>& path, const StateList& states, const Scene& scene, const Problem& problem,
+                    const Execution& execution) {
+  if (problem.prices.empty() || path.empty()) return {};
+  if (is_plain(problem.robot)) return verify_price(scene, path, problem.prices, problem.robot.radius, execution);
+  return verify_body_price(scene, poses_of(states), problem.robot, problem.prices, execution);
+}
+
 /// Of the route's rest, as it is now: how long, how free; none: it is not free.
 struct Cost {
   Verdict verdict;
@@ -89,9 +98,7 @@ std::optional<Cost> cost_now(const std::vector<State>& states, const Scene& scen
   Cost cost;
   cost.verdict = kind.verify(scene, asked, path, execution);
   if (!cost.verdict.verified) return std::nullopt;
-  if (is_plain(problem.robot) && !problem.prices.empty()) {
-    cost.price = verify_price(scene, path.path, problem.prices, problem.robot.radius, execution);
-  }
+  cost.price = price_of(path.path, path.states, scene, problem, execution);
   cost.sum = cost.verdict.length + cost.price.sum();
   return cost;
 }
@@ -108,7 +115,7 @@ bool ends_at(const State& end, const State& goal) {
 void check_route(const std::vector<State>& route, const Answer& answer) {
   const Problem& problem = answer.problem;
   if (answer.price && !is_plain(problem.robot)) {
-    throw UsageError("@keep_to: of bodies that turn the price of an older path is not compared; ask without prices");
+    throw UsageError("@keep_to: what an older path of a car costs in turns and gears is not compared; ask without");
   }
   if (problem.robot.kind == RobotKind::polygon &&
       gets_better(enum_named<PlannerKind>(answer.planner).value_or(PlannerKind::prm))) {
@@ -196,10 +203,7 @@ void keep_to_route(Answer& answer, const Scene& scene, const Question& question,
   const std::optional<Cost> kept = cost_now(rest, scene, question, problem, kind, execution);
   if (kept) told.kept_cost = kept->sum;
   if (answer.verified) {
-    told.new_cost = answer.length;
-    if (is_plain(problem.robot) && !problem.prices.empty()) {
-      *told.new_cost += verify_price(scene, answer.path, problem.prices, problem.robot.radius, execution).sum();
-    }
+    told.new_cost = answer.length + price_of(answer.path, answer.states, scene, problem, execution).sum();
   }
   const double gain = rule.unless_gain.value_or(usual_unless_gain);
   told.kept = kept && (!told.new_cost || (1.0 - gain) * kept->sum <= *told.new_cost);

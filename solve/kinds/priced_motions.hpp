@@ -1,14 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Motions of points and discs that cost more than their length, for roadmaps whose edges weigh that.
+// Motions that cost more than their length, for searches that weigh that: of points and discs exactly, of bodies that
+// turn as the mean over some poses of a motion. What a path costs the judge says.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
+#include <limits>
+#include <tuple>
 #include <utility>
 
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
+#include "core/base/whole.hpp"
+#include "core/plane/se2.hpp"
 #include "parallel/execution.hpp"
 #include "planners/shorten/priced_taut.hpp"
+#include "scenes/scene/prices.hpp"
+#include "scenes/scene/scene.hpp"
+#include "worlds/prices/area_factors.hpp"
 
 namespace warren {
 
@@ -24,6 +34,79 @@ MotionCost motion_cost(const LegPrices& prices) {
     thread_local typename LegPrices::Scratch scratch;
     const bool is_forward = a.x < b.x || (a.x == b.x && a.y < b.y);
     return is_forward ? prices.cost(a, b, scratch) : prices.cost(b, a, scratch);
+  };
+}
+
+/// What the poses of a body cost a unit of length more than that. Refers to the scene, as it is planned in. Any number
+/// of threads may ask.
+class PosePrices {
+ public:
+  /// kept: room that the body's world takes off its distances.
+  PosePrices(const Scene& scene, const Prices& prices, double kept)
+      : map_(scene.map ? &*scene.map : nullptr),
+        areas_(prices, [](Vec2 p) { return p; }),
+        unknown_(map_ != nullptr && !map_->unknown.empty() ? prices.unknown.value_or(1.0) : 1.0),
+        kept_(kept) {
+    if (prices.clearance && prices.clearance->price > 0.0) {
+      price_ = prices.clearance->price;
+      reach_ = *prices.clearance->reach;
+      step_ = 0.25 * reach_;
+    }
+    if (unknown_ > 1.0) step_ = std::min(step_, map_->cell);
+    for (const PriceMask& mask : prices.masks) step_ = std::min(step_, mask.read->cell);
+    for (const AreaFactors::Area& area : areas_.areas())
+      step_ = std::min(step_, 0.125 * (area.box.width() + area.box.height()));
+  }
+  bool is_priced() const { return price_ > 0.0 || !areas_.empty() || unknown_ > 1.0; }
+
+  /// World: what knows the body's clearance at a pose.
+  template <class World, class Query>
+  double at(const World& world, const Se2& pose, Query& query) const {
+    const Vec2 p = pose.position();
+    double factor = areas_.empty() ? 1.0 : areas_.factor(p);
+    if (unknown_ > factor && is_unknown(p)) factor = unknown_;
+    if (!(price_ > 0.0)) return factor - 1.0;
+    const double far = (world.clearance(pose, reach_, query) + kept_) / reach_;
+    const double near = std::clamp(1.0 - far, 0.0, 1.0);
+    return factor - 1.0 + price_ * near * near;
+  }
+  /// Of a motion of that length, from 0 to 1.
+  template <class World, class Query, class PoseAt>
+  double over(const World& world, double length, Query& query, const PoseAt& pose_at) const {
+    constexpr double most = 64.0;
+    const double count = std::clamp(std::ceil(length / step_), 1.0, most);
+    double sum = 0.0;
+    for (double i = 0.5; i < count; ++i) sum += at(world, pose_at(i / count), query);
+    return sum * length / count;
+  }
+
+ private:
+  bool is_unknown(Vec2 p) const {
+    const Vec2 at = map_point(*map_, p);
+    return map_->unknown.holds(bounded_whole<std::int64_t>(std::floor(at.x)),
+                               bounded_whole<std::int64_t>(std::floor(at.y)));
+  }
+
+  const OccupancyMap* map_;
+  AreaFactors areas_;
+  double unknown_;
+  double kept_;
+  double price_ = 0.0;
+  double reach_ = 0.0;
+  double step_ = std::numeric_limits<double>::infinity();
+};
+
+/// What a free motion of a turning body costs beyond the metric; empty where nothing is priced. Refers to both.
+template <class World>
+std::function<double(const Se2&, const Se2&)> motion_cost(const World& world, const PosePrices& prices) {
+  if (!prices.is_priced()) return {};
+  return [&world, &prices](const Se2& a, const Se2& b) {
+    auto query = world.make_query();
+    const bool is_forward = std::tie(a.x, a.y, a.theta) <= std::tie(b.x, b.y, b.theta);
+    const Se2& from = is_forward ? a : b;
+    const Se2& to = is_forward ? b : a;
+    return world.distance(from, to) + prices.over(world, distance(a.position(), b.position()), query,
+                                                  [&](double t) { return world.interpolate(from, to, t); });
   };
 }
 

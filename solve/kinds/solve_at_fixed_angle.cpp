@@ -138,8 +138,8 @@ class FixedAngleSolve {
 };
 
 constexpr PlannerChoice fixed_angle_planners[] = {
-    {PlannerKind::visibility, {Option::bound}},
-    {PlannerKind::cells, {Option::doors, Option::search, Option::queue, Option::bound}}};
+    {PlannerKind::visibility, {Option::bound}, restriction_words},
+    {PlannerKind::cells, {Option::doors, Option::search, Option::queue, Option::bound}, restriction_words}};
 
 bool fits_fixed_angle(const Scene& scene, const RobotSpec& robot) {
   return robot.kind == RobotKind::polygon && !scene.map;

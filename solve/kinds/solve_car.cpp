@@ -17,11 +17,13 @@
 #include "solve/kinds/car_lattice.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/pose_body.hpp"
+#include "solve/kinds/priced_motions.hpp"
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/sampled_roadmap.hpp"
 #include "solve/kinds/sampled_solve.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/question/planner_choice.hpp"
+#include "verify/judges/verify_body_price.hpp"
 #include "verify/judges/verify_car.hpp"
 #include "worlds/poses/car_world.hpp"
 
@@ -55,6 +57,7 @@ class Car : public PoseBody {
         asked_(request.options.car),
         grid_(request.options.grid),
         anytime_(request.options.anytime),
+        prices_(prices_of(request.scene, request.question)),
         on_lattice_(request.planner == PlannerKind::grid),
         optimise_(request.options.optimise) {
     if (on_lattice_) check_lattice();
@@ -84,14 +87,14 @@ class Car : public PoseBody {
   /// The path of least price over the lattice, near enough; empty: there is none.
   Path<Se2> on_lattice(const World& world, std::span<const Se2> goals, Answer& answer) const;
   Path<Se2> shortened(const World& world, Path<Se2> path, Answer& answer) const {
+    if (const PosePrices prices = pose_prices(); prices.is_priced()) return cheaper(world, prices, path, answer);
     const auto curve_length = [&](const Se2& a, const Se2& b) { return length(world, a, b); };
     path = shortcut(world, std::move(path), curve_length, answer);
     if constexpr (!Curve::one_way) path = redriven(world, std::move(path), answer);
     return path;
   }
   void judge(const World& world, const Path<Se2>& path, Answer& answer) const {
-    std::vector<Se2> poses = {path.front()};
-    for (std::size_t i = 1; i < path.size(); ++i) append_joints(poses, world.curve(path[i - 1], path[i]));
+    const std::vector<Se2> poses = joints(world, path);
     const StageTimer timer(execution(), "verify", answer.seconds.verify, poses.size());
     const Verification found =
         verify_car(scene(), verified_car(question().robot), poses, verify_options(question()), execution(), judged());
@@ -100,10 +103,7 @@ class Car : public PoseBody {
     answer.path_figures.push_back({"cusps", std::uint64_t{found.cusps}});
     answer.path_figures.push_back({"reversed_length", found.reversed});
     if (!on_lattice_ || !(asked_.cusp_cost || asked_.reverse_cost || grid_.turn_cost)) return;
-    const DrivingPrice asked = price_on_lattice();
-    answer.price = PriceParts{.turning = grid_.turn_cost.value_or(0.0) * found.turn_rad,
-                              .cusps = asked.cusp * static_cast<double>(found.cusps),
-                              .reverse = (asked.reverse - 1.0) * found.reversed};
+    answer.price = driving(found);
     answer.cost = found.length + answer.price->sum();
     answer.bound_of = "all";
   }
@@ -122,11 +122,42 @@ class Car : public PoseBody {
   DrivingPrice price() const {
     return {asked_.cusp_cost.value_or(question().robot.turning_radius), asked_.reverse_cost.value_or(1.0)};
   }
-  /// Unasked, only what is driven anew has a price.
+  /// Unasked, only what is driven anew has a price: where places have one, nothing is.
   DrivingPrice price_on_lattice() const {
     DrivingPrice on_lattice = price();
-    if (!asked_.cusp_cost && !optimise_) on_lattice.cusp = 0.0;
+    if (!asked_.cusp_cost && (!optimise_ || pose_prices().is_priced())) on_lattice.cusp = 0.0;
     return on_lattice;
+  }
+  PriceParts driving(const Verification& found) const {
+    const DrivingPrice asked = price_on_lattice();
+    return {.turning = grid_.turn_cost.value_or(0.0) * found.turn_rad,
+            .cusps = asked.cusp * static_cast<double>(found.cusps),
+            .reverse = (asked.reverse - 1.0) * found.reversed};
+  }
+  static std::vector<Se2> joints(const World& world, const Path<Se2>& path) {
+    std::vector<Se2> poses = {path.front()};
+    for (std::size_t i = 1; i < path.size(); ++i) append_joints(poses, world.curve(path[i - 1], path[i]));
+    return poses;
+  }
+  PosePrices pose_prices() const { return {scene(), prices_, question().clearance}; }
+  /// As the judge has it.
+  double paid(const World& world, const Path<Se2>& path) const {
+    const RobotSpec& robot = question().robot;
+    const std::vector<Se2> poses = joints(world, path);
+    const Verification found =
+        verify_car(scene(), verified_car(robot), poses, verify_options(question()), execution(), judged());
+    const PriceParts price = verify_body_price(scene(), poses, robot, prices_, execution());
+    return found.length + driving(found).sum() + price.sum();
+  }
+  /// The path with shortcuts where those cost less, and itself where all of it costs more then.
+  Path<Se2> cheaper(const World& world, const PosePrices& prices, const Path<Se2>& path, Answer& answer) const {
+    auto query = world.make_query();
+    const auto cost = [&](const Se2& a, const Se2& b) {
+      const SteeringCurve way = world.curve(a, b);
+      return way.length() + prices.over(world, way.length(), query, [&](double t) { return way.at(t * way.length()); });
+    };
+    Path<Se2> cut = shortcut(world, Path<Se2>(path), cost, answer);
+    return paid(world, cut) < paid(world, path) ? cut : path;
   }
   void check_lattice() const;
   bool is_length_alone() const { return Curve::one_way || (price().cusp == 0.0 && price().reverse == 1.0); }
@@ -140,6 +171,7 @@ class Car : public PoseBody {
   CarFields asked_;
   GridFields grid_;
   AnytimeFields anytime_;
+  Prices prices_;
   bool on_lattice_;
   bool optimise_;
 };
@@ -160,6 +192,8 @@ Path<Se2> Car<Curve>::on_lattice(const World& world, std::span<const Se2> goals,
   options.clearance = question().clearance;
   options.price = price_on_lattice();
   options.turn_cost = grid_.turn_cost.value_or(0.0);
+  const PosePrices prices = pose_prices();
+  if (prices.is_priced()) options.prices = &prices;
   std::optional<CarLattice> lattice;
   {
     const StageTimer timer(execution(), "stamps", answer.seconds.index);
@@ -194,14 +228,15 @@ constexpr OptionSet shape_options{Option::steering, Option::turning_radius};
 constexpr OptionSet curve_options = shape_options | OptionSet{Option::cusp_cost, Option::reverse_cost};
 constexpr OptionSet lattice_options{Option::cell,     Option::headings,   Option::turn_cost,
                                     Option::optimise, Option::iterations, Option::gap};
-constexpr PlannerChoice car_planners[] = {{PlannerKind::rrt_connect, rrt_connect_options | curve_options},
-                                          {PlannerKind::rrt, rrt_options | curve_options},
-                                          {PlannerKind::prm, prm_takes | curve_options},
-                                          {PlannerKind::lazy_prm, lazy_prm_takes | curve_options},
-                                          {PlannerKind::rrt_star, rrt_star_options | shape_options},
-                                          {PlannerKind::informed_rrt_star, rrt_star_options | shape_options},
-                                          {PlannerKind::anytime, anytime_options | shape_options},
-                                          {PlannerKind::grid, lattice_options | curve_options}};
+constexpr PlannerChoice car_planners[] = {
+    {PlannerKind::rrt_connect, rrt_connect_options | curve_options, restriction_words},
+    {PlannerKind::rrt, rrt_options | curve_options, restriction_words},
+    {PlannerKind::prm, prm_takes | curve_options, restriction_words},
+    {PlannerKind::lazy_prm, lazy_prm_takes | curve_options, restriction_words},
+    {PlannerKind::rrt_star, rrt_star_options | shape_options, restriction_words},
+    {PlannerKind::informed_rrt_star, rrt_star_options | shape_options, restriction_words},
+    {PlannerKind::anytime, anytime_options | shape_options, restriction_words},
+    {PlannerKind::grid, lattice_options | curve_options, price_words | restriction_words}};
 
 bool fits_car(const Scene&, const RobotSpec& robot) { return robot.kind == RobotKind::car; }
 

@@ -235,8 +235,10 @@ class EndWorld {
 };
 
 constexpr PlannerChoice lattice_planners[] = {
-    {PlannerKind::grid, OptionSet{Option::cell, Option::angles, Option::face_motion, Option::step_cost,
-                                  Option::turn_cost, Option::diagonal, Option::layers}}};
+    {PlannerKind::grid,
+     OptionSet{Option::cell, Option::angles, Option::face_motion, Option::step_cost, Option::turn_cost,
+               Option::diagonal, Option::layers},
+     restriction_words}};
 
 bool fits_lattice(const Scene& scene, const RobotSpec& robot) {
   const bool fits = robot.kind == RobotKind::point || robot.kind == RobotKind::disc || robot.kind == RobotKind::polygon;

@@ -100,8 +100,9 @@ constexpr PlannerChoice plane_planners[] = {
     {PlannerKind::visibility,
      OptionSet{Option::full, Option::lazy, Option::sampled_edges, Option::search, Option::queue, Option::bound},
      restriction_words},
-    {PlannerKind::cells, OptionSet{Option::doors, Option::search, Option::queue, Option::bound}},
-    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound}}};
+    {PlannerKind::cells, OptionSet{Option::doors, Option::search, Option::queue, Option::bound}, restriction_words},
+    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound},
+     restriction_words}};
 
 bool fits_plane(const Scene&, const RobotSpec& robot) {
   return robot.kind == RobotKind::point || robot.kind == RobotKind::disc;

@@ -14,6 +14,7 @@
 #include "solve/kinds/map_steps.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/pose_body.hpp"
+#include "solve/kinds/priced_motions.hpp"
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/sampled_roadmap.hpp"
 #include "solve/kinds/sampled_solve.hpp"
@@ -29,8 +30,10 @@ class TurningPolygon : public PoseBody {
   static constexpr bool has_cost = true;
 
   explicit TurningPolygon(const SolveRequest& request)
-      : PoseBody(request, pose_problem(request.scene, request.question, turning_body)) {}
+      : PoseBody(request, pose_problem(request.scene, request.question, turning_body)),
+        prices_(std::make_unique<PosePrices>(scene(), prices_of(scene(), request.question), question().clearance)) {}
 
+  MotionLength<Se2> price_motions(const World& world) const { return motion_cost(world, *prices_); }
   void index(std::optional<World>& world, SamplerKind) const {
     world.emplace(scene(), question().robot.outline, Se2Options{.clearance = question().clearance}, execution());
   }
@@ -40,21 +43,25 @@ class TurningPolygon : public PoseBody {
   }
   static double length(const World&, const Se2& a, const Se2& b) { return distance(a.position(), b.position()); }
   Path<Se2> shortened(const World& world, Path<Se2> path, Answer& answer) const {
+    if (const auto cost = price_motions(world)) return shortcut(world, std::move(path), cost, answer);
     const auto plane_length = [&](const Se2& a, const Se2& b) { return length(world, a, b); };
     return shortcut(world, std::move(path), plane_length, answer);
   }
   void judge(const World&, const Path<Se2>& path, Answer& answer) const {
     judge_turning(scene(), question(), path, execution(), answer, judged());
   }
+
+ private:
+  std::unique_ptr<PosePrices> prices_;  // motions refer to it
 };
 
-constexpr PlannerChoice turning_planners[] = {{PlannerKind::rrt_connect, rrt_connect_options},
-                                              {PlannerKind::rrt, rrt_options},
-                                              {PlannerKind::prm, prm_takes},
-                                              {PlannerKind::lazy_prm, lazy_prm_takes},
-                                              {PlannerKind::rrt_star, rrt_star_options},
-                                              {PlannerKind::informed_rrt_star, rrt_star_options},
-                                              {PlannerKind::anytime, anytime_options}};
+constexpr PlannerChoice turning_planners[] = {{PlannerKind::rrt_connect, rrt_connect_options, restriction_words},
+                                              {PlannerKind::rrt, rrt_options, restriction_words},
+                                              {PlannerKind::prm, prm_takes, price_words | restriction_words},
+                                              {PlannerKind::lazy_prm, lazy_prm_takes, price_words | restriction_words},
+                                              {PlannerKind::rrt_star, rrt_star_options, restriction_words},
+                                              {PlannerKind::informed_rrt_star, rrt_star_options, restriction_words},
+                                              {PlannerKind::anytime, anytime_options, restriction_words}};
 
 bool fits_turning(const Scene&, const RobotSpec& robot) { return robot.kind == RobotKind::polygon; }
 
@@ -63,7 +70,8 @@ bool fits_turning(const Scene&, const RobotSpec& robot) { return robot.kind == R
 // another, the body turns when it is there. A body that fits only in some headings is not found a way: not_connected.
 
 constexpr PlannerChoice turning_axis_planners[] = {
-    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound}}};
+    {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound},
+     restriction_words}};
 
 /// The same question for the disc that holds the body.
 Question question_of_disc(const PoseProblem& problem) {

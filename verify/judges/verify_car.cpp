@@ -10,41 +10,12 @@
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
 #include "verify/judges/body_on_leg.hpp"
+#include "verify/judges/car_leg.hpp"
 #include "verify/judges/judged_input.hpp"
 #include "verify/near/straight_runs.hpp"
 
 namespace warren {
 namespace {
-
-/// From one pose to the next with the steering wheel still, as a car takes it.
-struct CarLeg {
-  Se2 a;
-  Vec2 chord;
-  double turn = 0.0;
-  double ahead = 0.0;   // the chord along the heading halfway; negative: backwards
-  double aside = 0.0;   // and square to it: 0 but for rounding
-  double length = 0.0;  // of the arc
-  double radius = std::numeric_limits<double>::infinity();
-
-  CarLeg(const Se2& from, const Se2& to, double turn_rad)
-      : a(from), chord{to.x - from.x, to.y - from.y}, turn(turn_rad) {
-    const double middle = from.theta + 0.5 * turn;
-    const auto [sine, cosine] = portable::sin_and_cos(middle);
-    ahead = chord.x * cosine + chord.y * sine;
-    aside = chord.y * cosine - chord.x * sine;
-    const double half_sine = portable::sin(0.5 * std::abs(turn));
-    length = half_sine > 0.0 ? std::abs(ahead) * 0.5 * std::abs(turn) / half_sine : std::abs(ahead);
-    if (half_sine > 0.0) radius = 0.5 * std::abs(ahead) / half_sine;
-  }
-  bool is_half_turn() const { return std::abs(turn) >= std::numbers::pi * (1.0 - 1e-12); }
-};
-
-/// The shorter way round. Half a turn could go either way: it is read as one ahead.
-CarLeg leg_between(const Se2& a, const Se2& b) {
-  const CarLeg leg(a, b, shorter_turn(a.theta, b.theta));
-  if (!leg.is_half_turn() || leg.ahead >= 0.0) return leg;
-  return {a, b, leg.turn - std::copysign(2.0 * std::numbers::pi, leg.turn)};
-}
 
 class CarVerifier {
  public:
@@ -58,7 +29,7 @@ class CarVerifier {
     execution.reserve(legs_of(path.size()) * (sizeof(CarLeg) + sizeof(Leg)));
     double largest = 0.0;
     for (std::size_t i = 0; i < legs_of(path.size()); ++i) {
-      legs_.push_back(leg_between(path[i], path[std::min(i + 1, path.size() - 1)]));
+      legs_.push_back(car_leg_between(path[i], path[std::min(i + 1, path.size() - 1)]));
       add_motion(i, motion_of(legs_.back()));
       if (car.reverses && legs_.back().is_half_turn()) {  // either way may be meant: both must be free
         Leg other = motions_.back();

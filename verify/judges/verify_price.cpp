@@ -8,51 +8,16 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/base/trigonometry.hpp"
 #include "core/base/whole.hpp"
 #include "verify/exact/exact_segments.hpp"
 #include "verify/exact/leg_cost.hpp"
-#include "verify/judges/effective_scene.hpp"
+#include "verify/judges/judged_factors.hpp"
 #include "verify/near/obstacle_index.hpp"
 
 namespace warren {
 namespace {
 
 using exact::SquaredDistance;
-
-/// A leg by arc length.
-struct Ray {
-  Vec2 from;
-  Vec2 u;
-  double length;
-
-  explicit Ray(const Segment& leg) : from(leg.a), length(distance(leg.a, leg.b)) {
-    u = (1.0 / length) * (leg.b - leg.a);
-  }
-  Vec2 at(double t) const { return from + t * u; }
-};
-
-/// Where a leg passes the lines 0, 1, 2, … of a grid, along one of its axes.
-void add_lines(double at, double slope, double length, std::vector<double>& cuts) {
-  if (slope == 0.0) return;
-  const double end = at + slope * length;
-  for (double line = std::ceil(std::min(at, end)); line <= std::max(at, end); line += 1.0) {
-    const double t = (line - at) / slope;
-    if (t > 0.0 && t < length) cuts.push_back(t);
-  }
-}
-
-/// Calls piece(from, to) for all between two cuts, and the ends.
-template <class Piece>
-void for_pieces(std::vector<double>& cuts, double length, const Execution& execution, const Piece& piece) {
-  cuts.push_back(0.0);
-  cuts.push_back(length);
-  std::sort(cuts.begin(), cuts.end());
-  for (std::size_t i = 1; i < cuts.size(); ++i) {
-    execution.check();
-    if (cuts[i] > cuts[i - 1]) piece(cuts[i - 1], cuts[i]);
-  }
-}
 
 /// Nearness among the cells of a map; lengths in cells.
 class NearCells {
@@ -61,10 +26,10 @@ class NearCells {
   NearCells(const OccupancyMap& map, bool on_water, double reach, const Execution& execution)
       : map_(map), on_water_(on_water), reach_(reach), execution_(execution) {}
 
-  double over(const Ray& ray) {
+  double over(const JudgedRay& ray) {
     cuts_.clear();
-    add_lines(ray.from.x, ray.u.x, ray.length, cuts_);
-    add_lines(ray.from.y, ray.u.y, ray.length, cuts_);
+    add_grid_lines(ray.from.x, ray.u.x, ray.length, cuts_);
+    add_grid_lines(ray.from.y, ray.u.y, ray.length, cuts_);
     double sum = 0.0;
     for_pieces(cuts_, ray.length, execution_, [&](double from, double to) {
       sum += over_piece(ray.at(from), ray.u, to - from, ray.at(0.5 * (from + to)));
@@ -126,7 +91,7 @@ class NearSides {
   NearSides(const Scene& scene, double reach, const Execution& execution)
       : index_(scene, execution), reach_(reach), execution_(execution) {}
 
-  double over(const Ray& ray) {
+  double over(const JudgedRay& ray) {
     const Segment leg{ray.from, ray.at(ray.length)};
     const Box box = box_of(leg);
     near_.clear();
@@ -173,124 +138,12 @@ class NearSides {
   std::vector<double> cuts_;
 };
 
-/// The factors of places: of areas, masks and unknown cells. In cells of the map; without one, in the world.
-class Factors {
- public:
-  Factors(const Scene& scene, const Prices& prices, const Execution& execution)
-      : map_(scene.map ? &*scene.map : nullptr), execution_(execution) {
-    if (map_ != nullptr && !map_->unknown.empty()) unknown_ = prices.unknown.value_or(1.0);
-    for (const PricedArea& area : prices.areas) {
-      if (!(area.factor > 1.0)) continue;
-      areas_.push_back({area.factor, {}});
-      for (const Vec2 p : area.corners) areas_.back().corners.push_back(map_ != nullptr ? judged_corner(*map_, p) : p);
-    }
-    for (const PriceMask& mask : prices.masks) masks_.push_back(&mask);
-  }
-  bool any() const { return unknown_ > 1.0 || !areas_.empty() || !masks_.empty(); }
-
-  /// The integral of factor - 1 over a leg of the world, in the world's unit.
-  double over(const Segment& leg) {
-    const Segment own = map_ != nullptr ? Segment{map_point(*map_, leg.a), map_point(*map_, leg.b)} : leg;
-    const Ray ray(own);
-    cuts_.clear();
-    for (const Area& area : areas_) {
-      for (std::size_t i = 0; i < area.corners.size(); ++i) {
-        const Segment side = area.side(i);
-        const Vec2 along = side.b - side.a;
-        const double t = cross(side.a - ray.from, along) / cross(ray.u, along);
-        if (t > 0.0 && t < ray.length) cuts_.push_back(t);  // not NaN, where it runs along
-      }
-    }
-    if (unknown_ > 1.0) {
-      add_lines(ray.from.x, ray.u.x, ray.length, cuts_);
-      add_lines(ray.from.y, ray.u.y, ray.length, cuts_);
-    }
-    const double to_world = distance(leg.a, leg.b) / ray.length;
-    for (const PriceMask* mask : masks_) {
-      const Vec2 from = in_mask(*mask->read, leg.a);
-      const Vec2 by = (1.0 / ray.length) * (in_mask(*mask->read, leg.b) - from);
-      add_lines(from.x, by.x, ray.length, cuts_);
-      add_lines(from.y, by.y, ray.length, cuts_);
-    }
-    double sum = 0.0;
-    for_pieces(cuts_, ray.length, execution_, [&](double from, double to) {
-      const double middle = 0.5 * (from + to);
-      sum += (to - from) * (factor(ray.at(middle), leg.a + (middle / ray.length) * (leg.b - leg.a)) - 1.0);
-    });
-    return sum * to_world;
-  }
-
- private:
-  static constexpr double on_border = 1e-9;
-  struct Area {
-    double factor;
-    std::vector<Vec2> corners;
-    Segment side(std::size_t i) const { return {corners[i], corners[i + 1 == corners.size() ? 0 : i + 1]}; }
-    /// In the open polygon, and not within `on_border` of its outline. By how often it is wound around the place.
-    bool holds(Vec2 p) const {
-      int wound = 0;
-      for (std::size_t i = 0; i < corners.size(); ++i) {
-        const Segment s = side(i);
-        if (exact::distance(s, {p, p}) <= on_border) return false;
-        if ((s.a.y <= p.y) == (s.b.y <= p.y)) continue;
-        const int left = exact::side_of(s.a, s.b, p);
-        if (s.a.y <= p.y ? left > 0 : left < 0) wound += left;
-      }
-      return wound != 0;
-    }
-  };
-
-  static Vec2 in_mask(const MaskCells& mask, Vec2 in_world) {
-    const auto [sine, cosine] = portable::sin_and_cos(mask.yaw_rad);
-    const Vec2 d = in_world - mask.origin;
-    const Vec2 turned = mask.yaw_rad == 0.0 ? d : Vec2{cosine * d.x + sine * d.y, cosine * d.y - sine * d.x};
-    return (1.0 / mask.cell) * turned;
-  }
-
-  /// The least of the cells that the place is in, or on the border of.
-  template <class OfCell>
-  static double least_at(Vec2 p, const OfCell& of_cell) {
-    const auto cell = [](double x) { return bounded_whole<std::int64_t>(std::floor(x)); };
-    return std::min(
-        {of_cell(cell(p.x - on_border), cell(p.y - on_border)), of_cell(cell(p.x + on_border), cell(p.y - on_border)),
-         of_cell(cell(p.x - on_border), cell(p.y + on_border)), of_cell(cell(p.x + on_border), cell(p.y + on_border))});
-  }
-
-  double factor(Vec2 p, Vec2 in_world) const {
-    double greatest = 1.0;
-    for (const Area& area : areas_) {
-      if (area.factor > greatest && area.holds(p)) greatest = area.factor;
-    }
-    if (unknown_ > greatest) {
-      greatest = std::max(greatest, least_at(p, [&](std::int64_t x, std::int64_t y) {
-                            return map_->unknown.holds(x, y) ? unknown_ : 1.0;
-                          }));
-    }
-    for (const PriceMask* mask : masks_) {
-      const MaskCells& cells = *mask->read;
-      greatest = std::max(
-          greatest, least_at(in_mask(cells, in_world), [&](std::int64_t x, std::int64_t y) {
-            if (x < 0 || y < 0 || x >= cells.width || y >= cells.height) return 1.0;
-            return judged_factor(*mask, cells.values[as_whole<std::size_t>(y * cells.width + x)]).value_or(1.0);
-          }));
-    }
-    return greatest;
-  }
-
-  const OccupancyMap* map_;
-  const Execution& execution_;
-  double unknown_ = 1.0;
-  std::vector<Area> areas_;
-  std::vector<const PriceMask*> masks_;
-  std::vector<double> cuts_;
-};
-
 }  // namespace
 
 PriceParts verify_price(const Scene& scene, std::span<const Vec2> path, const Prices& prices, double radius,
                         const Execution& execution) {
   PriceParts parts;
-  Factors factors(scene, prices, execution);
+  JudgedFactors factors(scene, prices, execution);
   std::optional<NearCells> near_cells;
   std::optional<NearSides> near_sides;
   double reach = 0.0;
@@ -315,9 +168,9 @@ PriceParts verify_price(const Scene& scene, std::span<const Vec2> path, const Pr
     const double scale = prices.clearance->price * ((reach + radius) / reach) * ((reach + radius) / reach);
     if (near_cells) {
       const Segment own{map_point(*scene.map, leg.a), map_point(*scene.map, leg.b)};
-      parts.clearance += scale * scene.map->cell * near_cells->over(Ray(own));
+      parts.clearance += scale * scene.map->cell * near_cells->over(JudgedRay(own));
     } else {
-      parts.clearance += scale * near_sides->over(Ray(leg));
+      parts.clearance += scale * near_sides->over(JudgedRay(leg));
     }
   }
   return parts;
