@@ -438,8 +438,7 @@ Answer solve_chosen(const SolveRequest& request) {
     std::optional<MapPrices> prices;
     const MapPrices* priced = take_prices(prices, map, problem, request.execution);
     MapPrices::Scratch scratch;
-    WaysOverCells ways(map, problem, closed, wide, Diagonal::sqrt2, leg_prices(prices ? &*prices : nullptr, scratch),
-                       request.execution);
+    WaysOverCells ways(map, problem, closed, wide, Diagonal::sqrt2, leg_prices(priced, scratch), request.execution);
     choice = choose_goal(ways, map, problem, {}, has_open_end(request));
     chosen.counters.expanded += ways.expanded();
     take_choice(chosen, choice);
