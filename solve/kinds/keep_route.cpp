@@ -87,7 +87,7 @@ std::optional<Cost> cost_now(const std::vector<State>& states, const Scene& scen
   asked.goal_pose.reset();
   const RecordedAnswer path = path_of(states, asked);
   Cost cost;
-  cost.verdict = kind.verify(scene, asked, path, execution);
+  cost.verdict = verifying_kind(scene, asked).verify(scene, asked, path, execution);
   if (!cost.verdict.verified) return std::nullopt;
   if (is_plain(problem.robot) && !problem.prices.empty()) {
     cost.price = verify_price(scene, path.path, problem.prices, problem.robot.radius, execution);

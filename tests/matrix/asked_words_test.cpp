@@ -18,11 +18,8 @@ namespace {
 SolveOptions options_of(PlannerKind planner) {
   SolveOptions options;
   options.planner = planner;
-  options.anytime.iterations = 300;
-  try {
-    check_solver_options(options);
-  } catch (const UsageError&) {
-    options.anytime.iterations.reset();
+  for (const PlannerKind better : {PlannerKind::rrt_star, PlannerKind::informed_rrt_star, PlannerKind::anytime}) {
+    if (planner == better) options.anytime.iterations = 3;
   }
   return options;
 }
