@@ -84,6 +84,10 @@ std::pair<double, double> ends_of_reach(const StretchDistance& thing, double rea
 
 double NearnessSum::integral(std::span<const StretchDistance> things, double from, double to, double reach) {
   if (!(to > from)) return 0.0;
+  const auto is_all = [&](const StretchDistance& thing) {
+    return std::max(squared(thing, from), squared(thing, to)) <= reach * reach;
+  };
+  if (things.size() == 1 && is_all(things[0])) return integral_of_one(things[0], from, to, reach);  // most often
   double enough = reach * reach;  // what is everywhere farther than this is nowhere the nearest, or beyond the reach
   for (const StretchDistance& thing : things)
     enough = std::min(enough, std::max(squared(thing, from), squared(thing, to)));
@@ -91,6 +95,7 @@ double NearnessSum::integral(std::span<const StretchDistance> things, double fro
   for (const StretchDistance& thing : things) {
     if (least_squared(thing, from, to) <= enough) near_.push_back(thing);
   }
+  if (near_.size() == 1 && is_all(near_[0])) return integral_of_one(near_[0], from, to, reach);
   cuts_.assign(1, from);
   for (std::size_t i = 0; i < near_.size(); ++i) {
     const auto at = ends_of_reach(near_[i], reach);

@@ -5,11 +5,11 @@
 #include <bit>
 #include <cmath>
 #include <map>
-#include <queue>
 #include <tuple>
 #include <utility>
 
 #include "core/base/whole.hpp"
+#include "core/search/search_queues.hpp"
 
 namespace warren {
 namespace {
@@ -176,8 +176,9 @@ class ClassSearch {
   ClassSearch(StepWeights& weights, PriceField& field, const HoleCuts& cuts, const ClassChoice& choice,
               const Execution& execution)
       : weights_(weights), field_(field), cuts_(cuts), choice_(choice), execution_(execution) {
-    execution.reserve(sizeof(std::uint32_t) * weights.cells().number_end());
+    execution.reserve(2 * sizeof(std::uint32_t) * weights.cells().number_end());
     first_.assign(weights.cells().number_end(), none);
+    settled_.assign(weights.cells().number_end(), 0);
   }
 
   std::vector<ClassPath> find(Cell start, Cell goal) {
@@ -189,10 +190,10 @@ class ClassSearch {
     reach(weights_.cells().number(start), 0, none, 0, *least);
     for (std::uint64_t turns = 1; !open_.empty(); ++turns) {
       if (turns % expansions_per_poll == 0) execution_.check();
-      const auto [promise, at] = open_.top();
-      open_.pop();
+      const auto [key, at] = open_.pop();
       State& state = states_[at];
-      if (state.is_settled || promise != state.promise || settled(state.cell) >= choice_.count) continue;
+      if (state.is_settled || key != key_of(state) || settled_[state.cell] >= choice_.count) continue;
+      ++settled_[state.cell];
       state.is_settled = true;
       if (state.cell == end) {
         found.push_back({cells_to(at), state.cost, words_.spelled(state.word)});
@@ -206,7 +207,7 @@ class ClassSearch {
  private:
   struct State {
     std::uint64_t cost;
-    std::uint64_t promise;
+    std::uint64_t rest;
     VertexId cell;
     std::uint32_t word;
     std::uint32_t before;
@@ -214,27 +215,22 @@ class ClassSearch {
     bool is_settled;
   };
 
-  std::size_t settled(VertexId cell) const {
-    std::size_t count = 0;
-    for (std::uint32_t i = first_[cell]; i != none; i = states_[i].next) count += states_[i].is_settled ? 1 : 0;
-    return count;
-  }
+  static double key_of(const State& state) { return static_cast<double>(state.cost + state.rest); }
   void reach(VertexId cell, std::uint32_t word, std::uint32_t before, std::uint64_t cost, std::uint64_t rest) {
     std::uint32_t at = first_[cell];
     while (at != none && states_[at].word != word) at = states_[at].next;
     if (at == none) {
       at = as_whole<std::uint32_t>(states_.size());
       if (states_.size() == states_.capacity()) execution_.reserve(2 * sizeof(State) * states_.size());
-      states_.push_back({cost, cost + rest, cell, word, before, first_[cell], false});
+      states_.push_back({cost, rest, cell, word, before, first_[cell], false});
       first_[cell] = at;
     } else {
       State& known = states_[at];
       if (known.cost <= cost) return;
       known.cost = cost;
-      known.promise = cost + rest;
       known.before = before;
     }
-    open_.emplace(cost + rest, at);
+    open_.push(at, key_of(states_[at]));
   }
   void expand(std::uint32_t at) {
     const State from = states_[at];
@@ -242,8 +238,9 @@ class ClassSearch {
     for (unsigned rest = weights_.allowed(from.cell); rest != 0; rest &= rest - 1) {
       const auto step = as_whole<unsigned>(std::countr_zero(rest));
       const VertexId to = from.cell + weights_.offset(step);
-      if (settled(to) >= choice_.count) continue;
-      const auto left = field_.cost(weights_.cells().cell(to), execution_);
+      if (settled_[to] >= choice_.count) continue;
+      const auto left = first_[to] != none ? std::optional(states_[first_[to]].rest)
+                                           : field_.cost(weights_.cells().cell(to), execution_);
       if (!left) continue;
       const std::uint64_t cost = from.cost + weights_.weight(from.cell, step);
       if (static_cast<double>(cost + *left) > limit_) continue;
@@ -265,10 +262,9 @@ class ClassSearch {
   double limit_ = 0.0;
   Words words_;
   std::vector<State> states_;
-  std::vector<std::uint32_t> first_;  // state of each cell
-  std::priority_queue<std::pair<std::uint64_t, std::uint32_t>, std::vector<std::pair<std::uint64_t, std::uint32_t>>,
-                      std::greater<>>
-      open_;
+  std::vector<std::uint32_t> first_;    // state of each cell
+  std::vector<std::uint32_t> settled_;  // states of each cell
+  BucketQueue open_{static_cast<double>(units_a_cell) / 64.0};
 };
 
 }  // namespace

@@ -63,11 +63,11 @@ PriceField::PriceField(StepWeights& weights, std::span<const Goal> goals, std::s
       towards_(towards.begin(), towards.end()),
       goals_(goals.begin(), goals.end()),
       costs_(zeros<std::uint64_t>(weights.cells().number_end(), execution)),
-      queue_(static_cast<double>(units_a_cell) / 64.0) {  // few cells a bucket, and most steps within a turn of them
+      buckets_(bucket_count) {
   for (std::size_t i = 0; i < goals_.size(); ++i) {
     const VertexId v = weights_.cells().number(goals_[i].cell);
     goal_cells_.emplace_back(v, i);
-    if (weights_.cells().is_free(v)) reach(v, goals_[i].cost);
+    if (weights_.cells().is_free(v) && goals_[i].cost < known(v)) reach(v, goals_[i].cost);
   }
   std::sort(goal_cells_.begin(), goal_cells_.end());
 }
@@ -81,9 +81,15 @@ std::uint64_t PriceField::estimate(VertexId v) const {
 }
 
 void PriceField::reach(VertexId v, std::uint64_t cost) {
-  if (cost >= known(v)) return;
-  costs_[v] = cost + 1;
-  queue_.push(v, key(v));
+  costs_[v] = cost + 1;  // not expanded at that
+  queue(v);
+}
+
+/// Keys a whole turn ahead wait in the last bucket there is.
+void PriceField::queue(VertexId v) {
+  const std::uint64_t at = std::clamp(bucket_of(v), current_, current_ + bucket_count - 1);
+  buckets_[at % bucket_count].push_back(v);
+  ++queued_;
 }
 
 void PriceField::expand(VertexId v) {
@@ -92,7 +98,10 @@ void PriceField::expand(VertexId v) {
     const auto s = static_cast<unsigned>(std::countr_zero(rest));
     const VertexId w = v + weights_.offset(s);
     // A weight may be dear to find: not where the length alone is too much.
-    if (here + weights_.length(s) < known(w)) reach(w, here + weights_.weight(v, s));
+    const std::uint64_t there = known(w);
+    if (here + weights_.length(s) >= there) continue;
+    const std::uint64_t cost = here + weights_.weight(v, s);
+    if (cost < there) reach(w, cost);
   }
 }
 
@@ -100,16 +109,26 @@ void PriceField::expand(VertexId v) {
 template <class IsDone>
 void PriceField::settle_until(const IsDone& is_done, const Execution& execution) {
   std::uint64_t turns = 0;
-  while (!queue_.empty()) {
-    const QueueEntry next = queue_.pop();
-    if (next.key > least_key_) least_key_ = next.key;
-    if (is_done()) return queue_.push(next.vertex, next.key);
-    if (++turns % expansions_per_poll == 0) execution.check();
-    if (next.key != key(next.vertex)) continue;  // stale
-    ++expanded_;
-    expand(next.vertex);
+  for (; queued_ > 0 && !is_done(); ++current_) {
+    std::vector<VertexId>& bucket = buckets_[current_ % bucket_count];
+    std::vector<VertexId> later;
+    for (std::size_t i = 0; i < bucket.size(); ++i) {  // which grows
+      const VertexId v = bucket[i];
+      if (++turns % expansions_per_poll == 0) execution.check();
+      if (costs_[v] == 0 || (costs_[v] & is_expanded) != 0) continue;  // lost by a repair, or stale
+      if (bucket_of(v) > current_) {
+        later.push_back(v);
+        continue;
+      }
+      costs_[v] |= is_expanded;
+      ++expanded_;
+      expand(v);
+    }
+    queued_ -= bucket.size();
+    bucket.clear();
+    for (const VertexId v : later) queue(v);
   }
-  least_key_ = std::numeric_limits<double>::infinity();
+  if (queued_ == 0) current_ = nothing_left;
 }
 
 std::optional<std::uint64_t> PriceField::cost(Cell from, const Execution& execution) {
@@ -172,8 +191,9 @@ bool PriceField::repair(std::span<const Cell> touched, std::uint64_t most, const
   for (const VertexId v : renewed) {
     const std::uint64_t cost = over_neighbours(v, 0);
     if (cost >= known(v)) continue;
-    reach(v, cost);
-    least_key_ = std::min(least_key_, key(v));
+    costs_[v] = cost + 1;
+    current_ = std::min(current_, bucket_of(v));
+    queue(v);
   }
   return true;
 }

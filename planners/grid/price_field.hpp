@@ -5,8 +5,8 @@
 // is unique, too.
 //
 // The search runs from the goals (Dijkstra), towards the cells that are asked for where these are few (A*, by what
-// steps cost at least), and goes on only when more is asked. Keys are rounded to doubles and their order decides
-// nothing: a cell is expanded again where it gets cheaper, and is settled once every key that is left is greater.
+// steps cost at least), and goes on only when more is asked. Buckets of keys are emptied in no order: a cell is
+// expanded again where it gets cheaper, and is settled once its bucket is empty.
 //
 // 8 bytes a cell, of weights 16 more, of which the system gives only the pages that are touched.
 #pragma once
@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "core/base/bitmap.hpp"
-#include "core/search/search_queues.hpp"
+#include "core/search/search.hpp"
 #include "parallel/execution.hpp"
 #include "planners/grid/grid_search.hpp"
 #include "spatial/maps/free_cells.hpp"
@@ -128,14 +128,19 @@ class PriceField {
     void operator()(std::uint64_t* block) const { std::free(block); }
   };
   static constexpr std::uint64_t unreached = ~std::uint64_t{0};
+  static constexpr std::uint64_t nothing_left = unreached;
+  static constexpr std::uint64_t bucket_count = 1024;
+  static constexpr std::uint64_t is_expanded = std::uint64_t{1} << 63;
   /// One is added to what stands there, so that pages of zeros are cells that nobody has reached.
-  std::uint64_t known(VertexId v) const { return costs_[v] - 1; }
-  double key(VertexId v) const { return static_cast<double>(known(v) + estimate(v)); }
+  std::uint64_t known(VertexId v) const { return (costs_[v] & ~is_expanded) - 1; }
+  /// A sixteenth of a cell each: no step is so short.
+  std::uint64_t bucket_of(VertexId v) const { return (known(v) + estimate(v)) / (units_a_cell / 16); }
   std::uint64_t estimate(VertexId v) const;
-  bool is_settled(VertexId v) const { return known(v) != unreached && key(v) < least_key_; }
+  bool is_settled(VertexId v) const { return known(v) != unreached && bucket_of(v) < current_; }
   /// What a goal in the cell costs, or the way over the cheapest of its neighbours.
   std::uint64_t over_neighbours(VertexId v, std::uint64_t enough);
   void reach(VertexId v, std::uint64_t cost);
+  void queue(VertexId v);
   void expand(VertexId v);
   template <class IsDone>
   void settle_until(const IsDone& is_done, const Execution& execution);
@@ -145,8 +150,9 @@ class PriceField {
   std::vector<Goal> goals_;
   std::vector<std::pair<VertexId, std::size_t>> goal_cells_;  // sorted
   std::unique_ptr<std::uint64_t[], Free> costs_;
-  BucketQueue queue_;
-  double least_key_ = 0.0;  // of all that is in the queue, once everything below was expanded
+  std::vector<std::vector<VertexId>> buckets_;  // of keys, in turns; their order within decides nothing
+  std::uint64_t current_ = 0;                   // all keys below were expanded
+  std::size_t queued_ = 0;
   std::uint64_t expanded_ = 0;
 };
 

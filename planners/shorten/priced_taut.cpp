@@ -15,8 +15,13 @@ class Puller {
  public:
   Puller(const Path<Vec2>& path, const PricedLegs& legs, const Execution& execution)
       : legs_(legs), execution_(execution) {
-    for (const Vec2 place : path) vertices_.push_back({place, 0.0, legs.step, true});
-    for (std::size_t i = 1; i < vertices_.size(); ++i) vertices_[i].leg = cost(vertices_[i - 1].place, path[i]);
+    for (const Vec2 place : path) {
+      while (vertices_.size() > 1 && goes_straight_on(place)) vertices_.pop_back();
+      vertices_.push_back({place, 0.0, legs.step, true});
+    }
+    for (std::size_t i = 1; i < vertices_.size(); ++i) {
+      vertices_[i].leg = cost(vertices_[i - 1].place, vertices_[i].place);
+    }
   }
 
   Path<Vec2> pulled() {
@@ -47,6 +52,14 @@ class Puller {
     bool is_new = true;  // has anything beside it changed since it was tried?
   };
 
+  /// From the last vertex but one over the last: what costs the same with a vertex less.
+  bool goes_straight_on(Vec2 to) const {
+    constexpr double rounding = 1e-9;
+    const Vec2 from = vertices_[vertices_.size() - 2].place;
+    const Vec2 way = vertices_.back().place - from;
+    const Vec2 rest = to - vertices_.back().place;
+    return std::abs(cross(way, rest)) <= rounding * dot(way, rest) && legs_.is_free(from, to);
+  }
   double cost(Vec2 a, Vec2 b) const { return legs_.cost(a, b); }
   double whole() const {
     double sum = 0.0;

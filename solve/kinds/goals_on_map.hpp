@@ -78,6 +78,8 @@ class WaysOverCells {
 
   bool stands_free(Vec2 place) const;
   std::uint64_t expanded() const { return expanded_; }
+  /// Of the steps, known so far.
+  StepWeights& weights() { return weights_; }
 
  private:
   std::uint64_t leg_cost(Vec2 a, Vec2 b) const;

@@ -41,7 +41,8 @@ class Routes {
         hole_(route.hole.value_or(2.0 * asked.problem.robot.radius)),
         cuts_(asked.wide, hole_ / asked.map.cell * (1.0 - 1e-12), execution),
         closed_(with_cells(asked.map, asked.closed)),
-        world_(closed_, asked.problem.reach(), execution) {
+        world_(asked.distances != nullptr ? GridWorld(closed_, asked.problem.reach(), *asked.distances)
+                                          : GridWorld(closed_, asked.problem.reach(), execution)) {
     if (asked.problem.reach() > 0.0) holes_.emplace(with_cells(asked.map, cuts_.cells()), 0.0, execution);
   }
 
@@ -84,8 +85,6 @@ class Routes {
     const auto own_start = cell_at(asked_.map, asked_.problem.start);
     const auto own_goal = cell_at(asked_.map, asked_.problem.goal);
     if (!own_start || !own_goal) return {};
-    StepWeights weights = asked_.prices.step ? StepWeights(asked_.wide, asked_.prices.step, execution_)
-                                             : StepWeights(asked_.wide, Diagonal::sqrt2, execution_);
     const auto joined = [&](Vec2 place, Cell own) {
       return cells_joined_to(asked_.map, asked_.wide, asked_.problem.reach(), place, own, execution_);
     };
@@ -94,8 +93,8 @@ class Routes {
       const PriceField::Goal goals[] = {{goal}};
       for (const Cell start : joined(asked_.problem.start, *own_start)) {
         const Cell towards[] = {start};
-        PriceField field(weights, goals, towards, execution_);
-        auto found = cheapest_classes(weights, field, cuts_, start, goal, choice, execution_);
+        PriceField field(asked_.weights, goals, towards, execution_);
+        auto found = cheapest_classes(asked_.weights, field, cuts_, start, goal, choice, execution_);
         expanded_ += field.expanded();
         if (!found.empty()) return found;
       }

@@ -159,8 +159,9 @@ class CellSolve {
     reached.goal = answer_.path.back();
     std::function<PriceParts(Vec2, Vec2)> parts;
     if (prices_) parts = [this](Vec2 a, Vec2 b) { return prices_->parts(a, b, scratch()); };
-    take_alternatives(answer_, route, {map_, reached, closed_, blocked(), leg_prices(prices_, scratch()), parts},
-                      request_.execution);
+    const RoutesAsked asked{
+        map_, reached, closed_, blocked(), ways().weights(), distances(), leg_prices(prices_, scratch()), parts};
+    take_alternatives(answer_, route, asked, request_.execution);
   }
   Answer& answer() { return answer_; }
 
@@ -193,11 +194,16 @@ class CellSolve {
   GoalChoice choose() {
     const StageTimer timer(request_.execution, "search", answer_.seconds.search, map_.blocked.size());
     answer_.search = "field";
-    WaysOverCells ways(map_, problem_, closed_, blocked(), grid_.diagonal, leg_prices(prices_, scratch()),
-                       request_.execution, kept_);
-    GoalChoice choice = choose_goal(ways, map_, problem_, way_points(request_), has_open_end(request_));
-    answer_.counters.expanded += ways.expanded();
+    GoalChoice choice = choose_goal(ways(), map_, problem_, way_points(request_), has_open_end(request_));
+    answer_.counters.expanded += ways().expanded();
     return choice;
+  }
+  WaysOverCells& ways() {
+    if (!ways_) {
+      ways_.emplace(map_, problem_, closed_, blocked(), grid_.diagonal, leg_prices(prices_, scratch()),
+                    request_.execution, kept_);
+    }
+    return *ways_;
   }
 
   /// Leg by leg, so that no stop is cut off.
@@ -336,6 +342,7 @@ class CellSolve {
   GridSearchOptions grid_;
   Bitmap closed_;   // to a point
   Bitmap blocked_;  // to a disc's middle; empty: the robot is a point
+  std::optional<WaysOverCells> ways_;
   Answer answer_;
 };
 

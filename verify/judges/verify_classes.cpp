@@ -24,28 +24,41 @@ Bitmap cells_without_room(const OccupancyMap& map, double keeps, const Execution
   const auto at = [&](std::int64_t x, std::int64_t y) -> std::int32_t& {
     return rows_off[as_whole<std::size_t>(y * width + x)];
   };
-  for (std::int64_t x = 0; x < width; ++x) {
-    execution.check();
-    std::int32_t off = 0;
-    for (std::int64_t y = 0; y < height; ++y) at(x, y) = off = map.blocked.holds(x, y) ? 0 : off + 1;
-    off = 0;
-    for (std::int64_t y = height; y-- > 0;) {
-      off = map.blocked.holds(x, y) ? 0 : off + 1;
-      at(x, y) = std::min(at(x, y), off);
-    }
-  }
-  const auto gap = [](std::int64_t cells) { return static_cast<double>(std::max<std::int64_t>(2 * cells - 1, 0)); };
-  Bitmap closed(map.width(), map.height());
   for (std::int64_t y = 0; y < height; ++y) {
     execution.check();
-    for (std::int64_t x = 0; x < width; ++x) {
-      bool is_near = false;
-      for (std::int64_t c = x - around; c <= x + around && !is_near; ++c) {
-        const double rows = c < 0 || c >= width ? 0.0 : gap(at(c, y));
-        const double columns = gap(std::abs(c - x));
-        is_near = rows * rows + columns * columns < needed_sq;
+    for (std::int64_t x = 0; x < width; ++x) at(x, y) = map.blocked.holds(x, y) ? 0 : (y > 0 ? at(x, y - 1) : 0) + 1;
+  }
+  for (std::int64_t y = height; y-- > 0;) {
+    execution.check();
+    for (std::int64_t x = 0; x < width; ++x) at(x, y) = std::min(at(x, y), (y + 1 < height ? at(x, y + 1) : 0) + 1);
+  }
+  const auto gap = [](std::int64_t cells) { return static_cast<double>(std::max<std::int64_t>(2 * cells - 1, 0)); };
+  std::vector<std::int32_t> near_rows;  // by columns off: a blocked square fewer rows off is too near
+  for (std::int64_t columns = 0; columns <= around; ++columns) {
+    std::int32_t rows = 0;
+    while (rows <= height && gap(rows) * gap(rows) + gap(columns) * gap(columns) < needed_sq) ++rows;
+    near_rows.push_back(rows);
+  }
+  Bitmap closed(map.width(), map.height());
+  std::vector<std::uint8_t> is_near(as_whole<std::size_t>(width));
+  for (std::int64_t y = 0; y < height; ++y) {
+    execution.check();
+    std::fill(is_near.begin(), is_near.end(), std::uint8_t{0});
+    for (std::int64_t off = -around; off <= around; ++off) {
+      const std::int32_t rows = near_rows[as_whole<std::size_t>(std::abs(off))];
+      for (std::int64_t x = 0; x < std::min(width, -off) && rows > 0; ++x) is_near[as_whole<std::size_t>(x)] = 1;
+      for (std::int64_t x = std::max<std::int64_t>(0, width - off); x < width && rows > 0; ++x) {
+        is_near[as_whole<std::size_t>(x)] = 1;
       }
-      if (is_near) closed.set(as_whole<std::uint32_t>(x), as_whole<std::uint32_t>(y));
+      const std::int64_t first = std::max<std::int64_t>(0, -off);
+      const std::int64_t last = std::min(width, width - off);
+      if (first >= last) continue;
+      const std::int32_t* row = &at(first + off, y);
+      std::uint8_t* into = &is_near[as_whole<std::size_t>(first)];
+      for (std::int64_t i = 0; i < last - first; ++i) into[i] |= row[i] < rows ? 1 : 0;
+    }
+    for (std::int64_t x = 0; x < width; ++x) {
+      if (is_near[as_whole<std::size_t>(x)] != 0) closed.set(as_whole<std::uint32_t>(x), as_whole<std::uint32_t>(y));
     }
   }
   return closed;

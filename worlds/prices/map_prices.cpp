@@ -55,24 +55,22 @@ void walk_cells(const OccupancyMap& map, Vec2 a, Vec2 u, double length, const Pi
   }
 }
 
-/// The next set bit of a row at or after `first`, up to `last`; none: beyond `last`.
-std::int64_t next_set(std::span<const std::uint64_t> row, std::int64_t first, std::int64_t last) {
-  for (std::int64_t w = first / 64; w <= last / 64; ++w) {
-    std::uint64_t bits = row[as_whole<std::size_t>(w)];
-    if (w == first / 64) bits &= ~std::uint64_t{0} << first % 64;
-    if (bits != 0) return 64 * w + std::countr_zero(bits);
-  }
-  return last + 1;
+double squared_distance(const MapPrices::Site& site, Vec2 p) {
+  const double x = site.dx == 0.0 ? 0.0 : site.at.x - p.x;
+  const double y = site.dy == 0.0 ? 0.0 : site.at.y - p.y;
+  return x * x + y * y;
 }
 
-/// The one before, at or before `first`, down to `last`; none: below `last`.
-std::int64_t previous_set(std::span<const std::uint64_t> row, std::int64_t first, std::int64_t last) {
-  for (std::int64_t w = first / 64; w >= last / 64; --w) {
-    std::uint64_t bits = row[as_whole<std::size_t>(w)];
-    if (w == first / 64) bits &= ~std::uint64_t{0} >> (63 - first % 64);
-    if (bits != 0) return 64 * w + 63 - std::countl_zero(bits);
+/// Is `a` at least as near as `b` in all of the cell? Where a corner is nearer than another, or than a side, is convex:
+/// the cell's corners say it. A side is nearer than all that is farther to the same side.
+bool hides(const MapPrices::Site& a, const MapPrices::Site& b, Cell cell) {
+  if (a.dx == 0.0) return a.dy == b.dy && a.dy * (b.at.y - a.at.y) >= 0.0;
+  if (a.dy == 0.0) return a.dx == b.dx && a.dx * (b.at.x - a.at.x) >= 0.0;
+  for (const auto& [x, y] : {Vec2{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {1.0, 1.0}}) {
+    const Vec2 corner{cell.x + x, cell.y + y};
+    if (squared_distance(b, corner) < squared_distance(a, corner)) return false;
   }
-  return last - 1;
+  return true;
 }
 
 }  // namespace
@@ -97,6 +95,8 @@ MapPrices::MapPrices(const OccupancyMap& effective, double radius, const Prices&
     reach_ = (reach + radius) / map_.cell;
     price_ = clearance_scale(*prices.clearance, radius);
     field_.emplace(map_.blocked, CellDistance::squares, true, execution);
+    const double open = 2.0 * (reach_ + half_diagonal);  // squares are halves of cells
+    open_sq_ = bounded_whole<std::uint32_t>(std::ceil(open * open));
   }
   const bool any_unknown = unknown_ > 1.0;
   has_areas_ = any_unknown || !areas_.empty();
@@ -125,9 +125,10 @@ MapPrices::MapPrices(const OccupancyMap& effective, double radius, const Prices&
 /// the nearest by more than the cell's diagonal is not. Kept, for legs come back to the same cells.
 std::span<const MapPrices::Site> MapPrices::sites(Cell cell, Scratch& scratch) const {
   const std::size_t number = std::size_t{cell.y} * map_.width() + cell.x;
-  if (scratch.of != this) scratch.kept.assign(Scratch::kept_cells, {});
+  if (scratch.of != this) scratch.kept.assign(Scratch::kept_rows * Scratch::kept_columns, {});
   scratch.of = this;
-  Scratch::Sites& kept = scratch.kept[number % Scratch::kept_cells];
+  const std::size_t row = cell.y % Scratch::kept_rows;
+  Scratch::Sites& kept = scratch.kept[row * Scratch::kept_columns + cell.x % Scratch::kept_columns];
   if (kept.cell == number) return kept.sites;
   kept.cell = number;
   kept.sites.clear();
@@ -149,20 +150,44 @@ std::span<const MapPrices::Site> MapPrices::sites(Cell cell, Scratch& scratch) c
   if (y < far) take(0, 0, 0, -1);
   if (width - 1 - x < far) take(width, 0, 1, 0);
   if (height - 1 - y < far) take(0, height, 0, 1);
-  const std::int64_t left_end = std::max<std::int64_t>(0, x - far);
-  const std::int64_t right_end = std::min(width - 1, x + far);
+  const Bitmap& blocked = map_.blocked;
   for (std::int64_t row = std::max<std::int64_t>(0, y - far); row <= std::min(height - 1, y + far); ++row) {
-    const auto bits = map_.blocked.row(as_whole<std::uint32_t>(row));
+    const auto bits = blocked.row(as_whole<std::uint32_t>(row));
     const int dy = row > y ? 1 : row < y ? -1 : 0;
     const std::int64_t edge_y = row > y ? row : row + 1;  // the side that looks at the cell
-    const std::int64_t right = next_set(bits, x, right_end);
-    if (right == x) {
+    const auto words = as_whole<std::int64_t>(bits.size());
+    const std::uint64_t own = bits[as_whole<std::size_t>(x / 64)];
+    if ((own >> x % 64 & 1U) != 0) {
       if (row != y) take(0, edge_y, 0, dy);
       continue;
     }
-    if (right <= right_end) take(right, edge_y, 1, dy);
-    const std::int64_t left = previous_set(bits, x, left_end);
-    if (left >= left_end) take(left + 1, edge_y, -1, dy);
+    std::uint64_t word = own & ~std::uint64_t{0} << x % 64;
+    for (std::int64_t w = x / 64;; word = bits[as_whole<std::size_t>(w)]) {  // the nearest to the right
+      if (word != 0) {
+        const std::int64_t right = 64 * w + std::countr_zero(word);
+        if (right - x <= far) take(right, edge_y, 1, dy);
+        break;
+      }
+      if (++w == words || 64 * w - x > far) break;
+    }
+    word = own & ~(~std::uint64_t{0} << x % 64);
+    for (std::int64_t w = x / 64;; word = bits[as_whole<std::size_t>(w)]) {  // and to the left
+      if (word != 0) {
+        const std::int64_t left = 64 * w + 63 - std::countl_zero(word);
+        if (x - left <= far) take(left + 1, edge_y, -1, dy);
+        break;
+      }
+      if (--w < 0 || x - (64 * w + 63) > far) break;
+    }
+  }
+  if (kept.sites.size() > 1) {
+    const Site first = *std::min_element(kept.sites.begin(), kept.sites.end(), [&](const Site& a, const Site& b) {
+      return squared_distance(a, middle) < squared_distance(b, middle);
+    });
+    std::erase_if(kept.sites, [&](const Site& site) {
+      const bool is_first = site.at.x == first.at.x && site.at.y == first.at.y;
+      return !is_first && hides(first, site, cell);
+    });
   }
   return kept.sites;
 }
@@ -179,7 +204,7 @@ void MapPrices::gather(Cell cell, Vec2 p, Vec2 u, Scratch& scratch) const {
 }
 
 double MapPrices::nearness_in(Cell cell, Vec2 p, Vec2 u, double length, Scratch& scratch) const {
-  if (field_->distance(cell.x, cell.y) - half_diagonal >= reach_) return 0.0;
+  if (field_->squared(cell.x, cell.y) >= open_sq_) return 0.0;
   gather(cell, p, u, scratch);
   return scratch.sum.integral(scratch.things, 0.0, length, reach_);
 }

@@ -38,7 +38,8 @@ class MapPrices {
   };
   /// What a thread that asks holds; of one MapPrices, which keeps in it what is near to some thousand cells.
   struct Scratch {
-    static constexpr std::size_t kept_cells = 4096;
+    static constexpr std::size_t kept_rows = 64;
+    static constexpr std::size_t kept_columns = 128;
     struct Sites {
       std::size_t cell = std::numeric_limits<std::size_t>::max();
       std::vector<Site> sites;
@@ -86,8 +87,9 @@ class MapPrices {
   bool is_near_area(Cell cell) const { return has_areas_ && touched_.holds(cell.x, cell.y); }
 
   const OccupancyMap& map_;
-  double price_ = 0.0;  // of an integral over cells
-  double reach_ = 0.0;  // of the middle, cells; 0: nearness costs nothing
+  double price_ = 0.0;         // of an integral over cells
+  double reach_ = 0.0;         // of the middle, cells; 0: nearness costs nothing
+  std::uint32_t open_sq_ = 0;  // cells whose distance is no less are beyond the reach
   std::optional<DistanceField> field_;
   AreaFactors areas_;  // in cells
   double unknown_ = 1.0;
