@@ -382,7 +382,7 @@ Answer solve_within(const Scene& scene, const Question& question, const SolveOpt
     request.kept = kept;
     answer = solver.kind->solve(request);
     answer.problem.prices = prices_of(scene, question);
-    keep_to_route(answer, restricted.get(), question, options, *solver.kind, accounted);
+    keep_to_route(answer, restricted.get(), question, options, accounted);
     judge_prices(answer, scene, question, accounted);
     tell_bound(answer, planned.get(), options, accounted);
     prove_on_map(answer, planned.get(), options, keep, accounted);

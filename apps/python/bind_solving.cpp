@@ -85,7 +85,8 @@ KeptAnswer solve_scene(const Scene& scene, py::dict keywords, bool keep, bool ex
   kept.answer = limits.run([&](const Execution& execution) {
     tools::read_asked_files(question, words, execution);
     if (old) question.route.keep_to = states_of(recorded(*old));
-    Answer answer = solve_explained(scene, question, options, execution, keep || explain || certificate ? &kept.made : nullptr);
+    Answer answer =
+        solve_explained(scene, question, options, execution, keep || explain || certificate ? &kept.made : nullptr);
     const auto complete = [&] {
       if (answer.outcome != Outcome::stopped) make_by_products(scene, question, options, execution, kept.made);
     };
@@ -246,8 +247,10 @@ void bind_solving(py::module_& module) {
   py::class_<Replanner>(module, "Replanner")
       .def(py::init(&replanner_of))
       .def("change_cells", &change_cells)
-      .def("change_box", [](Replanner& replanner, double left, double low, double right, double high,
-                            bool blocked) { replanner.update({{left, low}, {right, high}}, blocked); })
+      .def("change_box",
+           [](Replanner& replanner, double left, double low, double right, double high, bool blocked) {
+             replanner.update({{left, low}, {right, high}}, blocked);
+           })
       .def("solve", &replanned)
       .def("scene", [](const Replanner& replanner) { return replanner.scene(); });
   module.def("solve_keywords", [] { return keyword_table(made_once<solving>()); });

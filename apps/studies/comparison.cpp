@@ -141,6 +141,8 @@ ComparisonRow row_of(const Contender& contender) {
   for (const ComparedRun& run : contender.runs) row.solved += run.solved() ? 1 : 0;
   row.success = success_of(contender, row);
   row.length = distribution(contender, [](const ComparedRun& r) { return if_solved(r, r.length); });
+  row.priced_cost = distribution(
+      contender, [](const ComparedRun& r) { return r.solved() && r.is_priced ? r.cost : std::optional<double>(); });
   row.hops = distribution(contender, [](const ComparedRun& r) { return if_solved(r, r.hops); });
   row.min_clearance = distribution(
       contender, [](const ComparedRun& r) { return r.solved() ? r.min_clearance : std::optional<double>(); });

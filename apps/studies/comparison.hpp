@@ -32,6 +32,7 @@ struct ComparedRun {
   std::optional<double> search_s = {};       ///< planners only: the search's part of time_s
   std::optional<double> raw_length = {};     ///< before the path was shortened
   std::optional<double> cost = {};           ///< in the planner's own units
+  bool is_priced = false;                    ///< is the cost that of prices that were asked?
   Counters counters = {};                    ///< planners only
   std::vector<StageCost> costs = {};         ///< planners only: of each stage
   RoadmapSize roadmap = {};                  ///< planners only
@@ -79,6 +80,7 @@ struct ComparisonRow {
   /// Wilson's, 95 %; of one that never ran, 0 to 1; of one that is deterministic 0 to 0 or 1 to 1
   Interval success;
   std::optional<Distribution> length;         ///< of the solved runs
+  std::optional<Distribution> priced_cost;    ///< of the solved runs, where prices are asked
   std::optional<Distribution> hops;           ///< of the solved runs
   std::optional<Distribution> min_clearance;  ///< of the solved runs
   std::optional<Distribution> cells;          ///< of the solved runs

@@ -90,6 +90,7 @@ Json row_json(const Comparison& comparison, const Contender& c) {
             {"time_s", seconds_json(row.time_s)}};
   if (comparison.problems[c.problem].kind.empty()) json["deterministic"] = c.deterministic;
   if (!c.dealt.empty()) json["dealt"] = names_of(c.dealt);
+  if (row.priced_cost) json["cost"] = quartiles_json(row.priced_cost);
   if (row.cells) json["cells"] = quartiles_json(row.cells);
   if (row.turn_rad) json["turn_rad"] = quartiles_json(row.turn_rad);
   if (row.min_clearance) json["min_clearance"] = quartiles_json(row.min_clearance);

@@ -84,8 +84,8 @@ std::string success_text(const Contender& c, const ComparisonRow& row) {
 TextTable planner_table(const Comparison& comparison, std::size_t problem) {
   constexpr double degree = std::numbers::pi / 180.0;
   const auto of = [&](std::string_view name) { return of_lengths(comparison, problem, name); };
-  TextTable table{{"planner", "solved", "95 %", of("length q1"), "median", "q3", "hops", "cells", "turning (deg)",
-                   "expanded", of("clearance"), "time q1", "median", "q3"},
+  TextTable table{{"planner", "solved", "95 %", of("length q1"), "median", "q3", of("cost"), "hops", "cells",
+                   "turning (deg)", "expanded", of("clearance"), "time q1", "median", "q3"},
                   1,
                   {}};
   for (const Contender& c : comparison.contenders) {
@@ -99,7 +99,8 @@ TextTable planner_table(const Comparison& comparison, std::size_t problem) {
     };
     table.rows.push_back({planner_cell(c), fmt::format("{} of {}", row.solved, row.runs), success_text(c, row),
                           number(&Distribution::q1), number(&Distribution::median), number(&Distribution::q3),
-                          median_number(row.hops), row.cells ? median_number(row.cells) : "",
+                          row.priced_cost ? median_number(row.priced_cost) : "", median_number(row.hops),
+                          row.cells ? median_number(row.cells) : "",
                           row.turn_rad ? human_number(row.turn_rad->median / degree) : "", median_number(row.expanded),
                           median_number(row.min_clearance), seconds(&Distribution::q1), seconds(&Distribution::median),
                           seconds(&Distribution::q3)});

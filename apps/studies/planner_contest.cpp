@@ -54,6 +54,7 @@ std::uint64_t expanded_by(const Answer& answer) {
 /// In the metric that planners get better by: of bodies that turn, with their turning (Se2World::distance), of all
 /// others the length.
 double metric_cost(const Answer& answer) {
+  if (answer.price && answer.cost) return *answer.cost;
   if (answer.problem.robot.kind != RobotKind::polygon || answer.states.width != 3) return answer.length;
   double weight = 0.0;
   for (const Vec2 corner : answer.problem.robot.outline) weight = std::max(weight, norm(corner));
@@ -172,6 +173,7 @@ class PlannerContest {
     if (answer.seconds.search > 0.0) run.search_s = answer.seconds.search;
     run.raw_length = answer.raw_length;
     run.cost = answer.cost;
+    run.is_priced = answer.price.has_value();
     run.counters = answer.counters;
     run.costs = answer.costs;
     run.roadmap = answer.roadmap;

@@ -88,7 +88,7 @@ struct Cost {
 };
 
 std::optional<Cost> cost_now(const std::vector<State>& states, const Scene& scene, const Question& question,
-                             const Problem& problem, const SolveKind& kind, const Execution& execution) {
+                             const Problem& problem, const Execution& execution) {
   Question asked = question;
   asked.route = {};
   asked.rule = {};
@@ -96,7 +96,7 @@ std::optional<Cost> cost_now(const std::vector<State>& states, const Scene& scen
   asked.goal_pose.reset();
   const RecordedAnswer path = path_of(states, asked);
   Cost cost;
-  cost.verdict = kind.verify(scene, asked, path, execution);
+  cost.verdict = verifying_kind(scene, asked).verify(scene, asked, path, execution);
   if (!cost.verdict.verified) return std::nullopt;
   cost.price = price_of(path.path, path.states, scene, problem, execution);
   cost.sum = cost.verdict.length + cost.price.sum();
@@ -185,7 +185,7 @@ std::vector<State> rest_of_route(const std::vector<State>& route, const State& s
 }
 
 void keep_to_route(Answer& answer, const Scene& scene, const Question& question, const SolveOptions& options,
-                   const SolveKind& kind, const Execution& execution) {
+                   const Execution& execution) {
   const RouteRule& rule = question.route;
   if (rule.keep_to.empty() || answer.problem.start.empty()) return;
   if (rule.alternatives) throw UsageError("@alternatives: and @keep_to are two questions; ask one of them");
@@ -200,7 +200,7 @@ void keep_to_route(Answer& answer, const Scene& scene, const Question& question,
   const bool is_car = problem.robot.kind == RobotKind::car;
   const std::vector<State> rest = rest_of_route(rule.keep_to, problem.start, slack, !is_car);
   KeptRoute told;
-  const std::optional<Cost> kept = cost_now(rest, scene, question, problem, kind, execution);
+  const std::optional<Cost> kept = cost_now(rest, scene, question, problem, execution);
   if (kept) told.kept_cost = kept->sum;
   if (answer.verified) {
     told.new_cost = answer.length + price_of(answer.path, answer.states, scene, problem, execution).sum();

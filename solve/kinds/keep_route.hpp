@@ -26,6 +26,6 @@ std::vector<std::vector<double>> rest_of_route(const std::vector<std::vector<dou
 /// Decides, where the question asks, and tells in the answer. Throws UsageError for routes of another body or to
 /// another goal, and where costs can't be compared; Stopped.
 void keep_to_route(Answer& answer, const Scene& scene, const Question& question, const SolveOptions& options,
-                   const SolveKind& kind, const Execution& execution);
+                   const Execution& execution);
 
 }  // namespace warren

@@ -28,6 +28,23 @@ std::string name_of_row(const Json& row) {
   return row["search"].get<std::string>() + (row["queue"].is_null() ? "" : " " + row["queue"].get<std::string>());
 }
 
+TEST(Compare, PricesGoToThePlannersThatTakeThem) {
+  const std::string words = test::source_dir() +
+                            "/examples/worlds/flat.yaml --robot 'disc 0.2' --start 0.5,0.5 --goal 4.3,0.5 --seeds 2 "
+                            "--clearance-price 3,0.5 --planners ";
+  const Json json = compared(words + "grid,rrt-connect,prm");
+  ASSERT_EQ(json["rows"].size(), 2U);
+  for (const Json& row : json["rows"]) EXPECT_GT(row["cost"]["median"], row["length"]["median"]);
+  EXPECT_LE(json["rows"][0]["cost"]["median"], json["rows"][1]["cost"]["median"]);
+  ASSERT_EQ(json["notes"].size(), 1U);
+  EXPECT_NE(json["notes"][0].get<std::string>().find("rrt-connect"), std::string::npos);
+  EXPECT_FALSE(compared(test::source_dir() + "/examples/worlds/flat.yaml --planners grid --seeds 1 --robot 'disc 0.2' "
+                                             "--start 0.5,0.5 --goal 4.3,0.5")["rows"][0]
+                   .contains("cost"));
+  const ProgramRun refused = run_program("compare " + words + "rrt-connect");
+  EXPECT_EQ(refused.exit_code, 64);
+}
+
 TEST(Compare, SearchesTakeEveryQueueAndAgreeOnLengths) {
   const Json json = compared(
       "maze:21x21,loops=0.2 --searches bfs,dfs,dijkstra,astar --queues "

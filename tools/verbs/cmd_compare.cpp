@@ -26,6 +26,7 @@
 #include "core/base/error.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/layers/draw_bodies.hpp"
+#include "scenes/files/mask_io.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
@@ -261,6 +262,7 @@ studies::PlannerDeal deal_words(const Arguments& arguments, std::vector<PlannerK
   deal.question = question_words(shared);
   deal.common = solve_words(shared);
   check_not_written(arguments, deal.question.robot);
+  check_not_written(arguments, deal.question.prices);
   return deal;
 }
 
@@ -304,6 +306,7 @@ std::vector<OptionSpec> passed_specs() {
   std::vector<OptionSpec> specs;
   add_options(specs, solve_option_specs(), {"--planner", "--seed", "--samples"});
   add_options(specs, question_option_specs());
+  add_options(specs, price_option_specs());
   return specs;
 }
 
@@ -423,8 +426,29 @@ void add_pictures(studies::Comparison& comparison, const std::string& folder, st
   std::move(notes.begin(), notes.end(), std::back_inserter(comparison.notes));
 }
 
-void compare_planners(const Scene& scene, const studies::PlannerContestOptions& contest, const Execution& execution,
+/// Planners that take no prices are left out where others take them, and a note says why.
+studies::PlannerContestOptions priced_contest(const Scene& scene, studies::PlannerContestOptions contest,
+                                              const Execution& execution, studies::Comparison& comparison) {
+  std::optional<UsageError> refused;
+  std::erase_if(contest.contenders, [&](studies::PlannerContender& asked) {
+    if (asked.question.prices.empty()) return false;
+    read_masks(asked.question.prices, execution);
+    try {
+      choose_solver(asked.options, scene, asked.question);
+      return false;
+    } catch (const UsageError& error) {
+      refused.emplace(error);
+      comparison.notes.push_back(fmt::format("left out: {}", error.what()));
+      return true;
+    }
+  });
+  if (contest.contenders.empty()) throw UsageError(about_planners(*refused));
+  return contest;
+}
+
+void compare_planners(const Scene& scene, const studies::PlannerContestOptions& asked, const Execution& execution,
                       studies::Comparison& comparison) {
+  const studies::PlannerContestOptions contest = priced_contest(scene, asked, execution, comparison);
   std::optional<Scene> bordered;
   if (scene.map && scene.walls.size() == 0 && needs_map_walls(scene, contest)) {
     bordered = scene;

@@ -4,6 +4,7 @@ from typing import Any, Literal
 
 from numpy.typing import NDArray
 
+from ._solving import _Areas, _Masks
 from ._worlds import _Listed, _Planner, _Progress, _State, _World
 
 class Comparison(dict[str, NDArray[Any]]):
@@ -73,6 +74,12 @@ def compare(
     goal_pose: _State | None = ...,
     clearance: _Listed = ...,
     contact: _Listed = ...,
+    clearance_price: float | tuple[float, float] | str | None = ...,
+    area: _Areas | None = ...,
+    areas: _Masks | _Areas | None = ...,
+    speed_zones: _Masks | None = ...,
+    keep_out: _Masks | None = ...,
+    unknown: float | Literal["blocked"] | None = ...,
     budget: float | str | None = ...,
     threads: int | None = ...,
     memory: int | str | None = ...,

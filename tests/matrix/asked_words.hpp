@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The words that a question has beside start, goal and body, as a table: how each is asked, by what name a refusal has
+// to call it, and by what an answer shows that it was heard. And bodies in worlds, for which all of them are asked.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "scenes/scene/scene.hpp"
+#include "solve/answer/answer.hpp"
+#include "solve/question/question.hpp"
+#include "solve/question/solve_options.hpp"
+
+namespace warren::test {
+
+struct AskedRow {
+  std::string name;  ///< of the option, as a refusal spells it
+  std::function<void(Question&, SolveOptions&)> ask;
+  std::function<bool(const Answer&)> is_heard;
+};
+
+/// A body in a world, whose start and goal are free and joined, and a place that is not on the shortest way.
+struct AskedBody {
+  std::string name;
+  Scene scene;
+  RobotSpec robot;
+};
+
+/// All words. Their places are those of asked_bodies().
+std::vector<AskedRow> asked_rows();
+/// Points and discs on a map and among polygons. Bodies that turn follow them.
+std::vector<AskedBody> asked_bodies();
+
+}  // namespace warren::test

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Each planner is asked each word for each body: an answer that holds and shows that the word was heard, or a refusal
+// that names it. Never silence.
+#include "tests/matrix/asked_words.hpp"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "core/base/error.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
+#include "solve/solve.hpp"
+
+namespace warren {
+namespace {
+
+/// Planners that get better end after some turns; others take no number of them.
+SolveOptions options_of(PlannerKind planner) {
+  SolveOptions options;
+  options.planner = planner;
+  for (const PlannerKind better : {PlannerKind::rrt_star, PlannerKind::informed_rrt_star, PlannerKind::anytime}) {
+    if (planner == better) options.anytime.iterations = 1;
+  }
+  return options;
+}
+
+void expect_heard(const test::AskedBody& body, PlannerKind planner, const test::AskedRow& row) {
+  Question question;
+  question.start = {1.5, 5.0};
+  question.goal = {8.5, 4.5};
+  question.robot = body.robot;
+  SolveOptions options = options_of(planner);
+  row.ask(question, options);
+  std::optional<Answer> answer;
+  try {
+    answer = solve(body.scene, question, options);
+  } catch (const UsageError& error) {
+    EXPECT_NE(std::string(error.what()).find(row.name), std::string::npos) << error.what();
+    return;
+  }
+  ASSERT_EQ(answer->outcome, Outcome::solved);
+  EXPECT_TRUE(row.is_heard(*answer)) << "it was passed over";
+  const Verdict verdict = verify(body.scene, *answer);
+  EXPECT_TRUE(verdict.verified) << (verdict.first_violation ? verdict.first_violation->obstacle : "");
+}
+
+TEST(AskedWords, AreHeardOrRefusedByName) {
+  for (const test::AskedBody& body : test::asked_bodies()) {
+    for (const PlannerKind planner : planners_there_are()) {
+      Question plain;
+      plain.start = {1.5, 5.0};
+      plain.goal = {8.5, 4.5};
+      plain.robot = body.robot;
+      try {
+        solve(body.scene, plain, options_of(planner));
+      } catch (const UsageError&) {
+        continue;  // other bodies, other worlds
+      }
+      for (const test::AskedRow& row : test::asked_rows()) {
+        SCOPED_TRACE(body.name + ", " + std::string(name_of(planner)) + ", " + row.name);
+        expect_heard(body, planner, row);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace warren
