@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/base/whole.hpp"
@@ -53,6 +54,21 @@ void walk_cells(const OccupancyMap& map, Vec2 a, Vec2 u, double length, const Pi
     if (columns.next() <= t) columns.go_on(t);
     if (rows.next() <= t) rows.go_on(t);
   }
+}
+
+/// The set bits of a row that are nearest to x, to its left and from it on to the right; beyond `far`: none is nearer.
+std::pair<std::int64_t, std::int64_t> nearest_set(std::span<const std::uint64_t> row, std::int64_t x,
+                                                  std::int64_t far) {
+  const auto words = as_whole<std::int64_t>(row.size());
+  const std::uint64_t from_x = ~std::uint64_t{0} << x % 64;
+  std::int64_t w = x / 64;
+  std::uint64_t word = row[as_whole<std::size_t>(w)] & from_x;
+  while (word == 0 && ++w < words && 64 * w - x <= far) word = row[as_whole<std::size_t>(w)];
+  const std::int64_t right = word != 0 ? 64 * w + std::countr_zero(word) : x + far + 1;
+  w = x / 64;
+  word = row[as_whole<std::size_t>(w)] & ~from_x;
+  while (word == 0 && --w >= 0 && x - (64 * w + 63) <= far) word = row[as_whole<std::size_t>(w)];
+  return {word != 0 ? 64 * w + 63 - std::countl_zero(word) : x - far - 1, right};
 }
 
 double squared_distance(const MapPrices::Site& site, Vec2 p) {
@@ -155,30 +171,13 @@ std::span<const MapPrices::Site> MapPrices::sites(Cell cell, Scratch& scratch) c
     const auto bits = blocked.row(as_whole<std::uint32_t>(row));
     const int dy = row > y ? 1 : row < y ? -1 : 0;
     const std::int64_t edge_y = row > y ? row : row + 1;  // the side that looks at the cell
-    const auto words = as_whole<std::int64_t>(bits.size());
-    const std::uint64_t own = bits[as_whole<std::size_t>(x / 64)];
-    if ((own >> x % 64 & 1U) != 0) {
+    const auto [left, right] = nearest_set(bits, x, far);
+    if (right == x) {
       if (row != y) take(0, edge_y, 0, dy);
       continue;
     }
-    std::uint64_t word = own & ~std::uint64_t{0} << x % 64;
-    for (std::int64_t w = x / 64;; word = bits[as_whole<std::size_t>(w)]) {  // the nearest to the right
-      if (word != 0) {
-        const std::int64_t right = 64 * w + std::countr_zero(word);
-        if (right - x <= far) take(right, edge_y, 1, dy);
-        break;
-      }
-      if (++w == words || 64 * w - x > far) break;
-    }
-    word = own & ~(~std::uint64_t{0} << x % 64);
-    for (std::int64_t w = x / 64;; word = bits[as_whole<std::size_t>(w)]) {  // and to the left
-      if (word != 0) {
-        const std::int64_t left = 64 * w + 63 - std::countl_zero(word);
-        if (x - left <= far) take(left + 1, edge_y, -1, dy);
-        break;
-      }
-      if (--w < 0 || x - (64 * w + 63) > far) break;
-    }
+    if (right - x <= far) take(right, edge_y, 1, dy);
+    if (x - left <= far) take(left + 1, edge_y, -1, dy);
   }
   if (kept.sites.size() > 1) {
     const Site first = *std::min_element(kept.sites.begin(), kept.sites.end(), [&](const Site& a, const Site& b) {

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A disc on an open map with blocks that are dear to be near to: the backward field alone (weights that are known, and
+// weights that are made), and a whole question beside the A* of one that has no prices.
+#include <benchmark/benchmark.h>
+
+#include <vector>
+
+#include "bench/report.hpp"
+#include "core/base/rng.hpp"
+#include "planners/grid/grid_search.hpp"
+#include "planners/grid/price_field.hpp"
+#include "planners/shorten/priced_taut.hpp"
+#include "worlds/plane/grid_world.hpp"
+#include "worlds/prices/map_prices.hpp"
+
+namespace warren {
+namespace {
+
+constexpr std::uint32_t map_side = 600;
+constexpr double cell = 0.05;
+constexpr double radius = 0.2;
+
+/// What a question is asked on.
+struct PricedMap {
+  OccupancyMap map;
+  Prices prices;
+  Cell start{30, 30};
+  Cell goal{map_side - 31, map_side - 41};
+
+  PricedMap() {
+    map.blocked = Bitmap(map_side, map_side);
+    map.cell = cell;
+    prices.clearance = ClearancePrice{3.0, 0.5};
+    for (std::uint64_t i = 0; i < 120; ++i) {
+      const auto at = [&](std::uint64_t axis) {
+        return static_cast<std::uint32_t>(50 + random_bits(1, i, axis) % (map_side - 124));
+      };
+      for (std::uint32_t y = at(1); y < at(1) + 12; ++y) map.blocked.set_run(y, at(0), at(0) + 24);
+    }
+  }
+  Bitmap wide() const { return blocked_for_disc(map.blocked, radius / cell, bench::one_thread); }
+  StepWeights weights(const MapPrices& made, MapPrices::Scratch& scratch) const {
+    return {wide(), [&](Cell from, unsigned direction) { return made.step_up(from, direction, scratch); },
+            bench::one_thread};
+  }
+};
+
+/// range(0): 0 weights are made on the way, 1 they are known.
+void price_field(benchmark::State& state) {
+  const PricedMap world;
+  const MapPrices prices(world.map, radius, world.prices, bench::one_thread);
+  MapPrices::Scratch scratch;
+  const PriceField::Goal goals[] = {{world.goal}};
+  const auto settle = [&](StepWeights& weights) {
+    PriceField field(weights, goals, {}, bench::one_thread);
+    field.settle_all(bench::one_thread);
+    return field.expanded();
+  };
+  StepWeights known = world.weights(prices, scratch);
+  const std::uint64_t cells = settle(known);
+  for (auto _ : state) {
+    if (state.range(0) != 0) {
+      settle(known);
+    } else {
+      StepWeights made = world.weights(prices, scratch);
+      settle(made);
+    }
+  }
+  bench::report(state, cells, 24 * cells);
+  state.SetLabel(state.range(0) != 0 ? "weights known" : "weights made");
+}
+BENCHMARK(price_field)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+
+/// range(0): 0 A* without prices, 1 distances, weights, field and pulling taut. Both make the map wide for the disc.
+void one_question(benchmark::State& state) {
+  const PricedMap world;
+  const bool is_priced = state.range(0) != 0;
+  for (auto _ : state) {
+    if (!is_priced) {
+      const Bitmap wide = world.wide();
+      GridSearch search(wide);
+      benchmark::DoNotOptimize(search.find(world.start, world.goal, {}, bench::one_thread));
+      continue;
+    }
+    const MapPrices prices(world.map, radius, world.prices, bench::one_thread);
+    MapPrices::Scratch scratch;
+    StepWeights weights = world.weights(prices, scratch);
+    const PriceField::Goal goals[] = {{world.goal}};
+    const Cell towards[] = {world.start};
+    PriceField field(weights, goals, towards, bench::one_thread);
+    bench::check(field.cost(world.start, bench::one_thread).has_value(), "priced field");
+    const GridWorld free(world.map, radius, *prices.distances());
+    GridWorld::Query query;
+    const PricedLegs legs{[&](Vec2 a, Vec2 b) { return prices.cost(a, b, scratch); },
+                          [&](Vec2 a, Vec2 b) { return free.is_free_motion(a, b, query); }, cell};
+    Path<Vec2> path;
+    for (const Cell at : field.path(world.start, bench::one_thread).first) path.push_back(cell_centre(world.map, at));
+    benchmark::DoNotOptimize(priced_taut(std::move(path), legs, bench::one_thread));
+  }
+  state.SetLabel(is_priced ? "priced" : "A*, no prices");
+}
+BENCHMARK(one_question)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace warren
