@@ -216,7 +216,7 @@ bool CarLattice::is_free(Cell from, const LatticeMotion& motion) {
 
 double CarLattice::dear_at(Cell cell, std::uint32_t heading) {
   float& dear = dear_[(std::size_t{cell.y} * width_ + cell.x) * headings() + heading];
-  if (dear < 0.0F) dear = static_cast<float>(prices_->at(body_, pose_of(cell, heading), query_));
+  if (dear < 0.0F) dear = static_cast<float>(prices_->nearness_at(body_, pose_of(cell, heading), query_));
   return dear;
 }
 
@@ -224,7 +224,14 @@ std::uint64_t CarLattice::extra(Cell from, std::uint32_t heading, const LatticeM
   if (prices_ == nullptr) return 0;
   const Cell to{static_cast<std::uint32_t>(std::int64_t{from.x} + motion.dx),
                 static_cast<std::uint32_t>(std::int64_t{from.y} + motion.dy)};
-  return units_of(0.5 * radius_ * motion.word.length * (dear_at(from, heading) + dear_at(to, motion.to)));
+  const double length = radius_ * motion.word.length;
+  double dear = 0.5 * (dear_at(from, heading) + dear_at(to, motion.to));
+  if (prices_->has_areas()) {  // they have borders, between which a motion would slip through
+    const SteeringCurve way{pose_of(from, heading), pose_of(to, motion.to), motion.word, radius_};
+    const double count = std::ceil(length / cell_);
+    for (double i = 0.5; i < count; ++i) dear += prices_->area_at(way.at(i / count * length).position()) / count;
+  }
+  return units_of(length * dear);
 }
 
 std::uint64_t CarLattice::extra(const SteeringCurve& way) {

@@ -50,7 +50,7 @@ class CarLattice {
   std::uint32_t headings() const { return motions_.headings(); }
   std::span<const LatticeMotion> motions_from(std::uint32_t heading) const { return motions_.from(heading); }
   bool is_free(Cell from, const LatticeMotion& motion);
-  /// What places make dear: by the mean of both ends.
+  /// What places make dear: nearness by the mean of both ends, areas by places a cell apart.
   std::uint64_t extra(Cell from, std::uint32_t heading, const LatticeMotion& motion);
   std::uint64_t at_least(Cell cell, std::uint32_t heading);
   std::span<const LatticeStart> starts() const { return starts_; }
@@ -103,7 +103,7 @@ class CarLattice {
   MotionSet motions_;
   CarBody::Query query_;
   const PosePrices* prices_;
-  RawVector<float> dear_;              // of states, a unit of length; below 0: nobody has asked
+  RawVector<float> dear_;              // what nearness costs at states, a unit of length; below 0: nobody has asked
   std::optional<FreeCells> free_;      // maps
   std::optional<SweptStamps> stamps_;  // maps
   std::optional<Bitmap> no_middle_;    // maps: where the disc does not fit

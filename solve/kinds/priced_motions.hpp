@@ -59,16 +59,19 @@ class PosePrices {
   }
   bool is_priced() const { return price_ > 0.0 || !areas_.empty() || unknown_ > 1.0; }
 
+  bool has_areas() const { return !areas_.empty() || unknown_ > 1.0; }
+
+  double area_at(Vec2 p) const {
+    const double factor = areas_.empty() ? 1.0 : areas_.factor(p);
+    return (unknown_ > factor && is_unknown(p) ? unknown_ : factor) - 1.0;
+  }
   /// World: what knows the body's clearance at a pose.
   template <class World, class Query>
-  double at(const World& world, const Se2& pose, Query& query) const {
-    const Vec2 p = pose.position();
-    double factor = areas_.empty() ? 1.0 : areas_.factor(p);
-    if (unknown_ > factor && is_unknown(p)) factor = unknown_;
-    if (!(price_ > 0.0)) return factor - 1.0;
+  double nearness_at(const World& world, const Se2& pose, Query& query) const {
+    if (!(price_ > 0.0)) return 0.0;
     const double far = (world.clearance(pose, reach_, query) + kept_) / reach_;
     const double near = std::clamp(1.0 - far, 0.0, 1.0);
-    return factor - 1.0 + price_ * near * near;
+    return price_ * near * near;
   }
   /// Of a motion of that length, from 0 to 1.
   template <class World, class Query, class PoseAt>
@@ -76,7 +79,10 @@ class PosePrices {
     constexpr double most = 64.0;
     const double count = std::clamp(std::ceil(length / step_), 1.0, most);
     double sum = 0.0;
-    for (double i = 0.5; i < count; ++i) sum += at(world, pose_at(i / count), query);
+    for (double i = 0.5; i < count; ++i) {
+      const Se2 pose = pose_at(i / count);
+      sum += area_at(pose.position()) + nearness_at(world, pose, query);
+    }
     return sum * length / count;
   }
 
