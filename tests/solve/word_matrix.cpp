@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tests/matrix/asked_words.hpp"
+#include "tests/solve/word_matrix.hpp"
 
 #include <algorithm>
 #include <cmath>

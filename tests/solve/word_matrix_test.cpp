@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Each planner is asked each word for each body: an answer that holds and shows that the word was heard, or a refusal
 // that names it. Never silence.
-#include "tests/matrix/asked_words.hpp"
+#include "tests/solve/word_matrix.hpp"
 
 #include <gtest/gtest.h>
 
