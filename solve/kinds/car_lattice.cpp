@@ -228,7 +228,7 @@ std::uint64_t CarLattice::extra(Cell from, std::uint32_t heading, const LatticeM
   double dear = 0.5 * (dear_at(from, heading) + dear_at(to, motion.to));
   if (prices_->has_areas()) {  // they have borders, between which a motion would slip through
     const SteeringCurve way{pose_of(from, heading), pose_of(to, motion.to), motion.word, radius_};
-    const double count = std::ceil(length / cell_);
+    const double count = std::ceil(4.0 * length / cell_);
     for (double i = 0.5; i < count; ++i) dear += prices_->area_at(way.at(i / count * length).position()) / count;
   }
   return units_of(length * dear);

@@ -50,7 +50,7 @@ class CarLattice {
   std::uint32_t headings() const { return motions_.headings(); }
   std::span<const LatticeMotion> motions_from(std::uint32_t heading) const { return motions_.from(heading); }
   bool is_free(Cell from, const LatticeMotion& motion);
-  /// What places make dear: nearness by the mean of both ends, areas by places a cell apart.
+  /// What places make dear: nearness by the mean of both ends, areas by places a quarter of a cell apart.
   std::uint64_t extra(Cell from, std::uint32_t heading, const LatticeMotion& motion);
   std::uint64_t at_least(Cell cell, std::uint32_t heading);
   std::span<const LatticeStart> starts() const { return starts_; }

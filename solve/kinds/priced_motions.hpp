@@ -77,13 +77,15 @@ class PosePrices {
   template <class World, class Query, class PoseAt>
   double over(const World& world, double length, Query& query, const PoseAt& pose_at) const {
     constexpr double most = 64.0;
-    const double count = std::clamp(std::ceil(length / step_), 1.0, most);
     double sum = 0.0;
-    for (double i = 0.5; i < count; ++i) {
-      const Se2 pose = pose_at(i / count);
-      sum += area_at(pose.position()) + nearness_at(world, pose, query);
+    if (price_ > 0.0) {
+      const double count = std::clamp(std::ceil(length / step_), 1.0, most);
+      for (double i = 0.5; i < count; ++i) sum += nearness_at(world, pose_at(i / count), query) / count;
     }
-    return sum * length / count;
+    if (has_areas()) {  // a look at them is cheap, and they have borders
+      for (double i = 0.5; i < most; ++i) sum += area_at(pose_at(i / most).position()) / most;
+    }
+    return sum * length;
   }
 
  private:
