@@ -69,7 +69,7 @@ Question question(RobotKind kind) {
   return asked;
 }
 
-SolveOptions by(PlannerKind planner) {
+SolveOptions planned_by(PlannerKind planner) {
   SolveOptions options;
   options.planner = planner;
   if (gets_better(planner)) options.anytime.iterations = 20;
@@ -120,7 +120,7 @@ TEST(PricedBodies, WhatIsForbiddenIsAnObstacleToEveryPlannerOfBodiesThatTurn) {
         const Question asked = question(kind);
         Answer answer;
         try {
-          answer = solve(scene, asked, by(planner));
+          answer = solve(scene, asked, planned_by(planner));
         } catch (const UsageError& error) {
           EXPECT_NE(std::string(error.what()).find("planner"), std::string::npos) << error.what();
           continue;
@@ -132,7 +132,7 @@ TEST(PricedBodies, WhatIsForbiddenIsAnObstacleToEveryPlannerOfBodiesThatTurn) {
         EXPECT_TRUE(verify(scene, answer).verified);
         Question free = asked;
         free.prices = {};
-        EXPECT_FALSE(verify(scene, recorded(solve(scene, free, by(PlannerKind::rrt_connect))), asked).verified);
+        EXPECT_FALSE(verify(scene, recorded(solve(scene, free, planned_by(PlannerKind::rrt_connect))), asked).verified);
       }
     }
   }
@@ -143,9 +143,9 @@ TEST(PricedBodies, UnknownCellsAreFreeAtAPriceOfOneToBodiesThatTurn) {
     for (const PlannerKind planner : {PlannerKind::rrt_connect, PlannerKind::grid}) {
       Question asked = question(kind);
       asked.goal[0] = 9.0;
-      EXPECT_NE(solve(map(), asked, by(planner)).outcome, Outcome::solved);
+      EXPECT_NE(solve(map(), asked, planned_by(planner)).outcome, Outcome::solved);
       asked.prices.unknown = 1.0;
-      const Answer answer = solve(map(), asked, by(planner));
+      const Answer answer = solve(map(), asked, planned_by(planner));
       ASSERT_EQ(answer.outcome, Outcome::solved) << name_of(planner);
       EXPECT_TRUE(verify(map(), answer).verified);
     }
@@ -182,7 +182,7 @@ TEST(PricedBodies, EveryPlannerPaysOrRefusesByName) {
           asked.prices = word.prices;
           Answer answer;
           try {
-            answer = solve(scene, asked, by(planner));
+            answer = solve(scene, asked, planned_by(planner));
           } catch (const UsageError& error) {
             const std::string what = error.what();
             const std::string named(name_of(word.word));
@@ -217,7 +217,7 @@ TEST(PricedBodies, ACarGoesAroundWhatIsDear) {
     Question asked = question(RobotKind::car);
     asked.prices = price_questions()[1].prices;
     for (const bool optimise : {false, true}) {
-      SolveOptions options = by(PlannerKind::grid);
+      SolveOptions options = planned_by(PlannerKind::grid);
       options.optimise = optimise;
       const Answer answer = solve(scene, asked, options);
       ASSERT_TRUE(answer.price);
@@ -235,7 +235,7 @@ TEST(PricedBodies, WhatACarSaysOfItsGearsAndTurnsIsVerified) {
     asked.prices = {};
     if (priced) asked.prices.clearance = ClearancePrice{2.0, 1.0};
     for (const bool optimise : {false, true}) {
-      SolveOptions options = by(PlannerKind::grid);
+      SolveOptions options = planned_by(PlannerKind::grid);
       options.optimise = optimise;
       options.grid.turn_cost = 0.2;
       options.car.reverse_cost = 1.5;
