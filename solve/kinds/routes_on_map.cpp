@@ -197,7 +197,6 @@ void take_alternatives(Answer& answer, const RouteRule& route, const RoutesAsked
   if (paths.empty()) return;
   answer.holes = routes.named(paths);
   AlternativePath& own = paths.front();
-  answer.raw_length = answer.length;
   answer.path = std::move(own.path);
   answer.length = own.length;
   answer.min_clearance = own.min_clearance;
