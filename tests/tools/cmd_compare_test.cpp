@@ -42,7 +42,7 @@ TEST(Compare, PricesGoToThePlannersThatTakeThem) {
                                              "--start 0.5,0.5 --goal 4.3,0.5")["rows"][0]
                    .contains("cost"));
   const ProgramRun refused = run_program("compare " + words + "rrt-connect");
-  EXPECT_EQ(refused.exit_code, 64);
+  EXPECT_EQ(refused.exit_code, 2);
 }
 
 TEST(Compare, SearchesTakeEveryQueueAndAgreeOnLengths) {

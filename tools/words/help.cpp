@@ -327,7 +327,7 @@ warren completion bash # the script for bash
 constexpr std::pair<std::string_view, std::string_view> most_used[] = {
     {"solve", "--robot --start --goal --clearance --planner --samples --optimise --explain --picture --json"},
     {"verify", "--robot --start --goal --clearance --contact --explain --json --budget"},
-    {"convert", "--cell --request --map-rules --show --heading --size --title --budget"},
+    {"convert", "--cell --request --map-rules --simplify --show --heading --size --title --budget"},
     {"render", "--output --answer --animate --show --heading --size --dpi --title --world --budget"},
     {"export", "--output --unchecked --frame --world --show --heading --size --dpi --title --budget"},
     {"generate", "--output --algorithm --loops --unit-walls --corners --seed --show --size --title --budget"},
@@ -336,6 +336,8 @@ constexpr std::pair<std::string_view, std::string_view> most_used[] = {
     {"compare", "--planners --sampler --samples --neighbours --seeds --searches --queues --picture --html --table"},
     {"largest", "--budget --precision --max-size --seeds --planner --sampler --pipeline --threads --json --picture"},
     {"profile", "--runs --planner --sampler --samples --neighbour-index --start --goal --threads --json --picture"},
+    {"serve",
+     "--port --listen --public-url --budget --writable --token-file --robot --clearance --clearance-price --keep-out"},
     {"scale", "--sizes --threads --planners --samplers --seeds --repeats --budget --json --csv --html"}};
 
 }  // namespace
