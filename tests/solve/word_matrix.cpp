@@ -69,11 +69,7 @@ Scene polygon_room() {
   return scene;
 }
 
-}  // namespace
-
-std::vector<AskedRow> asked_rows() {
-  const auto nothing = [](Question&, SolveOptions&) {};
-  std::vector<AskedRow> rows{{"", nothing, [](const Answer&) { return true; }}};
+void add_prices(std::vector<AskedRow>& rows) {
   const auto add = [&](std::string name, auto ask, auto is_heard) { rows.push_back({std::move(name), ask, is_heard}); };
   add(
       "clearance_price",
@@ -115,6 +111,10 @@ std::vector<AskedRow> asked_rows() {
       [](const Answer& a) { return a.problem.prices.unknown == 1.0; });
   add(
       "unknown", [](Question& q, SolveOptions&) { q.prices.unknown = 2.0; }, is_priced);
+}
+
+void add_choices(std::vector<AskedRow>& rows) {
+  const auto add = [&](std::string name, auto ask, auto is_heard) { rows.push_back({std::move(name), ask, is_heard}); };
   add(
       "goal",
       [](Question& q, SolveOptions&) {
@@ -157,6 +157,15 @@ std::vector<AskedRow> asked_rows() {
   add(
       "gap", [](Question&, SolveOptions& o) { o.anytime.gap = 0.5; },
       [](const Answer& a) { return a.lower_bound && gap_of(a) && *gap_of(a) <= 0.5; });
+}
+
+}  // namespace
+
+std::vector<AskedRow> asked_rows() {
+  const auto nothing = [](Question&, SolveOptions&) {};
+  std::vector<AskedRow> rows{{"", nothing, [](const Answer&) { return true; }}};
+  add_prices(rows);
+  add_choices(rows);
   return rows;
 }
 
