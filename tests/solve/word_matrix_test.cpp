@@ -19,7 +19,7 @@ SolveOptions options_of(PlannerKind planner) {
   SolveOptions options;
   options.planner = planner;
   for (const PlannerKind better : {PlannerKind::rrt_star, PlannerKind::informed_rrt_star, PlannerKind::anytime}) {
-    if (planner == better) options.anytime.iterations = 1;
+    if (planner == better) options.anytime.iterations = 6;
   }
   return options;
 }

@@ -11,6 +11,7 @@
 #include "core/base/error.hpp"
 #include "solve/question/asked_words.hpp"
 #include "solve/solve.hpp"
+#include "tests/seeds.hpp"
 
 namespace warren {
 namespace {
@@ -110,13 +111,20 @@ bool enters(const Answer& answer, const RobotSpec& robot) {
   return false;
 }
 
+/// By day one case of so many, drawn by its name and WARREN_PICK.
+bool is_drawn(const std::string& name, std::uint64_t of) {
+  return test::asks_all() || (test::hash_of(name + std::string(test::environment("WARREN_PICK"))) >> 32U) % of == 0;
+}
+
 TEST(PricedBodies, WhatIsForbiddenIsAnObstacleToEveryPlannerOfBodiesThatTurn) {
   for (const Scene& scene : {plane(), map()}) {
     for (const RobotKind kind : {RobotKind::polygon, RobotKind::car}) {
       for (const PlannerKind planner :
            {PlannerKind::rrt_connect, PlannerKind::rrt, PlannerKind::prm, PlannerKind::lazy_prm, PlannerKind::anytime,
             PlannerKind::grid, PlannerKind::voronoi, PlannerKind::visibility, PlannerKind::cells}) {
-        SCOPED_TRACE(std::string(name_of(planner)) + (scene.map ? " map" : " plane"));
+        const std::string name = std::string(name_of(planner)) + (scene.map ? " map " : " plane ");
+        SCOPED_TRACE(name);
+        if (!is_drawn(name + std::string(name_of(kind)), 2)) continue;
         const Question asked = question(kind);
         Answer answer;
         try {
@@ -176,8 +184,10 @@ TEST(PricedBodies, EveryPlannerPaysOrRefusesByName) {
            {PlannerKind::rrt_connect, PlannerKind::prm, PlannerKind::lazy_prm, PlannerKind::rrt_star, PlannerKind::grid,
             PlannerKind::voronoi, PlannerKind::visibility, PlannerKind::cells}) {
         for (const Word& word : price_questions()) {
-          SCOPED_TRACE(std::string(name_of(planner)) + " " + std::string(name_of(word.word)) +
-                       (scene.map ? " map " : " plane ") + std::string(name_of(kind)));
+          const std::string name = std::string(name_of(planner)) + " " + std::string(name_of(word.word)) +
+                                   (scene.map ? " map " : " plane ") + std::string(name_of(kind));
+          SCOPED_TRACE(name);
+          if (!is_drawn(name, 6)) continue;
           Question asked = question(kind);
           asked.prices = word.prices;
           Answer answer;
@@ -209,7 +219,7 @@ TEST(PricedBodies, EveryPlannerPaysOrRefusesByName) {
       }
     }
   }
-  EXPECT_GE(paid, 2 * 2 * 2 + 2 * 3 * 2 + 3);
+  EXPECT_GE(paid, test::asks_all() ? 2 * 2 * 2 + 2 * 3 * 2 + 3 : 0);
 }
 
 TEST(PricedBodies, ACarGoesAroundWhatIsDear) {
@@ -217,6 +227,7 @@ TEST(PricedBodies, ACarGoesAroundWhatIsDear) {
     Question asked = question(RobotKind::car);
     asked.prices = price_questions()[1].prices;
     for (const bool optimise : {false, true}) {
+      if (!test::asks_all() && optimise != scene.map.has_value()) continue;
       SolveOptions options = planned_by(PlannerKind::grid);
       options.optimise = optimise;
       const Answer answer = solve(scene, asked, options);
