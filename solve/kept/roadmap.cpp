@@ -175,8 +175,8 @@ void check_buildable(const Scene& scene, const Question& question, const SolveOp
   refuse_what_is_asked_later(options);
   check_solver_options(options);
   if (const AskedWords words = words_in(prices_of(scene, question)); !words.empty()) {
-    throw UsageError(fmt::format("@{}: kept roadmaps hold neither prices nor forbidden areas; solve takes them",
-                                 name_of(words_of(words).front())));
+    throw UsageError(fmt::format("{}: kept roadmaps hold neither prices nor forbidden areas; solve takes them",
+                                 place_of_word(words_of(words).front(), scene, question)));
   }
   if (const AskedWords words = words_in(question.rule); !words.empty()) {
     throw UsageError(

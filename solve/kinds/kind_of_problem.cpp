@@ -99,16 +99,6 @@ void refuse_ignored(const SolveOptions& options, PlannerKind planner, const std:
   }
 }
 
-/// "clearance_price" of the question, "map.scene: its line 'area'" of the world's file.
-std::string place_of_word(AskedWord word, const Scene& scene, const Question& question) {
-  if (word == AskedWord::goal_heading && question.rule.region) return "@goal_region";
-  if (words_in(question).has(word)) return fmt::format("@{}", name_of(word));
-  std::string line{name_of(word)};
-  if (word == AskedWord::areas || word == AskedWord::speed_zones || word == AskedWord::keep_out_factor) line = "mask";
-  std::replace(line.begin(), line.end(), '_', '-');
-  return fmt::format("{}: its line '{}'", scene.source, line);
-}
-
 /// Refuses the first of the words that the planner of this kind would ignore.
 void refuse_ignored_words(AskedWords asked, const PlannerChoice& chosen, const Scene& scene, const Question& question,
                           const std::vector<const SolveKind*>& fitting) {
@@ -244,6 +234,15 @@ ChosenSolver choose_solver(const SolveOptions& options, const Scene& scene, cons
   refuse_ignored_words(words, choice, scene, question, fitting);
   check_corridors(options, scene);
   return chosen;
+}
+
+std::string place_of_word(AskedWord word, const Scene& scene, const Question& question) {
+  if (word == AskedWord::goal_heading && question.rule.region) return "@goal_region";
+  if (words_in(question).has(word)) return fmt::format("@{}", name_of(word));
+  std::string line{name_of(word)};
+  if (word == AskedWord::areas || word == AskedWord::speed_zones || word == AskedWord::keep_out_factor) line = "mask";
+  std::replace(line.begin(), line.end(), '_', '-');
+  return fmt::format("{}: its line '{}'", scene.source, line);
 }
 
 const SolveKind& verifying_kind(const Scene& scene, const Question& question) {

@@ -160,6 +160,8 @@ void check_solver_options(const SolveOptions& options);
 /// Throws UsageError where no planner of this version solves the problem, or not the one that is asked for, or where
 /// the planner would ignore an option.
 ChosenSolver choose_solver(const SolveOptions& options, const Scene& scene, const Question& question);
+/// Where a word is said: "@clearance_price" of the question, "map.scene: its line 'area'" of the world's file.
+std::string place_of_word(AskedWord word, const Scene& scene, const Question& question);
 /// The kind that verifies answers for this world and body; throws UsageError where this version has none.
 const SolveKind& verifying_kind(const Scene& scene, const Question& question);
 

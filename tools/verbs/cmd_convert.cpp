@@ -28,7 +28,7 @@
 #include "tools/words/option_values.hpp"
 #include "tools/words/output_words.hpp"
 #include "tools/words/question_words.hpp"
-#include "worlds/prices/effective_map.hpp"
+#include "verify/judges/effective_scene.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren::tools {
@@ -66,8 +66,7 @@ class FreeEdges {
     scene_ = load_world(*name, arguments, execution, seconds);
     const RobotSpec robot = robot_of(scene_, body);
     serve::check_drives_edges(robot);
-    const Prices prices = prices_of(scene_, body);
-    if (restricts(prices)) scene_ = restricted_scene(scene_, prices, execution);
+    if (auto barred = effective_scene(scene_, prices_of(scene_, body), execution)) scene_ = std::move(*barred);
     judge_.emplace(scene_, room_of(scene_, execution), robot, clearance_of(scene_, body));
   }
   serve::MayLead may_lead() const {

@@ -2,6 +2,7 @@
 // warren serve: a world or a roadmap in the browser, and for programs that ask by HTTP.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <memory>
@@ -114,6 +115,15 @@ int serve(const Arguments& arguments) {
   if (budget_s) limits.budget_s = *budget_s;
   limits.writable = arguments.has("--writable");
   limits.wants_token = !token.empty();
+  for (const OptionSpec& option : command_named("serve").options) {
+    const auto priced = price_option_specs();
+    const bool is_price =
+        std::any_of(priced.begin(), priced.end(), [&](const auto& p) { return p.name == option.name; });
+    if (!is_price && option.name != "--map-rules") continue;
+    for (const std::string& value : arguments.values(option.name)) {
+      limits.options.insert(limits.options.end(), {std::string(option.name), value});
+    }
+  }
   serve::WritableService service(std::move(world), limits, token);
   serve::HttpServer server(place, {.threads = std::max(2U, run.threads())}, service);
   if (limits.writable && !server.is_loopback() && token.empty()) {

@@ -150,6 +150,9 @@ std::string description_json(const ServedWorld& world, const Question& body, con
   json.add("changed", world.is_changed());
   json.add("writable", limits.writable && !outline.map && world.why_fixed().empty());
   json.add("wants_token", limits.wants_token);
+  std::string options;
+  for (const std::string& word : limits.options) options += (options.empty() ? "" : ",") + json_string(word);
+  json.add_json("options", "[" + options + "]");
   json.add_json("tiles", tiles_json(world.tiles().grid(), world.hash()));
   json.add_json("layers", layers.json(*body.robot));
   json.add_json("ground", ground_json(world, body, execution));

@@ -207,7 +207,9 @@ function commandText() {
   words.push("--start", stateOf(question.start, question.startHeading === null ? 0 : question.startHeading).join(","));
   words.push("--goal", stateOf(question.goal, question.goalHeading).join(","));
   if (question.planner) words.push("--planner", question.planner);
-  words.push(...askedOptions(question.asked));
+  const asked = askedOptions(question.asked), own = world.options;  // in pairs; of two words for one thing the page's counts
+  for (let i = 0; i < own.length; i += 2) if (own[i] === "--area" || !asked.includes(own[i])) words.push(own[i], own[i + 1]);
+  words.push(...asked);
   if (question.optimise) words.push("--optimise");
   return words.map(quoted).join(" ");
 }

@@ -290,3 +290,34 @@ def test_a_stopped_answer_says_what_it_can():
     with pytest.raises(warren.Stopped) as caught:
         warren.solve(warren.maze(3000, 3000), budget=0.001, keep=True, explain=True)
     assert caught.value.answer.explained.hints[0].why
+
+
+def test_a_replanner_answers_as_a_fresh_solve():
+    cells = np.zeros((20, 30), bool)
+    cells[5:15, 14] = True
+    ends = ((2.5, 10.5), (27.5, 10.5))
+    again = warren.Replanner(warren.grid(cells), *ends, clearance_price=(3, 2))
+    first = again.solve()
+    again.update([(14, y) for y in range(15, 19)])
+    longer = again.solve()
+    fresh = warren.solve(again.world, *ends, clearance_price=(3, 2))
+    assert longer.cost == fresh.cost > first.cost
+    assert np.array_equal(longer.path, fresh.path)
+    again.update(box=(14, 15, 15, 19), blocked=False)
+    assert again.solve().cost == first.cost
+
+
+def test_holes_and_certificates(tmp_path):
+    cells = np.zeros((20, 30), bool)
+    cells[5:15, 14] = True
+    cells[10, 20] = True
+    world, ends, price = warren.grid(cells), ((2.5, 10.5), (27.5, 10.5)), {"clearance_price": (3, 2)}
+    many = warren.solve(world, *ends, alternatives=8, hole=0, stretch=2, **price)
+    few = warren.solve(world, *ends, alternatives=8, hole=5, stretch=2, **price)
+    assert len(many.alternatives) > len(few.alternatives) > 0
+    file = str(tmp_path / "bound.npy")
+    answer = warren.solve(world, *ends, gap="20%", certificate=file, **price)
+    assert answer.bound_of == "all" and warren.verify(world, answer, certificate=file)
+    potential = np.load(file)
+    np.save(file, 2 * potential)  # steeper than anything costs
+    assert not warren.verify(world, answer, certificate=file)

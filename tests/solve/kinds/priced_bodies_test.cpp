@@ -178,6 +178,8 @@ std::vector<Word> price_questions() {
 
 TEST(PricedBodies, EveryPlannerPaysOrRefusesByName) {
   int paid = 0;
+  std::uint64_t number = 0;  // by day each sixth case, from one on that WARREN_PICK chooses
+  const std::uint64_t turn = test::hash_of(test::environment("WARREN_PICK")) >> 32U;
   for (const Scene& scene : {plane(), map()}) {
     for (const RobotKind kind : {RobotKind::point, RobotKind::disc, RobotKind::polygon, RobotKind::car}) {
       for (const PlannerKind planner :
@@ -187,7 +189,7 @@ TEST(PricedBodies, EveryPlannerPaysOrRefusesByName) {
           const std::string name = std::string(name_of(planner)) + " " + std::string(name_of(word.word)) +
                                    (scene.map ? " map " : " plane ") + std::string(name_of(kind));
           SCOPED_TRACE(name);
-          if (!is_drawn(name, 6)) continue;
+          if (!test::asks_all() && (number++ + turn) % 6 != 0) continue;
           Question asked = question(kind);
           asked.prices = word.prices;
           Answer answer;
@@ -219,7 +221,7 @@ TEST(PricedBodies, EveryPlannerPaysOrRefusesByName) {
       }
     }
   }
-  EXPECT_GE(paid, test::asks_all() ? 2 * 2 * 2 + 2 * 3 * 2 + 3 : 0);
+  EXPECT_GE(paid, test::asks_all() ? 2 * 2 * 2 + 2 * 3 * 2 + 3 : 3);
 }
 
 TEST(PricedBodies, ACarGoesAroundWhatIsDear) {

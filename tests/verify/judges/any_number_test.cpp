@@ -17,6 +17,7 @@
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
 #include "parallel/execution.hpp"
+#include "parallel/trace.hpp"
 #include "tests/seeds.hpp"
 #include "tests/verify/judges/bounding_judge.hpp"
 #include "verify/judges/verify_arm.hpp"
@@ -95,8 +96,13 @@ Segment any_leg(std::uint64_t seed) {
   return {from, {from.x, std::clamp(a.y, from.y - 1.0, from.y + 1.0)}};
 }
 
-/// As small as a small question may be; a loop without end is seen, a busy machine is not.
+/// Works as fast, by the processor's time, and as small as a small question may be. The clock sees loops without end.
 struct Limits {
+  Limits() = default;
+  Limits(const Limits&) = delete;
+  Limits& operator=(const Limits&) = delete;
+  ~Limits() { EXPECT_LT(process_cpu_s() - began_cpu_s, 20.0); }
+  const double began_cpu_s = process_cpu_s();
   static constexpr std::size_t bytes = std::size_t{test::memory_is_ours() ? 200 : 2000} << 20;
   Deadline deadline{120.0, resident_bytes() + bytes};
   Execution execution{.threads = 1, .deadline = &deadline};
