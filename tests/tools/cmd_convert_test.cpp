@@ -34,7 +34,8 @@ std::string chain(double above) {
 
 std::size_t nodes_in(const std::string& text) {
   std::size_t nodes = 0;
-  for (const auto& feature : nlohmann::json::parse(text).at("features")) {
+  const nlohmann::json graph = nlohmann::json::parse(text);
+  for (const auto& feature : graph.at("features")) {
     nodes += feature.at("geometry").at("type") == "Point" ? 1 : 0;
   }
   return nodes;
