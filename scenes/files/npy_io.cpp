@@ -26,7 +26,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie in the file");
 
-constexpr std::string_view magic = "\x93NUMPY";
+constexpr std::string_view npy_magic = "\x93NUMPY";
 constexpr std::size_t longest_header = 65535;  // all that version 1 can say, and a hundred times what walls need
 constexpr std::size_t npy_grain = std::size_t{1} << 16;
 
@@ -72,10 +72,11 @@ class HeaderParser {
     return value;
   }
   std::string_view dictionary(std::size_t& data) const {
-    const std::size_t version = bytes_.size() > magic.size() ? static_cast<unsigned char>(bytes_[magic.size()]) : 0;
+    const std::size_t version =
+        bytes_.size() > npy_magic.size() ? static_cast<unsigned char>(bytes_[npy_magic.size()]) : 0;
     if (version < 1 || version > 3) fail("expected .npy version 1, 2 or 3", fmt::format("version {}", version));
     const std::size_t length_bytes = version == 1 ? 2 : 4;
-    const std::size_t begin = magic.size() + 2 + length_bytes;
+    const std::size_t begin = npy_magic.size() + 2 + length_bytes;
     const std::size_t length = bytes_.size() < begin ? 0 : little_endian(begin - length_bytes, length_bytes);
     if (length > longest_header) {
       fail("expected a header of at most 65535 bytes", fmt::format("{} bytes", length));
@@ -310,7 +311,7 @@ std::string tuple_text(std::span<const std::uint64_t> numbers) {
 
 }  // namespace
 
-bool is_npy(std::string_view bytes) { return bytes.starts_with(magic); }
+bool is_npy(std::string_view bytes) { return bytes.starts_with(npy_magic); }
 
 NpyWalls npy_walls(const InputFile& file) { return checked_header(file); }
 

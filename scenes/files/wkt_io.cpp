@@ -23,7 +23,7 @@ constexpr std::array<std::string_view, 7> type_names{
     "POINT", "LINESTRING", "POLYGON", "MULTIPOINT", "MULTIPOLYGON", "MULTILINESTRING", "GEOMETRYCOLLECTION"};
 enum class Type : std::uint8_t { point, line, polygon, points, polygons, lines, collection };
 
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+bool is_wkt_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
@@ -101,7 +101,7 @@ class Tokens {
  private:
   void skip() {
     constexpr std::size_t batch = 1 << 16;
-    for (std::size_t steps = 1; !text_.empty() && is_space(text_.front()); ++steps) {
+    for (std::size_t steps = 1; !text_.empty() && is_wkt_space(text_.front()); ++steps) {
       if (steps % batch == 0) execution_.check();
       if (text_.front() == '\n') ++line_;
       text_.remove_prefix(1);
@@ -115,9 +115,9 @@ class Tokens {
   std::size_t looks_ = 0;
 };
 
-class Reader {
+class WktReader {
  public:
-  Reader(const InputFile& file, const Execution& execution)
+  WktReader(const InputFile& file, const Execution& execution)
       : name_(file.name()), execution_(execution), tokens_(file, execution), walls_(execution) {}
 
   Scene read() {
@@ -275,7 +275,7 @@ bool is_wkt(std::string_view bytes) {
   bytes = bytes.substr(0, bytes_that_tell);
   if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
   const auto skip = [&] {
-    while (!bytes.empty() && is_space(bytes.front())) bytes.remove_prefix(1);
+    while (!bytes.empty() && is_wkt_space(bytes.front())) bytes.remove_prefix(1);
   };
   const auto word = [&] {
     std::string text;
@@ -293,7 +293,7 @@ bool is_wkt(std::string_view bytes) {
   return second == "EMPTY" || (second.empty() && bytes.starts_with('('));
 }
 
-Scene read_wkt(const InputFile& file, const Execution& execution) { return Reader(file, execution).read(); }
+Scene read_wkt(const InputFile& file, const Execution& execution) { return WktReader(file, execution).read(); }
 
 void write_wkt(const Scene& scene, const std::string& path, const Execution& execution) {
   if (has_solids(scene) || scene.bounds) {

@@ -11,7 +11,7 @@ namespace warren::maze {
 namespace {
 
 constexpr std::uint32_t no_edge = std::numeric_limits<std::uint32_t>::max();
-constexpr std::uint16_t not_on_rim = std::numeric_limits<std::uint16_t>::max();
+constexpr std::uint16_t off_the_rim = std::numeric_limits<std::uint16_t>::max();
 
 /// found[i] becomes the bit of the one of four numbers that is the greatest, or least; 0 where several are.
 template <bool greatest>
@@ -250,7 +250,7 @@ void SpanningTile::sort_ties() {
 }
 
 void SpanningTile::number_rim() {
-  on_rim_.assign(cells_, not_on_rim);
+  on_rim_.assign(cells_, off_the_rim);
   piece_.each_on_sides([&](std::uint32_t col, std::uint32_t row) {
     if (!piece_.on_rim(col, row)) return;
     on_rim_[std::size_t{row} * piece_.width + col] = static_cast<std::uint16_t>(piece_.side_number(col, row));
@@ -270,8 +270,8 @@ void SpanningTile::join() {
     const std::uint16_t kept = std::min(a, b);
     const std::uint16_t gone = std::max(a, b);
     parent_[gone] = kept;
-    if (on_rim_[gone] == not_on_rim) continue;
-    if (on_rim_[kept] == not_on_rim) {
+    if (on_rim_[gone] == off_the_rim) continue;
+    if (on_rim_[kept] == off_the_rim) {
       on_rim_[kept] = on_rim_[gone];
     } else {
       rim_edges_.push_back({on_rim_[kept], on_rim_[gone], number_of(place)});

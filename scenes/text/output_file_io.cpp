@@ -21,7 +21,7 @@
 namespace warren {
 namespace {
 
-constexpr int poll_ms = 50;
+constexpr int pipe_poll_ms = 50;
 constexpr std::size_t block_bytes = std::size_t{1} << 20;  // a pause of a few milliseconds at most
 
 /// Holds SIGPIPE back in this thread while it lives; one that came meanwhile is swallowed.
@@ -165,7 +165,7 @@ void OutputFile::open_straight(const std::string& path) {
   while ((file_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK)) < 0) {
     if (errno != ENXIO && errno != EINTR) fail(errno);
     execution_.check();
-    ::poll(nullptr, 0, poll_ms);
+    ::poll(nullptr, 0, pipe_poll_ms);
   }
   ::fcntl(file_, F_SETFL, ::fcntl(file_, F_GETFL) & ~O_NONBLOCK);
 }
@@ -218,7 +218,7 @@ void OutputFile::write_now(std::string_view bytes) {
     std::size_t size = std::min(bytes.size(), block_bytes);
     if (straight) {  // a pipe that is ready takes PIPE_BUF bytes without blocking
       pollfd ready{file_, POLLOUT, 0};
-      if (::poll(&ready, 1, poll_ms) <= 0) continue;  // nobody reads yet, or a signal came
+      if (::poll(&ready, 1, pipe_poll_ms) <= 0) continue;  // nobody reads yet, or a signal came
       size = std::min<std::size_t>(size, PIPE_BUF);
     }
     const WithoutSigpipe guard;

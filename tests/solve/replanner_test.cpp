@@ -12,22 +12,12 @@
 #include "solve/solve.hpp"
 #include "tests/seeds.hpp"
 #include "tests/solve/answer_bytes.hpp"
+#include "tests/solve/test_scenes.hpp"
 
 namespace warren {
 namespace {
 
-Scene scene_of(const Bitmap& blocked, double cell) {
-  Scene scene;
-  scene.source = "map";
-  OccupancyMap map;
-  map.blocked = blocked;
-  map.cell = cell;
-  map.origin = {-1.0, 2.0};
-  map.occupied = blocked.count();
-  map.free = blocked.size() - map.occupied;
-  scene.map = map;
-  return scene;
-}
+using test::scene_of;
 
 /// All but the account of the work: a repair looks at fewer cells.
 std::string bytes_of(Answer answer) {
@@ -56,7 +46,7 @@ void expect_fresh_bytes(std::uint64_t seed, int changes) {
   if (seed % 4 < 2) question.prices.areas.push_back({2.5, {{1.0, 3.0}, {4.0, 3.0}, {2.0, 9.0}}, 0});
   SolveOptions options;
   options.planner = PlannerKind::grid;
-  Replanner replanner(scene_of(blocked, 0.25), question, options);
+  Replanner replanner(scene_of(blocked, 0.25, {-1.0, 2.0}), question, options);
   for (int change = 0; change < changes; ++change) {
     if (change % 5 == 4) question.start = {-0.9 + 0.25 * below(4), 2.1 + 0.25 * below(4)};
     const Answer again = replanner.solve(question.start);
@@ -81,7 +71,7 @@ TEST(Replanner, ABoxOfCellsIsWhatItsCellsAre) {
   question.prices.clearance = ClearancePrice{2.0, 0.5};
   SolveOptions options;
   options.planner = PlannerKind::grid;
-  Replanner replanner(scene_of(Bitmap(20, 20), 0.25), question, options);
+  Replanner replanner(scene_of(Bitmap(20, 20), 0.25, {-1.0, 2.0}), question, options);
   const double before = *replanner.solve().cost;
   replanner.update({{0.0, 3.0}, {2.0, 6.0}}, true);
   EXPECT_EQ(replanner.scene().map->blocked.count(), 8U * 12U);
@@ -98,7 +88,7 @@ TEST(Replanner, WhatCantChangeIsRefused) {
   walls.bounds = Box{{0.0, 0.0}, {1.0, 1.0}};
   const std::array<CellChange, 1> outside{CellChange{{20, 3}}};
   EXPECT_THROW(Replanner(walls, {}).update(outside), UsageError);
-  Replanner replanner(scene_of(Bitmap(20, 20), 0.25), {});
+  Replanner replanner(scene_of(Bitmap(20, 20), 0.25, {-1.0, 2.0}), {});
   EXPECT_THROW(replanner.update(outside), InputError);
   EXPECT_EQ(replanner.scene().map->occupied, 0U);
 }

@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "scenes/files/read_world_io.hpp"
 #include "tests/paths.hpp"
+#include "tests/seeds.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren::studies {
@@ -55,7 +56,9 @@ std::optional<bool> changes(const Scene& scene, const PlannerContender& contende
 TEST(PlannerContest, NoSeedChangesWhatIsSaidToBeDeterministic) {
   int claims = 0;
   int changed = 0;
-  for (const AskedWorld& world : worlds()) {
+  const std::vector<AskedWorld> all = worlds();
+  for (const std::uint64_t i : test::seeds(all.size(), 4, 0)) {
+    const AskedWorld& world = all[i];
     Scene scene = read_world(world.source);
     if (scene.map) add_map_walls(scene, {});
     for (const PlannerKind planner : all_planners) {
@@ -73,8 +76,9 @@ TEST(PlannerContest, NoSeedChangesWhatIsSaidToBeDeterministic) {
       }
     }
   }
-  EXPECT_GE(claims, 12);
-  EXPECT_GE(changed, 12);
+  const int fewest = test::asks_all() ? 12 : 4;
+  EXPECT_GE(claims, fewest);
+  EXPECT_GE(changed, fewest);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "core/base/rng.hpp"
 #include "planners/graph/components.hpp"
 #include "tests/parallel/on_threads.hpp"
+#include "tests/seeds.hpp"
 
 namespace warren {
 namespace {
@@ -58,7 +59,7 @@ constexpr Case cases[] = {{0, 0, 0, 1},           {1, 0, 0, 1},
 
 TEST(AssembleGraph, OrderedPartsGiveTheSameRowsAsTheSerialBuilder) {
   for (const Case& c : cases) {
-    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    for (const std::uint64_t seed : test::seeds(4)) {
       SCOPED_TRACE("vertices " + std::to_string(c.vertices) + " seed " + std::to_string(seed));
       const auto edges = random_edges(seed, c.vertices, c.edges, c.reach);
       const Graph oracle = Graph::from_edges(c.vertices, edges);
@@ -70,7 +71,7 @@ TEST(AssembleGraph, OrderedPartsGiveTheSameRowsAsTheSerialBuilder) {
 }
 
 TEST(AssembleGraph, AnyOrderOfEdgesAndEndsIsAccepted) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (const std::uint64_t seed : test::seeds(20, 4)) {
     SCOPED_TRACE(seed);
     const std::size_t n = seed % 2 == 0 ? 50 : 40000;
     auto edges = random_edges(seed, n, 2 * n, 0);
@@ -138,7 +139,7 @@ TEST(AssembleGraph, StopsAtItsDeadline) {
 }
 
 TEST(ParallelComponents, EqualTheSerialOnes) {
-  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+  for (const std::uint64_t seed : test::seeds(24, 6)) {
     SCOPED_TRACE(seed);
     const std::size_t n = seed % 3 == 0 ? 60000 : 200 * seed;
     const std::size_t reach = seed % 2 == 0 ? 0 : 50;

@@ -8,6 +8,7 @@
 
 #include "core/search/search_queues.hpp"
 #include "tests/core/search/search_graphs.hpp"
+#include "tests/seeds.hpp"
 
 namespace warren {
 namespace {
@@ -111,7 +112,7 @@ TEST(Bidirectional, IsAsShortAsDijkstraOnMazesWithLoops) {
 }
 
 TEST(Bidirectional, IsAsShortAsDijkstraWhereBothThreadsRunForManyRounds) {
-  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+  for (const std::uint64_t seed : test::seeds(12, 3)) {
     SCOPED_TRACE(seed);
     const std::uint32_t side = 150;
     const PlaneGraph g = seed % 3 == 0 ? test::random_maze(seed, side, 0.0, false)

@@ -85,7 +85,7 @@ Topology topology(const Bitmap& blocked) {
 }
 
 TEST(MapSkeleton, KeepsTheTopologyAndCannotBeThinner) {
-  for (const std::uint64_t seed : test::seeds(30, 8, 0)) {
+  for (const std::uint64_t seed : test::seeds(30, 3, 0)) {
     SCOPED_TRACE(seed);
     const Bitmap map = random_map(seed, 30, 22);
     const DistanceField field(map, CellDistance::squares, true, {});

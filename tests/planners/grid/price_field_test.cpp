@@ -132,7 +132,7 @@ TEST(PriceField, RepairedItIsAsANewOne) {
 }
 
 TEST(PriceField, CostsAreThoseOfAPlainDijkstraToTheUnit) {
-  for (const std::uint64_t seed : test::seeds(500, 25)) {
+  for (const std::uint64_t seed : test::seeds(500, 10)) {
     SCOPED_TRACE(seed);
     const Bitmap map = random_map(seed, 60);
     std::vector<PriceField::Goal> goals;

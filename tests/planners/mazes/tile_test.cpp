@@ -15,6 +15,7 @@
 #include "planners/mazes/wall_marking.hpp"
 #include "planners/mazes/wall_partition.hpp"
 #include "spatial/obstacles/wall_index.hpp"
+#include "tests/seeds.hpp"
 
 namespace warren {
 namespace {
@@ -137,7 +138,7 @@ std::vector<WallSet> in_each_form(std::uint64_t seed, Box box, int count) {
 
 TEST(WallPartition, NeitherFormNorBandsChangeWhatATileHolds) {
   const TileGrid grid = TileGrid::of({500, 700}, 6);
-  for (const std::uint64_t seed : {1, 2, 3}) {
+  for (const std::uint64_t seed : test::seeds(3)) {
     const std::vector<WallSet> sets = in_each_form(seed, grid.area(), 60'000);
     const WallPartition expected(sets[2], {}, grid, 1.11, {});
     for (const WallSet& walls : sets) {

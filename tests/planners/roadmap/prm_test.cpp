@@ -13,6 +13,7 @@
 #include "scenes/mazes/maze_generator.hpp"
 #include "solve/kinds/planned_worlds.hpp"
 #include "tests/planners/visibility/plane_worlds.hpp"
+#include "tests/seeds.hpp"
 #include "worlds/plane/maze_world.hpp"
 
 namespace warren {
@@ -171,26 +172,26 @@ TEST(Prm, LazySearchFromBothEndsFindsThePathOfTheEagerOneOnAnyNumberOfThreads) {
   const auto plan = [&](Planner planner, const RoadmapOptions& options, unsigned threads, PlannedRoadmap<Vec2>* keep) {
     return planner(WorldView(world), start_of(scene), goal_of(scene), options, Execution{threads}, keep);
   };
-  for (const bool by_nearest : {false, true}) {
-    for (const SearchKind search : {SearchKind::astar, SearchKind::dijkstra}) {
-      SCOPED_TRACE(std::to_string(by_nearest) + " " + std::to_string(static_cast<int>(search)));
-      RoadmapOptions options;
-      options.search = search;
-      if (by_nearest) options.neighbours = 16;
-      const auto eager = plan(prm<Vec2>, options, 1, nullptr);
-      ASSERT_EQ(eager.outcome, Outcome::solved);
-      PlannedRoadmap<Vec2> roadmap;
-      const auto one = plan(lazy_prm<Vec2>, options, 1, &roadmap);
-      ASSERT_EQ(one.outcome, Outcome::solved);
-      ASSERT_GE(one.roadmap.milestones, fewest_for_both_ends);
-      EXPECT_NEAR(length_of(one), length_of(eager), 1e-12 * length_of(eager));
-      EXPECT_LT(one.counters.edges_checked, eager.counters.edges_checked);
-      const auto two = plan(lazy_prm<Vec2>, options, 2, nullptr);
-      EXPECT_EQ(two.path, one.path);
-      EXPECT_EQ(two.counters, one.counters);
-      EXPECT_EQ(two.roadmap.edges, one.roadmap.edges);
-      expect_tree(roadmap, one.path);
-    }
+  for (const std::uint64_t i : test::seeds(4, 2, 0)) {
+    const bool by_nearest = i < 2;
+    const SearchKind search = i % 2 == 0 ? SearchKind::astar : SearchKind::dijkstra;
+    SCOPED_TRACE(std::to_string(by_nearest) + " " + std::to_string(static_cast<int>(search)));
+    RoadmapOptions options;
+    options.search = search;
+    if (by_nearest) options.neighbours = 16;
+    const auto eager = plan(prm<Vec2>, options, 1, nullptr);
+    ASSERT_EQ(eager.outcome, Outcome::solved);
+    PlannedRoadmap<Vec2> roadmap;
+    const auto one = plan(lazy_prm<Vec2>, options, 1, &roadmap);
+    ASSERT_EQ(one.outcome, Outcome::solved);
+    ASSERT_GE(one.roadmap.milestones, fewest_for_both_ends);
+    EXPECT_NEAR(length_of(one), length_of(eager), 1e-12 * length_of(eager));
+    EXPECT_LT(one.counters.edges_checked, eager.counters.edges_checked);
+    const auto two = plan(lazy_prm<Vec2>, options, 2, nullptr);
+    EXPECT_EQ(two.path, one.path);
+    EXPECT_EQ(two.counters, one.counters);
+    EXPECT_EQ(two.roadmap.edges, one.roadmap.edges);
+    expect_tree(roadmap, one.path);
   }
 }
 

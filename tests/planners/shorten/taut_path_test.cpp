@@ -250,7 +250,7 @@ Path<Vec2> wandering_path(const WallIndex& index, std::uint64_t seed, double r) 
 }
 
 TEST(TautPath, HoldsItsPromisesAmongRandomSegments) {
-  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+  for (const std::uint64_t seed : test::seeds(40, 10, 0)) {
     SCOPED_TRACE(seed);
     const Scene scene = scene_of(random_segments(seed, 20 + 4 * seed));
     const WallIndex index(scene.walls, {});

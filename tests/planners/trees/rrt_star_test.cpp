@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "tests/planners/trees/sampled_problems.hpp"
+#include "tests/seeds.hpp"
 
 namespace warren {
 namespace {
@@ -213,7 +214,7 @@ void expect_bounded_paths(const SampledProblem<W>& problem, std::uint64_t first)
 }
 
 TEST(RrtConnectBound, PathsAreCheaperThanIt) {
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+  for (const std::uint64_t seed : test::seeds(4)) {
     SCOPED_TRACE(seed);
     expect_bounded_paths(problems::point(true), seed);
     expect_bounded_paths(problems::body(seed), seed);

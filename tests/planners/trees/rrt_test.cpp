@@ -350,33 +350,35 @@ TEST(Samplers, GaussianAndBridgeSamplesAreFreeAndNearObstacles) {
 TEST(Prm, SolvesForTurningBodiesWithEverySamplerAndRule) {
   const Scene scene = poly_easy();
   const Se2World world(scene, kite, {});
-  for (const SamplerKind sampler :
-       {SamplerKind::uniform, SamplerKind::halton, SamplerKind::gaussian, SamplerKind::bridge, SamplerKind::mixture}) {
-    for (const StarRule star : {StarRule::none, StarRule::neighbours, StarRule::radius}) {
-      SCOPED_TRACE(testing::Message() << static_cast<int>(sampler) << " " << static_cast<int>(star));
-      RoadmapOptions options;
-      options.sampler = sampler;
-      options.star = star;
-      Counters first;
-      Path<Se2> path;
-      for (const unsigned threads : {1U, 2U, 3U, 8U}) {
-        if (threads > 1 && star != StarRule::none) continue;
-        const auto solution = prm(WorldView(world), easy_start, easy_goal, options, {.threads = threads});
-        ASSERT_EQ(solution.outcome, Outcome::solved);
-        if (threads == 1) {
-          path = solution.path;
-          first = solution.counters;
-          expect_verified(scene, kite, path, {.start = easy_start, .goal = easy_goal});
-        }
-        EXPECT_EQ(solution.path, path);
-        EXPECT_EQ(solution.counters, first);
+  constexpr SamplerKind samplers[] = {SamplerKind::uniform, SamplerKind::halton, SamplerKind::gaussian,
+                                      SamplerKind::bridge, SamplerKind::mixture};
+  constexpr StarRule rules[] = {StarRule::none, StarRule::neighbours, StarRule::radius};
+  for (const std::uint64_t i : test::seeds(15, 5, 0)) {
+    const SamplerKind sampler = samplers[i % 5];
+    const StarRule star = rules[i % 3];
+    SCOPED_TRACE(testing::Message() << static_cast<int>(sampler) << " " << static_cast<int>(star));
+    RoadmapOptions options;
+    options.sampler = sampler;
+    options.star = star;
+    Counters first;
+    Path<Se2> path;
+    for (const unsigned threads : {1U, 2U, 3U, 8U}) {
+      if (threads > 1 && star != StarRule::none) continue;
+      const auto solution = prm(WorldView(world), easy_start, easy_goal, options, {.threads = threads});
+      ASSERT_EQ(solution.outcome, Outcome::solved);
+      if (threads == 1) {
+        path = solution.path;
+        first = solution.counters;
+        expect_verified(scene, kite, path, {.start = easy_start, .goal = easy_goal});
       }
-      if (star == StarRule::radius) continue;
-      const auto lazy = lazy_prm(WorldView(world), easy_start, easy_goal, options, {});
-      ASSERT_EQ(lazy.outcome, Outcome::solved);
-      EXPECT_NEAR(path_length(lazy.path, [&](const Se2& a, const Se2& b) { return world.distance(a, b); }),
-                  path_length(path, [&](const Se2& a, const Se2& b) { return world.distance(a, b); }), 1e-9);
+      EXPECT_EQ(solution.path, path);
+      EXPECT_EQ(solution.counters, first);
     }
+    if (star == StarRule::radius) continue;
+    const auto lazy = lazy_prm(WorldView(world), easy_start, easy_goal, options, {});
+    ASSERT_EQ(lazy.outcome, Outcome::solved);
+    EXPECT_NEAR(path_length(lazy.path, [&](const Se2& a, const Se2& b) { return world.distance(a, b); }),
+                path_length(path, [&](const Se2& a, const Se2& b) { return world.distance(a, b); }), 1e-9);
   }
 }
 

@@ -166,7 +166,7 @@ TEST(DiscPath, IsAsLongAsBruteForceSaysWhereObstaclesTouchOverlapAndCross) {
 /// the lower bound is none that a plain search beats.
 TEST(DiscPath, ClaimsNothingFalseInStrangeWorlds) {
   int solved = 0;
-  for (const std::uint64_t seed : test::seeds(3000, 40)) {
+  for (const std::uint64_t seed : test::seeds(3000, 300)) {
     SCOPED_TRACE(seed);
     Dice dice(seed);
     test::PlaneProblem strange = test::StrangeWorlds(seed).make();
@@ -190,7 +190,7 @@ TEST(DiscPath, ClaimsNothingFalseInStrangeWorlds) {
     }
     if (HasFailure()) return;
   }
-  EXPECT_GT(solved, 0);
+  EXPECT_GT(solved, test::share(60, 3));
 }
 
 /// A rectangle from a to b.

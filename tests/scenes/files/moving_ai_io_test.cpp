@@ -16,11 +16,11 @@ std::string with_crlf(std::string text) {
   return text;
 }
 
-constexpr const char* small = "type octile\nheight 3\nwidth 4\nmap\n.GS@\nOTW.\n....\n";
+constexpr const char* small_map = "type octile\nheight 3\nwidth 4\nmap\n.GS@\nOTW.\n....\n";
 
 TEST(MovingAiMap, ReadsTerrainTopRowFirst) {
   const TemporaryDirectory directory;
-  for (const std::string& text : {std::string(small), with_crlf(small), std::string(small).substr(0, 52)}) {
+  for (const std::string& text : {std::string(small_map), with_crlf(small_map), std::string(small_map).substr(0, 52)}) {
     const OccupancyMap map = read_moving_ai_map(InputFile(directory.write("a.map", text), {}), {});
     ASSERT_EQ(map.width(), 4U);
     ASSERT_EQ(map.height(), 3U);
@@ -144,7 +144,7 @@ TEST(Scenarios, TellHowFarTheirOptimaAreRounded) {
 
 TEST(Scenarios, CellsCountFromTheTopAndScaleToTheMap) {
   const TemporaryDirectory directory;
-  const OccupancyMap map = read_moving_ai_map(InputFile(directory.write("a.map", small), {}), {});
+  const OccupancyMap map = read_moving_ai_map(InputFile(directory.write("a.map", small_map), {}), {});
   Scenario scenario;
   EXPECT_EQ(cell_of(map, scenario, {3, 0}, "a.scen"), (Cell{3, 2}));
   EXPECT_EQ(cell_of(map, scenario, {3, 2}, "a.scen"), (Cell{3, 0}));

@@ -23,6 +23,7 @@
 #include "scenes/files/wkt_io.hpp"
 #include "tests/memory_limit.hpp"
 #include "tests/scenes/files/test_images.hpp"
+#include "tests/seeds.hpp"
 
 namespace warren {
 namespace {
@@ -35,7 +36,7 @@ void read_with(const InputFile& file, const Execution& execution) {
 }
 
 constexpr FileReader scene = read_with<read_scene_text>;
-constexpr FileReader npy = read_with<read_npy>;
+constexpr FileReader npy_reader = read_with<read_npy>;
 constexpr FileReader geojson = read_with<read_geojson>;
 constexpr FileReader wkt = read_with<read_wkt>;
 constexpr FileReader ring_list = read_with<read_ring_list>;
@@ -109,7 +110,9 @@ TEST(ReaderCosts, ASignalIsSeenWhateverTheFileIsFullOf) {
   const SignalFlag signal{SIGINT};
   const Deadline deadline(std::numeric_limits<double>::infinity(), std::numeric_limits<std::size_t>::max(), &signal);
   const Execution execution{1, &deadline};
-  for (const LongFile& file : long_files()) {
+  const auto files = long_files();
+  for (const std::uint64_t i : test::seeds(std::size(files), std::size(files) / 3, 0)) {
+    const LongFile& file = files[i];
     SCOPED_TRACE(file.what);
     const InputFile input = InputFile::of_bytes("long", file.bytes(mebi));
     EXPECT_THROW(file.read(input, {}), InputError) << "it ends in a mistake";
@@ -118,24 +121,25 @@ TEST(ReaderCosts, ASignalIsSeenWhateverTheFileIsFullOf) {
 }
 
 TEST(ReaderCosts, MemoryIsAskedForBeforeItIsTaken) {
-  for (const LongFile& file : {
-           LongFile{"walls", scene, "", "0 0 1 1\n", ""},
-           LongFile{"corners of a polygon", scene, "polygon", " 1 2", "\n"},
-           LongFile{"spheres", scene, "", "sphere 0 0 0 0\n", ""},
-           LongFile{"polygons", scene, "", "polygon 0 0 1 0 0 1\n", ""},
-           LongFile{"a text in JSON", geojson, R"({"a": ")", "w", "\"}"},
-           LongFile{"rings of GeoJSON", geojson, R"({"type": "MultiLineString", "coordinates": [[[0,0]])", ",[[0,0]]",
-                    "]}"},
-           LongFile{"positions of WKT", wkt, "LINESTRING (0 0", ",0 0", ")"},
-           LongFile{"polygons of WKT", wkt, "", "POLYGON((0 0,1 0,1 1,0 0))", ""},
-           LongFile{"rings of one corner", ring_list, "//\n", "0 0\n//\n", ""},
-           LongFile{"rows of posts", micromouse, "o---o\n", "\n", ""},
-           LongFile{"cells in numbers", micromouse, "", "0 0 0 0 0 0\n", ""},
-           LongFile{"rows of one cell", moving_ai, "type octile\nheight 4194000\nwidth 1\nmap\n", ".\n", ""},
-           LongFile{"queries", scenarios, "version 0\n", "0 a 1 1 1 1 1\n", ""},
-           LongFile{"pixels in decimals", image, "P2 1 4194000 1\n", " 1", ""},
-           LongFile{"pixels in bytes", image, "P5 1 8388500 1\n", "1", ""},
-       }) {
+  const LongFile files[] = {
+      LongFile{"walls", scene, "", "0 0 1 1\n", ""},
+      LongFile{"corners of a polygon", scene, "polygon", " 1 2", "\n"},
+      LongFile{"spheres", scene, "", "sphere 0 0 0 0\n", ""},
+      LongFile{"polygons", scene, "", "polygon 0 0 1 0 0 1\n", ""},
+      LongFile{"a text in JSON", geojson, R"({"a": ")", "w", "\"}"},
+      LongFile{"rings of GeoJSON", geojson, R"({"type": "MultiLineString", "coordinates": [[[0,0]])", ",[[0,0]]", "]}"},
+      LongFile{"positions of WKT", wkt, "LINESTRING (0 0", ",0 0", ")"},
+      LongFile{"polygons of WKT", wkt, "", "POLYGON((0 0,1 0,1 1,0 0))", ""},
+      LongFile{"rings of one corner", ring_list, "//\n", "0 0\n//\n", ""},
+      LongFile{"rows of posts", micromouse, "o---o\n", "\n", ""},
+      LongFile{"cells in numbers", micromouse, "", "0 0 0 0 0 0\n", ""},
+      LongFile{"rows of one cell", moving_ai, "type octile\nheight 4194000\nwidth 1\nmap\n", ".\n", ""},
+      LongFile{"queries", scenarios, "version 0\n", "0 a 1 1 1 1 1\n", ""},
+      LongFile{"pixels in decimals", image, "P2 1 4194000 1\n", " 1", ""},
+      LongFile{"pixels in bytes", image, "P5 1 8388500 1\n", "1", ""},
+  };
+  for (const std::uint64_t i : test::seeds(std::size(files), 5, 0)) {
+    const LongFile& file = files[i];
     SCOPED_TRACE(file.what);
     const InputFile input = InputFile::of_bytes("long", file.bytes(8 * mebi));
     const Deadline deadline = test::limit_from_here(10 * mebi);
@@ -170,7 +174,7 @@ TEST(ReaderCosts, WhatAHeaderPromisesMustFitIntoItsFile) {
            Promise{"pixels of a PNG", image, promising_png},
            Promise{"cells", moving_ai, "type octile\nheight 1\nwidth 2147483647\nmap\n.\n"},
            Promise{"rings", ring_list, "poly\n1\n4294967295\n4294967295\n0 0\n"},
-           Promise{"rows of numbers", npy,
+           Promise{"rows of numbers", npy_reader,
                    std::string("\x93NUMPY\x01\0", 8) + static_cast<char>(npy_header.size()) + std::string(1, '\0') +
                        npy_header + std::string(16, '\0')},
        }) {

@@ -15,6 +15,7 @@
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/text/scene_text.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
+#include "tests/seeds.hpp"
 
 namespace warren {
 namespace {
@@ -410,7 +411,7 @@ TEST(SceneText, WhatIsWrittenReadsBackTheSame) {
       {RobotKind::puma560, 0.05, 0, 0, {}, SteeringKind::dubins, "symmetric", {}, true},
       {RobotKind::arm, 0.05, 0, 0, {}, SteeringKind::dubins, {}, "a/b.dh", false},
       {RobotKind::urdf, 0, 0, 0, {}, SteeringKind::dubins, {}, {}, false, ArmFiles{"a.urdf", "", "", "x", "y"}}};
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+  for (const std::uint64_t seed : test::seeds(20, 9, 0)) {  // each of the robots
     SCOPED_TRACE(seed);
     SequentialRng rng(seed);
     const auto number = [&] {

@@ -8,12 +8,13 @@
 
 #include "core/base/error.hpp"
 #include "solve/answer/write_answer_io.hpp"
+#include "tests/seeds.hpp"
 
 namespace warren {
 namespace {
 
 std::string repeated(std::string_view head, std::string_view again, std::string_view tail) {
-  constexpr std::size_t bytes = std::size_t{1} << 20;
+  const std::size_t bytes = test::share(1U << 20U, 1U << 18U);
   std::string text{head};
   while (text.size() < bytes) text += again;
   return text + std::string{tail};

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <limits>
 #include <string>
@@ -13,6 +14,7 @@
 #include "core/base/rng.hpp"
 #include "scenes/files/npy_io.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
+#include "tests/seeds.hpp"
 #include "tests/solve/kept/listed_roadmap.hpp"
 
 namespace warren {
@@ -299,7 +301,8 @@ TEST(ExportRoadmap, BytesDoNotDependOnThreads) {
   const ListedRoadmap roadmap = uneven();
   for (const std::string ending : {".csv", ".gr", ".geojson", ".graphml", ".npz", ".dot"}) {
     const Exported one = exported(roadmap, ending, {}, {.threads = 1});
-    for (const unsigned threads : {2U, 3U, 8U}) {
+    for (const std::uint64_t i : test::seeds(3, 1, 0)) {
+      const unsigned threads = std::array{2U, 3U, 8U}[i];
       const Exported many = exported(roadmap, ending, {}, {.threads = threads});
       EXPECT_EQ(many.text == one.text && many.second == one.second, true) << ending << " on " << threads;
       EXPECT_EQ(many.account, one.account);
@@ -333,7 +336,8 @@ TEST(ExportRoadmap, TheFirstWrongLengthIsToldForAnyNumberOfThreads) {
   for (VertexId v = 20'001; v < vertices; v += 1'500) states[2 * v] = 1e300;
   const ListedRoadmap roadmap(2, false, std::move(states), std::move(edges));
   for (const std::string ending : {".csv", ".gr"}) {
-    for (const unsigned threads : {1U, 2U, 8U}) {
+    for (const std::uint64_t i : test::seeds(3, 1, 0)) {
+      const unsigned threads = std::array{1U, 2U, 8U}[i];
       try {
         exported(roadmap, ending, {}, {.threads = threads});
         FAIL() << "no error";

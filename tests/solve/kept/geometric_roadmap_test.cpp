@@ -82,7 +82,9 @@ std::vector<double> somewhere(const Scene& scene, const RobotSpec& robot, std::u
 }
 
 TEST(GeometricRoadmap, AnswersAsSolveDoes) {
-  for (const GeometricCase& c : geometric_cases()) {
+  const std::vector<GeometricCase> cases = geometric_cases();
+  for (const std::uint64_t number : test::seeds(cases.size(), cases.size() / 2, 0)) {
+    const GeometricCase& c = cases[number];
     SCOPED_TRACE(c.name);
     const Scene scene = read_world(c.world);
     const Roadmap roadmap = build(scene, c.question, c.options);
@@ -90,7 +92,7 @@ TEST(GeometricRoadmap, AnswersAsSolveDoes) {
     std::size_t solved = 0;
     std::uint64_t asked = 0;
     for (const std::uint64_t i : test::seeds(24, 24, 0)) {
-      if (asked++ >= test::share(24, 8) && solved >= test::share(3)) break;  // by day a share may have none
+      if (asked++ >= test::share(24, 4) && solved >= test::share(3)) break;  // by day a share may have none
       SCOPED_TRACE(i);
       Question question = c.question;
       if (i % 3 == 0) question.start = somewhere(scene, *c.question.robot, 2 * i);

@@ -111,7 +111,7 @@ TEST(KeptLattice, BitsOfAFileAnswerAsWallsThatAreHeldDo) {
       };
       return std::vector<double>{number(), number()};
     };
-    const std::vector<std::uint64_t> asked = test::seeds(60, 15, 0);
+    const std::vector<std::uint64_t> asked = test::seeds(60, 6, 0);
     for (unsigned i = 0; i < 60; ++i) {
       SCOPED_TRACE(i);
       const double step = i % 3 == 0 ? 1.0 : i % 3 == 1 ? 0.5 : 0.37;

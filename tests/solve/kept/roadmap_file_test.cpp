@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "core/base/error.hpp"
+#include "tests/seeds.hpp"
 #include "tests/solve/kept/mend_checksums.hpp"
 #include "tests/solve/kept/small_roadmap_file.hpp"
 
@@ -102,7 +103,7 @@ TEST(RoadmapFile, RefusesEveryFlippedBit) {
   ASSERT_EQ(refusal(bytes), "");
   std::size_t taken = 0;
   std::size_t nameless = 0;
-  for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
+  for (const std::uint64_t bit : test::seeds(8 * bytes.size(), bytes.size(), 0)) {
     const auto mask = static_cast<char>(1U << (bit % 8));
     bytes[bit / 8] ^= mask;
     const std::string said = refusal(bytes);

@@ -13,11 +13,15 @@
 #include "solve/solve.hpp"
 #include "tests/paths.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
+#include "tests/seeds.hpp"
+#include "tests/solve/test_scenes.hpp"
 
 namespace warren {
 namespace {
 
-Scene world(const std::string& name) { return read_world(test::source_dir() + "/examples/worlds/" + name); }
+using test::scene_of;
+
+Scene told_world(const std::string& name) { return read_world(test::source_dir() + "/examples/worlds/" + name); }
 
 /// What is told of a blocked end; that the place it names is free, and as far as it says, is looked at.
 BlockedEnd told(const Scene& scene, Question question) {
@@ -46,34 +50,34 @@ BlockedEnd told(const Scene& scene, Question question) {
 }
 
 TEST(BlockedEnd, NamesThePolygonAndTheNearestFreePlace) {
-  const BlockedEnd blocked = told(world("town.geojson"), {.start = {3, 2.5}, .goal = {9.5, 8.5}});
+  const BlockedEnd blocked = told(told_world("town.geojson"), {.start = {3, 2.5}, .goal = {9.5, 8.5}});
   EXPECT_TRUE(blocked.by.starts_with("polygon 0")) << blocked.by;
   EXPECT_NEAR(blocked.distance, 0.5, 0.02);
 }
 
 TEST(BlockedEnd, NamesTheWallThatABodyStandsIn) {
-  const BlockedEnd blocked = told(world("walls.scene"), {.start = {200, 50, 0}});
+  const BlockedEnd blocked = told(told_world("walls.scene"), {.start = {200, 50, 0}});
   EXPECT_TRUE(blocked.by.starts_with("wall 0")) << blocked.by;
   EXPECT_NEAR(blocked.distance, 25.0, 1.5);
   EXPECT_EQ(blocked.free_place.size(), 3U);
 }
 
 TEST(BlockedEnd, SaysWhatIsOutsideAndWhereTheInsideIs) {
-  const BlockedEnd blocked = told(world("walls.scene"), {.goal = {500, 5000, 0}});
+  const BlockedEnd blocked = told(told_world("walls.scene"), {.goal = {500, 5000, 0}});
   EXPECT_TRUE(blocked.by.starts_with("outside of the bounds 0 0 800 300")) << blocked.by;
   EXPECT_FALSE(blocked.is_start);
   EXPECT_NEAR(blocked.distance, 4725.0, 30.0);
 }
 
 TEST(BlockedEnd, GuessesThatRowsAndColumnsWereSwapped) {
-  EXPECT_NE(told(world("walls.scene"), {.start = {50, 700, 0}}).hint.find("700,50 is free"), std::string::npos);
-  EXPECT_EQ(told(world("walls.scene"), {.start = {200, 50, 0}}).hint, "");
+  EXPECT_NE(told(told_world("walls.scene"), {.start = {50, 700, 0}}).hint.find("700,50 is free"), std::string::npos);
+  EXPECT_EQ(told(told_world("walls.scene"), {.start = {200, 50, 0}}).hint, "");
 }
 
 TEST(BlockedEnd, NamesTheCellOfAMap) {
   const Question question{
       .robot = RobotSpec{.kind = RobotKind::disc, .radius = 0.2}, .start = {0.05, 0.5}, .goal = {4.3, 0.5}};
-  const BlockedEnd blocked = told(world("flat.yaml"), question);
+  const BlockedEnd blocked = told(told_world("flat.yaml"), question);
   EXPECT_TRUE(blocked.by.starts_with("cell ")) << blocked.by;
   EXPECT_NEAR(blocked.distance, 0.25, 0.06);
 }
@@ -99,20 +103,20 @@ Scene room_in_the_solid(Vec2 middle, double half, double side) {
 
 /// Three free cells by three of a map that is blocked else, a square room among walls: no direction need lead there.
 TEST(BlockedEnd, OffersThePlaceInAPocketFarAway) {
-  for (std::uint32_t y = 3; y < 28; y += 12) {
-    for (std::uint32_t x = 3; x < 28; x += 12) {
-      SCOPED_TRACE(testing::Message() << x << ' ' << y);
-      Scene map;
-      map.map.emplace().blocked = Bitmap(31, 31);
-      for (std::uint32_t i = 0; i < 31U * 31U; ++i) {
-        const bool is_free = i % 31 - x + 1 < 3 && i / 31 - y + 1 < 3;  // below 0 is far above 3
-        if (!is_free) map.map->blocked.set(i % 31, i / 31);
-      }
-      const Question question{
-          .robot = RobotSpec{.kind = RobotKind::disc, .radius = 1.2}, .start = {1.5, 29.5}, .goal = {29.5, 1.5}};
-      expect_near(told(map, question).free_place, {x + 0.5, y + 0.5}, 0.3);
-      expect_near(told(room_in_the_solid({x + 0.5, y + 0.5}, 1.5, 31), question).free_place, {x + 0.5, y + 0.5}, 0.3);
+  for (const std::uint64_t pocket : test::seeds(9, 1, 0)) {
+    const auto x = static_cast<std::uint32_t>(3 + 12 * (pocket % 3));
+    const auto y = static_cast<std::uint32_t>(3 + 12 * (pocket / 3));
+    SCOPED_TRACE(testing::Message() << x << ' ' << y);
+    Scene map;
+    map.map.emplace().blocked = Bitmap(31, 31);
+    for (std::uint32_t i = 0; i < 31U * 31U; ++i) {
+      const bool is_free = i % 31 - x + 1 < 3 && i / 31 - y + 1 < 3;  // below 0 is far above 3
+      if (!is_free) map.map->blocked.set(i % 31, i / 31);
     }
+    const Question question{
+        .robot = RobotSpec{.kind = RobotKind::disc, .radius = 1.2}, .start = {1.5, 29.5}, .goal = {29.5, 1.5}};
+    expect_near(told(map, question).free_place, {x + 0.5, y + 0.5}, 0.3);
+    expect_near(told(room_in_the_solid({x + 0.5, y + 0.5}, 1.5, 31), question).free_place, {x + 0.5, y + 0.5}, 0.3);
   }
 }
 
@@ -136,7 +140,7 @@ TEST(BlockedEnd, OffersTheOnlyPocketOfALargeMap) {
 }
 
 TEST(BlockedEnd, NamesTheJointAndItsLimitsAndGuessesDegrees) {
-  const BlockedEnd blocked = told(world("puma.scene"), {.goal = {90, 0, 0, 0, 0, 0}});
+  const BlockedEnd blocked = told(told_world("puma.scene"), {.goal = {90, 0, 0, 0, 0, 0}});
   EXPECT_NE(blocked.by.find("joint 1"), std::string::npos) << blocked.by;
   EXPECT_NE(blocked.hint.find("90deg"), std::string::npos);
   EXPECT_FALSE(blocked.depth.has_value());
@@ -145,10 +149,6 @@ TEST(BlockedEnd, NamesTheJointAndItsLimitsAndGuessesDegrees) {
 }
 
 /// As written, and the body that is asked about.
-Scene scene_of(const std::string& text) {
-  const TemporaryDirectory folder;
-  return read_world(folder.write("w.scene", text));
-}
 
 struct DepthCase {
   const char* world;
@@ -207,7 +207,7 @@ TEST(BlockedEnd, APolygonWithAYardIsOneObstacle) {
 
 TEST(BlockedEnd, OfAMapTheBlockedCellsAreOneObstacle) {
   const Question question{.start = {0.05, 2.5}, .goal = {4.3, 0.5}};
-  const BlockedEnd blocked = told(world("flat.yaml"), question);
+  const BlockedEnd blocked = told(told_world("flat.yaml"), question);
   EXPECT_TRUE(blocked.by.starts_with("cell ")) << blocked.by;
   EXPECT_NEAR(blocked.depth.value_or(0.0), blocked.distance, 0.05 * blocked.distance);
 }
@@ -241,7 +241,7 @@ TEST(BlockedEnd, HoldsInLargeMazesAndForCars) {
   const BlockedEnd wall = told(read_world("maze:300x300"), {.start = {20, 20}, .goal = {2.5, 2.51}});
   EXPECT_TRUE(wall.by.starts_with("wall ")) << wall.by;
   EXPECT_LT(wall.distance, 0.2);
-  told(world("car-20.scene"), {.goal = {8.9, 0.25, 1.57}});
+  told(told_world("car-20.scene"), {.goal = {8.9, 0.25, 1.57}});
 }
 
 TEST(BlockedEnd, HoldsWhereWallsAreMadeTileByTile) {
@@ -260,7 +260,7 @@ TEST(BlockedEnd, HoldsWhereWallsAreMadeTileByTile) {
   EXPECT_EQ(told(maze, {.goal = {12, 35}}).hint, "x comes before y: 35,12 is free");
 }
 
-TEST(BlockedEnd, IsNotToldOfOtherAnswers) { EXPECT_FALSE(solve(world("walls.scene")).blocked.has_value()); }
+TEST(BlockedEnd, IsNotToldOfOtherAnswers) { EXPECT_FALSE(solve(told_world("walls.scene")).blocked.has_value()); }
 
 }  // namespace
 }  // namespace warren

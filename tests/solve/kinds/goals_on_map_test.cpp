@@ -14,31 +14,21 @@
 #include "solve/solve.hpp"
 #include "tests/planners/grid/grid_oracle.hpp"
 #include "tests/seeds.hpp"
+#include "tests/solve/test_scenes.hpp"
 
 namespace warren {
 namespace {
+
+using test::scene_of;
 
 using grid_oracle::random_cell;
 using grid_oracle::random_map;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-Scene scene_of(const Bitmap& blocked) {
-  Scene scene;
-  scene.source = "map";
-  OccupancyMap map;
-  map.blocked = blocked;
-  map.occupied = 0;
-  for (std::uint32_t y = 0; y < blocked.height(); ++y) {
-    for (std::uint32_t x = 0; x < blocked.width(); ++x) ++(blocked.test(x, y) ? map.occupied : map.free);
-  }
-  scene.map = map;
-  return scene;
-}
-
 std::vector<double> middle(Cell c) { return {c.x + 0.5, c.y + 0.5}; }
 
-SolveOptions by(PlannerKind planner) {
+SolveOptions mapped_by(PlannerKind planner) {
   SolveOptions options;
   options.planner = planner;
   return options;
@@ -78,7 +68,7 @@ TEST(GoalsOnMap, OfSeveralGoalsTheNearestIsReached) {
       (i == 0 ? question.goal : question.rule.others.emplace_back()) = middle(goal);
       least = std::min(least, grid_oracle::shortest(map, start, goal, Diagonal::sqrt2));
     }
-    const Answer answer = solve(scene, question, by(PlannerKind::grid));
+    const Answer answer = solve(scene, question, mapped_by(PlannerKind::grid));
     ASSERT_EQ(answer.verified, std::isfinite(least));
     if (!answer.verified) {
       EXPECT_EQ(answer.outcome, Outcome::infeasible);
@@ -89,7 +79,7 @@ TEST(GoalsOnMap, OfSeveralGoalsTheNearestIsReached) {
     EXPECT_EQ(answer.problem.goal, index == 0 ? question.goal : question.rule.others[index - 1]);
     EXPECT_TRUE(verify(scene, answer).verified);
     for (const PlannerKind planner : {PlannerKind::prm, PlannerKind::lazy_prm, PlannerKind::rrt_connect}) {
-      const Answer sampled = solve(scene, question, by(planner));
+      const Answer sampled = solve(scene, question, mapped_by(planner));
       EXPECT_TRUE(sampled.verified) << name_of(planner);
       EXPECT_EQ(sampled.goal_index, answer.goal_index) << name_of(planner);
       EXPECT_EQ(sampled.problem.goal, answer.problem.goal) << name_of(planner);
@@ -110,7 +100,7 @@ TEST(GoalsOnMap, AToleranceReachesTheNearestPlaceThatIsJoinedToTheStart) {
     for (const Cell c : cells) least = std::min(least, off(c, goal));
     for (const double tolerance : {infinity, 1.5}) {
       const Question question{.start = middle(start), .goal = goal, .rule = {.tolerance = tolerance}};
-      const Answer answer = solve(scene, question, by(PlannerKind::grid));
+      const Answer answer = solve(scene, question, mapped_by(PlannerKind::grid));
       ASSERT_TRUE(answer.goal_reached.has_value());
       const GoalReached& reached = *answer.goal_reached;
       EXPECT_EQ(reached.asked, goal);
@@ -128,7 +118,7 @@ TEST(GoalsOnMap, AToleranceReachesTheNearestPlaceThatIsJoinedToTheStart) {
       const Cell own{static_cast<std::uint32_t>(end.x), static_cast<std::uint32_t>(end.y)};
       EXPECT_NE(std::find(cells.begin(), cells.end(), own), cells.end());
       EXPECT_TRUE(verify(scene, answer).verified);
-      const Answer sampled = solve(scene, question, by(PlannerKind::rrt_connect));
+      const Answer sampled = solve(scene, question, mapped_by(PlannerKind::rrt_connect));
       EXPECT_TRUE(sampled.verified);
       EXPECT_EQ(sampled.problem.goal, answer.problem.goal);
     }
@@ -170,7 +160,7 @@ TEST(GoalsOnMap, ADiscComesAsNearAsAnyMiddleThatItReaches) {
     double least = infinity;
     for (const Cell c : reachable(free, start)) least = std::min(least, off(c, goal));
     const Question question{.robot = disc, .start = middle(start), .goal = goal, .rule = {.tolerance = infinity}};
-    const Answer answer = solve(scene, question, by(PlannerKind::grid));
+    const Answer answer = solve(scene, question, mapped_by(PlannerKind::grid));
     if (answer.outcome == Outcome::start_blocked) continue;
     ASSERT_TRUE(answer.verified);
     EXPECT_LE(answer.goal_reached->distance, least);
@@ -195,13 +185,13 @@ TEST(GoalsOnMap, ARegionIsEnteredWhereThatIsCheapest) {
       }
     }
     const Question question{.start = middle(start), .goal = middle(goal), .rule = {.region = radius}};
-    const Answer answer = solve(scene, question, by(PlannerKind::grid));
+    const Answer answer = solve(scene, question, mapped_by(PlannerKind::grid));
     ASSERT_EQ(answer.verified, std::isfinite(least));
     if (!answer.verified) continue;
     EXPECT_LE(answer.length, least + 1e-9);
     EXPECT_GE(answer.length, least - 1.42);
     EXPECT_LE(std::hypot(answer.path.back().x - goal.x - 0.5, answer.path.back().y - goal.y - 0.5), radius + 1e-9);
-    EXPECT_LE(*solve(scene, question, by(PlannerKind::lazy_prm)).lower_bound, answer.length);
+    EXPECT_LE(*solve(scene, question, mapped_by(PlannerKind::lazy_prm)).lower_bound, answer.length);
   }
 }
 
@@ -230,7 +220,7 @@ TEST(GoalsOnMap, VisitsAreInTheBestOfAllOrders) {
       if (end < 2) sum += way(stops[order.back()], end == 0 ? goal : start);
       least = std::min(least, sum);
     } while (std::next_permutation(order.begin(), order.end()));
-    const Answer answer = solve(scene, question, by(PlannerKind::grid));
+    const Answer answer = solve(scene, question, mapped_by(PlannerKind::grid));
     ASSERT_EQ(answer.verified, std::isfinite(least));
     if (!answer.verified) {
       EXPECT_EQ(answer.outcome, Outcome::infeasible);
@@ -244,13 +234,13 @@ TEST(GoalsOnMap, VisitsAreInTheBestOfAllOrders) {
     }
     EXPECT_LT(at, answer.path.size());
     EXPECT_TRUE(verify(scene, answer).verified);
-    const Answer sampled = solve(scene, question, by(PlannerKind::prm));
+    const Answer sampled = solve(scene, question, mapped_by(PlannerKind::prm));
     EXPECT_TRUE(sampled.verified);
     EXPECT_EQ(sampled.order, answer.order);
     EXPECT_LE(sampled.lower_bound.value_or(0.0), sampled.length);
     // The order that was found, as way-points.
     if (end != 0) continue;
-    SolveOptions through = by(PlannerKind::grid);
+    SolveOptions through = mapped_by(PlannerKind::grid);
     Question in_order{.start = question.start, .goal = question.goal};
     for (const std::uint64_t stop : answer.order) through.trees.via.push_back(middle(stops[stop]));
     EXPECT_EQ(solve(scene, in_order, through).path, answer.path);
@@ -265,12 +255,12 @@ TEST(GoalsOnMap, AStopThatIsBlockedIsNamed) {
   const Scene scene = scene_of(map);
   const Question question{.start = {0.5, 0.5}, .goal = {8.5, 8.5}, .rule = {.visit = {{1.5, 1.5}, {4.5, 4.5}}}};
   try {
-    solve(scene, question, by(PlannerKind::grid));
+    solve(scene, question, mapped_by(PlannerKind::grid));
     ADD_FAILURE();
   } catch (const UsageError& error) {
     EXPECT_STREQ(error.what(), "visit: the point does not fit at place 2");
   }
-  SolveOptions options = by(PlannerKind::grid);
+  SolveOptions options = mapped_by(PlannerKind::grid);
   options.search = SearchMethod::astar;
   EXPECT_THROW(solve(scene, {.start = {0.5, 0.5}, .goal = {8.5, 8.5}, .rule = {.tolerance = 1.0}}, options),
                UsageError);
@@ -291,7 +281,7 @@ TEST(GoalsOnMap, APricedPathIsPulledTautAndItsPartsAddUp) {
     Question question{.start = middle(random_cell(map, seed, 1)), .goal = middle(random_cell(map, seed, 2))};
     question.prices.clearance = {3.0, 2.5};
     question.prices.areas = {{2.0, {{2, 2}, {30, 4}, {9, 20}}}};
-    const Answer answer = solve(scene, question, by(PlannerKind::grid));
+    const Answer answer = solve(scene, question, mapped_by(PlannerKind::grid));
     if (!answer.verified) continue;
     ASSERT_TRUE(answer.price.has_value());
     EXPECT_EQ(*answer.cost, answer.length + answer.price->sum());
@@ -301,16 +291,16 @@ TEST(GoalsOnMap, APricedPathIsPulledTautAndItsPartsAddUp) {
     for (const unsigned threads : {2U, 3U}) {
       Limits limits;
       limits.threads = threads;
-      EXPECT_EQ(solve(scene, question, by(PlannerKind::grid), limits).path, answer.path);
+      EXPECT_EQ(solve(scene, question, mapped_by(PlannerKind::grid), limits).path, answer.path);
     }
     over_cells += cells_cost(answer);
     taut += *answer.cost;
     // Nothing said, or a price of nothing: the path of the same solve.
     Question free = question;
     free.prices = {};
-    const Path<Vec2> plain = solve(scene, free, by(PlannerKind::grid)).path;
+    const Path<Vec2> plain = solve(scene, free, mapped_by(PlannerKind::grid)).path;
     free.prices.clearance = {0.0, 2.5};
-    const Answer of_nothing = solve(scene, free, by(PlannerKind::grid));
+    const Answer of_nothing = solve(scene, free, mapped_by(PlannerKind::grid));
     EXPECT_EQ(of_nothing.path, plain);
     EXPECT_EQ(of_nothing.price.value_or(PriceParts{}).sum(), 0.0);
   }

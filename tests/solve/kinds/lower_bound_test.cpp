@@ -163,7 +163,7 @@ std::size_t expect_none_below(const Scene& scene, const Question& question, cons
 
 TEST(LowerBound, NoPathOfAnyPlannerAmongObstaclesIsBelow) {
   std::size_t solved = 0;
-  for (const std::uint64_t seed : test::seeds(100, 4)) {
+  for (const std::uint64_t seed : test::seeds(100, 1)) {
     const Scene scene = bounded_clutter(seed);
     std::size_t number = 0;
     for (const RobotSpec& body : bodies()) {
@@ -171,13 +171,13 @@ TEST(LowerBound, NoPathOfAnyPlannerAmongObstaclesIsBelow) {
       solved += expect_none_below(scene, asked_of(body, seed), ways_to_solve(body));
     }
   }
-  EXPECT_GT(solved, test::asks_all() ? 1000U : 40U);
+  EXPECT_GT(solved, test::asks_all() ? 1000U : 5U);
 }
 
 TEST(LowerBound, NoPathOnAMapIsBelow) {
   std::size_t solved = 0;
   std::size_t around = 0;
-  for (const std::uint64_t seed : test::seeds(100, 12)) {
+  for (const std::uint64_t seed : test::seeds(100, 3)) {
     Draws draw(seed);
     OccupancyMap map;
     map.cell = seed % 2 == 0 ? 0.05 : 1.0;
@@ -213,8 +213,8 @@ TEST(LowerBound, NoPathOnAMapIsBelow) {
       solved += expect_none_below(scene, turning, {ways[1]});
     }
   }
-  EXPECT_GT(solved, 30U);
-  EXPECT_GT(around, 3U);
+  EXPECT_GT(solved, test::share(250, 5));
+  EXPECT_GT(around, test::share(30, 0));
 }
 
 TEST(LowerBound, NoPathOfAnArmIsBelow) {

@@ -12,22 +12,14 @@
 #include "solve/solve.hpp"
 #include "tests/planners/grid/class_oracle.hpp"
 #include "tests/seeds.hpp"
+#include "tests/solve/test_scenes.hpp"
 #include "verify/judges/verify_classes.hpp"
 #include "verify/judges/verify_map.hpp"
 
 namespace warren {
 namespace {
 
-Scene scene_of(const Bitmap& blocked) {
-  Scene scene;
-  scene.source = "map";
-  OccupancyMap map;
-  map.blocked = blocked;
-  map.occupied = blocked.count();
-  map.free = blocked.size() - map.occupied;
-  scene.map = map;
-  return scene;
-}
+using test::scene_of;
 
 /// Blocks as wide and high as that, one every `every` cells, off the border.
 Bitmap blocks(std::uint32_t width, std::uint32_t height, std::uint32_t every, std::uint32_t size) {

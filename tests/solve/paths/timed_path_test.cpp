@@ -9,6 +9,7 @@
 
 #include "core/base/rng.hpp"
 #include "core/plane/se2.hpp"
+#include "tests/seeds.hpp"
 #include "worlds/poses/dubins_curve.hpp"
 #include "worlds/poses/reeds_shepp_curve.hpp"
 
@@ -63,7 +64,8 @@ struct Named {
   RobotKind kind;
   std::size_t width;
 };
-constexpr Named bodies[] = {{RobotKind::point, 2}, {RobotKind::polygon, 3}, {RobotKind::car, 3}, {RobotKind::arm, 6}};
+constexpr Named timed_bodies[] = {
+    {RobotKind::point, 2}, {RobotKind::polygon, 3}, {RobotKind::car, 3}, {RobotKind::arm, 6}};
 
 TravelLimits some_limits() {
   return {.speed = 1.3,
@@ -110,8 +112,8 @@ TEST(TimedPath, ACarStopsWhereItChangesGearAndSlowsOnArcs) {
 }
 
 TEST(TimedPath, KeepsItsLimitsAtTenThousandInstants) {
-  for (const Named& body : bodies) {
-    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+  for (const Named& body : timed_bodies) {
+    for (const std::uint64_t seed : test::seeds(3)) {
       const Answer answer = random_answer(body.kind, body.width, seed);
       const PathLegs legs(answer);
       const TravelLimits limits = some_limits();
@@ -143,7 +145,7 @@ TEST(TimedPath, KeepsItsLimitsAtTenThousandInstants) {
 }
 
 TEST(TimedPath, SaysTheSameByPlaceAndByTime) {
-  for (const Named& body : bodies) {
+  for (const Named& body : timed_bodies) {
     const Answer answer = random_answer(body.kind, body.width, 7);
     const PathLegs legs(answer);
     for (const double rate : {0.7, infinite}) {

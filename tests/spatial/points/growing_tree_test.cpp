@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/rng.hpp"
+#include "tests/seeds.hpp"
 
 namespace warren {
 namespace {
@@ -66,7 +67,7 @@ void expect_as_brute_force(std::uint64_t seed, std::size_t count) {
 }
 
 TEST(GrowingTree, FindsTheNearestAtEverySizeAsBruteForceDoes) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  for (const std::uint64_t seed : test::seeds(20, 4)) {
     expect_as_brute_force<2>(seed, 700);
     expect_as_brute_force<4>(seed, 700);
   }

@@ -87,7 +87,7 @@ TEST(ArmWorld, AcceptedMotionsAreFreeAndFewFreeOnesAreRefused) {
     s.scene.boxes.clear();
     if (!has_length(s.table)) continue;
     const ArmWorld world = world_of(s);
-    for (std::uint64_t i = 0; i < 60; ++i) {
+    for (std::uint64_t i = 0; i < test::share(60, 20); ++i) {
       SCOPED_TRACE(i);
       const JointState a = random_state(s.table, seed, i);
       const JointState b = other_state(s.table, a, seed, i);
@@ -101,7 +101,7 @@ TEST(ArmWorld, AcceptedMotionsAreFreeAndFewFreeOnesAreRefused) {
       free_by_margin += verdict == MotionVerdict::free ? 1 : 0;
     }
   }
-  EXPECT_GT(accepted, test::share(200));
+  EXPECT_GT(accepted, test::share(200, 8));
   EXPECT_EQ(refused, 0) << "of " << free_by_margin;
 }
 
@@ -146,7 +146,7 @@ TEST(ArmWorld, SearchFindsMotionsThatTenSamplesAcceptAndNoneThatItAcceptsItself)
   const ArmWorld world = world_of(s);
   std::uint64_t accepted_by_study = 0;
   std::uint64_t wrongly = 0;
-  for (const std::uint64_t seed : test::seeds(120, 30)) {
+  for (const std::uint64_t seed : test::seeds(120, 12)) {
     const std::uint64_t i = seed - 1;
     for (std::uint64_t k = i + 1; k < i + 6; ++k) {
       if (!study_accepts(s, study_state(i), study_state(k))) continue;
@@ -156,8 +156,8 @@ TEST(ArmWorld, SearchFindsMotionsThatTenSamplesAcceptAndNoneThatItAcceptsItself)
       EXPECT_NE(world.judge_motion(study_state(i), study_state(k)), MotionVerdict::free) << i << ' ' << k;
     }
   }
-  EXPECT_GT(accepted_by_study, test::share(300, 75));
-  EXPECT_GT(wrongly, test::share(5, 2));
+  EXPECT_GT(accepted_by_study, test::share(300, 20));
+  if (test::asks_all()) EXPECT_GT(wrongly, 5U);
 }
 
 TEST(ArmWorld, SelfCollisionKeepsLinksApartThatAreNoNeighbours) {

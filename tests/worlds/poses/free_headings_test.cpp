@@ -55,7 +55,7 @@ TEST(FreeHeadings, AreThoseAtWhichNoSideIsNear) {
   std::size_t mixed = 0;
   for (const std::uint64_t seed : test::seeds(20)) {
     const Scene scene = scattered(seed, 12);
-    for (std::uint64_t i = 0; i < 20; ++i) {
+    for (std::uint64_t i = 0; i < test::share(20, 8); ++i) {
       const Vec2 place = random_pose(seed, i).position();
       const std::vector<Vec2>& outline = i % 2 == 0 ? kite : hook;
       const double room = i % 3 == 0 ? 0.0 : 0.05 * static_cast<double>(i % 3);
@@ -73,7 +73,7 @@ TEST(FreeHeadings, AreThoseAtWhichNoSideIsNear) {
       }
     }
   }
-  EXPECT_GT(mixed, 20U) << "places at which some headings are free";
+  EXPECT_GT(mixed, test::share(20, 4)) << "places at which some headings are free";
 }
 
 TEST(FreeHeadings, OfAMapAreThoseAmongItsBorders) {

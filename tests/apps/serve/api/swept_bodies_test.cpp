@@ -14,7 +14,7 @@ namespace warren::serve {
 namespace {
 
 constexpr double far = std::numeric_limits<double>::infinity();
-const PathView everything{.box = {{-far, -far}, {far, far}}};
+const PathView whole_view{.box = {{-far, -far}, {far, far}}};
 
 Answer way_of(RobotSpec robot, std::vector<double> states = {}) {
   Answer way;
@@ -27,7 +27,7 @@ const RobotSpec disc{.kind = RobotKind::disc, .radius = 1.0};
 
 TEST(SweptBodies, DiscsAreHalfARadiusApartWithBothEnds) {
   const KeptCurve curve({{0, 0}, {3, 0}, {3, 2.2}}, {});
-  const SweptBodies bodies = swept_bodies(way_of(disc), curve, everything, {});
+  const SweptBodies bodies = swept_bodies(way_of(disc), curve, whole_view, {});
   EXPECT_EQ(bodies.apart, 0.5);
   ASSERT_EQ(bodies.places.size(), 12U);
   EXPECT_EQ(bodies.places[0].numbers[0], 0.0);
@@ -37,7 +37,7 @@ TEST(SweptBodies, DiscsAreHalfARadiusApartWithBothEnds) {
 }
 
 TEST(SweptBodies, APathOfOnePlaceHasOneBody) {
-  const auto bodies = swept_bodies(way_of(disc), KeptCurve({{7, 8}}, {}), everything, {});
+  const auto bodies = swept_bodies(way_of(disc), KeptCurve({{7, 8}}, {}), whole_view, {});
   ASSERT_EQ(bodies.places.size(), 1U);
   EXPECT_EQ(bodies.places[0].numbers[1], 8.0);
 }
@@ -55,11 +55,11 @@ TEST(SweptBodies, ManyAreFartherApart) {
   Path<Vec2> path;
   for (int i = 0; i < 100'000; ++i) path.push_back({static_cast<double>(i % 2), 0.01 * i});
   const KeptCurve curve(path, {});
-  const SweptBodies bodies = swept_bodies(way_of(disc), curve, everything, {});
+  const SweptBodies bodies = swept_bodies(way_of(disc), curve, whole_view, {});
   EXPECT_GT(bodies.places.size(), most_swept_bodies / 3);
   EXPECT_LE(bodies.places.size(), most_swept_bodies);
   const double pixel = 30.0;
-  EXPECT_GE(swept_bodies(way_of(disc), curve, {.box = everything.box, .pixel = pixel}, {}).apart, 12 * pixel);
+  EXPECT_GE(swept_bodies(way_of(disc), curve, {.box = whole_view.box, .pixel = pixel}, {}).apart, 12 * pixel);
 }
 
 TEST(SweptBodies, StandWhereTheyStoodWhenLessIsInSight) {
@@ -69,7 +69,7 @@ TEST(SweptBodies, StandWhereTheyStoodWhenLessIsInSight) {
     while (path.size() < 3 * KeptCurve::block_points) path.push_back({step * static_cast<double>(path.size()), 1.0});
     const KeptCurve curve(path, {});
     const Answer way = way_of({.kind = RobotKind::disc, .radius = 50.0});
-    const SweptBodies all = swept_bodies(way, curve, everything, {});
+    const SweptBodies all = swept_bodies(way, curve, whole_view, {});
     const double middle = step * (2.5 * KeptCurve::block_points);
     const SweptBodies some = swept_bodies(way, curve, {.box = {{middle, 0}, {middle + 500, 2}}}, {});
     for (std::size_t i = 1; i + 1 < all.places.size(); ++i) {
@@ -86,7 +86,7 @@ TEST(SweptBodies, StandWhereTheyStoodWhenLessIsInSight) {
 
 TEST(SweptBodies, TurnsOnTheSpotAreSeen) {
   const RobotSpec bar{.kind = RobotKind::polygon, .outline = {{-2, -0.1}, {2, -0.1}, {0, 0.1}}};
-  const auto bodies = swept_bodies(way_of(bar, {0, 0, 0, 0, 0, 3.0}), KeptCurve({{0, 0}, {0, 0}}, {}), everything, {});
+  const auto bodies = swept_bodies(way_of(bar, {0, 0, 0, 0, 0, 3.0}), KeptCurve({{0, 0}, {0, 0}}, {}), whole_view, {});
   ASSERT_EQ(bodies.places.size(), 7U);
   EXPECT_NEAR(bodies.places[2].numbers[2], 2.0 * bodies.apart / reach_of(bar), 1e-12);
   EXPECT_EQ(bodies.places[6].numbers[2], 3.0);
@@ -96,7 +96,7 @@ TEST(SweptBodies, CarsAreOnTheirArcs) {
   const RobotSpec car{.kind = RobotKind::car, .radius = 0.2, .turning_radius = 1.0};
   const double pi = std::numbers::pi;
   const auto bodies =
-      swept_bodies(way_of(car, {1, 0, pi / 2, -1, 0, 3 * pi / 2}), KeptCurve({{1, 0}, {-1, 0}}, {}), everything, {});
+      swept_bodies(way_of(car, {1, 0, pi / 2, -1, 0, 3 * pi / 2}), KeptCurve({{1, 0}, {-1, 0}}, {}), whole_view, {});
   EXPECT_GT(bodies.places.size(), 25U);
   for (const PathState& place : bodies.places) {
     EXPECT_NEAR(std::hypot(place.numbers[0], place.numbers[1]), 1.0, 1e-9);
@@ -104,7 +104,7 @@ TEST(SweptBodies, CarsAreOnTheirArcs) {
 }
 
 TEST(SweptBodies, APointHasNone) {
-  EXPECT_THROW(swept_bodies(way_of({}), KeptCurve({{0, 0}, {1, 1}}, {}), everything, {}), UsageError);
+  EXPECT_THROW(swept_bodies(way_of({}), KeptCurve({{0, 0}, {1, 1}}, {}), whole_view, {}), UsageError);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "solve/solve.hpp"
 #include "tests/apps/serve/town.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
+#include "tests/seeds.hpp"
 
 namespace warren::serve {
 namespace {
@@ -100,7 +101,9 @@ TEST(WorldService, EachPlannerThatItNamesAnswers) {
   Served served(scene_of(town));
   const Json world = Json::parse(served.get("/api/world").body);
   EXPECT_GE(world.at("planners").size(), 5U);
-  for (const Json& planner : world.at("planners")) {
+  const std::size_t named = world.at("planners").size();
+  for (const std::uint64_t i : test::seeds(named, (named + 2) / 3, 0)) {
+    const Json& planner = world.at("planners")[i];
     SCOPED_TRACE(planner.dump());
     const HttpResponse response = served.query({{"planner", planner}});
     ASSERT_EQ(response.status, 200U) << response.body;

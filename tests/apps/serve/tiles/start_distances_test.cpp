@@ -13,11 +13,11 @@
 namespace warren::serve {
 namespace {
 
-constexpr double far_away = std::numeric_limits<double>::infinity();
+constexpr double not_reached = std::numeric_limits<double>::infinity();
 
 /// Bellman and Ford's, over the roadmap's free edges, from one of its milestones.
 std::vector<double> relaxed(const RoadmapParts& parts, VertexId from) {
-  std::vector<double> length(parts.vertex_count(), far_away);
+  std::vector<double> length(parts.vertex_count(), not_reached);
   length[from] = 0.0;
   for (bool changes = true; changes;) {
     changes = false;
@@ -48,7 +48,7 @@ TEST(StartDistances, LieBetweenThoseOfAMilestoneThereAndThoseOfQuestions) {
   QuestionScratch scratch;
   std::vector<unsigned> seen(step_inks.size(), 0);
   for (VertexId v = 0; v < parts.vertex_count(); v += 3) {
-    if (most[v] == far_away) continue;
+    if (most[v] == not_reached) continue;
     const std::vector<double> goal(parts.state(v).begin(), parts.state(v).end());
     const LengthAnswer least = query.length_within(start, goal, {}, {}, scratch);
     ASSERT_EQ(least.outcome, Outcome::solved);
