@@ -121,6 +121,21 @@ class ServicePage(MapTest):
         self.at(3, 3).click().perform()  # another question ends this one
         self.wait(lambda: not slider.is_displayed())
 
+    def test_a_field_that_a_proxy_leaves_out_hides_no_path(self):
+        self.shown(self.town, '#start=1.5,1.5&goal=9.5,8.5')
+        self.wait_for('Solved')
+        before = self.drawn()
+        self.assertGreater(len(before), 1)
+        self.run_script('''const whole = window.fetch;
+            window.fetch = async (...words) => {
+                const reply = await whole(...words), fields = new Headers(reply.headers);
+                fields.delete("Warren-Path");
+                return new Response(reply.body, {status: reply.status, headers: fields});
+            };
+            ask();''')
+        self.wait_for('leaves out the field Warren-Path')
+        self.assertEqual(self.drawn(), before)
+
     def test_no_path_says_why_and_the_body_stands_at_its_ends(self):
         self.shown(self.closed, '#start=5,30&goal=95,30&planner=prm')
         self.wait_for('No path was found')

@@ -207,7 +207,8 @@ struct NamedGroup {
 constexpr std::string_view own = "Options";
 constexpr NamedGroup option_groups[] = {
     {"Question",
-     "--robot --start --goal --via --clearance --contact --map-rules --request --goal-tolerance --goal-region --visit "
+     "--robot --start --goal --goal-pose --via --clearance --contact --map-rules --request --goal-tolerance "
+     "--goal-region --visit "
      "--return --alternatives --stretch --keep-to --unless-gain"},
     {"Prices and areas", "--clearance-price --area --areas --speed-zones --keep-out --unknown"},
     {"Planner", "--planner --planners --seed"},

@@ -36,7 +36,7 @@ constexpr OptionSpec question_specs[] = {
      false,
      true},
     {"--goal-pose", "X,Y,Z,QX,QY,QZ,QW",
-     "of an arm: a pose of its tool, its place and its turn as a quaternion (default: the file's)"},
+     "where an arm's tool is to arrive: a place, and a turn as a quaternion (default: the file's)"},
     {"--clearance", "R",
      "room to keep around the body along the whole path (default: the file's, else 0.1 in mazes, else 0)"},
     {"--contact", "WORD",
@@ -90,8 +90,7 @@ constexpr OptionSpec asked_specs[] = {
      "unknown cells of a map: blocked, or passable, where a metre costs F metres, F at least 1 (default: blocked)"},
     {"--goal-tolerance", "R[,ANGLE]",
      "where the goal is blocked or cut off: go to the place nearest to it, at most R away; inf: wherever that is. "
-     "ANGLE: "
-     "so much may the heading be off"},
+     "The heading may be off by ANGLE"},
     {"--goal-region", "R[,ANGLE]", "any place at most R away from the goal will do: the one that is cheapest to reach"},
     {"--visit", "PLACES",
      "pass these places, \"X,Y; X,Y; ...\", at most 12, in the order that costs least, then go to the goal"},

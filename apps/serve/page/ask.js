@@ -116,9 +116,9 @@ function take(reply, text, passed, asked) {
   answer.asked = asked;
   answer.start = json.status === "start_blocked" ? null : json.start.slice(0, 2).join(",");
   answer.id = reply.headers.get("Warren-Path");
-  if (answer.id) showPath(asDriven(json.path).map(p => [p[0], p[1]]), answer.id);
+  if (answer.id || json.verified) showPath(asDriven(json.path).map(p => [p[0], p[1]]), answer.id);
   showOtherWays(json.alternatives || []);
-  say(inWords(json));
+  say(inWords(json) + (json.verified && !answer.id ? ". " + namesNoPath : ""));
   showWays(json);
   showAnswer(json, [...serverTimes(reply), ["there and back", passed]]);
   showClearance();
@@ -128,6 +128,8 @@ function take(reply, text, passed, asked) {
   if (saving && saving.asked === asked && json.verified) savePath(saving.make);
 }
 
+/// Of an answer whose field Warren-Path got lost on its way, as some proxies do, the path is drawn where it was listed.
+const namesNoPath = "What stands between here and the service leaves out the field Warren-Path, so no more of this path can be seen.";
 /// Each look at the path of an answer ends here. The service keeps the last paths alone: where it let this one go, the
 /// question is asked anew, but once until it is seen, for a path that is too large is never kept. True where another
 /// answer is under way.

@@ -282,7 +282,7 @@ TEST(SweptStamps, HoldEveryCellThatADenseSweepTouches) {
     const MotionSet motions(
         {.headings = seed % 2 == 0 ? 16U : 32U, .turning_radius = robot.turning_radius, .reverses = true}, execution);
     const SweptStamps stamps(motions, robot.outline, 0.0, execution);
-    const auto every = static_cast<std::uint32_t>(test::share(3, 6));
+    const auto every = static_cast<std::uint32_t>(test::share(3, 12));
     for (std::uint32_t k = static_cast<std::uint32_t>(seed) % every; k < motions.headings(); k += every) {
       for (const LatticeMotion& motion : motions.from(k)) {
         const auto listed = stamps.cells(motion);

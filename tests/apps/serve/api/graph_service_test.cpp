@@ -188,7 +188,7 @@ TEST(GraphService, AnEdgeThroughAWallIsToldAndNotSaved) {
 
 TEST(GraphService, BodiesThatTurnHaveHeadings) {
   Graphs graphs(town, "polygon -2 -1 2 -1 2 1 -2 1");
-  const HttpResponse built = graphs.asked(Place::graph, R"({"kind":"roadmap","samples":100})");
+  const HttpResponse built = graphs.asked(Place::graph, R"({"kind":"roadmap","samples":40})");
   ASSERT_EQ(built.status, 200U) << built.body;
   EXPECT_TRUE(Json::parse(built.body).at("nodes")[0].contains("theta"));
   expect_all_free(Json::parse(built.body));

@@ -72,7 +72,7 @@ TEST(RoadmapLayer, DrawsWhatLiesOnTheTileAndNothingElse) {
 TEST(RoadmapLayer, WhereThereAreTooManyEdgesShowsMilestonesAlone) {
   std::vector<Vec2> places;
   std::vector<Link> links;
-  for (VertexId v = 0; v < 210; ++v) places.push_back({v % 15 * 6.0, v / 15 * 6.0});
+  for (VertexId v = 0; v < 210; ++v) places.push_back({v % 15 * 3.0, v / 15 * 3.0});
   for (VertexId a = 0; a < 210; ++a) {
     for (VertexId b = a + 1; b < 210; ++b) links.push_back({a, b});
   }
@@ -84,7 +84,7 @@ TEST(RoadmapLayer, WhereThereAreTooManyEdgesShowsMilestonesAlone) {
   links.resize(most_drawn_edges - 100);
   const Network fewer = network_of(places, links);
   EXPECT_GT(covered(RoadmapLayer(fewer.parts(), {}).draw(whole, 100.0 / TileGrid::pixels, RoadmapInk::one, {})),
-            50'000U);
+            30'000U);  // of the places' 215 x 200 pixels
 }
 
 TEST(RoadmapLayer, TheLargestComponentsHaveColoursAndSmallOnesAreGrey) {
