@@ -7,8 +7,8 @@
 // All costs are whole numbers and ties go by the order in which states were met, so as many rounds are the same path
 // anywhere. A round that a stop cuts is thrown away. States are made when they are met: a block of a cell's headings at
 // a time. From states near a goal a curve leads to its very pose (a join: an edge like others); from states farther
-// away one is tried now and then (a shot). What a shot costs counts, but the bound is that of the lattice and its
-// joins.
+// away one is tried now and then (a shot), and from all where the lattice ends without a join. What a shot costs
+// counts, but the bound is that of the lattice and its joins.
 #pragma once
 
 #include <algorithm>
@@ -123,7 +123,7 @@ class LatticeSearch {
         return std::move(solution_);
       }
       ++solution_.rounds;
-      if (goal_cost_ == no_goal) return std::move(solution_);  // all that can be reached was looked at
+      if (goal_cost_ == no_goal) return std::move(solution_);  // from all that can be reached
       const bool goes_on = goal_cost_ >= solution_.path.cost || take_path(begin);
       solution_.bound = std::max(solution_.bound, std::min(goal_cost_, least_open()));
       if (!goes_on) {
@@ -243,6 +243,16 @@ class LatticeSearch {
       } else if (is_open(top.node) && top.key == key_of(nodes_[top.node].cost, nodes_[top.node].at_least)) {
         expand(top.node);
       }
+    }
+    if (goal_cost_ == no_goal) shoot_from_all();
+  }
+  /// Where the lattice ends without a join, a curve from anywhere on it may still lead to the goal.
+  void shoot_from_all() {
+    constexpr std::uint32_t a_poll = 64;
+    for (std::uint32_t number = 0; number < nodes_.size(); ++number) {
+      if (number % a_poll == 0) execution_.check();
+      if (nodes_[number].cost == unmet) continue;
+      shoot(number, cell_of(number), heading_of(number), gear_of(number));
     }
   }
   /// The curve to a start's state is checked when it is the next, as few are.

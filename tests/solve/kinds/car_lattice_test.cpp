@@ -147,7 +147,9 @@ LatticeSolution searched(Task& task, double gap) {
 
 TEST(CarLattice, FindsWhatAPlainDijkstraFindsAndItsEstimateNeverExceedsIt) {
   std::size_t found = 0;
-  for (const std::uint64_t seed : test::seeds(500, 1)) {
+  std::vector<std::uint64_t> seeds = test::seeds(500, 1);
+  seeds.push_back(436);  // whose only way ends with a curve from afar
+  for (const std::uint64_t seed : seeds) {
     SCOPED_TRACE(seed);
     Task asked = task(seed, true);
     asked.make(execution);
