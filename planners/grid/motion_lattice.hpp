@@ -123,7 +123,7 @@ class LatticeSearch {
         return std::move(solution_);
       }
       ++solution_.rounds;
-      if (goal_cost_ == no_goal) return std::move(solution_);  // from all that can be reached
+      if (goal_cost_ == no_goal) return std::move(solution_);  // nothing that can be reached leads there
       const bool goes_on = goal_cost_ >= solution_.path.cost || take_path(begin);
       solution_.bound = std::max(solution_.bound, std::min(goal_cost_, least_open()));
       if (!goes_on) {
@@ -248,9 +248,8 @@ class LatticeSearch {
   }
   /// Where the lattice ends without a join, a curve from anywhere on it may still lead to the goal.
   void shoot_from_all() {
-    constexpr std::uint32_t a_poll = 64;
     for (std::uint32_t number = 0; number < nodes_.size(); ++number) {
-      if (number % a_poll == 0) execution_.check();
+      execution_.check();  // each time: a long curve takes long
       if (nodes_[number].cost == unmet) continue;
       shoot(number, cell_of(number), heading_of(number), gear_of(number));
     }

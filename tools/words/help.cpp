@@ -208,8 +208,7 @@ constexpr std::string_view own = "Options";
 constexpr NamedGroup option_groups[] = {
     {"Question",
      "--robot --start --goal --goal-pose --via --clearance --contact --map-rules --request --goal-tolerance "
-     "--goal-region --visit "
-     "--return --alternatives --stretch --keep-to --unless-gain"},
+     "--goal-region --visit --return --alternatives --stretch --keep-to --unless-gain"},
     {"Prices and areas", "--clearance-price --area --areas --speed-zones --keep-out --unknown"},
     {"Planner", "--planner --planners --seed"},
     {"Roadmaps of samples",

@@ -118,7 +118,7 @@ function take(reply, text, passed, asked) {
   answer.id = reply.headers.get("Warren-Path");
   if (answer.id || json.verified) showPath(asDriven(json.path).map(p => [p[0], p[1]]), answer.id);
   showOtherWays(json.alternatives || []);
-  say(inWords(json) + (json.verified && !answer.id ? ". " + namesNoPath : ""));
+  say(inWords(json) + (json.verified && !answer.id ? ". " + pathUnnamed : ""));
   showWays(json);
   showAnswer(json, [...serverTimes(reply), ["there and back", passed]]);
   showClearance();
@@ -128,8 +128,9 @@ function take(reply, text, passed, asked) {
   if (saving && saving.asked === asked && json.verified) savePath(saving.make);
 }
 
-/// Of an answer whose field Warren-Path got lost on its way, as some proxies do, the path is drawn where it was listed.
-const namesNoPath = "What stands between here and the service leaves out the field Warren-Path, so no more of this path can be seen.";
+/// Some proxies leave the field Warren-Path out. Then the points that the answer lists are drawn, and no more can be asked.
+const pathUnnamed = "What stands between here and the service leaves out the field Warren-Path, so no more of this path can be seen.";
+
 /// Each look at the path of an answer ends here. The service keeps the last paths alone: where it let this one go, the
 /// question is asked anew, but once until it is seen, for a path that is too large is never kept. True where another
 /// answer is under way.

@@ -235,7 +235,7 @@ function save(name, type, text) {
 async function savePath(make) {
   const of = answer.json, asked = answer.asked;
   if (of.path.length > 0) return make(of, asDriven(of.path));
-  if (!answer.id) return void say(namesNoPath);
+  if (!answer.id) return void say(pathUnnamed);
   let reply, json;
   try {
     reply = await fetch("api/path/" + answer.id);

@@ -26,7 +26,7 @@ function forgetSweep() {
 async function showSweep() {
   const layer = layers.get("sweep");
   if (!layer || !layer.box.checked) return forgetSweep();
-  if (!answer.id) return fillLegend(layer, [{words: answer.json && answer.json.verified ? namesNoPath : "Shown where there is a path."}]);
+  if (!answer.id) return fillLegend(layer, [{words: answer.json && answer.json.verified ? pathUnnamed : "Shown where there is a path."}]);
   const mine = ++sweep.asked, of = answer.json, seen = map.getBounds().pad(0.25);
   const box = [seen.getWest(), seen.getSouth(), seen.getEast(), seen.getNorth()].join(",");
   let json;

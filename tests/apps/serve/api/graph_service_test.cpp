@@ -11,6 +11,7 @@
 #include "solve/kept/export_roadmap.hpp"
 #include "tests/apps/serve/town.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
+#include "tests/seeds.hpp"
 
 namespace warren::serve {
 namespace {
@@ -188,7 +189,8 @@ TEST(GraphService, AnEdgeThroughAWallIsToldAndNotSaved) {
 
 TEST(GraphService, BodiesThatTurnHaveHeadings) {
   Graphs graphs(town, "polygon -2 -1 2 -1 2 1 -2 1");
-  const HttpResponse built = graphs.asked(Place::graph, R"({"kind":"roadmap","samples":40})");
+  const HttpResponse built =
+      graphs.asked(Place::graph, R"({"kind":"roadmap","samples":)" + std::to_string(test::share(100, 40)) + "}");
   ASSERT_EQ(built.status, 200U) << built.body;
   EXPECT_TRUE(Json::parse(built.body).at("nodes")[0].contains("theta"));
   expect_all_free(Json::parse(built.body));
