@@ -125,7 +125,33 @@ std::string price_text(const Answer& answer) {
   return text;
 }
 
+/// What was decided where the question left a choice: of goals, of their order, of ways.
+void add_choice(std::string& text, const Answer& answer, const Palette& palette) {
+  std::string goal;
+  if (answer.goal_index) {
+    goal = fmt::format("number {} of {}", *answer.goal_index + 1, answer.problem.rule.others.size() + 1);
+  }
+  if (const auto& reached = answer.goal_reached; reached && reached->distance > 0.0) {
+    goal += fmt::format("{}{} from ({})", goal.empty() ? "" : ", ", length_text(answer, reached->distance),
+                        fmt::join(reached->asked, ", "));
+    if (reached->distance_bound.value_or(0.0) > 0.0) {
+      goal += fmt::format(", of which nothing within {} can be reached", length_text(answer, *reached->distance_bound));
+    }
+  }
+  if (!goal.empty()) line(text, palette, "goal", goal);
+  if (!answer.order.empty()) {
+    std::vector<std::uint64_t> from_one;
+    for (const std::uint64_t place : answer.order) from_one.push_back(place + 1);
+    line(text, palette, "order", fmt::format("places {}", fmt::join(from_one, ", ")));
+  }
+  if (answer.alternatives.empty()) return;
+  std::vector<std::string> costs;
+  for (const AlternativePath& other : answer.alternatives) costs.push_back(length_text(answer, other.cost));
+  line(text, palette, "other ways", fmt::format("{}", fmt::join(costs, ", ")));
+}
+
 void add_path(std::string& text, const Answer& answer, const Palette& palette) {
+  add_choice(text, answer, palette);
   std::string length = palette.strong(length_text(answer, answer.length));
   if (answer.raw_length) length += fmt::format(" (before --optimise: {})", length_text(answer, *answer.raw_length));
   const auto gap = gap_of(answer);
@@ -155,6 +181,7 @@ void add_path(std::string& text, const Answer& answer, const Palette& palette) {
 std::string end_text(const Answer& answer) {
   if (answer.stop_reason) return stop_text(*answer.stop_reason, answer.wanted_memory_bytes);
   if (answer.ended_by == "optimum") return "there is no better one";
+  if (answer.ended_by == "goal") return "there is no better one to this goal";
   if (answer.ended_by == "lattice") return "the lattice has no better one";
   if (answer.ended_by == "gap") return "as near to the best as --gap asks for";
   if (answer.ended_by == "iterations") return "all turns are done";

@@ -18,6 +18,7 @@
 #include "solve/kinds/potential_bound.hpp"
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/solve_steps.hpp"
+#include "solve/kinds/solve_to_goal.hpp"
 #include "verify/judges/effective_scene.hpp"
 #include "verify/judges/verify_body_price.hpp"
 #include "verify/judges/verify_classes.hpp"
@@ -380,7 +381,7 @@ Answer solve_within(const Scene& scene, const Question& question, const SolveOpt
     SolveRequest request{options, planned.get(), question, solver.planner, accounted, keep};
     request.taker = taker;
     request.kept = kept;
-    answer = solver.kind->solve(request);
+    answer = solve_to_goal(*solver.kind, request);
     answer.problem.prices = prices_of(scene, question);
     keep_to_route(answer, restricted.get(), question, options, accounted);
     judge_prices(answer, scene, question, accounted);

@@ -12,6 +12,7 @@
 
 #include "core/base/error.hpp"
 #include "core/search/search_queues.hpp"
+#include "parallel/asked_memory.hpp"
 #include "spatial/maps/free_cells.hpp"
 
 namespace warren {
@@ -137,9 +138,13 @@ class LayerAStar {
         plane_costs_(plane_costs(steps, goals, execution)) {
     for (const LayerEnd& goal : goals) goals_.emplace_back(number(goal.state), goal.cost);
     std::sort(goals_.begin(), goals_.end());
+    std::vector<char> is_wanted(layers_.angles, 0);
+    for (const LayerEnd& goal : goals) is_wanted[goal.state.k] = 1;
     turn_costs_.assign(layers_.angles, std::numeric_limits<double>::infinity());
     for (std::uint32_t k = 0; k < layers_.angles; ++k) {
-      for (const LayerEnd& goal : goals) turn_costs_[k] = std::min(turn_costs_[k], cost_of_turning(k, goal.state.k));
+      for (std::uint32_t to = 0; to < layers_.angles; ++to) {
+        if (is_wanted[to] != 0) turn_costs_[k] = std::min(turn_costs_[k], cost_of_turning(k, to));
+      }
     }
   }
 
@@ -304,6 +309,35 @@ LayerPath layer_search(const HeadingLayers& layers, std::span<const LayerEnd> st
   count_moves(path, options);
   path.cost += search.start_cost(result.path[1]) + search.goal_cost(result.path[result.path.size() - 2]);
   return path;
+}
+
+void for_each_reached(const HeadingLayers& layers, std::span<const LayerEnd> starts, const LayerSearchOptions& options,
+                      const Execution& execution, const std::function<void(const LayerState&)>& visit) {
+  check(layers, starts, {}, options);
+  const LayerSteps steps(layers, options);
+  execution.reserve(layers.states() / 8);
+  Bitmap met(layers.width * layers.angles, layers.height);  // a row of positions after the other, heading by heading
+  std::vector<LayerState> open;
+  const auto meet = [&](const LayerState& s) {
+    const std::uint32_t column = s.k * layers.width + s.i;
+    if (met.test(column, s.j)) return;
+    met.set(column, s.j);
+    push_asked(open, s, execution);
+  };
+  for (const LayerEnd& start : free_ends(layers, starts)) meet(start.state);
+  for (std::uint64_t popped = 1; !open.empty(); ++popped) {
+    if (popped % expansions_per_poll == 0) execution.check();
+    const LayerState s = open.back();
+    open.pop_back();
+    visit(s);
+    for (const unsigned step : steps.steps_at(s.k)) {
+      if (steps.may_step(s, step)) meet({s.i + cell_steps[step][0], s.j + cell_steps[step][1], s.k});
+    }
+    if (layers.angles < 2) continue;
+    for (const std::uint32_t k : {steps.previous(s.k), steps.next(s.k)}) {
+      if (steps.may_turn(s, k)) meet({s.i, s.j, k});
+    }
+  }
 }
 
 }  // namespace warren

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -66,5 +67,10 @@ LayerPath layer_search(const HeadingLayers& layers, const LayerState& start, Cel
 /// there more than once: the cheapest counts.
 LayerPath layer_search(const HeadingLayers& layers, std::span<const LayerEnd> starts, std::span<const LayerEnd> goals,
                        const LayerSearchOptions& options, const Execution& execution);
+
+/// Calls visit(state) once for each state that steps and turns lead to from the starts, in an order that is always the
+/// same. Throws as layer_search().
+void for_each_reached(const HeadingLayers& layers, std::span<const LayerEnd> starts, const LayerSearchOptions& options,
+                      const Execution& execution, const std::function<void(const LayerState&)>& visit);
 
 }  // namespace warren

@@ -141,7 +141,18 @@ class LatticeSearch {
     return std::move(solution_);
   }
 
+  /// After a run: calls visit(cell, heading, cost) for each state that was met, of each gear; where no goal is asked
+  /// and nothing estimated, all that can be, at their least costs.
+  template <class Visit>
+  void for_each_met(const Visit& visit) const {
+    for (std::uint32_t number = 0; number < nodes_.size(); ++number) {
+      if (number % a_poll == 0) execution_.check();
+      if (nodes_[number].cost != unmet) visit(cell_of(number), heading_of(number), nodes_[number].cost);
+    }
+  }
+
  private:
+  static constexpr std::uint64_t a_poll = 64;
   static constexpr std::uint32_t weights[] = {60, 30, 24, 21, 20};  // of the estimate, in 20ths
   static constexpr std::uint64_t parts = 20;
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
@@ -273,7 +284,6 @@ class LatticeSearch {
     node.waits = true;
   }
   void expand(std::uint32_t number) {
-    constexpr std::uint64_t a_poll = 64;
     if (++solution_.expanded % a_poll == 0) execution_.check();
     nodes_[number].closed = round_;
     const Cell cell = cell_of(number);

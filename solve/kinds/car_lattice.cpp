@@ -11,6 +11,7 @@
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
 #include "core/plane/polygon.hpp"
+#include "solve/kinds/question_of_pose.hpp"
 
 namespace warren {
 namespace {
@@ -31,15 +32,6 @@ MotionSetOptions motion_options(const RobotSpec& robot, const CarLatticeOptions&
           .turns_on_spot = false,
           .reverse_cost = options.price.reverse,
           .turn_cost = options.turn_cost / cell};
-}
-
-/// The largest disc around the reference point that the body holds, or 0.
-double disc_in(const RobotSpec& robot) {
-  if (robot.outline.empty()) return robot.radius;
-  if (!contains(robot.outline, Vec2{})) return 0.0;
-  double least = std::numeric_limits<double>::infinity();
-  for_each_side(robot.outline, [&](Vec2 a, Vec2 b) { least = std::min(least, distance(Vec2{}, Segment{a, b})); });
-  return least;
 }
 
 }  // namespace
@@ -63,7 +55,7 @@ CarLattice::CarLattice(const CarBody& body, const Scene& scene, const RobotSpec&
     execution.reserve(states * sizeof(float));
     assign_polled(dear_, states, -1.0F, [&] { execution.check(); });
   }
-  const double disc = disc_in(robot) + options.clearance - MotionSet::slack * cell_;
+  const double disc = held_radius(robot).value_or(0.0) + options.clearance - MotionSet::slack * cell_;
   if (scene.map) {
     if (disc > 0.0) no_middle_ = blocked_for_disc(scene.map->blocked, disc / cell_ * (1.0 - 1e-9), execution);
     index_map(*scene.map, robot, options.clearance);
@@ -242,6 +234,7 @@ std::uint64_t CarLattice::extra(const SteeringCurve& way) {
 std::uint64_t CarLattice::at_least(Cell cell, std::uint32_t heading) {
   constexpr double finest = CellField::unit / MotionSet::cost_unit;
   constexpr double near = 6.0;  // turning radii: farther away the estimate is that far, whatever the curve
+  if (goals_.empty()) return 0;
   const std::uint32_t steps = field_->at(cell);
   if (steps == CellField::never) return LatticeSearch<CarLattice>::no_way;
   const std::uint64_t by_steps = steps * static_cast<std::uint64_t>(finest);

@@ -475,6 +475,12 @@ std::optional<double> bound_of_choice(const WallProblem& asked, bool open_end) {
   return std::max(0.0, (tour_bound(asked.start, places, ends) - rule.region.value_or(0.0)) * (1.0 - rounding));
 }
 
+void take_bound_of_choice(Answer& answer, std::optional<double> bound) {
+  answer.lower_bound = bound;
+  answer.optimal = false;
+  if (answer.ended_by == "optimum") answer.ended_by = "goal";
+}
+
 Path<Vec2> cut_at_region(Path<Vec2> path, Vec2 place, double radius) {
   if (distance(path.front(), place) <= radius) return {path.front()};
   for (std::size_t i = 1; i < path.size(); ++i) {

@@ -121,6 +121,10 @@ GoalChoice choose_goal(WaysOverCells& ways, const OccupancyMap& map, const WallP
 /// nothing but a tolerance is asked, whose path is compared with those to its own end.
 std::optional<double> bound_of_choice(const WallProblem& asked, bool open_end);
 
+/// The bound of an answer whose planner was given one of the places that would have done, of which alone it knows the
+/// best.
+void take_bound_of_choice(Answer& answer, std::optional<double> bound);
+
 /// A path cut where it first comes as near to a place.
 Path<Vec2> cut_at_region(Path<Vec2> path, Vec2 place, double radius);
 

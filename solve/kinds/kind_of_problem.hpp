@@ -131,7 +131,8 @@ struct SolveKind {
   /// Makes such a roadmap ready to be asked; solve() takes it as request.asked.
   std::unique_ptr<RoadmapSession> (*open)(const SolveRequest& request, const RoadmapArrays& arrays,
                                           const ConnectionRule& rule) = nullptr;
-  bool unmade = false;  ///< takes worlds whose walls are left out, and no others
+  bool unmade = false;        ///< takes worlds whose walls are left out, and no others
+  bool chooses_goal = false;  ///< solve() heeds the words that leave a choice of goals; else solve_to_goal() does
 };
 
 // The kinds, in the files of their worlds.

@@ -28,18 +28,6 @@ double below_rounding(double sum, std::size_t legs) {
   return sum * (1.0 - 0x1p-48 - 0x1p-50 * static_cast<double>(std::min(legs, std::size_t{1} << 40)));
 }
 
-/// The disc around its reference point that the body holds in any heading, with the clearance; none: the body need not
-/// be where its reference point is.
-std::optional<double> held_radius(const Problem& problem) {
-  const std::vector<Vec2>& outline = problem.robot.outline;
-  if (outline.empty()) return problem.robot.radius + problem.clearance;
-  if (!contains(outline, {0.0, 0.0})) return std::nullopt;
-  double inside = std::numeric_limits<double>::infinity();
-  for_each_side(outline, [&](Vec2 a, Vec2 b) { inside = std::min(inside, distance(Vec2{0.0, 0.0}, Segment{a, b})); });
-  constexpr double rounding = 1e-12;
-  return inside * (1.0 - rounding) + problem.clearance;
-}
-
 /// A map's blocked cells are closed by their borders: what keeps off the cells crosses none of these, and borders that
 /// meet at a corner let nothing through. Who starts on water may stay there.
 std::vector<Segment> borders_from(const OccupancyMap& map, Vec2 start, const Execution& execution) {
@@ -82,7 +70,7 @@ double least_way(const Scene& scene, const Problem& problem, BoundEffort effort,
   const Vec2 start{problem.start[0], problem.start[1]};
   const Vec2 goal{problem.goal[0], problem.goal[1]};
   const double straight = below_rounding(distance(start, goal), 1);
-  const std::optional<double> radius = held_radius(problem);
+  const std::optional<double> radius = held_radius(problem.robot);
   if (effort == BoundEffort::simple || !radius || straight == 0.0 || is_unmade(scene)) return straight;
   Execution quiet = execution.quiet();
   quiet.account = nullptr;  // its stages are none of the answer's
@@ -90,7 +78,7 @@ double least_way(const Scene& scene, const Problem& problem, BoundEffort effort,
     const std::optional<PlaneObstacles> obstacles = bounding_obstacles(scene, start, quiet);
     if (!obstacles) return straight;
     // A disc may go around a map's outermost cells, as far from them as the map is wide: there its middle counts alone.
-    const double kept = scene.map ? 0.0 : *radius;
+    const double kept = scene.map ? 0.0 : *radius + problem.clearance;
     return std::max(straight, shortest_way(*obstacles, start, goal, kept, quiet).value_or(0.0));
   } catch (const Stopped&) {
     return straight;
@@ -167,6 +155,9 @@ double proved_bound(const Scene& scene, const Problem& problem, BoundOf of, Boun
 void tell_bound(Answer& answer, const Scene& scene, const SolveOptions& options, const Execution& execution) {
   if (options.bound && !is_told(answer, name_of(Option::bound))) answer.options.push_back({"bound", true});
   if (!answer.verified || !options.trees.via.empty()) return;
+  const GoalRule& rule = answer.problem.rule;
+  if (!answer.lower_bound && !answer.optimal && (!rule.others.empty() || rule.region))
+    return;  // another goal may be nearer
   const double cost = answer.cost.value_or(answer.length);
   if (answer.lower_bound) {  // the planner's own
   } else if (answer.optimal) {

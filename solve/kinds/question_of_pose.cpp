@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "core/plane/geometry.hpp"
+#include "core/plane/polygon.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "worlds/poses/free_headings.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
@@ -86,6 +89,15 @@ std::vector<Se2> poses_of_intervals(const Scene& scene, const PoseProblem& probl
     poses.push_back({place.x, place.y, fits.middle()});
   }
   return poses;
+}
+
+std::optional<double> held_radius(const RobotSpec& robot) {
+  if (robot.outline.empty()) return robot.radius;
+  if (!contains(robot.outline, {0.0, 0.0})) return std::nullopt;
+  double inside = std::numeric_limits<double>::infinity();
+  for_each_side(robot.outline, [&](Vec2 a, Vec2 b) { inside = std::min(inside, distance(Vec2{}, Segment{a, b})); });
+  constexpr double rounding = 1e-12;
+  return inside * (1.0 - rounding);
 }
 
 double extent_of(const RobotSpec& robot) {

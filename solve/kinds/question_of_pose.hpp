@@ -73,6 +73,9 @@ std::vector<Se2> poses_to_meet(const Scene& scene, const PoseProblem& problem, c
   return poses;
 }
 
+/// The radius of the disc around its reference point that the body holds in any heading; none: the body need not be
+/// where its reference point is.
+std::optional<double> held_radius(const RobotSpec& robot);
 /// How far the body reaches from its reference point.
 double extent_of(const RobotSpec& robot);
 /// What an end has beyond its clearance (solve/kinds/solve_steps.hpp).

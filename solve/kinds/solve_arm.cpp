@@ -155,11 +155,14 @@ class Arm : public UsualBody {
 };
 
 constexpr OptionSet attach_option{Option::attach};
-constexpr PlannerChoice arm_planners[] = {
-    {PlannerKind::rrt_connect, rrt_connect_options}, {PlannerKind::rrt, rrt_options},
-    {PlannerKind::prm, prm_takes | attach_option},   {PlannerKind::lazy_prm, lazy_prm_takes | attach_option},
-    {PlannerKind::rrt_star, rrt_star_options},       {PlannerKind::informed_rrt_star, rrt_star_options},
-    {PlannerKind::anytime, anytime_options}};
+constexpr AskedWords goals_of_arms{AskedWord::goal};
+constexpr PlannerChoice arm_planners[] = {{PlannerKind::rrt_connect, rrt_connect_options, goals_of_arms},
+                                          {PlannerKind::rrt, rrt_options, goals_of_arms},
+                                          {PlannerKind::prm, prm_takes | attach_option, goals_of_arms},
+                                          {PlannerKind::lazy_prm, lazy_prm_takes | attach_option, goals_of_arms},
+                                          {PlannerKind::rrt_star, rrt_star_options, goals_of_arms},
+                                          {PlannerKind::informed_rrt_star, rrt_star_options, goals_of_arms},
+                                          {PlannerKind::anytime, anytime_options, goals_of_arms}};
 
 bool fits_arm(const Scene&, const RobotSpec& robot) { return is_arm(robot); }
 

@@ -137,9 +137,10 @@ class FixedAngleSolve {
   Answer answer_;
 };
 
+constexpr AskedWords fixed_words = restriction_words | AskedWords{AskedWord::goal};
 constexpr PlannerChoice fixed_angle_planners[] = {
-    {PlannerKind::visibility, {Option::bound}, restriction_words},
-    {PlannerKind::cells, {Option::doors, Option::search, Option::queue, Option::bound}, restriction_words}};
+    {PlannerKind::visibility, {Option::bound}, fixed_words},
+    {PlannerKind::cells, {Option::doors, Option::search, Option::queue, Option::bound}, fixed_words}};
 
 bool fits_fixed_angle(const Scene& scene, const RobotSpec& robot) {
   return robot.kind == RobotKind::polygon && !scene.map;

@@ -5,6 +5,8 @@
 // quarter turn, so each leg is a straight or an arc that its two poses tell wholly.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,6 +24,7 @@
 #include "solve/kinds/sampled_roadmap.hpp"
 #include "solve/kinds/sampled_solve.hpp"
 #include "solve/kinds/solve_steps.hpp"
+#include "solve/kinds/solve_to_goal.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "verify/judges/verify_body_price.hpp"
 #include "verify/judges/verify_car.hpp"
@@ -84,6 +87,9 @@ class Car : public PoseBody {
         .verified;
   }
   static double length(const World& world, const Se2& a, const Se2& b) { return world.distance(a, b); }
+  /// Where a tolerance or region lets the path end, of what the lattice joins to the start: the nearest to the goals;
+  /// in a region the cheapest.
+  std::vector<GoalPlace> places(const World& world, const GoalRule& rule, std::vector<std::vector<double>> goals) const;
   /// The path of least price over the lattice, near enough; empty: there is none.
   Path<Se2> on_lattice(const World& world, std::span<const Se2> goals, Answer& answer) const;
   Path<Se2> shortened(const World& world, Path<Se2> path, Answer& answer) const {
@@ -160,6 +166,7 @@ class Car : public PoseBody {
     return paid(world, cut) < paid(world, path) ? cut : path;
   }
   void check_lattice() const;
+  CarLatticeOptions lattice_options(const PosePrices& prices) const;
   bool is_length_alone() const { return Curve::one_way || (price().cusp == 0.0 && price().reverse == 1.0); }
   /// With fewer changes of gear, and less of it backwards, as their prices have it.
   Path<Se2> redriven(const World& world, Path<Se2> path, Answer& answer) const {
@@ -184,7 +191,7 @@ void Car<Curve>::check_lattice() const {
 }
 
 template <class Curve>
-Path<Se2> Car<Curve>::on_lattice(const World& world, std::span<const Se2> goals, Answer& answer) const {
+CarLatticeOptions Car<Curve>::lattice_options(const PosePrices& prices) const {
   CarLatticeOptions options;
   options.headings = grid_.headings.value_or(options.headings);
   options.cell = grid_.cell;
@@ -192,8 +199,39 @@ Path<Se2> Car<Curve>::on_lattice(const World& world, std::span<const Se2> goals,
   options.clearance = question().clearance;
   options.price = price_on_lattice();
   options.turn_cost = grid_.turn_cost.value_or(0.0);
-  const PosePrices prices = pose_prices();
   if (prices.is_priced()) options.prices = &prices;
+  return options;
+}
+
+template <class Curve>
+std::vector<GoalPlace> Car<Curve>::places(const World& world, const GoalRule& rule,
+                                          std::vector<std::vector<double>> goals) const {
+  if (!start_stands_free()) return {};
+  const PosePrices prices = pose_prices();
+  const CarLatticeOptions options = lattice_options(prices);
+  CarLattice lattice(world.body(), scene(), question().robot, Curve::shortest, question().start, {}, options,
+                     execution());
+  double coarse = 0.0;  // half of the widest gap between two headings
+  for (std::uint32_t k = 1; k < lattice.headings(); ++k) {
+    const double gap = turn_between(lattice.motions().heading_rad(k - 1), lattice.motions().heading_rad(k));
+    coarse = std::max(coarse, 0.5 * std::abs(gap));
+  }
+  GoalPlaces places(std::move(goals), rule, coarse * (1.0 + 1e-9));
+  LatticeSearchOptions search;
+  search.gear_change = lattice.units_of(options.price.cusp);
+  LatticeSearch everywhere(lattice, search, execution());
+  everywhere.run();
+  everywhere.for_each_met([&](Cell cell, std::uint32_t heading, std::uint64_t cost) {
+    const Se2 pose = lattice.pose_of(cell, heading);
+    rule.region ? places.offer(pose, static_cast<double>(cost)) : places.offer(pose);
+  });
+  return places.taken();
+}
+
+template <class Curve>
+Path<Se2> Car<Curve>::on_lattice(const World& world, std::span<const Se2> goals, Answer& answer) const {
+  const PosePrices prices = pose_prices();
+  const CarLatticeOptions options = lattice_options(prices);
   std::optional<CarLattice> lattice;
   {
     const StageTimer timer(execution(), "stamps", answer.seconds.index);
@@ -228,15 +266,16 @@ constexpr OptionSet shape_options{Option::steering, Option::turning_radius};
 constexpr OptionSet curve_options = shape_options | OptionSet{Option::cusp_cost, Option::reverse_cost};
 constexpr OptionSet lattice_options{Option::cell,     Option::headings,   Option::turn_cost,
                                     Option::optimise, Option::iterations, Option::gap};
+constexpr AskedWords car_words = restriction_words | pose_choice_words;
 constexpr PlannerChoice car_planners[] = {
-    {PlannerKind::rrt_connect, rrt_connect_options | curve_options, restriction_words},
-    {PlannerKind::rrt, rrt_options | curve_options, restriction_words},
-    {PlannerKind::prm, prm_takes | curve_options, restriction_words},
-    {PlannerKind::lazy_prm, lazy_prm_takes | curve_options, restriction_words},
-    {PlannerKind::rrt_star, rrt_star_options | shape_options, restriction_words},
-    {PlannerKind::informed_rrt_star, rrt_star_options | shape_options, restriction_words},
-    {PlannerKind::anytime, anytime_options | shape_options, restriction_words},
-    {PlannerKind::grid, lattice_options | curve_options, price_words | restriction_words}};
+    {PlannerKind::rrt_connect, rrt_connect_options | curve_options, car_words},
+    {PlannerKind::rrt, rrt_options | curve_options, car_words},
+    {PlannerKind::prm, prm_takes | curve_options, car_words},
+    {PlannerKind::lazy_prm, lazy_prm_takes | curve_options, car_words},
+    {PlannerKind::rrt_star, rrt_star_options | shape_options, car_words},
+    {PlannerKind::informed_rrt_star, rrt_star_options | shape_options, car_words},
+    {PlannerKind::anytime, anytime_options | shape_options, car_words},
+    {PlannerKind::grid, lattice_options | curve_options, price_words | car_words}};
 
 bool fits_car(const Scene&, const RobotSpec& robot) { return robot.kind == RobotKind::car; }
 
@@ -247,6 +286,14 @@ bool only_forwards(const SolveRequest& request) {
 Answer solve_car(const SolveRequest& request) {
   const auto solve = only_forwards(request) ? solve_sampled<Car<DubinsCurve>> : solve_sampled<Car<ReedsSheppCurve>>;
   return solve(request);
+}
+
+template <class Curve>
+std::vector<GoalPlace> places_of(const SolveRequest& request) {
+  const Car<Curve> car(request);
+  std::optional<typename Car<Curve>::World> world;
+  car.index(world, SamplerKind::uniform);
+  return car.places(*world, rule_of(request.scene, request.question), goals_of(request.scene, request.question));
 }
 
 BuiltArrays build_for_car(const SolveRequest& request) {
@@ -268,6 +315,10 @@ Verdict recheck_car(const Scene& scene, const Question& question, const Recorded
 }
 
 }  // namespace
+
+std::vector<GoalPlace> places_of_car(const SolveRequest& request) {
+  return only_forwards(request) ? places_of<DubinsCurve>(request) : places_of<ReedsSheppCurve>(request);
+}
 
 SolveKind car_kind() {
   return {body_words,  fits_car,      car_planners, usually<PlannerKind::rrt_connect>, solve_car, nullptr,

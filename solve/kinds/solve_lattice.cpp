@@ -17,12 +17,14 @@
 #include "core/base/error.hpp"
 #include "core/plane/heading_layers.hpp"
 #include "core/plane/se2.hpp"
+#include "parallel/asked_memory.hpp"
 #include "parallel/execution.hpp"
 #include "planners/grid/heading_layer_search.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/solve_steps.hpp"
+#include "solve/kinds/solve_to_goal.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "solve/question/question.hpp"
 #include "verify/judges/verify_turning.hpp"
@@ -238,7 +240,7 @@ constexpr PlannerChoice lattice_planners[] = {
     {PlannerKind::grid,
      OptionSet{Option::cell, Option::angles, Option::face_motion, Option::step_cost, Option::turn_cost,
                Option::diagonal, Option::layers},
-     restriction_words}};
+     restriction_words | pose_choice_words}};
 
 bool fits_lattice(const Scene& scene, const RobotSpec& robot) {
   const bool fits = robot.kind == RobotKind::point || robot.kind == RobotKind::disc || robot.kind == RobotKind::polygon;
@@ -318,8 +320,53 @@ class LatticeSolve {
   }
   Answer& answer() { return answer_; }
 
+  /// Where a tolerance or region lets the path end, of what the lattice joins to the start: the nearest to the goals;
+  /// in a region the cheapest alone.
+  std::vector<GoalPlace> places() {
+    if (layer_options_.kind == LayerKind::report004) {
+      throw UsageError("@layers: report 004's promise nothing; where the goal is a choice they must be exact");
+    }
+    layers_ = layers();
+    const GoalRule rule = rule_of(request_.scene, request_.question);
+    GoalPlaces places(goals_of(request_.scene, request_.question), rule, turns() ? 0.5 * heading_step(layers_) : 0.0);
+    const auto in_world = [&](const LayerState& s) { return frame_.in_world(pose_of(layers_, s)); };
+    const std::vector<LayerEnd> starts = ends_at("@start", start_pose(), false);
+    if (rule.region) {
+      const std::vector<LayerEnd> ends = ends_in_region(places, *rule.region);
+      const LayerPath path = layer_search(layers_, starts, ends, search_, request_.execution);
+      if (path.status == SearchStatus::found) places.offer(in_world(path.states.back()));
+    } else {
+      for_each_reached(layers_, starts, search_, request_.execution,
+                       [&](const LayerState& s) { places.offer(in_world(s)); });
+    }
+    std::vector<GoalPlace> taken = places.taken();
+    if (!turns()) std::ranges::for_each(taken, [](GoalPlace& place) { place.state.resize(2); });
+    return taken;
+  }
+
  private:
   bool turns() const { return problem_.robot.kind == RobotKind::polygon; }
+  std::vector<LayerEnd> ends_in_region(const GoalPlaces& places, double radius) const {
+    std::vector<LayerEnd> ends;
+    for (const std::vector<double>& goal : goals_of(request_.scene, request_.question)) {
+      const Vec2 at = frame_.in_lattice({goal[0], goal[1], 0.0}).position() - layers_.origin;
+      const auto from = [&](double x) { return std::max(0.0, std::ceil((x - radius) / layers_.cell)); };
+      const auto to = [&](double x, std::uint32_t end) {
+        return std::min(end - 1.0, std::floor((x + radius) / layers_.cell));
+      };
+      for (double j = from(at.y); j <= to(at.y, layers_.height); ++j) {
+        request_.execution.check();
+        for (double i = from(at.x); i <= to(at.x, layers_.width); ++i) {
+          for (std::uint32_t k = 0; k < layers_.angles; ++k) {
+            const LayerState s{static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), k};
+            if (!layers_.is_free(s.i, s.j, k) || !places.place(frame_.in_world(pose_of(layers_, s)))) continue;
+            push_asked(ends, LayerEnd{s}, request_.execution);
+          }
+        }
+      }
+    }
+    return ends;
+  }
 
   void describe_options() {
     const auto add = [&](const char* name, auto value) { answer_.options.push_back({name, Figure(std::move(value))}); };
@@ -512,6 +559,10 @@ Answer solve_lattice(const SolveRequest& request) {
 }
 
 }  // namespace
+
+std::vector<GoalPlace> places_on_layers(const SolveRequest& request) {
+  return LatticeSolve(request, problem_of(request.scene, request.question)).places();
+}
 
 SolveKind lattice_kind() {
   return {"a body on a grid in a scene",

@@ -69,7 +69,7 @@ bool has_open_end(const SolveRequest& request) {
 /// What the cells have decided, in the answer; `outcome`: of who plans to it.
 void take_choice(Answer& answer, const GoalChoice& choice, Outcome outcome) {
   answer.outcome = outcome;
-  if (choice.outcome == Outcome::solved) answer.problem.goal = {choice.goal.x, choice.goal.y};
+  if (choice.outcome == Outcome::solved) take_goal(answer.problem, {choice.goal.x, choice.goal.y}, choice.goal_index);
   answer.goal_index = choice.goal_index;
   answer.goal_reached = choice.reached;
   answer.order = choice.order;
@@ -459,14 +459,17 @@ Answer solve_chosen(const SolveRequest& request) {
   for (const Vec2 stop : choice.stops) options.trees.via.push_back({stop.x, stop.y});
   SolveRequest to_goal{options,           request.scene, question,     request.planner,
                        request.execution, request.keep,  request.asked};
-  Answer answer = solve_sampled<BodyOnMap>(to_goal);
+  const bool by_skeleton = request.planner == PlannerKind::voronoi;
+  Answer answer = by_skeleton ? solve_on_skeleton(to_goal) : solve_sampled<BodyOnMap>(to_goal);
   answer.options = given_figures(request.options);
   answer.problem = problem.general();
   answer.counters.expanded += chosen.counters.expanded;
   answer.seconds.search += chosen.seconds.search;
   answer.solve_s += chosen.solve_s;
   take_choice(answer, choice, answer.outcome);
-  if (answer.verified) answer.lower_bound = bound_of_choice(problem, has_open_end(request));
+  const bool is_one_place = problem.rule.others.empty() && !problem.rule.region;
+  const auto bound = bound_of_choice(problem, has_open_end(request));
+  if (answer.verified && (bound || !is_one_place)) take_bound_of_choice(answer, bound);
   return answer;
 }
 
@@ -548,26 +551,20 @@ constexpr PlannerChoice occupancy_planners[] = {
      goal_words | price_words | restriction_words},
     {PlannerKind::rrt, rrt_options, goal_words | restriction_words},
     {PlannerKind::rrt_connect, rrt_connect_options, goal_words | restriction_words},
-    {PlannerKind::rrt_star, rrt_star_options, restriction_words},
-    {PlannerKind::informed_rrt_star, rrt_star_options, restriction_words},
-    {PlannerKind::anytime, anytime_options, restriction_words},
+    {PlannerKind::rrt_star, rrt_star_options, choice_words | restriction_words},
+    {PlannerKind::informed_rrt_star, rrt_star_options, choice_words | restriction_words},
+    {PlannerKind::anytime, anytime_options, choice_words | restriction_words},
     {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound},
-     restriction_words}};
+     restriction_words | AskedWords{AskedWord::goal}}};
 
 bool fits_occupancy(const Scene& scene, const RobotSpec& robot) {
   return scene.map && (robot.kind == RobotKind::point || robot.kind == RobotKind::disc);
 }
 
 Answer solve_occupancy(const SolveRequest& request) {
-  switch (request.planner) {
-    case PlannerKind::grid:
-      return solve_over_cells(request);
-    case PlannerKind::voronoi:
-      return solve_on_skeleton(request);
-    default:
-      return rule_of(request.scene, request.question).empty() ? solve_sampled<BodyOnMap>(request)
-                                                              : solve_chosen(request);
-  }
+  if (request.planner == PlannerKind::grid) return solve_over_cells(request);
+  if (!rule_of(request.scene, request.question).empty()) return solve_chosen(request);
+  return request.planner == PlannerKind::voronoi ? solve_on_skeleton(request) : solve_sampled<BodyOnMap>(request);
 }
 
 BuiltArrays build_occupancy(const SolveRequest& request) {
@@ -604,7 +601,9 @@ SolveKind occupancy_kind() {
           nullptr,
           recheck_occupancy,
           build_occupancy,
-          open_occupancy};
+          open_occupancy,
+          false,
+          true};
 }
 
 }  // namespace warren

@@ -89,20 +89,21 @@ NamedLines lines_of(const MedialAxis& axis) {
   return lines;
 }
 
+constexpr AskedWords plane_words = restriction_words | choice_words;
 constexpr PlannerChoice plane_planners[] = {
-    {PlannerKind::prm, plane_takes, price_words | restriction_words},
-    {PlannerKind::lazy_prm, plane_takes, price_words | restriction_words},
-    {PlannerKind::rrt, rrt_options, restriction_words},
-    {PlannerKind::rrt_connect, rrt_connect_options, restriction_words},
-    {PlannerKind::rrt_star, rrt_star_options, restriction_words},
-    {PlannerKind::informed_rrt_star, rrt_star_options, restriction_words},
-    {PlannerKind::anytime, anytime_options, restriction_words},
+    {PlannerKind::prm, plane_takes, price_words | plane_words},
+    {PlannerKind::lazy_prm, plane_takes, price_words | plane_words},
+    {PlannerKind::rrt, rrt_options, plane_words},
+    {PlannerKind::rrt_connect, rrt_connect_options, plane_words},
+    {PlannerKind::rrt_star, rrt_star_options, plane_words},
+    {PlannerKind::informed_rrt_star, rrt_star_options, plane_words},
+    {PlannerKind::anytime, anytime_options, plane_words},
     {PlannerKind::visibility,
      OptionSet{Option::full, Option::lazy, Option::sampled_edges, Option::search, Option::queue, Option::bound},
-     restriction_words},
-    {PlannerKind::cells, OptionSet{Option::doors, Option::search, Option::queue, Option::bound}, restriction_words},
+     plane_words},
+    {PlannerKind::cells, OptionSet{Option::doors, Option::search, Option::queue, Option::bound}, plane_words},
     {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound},
-     restriction_words}};
+     restriction_words | AskedWords{AskedWord::goal}}};
 
 bool fits_plane(const Scene&, const RobotSpec& robot) {
   return robot.kind == RobotKind::point || robot.kind == RobotKind::disc;

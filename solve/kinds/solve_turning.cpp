@@ -55,13 +55,14 @@ class TurningPolygon : public PoseBody {
   std::unique_ptr<PosePrices> prices_;  // motions refer to it
 };
 
-constexpr PlannerChoice turning_planners[] = {{PlannerKind::rrt_connect, rrt_connect_options, restriction_words},
-                                              {PlannerKind::rrt, rrt_options, restriction_words},
-                                              {PlannerKind::prm, prm_takes, price_words | restriction_words},
-                                              {PlannerKind::lazy_prm, lazy_prm_takes, price_words | restriction_words},
-                                              {PlannerKind::rrt_star, rrt_star_options, restriction_words},
-                                              {PlannerKind::informed_rrt_star, rrt_star_options, restriction_words},
-                                              {PlannerKind::anytime, anytime_options, restriction_words}};
+constexpr AskedWords turning_words = restriction_words | pose_choice_words;
+constexpr PlannerChoice turning_planners[] = {{PlannerKind::rrt_connect, rrt_connect_options, turning_words},
+                                              {PlannerKind::rrt, rrt_options, turning_words},
+                                              {PlannerKind::prm, prm_takes, price_words | turning_words},
+                                              {PlannerKind::lazy_prm, lazy_prm_takes, price_words | turning_words},
+                                              {PlannerKind::rrt_star, rrt_star_options, turning_words},
+                                              {PlannerKind::informed_rrt_star, rrt_star_options, turning_words},
+                                              {PlannerKind::anytime, anytime_options, turning_words}};
 
 bool fits_turning(const Scene&, const RobotSpec& robot) { return robot.kind == RobotKind::polygon; }
 
@@ -71,7 +72,7 @@ bool fits_turning(const Scene&, const RobotSpec& robot) { return robot.kind == R
 
 constexpr PlannerChoice turning_axis_planners[] = {
     {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound},
-     restriction_words}};
+     restriction_words | AskedWords{AskedWord::goal}}};
 
 /// The same question for the disc that holds the body.
 Question question_of_disc(const PoseProblem& problem) {

@@ -76,9 +76,11 @@ inline constexpr AskedWords price_words{AskedWord::clearance_price, AskedWord::a
                                         AskedWord::keep_out_factor, AskedWord::unknown_factor};
 /// What asks for other ways than the cheapest: homotopy classes, an older path.
 inline constexpr AskedWords route_words{AskedWord::alternatives, AskedWord::keep_to};
-/// What leaves a choice of goals, or of their order.
-inline constexpr AskedWords goal_words{AskedWord::goal, AskedWord::goal_tolerance, AskedWord::goal_region,
-                                       AskedWord::visit};
+/// What leaves a choice of goals: of points and discs, and of bodies that turn.
+inline constexpr AskedWords choice_words{AskedWord::goal, AskedWord::goal_tolerance, AskedWord::goal_region};
+inline constexpr AskedWords pose_choice_words = choice_words | AskedWords{AskedWord::goal_heading};
+/// The same, and what leaves a choice of their order.
+inline constexpr AskedWords goal_words = choice_words | AskedWords{AskedWord::visit};
 
 /// The words that prices say.
 AskedWords words_in(const Prices& prices);

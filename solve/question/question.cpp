@@ -152,6 +152,12 @@ GoalRule rule_of(const Scene& scene, const Question& question) {
   return rule;
 }
 
+void take_goal(Problem& problem, std::vector<double> reached, const std::optional<std::uint64_t>& number) {
+  std::vector<double> first = std::exchange(problem.goal, std::move(reached));
+  if (number && *number > 0 && *number <= problem.rule.others.size())
+    problem.rule.others[*number - 1] = std::move(first);
+}
+
 void Question::validate() const {
   const auto is_coordinate = [](double x) { return std::abs(x) <= largest_coordinate; };
   for (const auto& [name, state] : {std::pair{"start", &start}, std::pair{"goal", &goal}}) {

@@ -118,6 +118,9 @@ void add_prices(Prices& prices, const Prices& asked);
 /// The question's rule; the file's other goals where the question says no goal.
 GoalRule rule_of(const Scene& scene, const Question& question);
 
+/// The problem's goal is the one that is reached: of several, the number of which is told, the first takes its place.
+void take_goal(Problem& problem, std::vector<double> reached, const std::optional<std::uint64_t>& number);
+
 /// The problem of a point or disc. A heading in the file (of a body that was overridden) means nothing to them. Throws
 /// UsageError where start or goal are missing or have the wrong size, where contact contradicts the clearance, and
 /// where the body is another. The goal of who comes back, and of visits without one, is the start. `usual` is the

@@ -161,7 +161,9 @@ class PointAmongWalls : public UsualBody {
   WallProblem problem_;
 };
 
-constexpr PlannerChoice walls_planners[] = {{PlannerKind::prm, plane_takes}, {PlannerKind::lazy_prm, plane_takes}};
+constexpr AskedWords walls_words{AskedWord::goal};
+constexpr PlannerChoice walls_planners[] = {{PlannerKind::prm, plane_takes, walls_words},
+                                            {PlannerKind::lazy_prm, plane_takes, walls_words}};
 
 bool fits_walls(const Scene& scene, const RobotSpec& robot) {
   const bool plain = robot.kind == RobotKind::point || robot.kind == RobotKind::disc;

@@ -35,7 +35,8 @@ TEST(AnswerSummary, SaysHowAPathGotBetterAndWhatEndedIt) {
   answer.stop_reason.reset();
   for (const auto& [end, words] :
        {std::pair("optimum", "there is no better one"), std::pair("gap", "as near to the best as --gap asks for"),
-        std::pair("iterations", "all turns are done"), std::pair("caller", "the caller had enough")}) {
+        std::pair("iterations", "all turns are done"), std::pair("goal", "there is no better one to this goal"),
+        std::pair("caller", "the caller had enough")}) {
     answer.ended_by = end;
     expect_line(answer, std::string("better        240 turns, cost 31.25 to 25 in 1 step; ") + words);
   }
@@ -51,6 +52,24 @@ TEST(AnswerSummary, SaysHowFarFromTheBestThePathIsAtMost) {
   expect_line(answer, "cost          40, turning counted");
   answer.optimal = true;
   EXPECT_EQ(summary_of(answer, Palette(false), {}).find("bound"), std::string::npos) << "the length says so";
+}
+
+TEST(AnswerSummary, SaysWhatBecameOfAChoice) {
+  Answer answer = better_answer();
+  answer.problem.rule.others = {{3.0, 4.0}, {5.0, 6.0}};
+  answer.goal_index = 2;
+  expect_line(answer, "goal          number 3 of 3");
+  answer.goal_reached = GoalReached{{5.0, 6.0}, 0.25, 0.125};
+  expect_line(answer, "goal          number 3 of 3, 0.25 from (5, 6), of which nothing within 0.125 can be reached");
+  answer.goal_index.reset();
+  answer.goal_reached->distance_bound.reset();
+  expect_line(answer, "goal          0.25 from (5, 6)");
+  answer.order = {1, 0};
+  expect_line(answer, "order         places 2, 1");
+  answer.alternatives.resize(2);
+  answer.alternatives[0].cost = 26.0;
+  answer.alternatives[1].cost = 27.5;
+  expect_line(answer, "other ways    26, 27.5");
 }
 
 TEST(AnswerSummary, WithoutAPathTheTurnsAreTold) {

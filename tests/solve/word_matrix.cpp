@@ -65,6 +65,7 @@ Scene polygon_room() {
   Scene scene;
   scene.source = "room";
   scene.bounds = Box{{0.0, 0.0}, {10.0, 10.0}};
+  scene.grid = GridSpec{.cell = 0.1};
   scene.polygons.push_back({corners({{4.0, 4.0}, {6.0, 6.5}}), 0});
   return scene;
 }
@@ -172,10 +173,16 @@ std::vector<AskedRow> asked_rows() {
 std::vector<AskedBody> asked_bodies() {
   const RobotSpec point{};
   const RobotSpec disc{.kind = RobotKind::disc, .radius = 0.3};
+  const RobotSpec polygon{.kind = RobotKind::polygon, .outline = corners({{-0.3, -0.2}, {0.3, 0.2}})};
+  const RobotSpec car{.kind = RobotKind::car, .radius = 0.25, .turning_radius = 0.8};
   return {{"point on a map", map_room(), point},
           {"disc on a map", map_room(), disc},
           {"point among polygons", polygon_room(), point},
-          {"disc among polygons", polygon_room(), disc}};
+          {"disc among polygons", polygon_room(), disc},
+          {"polygon on a map", map_room(), polygon},
+          {"polygon among polygons", polygon_room(), polygon},
+          {"car on a map", map_room(), car},
+          {"car among polygons", polygon_room(), car}};
 }
 
 }  // namespace warren::test

@@ -29,7 +29,7 @@ struct AskedBody {
 
 /// All words. Their places are those of asked_bodies().
 std::vector<AskedRow> asked_rows();
-/// Points and discs on a map and among polygons. Bodies that turn follow them.
+/// Points, discs, polygons that turn and cars, on a map and among polygons.
 std::vector<AskedBody> asked_bodies();
 
 }  // namespace warren::test

@@ -10,6 +10,7 @@
 #include "core/base/error.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/solve.hpp"
+#include "tests/seeds.hpp"
 
 namespace warren {
 namespace {
@@ -24,11 +25,18 @@ SolveOptions options_of(PlannerKind planner) {
   return options;
 }
 
-void expect_heard(const test::AskedBody& body, PlannerKind planner, const test::AskedRow& row) {
+/// Bodies that turn arrive in any heading.
+Question plain_question(const test::AskedBody& body) {
   Question question;
   question.start = {1.5, 5.0};
+  if (body.robot.kind == RobotKind::polygon || body.robot.kind == RobotKind::car) question.start.push_back(0.0);
   question.goal = {8.5, 4.5};
   question.robot = body.robot;
+  return question;
+}
+
+void expect_heard(const test::AskedBody& body, PlannerKind planner, const test::AskedRow& row) {
+  Question question = plain_question(body);
   SolveOptions options = options_of(planner);
   row.ask(question, options);
   std::optional<Answer> answer;
@@ -45,14 +53,12 @@ void expect_heard(const test::AskedBody& body, PlannerKind planner, const test::
 }
 
 TEST(AskedWords, AreHeardOrRefusedByName) {
-  for (const test::AskedBody& body : test::asked_bodies()) {
+  const std::vector<test::AskedBody> bodies = test::asked_bodies();
+  for (const std::uint64_t number : test::seeds(bodies.size(), 3)) {
+    const test::AskedBody& body = bodies[number - 1];
     for (const PlannerKind planner : planners_there_are()) {
-      Question plain;
-      plain.start = {1.5, 5.0};
-      plain.goal = {8.5, 4.5};
-      plain.robot = body.robot;
       try {
-        solve(body.scene, plain, options_of(planner));
+        solve(body.scene, plain_question(body), options_of(planner));
       } catch (const UsageError&) {
         continue;  // other bodies, other worlds
       }

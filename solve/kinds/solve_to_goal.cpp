@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solve/kinds/solve_to_goal.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <new>
+
+#include "core/base/error.hpp"
+#include "solve/kinds/goals_on_map.hpp"
+#include "solve/kinds/lower_bound.hpp"
+#include "solve/kinds/map_steps.hpp"
+#include "solve/kinds/question_of_pose.hpp"
+#include "solve/kinds/solve_steps.hpp"
+#include "solve/question/question_of_arm.hpp"
+#include "spatial/maps/distance_field.hpp"
+
+namespace warren {
+namespace {
+
+constexpr double rounding_rad = 1e-9;
+
+Vec2 position(const std::vector<double>& state) { return {state[0], state[1]}; }
+
+/// One question: the steps share it and fill in the answer.
+class ToGoal {
+ public:
+  ToGoal(const SolveKind& kind, const SolveRequest& request)
+      : kind_(kind),
+        request_(request),
+        rule_(rule_of(request.scene, request.question)),
+        goals_(goals_of(request.scene, request.question)) {}
+
+  Answer run() {
+    if (goals_.front().empty()) return kind_.solve(request_);  // which says that it is missing
+    if (rule_.region && plan_to_places()) return told();
+    plan_to_goals();
+    const bool is_settled = has_path() || best_->outcome == Outcome::start_blocked || stopped_;
+    if (!is_settled && rule_.tolerance) plan_to_places();
+    return told();
+  }
+
+ private:
+  bool has_path() const { return best_ && best_->verified; }
+
+  /// Plans to a state, of or near a goal.
+  void plan(const std::vector<double>& state, const Execution& execution, std::size_t goal) {
+    Question question = request_.question;
+    question.goal = state;
+    question.rule = {};
+    if (request_.keep != nullptr) {
+      ByProducts fresh;
+      fresh.wants_certificate = request_.keep->wants_certificate;
+      *request_.keep = std::move(fresh);
+    }
+    const SolveRequest to_state{request_.options, request_.scene, question, request_.planner, execution, request_.keep};
+    Answer answer = kind_.solve(to_state);
+    if (answer.outcome == Outcome::stopped) stopped_ = answer.stop_reason;
+    tell_bound(answer, request_.scene, request_.options, execution);
+    work_ += answer.counters;
+    solve_s_ += answer.solve_s;
+    last_ = {answer.outcome, answer.verified && answer.optimal, answer.verified ? answer.lower_bound : std::nullopt};
+    if (best_ && !is_better(answer)) return;
+    best_ = std::move(answer);
+    goal_ = goal;
+    if (request_.keep != nullptr) made_ = std::move(*request_.keep);
+  }
+  /// Of the paths to a goal, by what is known of the last plan; planned: was that to this goal?
+  void note_bound(std::size_t goal, bool planned) {
+    const bool is_shut = planned && (last_.outcome == Outcome::goal_blocked || last_.outcome == Outcome::infeasible);
+    all_proved_ &= is_shut || (planned && last_.optimal);
+    if (is_shut) return;
+    constexpr double rounding = 0x1p-40;
+    double least = 0.0;
+    if (planned && last_.lower_bound) {
+      least = *last_.lower_bound;
+    } else if (!is_arm(best_->problem.robot)) {
+      least = distance(position(best_->problem.start), position(goals_[goal])) * (1.0 - rounding);
+    }
+    bound_ = std::min(bound_, least);
+  }
+  /// A cheaper path; without one, what leaves more open.
+  bool is_better(const Answer& answer) const {
+    if (answer.verified != best_->verified) return answer.verified;
+    if (answer.verified) return cost_of(answer) < cost_of(*best_);
+    const auto openness = [](Outcome outcome) {
+      constexpr std::array order{Outcome::goal_blocked, Outcome::infeasible, Outcome::not_connected, Outcome::stopped,
+                                 Outcome::start_blocked};
+      return std::find(order.begin(), order.end(), outcome) - order.begin();
+    };
+    return openness(answer.outcome) > openness(best_->outcome);
+  }
+  static double cost_of(const Answer& answer) { return answer.cost.value_or(answer.length); }
+
+  /// Planners that get better share the time.
+  void plan_to_goals() {
+    const Execution& whole = request_.execution;
+    bool is_over = false;
+    for (std::size_t i = 0; i < goals_.size(); ++i) {
+      if (is_over) {
+        note_bound(i, false);
+        continue;
+      }
+      Execution execution = whole;
+      std::optional<Deadline> share;
+      const std::function<bool(const Improvement&)> forward = [&](const Improvement& better) {
+        return (has_path() && better.cost >= cost_of(*best_)) || (*whole.on_improvement)(better);
+      };
+      if (gets_better(request_.planner)) {
+        const double seconds = whole.seconds_left() / static_cast<double>(goals_.size() - i);
+        execution.deadline = &share.emplace(whole.deadline, seconds);
+        if (whole.on_improvement != nullptr) execution.on_improvement = &forward;
+      }
+      plan(goals_[i], execution, i);
+      note_bound(i, true);
+      is_over = best_->outcome == Outcome::start_blocked ||
+                (stopped_ && (!gets_better(request_.planner) || whole.should_stop()));
+    }
+    if (has_path() && stopped_ && !gets_better(request_.planner)) {  // what is left may be cheaper
+      make_stopped(*best_, *stopped_);
+    }
+  }
+
+  /// Plans to the first of the places that the planner reaches. Does it reach one?
+  bool plan_to_places() {
+    std::vector<GoalPlace> places;
+    Answer chosen;
+    chosen.problem.robot = robot_of(request_.scene, request_.question);
+    chosen.planner = name_of(request_.planner);
+    chosen.seed = request_.options.seed;
+    answer_within_limits(chosen, [&] {
+      const StageTimer timer(request_.execution, "search", chosen.seconds.search);
+      const bool drives = chosen.problem.robot.kind == RobotKind::car;
+      places = drives ? places_of_car(request_) : places_on_layers(request_);
+      chosen.outcome = Outcome::not_connected;
+    });
+    solve_s_ += chosen.solve_s;
+    if (chosen.outcome == Outcome::stopped) {
+      const StopReason reason = *chosen.stop_reason;
+      if (!best_) best_ = std::move(chosen);
+      make_stopped(*best_, reason);
+      return true;
+    }
+    for (const GoalPlace& place : places) {
+      plan(place.state, request_.execution, place.goal);
+      if (has_path()) place_ = place;
+      if (has_path() || stopped_) return true;
+    }
+    return false;
+  }
+
+  Answer told() {
+    Answer& answer = *best_;
+    answer.counters = work_;
+    answer.solve_s = solve_s_;
+    if (request_.keep != nullptr) *request_.keep = std::move(made_);
+    if (!answer.verified) answer.problem.goal = goals_.front();
+    answer.problem.rule = rule_;
+    // A tolerance or region that nobody has used up leaves places.
+    if (!answer.verified && (rule_.tolerance || rule_.region)) settle_without_place();
+    if (!answer.verified) return std::move(answer);
+    if (!rule_.others.empty()) answer.goal_index = goal_;
+    tell_place();
+    bound();
+    return std::move(answer);
+  }
+
+  void tell_place() {
+    Answer& answer = *best_;
+    std::vector<double> reached = std::exchange(answer.problem.goal, goals_.front());
+    take_goal(answer.problem, std::move(reached), answer.goal_index);
+    if (!rule_.tolerance && !rule_.region) return;
+    const std::vector<double>& asked = goals_[goal_];
+    const double off = place_ ? place_->distance : 0.0;
+    answer.goal_reached = GoalReached{asked, off, {}};
+    if (off == 0.0) answer.goal_reached->distance_bound = 0.0;
+    if (off > 0.0 && rule_.tolerance) answer.goal_reached->distance_bound = distance_bound(goal_);
+  }
+
+  /// Of what may be near enough nobody has proved that it can't be reached, unless the bounds say so.
+  void settle_without_place() {
+    Answer& answer = *best_;
+    if (!is_blocked(answer.outcome) && answer.outcome != Outcome::infeasible) return;
+    if (answer.outcome == Outcome::start_blocked) return;
+    const double reach = rule_.tolerance.value_or(rule_.region.value_or(0.0));
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < goals_.size(); ++i) least = std::min(least, distance_bound(i).value_or(0.0));
+    if (!(least > reach)) answer.outcome = Outcome::not_connected;
+  }
+
+  /// On a map: of all places that the disc reaches which the body holds around its reference point. None where time or
+  /// memory end meanwhile.
+  std::optional<double> distance_bound(std::size_t goal) const {
+    const Scene& scene = request_.scene;
+    if (!scene.map) return std::nullopt;
+    try {
+      return bound_on_map(*scene.map, goal);
+    } catch (const Stopped&) {
+      return std::nullopt;
+    } catch (const std::bad_alloc&) {
+      return std::nullopt;
+    }
+  }
+  std::optional<double> bound_on_map(const OccupancyMap& map, std::size_t goal) const {
+    const Problem& problem = best_->problem;
+    const std::optional<double> held = held_radius(problem.robot);
+    WallProblem disc;
+    disc.start = position(problem.start);
+    if (held) disc.robot = {.kind = RobotKind::disc, .radius = *held, .outline = {}};
+    if (held) disc.clearance = problem.clearance;
+    if (!held || !cell_at(map, disc.start)) return std::nullopt;
+    const Bitmap closed = closed_cells(map, disc.start);
+    WaysOverCells ways(map, disc, closed, closed, Diagonal::sqrt2, {}, request_.execution);
+    return ways.distance_bound(position(goals_[goal]));
+  }
+
+  /// Of what was left to choose from: the planner's own is of the goal that it was given.
+  void bound() {
+    Answer& answer = *best_;
+    if (place_ && rule_.tolerance) return;  // it is compared with paths to the same place
+    if ((rule_.others.empty() && !rule_.region) || (all_proved_ && !place_)) return;
+    take_bound_of_choice(answer, std::nullopt);
+    const bool in_metric = gets_better(request_.planner);
+    if (is_arm(answer.problem.robot) || (answer.cost && !answer.price && !in_metric)) return;
+    answer.lower_bound = bound_;
+    if (!rule_.region) return;
+    WallProblem asked;
+    asked.start = position(answer.problem.start);
+    asked.goal = position(goals_.front());
+    asked.rule = rule_;
+    answer.lower_bound = bound_of_choice(asked, false);
+  }
+
+  const SolveKind& kind_;
+  const SolveRequest& request_;
+  GoalRule rule_;
+  std::vector<std::vector<double>> goals_;
+  std::optional<Answer> best_;
+  ByProducts made_;  // of the best
+  std::size_t goal_ = 0;
+  std::optional<GoalPlace> place_;  // where the path ends at none of the goals
+  struct {
+    Outcome outcome = Outcome::stopped;
+    bool optimal = false;
+    std::optional<double> lower_bound;
+  } last_;  // of the last plan
+  std::optional<StopReason> stopped_;
+  bool all_proved_ = true;                                  // the best path to each goal, or that there is none
+  double bound_ = std::numeric_limits<double>::infinity();  // of the paths to any goal
+  Counters work_;
+  double solve_s_ = 0.0;
+};
+
+}  // namespace
+
+GoalPlaces::GoalPlaces(std::vector<std::vector<double>> goals, const GoalRule& rule, double coarse)
+    : goals_(std::move(goals)),
+      reach_(rule.region ? *rule.region : rule.tolerance.value_or(0.0)),
+      most_off_rad_(rule.heading_rad.value_or(0.0) + rounding_rad),
+      coarse_rad_(coarse) {}
+
+std::optional<GoalPlaces::Offered> GoalPlaces::offered(const Se2& pose) const {
+  std::optional<Offered> best;
+  for (std::size_t i = 0; i < goals_.size(); ++i) {
+    const std::vector<double>& goal = goals_[i];
+    const double off = distance(pose.position(), position(goal));
+    if (off > reach_) continue;
+    const double turn = goal.size() == 3 ? std::abs(turn_between(pose.theta, goal[2])) : 0.0;
+    if (turn > std::max(most_off_rad_, coarse_rad_)) continue;
+    const double heading = turn <= most_off_rad_ ? pose.theta : goal[2];
+    Offered here{off, turn, {{pose.x, pose.y, heading}, i, off}};
+    if (!best || here < *best) best = std::move(here);
+  }
+  return best;
+}
+
+std::optional<GoalPlace> GoalPlaces::place(const Se2& pose) const {
+  if (auto found = offered(pose)) return std::move(found->place);
+  return std::nullopt;
+}
+
+void GoalPlaces::keep(Offered offered) {
+  constexpr std::size_t most = 16;
+  kept_.insert(std::upper_bound(kept_.begin(), kept_.end(), offered), std::move(offered));
+  if (kept_.size() > most) kept_.pop_back();
+}
+
+void GoalPlaces::offer(const Se2& pose) {
+  if (auto found = offered(pose)) keep(std::move(*found));
+}
+
+void GoalPlaces::offer(const Se2& pose, double rank) {
+  auto found = offered(pose);
+  if (!found) return;
+  found->rank = rank;
+  keep(std::move(*found));
+}
+
+std::vector<GoalPlace> GoalPlaces::taken() {
+  std::vector<GoalPlace> places;
+  for (Offered& offered : kept_) places.push_back(std::move(offered.place));
+  return places;
+}
+
+std::vector<std::vector<double>> goals_of(const Scene& scene, const Question& question) {
+  std::vector<std::vector<double>> goals{question.goal.empty() ? scene.goal : question.goal};
+  const GoalRule rule = rule_of(scene, question);
+  goals.insert(goals.end(), rule.others.begin(), rule.others.end());
+  const RobotKind body = robot_of(scene, question).kind;
+  for (std::vector<double>& goal : goals) {  // a file's headings mean nothing to a point
+    const bool is_plain = question.goal.empty() && (body == RobotKind::point || body == RobotKind::disc);
+    if (is_plain && goal.size() == 3) goal.resize(2);
+  }
+  return goals;
+}
+
+Answer solve_to_goal(const SolveKind& kind, const SolveRequest& request) {
+  const bool is_open = !kind.chooses_goal && !rule_of(request.scene, request.question).empty();
+  return is_open ? ToGoal(kind, request).run() : kind.solve(request);
+}
+
+}  // namespace warren

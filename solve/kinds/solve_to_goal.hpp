@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a question leaves open of its goal, for kinds that don't decide it themselves (on maps points and discs do,
+// goals_on_map.hpp). Several goals: the planner plans to each, and the cheapest path is the answer. A tolerance or a
+// region: a lattice of positions and headings says which places near the goal can be reached, and the planner plans to
+// the nearest, or the cheapest.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/plane/se2.hpp"
+#include "solve/answer/answer.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
+#include "solve/question/question.hpp"
+
+namespace warren {
+
+/// A place that will do as the goal.
+struct GoalPlace {
+  std::vector<double> state;  ///< 2 numbers of points and discs, else 3
+  std::size_t goal = 0;       ///< the number of the goal that it is near
+  double distance = 0.0;      ///< to that, world units
+};
+
+/// Of the poses that are offered, those that a tolerance or region takes: a few of the least rank. The heading is as
+/// asked, or off by the angle that may be; a pose whose heading is off by no more than `coarse` besides is taken with
+/// the heading that was asked.
+class GoalPlaces {
+ public:
+  /// goals: 2 or 3 numbers each. rule: of a tolerance or a region. coarse: radians, >= 0.
+  GoalPlaces(std::vector<std::vector<double>> goals, const GoalRule& rule, double coarse);
+
+  /// As the nearest goal takes it; none: no goal does.
+  std::optional<GoalPlace> place(const Se2& pose) const;
+  /// Of equal ranks the nearer place counts, and then the first.
+  void offer(const Se2& pose, double rank);
+  void offer(const Se2& pose);  ///< by its distance
+  /// The least rank first.
+  std::vector<GoalPlace> taken();
+
+ private:
+  struct Offered {
+    double rank;
+    double turn_rad;  // how far its heading is off
+    GoalPlace place;
+    friend bool operator<(const Offered& a, const Offered& b) {
+      return std::pair{a.rank, a.turn_rad} < std::pair{b.rank, b.turn_rad};
+    }
+  };
+  std::optional<Offered> offered(const Se2& pose) const;
+  void keep(Offered offered);
+
+  std::vector<std::vector<double>> goals_;
+  double reach_;         // world units
+  double most_off_rad_;  // of headings
+  double coarse_rad_;
+  std::vector<Offered> kept_;  // sorted
+};
+
+/// All goals of a question, the first first.
+std::vector<std::vector<double>> goals_of(const Scene& scene, const Question& question);
+
+/// Places that a lattice joins to the start: of points, discs and polygons (solve_lattice.cpp), of cars
+/// (solve_car.cpp). Throws UsageError, Stopped.
+std::vector<GoalPlace> places_on_layers(const SolveRequest& request);
+std::vector<GoalPlace> places_of_car(const SolveRequest& request);
+
+/// SolveKind::solve, whatever the question leaves open of its goal. Throws as that.
+Answer solve_to_goal(const SolveKind& kind, const SolveRequest& request);
+
+}  // namespace warren
