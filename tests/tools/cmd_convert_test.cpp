@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// convert --simplify as a process: a chain of a route graph, alone and around what a scene forbids.
+// convert and export with --simplify as processes: a chain of a route graph, alone and around what a scene forbids; a
+// roadmap.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -57,6 +58,27 @@ TEST(Convert, ARouteGraphKeepsTheNodesThatMatter) {
   }
   EXPECT_EQ(run_program(fmt::format("convert {} -o {} --simplify 0.1 --robot point", from, to)).exit_code, 2);
   EXPECT_EQ(run_program(fmt::format("convert {} -o {} --simplify 0.1", from, folder.file("few.svg"))).exit_code, 2);
+}
+
+TEST(Export, ARoadmapBecomesARouteGraphOfTheNodesThatMatter) {
+  const TemporaryDirectory folder;
+  folder.write("yard.scene", "bounds 0 0 10 6\npolygon 3 2 7 2 7 4 3 4\nrobot disc 0.3\n");
+  const std::string roadmap = folder.file("yard.roadmap");
+  ASSERT_EQ(run_program(fmt::format("build {} --planner voronoi -o {}", folder.file("yard.scene"), roadmap)).exit_code,
+            0);
+  const std::string to = folder.file("graph.geojson");
+  ASSERT_EQ(run_program(fmt::format("export {} -o {} --frame yard", roadmap, to)).exit_code, 0);
+  const std::size_t all = nodes_in(folder.read("graph.geojson"));
+  const ProgramRun made = run_program(fmt::format("export {} -o {} --frame yard --simplify 0.5", roadmap, to));
+  ASSERT_EQ(made.exit_code, 0) << made.out;
+  const std::string few = folder.read("graph.geojson");
+  EXPECT_LT(nodes_in(few), all);
+  EXPECT_NE(few.find("\"frame\":\"yard\""), std::string::npos) << few.substr(0, 300);
+  EXPECT_NE(made.out.find(fmt::format("{} of {} nodes", nodes_in(few), all)), std::string::npos) << made.out;
+  for (const char* wrong : {"--simplify 0.5 --unchecked", "--simplify -1"}) {
+    EXPECT_EQ(run_program(fmt::format("export {} -o {} {}", roadmap, to, wrong)).exit_code, 2) << wrong;
+  }
+  EXPECT_EQ(run_program(fmt::format("export {} -o {} --simplify 1", roadmap, folder.file("g.csv"))).exit_code, 2);
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <string>
 #include <string_view>
 
-#include "apps/serve/graphs/edge_judge.hpp"
 #include "apps/serve/graphs/route_graph_io.hpp"
 #include "apps/serve/graphs/simplify_graph.hpp"
 #include "apps/serve/http/http_message.hpp"
@@ -17,7 +16,6 @@
 #include "scenes/text/input_file_io.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "solve/answer/world_account.hpp"
-#include "solve/kinds/solve_steps.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
@@ -28,7 +26,6 @@
 #include "tools/words/option_values.hpp"
 #include "tools/words/output_words.hpp"
 #include "tools/words/question_words.hpp"
-#include "verify/judges/effective_scene.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
 
 namespace warren::tools {
@@ -53,44 +50,23 @@ constexpr OptionSpec convert_specs[] = {
     {"--clearance", "R", "with --world: room to keep around the body (default: the world's, else 0)"},
 };
 
-/// Only edges that the verification finds free are new.
-class FreeEdges {
- public:
-  FreeEdges(const Arguments& arguments, const Execution& execution, StageTimes& seconds) : execution_(execution) {
-    const auto name = arguments.value("--world");
-    for (const char* option : {"--robot", "--clearance"}) {
-      if (!name && arguments.has(option)) throw UsageError(fmt::format("{}: is for --world", option));
-    }
-    if (!name) return;
-    const Question body = question_words(arguments);
-    scene_ = load_world(*name, arguments, execution, seconds);
-    const RobotSpec robot = robot_of(scene_, body);
-    serve::check_drives_edges(robot);
-    if (auto barred = effective_scene(scene_, prices_of(scene_, body), execution)) scene_ = std::move(*barred);
-    judge_.emplace(scene_, room_of(scene_, execution), robot, clearance_of(scene_, body));
-  }
-  serve::MayLead may_lead() const {
-    if (!judge_) return {};
-    return [this](Vec2 a, Vec2 b) { return judge_->judge({{{.at = a}, {.at = b}}}, execution_).front().free; };
-  }
-
- private:
-  const Execution& execution_;
-  Scene scene_;
-  std::optional<serve::EdgeJudge> judge_;
-};
-
 int simplify_graph(const Arguments& arguments, const std::string& file) {
   const double within = *given_value(arguments, "--simplify", number_value, 0.0, largest_coordinate);
   if (!file.ends_with(".geojson")) throw UsageError("--simplify: a route graph is written as -o FILE.geojson");
+  const auto world = arguments.value("--world");
+  for (const char* option : {"--robot", "--clearance"}) {
+    if (!world && arguments.has(option)) throw UsageError(fmt::format("{}: is for --world", option));
+  }
   Run run(arguments);
   StageTimes seconds;
-  const FreeEdges edges(arguments, run.execution(), seconds);
+  const Scene scene = world ? load_world(*world, arguments, run.execution(), seconds) : Scene{};
   const InputFile input(arguments.operand(0), run.execution());
   serve::RouteGraph graph;
   try {
     graph = serve::read_nav2_graph(input.bytes(), run.execution());
-    const serve::RouteGraph few = serve::simplified(graph, within, edges.may_lead(), run.execution());
+    const serve::RouteGraph few =
+        world ? serve::simplified_in(scene, question_words(arguments), graph, within, run.execution())
+              : serve::simplified(graph, within, {}, run.execution());
     write_file(file, serve::nav2_graph_text(few, serve::ends_of(few), run.execution()), run.execution());
     run.end();
     if (!run.quiet() && file != "-") {

@@ -4,9 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
+
+#include "apps/serve/graphs/edge_judge.hpp"
+#include "solve/kinds/solve_steps.hpp"
+#include "verify/judges/effective_scene.hpp"
 
 namespace warren::serve {
 namespace {
@@ -167,6 +172,17 @@ class Simplifying {
 
 RouteGraph simplified(const RouteGraph& graph, double within, const MayLead& may_lead, const Execution& execution) {
   return Simplifying(graph, within, may_lead, execution).made();
+}
+
+RouteGraph simplified_in(const Scene& scene, const Question& body, const RouteGraph& graph, double within,
+                         const Execution& execution) {
+  const RobotSpec robot = robot_of(scene, body);
+  check_drives_edges(robot);
+  const std::optional<Scene> barred = effective_scene(scene, prices_of(scene, body), execution);
+  const Scene& judged = barred ? *barred : scene;
+  const EdgeJudge judge(judged, room_of(judged, execution), robot, clearance_of(scene, body));
+  const auto is_free = [&](Vec2 a, Vec2 b) { return judge.judge({{{.at = a}, {.at = b}}}, execution).front().free; };
+  return simplified(graph, within, is_free, execution);
 }
 
 }  // namespace warren::serve

@@ -8,6 +8,8 @@
 
 #include "apps/serve/graphs/route_graph.hpp"
 #include "parallel/execution.hpp"
+#include "scenes/scene/scene.hpp"
+#include "solve/question/question.hpp"
 
 namespace warren::serve {
 
@@ -18,5 +20,10 @@ using MayLead = std::function<bool(Vec2, Vec2)>;
 /// chain costs in that direction; an edge whose cost is its length gets its own. Two edges never join the same two
 /// nodes that were joined by a chain. may_lead: empty, everywhere. Throws HttpError as ends_of() does, Stopped.
 RouteGraph simplified(const RouteGraph& graph, double within, const MayLead& may_lead, const Execution& execution);
+
+/// The same, but that new edges lead only where the verification finds the body of the question free in the scene, with
+/// all that closes places of it. Throws UsageError for bodies that drive no straight edges, too.
+RouteGraph simplified_in(const Scene& scene, const Question& body, const RouteGraph& graph, double within,
+                         const Execution& execution);
 
 }  // namespace warren::serve
