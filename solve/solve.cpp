@@ -107,7 +107,7 @@ std::optional<PriceParts> driving_price(const RecordedAnswer& answer, const Verd
   const bool is_asked = asked.turn_cost || asked.cusp_cost || asked.reverse_cost;
   if (robot.kind != RobotKind::car || !is_asked) return std::nullopt;
   const double usual_cusp =
-      asked.optimise && !places_too && robot.steering != SteeringKind::dubins ? robot.turning_radius : 0.0;
+      asked.optimise && !places_too && robot.steering == SteeringKind::reeds_shepp ? robot.turning_radius : 0.0;
   return PriceParts{.turning = asked.turn_cost.value_or(0.0) * verdict.turn_rad,
                     .cusps = asked.cusp_cost.value_or(usual_cusp) * static_cast<double>(verdict.cusps),
                     .reverse = (asked.reverse_cost.value_or(1.0) - 1.0) * verdict.reversed};

@@ -14,6 +14,7 @@
 #include "core/base/error.hpp"
 #include "pictures/layers/draw_cells.hpp"
 #include "planners/graph/assemble_graph.hpp"
+#include "worlds/poses/differential_curve.hpp"
 #include "worlds/poses/dubins_curve.hpp"
 #include "worlds/poses/reeds_shepp_curve.hpp"
 #include "worlds/poses/steering_curve.hpp"
@@ -179,7 +180,9 @@ PictureLayer heading_arrows(std::span<const Se2> poses, double length) {
 namespace {
 
 SteeringCurve curve_between(const Se2& a, const Se2& b, const RobotSpec& car) {
-  const auto shortest = car.steering == SteeringKind::dubins ? DubinsCurve::shortest : ReedsSheppCurve::shortest;
+  const auto shortest = car.steering == SteeringKind::dubins        ? DubinsCurve::shortest
+                        : car.steering == SteeringKind::reeds_shepp ? ReedsSheppCurve::shortest
+                                                                    : DifferentialCurve::shortest;
   return {a, b, shortest(a, b, car.turning_radius), car.turning_radius};
 }
 

@@ -100,9 +100,12 @@ struct NamedState {
   std::vector<double> values;      ///< as many, radians or metres
 };
 
-/// How a car drives: dubins, forwards only; reeds_shepp, backwards too.
-enum class SteeringKind : std::uint8_t { dubins, reeds_shepp };
-constexpr auto enum_names(SteeringKind) { return std::array<std::string_view, 2>{"dubins", "reeds-shepp"}; }
+/// How a car drives: dubins, forwards only; reeds_shepp, backwards too; differential, straight both ways, and it turns
+/// on the spot: then its turning radius says what a radian of turning counts.
+enum class SteeringKind : std::uint8_t { dubins, reeds_shepp, differential };
+constexpr auto enum_names(SteeringKind) {
+  return std::array<std::string_view, 3>{"dubins", "reeds-shepp", "differential"};
+}
 
 /// A body: what moves. Lengths in the units of the world.
 struct RobotSpec {

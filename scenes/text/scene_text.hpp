@@ -91,7 +91,7 @@ inline constexpr std::string_view urdf_usage =
     "robot urdf FILE [srdf FILE] [group NAME | base LINK tip LINK] [tool LINK] [package-path DIR] ... "
     "[hold JOINT VALUE] ... [allow LINK LINK] ...";
 inline constexpr std::string_view car_usage =
-    "robot car radius R|polygon X Y X Y X Y ... turning RHO [steering dubins|reeds-shepp]";
+    "robot car radius R|polygon X Y X Y X Y ... turning RHO [steering dubins|reeds-shepp|differential]";
 
 /// The same as options take it.
 inline constexpr std::string_view robot_option =

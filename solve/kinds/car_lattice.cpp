@@ -29,9 +29,18 @@ MotionSetOptions motion_options(const RobotSpec& robot, const CarLatticeOptions&
   return {.headings = options.headings,
           .turning_radius = robot.turning_radius / cell,
           .reverses = robot.steering != SteeringKind::dubins,
-          .turns_on_spot = false,
+          .turns_on_spot = robot.steering == SteeringKind::differential,
           .reverse_cost = options.price.reverse,
           .turn_cost = options.turn_cost / cell};
+}
+
+/// Of the last piece that is driven; a curve of none ends forwards.
+std::int8_t last_gear(const SteeringWord& word) {
+  std::int8_t gear = 1;
+  for (const SteeringPiece& piece : word.used()) {
+    if (!is_on_spot(piece.steer)) gear = piece.length >= 0.0 ? 1 : -1;
+  }
+  return gear;
 }
 
 }  // namespace
@@ -186,7 +195,7 @@ void CarLattice::join_start(const Se2& start) {
         const Cell cell = cell_at(x, y);
         const SteeringWord word = shortest_(start, pose_of(cell, k), radius_);
         const std::uint64_t cost = curve_cost(word, 0, priced);
-        const std::int8_t gear = word.count == 0 || word.pieces[word.count - 1].length >= 0.0 ? 1 : -1;
+        const std::int8_t gear = last_gear(word);
         if (cost > most) continue;
         starts_.push_back({cell, k, cost + extra(curve(start, pose_of(cell, k))), gear});
       }
@@ -201,7 +210,7 @@ bool CarLattice::is_free(Cell from, const LatticeMotion& motion) {
   const Se2 end = pose_of(to, motion.to);
   Se2 begin = pose_of(from, 0);
   double turn = 0.0;
-  for (const SteeringPiece& piece : motion.word.used()) turn += static_cast<double>(piece.steer) * piece.length;
+  for (const SteeringPiece& piece : motion.word.used()) turn += side_of(piece.steer) * piece.length;
   begin.theta = wrapped_angle(end.theta - turn);
   return body_.is_free_curve({begin, end, motion.word, radius_}, query_);
 }
@@ -216,19 +225,20 @@ std::uint64_t CarLattice::extra(Cell from, std::uint32_t heading, const LatticeM
   if (prices_ == nullptr) return 0;
   const Cell to{static_cast<std::uint32_t>(std::int64_t{from.x} + motion.dx),
                 static_cast<std::uint32_t>(std::int64_t{from.y} + motion.dy)};
-  const double length = radius_ * motion.word.length;
+  const double length = radius_ * motion.word.driven();
   double dear = 0.5 * (dear_at(from, heading) + dear_at(to, motion.to));
   if (prices_->has_areas()) {  // they have borders, between which a motion would slip through
     const SteeringCurve way{pose_of(from, heading), pose_of(to, motion.to), motion.word, radius_};
     const double count = std::ceil(4.0 * length / cell_);
-    for (double i = 0.5; i < count; ++i) dear += prices_->area_at(way.at(i / count * length).position()) / count;
+    for (double i = 0.5; i < count; ++i) dear += prices_->area_at(way.at_driven(i / count * length).position()) / count;
   }
   return units_of(length * dear);
 }
 
 std::uint64_t CarLattice::extra(const SteeringCurve& way) {
   if (prices_ == nullptr) return 0;
-  return units_of(prices_->over(body_, way.length(), query_, [&](double t) { return way.at(t * way.length()); }));
+  const double length = way.driven();
+  return units_of(prices_->over(body_, length, query_, [&](double t) { return way.at_driven(t * length); }));
 }
 
 std::uint64_t CarLattice::at_least(Cell cell, std::uint32_t heading) {
@@ -243,7 +253,7 @@ std::uint64_t CarLattice::at_least(Cell cell, std::uint32_t heading) {
   double cells = most;
   if (distance(Vec2{1.0 * cell.x, 1.0 * cell.y}, goal_cells_.front()) < most) {
     const SteeringWord word = shortest_(pose_of(cell, heading), goals_.front(), radius_);
-    cells = std::min(most, word.length * motions_.turning_radius());
+    cells = std::min(most, word.driven() * motions_.turning_radius());
   }
   const auto by_curve = static_cast<std::uint64_t>(cells * (1.0 - 1e-6) / MotionSet::cost_unit);
   return std::max(by_steps, by_curve);
@@ -268,7 +278,7 @@ std::uint64_t CarLattice::curve_cost(const SteeringWord& word, std::uint64_t gea
   std::uint64_t cost = motions_.cost_of(word);
   std::int8_t gear = 0;
   for (const SteeringPiece& piece : word.used()) {
-    if (std::abs(piece.length) < SteeringCurve::nothing) continue;
+    if (std::abs(piece.length) < SteeringCurve::nothing || is_on_spot(piece.steer)) continue;
     const std::int8_t next = piece.length < 0.0 ? -1 : 1;
     if (gear == 0) shot.first_gear = next;
     if (gear == -next) cost += gear_change;

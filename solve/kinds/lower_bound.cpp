@@ -100,7 +100,7 @@ double with_turn(double way, const Problem& problem) {
 
 /// Without obstacles; a goal without heading may be met in the best.
 double free_curve(const Problem& problem) {
-  if (!names_heading(problem)) return 0.0;
+  if (!names_heading(problem) || problem.robot.steering == SteeringKind::differential) return 0.0;
   const Se2 start{problem.start[0], problem.start[1], problem.start[2]};
   const Se2 goal{problem.goal[0], problem.goal[1], problem.goal[2]};
   const double radius = problem.robot.turning_radius;

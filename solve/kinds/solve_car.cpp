@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Joins CarWorld with the planners that take it: a car, with Dubins or Reeds-Shepp curves, among walls, polygons and
-// bounds, or among the cells of a map. Dubins curves have a direction: their roadmaps are
+// Joins CarWorld with the planners that take it: a car, with Dubins or Reeds-Shepp curves or as a differential drive,
+// among walls, polygons and bounds, or among the cells of a map. Dubins curves have a direction: their roadmaps are
 // planners/roadmap/one_way_prm.hpp's. The answer's path has a pose wherever the steering or the gear changes, and one a
 // quarter turn, so each leg is a straight or an arc that its two poses tell wholly.
 #include <fmt/format.h>
@@ -45,7 +45,8 @@ PoseProblem car_problem(const Scene& scene, const Question& question, const CarF
 
 VerifiedCar verified_car(const RobotSpec& robot) {
   return {.turning_radius = robot.turning_radius,
-          .reverses = robot.steering == SteeringKind::reeds_shepp,
+          .reverses = robot.steering != SteeringKind::dubins,
+          .turns_on_spot = robot.steering == SteeringKind::differential,
           .radius = robot.radius,
           .outline = robot.outline};
 }
@@ -69,6 +70,8 @@ class Car : public PoseBody {
     if (!request.options.optimise && !on_lattice_)
       throw UsageError(fmt::format("@{} prices what @optimise drives: ask for it", option));
     if (Curve::one_way) throw UsageError(fmt::format("@{}: a car with @steering dubins has one gear", option));
+    if (Curve::turns_on_spot && !on_lattice_)
+      throw UsageError(fmt::format("@{}: of @steering differential grid prices gears alone", option));
   }
 
   void index(std::optional<World>& world, SamplerKind) const {
@@ -86,7 +89,9 @@ class Car : public PoseBody {
     return verify_car(scene(), verified_car(question().robot), std::span(&pose, 1), options, execution(), judged())
         .verified;
   }
-  static double length(const World& world, const Se2& a, const Se2& b) { return world.distance(a, b); }
+  static double length(const World& world, const Se2& a, const Se2& b) {
+    return Curve::turns_on_spot ? norm(b.position() - a.position()) : world.distance(a, b);
+  }
   /// Where a tolerance or region lets the path end, of what the lattice joins to the start: the nearest to the goals;
   /// in a region the cheapest.
   std::vector<GoalPlace> places(const World& world, const GoalRule& rule, std::vector<std::vector<double>> goals) const;
@@ -94,9 +99,9 @@ class Car : public PoseBody {
   Path<Se2> on_lattice(const World& world, std::span<const Se2> goals, Answer& answer) const;
   Path<Se2> shortened(const World& world, Path<Se2> path, Answer& answer) const {
     if (const PosePrices prices = pose_prices(); prices.is_priced()) return cheaper(world, prices, path, answer);
-    const auto curve_length = [&](const Se2& a, const Se2& b) { return length(world, a, b); };
+    const auto curve_length = [&](const Se2& a, const Se2& b) { return world.distance(a, b); };
     path = shortcut(world, std::move(path), curve_length, answer);
-    if constexpr (!Curve::one_way) path = redriven(world, std::move(path), answer);
+    if constexpr (has_gears) path = redriven(world, std::move(path), answer);
     return path;
   }
   void judge(const World& world, const Path<Se2>& path, Answer& answer) const {
@@ -116,7 +121,7 @@ class Car : public PoseBody {
   /// Of how many trees.
   std::size_t paths_weighed() const { return is_length_alone() ? 1 : 4; }
   double price_once_shorter(const World& world, Path<Se2> path, Answer& answer) const {
-    if constexpr (Curve::one_way) {
+    if constexpr (!has_gears) {
       return 0.0;
     } else {
       const auto curve_length = [&](const Se2& a, const Se2& b) { return length(world, a, b); };
@@ -125,8 +130,14 @@ class Car : public PoseBody {
   }
 
  private:
+  static constexpr bool has_gears = !Curve::one_way && !Curve::turns_on_spot;  // that redriving has words for
   DrivingPrice price() const {
-    return {asked_.cusp_cost.value_or(question().robot.turning_radius), asked_.reverse_cost.value_or(1.0)};
+    const double usual_cusp = has_gears ? question().robot.turning_radius : 0.0;
+    return {asked_.cusp_cost.value_or(usual_cusp), asked_.reverse_cost.value_or(1.0)};
+  }
+  /// What the lattice makes small. Where turning costs nothing a drive that turns on the spot would turn for nothing.
+  double turn_cost_on_lattice() const {
+    return grid_.turn_cost.value_or(Curve::turns_on_spot ? question().robot.turning_radius : 0.0);
   }
   /// Unasked, only what is driven anew has a price: where places have one, nothing is.
   DrivingPrice price_on_lattice() const {
@@ -160,14 +171,15 @@ class Car : public PoseBody {
     auto query = world.make_query();
     const auto cost = [&](const Se2& a, const Se2& b) {
       const SteeringCurve way = world.curve(a, b);
-      return way.length() + prices.over(world, way.length(), query, [&](double t) { return way.at(t * way.length()); });
+      const double gone = way.driven();
+      return gone + prices.over(world, gone, query, [&](double t) { return way.at_driven(t * gone); });
     };
     Path<Se2> cut = shortcut(world, Path<Se2>(path), cost, answer);
     return paid(world, cut) < paid(world, path) ? cut : path;
   }
   void check_lattice() const;
   CarLatticeOptions lattice_options(const PosePrices& prices) const;
-  bool is_length_alone() const { return Curve::one_way || (price().cusp == 0.0 && price().reverse == 1.0); }
+  bool is_length_alone() const { return !has_gears || (price().cusp == 0.0 && price().reverse == 1.0); }
   /// With fewer changes of gear, and less of it backwards, as their prices have it.
   Path<Se2> redriven(const World& world, Path<Se2> path, Answer& answer) const {
     if (is_length_alone()) return path;
@@ -198,7 +210,7 @@ CarLatticeOptions Car<Curve>::lattice_options(const PosePrices& prices) const {
   if (!options.cell && scene().grid) options.cell = scene().grid->cell;
   options.clearance = question().clearance;
   options.price = price_on_lattice();
-  options.turn_cost = grid_.turn_cost.value_or(0.0);
+  options.turn_cost = turn_cost_on_lattice();
   if (prices.is_priced()) options.prices = &prices;
   return options;
 }
@@ -279,13 +291,23 @@ constexpr PlannerChoice car_planners[] = {
 
 bool fits_car(const Scene&, const RobotSpec& robot) { return robot.kind == RobotKind::car; }
 
-bool only_forwards(const SolveRequest& request) {
-  return car_problem(request.scene, request.question, request.options.car).robot.steering == SteeringKind::dubins;
+/// Which of three is for the way it steers.
+template <class Function>
+Function by_steering(const SolveRequest& request, Function dubins, Function reeds_shepp, Function differential) {
+  switch (car_problem(request.scene, request.question, request.options.car).robot.steering) {
+    case SteeringKind::dubins:
+      return dubins;
+    case SteeringKind::reeds_shepp:
+      return reeds_shepp;
+    case SteeringKind::differential:
+      return differential;
+  }
+  return dubins;
 }
 
 Answer solve_car(const SolveRequest& request) {
-  const auto solve = only_forwards(request) ? solve_sampled<Car<DubinsCurve>> : solve_sampled<Car<ReedsSheppCurve>>;
-  return solve(request);
+  return by_steering(request, solve_sampled<Car<DubinsCurve>>, solve_sampled<Car<ReedsSheppCurve>>,
+                     solve_sampled<Car<DifferentialCurve>>)(request);
 }
 
 template <class Curve>
@@ -297,14 +319,14 @@ std::vector<GoalPlace> places_of(const SolveRequest& request) {
 }
 
 BuiltArrays build_for_car(const SolveRequest& request) {
-  const auto build = only_forwards(request) ? build_sampled<Car<DubinsCurve>> : build_sampled<Car<ReedsSheppCurve>>;
-  return build(request);
+  return by_steering(request, build_sampled<Car<DubinsCurve>>, build_sampled<Car<ReedsSheppCurve>>,
+                     build_sampled<Car<DifferentialCurve>>)(request);
 }
 
 std::unique_ptr<RoadmapSession> open_for_car(const SolveRequest& request, const RoadmapArrays& arrays,
                                              const ConnectionRule& rule) {
-  const auto open = only_forwards(request) ? open_sampled<Car<DubinsCurve>> : open_sampled<Car<ReedsSheppCurve>>;
-  return open(request, arrays, rule);
+  return by_steering(request, open_sampled<Car<DubinsCurve>>, open_sampled<Car<ReedsSheppCurve>>,
+                     open_sampled<Car<DifferentialCurve>>)(request, arrays, rule);
 }
 
 Verdict recheck_car(const Scene& scene, const Question& question, const RecordedAnswer& answer,
@@ -317,7 +339,8 @@ Verdict recheck_car(const Scene& scene, const Question& question, const Recorded
 }  // namespace
 
 std::vector<GoalPlace> places_of_car(const SolveRequest& request) {
-  return only_forwards(request) ? places_of<DubinsCurve>(request) : places_of<ReedsSheppCurve>(request);
+  return by_steering(request, places_of<DubinsCurve>, places_of<ReedsSheppCurve>,
+                     places_of<DifferentialCurve>)(request);
 }
 
 SolveKind car_kind() {

@@ -21,15 +21,16 @@ double of_joint(const std::vector<double>& limits, std::size_t k) {
   return limits[limits.size() == 1 ? 0 : k];
 }
 
-LegShape shape_of(RobotKind kind) {
-  switch (kind) {
+/// A differential drive goes straight and turns on the spot: legs as those of a polygon that turns.
+LegShape shape_of(const RobotSpec& robot) {
+  switch (robot.kind) {
     case RobotKind::point:
     case RobotKind::disc:
       return LegShape::straight;
     case RobotKind::polygon:
       return LegShape::turning;
     case RobotKind::car:
-      return LegShape::driven;
+      return robot.steering == SteeringKind::differential ? LegShape::turning : LegShape::driven;
     case RobotKind::puma560:
     case RobotKind::arm:
     case RobotKind::urdf:
@@ -165,9 +166,10 @@ PathMoment TimedPath::at_share(std::size_t leg, double share, double& time_s) co
 
 PathLegs::PathLegs(const Answer& answer)
     : answer_(&answer),
-      shape_(answer.states.empty() ? LegShape::straight : shape_of(answer.problem.robot.kind)),
+      shape_(answer.states.empty() ? LegShape::straight : shape_of(answer.problem.robot)),
       width_(answer.states.empty() ? 2 : answer.states.width),
       state_count_(answer.states.empty() ? answer.path.size() : answer.states.size()) {
+  if (answer.problem.robot.kind == RobotKind::car) reach_ = answer.problem.robot.radius;
   for (const Vec2 corner : answer.problem.robot.outline) reach_ = std::max(reach_, norm(corner));
 }
 

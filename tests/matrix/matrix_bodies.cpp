@@ -130,6 +130,11 @@ std::vector<MatrixBody> matrix_bodies(double scale) {
     bodies.push_back(car_body("beyond", {.outline = beyond}, turn, reverses));
     bodies.push_back(car_body("disc", {.radius = 0.15 * scale}, turn, reverses));
   }
+  MatrixBody drive = car_body("ahead", {.outline = ahead}, turn, true);
+  drive.name = "differential_ahead";
+  drive.robot.replace(drive.robot.find("reeds-shepp"), std::string::npos, "differential");
+  drive.plane.turns_on_spot = true;
+  bodies.push_back(drive);
   bodies.push_back({"puma", "arm", "puma560 radius 0.04 tool 0.1", {}, puma560_arm(link_radius, tool_length)});
   bodies.push_back(
       {"urdf", "arm", "urdf FOLDER/puma.urdf srdf FOLDER/puma.srdf", {}, puma560_arm(link_radius, tool_length)});

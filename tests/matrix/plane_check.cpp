@@ -178,6 +178,7 @@ class PathCheck {
 
 std::optional<std::string> PathCheck::wrong_with_driving(const Leg& leg) const {
   if (leg.aside() > rounding) return "a leg is neither a straight nor an arc";
+  if (body_.turns_on_spot) return std::nullopt;
   if (!leg.is_arc() && std::abs(leg.turn()) > rounding) return "a car turns on the spot";
   const double least = body_.turning_radius * std::abs(leg.turn());
   if (leg.is_arc() && leg.length() < least - rounding) return "an arc is too tight";

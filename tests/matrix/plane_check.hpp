@@ -28,6 +28,7 @@ struct PlaneBody {
   Ring outline{};       ///< of a polygon; empty: a disc
   bool drives = false;  ///< a car: legs are straights and arcs
   bool reverses = false;
+  bool turns_on_spot = false;
   double turning_radius = 0.0;
 };
 

@@ -77,6 +77,36 @@ TEST_F(SolveCar, EveryPlannerSolvesWithBothCurvesAndVerifies) {
   }
 }
 
+/// As a polygon that turns goes, which another judge judges, but only where it faces.
+TEST_F(SolveCar, ADifferentialDriveGoesStraightAndTurnsOnTheSpot) {
+  const std::string outline = "polygon -0.3 -0.15 0.5 -0.15 0.5 0.15 -0.3 0.15";
+  for (const std::vector<std::string>& planner :
+       std::vector<std::vector<std::string>>{{"rrt-connect", "--optimise"},
+                                             {"prm"},
+                                             {"grid"},
+                                             {"grid", "--headings", "32", "--turn-cost", "2"},
+                                             {"anytime", "--iterations", "4"}}) {
+    std::vector<std::string> words{"--robot", "car " + outline + " turning 0.3 steering differential", "--planner"};
+    words.insert(words.end(), planner.begin(), planner.end());
+    const Json answer = solved(words);
+    EXPECT_EQ(answer["status"], "solved");
+    EXPECT_EQ(answer["steering"], "differential");
+    const Json& path = answer["path"];
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      const double dx = path[i][0].get<double>() - path[i - 1][0].get<double>();
+      const double dy = path[i][1].get<double>() - path[i - 1][1].get<double>();
+      const double theta = path[i][2].get<double>();
+      const double turn = std::remainder(theta - path[i - 1][2].get<double>(), 2 * M_PI);
+      EXPECT_TRUE(std::hypot(dx, dy) < 1e-9 || std::abs(turn) < 1e-9) << "leg " << i;
+      EXPECT_NEAR(dy * std::cos(theta) - dx * std::sin(theta), 0.0, 1e-9) << "leg " << i;
+    }
+    const std::string file = folder_.write("answer.json", answer.dump());
+    EXPECT_EQ(run({"verify", file_, file}).code, 0);
+    EXPECT_EQ(run({"verify", file_, file, "--robot", outline}).code, 0);
+    EXPECT_EQ(run({"verify", file_, file, "--robot", "car " + outline + " turning 0.3 steering reeds-shepp"}).code, 1);
+  }
+}
+
 TEST_F(SolveCar, OptionsAndTheRobotLineSaySteeringAndRadius) {
   const Json wide = solved({"--turning-radius", "1.1", "--steering", "reeds-shepp"});
   EXPECT_EQ(wide["robot"], "car radius 0.2 turning 1.1 steering reeds-shepp");

@@ -107,7 +107,9 @@ constexpr OptionSpec planner_specs[] = {
      "waypoints to pass in this order, separated by semicolons: \"X,Y; X,Y,THETA\", or six joint angles each. For rrt "
      "and rrt-connect; for grid, prm and lazy-prm of a point or disc"},
     {"--steering", "WORD",
-     "how a car drives: dubins forwards only, reeds-shepp backwards too (default: the file's, else dubins)",
+     "how a car drives: dubins forwards only, reeds-shepp backwards too, differential straight both ways, and it turns "
+     "on "
+     "the spot (default: the file's, else dubins)",
      choices_of<SteeringKind>},
     {"--turning-radius", "RHO", "radius of a car's tightest turn, > 0 (default: the file's)"},
     {"--cusp-cost", "C",

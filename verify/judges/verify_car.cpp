@@ -94,7 +94,7 @@ std::optional<Violation> CarVerifier::check_driving(const CarLeg& leg, std::size
   if (std::abs(leg.aside) > tolerance_) {
     return bad(fmt::format("leg: slides sideways by {}; between two poses a car keeps its steering", leg.aside));
   }
-  if (leg.length + tolerance_ < car_.turning_radius * std::abs(leg.turn)) {
+  if (!car_.turns_on_spot && leg.length + tolerance_ < car_.turning_radius * std::abs(leg.turn)) {
     return bad(fmt::format("turning radius: {} is below {}", leg.radius, car_.turning_radius));
   }
   if (!car_.reverses && leg.ahead < -tolerance_) return bad(fmt::format("gear: goes backwards by {}", -leg.ahead));

@@ -29,6 +29,7 @@ class ObstacleIndex;  // verify/near/obstacle_index.hpp
 struct VerifiedCar {
   double turning_radius = 1.0;     ///< > 0
   bool reverses = false;           ///< may it back up?
+  bool turns_on_spot = false;      ///< may it turn as tightly as it likes? Then turning_radius is a scale of lengths
   double radius = 0.0;             ///< of a disc around the reference point; >= 0
   std::vector<Vec2> outline = {};  ///< a polygon instead; then radius is 0
 };

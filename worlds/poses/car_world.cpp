@@ -86,8 +86,10 @@ CarBody::CarBody(const Scene& scene, const CarOptions& options, const Execution&
     for (const int side : {-1, 1}) {
       const Vec2 center{0.0, side * turning_radius_};
       for (const Vec2 p : outline_) {
-        double& pace = pace_[as_whole<std::size_t>(side + 1)];
+        double& pace = pace_[as_whole<std::size_t>(side + 2)];
         pace = std::max(pace, norm(p - center) / turning_radius_);
+        double& on_spot = pace_[as_whole<std::size_t>(2 * side + 2)];
+        on_spot = std::max(on_spot, norm(p) / turning_radius_);
       }
     }
   }

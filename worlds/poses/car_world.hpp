@@ -10,7 +10,9 @@
 // the reference point stays in the obstacles' box, on the curve too. On a map the body moves among the borders between
 // free and blocked cells, which the scene has as walls (worlds/rasters/lattice_polygons.hpp): as it touches none of
 // them, it is among free cells wholly or not at all. The metric is the curve's length; for Dubins curves it has a
-// direction. The chord in (x, y, rho cos theta, rho sin theta), shortened by sqrt(2), never exceeds it.
+// direction. The chord in (x, y, rho cos theta, rho sin theta), shortened by sqrt(2), never exceeds it. The metric of a
+// differential drive is that of turning bodies, the root of the squares of way and weighed turn, whatever it turns on
+// the way: what it turns there obeys no triangle inequality.
 #pragma once
 
 #include <array>
@@ -26,6 +28,7 @@
 #include "core/plane/se2.hpp"
 #include "scenes/scene/scene.hpp"
 #include "worlds/poses/certified_motion.hpp"
+#include "worlds/poses/differential_curve.hpp"
 #include "worlds/poses/dubins_curve.hpp"
 #include "worlds/poses/obstacle_tree.hpp"
 #include "worlds/poses/reeds_shepp_curve.hpp"
@@ -67,7 +70,7 @@ class CarBody {
   double resolution() const { return resolution_; }
   const Box& box() const { return box_; }  ///< the bounds, else the box of the obstacles
   /// How far any point of the body goes while the reference point goes 1 with this steering.
-  double pace(Steer steer) const { return pace_[as_whole<std::size_t>(as_whole<int>(steer) + 1)]; }
+  double pace(Steer steer) const { return pace_[as_whole<std::size_t>(as_whole<int>(steer) + 2)]; }
 
  private:
   bool confines(const Box& way) const;
@@ -77,14 +80,14 @@ class CarBody {
   std::vector<Vec2> outline_;  // of the disc: its middle
   double turning_radius_;
   double reach_;  // kept around the outline when planning: the clearance, of discs their radius too, and rounding
-  std::array<double, 3> pace_{1.0, 1.0, 1.0};
+  std::array<double, 5> pace_{0.0, 1.0, 1.0, 1.0, 0.0};  // by Steer
   double resolution_;
   ObstacleTree tree_;
   Box box_;
   std::optional<OccupancyMap> map_;
 };
 
-/// Curve: DubinsCurve or ReedsSheppCurve.
+/// Curve: DubinsCurve, ReedsSheppCurve or DifferentialCurve.
 template <class Curve>
 class CarWorld {
  public:
@@ -104,6 +107,10 @@ class CarWorld {
   }
   double clearance(const State& a, double enough, Query& query) const { return body_.clearance(a, enough, query); }
   double distance(const State& a, const State& b) const {
+    if constexpr (Curve::turns_on_spot) {
+      const double turn = body_.turning_radius() * turn_between(a.theta, b.theta);
+      return portable::hypot(b.x - a.x, b.y - a.y, turn);
+    }
     return body_.turning_radius() * Curve::shortest(a, b, body_.turning_radius()).length;
   }
   State interpolate(const State& a, const State& b, double t) const {
@@ -111,6 +118,10 @@ class CarWorld {
     return t < 1.0 ? way.at(t * way.length()) : b;
   }
   std::array<double, 4> embed(const State& a) const {
+    if constexpr (Curve::turns_on_spot) {
+      const auto [sine, cosine] = portable::sin_and_cos(a.theta);
+      return {a.x, a.y, body_.turning_radius() * cosine, body_.turning_radius() * sine};
+    }
     const double turn = body_.turning_radius() * std::numbers::sqrt2 * 0.5;
     const double shrink = std::numbers::sqrt2 * 0.5;
     const auto [sine, cosine] = portable::sin_and_cos(a.theta);
@@ -130,6 +141,7 @@ class CarWorld {
 
 static_assert(SteerableWorld<CarWorld<DubinsCurve>>);
 static_assert(SteerableWorld<CarWorld<ReedsSheppCurve>>);
+static_assert(SteerableWorld<CarWorld<DifferentialCurve>>);
 
 struct DrivingPrice {
   double cusp = 0.0;     ///< of a change of gear, in units of length; finite, >= 0

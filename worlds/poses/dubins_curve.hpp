@@ -17,6 +17,7 @@ namespace warren {
 struct DubinsCurve {
   /// A way from a to b is none from b to a.
   static constexpr bool one_way = true;
+  static constexpr bool turns_on_spot = false;
 
   /// The shortest word from a to b; turning_radius > 0.
   static SteeringWord shortest(const Se2& a, const Se2& b, double turning_radius) noexcept;

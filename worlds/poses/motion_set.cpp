@@ -84,7 +84,8 @@ std::uint64_t MotionSet::cost_of(const SteeringWord& word) const {
   double cost = 0.0;
   for (const SteeringPiece& piece : word.used()) {
     const double length = std::abs(piece.length);
-    cost += options_.turning_radius * length * (piece.length < 0.0 ? options_.reverse_cost : 1.0);
+    if (!is_on_spot(piece.steer))
+      cost += options_.turning_radius * length * (piece.length < 0.0 ? options_.reverse_cost : 1.0);
     if (piece.steer != Steer::straight) cost += options_.turn_cost * length;
   }
   return bounded_whole<std::uint64_t>(std::round(cost / cost_unit));
@@ -99,13 +100,17 @@ void MotionSet::add_shapes(std::uint32_t from, const Execution& execution) {
     shape.word.add(Steer::straight, count * unit / options_.turning_radius);
     shapes_.push_back(shape);
   }
+  execution.check();
+  if (options_.turns_on_spot) {
+    MotionShape turn{from, (from + 1) % headings()};
+    turn.word.add(Steer::left_on_spot, warren::turn_between(radians_[from], radians_[turn.to]));
+    shapes_.push_back(turn);
+    return;
+  }
   for (const std::uint32_t apart : {1U, 2U}) {
-    execution.check();
     add_turns(from, (from + apart) % headings());
     add_turns(from, (from + headings() - apart) % headings());
   }
-  if (!options_.turns_on_spot) return;
-  shapes_.push_back({from, (from + 1) % headings()});
 }
 
 /// Of the ends a v + b w with lengths of at least rho tan(turn / 2) those that are such neither a v nor a w nearer. a
@@ -148,11 +153,11 @@ void MotionSet::add_motions(std::uint32_t number) {
     const std::uint32_t from = (shape.from + q * headings() / 4) % headings();
     const std::uint32_t to = (shape.to + q * headings() / 4) % headings();
     const Vector d = turned({shape.dx, shape.dy}, q);
-    if (shape.word.count == 0) {
-      const double turn = std::abs(warren::turn_between(radians_[from], radians_[to]));
-      const auto cost = bounded_whole<std::uint64_t>(std::round(options_.turn_cost * turn / cost_unit));
-      motions_[from].push_back({0, 0, to, 0, cost, {}, number, q});
-      motions_[to].push_back({0, 0, from, 0, cost, {}, number, q});
+    if (is_on_spot(shape.word.pieces[0].steer)) {
+      SteeringWord back;
+      back.add(Steer::right_on_spot, shape.word.length);
+      motions_[from].push_back({0, 0, to, 0, cost_of(shape.word), shape.word, number, q});
+      motions_[to].push_back({0, 0, from, 0, cost_of(back), back, number, q});
       continue;
     }
     motions_[from].push_back({d[0], d[1], to, 1, cost_of(shape.word), shape.word, number, q});
@@ -165,7 +170,7 @@ void MotionSet::add_motions(std::uint32_t number) {
 /// The shortest chain of steps to the motion's end over cells whose middles are within `slack` of its way, against its
 /// length: a Dijkstra among a few dozen cells.
 double MotionSet::ratio_of(const MotionShape& shape) const {
-  if (shape.word.count == 0) return 1.0;
+  if (is_on_spot(shape.word.pieces[0].steer)) return 1.0;
   const double rho = options_.turning_radius;
   const SteeringCurve curve({0.0, 0.0, radians_[shape.from]}, {1.0 * shape.dx, 1.0 * shape.dy, radians_[shape.to]},
                             shape.word, rho);

@@ -4,7 +4,7 @@
 // headings up to two apart. Two lines through states meet at some point; where it lies rho tan(turn / 2) or more from
 // both ends, an arc of the turning radius joins them. If an end does, so do all ends farther along either heading: kept
 // are the ends that no other leads to so, as many as the two headings' vectors span cells. Backwards the same is driven
-// the other way round. A drive that turns on the spot turns to the next heading either way.
+// the other way round. A drive that turns on the spot turns to the next heading either way, and drives no arcs.
 //
 // Costs are whole numbers, so that no order of additions changes a search. relaxed_ratio() compares the motions with
 // the knight_steps of spatial/maps/free_cells: wherever a motion leads, a chain of steps leads along cells whose
@@ -40,7 +40,7 @@ struct LatticeMotion {
   std::uint32_t to = 0;     ///< heading at its end
   std::int8_t gear = 1;     ///< 1 forwards, -1 backwards, 0: turns on the spot
   std::uint64_t cost = 0;   ///< in units of cost_unit
-  SteeringWord word = {};   ///< of the turning radius; empty: turns on the spot
+  SteeringWord word = {};   ///< of the turning radius
   std::uint32_t shape = 0;  ///< which of shapes() it sweeps, after quarter_turns; backwards from its end
   std::uint32_t quarter_turns = 0;
 };
@@ -51,7 +51,7 @@ struct MotionShape {
   std::uint32_t to = 0;
   std::int32_t dx = 0;
   std::int32_t dy = 0;
-  SteeringWord word = {};  ///< empty: turns on the spot
+  SteeringWord word = {};
 };
 
 /// Immutable.

@@ -20,6 +20,7 @@ struct ReedsSheppCurve {
   /// The way from b to a is the way from a to b, driven back. That has to be seen to: between near poses whose headings
   /// differ more, many words are as long as the turn. Of such the first that is tried is taken, anywhere.
   static constexpr bool one_way = false;
+  static constexpr bool turns_on_spot = false;
 
   /// The shortest word from a to b; turning_radius > 0.
   static SteeringWord shortest(const Se2& a, const Se2& b, double turning_radius) noexcept;

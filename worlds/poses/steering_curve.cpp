@@ -12,11 +12,12 @@ namespace warren {
 namespace {
 
 /// The pose after driving the way `length` (signed) from `from`, in units of which the turning radius has `radius`.
-Se2 driven(const Se2& from, Steer steer, double length, double radius) {
+Se2 driven_from(const Se2& from, Steer steer, double length, double radius) {
   const auto [s, c] = portable::sin_and_cos(from.theta);
   if (steer == Steer::straight) return {from.x + length * c, from.y + length * s, from.theta};
-  const double side = static_cast<double>(steer);
+  const double side = side_of(steer);
   const double theta = from.theta + side * length / radius;
+  if (is_on_spot(steer)) return {from.x, from.y, theta};
   const double r = side * radius;
   const auto [sine, cosine] = portable::sin_and_cos(theta);
   return {from.x + r * (sine - s), from.y + r * (c - cosine), theta};
@@ -32,7 +33,7 @@ Se2 seen_from(const Se2& a, const Se2& b, double turning_radius) noexcept {
 }
 
 Se2 after_piece(const Se2& from, const SteeringPiece& piece) noexcept {
-  return driven(from, piece.steer, piece.length, 1.0);
+  return driven_from(from, piece.steer, piece.length, 1.0);
 }
 
 double off_by_rounding(const Se2& a, const Se2& b, double turning_radius) noexcept {
@@ -51,7 +52,7 @@ bool ends_at(const SteeringWord& word, const Se2& goal, double off) noexcept {
       at = at + piece.length * ahead;
       continue;
     }
-    const double side = static_cast<double>(piece.steer);
+    const double side = side_of(piece.steer);
     theta += side * piece.length;
     const auto [sine, cosine] = portable::sin_and_cos(theta);
     const Vec2 next{cosine, sine};
@@ -69,7 +70,7 @@ SteeringCurve::SteeringCurve(const Se2& a, const Se2& b, const SteeringWord& wor
   for (const SteeringPiece& piece : word.used()) {
     if (std::abs(piece.length) < nothing) continue;
     pieces_[count_] = piece;
-    joints_[count_ + 1] = driven(joints_[count_], piece.steer, radius_ * piece.length, radius_);
+    joints_[count_ + 1] = driven_from(joints_[count_], piece.steer, radius_ * piece.length, radius_);
     length_ += piece_length(count_++);
   }
   joints_[count_] = b;
@@ -81,7 +82,7 @@ Se2 SteeringCurve::at(double s) const noexcept {
   for (std::size_t i = 0; i < count_; ++i) {
     const double length = piece_length(i);
     if (s < length) {
-      Se2 pose = driven(joints_[i], pieces_[i].steer, std::copysign(s, pieces_[i].length), radius_);
+      Se2 pose = driven_from(joints_[i], pieces_[i].steer, std::copysign(s, pieces_[i].length), radius_);
       pose.theta = wrapped_angle(pose.theta);
       return pose;
     }
@@ -90,15 +91,34 @@ Se2 SteeringCurve::at(double s) const noexcept {
   return joints_[count_];
 }
 
+double SteeringCurve::driven() const {
+  double way = 0.0;
+  for (std::size_t i = 0; i < count_; ++i) way += is_on_spot(pieces_[i].steer) ? 0.0 : piece_length(i);
+  return way;
+}
+
+Se2 SteeringCurve::at_driven(double s) const noexcept {
+  double turned = 0.0;
+  double gone = 0.0;
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (is_on_spot(pieces_[i].steer)) {
+      turned += piece_length(i);
+    } else if ((gone += piece_length(i)) >= s) {
+      break;
+    }
+  }
+  return at(turned + s);
+}
+
 Box SteeringCurve::box() const noexcept {
   constexpr double quarter = 0.5 * std::numbers::pi;
   Box box;
   box.include(joints_[0].position());
   for (std::size_t i = 0; i < count_; ++i) {
     box.include(joints_[i + 1].position());
-    if (pieces_[i].steer == Steer::straight) continue;
+    if (pieces_[i].steer == Steer::straight || is_on_spot(pieces_[i].steer)) continue;
     // An arc is farthest along an axis where its heading is a multiple of a quarter turn.
-    const double side = static_cast<double>(pieces_[i].steer);
+    const double side = side_of(pieces_[i].steer);
     const double from = joints_[i].theta;
     const double to = from + side * pieces_[i].length;
     const auto [s, c] = portable::sin_and_cos(from);

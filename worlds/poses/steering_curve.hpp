@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A curve that a car drives: up to five pieces, each straight or an arc of the turning radius, forwards or backwards.
+// A curve that a car drives: up to five pieces, each straight or an arc of the turning radius, forwards or backwards,
+// or a turn on the spot, of which a radian counts as a turning radius of way.
 // A SteeringWord is the recipe, in units of the turning radius; a SteeringCurve puts it between two poses, with the
 // poses between the pieces computed once, so that a pose on the way costs one sine and one cosine. Which word is the
 // shortest: worlds/poses/dubins_curve.hpp, worlds/poses/reeds_shepp_curve.hpp.
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -15,12 +17,17 @@
 
 namespace warren {
 
-enum class Steer : std::int8_t { right = -1, straight = 0, left = 1 };
+enum class Steer : std::int8_t { right_on_spot = -2, right = -1, straight = 0, left = 1, left_on_spot = 2 };
+constexpr bool is_on_spot(Steer steer) { return steer == Steer::left_on_spot || steer == Steer::right_on_spot; }
+/// 1 of a turn to the left, -1 to the right.
+constexpr double side_of(Steer steer) {
+  return steer == Steer::straight ? 0.0 : static_cast<std::int8_t>(steer) > 0 ? 1.0 : -1.0;
+}
 
 /// One piece of constant steering.
 struct SteeringPiece {
   Steer steer = Steer::straight;
-  double length = 0.0;  ///< in turning radii: of an arc, its angle in radians; negative: backwards
+  double length = 0.0;  ///< in turning radii: of a turn, its angle in radians; negative: backwards
 };
 
 /// Pieces in the order in which they are driven.
@@ -35,6 +42,12 @@ struct SteeringWord {
     length += std::abs(piece);
   }
   std::span<const SteeringPiece> used() const { return {pieces.data(), count}; }
+  /// What the reference point goes, in turning radii.
+  double driven() const {
+    double way = length;
+    for (const SteeringPiece& piece : used()) way -= is_on_spot(piece.steer) ? std::abs(piece.length) : 0.0;
+    return way;
+  }
 };
 
 /// The pose of b seen from a, positions in turning radii.
@@ -62,6 +75,10 @@ class SteeringCurve {
   double turning_radius() const { return radius_; }
   std::size_t piece_count() const { return count_; }
   const SteeringPiece& piece(std::size_t i) const { return pieces_[i]; }
+  /// What the reference point goes, in world units.
+  double driven() const;
+  /// The pose where it has gone so far, 0 <= s <= driven().
+  Se2 at_driven(double s) const noexcept;
   /// Of a piece, in world units, >= 0.
   double piece_length(std::size_t i) const { return radius_ * std::abs(pieces_[i].length); }
   /// The pose at which piece i begins; i = piece_count(): the end.

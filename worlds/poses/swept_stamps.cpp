@@ -26,8 +26,6 @@ class ShapeSweep {
       : outline_(outline),
         reach_(reach),
         from_rad_(motions.heading_rad(shape.from)),
-        turn_rad_(warren::turn_between(from_rad_, motions.heading_rad(shape.to))),
-        on_spot_(shape.word.count == 0),
         curve_({0.0, 0.0, from_rad_}, {1.0 * shape.dx, 1.0 * shape.dy, motions.heading_rad(shape.to)}, shape.word,
                motions.turning_radius()) {
     for (const Vec2 p : outline) {
@@ -59,17 +57,14 @@ class ShapeSweep {
   double pace(Steer steer) const {
     if (steer == Steer::straight) return 1.0;
     const double rho = curve_.turning_radius();
+    if (is_on_spot(steer)) return radius_ / rho;
     const Vec2 center{0.0, steer == Steer::left ? rho : -rho};
     double most = 1.0;
     for (const Vec2 p : outline_) most = std::max(most, norm(p - center) / rho);
     return most;
   }
-  Se2 pose(double t) const {
-    if (on_spot_) return {0.0, 0.0, from_rad_ + t * turn_rad_};
-    return curve_.at(t * curve_.length());
-  }
+  Se2 pose(double t) const { return curve_.at(t * curve_.length()); }
   double travelled(double t) const {
-    if (on_spot_) return t * std::abs(turn_rad_) * radius_;
     double s = t * curve_.length();
     double travel = 0.0;
     for (std::size_t i = 0; i < curve_.piece_count() && s > 0.0; ++i) {
@@ -101,8 +96,6 @@ class ShapeSweep {
   std::span<const Vec2> outline_;
   double reach_;
   double from_rad_;
-  double turn_rad_;
-  bool on_spot_;
   SteeringCurve curve_;
   double radius_ = 0.0;
   Box box_;  // of the outline

@@ -60,8 +60,9 @@ def car(turning_radius, *, outline=None,
         Corners around the reference point.
     radius : float, optional
         Of a disc instead of an outline; one of the two is given.
-    steering : {'dubins', 'reeds-shepp'}, optional
-        Forwards only (the default), or backwards too.
+    steering : {'dubins', 'reeds-shepp', 'differential'}, optional
+        Forwards only (the default), backwards too, or straight both ways with turns
+        on the spot; then the turning radius says what a radian of turning counts.
 
     Examples
     --------

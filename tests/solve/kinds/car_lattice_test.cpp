@@ -61,7 +61,9 @@ struct Task {
 
   void make(const Execution& execution) {
     body.emplace(scene, CarOptions{.turning_radius = robot.turning_radius, .outline = robot.outline}, execution);
-    const auto shortest = robot.steering == SteeringKind::dubins ? DubinsCurve::shortest : ReedsSheppCurve::shortest;
+    const auto shortest = robot.steering == SteeringKind::dubins        ? DubinsCurve::shortest
+                          : robot.steering == SteeringKind::reeds_shepp ? ReedsSheppCurve::shortest
+                                                                        : DifferentialCurve::shortest;
     lattice.emplace(*body, scene, robot, shortest, start, std::span(&goal, 1), options, execution);
   }
 };
@@ -81,6 +83,10 @@ Task task(std::uint64_t seed, bool on_states) {
   task.robot = car(seed % 2 == 0 ? SteeringKind::dubins : SteeringKind::reeds_shepp, seed % 3 == 0 ? 2.0 : 3.0);
   task.options.headings = seed % 4 < 3 ? 16 : 32;
   if (seed % 2 == 1 && seed % 5 < 2) task.options.price = {.cusp = 2.0, .reverse = 1.5};
+  if (seed % 7 == 0) {
+    task.robot.steering = SteeringKind::differential;
+    task.options.turn_cost = seed % 14 == 0 ? 2.0 : 0.1;
+  }
   return task;
 }
 
@@ -118,8 +124,9 @@ class Oracle {
       const std::int64_t to_y = std::int64_t{y} + motion.dy;
       if (to_x < 0 || to_y < 0 || to_x >= lattice.width() || to_y >= lattice.height()) continue;
       if (!lattice.is_free({x, y}, motion)) continue;
-      const std::uint64_t change = gear != 0 && motion.gear != gear ? gear_change : 0;
-      into_[{static_cast<std::uint32_t>(to_x), static_cast<std::uint32_t>(to_y), motion.to, motion.gear}].push_back(
+      const int next = motion.gear == 0 ? gear : motion.gear;
+      const std::uint64_t change = gear != 0 && next != gear ? gear_change : 0;
+      into_[{static_cast<std::uint32_t>(to_x), static_cast<std::uint32_t>(to_y), motion.to, next}].push_back(
           {state, motion.cost + change});
     }
     if (!all_shots && !lattice.joins({x, y})) return;
@@ -266,7 +273,7 @@ TEST(CarLattice, PathsMeetNothingAndEndWhereTheyShall) {
       const double chord = distance(poses[i].position(), poses[i - 1].position());
       cost += std::abs(half) < 1e-9 ? chord : chord * half / std::sin(half);
     }
-    const bool has_prices = asked.options.price.cusp > 0.0;
+    const bool has_prices = asked.options.price.cusp > 0.0 || asked.options.turn_cost > 0.0;
     const double told = asked.lattice->unit() * static_cast<double>(solution.path.cost);
     EXPECT_LE(cost, told + 1e-4 * told);
     if (!has_prices) {
@@ -281,8 +288,11 @@ TEST(SweptStamps, HoldEveryCellThatADenseSweepTouches) {
     SCOPED_TRACE(seed);
     const RobotSpec robot = car(SteeringKind::reeds_shepp, 2.0 + 2.0 * uniform(seed, 0, 0), 1.0 + uniform(seed, 0, 1),
                                 0.4 + uniform(seed, 0, 2));
-    const MotionSet motions(
-        {.headings = seed % 2 == 0 ? 16U : 32U, .turning_radius = robot.turning_radius, .reverses = true}, execution);
+    const MotionSet motions({.headings = seed % 2 == 0 ? 16U : 32U,
+                             .turning_radius = robot.turning_radius,
+                             .reverses = true,
+                             .turns_on_spot = seed % 3 == 0},
+                            execution);
     const SweptStamps stamps(motions, robot.outline, 0.0, execution);
     const auto every = static_cast<std::uint32_t>(test::share(3, 12));
     for (std::uint32_t k = static_cast<std::uint32_t>(seed) % every; k < motions.headings(); k += every) {

@@ -21,9 +21,9 @@ namespace {
 
 using test::scene_of;
 
-constexpr double no_limit = std::numeric_limits<double>::infinity();
+constexpr double any_distance = std::numeric_limits<double>::infinity();
 
-SolveOptions planned_by(PlannerKind planner) {
+SolveOptions choosing_by(PlannerKind planner) {
   SolveOptions options;
   options.planner = planner;
   if (gets_better(planner)) options.anytime.iterations = 2;
@@ -31,10 +31,10 @@ SolveOptions planned_by(PlannerKind planner) {
   return options;
 }
 
-double paid(const Answer& answer) { return answer.cost.value_or(answer.length); }
+double cost_told(const Answer& answer) { return answer.cost.value_or(answer.length); }
 
 /// Two rooms of 6 by 6, which a wall parts, with a door where that is said.
-Scene two_rooms(std::string_view robot, bool has_door) {
+Scene rooms_with_wall(std::string_view robot, bool has_door) {
   std::string text = "bounds 0 0 12 6\npolygon 5.9 0 6.1 0 6.1 2.5 5.9 2.5\n";
   text += has_door ? "polygon 5.9 4.5 6.1 4.5 6.1 6 5.9 6\n" : "polygon 5.9 2.5 6.1 2.5 6.1 6 5.9 6\n";
   return scene_of(text + "robot " + std::string(robot) + "\n");
@@ -50,7 +50,7 @@ OccupancyMap rooms_of_cells() {
   return map;
 }
 
-constexpr std::string_view square = "polygon -0.3 -0.3 0.3 -0.3 0.3 0.3 -0.3 0.3";
+constexpr std::string_view square_words = "polygon -0.3 -0.3 0.3 -0.3 0.3 0.3 -0.3 0.3";
 constexpr std::string_view car_words = "car radius 0.3 turning 0.8";
 
 TEST(SolveToGoal, OfSeveralGoalsTheCheapestIsReached) {
@@ -59,13 +59,13 @@ TEST(SolveToGoal, OfSeveralGoalsTheCheapestIsReached) {
                                          {"point", PlannerKind::prm},
                                          {"point", PlannerKind::cells},
                                          {"disc 0.3", PlannerKind::voronoi},
-                                         {square, PlannerKind::rrt_connect},
-                                         {square, PlannerKind::grid},
-                                         {square, PlannerKind::anytime},
+                                         {square_words, PlannerKind::rrt_connect},
+                                         {square_words, PlannerKind::grid},
+                                         {square_words, PlannerKind::anytime},
                                          {car_words, PlannerKind::prm}}) {
       SCOPED_TRACE(std::string(robot) + ", " + std::string(name_of(planner)) + ", seed " + std::to_string(seed));
-      const Scene scene = two_rooms(robot, true);
-      const bool turns = robot == square || robot == car_words;
+      const Scene scene = rooms_with_wall(robot, true);
+      const bool turns = robot == square_words || robot == car_words;
       Question question;
       question.start = {1.0, 3.0};
       if (turns) question.start.push_back(0.0);
@@ -78,38 +78,38 @@ TEST(SolveToGoal, OfSeveralGoalsTheCheapestIsReached) {
       std::vector<Answer> alone;
       for (const std::vector<double>& goal : goals) {
         question.goal = goal;
-        alone.push_back(solve(scene, question, planned_by(planner)));
+        alone.push_back(solve(scene, question, choosing_by(planner)));
         const std::size_t last = alone.size() - 1;
-        if (alone[last].verified && (!best || paid(alone[last]) < paid(alone[*best]))) best = last;
+        if (alone[last].verified && (!best || cost_told(alone[last]) < cost_told(alone[*best]))) best = last;
       }
       question.goal = goals[0];
       question.rule.others.assign(goals.begin() + 1, goals.end());
-      const Answer answer = solve(scene, question, planned_by(planner));
+      const Answer answer = solve(scene, question, choosing_by(planner));
       ASSERT_EQ(answer.verified, best.has_value());
       if (!best) continue;
       EXPECT_EQ(answer.goal_index, *best);
-      EXPECT_EQ(paid(answer), paid(alone[*best]));
+      EXPECT_EQ(cost_told(answer), cost_told(alone[*best]));
       EXPECT_EQ(answer.problem.goal, goals[*best]);
       EXPECT_TRUE(verify(scene, answer).verified);
       if (!answer.lower_bound) continue;
       for (const Answer& one : alone) {
-        if (one.verified) EXPECT_LE(*answer.lower_bound, paid(one) * (1.0 + 1e-9));
+        if (one.verified) EXPECT_LE(*answer.lower_bound, cost_told(one) * (1.0 + 1e-9));
       }
     }
   }
 }
 
 TEST(SolveToGoal, WithoutAWayWhatIsLeftOpenIsNotCalledProved) {
-  const Scene scene = two_rooms("point", false);
+  const Scene scene = rooms_with_wall("point", false);
   Question question;
   question.start = {1.0, 3.0};
   question.goal = {6.0, 1.0};  // in the wall
   question.rule.others = {{6.0, 5.0}};
-  EXPECT_EQ(solve(scene, question, planned_by(PlannerKind::visibility)).outcome, Outcome::goal_blocked);
+  EXPECT_EQ(solve(scene, question, choosing_by(PlannerKind::visibility)).outcome, Outcome::goal_blocked);
   question.rule.others = {{9.0, 5.0}};
-  EXPECT_NE(solve(scene, question, planned_by(PlannerKind::visibility)).outcome, Outcome::goal_blocked);
+  EXPECT_NE(solve(scene, question, choosing_by(PlannerKind::visibility)).outcome, Outcome::goal_blocked);
   question.start = {6.0, 3.0};
-  EXPECT_EQ(solve(scene, question, planned_by(PlannerKind::visibility)).outcome, Outcome::start_blocked);
+  EXPECT_EQ(solve(scene, question, choosing_by(PlannerKind::visibility)).outcome, Outcome::start_blocked);
 }
 
 /// The nearest place to one in the other room is by the wall.
@@ -117,18 +117,18 @@ TEST(SolveToGoal, ATolerancesNearestPlaceIsByTheWall) {
   Scene on_map;
   on_map.source = "rooms";
   on_map.map = rooms_of_cells();
-  for (const std::string_view robot : {std::string_view("disc 0.3"), square, car_words}) {
+  for (const std::string_view robot : {std::string_view("disc 0.3"), square_words, car_words}) {
     for (const bool is_map : {false, true}) {
       if (is_map && robot == "disc 0.3") continue;  // goals_on_map_test.cpp
-      const Scene scene = is_map ? on_map : two_rooms(robot, false);
+      const Scene scene = is_map ? on_map : rooms_with_wall(robot, false);
       Question question;
       question.robot = robot_value("test", robot);
       question.start = {1.0, 3.0};
       if (robot != "disc 0.3") question.start.push_back(0.0);
       question.goal = {8.0, 3.0};
-      question.rule.tolerance = no_limit;
+      question.rule.tolerance = any_distance;
       SCOPED_TRACE(std::string(robot) + (is_map ? " on a map" : ""));
-      const Answer answer = solve(scene, question, planned_by(PlannerKind::grid));
+      const Answer answer = solve(scene, question, choosing_by(PlannerKind::grid));
       ASSERT_TRUE(answer.verified);
       ASSERT_TRUE(answer.goal_reached);
       const double nearest = 2.0 + (is_map ? 0.0 : 0.1) + 0.3;
@@ -139,7 +139,7 @@ TEST(SolveToGoal, ATolerancesNearestPlaceIsByTheWall) {
       EXPECT_LE(answer.goal_reached->distance_bound.value_or(0.0), answer.goal_reached->distance);
       EXPECT_TRUE(verify(scene, answer).verified);
       question.rule.tolerance = 2.2;
-      const Answer too_near = solve(scene, question, planned_by(PlannerKind::grid));
+      const Answer too_near = solve(scene, question, choosing_by(PlannerKind::grid));
       EXPECT_FALSE(too_near.verified);
       EXPECT_NE(too_near.outcome, Outcome::goal_blocked);
     }
@@ -149,13 +149,13 @@ TEST(SolveToGoal, ATolerancesNearestPlaceIsByTheWall) {
 TEST(SolveToGoal, AGoalThatIsReachedNeedsNoTolerance) {
   for (const PlannerKind planner : {PlannerKind::grid, PlannerKind::rrt_connect, PlannerKind::lazy_prm}) {
     SCOPED_TRACE(name_of(planner));
-    const Scene scene = two_rooms(square, true);
+    const Scene scene = rooms_with_wall(square_words, true);
     Question question;
     question.start = {1.0, 3.0, 0.0};
     question.goal = {10.0, 2.0, 1.0};
-    const Answer plain = solve(scene, question, planned_by(planner));
+    const Answer plain = solve(scene, question, choosing_by(planner));
     question.rule.tolerance = 1.0;
-    const Answer answer = solve(scene, question, planned_by(planner));
+    const Answer answer = solve(scene, question, choosing_by(planner));
     ASSERT_TRUE(plain.verified && answer.verified);
     EXPECT_EQ(answer.length, plain.length);
     ASSERT_TRUE(answer.goal_reached);
@@ -164,10 +164,10 @@ TEST(SolveToGoal, AGoalThatIsReachedNeedsNoTolerance) {
 }
 
 TEST(SolveToGoal, ARegionsPathEndsInItWithItsHeading) {
-  for (const std::string_view robot : {std::string_view("point"), square, car_words}) {
+  for (const std::string_view robot : {std::string_view("point"), square_words, car_words}) {
     for (const double off : {0.0, 0.5}) {
       SCOPED_TRACE(std::string(robot) + ", off by " + std::to_string(off));
-      const Scene scene = two_rooms(robot, true);
+      const Scene scene = rooms_with_wall(robot, true);
       const bool turns = robot != "point";
       Question question;
       question.start = {1.0, 3.0};
@@ -176,7 +176,7 @@ TEST(SolveToGoal, ARegionsPathEndsInItWithItsHeading) {
       if (turns) question.goal.push_back(0.3);
       question.rule.region = 1.0;
       if (turns) question.rule.heading_rad = off;
-      const Answer answer = solve(scene, question, planned_by(PlannerKind::grid));
+      const Answer answer = solve(scene, question, choosing_by(PlannerKind::grid));
       ASSERT_TRUE(answer.verified);
       EXPECT_LE(distance(answer.path.back(), Vec2{10.0, 3.0}), 1.0 + 1e-9);
       EXPECT_LT(answer.length, 9.0) << "straight on to the middle";
@@ -190,7 +190,7 @@ TEST(SolveToGoal, ARegionsPathEndsInItWithItsHeading) {
 }
 
 TEST(SolveToGoal, EqualForAnyNumberOfThreads) {
-  const Scene scene = two_rooms(car_words, false);
+  const Scene scene = rooms_with_wall(car_words, false);
   Question question;
   question.start = {1.0, 3.0, 0.0};
   question.goal = {8.0, 3.0, 1.0};
@@ -207,7 +207,7 @@ TEST(SolveToGoal, EqualForAnyNumberOfThreads) {
 }
 
 TEST(SolveToGoal, WhatStopsItClaimsNothing) {
-  const Scene scene = two_rooms(car_words, false);
+  const Scene scene = rooms_with_wall(car_words, false);
   Question question;
   question.start = {1.0, 3.0, 0.0};
   question.goal = {8.0, 3.0, 1.0};

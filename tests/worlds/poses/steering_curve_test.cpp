@@ -6,6 +6,7 @@
 #include "tests/seeds.hpp"
 #include "tests/worlds/poses/body_scenes.hpp"
 #include "tests/worlds/poses/steering_words.hpp"
+#include "worlds/poses/differential_curve.hpp"
 #include "worlds/poses/dubins_curve.hpp"
 #include "worlds/poses/reeds_shepp_curve.hpp"
 
@@ -309,6 +310,41 @@ TEST(SteeringCurve, ItsJointsAreLegsThatTellTheCurveWholly) {
     }
     EXPECT_NEAR(length, curve.length(), 1e-6);
   }
+}
+
+TEST(SteeringCurve, ADifferentialDriveTurnsGoesStraightAndTurns) {
+  for (std::uint64_t seed = 0; seed < many / 10; ++seed) {
+    SCOPED_TRACE(seed);
+    const Se2 a = random_pose(seed, 0);
+    const Se2 b = random_pose(seed, 3);
+    const double rho = 0.1 + uniform(seed, 6, 0);
+    const SteeringCurve curve(a, b, DifferentialCurve::shortest(a, b, rho), rho);
+    const double straight = distance(a.position(), b.position());
+    ASSERT_EQ(curve.piece_count(), 3U);
+    EXPECT_NEAR(curve.driven(), straight, 1e-9);
+    EXPECT_NEAR(curve.length(), straight + rho * (std::abs(curve.piece(0).length) + std::abs(curve.piece(2).length)),
+                1e-9);
+    double least = 1e9;
+    for (const double off : {0.0, pi}) {
+      const double towards = std::atan2(b.y - a.y, b.x - a.x) + off;
+      least = std::min(least, std::abs(std::remainder(towards - a.theta, 2 * pi)) +
+                                  std::abs(std::remainder(b.theta - towards, 2 * pi)));
+    }
+    EXPECT_NEAR(std::abs(curve.piece(0).length) + std::abs(curve.piece(2).length), least, 1e-9);
+    for (int i = 0; i <= 20; ++i) {
+      const Se2 on_way = curve.at_driven(straight * i / 20.0);
+      EXPECT_NEAR(distance(on_way.position(), a.position() + i / 20.0 * (b.position() - a.position())), 0.0, 1e-9);
+    }
+    const Se2 last = curve.at(curve.length() * (1.0 - 1e-13));
+    EXPECT_NEAR(distance(last.position(), b.position()), 0.0, 1e-9);
+    EXPECT_NEAR(std::remainder(last.theta - b.theta, 2 * pi), 0.0, 1e-9);
+    const SteeringCurve back(b, a, DifferentialCurve::shortest(b, a, rho), rho);
+    EXPECT_NEAR(back.length(), curve.length(), 1e-9);
+  }
+  const SteeringCurve spot({1, 2, 0}, {1, 2, pi / 2}, DifferentialCurve::shortest({1, 2, 0}, {1, 2, pi / 2}, 0.5), 0.5);
+  EXPECT_EQ(spot.driven(), 0.0);
+  EXPECT_NEAR(spot.length(), pi / 4, 1e-12);
+  EXPECT_EQ(spot.at(spot.length() / 2).position(), Vec2(1, 2));
 }
 
 }  // namespace
