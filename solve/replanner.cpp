@@ -3,25 +3,76 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/whole.hpp"
 #include "solve/kinds/kept_ways.hpp"
 #include "solve/solve.hpp"
 
 namespace warren {
 namespace {
 
+OccupancyMap& map_of(Scene& scene) {
+  if (!scene.map) throw UsageError("cells change in maps alone; this world has none");
+  return *scene.map;
+}
+
 void change(OccupancyMap& map, Cell c, bool blocked) {
   const bool was_unknown = !map.unknown.empty() && map.unknown.test(c.x, c.y);
   std::uint64_t& blocked_count = map.occupied > 0 ? map.occupied : map.between;
   --(was_unknown ? map.unknown_count : map.blocked.test(c.x, c.y) ? blocked_count : map.free);
   if (was_unknown) map.unknown.clear(c.x, c.y);
+  if (!map.water.empty()) map.water.clear(c.x, c.y);
   blocked ? map.blocked.set(c.x, c.y) : map.blocked.clear(c.x, c.y);
   ++(blocked ? map.occupied : map.free);
 }
 
+/// Of cells: whose middle may be in the box, the others being too far away for any rounding.
+Box cells_near(const OccupancyMap& map, const Box& box) {
+  Box all;
+  for (const double right : {0.0, 1.0}) {
+    for (const double up : {0.0, 1.0}) all.include(world_point(map, {right * map.width(), up * map.height()}));
+  }
+  double off = map.cell;
+  for (const Vec2 corner : {all.min, all.max}) off += 0x1p-45 * (std::abs(corner.x) + std::abs(corner.y));
+  all = all.grown(off);
+  Box near;
+  for (const double x : {std::max(box.min.x - off, all.min.x), std::min(box.max.x + off, all.max.x)}) {
+    for (const double y : {std::max(box.min.y - off, all.min.y), std::min(box.max.y + off, all.max.y)}) {
+      near.include(map_point(map, {x, y}));
+    }
+  }
+  return near;
+}
+
 }  // namespace
+
+void change_cells(Scene& scene, std::span<const CellChange> cells) {
+  OccupancyMap& map = map_of(scene);
+  for (const CellChange& to : cells) {
+    if (to.cell.x < map.width() && to.cell.y < map.height()) continue;
+    throw InputError("cells",
+                     fmt::format("must be in the map, which is {} wide and {} high", map.width(), map.height()),
+                     fmt::format("{}, {}", to.cell.x, to.cell.y));
+  }
+  for (const CellChange& to : cells) change(map, to.cell, to.blocked);
+}
+
+void change_cells(Scene& scene, const Box& box, bool blocked, const Execution& execution) {
+  OccupancyMap& map = map_of(scene);
+  const Box near = cells_near(map, box);
+  const auto bound = [](double at, std::uint32_t most) { return bounded_whole<std::uint32_t>(at, 0.0, most); };
+  std::uint64_t seen = 0;
+  for (std::uint32_t y = bound(near.min.y, map.height()); y < bound(std::ceil(near.max.y), map.height()); ++y) {
+    for (std::uint32_t x = bound(near.min.x, map.width()); x < bound(std::ceil(near.max.x), map.width()); ++x) {
+      if (seen++ % 4096 == 0) execution.check();
+      if (box.contains(cell_centre(map, {x, y}))) change(map, {x, y}, blocked);
+    }
+  }
+}
 
 Replanner::Replanner(Scene scene, Question question, SolveOptions options, Limits limits)
     : scene_(std::move(scene)),
@@ -31,33 +82,6 @@ Replanner::Replanner(Scene scene, Question question, SolveOptions options, Limit
       kept_(std::make_unique<KeptWays>()) {}
 
 Replanner::~Replanner() = default;
-
-OccupancyMap& Replanner::map() {
-  if (!scene_.map) throw UsageError("cells change in maps alone; this world has none");
-  return *scene_.map;
-}
-
-void Replanner::update(std::span<const CellChange> cells) {
-  OccupancyMap& of = map();
-  for (const CellChange& to : cells) {
-    if (to.cell.x < of.width() && to.cell.y < of.height()) continue;
-    throw InputError("cells", fmt::format("must be in the map, which is {} wide and {} high", of.width(), of.height()),
-                     fmt::format("{}, {}", to.cell.x, to.cell.y));
-  }
-  for (const CellChange& to : cells) change(of, to.cell, to.blocked);
-}
-
-void Replanner::update(const Box& box, bool blocked) {
-  OccupancyMap& of = map();
-  for (std::uint32_t y = 0; y < of.height(); ++y) {
-    for (std::uint32_t x = 0; x < of.width(); ++x) {
-      const Vec2 middle = cell_centre(of, {x, y});
-      const bool is_in =
-          middle.x >= box.min.x && middle.x <= box.max.x && middle.y >= box.min.y && middle.y <= box.max.y;
-      if (is_in) change(of, {x, y}, blocked);
-    }
-  }
-}
 
 Answer Replanner::solve(const std::vector<double>& start) {
   const LimitedExecution limited(limits_);

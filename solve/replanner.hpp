@@ -21,11 +21,18 @@ namespace warren {
 
 class KeptWays;  // solve/kinds/kept_ways.hpp
 
-/// A cell of a map that is blocked or free from now on; unknown it is no more.
+/// A cell of a map that is blocked or free from now on; unknown or water it is no more.
 struct CellChange {
   Cell cell;
   bool blocked = true;
 };
+
+/// Changes the cells of the scene's map, one after the other. Throws UsageError where the world is no map, InputError
+/// for a cell outside of it; then nothing has changed.
+void change_cells(Scene& scene, std::span<const CellChange> cells);
+/// All cells whose middle is in the box, world coordinates. Throws UsageError as above, Stopped, after which some have
+/// changed. Costs what the cells cost that are near the box.
+void change_cells(Scene& scene, const Box& box, bool blocked, const Execution& execution = {});
 
 /// Holds its world. One thread.
 class Replanner {
@@ -36,10 +43,10 @@ class Replanner {
   Replanner(const Replanner&) = delete;
   Replanner& operator=(const Replanner&) = delete;
 
-  /// Throws UsageError where the world is no map, InputError for a cell outside of it; then nothing has changed.
-  void update(std::span<const CellChange> cells);
-  /// All cells whose middle is in the box, world coordinates. Throws UsageError as above.
-  void update(const Box& box, bool blocked);
+  /// As change_cells().
+  void update(std::span<const CellChange> cells) { change_cells(scene_, cells); }
+  /// The same.
+  void update(const Box& box, bool blocked) { change_cells(scene_, box, blocked); }
   /// From there; empty: as the question says. Throws as solve() does.
   Answer solve(const std::vector<double>& start = {});
   /// The same with an execution that goes on.
@@ -48,7 +55,6 @@ class Replanner {
   const Scene& scene() const { return scene_; }
 
  private:
-  OccupancyMap& map();
   Scene scene_;
   Question question_;
   SolveOptions options_;

@@ -6,27 +6,13 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/differing_cells.hpp"
 #include "core/base/whole.hpp"
 
 namespace warren {
 namespace {
 
 constexpr std::size_t most_legs = 1 << 18;
-
-/// Calls visit(cell) where the bitmaps, of one size, differ; an empty one has no bits.
-template <class Visit>
-void for_each_other(const Bitmap& a, const Bitmap& b, const Visit& visit) {
-  const Bitmap& sized = a.empty() ? b : a;
-  for (std::uint32_t y = 0; y < sized.height(); ++y) {
-    for (std::size_t w = 0; w < sized.row(y).size(); ++w) {
-      const std::uint64_t in_a = a.empty() ? 0 : a.row(y)[w];
-      const std::uint64_t in_b = b.empty() ? 0 : b.row(y)[w];
-      for (std::uint64_t rest = in_a ^ in_b; rest != 0; rest &= rest - 1) {
-        visit(Cell{as_whole<std::uint32_t>(64 * w + as_whole<std::size_t>(std::countr_zero(rest))), y});
-      }
-    }
-  }
-}
 
 }  // namespace
 
@@ -62,8 +48,9 @@ bool KeptWays::update(const OccupancyMap& map, const WallProblem& problem, const
       make(map, problem, execution);
     } else {
       std::vector<Cell> changed;
-      for_each_other(map.blocked, map_.blocked, [&](Cell c) { changed.push_back(c); });
-      for_each_other(map.unknown, map_.unknown, [&](Cell c) { changed.push_back(c); });
+      const auto poll = [&] { execution.check(); };
+      for_each_differing(map.blocked, map_.blocked, poll, [&](Cell c) { changed.push_back(c); });
+      for_each_differing(map.unknown, map_.unknown, poll, [&](Cell c) { changed.push_back(c); });
       if (!changed.empty()) change(map, problem, changed, execution);
     }
   } catch (...) {
@@ -94,7 +81,8 @@ void KeptWays::change(const OccupancyMap& map, const WallProblem& problem, const
   Bitmap wide = prices_->distances() != nullptr
                     ? blocked_for_disc(map_.blocked, *prices_->distances(), problem.reach() / map_.cell, execution)
                     : blocked_for_disc(map_.blocked, problem.reach() / map_.cell, execution);
-  for_each_other(wide, wide_, [&](Cell c) { weights_->change(c, !wide.test(c.x, c.y)); });
+  const auto poll = [&] { execution.check(); };
+  for_each_differing(wide, wide_, poll, [&](Cell c) { weights_->change(c, !wide.test(c.x, c.y)); });
   wide_ = std::move(wide);
   // What a step weighs rests on the squares within the reach of its two cells; which steps there are on the cells
   // around, of which a square closes those within the body's reach.
@@ -112,7 +100,7 @@ void KeptWays::change(const OccupancyMap& map, const WallProblem& problem, const
     execution.check();
   }
   std::vector<Cell> touched;
-  for_each_other(near, {}, [&](Cell c) {
+  for_each_differing(near, {}, poll, [&](Cell c) {
     touched.push_back(c);
     weights_->forget(c);
   });

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -81,6 +83,43 @@ TEST(Replanner, ABoxOfCellsIsWhatItsCellsAre) {
   EXPECT_EQ(bytes_of(around), bytes_of(solve(replanner.scene(), question, options)));
   replanner.update({{0.0, 3.0}, {2.0, 6.0}}, false);
   EXPECT_EQ(*replanner.solve().cost, before);
+}
+
+/// The cells of a box are looked for near it alone.
+TEST(Replanner, ABoxHasTheCellsWhoseMiddleIsInItHoweverTheMapLies) {
+  SequentialRng rng(5);
+  const auto unit = [&] { return 0x1p-20 * static_cast<double>(rng.below(1U << 20U)); };
+  for (int round = 0; round < 200; ++round) {
+    Scene scene = scene_of(Bitmap(12, 7), 0.1 + unit(), {50.0 * unit() - 25.0, -3.0 * unit()});
+    OccupancyMap& map = *scene.map;
+    if (round % 2 == 0) map.yaw_rad = 6.0 * unit();
+    const Vec2 a = world_point(map, {16.0 * unit() - 2.0, 11.0 * unit() - 2.0});
+    const Vec2 b = world_point(map, {16.0 * unit() - 2.0, 11.0 * unit() - 2.0});
+    Box box{{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
+    constexpr double end = std::numeric_limits<double>::infinity();
+    if (round % 5 == 0) box.max.x = end;
+    if (round % 7 == 0) box.min.y = -end;
+    if (round % 11 == 0) box = {cell_centre(map, {3, 2}), cell_centre(map, {3, 2})};
+    Bitmap expected(12, 7);
+    for (std::uint32_t y = 0; y < 7; ++y) {
+      for (std::uint32_t x = 0; x < 12; ++x) {
+        if (box.contains(cell_centre(map, {x, y}))) expected.set(x, y);
+      }
+    }
+    change_cells(scene, box, true);
+    ASSERT_EQ(map.blocked, expected) << "round " << round;
+    ASSERT_EQ(map.occupied, expected.count());
+  }
+}
+
+TEST(Replanner, WaterThatIsBlockedLetsNobodyThrough) {
+  Scene scene = scene_of(Bitmap(9, 3, true));
+  scene.map->water = scene.map->blocked;
+  Question question{.start = {0.5, 1.5}, .goal = {8.5, 1.5}};
+  Replanner replanner(scene, question, {.planner = PlannerKind::grid});
+  EXPECT_EQ(replanner.solve().outcome, Outcome::solved);
+  replanner.update({{4.0, 0.0}, {5.0, 3.0}}, true);
+  EXPECT_NE(replanner.solve().outcome, Outcome::solved);
 }
 
 TEST(Replanner, WhatCantChangeIsRefused) {
