@@ -39,8 +39,9 @@ constexpr OptionSpec serve_specs[] = {
      .may_repeat = true},
     {"--budget", "TIME", "most time for each request (default: 10s)"},
     {"--writable", "",
-     "let the page draw walls and polygons into the world, for all who look at it; no file is written"},
-    {"--token-file", "FILE", "with --writable: only who knows this file's first line (16 to 256 letters) may draw"},
+     "let the world be changed for all who look at it: walls and polygons by the page, cells of a map by programs; no "
+     "file is written"},
+    {"--token-file", "FILE", "with --writable: only who knows this file's first line (16 to 256 letters) may change it"},
     roadmap_world_option,
 };
 

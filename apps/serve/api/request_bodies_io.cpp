@@ -12,6 +12,7 @@
 
 #include "apps/serve/graphs/json_body_io.hpp"
 #include "apps/serve/http/http_message.hpp"
+#include "core/base/differing_cells.hpp"
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
 #include "core/plane/polygon.hpp"
@@ -65,6 +66,26 @@ DrawnShapes shapes_of(const OrderedJson& json, const std::string& where) {
     }
   }
   return shapes;
+}
+
+std::vector<Box> boxes_of(const OrderedJson& json, const std::string& where) {
+  std::vector<Box> boxes;
+  for_each_in(json, where, most_changed_shapes, [&](const OrderedJson& item, const std::string& place) {
+    const auto [ax, ay, bx, by] = numbers_of<4>(item, place);
+    boxes.push_back(box_of(Segment{{ax, ay}, {bx, by}}));
+  });
+  return boxes;
+}
+
+std::vector<CellChange> cells_of(const OrderedJson& json) {
+  constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+  std::vector<CellChange> cells;
+  for_each_in(json, "cells", most_changed_shapes, [&](const OrderedJson& item, const std::string& place) {
+    if (!item.is_array() || item.size() != 3 || !item[2].is_boolean()) refuse_json(place, "column, row, true or false");
+    const auto number = [&](std::size_t i) { return static_cast<std::uint32_t>(whole_number(item[i], place, most)); };
+    cells.push_back({{number(0), number(1)}, item[2].get<bool>()});
+  });
+  return cells;
 }
 
 // Polygons are few beside walls and are looked through; of walls, those to remove are sorted, so a change costs
@@ -175,17 +196,64 @@ class Removal {
 };
 
 void check(const Scene& scene, const SceneChange& change) {
-  if (scene.map) {
+  if (scene.map && change.of_shapes() > 0) {
     throw UsageError(
         "this world is the cells of a map, which an image editor draws; walls and polygons are for scenes");
   }
-  if (change.add.size() + change.remove.size() + change.erase.size() > most_changed_shapes) {
+  if (!scene.map && change.of_cells() > 0) {
+    throw UsageError(
+        "block, free and cells change the cells of a map, and this world is none; add, remove and erase "
+        "change its walls and polygons");
+  }
+  if (change.of_shapes() + change.of_cells() > most_changed_shapes) {
     throw HttpError(413, "change_too_large", "body",
-                    fmt::format("a change has at most {} walls and polygons", grouped(most_changed_shapes)));
+                    fmt::format("a change has at most {} {}", grouped(most_changed_shapes),
+                                scene.map ? "boxes and cells" : "walls and polygons"));
   }
   for (const Segment& wall : change.add.walls) {
     if (wall.a == wall.b) throw InputError("add.walls", "a wall has two different ends");
   }
+}
+
+ChangedScene changed_map(const Scene& scene, const SceneChange& change, const Execution& execution) {
+  const OccupancyMap& before = *scene.map;
+  execution.reserve(before.blocked.bytes() + before.unknown.bytes() + before.water.bytes());
+  ChangedScene result{.scene = scene, .made = {}};
+  const OccupancyMap& now = *result.scene.map;
+  CellCounts& counts = result.cells.emplace();
+  for (const Box& box : change.block) change_cells(result.scene, box, true, execution);
+  for (const Box& box : change.free) change_cells(result.scene, box, false, execution);
+  change_cells(result.scene, change.cells);
+  const auto poll = [&] { execution.check(); };
+  for_each_differing(before.blocked, now.blocked, poll, [&](Cell c) {
+    const bool is_blocked = now.blocked.test(c.x, c.y);
+    ++(is_blocked ? counts.blocked : counts.freed);
+    if (result.made.cells.size() < most_changed_shapes) result.made.cells.push_back({c, is_blocked});
+  });
+  for (const auto lost : {&OccupancyMap::unknown, &OccupancyMap::water})
+    for_each_differing(before.*lost, now.*lost, poll, [&](Cell) { ++counts.known; });
+  return result;
+}
+
+std::string shapes_json(const DrawnShapes& shapes) {
+  std::string walls = "[";
+  for (const Segment& wall : shapes.walls) {
+    if (walls.size() > 1) walls += ',';
+    append_json_list(walls, std::array{wall.a.x, wall.a.y, wall.b.x, wall.b.y});
+  }
+  JsonObject json;
+  json.add_json("walls", walls + "]");
+  json.add_json("polygons", json_chains(shapes.polygons, Execution()));
+  return json.closed();
+}
+
+std::string cells_json(const std::vector<CellChange>& cells, bool blocked) {
+  std::string text = "[";
+  for (const CellChange& to : cells) {
+    if (to.blocked != blocked) continue;
+    fmt::format_to(std::back_inserter(text), "{}[{},{}]", text.size() > 1 ? "," : "", to.cell.x, to.cell.y);
+  }
+  return text + "]";
 }
 
 [[noreturn]] void refuse_word(std::string_view where, std::string_view expected) {
@@ -355,8 +423,12 @@ SceneChange read_scene_change(std::string_view text, const Execution& execution)
         if (reach < 0.0) refuse_json(place, "x, y and a reach of 0 or more");
         change.erase.push_back({{x, y}, reach});
       });
+    } else if (key == "block" || key == "free") {
+      (key == "block" ? change.block : change.free) = boxes_of(value, key);
+    } else if (key == "cells") {
+      change.cells = cells_of(value);
     } else {
-      refuse_json("body", "the keys add, remove, erase");
+      refuse_json("body", "the keys add, remove, erase, or of a map block, free, cells");
     }
   }
   return change;
@@ -376,21 +448,27 @@ std::string json_chains(const std::vector<std::vector<Vec2>>& chains, const Exec
   return text + "]";
 }
 
-std::string shapes_json(const DrawnShapes& shapes) {
-  std::string walls = "[";
-  for (const Segment& wall : shapes.walls) {
-    if (walls.size() > 1) walls += ',';
-    append_json_list(walls, std::array{wall.a.x, wall.a.y, wall.b.x, wall.b.y});
+void tell_change(JsonObject& json, const ChangedScene& change) {
+  if (!change.cells) {
+    json.add_json("added", shapes_json(change.made.add));
+    json.add_json("removed", shapes_json(change.made.remove));
+    return;
   }
-  JsonObject json;
-  json.add_json("walls", walls + "]");
-  json.add_json("polygons", json_chains(shapes.polygons, Execution()));
-  return json.closed();
+  const CellCounts& counts = *change.cells;
+  const bool is_listed = counts.blocked + counts.freed <= most_changed_shapes;
+  json.add("blocked_cells", counts.blocked);
+  json.add("freed_cells", counts.freed);
+  json.add("known_cells", counts.known);
+  json.add("can_be_taken_back", is_listed && counts.known == 0);
+  if (!is_listed) return;
+  json.add_json("blocked", cells_json(change.made.cells, true));
+  json.add_json("freed", cells_json(change.made.cells, false));
 }
 
 ChangedScene changed(const Scene& scene, const SceneChange& change, const std::optional<MazeHint>& maze,
                      const Execution& execution) {
   check(scene, change);
+  if (scene.map) return changed_map(scene, change, execution);
   Removal removal(scene, change, execution);
   std::vector<Segment> walls = removal.walls_left();
   walls.insert(walls.end(), change.add.walls.begin(), change.add.walls.end());

@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "apps/serve/api/served_world.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstdint>
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "scenes/text/price_text.hpp"
 #include "solve/explain_answer.hpp"
 #include "solve/kept/kept_cells.hpp"
 #include "solve/kept/roadmap.hpp"
+#include "solve/kinds/kept_ways.hpp"
+#include "solve/kinds/kind_of_problem.hpp"
 #include "solve/question/question.hpp"
 #include "solve/solve.hpp"
 #include "verify/judges/effective_scene.hpp"
@@ -40,7 +47,42 @@ std::unique_ptr<WorldTiles> tiles_of_lattice(const LatticePassages& lattice, con
                     execution);
 }
 
+/// Is it answered over the priced cells of a map, and are these few enough to be kept?
+bool leaves_ways(const Scene& scene, const Question& asked, const SolveOptions& options) {
+  constexpr std::uint64_t most_cells = std::uint64_t{1} << 25U;  // of some 30 bytes each
+  return scene.map && scene.map->blocked.size() <= most_cells && !prices_of(scene, asked).empty() &&
+         choose_solver(options, scene, asked).planner == PlannerKind::grid;
+}
+
+/// own: prices beside the service's.
+Answer solve_with_ways(const Scene& scene, const Question& asked, const Prices& own, const SolveOptions& options,
+                       const Execution& execution, ByProducts* keep, LatestWays& latest) {
+  std::string name =
+      fmt::format("{} {} {}", robot_text(*asked.robot), *asked.clearance, fmt::join(price_lines(own), "\n"));
+  std::unique_ptr<KeptWays> ways = latest.take(name);
+  Answer answer = solve_explained(scene, asked, options, execution, keep, nullptr, ways.get());
+  if (!answer.stop_reason) latest.put(std::move(name), std::move(ways));
+  return answer;
+}
+
 }  // namespace
+
+LatestWays::LatestWays() = default;
+LatestWays::~LatestWays() = default;
+
+std::unique_ptr<KeptWays> LatestWays::take(const std::string& question) {
+  std::unique_ptr<KeptWays> latest;  // of another question: ends before there are new ones
+  const bool is_same = one_([&] { return latest.swap(ways_), question == question_; });
+  if (!is_same) latest.reset();
+  return latest ? std::move(latest) : std::make_unique<KeptWays>();
+}
+
+void LatestWays::put(std::string question, std::unique_ptr<KeptWays> ways) {
+  one_([&] {
+    question_.swap(question);
+    ways_.swap(ways);  // those before end after the lock
+  });
+}
 
 ServedWorld::ServedWorld(Scene scene, const Question& body, const Execution& execution) : body_(body) {
   body.validate();
@@ -148,7 +190,7 @@ void ServedWorld::prepare(const Execution& execution) const {
 }
 
 Answer ServedWorld::ask(const ServedQuestion& question, const Execution& execution,
-                        std::function<void(const Answer&)> beside_judge, ByProducts* watched) const {
+                        std::function<void(const Answer&)> beside_judge, ByProducts* watched, LatestWays* ways) const {
   ByProducts own;
   ByProducts& made = watched != nullptr ? *watched : own;
   ByProducts* const keep = question.explains ? &made : watched;
@@ -178,7 +220,9 @@ Answer ServedWorld::ask(const ServedQuestion& question, const Execution& executi
   asked.start = question.start;
   asked.goal = question.goal;
   const SolveOptions options{.planner = question.planner, .optimise = question.optimise};
-  Answer answer = solve_explained(scene, asked, options, execution, keep);
+  const bool leaves = ways != nullptr && leaves_ways(scene, asked, options);
+  Answer answer = leaves ? solve_with_ways(scene, asked, question.prices, options, execution, keep, *ways)
+                         : solve_explained(scene, asked, options, execution, keep);
   const auto explain = [&] {
     make_by_products(scene, asked, options, execution, made);
     explain_answer(scene, {options}, answer, made, execution);

@@ -24,6 +24,10 @@
 #include "solve/kept/roadmap_query.hpp"
 #include "solve/question/solve_options.hpp"
 
+namespace warren {
+class KeptWays;  // solve/kinds/kept_ways.hpp
+}
+
 namespace warren::serve {
 
 /// What one request asks.
@@ -39,6 +43,23 @@ struct ServedQuestion {
   GoalRule rule = {};                       ///< what reaching the goal means
   RouteRule route = {};                     ///< which of the ways
   bool explains = false;  ///< say what would help, too; of the lattices of large mazes nothing is said
+};
+
+/// What the latest question over the priced cells of a map has left for the next one with its body and its prices,
+/// whatever has changed in the map meanwhile (solve/kinds/kept_ways.hpp). Any number of threads may call.
+class LatestWays {
+ public:
+  LatestWays();
+  ~LatestWays();
+  /// For the caller alone, until they are put back; new ones where the latest are of another question or not there.
+  std::unique_ptr<KeptWays> take(const std::string& question);
+  /// Only whole ones: after a stop they are dropped.
+  void put(std::string question, std::unique_ptr<KeptWays> ways);
+
+ private:
+  OneAtATime one_;
+  std::string question_;
+  std::unique_ptr<KeptWays> ways_;  // nullptr: none, or taken
 };
 
 /// Any number of threads may ask.
@@ -97,9 +118,11 @@ class ServedWorld {
   /// Makes what first questions would wait for. Throws Stopped, InputError.
   void prepare(const Execution& execution) const;
   /// A verified answer, or why there is none; a blocked end is explained. beside_judge: as QuestionScratch has it.
-  /// keep: as solve() has it, of questions that are solved by themselves. Throws UsageError, InputError, Stopped.
+  /// keep: as solve() has it, of questions that are solved by themselves. ways: of this world and those it followed.
+  /// Throws UsageError, InputError, Stopped.
   Answer ask(const ServedQuestion& question, const Execution& execution,
-             std::function<void(const Answer&)> beside_judge = {}, ByProducts* keep = nullptr) const;
+             std::function<void(const Answer&)> beside_judge = {}, ByProducts* keep = nullptr,
+             LatestWays* ways = nullptr) const;
 
  private:
   void describe(const Execution& execution);

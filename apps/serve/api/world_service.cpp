@@ -148,7 +148,9 @@ std::string description_json(const ServedWorld& world, const Question& body, con
   json.add_json("planners", planners_json(world, body, asks_roadmap));
   json.add("budget_ms", 1e3 * limits.budget_s);
   json.add("changed", world.is_changed());
-  json.add("writable", limits.writable && !outline.map && world.why_fixed().empty());
+  const bool is_writable = limits.writable && world.why_fixed().empty();
+  json.add("writable", is_writable && !outline.map);
+  json.add("cells_writable", is_writable && outline.map.has_value());
   json.add("wants_token", limits.wants_token);
   std::string options;
   for (const std::string& word : limits.options) options += (options.empty() ? "" : ",") + json_string(word);
@@ -310,8 +312,9 @@ HttpResponse PathService::sweep(const KeptPath& kept, const HttpRequest& request
   return {.body = json.closed() + "\n"};
 }
 
-WorldService::WorldService(const ServedWorld& world, const ServiceLimits& limits)
+WorldService::WorldService(const ServedWorld& world, const ServiceLimits& limits, LatestWays* kept)
     : world_(world),
+      kept_(kept),
       limits_(limits),
       layers_(world),
       world_json_(description_json(world, world.body_asked({}, {}), layers_, limits, Execution())),
@@ -454,7 +457,7 @@ HttpResponse WorldService::query(const HttpRequest& request, const SignalFlag& g
   if (is_seen) execution.on_improvement = &tell;
   Answer answer = world_.ask(
       body.question, execution, [&](const Answer& found) { name = path_hash(found, execution); },
-      is_seen ? &made : nullptr);
+      is_seen ? &made : nullptr, kept_);
   if (answer.outcome == Outcome::stopped) throw Stopped(answer.stop_reason.value_or(StopReason::time));
   const Deadline unhurried(std::numeric_limits<double>::infinity(), limits_.memory_bytes, &gone);
   if (answer.stop_reason) execution.deadline = &unhurried;  // what gets better has used the time up
@@ -533,7 +536,9 @@ HttpResponse WorldService::metrics(const HttpFigures& figures) const {
 }
 
 WritableService::WritableService(std::unique_ptr<ServedWorld> world, const ServiceLimits& limits, std::string token)
-    : limits_(limits), token_(std::move(token)), current_(std::make_unique<Version>(std::move(world), limits)) {}
+    : limits_(limits),
+      token_(std::move(token)),
+      current_(std::make_unique<Version>(std::move(world), limits, limits.writable ? &kept_ : nullptr)) {}
 
 std::size_t WritableService::most_body(const HttpRequest& head) const {
   if (!limits_.writable || !is_update(head)) return current_.now()->service.most_body(head);
@@ -575,13 +580,12 @@ HttpResponse WritableService::update(const HttpRequest& request, const Execution
   const Scene& scene = before->world->whole(execution);
   if (scene.maze) maze_ = scene.maze;
   ChangedScene now = changed(scene, wanted, maze_, execution);
-  auto next = std::make_unique<Version>(before->world->changed(std::move(now.scene), execution), limits_);
+  auto next = std::make_unique<Version>(before->world->changed(std::move(now.scene), execution), limits_, &kept_);
   JsonObject json;
   json.add("schema", "warren.change/1");
   json.add("before", std::string_view(before->world->hash()));
   json.add("hash", std::string_view(next->world->hash()));
-  json.add_json("added", shapes_json(now.made.add));
-  json.add_json("removed", shapes_json(now.made.remove));
+  tell_change(json, now);
   execution.check();
   change.replace(std::move(next));
   return {.body = json.closed() + "\n"};

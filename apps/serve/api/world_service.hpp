@@ -72,8 +72,8 @@ class PathService {
 
 class WorldService : public HttpService {
  public:
-  /// Refers to the world.
-  WorldService(const ServedWorld& world, const ServiceLimits& limits);
+  /// Refers to the world, and to what is kept for it and its followers.
+  WorldService(const ServedWorld& world, const ServiceLimits& limits, LatestWays* kept = nullptr);
 
   std::size_t most_body(const HttpRequest& head) const override;
   std::optional<HttpResponse> at_once(const HttpRequest& request, const HttpFigures& figures) override;
@@ -96,6 +96,7 @@ class WorldService : public HttpService {
   HttpResponse tile_response(const Route& route, std::string bytes) const;
 
   const ServedWorld& world_;
+  LatestWays* const kept_;
   const ServiceLimits limits_;
   WorldLayers layers_;
   const std::string world_json_;
@@ -120,8 +121,8 @@ class WritableService : public HttpService {
 
  private:
   struct Version {
-    Version(std::unique_ptr<ServedWorld> its_world, const ServiceLimits& limits)
-        : world(std::move(its_world)), service(*world, limits) {}
+    Version(std::unique_ptr<ServedWorld> its_world, const ServiceLimits& limits, LatestWays* kept)
+        : world(std::move(its_world)), service(*world, limits, kept) {}
     std::unique_ptr<ServedWorld> world;
     WorldService service;
   };
@@ -131,6 +132,7 @@ class WritableService : public HttpService {
   const ServiceLimits limits_;
   const std::string token_;
   std::optional<MazeHint> maze_;  // what the walls were of; of whoever changes the world
+  LatestWays kept_;
   mutable CurrentValue<Version> current_;
 };
 

@@ -196,8 +196,9 @@ function showQuestion() {
 
 // What people take along.
 const quoted = word => /^[-\w.,:=/+@%]+$/.test(word) ? word : "'" + word.replaceAll("'", "'\\''") + "'";
+const isDrawn = () => world.changed && !world.cells_writable;  // cells of a map are no scene
 function commandText() {
-  const words = ["warren", world.opened_as === "roadmap" && !world.changed ? "query" : "solve", world.changed ? "world.scene" : world.source];
+  const words = ["warren", world.opened_as === "roadmap" && !isDrawn() ? "query" : "solve", isDrawn() ? "world.scene" : world.source];
   if (world.opened_as === "world") {  // of a body that was refused: as it was asked
     const robot = world.robot || question.robot || byId("robot").placeholder;
     const clearance = world.robot ? String(world.clearance) : question.clearance || byId("clearance-asked").placeholder;
@@ -288,7 +289,7 @@ function wireControls() {
   byId("clear").addEventListener("click", () => { question.start = question.goal = question.startHeading = question.goalHeading = null; showQuestion(); });
   byId("copy-command").addEventListener("click", () => {
     copy(commandText());
-    if (world.changed) say("The command asks the scene that is drawn; save it as world.scene.");
+    if (world.changed) say(isDrawn() ? "The command asks the scene that is drawn; save it as world.scene." : "The command asks the file, without the cells that were changed.");
   });
   byId("copy-link").addEventListener("click", () => copy(location.origin + location.pathname + linkText()));
   byId("save-geojson").addEventListener("click", () => savePath(saveGeojson));

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <cstdint>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -14,6 +16,7 @@
 
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/text/human_units.hpp"
+#include "solve/replanner.hpp"
 #include "solve/solve.hpp"
 #include "tests/apps/serve/town.hpp"
 
@@ -21,6 +24,26 @@ namespace warren::serve {
 namespace {
 
 using Json = nlohmann::json;
+
+/// 30 x 20 cells of half a metre from (1, 2) on.
+Scene hall(bool with_unknown = false) {
+  Scene scene;
+  scene.source = "hall";
+  OccupancyMap& map = scene.map.emplace();
+  map.blocked = Bitmap(30, 20);
+  map.cell = 0.5;
+  map.origin = {1.0, 2.0};
+  map.free = map.blocked.size();
+  scene.start = {2.1, 7.1};
+  scene.goal = {14.9, 7.4};
+  if (!with_unknown) return scene;
+  map.unknown = Bitmap(30, 20);
+  map.unknown.set(3, 3);
+  map.blocked.set(3, 3);
+  --map.free;
+  ++map.unknown_count;
+  return scene;
+}
 
 /// What a client sees of a world that may be changed.
 class Writable {
@@ -47,7 +70,7 @@ class Writable {
     return asked({.method = "POST", .path = path, .authorization = authorization, .body = body.dump()});
   }
   HttpResponse update(const Json& body) { return post("/api/update", body); }
-  Json query() { return Json::parse(post("/api/query", Json::object()).body); }
+  Json query(const Json& question = Json::object()) { return Json::parse(post("/api/query", question).body); }
   std::string scene() { return asked({.path = "/api/scene"}).body; }
   std::string hash() { return Json::parse(asked({.path = "/api/world"}).body).at("hash"); }
 
@@ -235,6 +258,167 @@ TEST(WritableService, WhoAsksMeanwhileIsAnsweredInOneWorldOrTheOther) {
   for (int i = 0; i < 20; ++i) {
     served.update({{i % 2 == 0 ? "remove" : "add", wall_across.at("add")}});
   }
+  done = true;
+  for (std::thread& client : clients) client.join();
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(WritableService, ABoxOfAMapsCellsIsGoneAroundAndTakenBack) {
+  Writable served(hall());
+  const Json about = Json::parse(served.asked({.path = "/api/world"}).body);
+  EXPECT_EQ(about.at("writable"), false);
+  EXPECT_EQ(about.at("cells_writable"), true);
+  const Json before = served.query();
+  const HttpResponse said = served.update({{"block", {{8.5, 2.1, 8.0, 9.8}}}});  // corners in any order
+  ASSERT_EQ(said.status, 200U) << said.body;
+  const Json change = Json::parse(said.body);
+  EXPECT_EQ(change.at("before"), before.at("world").at("hash"));
+  EXPECT_EQ(change.at("hash"), served.hash());
+  EXPECT_EQ(change.at("blocked_cells"), 16);
+  EXPECT_EQ(change.at("blocked").front(), Json({14, 0}));
+  EXPECT_EQ(change.at("blocked").back(), Json({14, 15}));
+  EXPECT_EQ(change.at("freed"), Json::array());
+  EXPECT_EQ(change.at("can_be_taken_back"), true);
+  const Json around = served.query();
+  EXPECT_EQ(around.at("status"), "solved");
+  EXPECT_GT(around.at("length").get<double>(), before.at("length").get<double>() + 1.0);
+  EXPECT_EQ(around.at("world").at("hash"), served.hash());
+  ASSERT_EQ(served.update({{"cells", {{14, 16, true}, {14, 17, true}, {14, 18, true}, {14, 19, true}}}}).status, 200U);
+  EXPECT_EQ(served.query().at("status"), "infeasible");
+  const Json freed = Json::parse(served.update({{"free", {{8.2, 2.0, 8.3, 12.0}}}}).body);
+  EXPECT_EQ(freed.at("freed_cells"), 20);
+  EXPECT_EQ(served.hash(), before.at("world").at("hash"));
+  EXPECT_EQ(served.query().at("path"), before.at("path"));
+}
+
+TEST(WritableService, CellsOfAMapChangeLastAndAreTakenBackByTheirLists) {
+  Writable served(hall());
+  const std::string before = served.hash();
+  const Json change = {
+      {"block", {{1, 2, 3, 3}}}, {"free", {{1, 2, 1.9, 3}}}, {"cells", {{0, 0, true}, {3, 1, false}, {9, 9, true}}}};
+  const Json said = Json::parse(served.update(change).body);
+  EXPECT_EQ(said.at("blocked"), Json::parse("[[0,0],[2,0],[3,0],[2,1],[9,9]]"));
+  Json back = Json::array();
+  for (const Json& cell : said.at("blocked")) back.push_back({cell[0], cell[1], false});
+  ASSERT_EQ(served.update({{"cells", back}}).status, 200U);
+  EXPECT_EQ(served.hash(), before);
+}
+
+TEST(WritableService, WhatNoListTakesBackSaysSo) {
+  Writable unknown(hall(true));
+  const Json known = Json::parse(unknown.update({{"free", {{2.5, 3.5, 3, 4}}}}).body);
+  EXPECT_EQ(known.at("freed"), Json::parse("[[3,3]]"));
+  EXPECT_EQ(known.at("known_cells"), 1);
+  EXPECT_EQ(known.at("can_be_taken_back"), false);
+  Scene large = hall();
+  large.map->blocked = Bitmap(150, 70);
+  large.map->free = large.map->blocked.size();
+  Writable served(std::move(large));
+  const Json many = Json::parse(served.update({{"block", {{0, 0, 1000, 1000}}}}).body);
+  EXPECT_EQ(many.at("blocked_cells"), 10'500);
+  EXPECT_EQ(many.at("can_be_taken_back"), false);
+  EXPECT_FALSE(many.contains("blocked") || many.contains("freed")) << many;
+}
+
+TEST(WritableService, WhatIsNoChangeOfThisWorldIsRefusedByName) {
+  Writable map(hall());
+  const std::string before = map.hash();
+  Json many = Json::array();
+  for (int i = 0; i < 10'000; ++i) many.push_back({0, 0, true});
+  struct Case {
+    Json body;
+    unsigned status;
+    std::string said;
+  };
+  for (const Case& c : {
+           Case{wall_across, 400, "walls and polygons are for scenes"},
+           Case{{{"erase", {{3, 3, 1}}}, {"free", {{1, 1, 2, 2}}}}, 400, "walls and polygons are for scenes"},
+           Case{{{"cells", {{1, 1, true}, {30, 4, true}}}}, 400, "30 wide and 20 high (found: 30, 4)"},
+           Case{{{"cells", {{1, -1, true}}}}, 400, "cells[0]: expected a whole number"},
+           Case{{{"cells", {{1, 1, 1}}}}, 400, "cells[0]: expected column, row, true or false"},
+           Case{{{"cells", {{1, 1, 1, true}}}}, 400, "cells[0]: expected column, row, true or false"},
+           Case{{{"block", {{1, 2, 3}}}}, 400, "block[0]: expected 4 numbers"},
+           Case{{{"cells", many}, {"free", {{1, 2, 3, 3}}}}, 413, "at most " + grouped(10'000) + " boxes and cells"},
+       }) {
+    SCOPED_TRACE(c.said);
+    const HttpResponse said = map.update(c.body);
+    EXPECT_EQ(said.status, c.status) << said.body;
+    EXPECT_NE(said.body.find(c.said), std::string::npos) << said.body;
+  }
+  EXPECT_EQ(map.hash(), before);
+  Writable walls;
+  for (const Json& body : {Json{{"block", {{1, 2, 3, 3}}}}, Json{{"cells", {{1, 1, true}}}}}) {
+    const HttpResponse said = walls.update(body);
+    EXPECT_EQ(said.status, 400U);
+    EXPECT_NE(said.body.find("block, free and cells change the cells of a map"), std::string::npos) << said.body;
+  }
+}
+
+TEST(WritableService, ARoadmapOfAMapIsUpdatedAsUpdateDoes) {
+  const SolveOptions options{.planner = PlannerKind::prm, .roadmap = {.samples = 200}};
+  Writable served(build(hall(), {}, options));
+  ASSERT_EQ(served.update({{"block", {{8.0, 2.0, 8.5, 9.8}}}}).status, 200U);
+  Scene now = hall();
+  change_cells(now, {{8.0, 2.0}, {8.5, 9.8}}, true);
+  const Roadmap expected = build(std::move(now), {}, options);
+  EXPECT_EQ(served.hash(), expected.world_hash);
+  EXPECT_EQ(served.query().at("length").get<double>(),
+            RoadmapQuery(expected, Execution{}, Questions::one).ask({}, {}).length);
+}
+
+/// All but the account of the work.
+Json told_by(Json answer) {
+  for (const char* key : {"stages_s", "solve_s", "peak_memory_bytes", "costs"}) answer.erase(key);
+  answer.at("counters").erase("expanded");
+  return answer;
+}
+
+const Json priced = {{"prices", {"clearance-price 3 1.5"}}, {"robot", "disc 0.2"}};
+
+TEST(WritableService, AQuestionThatIsAskedAgainIsRepairedAndAnsweredAsAFreshOne) {
+  Writable served(hall());
+  Json dearer = priced;
+  dearer["prices"] = {"clearance-price 9 1.5"};
+  std::uint64_t repaired = 0;
+  std::uint64_t afresh = 0;
+  for (int x = 3; x < 9; ++x) {
+    const Json change = {{"cells", {{2 * x, 9, x % 3 != 0}, {20, x, x % 2 == 0}}}};
+    ASSERT_EQ(served.update(change).status, 200U);
+    for (const Json& question : {priced, x == 6 ? dearer : priced}) {
+      const Json again = served.query(question);
+      Scene now = hall();
+      for (int k = 3; k <= x; ++k) {
+        const auto at = static_cast<std::uint32_t>(k);
+        change_cells(now, std::array{CellChange{{2 * at, 9}, k % 3 != 0}, CellChange{{20, at}, k % 2 == 0}});
+      }
+      const Json fresh = Writable(std::move(now)).query(question);
+      ASSERT_EQ(again.at("status"), "solved") << again;
+      ASSERT_EQ(told_by(again), told_by(fresh));
+      repaired += again.at("counters").at("expanded").get<std::uint64_t>();
+      afresh += fresh.at("counters").at("expanded").get<std::uint64_t>();
+    }
+  }
+  EXPECT_LT(2 * repaired, afresh);
+}
+
+TEST(WritableService, WhoAsksAMapMeanwhileIsAnsweredInOneWorldOrTheOther) {
+  Writable served(hall());
+  const Json change = {{"block", {{8.0, 3.0, 8.9, 9.8}}}};
+  std::vector<Json> known{told_by(served.query(priced))};
+  served.update(change);
+  known.push_back(told_by(served.query(priced)));
+  ASSERT_NE(known[0].at("path"), known[1].at("path"));
+  std::atomic<bool> done{false};
+  std::atomic<int> wrong{0};
+  std::vector<std::thread> clients;
+  for (int i = 0; i < 2; ++i) {
+    clients.emplace_back([&] {
+      while (!done) {
+        if (std::count(known.begin(), known.end(), told_by(served.query(priced))) != 1) ++wrong;
+      }
+    });
+  }
+  for (int i = 0; i < 10; ++i) served.update({{i % 2 == 0 ? "free" : "block", change.at("block")}});
   done = true;
   for (std::thread& client : clients) client.join();
   EXPECT_EQ(wrong, 0);
