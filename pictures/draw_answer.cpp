@@ -394,6 +394,7 @@ std::string body_text(const RobotSpec& robot, std::string_view metres) {
     case RobotKind::polygon:
       return fmt::format("a body of {} corners", robot.outline.size());
     case RobotKind::car:
+      if (robot.steering == SteeringKind::differential) return "a differential drive";
       return fmt::format("a car, turning radius {}{}", human_number(robot.turning_radius), metres);
     case RobotKind::disc:
       return fmt::format("a disc of radius {}{}", human_number(robot.radius), metres);

@@ -107,11 +107,11 @@ constexpr OptionSpec planner_specs[] = {
      "waypoints to pass in this order, separated by semicolons: \"X,Y; X,Y,THETA\", or six joint angles each. For rrt "
      "and rrt-connect; for grid, prm and lazy-prm of a point or disc"},
     {"--steering", "WORD",
-     "how a car drives: dubins forwards only, reeds-shepp backwards too, differential straight both ways, and it turns "
-     "on "
+     "how a car drives: dubins forwards only, reeds-shepp backwards too, differential straight both ways with turns on "
      "the spot (default: the file's, else dubins)",
      choices_of<SteeringKind>},
-    {"--turning-radius", "RHO", "radius of a car's tightest turn, > 0 (default: the file's)"},
+    {"--turning-radius", "RHO",
+     "radius of a car's tightest turn, > 0; of differential what a radian of turning counts (default: the file's)"},
     {"--cusp-cost", "C",
      "with --optimise: how much longer a car may drive to save one change of gear, >= 0 (default: its turning radius)"},
     {"--reverse-cost", "F",
