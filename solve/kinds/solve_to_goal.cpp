@@ -123,6 +123,19 @@ class ToGoal {
     }
   }
 
+  /// Whoever starts in the region is there.
+  std::vector<GoalPlace> place_of_start() const {
+    const Question& question = request_.question;
+    std::vector<double> start = question.start.empty() ? request_.scene.start : question.start;
+    if (!rule_.region || start.size() < 2) return {};
+    const std::size_t width = start.size();
+    start.resize(3, 0.0);
+    std::optional<GoalPlace> place = GoalPlaces(goals_, rule_, 0.0).place({start[0], start[1], start[2]});
+    if (!place) return {};
+    place->state.resize(width);
+    return {*place};
+  }
+
   /// Plans to the first of the places that the planner reaches. Does it reach one?
   bool plan_to_places() {
     std::vector<GoalPlace> places;
@@ -133,7 +146,8 @@ class ToGoal {
     answer_within_limits(chosen, [&] {
       const StageTimer timer(request_.execution, "search", chosen.seconds.search);
       const bool drives = chosen.problem.robot.kind == RobotKind::car;
-      places = drives ? places_of_car(request_) : places_on_layers(request_);
+      places = place_of_start();
+      if (places.empty()) places = drives ? places_of_car(request_) : places_on_layers(request_);
       chosen.outcome = Outcome::not_connected;
     });
     solve_s_ += chosen.solve_s;

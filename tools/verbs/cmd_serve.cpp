@@ -41,7 +41,8 @@ constexpr OptionSpec serve_specs[] = {
     {"--writable", "",
      "let the world be changed for all who look at it: walls and polygons by the page, cells of a map by programs; no "
      "file is written"},
-    {"--token-file", "FILE", "with --writable: only who knows this file's first line (16 to 256 letters) may change it"},
+    {"--token-file", "FILE",
+     "with --writable: only who knows this file's first line (16 to 256 letters) may change it"},
     roadmap_world_option,
 };
 

@@ -189,6 +189,22 @@ TEST(SolveToGoal, ARegionsPathEndsInItWithItsHeading) {
   }
 }
 
+TEST(SolveToGoal, WhoStartsInTheRegionStays) {
+  const Scene scene = rooms_with_wall(square_words, true);
+  Question question;
+  question.start = {1.03, 3.04, 0.1};
+  question.goal = {2.0, 3.0, 0.3};
+  question.rule.region = 1.0;
+  question.rule.heading_rad = 0.25;
+  const Answer stays = solve(scene, question, choosing_by(PlannerKind::rrt_connect));
+  ASSERT_TRUE(stays.verified);
+  EXPECT_EQ(stays.length, 0.0);
+  question.rule.heading_rad = 0.1;
+  const Answer moves = solve(scene, question, choosing_by(PlannerKind::rrt_connect));
+  ASSERT_TRUE(moves.verified);
+  EXPECT_NE(moves.states.numbers, stays.states.numbers);
+}
+
 TEST(SolveToGoal, EqualForAnyNumberOfThreads) {
   const Scene scene = rooms_with_wall(car_words, false);
   Question question;
