@@ -20,9 +20,7 @@ namespace warren {
 enum class Steer : std::int8_t { right_on_spot = -2, right = -1, straight = 0, left = 1, left_on_spot = 2 };
 constexpr bool is_on_spot(Steer steer) { return steer == Steer::left_on_spot || steer == Steer::right_on_spot; }
 /// 1 of a turn to the left, -1 to the right.
-constexpr double side_of(Steer steer) {
-  return steer == Steer::straight ? 0.0 : static_cast<std::int8_t>(steer) > 0 ? 1.0 : -1.0;
-}
+constexpr double side_of(Steer steer) { return steer == Steer::straight ? 0.0 : steer > Steer::straight ? 1.0 : -1.0; }
 
 /// One piece of constant steering.
 struct SteeringPiece {
