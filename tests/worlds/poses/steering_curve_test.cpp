@@ -344,7 +344,7 @@ TEST(SteeringCurve, ADifferentialDriveTurnsGoesStraightAndTurns) {
   const SteeringCurve spot({1, 2, 0}, {1, 2, pi / 2}, DifferentialCurve::shortest({1, 2, 0}, {1, 2, pi / 2}, 0.5), 0.5);
   EXPECT_EQ(spot.driven(), 0.0);
   EXPECT_NEAR(spot.length(), pi / 4, 1e-12);
-  EXPECT_EQ(spot.at(spot.length() / 2).position(), Vec2(1, 2));
+  EXPECT_EQ(spot.at(spot.length() / 2).position(), (Vec2{1, 2}));
 }
 
 }  // namespace
