@@ -80,12 +80,8 @@ TEST_F(SolveCar, EveryPlannerSolvesWithBothCurvesAndVerifies) {
 /// As a polygon that turns goes, which another judge judges, but only where it faces.
 TEST_F(SolveCar, ADifferentialDriveGoesStraightAndTurnsOnTheSpot) {
   const std::string outline = "polygon -0.3 -0.15 0.5 -0.15 0.5 0.15 -0.3 0.15";
-  for (const std::vector<std::string>& planner :
-       std::vector<std::vector<std::string>>{{"rrt-connect", "--optimise"},
-                                             {"prm"},
-                                             {"grid"},
-                                             {"grid", "--headings", "32", "--turn-cost", "2"},
-                                             {"anytime", "--iterations", "4"}}) {
+  for (const std::vector<std::string>& planner : std::vector<std::vector<std::string>>{
+           {"rrt-connect", "--optimise"}, {"prm"}, {"grid"}, {"anytime", "--iterations", "4"}}) {
     std::vector<std::string> words{"--robot", "car " + outline + " turning 0.3 steering differential", "--planner"};
     words.insert(words.end(), planner.begin(), planner.end());
     const Json answer = solved(words);
