@@ -163,7 +163,8 @@ std::size_t expect_none_below(const Scene& scene, const Question& question, cons
 
 TEST(LowerBound, NoPathOfAnyPlannerAmongObstaclesIsBelow) {
   std::size_t solved = 0;
-  for (const std::uint64_t seed : test::seeds(100, 1)) {
+  for (const std::uint64_t seed : test::seeds(100, 100)) {
+    if (!test::asks_all() && solved > 5) break;  // by day until there is enough: in some worlds nothing is solved
     const Scene scene = bounded_clutter(seed);
     std::size_t number = 0;
     for (const RobotSpec& body : bodies()) {
