@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
 #include <utility>
 
+#include "core/plane/geometry.hpp"
 #include "parallel/trace.hpp"
 #include "solve/explain/blocked_end.hpp"
 #include "solve/kept/roadmap.hpp"
@@ -152,6 +155,29 @@ void check_price(Verdict& verdict, const Scene& judged, const Prices& prices, co
 void refute(Verdict& verdict, std::string what) {
   verdict.verified = false;
   verdict.first_violation = Violation{.leg = 0, .distance = 0.0, .obstacle = std::move(what)};
+}
+
+/// The number of the first place that was to be visited and lies on no leg of the path.
+std::optional<std::size_t> place_passed_by(const GoalRule& rule, std::span<const Vec2> path) {
+  constexpr double rounding = 1e-9;
+  for (std::size_t i = 0; i < rule.visit.size(); ++i) {
+    const Vec2 place{rule.visit[i][0], rule.visit[i][1]};
+    bool is_there = false;
+    for (std::size_t k = 0; k < path.size() && !is_there; ++k) {
+      const Segment leg{path[k], path[std::min(k + 1, path.size() - 1)]};
+      is_there = distance(place, leg) <= rounding * (1.0 + norm(place));
+    }
+    if (!is_there) return i;
+  }
+  return std::nullopt;
+}
+
+std::string passed_by_text(std::size_t place) { return fmt::format("visit: the path passes place {} by", place + 1); }
+
+/// So are the places to visit.
+void check_visits(Verdict& verdict, const GoalRule& rule, const RecordedAnswer& answer) {
+  if (!verdict.verified) return;
+  if (const auto missed = place_passed_by(rule, answer.path)) refute(verdict, passed_by_text(*missed));
 }
 
 /// The length that an answer claims is a part of what is verified.
@@ -385,6 +411,8 @@ Answer solve_within(const Scene& scene, const Question& question, const SolveOpt
     answer.problem.prices = prices_of(scene, question);
     keep_to_route(answer, restricted.get(), question, options, accounted);
     judge_prices(answer, scene, question, accounted);
+    if (const auto missed = place_passed_by(question.rule, answer.path); missed && answer.verified)
+      fail_verification(answer, Violation{.leg = 0, .distance = 0.0, .obstacle = passed_by_text(*missed)});
     tell_bound(answer, planned.get(), options, accounted);
     prove_on_map(answer, planned.get(), options, keep, accounted);
     if (answer.world.kind.empty()) answer.world = std::move(world);
@@ -409,6 +437,7 @@ Verdict verify_within(const Scene& scene, const Question& question, const Record
   const Scene& judged = effective ? *effective : scene;
   Verdict verdict = verifying_kind(judged, asked).verify(judged, asked, answer, execution);
   check_length(verdict, answer);
+  check_visits(verdict, asked.rule, answer);
   check_price(verdict, judged, prices, answer, execution);
   check_alternatives(verdict, judged, asked, prices, answer, execution);
   const bool is_same = !question.robot && question.start.empty() && question.goal.empty() && !question.clearance &&

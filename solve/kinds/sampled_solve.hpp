@@ -490,7 +490,7 @@ class SampledSolve {
       if constexpr (requires { body_.paths_weighed(); }) choose_path();
       answer_.raw_length =
           path_length(path_, [this](const State& a, const State& b) { return body_.length(*world_, a, b); });
-      path_ = body_.shortened(*world_, std::move(path_), answer_);
+      path_ = shortened_legs();
     }
     const std::optional<double> cost = cost_of_better();
     body_.judge(*world_, std::move(path_), answer_);
@@ -501,6 +501,24 @@ class SampledSolve {
       const double paid = answer_.cost.value_or(answer_.length);
       answer_.optimal = paid - *answer_.lower_bound <= as_good * paid;
     }
+  }
+  /// Leg by leg, so that no way-point is cut off.
+  Path<State> shortened_legs() {
+    if (request_.options.trees.via.empty()) return body_.shortened(*world_, std::move(path_), answer_);
+    Path<State> whole{path_.front()};
+    const std::vector<std::vector<State>> legs = stops();
+    auto begin = path_.begin();
+    for (std::size_t i = 0; i < legs.size(); ++i) {
+      const auto is_stop = [&](const State& s) {
+        return std::find(legs[i].begin(), legs[i].end(), s) != legs[i].end();
+      };
+      const auto end = i + 1 < legs.size() ? std::find_if(begin, path_.end(), is_stop) : path_.end() - 1;
+      Path<State> leg(begin, end + 1);
+      if (leg.size() > 1) leg = body_.shortened(*world_, std::move(leg), answer_);
+      whole.insert(whole.end(), leg.begin() + 1, leg.end());
+      begin = end;
+    }
+    return whole;
   }
   std::optional<double> cost_of_better() const {
     if (!Body::has_cost || !gets_better(request_.planner)) return std::nullopt;

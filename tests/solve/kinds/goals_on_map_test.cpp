@@ -307,5 +307,36 @@ TEST(GoalsOnMap, APricedPathIsPulledTautAndItsPartsAddUp) {
   EXPECT_LT(taut, 0.97 * over_cells);
 }
 
+/// They lie aside, where shortening would cut them off.
+TEST(GoalsOnMap, AShortenedPathPassesItsPlacesAndTheJudgeWantsThemPassed) {
+  const Scene scene = scene_of(Bitmap(12, 12));
+  const std::vector<std::vector<double>> places{{10.5, 2.25}, {2.5, 9.75}};
+  for (const PlannerKind planner :
+       {PlannerKind::grid, PlannerKind::prm, PlannerKind::lazy_prm, PlannerKind::rrt, PlannerKind::rrt_connect}) {
+    for (const bool by_order : {false, true}) {
+      SCOPED_TRACE(std::string(name_of(planner)) + (by_order ? ", visit" : ", via"));
+      Question question{.start = {1.5, 1.5}, .goal = {10.5, 10.5}};
+      SolveOptions options = mapped_by(planner);
+      options.optimise = true;
+      if (by_order) question.rule.visit = places;
+      if (!by_order) options.trees.via = places;
+      const Answer answer = solve(scene, question, options);
+      ASSERT_TRUE(answer.verified);
+      for (const std::vector<double>& place : places) {
+        const auto is_place = [&](Vec2 p) { return p == Vec2{place[0], place[1]}; };
+        EXPECT_TRUE(std::any_of(answer.path.begin(), answer.path.end(), is_place)) << place[0];
+      }
+      EXPECT_TRUE(verify(scene, answer).verified);
+      if (!by_order) continue;
+      Answer straight = answer;
+      straight.path = {answer.path.front(), answer.path.back()};
+      straight.length = distance(straight.path[0], straight.path[1]);
+      const Verdict verdict = verify(scene, straight);
+      EXPECT_FALSE(verdict.verified);
+      EXPECT_EQ(verdict.first_violation.value_or(Violation{}).obstacle, "visit: the path passes place 1 by");
+    }
+  }
+}
+
 }  // namespace
 }  // namespace warren
