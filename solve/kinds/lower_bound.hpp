@@ -16,6 +16,7 @@
 #include "parallel/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
+#include "solve/answer/by_products.hpp"
 #include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"
 
@@ -40,5 +41,11 @@ double proved_bound(const Scene& scene, const Problem& problem, BoundOf of, Boun
 /// to be optimal, keeps that. None is told of paths through way-points, nor where the cost is in units of the planner's
 /// own.
 void tell_bound(Answer& answer, const Scene& scene, const SolveOptions& options, const Execution& execution);
+
+/// Where a bound, a gap or a certificate is asked of a verified answer of grid on a map: the best bound of all paths
+/// that is found until the gap is reached; of a certificate that is asked for, what it proves. `scene`: as it is
+/// planned in. Stops leave the bound that there is.
+void prove_on_map(Answer& answer, const Scene& scene, const SolveOptions& options, ByProducts* keep,
+                  const Execution& execution);
 
 }  // namespace warren

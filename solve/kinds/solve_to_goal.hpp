@@ -35,7 +35,7 @@ class GoalPlaces {
 
   /// As the nearest goal takes it; none: no goal does.
   std::optional<GoalPlace> place(const Se2& pose) const;
-  /// Of equal ranks the nearer place counts, and then the first.
+  /// Of equal ranks the one whose heading is less off counts, and then the first.
   void offer(const Se2& pose, double rank);
   void offer(const Se2& pose);  ///< by its distance
   /// The least rank first.

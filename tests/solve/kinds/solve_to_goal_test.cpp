@@ -91,6 +91,7 @@ TEST(SolveToGoal, OfSeveralGoalsTheCheapestIsReached) {
       EXPECT_EQ(cost_told(answer), cost_told(alone[*best]));
       EXPECT_EQ(answer.problem.goal, goals[*best]);
       EXPECT_TRUE(verify(scene, answer).verified);
+      EXPECT_EQ(answer.lower_bound.has_value(), planner != PlannerKind::grid) << "whose cost is in steps";
       if (!answer.lower_bound) continue;
       for (const Answer& one : alone) {
         if (one.verified) EXPECT_LE(*answer.lower_bound, cost_told(one) * (1.0 + 1e-9));
@@ -203,13 +204,16 @@ TEST(SolveToGoal, WhoStartsInTheRegionStays) {
   const Answer moves = solve(scene, question, choosing_by(PlannerKind::rrt_connect));
   ASSERT_TRUE(moves.verified);
   EXPECT_NE(moves.states.numbers, stays.states.numbers);
+  ASSERT_TRUE(moves.lower_bound.has_value());
+  EXPECT_LE(*moves.lower_bound, moves.length);
 }
+
+/// Into the other room.
+Question question_across() { return {.start = {1.0, 3.0, 0.0}, .goal = {8.0, 3.0, 1.0}}; }
 
 TEST(SolveToGoal, EqualForAnyNumberOfThreads) {
   const Scene scene = rooms_with_wall(car_words, false);
-  Question question;
-  question.start = {1.0, 3.0, 0.0};
-  question.goal = {8.0, 3.0, 1.0};
+  Question question = question_across();
   question.rule.tolerance = 4.0;
   std::optional<Answer> first;
   for (const unsigned threads : {1U, 2U, 8U}) {
@@ -224,9 +228,7 @@ TEST(SolveToGoal, EqualForAnyNumberOfThreads) {
 
 TEST(SolveToGoal, WhatStopsItClaimsNothing) {
   const Scene scene = rooms_with_wall(car_words, false);
-  Question question;
-  question.start = {1.0, 3.0, 0.0};
-  question.goal = {8.0, 3.0, 1.0};
+  Question question = question_across();
   question.rule.region = 3.0;
   const Answer answer = solve(scene, question, {}, Limits{.budget = std::chrono::nanoseconds(1)});
   EXPECT_EQ(answer.outcome, Outcome::stopped);
