@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 
 namespace warren::bench {
 

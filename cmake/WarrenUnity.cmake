@@ -55,7 +55,7 @@ function(warren_headers target headers)
   if(CMAKE_CXX_COMPILER_ID MATCHES "Clang" AND NOT WARREN_SANITIZE MATCHES "thread" AND NOT CMAKE_CXX_CLANG_TIDY)
     if(NOT TARGET ${headers})
       # And those of the project that nearly all of them read. What g++ compiles includes each header by itself.
-      set(own <core/base/bitmap.hpp> <core/base/solution.hpp> <core/plane/wall_set.hpp> <parallel/execution.hpp> <scenes/scene/scene.hpp>)
+      set(own <core/base/bitmap.hpp> <core/base/solution.hpp> <core/plane/wall_set.hpp> <core/run/execution.hpp> <scenes/scene/scene.hpp>)
       if(headers MATCHES "cold" AND NOT headers MATCHES "reader")
         list(APPEND own <nlohmann/json.hpp> <solve/answer/answer.hpp> <solve/kept/roadmap.hpp> <solve/kinds/kind_of_problem.hpp> <solve/solve.hpp>)
       endif()

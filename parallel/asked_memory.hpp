@@ -10,8 +10,8 @@
 
 #include "core/base/page_pool.hpp"
 #include "core/base/raw_vector.hpp"
+#include "core/run/execution.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/execution.hpp"
 
 namespace warren {
 

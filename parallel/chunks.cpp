@@ -7,8 +7,8 @@
 
 #include <pthread.h>
 
+#include "core/run/trace.hpp"
 #include "parallel/plain_chunks.hpp"
-#include "parallel/trace.hpp"
 
 #ifndef WARREN_PLAIN_CHUNKS
 #include <tbb/global_control.h>

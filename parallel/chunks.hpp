@@ -10,7 +10,7 @@
 #include <numeric>
 #include <vector>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 
 namespace warren {
 

@@ -10,9 +10,10 @@
 #include <memory>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 
 namespace warren {
 
@@ -66,6 +67,29 @@ class OneAtATime {
 
  private:
   mutable std::mutex mutex_;  // guards what its owner touches in calls alone
+};
+
+/// A value that several threads use, one at a time. Neither copied nor moved. Whoever uses the value keeps no reference
+/// to it.
+template <class T>
+class Guarded {
+ public:
+  /// Calls use(value) while nobody else uses it, and returns what that returns.
+  template <class Use>
+  auto use(const Use& use) {
+    const std::lock_guard lock(mutex_);
+    return use(value_);
+  }
+  /// The same, to look at it.
+  template <class Use>
+  auto use(const Use& use) const {
+    const std::lock_guard lock(mutex_);
+    return use(std::as_const(value_));
+  }
+
+ private:
+  mutable std::mutex mutex_;  // guards value_
+  T value_{};
 };
 
 /// One bit for each of n things that are done once and stay done, whichever thread does them: a look costs one load.

@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "core/base/raw_vector.hpp"
+#include "core/run/execution.hpp"
 #include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/execution.hpp"
 
 namespace warren {
 

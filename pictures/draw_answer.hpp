@@ -10,7 +10,7 @@
 
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "pictures/model/picture.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
 #include "scenes/scene/scene.hpp"

@@ -8,7 +8,7 @@
 #include <functional>
 #include <string>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "pictures/draw_answer.hpp"
 #include "solve/kept/roadmap.hpp"
 

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/plane/geometry.hpp"
-#include "parallel/trace.hpp"
+#include "core/run/trace.hpp"
 #include "solve/explain/blocked_end.hpp"
 #include "solve/kept/roadmap.hpp"
 #include "solve/kept/roadmap_query.hpp"

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 
 namespace warren::test {
 

@@ -12,8 +12,8 @@
 
 #include "core/base/packed_values.hpp"
 #include "core/plane/cell_walls.hpp"
+#include "core/run/execution.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/execution.hpp"
 #include "planners/mazes/overlay.hpp"
 #include "planners/mazes/tile_grid.hpp"
 #include "planners/mazes/tiled_prm_lattice.hpp"

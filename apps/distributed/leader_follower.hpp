@@ -26,7 +26,7 @@
 #include "apps/distributed/shared_search.hpp"
 #include "apps/distributed/transport.hpp"
 #include "core/plane/cell_walls.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "parallel/once.hpp"
 #include "planners/mazes/tiled_prm_lattice.hpp"
 #include "solve/streamed/streamed_walls.hpp"

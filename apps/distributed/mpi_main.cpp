@@ -15,7 +15,7 @@
 #include "apps/distributed/rank_protocol.hpp"
 #include "apps/distributed/shared_solve.hpp"
 #include "core/base/error.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "solve/kept/checksum.hpp"
 #include "tools/screen/exit_code.hpp"

@@ -18,7 +18,7 @@
 #include "apps/distributed/band.hpp"
 #include "apps/distributed/rank_protocol.hpp"
 #include "core/base/packed_values.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/mazes/overlay.hpp"
 #include "planners/mazes/overlay_path.hpp"
 #include "planners/mazes/overlay_search.hpp"

@@ -8,7 +8,7 @@
 
 #include "apps/distributed/leader_follower.hpp"
 #include "apps/distributed/transport.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "tools/words/command.hpp"
 

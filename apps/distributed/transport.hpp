@@ -11,7 +11,7 @@
 #include <span>
 
 #include "core/base/packed_values.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 
 namespace warren::distributed {
 

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "apps/python/library_calls.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/answer/by_products.hpp"

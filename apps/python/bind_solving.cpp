@@ -12,7 +12,7 @@
 #include "apps/python/bind.hpp"
 #include "apps/python/keywords.hpp"
 #include "apps/studies/comparison_report.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/files/mask_io.hpp"
 #include "scenes/files/npy_io.hpp"
 #include "scenes/text/input_file_io.hpp"

@@ -20,7 +20,7 @@
 #include "apps/python/bind.hpp"
 #include "apps/python/keywords.hpp"
 #include "core/base/error.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/arms/solid_text.hpp"
 #include "scenes/files/read_world_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"

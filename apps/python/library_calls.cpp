@@ -12,7 +12,7 @@
 #include <string_view>
 
 #include "core/base/error.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/text/human_units.hpp"
 
 namespace warren::python {

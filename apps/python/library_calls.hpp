@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "core/base/solution.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "solve/question/limits.hpp"
 
 namespace warren::python {

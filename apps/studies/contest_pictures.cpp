@@ -18,7 +18,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/types.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "pictures/draw_answer.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/layers/draw_cells.hpp"

@@ -11,7 +11,7 @@
 #include "apps/studies/planner_contest.hpp"
 #include "apps/studies/search_contest.hpp"
 #include "apps/studies/search_graph.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "pictures/model/picture_options.hpp"
 #include "scenes/scene/scene.hpp"
 

@@ -16,7 +16,7 @@
 #include <string_view>
 #include <vector>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 
 namespace warren::studies {
 

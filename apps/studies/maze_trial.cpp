@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/studies/machine.hpp"
-#include "parallel/trace.hpp"
+#include "core/run/trace.hpp"
 #include "solve/answer/stage_lines.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "solve/question/question.hpp"

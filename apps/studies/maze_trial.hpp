@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/base/solution.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/question/question.hpp"

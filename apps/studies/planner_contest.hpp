@@ -13,7 +13,7 @@
 
 #include "apps/studies/comparison.hpp"
 #include "core/base/types.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "pictures/model/picture_options.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"

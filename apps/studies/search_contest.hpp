@@ -18,7 +18,7 @@
 #include "apps/studies/comparison.hpp"
 #include "apps/studies/search_graph.hpp"
 #include "core/base/solution.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"

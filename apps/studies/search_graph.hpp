@@ -14,9 +14,9 @@
 
 #include "core/base/enum_names.hpp"
 #include "core/base/types.hpp"
+#include "core/run/execution.hpp"
 #include "core/search/graph.hpp"
 #include "core/search/search.hpp"
-#include "parallel/execution.hpp"
 #include "planners/graph/roadmap_options.hpp"
 
 namespace warren::studies {

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "core/base/types.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "pictures/formats/solid_raster.hpp"
 #include "pictures/formats/surface.hpp"
 #include "pictures/model/page.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "pictures/formats/surface.hpp"
 #include "pictures/model/page.hpp"
 #include "pictures/model/picture.hpp"

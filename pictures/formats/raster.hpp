@@ -17,7 +17,7 @@
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/model/colors.hpp"
 

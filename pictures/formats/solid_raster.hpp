@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "pictures/formats/raster.hpp"
 #include "pictures/model/picture.hpp"
 

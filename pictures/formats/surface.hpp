@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/base/types.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "pictures/formats/raster.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/model/colors.hpp"

@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "core/base/types.hpp"
+#include "core/run/execution.hpp"
 #include "parallel/asked_memory.hpp"
-#include "parallel/execution.hpp"
 #include "pictures/model/axis.hpp"
 #include "scenes/scene/scene.hpp"
 #include "worlds/arms/arm_kinematics.hpp"

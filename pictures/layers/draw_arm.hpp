@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "pictures/model/picture.hpp"
 #include "scenes/scene/arm_model.hpp"
 #include "scenes/scene/scene.hpp"

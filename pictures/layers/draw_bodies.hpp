@@ -8,7 +8,7 @@
 
 #include "core/base/types.hpp"
 #include "core/plane/se2.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "pictures/model/picture.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
 #include "scenes/scene/scene.hpp"

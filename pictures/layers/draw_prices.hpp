@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "pictures/model/picture.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "scenes/scene/prices.hpp"

@@ -8,7 +8,7 @@
 
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 
 namespace warren {
 

@@ -15,7 +15,7 @@
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
 #include "core/plane/se2.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "pictures/model/colors.hpp"
 #include "pictures/model/picture_options.hpp"
 #include "planners/graph/roadmap_arrays.hpp"

@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "core/base/types.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "pictures/formats/markup.hpp"
 #include "pictures/formats/raster.hpp"
 #include "pictures/formats/solid_raster.hpp"

@@ -15,7 +15,7 @@
 
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/axis/voronoi_diagram.hpp"
 
 namespace warren {

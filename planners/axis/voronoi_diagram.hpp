@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/types.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/visibility/noding.hpp"
 
 namespace warren {

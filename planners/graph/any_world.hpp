@@ -21,7 +21,7 @@
 #include "core/base/world.hpp"
 #include "core/plane/cell_walls.hpp"
 #include "core/plane/se2.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 
 namespace warren {
 

@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "core/base/types.hpp"
+#include "core/run/execution.hpp"
 #include "core/search/graph.hpp"
-#include "parallel/execution.hpp"
 
 namespace warren {
 

@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "core/base/raw_vector.hpp"
+#include "core/run/execution.hpp"
 #include "core/search/graph.hpp"
-#include "parallel/execution.hpp"
 #include "planners/graph/hierarchy.hpp"
 
 namespace warren {

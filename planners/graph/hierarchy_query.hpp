@@ -14,9 +14,9 @@
 
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
+#include "core/run/execution.hpp"
 #include "core/search/indexed_heap.hpp"
 #include "core/search/search.hpp"
-#include "parallel/execution.hpp"
 #include "planners/graph/hierarchy.hpp"
 
 namespace warren {

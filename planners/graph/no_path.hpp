@@ -13,9 +13,9 @@
 
 #include "core/base/solution.hpp"
 #include "core/base/world.hpp"
+#include "core/run/execution.hpp"
 #include "core/search/graph.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/execution.hpp"
 #include "planners/graph/state_index.hpp"
 
 namespace warren {

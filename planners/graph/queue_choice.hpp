@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <variant>
 
+#include "core/run/execution.hpp"
 #include "core/search/search.hpp"
 #include "core/search/search_queues.hpp"
-#include "parallel/execution.hpp"
 #include "planners/graph/roadmap_options.hpp"
 
 namespace warren {

@@ -11,8 +11,8 @@
 #include "core/base/raw_vector.hpp"
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
+#include "core/run/execution.hpp"
 #include "core/search/graph.hpp"
-#include "parallel/execution.hpp"
 #include "planners/graph/hierarchy.hpp"
 
 namespace warren {

@@ -14,9 +14,9 @@
 #include <optional>
 #include <vector>
 
+#include "core/run/execution.hpp"
 #include "core/search/graph.hpp"
 #include "core/search/search.hpp"
-#include "parallel/execution.hpp"
 #include "planners/graph/reduce_graph.hpp"
 #include "planners/graph/roadmap_options.hpp"
 

@@ -13,7 +13,7 @@
 
 #include "core/base/bitmap.hpp"
 #include "core/base/raw_vector.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 
 namespace warren {
 

@@ -17,8 +17,8 @@
 
 #include "core/base/bitmap.hpp"
 #include "core/base/enum_names.hpp"
+#include "core/run/execution.hpp"
 #include "core/search/search.hpp"
-#include "parallel/execution.hpp"
 
 namespace warren {
 

@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "core/plane/heading_layers.hpp"
+#include "core/run/execution.hpp"
 #include "core/search/search.hpp"
-#include "parallel/execution.hpp"
 #include "planners/grid/grid_search.hpp"
 
 namespace warren {

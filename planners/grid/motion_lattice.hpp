@@ -24,7 +24,7 @@
 #include "core/base/bitmap.hpp"
 #include "core/base/raw_vector.hpp"
 #include "core/base/solution.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 
 namespace warren {
 

@@ -17,7 +17,7 @@
 
 #include "core/base/bitmap.hpp"
 #include "core/base/types.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/grid/price_field.hpp"
 
 namespace warren {

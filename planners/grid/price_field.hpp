@@ -22,8 +22,8 @@
 #include <vector>
 
 #include "core/base/bitmap.hpp"
+#include "core/run/execution.hpp"
 #include "core/search/search.hpp"
-#include "parallel/execution.hpp"
 #include "planners/grid/grid_search.hpp"
 #include "spatial/maps/free_cells.hpp"
 

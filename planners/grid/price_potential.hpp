@@ -17,7 +17,7 @@
 #include "core/base/bitmap.hpp"
 #include "core/base/cell_potential.hpp"
 #include "core/base/types.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 
 namespace warren {
 

@@ -14,8 +14,8 @@
 
 #include "core/base/bitmap.hpp"
 #include "core/base/solution.hpp"
+#include "core/run/execution.hpp"
 #include "core/search/graph.hpp"
-#include "parallel/execution.hpp"
 #include "planners/axis/medial_axis_planner.hpp"
 #include "planners/graph/roadmap_options.hpp"
 #include "spatial/maps/distance_field.hpp"

@@ -13,7 +13,7 @@
 #include <cstdint>
 
 #include "core/base/raw_vector.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/lengths/cell_marks.hpp"
 
 namespace warren {

@@ -11,7 +11,7 @@
 #include <cstdint>
 
 #include "core/base/raw_vector.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/lengths/core_graph.hpp"
 
 namespace warren {

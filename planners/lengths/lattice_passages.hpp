@@ -13,7 +13,7 @@
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
 #include "core/plane/wall_set.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/graph/roadmap_options.hpp"
 #include "planners/lengths/array_or_view.hpp"
 

@@ -15,7 +15,7 @@
 #include <array>
 #include <cstdint>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/lengths/array_or_view.hpp"
 #include "planners/lengths/cell_marks.hpp"
 

@@ -29,7 +29,7 @@
 #include <string_view>
 #include <vector>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "parallel/once.hpp"
 #include "planners/lengths/cell_marks.hpp"
 #include "planners/lengths/lattice_passages.hpp"

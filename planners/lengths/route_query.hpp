@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/raw_vector.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/lengths/min_plus.hpp"
 #include "planners/lengths/route_index.hpp"
 #include "planners/lengths/separator_fronts.hpp"

@@ -21,7 +21,7 @@
 #include <cstdint>
 
 #include "core/base/raw_vector.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/lengths/array_or_view.hpp"
 #include "planners/lengths/dissection.hpp"
 

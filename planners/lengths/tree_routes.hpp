@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/lengths/route_index.hpp"
 
 namespace warren {

@@ -19,8 +19,8 @@
 
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
+#include "core/run/execution.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/execution.hpp"
 #include "planners/mazes/tile_grid.hpp"
 #include "planners/mazes/tile_reduction.hpp"
 #include "planners/mazes/tile_source.hpp"

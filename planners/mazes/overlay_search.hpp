@@ -27,10 +27,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/run/execution.hpp"
 #include "core/search/bidirectional_search.hpp"
 #include "core/search/search.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/execution.hpp"
 #include "planners/mazes/overlay.hpp"
 
 namespace warren {

@@ -18,7 +18,7 @@
 
 #include "core/base/packed_values.hpp"
 #include "core/base/raw_vector.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/mazes/tile_grid.hpp"
 #include "planners/mazes/tile_plane.hpp"
 

@@ -12,7 +12,7 @@
 #include "core/base/types.hpp"
 #include "core/plane/cell_walls.hpp"
 #include "core/plane/wall_set.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/mazes/tile_grid.hpp"
 #include "planners/mazes/wall_partition.hpp"
 

@@ -25,8 +25,8 @@
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
 #include "core/plane/wall_set.hpp"
+#include "core/run/execution.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/execution.hpp"
 #include "planners/mazes/tile_grid.hpp"
 #include "planners/mazes/wall_steps.hpp"
 

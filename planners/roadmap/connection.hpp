@@ -15,10 +15,10 @@
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "core/base/world.hpp"
+#include "core/run/trace.hpp"
 #include "core/search/graph.hpp"
 #include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/trace.hpp"
 #include "planners/graph/state_index.hpp"
 #include "planners/roadmap/roadmap_growth.hpp"
 

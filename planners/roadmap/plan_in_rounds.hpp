@@ -10,10 +10,10 @@
 
 #include "core/base/solution.hpp"
 #include "core/base/world.hpp"
+#include "core/run/execution.hpp"
 #include "core/search/graph.hpp"
 #include "core/search/search.hpp"
 #include "parallel/asked_memory.hpp"
-#include "parallel/execution.hpp"
 #include "planners/graph/no_path.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
 #include "planners/graph/roadmap_options.hpp"

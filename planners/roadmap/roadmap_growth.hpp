@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/graph/any_world.hpp"
 #include "planners/graph/roadmap_options.hpp"
 

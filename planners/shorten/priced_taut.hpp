@@ -9,7 +9,7 @@
 
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 
 namespace warren {
 

@@ -20,7 +20,7 @@
 #include "core/base/rng.hpp"
 #include "core/base/solution.hpp"
 #include "core/base/world.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 
 namespace warren {
 

@@ -12,7 +12,7 @@
 
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "spatial/obstacles/wall_index.hpp"
 
 namespace warren {

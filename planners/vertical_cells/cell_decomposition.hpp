@@ -26,8 +26,8 @@
 #include "core/base/error.hpp"
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
+#include "core/run/execution.hpp"
 #include "core/search/graph.hpp"
-#include "parallel/execution.hpp"
 
 namespace warren {
 

@@ -19,7 +19,7 @@
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/graph/roadmap_options.hpp"
 #include "planners/vertical_cells/cell_decomposition.hpp"
 

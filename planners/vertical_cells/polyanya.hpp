@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "core/base/types.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/vertical_cells/cell_decomposition.hpp"
 
 namespace warren {

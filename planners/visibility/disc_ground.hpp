@@ -21,7 +21,7 @@
 
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/visibility/visibility_graph.hpp"
 #include "spatial/obstacles/segment_grid.hpp"
 

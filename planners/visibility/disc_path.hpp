@@ -29,7 +29,7 @@
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/visibility/disc_ground.hpp"
 
 namespace warren {

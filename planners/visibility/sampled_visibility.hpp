@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/base/types.hpp"
+#include "core/run/execution.hpp"
 #include "core/search/graph.hpp"
-#include "parallel/execution.hpp"
 #include "spatial/obstacles/polygon_index.hpp"
 
 namespace warren {

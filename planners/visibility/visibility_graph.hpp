@@ -19,9 +19,9 @@
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
+#include "core/run/execution.hpp"
 #include "core/search/graph.hpp"
 #include "core/search/search.hpp"
-#include "parallel/execution.hpp"
 #include "planners/visibility/plane_pieces.hpp"
 #include "planners/visibility/rotational_sweep.hpp"
 

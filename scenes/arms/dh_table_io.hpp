@@ -7,7 +7,7 @@
 //   tool X Y Z                            of the last frame; default 0 0 0
 #pragma once
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/input_file_io.hpp"
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/scene_text.hpp"
 

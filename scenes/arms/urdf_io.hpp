@@ -3,7 +3,7 @@
 // meshes are their convex hulls. What is taken of them is said in docs/file_formats.md, "Robots from files".
 #pragma once
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/arm_model.hpp"
 #include "scenes/scene/scene.hpp"
 

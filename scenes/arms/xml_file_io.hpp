@@ -19,7 +19,7 @@
 
 #include "core/base/trigonometry.hpp"
 #include "core/base/types.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "scenes/text/scene_text.hpp"

@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "scenes/text/input_file_io.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/prices.hpp"
 
 namespace warren {

@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "core/plane/cell_walls.hpp"
+#include "core/run/execution.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/execution.hpp"
 #include "scenes/mazes/cell_bits.hpp"
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/input_file_io.hpp"

@@ -4,7 +4,7 @@
 // are left open.
 #pragma once
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "scenes/text/input_file_io.hpp"
 

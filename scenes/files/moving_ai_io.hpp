@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "scenes/text/input_file_io.hpp"
 

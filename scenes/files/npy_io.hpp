@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "core/base/cell_potential.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/mazes/maze_walls.hpp"
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/input_file_io.hpp"

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "core/base/raw_vector.hpp"
+#include "core/run/execution.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/execution.hpp"
 #include "scenes/files/npy_io.hpp"
 #include "scenes/mazes/cell_bits.hpp"
 #include "scenes/mazes/spanning_maze.hpp"

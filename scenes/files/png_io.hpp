@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/files/image_io.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 

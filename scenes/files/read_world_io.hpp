@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/files/ros_map_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/scene/scene.hpp"

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "scenes/scene/prices.hpp"
 #include "scenes/text/input_file_io.hpp"

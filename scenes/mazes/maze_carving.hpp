@@ -10,9 +10,9 @@
 
 #include "core/base/raw_vector.hpp"
 #include "core/base/rng.hpp"
+#include "core/run/execution.hpp"
 #include "core/search/union_find.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/execution.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 
 namespace warren::maze {

@@ -19,7 +19,7 @@
 #include "core/base/raw_vector.hpp"
 #include "core/plane/cell_walls.hpp"
 #include "core/plane/wall_set.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace warren {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/plane/cell_walls.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 
 namespace warren {

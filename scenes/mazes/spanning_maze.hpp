@@ -18,7 +18,7 @@
 
 #include "core/base/packed_values.hpp"
 #include "core/plane/cell_walls.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/mazes/spanning_tile.hpp"
 
 namespace warren::maze {

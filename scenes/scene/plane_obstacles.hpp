@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/plane/polygon.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace warren {

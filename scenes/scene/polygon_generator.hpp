@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace warren {

@@ -18,7 +18,7 @@
 #include "core/base/enum_names.hpp"
 #include "core/base/types.hpp"
 #include "core/plane/wall_set.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/arm_model.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "scenes/scene/prices.hpp"

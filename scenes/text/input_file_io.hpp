@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The bytes of an input: a pipe, device, standard input or small file read to its end; a file of 16 MiB and more mapped
 // into memory (nothing is read before it is looked at, pages can be given back). Waiting for a pipe polls the deadline
-// every 50 ms. A mapped file must not become shorter: who looks at what is gone gets SIGBUS (parallel/mapped_ranges.hpp
+// every 50 ms. A mapped file must not become shorter: who looks at what is gone gets SIGBUS (core/run/mapped_ranges.hpp
 // tells a handler whose it was; the program says that the file can't be read).
 #pragma once
 
@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "core/base/raw_vector.hpp"
-#include "parallel/execution.hpp"
-#include "parallel/mapped_ranges.hpp"
+#include "core/run/execution.hpp"
+#include "core/run/mapped_ranges.hpp"
 
 namespace warren {
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/text/input_file_io.hpp"
 
 namespace warren {

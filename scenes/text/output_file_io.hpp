@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 
 namespace warren {
 

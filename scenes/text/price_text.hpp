@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/prices.hpp"
 #include "scenes/text/scene_text.hpp"
 

@@ -16,7 +16,7 @@
 #include <variant>
 
 #include "core/plane/wall_set.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/input_file_io.hpp"
 

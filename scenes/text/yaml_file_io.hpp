@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "scenes/text/scene_text.hpp"
 

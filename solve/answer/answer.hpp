@@ -14,7 +14,7 @@
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "core/plane/se2.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/question/figure.hpp"
 #include "solve/question/question.hpp"

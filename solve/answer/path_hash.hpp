@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "solve/answer/answer.hpp"
 
 namespace warren {

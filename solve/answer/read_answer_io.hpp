@@ -13,7 +13,7 @@
 #include "core/base/cell_potential.hpp"
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "solve/answer/answer.hpp"

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/text/json_text.hpp"
 #include "solve/answer/answer.hpp"
 

@@ -8,7 +8,7 @@
 #include <functional>
 #include <string_view>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "solve/kept/roadmap_query.hpp"
 

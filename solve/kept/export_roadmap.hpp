@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/run/execution.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/execution.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
 #include "planners/graph/roadmap_search.hpp"
 #include "solve/kept/roadmap.hpp"

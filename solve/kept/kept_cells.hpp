@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/types.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/kept/roadmap_file.hpp"
 #include "verify/streamed/looked_up_walls.hpp"

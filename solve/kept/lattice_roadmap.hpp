@@ -15,7 +15,7 @@
 
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "parallel/once.hpp"
 #include "planners/lengths/route_index.hpp"
 #include "planners/lengths/route_query.hpp"

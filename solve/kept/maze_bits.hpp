@@ -10,7 +10,7 @@
 #include <string>
 
 #include "core/base/raw_vector.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/lengths/lattice_passages.hpp"
 #include "scenes/scene/scene.hpp"
 

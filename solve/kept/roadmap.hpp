@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
 #include "planners/lengths/route_index.hpp"
 #include "planners/roadmap/roadmap_growth.hpp"

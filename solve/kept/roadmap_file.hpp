@@ -20,8 +20,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/run/execution.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/execution.hpp"
 #include "parallel/once.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "scenes/text/output_file_io.hpp"

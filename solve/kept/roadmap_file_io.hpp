@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "solve/kept/roadmap.hpp"
 #include "solve/kept/roadmap_file.hpp"

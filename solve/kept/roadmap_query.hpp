@@ -9,7 +9,7 @@
 #include <optional>
 #include <span>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/roadmap/ask_roadmap.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/answer/by_products.hpp"

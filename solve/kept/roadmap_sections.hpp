@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/base/raw_vector.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/graph/hierarchy.hpp"
 #include "planners/lengths/lattice_passages.hpp"
 #include "planners/lengths/route_index.hpp"

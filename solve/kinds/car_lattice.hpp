@@ -14,7 +14,7 @@
 #include "core/base/raw_vector.hpp"
 #include "core/base/solution.hpp"
 #include "core/plane/se2.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/grid/cell_field.hpp"
 #include "planners/grid/motion_lattice.hpp"
 #include "scenes/scene/scene.hpp"

@@ -15,7 +15,7 @@
 #include "core/base/bitmap.hpp"
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/grid/price_field.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "solve/answer/answer.hpp"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/bitmap.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/grid/price_field.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "solve/kinds/solve_steps.hpp"

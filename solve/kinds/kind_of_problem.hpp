@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "core/base/solution.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
 #include "planners/roadmap/ask_roadmap.hpp"
 #include "planners/roadmap/roadmap_growth.hpp"

@@ -14,7 +14,7 @@
 #include "core/base/types.hpp"
 #include "core/base/whole.hpp"
 #include "core/plane/se2.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/shorten/priced_taut.hpp"
 #include "scenes/scene/prices.hpp"
 #include "scenes/scene/scene.hpp"

@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "core/base/bitmap.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/kinds/goals_on_map.hpp"

@@ -18,7 +18,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "parallel/sort.hpp"
 #include "planners/graph/contraction.hpp"
 #include "planners/graph/roadmap_arrays.hpp"

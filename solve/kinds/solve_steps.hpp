@@ -12,7 +12,7 @@
 #include <string_view>
 
 #include "core/base/solution.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/kinds/kind_of_problem.hpp"

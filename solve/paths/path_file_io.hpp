@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/base/solution.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/paths/timed_path.hpp"

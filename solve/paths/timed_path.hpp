@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "solve/answer/answer.hpp"
 
 namespace warren {

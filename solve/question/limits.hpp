@@ -12,7 +12,7 @@
 #include <string_view>
 
 #include "core/base/page_pool.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 
 namespace warren {
 

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "core/base/packed_values.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "parallel/once.hpp"
 
 namespace warren {

@@ -5,7 +5,7 @@
 
 #include "core/base/packed_values.hpp"
 #include "core/base/solution.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"

@@ -10,7 +10,7 @@
 
 #include "core/base/packed_values.hpp"
 #include "core/plane/cell_walls.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/mazes/tiled_prm_lattice.hpp"
 #include "scenes/mazes/spanning_maze.hpp"
 #include "scenes/scene/scene.hpp"

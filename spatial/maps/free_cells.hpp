@@ -11,7 +11,7 @@
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
 #include "core/base/whole.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "spatial/maps/distance_field.hpp"
 
 namespace warren {

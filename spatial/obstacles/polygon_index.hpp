@@ -13,7 +13,7 @@
 
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "spatial/obstacles/box_tree.hpp"
 
 namespace warren {

@@ -24,7 +24,7 @@
 
 #include "core/base/types.hpp"
 #include "core/plane/wall_set.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "spatial/obstacles/wall_grid.hpp"
 
 namespace warren {

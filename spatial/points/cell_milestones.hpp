@@ -7,7 +7,7 @@
 #pragma once
 
 #include "core/base/bitmap.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 
 namespace warren {
 

@@ -8,7 +8,7 @@
 #include <type_traits>
 
 #include "core/base/error.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "scenes/scene/scene.hpp"
 

@@ -18,9 +18,9 @@
 #include <vector>
 
 #include "core/base/rng.hpp"
+#include "core/run/trace.hpp"
 #include "parallel/plain_chunks.hpp"
 #include "parallel/sort.hpp"
-#include "parallel/trace.hpp"
 #include "tests/parallel/on_threads.hpp"
 
 namespace warren {

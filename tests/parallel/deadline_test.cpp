@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 
 #include <gtest/gtest.h>
 

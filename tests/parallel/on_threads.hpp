@@ -2,7 +2,7 @@
 // How a test asks for a number of threads.
 #pragma once
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 
 namespace warren::test {
 

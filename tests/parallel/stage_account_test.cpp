@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "parallel/trace.hpp"
+#include "core/run/trace.hpp"
 
 #include <gtest/gtest.h>
 

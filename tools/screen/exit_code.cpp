@@ -16,7 +16,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/printable.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/question/limits.hpp"
 #include "tools/screen/run_of_verb.hpp"

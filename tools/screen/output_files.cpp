@@ -19,7 +19,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/printable.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "scenes/files/read_world_io.hpp"
 #include "scenes/files/ros_map_io.hpp"

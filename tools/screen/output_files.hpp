@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "pictures/plots/plot_sheet.hpp"
 #include "scenes/scene/scene.hpp"
 #include "tools/words/command.hpp"

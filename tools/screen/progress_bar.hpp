@@ -14,8 +14,8 @@
 #include <string_view>
 
 #include "core/base/solution.hpp"
-#include "parallel/execution.hpp"
-#include "parallel/guarded.hpp"
+#include "core/run/execution.hpp"
+#include "parallel/once.hpp"
 #include "parallel/ticker.hpp"
 #include "tools/screen/terminal.hpp"
 

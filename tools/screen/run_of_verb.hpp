@@ -13,8 +13,8 @@
 #include <string_view>
 
 #include "core/base/page_pool.hpp"
-#include "parallel/execution.hpp"
-#include "parallel/trace.hpp"
+#include "core/run/execution.hpp"
+#include "core/run/trace.hpp"
 #include "tools/screen/progress_bar.hpp"
 #include "tools/screen/terminal.hpp"
 #include "tools/words/command.hpp"

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <ctime>
 
-#include "parallel/mapped_ranges.hpp"
+#include "core/run/mapped_ranges.hpp"
 #include "tools/screen/exit_code.hpp"
 
 namespace warren::tools {

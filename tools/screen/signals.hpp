@@ -5,7 +5,7 @@
 // can't be written. SIGPIPE ends the program quietly, SIGQUIT at once, with a core where the system keeps one.
 #pragma once
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 
 namespace warren::tools {
 

@@ -17,8 +17,8 @@
 
 #include "core/base/error.hpp"
 #include "core/base/printable.hpp"
+#include "core/run/execution.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/execution.hpp"
 #include "planners/grid/grid_search.hpp"
 #include "scenes/files/moving_ai_io.hpp"
 #include "scenes/scene/occupancy_map.hpp"

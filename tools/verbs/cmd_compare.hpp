@@ -14,7 +14,7 @@
 #include "apps/studies/planner_contest.hpp"
 #include "apps/studies/search_contest.hpp"
 #include "core/base/solution.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "tools/words/command.hpp"
 

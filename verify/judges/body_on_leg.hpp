@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/plane/se2.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "verify/exact/arc_distance.hpp"
 #include "verify/judges/leg_reports.hpp"
 #include "verify/near/obstacle_sides.hpp"

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "core/base/types.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "verify/near/obstacle_sides.hpp"
 
 namespace warren {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/prices.hpp"
 #include "scenes/scene/scene.hpp"
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/arm_model.hpp"
 #include "verify/judges/solid_gap.hpp"
 

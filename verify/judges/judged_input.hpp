@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "core/plane/se2.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace warren {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "core/base/types.hpp"
+#include "core/run/execution.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/execution.hpp"
 #include "verify/exact/exact_segments.hpp"
 #include "verify/judges/contact.hpp"
 #include "verify/judges/verification.hpp"

@@ -18,7 +18,7 @@
 // walls.
 #pragma once
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "verify/judges/leg_reports.hpp"
 #include "verify/judges/verify_point.hpp"

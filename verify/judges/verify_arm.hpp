@@ -23,7 +23,7 @@
 #include <optional>
 #include <span>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/arm_model.hpp"
 #include "scenes/scene/scene.hpp"
 #include "verify/judges/verification.hpp"

@@ -13,7 +13,7 @@
 #include <span>
 
 #include "core/plane/se2.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/prices.hpp"
 #include "scenes/scene/scene.hpp"
 

@@ -16,7 +16,7 @@
 #include <string>
 
 #include "core/base/enum_names.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace warren {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "core/plane/se2.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "verify/judges/verification.hpp"
 #include "verify/judges/verify_turning.hpp"

@@ -6,7 +6,7 @@
 
 #include <span>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "verify/judges/verify_point.hpp"
 

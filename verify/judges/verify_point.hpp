@@ -14,7 +14,7 @@
 
 #include "core/base/enum_names.hpp"
 #include "core/base/types.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "verify/judges/verification.hpp"
 

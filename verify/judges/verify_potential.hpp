@@ -6,7 +6,7 @@
 
 #include "core/base/cell_potential.hpp"
 #include "core/base/types.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "verify/judges/verify_bound.hpp"
 

@@ -7,7 +7,7 @@
 
 #include <span>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/prices.hpp"
 #include "scenes/scene/scene.hpp"
 

@@ -29,7 +29,7 @@
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
 #include "core/plane/wall_set.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "verify/near/leg_boxes.hpp"
 
 namespace warren {

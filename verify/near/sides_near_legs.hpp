@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/base/types.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "verify/near/obstacle_index.hpp"
 #include "verify/near/obstacle_sides.hpp"

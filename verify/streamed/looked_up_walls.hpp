@@ -15,8 +15,8 @@
 #include "core/base/types.hpp"
 #include "core/plane/cell_walls.hpp"
 #include "core/plane/wall_set.hpp"
+#include "core/run/execution.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/execution.hpp"
 
 namespace warren {
 

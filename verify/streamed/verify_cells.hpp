@@ -11,8 +11,8 @@
 
 #include "core/base/types.hpp"
 #include "core/plane/cell_walls.hpp"
+#include "core/run/execution.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/execution.hpp"
 #include "verify/judges/leg_reports.hpp"
 #include "verify/judges/verification.hpp"
 #include "verify/judges/verify_point.hpp"

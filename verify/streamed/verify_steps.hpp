@@ -9,7 +9,7 @@
 #include <span>
 
 #include "core/base/types.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "verify/judges/verification.hpp"
 #include "verify/judges/verify_point.hpp"
 #include "verify/streamed/looked_up_walls.hpp"

@@ -36,7 +36,7 @@
 #include <cstdint>
 #include <span>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/arm_model.hpp"
 #include "spatial/points/disc_points.hpp"
 #include "worlds/arms/arm_tables.hpp"

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "worlds/arms/arm_kinematics.hpp"
 
 namespace warren {

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/arm_model.hpp"
 #include "worlds/arms/convex_motion.hpp"
 

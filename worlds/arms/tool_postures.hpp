@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "worlds/arms/serial_chain.hpp"
 
 namespace warren {

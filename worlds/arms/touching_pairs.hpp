@@ -3,7 +3,7 @@
 // does, as far as 1,000 states tell (MoveIt's assistant finds its pairs that way, too).
 #pragma once
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/arm_model.hpp"
 
 namespace warren {

@@ -10,7 +10,7 @@
 
 #include "core/base/types.hpp"
 #include "core/base/whole.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "spatial/obstacles/wall_index.hpp"
 
 namespace warren {

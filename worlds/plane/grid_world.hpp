@@ -10,7 +10,7 @@
 
 #include "core/base/types.hpp"
 #include "core/base/world.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "spatial/maps/distance_field.hpp"
 #include "spatial/points/cell_milestones.hpp"

@@ -12,7 +12,7 @@
 #include "core/base/types.hpp"
 #include "core/base/world.hpp"
 #include "core/plane/cell_walls.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "spatial/obstacles/wall_index.hpp"
 

@@ -19,7 +19,7 @@
 
 #include "core/base/types.hpp"
 #include "core/base/whole.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "worlds/poses/steering_curve.hpp"
 
 namespace warren {

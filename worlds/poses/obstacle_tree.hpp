@@ -14,7 +14,7 @@
 
 #include "core/base/types.hpp"
 #include "core/base/world.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "spatial/obstacles/box_tree.hpp"
 

@@ -25,7 +25,7 @@
 #include "core/base/trigonometry.hpp"
 #include "core/base/world.hpp"
 #include "core/plane/se2.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "worlds/poses/certified_motion.hpp"
 #include "worlds/poses/obstacle_tree.hpp"

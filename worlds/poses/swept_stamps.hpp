@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "core/base/types.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "spatial/maps/free_cells.hpp"
 #include "worlds/poses/motion_set.hpp"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/base/bitmap.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "scenes/scene/prices.hpp"
 #include "scenes/scene/scene.hpp"

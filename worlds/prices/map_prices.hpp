@@ -12,7 +12,7 @@
 
 #include "core/base/bitmap.hpp"
 #include "core/plane/nearness.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "scenes/scene/prices.hpp"
 #include "spatial/maps/distance_field.hpp"

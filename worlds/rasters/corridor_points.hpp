@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "core/base/types.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "spatial/maps/free_cells.hpp"
 

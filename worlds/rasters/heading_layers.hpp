@@ -16,7 +16,7 @@
 #include "core/base/enum_names.hpp"
 #include "core/base/types.hpp"
 #include "core/plane/heading_layers.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "scenes/scene/scene.hpp"
 

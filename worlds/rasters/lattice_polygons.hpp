@@ -10,7 +10,7 @@
 
 #include "core/base/bitmap.hpp"
 #include "core/base/types.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "scenes/scene/scene.hpp"
 

@@ -13,7 +13,7 @@
 
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/paths/timed_path.hpp"
 

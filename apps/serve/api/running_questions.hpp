@@ -11,7 +11,7 @@
 
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
-#include "parallel/guarded.hpp"
+#include "parallel/once.hpp"
 
 namespace warren::serve {
 

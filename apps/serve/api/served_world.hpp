@@ -15,7 +15,7 @@
 
 #include "apps/serve/graphs/edge_judge.hpp"
 #include "apps/serve/tiles/world_tiles.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "parallel/once.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/answer/answer.hpp"

@@ -13,7 +13,7 @@
 #include "apps/serve/http/kept_values.hpp"
 #include "apps/serve/tiles/distance_layers.hpp"
 #include "apps/serve/tiles/roadmap_layer.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "parallel/once.hpp"
 
 namespace warren::serve {

@@ -16,7 +16,7 @@
 #include "apps/serve/api/request_bodies_io.hpp"
 #include "apps/serve/page/served_files.hpp"
 #include "core/base/error.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "pictures/formats/markup.hpp"
 #include "pictures/layers/draw_prices.hpp"
 #include "scenes/files/scene_io.hpp"

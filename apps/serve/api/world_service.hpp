@@ -17,7 +17,7 @@
 #include "apps/serve/http/http_message.hpp"
 #include "apps/serve/http/http_server.hpp"
 #include "apps/serve/http/kept_values.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "solve/answer/answer.hpp"
 
 namespace warren::serve {

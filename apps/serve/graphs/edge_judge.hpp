@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/base/types.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "parallel/once.hpp"
 #include "scenes/scene/scene.hpp"
 #include "verify/near/obstacle_index.hpp"

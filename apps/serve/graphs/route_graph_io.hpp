@@ -10,7 +10,7 @@
 #include "apps/serve/graphs/edge_judge.hpp"
 #include "apps/serve/graphs/json_body_io.hpp"
 #include "apps/serve/graphs/route_graph.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 
 namespace warren::serve {
 

@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "apps/serve/graphs/route_graph.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/question/question.hpp"
 

@@ -31,7 +31,7 @@
 #include "apps/serve/http/http_message.hpp"
 #include "apps/serve/http/task_crew.hpp"
 #include "core/base/error.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "scenes/text/human_units.hpp"
 
 namespace warren::serve {

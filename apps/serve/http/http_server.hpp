@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "apps/serve/http/http_message.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 
 namespace warren::serve {
 

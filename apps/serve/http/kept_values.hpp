@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "parallel/once.hpp"
 
 namespace warren::serve {

@@ -9,7 +9,7 @@
 
 #include "apps/serve/tiles/web_tile.hpp"
 #include "apps/serve/tiles/world_tiles.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "solve/kept/roadmap_query.hpp"
 
 namespace warren::serve {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "apps/serve/tiles/web_tile.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "pictures/model/colors.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
 #include "planners/lengths/lattice_passages.hpp"

@@ -16,8 +16,8 @@
 
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
+#include "core/run/execution.hpp"
 #include "parallel/chunks.hpp"
-#include "parallel/execution.hpp"
 #include "pictures/model/colors.hpp"
 
 namespace warren::serve {

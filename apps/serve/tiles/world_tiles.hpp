@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/serve/tiles/web_tile.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/lengths/lattice_passages.hpp"
 #include "scenes/scene/scene.hpp"
 

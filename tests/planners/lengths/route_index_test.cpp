@@ -12,7 +12,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 #include "planners/lengths/route_query.hpp"
 #include "tests/planners/lengths/lattice_mazes.hpp"
 #include "tests/seeds.hpp"

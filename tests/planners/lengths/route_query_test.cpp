@@ -10,8 +10,8 @@
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
-#include "parallel/execution.hpp"
-#include "parallel/trace.hpp"
+#include "core/run/execution.hpp"
+#include "core/run/trace.hpp"
 #include "planners/lengths/tree_routes.hpp"
 #include "tests/planners/lengths/lattice_mazes.hpp"
 #include "tests/seeds.hpp"

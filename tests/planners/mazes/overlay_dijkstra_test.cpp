@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/base/rng.hpp"
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 
 namespace warren {
 namespace {

@@ -16,8 +16,8 @@
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
-#include "parallel/execution.hpp"
-#include "parallel/trace.hpp"
+#include "core/run/execution.hpp"
+#include "core/run/trace.hpp"
 #include "tests/seeds.hpp"
 #include "tests/verify/judges/bounding_judge.hpp"
 #include "verify/judges/verify_arm.hpp"

@@ -107,8 +107,8 @@ class Progress {
   std::atomic<std::uint64_t> total_{0};
 };
 
-class Trace;         // parallel/trace.hpp
-class StageAccount;  // parallel/trace.hpp
+class Trace;         // core/run/trace.hpp
+class StageAccount;  // core/run/trace.hpp
 
 /// What changes the time of a call, never its result, but that who is told of improvements may have enough.
 struct Execution {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "parallel/mapped_ranges.hpp"
+#include "core/run/mapped_ranges.hpp"
 
 #include <array>
 #include <atomic>

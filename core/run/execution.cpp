@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "parallel/execution.hpp"
+#include "core/run/execution.hpp"
 
 #include <sched.h>
 #include <sys/resource.h>
@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "core/base/page_pool.hpp"
-#include "parallel/trace.hpp"
+#include "core/run/trace.hpp"
 
 #ifdef __GLIBC__
 #include <malloc.h>
