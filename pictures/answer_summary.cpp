@@ -40,6 +40,11 @@ std::string why_not_connected(const Answer& answer) {
     return fmt::format("of {} that bring the tool there none is free; others might be",
                        counted(std::get<std::uint64_t>(*tried), "posture", "postures"));
   }
+  if (const Figure* reached = figure_named(answer.figures, "stops_reached")) {
+    const std::uint64_t stops = std::get<std::uint64_t>(*reached);
+    const std::string from = stops == 0 ? "to the first stop" : fmt::format("from stop {} on", stops);
+    return fmt::format("{} no way was found; there may be one", from);
+  }
   return "this roadmap does not join start and goal; another might";
 }
 

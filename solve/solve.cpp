@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/plane/geometry.hpp"
+#include "core/plane/se2.hpp"
 #include "core/run/trace.hpp"
 #include "solve/explain/blocked_end.hpp"
 #include "solve/kept/roadmap.hpp"
@@ -79,28 +80,6 @@ std::optional<PriceParts> judged_price(const Scene& scene, const Prices& prices,
   return verify_price(scene, answer.path, prices, robot.radius, execution);
 }
 
-/// By the verification's own view of what the prices close and open, and what the path costs.
-void judge_prices(Answer& answer, const Scene& scene, const Question& question, const Execution& execution) {
-  const Prices prices = prices_of(scene, question);
-  if (!answer.verified || prices.empty()) return;
-  const StageTimer timer(execution, "verify", answer.seconds.verify, path_points(answer));
-  const std::optional<Scene> effective = effective_scene(scene, prices, execution);
-  const Scene& judged = effective ? *effective : scene;
-  const RecordedAnswer record = recorded(answer);
-  const Question asked = answer.problem.question();
-  const Verdict verdict = verifying_kind(judged, asked).verify(judged, asked, record, execution);
-  if (!verdict.verified) fail_verification(answer, verdict.first_violation.value_or(Violation{}));
-  auto price = judged_price(judged, prices, answer.problem.robot, record, execution);
-  if (!price) return;
-  if (answer.price) {  // of a car: what its judge has counted
-    price->turning = answer.price->turning;
-    price->cusps = answer.price->cusps;
-    price->reverse = answer.price->reverse;
-  }
-  answer.price = price;
-  answer.cost = answer.length + price->sum();
-}
-
 /// What driving costs, as the answer says that it was asked, by what the judge has counted; none: nobody asked.
 /// places_too: do they have prices?
 std::optional<PriceParts> driving_price(const RecordedAnswer& answer, const Verdict& verdict, bool places_too) {
@@ -113,6 +92,32 @@ std::optional<PriceParts> driving_price(const RecordedAnswer& answer, const Verd
   return PriceParts{.turning = asked.turn_cost.value_or(0.0) * verdict.turn_rad,
                     .cusps = asked.cusp_cost.value_or(usual_cusp) * static_cast<double>(verdict.cusps),
                     .reverse = (asked.reverse_cost.value_or(1.0) - 1.0) * verdict.reversed};
+}
+
+/// By the verification's own view of what the prices close and open, and what the path costs.
+void judge_prices(Answer& answer, const Scene& scene, const Question& question, bool has_stops,
+                  const Execution& execution) {
+  const Prices prices = prices_of(scene, question);
+  const bool is_driven_on = has_stops && answer.price;  // a car's gear may change where legs meet
+  if (!answer.verified || (prices.empty() && !is_driven_on)) return;
+  const StageTimer timer(execution, "verify", answer.seconds.verify, path_points(answer));
+  const std::optional<Scene> effective = effective_scene(scene, prices, execution);
+  const Scene& judged = effective ? *effective : scene;
+  const RecordedAnswer record = recorded(answer);
+  const Question asked = answer.problem.question();
+  const Verdict verdict = verifying_kind(judged, asked).verify(judged, asked, record, execution);
+  if (!verdict.verified) fail_verification(answer, verdict.first_violation.value_or(Violation{}));
+  const auto of_places = judged_price(judged, prices, answer.problem.robot, record, execution);
+  const auto driving = is_driven_on ? driving_price(record, verdict, of_places.has_value()) : answer.price;
+  if (!of_places && !driving) return;
+  PriceParts price = of_places.value_or(PriceParts{});
+  if (driving) {  // of a car: what its judge has counted
+    price.turning = driving->turning;
+    price.cusps = driving->cusps;
+    price.reverse = driving->reverse;
+  }
+  answer.price = price;
+  answer.cost = answer.length + price.sum();
 }
 
 /// Cost and price that an answer claims are a part of what is verified.
@@ -156,17 +161,35 @@ void refute(Verdict& verdict, std::string what) {
   verdict.first_violation = Violation{.leg = 0, .distance = 0.0, .obstacle = std::move(what)};
 }
 
-/// The number of the first place that was to be visited and lies on no leg of the path.
-std::optional<std::size_t> place_passed_by(const GoalRule& rule, std::span<const Vec2> path) {
+/// Does a leg of the path pass there? With a heading, or of an arm, a state of it has to be that one.
+bool passes(std::span<const Vec2> path, const StateList& states, const std::vector<double>& place) {
   constexpr double rounding = 1e-9;
-  for (std::size_t i = 0; i < rule.visit.size(); ++i) {
-    const Vec2 place{rule.visit[i][0], rule.visit[i][1]};
-    bool is_there = false;
-    for (std::size_t k = 0; k < path.size() && !is_there; ++k) {
+  if (place.size() == 2) {
+    const Vec2 at{place[0], place[1]};
+    for (std::size_t k = 0; k < path.size(); ++k) {
       const Segment leg{path[k], path[std::min(k + 1, path.size() - 1)]};
-      is_there = distance(place, leg) <= rounding * (1.0 + norm(place));
+      if (distance(at, leg) <= rounding * (1.0 + norm(at))) return true;
     }
-    if (!is_there) return i;
+    return false;
+  }
+  const auto is_there = [&](std::span<const double> state) {
+    for (std::size_t i = 0; i < place.size(); ++i) {
+      const bool is_heading = i == 2 && place.size() == 3;
+      const double off = is_heading ? turn_between(state[i], place[i]) : state[i] - place[i];
+      if (!(std::abs(off) <= rounding * (1.0 + std::abs(place[i])))) return false;
+    }
+    return true;
+  };
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    if (states.width == place.size() && is_there(states[k])) return true;
+  }
+  return false;
+}
+
+/// The number of the first place that was to be visited and is not.
+std::optional<std::size_t> place_passed_by(const GoalRule& rule, std::span<const Vec2> path, const StateList& states) {
+  for (std::size_t i = 0; i < rule.visit.size(); ++i) {
+    if (!passes(path, states, rule.visit[i])) return i;
   }
   return std::nullopt;
 }
@@ -176,7 +199,7 @@ std::string passed_by_text(std::size_t place) { return fmt::format("visit: the p
 /// So are the places to visit.
 void check_visits(Verdict& verdict, const GoalRule& rule, const RecordedAnswer& answer) {
   if (!verdict.verified) return;
-  if (const auto missed = place_passed_by(rule, answer.path)) refute(verdict, passed_by_text(*missed));
+  if (const auto missed = place_passed_by(rule, answer.path, answer.states)) refute(verdict, passed_by_text(*missed));
 }
 
 /// The length that an answer claims is a part of what is verified.
@@ -348,10 +371,7 @@ void take_samples(const Answer& answer, SolveOptions& options) {
 
 void add_account(const BuildAccount& built, Answer& answer) {
   answer.counters += built.counters;
-  answer.seconds.index += built.seconds.index;
-  answer.seconds.sample += built.seconds.sample;
-  answer.seconds.neighbours += built.seconds.neighbours;
-  answer.seconds.connect += built.seconds.connect;
+  answer.seconds += built.seconds;
 }
 
 Answer kept_and_solved(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,
@@ -409,8 +429,9 @@ Answer solve_within(const Scene& scene, const Question& question, const SolveOpt
     answer = solve_to_goal(*solver.kind, request);
     answer.problem.prices = prices_of(scene, question);
     keep_to_route(answer, restricted.get(), question, options, accounted);
-    judge_prices(answer, scene, question, accounted);
-    if (const auto missed = place_passed_by(question.rule, answer.path); missed && answer.verified)
+    const bool has_stops = !options.trees.via.empty() || !question.rule.visit.empty();
+    judge_prices(answer, scene, question, has_stops, accounted);
+    if (const auto missed = place_passed_by(question.rule, answer.path, answer.states); missed && answer.verified)
       fail_verification(answer, Violation{.leg = 0, .distance = 0.0, .obstacle = passed_by_text(*missed)});
     tell_bound(answer, planned.get(), options, accounted);
     prove_on_map(answer, planned.get(), options, keep, accounted);

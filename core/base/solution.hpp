@@ -63,6 +63,21 @@ struct StageTimes {
   double search = 0.0;      ///< searching; of trees, growing them
   double optimise = 0.0;    ///< pulling the path taut
   double verify = 0.0;      ///< judging the path
+  /// Adds all of them.
+  StageTimes& operator+=(const StageTimes& o) {
+    generate += o.generate;
+    read += o.read;
+    index += o.index;
+    sample += o.sample;
+    neighbours += o.neighbours;
+    connect += o.connect;
+    graph += o.graph;
+    reduce += o.reduce;
+    search += o.search;
+    optimise += o.optimise;
+    verify += o.verify;
+    return *this;
+  }
 };
 
 /// What a stage cost in all its rounds. Where one stage has several links of a chain, each has its own.

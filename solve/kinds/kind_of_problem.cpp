@@ -19,6 +19,24 @@ const PlannerChoice* choice_in(const SolveKind& kind, PlannerKind planner) {
   return found == kind.planners.end() ? nullptr : &*found;
 }
 
+// Stops on the way are for every planner of a world that is held: solve_to_goal() plans from one to the next.
+
+bool takes(const SolveKind& kind, const PlannerChoice& choice, Option option) {
+  return choice.options.has(option) || (option == Option::via && !kind.unmade);
+}
+bool takes(const SolveKind& kind, const PlannerChoice& choice, AskedWord word) {
+  return choice.words.has(word) || (word == AskedWord::visit && !kind.unmade);
+}
+
+/// Does the planner of this kind take all of it? solve() keeps routes, whoever plans.
+bool takes_all(const SolveKind& kind, const PlannerChoice& choice, AskedWords words, const SolveOptions& options) {
+  const std::vector<AskedWord> asked = words_of(words);
+  const std::vector<Option> wanted = options_in(given(options));
+  return std::all_of(asked.begin(), asked.end(),
+                     [&](AskedWord word) { return takes(kind, choice, word) || word == AskedWord::keep_to; }) &&
+         std::all_of(wanted.begin(), wanted.end(), [&](Option option) { return takes(kind, choice, option); });
+}
+
 /// "a", "a and b", "a, b and c": of words or planners.
 template <class Word>
 std::string listed(const std::vector<Word>& words) {
@@ -64,64 +82,73 @@ std::string takers_text(const std::vector<PlannerKind>& takers) {
   return fmt::format("{} {} it", listed(takers), takers.size() == 1 ? "takes" : "take");
 }
 
+template <class Word>
+bool any_takes(const SolveKind& kind, Word word) {
+  return std::any_of(kind.planners.begin(), kind.planners.end(),
+                     [&](const PlannerChoice& choice) { return takes(kind, choice, word); });
+}
+
 /// Refuses an option where the problem is known: others of its planners take the option, or the option is for other
 /// problems.
 [[noreturn]] void refuse_for_problem(Option option, PlannerKind planner, const std::vector<const SolveKind*>& fitting) {
-  const auto takes = [&](const PlannerChoice& choice) { return choice.options.has(option); };
   const auto is_here = [&](const SolveKind& kind) {
     return std::find(fitting.begin(), fitting.end(), &kind) != fitting.end();
   };
   const auto here = planners_where(
-      [&](const SolveKind& kind, const PlannerChoice& choice) { return is_here(kind) && takes(choice); });
+      [&](const SolveKind& kind, const PlannerChoice& choice) { return is_here(kind) && takes(kind, choice, option); });
   std::string taken = takers_text(here);
   if (here.empty()) {
     std::vector<std::string_view> problems;
     for (const SolveKind& kind : solve_kinds()) {
-      if (std::any_of(kind.planners.begin(), kind.planners.end(), takes)) problems.push_back(kind.problem);
+      if (any_takes(kind, option)) problems.push_back(kind.problem);
     }
-    const auto all = planners_where([&](const SolveKind&, const PlannerChoice& choice) { return takes(choice); });
+    const auto all =
+        planners_where([&](const SolveKind& kind, const PlannerChoice& choice) { return takes(kind, choice, option); });
     taken = fmt::format("{} for {}", takers_text(all), listed(problems));
   }
   throw UsageError(fmt::format("@{}: {} would ignore it for {}; {}", name_of(option), name_of(planner),
                                fitting.front()->problem, taken));
 }
 
-/// Refuses the options that none of `choices` takes; `fitting` are the kinds of the problem, where that is known.
-void refuse_ignored(const SolveOptions& options, PlannerKind planner, const std::vector<PlannerChoice>& choices,
+/// Refuses the options that the planner takes in none of `kinds`, which all have it; `fitting` are the kinds of the
+/// problem, where that is known.
+void refuse_ignored(const SolveOptions& options, PlannerKind planner, const std::vector<const SolveKind*>& kinds,
                     const std::vector<const SolveKind*>& fitting = {}) {
   for (const Option option : options_in(given(options))) {
-    const auto takes = [&](const PlannerChoice& choice) { return choice.options.has(option); };
-    if (std::any_of(choices.begin(), choices.end(), takes)) continue;
+    if (std::any_of(kinds.begin(), kinds.end(),
+                    [&](const SolveKind* kind) { return takes(*kind, *choice_in(*kind, planner), option); }))
+      continue;
     if (!fitting.empty()) refuse_for_problem(option, planner, fitting);
-    const auto takers = planners_where([&](const SolveKind&, const PlannerChoice& choice) { return takes(choice); });
+    const auto takers =
+        planners_where([&](const SolveKind& kind, const PlannerChoice& choice) { return takes(kind, choice, option); });
     throw UsageError(
         fmt::format("@{}: {} would ignore it; {}", name_of(option), name_of(planner), takers_text(takers)));
   }
 }
 
 /// Refuses the first of the words that the planner of this kind would ignore.
-void refuse_ignored_words(AskedWords asked, const PlannerChoice& chosen, const Scene& scene, const Question& question,
-                          const std::vector<const SolveKind*>& fitting) {
+void refuse_ignored_words(AskedWords asked, const SolveKind& chosen, PlannerKind planner, const Scene& scene,
+                          const Question& question, const std::vector<const SolveKind*>& fitting) {
   for (const AskedWord word : words_of(asked)) {
-    if (chosen.words.has(word) || word == AskedWord::keep_to) continue;  // solve() keeps routes, whoever plans
-    const auto takes = [&](const PlannerChoice& choice) { return choice.words.has(word); };
+    if (takes_all(chosen, *choice_in(chosen, planner), {word}, {})) continue;
     const auto is_here = [&](const SolveKind& kind) {
       return std::find(fitting.begin(), fitting.end(), &kind) != fitting.end();
     };
     const auto here = planners_where(
-        [&](const SolveKind& kind, const PlannerChoice& choice) { return is_here(kind) && takes(choice); });
+        [&](const SolveKind& kind, const PlannerChoice& choice) { return is_here(kind) && takes(kind, choice, word); });
     std::vector<std::string_view> problems;
     for (const SolveKind& kind : solve_kinds()) {
-      if (std::any_of(kind.planners.begin(), kind.planners.end(), takes)) problems.push_back(kind.problem);
+      if (any_takes(kind, word)) problems.push_back(kind.problem);
     }
-    const auto all = planners_where([&](const SolveKind&, const PlannerChoice& choice) { return takes(choice); });
+    const auto all =
+        planners_where([&](const SolveKind& kind, const PlannerChoice& choice) { return takes(kind, choice, word); });
     const std::string taken = !here.empty() ? takers_text(here)
                               : all.empty() ? "no planner of this version takes it"
                                             : fmt::format("{} for {}", takers_text(all), listed(problems));
     const bool is_factor = word == AskedWord::keep_out_factor || word == AskedWord::unknown_factor;
     const std::string_view what = is_factor ? "its factor" : word == AskedWord::goal_heading ? "its angle" : "it";
     throw UsageError(fmt::format("{}: {} would ignore {} for {}; {}", place_of_word(word, scene, question),
-                                 name_of(chosen.planner), what, fitting.front()->problem, taken));
+                                 name_of(planner), what, fitting.front()->problem, taken));
   }
 }
 
@@ -151,17 +178,10 @@ PlannerKind usual_planner_of(const SolveKind& kind, const SolveOptions& options,
 /// The usual planner where it respects all the words and takes all the options, else the first that does; none: nobody.
 std::optional<PlannerKind> planner_for_words(AskedWords asked, const SolveOptions& options, PlannerKind usual,
                                              const std::vector<const SolveKind*>& fitting) {
-  const std::vector<Option> wanted = options_in(given(options));
-  const std::vector<AskedWord> words = words_of(asked);
-  const auto takes_all = [&](const PlannerChoice& choice) {
-    return std::all_of(words.begin(), words.end(),
-                       [&](AskedWord word) { return choice.words.has(word) || word == AskedWord::keep_to; }) &&
-           std::all_of(wanted.begin(), wanted.end(), [&](Option option) { return choice.options.has(option); });
-  };
   std::optional<PlannerKind> first;
   for (const SolveKind* kind : fitting) {
     for (const PlannerChoice& choice : kind->planners) {
-      if (!takes_all(choice)) continue;
+      if (!takes_all(*kind, choice, asked, options)) continue;
       if (choice.planner == usual) return usual;
       if (!first) first = choice.planner;
     }
@@ -195,15 +215,15 @@ const std::vector<SolveKind>& solve_kinds() {
 void check_solver_options(const SolveOptions& options) {
   const std::optional<PlannerKind> asked = options.planner;
   if (asked) {
-    std::vector<PlannerChoice> choices;
+    std::vector<const SolveKind*> kinds;
     for (const SolveKind& kind : solve_kinds()) {
-      if (const PlannerChoice* choice = choice_in(kind, *asked)) choices.push_back(*choice);
+      if (choice_in(kind, *asked) != nullptr) kinds.push_back(&kind);
     }
-    if (choices.empty()) {
+    if (kinds.empty()) {
       throw UsageError(fmt::format("@planner: {} is none that this version has; it has {}", name_of(*asked),
                                    listed(planners_there_are())));
     }
-    refuse_ignored(options, *asked, choices);
+    refuse_ignored(options, *asked, kinds);
   }
   if (!asked || is_roadmap_planner(*asked)) check_planner_options(options);
 }
@@ -219,19 +239,15 @@ ChosenSolver choose_solver(const SolveOptions& options, const Scene& scene, cons
   if (!asked && !words.empty()) asked = planner_for_words(words, options, usual, fitting);
   ChosenSolver chosen{&first, asked.value_or(usual)};
   const auto has_it = [&](const SolveKind* kind) { return choice_in(*kind, chosen.planner) != nullptr; };
-  const std::vector<AskedWord> listed_words = words_of(words);
-  const auto takes_all = [&](const SolveKind* kind) {
-    const PlannerChoice* choice = choice_in(*kind, chosen.planner);
-    return choice != nullptr && std::all_of(listed_words.begin(), listed_words.end(),
-                                            [&](AskedWord word) { return choice->words.has(word); });
+  const auto takes_it = [&](const SolveKind* kind) {
+    return has_it(kind) && takes_all(*kind, *choice_in(*kind, chosen.planner), words, options);
   };
-  auto found = std::find_if(fitting.begin(), fitting.end(), takes_all);
+  auto found = std::find_if(fitting.begin(), fitting.end(), takes_it);
   if (found == fitting.end()) found = std::find_if(fitting.begin(), fitting.end(), has_it);
   if (found == fitting.end()) refuse_planner(chosen.planner, fitting);
   chosen.kind = *found;
-  const PlannerChoice& choice = *choice_in(*chosen.kind, chosen.planner);
-  refuse_ignored(options, chosen.planner, {choice}, fitting);
-  refuse_ignored_words(words, choice, scene, question, fitting);
+  refuse_ignored(options, chosen.planner, {chosen.kind}, fitting);
+  refuse_ignored_words(words, *chosen.kind, chosen.planner, scene, question, fitting);
   check_corridors(options, scene);
   return chosen;
 }
@@ -256,7 +272,7 @@ const SolveKind& verifying_kind(const Scene& scene, const Question& question) {
 
 bool planner_takes(PlannerKind planner, Option option) {
   const auto takers =
-      planners_where([&](const SolveKind&, const PlannerChoice& choice) { return choice.options.has(option); });
+      planners_where([&](const SolveKind& kind, const PlannerChoice& choice) { return takes(kind, choice, option); });
   return std::find(takers.begin(), takers.end(), planner) != takers.end();
 }
 
@@ -264,13 +280,13 @@ bool planner_takes(PlannerKind planner, Option option, const Scene& scene, const
   const std::vector<const SolveKind*> fitting = fitting_kinds(scene, robot_of(scene, question));
   return std::any_of(fitting.begin(), fitting.end(), [&](const SolveKind* kind) {
     const PlannerChoice* choice = choice_in(*kind, planner);
-    return choice != nullptr && choice->options.has(option);
+    return choice != nullptr && takes(*kind, *choice, option);
   });
 }
 
 bool planner_takes(PlannerKind planner, AskedWord word) {
   const auto takers =
-      planners_where([&](const SolveKind&, const PlannerChoice& choice) { return choice.words.has(word); });
+      planners_where([&](const SolveKind& kind, const PlannerChoice& choice) { return takes(kind, choice, word); });
   return std::find(takers.begin(), takers.end(), planner) != takers.end();
 }
 

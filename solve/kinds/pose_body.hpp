@@ -31,22 +31,13 @@ class PoseBody : public UsualBody {
   Se2 start() const { return problem_.start; }
   template <class World>
   std::vector<Se2> goals(const World& world) const {
-    std::vector<Se2> poses = stop_in(world, problem_.goal);
+    auto query = world.make_query();
+    std::vector<Se2> poses = poses_to_meet(scene_, problem_, problem_.goal, execution_,
+                                           [&](const Se2& pose) { return world.is_free(pose, query); });
     if (!problem_.any_heading()) return poses;
     const Se2 as_started{problem_.goal[0], problem_.goal[1], wrapped_angle(problem_.start.theta)};
     if (std::find(poses.begin(), poses.end(), as_started) == poses.end()) poses.insert(poses.begin(), as_started);
     return poses;
-  }
-  template <class World>
-  std::vector<Se2> stop_in(const World& world, const std::vector<double>& state) const {
-    auto query = world.make_query();
-    return poses_to_meet(scene_, problem_, state, execution_,
-                         [&](const Se2& pose) { return world.is_free(pose, query); });
-  }
-  static std::vector<Se2> stop_at(const std::vector<double>& point) {
-    if (point.size() > 3) throw UsageError("@via: a turning body takes X,Y or X,Y,THETA");
-    check_heading("@via", point);
-    return poses_of(point);
   }
   static SamplerKind choose_sampler(const SolveOptions& options, const RoadmapOptions& roadmap) {
     if (options.sampler && takes_all_places(*options.sampler)) {

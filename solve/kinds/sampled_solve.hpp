@@ -13,8 +13,6 @@
 //   start(), goals(world)                  all states that will do as the goal; of those that are too many, free ones
 //   knows_all_goals(), goals_tried()       where it has no goal: is there none, and else how many were tried?
 //   best_first(world, goals)               in the order in which roadmaps try them
-//   stop_at(numbers)                       the states that will do at a way-point; throws UsageError for other numbers
-//   stop_in(world, numbers)                the same, where the world decides which; else not there
 //   choose_sampler(options)                what is asked for, or what suits; throws UsageError for what is not for it
 //   index(world, sampler)                  emplaces the world
 //   provably_apart(world, goals)           is it proved that no path leads to any of the goals?
@@ -46,7 +44,6 @@
 #include "planners/anytime/anytime.hpp"
 #include "planners/graph/roadmap_options.hpp"
 #include "planners/shorten/shortcut.hpp"
-#include "planners/trees/through_way_points.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/lower_bound.hpp"
@@ -167,8 +164,6 @@ class SampledSolve {
   void describe_trees() {
     tree_options_ = tree_options(request_.options);
     body_.suit(tree_options_);
-    for (const std::vector<double>& point : request_.options.trees.via)
-      body_.stop_at(point);  // refused before the work
     answer_.sampler = sampler_name(tree_options_);
     answer_.seed = tree_options_.seed;
   }
@@ -205,12 +200,6 @@ class SampledSolve {
   }
   /// The counts are those of all goals that were tried.
   void plan_roadmaps() {
-    if (!request_.options.trees.via.empty()) {  // one roadmap a leg: the same samples, as many as the leg needs
-      const auto plan = [&](const State& start, std::span<const State> goals, std::size_t) {
-        return plan_roadmap(start, goals.front());
-      };
-      return take(plan_through<State>(body_.start(), stops(), plan));
-    }
     const std::vector<State> in_order = body_.best_first(*world_, goals_);
     std::vector<State> goals = detail::free_states(*world_, std::span<const State>(in_order));
     if (goals.empty()) goals.push_back(in_order.front());
@@ -389,35 +378,11 @@ class SampledSolve {
   double cost_of(const Path<State>& path) const {
     return path_length(path, [this](const State& a, const State& b) { return world_->distance(a, b); });
   }
-  void plan_trees() { take(grow_through_stops()); }
-  Solution<State> grow_through_stops() {
-    const auto plan = [&](const State& start, std::span<const State> goals, std::size_t) {
-      return grow_trees(start, goals);
-    };
-    return plan_through<State>(body_.start(), stops(), plan);
-  }
-  Solution<State> grow_trees(const State& start, std::span<const State> goals) {
+  void plan_trees() { take(grow_trees()); }
+  Solution<State> grow_trees() {
     constexpr bool one_way = is_one_way<World>;
     const auto planner = request_.planner == PlannerKind::rrt ? rrt<State, one_way> : rrt_connect<State, one_way>;
-    return planner(*view_, start, goals, tree_options_, execution(), kept());
-  }
-  /// Way-points and goal, each as the states that will do.
-  std::vector<std::vector<State>> stops() const {
-    std::vector<std::vector<State>> stops;
-    for (const std::vector<double>& point : request_.options.trees.via) {
-      const std::vector<State> states = [&] {
-        if constexpr (requires { body_.stop_in(*world_, point); }) {
-          return body_.stop_in(*world_, point);
-        } else {
-          return body_.stop_at(point);
-        }
-      }();
-      stops.push_back(detail::free_states(*world_, std::span<const State>(states)));
-      if (!stops.back().empty()) continue;
-      throw UsageError(fmt::format("@via: the {} does not fit at way-point {}", Body::noun, stops.size()));
-    }
-    stops.push_back(goals_);
-    return stops;
+    return planner(*view_, State(body_.start()), goals_, tree_options_, execution(), kept());
   }
   /// A roadmap takes the place of the one before; trees stand beside each other.
   PlannedRoadmap<State>* kept() {
@@ -464,7 +429,7 @@ class SampledSolve {
     const std::uint64_t seed = tree_options_.seed;
     for (std::size_t i = 1; i < count; ++i) {
       tree_options_.seed = random_bits(seed, i);
-      Solution<State> other = grow_through_stops();
+      Solution<State> other = grow_trees();
       execution().check();
       answer_.counters += other.counters;
       answer_.roadmap.milestones += other.roadmap.milestones;
@@ -490,7 +455,7 @@ class SampledSolve {
       if constexpr (requires { body_.paths_weighed(); }) choose_path();
       answer_.raw_length =
           path_length(path_, [this](const State& a, const State& b) { return body_.length(*world_, a, b); });
-      path_ = shortened_legs();
+      path_ = body_.shortened(*world_, std::move(path_), answer_);
     }
     const std::optional<double> cost = cost_of_better();
     body_.judge(*world_, std::move(path_), answer_);
@@ -501,24 +466,6 @@ class SampledSolve {
       const double paid = answer_.cost.value_or(answer_.length);
       answer_.optimal = paid - *answer_.lower_bound <= as_good * paid;
     }
-  }
-  /// Leg by leg, so that no way-point is cut off.
-  Path<State> shortened_legs() {
-    if (request_.options.trees.via.empty()) return body_.shortened(*world_, std::move(path_), answer_);
-    Path<State> whole{path_.front()};
-    const std::vector<std::vector<State>> legs = stops();
-    auto begin = path_.begin();
-    for (std::size_t i = 0; i < legs.size(); ++i) {
-      const auto is_stop = [&](const State& s) {
-        return std::find(legs[i].begin(), legs[i].end(), s) != legs[i].end();
-      };
-      const auto end = i + 1 < legs.size() ? std::find_if(begin, path_.end(), is_stop) : path_.end() - 1;
-      Path<State> leg(begin, end + 1);
-      if (leg.size() > 1) leg = body_.shortened(*world_, std::move(leg), answer_);
-      whole.insert(whole.end(), leg.begin() + 1, leg.end());
-      begin = end;
-    }
-    return whole;
   }
   std::optional<double> cost_of_better() const {
     if (!Body::has_cost || !gets_better(request_.planner)) return std::nullopt;

@@ -47,12 +47,6 @@ class Arm : public UsualBody {
   }
   std::uint64_t goals_tried() const { return tried_; }
   bool knows_all_goals() const { return knows_all_; }
-  std::vector<JointState> stop_at(const std::vector<double>& point) const {
-    if (point.size() == problem_.width()) return {joint_state(point)};
-    throw UsageError(problem_.table
-                         ? "@via: an arm takes six joint angles a way-point"
-                         : fmt::format("@via: this arm takes {} joint values a way-point", problem_.width()));
-  }
   static SamplerKind choose_sampler(const SolveOptions& options, const RoadmapOptions& roadmap) {
     if (options.sampler == SamplerKind::lattice) {
       throw UsageError("@sampler: lattice is for points and discs in mazes; an arm takes the others");

@@ -24,6 +24,7 @@
 #include "solve/kinds/sampled_roadmap.hpp"
 #include "solve/kinds/sampled_solve.hpp"
 #include "solve/kinds/solve_steps.hpp"
+#include "solve/kinds/solve_to_goal.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "spatial/maps/distance_field.hpp"
 #include "verify/judges/verify_map.hpp"
@@ -35,13 +36,7 @@ namespace {
 
 std::vector<Vec2> way_points(const SolveRequest& request) {
   std::vector<Vec2> points;
-  for (const std::vector<double>& point : request.options.trees.via) {
-    if (point.size() != 2) throw UsageError("@via: a point or disc takes X,Y");
-    points.push_back({point[0], point[1]});
-  }
-  if (!points.empty() && !request.question.rule.visit.empty()) {
-    throw UsageError("@visit: finds the order of its places, and @via says one; leave one of them out");
-  }
+  for (const std::vector<double>& point : request.options.trees.via) points.push_back({point[0], point[1]});
   return points;
 }
 
@@ -372,10 +367,6 @@ class BodyOnMap : public UsualBody {
   Problem problem() const { return problem_.general(); }
   Vec2 start() const { return problem_.start; }
   std::vector<Vec2> goals(const World&) const { return {problem_.goal}; }
-  static std::vector<Vec2> stop_at(const std::vector<double>& point) {
-    if (point.size() != 2) throw UsageError("@via: a point or disc takes X,Y");
-    return {{point[0], point[1]}};
-  }
   SamplerKind choose_sampler(const SolveOptions& options, const RoadmapOptions& roadmap) const {
     const bool free_choice = !options.sampler && !roadmap.samples;
     return free_choice && is_narrow(map_.blocked) ? SamplerKind::cell_centres : roadmap.sampler;
@@ -424,6 +415,11 @@ class BodyOnMap : public UsualBody {
   MotionCost cost_;  // empty: nothing has a price
 };
 
+/// By a planner that samples, or along the skeleton.
+Answer solve_to_place(const SolveRequest& request) {
+  return request.planner == PlannerKind::voronoi ? solve_on_skeleton(request) : solve_sampled<BodyOnMap>(request);
+}
+
 /// The planner reaches what the cells have chosen: the path's stops and its goal.
 Answer solve_chosen(const SolveRequest& request) {
   const WallProblem problem = map_problem(request.scene, request.question);
@@ -455,12 +451,12 @@ Answer solve_chosen(const SolveRequest& request) {
   Question question = request.question;
   question.goal = {choice.goal.x, choice.goal.y};
   question.rule = {};
-  SolveOptions options = request.options;
-  for (const Vec2 stop : choice.stops) options.trees.via.push_back({stop.x, stop.y});
-  SolveRequest to_goal{options,           request.scene, question,     request.planner,
-                       request.execution, request.keep,  request.asked};
-  const bool by_skeleton = request.planner == PlannerKind::voronoi;
-  Answer answer = by_skeleton ? solve_on_skeleton(to_goal) : solve_sampled<BodyOnMap>(to_goal);
+  std::vector<std::vector<double>> stops;
+  for (const Vec2 stop : choice.stops) stops.push_back({stop.x, stop.y});
+  const SolveRequest to_goal{request.options,   request.scene, question,     request.planner,
+                             request.execution, request.keep,  request.asked};
+  Answer answer =
+      stops.empty() ? solve_to_place(to_goal) : solve_through(to_goal, stops, visited_place, solve_to_place);
   answer.options = given_figures(request.options);
   answer.problem = problem.general();
   answer.counters.expanded += chosen.counters.expanded;
@@ -543,14 +539,12 @@ class SkeletonSolve {
 };
 
 constexpr PlannerChoice occupancy_planners[] = {
-    {PlannerKind::grid,
-     OptionSet{Option::search, Option::diagonal, Option::optimise, Option::via, Option::bound, Option::gap},
-     goal_words | price_words | restriction_words | route_words},
-    {PlannerKind::prm, prm_takes | point_takes | OptionSet{Option::via}, goal_words | price_words | restriction_words},
-    {PlannerKind::lazy_prm, lazy_prm_takes | point_takes | OptionSet{Option::via},
-     goal_words | price_words | restriction_words},
-    {PlannerKind::rrt, rrt_options, goal_words | restriction_words},
-    {PlannerKind::rrt_connect, rrt_connect_options, goal_words | restriction_words},
+    {PlannerKind::grid, OptionSet{Option::search, Option::diagonal, Option::optimise, Option::bound, Option::gap},
+     choice_words | price_words | restriction_words | route_words},
+    {PlannerKind::prm, prm_takes | point_takes, choice_words | price_words | restriction_words},
+    {PlannerKind::lazy_prm, lazy_prm_takes | point_takes, choice_words | price_words | restriction_words},
+    {PlannerKind::rrt, rrt_options, choice_words | restriction_words},
+    {PlannerKind::rrt_connect, rrt_connect_options, choice_words | restriction_words},
     {PlannerKind::rrt_star, rrt_star_options, choice_words | restriction_words},
     {PlannerKind::informed_rrt_star, rrt_star_options, choice_words | restriction_words},
     {PlannerKind::anytime, anytime_options, choice_words | restriction_words},
@@ -563,8 +557,9 @@ bool fits_occupancy(const Scene& scene, const RobotSpec& robot) {
 
 Answer solve_occupancy(const SolveRequest& request) {
   if (request.planner == PlannerKind::grid) return solve_over_cells(request);
-  if (!rule_of(request.scene, request.question).empty()) return solve_chosen(request);
-  return request.planner == PlannerKind::voronoi ? solve_on_skeleton(request) : solve_sampled<BodyOnMap>(request);
+  const std::vector<std::vector<double>>& via = request.options.trees.via;
+  if (!via.empty()) return solve_through(request, via, way_point, solve_occupancy);
+  return rule_of(request.scene, request.question).empty() ? solve_to_place(request) : solve_chosen(request);
 }
 
 BuiltArrays build_occupancy(const SolveRequest& request) {

@@ -141,10 +141,6 @@ class PointAmongPolygons : public UsualBody {
   Problem problem() const { return problem_.general(); }
   Vec2 start() const { return problem_.start; }
   std::vector<Vec2> goals(const World&) const { return {problem_.goal}; }
-  static std::vector<Vec2> stop_at(const std::vector<double>& point) {
-    if (point.size() != 2) throw UsageError("@via: a point or disc takes X,Y");
-    return {{point[0], point[1]}};
-  }
   static SamplerKind choose_sampler(const SolveOptions&, const RoadmapOptions& roadmap) { return roadmap.sampler; }
   void index(std::optional<World>& world, SamplerKind) const { world.emplace(scene_, problem_.reach(), execution_); }
   static bool provably_apart(const World&, const std::vector<Vec2>&) { return false; }

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/kinds/solve_to_goal.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <new>
+#include <string>
+#include <variant>
 
 #include "core/base/error.hpp"
+#include "planners/grid/visiting_order.hpp"
 #include "solve/kinds/goals_on_map.hpp"
 #include "solve/kinds/lower_bound.hpp"
 #include "solve/kinds/map_steps.hpp"
@@ -267,6 +273,383 @@ class ToGoal {
   double solve_s_ = 0.0;
 };
 
+/// SolveKind::solve, whatever the question leaves open of its goal.
+Answer solve_without_stops(const SolveKind& kind, const SolveRequest& request) {
+  const bool is_open = !kind.chooses_goal && !rule_of(request.scene, request.question).empty();
+  return is_open ? ToGoal(kind, request).run() : kind.solve(request);
+}
+
+std::vector<double> start_of(const SolveRequest& request) {
+  return request.question.start.empty() ? request.scene.start : request.question.start;
+}
+
+std::vector<double> end_of(const Answer& answer) {
+  if (answer.states.empty()) return {answer.path.back().x, answer.path.back().y};
+  const auto last = answer.states[answer.states.size() - 1];
+  return {last.begin(), last.end()};
+}
+
+double cost_of(const Answer& answer) { return answer.cost.value_or(answer.length); }
+
+/// Sums, and of what is a distance kept all along the least.
+void add_figures(std::vector<NamedFigure>& figures, const std::vector<NamedFigure>& before) {
+  for (NamedFigure& figure : figures) {
+    const Figure* other = figure_named(before, figure.name);
+    if (other == nullptr || other->index() != figure.value.index()) continue;
+    if (auto* count = std::get_if<std::uint64_t>(&figure.value)) *count += std::get<std::uint64_t>(*other);
+    auto* number = std::get_if<double>(&figure.value);
+    if (number == nullptr) continue;
+    const double held = std::get<double>(*other);
+    *number = figure.name.ends_with("clearance") ? std::min(*number, held) : *number + held;
+  }
+}
+
+void add_work(Answer& answer, const Answer& before) {
+  answer.counters += before.counters;
+  answer.seconds += before.seconds;
+  answer.solve_s += before.solve_s;
+  answer.roadmap.milestones += before.roadmap.milestones;
+  answer.roadmap.edges += before.roadmap.edges;
+}
+
+/// The path goes on where the one before ended.
+void add_path(Answer& answer, const Answer& before) {
+  Path<Vec2> path = before.path;
+  if (!answer.path.empty()) path.insert(path.end(), answer.path.begin() + 1, answer.path.end());
+  answer.path = std::move(path);
+  StateList states = before.states;
+  for (std::size_t i = 1; i < answer.states.size(); ++i) states.add(answer.states[i]);
+  answer.states = std::move(states);
+  if (answer.raw_length || before.raw_length)
+    answer.raw_length = answer.raw_length.value_or(answer.length) + before.raw_length.value_or(before.length);
+  for (Improvement& better : answer.improvements) {
+    better.cost += cost_of(before);
+    better.length += before.length;
+    better.seconds += before.solve_s;
+    better.lower_bound = 0.0;
+  }
+  if (answer.cost || before.cost) answer.cost = cost_of(answer) + cost_of(before);
+  answer.length += before.length;
+  answer.min_clearance = std::min(answer.min_clearance, before.min_clearance);
+  if (answer.turn_rad && before.turn_rad) *answer.turn_rad += *before.turn_rad;
+  if (answer.iterations && before.iterations) answer.iterations = std::max(*answer.iterations, *before.iterations);
+  if (!before.ended_by.empty() && before.ended_by != "optimum") {
+    answer.ended_by = before.ended_by;
+    answer.stop_reason = before.stop_reason;
+  }
+  add_figures(answer.path_figures, before.path_figures);
+}
+
+void add_by_products(ByProducts& whole, ByProducts made) {
+  const bool wanted = whole.wants_certificate;
+  std::swap(whole, made);
+  whole.wants_certificate = wanted;
+  const auto put_before = [](auto& list, auto& before) { list.insert(list.begin(), before.begin(), before.end()); };
+  put_before(whole.trees, made.trees);
+  put_before(whole.pose_roadmaps, made.pose_roadmaps);
+  for (NamedLines& lines : made.lines) {
+    const auto is_same = [&](const NamedLines& other) { return other.name == lines.name; };
+    if (std::none_of(whole.lines.begin(), whole.lines.end(), is_same)) whole.lines.push_back(std::move(lines));
+  }
+  put_before(whole.arcs.points, made.arcs.points);
+  put_before(whole.arcs.turns, made.arcs.turns);
+}
+
+/// One question with stops: the legs share it and fill in the answer.
+class ThroughStops {
+ public:
+  ThroughStops(const SolveRequest& request, std::span<const std::vector<double>> stops,
+               std::pair<std::string_view, std::string_view> stop,
+               const std::function<Answer(const SolveRequest&)>& solve_leg)
+      : request_(request), stops_(stops), stop_(stop), solve_leg_(solve_leg), options_(request.options) {
+    options_.trees.via.clear();
+  }
+
+  Answer run() {
+    for (std::size_t leg = 0; leg <= stops_.size(); ++leg) {
+      if (!plan(leg)) return fail(leg);
+    }
+    judge();
+    return std::move(whole_);
+  }
+
+ private:
+  /// Adds a leg; false: there is no way, and the answer is that of the leg.
+  bool plan(std::size_t leg) {
+    const bool is_last = leg == stops_.size();
+    Question question = request_.question;
+    if (leg > 0) question.start = end_of(whole_);
+    if (!is_last) {
+      question.goal = stops_[leg];
+      question.goal_pose.reset();
+      question.rule = {};
+    }
+    Execution execution = request_.execution;
+    std::optional<Deadline> share;
+    const std::function<bool(const Improvement&)> forward = [&](const Improvement& leg_is_better) {
+      Improvement better = leg_is_better;
+      better.cost += cost_of(whole_);
+      better.length += whole_.length;
+      better.lower_bound = 0.0;
+      return !is_last || (*request_.execution.on_improvement)(better);
+    };
+    if (gets_better(request_.planner)) {  // the legs share the time
+      const double seconds = execution.seconds_left() / static_cast<double>(stops_.size() + 1 - leg);
+      execution.deadline = &share.emplace(request_.execution.deadline, seconds);
+      if (execution.on_improvement != nullptr) execution.on_improvement = &forward;
+    }
+    ByProducts made;
+    ByProducts* const keep = request_.keep;
+    const SolveRequest of_leg{options_,         request_.scene, question,
+                              request_.planner, execution,      keep != nullptr ? &made : nullptr};
+    Answer answer = solve_leg_(of_leg);
+    if (keep != nullptr) add_by_products(*keep, std::move(made));
+    if (!is_last && answer.outcome == Outcome::goal_blocked) {
+      const std::string_view body = name_of(robot_of(request_.scene, request_.question).kind);
+      throw UsageError(fmt::format("{}: the {} does not fit at {} {}", stop_.first, body, stop_.second, leg + 1));
+    }
+    const bool goes_on = answer.outcome == Outcome::solved && answer.verified;
+    is_timed_ |= enum_named<StopReason>(answer.ended_by).has_value();
+    if (leg > 0) {
+      answer.problem.start = whole_.problem.start;
+      add_work(answer, whole_);
+      if (goes_on) add_path(answer, whole_);
+      // A heading was chosen on the way, or the planner keeps more room than the judge asks for.
+      const bool is_proved = answer.outcome == Outcome::stopped || is_whole(leg);
+      if (!goes_on && (answer.outcome == Outcome::start_blocked || !is_proved)) answer.outcome = Outcome::not_connected;
+    }
+    whole_ = std::move(answer);
+    return goes_on;
+  }
+
+  /// Do the stops before a leg leave nothing to choose?
+  bool is_whole(std::size_t leg) const {
+    const std::size_t width = whole_.problem.start.size();
+    return std::all_of(stops_.begin(), stops_.begin() + static_cast<std::ptrdiff_t>(leg),
+                       [&](const std::vector<double>& stop) { return stop.size() == width; });
+  }
+
+  Answer fail(std::size_t leg) {
+    claim_nothing(whole_);
+    whole_.figures.push_back({"stops_reached", std::uint64_t{leg}});
+    const std::vector<double>& goal = request_.question.goal.empty() ? request_.scene.goal : request_.question.goal;
+    whole_.problem.goal = goal.empty() ? whole_.problem.start : goal;
+    return std::move(whole_);
+  }
+
+  void judge() {
+    take_bound_of_choice(whole_, std::nullopt);
+    if (is_timed_) whole_.iterations.reset();  // no number is that of each leg
+    const double spent_s = whole_.solve_s;
+    Execution execution = request_.execution;
+    std::optional<Deadline> untimed;  // what ended the search of who gets better does not end the work
+    if (gets_better(request_.planner) && execution.deadline != nullptr) {
+      const std::size_t memory_bytes = execution.deadline->memory_bytes();
+      execution.deadline = &untimed.emplace(std::numeric_limits<double>::infinity(), memory_bytes);
+    }
+    answer_within_limits(whole_, [&] {
+      const StageTimer timer(execution, "verify", whole_.seconds.verify, path_points(whole_));
+      const Question asked = whole_.problem.question();
+      const Verdict found =
+          verifying_kind(request_.scene, asked).verify(request_.scene, asked, recorded(whole_), execution);
+      if (!found.verified) fail_verification(whole_, found.first_violation);
+      whole_.length = found.length;
+      whole_.min_clearance = found.min_clearance;
+      for (NamedFigure& figure : whole_.path_figures) {  // where legs meet gears may change
+        if (figure.name == "cusps") figure.value = std::uint64_t{found.cusps};
+      }
+    });
+    whole_.solve_s += spent_s;
+  }
+
+  const SolveRequest& request_;
+  std::span<const std::vector<double>> stops_;
+  std::pair<std::string_view, std::string_view> stop_;
+  const std::function<Answer(const SolveRequest&)>& solve_leg_;
+  SolveOptions options_;
+  Answer whole_;
+  bool is_timed_ = false;  // did time or a signal end a leg's search?
+};
+
+/// The cheapest order of the places to visit, over the ways that are found between all of them.
+class Visits {
+ public:
+  Visits(const SolveKind& kind, const SolveRequest& request)
+      : kind_(kind),
+        request_(request),
+        rule_(request.question.rule),
+        question_(request.question),
+        options_(request.options) {
+    question_.rule = {};
+    question_.goal_pose.reset();
+    options_.optimise = true;
+    options_.anytime = {};
+    const bool has_goal = !request.question.goal.empty() || !request.scene.goal.empty() || request.question.goal_pose;
+    is_open_ = !rule_.back && !has_goal;
+    if (rule_.back) question_.goal = start_of(request);
+  }
+
+  Answer run() {
+    if (!find_order()) return std::move(failed_);
+    std::vector<std::vector<double>> stops;
+    for (const std::uint64_t place : order_) stops.push_back(rule_.visit[place]);
+    Question question = question_;
+    if (!rule_.back) question.goal_pose = request_.question.goal_pose;
+    if (is_open_) {
+      question.goal = std::move(stops.back());
+      stops.pop_back();
+    }
+    const SolveRequest in_order{request_.options, request_.scene,     question,
+                                request_.planner, request_.execution, request_.keep};
+    Answer answer = ThroughStops(in_order, stops, visited_place, [this](const SolveRequest& leg) {
+                      return solve_without_stops(kind_, leg);
+                    }).run();
+    add_work(answer, work_);
+    answer.problem.rule = rule_;
+    if (!answer.verified) return answer;
+    answer.order = order_;
+    tell_bound(answer);
+    return answer;
+  }
+
+ private:
+  /// A way between two places; its end stands for the second one.
+  Answer way(const std::vector<double>& from, const std::vector<double>& to) {
+    Question question = question_;
+    question.start = from;
+    if (!to.empty()) question.goal = to;
+    if (to.empty()) question.goal_pose = request_.question.goal_pose;
+    const PlannerKind planner = gets_better(request_.planner) ? PlannerKind::rrt_connect : request_.planner;
+    Answer found = kind_.solve({options_, request_.scene, question, planner, request_.execution});
+    add_work(work_, found);
+    return found;
+  }
+
+  /// false: there is no way to one of the places, or none through all.
+  bool find_order() {
+    const std::size_t count = rule_.visit.size();
+    order_.assign(1, 0);
+    if (count == 1) return true;
+    const std::vector<double> start = start_of(request_);
+    std::vector<std::vector<double>> at;
+    std::vector<double> first;
+    for (std::size_t i = 0; i < count; ++i) {
+      Answer found = way(start, rule_.visit[i]);
+      if (found.outcome == Outcome::goal_blocked) {
+        throw UsageError(fmt::format("{}: the {} does not fit at {} {}", visited_place.first,
+                                     name_of(robot_of(request_.scene, question_).kind), visited_place.second, i + 1));
+      }
+      if (!found.verified) return fail(std::move(found));
+      first.push_back(cost_of(found));
+      at.push_back(end_of(found));
+    }
+    // Only what drives forwards alone pays another price for the way back.
+    const bool one_way = robot_of(request_.scene, question_).kind == RobotKind::car;
+    std::vector<std::vector<double>> between(count, std::vector(count, none));
+    std::vector<double> last(count, is_open_ ? 0.0 : none);
+    std::optional<Answer> stopped;
+    const auto cost = [&](const std::vector<double>& from, const std::vector<double>& to) {
+      if (stopped) return none;
+      Answer found = way(from, to);
+      const double paid = found.verified ? cost_of(found) : none;
+      if (found.outcome == Outcome::stopped) stopped = std::move(found);
+      return paid;
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t j = 0; j < count; ++j) {
+        if (i != j) between[i][j] = j > i || one_way ? cost(at[i], rule_.visit[j]) : between[j][i];
+      }
+      if (!is_open_)
+        last[i] = rule_.back && !one_way ? first[i] : cost(at[i], rule_.back ? start : std::vector<double>{});
+    }
+    if (stopped) return fail(std::move(*stopped));
+    return take_order(first, between, last);
+  }
+
+  bool take_order(const std::vector<double>& first, const std::vector<std::vector<double>>& between,
+                  const std::vector<double>& last) {
+    double longest = 0.0;
+    const auto look = [&](const std::vector<double>& list) {
+      for (const double cost : list) longest = std::max(longest, cost == none ? 0.0 : cost);
+    };
+    look(first);
+    look(last);
+    for (const auto& row : between) look(row);
+    const double unit = longest > 0.0 ? longest * 0x1p-40 : 1.0;
+    const auto units = [&](const std::vector<double>& list) {
+      std::vector<std::uint64_t> row;
+      for (const double cost : list) row.push_back(cost == none ? no_leg : static_cast<std::uint64_t>(cost / unit));
+      return row;
+    };
+    TourCosts costs{units(first), {}, units(last)};
+    for (const auto& row : between) costs.between.push_back(units(row));
+    const auto best = best_order(costs);
+    if (best) order_ = best->order;
+    if (best) return true;
+    Answer none_found = work_;
+    none_found.outcome = Outcome::not_connected;
+    return fail(std::move(none_found));
+  }
+
+  bool fail(Answer answer) {
+    failed_ = std::move(answer);
+    claim_nothing(failed_);
+    failed_.planner = name_of(request_.planner);
+    failed_.problem.start = start_of(request_);
+    failed_.problem.goal = question_.goal.empty() ? request_.scene.goal : question_.goal;
+    if (failed_.problem.goal.empty()) failed_.problem.goal = failed_.problem.start;
+    failed_.problem.rule = rule_;
+    failed_.counters = work_.counters;
+    return false;
+  }
+
+  void tell_bound(Answer& answer) const {
+    const bool in_metric = gets_better(request_.planner);
+    if (is_arm(answer.problem.robot) || (answer.cost && !answer.price && !in_metric)) return;
+    WallProblem asked;
+    asked.start = position(answer.problem.start);
+    asked.goal = position(answer.problem.goal);
+    asked.rule = rule_;
+    answer.lower_bound = bound_of_choice(asked, is_open_);
+  }
+
+  static constexpr double none = std::numeric_limits<double>::infinity();
+  const SolveKind& kind_;
+  const SolveRequest& request_;
+  const GoalRule& rule_;
+  Question question_;  // of the ways
+  SolveOptions options_;
+  bool is_open_ = false;  // no goal: the last place is
+  std::vector<std::uint64_t> order_;
+  Answer work_;  // what finding the order took
+  Answer failed_;
+};
+
+/// Throws UsageError for stops that are no states of the body.
+void check_stops(const SolveRequest& request) {
+  const std::vector<std::vector<double>>& via = request.options.trees.via;
+  const std::vector<std::vector<double>>& visit = request.question.rule.visit;
+  if (!via.empty() && !visit.empty()) {
+    throw UsageError("@visit: finds the order of its places, and @via says one; leave one of them out");
+  }
+  const RobotSpec robot = robot_of(request.scene, request.question);
+  const std::size_t joints = start_of(request).size();
+  const auto check = [&](const std::vector<double>& stop, std::pair<std::string_view, std::string_view> words) {
+    const auto& [option, noun] = words;
+    const bool is_plain = robot.kind == RobotKind::point || robot.kind == RobotKind::disc;
+    if (is_arm(robot)) {
+      if (stop.size() == joints || joints == 0) return;  // of a start that is missing the kind speaks
+      throw UsageError(robot.files ? fmt::format("{}: this arm takes {} joint values a {}", option, joints, noun)
+                                   : fmt::format("{}: an arm takes six joint angles a {}", option, noun));
+    }
+    if (is_plain && stop.size() != 2) throw UsageError(fmt::format("{}: a point or disc takes X,Y", option));
+    if (stop.size() > 3) throw UsageError(fmt::format("{}: a turning body takes X,Y or X,Y,THETA", option));
+    check_heading(option, stop);
+  };
+  for (const std::vector<double>& stop : via) check(stop, way_point);
+  for (const std::vector<double>& stop : visit) check(stop, visited_place);
+}
+
 }  // namespace
 
 GoalPlaces::GoalPlaces(std::vector<std::vector<double>> goals, const GoalRule& rule, double coarse)
@@ -330,9 +713,19 @@ std::vector<std::vector<double>> goals_of(const Scene& scene, const Question& qu
   return goals;
 }
 
+Answer solve_through(const SolveRequest& request, std::span<const std::vector<double>> stops,
+                     std::pair<std::string_view, std::string_view> stop,
+                     const std::function<Answer(const SolveRequest&)>& solve_leg) {
+  return ThroughStops(request, stops, stop, solve_leg).run();
+}
+
 Answer solve_to_goal(const SolveKind& kind, const SolveRequest& request) {
-  const bool is_open = !kind.chooses_goal && !rule_of(request.scene, request.question).empty();
-  return is_open ? ToGoal(kind, request).run() : kind.solve(request);
+  check_stops(request);
+  if (kind.chooses_goal) return kind.solve(request);
+  if (!request.question.rule.visit.empty()) return Visits(kind, request).run();
+  const auto solve_leg = [&](const SolveRequest& leg) { return solve_without_stops(kind, leg); };
+  const std::vector<std::vector<double>>& via = request.options.trees.via;
+  return via.empty() ? solve_leg(request) : solve_through(request, via, way_point, solve_leg);
 }
 
 }  // namespace warren

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a question leaves open of its goal, for kinds that don't decide it themselves (on maps points and discs do,
-// goals_on_map.hpp). Several goals: the planner plans to each, and the cheapest path is the answer. A tolerance or a
-// region: a lattice of positions and headings says which places near the goal can be reached, and the planner plans to
-// the nearest, or the cheapest.
+// What a question asks beyond a way to one goal, for kinds that don't decide it themselves (on maps points and discs
+// do, goals_on_map.hpp). Several goals: the planner plans to each, and the cheapest path is the answer. A tolerance or
+// a region: a lattice of positions and headings says which places near the goal can be reached, and the planner plans
+// to the nearest, or the cheapest. Stops on the way: the planner plans from one to the next; where their order is open,
+// it plans between all of them first, and the order is the cheapest one over what it found.
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -68,7 +71,21 @@ std::vector<std::vector<double>> goals_of(const Scene& scene, const Question& qu
 std::vector<GoalPlace> places_on_layers(const SolveRequest& request);
 std::vector<GoalPlace> places_of_car(const SolveRequest& request);
 
-/// SolveKind::solve, whatever the question leaves open of its goal. Throws as that.
+/// Leg by leg through stops, in their order, each leg planned from the state in which the one before ended; the whole
+/// path is judged once more. Of a stop whose heading is open the plan to it chooses one, which is not taken back, and
+/// so a later leg without a way proves nothing. solve_leg: of a question without stops; the last leg has the request's
+/// goal, with what that leaves open. stop: "@via: ... at way-point". Throws UsageError where the body does not fit at
+/// one of them.
+Answer solve_through(const SolveRequest& request, std::span<const std::vector<double>> stops,
+                     std::pair<std::string_view, std::string_view> stop,
+                     const std::function<Answer(const SolveRequest&)>& solve_leg);
+
+/// The stops of `--via`, as solve_through() names them.
+inline constexpr std::pair<std::string_view, std::string_view> way_point{"@via", "way-point"};
+/// The same of places to visit.
+inline constexpr std::pair<std::string_view, std::string_view> visited_place{"@visit", "place"};
+
+/// SolveKind::solve, whatever the question leaves open of its goal, and whatever stops it has. Throws as that.
 Answer solve_to_goal(const SolveKind& kind, const SolveRequest& request);
 
 }  // namespace warren

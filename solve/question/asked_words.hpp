@@ -79,8 +79,6 @@ inline constexpr AskedWords route_words{AskedWord::alternatives, AskedWord::keep
 /// What leaves a choice of goals: of points and discs, and of bodies that turn.
 inline constexpr AskedWords choice_words{AskedWord::goal, AskedWord::goal_tolerance, AskedWord::goal_region};
 inline constexpr AskedWords pose_choice_words = choice_words | AskedWords{AskedWord::goal_heading};
-/// The same, and what leaves a choice of their order.
-inline constexpr AskedWords goal_words = choice_words | AskedWords{AskedWord::visit};
 
 /// The words that prices say.
 AskedWords words_in(const Prices& prices);

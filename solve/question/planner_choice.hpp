@@ -67,8 +67,8 @@ GridSpec grid_spec(const GridFields& options, const Scene& scene);
 // How rrt and rrt-connect are told what to do, whatever the body.
 
 /// What each planner of trees takes.
-inline constexpr OptionSet rrt_connect_options{Option::sampler, Option::step,     Option::nodes, Option::trees,
-                                               Option::via,     Option::optimise, Option::bound};
+inline constexpr OptionSet rrt_connect_options{Option::sampler, Option::step,     Option::nodes,
+                                               Option::trees,   Option::optimise, Option::bound};
 inline constexpr OptionSet rrt_options = rrt_connect_options | OptionSet{Option::goal_bias};
 
 // How planners that get better are told what to do.

@@ -140,12 +140,14 @@ void add_choices(std::vector<AskedRow>& rows) {
       [](const Answer& a) {
         return a.order.size() == 2 && passes(a, stop) && passes(a, {2.0, 8.0});
       });
+  rows.back().by_all = true;
   add(
       "via",
       [](Question&, SolveOptions& o) {
         o.trees.via = {{stop.x, stop.y}};
       },
       [](const Answer& a) { return passes(a, stop); });
+  rows.back().by_all = true;
   add(
       "alternatives", [](Question& q, SolveOptions&) { q.route.alternatives = 2; },
       [](const Answer& a) { return !a.alternatives.empty(); });

@@ -18,6 +18,7 @@ struct AskedRow {
   std::string name;  ///< of the option, as a refusal spells it
   std::function<void(Question&, SolveOptions&)> ask;
   std::function<bool(const Answer&)> is_heard;
+  bool by_all = false;  ///< does every planner take it?
 };
 
 /// A body in a world, whose start and goal are free and joined, and a place that is not on the shortest way.

@@ -44,6 +44,7 @@ void expect_heard(const test::AskedBody& body, PlannerKind planner, const test::
     answer = solve(body.scene, question, options);
   } catch (const UsageError& error) {
     EXPECT_NE(std::string(error.what()).find(row.name), std::string::npos) << error.what();
+    EXPECT_FALSE(row.by_all) << error.what();
     return;
   }
   ASSERT_EQ(answer->outcome, Outcome::solved);

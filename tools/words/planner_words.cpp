@@ -104,8 +104,8 @@ constexpr OptionSpec planner_specs[] = {
      "anytime: what takes turns, separated by commas: tree, restarts, roadmap, shorten (default: all)"},
     {"--bound", "", "also prove a lower bound, how short no path can be, as near as can be; takes time of its own"},
     {"--via", "STATES",
-     "waypoints to pass in this order, separated by semicolons: \"X,Y; X,Y,THETA\", or six joint angles each. For rrt "
-     "and rrt-connect; for grid, prm and lazy-prm of a point or disc"},
+     "waypoints to pass in this order, separated by semicolons: \"X,Y; X,Y,THETA\", or joint angles. All planners take "
+     "them, leg by leg"},
     {"--steering", "WORD",
      "how a car drives: dubins forwards only, reeds-shepp backwards too, differential straight both ways with turns on "
      "the spot (default: the file's, else dubins)",
