@@ -141,8 +141,8 @@ MapPrices::MapPrices(const OccupancyMap& effective, double radius, const Prices&
 /// the nearest by more than the cell's diagonal is not. Kept, for legs come back to the same cells.
 std::span<const MapPrices::Site> MapPrices::sites(Cell cell, Scratch& scratch) const {
   const std::size_t number = std::size_t{cell.y} * map_.width() + cell.x;
-  if (scratch.of != this) scratch.kept.assign(Scratch::kept_rows * Scratch::kept_columns, {});
-  scratch.of = this;
+  if (scratch.of != number_) scratch.kept.assign(Scratch::kept_rows * Scratch::kept_columns, {});
+  scratch.of = number_;
   const std::size_t row = cell.y % Scratch::kept_rows;
   Scratch::Sites& kept = scratch.kept[row * Scratch::kept_columns + cell.x % Scratch::kept_columns];
   if (kept.cell == number) return kept.sites;

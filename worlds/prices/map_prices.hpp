@@ -13,6 +13,7 @@
 #include "core/base/bitmap.hpp"
 #include "core/plane/nearness.hpp"
 #include "core/run/execution.hpp"
+#include "core/run/fresh_number.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "scenes/scene/prices.hpp"
 #include "spatial/maps/distance_field.hpp"
@@ -36,7 +37,8 @@ class MapPrices {
     double dx;  // -1, 0, 1: which way it lies
     double dy;
   };
-  /// What a thread that asks holds; of one MapPrices, which keeps in it what is near to some thousand cells.
+  /// What a thread that asks holds, also of one MapPrices after the other: of the last it keeps what is near to some
+  /// thousand cells.
   struct Scratch {
     static constexpr std::size_t kept_rows = 64;
     static constexpr std::size_t kept_columns = 128;
@@ -48,7 +50,7 @@ class MapPrices {
     std::vector<StretchDistance> things;
     std::vector<double> cuts;
     std::vector<Sites> kept;
-    const MapPrices* of = nullptr;
+    std::uint64_t of = 0;  // whose; 0: nobody's
   };
 
   /// Refers to the map, which is the effective one (worlds/prices/effective_map.hpp): what is unknown and not blocked
@@ -86,6 +88,7 @@ class MapPrices {
   double step(Cell from, unsigned direction, Scratch& scratch) const;
   bool is_near_area(Cell cell) const { return has_areas_ && touched_.holds(cell.x, cell.y); }
 
+  std::uint64_t number_ = fresh_number();
   const OccupancyMap& map_;
   double price_ = 0.0;         // of an integral over cells
   double reach_ = 0.0;         // of the middle, cells; 0: nearness costs nothing

@@ -25,6 +25,7 @@ using test::seeds;
 
 TEST(MapPrices, LegsCostWhatBruteForceSays) {
   int asked = 0;
+  MapPrices::Scratch scratch;  // for all: each lies where the one before lay
   for (const std::uint64_t seed : seeds(1000, 2)) {
     SCOPED_TRACE(seed);
     const OccupancyMap map = random_map(seed);
@@ -32,7 +33,6 @@ TEST(MapPrices, LegsCostWhatBruteForceSays) {
     const Prices prices = random_prices(map, seed);
     const OccupancyMap effective = effective_map(map, prices, {});
     const MapPrices priced(effective, radius, prices, {});
-    MapPrices::Scratch scratch;  // of this one alone: another may come to lie where it lay
     const GridWorld world(effective, radius, {});
     auto query = world.make_query();
     for (std::uint64_t i = 0; i < 25; ++i) {
@@ -52,12 +52,12 @@ TEST(MapPrices, LegsCostWhatBruteForceSays) {
 }
 
 TEST(MapPrices, CostsAddUpOverPieces) {
+  MapPrices::Scratch scratch;  // for all: each lies where the one before lay
   for (const std::uint64_t seed : seeds(60, 8)) {
     const OccupancyMap map = random_map(seed);
     const Prices prices = random_prices(map, seed);
     const OccupancyMap effective = effective_map(map, prices, {});
     const MapPrices priced(effective, 0.0, prices, {});
-    MapPrices::Scratch scratch;  // of this one alone: another may come to lie where it lay
     const GridWorld world(effective, 0.0, {});
     auto query = world.make_query();
     for (std::uint64_t i = 0; i < 40; ++i) {
@@ -73,12 +73,12 @@ TEST(MapPrices, CostsAddUpOverPieces) {
 
 TEST(MapPrices, StepsAreLegsRoundedUpAndDown) {
   constexpr double units = 1 << 20;
+  MapPrices::Scratch scratch;  // for all: each lies where the one before lay
   for (const std::uint64_t seed : seeds(20, 4)) {
     const OccupancyMap map = random_map(seed);
     const Prices prices = random_prices(map, seed);
     const OccupancyMap effective = effective_map(map, prices, {});
     const MapPrices priced(effective, 0.0, prices, {});
-    MapPrices::Scratch scratch;  // of this one alone: another may come to lie where it lay
     for (std::uint32_t y = 1; y + 1 < map.height(); ++y) {
       for (std::uint32_t x = 1; x + 1 < map.width(); ++x) {
         for (unsigned step = 0; step < 8; ++step) {
