@@ -23,10 +23,8 @@
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/kinds/solve_to_goal.hpp"
 #include "verify/judges/effective_scene.hpp"
-#include "verify/judges/verify_body_price.hpp"
 #include "verify/judges/verify_classes.hpp"
 #include "verify/judges/verify_potential.hpp"
-#include "verify/judges/verify_price.hpp"
 #include "worlds/prices/effective_map.hpp"
 
 namespace warren {
@@ -62,63 +60,6 @@ class RestrictedScene {
   const Scene& scene_;
   std::optional<Scene> copy_;
 };
-
-/// Is anything asked that makes places dear?
-bool asks_price(const Prices& prices) {
-  const AskedWords asked = words_in(prices);
-  const std::vector<AskedWord> words = words_of(price_words);
-  return std::any_of(words.begin(), words.end(), [&](AskedWord word) { return asked.has(word); });
-}
-
-/// What a path costs beside its length, where that is asked of a body whose prices have a judge.
-std::optional<PriceParts> judged_price(const Scene& scene, const Prices& prices, const RobotSpec& robot,
-                                       const RecordedAnswer& answer, const Execution& execution) {
-  const bool turns = robot.kind == RobotKind::polygon || robot.kind == RobotKind::car;
-  if (!asks_price(prices) || answer.path.empty()) return std::nullopt;
-  if (turns) return verify_body_price(scene, poses_of(answer.states), robot, prices, execution);
-  if (robot.kind != RobotKind::point && robot.kind != RobotKind::disc) return std::nullopt;
-  return verify_price(scene, answer.path, prices, robot.radius, execution);
-}
-
-/// What driving costs, as the answer says that it was asked, by what the judge has counted; none: nobody asked.
-/// places_too: do they have prices?
-std::optional<PriceParts> driving_price(const RecordedAnswer& answer, const Verdict& verdict, bool places_too) {
-  const AskedDriving& asked = answer.driving;
-  const RobotSpec& robot = verdict.problem.robot;
-  const bool is_asked = asked.turn_cost || asked.cusp_cost || asked.reverse_cost;
-  if (robot.kind != RobotKind::car || !is_asked) return std::nullopt;
-  const double usual_cusp =
-      asked.optimise && !places_too && robot.steering == SteeringKind::reeds_shepp ? robot.turning_radius : 0.0;
-  return PriceParts{.turning = asked.turn_cost.value_or(0.0) * verdict.turn_rad,
-                    .cusps = asked.cusp_cost.value_or(usual_cusp) * static_cast<double>(verdict.cusps),
-                    .reverse = (asked.reverse_cost.value_or(1.0) - 1.0) * verdict.reversed};
-}
-
-/// By the verification's own view of what the prices close and open, and what the path costs.
-void judge_prices(Answer& answer, const Scene& scene, const Question& question, bool has_stops,
-                  const Execution& execution) {
-  const Prices prices = prices_of(scene, question);
-  const bool is_driven_on = has_stops && answer.price;  // a car's gear may change where legs meet
-  if (!answer.verified || (prices.empty() && !is_driven_on)) return;
-  const StageTimer timer(execution, "verify", answer.seconds.verify, path_points(answer));
-  const std::optional<Scene> effective = effective_scene(scene, prices, execution);
-  const Scene& judged = effective ? *effective : scene;
-  const RecordedAnswer record = recorded(answer);
-  const Question asked = answer.problem.question();
-  const Verdict verdict = verifying_kind(judged, asked).verify(judged, asked, record, execution);
-  if (!verdict.verified) fail_verification(answer, verdict.first_violation.value_or(Violation{}));
-  const auto of_places = judged_price(judged, prices, answer.problem.robot, record, execution);
-  const auto driving = is_driven_on ? driving_price(record, verdict, of_places.has_value()) : answer.price;
-  if (!of_places && !driving) return;
-  PriceParts price = of_places.value_or(PriceParts{});
-  if (driving) {  // of a car: what its judge has counted
-    price.turning = driving->turning;
-    price.cusps = driving->cusps;
-    price.reverse = driving->reverse;
-  }
-  answer.price = price;
-  answer.cost = answer.length + price.sum();
-}
 
 /// Cost and price that an answer claims are a part of what is verified.
 void check_price(Verdict& verdict, const Scene& judged, const Prices& prices, const RecordedAnswer& answer,

@@ -86,7 +86,7 @@ class AnyWorld {
     if constexpr (in_plane) return warren::distance(a, b);
     return metric(a, b);
   }
-  /// What a free motion costs, >= its distance; the same both ways.
+  /// What a free motion costs, >= its distance; the same both ways where these are motions.
   double cost(const State& a, const State& b) const { return motion_cost ? motion_cost(a, b) : distance(a, b); }
   Embedding embed(const State& a) const {
     if constexpr (in_plane) return {a.x, a.y};

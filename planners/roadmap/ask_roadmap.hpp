@@ -113,6 +113,7 @@ class AskedNeighbours {
     return v < n ? roadmap_->states()[v] : (*ends_)[v - n];
   }
   double distance(VertexId v, VertexId w) const { return roadmap_->world().distance(state(v), state(w)); }
+  double cost(VertexId v, VertexId w) const { return roadmap_->world().cost(state(v), state(w)); }
 
   void operator()(VertexId v, const AnyVisit& visit) {
     if (v < roadmap_->states().size()) {
@@ -143,7 +144,7 @@ class AskedNeighbours {
     if (known == EdgeState::unchecked && !asked(v, w, end)) return;
     ++free_edges_;
     if (used_ != nullptr) used_->push_back(one_way ? Edge{v, w} : Edge{std::min(v, w), std::max(v, w)});
-    visit(w, length);
+    visit(w, roadmap_->world().motion_cost ? cost(v, w) : length);
   }
   /// An edge of start or goal. Of lazy roadmaps whose edges lead one way it is asked about here, as one_way_prm does.
   void visit_end(VertexId v, VertexId w, const AnyVisit& visit) {
@@ -155,7 +156,7 @@ class AskedNeighbours {
       ++counters_.edges_free;
       ++free_edges_;
     }
-    visit(w, length);
+    visit(w, roadmap_->world().motion_cost ? cost(v, w) : length);
   }
   /// Asks the world; remembers at both ends.
   bool asked(VertexId v, VertexId w, std::size_t end) {
@@ -403,13 +404,13 @@ template <World W>
 SearchResult Ask<W>::search_copy() {
   const Graph graph = free_graph();
   const AskedNeighbours<W> places = neighbours(nullptr);
-  const auto distance = [&](VertexId v, VertexId w) { return places.distance(v, w); };
+  const auto cost = [&](VertexId v, VertexId w) { return places.cost(v, w); };
   const auto estimate = [&](VertexId v, VertexId w) {
     return estimated_way(world_, options_.heuristic, places.state(v), places.state(w));
   };
   const RoadmapSearch asked{.start = start_vertex(),
                             .goal = goal_vertex(),
-                            .length = VertexDistance(distance),
+                            .length = VertexDistance(cost),
                             .estimate = VertexDistance(estimate),
                             .search = options_.search,
                             .queue = options_.queue,

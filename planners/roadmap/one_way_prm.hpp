@@ -136,7 +136,7 @@ SearchResult OneWayPlan<W>::search_best() {
       if (is_checked) clock.begin();
       const bool free = is_free(v, to, its_end, query, counters);
       if (is_checked) clock.lap(StagePart::checks);
-      if (free) visit(to, length);
+      if (free) visit(to, world_.motion_cost ? world_.cost(states_[v], states_[to]) : length);
     }
   };
   const auto estimate = [&](VertexId v, VertexId to) { return world_.distance(states_[v], states_[to]); };

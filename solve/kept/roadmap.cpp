@@ -134,11 +134,6 @@ ChosenSolver builder_of(const SolveOptions& options, const Scene& scene, const Q
                     "for all questions",
                     scene.source));
   }
-  if (const auto words = words_of(words_in(prices_of(scene, question))); !words.empty()) {
-    throw UsageError(
-        fmt::format("@{}: a roadmap that is kept knows no prices and no forbidden areas; 'warren solve' does",
-                    name_of(words.front())));
-  }
   return solver;
 }
 
@@ -174,9 +169,13 @@ void check_buildable(const Scene& scene, const Question& question, const SolveOp
   options.validate();
   refuse_what_is_asked_later(options);
   check_solver_options(options);
-  if (const AskedWords words = words_in(prices_of(scene, question)); !words.empty()) {
-    throw UsageError(fmt::format("{}: kept roadmaps hold neither prices nor forbidden areas; solve takes them",
-                                 place_of_word(words_of(words).front(), scene, question)));
+  constexpr AskedWords kept_words{AskedWord::clearance_price, AskedWord::area};
+  for (const AskedWord word : words_of(words_in(prices_of(scene, question)))) {
+    if (kept_words.has(word)) continue;
+    throw UsageError(
+        fmt::format("{}: kept roadmaps hold prices of nearness and of areas that are polygons, and no others; solve "
+                    "takes them",
+                    place_of_word(word, scene, question)));
   }
   if (const AskedWords words = words_in(question.rule); !words.empty()) {
     throw UsageError(
@@ -188,18 +187,22 @@ void check_buildable(const Scene& scene, const Question& question, const SolveOp
 Roadmap build_within(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,
                      IndexChoice index, BuildAccount* account, const OldRoadmap* old) {
   Roadmap roadmap;
-  roadmap.world = KeptWorld(std::move(scene));
-  const Scene& world = roadmap.world.outline();  // all of it
   roadmap.index = index;
   roadmap.options = options;
   roadmap.options.planner = options.planner.value_or(PlannerKind::prm);
-  check_buildable(world, question, roadmap.options);
-  const Question asked = without_ends(world, question);
+  check_buildable(scene, question, roadmap.options);
+  roadmap.prices = prices_of(scene, question);
+  scene.prices = {};
+  roadmap.world = KeptWorld(std::move(scene));
+  const Scene& world = roadmap.world.outline();  // all of it
+  Question asked = without_ends(world, question);
+  asked.prices = roadmap.prices;
   const ChosenSolver solver = builder_of(roadmap.options, world, asked);
   roadmap.robot = robot_of(world, asked);
   roadmap.clearance = clearance_of(world, asked);
   roadmap.world_hash = scene_hash(world, execution);
-  if (index == IndexChoice::where_it_pays) roadmap.lattice = lattice_index(world, asked, roadmap.options, execution);
+  const bool indexed = index == IndexChoice::where_it_pays && roadmap.prices.empty();  // of lengths alone
+  if (indexed) roadmap.lattice = lattice_index(world, asked, roadmap.options, execution);
   if (roadmap.lattice != nullptr) {
     roadmap.samples = roadmap.lattice->passages().cell_count();
     roadmap.rule = {1.0, 0};
@@ -207,7 +210,7 @@ Roadmap build_within(Scene scene, const Question& question, const SolveOptions& 
   }
   const PlannedScene planned(world, asked, solver.planner, execution);
   SolveRequest request{roadmap.options, planned.get(), asked, solver.planner, execution, nullptr, {}, old};
-  request.index = index == IndexChoice::where_it_pays;
+  request.index = indexed;
   BuiltArrays built = solver.kind->build(request);
   roadmap.samples = built.samples;
   roadmap.rule = built.rule;
@@ -227,6 +230,7 @@ Roadmap update(const Roadmap& roadmap, Scene now, const Execution& execution, Up
     }
   }
   BuildAccount built;
+  now.prices = {};
   Roadmap next = build_within(std::move(now), roadmap.question(), roadmap.options, execution, roadmap.index, &built,
                               old ? &*old : nullptr);
   if (account == nullptr) return next;

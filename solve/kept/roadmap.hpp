@@ -27,6 +27,7 @@ struct Roadmap {
   std::string world_hash;                          ///< scene_hash
   RobotSpec robot;                                 ///< whose motions its edges are
   double clearance = 0.0;                          ///< around the body, on all edges
+  Prices prices = {};                              ///< of ways: nearness and areas, the file's among them
   SolveOptions options;                            ///< planner, sampler, seed and what else was asked for; no search
   std::uint64_t samples = 0;                       ///< drawn in the last round
   ConnectionRule rule;                             ///< by which milestones were joined, and start and goal will be
@@ -36,7 +37,7 @@ struct Roadmap {
   std::unique_ptr<RouteIndex> lattice = {};        ///< instead of arrays
 
   /// The question that is still open: from where to where.
-  Question question() const { return {.robot = robot, .clearance = clearance}; }
+  Question question() const { return {.robot = robot, .clearance = clearance, .prices = prices}; }
 };
 
 /// How many edges are in which state; an edge that stands twice counts once.
@@ -56,7 +57,8 @@ bool grows(const SolveOptions& options, const Scene& scene, const RobotSpec& rob
 struct OldRoadmap;
 
 /// Builds the roadmap of prm, lazy_prm, visibility, cells or voronoi for any world and body that these solve, but for
-/// bodies at a fixed angle; start and goal of question and scene mean nothing. With lazy_prm no edge is checked, unless
+/// bodies at a fixed angle; start and goal of question and scene mean nothing. Where ways have a price, the roadmap
+/// keeps it, and all questions weigh its edges by that. With lazy_prm no edge is checked, unless
 /// the samples are left open: then, with either planner, rounds grow until what is joined stays joined
 /// (planners/roadmap/build_roadmap.hpp). Takes the scene. Throws UsageError for what can't be built and for options
 /// that mean nothing to it, InputError, Stopped at a limit.
@@ -81,7 +83,8 @@ struct UpdateAccount {
 };
 
 /// The roadmap that build() makes of a changed world by the same options, bit for bit; motions that keep clear of what
-/// has changed are not asked about again. What searches have learnt of a lazy roadmap is forgotten. Takes the scene.
+/// has changed are not asked about again. What searches have learnt of a lazy roadmap is forgotten. Its prices are those
+/// that it was built with. Takes the scene.
 /// Throws as build().
 Roadmap update(const Roadmap& roadmap, Scene now, const Execution& execution, UpdateAccount* account = nullptr);
 

@@ -14,10 +14,12 @@
 #include "scenes/scene/arm_model.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "scenes/text/json_text.hpp"
+#include "scenes/text/price_text.hpp"
 #include "solve/kept/checksum.hpp"
 #include "solve/kept/roadmap_file.hpp"
 #include "solve/kept/roadmap_sections.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
+#include "solve/question/asked_words.hpp"
 #include "solve/question/question.hpp"
 #include "solve/question/question_of_arm.hpp"
 
@@ -82,6 +84,7 @@ RoadmapArrays read_arrays(const RoadmapFile& file, const Roadmap& roadmap, const
 
 KeptWorld given_world(const RoadmapFile& file, Scene given, const std::string& hash, const Execution& execution) {
   const std::string found = scene_hash(given, execution);
+  given.prices = {};  // the roadmap has its own
   if (found == hash) return KeptWorld(std::move(given));
   throw InputError(file.name(), fmt::format("was built for the world {}, and {} is another one", hash, given.source),
                    found);
@@ -312,6 +315,14 @@ std::uint64_t component_count(const RoadmapArrays& arrays) {
   return count;
 }
 
+std::string prices_json(const Prices& prices) {
+  std::string text = "[";
+  for (const std::string& line : price_lines(prices)) {
+    text.append(text.size() > 1 ? ", " : "").append(json_string(line));
+  }
+  return text + "]";
+}
+
 void add_recipe(JsonObject& object, const Roadmap& roadmap, const Execution& execution) {
   const SolveOptions& o = roadmap.options;
   object.add("robot", std::string_view(robot_text(roadmap.robot)));
@@ -319,6 +330,7 @@ void add_recipe(JsonObject& object, const Roadmap& roadmap, const Execution& exe
     object.add("table_hash", std::string_view(table_hash(roadmap.robot, execution)));
   }
   object.add("clearance", roadmap.clearance);
+  if (!roadmap.prices.empty()) object.add_json("prices", prices_json(roadmap.prices));
   object.add("planner", name_of(o.planner.value_or(PlannerKind::prm)));
   if (o.sampler) object.add("sampler", name_of(*o.sampler));
   object.add("seed", o.seed);
@@ -421,6 +433,20 @@ void read_options(const MetaReader& meta, SolveOptions& o) {
   if (meta.has("turning_radius")) o.car.turning_radius = meta.number("turning_radius");
 }
 
+/// Of nearness and areas, of which a roadmap's body and world have a meaning.
+Prices read_prices(const std::string& where, const Json& lines, const Execution& execution) {
+  const std::string key = fmt::format("{}: key \"prices\"", where);
+  if (!lines.is_array()) throw InputError(key, "expected a list of lines");
+  Prices prices;
+  for (const Json& line : lines) {
+    if (!line.is_string()) throw InputError(key, "expected a list of lines");
+    read_price_line(line.get_ref<const std::string&>(), key, prices, execution);
+  }
+  if (!prices.masks.empty() || !prices.keep_out.empty() || prices.unknown)
+    throw InputError(key, "expected prices of nearness and areas alone");
+  return prices;
+}
+
 ConnectionRule read_rule(const MetaReader& meta) {
   ConnectionRule rule{meta.number("radius"), meta.small("neighbours")};
   if (!(rule.radius >= 0.0)) meta.fail("radius", "a number of at least 0");
@@ -506,9 +532,11 @@ void read_meta(const std::string& where, std::string_view text, Roadmap& roadmap
   if (!(roadmap.clearance >= 0.0 && roadmap.clearance <= largest_coordinate)) {
     meta.fail("clearance", "a number from 0 to 1e60");
   }
+  if (meta.has("prices")) roadmap.prices = read_prices(where, json["prices"], execution);
   read_options(meta, roadmap.options);
   try {
     roadmap.options.validate();
+    check_prices(roadmap.prices);
   } catch (const UsageError& error) {
     throw InputError(where, error.what());
   }

@@ -184,6 +184,8 @@ Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vec
                                  execution,
                                  keep,
                                  {opened_->session.get(), &scratch.search}});
+    answer.problem.prices = roadmap_.prices;
+    judge_prices(answer, scene, question, false, execution);
     tell_bound(answer, opened_->planned.get(), options, execution);
   } catch (const Stopped& stopped) {
     answer.stop_reason = stopped.reason;

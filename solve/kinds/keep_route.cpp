@@ -10,9 +10,8 @@
 
 #include "core/base/error.hpp"
 #include "core/plane/se2.hpp"
+#include "solve/kinds/solve_steps.hpp"
 #include "solve/question/question_of_arm.hpp"
-#include "verify/judges/verify_body_price.hpp"
-#include "verify/judges/verify_price.hpp"
 
 namespace warren {
 namespace {
@@ -72,14 +71,6 @@ RecordedAnswer path_of(const std::vector<State>& states, const Question& questio
   return path;
 }
 
-/// What places make dear.
-PriceParts price_of(const Path<Vec2>& path, const StateList& states, const Scene& scene, const Problem& problem,
-                    const Execution& execution) {
-  if (problem.prices.empty() || path.empty()) return {};
-  if (is_plain(problem.robot)) return verify_price(scene, path, problem.prices, problem.robot.radius, execution);
-  return verify_body_price(scene, poses_of(states), problem.robot, problem.prices, execution);
-}
-
 /// Of the route's rest, as it is now: how long, how free; none: it is not free.
 struct Cost {
   Verdict verdict;
@@ -98,7 +89,7 @@ std::optional<Cost> cost_now(const std::vector<State>& states, const Scene& scen
   Cost cost;
   cost.verdict = verifying_kind(scene, asked).verify(scene, asked, path, execution);
   if (!cost.verdict.verified) return std::nullopt;
-  cost.price = price_of(path.path, path.states, scene, problem, execution);
+  cost.price = judged_price(scene, problem.prices, problem.robot, path, execution).value_or(PriceParts{});
   cost.sum = cost.verdict.length + cost.price.sum();
   return cost;
 }
@@ -203,7 +194,8 @@ void keep_to_route(Answer& answer, const Scene& scene, const Question& question,
   const std::optional<Cost> kept = cost_now(rest, scene, question, problem, execution);
   if (kept) told.kept_cost = kept->sum;
   if (answer.verified) {
-    told.new_cost = answer.length + price_of(answer.path, answer.states, scene, problem, execution).sum();
+    const auto price = judged_price(scene, problem.prices, problem.robot, recorded(answer), execution);
+    told.new_cost = answer.length + price.value_or(PriceParts{}).sum();
   }
   const double gain = rule.unless_gain.value_or(usual_unless_gain);
   told.kept = kept && (!told.new_cost || (1.0 - gain) * kept->sum <= *told.new_cost);

@@ -324,21 +324,32 @@ BuiltArrays build_sampled(const SolveRequest& request) {
   return all;
 }
 
-/// SolveKind::open for a body. Refers to the arrays where they have an index.
+namespace detail {
+/// With the body, to whose prices motions refer.
+template <class Body>
+struct SessionOf : SessionIn<typename Body::World> {
+  explicit SessionOf(const SolveRequest& request) : body(request) {}
+  Body body;
+};
+}  // namespace detail
+
+/// SolveKind::open for a body. Refers to the request's scene, and to the arrays where they have an index.
 template <class Body>
 std::unique_ptr<RoadmapSession> open_sampled(const SolveRequest& request, const RoadmapArrays& arrays,
                                              const ConnectionRule& rule) {
   using World = typename Body::World;
   using State = typename World::State;
-  const Body body(request);
+  auto session = std::make_unique<detail::SessionOf<Body>>(request);
+  Body& body = session->body;
   const RoadmapOptions options = detail::roadmap_options_of(request, body);
-  auto session = std::make_unique<SessionIn<World>>();
   body.index(session->world, options.sampler);
   const unsigned width = detail::state_width(*session->world);
   if (arrays.dimension != width || arrays.directed != is_one_way<World>) {
     throw InputError("roadmap", "its states are none of the body that it says it is for");
   }
   session->view.emplace(*session->world);
+  if constexpr (requires { body.price_motions(*session->world); })
+    session->view->motion_cost = body.price_motions(*session->world);
   if (!(connection_rule_for(*session->view, options, request.samples) == rule)) {
     throw InputError("roadmap", "its rule is not the one that follows from its options");
   }
@@ -355,6 +366,8 @@ std::unique_ptr<RoadmapSession> open_sampled(const SolveRequest& request, const 
   }
   const bool lazy = request.planner == PlannerKind::lazy_prm;
   const bool has_index = !arrays.hierarchy.empty() && !lazy && !arrays.directed;
+  if (has_index && session->view->motion_cost)
+    throw InputError("roadmap", "its index is of lengths, and its ways have a price");
   session->roadmap.emplace(*session->view, std::move(states), arrays.candidates, arrays.edge_states, rule, lazy,
                            request.execution, has_index ? &arrays.hierarchy : nullptr);
   return session;

@@ -23,6 +23,7 @@
 //   judge(world, path, answer)             verifies; fills in the path and what is said of it
 //   cause_of_blocked(world, outcome, goals)
 //   price_motions(world)                   what motions cost beyond their distance; empty: nothing, or not there
+//   take_prices(cost)                      the same of a roadmap that is asked, where shortening needs it
 #pragma once
 
 #include <fmt/format.h>
@@ -179,7 +180,11 @@ class SampledSolve {
     }
     view_.emplace(*world_);
     if constexpr (requires { body_.price_motions(*world_); }) {
-      if (asked_ == nullptr) view_->motion_cost = body_.price_motions(*world_);
+      if (asked_ == nullptr) {
+        view_->motion_cost = body_.price_motions(*world_);
+      } else if constexpr (requires { body_.take_prices(view_->motion_cost); }) {
+        body_.take_prices(asked_->world().motion_cost);
+      }
     }
     goals_ = body_.goals(*world_);
   }

@@ -7,9 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -62,6 +64,7 @@ class Car : public PoseBody {
         grid_(request.options.grid),
         anytime_(request.options.anytime),
         prices_(prices_of(request.scene, request.question)),
+        pose_prices_(std::make_unique<PosePrices>(scene(), prices_, question().clearance)),
         on_lattice_(request.planner == PlannerKind::grid),
         optimise_(request.options.optimise) {
     if (on_lattice_) check_lattice();
@@ -97,8 +100,19 @@ class Car : public PoseBody {
   std::vector<GoalPlace> places(const World& world, const GoalRule& rule, std::vector<std::vector<double>> goals) const;
   /// The path of least price over the lattice, near enough; empty: there is none.
   Path<Se2> on_lattice(const World& world, std::span<const Se2> goals, Answer& answer) const;
+  /// Along the curve; the same both ways where it is one.
+  MotionLength<Se2> price_motions(const World& world) const {
+    if (!pose_prices_->is_priced()) return {};
+    return [&world, &prices = *pose_prices_](const Se2& a, const Se2& b) {
+      const bool is_turned = !Curve::one_way && std::tie(b.x, b.y, b.theta) < std::tie(a.x, a.y, a.theta);
+      auto query = world.make_query();
+      const SteeringCurve way = is_turned ? world.curve(b, a) : world.curve(a, b);
+      const double gone = way.driven();
+      return gone + prices.over(world, gone, query, [&](double t) { return way.at_driven(t * gone); });
+    };
+  }
   Path<Se2> shortened(const World& world, Path<Se2> path, Answer& answer) const {
-    if (const PosePrices prices = pose_prices(); prices.is_priced()) return cheaper(world, prices, path, answer);
+    if (pose_prices_->is_priced()) return cheaper(world, path, answer);
     const auto curve_length = [&](const Se2& a, const Se2& b) { return world.distance(a, b); };
     path = shortcut(world, std::move(path), curve_length, answer);
     if constexpr (has_gears) path = redriven(world, std::move(path), answer);
@@ -113,7 +127,8 @@ class Car : public PoseBody {
     answer.path_figures.push_back({"steering", std::string(name_of(question().robot.steering))});
     answer.path_figures.push_back({"cusps", std::uint64_t{found.cusps}});
     answer.path_figures.push_back({"reversed_length", found.reversed});
-    if (!on_lattice_ || !(asked_.cusp_cost || asked_.reverse_cost || grid_.turn_cost)) return;
+    const bool weighs_driving = on_lattice_ || pose_prices_->is_priced();
+    if (!weighs_driving || !(asked_.cusp_cost || asked_.reverse_cost || grid_.turn_cost)) return;
     answer.price = driving(found);
     answer.cost = found.length + answer.price->sum();
     answer.bound_of = "all";
@@ -142,7 +157,7 @@ class Car : public PoseBody {
   /// Unasked, only what is driven anew has a price: where places have one, nothing is.
   DrivingPrice price_on_lattice() const {
     DrivingPrice on_lattice = price();
-    if (!asked_.cusp_cost && (!optimise_ || pose_prices().is_priced())) on_lattice.cusp = 0.0;
+    if (!asked_.cusp_cost && (!optimise_ || pose_prices_->is_priced())) on_lattice.cusp = 0.0;
     return on_lattice;
   }
   PriceParts driving(const Verification& found) const {
@@ -156,7 +171,6 @@ class Car : public PoseBody {
     for (std::size_t i = 1; i < path.size(); ++i) append_joints(poses, world.curve(path[i - 1], path[i]));
     return poses;
   }
-  PosePrices pose_prices() const { return {scene(), prices_, question().clearance}; }
   /// As the judge has it.
   double paid(const World& world, const Path<Se2>& path) const {
     const RobotSpec& robot = question().robot;
@@ -167,18 +181,12 @@ class Car : public PoseBody {
     return found.length + driving(found).sum() + price.sum();
   }
   /// The path with shortcuts where those cost less, and itself where all of it costs more then.
-  Path<Se2> cheaper(const World& world, const PosePrices& prices, const Path<Se2>& path, Answer& answer) const {
-    auto query = world.make_query();
-    const auto cost = [&](const Se2& a, const Se2& b) {
-      const SteeringCurve way = world.curve(a, b);
-      const double gone = way.driven();
-      return gone + prices.over(world, gone, query, [&](double t) { return way.at_driven(t * gone); });
-    };
-    Path<Se2> cut = shortcut(world, Path<Se2>(path), cost, answer);
+  Path<Se2> cheaper(const World& world, const Path<Se2>& path, Answer& answer) const {
+    Path<Se2> cut = shortcut(world, Path<Se2>(path), price_motions(world), answer);
     return paid(world, cut) < paid(world, path) ? cut : path;
   }
   void check_lattice() const;
-  CarLatticeOptions lattice_options(const PosePrices& prices) const;
+  CarLatticeOptions lattice_options() const;
   bool is_length_alone() const { return !has_gears || (price().cusp == 0.0 && price().reverse == 1.0); }
   /// With fewer changes of gear, and less of it backwards, as their prices have it.
   Path<Se2> redriven(const World& world, Path<Se2> path, Answer& answer) const {
@@ -191,6 +199,7 @@ class Car : public PoseBody {
   GridFields grid_;
   AnytimeFields anytime_;
   Prices prices_;
+  std::unique_ptr<PosePrices> pose_prices_;  // motions refer to it
   bool on_lattice_;
   bool optimise_;
 };
@@ -203,7 +212,7 @@ void Car<Curve>::check_lattice() const {
 }
 
 template <class Curve>
-CarLatticeOptions Car<Curve>::lattice_options(const PosePrices& prices) const {
+CarLatticeOptions Car<Curve>::lattice_options() const {
   CarLatticeOptions options;
   options.headings = grid_.headings.value_or(options.headings);
   options.cell = grid_.cell;
@@ -211,7 +220,7 @@ CarLatticeOptions Car<Curve>::lattice_options(const PosePrices& prices) const {
   options.clearance = question().clearance;
   options.price = price_on_lattice();
   options.turn_cost = turn_cost_on_lattice();
-  if (prices.is_priced()) options.prices = &prices;
+  if (pose_prices_->is_priced()) options.prices = pose_prices_.get();
   return options;
 }
 
@@ -219,8 +228,7 @@ template <class Curve>
 std::vector<GoalPlace> Car<Curve>::places(const World& world, const GoalRule& rule,
                                           std::vector<std::vector<double>> goals) const {
   if (!start_stands_free()) return {};
-  const PosePrices prices = pose_prices();
-  const CarLatticeOptions options = lattice_options(prices);
+  const CarLatticeOptions options = lattice_options();
   CarLattice lattice(world.body(), scene(), question().robot, Curve::shortest, question().start, {}, options,
                      execution());
   double coarse = 0.0;  // half of the widest gap between two headings
@@ -242,8 +250,7 @@ std::vector<GoalPlace> Car<Curve>::places(const World& world, const GoalRule& ru
 
 template <class Curve>
 Path<Se2> Car<Curve>::on_lattice(const World& world, std::span<const Se2> goals, Answer& answer) const {
-  const PosePrices prices = pose_prices();
-  const CarLatticeOptions options = lattice_options(prices);
+  const CarLatticeOptions options = lattice_options();
   std::optional<CarLattice> lattice;
   {
     const StageTimer timer(execution(), "stamps", answer.seconds.index);
@@ -282,8 +289,8 @@ constexpr AskedWords car_words = restriction_words | pose_choice_words;
 constexpr PlannerChoice car_planners[] = {
     {PlannerKind::rrt_connect, rrt_connect_options | curve_options, car_words},
     {PlannerKind::rrt, rrt_options | curve_options, car_words},
-    {PlannerKind::prm, prm_takes | curve_options, car_words},
-    {PlannerKind::lazy_prm, lazy_prm_takes | curve_options, car_words},
+    {PlannerKind::prm, prm_takes | curve_options, price_words | car_words},
+    {PlannerKind::lazy_prm, lazy_prm_takes | curve_options, price_words | car_words},
     {PlannerKind::rrt_star, rrt_star_options | shape_options, car_words},
     {PlannerKind::informed_rrt_star, rrt_star_options | shape_options, car_words},
     {PlannerKind::anytime, anytime_options | shape_options, car_words},

@@ -391,6 +391,7 @@ class BodyOnMap : public UsualBody {
     return starts_on_water(map_, problem_.start) || stands_free_on_map(map_, problem_, goal, execution_);
   }
   static double length(const World&, Vec2 a, Vec2 b) { return World::distance(a, b); }
+  void take_prices(const MotionCost& cost) { cost_ = cost; }
   const MotionCost& price_motions(const World& world) {
     if (!problem_.prices.empty()) {
       cost_ = motion_cost(prices_.emplace(world.map(), problem_.robot.radius, problem_.prices, execution_));

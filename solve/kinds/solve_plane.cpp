@@ -147,6 +147,7 @@ class PointAmongPolygons : public UsualBody {
   bool start_stands_free() const { return stands_free(scene_, problem_, problem_.start, execution_, judged_); }
   bool goal_stands_free(Vec2 goal) const { return stands_free(scene_, problem_, goal, execution_, judged_); }
   static double length(const World&, Vec2 a, Vec2 b) { return World::distance(a, b); }
+  void take_prices(const MotionCost& cost) { cost_ = cost; }
   const MotionCost& price_motions(const World& world) {
     if (!problem_.prices.empty()) {
       cost_ = motion_cost(prices_.emplace(world.sides(), problem_.robot.radius, problem_.prices));

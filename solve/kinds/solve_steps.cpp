@@ -5,19 +5,21 @@
 
 #include <cmath>
 
+#include "core/run/trace.hpp"
+#include "solve/question/asked_words.hpp"
+#include "verify/judges/effective_scene.hpp"
+#include "verify/judges/verify_body_price.hpp"
 #include "verify/judges/verify_point.hpp"
+#include "verify/judges/verify_price.hpp"
 
 namespace warren {
 namespace {
 
-void add(StageTimes& to, const StageTimes& more) {
-  to.index += more.index;
-  to.sample += more.sample;
-  to.neighbours += more.neighbours;
-  to.connect += more.connect;
-  to.graph += more.graph;
-  to.reduce += more.reduce;
-  to.search += more.search;
+/// Is anything asked that makes places dear?
+bool asks_price(const Prices& prices) {
+  const AskedWords asked = words_in(prices);
+  const std::vector<AskedWord> words = words_of(price_words);
+  return std::any_of(words.begin(), words.end(), [&](AskedWord word) { return asked.has(word); });
 }
 
 double largest_coordinate_of(const Scene& scene, const Execution& execution) {
@@ -66,7 +68,7 @@ void take_account(Answer& answer, Outcome outcome, StopReason stop_reason, const
   answer.separation = separation;
   answer.counters = counters;
   if (outcome == Outcome::stopped) answer.stop_reason = stop_reason;
-  add(answer.seconds, seconds);
+  answer.seconds += seconds;
 }
 
 void take_solution(Answer& answer, Solution<Vec2> solution) {
@@ -183,6 +185,52 @@ double end_margin(const Scene& scene, const RobotSpec& robot, double clearance, 
   if (robot.kind == RobotKind::point || robot.kind == RobotKind::disc) return round;
   constexpr double rounding = 4e-12;  // of coordinates
   return 2.0 * round + 2e-9 * extent + rounding * largest_coordinate_of(scene, execution);
+}
+
+std::optional<PriceParts> judged_price(const Scene& scene, const Prices& prices, const RobotSpec& robot,
+                                       const RecordedAnswer& answer, const Execution& execution) {
+  const bool turns = robot.kind == RobotKind::polygon || robot.kind == RobotKind::car;
+  if (!asks_price(prices) || answer.path.empty()) return std::nullopt;
+  if (turns) return verify_body_price(scene, poses_of(answer.states), robot, prices, execution);
+  if (robot.kind != RobotKind::point && robot.kind != RobotKind::disc) return std::nullopt;
+  return verify_price(scene, answer.path, prices, robot.radius, execution);
+}
+
+std::optional<PriceParts> driving_price(const RecordedAnswer& answer, const Verdict& verdict, bool places_too) {
+  const AskedDriving& asked = answer.driving;
+  const RobotSpec& robot = verdict.problem.robot;
+  const bool is_asked = asked.turn_cost || asked.cusp_cost || asked.reverse_cost;
+  if (robot.kind != RobotKind::car || !is_asked) return std::nullopt;
+  const double usual_cusp =
+      asked.optimise && !places_too && robot.steering == SteeringKind::reeds_shepp ? robot.turning_radius : 0.0;
+  return PriceParts{.turning = asked.turn_cost.value_or(0.0) * verdict.turn_rad,
+                    .cusps = asked.cusp_cost.value_or(usual_cusp) * static_cast<double>(verdict.cusps),
+                    .reverse = (asked.reverse_cost.value_or(1.0) - 1.0) * verdict.reversed};
+}
+
+void judge_prices(Answer& answer, const Scene& scene, const Question& question, bool has_stops,
+                  const Execution& execution) {
+  const Prices prices = prices_of(scene, question);
+  const bool is_driven_on = has_stops && answer.price;  // a car's gear may change where legs meet
+  if (!answer.verified || (prices.empty() && !is_driven_on)) return;
+  const StageTimer timer(execution, "verify", answer.seconds.verify, path_points(answer));
+  const std::optional<Scene> effective = effective_scene(scene, prices, execution);
+  const Scene& judged = effective ? *effective : scene;
+  const RecordedAnswer record = recorded(answer);
+  const Question asked = answer.problem.question();
+  const Verdict verdict = verifying_kind(judged, asked).verify(judged, asked, record, execution);
+  if (!verdict.verified) fail_verification(answer, verdict.first_violation.value_or(Violation{}));
+  const auto of_places = judged_price(judged, prices, answer.problem.robot, record, execution);
+  const auto driving = is_driven_on ? driving_price(record, verdict, of_places.has_value()) : answer.price;
+  if (!of_places && !driving) return;
+  PriceParts price = of_places.value_or(PriceParts{});
+  if (driving) {  // of a car: what its judge has counted
+    price.turning = driving->turning;
+    price.cusps = driving->cusps;
+    price.reverse = driving->reverse;
+  }
+  answer.price = price;
+  answer.cost = answer.length + price.sum();
 }
 
 }  // namespace warren

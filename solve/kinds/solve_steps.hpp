@@ -137,6 +137,20 @@ Outcome settled_ends(Outcome outcome, const StartStandsFree& start_stands_free,
   return goal_stands_free() ? Outcome::not_connected : Outcome::goal_blocked;
 }
 
+/// What a path costs beside its length, by its judge; none: nothing that has a price is asked, or the body is an arm.
+/// Throws Stopped.
+std::optional<PriceParts> judged_price(const Scene& scene, const Prices& prices, const RobotSpec& robot,
+                                       const RecordedAnswer& answer, const Execution& execution);
+
+/// What driving costs, as the answer says that it was asked, by what the judge has counted; none: nobody asked.
+/// places_too: do they have prices?
+std::optional<PriceParts> driving_price(const RecordedAnswer& answer, const Verdict& verdict, bool places_too);
+
+/// Price and cost of a verified answer, by the verification's own view of what the prices close and open. has_stops: a
+/// car's gear may change where the legs meet. Throws RefutedPathError, Stopped.
+void judge_prices(Answer& answer, const Scene& scene, const Question& question, bool has_stops,
+                  const Execution& execution);
+
 /// The box in which reference points of bodies of the plane may be: map, bounds, or what the obstacles fill. Throws
 /// Stopped.
 Box room_of(const Scene& scene, const Execution& execution);

@@ -87,6 +87,11 @@ Command build_command() {
   add_options(command.options, build_specs);
   add_kept_options(command);
   add_options(command.options, question_option_specs(), {"--start", "--goal", "--goal-pose", "--contact"});
+  const std::initializer_list<std::string_view> not_kept = {"--areas", "--speed-zones", "--keep-out", "--unknown"};
+  add_options(command.options, price_option_specs(), not_kept);
+  for (const std::string_view name : not_kept) {
+    command.foreign.emplace_back(name, "is for questions that keep no roadmap; 'warren solve' takes it");
+  }
   add_options(command.options, world_option_specs());
   add_options(command.options, run_option_specs());
   return command;

@@ -221,7 +221,7 @@ TEST(PricedBodies, EveryPlannerPaysOrRefusesByName) {
       }
     }
   }
-  EXPECT_GE(paid, test::asks_all() ? 2 * 2 * 2 + 2 * 3 * 2 + 3 : 3);
+  EXPECT_GE(paid, test::asks_all() ? 2 * 2 * 2 + 2 * 3 * 2 + 2 * (2 + 3) + 3 : 3);
 }
 
 TEST(PricedBodies, ACarGoesAroundWhatIsDear) {
@@ -239,6 +239,49 @@ TEST(PricedBodies, ACarGoesAroundWhatIsDear) {
       EXPECT_GT(answer.length, 6.0);
     }
   }
+}
+
+/// Of one roadmap the path is the cheapest, whatever drives: cheaper than the shortest, with what that one pays.
+TEST(PricedBodies, ACarsRoadmapWeighsItsEdges) {
+  for (const SteeringKind steering : {SteeringKind::dubins, SteeringKind::reeds_shepp, SteeringKind::differential}) {
+    for (const PlannerKind planner : {PlannerKind::prm, PlannerKind::lazy_prm}) {
+      SCOPED_TRACE(std::string(name_of(steering)) + ", " + std::string(name_of(planner)));
+      const Scene scene = planner == PlannerKind::prm ? plane() : map();
+      Question asked = question(RobotKind::car);
+      asked.robot->steering = steering;
+      asked.prices = {};
+      const SolveOptions options = planned_by(planner);
+      const Answer shortest = solve(scene, asked, options);
+      asked.prices = price_questions()[1].prices;
+      const Answer cheapest = solve(scene, asked, options);
+      ASSERT_TRUE(shortest.verified && cheapest.verified && cheapest.price);
+      EXPECT_TRUE(verify(scene, cheapest).verified);
+      Answer claimed = shortest;
+      claimed.problem.prices = asked.prices;
+      claimed.cost = 0.0;
+      claimed.price = PriceParts{};
+      claimed.lower_bound.reset();
+      const Verdict dear = verify(scene, claimed);
+      ASSERT_FALSE(dear.verified) << "it goes through the area";
+      EXPECT_LT(cheapest.price->areas, 3.0) << "straight on it is 19";
+    }
+  }
+}
+
+TEST(PricedBodies, GearsOfAPricedRoadmapAreTold) {
+  Question asked = question(RobotKind::car);
+  asked.goal = {2.0, 5.0, 3.1};
+  asked.prices = price_questions()[0].prices;
+  SolveOptions options = planned_by(PlannerKind::prm);
+  options.optimise = true;
+  options.car.cusp_cost = 0.5;
+  options.car.reverse_cost = 2.0;
+  const Answer answer = solve(map(), asked, options);
+  ASSERT_TRUE(answer.verified && answer.price);
+  const Verdict verdict = verify(map(), answer);
+  EXPECT_TRUE(verdict.verified) << verdict.first_violation.value_or(Violation{}).obstacle;
+  EXPECT_EQ(answer.price->cusps, 0.5 * static_cast<double>(verdict.cusps));
+  EXPECT_NEAR(answer.price->reverse, verdict.reversed, 1e-9);
 }
 
 TEST(PricedBodies, WhatACarSaysOfItsGearsAndTurnsIsVerified) {
