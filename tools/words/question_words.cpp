@@ -93,7 +93,8 @@ constexpr OptionSpec asked_specs[] = {
      "The heading may be off by ANGLE"},
     {"--goal-region", "R[,ANGLE]", "any place at most R away from the goal will do: the one that is cheapest to reach"},
     {"--visit", "PLACES",
-     "pass these places, \"X,Y; X,Y; ...\", at most 12, in the order that costs least, then go to the goal. Bodies that "
+     "pass these places, \"X,Y; X,Y; ...\", at most 12, in the order that costs least, then go to the goal. Bodies "
+     "that "
      "turn: X,Y or X,Y,THETA; arms: joint angles"},
     {"--return", "", "with --visit: end at the start; there is no goal then"},
     {"--alternatives", "K[,SIZE]",

@@ -200,7 +200,8 @@ Answer ServedWorld::ask(const ServedQuestion& question, const Execution& executi
   asked.route = question.route;
   const bool is_plain = asked.prices.empty() && asked.rule.empty() && asked.route.empty();
   if (is_roadmap_ && !is_plain) {
-    throw UsageError("a roadmap knows no prices beside its own, and no choice of goals or ways; 'warren serve' of its world does");
+    throw UsageError(
+        "a roadmap knows no prices beside its own, and no choice of goals or ways; 'warren serve' of its world does");
   }
   if (query_ && is_plain && is_own(*asked.robot, *asked.clearance)) {
     if (question.planner && *question.planner != roadmap_->options.planner) {
