@@ -10,6 +10,7 @@
 #include <functional>
 #include <limits>
 #include <new>
+#include <numbers>
 #include <string>
 #include <variant>
 
@@ -41,10 +42,15 @@ class ToGoal {
 
   Answer run() {
     if (goals_.front().empty()) return kind_.solve(request_);  // which says that it is missing
-    if (rule_.region && plan_to_places()) return told();
-    plan_to_goals();
+    if (rule_.region && (!find_places() || plan_to_places())) return told();
+    // Who gets better would spend all the time on a goal that is cut off.
+    const bool looks_first = rule_.tolerance && gets_better(request_.planner);
+    if (looks_first && !find_places()) return told();
+    const bool keeps_time = looks_first && !places_->empty() && places_->front().distance > 0.0;
+    plan_to_goals(keeps_time ? 0.5 : 1.0);
+    if (keeps_time && stopped_ && !request_.execution.should_stop()) stopped_.reset();
     const bool is_settled = has_path() || best_->outcome == Outcome::start_blocked || stopped_;
-    if (!is_settled && rule_.tolerance) plan_to_places();
+    if (!is_settled && rule_.tolerance && (places_ || find_places())) plan_to_places();
     return told();
   }
 
@@ -100,8 +106,8 @@ class ToGoal {
   }
   static double cost_of(const Answer& answer) { return answer.cost.value_or(answer.length); }
 
-  /// Planners that get better share the time.
-  void plan_to_goals() {
+  /// Planners that get better share the time, or so much of it.
+  void plan_to_goals(double share_of_time) {
     const Execution& whole = request_.execution;
     bool is_over = false;
     for (std::size_t i = 0; i < goals_.size(); ++i) {
@@ -115,7 +121,7 @@ class ToGoal {
         return (has_path() && better.cost >= cost_of(*best_)) || (*whole.on_improvement)(better);
       };
       if (gets_better(request_.planner)) {
-        const double seconds = whole.seconds_left() / static_cast<double>(goals_.size() - i);
+        const double seconds = share_of_time * whole.seconds_left() / static_cast<double>(goals_.size() - i);
         execution.deadline = &share.emplace(whole.deadline, seconds);
         if (whole.on_improvement != nullptr) execution.on_improvement = &forward;
       }
@@ -142,9 +148,8 @@ class ToGoal {
     return {*place};
   }
 
-  /// Plans to the first of the places that the planner reaches. Does it reach one?
-  bool plan_to_places() {
-    std::vector<GoalPlace> places;
+  /// What a lattice joins to the start. False: it was stopped, and so is the answer.
+  bool find_places() {
     Answer chosen;
     chosen.problem.robot = robot_of(request_.scene, request_.question);
     chosen.planner = name_of(request_.planner);
@@ -152,18 +157,21 @@ class ToGoal {
     answer_within_limits(chosen, [&] {
       const StageTimer timer(request_.execution, "search", chosen.seconds.search);
       const bool drives = chosen.problem.robot.kind == RobotKind::car;
-      places = place_of_start();
-      if (places.empty()) places = drives ? places_of_car(request_) : places_on_layers(request_);
+      places_ = place_of_start();
+      if (places_->empty()) places_ = drives ? places_of_car(request_) : places_on_layers(request_);
       chosen.outcome = Outcome::not_connected;
     });
     solve_s_ += chosen.solve_s;
-    if (chosen.outcome == Outcome::stopped) {
-      const StopReason reason = *chosen.stop_reason;
-      if (!best_) best_ = std::move(chosen);
-      make_stopped(*best_, reason);
-      return true;
-    }
-    for (const GoalPlace& place : places) {
+    if (chosen.outcome != Outcome::stopped) return true;
+    const StopReason reason = *chosen.stop_reason;
+    if (!best_) best_ = std::move(chosen);
+    make_stopped(*best_, reason);
+    return false;
+  }
+
+  /// Plans to the first of the places that the planner reaches. Does it reach one?
+  bool plan_to_places() {
+    for (const GoalPlace& place : *places_) {
       plan(place.state, request_.execution, place.goal);
       if (has_path()) place_ = place;
       if (has_path() || stopped_) return true;
@@ -260,7 +268,8 @@ class ToGoal {
   std::optional<Answer> best_;
   ByProducts made_;  // of the best
   std::size_t goal_ = 0;
-  std::optional<GoalPlace> place_;  // where the path ends at none of the goals
+  std::optional<std::vector<GoalPlace>> places_;  // that the lattice joins to the start; none: nobody has looked
+  std::optional<GoalPlace> place_;                // where the path ends at none of the goals
   struct {
     Outcome outcome = Outcome::stopped;
     bool optimal = false;
@@ -367,20 +376,22 @@ class ThroughStops {
 
   Answer run() {
     for (std::size_t leg = 0; leg <= stops_.size(); ++leg) {
-      if (!plan(leg)) return fail(leg);
+      Answer here = whole_;
+      if (!plan(leg) && !plan_turned(leg, here)) return fail(leg);
+      before_ = std::move(here);
     }
     judge();
     return std::move(whole_);
   }
 
  private:
-  /// Adds a leg; false: there is no way, and the answer is that of the leg.
-  bool plan(std::size_t leg) {
+  /// Adds a leg; false: there is no way, and the answer is that of the leg. turned: the stop with a heading.
+  bool plan(std::size_t leg, const std::vector<double>* turned = nullptr) {
     const bool is_last = leg == stops_.size();
     Question question = request_.question;
     if (leg > 0) question.start = end_of(whole_);
     if (!is_last) {
-      question.goal = stops_[leg];
+      question.goal = turned != nullptr ? *turned : stops_[leg];
       question.goal_pose.reset();
       question.rule = {};
     }
@@ -404,7 +415,7 @@ class ThroughStops {
                               request_.planner, execution,      keep != nullptr ? &made : nullptr};
     Answer answer = solve_leg_(of_leg);
     if (keep != nullptr) add_by_products(*keep, std::move(made));
-    if (!is_last && answer.outcome == Outcome::goal_blocked) {
+    if (!is_last && turned == nullptr && answer.outcome == Outcome::goal_blocked) {
       const std::string_view body = name_of(robot_of(request_.scene, request_.question).kind);
       throw UsageError(fmt::format("{}: the {} does not fit at {} {}", stop_.first, body, stop_.second, leg + 1));
     }
@@ -420,6 +431,24 @@ class ThroughStops {
     }
     whole_ = std::move(answer);
     return goes_on;
+  }
+
+  /// Nothing was found on from the heading that was chosen at an open stop: the leg to it is planned to others, eighths
+  /// of a turn apart, until one leads on. here: the path to that stop.
+  bool plan_turned(std::size_t leg, const Answer& here) {
+    const bool is_open = leg > 0 && stops_[leg - 1].size() == 2 && here.states.width == 3;
+    const bool is_end = whole_.outcome == Outcome::stopped || whole_.outcome == Outcome::goal_blocked;
+    if (!is_open || is_end || gets_better(request_.planner)) return false;
+    Answer failed = std::move(whole_);
+    std::vector<double> turned = end_of(here);
+    for (int eighth = 1; eighth < 8; ++eighth) {
+      turned[2] = wrapped_angle(turned[2] + 0.25 * std::numbers::pi);
+      whole_ = before_;
+      if (plan(leg - 1, &turned) && plan(leg)) return true;
+      if (whole_.outcome == Outcome::stopped) return false;
+    }
+    whole_ = std::move(failed);
+    return false;
   }
 
   /// Do the stops before a leg leave nothing to choose?
@@ -468,6 +497,7 @@ class ThroughStops {
   const std::function<Answer(const SolveRequest&)>& solve_leg_;
   SolveOptions options_;
   Answer whole_;
+  Answer before_;          // without the last leg
   bool is_timed_ = false;  // did time or a signal end a leg's search?
 };
 
@@ -525,7 +555,7 @@ class Visits {
     return found;
   }
 
-  /// false: there is no way to one of the places, or none through all.
+  /// false: there is no way to one of the places.
   bool find_order() {
     const std::size_t count = rule_.visit.size();
     order_.assign(1, 0);
@@ -563,10 +593,12 @@ class Visits {
         last[i] = rule_.back && !one_way ? first[i] : cost(at[i], rule_.back ? start : std::vector<double>{});
     }
     if (stopped) return fail(std::move(*stopped));
-    return take_order(first, between, last);
+    take_order(first, between, last);
+    return true;
   }
 
-  bool take_order(const std::vector<double>& first, const std::vector<std::vector<double>>& between,
+  /// What was not found is the dearest by far: other headings may lead on there.
+  void take_order(const std::vector<double>& first, const std::vector<std::vector<double>>& between,
                   const std::vector<double>& last) {
     double longest = 0.0;
     const auto look = [&](const std::vector<double>& list) {
@@ -577,18 +609,16 @@ class Visits {
     for (const auto& row : between) look(row);
     const double unit = longest > 0.0 ? longest * 0x1p-40 : 1.0;
     const auto units = [&](const std::vector<double>& list) {
+      constexpr std::uint64_t not_found = std::uint64_t{1} << 50U;
       std::vector<std::uint64_t> row;
-      for (const double cost : list) row.push_back(cost == none ? no_leg : static_cast<std::uint64_t>(cost / unit));
+      for (const double cost : list) {
+        row.push_back(cost == none ? not_found : static_cast<std::uint64_t>(cost / unit));
+      }
       return row;
     };
     TourCosts costs{units(first), {}, units(last)};
     for (const auto& row : between) costs.between.push_back(units(row));
-    const auto best = best_order(costs);
-    if (best) order_ = best->order;
-    if (best) return true;
-    Answer none_found = work_;
-    none_found.outcome = Outcome::not_connected;
-    return fail(std::move(none_found));
+    order_ = best_order(costs)->order;
   }
 
   bool fail(Answer answer) {

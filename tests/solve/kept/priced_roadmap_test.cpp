@@ -31,7 +31,7 @@ Scene rooms(bool as_map) {
   return scene;
 }
 
-std::vector<RobotSpec> bodies() {
+std::vector<RobotSpec> rooms_bodies() {
   const std::vector<Vec2> outline{{-0.2, -0.1}, {0.2, -0.1}, {0.2, 0.1}, {-0.2, 0.1}};
   RobotSpec car{.kind = RobotKind::car, .radius = 0.15, .turning_radius = 0.3};
   RobotSpec reversing = car;
@@ -61,7 +61,7 @@ void expect_same_price(const Answer& answer, const Answer& expected) {
 }
 
 TEST(PricedRoadmap, AnswersAsSolveDoes) {
-  const std::vector<RobotSpec> robots = bodies();
+  const std::vector<RobotSpec> robots = rooms_bodies();
   const std::string file =
       (std::filesystem::temp_directory_path() / ("warren_priced_" + std::to_string(::getpid()) + ".roadmap")).string();
   std::uint64_t heard = 0;
@@ -100,7 +100,7 @@ TEST(PricedRoadmap, AnswersAsSolveDoes) {
 
 TEST(PricedRoadmap, AFilesPricesAreItsOwn) {
   Scene scene = rooms(false);
-  const Question question = priced_question(bodies().front());
+  const Question question = priced_question(rooms_bodies().front());
   scene.prices = question.prices;
   Question plain = question;
   plain.prices = {};
@@ -112,7 +112,7 @@ TEST(PricedRoadmap, AFilesPricesAreItsOwn) {
 }
 
 TEST(PricedRoadmap, KeepsThemWhenItsWorldChanges) {
-  const Question question = priced_question(bodies().front());
+  const Question question = priced_question(rooms_bodies().front());
   const SolveOptions options = roadmap_of(PlannerKind::prm);
   const Roadmap roadmap = build(rooms(false), question, options);
   Scene now = rooms(false);
@@ -130,19 +130,19 @@ TEST(PricedRoadmap, WhatItCantKeepIsRefused) {
     }
     return "nothing";
   };
-  Question question = priced_question(bodies().front());
+  Question question = priced_question(rooms_bodies().front());
   question.prices.keep_out.push_back({{{2, 0}, {3, 0}, {3, 2}}, 0});
   EXPECT_NE(refusal(question, PlannerKind::prm).find("keep_out"), std::string::npos);
-  question = priced_question(bodies().front());
+  question = priced_question(rooms_bodies().front());
   question.prices.unknown = 2.0;
   EXPECT_NE(refusal(question, PlannerKind::prm).find("unknown"), std::string::npos);
-  EXPECT_NE(refusal(priced_question(bodies().front()), PlannerKind::voronoi).find("clearance_price"),
+  EXPECT_NE(refusal(priced_question(rooms_bodies().front()), PlannerKind::voronoi).find("clearance_price"),
             std::string::npos);
 }
 
 /// Many milestones make an index of lengths, which says nothing of prices.
 TEST(PricedRoadmap, HasNoIndexOfLengths) {
-  Question question = priced_question(bodies().front());
+  Question question = priced_question(rooms_bodies().front());
   SolveOptions options = roadmap_of(PlannerKind::prm);
   options.roadmap.samples = 70'000;
   options.roadmap.neighbours = 4;

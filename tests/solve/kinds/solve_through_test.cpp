@@ -262,6 +262,29 @@ TEST(SolveThrough, AnOpenHeadingProvesNothingOfLaterLegs) {
   EXPECT_EQ(solve(scene, question, options).outcome, Outcome::not_connected);
 }
 
+/// Straight on it would stand in front of a wall, with no room to turn away.
+TEST(SolveThrough, WhereAnOpenHeadingLeadsNowhereAnotherIsTried) {
+  const Scene scene = scene_of("bounds 0 0 8 6\npolygon 2.6 1 2.8 1 2.8 5 2.6 5\nrobot car radius 0.2 turning 0.8\n");
+  Question question;
+  question.start = {0.6, 3.0, 0.0};
+  question.goal = {0.6, 3.0};
+  SolveOptions options = stopping_by(PlannerKind::grid);
+  options.grid.cell = 0.1;
+  question.goal = {2.0, 3.0};
+  const Answer there = solve(scene, question, options);
+  ASSERT_EQ(there.outcome, Outcome::solved);
+  const auto last = there.states[there.states.size() - 1];
+  question.start.assign(last.begin(), last.end());
+  question.goal = {0.6, 3.0};
+  ASSERT_EQ(solve(scene, question, options).outcome, Outcome::not_connected) << "the heading that is chosen first";
+  question.start = {0.6, 3.0, 0.0};
+  options.trees.via = {{2.0, 3.0}};
+  const Answer answer = solve(scene, question, options);
+  ASSERT_EQ(answer.outcome, Outcome::solved);
+  EXPECT_TRUE(is_state_of(answer, {2.0, 3.0}));
+  EXPECT_TRUE(verify(scene, answer).verified);
+}
+
 void expect_refused(const Scene& scene, const Question& question, const SolveOptions& options, std::string_view what) {
   try {
     solve(scene, question, options);

@@ -100,6 +100,26 @@ TEST(SolveToGoal, OfSeveralGoalsTheCheapestIsReached) {
   }
 }
 
+/// A goal that is cut off does not take all the time of who gets better.
+TEST(SolveToGoal, BetterWithTimeHasTimeForThePlaceNearby) {
+  for (const std::string_view robot : {square_words, car_words}) {
+    const Scene scene = rooms_with_wall(robot, false);
+    Question question;
+    question.start = {1.0, 3.0, 0.0};
+    question.goal = {7.0, 3.0};
+    question.rule.tolerance = any_distance;
+    SolveOptions options;
+    options.planner = PlannerKind::anytime;
+    const Deadline deadline(4.0);
+    const Answer answer = solve_within(scene, question, options, {.deadline = &deadline});
+    ASSERT_EQ(answer.outcome, Outcome::solved) << robot;
+    ASSERT_TRUE(answer.goal_reached);
+    EXPECT_LT(answer.goal_reached->distance, 2.5);
+    EXPECT_GT(answer.goal_reached->distance, 1.1) << "the wall is a unit away";
+    EXPECT_TRUE(verify(scene, answer).verified);
+  }
+}
+
 TEST(SolveToGoal, WithoutAWayWhatIsLeftOpenIsNotCalledProved) {
   const Scene scene = rooms_with_wall("point", false);
   Question question;
