@@ -2,6 +2,7 @@
 from typing import Any, Literal
 
 from ._roadmaps import Roadmap
+from ._solving import _Areas
 from ._worlds import (
     _Doors,
     _Objective,
@@ -30,6 +31,8 @@ def build(
     attach: float | tuple[float, float] | None = ...,
     robot: str | None = ...,
     clearance: float | None = ...,
+    clearance_price: float | tuple[float, float] | str | None = ...,
+    area: _Areas | None = ...,
     threads: int | None = ...,
     budget: float | str | None = ...,
     memory: int | str | None = ...,

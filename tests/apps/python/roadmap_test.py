@@ -52,6 +52,22 @@ def test_lengths_are_those_of_queries_and_of_scipy(maze):
     assert np.allclose(theirs[range(50), [at[tuple(b)] for b in goals]], lengths)
 
 
+def test_a_roadmap_keeps_its_prices(tmp_path):
+    cells = np.zeros((40, 60), bool)
+    cells[:30, 30] = True
+    flat, ends = warren.grid(cells, cell=0.1), ((0.5, 0.5), (5.5, 0.5))
+    words = {"robot": warren.disc(0.2), "planner": "prm", "samples": 600,
+             "clearance_price": (3, 0.5), "area": (5, [(3.5, 0), (5, 0), (5, 2), (3.5, 2)])}
+    answer = warren.solve(flat, *ends, **words)
+    roadmap = warren.build(flat, **words)
+    roadmap.save(tmp_path / "priced.roadmap")
+    for asked in (roadmap, warren.open_roadmap(tmp_path / "priced.roadmap")):
+        again = asked.query(*ends)
+        assert again.cost == answer.cost > answer.length
+        assert again.path.tolist() == answer.path.tolist()
+        assert warren.verify(flat, again).verified
+
+
 def test_the_index_of_a_large_maze_says_the_same():
     world = warren.maze(300, 300, seed=2, loops=0.02)
     indexed, searched = warren.build(world), warren.build(world, index="none")
