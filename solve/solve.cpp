@@ -22,6 +22,7 @@
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/kinds/solve_to_goal.hpp"
+#include "solve/question/question_of_arm.hpp"
 #include "verify/judges/effective_scene.hpp"
 #include "verify/judges/verify_classes.hpp"
 #include "verify/judges/verify_potential.hpp"
@@ -102,10 +103,12 @@ void refute(Verdict& verdict, std::string what) {
   verdict.first_violation = Violation{.leg = 0, .distance = 0.0, .obstacle = std::move(what)};
 }
 
-/// Does a leg of the path pass there? With a heading, or of an arm, a state of it has to be that one.
-bool passes(std::span<const Vec2> path, const StateList& states, const std::vector<double>& place) {
-  constexpr double rounding = 1e-9;
-  if (place.size() == 2) {
+/// Does a leg of the path pass there? With a heading, or of an arm or a car, whose legs may be arcs, a state of it has
+/// to be that one; an arm's may have been moved onto a limit.
+bool passes(const RobotSpec& robot, std::span<const Vec2> path, const StateList& states,
+            const std::vector<double>& place) {
+  const double rounding = is_arm(robot) ? 2e-5 : 1e-9;
+  if (place.size() == 2 && !is_arm(robot) && robot.kind != RobotKind::car) {
     const Vec2 at{place[0], place[1]};
     for (std::size_t k = 0; k < path.size(); ++k) {
       const Segment leg{path[k], path[std::min(k + 1, path.size() - 1)]};
@@ -115,32 +118,38 @@ bool passes(std::span<const Vec2> path, const StateList& states, const std::vect
   }
   const auto is_there = [&](std::span<const double> state) {
     for (std::size_t i = 0; i < place.size(); ++i) {
-      const bool is_heading = i == 2 && place.size() == 3;
+      const bool is_heading = i == 2 && !is_arm(robot);
       const double off = is_heading ? turn_between(state[i], place[i]) : state[i] - place[i];
       if (!(std::abs(off) <= rounding * (1.0 + std::abs(place[i])))) return false;
     }
     return true;
   };
   for (std::size_t k = 0; k < states.size(); ++k) {
-    if (states.width == place.size() && is_there(states[k])) return true;
+    if (states.width >= place.size() && is_there(states[k])) return true;
   }
   return false;
 }
 
-/// The number of the first place that was to be visited and is not.
-std::optional<std::size_t> place_passed_by(const GoalRule& rule, std::span<const Vec2> path, const StateList& states) {
+/// What of the rule the path does not do; empty: it does.
+std::string left_undone(const RobotSpec& robot, const GoalRule& rule, std::span<const Vec2> path,
+                        const StateList& states) {
   for (std::size_t i = 0; i < rule.visit.size(); ++i) {
-    if (!passes(path, states, rule.visit[i])) return i;
+    if (!passes(robot, path, states, rule.visit[i])) return fmt::format("visit: the path passes place {} by", i + 1);
   }
-  return std::nullopt;
+  if (!rule.back) return {};
+  std::vector<double> first = {path.empty() ? 0.0 : path.front().x, path.empty() ? 0.0 : path.front().y};
+  if (!states.empty()) first.assign(states[0].begin(), states[0].end());
+  StateList last{states.width, {}};
+  if (!states.empty()) last.add(states[states.size() - 1]);
+  const std::span<const Vec2> end = path.empty() ? path : path.last(1);
+  return passes(robot, end, last, first) ? "" : "return: the path does not end where it starts";
 }
-
-std::string passed_by_text(std::size_t place) { return fmt::format("visit: the path passes place {} by", place + 1); }
 
 /// So are the places to visit.
 void check_visits(Verdict& verdict, const GoalRule& rule, const RecordedAnswer& answer) {
   if (!verdict.verified) return;
-  if (const auto missed = place_passed_by(rule, answer.path, answer.states)) refute(verdict, passed_by_text(*missed));
+  std::string undone = left_undone(verdict.problem.robot, rule, answer.path, answer.states);
+  if (!undone.empty()) refute(verdict, std::move(undone));
 }
 
 /// The length that an answer claims is a part of what is verified.
@@ -371,12 +380,15 @@ Answer solve_within(const Scene& scene, const Question& question, const SolveOpt
     answer.problem.prices = prices_of(scene, question);
     keep_to_route(answer, restricted.get(), question, options, accounted);
     const bool has_stops = !options.trees.via.empty() || !question.rule.visit.empty();
+    if (answer.world.kind.empty()) answer.world = std::move(world);
     judge_prices(answer, scene, question, has_stops, accounted);
-    if (const auto missed = place_passed_by(question.rule, answer.path, answer.states); missed && answer.verified)
-      fail_verification(answer, Violation{.leg = 0, .distance = 0.0, .obstacle = passed_by_text(*missed)});
+    if (answer.verified) {
+      std::string undone = left_undone(answer.problem.robot, question.rule, answer.path, answer.states);
+      if (!undone.empty())
+        fail_verification(answer, Violation{.leg = 0, .distance = 0.0, .obstacle = std::move(undone)});
+    }
     tell_bound(answer, planned.get(), options, accounted);
     prove_on_map(answer, planned.get(), options, keep, accounted);
-    if (answer.world.kind.empty()) answer.world = std::move(world);
   } catch (const Stopped& stopped) {
     answer.stop_reason = stopped.reason;
   } catch (const std::bad_alloc&) {
@@ -439,7 +451,9 @@ void make_by_products(const Scene& scene, const Question& question, const SolveO
 Answer solve_and_keep(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,
                       Roadmap& roadmap, ByProducts* keep) {
   Answer answer = kept_and_solved(std::move(scene), question, options, execution, roadmap, keep);
-  price_heuristic(roadmap.world.whole(execution), question, options, execution, answer);
+  Question asked = question;
+  asked.prices = roadmap.prices;  // the kept world has none of its own
+  price_heuristic(roadmap.world.whole(execution), asked, options, execution, answer);
   explain_blocked_end(roadmap, answer, execution);
   return answer;
 }

@@ -440,10 +440,11 @@ Prices read_prices(const std::string& where, const Json& lines, const Execution&
   Prices prices;
   for (const Json& line : lines) {
     if (!line.is_string()) throw InputError(key, "expected a list of lines");
-    read_price_line(line.get_ref<const std::string&>(), key, prices, execution);
+    const std::string& text = line.get_ref<const std::string&>();
+    if (!text.starts_with("clearance-price ") && !text.starts_with("area "))
+      throw InputError(key, "expected prices of nearness and areas alone");
+    read_price_line(text, key, prices, execution);
   }
-  if (!prices.masks.empty() || !prices.keep_out.empty() || prices.unknown)
-    throw InputError(key, "expected prices of nearness and areas alone");
   return prices;
 }
 

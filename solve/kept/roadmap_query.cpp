@@ -188,9 +188,9 @@ Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vec
     judge_prices(answer, scene, question, false, execution);
     tell_bound(answer, opened_->planned.get(), options, execution);
   } catch (const Stopped& stopped) {
-    answer.stop_reason = stopped.reason;
+    make_stopped(answer, stopped.reason);
   } catch (const std::bad_alloc&) {
-    answer.stop_reason = StopReason::memory;
+    make_stopped(answer, StopReason::memory);
   } catch (const RefutedPathError& error) {
     refuse_roadmap(roadmap_, error);
   }

@@ -108,7 +108,8 @@ class Car : public PoseBody {
       auto query = world.make_query();
       const SteeringCurve way = is_turned ? world.curve(b, a) : world.curve(a, b);
       const double gone = way.driven();
-      return gone + prices.over(world, gone, query, [&](double t) { return way.at_driven(t * gone); });
+      const double length = Curve::turns_on_spot ? world.distance(a, b) : gone;  // the metric has turns on the spot
+      return length + prices.over(world, gone, query, [&](double t) { return way.at_driven(t * gone); });
     };
   }
   Path<Se2> shortened(const World& world, Path<Se2> path, Answer& answer) const {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "core/run/trace.hpp"
 #include "solve/question/asked_words.hpp"
@@ -213,14 +214,20 @@ void judge_prices(Answer& answer, const Scene& scene, const Question& question, 
   const Prices prices = prices_of(scene, question);
   const bool is_driven_on = has_stops && answer.price;  // a car's gear may change where legs meet
   if (!answer.verified || (prices.empty() && !is_driven_on)) return;
-  const StageTimer timer(execution, "verify", answer.seconds.verify, path_points(answer));
-  const std::optional<Scene> effective = effective_scene(scene, prices, execution);
+  Execution judging = execution;
+  std::optional<Deadline> untimed;  // what ended the search does not end the work on its path
+  if (answer.stop_reason && execution.deadline != nullptr) {
+    const double no_end = std::numeric_limits<double>::infinity();
+    judging.deadline = &untimed.emplace(no_end, execution.deadline->memory_bytes());
+  }
+  const StageTimer timer(judging, "verify", answer.seconds.verify, path_points(answer));
+  const std::optional<Scene> effective = effective_scene(scene, prices, judging);
   const Scene& judged = effective ? *effective : scene;
   const RecordedAnswer record = recorded(answer);
   const Question asked = answer.problem.question();
-  const Verdict verdict = verifying_kind(judged, asked).verify(judged, asked, record, execution);
+  const Verdict verdict = verifying_kind(judged, asked).verify(judged, asked, record, judging);
   if (!verdict.verified) fail_verification(answer, verdict.first_violation.value_or(Violation{}));
-  const auto of_places = judged_price(judged, prices, answer.problem.robot, record, execution);
+  const auto of_places = judged_price(judged, prices, answer.problem.robot, record, judging);
   const auto driving = is_driven_on ? driving_price(record, verdict, of_places.has_value()) : answer.price;
   if (!of_places && !driving) return;
   PriceParts price = of_places.value_or(PriceParts{});

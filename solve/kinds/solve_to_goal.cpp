@@ -31,6 +31,20 @@ constexpr double rounding_rad = 1e-9;
 
 Vec2 position(const std::vector<double>& state) { return {state[0], state[1]}; }
 
+double cost_of(const Answer& answer) { return answer.cost.value_or(answer.length); }
+
+/// The same with what places make dear, which solve() judges when all is planned. Without a judge in time: the same.
+double paid_for(const Answer& answer, const SolveRequest& request) {
+  const Prices prices = prices_of(request.scene, request.question);
+  if (!answer.verified || prices.empty()) return cost_of(answer);
+  try {
+    const auto price = judged_price(request.scene, prices, answer.problem.robot, recorded(answer), request.execution);
+    return cost_of(answer) + price.value_or(PriceParts{}).sum();
+  } catch (const Stopped&) {
+    return cost_of(answer);
+  }
+}
+
 /// One question: the steps share it and fill in the answer.
 class ToGoal {
  public:
@@ -44,10 +58,8 @@ class ToGoal {
     if (goals_.front().empty()) return kind_.solve(request_);  // which says that it is missing
     if (rule_.region && (!find_places() || plan_to_places())) return told();
     // Who gets better would spend all the time on a goal that is cut off.
-    const bool looks_first = rule_.tolerance && gets_better(request_.planner);
-    if (looks_first && !find_places()) return told();
-    const bool keeps_time = looks_first && !places_->empty() && places_->front().distance > 0.0;
-    plan_to_goals(keeps_time ? 0.5 : 1.0);
+    const bool keeps_time = rule_.tolerance && gets_better(request_.planner) && is_cut_off();
+    plan_to_goals(keeps_time ? 0.5 * request_.execution.seconds_left() : 0.0);
     if (keeps_time && stopped_ && !request_.execution.should_stop()) stopped_.reset();
     const bool is_settled = has_path() || best_->outcome == Outcome::start_blocked || stopped_;
     if (!is_settled && rule_.tolerance && (places_ || find_places())) plan_to_places();
@@ -74,8 +86,10 @@ class ToGoal {
     work_ += answer.counters;
     solve_s_ += answer.solve_s;
     last_ = {answer.outcome, answer.verified && answer.optimal, answer.verified ? answer.lower_bound : std::nullopt};
-    if (best_ && !is_better(answer)) return;
+    const double paid = paid_for(answer, request_);
+    if (best_ && !is_better(answer, paid)) return;
     best_ = std::move(answer);
+    best_paid_ = paid;
     goal_ = goal;
     if (request_.keep != nullptr) made_ = std::move(*request_.keep);
   }
@@ -94,9 +108,9 @@ class ToGoal {
     bound_ = std::min(bound_, least);
   }
   /// A cheaper path; without one, what leaves more open.
-  bool is_better(const Answer& answer) const {
+  bool is_better(const Answer& answer, double paid) const {
     if (answer.verified != best_->verified) return answer.verified;
-    if (answer.verified) return cost_of(answer) < cost_of(*best_);
+    if (answer.verified) return paid < best_paid_;
     const auto openness = [](Outcome outcome) {
       constexpr std::array order{Outcome::goal_blocked, Outcome::infeasible, Outcome::not_connected, Outcome::stopped,
                                  Outcome::start_blocked};
@@ -104,10 +118,9 @@ class ToGoal {
     };
     return openness(answer.outcome) > openness(best_->outcome);
   }
-  static double cost_of(const Answer& answer) { return answer.cost.value_or(answer.length); }
 
-  /// Planners that get better share the time, or so much of it.
-  void plan_to_goals(double share_of_time) {
+  /// Planners that get better share the time, but for so much that is kept.
+  void plan_to_goals(double kept_s) {
     const Execution& whole = request_.execution;
     bool is_over = false;
     for (std::size_t i = 0; i < goals_.size(); ++i) {
@@ -121,7 +134,8 @@ class ToGoal {
         return (has_path() && better.cost >= cost_of(*best_)) || (*whole.on_improvement)(better);
       };
       if (gets_better(request_.planner)) {
-        const double seconds = share_of_time * whole.seconds_left() / static_cast<double>(goals_.size() - i);
+        const double left = whole.seconds_left();
+        const double seconds = std::isinf(left) ? left : (left - kept_s) / static_cast<double>(goals_.size() - i);
         execution.deadline = &share.emplace(whole.deadline, seconds);
         if (whole.on_improvement != nullptr) execution.on_improvement = &forward;
       }
@@ -148,6 +162,27 @@ class ToGoal {
     return {*place};
   }
 
+  /// Does a lattice, in a quarter of the time, join places near the goals to the start, and none of the goals?
+  bool is_cut_off() {
+    Execution execution = request_.execution;
+    const Deadline share(execution.deadline, 0.25 * execution.seconds_left());
+    execution.deadline = &share;
+    const SolveRequest in_time{request_.options, request_.scene, request_.question, request_.planner, execution};
+    try {
+      places_ = places_for(in_time);
+    } catch (const Error&) {  // a lattice that is too fine tells nothing, nor does one that takes too long
+      return false;
+    }
+    return !places_->empty() && places_->front().distance > 0.0;
+  }
+
+  std::vector<GoalPlace> places_for(const SolveRequest& request) const {
+    std::vector<GoalPlace> places = place_of_start();
+    if (!places.empty()) return places;
+    const bool drives = robot_of(request.scene, request.question).kind == RobotKind::car;
+    return drives ? places_of_car(request) : places_on_layers(request);
+  }
+
   /// What a lattice joins to the start. False: it was stopped, and so is the answer.
   bool find_places() {
     Answer chosen;
@@ -156,9 +191,7 @@ class ToGoal {
     chosen.seed = request_.options.seed;
     answer_within_limits(chosen, [&] {
       const StageTimer timer(request_.execution, "search", chosen.seconds.search);
-      const bool drives = chosen.problem.robot.kind == RobotKind::car;
-      places_ = place_of_start();
-      if (places_->empty()) places_ = drives ? places_of_car(request_) : places_on_layers(request_);
+      places_ = places_for(request_);
       chosen.outcome = Outcome::not_connected;
     });
     solve_s_ += chosen.solve_s;
@@ -266,7 +299,8 @@ class ToGoal {
   GoalRule rule_;
   std::vector<std::vector<double>> goals_;
   std::optional<Answer> best_;
-  ByProducts made_;  // of the best
+  double best_paid_ = 0.0;  // for that, prices of places included
+  ByProducts made_;         // of the best
   std::size_t goal_ = 0;
   std::optional<std::vector<GoalPlace>> places_;  // that the lattice joins to the start; none: nobody has looked
   std::optional<GoalPlace> place_;                // where the path ends at none of the goals
@@ -297,8 +331,6 @@ std::vector<double> end_of(const Answer& answer) {
   const auto last = answer.states[answer.states.size() - 1];
   return {last.begin(), last.end()};
 }
-
-double cost_of(const Answer& answer) { return answer.cost.value_or(answer.length); }
 
 /// Sums, and of what is a distance kept all along the least.
 void add_figures(std::vector<NamedFigure>& figures, const std::vector<NamedFigure>& before) {
@@ -380,6 +412,7 @@ class ThroughStops {
       if (!plan(leg) && !plan_turned(leg, here)) return fail(leg);
       before_ = std::move(here);
     }
+    take_work();
     judge();
     return std::move(whole_);
   }
@@ -394,6 +427,10 @@ class ThroughStops {
       question.goal = turned != nullptr ? *turned : stops_[leg];
       question.goal_pose.reset();
       question.rule = {};
+    } else if (question.rule.back) {
+      question.goal = whole_.problem.start;
+      question.goal_pose.reset();
+      question.rule = {};
     }
     Execution execution = request_.execution;
     std::optional<Deadline> share;
@@ -404,7 +441,7 @@ class ThroughStops {
       better.lower_bound = 0.0;
       return !is_last || (*request_.execution.on_improvement)(better);
     };
-    if (gets_better(request_.planner)) {  // the legs share the time
+    if (improves()) {  // the legs share the time
       const double seconds = execution.seconds_left() / static_cast<double>(stops_.size() + 1 - leg);
       execution.deadline = &share.emplace(request_.execution.deadline, seconds);
       if (execution.on_improvement != nullptr) execution.on_improvement = &forward;
@@ -421,13 +458,13 @@ class ThroughStops {
     }
     const bool goes_on = answer.outcome == Outcome::solved && answer.verified;
     is_timed_ |= enum_named<StopReason>(answer.ended_by).has_value();
+    add_work(work_, answer);
     if (leg > 0) {
       answer.problem.start = whole_.problem.start;
-      add_work(answer, whole_);
       if (goes_on) add_path(answer, whole_);
       // A heading was chosen on the way, or the planner keeps more room than the judge asks for.
-      const bool is_proved = answer.outcome == Outcome::stopped || is_whole(leg);
-      if (!goes_on && (answer.outcome == Outcome::start_blocked || !is_proved)) answer.outcome = Outcome::not_connected;
+      const bool is_doubtful = answer.outcome == Outcome::infeasible && !is_whole(leg);
+      if (is_doubtful || answer.outcome == Outcome::start_blocked) answer.outcome = Outcome::not_connected;
     }
     whole_ = std::move(answer);
     return goes_on;
@@ -435,8 +472,8 @@ class ThroughStops {
 
   /// Nothing was found on from the heading that was chosen at an open stop: the leg to it is planned to others, eighths
   /// of a turn apart, until one leads on. here: the path to that stop.
-  bool plan_turned(std::size_t leg, const Answer& here) {
-    const bool is_open = leg > 0 && stops_[leg - 1].size() == 2 && here.states.width == 3;
+  bool plan_turned(std::size_t leg, Answer& here) {
+    const bool is_open = leg > 0 && stops_[leg - 1].size() == 2 && here.states.width == 3 && turns();
     const bool is_end = whole_.outcome == Outcome::stopped || whole_.outcome == Outcome::goal_blocked;
     if (!is_open || is_end || gets_better(request_.planner)) return false;
     Answer failed = std::move(whole_);
@@ -444,21 +481,45 @@ class ThroughStops {
     for (int eighth = 1; eighth < 8; ++eighth) {
       turned[2] = wrapped_angle(turned[2] + 0.25 * std::numbers::pi);
       whole_ = before_;
-      if (plan(leg - 1, &turned) && plan(leg)) return true;
-      if (whole_.outcome == Outcome::stopped) return false;
+      bool goes_on = plan(leg - 1, &turned);
+      if (goes_on) {
+        here = whole_;
+        goes_on = plan(leg);
+      }
+      if (goes_on || whole_.outcome == Outcome::stopped) return goes_on;
     }
     whole_ = std::move(failed);
     return false;
   }
 
+  /// Does it go on until it is stopped?
+  bool improves() const {
+    const bool drives = robot_of(request_.scene, request_.question).kind == RobotKind::car;
+    return gets_better(request_.planner) || (drives && request_.planner == PlannerKind::grid);
+  }
+  /// Of a body with a heading: does the planner change that?
+  bool turns() const { return request_.planner != PlannerKind::visibility && request_.planner != PlannerKind::cells; }
+
   /// Do the stops before a leg leave nothing to choose?
   bool is_whole(std::size_t leg) const {
     const std::size_t width = whole_.problem.start.size();
-    return std::all_of(stops_.begin(), stops_.begin() + static_cast<std::ptrdiff_t>(leg),
-                       [&](const std::vector<double>& stop) { return stop.size() == width; });
+    return !turns() || std::all_of(stops_.begin(), stops_.begin() + static_cast<std::ptrdiff_t>(leg),
+                                   [&](const std::vector<double>& stop) { return stop.size() == width; });
+  }
+
+  /// All that was done, for legs that lead nowhere, too.
+  void take_work() {
+    whole_.counters = {};
+    whole_.seconds = {};
+    whole_.solve_s = 0.0;
+    whole_.roadmap.milestones = 0;
+    whole_.roadmap.edges = 0;
+    add_work(whole_, work_);
+    std::erase_if(whole_.figures, [](const NamedFigure& figure) { return figure.name.starts_with("lattice_"); });
   }
 
   Answer fail(std::size_t leg) {
+    take_work();
     claim_nothing(whole_);
     whole_.figures.push_back({"stops_reached", std::uint64_t{leg}});
     const std::vector<double>& goal = request_.question.goal.empty() ? request_.scene.goal : request_.question.goal;
@@ -472,7 +533,7 @@ class ThroughStops {
     const double spent_s = whole_.solve_s;
     Execution execution = request_.execution;
     std::optional<Deadline> untimed;  // what ended the search of who gets better does not end the work
-    if (gets_better(request_.planner) && execution.deadline != nullptr) {
+    if (improves() && execution.deadline != nullptr) {
       const std::size_t memory_bytes = execution.deadline->memory_bytes();
       execution.deadline = &untimed.emplace(std::numeric_limits<double>::infinity(), memory_bytes);
     }
@@ -498,6 +559,7 @@ class ThroughStops {
   SolveOptions options_;
   Answer whole_;
   Answer before_;          // without the last leg
+  Answer work_;            // of all legs, what they took
   bool is_timed_ = false;  // did time or a signal end a leg's search?
 };
 
@@ -512,11 +574,14 @@ class Visits {
         options_(request.options) {
     question_.rule = {};
     question_.goal_pose.reset();
-    options_.optimise = true;
+    if (question_.goal.empty() && !request.question.goal_pose)
+      question_.goal = request.scene.goal;                     // of several the first
+    options_.optimise = request.planner != PlannerKind::grid;  // of a car's that would price what nobody asked for
     options_.anytime = {};
-    const bool has_goal = !request.question.goal.empty() || !request.scene.goal.empty() || request.question.goal_pose;
+    const Scene& scene = request.scene;
+    const bool has_goal =
+        !question_.goal.empty() || request.question.goal_pose || scene.goal_pose || !scene.named_goals.empty();
     is_open_ = !rule_.back && !has_goal;
-    if (rule_.back) question_.goal = start_of(request);
   }
 
   Answer run() {
@@ -524,6 +589,7 @@ class Visits {
     std::vector<std::vector<double>> stops;
     for (const std::uint64_t place : order_) stops.push_back(rule_.visit[place]);
     Question question = question_;
+    question.rule.back = rule_.back;
     if (!rule_.back) question.goal_pose = request_.question.goal_pose;
     if (is_open_) {
       question.goal = std::move(stops.back());
@@ -543,14 +609,21 @@ class Visits {
   }
 
  private:
-  /// A way between two places; its end stands for the second one.
+  /// A way between two places, the second one none: the goal. Its end stands for the second one. Where the planner gets
+  /// better, all of them have half of the time.
   Answer way(const std::vector<double>& from, const std::vector<double>& to) {
     Question question = question_;
     question.start = from;
     if (!to.empty()) question.goal = to;
     if (to.empty()) question.goal_pose = request_.question.goal_pose;
+    Execution execution = request_.execution;
+    std::optional<Deadline> share;
+    if (gets_better(request_.planner)) {
+      const double ways = static_cast<double>((rule_.visit.size() + 2) * (rule_.visit.size() + 1));
+      execution.deadline = &share.emplace(request_.execution.deadline, execution.seconds_left() / ways);
+    }
     const PlannerKind planner = gets_better(request_.planner) ? PlannerKind::rrt_connect : request_.planner;
-    Answer found = kind_.solve({options_, request_.scene, question, planner, request_.execution});
+    Answer found = kind_.solve({options_, request_.scene, question, planner, execution});
     add_work(work_, found);
     return found;
   }
@@ -560,20 +633,23 @@ class Visits {
     const std::size_t count = rule_.visit.size();
     order_.assign(1, 0);
     if (count == 1) return true;
-    const std::vector<double> start = start_of(request_);
+    start_ = start_of(request_);  // none: the file names it
     std::vector<std::vector<double>> at;
     std::vector<double> first;
     for (std::size_t i = 0; i < count; ++i) {
-      Answer found = way(start, rule_.visit[i]);
+      Answer found = way(start_, rule_.visit[i]);
       if (found.outcome == Outcome::goal_blocked) {
         throw UsageError(fmt::format("{}: the {} does not fit at {} {}", visited_place.first,
                                      name_of(robot_of(request_.scene, question_).kind), visited_place.second, i + 1));
       }
-      if (!found.verified) return fail(std::move(found));
-      first.push_back(cost_of(found));
-      at.push_back(end_of(found));
+      start_ = found.problem.start;
+      const bool is_cut = found.outcome == Outcome::stopped && !request_.execution.should_stop();
+      if (!found.verified && !is_cut) return fail(std::move(found));
+      first.push_back(is_cut ? none : paid_for(found, request_));
+      at.push_back(is_cut ? rule_.visit[i] : end_of(found));
+      at.back().resize(start_.size(), 0.0);
     }
-    // Only what drives forwards alone pays another price for the way back.
+    // Of cars the way back may be another one.
     const bool one_way = robot_of(request_.scene, question_).kind == RobotKind::car;
     std::vector<std::vector<double>> between(count, std::vector(count, none));
     std::vector<double> last(count, is_open_ ? 0.0 : none);
@@ -581,8 +657,9 @@ class Visits {
     const auto cost = [&](const std::vector<double>& from, const std::vector<double>& to) {
       if (stopped) return none;
       Answer found = way(from, to);
-      const double paid = found.verified ? cost_of(found) : none;
-      if (found.outcome == Outcome::stopped) stopped = std::move(found);
+      const double paid = found.verified ? paid_for(found, request_) : none;
+      const bool is_over = found.outcome == Outcome::stopped && request_.execution.should_stop();
+      if (is_over) stopped = std::move(found);
       return paid;
     };
     for (std::size_t i = 0; i < count; ++i) {
@@ -590,7 +667,7 @@ class Visits {
         if (i != j) between[i][j] = j > i || one_way ? cost(at[i], rule_.visit[j]) : between[j][i];
       }
       if (!is_open_)
-        last[i] = rule_.back && !one_way ? first[i] : cost(at[i], rule_.back ? start : std::vector<double>{});
+        last[i] = rule_.back && !one_way ? first[i] : cost(at[i], rule_.back ? start_ : std::vector<double>{});
     }
     if (stopped) return fail(std::move(*stopped));
     take_order(first, between, last);
@@ -624,12 +701,14 @@ class Visits {
   bool fail(Answer answer) {
     failed_ = std::move(answer);
     claim_nothing(failed_);
+    failed_.figures.push_back({"stops_reached", std::uint64_t{0}});
     failed_.planner = name_of(request_.planner);
-    failed_.problem.start = start_of(request_);
-    failed_.problem.goal = question_.goal.empty() ? request_.scene.goal : question_.goal;
-    if (failed_.problem.goal.empty()) failed_.problem.goal = failed_.problem.start;
+    if (!start_.empty()) failed_.problem.start = start_;
+    failed_.problem.goal = question_.goal.empty() ? failed_.problem.start : question_.goal;
     failed_.problem.rule = rule_;
     failed_.counters = work_.counters;
+    failed_.seconds = work_.seconds;
+    failed_.solve_s = work_.solve_s;
     return false;
   }
 
@@ -649,7 +728,8 @@ class Visits {
   const GoalRule& rule_;
   Question question_;  // of the ways
   SolveOptions options_;
-  bool is_open_ = false;  // no goal: the last place is
+  bool is_open_ = false;       // no goal: the last place is
+  std::vector<double> start_;  // of the first way
   std::vector<std::uint64_t> order_;
   Answer work_;  // what finding the order took
   Answer failed_;
@@ -663,7 +743,15 @@ void check_stops(const SolveRequest& request) {
     throw UsageError("@visit: finds the order of its places, and @via says one; leave one of them out");
   }
   const RobotSpec robot = robot_of(request.scene, request.question);
-  const std::size_t joints = start_of(request).size();
+  if (request.question.route.alternatives && !via.empty()) {
+    throw UsageError("@alternatives: are of ways from a start to a goal; way-points leave no such two");
+  }
+  if (request.keep != nullptr && request.keep->wants_certificate && !(via.empty() && visit.empty())) {
+    throw UsageError("@certificate: proves the bound of a way to one goal; one over stops has none");
+  }
+  const std::size_t said = start_of(request).size();
+  const bool is_unread = robot.files && !robot.files->read;
+  const std::size_t joints = said > 0 || is_unread ? said : state_size(robot);
   const auto check = [&](const std::vector<double>& stop, std::pair<std::string_view, std::string_view> words) {
     const auto& [option, noun] = words;
     const bool is_plain = robot.kind == RobotKind::point || robot.kind == RobotKind::disc;

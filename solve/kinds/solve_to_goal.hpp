@@ -73,9 +73,9 @@ std::vector<GoalPlace> places_of_car(const SolveRequest& request);
 
 /// Leg by leg through stops, in their order, each leg planned from the state in which the one before ended; the whole
 /// path is judged once more. Of a stop whose heading is open the plan to it chooses one; where nothing leads on from
-/// that, seven others are tried, and a leg without a way proves nothing. solve_leg: of a question without stops; the
-/// last leg has the request's goal, with what that leaves open. stop: "@via: ... at way-point". Throws UsageError where
-/// the body does not fit at one of them.
+/// that, seven others are tried (not by planners that get better), and a leg without a way proves nothing. solve_leg:
+/// of a question without stops; the last leg has the request's goal, with what that leaves open. stop: "@via: ... at
+/// way-point". Throws UsageError where the body does not fit at one of them.
 Answer solve_through(const SolveRequest& request, std::span<const std::vector<double>> stops,
                      std::pair<std::string_view, std::string_view> stop,
                      const std::function<Answer(const SolveRequest&)>& solve_leg);

@@ -49,8 +49,9 @@ void add_kept_options(Command& command) {
       command.foreign.emplace_back(spec.name, "is for a question; 'warren query' takes it");
     } else if (option && work_options.has(*option)) {
       command.foreign.emplace_back(spec.name, "a roadmap that is kept is made in one way; leave it out");
-    } else if (option == Option::via ||
-               (option && std::none_of(std::begin(all_planners), std::end(all_planners), takes))) {
+    } else if (option == Option::via) {
+      command.foreign.emplace_back(spec.name, "is of one way; a roadmap that is kept is asked way by way");
+    } else if (option && std::none_of(std::begin(all_planners), std::end(all_planners), takes)) {
       command.foreign.emplace_back(spec.name, "is for planners whose roadmaps can't be kept; 'warren solve' takes it");
     } else {
       command.options.push_back(spec);

@@ -285,6 +285,93 @@ TEST(SolveThrough, WhereAnOpenHeadingLeadsNowhereAnotherIsTried) {
   EXPECT_TRUE(verify(scene, answer).verified);
 }
 
+/// A second stop of that kind begins where the first one was turned to.
+TEST(SolveThrough, TwoOpenHeadingsAreTurned) {
+  const Scene scene = scene_of(
+      "bounds 0 0 10 6\npolygon 6.6 1 6.8 1 6.8 5 6.6 5\npolygon 1.2 1 1.4 1 1.4 5 1.2 5\nrobot car radius 0.2 turning "
+      "0.8\n");
+  Question question;
+  question.start = {4.0, 3.0, 0.0};
+  question.goal = {4.0, 3.0};
+  SolveOptions options = stopping_by(PlannerKind::grid);
+  options.grid.cell = 0.1;
+  options.trees.via = {{6.0, 3.0}, {2.0, 3.0}};
+  const Answer answer = solve(scene, question, options);
+  ASSERT_EQ(answer.outcome, Outcome::solved);
+  EXPECT_TRUE(verify(scene, answer).verified);
+}
+
+TEST(SolveThrough, APolygonThatIsNotTurnedKeepsItsHeading) {
+  const Scene scene =
+      scene_of("bounds 0 0 12 6\npolygon 5.9 0 6.1 0 6.1 6 5.9 6\nrobot polygon -0.2 -0.1 0.2 -0.1 0.2 0.1 -0.2 0.1\n");
+  Question question;
+  question.start = {1.0, 3.0, 0.5};
+  question.goal = {9.0, 3.0};
+  SolveOptions options = stopping_by(PlannerKind::visibility);
+  options.trees.via = {{2.0, 2.0}};
+  const Answer apart = solve(scene, question, options);
+  EXPECT_TRUE(apart.outcome == Outcome::not_connected || apart.outcome == Outcome::infeasible);
+  question.goal = {1.0, 5.0};
+  const Answer answer = solve(scene, question, options);
+  ASSERT_EQ(answer.outcome, Outcome::solved);
+  EXPECT_TRUE(verify(scene, answer).verified);
+}
+
+TEST(SolveThrough, ABlockedGoalIsSaidAfterOpenStops) {
+  const Scene scene = scene_of(
+      "bounds 0 0 10 10\npolygon 4.5 9 5.5 9 5.5 9.9 4.5 9.9\nrobot polygon -0.2 -0.1 0.2 -0.1 0.2 0.1 -0.2 0.1\n");
+  Question question;
+  question.start = {1.0, 5.0, 0.0};
+  question.goal = {5.0, 9.5};
+  SolveOptions options = stopping_by(PlannerKind::rrt_connect);
+  options.trees.via = {{3.0, 3.0}};
+  EXPECT_EQ(solve(scene, question, options).outcome, Outcome::goal_blocked);
+}
+
+/// Around the area it is dear: one place is reached before it.
+TEST(SolveThrough, TheOrderHeedsPrices) {
+  const Scene scene = scene_of("bounds 0 0 10 10\npolygon 4.9 9.5 5.1 9.5 5.1 9.9 4.9 9.9\nrobot disc 0.1\n");
+  Question question;
+  question.start = {1.0, 5.0};
+  question.prices.areas.push_back({50.0, {{3, 4}, {5, 4}, {5, 6}, {3, 6}}, 0});
+  question.rule.visit = {{4.0, 5.0}, {9.0, 5.0}};
+  SolveOptions options = stopping_by(PlannerKind::prm);
+  options.roadmap.samples = 400;
+  const Answer answer = solve(scene, question, options);
+  ASSERT_TRUE(answer.verified && answer.price);
+  EXPECT_EQ(answer.order, (std::vector<std::uint64_t>{1, 0})) << "into the area last, and not out again";
+  EXPECT_TRUE(verify(scene, answer).verified);
+  question.rule = {};
+  question.goal = {4.0, 5.0};
+  question.rule.others = {{9.0, 5.0}};
+  EXPECT_EQ(solve(scene, question, options).goal_index, 1U) << "further, and cheaper";
+}
+
+TEST(SolveThrough, WhoComesBackHasToBeBack) {
+  const Scene scene = blocks_for("point");
+  Question question;
+  question.start = {1.0, 1.0};
+  question.goal = {5.0, 8.0};
+  Answer answer = solve(scene, question, stopping_by(PlannerKind::visibility));
+  ASSERT_TRUE(verify(scene, answer).verified);
+  answer.problem.rule.back = true;
+  EXPECT_FALSE(verify(scene, answer).verified);
+}
+
+/// A car's arc is not its chord.
+TEST(SolveThrough, ACarVisitsWhereItIs) {
+  const Scene scene = scene_of("bounds -5 -5 5 5\nrobot car radius 0.1 turning 1\n");
+  Question question;
+  question.start = {0.0, 0.0, 0.0};
+  question.goal = {1.0, 1.0, 1.5707963267948966};
+  Answer answer = solve(scene, question, stopping_by(PlannerKind::rrt_connect));
+  ASSERT_TRUE(answer.verified);
+  answer.problem.rule.visit = {{0.5, 0.5}};
+  EXPECT_FALSE(verify(scene, answer).verified);
+  question.rule.visit = {{0.5, 0.5}};
+  EXPECT_TRUE(verify(scene, solve(scene, question, stopping_by(PlannerKind::rrt_connect))).verified);
+}
+
 void expect_refused(const Scene& scene, const Question& question, const SolveOptions& options, std::string_view what) {
   try {
     solve(scene, question, options);
