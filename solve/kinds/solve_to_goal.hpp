@@ -71,6 +71,14 @@ std::vector<std::vector<double>> goals_of(const Scene& scene, const Question& qu
 std::vector<GoalPlace> places_on_layers(const SolveRequest& request);
 std::vector<GoalPlace> places_of_car(const SolveRequest& request);
 
+/// What an answer says that its path costs.
+inline double told_cost(const Answer& answer) { return answer.cost.value_or(answer.length); }
+/// The same with what places make dear, which solve() judges when all is planned. Where its judge is stopped: the same.
+double paid_for(const Answer& answer, const SolveRequest& request);
+
+/// SolveKind::solve, whatever the question leaves open of its goal. Throws as that.
+Answer solve_without_stops(const SolveKind& kind, const SolveRequest& request);
+
 /// Leg by leg through stops, in their order, each leg planned from the state in which the one before ended; the whole
 /// path is judged once more. Of a stop whose heading is open the plan to it chooses one; where nothing leads on from
 /// that, seven others are tried (not by planners that get better), and a leg without a way proves nothing. solve_leg:

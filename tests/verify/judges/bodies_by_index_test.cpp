@@ -59,7 +59,7 @@ PoseVerifyOptions options_of(std::uint64_t seed) { return {.clearance = seed % 4
 
 TEST(BodiesByIndex, TurnAsTheyDoByThePass) {
   int verified = 0;
-  for (const std::uint64_t seed : test::seeds(150, 20, 0)) {
+  for (const std::uint64_t seed : test::seeds(150, 40, 0)) {
     SCOPED_TRACE(seed);
     const Scene scene = random_scene(seed);
     const ObstacleIndex index(scene, {});
@@ -77,7 +77,7 @@ TEST(BodiesByIndex, TurnAsTheyDoByThePass) {
 
 TEST(BodiesByIndex, DriveAsTheyDoByThePass) {
   int met = 0;
-  for (const std::uint64_t seed : test::seeds(150, 20, 0)) {
+  for (const std::uint64_t seed : test::seeds(150, 40, 0)) {
     SCOPED_TRACE(seed);
     const Scene scene = random_scene(seed);
     const ObstacleIndex index(scene, {});
