@@ -252,7 +252,6 @@ TEST(SolveThrough, WithoutAWayItSaysHowFarItCame) {
 /// Where an earlier stop left the heading open another choice may have had a way.
 TEST(SolveThrough, AnOpenHeadingProvesNothingOfLaterLegs) {
   const std::string bar = "polygon -0.8 -0.1 0.8 -0.1 0.8 0.1 -0.8 0.1";
-  // A slot that only the upright bar leaves or enters, and a goal out of reach.
   const Scene scene = scene_of("bounds 0 0 12 6\npolygon 5.9 0 6.1 0 6.1 6 5.9 6\nrobot " + bar + "\n");
   Question question;
   question.start = {1.5, 3.0, 0.0};
