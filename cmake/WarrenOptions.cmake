@@ -54,6 +54,10 @@ endif()
 if(WARREN_SANITIZE)
   add_compile_options(-fsanitize=${WARREN_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${WARREN_SANITIZE})
+  # Each inlined copy is checked anew: with less inlining a fifth of the compilation goes and no test is slower.
+  if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
+    add_compile_options("SHELL:-mllvm -inline-threshold=25")
+  endif()
   # At a fixed address: the tests start the program thousands of times, and a quarter of such a start was relocation, of
   # a million pointers that the sanitizer describes the globals with.
   if(WARREN_SANITIZE MATCHES address)

@@ -55,7 +55,7 @@ void expect_heard(const test::AskedBody& body, PlannerKind planner, const test::
 
 TEST(AskedWords, AreHeardOrRefusedByName) {
   const std::vector<test::AskedBody> bodies = test::asked_bodies();
-  for (const std::uint64_t number : test::seeds(bodies.size(), 3)) {
+  for (const std::uint64_t number : test::seeds(bodies.size(), 2)) {
     const test::AskedBody& body = bodies[number - 1];
     for (const PlannerKind planner : planners_there_are()) {
       try {

@@ -62,7 +62,7 @@ Hierarchy whole_hierarchy(const Graph& graph, const Execution& execution = {}) {
   return rounds.hierarchy();
 }
 
-double edge_length(const Graph& graph, VertexId v, VertexId w) {
+double length_of_edge(const Graph& graph, VertexId v, VertexId w) {
   const auto row = graph.neighbours(v);
   const auto found = std::find(row.begin(), row.end(), w);
   return found == row.end() ? nowhere : graph.lengths(v)[static_cast<std::size_t>(found - row.begin())];
@@ -99,7 +99,7 @@ TEST(Contraction, WaysAreThoseOfASearch) {
       if (expected.path.empty()) continue;
       const RawVector<VertexId> path = query.path();
       double length = 0.0;
-      for (std::size_t k = 0; k + 1 < path.size(); ++k) length += edge_length(graph, path[k], path[k + 1]);
+      for (std::size_t k = 0; k + 1 < path.size(); ++k) length += length_of_edge(graph, path[k], path[k + 1]);
       EXPECT_EQ(path.front(), start.vertex);
       EXPECT_EQ(path.back(), goal.vertex);
       EXPECT_NEAR(length, expected.length, 1e-12 * expected.length);

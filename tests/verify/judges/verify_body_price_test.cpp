@@ -26,7 +26,7 @@ double to_segment(Vec2 p, Vec2 a, Vec2 b) {
   return std::hypot(p.x - a.x - t * (b.x - a.x), p.y - a.y - t * (b.y - a.y));
 }
 
-struct Leg {
+struct PricedLeg {
   Se2 a;
   double length;
   double turn;
@@ -41,7 +41,7 @@ struct Leg {
   }
 };
 
-struct World {
+struct PricedWorld {
   Scene scene;
   RobotSpec robot;
   Prices prices;
@@ -92,8 +92,8 @@ struct World {
 };
 
 /// Some walls in a box, or a map with some blocked cells.
-World random_world(std::uint64_t seed) {
-  World world;
+PricedWorld random_world(std::uint64_t seed) {
+  PricedWorld world;
   const auto draw = [&](std::uint64_t i, double low, double high) { return low + (high - low) * uniform(seed, 3, i); };
   const bool on_map = seed % 2 == 0;
   const Box box{{0, 0}, {10, 8}};
@@ -149,13 +149,14 @@ TEST(VerifyBodyPrice, LegsCostWhatDensePosesSayAndTheErrorIsHonest) {
   int near = 0;
   for (const std::uint64_t seed : seeds(600, 4)) {
     SCOPED_TRACE(seed);
-    const World world = random_world(seed);
+    const PricedWorld world = random_world(seed);
     for (std::uint64_t i = 0; i < 8; ++i) {
       const auto draw = [&](std::uint64_t k, double low, double high) {
         return low + (high - low) * uniform(seed, 20 + i, k);
       };
       const bool is_arc = world.robot.kind == RobotKind::car;
-      Leg leg{{draw(0, 0.5, 9.5), draw(1, 0.5, 7.5), draw(2, -3, 3)}, draw(3, 0.2, 2.5), draw(4, -1.5, 1.5), is_arc};
+      PricedLeg leg{
+          {draw(0, 0.5, 9.5), draw(1, 0.5, 7.5), draw(2, -3, 3)}, draw(3, 0.2, 2.5), draw(4, -1.5, 1.5), is_arc};
       if (is_arc && random_bits(seed, 40, i) % 2 == 0) leg.length = -leg.length;
       if (is_arc && i % 4 == 0) leg = {{leg.a.x, leg.a.y, 0.3}, leg.length, 0.0, true};  // straight on
       double clearance = 0.0;
@@ -193,7 +194,7 @@ TEST(VerifyBodyPrice, LegsCostWhatDensePosesSayAndTheErrorIsHonest) {
 }
 
 TEST(VerifyBodyPrice, TurnsOnTheSpotCostNothingAndWhatIsFarCostsNothing) {
-  World world = random_world(3);
+  PricedWorld world = random_world(3);
   world.scene = {};
   world.scene.bounds = Box{{0, 0}, {100, 100}};
   const std::array path{Se2{50, 50, 0}, Se2{50, 50, 2}, Se2{60, 50, 2}};

@@ -12,11 +12,11 @@ namespace {
 
 using namespace arm_oracle;
 
-constexpr double degree = std::numbers::pi / 180.0;
+constexpr double one_degree = std::numbers::pi / 180.0;
 
 JointState degrees(const JointState& q) {
   JointState rad;
-  for (std::size_t j = 0; j < q.size(); ++j) rad[j] = q[j] * degree;
+  for (std::size_t j = 0; j < q.size(); ++j) rad[j] = q[j] * one_degree;
   return rad;
 }
 

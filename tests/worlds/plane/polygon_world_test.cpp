@@ -25,7 +25,7 @@ Scene scene_of(std::vector<std::vector<Vec2>> polygons) {
   return scene;
 }
 
-std::vector<Vec2> square(double x, double y, double side) {
+std::vector<Vec2> square_at(double x, double y, double side) {
   return {{x, y}, {x + side, y}, {x + side, y + side}, {x, y + side}};
 }
 
@@ -35,7 +35,7 @@ Scene crowd(std::uint64_t seed) {
   for (std::uint64_t k = 0; scene.polygons.size() < 14; ++k) {
     const auto coordinate = [&](std::uint64_t axis) { return std::floor(14 * uniform(seed, k, axis)); };
     const Vec2 at{coordinate(0), coordinate(1)};
-    std::vector<Vec2> corners = square(at.x, at.y, 1 + std::floor(3 * uniform(seed, k, 2)));
+    std::vector<Vec2> corners = square_at(at.x, at.y, 1 + std::floor(3 * uniform(seed, k, 2)));
     if (k % 2 == 0) corners.pop_back();
     if (k % 3 == 0) corners[1] = corners[1] + Vec2{2, -1};
     if (k % 5 == 0) std::reverse(corners.begin(), corners.end());
@@ -94,7 +94,7 @@ TEST(PolygonWorld, StatesAndMotionsAreFreeAsTheVerifiersGeometrySays) {
 }
 
 TEST(PolygonWorld, CornersSidesAndInsidesAreBlockedAndWhatLiesBetweenTouchingPolygonsToo) {
-  const Scene scene = scene_of({square(0, 0, 2), square(2, 0, 2), square(4, 2, 2)});
+  const Scene scene = scene_of({square_at(0, 0, 2), square_at(2, 0, 2), square_at(4, 2, 2)});
   const PolygonWorld world(scene, 0.0, {});
   auto query = world.make_query();
   for (const Vec2 p : {Vec2{1, 1}, Vec2{2, 1}, Vec2{4, 2}, Vec2{0, 0}, Vec2{5, 4}}) {
@@ -120,7 +120,7 @@ TEST(PlaneObstacles, PolygonsThatAreNoneAreRefusedWithTheirLine) {
       {{{0, 0}, {2, 2}, {4, 0}, {4, 4}, {2, 2}, {0, 4}}, "cross or touch"},           // twice the same corner
       {{{0, 0}, {6, 0}, {6, 2}, {6, 2}, {2, 2}, {2, 0}, {0, 3}}, "cross or touch"}};  // along a side
   for (const auto& [corners, said] : cases) {
-    const Scene scene = scene_of({square(10, 10, 1), corners});
+    const Scene scene = scene_of({square_at(10, 10, 1), corners});
     SCOPED_TRACE(said);
     try {
       plane_obstacles(scene, {});
