@@ -31,6 +31,7 @@
 #include "verify/judges/verify_body_price.hpp"
 #include "verify/judges/verify_car.hpp"
 #include "worlds/poses/car_world.hpp"
+#include "worlds/poses/ways_out.hpp"
 
 namespace warren {
 namespace {
@@ -52,6 +53,13 @@ VerifiedCar verified_car(const RobotSpec& robot) {
           .radius = robot.radius,
           .outline = robot.outline};
 }
+
+struct OverLattice {
+  Path<Se2> path;
+  LatticeSolution found;
+  double cell = 0.0;
+  double unit = 0.0;  // of the lattice's cost, in the world's
+};
 
 template <class Curve>
 class Car : public PoseBody {
@@ -98,7 +106,8 @@ class Car : public PoseBody {
   /// Where a tolerance or region lets the path end, of what the lattice joins to the start: the nearest to the goals;
   /// in a region the cheapest.
   std::vector<GoalPlace> places(const World& world, const GoalRule& rule, std::vector<std::vector<double>> goals) const;
-  /// The path of least price over the lattice, near enough; empty: there is none.
+  /// The path of least price over the lattice, near enough; where there is none, one with strokes at an end where the
+  /// car can hardly move; empty: nor that.
   Path<Se2> on_lattice(const World& world, std::span<const Se2> goals, Answer& answer) const;
   /// Along the curve; the same both ways where it is one.
   MotionLength<Se2> price_motions(const World& world) const {
@@ -188,6 +197,8 @@ class Car : public PoseBody {
   }
   void check_lattice() const;
   CarLatticeOptions lattice_options() const;
+  OverLattice over_lattice(const World& world, const Se2& start, std::span<const Se2> goals, Answer& answer) const;
+  Path<Se2> by_ways_out(const World& world, std::span<const Se2> goals, Answer& answer) const;
   bool is_length_alone() const { return !has_gears || (price().cusp == 0.0 && price().reverse == 1.0); }
   /// With fewer changes of gear, and less of it backwards, as their prices have it.
   Path<Se2> redriven(const World& world, Path<Se2> path, Answer& answer) const {
@@ -250,13 +261,13 @@ std::vector<GoalPlace> Car<Curve>::places(const World& world, const GoalRule& ru
 }
 
 template <class Curve>
-Path<Se2> Car<Curve>::on_lattice(const World& world, std::span<const Se2> goals, Answer& answer) const {
+OverLattice Car<Curve>::over_lattice(const World& world, const Se2& start, std::span<const Se2> goals,
+                                     Answer& answer) const {
   const CarLatticeOptions options = lattice_options();
   std::optional<CarLattice> lattice;
   {
     const StageTimer timer(execution(), "stamps", answer.seconds.index);
-    lattice.emplace(world.body(), scene(), question().robot, Curve::shortest, question().start, goals, options,
-                    execution());
+    lattice.emplace(world.body(), scene(), question().robot, Curve::shortest, start, goals, options, execution());
   }
   const StageTimer timer(execution(), "search", answer.seconds.search);
   LatticeSearchOptions search;
@@ -264,22 +275,71 @@ Path<Se2> Car<Curve>::on_lattice(const World& world, std::span<const Se2> goals,
   search.gap = anytime_.gap.value_or(search.gap);
   search.iterations = anytime_.iterations;
   search.unit = lattice->unit();
-  LatticeSolution found = LatticeSearch(*lattice, search, execution()).run();
-  answer.figures.push_back({"headings", std::uint64_t{options.headings}});
-  answer.figures.push_back({"cell", lattice->cell()});
-  answer.counters.expanded = found.expanded;
-  answer.counters.edges_checked += found.checked;
+  OverLattice over{.path = {},
+                   .found = LatticeSearch(*lattice, search, execution()).run(),
+                   .cell = lattice->cell(),
+                   .unit = search.unit};
+  answer.counters.expanded += over.found.expanded;
+  answer.counters.edges_checked += over.found.checked;
   answer.counters.refused += lattice->refused();
-  answer.iterations = found.rounds;
+  answer.iterations = over.found.rounds;
+  if (over.found.found()) over.path = lattice->poses(over.found.path);
+  return over;
+}
+
+template <class Curve>
+Path<Se2> Car<Curve>::on_lattice(const World& world, std::span<const Se2> goals, Answer& answer) const {
+  OverLattice over = over_lattice(world, question().start, goals, answer);
+  const LatticeSolution& found = over.found;
+  answer.figures.push_back({"headings", std::uint64_t{lattice_options().headings}});
+  answer.figures.push_back({"cell", over.cell});
+  if (!found.found()) {
+    if constexpr (has_gears) return by_ways_out(world, goals, answer);
+    return {};
+  }
   answer.ended_by = found.ended_by == "optimum" ? "lattice" : found.ended_by;  // others may be better
-  answer.improvements = std::move(found.improvements);
-  if (!found.found()) return {};
+  answer.improvements = found.improvements;
   if (enum_named<StopReason>(found.ended_by)) answer.stop_reason = found.stop_reason;
   const auto bound = static_cast<double>(std::min(found.bound, found.path.cost));
-  answer.figures.push_back({"lattice_cost", search.unit * static_cast<double>(found.path.cost)});
-  answer.figures.push_back({"lattice_bound", search.unit * bound * (1.0 - 1e-6)});
+  answer.figures.push_back({"lattice_cost", over.unit * static_cast<double>(found.path.cost)});
+  answer.figures.push_back({"lattice_bound", over.unit * bound * (1.0 - 1e-6)});
   answer.figures.push_back({"lattice_gap", static_cast<double>(found.path.cost) / bound - 1.0});
-  return lattice->poses(found.path);
+  return std::move(over.path);
+}
+
+template <class Curve>
+Path<Se2> Car<Curve>::by_ways_out(const World& world, std::span<const Se2> goals, Answer& answer) const {
+  constexpr std::size_t most_ends = 16;  // all are goals of one search
+  constexpr std::size_t most_starts = 4;
+  std::vector<Se2> ends(goals.begin(), goals.end());
+  std::vector<Path<Se2>> ways_in;
+  std::vector<Path<Se2>> starts;
+  {
+    const StageTimer timer(execution(), "ways out", answer.seconds.search);
+    for (const Se2& goal : goals) {
+      for (Path<Se2>& way : ways_out(world.body(), goal, most_ends, execution())) {
+        ends.push_back(way.back());
+        std::reverse(way.begin(), way.end());
+        ways_in.push_back(std::move(way));
+      }
+    }
+    starts = ways_out(world.body(), question().start, most_starts, execution());
+  }
+  if (!ways_in.empty()) starts.insert(starts.begin(), {question().start});
+  for (Path<Se2>& path : starts) {
+    const OverLattice over = over_lattice(world, path.back(), ends, answer);
+    if (!over.found.found()) continue;
+    std::uint64_t strokes = path.size() - 1;
+    path.insert(path.end(), over.path.begin() + 1, over.path.end());
+    if (const std::size_t end = over.found.path.shot.goal; end >= goals.size()) {
+      const Path<Se2>& in = ways_in[end - goals.size()];
+      path.insert(path.end(), in.begin() + 1, in.end());
+      strokes += in.size() - 1;
+    }
+    answer.figures.push_back({"strokes", strokes});
+    return std::move(path);
+  }
+  return {};
 }
 
 constexpr OptionSet shape_options{Option::steering, Option::turning_radius};

@@ -2,11 +2,13 @@
 // Cars that planner grid solves, on maps and among walls and polygons: what it answers, and what it refuses.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/error.hpp"
 #include "solve/solve.hpp"
 #include "tests/seeds.hpp"
+#include "tests/worlds/poses/body_scenes.hpp"
 
 namespace warren {
 namespace {
@@ -70,6 +72,26 @@ TEST(CarOnLattice, SaysWhichEndIsBlocked) {
   EXPECT_EQ(solve(two_rooms(6), asked, options()).outcome, Outcome::goal_blocked);
   asked.start = {2.05, 0.3, 0.0};
   EXPECT_EQ(solve(two_rooms(6), asked, options()).outcome, Outcome::start_blocked);
+}
+
+TEST(CarOnLattice, ShufflesOutOfABayAndIntoIt) {
+  for (const bool is_out : {true, false}) {
+    const Vec2 origin = is_out ? Vec2{-4e6, 3e5} : Vec2{};
+    const body_scenes::ParkingBay bay = body_scenes::parking_bay(0.6, 1.0, origin);
+    RobotSpec robot = car(SteeringKind::reeds_shepp);
+    robot.turning_radius = 3.0;
+    robot.outline = bay.car;
+    const Se2& start = is_out ? bay.inside : bay.street;
+    const Se2& goal = is_out ? bay.street : bay.inside;
+    Question asked{.robot = robot, .start = {start.x, start.y, start.theta}, .goal = {goal.x, goal.y, goal.theta}};
+    const Answer answer = solve(bay.scene, asked, options());
+    ASSERT_EQ(answer.outcome, Outcome::solved);
+    EXPECT_TRUE(answer.verified);
+    const auto is_strokes = [](const NamedFigure& figure) { return figure.name == "strokes"; };
+    EXPECT_TRUE(std::any_of(answer.figures.begin(), answer.figures.end(), is_strokes));
+    asked.robot->steering = SteeringKind::dubins;
+    EXPECT_EQ(solve(bay.scene, asked, options()).outcome, Outcome::not_connected) << "it can't back up";
+  }
 }
 
 TEST(CarOnLattice, PricesAreWhatThePathPays) {

@@ -44,6 +44,37 @@ inline Scene scattered(std::uint64_t seed, std::size_t polygons = 12, std::size_
   return scene;
 }
 
+/// A bay by a street, `room` longer than the car that stands in it at the pose returned, half of it behind. Far from
+/// the origin, and everything of that scale.
+struct ParkingBay {
+  Scene scene;
+  std::vector<Vec2> car;  ///< whose turning radius is 3 * scale
+  Se2 inside;
+  Se2 street;
+};
+inline ParkingBay parking_bay(double room, double scale = 1.0, Vec2 origin = {}) {
+  const auto box = [&](double left, double low, double right, double high) {
+    return std::vector<Vec2>{origin + scale * Vec2{left, low}, origin + scale * Vec2{right, low},
+                             origin + scale * Vec2{right, high}, origin + scale * Vec2{left, high}};
+  };
+  const double behind = -0.93 - 0.5 * room;
+  const double ahead = 3.76 + 0.5 * room;
+  const double curb = -1.05;
+  const double side = 1.0;
+  ParkingBay bay;
+  bay.car = {scale * Vec2{-0.93, -0.97}, scale * Vec2{3.76, -0.97}, scale * Vec2{3.76, 0.97},
+             scale * Vec2{-0.93, 0.97}};
+  bay.scene.polygons = {{box(behind - 8, curb - 1, ahead + 8, curb)},
+                        {box(behind - 8, curb, behind, side)},
+                        {box(ahead, curb, ahead + 8, side)},
+                        {box(behind - 8, side + 6, ahead + 8, side + 7)}};
+  const std::vector<Vec2> all = box(behind - 8, curb - 1, ahead + 8, side + 7);
+  bay.scene.bounds = Box{all[0], all[2]};
+  bay.inside = {origin.x, origin.y, 0.0};
+  bay.street = {origin.x + scale * 5.0, origin.y + scale * 3.0, 0.1};
+  return bay;
+}
+
 inline Se2 random_pose(std::uint64_t seed, std::uint64_t index) {
   return {10.0 * uniform(seed, index, 0), 10.0 * uniform(seed, index, 1), 7.0 * uniform(seed, index, 2) - 3.5};
 }
