@@ -199,16 +199,19 @@ std::vector<PictureLayer> ground_of(const Scene& scene, const RobotSpec& robot, 
   return layers;
 }
 
-/// The other goals, the places to visit, and the other ways.
-void add_choices(Drawing& drawing, const GoalRule& rule, std::span<const AlternativePath> others) {
+/// The other goals, the places on the way, and the other ways.
+void add_choices(Drawing& drawing, const GoalRule& rule, const std::vector<std::vector<double>>& via,
+                 std::span<const AlternativePath> others) {
   PictureLayer places{.id = "places",
-                      .label = rule.visit.empty() ? "other goals" : "places to visit",
-                      .swatch = MarkShape::star,
+                      .label = !via.empty()         ? "way-points"
+                               : rule.visit.empty() ? "other goals"
+                                                    : "places to visit",
+                      .swatch = MarkShape::disc,
                       .part = Part::path,
                       .color = colors::goal,
-                      .width = 2.0 * widths::path,
+                      .width = 5.0 * widths::path,
                       .over_roadmap = true};
-  for (const auto* states : {&rule.others, &rule.visit}) {
+  for (const auto* states : {&rule.others, &rule.visit, &via}) {
     for (const std::vector<double>& state : *states) {
       const Vec2 p = *plane_point(state);
       places.lines.add(std::array{p, p});
@@ -290,7 +293,7 @@ Drawing drawing_of(const Scene& scene, const Answer& answer, ByProducts made, co
     drawing.path_turns = std::move(made.arcs.turns);
   }
   add_improvements(drawing, scene, answer, made);
-  add_choices(drawing, problem.rule, answer.alternatives);
+  add_choices(drawing, problem.rule, problem.via, answer.alternatives);
   return drawing;
 }
 
@@ -312,7 +315,7 @@ Drawing drawing_of(const Scene& scene, const RecordedAnswer& answer, const Execu
     add_heading(drawing, scene, robot, clearance_of(scene, answer.problem), {}, *heading_rad, execution);
   }
   if (answer.state_width() == state_size(robot)) add_bodies(drawing, robot, answer.states);
-  add_choices(drawing, answer.problem.rule, {});
+  add_choices(drawing, answer.problem.rule, answer.via, {});
   return drawing;
 }
 

@@ -103,18 +103,24 @@ void refute(Verdict& verdict, std::string what) {
   verdict.first_violation = Violation{.leg = 0, .distance = 0.0, .obstacle = std::move(what)};
 }
 
-/// Does a leg of the path pass there? With a heading, or of an arm or a car, whose legs may be arcs, a state of it has
-/// to be that one; an arm's may have been moved onto a limit.
-bool passes(const RobotSpec& robot, std::span<const Vec2> path, const StateList& states,
-            const std::vector<double>& place) {
+/// A place on a path: its leg, and the share of it; of states the leg that begins there.
+using PathPlace = std::pair<std::size_t, double>;
+
+/// Where a leg of the path passes there, from a place on. With a heading, or of an arm or a car, whose legs may be
+/// arcs, a state of it has to be that one; an arm's may have been moved onto a limit.
+std::optional<PathPlace> passed(const RobotSpec& robot, std::span<const Vec2> path, const StateList& states,
+                                const std::vector<double>& place, PathPlace from = {}) {
   const double rounding = is_arm(robot) ? 2e-5 : 1e-9;
   if (place.size() == 2 && !is_arm(robot) && robot.kind != RobotKind::car) {
     const Vec2 at{place[0], place[1]};
-    for (std::size_t k = 0; k < path.size(); ++k) {
+    for (std::size_t k = from.first; k < path.size(); ++k) {
       const Segment leg{path[k], path[std::min(k + 1, path.size() - 1)]};
-      if (distance(at, leg) <= rounding * (1.0 + norm(at))) return true;
+      if (!(distance(at, leg) <= rounding * (1.0 + norm(at)))) continue;
+      const double length = norm(leg.b - leg.a);
+      const double share = length > 0.0 ? norm(at - leg.a) / length : 0.0;
+      if (k > from.first || share >= from.second - rounding) return PathPlace{k, share};
     }
-    return false;
+    return std::nullopt;
   }
   const auto is_there = [&](std::span<const double> state) {
     for (std::size_t i = 0; i < place.size(); ++i) {
@@ -124,17 +130,23 @@ bool passes(const RobotSpec& robot, std::span<const Vec2> path, const StateList&
     }
     return true;
   };
-  for (std::size_t k = 0; k < states.size(); ++k) {
-    if (states.width >= place.size() && is_there(states[k])) return true;
+  for (std::size_t k = from.first + (from.second > rounding ? 1 : 0); k < states.size(); ++k) {
+    if (states.width >= place.size() && is_there(states[k])) return PathPlace{k, 0.0};
   }
-  return false;
+  return std::nullopt;
 }
 
-/// What of the rule the path does not do; empty: it does.
-std::string left_undone(const RobotSpec& robot, const GoalRule& rule, std::span<const Vec2> path,
-                        const StateList& states) {
+/// What of the rule, and of the way-points in their order, the path does not do; empty: it does.
+std::string left_undone(const RobotSpec& robot, const GoalRule& rule, std::span<const std::vector<double>> via,
+                        std::span<const Vec2> path, const StateList& states) {
   for (std::size_t i = 0; i < rule.visit.size(); ++i) {
-    if (!passes(robot, path, states, rule.visit[i])) return fmt::format("visit: the path passes place {} by", i + 1);
+    if (!passed(robot, path, states, rule.visit[i])) return fmt::format("visit: the path passes place {} by", i + 1);
+  }
+  PathPlace place;
+  for (std::size_t i = 0; i < via.size(); ++i) {
+    const std::optional<PathPlace> next = passed(robot, path, states, via[i], place);
+    if (!next) return fmt::format("via: the path passes place {} by, or out of its turn", i + 1);
+    place = *next;
   }
   if (!rule.back) return {};
   std::vector<double> first = {path.empty() ? 0.0 : path.front().x, path.empty() ? 0.0 : path.front().y};
@@ -142,13 +154,13 @@ std::string left_undone(const RobotSpec& robot, const GoalRule& rule, std::span<
   StateList last{states.width, {}};
   if (!states.empty()) last.add(states[states.size() - 1]);
   const std::span<const Vec2> end = path.empty() ? path : path.last(1);
-  return passes(robot, end, last, first) ? "" : "return: the path does not end where it starts";
+  return passed(robot, end, last, first) ? "" : "return: the path does not end where it starts";
 }
 
-/// So are the places to visit.
-void check_visits(Verdict& verdict, const GoalRule& rule, const RecordedAnswer& answer) {
+/// So are the places to visit and the way-points.
+void check_stops_passed(Verdict& verdict, const GoalRule& rule, const RecordedAnswer& answer) {
   if (!verdict.verified) return;
-  std::string undone = left_undone(verdict.problem.robot, rule, answer.path, answer.states);
+  std::string undone = left_undone(verdict.problem.robot, rule, answer.via, answer.path, answer.states);
   if (!undone.empty()) refute(verdict, std::move(undone));
 }
 
@@ -378,12 +390,14 @@ Answer solve_within(const Scene& scene, const Question& question, const SolveOpt
     request.kept = kept;
     answer = solve_to_goal(*solver.kind, request);
     answer.problem.prices = prices_of(scene, question);
+    answer.problem.via = options.trees.via;
     keep_to_route(answer, restricted.get(), question, options, accounted);
     const bool has_stops = !options.trees.via.empty() || !question.rule.visit.empty();
     if (answer.world.kind.empty()) answer.world = std::move(world);
     judge_prices(answer, scene, question, has_stops, accounted);
     if (answer.verified) {
-      std::string undone = left_undone(answer.problem.robot, question.rule, answer.path, answer.states);
+      std::string undone =
+          left_undone(answer.problem.robot, question.rule, options.trees.via, answer.path, answer.states);
       if (!undone.empty())
         fail_verification(answer, Violation{.leg = 0, .distance = 0.0, .obstacle = std::move(undone)});
     }
@@ -410,7 +424,7 @@ Verdict verify_within(const Scene& scene, const Question& question, const Record
   const Scene& judged = effective ? *effective : scene;
   Verdict verdict = verifying_kind(judged, asked).verify(judged, asked, answer, execution);
   check_length(verdict, answer);
-  check_visits(verdict, asked.rule, answer);
+  check_stops_passed(verdict, asked.rule, answer);
   check_price(verdict, judged, prices, answer, execution);
   check_alternatives(verdict, judged, asked, prices, answer, execution);
   const bool is_same = !question.robot && question.start.empty() && question.goal.empty() && !question.clearance &&

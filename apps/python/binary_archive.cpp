@@ -213,7 +213,7 @@ WARREN_ARCHIVED(BlockedEnd, is_start, by, free_place, distance, hint, room, need
 WARREN_ARCHIVED(Hint, verb, words, why)
 WARREN_ARCHIVED(Explanation, components, narrowest, hints, stopped)
 WARREN_ARCHIVED(GoalRule, others, tolerance, region, heading_rad, visit, back)
-WARREN_ARCHIVED(Problem, robot, start, goal, clearance, contact, goal_pose, prices, rule, told)
+WARREN_ARCHIVED(Problem, robot, start, goal, clearance, contact, goal_pose, prices, rule, told, via)
 WARREN_ARCHIVED(GoalReached, asked, distance, distance_bound)
 WARREN_ARCHIVED(AlternativePath, cost, length, price, min_clearance, passed, path)
 WARREN_ARCHIVED(WorldAccount, source, kind, walls, polygons, hash, spheres, boxes, unit, solids)

@@ -105,7 +105,7 @@ class AnswerReader {
     if (in("path") && arrays_ == 1) end_point();
     if (in_states() && arrays_ == 1) {
       if (numbers_.size() < 2) refuse(point_expected, fmt::format("{} numbers", numbers_.size()));
-      (in("goals") ? goals_ : answer_.problem.rule.visit).push_back(numbers_);
+      (in("goals") ? goals_ : in("via") ? answer_.via : answer_.problem.rule.visit).push_back(numbers_);
     }
     if (objects_ == 2) end_inner_list();
     if (in("start") && arrays_ == 0) answer_.problem.start = numbers_;
@@ -250,7 +250,7 @@ class AnswerReader {
     if (!(turn.norm() > 0.0)) refuse("[X, Y, Z, QX, QY, QZ, QW]");
     answer_.problem.goal_pose = Eigen::Translation3d(numbers_[0], numbers_[1], numbers_[2]) * turn.normalized();
   }
-  bool in_states() const { return in("goals") || in("visit"); }
+  bool in_states() const { return in("goals") || in("visit") || in("via"); }
   bool in_number() const {
     return in("clearance") || in("length") || in("lower_bound") || in("cost") || in("cost_error") || in("hole_size") ||
            in("goal_tolerance") || in("goal_region") || in("goal_heading_rad");
@@ -288,6 +288,7 @@ class AnswerReader {
 RecordedAnswer recorded(const Answer& answer) {
   RecordedAnswer record;
   record.problem = answer.problem.question();
+  record.via = answer.problem.via;
   record.world_hash = answer.world.hash;
   record.length = answer.length;
   record.lower_bound = answer.lower_bound;

@@ -263,6 +263,7 @@ void add_asked(JsonObject& json, const Problem& problem) {
   if (rule.region) json.add("goal_region", *rule.region);
   if (rule.heading_rad) json.add("goal_heading_rad", *rule.heading_rad);
   if (!rule.visit.empty()) json.add_json("visit", list_json(rule.visit));
+  if (!problem.via.empty()) json.add_json("via", list_json(problem.via));
   if (rule.back) json.add("return", true);
   if (problem.prices.empty()) return;
   std::string text = "[";

@@ -76,7 +76,8 @@ struct Problem {
   std::optional<Eigen::Isometry3d> goal_pose = {};  ///< of an arm's tool; then there is no `goal`
   Prices prices = {};                               ///< the file's and the question's
   GoalRule rule = {};                               ///< as asked
-  std::vector<std::string> told = {};  ///< what became of the question, a line each: ends moved onto limits
+  std::vector<std::string> told = {};         ///< what became of the question, a line each: ends moved onto limits
+  std::vector<std::vector<double>> via = {};  ///< way-points, in their order
 
   /// The question that says all of it.
   Question question() const { return {robot, start, goal, clearance, contact, goal_pose, prices, rule}; }

@@ -213,6 +213,13 @@ TEST(Maps, CorridorsAreOfMapsAndWayPointsArePassed) {
                                 "--via", "3.5,0.5;0.5,4.5"});
   const std::vector<Json> path = answer["path"];
   EXPECT_NE(std::find(path.begin(), path.end(), Json::parse("[0.5, 4.5]")), path.end());
+  EXPECT_EQ(answer["via"], Json::parse("[[3.5, 0.5], [0.5, 4.5]]"));
+  EXPECT_EQ(run({"verify", map, folder.write("told.json", answer.dump())}).code, 0);
+  Json turned = answer;
+  turned["via"] = Json::parse("[[0.5, 4.5], [3.5, 0.5]]");
+  const Outcome refuted = run({"verify", map, folder.write("turned.json", turned.dump())});
+  EXPECT_EQ(refuted.code, 1);
+  EXPECT_NE((refuted.out + refuted.err).find("via: the path passes place 2 by"), std::string::npos) << refuted.out;
   EXPECT_EQ(run({"solve", map, "--planner", "rrt", "--start", "0.5,0.5", "--goal", "6.5,4.5", "--via", "3.5,1.5"}).code,
             2);
 }

@@ -94,6 +94,12 @@ TEST(SolveThrough, AWayOverStopsIsItsLegs) {
       EXPECT_FALSE(answer.lower_bound) << "of a question without the stops it would be";
       EXPECT_FALSE(answer.optimal);
       for (const std::vector<double>& stop : stops) EXPECT_TRUE(is_state_of(answer, stop));
+      EXPECT_EQ(answer.problem.via, options.trees.via);
+      Answer out_of_turn = answer;
+      std::swap(out_of_turn.problem.via[0], out_of_turn.problem.via[1]);
+      EXPECT_FALSE(verify(scene, out_of_turn).verified);
+      out_of_turn.problem.via = {place(seed, 4)};
+      EXPECT_FALSE(verify(scene, out_of_turn).verified) << "it was not there";
     }
   }
 }
