@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -130,8 +131,12 @@ std::optional<PathPlace> passed(const RobotSpec& robot, std::span<const Vec2> pa
     }
     return true;
   };
-  for (std::size_t k = from.first + (from.second > rounding ? 1 : 0); k < states.size(); ++k) {
-    if (states.width >= place.size() && is_there(states[k])) return PathPlace{k, 0.0};
+  const bool is_read = states.empty();  // from a file, whose states of two numbers are points
+  const std::size_t count = is_read ? path.size() : states.size();
+  for (std::size_t k = from.first + (from.second > rounding ? 1 : 0); k < count; ++k) {
+    const std::array two{is_read ? path[k].x : 0.0, is_read ? path[k].y : 0.0};
+    const std::span<const double> state = is_read ? std::span<const double>(two) : states[k];
+    if (state.size() >= place.size() && is_there(state)) return PathPlace{k, 0.0};
   }
   return std::nullopt;
 }

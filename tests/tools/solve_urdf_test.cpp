@@ -122,6 +122,34 @@ TEST_F(SolveUrdf, AJointWithoutEndGoesTheShorterWay) {
   EXPECT_EQ(run({"verify", file_, file}).code, 0);
 }
 
+/// Their states in a file have two numbers, as places of the plane.
+TEST_F(SolveUrdf, StopsOfTwoJointsAreStates) {
+  const auto part = [](const std::string& name) {
+    return "<link name=\"" + name + "\"><collision><origin xyz=\"0.5 0 0\"/><geometry><box size=\"0.8 0.1 0.1\"/>" +
+           "</geometry></collision></link>";
+  };
+  const auto joint = [](const std::string& from, const std::string& to) {
+    return "<joint name=\"" + to + "j\" type=\"continuous\"><parent link=\"" + from + "\"/><child link=\"" + to +
+           "\"/><origin xyz=\"1 0 0\"/><axis xyz=\"0 0 1\"/></joint>";
+  };
+  const std::string urdf = folder_.write("two.urdf", "<robot name=\"r\"><link name=\"b\"/>" + part("l") + part("m") +
+                                                         joint("b", "l") + joint("l", "m") + "</robot>");
+  const std::string scene = folder_.write("two.scene", "sphere 1 1.6 0 0.2\nrobot urdf " + urdf + "\n");
+  const std::string file = folder_.path("two.json");
+  for (const std::string option : {"--via", "--visit"}) {
+    ASSERT_EQ(run({"solve", scene, "--start", "0.1,0", "--goal", "0.4,0.3", option, "4.6,0.2;-8,0.5", "--json", file,
+                   "--quiet"})
+                  .code,
+              0);
+    const Outcome good = run({"verify", scene, file});
+    EXPECT_EQ(good.code, 0) << good.out << good.err;
+    Json other = Json::parse(folder_.read("two.json"));
+    other[option.substr(2)][0][1] = 0.3;
+    folder_.write("two.json", other.dump());
+    EXPECT_EQ(run({"verify", scene, file}).code, 1);
+  }
+}
+
 TEST_F(SolveUrdf, PlacesAndPosesOfTheToolAreGoals) {
   const Json place = solved({"--goal", "0.4,0.5,0.5"});
   EXPECT_EQ(place["status"], "solved");
