@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Out of where a car that backs up can hardly move, such as a parking bay with half a metre to spare: by strokes,
-// forwards and backwards in turns, straight or at full lock, each as long as it is certified free. Such strokes are
-// shorter than the motions of a lattice, and no sample falls between them. Searched breadth first, so the fewest
-// strokes come first; poses that lie within a hundredth of a turning radius and of a radian of one another are one. An
-// order of its own, of strokes that have no ends before they are driven: core's searches have vertices.
+// straight or at full lock, each as long as it is certified free. Such strokes are shorter than the motions of a
+// lattice, and no sample falls between them. Searched breadth first, so the fewest strokes come first; poses that
+// differ by less than a hundredth of a turning radius and of a radian are one, then by less than 0.003 and by 0.001. A
+// queue of its own: core's searches have vertices, and a stroke has no end before it is driven.
 #pragma once
 
 #include <cstddef>
@@ -16,9 +16,9 @@
 
 namespace warren {
 
-/// Ways from a free pose to places from which the car has a stroke of 0.8 turning radii: poses, the first `from`
-/// itself, between each two of which the car's shortest curve is one free stroke. At most `most`, the fewest strokes
-/// first. None where `from` has such a stroke itself, or where three times 10,000 poses were tried in vain. Driven
+/// Ways from a free pose whose last stroke is 0.8 turning radii long: poses, the first `from` itself, between each two
+/// of which the car's shortest curve is one free stroke. At most `most`, the fewest strokes first. None where `from`
+/// has such a stroke itself, or where each of the three searches tried 10,000 poses or all there are in vain. Driven
 /// back, they are ways in. Throws Stopped.
 std::vector<Path<Se2>> ways_out(const CarBody& body, const Se2& from, std::size_t most, const Execution& execution);
 

@@ -44,8 +44,8 @@ inline Scene scattered(std::uint64_t seed, std::size_t polygons = 12, std::size_
   return scene;
 }
 
-/// A bay by a street, `room` longer than the car that stands in it at the pose returned, half of it behind. Far from
-/// the origin, and everything of that scale.
+/// A bay by a street, `room` longer than the car that stands `inside` of it, half of that behind the car; lengths are
+/// times `scale`, and `origin` is where the car's reference point stands.
 struct ParkingBay {
   Scene scene;
   std::vector<Vec2> car;  ///< whose turning radius is 3 * scale
