@@ -332,8 +332,10 @@ void AnytimeSearch<W>::take(Found& found) {
   if (tree_ && options_.informed && found.by != Part::tree && found.cost < near * before)
     to_join_.push_back(found.path);
   const bool is_rough = options_.parts.shorten && !found.is_shortened;
-  if (!is_better && is_rough && found.cost < hopeless * before) rough_.push_back(std::move(found));
-  if (!is_better) return;
+  if (!is_better) {
+    if (is_rough && found.cost < hopeless * before) rough_.push_back(std::move(found));
+    return;
+  }
   if (was_replaced_ && !is_shortened_) {  // by another one in this turn: nobody has shortened it yet
     Found earlier;
     earlier.path = std::move(solution_.path);

@@ -73,35 +73,21 @@ PriceField::PriceField(StepWeights& weights, std::span<const Goal> goals, std::s
 }
 
 std::uint64_t PriceField::estimate(VertexId v) const {
-  if (towards_.empty()) return 0;
   const Cell cell = weights_.cells().cell(v);
   std::uint64_t least = unreached;
   for (const Cell to : towards_) least = std::min(least, weights_.at_least(cell, to));
   return least;
 }
 
-void PriceField::reach(VertexId v, std::uint64_t cost) {
-  costs_[v] = cost + 1;  // not expanded at that
-  queue(v);
-}
-
-/// Keys a whole turn ahead wait in the last bucket there is.
-void PriceField::queue(VertexId v) {
-  const std::uint64_t at = std::clamp(bucket_of(v), current_, current_ + bucket_count - 1);
-  buckets_[at % bucket_count].push_back(v);
-  ++queued_;
-}
-
 void PriceField::expand(VertexId v) {
   const std::uint64_t here = known(v);
-  for (unsigned rest = weights_.allowed(v); rest != 0; rest &= rest - 1) {
+  // A weight may be dear to find: not where the length alone is too much.
+  const unsigned cheaper = weights_.may_lower(v, here, [&](VertexId w) { return known(w); });
+  for (unsigned rest = cheaper & weights_.allowed(v); rest != 0; rest &= rest - 1) {
     const auto s = static_cast<unsigned>(std::countr_zero(rest));
     const VertexId w = v + weights_.offset(s);
-    // A weight may be dear to find: not where the length alone is too much.
-    const std::uint64_t there = known(w);
-    if (here + weights_.length(s) >= there) continue;
     const std::uint64_t cost = here + weights_.weight(v, s);
-    if (cost < there) reach(w, cost);
+    if (cost < known(w)) reach(w, cost);
   }
 }
 
@@ -126,7 +112,7 @@ void PriceField::settle_until(const IsDone& is_done, const Execution& execution)
     }
     queued_ -= bucket.size();
     bucket.clear();
-    for (const VertexId v : later) queue(v);
+    for (const VertexId v : later) queue(v, known(v));
   }
   if (queued_ == 0) current_ = nothing_left;
 }
@@ -193,7 +179,7 @@ bool PriceField::repair(std::span<const Cell> touched, std::uint64_t most, const
     if (cost >= known(v)) continue;
     costs_[v] = cost + 1;
     current_ = std::min(current_, bucket_of(v));
-    queue(v);
+    queue(v, known(v));
   }
   return true;
 }

@@ -62,6 +62,18 @@ class StepWeights {
     const std::uint32_t known = known_[std::size_t{back_steps} * lower + direction - back_steps];
     return known != 0 ? known : first_weight(lower, direction);
   }
+  /// Asks memory for what weight() and may_lower() will look at.
+  void fetch(VertexId v) const {
+    if (!known_) return;
+    __builtin_prefetch(&known_[std::size_t{back_steps} * v]);
+    __builtin_prefetch(&known_[std::size_t{back_steps} * (v - cells_.stride())]);
+  }
+  /// Which steps from a cell, allowed or not, may lead to somebody for less than he has; bits of cell_steps. Of steps
+  /// whose weight is not known yet the length counts. has(cell): what he has, for any neighbour, of the margin too.
+  template <class Has>
+  unsigned may_lower(VertexId from, std::uint64_t here, const Has& has) const {
+    return known_ ? lower_by<true>(from, here, has) : lower_by<false>(from, here, has);
+  }
   /// From now on the cell is free, or blocked. What steps near it weigh is forgotten by forget() alone.
   void change(Cell c, bool is_free) { cells_.change(c, is_free); }
   /// The steps from a cell in the last four directions are weighed anew.
@@ -83,6 +95,23 @@ class StepWeights {
     void operator()(std::uint32_t* block) const { std::free(block); }
   };
   std::uint64_t first_weight(VertexId lower, unsigned direction);
+  /// Without a branch for each step, which nobody could foretell.
+  template <bool by_weight, class Has>
+  unsigned lower_by(VertexId from, std::uint64_t here, const Has& has) const {
+    const std::uint32_t* known = known_.get();
+    unsigned found = 0;
+    for (unsigned s = 0; s < steps_there_are; ++s) {
+      const VertexId to = from + offsets_[s];
+      std::uint64_t least = lengths_[s];
+      if constexpr (by_weight) {
+        const std::size_t at = s >= back_steps ? std::size_t{back_steps} * from + s - back_steps
+                                               : std::size_t{back_steps} * to + back_steps - 1 - s;
+        least = std::max<std::uint64_t>(least, known[at]);
+      }
+      found |= static_cast<unsigned>(here + least < has(to)) << s;
+    }
+    return found;
+  }
 
   FreeCells cells_;
   const std::array<std::uint8_t, 512>* allowed_;
@@ -134,13 +163,28 @@ class PriceField {
   /// One is added to what stands there, so that pages of zeros are cells that nobody has reached.
   std::uint64_t known(VertexId v) const { return (costs_[v] & ~is_expanded) - 1; }
   /// A sixteenth of a cell each: no step is so short.
-  std::uint64_t bucket_of(VertexId v) const { return (known(v) + estimate(v)) / (units_a_cell / 16); }
+  std::uint64_t bucket_of(VertexId v) const { return bucket_of(v, known(v)); }
+  std::uint64_t bucket_of(VertexId v, std::uint64_t cost) const {
+    return (towards_.empty() ? cost : cost + estimate(v)) / (units_a_cell / 16);
+  }
   std::uint64_t estimate(VertexId v) const;
   bool is_settled(VertexId v) const { return known(v) != unreached && bucket_of(v) < current_; }
   /// What a goal in the cell costs, or the way over the cheapest of its neighbours.
   std::uint64_t over_neighbours(VertexId v, std::uint64_t enough);
-  void reach(VertexId v, std::uint64_t cost);
-  void queue(VertexId v);
+  void reach(VertexId v, std::uint64_t cost) {
+    costs_[v] = cost + 1;  // not expanded at that
+    // Until its turn comes, what it will look at has time to come near.
+    __builtin_prefetch(&costs_[v - weights_.cells().stride()]);
+    __builtin_prefetch(&costs_[v + weights_.cells().stride()]);
+    weights_.fetch(v);
+    queue(v, cost);
+  }
+  /// Keys a whole turn ahead wait in the last bucket there is.
+  void queue(VertexId v, std::uint64_t cost) {
+    const std::uint64_t at = std::clamp(bucket_of(v, cost), current_, current_ + bucket_count - 1);
+    buckets_[at % bucket_count].push_back(v);
+    ++queued_;
+  }
   void expand(VertexId v);
   template <class IsDone>
   void settle_until(const IsDone& is_done, const Execution& execution);

@@ -239,22 +239,35 @@ class Marching {
     const std::size_t row = std::size_t{values_.width} + 1;
     const auto y = as_whole<std::uint32_t>(v / row);
     const auto x = as_whole<std::uint32_t>(v % row);
-    if (y > values_.height) return spread_in({x, y - values_.height - 1});
-    for (const auto& [dx, dy] : corners) {
+    if (y > values_.height) return spread_from_middle({x, y - values_.height - 1});
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto [dx, dy] = corners[i];
       if (x < dx || y < dy || x - dx >= values_.width || y - dy >= values_.height) continue;
-      spread_in({x - dx, y - dy});
+      spread_from_corner({x - dx, y - dy}, i);
     }
   }
-  void spread_in(Cell cell) {
+  void spread_from_middle(Cell cell) {
     if (triangles_.is_outside(cell.x, cell.y)) return;
+    const double here = values_.values[middle(cell)];
     for (std::size_t i = 0; i < 4; ++i) {
       const double price = prices_[triangles_.number(cell.x, cell.y, i)];
       const VertexId a = corner(cell, i);
       const VertexId b = corner(cell, (i + 1) % 4);
-      const VertexId m = middle(cell);
-      if (is_done_[m] == 0) offer(m, middle_value(known(a), known(b), price * half_diagonal));
-      if (is_done_[a] == 0) offer(a, corner_value(known(m), known(b), price));
-      if (is_done_[b] == 0) offer(b, corner_value(known(m), known(a), price));
+      if (is_done_[a] == 0) offer(a, corner_value(here, known(b), price));
+      if (is_done_[b] == 0) offer(b, corner_value(here, known(a), price));
+    }
+  }
+  /// The two triangles of the cell that have the corner.
+  void spread_from_corner(Cell cell, std::size_t at) {
+    if (triangles_.is_outside(cell.x, cell.y)) return;
+    const double here = values_.values[corner(cell, at)];
+    const VertexId m = middle(cell);
+    for (const std::size_t other : {(at + 1) % 4, (at + 3) % 4}) {
+      const std::size_t triangle = other == (at + 1) % 4 ? at : other;
+      const double price = prices_[triangles_.number(cell.x, cell.y, triangle)];
+      const VertexId beside = corner(cell, other);
+      if (is_done_[m] == 0) offer(m, middle_value(here, known(beside), price * half_diagonal));
+      if (is_done_[beside] == 0) offer(beside, corner_value(known(m), here, price));
     }
   }
   double known(VertexId v) const { return is_done_[v] != 0 ? values_.values[v] : far; }

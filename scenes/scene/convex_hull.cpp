@@ -184,7 +184,7 @@ Solid convex_hull(std::span<const Vec3> points, const std::string& where, const 
 double volume_inside(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 3>> triangles) {
   double six = 0.0;
   if (points.empty()) return six;
-  const Vec3 origin = points[0];
+  const Vec3& origin = points[0];
   for (const auto& [a, b, c] : triangles) six += (points[a] - origin).cross(points[b] - origin).dot(points[c] - origin);
   return six / 6.0;
 }

@@ -65,6 +65,7 @@ void KeptWays::make(const OccupancyMap& map, const WallProblem& problem, const E
   forget();
   map_ = map;
   prices_.emplace(map_, problem.robot.radius, problem.prices, execution);
+  prices_->keep_near(problem.reach() / map_.cell, execution);
   scratch_ = {};
   wide_ = prices_->distances() != nullptr
               ? blocked_for_disc(map_.blocked, *prices_->distances(), problem.reach() / map_.cell, execution)
@@ -76,11 +77,19 @@ void KeptWays::make(const OccupancyMap& map, const WallProblem& problem, const E
 void KeptWays::change(const OccupancyMap& map, const WallProblem& problem, const std::vector<Cell>& changed,
                       const Execution& execution) {
   map_ = map;
-  prices_.emplace(map_, problem.robot.radius, problem.prices, execution);
-  scratch_ = {};
-  Bitmap wide = prices_->distances() != nullptr
-                    ? blocked_for_disc(map_.blocked, *prices_->distances(), problem.reach() / map_.cell, execution)
-                    : blocked_for_disc(map_.blocked, problem.reach() / map_.cell, execution);
+  Cell low = changed.front();
+  Cell high = low;
+  for (const Cell c : changed) {
+    low = {std::min(low.x, c.x), std::min(low.y, c.y)};
+    high = {std::max(high.x, c.x), std::max(high.y, c.y)};
+  }
+  prices_->renew(low, high, execution);
+  Bitmap wide = wide_;
+  if (const DistanceField* distances = prices_->distances()) {
+    renew_for_disc(wide, map_.blocked, *distances, problem.reach() / map_.cell, low, high, execution);
+  } else {
+    wide = blocked_for_disc(map_.blocked, problem.reach() / map_.cell, execution);
+  }
   const auto poll = [&] { execution.check(); };
   for_each_differing(wide, wide_, poll, [&](Cell c) { weights_->change(c, !wide.test(c.x, c.y)); });
   wide_ = std::move(wide);
@@ -112,14 +121,21 @@ void KeptWays::change(const OccupancyMap& map, const WallProblem& problem, const
 void KeptWays::forget_legs(const std::vector<Cell>& changed, double reach) {
   constexpr std::size_t few = 1024;
   if (changed.size() > few) return legs_.clear();
+  const auto square = [](Cell c) {
+    return Box{{static_cast<double>(c.x), static_cast<double>(c.y)}, {c.x + 1.0, c.y + 1.0}};
+  };
+  Box all;
+  for (const Cell c : changed) all.include(square(c));
+  const auto is_near = [&](const Box& leg, const Box& cells) {
+    return cells.max.x + reach >= leg.min.x && cells.min.x - reach <= leg.max.x && cells.max.y + reach >= leg.min.y &&
+           cells.min.y - reach <= leg.max.y;
+  };
   std::erase_if(legs_, [&](const auto& known) {
     Box box;
     box.include(map_point(map_, known.first.a));
     box.include(map_point(map_, known.first.b));
-    return std::any_of(changed.begin(), changed.end(), [&](Cell c) {
-      return c.x + 1.0 + reach >= box.min.x && c.x - reach <= box.max.x && c.y + 1.0 + reach >= box.min.y &&
-             c.y - reach <= box.max.y;
-    });
+    return is_near(box, all) &&
+           std::any_of(changed.begin(), changed.end(), [&](Cell c) { return is_near(box, square(c)); });
   });
 }
 

@@ -17,7 +17,7 @@ namespace warren {
 /// closed square, in squared half cells: max(2 |dx| - 1, 0)^2 + max(2 |dy| - 1, 0)^2.
 enum class CellDistance : std::uint8_t { centres, squares };
 
-/// Immutable; any number of threads may read.
+/// Any number of threads may read while nobody changes it.
 class DistanceField {
  public:
   /// Beyond what fits; and where nothing is blocked at all.
@@ -25,6 +25,13 @@ class DistanceField {
 
   /// outside_blocked: the cells around the bitmap count as blocked. Throws Stopped.
   DistanceField(const Bitmap& blocked, CellDistance kind, bool outside_blocked, const Execution& execution);
+
+  /// From now on what is farther than so many cells counts as so far: changes of the map are not felt beyond.
+  /// Throws Stopped, and is of no use then.
+  void cut_off(double cells, const Execution& execution);
+  /// After changes of the bitmap from column low.x to high.x and row low.y to high.y, as a new field that is cut off
+  /// alike; costs what the cells around them cost. Only after cut_off(). Throws as cut_off().
+  void renew(const Bitmap& blocked, Cell low, Cell high, const Execution& execution);
 
   std::uint32_t width() const { return width_; }
   std::uint32_t height() const { return height_; }
@@ -34,9 +41,12 @@ class DistanceField {
   double distance(std::uint32_t x, std::uint32_t y) const;
 
  private:
+  std::uint32_t cut_off_squared() const;
   std::uint32_t width_;
   std::uint32_t height_;
   CellDistance kind_;
+  bool outside_blocked_;
+  double kept_cells_ = 0.0;  // 0: all
   RawVector<std::uint32_t> squared_;
 };
 
@@ -45,5 +55,8 @@ class DistanceField {
 Bitmap blocked_for_disc(const Bitmap& blocked, double radius, const Execution& execution);
 /// The same by a field that is there: of these cells, to squares, with the outside blocked.
 Bitmap blocked_for_disc(const Bitmap& blocked, const DistanceField& field, double radius, const Execution& execution);
+/// The same again, after changes of the cells from low to high for which the field has been renewed. Throws Stopped.
+void renew_for_disc(Bitmap& wide, const Bitmap& blocked, const DistanceField& field, double radius, Cell low, Cell high,
+                    const Execution& execution);
 
 }  // namespace warren

@@ -21,15 +21,9 @@ struct FarTally {
   std::vector<std::string> refuted{};  ///< what the judge said, seed by seed
 };
 
-/// Bodies of 1 mm to 1 m; UTM, 1e7 and 1e9 away.
-inline void solve_far_away(std::uint64_t seed, FarTally& tally) {
-  constexpr Vec2 offsets[] = {{450000.0, 5400000.0}, {1e7, -1e7}, {1e9, 1e9}};
-  const Vec2 offset = offsets[seed % 3];
-  const double size = std::pow(10.0, -3.0 * uniform(seed, 0, 0));
+/// A world sixty times as wide as the body, at the offset: a map or walls.
+inline Scene scene_far_away(std::uint64_t seed, Vec2 offset, double size) {
   const double side = 60.0 * size;
-  const auto place = [&](std::uint64_t i) {
-    return offset + Vec2{side * uniform(seed, i, 1), side * uniform(seed, i, 2)};
-  };
   Scene scene;
   if (seed / 12 % 4 == 3) {
     scene.map.emplace().blocked = Bitmap(40, 40);
@@ -45,7 +39,7 @@ inline void solve_far_away(std::uint64_t seed, FarTally& tally) {
   } else {
     std::vector<Segment> walls;
     for (std::uint64_t i = 0; i < 10; ++i) {
-      const Vec2 a = place(i);
+      const Vec2 a = offset + Vec2{side * uniform(seed, i, 1), side * uniform(seed, i, 2)};
       const Vec2 way{0.5 * side * (uniform(seed, i, 3) - 0.5),
                      i % 3 == 0 ? 0.0 : 0.5 * side * (uniform(seed, i, 4) - 0.5)};
       walls.push_back({a, a + way});
@@ -53,6 +47,19 @@ inline void solve_far_away(std::uint64_t seed, FarTally& tally) {
     scene.walls = WallSet::narrowest(walls);
     if (seed % 5 == 0) scene.bounds = Box{offset, offset + Vec2{side, side}};
   }
+  return scene;
+}
+
+/// Bodies of 1 mm to 1 m; UTM, 1e7 and 1e9 away.
+inline void solve_far_away(std::uint64_t seed, FarTally& tally) {
+  constexpr Vec2 offsets[] = {{450000.0, 5400000.0}, {1e7, -1e7}, {1e9, 1e9}};
+  const Vec2 offset = offsets[seed % 3];
+  const double size = std::pow(10.0, -3.0 * uniform(seed, 0, 0));
+  const double side = 60.0 * size;
+  const auto place = [&](std::uint64_t i) {
+    return offset + Vec2{side * uniform(seed, i, 1), side * uniform(seed, i, 2)};
+  };
+  const Scene scene = scene_far_away(seed, offset, size);
   const Vec2 from = place(100);
   const Vec2 to = place(101);
   Question question{.start = {from.x, from.y}, .goal = {to.x, to.y}};

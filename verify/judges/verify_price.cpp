@@ -2,9 +2,11 @@
 #include "verify/judges/verify_price.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -42,14 +44,33 @@ class NearCells {
     return on_water_ ? !map_.water.holds(x, y) : map_.blocked.holds(x, y);
   }
 
+  /// Bit i: is the cell (first + i, row) closed? 0 beyond `last`.
+  std::uint64_t closed_from(std::int64_t first, std::int64_t row, std::int64_t last) const {
+    const std::span<const std::uint64_t> words =
+        (on_water_ ? map_.water : map_.blocked).row(as_whole<std::uint32_t>(row));
+    const auto word = as_whole<std::size_t>(first) / Bitmap::word_bits;
+    const auto shift = as_whole<std::size_t>(first) % Bitmap::word_bits;
+    std::uint64_t bits = words[word] >> shift;
+    if (shift != 0 && word + 1 < words.size()) bits |= words[word + 1] << (Bitmap::word_bits - shift);
+    if (on_water_) bits = ~bits;
+    const std::int64_t count = last - first + 1;
+    return count >= Bitmap::word_bits ? bits : bits & ((std::uint64_t{1} << count) - 1);
+  }
+
   double over_piece(Vec2 p, Vec2 u, double length, Vec2 middle) {
     const auto x = bounded_whole<std::int64_t>(std::floor(middle.x), 0.0, map_.width() - 1.0);
     const auto y = bounded_whole<std::int64_t>(std::floor(middle.y), 0.0, map_.height() - 1.0);
     for (std::int64_t around = 1;; around *= 2) {
       things_ = {SquaredDistance::to_line(p.x, -u.x), SquaredDistance::to_line(p.y, -u.y),
                  SquaredDistance::to_line(map_.width() - p.x, u.x), SquaredDistance::to_line(map_.height() - p.y, u.y)};
-      for (std::int64_t row = y - around; row <= y + around; ++row) {
-        for (std::int64_t column = x - around; column <= x + around; ++column) add_cell(x, y, column, row, p, u);
+      const std::int64_t last = std::min<std::int64_t>(x + around, map_.width() - 1);
+      const std::int64_t last_row = std::min<std::int64_t>(y + around, map_.height() - 1);
+      for (std::int64_t row = std::max<std::int64_t>(y - around, 0); row <= last_row; ++row) {
+        for (std::int64_t first = std::max<std::int64_t>(x - around, 0); first <= last; first += Bitmap::word_bits) {
+          for (std::uint64_t rest = closed_from(first, row, last); rest != 0; rest &= rest - 1) {
+            add_cell(x, y, first + std::countr_zero(rest), row, p, u);
+          }
+        }
       }
       double enough = std::numeric_limits<double>::infinity();
       for (const SquaredDistance& q : things_) enough = std::min(enough, std::max(q.at(0.0), q.at(length)));
@@ -58,9 +79,8 @@ class NearCells {
     }
   }
 
-  /// As the piece in cell (x, y) sees it: by one side, or by a corner. None behind another blocked cell.
+  /// A closed cell as the piece in cell (x, y) sees it: by one side, or by a corner. None behind another one.
   void add_cell(std::int64_t x, std::int64_t y, std::int64_t column, std::int64_t row, Vec2 p, Vec2 u) {
-    if (column < 0 || row < 0 || column >= map_.width() || row >= map_.height() || !closed(column, row)) return;
     const std::int64_t right = (column > x) - (column < x);
     const std::int64_t up = (row > y) - (row < y);
     const auto hides = [&](std::int64_t at_x, std::int64_t at_y) {

@@ -89,7 +89,7 @@ ArmKinematics::ArmKinematics(ArmModel model) : model_(std::move(model)) {
   }
 }
 
-void ArmKinematics::find_reach(std::size_t link, Ball ball, double margin) {
+void ArmKinematics::find_reach(std::size_t link, const Ball& ball, double margin) {
   std::vector<double> reach(model_.joints.size(), 0.0);
   whole_reach_ = std::max(whole_reach_, margin + add_reach(model_.links[link].frame, ball, reach));
   for (std::size_t j = 0; j < reach.size(); ++j) reach_[j][link] = std::max(reach_[j][link], reach[j]);

@@ -74,7 +74,7 @@ class ArmKinematics {
  private:
   struct Ball;
   double rate_of(std::size_t joint, const JointState& way) const;
-  void find_reach(std::size_t link, Ball ball, double margin);
+  void find_reach(std::size_t link, const Ball& ball, double margin);
   double add_reach(int frame, Ball ball, std::vector<double>& reach) const;
 
   ArmModel model_;

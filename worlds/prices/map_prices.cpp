@@ -137,6 +137,21 @@ MapPrices::MapPrices(const OccupancyMap& effective, double radius, const Prices&
   }
 }
 
+void MapPrices::keep_near(double cells, const Execution& execution) {
+  constexpr double seen = 32.0;  // in the open legs are looked at in strides
+  if (field_) field_->cut_off(std::max(cells, reach_) + seen, execution);
+}
+
+void MapPrices::renew(Cell low, Cell high, const Execution& execution) {
+  number_ = fresh_number();
+  if (field_) field_->renew(map_.blocked, low, high, execution);
+  for (std::uint32_t y = low.y; has_areas_ && unknown_ > 1.0 && y <= high.y; ++y) {
+    const auto unknown = map_.unknown.row(y);
+    const auto touched = touched_.row(y);
+    for (std::size_t w = 0; w < touched.size(); ++w) touched[w] |= unknown[w];
+  }
+}
+
 /// All that may be nearest to a place of the cell, of what is within reach: whatever is farther from the middle than
 /// the nearest by more than the cell's diagonal is not. Kept, for legs come back to the same cells.
 std::span<const MapPrices::Site> MapPrices::sites(Cell cell, Scratch& scratch) const {

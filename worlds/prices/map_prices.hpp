@@ -28,7 +28,7 @@ double clearance_reach(const ClearancePrice& price, double radius);
 /// (1 - (d - radius) / D)^2 is so much, over the price, as (1 - d / (D + radius))^2.
 double clearance_scale(const ClearancePrice& price, double radius);
 
-/// Immutable; any number of threads may ask, each with its own Scratch.
+/// Any number of threads may ask while nobody changes it, each with its own Scratch.
 class MapPrices {
  public:
   /// A blocked square as seen from a cell: a side where it is straight right, left, above or below, else a corner.
@@ -57,6 +57,13 @@ class MapPrices {
   /// costs prices.unknown. radius: of the disc, world units, >= 0. Masks have been read. Throws UsageError as
   /// clearance_reach(), Stopped.
   MapPrices(const OccupancyMap& effective, double radius, const Prices& prices, const Execution& execution);
+
+  /// From now on distances beyond what prices feel, and beyond so many cells, are some that are less: for renew().
+  /// Throws Stopped.
+  void keep_near(double cells, const Execution& execution);
+  /// After changes of the map's cells from column low.x to high.x and row low.y to high.y: as one made anew. Only after
+  /// keep_near(). Throws Stopped, and is of no use then.
+  void renew(Cell low, Cell high, const Execution& execution);
 
   /// Distances to the map's blocked squares and its outside; nullptr where nearness costs nothing.
   const DistanceField* distances() const { return field_ ? &*field_ : nullptr; }

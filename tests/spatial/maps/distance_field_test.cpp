@@ -62,6 +62,38 @@ TEST(DistanceField, EqualsBruteForceOnTwoHundredMaps) {
   }
 }
 
+TEST(DistanceField, RenewedAfterChangesItIsANewOneThatIsCutOffAlike) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE(seed);
+    Bitmap map = random_map(seed);
+    const CellDistance kind = seed % 2 == 0 ? CellDistance::centres : CellDistance::squares;
+    const bool outside = seed / 2 % 2 == 0;
+    const double cut = 1.0 + 9.0 * uniform(seed, 0, 3);
+    const double radius = cut * uniform(seed, 0, 4);
+    DistanceField field(map, kind, outside, {});
+    field.cut_off(cut, {});
+    Bitmap wide = blocked_for_disc(map, field, radius, {});
+    const Cell low{static_cast<std::uint32_t>(random_bits(seed, 0, 5) % map.width()),
+                   static_cast<std::uint32_t>(random_bits(seed, 0, 6) % map.height())};
+    const Cell high{std::min(map.width() - 1, low.x + static_cast<std::uint32_t>(seed % 7)),
+                    std::min(map.height() - 1, low.y + static_cast<std::uint32_t>(seed % 3))};
+    for (std::uint32_t y = low.y; y <= high.y; ++y) {
+      for (std::uint32_t x = low.x; x <= high.x; ++x) {
+        random_bits(seed, 100 + x, y) % 2 == 0 ? map.set(x, y) : map.clear(x, y);
+      }
+    }
+    field.renew(map, low, high, {});
+    renew_for_disc(wide, map, field, radius, low, high, {});
+    DistanceField fresh(map, kind, outside, {});
+    fresh.cut_off(cut, {});
+    for (std::uint32_t y = 0; y < map.height(); ++y) {
+      for (std::uint32_t x = 0; x < map.width(); ++x)
+        ASSERT_EQ(field.squared(x, y), fresh.squared(x, y)) << x << " " << y;
+    }
+    if (kind == CellDistance::squares) ASSERT_EQ(wide, blocked_for_disc(map, fresh, radius, {}));
+  }
+}
+
 TEST(DistanceField, NothingBlockedIsFarEverywhere) {
   const DistanceField field(Bitmap(70, 3), CellDistance::centres, false, {});
   for (std::uint32_t x = 0; x < 70; ++x) EXPECT_EQ(field.squared(x, 1), DistanceField::far);
