@@ -164,7 +164,7 @@ std::vector<State> rest_of_route(const std::vector<State>& route, const State& s
     least = std::min(least, on[i].distance);
   }
   std::size_t leg = 0;
-  while (on[leg].distance > least + slack) ++leg;
+  while (leg + 1 < on.size() && on[leg].distance > least + slack) ++leg;
   while (leg + 1 < on.size() && on[leg + 1].distance < on[leg].distance) ++leg;  // on with this pass
   std::vector<State> rest{start};
   const State place = between(route[leg], route[leg + 1], on[leg].share);
