@@ -31,6 +31,7 @@ bool passes(const Answer& answer, Vec2 place) {
 
 constexpr Box lower{{4.0, 0.0}, {6.0, 4.0}};  // below the block in the middle, where the shortest way leads
 constexpr Vec2 stop{5.0, 9.0};
+const std::vector<double> beside_all{9.3, 0.4};  // in a corner where no way leads
 
 std::vector<Vec2> corners(Box b) { return {b.min, {b.max.x, b.min.y}, b.max, {b.min.x, b.max.y}}; }
 
@@ -71,47 +72,28 @@ Scene polygon_room() {
 }
 
 void add_prices(std::vector<AskedRow>& rows) {
-  const auto add = [&](std::string name, auto ask, auto is_heard) { rows.push_back({std::move(name), ask, is_heard}); };
-  add(
-      "clearance_price",
-      [](Question& q, SolveOptions&) {
-        q.prices.clearance = ClearancePrice{2.0, 1.0};
-      },
-      is_priced);
-  add(
-      "area",
-      [](Question& q, SolveOptions&) {
-        q.prices.areas.push_back({3.0, corners(lower), 0});
-      },
-      is_priced);
-  add(
-      "areas",
-      [](Question& q, SolveOptions&) {
-        q.prices.masks.push_back(mask(MaskKind::areas, 50));
-        q.prices.masks.back().factor = 5.0;
-      },
-      is_priced);
-  add(
-      "speed_zones", [](Question& q, SolveOptions&) { q.prices.masks.push_back(mask(MaskKind::speed, 60)); },
-      is_priced);
-  add(
-      "keep_out",
-      [](Question& q, SolveOptions&) {
-        q.prices.keep_out.push_back({corners(lower), 0});
-      },
-      [](const Answer& a) { return !meets(a, lower); });
-  add(
-      "keep_out",
-      [](Question& q, SolveOptions&) {
-        q.prices.masks.push_back(mask(MaskKind::keep_out, 100));
-        q.prices.masks.back().factor = 4.0;
-      },
-      is_priced);
-  add(
-      "unknown", [](Question& q, SolveOptions&) { q.prices.unknown = 1.0; },
-      [](const Answer& a) { return a.problem.prices.unknown == 1.0; });
-  add(
-      "unknown", [](Question& q, SolveOptions&) { q.prices.unknown = 2.0; }, is_priced);
+  const auto add = [&](std::string name, auto ask) {
+    rows.push_back({std::move(name), ask, is_priced, false, [](Answer& a) { *a.cost *= 0.999; }});
+  };
+  add("clearance_price", [](Question& q, SolveOptions&) { q.prices.clearance = ClearancePrice{2.0, 1.0}; });
+  add("area", [](Question& q, SolveOptions&) { q.prices.areas.push_back({3.0, corners(lower), 0}); });
+  add("areas", [](Question& q, SolveOptions&) {
+    q.prices.masks.push_back(mask(MaskKind::areas, 50));
+    q.prices.masks.back().factor = 5.0;
+  });
+  add("speed_zones", [](Question& q, SolveOptions&) { q.prices.masks.push_back(mask(MaskKind::speed, 60)); });
+  add("keep_out", [](Question& q, SolveOptions&) {
+    q.prices.masks.push_back(mask(MaskKind::keep_out, 100));
+    q.prices.masks.back().factor = 4.0;
+  });
+  add("unknown", [](Question& q, SolveOptions&) { q.prices.unknown = 2.0; });
+  rows.push_back({"keep_out",
+                  [](Question& q, SolveOptions&) {
+                    q.prices.keep_out.push_back({corners(lower), 0});
+                  },
+                  [](const Answer& a) { return !meets(a, lower); }});
+  rows.push_back({"unknown", [](Question& q, SolveOptions&) { q.prices.unknown = 1.0; },
+                  [](const Answer& a) { return a.problem.prices.unknown == 1.0; }});
 }
 
 void add_choices(std::vector<AskedRow>& rows) {
@@ -141,6 +123,17 @@ void add_choices(std::vector<AskedRow>& rows) {
         return a.order.size() == 2 && passes(a, stop) && passes(a, {2.0, 8.0});
       });
   rows.back().by_all = true;
+  rows.back().spoil = [](Answer& a) { a.problem.rule.visit[1] = beside_all; };
+  add(
+      "return",
+      [](Question& q, SolveOptions&) {
+        q.goal.clear();
+        q.rule.visit = {{stop.x, stop.y}};
+        q.rule.back = true;
+      },
+      [](const Answer& a) { return passes(a, stop) && a.path.front() == a.path.back(); });
+  rows.back().by_all = true;
+  rows.back().spoil = [](Answer& a) { a.problem.rule.visit[0] = beside_all; };
   add(
       "via",
       [](Question&, SolveOptions& o) {
@@ -148,6 +141,7 @@ void add_choices(std::vector<AskedRow>& rows) {
       },
       [](const Answer& a) { return passes(a, stop); });
   rows.back().by_all = true;
+  rows.back().spoil = [](Answer& a) { a.problem.via[0] = beside_all; };
   add(
       "alternatives", [](Question& q, SolveOptions&) { q.route.alternatives = 2; },
       [](const Answer& a) { return !a.alternatives.empty(); });
@@ -177,6 +171,8 @@ std::vector<AskedBody> asked_bodies() {
   const RobotSpec disc{.kind = RobotKind::disc, .radius = 0.3};
   const RobotSpec polygon{.kind = RobotKind::polygon, .outline = corners({{-0.3, -0.2}, {0.3, 0.2}})};
   const RobotSpec car{.kind = RobotKind::car, .radius = 0.25, .turning_radius = 0.8};
+  const RobotSpec drive{
+      .kind = RobotKind::car, .radius = 0.25, .turning_radius = 0.8, .steering = SteeringKind::differential};
   return {{"point on a map", map_room(), point},
           {"disc on a map", map_room(), disc},
           {"point among polygons", polygon_room(), point},
@@ -184,7 +180,9 @@ std::vector<AskedBody> asked_bodies() {
           {"polygon on a map", map_room(), polygon},
           {"polygon among polygons", polygon_room(), polygon},
           {"car on a map", map_room(), car},
-          {"car among polygons", polygon_room(), car}};
+          {"car among polygons", polygon_room(), car},
+          {"differential drive on a map", map_room(), drive},
+          {"differential drive among polygons", polygon_room(), drive}};
 }
 
 }  // namespace warren::test

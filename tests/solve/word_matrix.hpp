@@ -19,6 +19,9 @@ struct AskedRow {
   std::function<void(Question&, SolveOptions&)> ask;
   std::function<bool(const Answer&)> is_heard;
   bool by_all = false;  ///< does every planner take it?
+  /// Makes the answer claim what its path does not do, which the judge has to see; empty: it claims nothing of the
+  /// word.
+  std::function<void(Answer&)> spoil = {};
 };
 
 /// A body in a world, whose start and goal are free and joined, and a place that is not on the shortest way.
@@ -30,7 +33,7 @@ struct AskedBody {
 
 /// All words. Their places are those of asked_bodies().
 std::vector<AskedRow> asked_rows();
-/// Points, discs, polygons that turn and cars, on a map and among polygons.
+/// Points, discs, polygons that turn, cars and differential drives, on a map and among polygons.
 std::vector<AskedBody> asked_bodies();
 
 }  // namespace warren::test

@@ -51,6 +51,9 @@ void expect_heard(const test::AskedBody& body, PlannerKind planner, const test::
   EXPECT_TRUE(row.is_heard(*answer)) << "it was passed over";
   const Verdict verdict = verify(body.scene, *answer);
   EXPECT_TRUE(verdict.verified) << (verdict.first_violation ? verdict.first_violation->obstacle : "");
+  if (!row.spoil) return;
+  row.spoil(*answer);
+  EXPECT_FALSE(verify(body.scene, *answer).verified) << "the judge asks for nothing of it";
 }
 
 TEST(AskedWords, AreHeardOrRefusedByName) {
