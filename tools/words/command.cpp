@@ -75,7 +75,8 @@ void Arguments::take_option(const Command& command, std::span<const std::string>
   }
   const OptionSpec* option = option_named(command, name);
   if (option == nullptr) refuse_unknown(command, name);
-  if (has(option->name) && !option->may_repeat) throw UsageError(std::string{option->name} + ": given twice");
+  if (has(option->name) && !option->may_repeat && !option->goes_on)
+    throw UsageError(std::string{option->name} + ": given twice");
   if (option->value.empty() || option->value_optional) {
     if (option->value.empty() && equals != std::string::npos) {
       throw UsageError(std::string{option->name} + ": takes no value");
@@ -93,7 +94,14 @@ void Arguments::take_option(const Command& command, std::span<const std::string>
     if (!is_inside && i + 1 == words.size()) {
       throw UsageError(std::string{option->name} + ": " + expected[k] + " is missing");
     }
-    options_.emplace_back(option->name, is_inside ? word.substr(equals + 1) : words[++i]);
+    std::string value = is_inside ? word.substr(equals + 1) : words[++i];
+    const auto before = std::find_if(options_.begin(), options_.end(),
+                                     [&](const auto& given) { return option->goes_on && given.first == option->name; });
+    if (before != options_.end()) {
+      before->second += "; " + value;
+    } else {
+      options_.emplace_back(option->name, std::move(value));
+    }
   }
 }
 

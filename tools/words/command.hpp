@@ -69,6 +69,7 @@ struct OptionSpec {
   bool value_optional = false;       ///< the next word is its value only if it is one of the choices
   bool is_list = false;              ///< it takes several, apart by commas
   bool may_repeat = false;           ///< it may be given several times
+  bool goes_on = false;              ///< given again, its values are one, apart by semicolons
   std::string_view group = {};       ///< of help; empty: that of its name in help.hpp
 };
 

@@ -103,9 +103,11 @@ constexpr OptionSpec planner_specs[] = {
     {"--parts", "LIST",
      "anytime: what takes turns, separated by commas: tree, restarts, roadmap, shorten (default: all)"},
     {"--bound", "", "also prove a lower bound, how short no path can be, as near as can be; takes time of its own"},
-    {"--via", "STATES",
-     "waypoints to pass in this order, separated by semicolons: \"X,Y; X,Y,THETA\", or joint angles. All planners take "
-     "them, leg by leg"},
+    {.name = "--via",
+     .value = "STATES",
+     .help = "waypoints to pass in this order, separated by semicolons: \"X,Y; X,Y,THETA\", or joint angles; or given "
+             "several times. All planners take them, leg by leg",
+     .goes_on = true},
     {"--steering", "WORD",
      "how a car drives: dubins forwards only, reeds-shepp backwards too, differential straight both ways with turns on "
      "the spot (default: the file's, else dubins)",

@@ -92,10 +92,12 @@ constexpr OptionSpec asked_specs[] = {
      "where the goal is blocked or cut off: go to the place nearest to it, at most R away; inf: wherever that is. "
      "The heading may be off by ANGLE"},
     {"--goal-region", "R[,ANGLE]", "any place at most R away from the goal will do: the one that is cheapest to reach"},
-    {"--visit", "PLACES",
-     "pass these places, \"X,Y; X,Y; ...\", at most 12, in the order that costs least, then go to the goal. Bodies "
-     "that "
-     "turn: X,Y or X,Y,THETA; arms: joint angles"},
+    {.name = "--visit",
+     .value = "PLACES",
+     .help =
+         "pass these places, \"X,Y; X,Y; ...\", at most 12, in the order that costs least, then go to the goal. Bodies "
+         "that turn: X,Y or X,Y,THETA; arms: joint angles. Or given several times",
+     .goes_on = true},
     {"--return", "", "with --visit: end at the start; there is no goal then"},
     {"--alternatives", "K[,SIZE]",
      "also tell other ways: of each of the K cheapest classes the cheapest path. Paths are of one class where "

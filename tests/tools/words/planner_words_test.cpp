@@ -71,7 +71,7 @@ TEST(PlannerWords, WhatIsSaidIsGivenAndNothingElse) {
   EXPECT_EQ(given(solve_words(words_of_solve({}))), OptionSet{});
   EXPECT_EQ(given(solve_words(words_of_solve({"--samples", "auto", "--radius", "auto"}))), OptionSet{});
   const SolveOptions options = solve_words(words_of_solve(
-      {"--neighbours", "star", "--lazy", "expansion", "--via", "1,2;3,4,5", "--attach", "2,0.5", "--full"}));
+      {"--neighbours", "star", "--lazy", "expansion", "--via", "1,2", "--via=3,4,5", "--attach", "2,0.5", "--full"}));
   EXPECT_EQ(given(options), (OptionSet{Option::neighbours, Option::lazy, Option::via, Option::attach, Option::full}));
   EXPECT_EQ(options.roadmap.star, StarRule::neighbours);
   EXPECT_EQ(options.roadmap.lazy, LazyCheck::expansion);

@@ -53,6 +53,7 @@ TEST(QuestionWords, GoalsAndTheirRulesAreRead) {
   const GoalRule visit = question_of({"--visit", "1,2; 3,4", "--return"}).rule;
   EXPECT_EQ(visit.visit, (std::vector<std::vector<double>>{{1, 2}, {3, 4}}));
   EXPECT_TRUE(visit.back);
+  EXPECT_EQ(question_of({"--visit", "1,2", "--visit", "3,4"}).rule.visit, visit.visit);
   const RouteRule route = question_of({"--alternatives", "4,0.3", "--stretch", "2"}).route;
   EXPECT_EQ(route.alternatives, 4U);
   EXPECT_EQ(route.hole, 0.3);
