@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -278,8 +279,13 @@ class PageWriter {
   }
 
   void layer(const PictureLayer& layer) {
+    std::string label = layer.label;
+    if (label.empty()) {
+      label = layer.id;
+      std::replace(label.begin(), label.end(), '_', ' ');
+    }
     Json about{{"id", layer.id},
-               {"label", layer.label.empty() ? layer.id : layer.label},
+               {"label", std::move(label)},
                {"kind", layer.fill ? "areas" : "chains"},
                {"obstacle", layer.part == Part::world && layer.fill && layer.blocks},
                {"color", css_color(layer.fill.value_or(layer.color))},

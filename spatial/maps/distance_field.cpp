@@ -158,7 +158,9 @@ DistanceField::DistanceField(const Bitmap& blocked, CellDistance kind, bool outs
     : width_(blocked.width()), height_(blocked.height()), kind_(kind), outside_blocked_(outside_blocked) {
   constexpr std::uint32_t width_end = std::uint32_t{1} << 30;
   if (width_ >= width_end) throw InputError("map", "is too wide for a distance transform", std::to_string(width_));
-  execution.reserve(blocked.size() * sizeof(std::uint32_t));
+  constexpr std::size_t piece = 3 * sizeof(std::int64_t);  // of a row's envelope
+  execution.reserve(blocked.size() * sizeof(std::uint32_t) +
+                    std::size_t{thread_count(execution.threads)} * piece * width_);
   squared_.resize(blocked.size());
   constexpr std::size_t columns = 512;
   for_chunks(width_, columns, execution, [&](Range r) { column_pass(blocked, outside_blocked, r, squared_.data()); });

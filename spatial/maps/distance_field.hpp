@@ -30,7 +30,7 @@ class DistanceField {
   /// Throws Stopped, and is of no use then.
   void cut_off(double cells, const Execution& execution);
   /// After changes of the bitmap from column low.x to high.x and row low.y to high.y, as a new field that is cut off
-  /// alike; costs what the cells around them cost. Only after cut_off(). Throws as cut_off().
+  /// alike; costs what the cells around them cost, and whole fields that are not cut off. Throws as cut_off().
   void renew(const Bitmap& blocked, Cell low, Cell high, const Execution& execution);
 
   std::uint32_t width() const { return width_; }
@@ -46,14 +46,14 @@ class DistanceField {
   std::uint32_t height_;
   CellDistance kind_;
   bool outside_blocked_;
-  double kept_cells_ = 0.0;  // 0: all
+  double kept_cells_ = std::numeric_limits<double>::infinity();
   RawVector<std::uint32_t> squared_;
 };
 
 /// The cells where the middle of a disc may not be: blocked ones, and those whose middle is nearer than `radius` (in
 /// cells, >= 0) to a blocked closed square or to the outside of the map. Exact. O(cells).
 Bitmap blocked_for_disc(const Bitmap& blocked, double radius, const Execution& execution);
-/// The same by a field that is there: of these cells, to squares, with the outside blocked.
+/// The same by a field that is there: of these cells, to squares, with the outside blocked, not cut off below `radius`.
 Bitmap blocked_for_disc(const Bitmap& blocked, const DistanceField& field, double radius, const Execution& execution);
 /// The same again, after changes of the cells from low to high for which the field has been renewed. Throws Stopped.
 void renew_for_disc(Bitmap& wide, const Bitmap& blocked, const DistanceField& field, double radius, Cell low, Cell high,

@@ -29,12 +29,12 @@ std::string bytes_of(Answer answer) {
 }
 
 /// Blocks that come and go, prices, discs and points, another start now and then.
-void expect_fresh_bytes(std::uint64_t seed, int changes) {
+void expect_fresh_bytes(std::uint64_t seed, int changes, std::uint32_t least) {
   SCOPED_TRACE(seed);
   SequentialRng rng(seed);
   const auto below = [&](std::uint64_t n) { return static_cast<std::uint32_t>(rng.below(n)); };
-  const std::uint32_t width = 20 + below(40);
-  const std::uint32_t height = 20 + below(40);
+  const std::uint32_t width = least + below(40);
+  const std::uint32_t height = least + below(40);
   Bitmap blocked(width, height);
   for (int n = 0; n < 12; ++n) {
     const std::uint32_t x = below(width - 6);
@@ -65,7 +65,12 @@ void expect_fresh_bytes(std::uint64_t seed, int changes) {
 }
 
 TEST(Replanner, AnswersAreTheBytesOfAFreshSolve) {
-  for (const std::uint64_t seed : test::seeds(100, 2)) expect_fresh_bytes(seed, 10);
+  for (const std::uint64_t seed : test::seeds(100, 2)) expect_fresh_bytes(seed, 10, 20);
+}
+
+/// So wide that what is kept of distances ends before the next obstacle.
+TEST(Replanner, AnswersAreTheBytesOfAFreshSolveInAHall) {
+  for (const std::uint64_t seed : test::seeds(10, 1)) expect_fresh_bytes(seed, 4, 200);
 }
 
 TEST(Replanner, ABoxOfCellsIsWhatItsCellsAre) {

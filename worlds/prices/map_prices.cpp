@@ -26,6 +26,7 @@ Cell cell_of(const OccupancyMap& map, Vec2 p) {
 }
 
 /// The pieces of a leg, cell by cell: calls piece(cell, from, to), which says how far beyond `to` nothing is to be
+/// seen. A piece begins where the leg enters its cell, also behind what was left out: sums are the same however far is
 /// seen.
 template <class Piece>
 void walk_cells(const OccupancyMap& map, Vec2 a, Vec2 u, double length, const Piece& piece) {
@@ -38,6 +39,9 @@ void walk_cells(const OccupancyMap& map, Vec2 a, Vec2 u, double length, const Pi
       if (next() <= t) line += slope > 0.0 ? 1.0 : -1.0;
     }
     double next() const { return slope == 0.0 ? std::numeric_limits<double>::infinity() : (line - at) / slope; }
+    double before() const {
+      return slope == 0.0 ? -std::numeric_limits<double>::infinity() : (line - std::copysign(1.0, slope) - at) / slope;
+    }
   };
   Lines columns{a.x, u.x, 0.0};
   Lines rows{a.y, u.y, 0.0};
@@ -50,7 +54,12 @@ void walk_cells(const OccupancyMap& map, Vec2 a, Vec2 u, double length, const Pi
     if (to > t) {
       seen = piece(cell_of(map, a + 0.5 * (t + to) * u), t, to);
     }
-    t = to + seen;
+    t = to;
+    if (seen > 0.0) {
+      columns.go_on(to + seen);
+      rows.go_on(to + seen);
+      t = std::max({to, columns.before(), rows.before()});
+    }
     if (columns.next() <= t) columns.go_on(t);
     if (rows.next() <= t) rows.go_on(t);
   }

@@ -58,11 +58,11 @@ class MapPrices {
   /// clearance_reach(), Stopped.
   MapPrices(const OccupancyMap& effective, double radius, const Prices& prices, const Execution& execution);
 
-  /// From now on distances beyond what prices feel, and beyond so many cells, are some that are less: for renew().
+  /// From now on distances() tells nothing beyond so many cells, and beyond what prices feel: for renew().
   /// Throws Stopped.
   void keep_near(double cells, const Execution& execution);
-  /// After changes of the map's cells from column low.x to high.x and row low.y to high.y: as one made anew. Only after
-  /// keep_near(). Throws Stopped, and is of no use then.
+  /// After changes of the map's cells from column low.x to high.x and row low.y to high.y: costs are those of one made
+  /// anew. Only after keep_near(). Throws Stopped, and is of no use then.
   void renew(Cell low, Cell high, const Execution& execution);
 
   /// Distances to the map's blocked squares and its outside; nullptr where nearness costs nothing.

@@ -51,6 +51,37 @@ TEST(MapPrices, LegsCostWhatBruteForceSays) {
   EXPECT_GT(asked, 4);
 }
 
+/// Legs across a hall, whose open middle is crossed in strides; blocks in it come and go.
+TEST(MapPrices, KeptNearAndRenewedLegsCostTheSameToTheLastBit) {
+  OccupancyMap map;
+  map.blocked = Bitmap(300, 260);
+  map.cell = 0.7;
+  map.origin = {-11.3, 4.1};
+  const Prices prices{.clearance = ClearancePrice{3.0, 7.4}};
+  const double radius = 0.3;
+  MapPrices kept(map, radius, prices, {});
+  kept.keep_near(radius / map.cell, {});
+  MapPrices::Scratch scratch;
+  SequentialRng rng(7);
+  const auto below = [&](std::uint32_t n) { return static_cast<std::uint32_t>(rng.below(n)); };
+  for (int change = 0; change < 6; ++change) {
+    const MapPrices fresh(map, radius, prices, {});
+    MapPrices::Scratch other;
+    for (int i = 0; i < 200; ++i) {
+      const auto place = [&] {
+        return world_point(map, {1.0 + 298.0 * 0x1p-20 * below(1U << 20U), 1.0 + 258.0 * 0x1p-20 * below(1U << 20U)});
+      };
+      const Vec2 a = place();
+      const Vec2 b = place();
+      ASSERT_EQ(kept.parts(a, b, scratch).clearance, fresh.parts(a, b, other).clearance) << change << " " << i;
+    }
+    const Cell low{20 + below(250), 20 + below(210)};
+    const Cell high{low.x + below(9), low.y + below(9)};
+    for (std::uint32_t y = low.y; y <= high.y; ++y) map.blocked.set_run(y, low.x, high.x + 1);
+    kept.renew(low, high, {});
+  }
+}
+
 TEST(MapPrices, CostsAddUpOverPieces) {
   MapPrices::Scratch scratch;  // for all: each lies where the one before lay
   for (const std::uint64_t seed : seeds(60, 8)) {
