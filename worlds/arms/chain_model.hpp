@@ -4,6 +4,7 @@
 #pragma once
 
 #include "scenes/scene/arm_model.hpp"
+#include "scenes/scene/scene.hpp"
 
 namespace warren {
 
