@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A disc on an open map with blocks that are dear to be near to: the backward field alone (weights that are known, and
-// weights that are made), and a whole question beside the A* of one that has no prices.
+// weights that are made), a whole question beside the A* of one that has no prices, and the question asked again after
+// 100 cells have changed on its path.
 #include <benchmark/benchmark.h>
 
 #include <vector>
@@ -10,6 +11,8 @@
 #include "planners/grid/grid_search.hpp"
 #include "planners/grid/price_field.hpp"
 #include "planners/shorten/priced_taut.hpp"
+#include "solve/replanner.hpp"
+#include "solve/solve.hpp"
 #include "worlds/plane/grid_world.hpp"
 #include "worlds/prices/map_prices.hpp"
 
@@ -100,6 +103,39 @@ void one_question(benchmark::State& state) {
   state.SetLabel(is_priced ? "priced" : "A*, no prices");
 }
 BENCHMARK(one_question)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+
+/// range(0): 0 solved afresh, 1 by a Replanner. A block of 10 x 10 cells comes onto the last path, and goes again; the
+/// next one lies farther along.
+void replan(benchmark::State& state) {
+  PricedMap world;
+  Question question;
+  question.robot = {.kind = RobotKind::disc, .radius = radius};
+  question.start = {cell * (world.start.x + 0.5), cell * (world.start.y + 0.5)};
+  question.goal = {cell * (world.goal.x + 0.5), cell * (world.goal.y + 0.5)};
+  question.prices = world.prices;
+  Scene scene;
+  scene.map = world.map;
+  const SolveOptions options{.planner = PlannerKind::grid};
+  const Limits limits{.threads = 1};
+  Replanner replanner(scene, question, options, limits);
+  const auto answered = [&] {
+    return state.range(0) != 0 ? replanner.solve() : solve(replanner.scene(), question, options, limits);
+  };
+  Answer answer = answered();
+  std::uint64_t round = 0;
+  for (auto _ : state) {
+    bench::check(answer.outcome == Outcome::solved, "replanned");
+    const Vec2 on = answer.path[1 + round++ % (answer.path.size() - 2)];
+    const Box block{{on.x - 5.0 * cell, on.y - 5.0 * cell}, {on.x + 5.0 * cell, on.y + 5.0 * cell}};
+    replanner.update(block, true);
+    benchmark::DoNotOptimize(answered());
+    replanner.update(block, false);
+    answer = answered();
+  }
+  state.SetItemsProcessed(2 * static_cast<std::int64_t>(state.iterations()));
+  state.SetLabel(state.range(0) != 0 ? "replanned" : "afresh");
+}
+BENCHMARK(replan)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace warren

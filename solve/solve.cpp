@@ -63,19 +63,24 @@ class RestrictedScene {
   std::optional<Scene> copy_;
 };
 
+Violation untrue(std::string what) {
+  return {.leg = 0, .distance = 0.0, .obstacle = std::move(what), .kind = ViolationKind::claim};
+}
+
+void refute(Verdict& verdict, std::string what) {
+  verdict.verified = false;
+  verdict.first_violation = untrue(std::move(what));
+}
+
 /// Cost and price that an answer claims are a part of what is verified.
 void check_price(Verdict& verdict, const Scene& judged, const Prices& prices, const RecordedAnswer& answer,
                  const Execution& execution) {
   constexpr double rounding = 1e-9;
   if (!verdict.verified) return;
-  const auto refute = [&](std::string what) {
-    verdict.verified = false;
-    verdict.first_violation = Violation{.leg = 0, .distance = 0.0, .obstacle = std::move(what)};
-  };
   const auto asked = judged_price(judged, prices, verdict.problem.robot, answer, execution);
   const auto driving = driving_price(answer, verdict, asked.has_value());
   if (!asked && !(answer.price && driving)) {
-    if (answer.price) refute("price: the answer claims one, its question has none");
+    if (answer.price) refute(verdict, "price: the answer claims one, its question has none");
     return;
   }
   PriceParts price = asked.value_or(PriceParts{});
@@ -86,7 +91,7 @@ void check_price(Verdict& verdict, const Scene& judged, const Prices& prices, co
   }
   const auto check = [&](std::string_view name, double said, double found) {
     if (!verdict.verified || std::abs(said - found) <= rounding * (1.0 + std::abs(found))) return;
-    refute(fmt::format("{}: the answer says {}, its path has {}", name, said, found));
+    refute(verdict, fmt::format("{}: the answer says {}, its path has {}", name, said, found));
   };
   if (answer.price) {
     check("price: clearance", answer.price->clearance, price.clearance);
@@ -97,11 +102,6 @@ void check_price(Verdict& verdict, const Scene& judged, const Prices& prices, co
     check("cost_error", answer.price->error, price.error);
   }
   if (answer.cost) check("cost", *answer.cost, verdict.length + price.sum());
-}
-
-void refute(Verdict& verdict, std::string what) {
-  verdict.verified = false;
-  verdict.first_violation = Violation{.leg = 0, .distance = 0.0, .obstacle = std::move(what)};
 }
 
 /// A place on a path: its leg, and the share of it; of states the leg that begins there.
@@ -174,11 +174,7 @@ void check_length(Verdict& verdict, const RecordedAnswer& answer) {
   constexpr double rounding = 1e-9;
   if (!verdict.verified || !answer.length) return;
   if (std::abs(*answer.length - verdict.length) <= rounding * verdict.length) return;
-  verdict.verified = false;
-  verdict.first_violation =
-      Violation{.leg = 0,
-                .distance = 0.0,
-                .obstacle = fmt::format("length: the answer says {}, its path has {}", *answer.length, verdict.length)};
+  refute(verdict, fmt::format("length: the answer says {}, its path has {}", *answer.length, verdict.length));
 }
 
 /// The classes that an answer tells, its own path's first, and the holes that they name.
@@ -251,10 +247,7 @@ void check_alternatives(Verdict& verdict, const Scene& judged, const Question& a
     if (one.verified && other.cost < before && !same(other.cost, before))
       refute(one, "cost: less than of the one before");
     if (!one.verified) {
-      verdict.verified = false;
-      verdict.first_violation = one.first_violation.value_or(Violation{});
-      verdict.first_violation->obstacle = name + verdict.first_violation->obstacle;
-      return;
+      return refute(verdict, name + one.first_violation.value_or(Violation{}).obstacle);
     }
     before = other.cost;
   }
@@ -286,9 +279,7 @@ void check_certificate(Verdict& verdict, const Scene& scene, const RecordedAnswe
   constexpr double rounding = 1e-9;
   if (*answer.lower_bound > cost * (1.0 + rounding)) judged = {BoundVerdict::refuted, "above the path's cost"};
   verdict.bound = judged.verdict;
-  if (judged.verdict != BoundVerdict::refuted) return;
-  verdict.verified = false;
-  verdict.first_violation = Violation{.leg = 0, .distance = 0.0, .obstacle = "lower_bound: " + judged.what};
+  if (judged.verdict == BoundVerdict::refuted) refute(verdict, "lower_bound: " + judged.what);
 }
 
 /// So is the lower bound.
@@ -303,9 +294,7 @@ void check_bound(Verdict& verdict, const Scene& scene, const RecordedAnswer& ans
     verdict.bound = is_straight ? BoundVerdict::checked : BoundVerdict::unchecked;
     if (*answer.lower_bound <= *answer.cost * (1.0 + rounding)) return;
     verdict.bound = BoundVerdict::refuted;
-    verdict.verified = false;
-    verdict.first_violation = Violation{.leg = 0, .distance = 0.0, .obstacle = "lower_bound: above the path's cost"};
-    return;
+    return refute(verdict, "lower_bound: above the path's cost");
   }
   if (!problem.rule.visit.empty()) {  // a way that passes the stops by would be shorter
     verdict.bound = BoundVerdict::unchecked;
@@ -316,9 +305,7 @@ void check_bound(Verdict& verdict, const Scene& scene, const RecordedAnswer& ans
   const JudgedBound judged =
       verify_bound(scene, {problem.robot, problem.start, problem.goal, problem.clearance}, claim, execution);
   verdict.bound = judged.verdict;
-  if (judged.verdict != BoundVerdict::refuted) return;
-  verdict.verified = false;
-  verdict.first_violation = Violation{.leg = 0, .distance = 0.0, .obstacle = "lower_bound: " + judged.what};
+  if (judged.verdict == BoundVerdict::refuted) refute(verdict, "lower_bound: " + judged.what);
 }
 
 /// What shapes the roadmap.
@@ -403,8 +390,7 @@ Answer solve_within(const Scene& scene, const Question& question, const SolveOpt
     if (answer.verified) {
       std::string undone =
           left_undone(answer.problem.robot, question.rule, options.trees.via, answer.path, answer.states);
-      if (!undone.empty())
-        fail_verification(answer, Violation{.leg = 0, .distance = 0.0, .obstacle = std::move(undone)});
+      if (!undone.empty()) fail_verification(answer, untrue(std::move(undone)));
     }
     tell_bound(answer, planned.get(), options, accounted);
     prove_on_map(answer, planned.get(), options, keep, accounted);

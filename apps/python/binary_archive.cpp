@@ -207,7 +207,7 @@ WARREN_ARCHIVED(Prices, clearance, areas, masks, keep_out, unknown)
 WARREN_ARCHIVED(Scene, walls, polygons, seams, spheres, boxes, solids, bounds, clearance, maze, formula, packed, robot,
                 arm, start, goal, other_goals, named_start, named_goals, goal_pose, grid, prices, map, source)
 WARREN_ARCHIVED(StateList, width, numbers)
-WARREN_ARCHIVED(Violation, leg, distance, obstacle)
+WARREN_ARCHIVED(Violation, leg, distance, obstacle, kind)
 WARREN_ARCHIVED(RefutedPath, violation, length, cost, path, states)
 WARREN_ARCHIVED(BlockedEnd, is_start, by, free_place, distance, hint, room, needed, depth)
 WARREN_ARCHIVED(Hint, verb, words, why)

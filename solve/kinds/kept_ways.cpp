@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/base/differing_cells.hpp"
@@ -13,6 +14,45 @@ namespace warren {
 namespace {
 
 constexpr std::size_t most_legs = 1 << 18;
+
+/// Columns low.x to high.x of rows low.y to high.y.
+struct CellRange {
+  Cell low;
+  Cell high;
+  bool is_near(Cell c, std::uint32_t by) const {
+    return c.x + by >= low.x && c.x <= high.x + by && c.y + by >= low.y && c.y <= high.y + by;
+  }
+  void include(Cell c) {
+    low = {std::min(low.x, c.x), std::min(low.y, c.y)};
+    high = {std::max(high.x, c.x), std::max(high.y, c.y)};
+  }
+  /// Cells no farther than `by`, as far as the map may go.
+  double count_around(std::uint32_t by) const {
+    return (high.x - low.x + 1.0 + 2.0 * by) * (high.y - low.y + 1.0 + 2.0 * by);
+  }
+};
+
+/// Ranges that hold all of the cells: few far-apart ones where what lies within `by` of them is less than of one range
+/// around all.
+std::vector<CellRange> ranges_of(std::span<const Cell> cells, std::uint32_t by) {
+  constexpr std::size_t most = 256;
+  CellRange whole{cells.front(), cells.front()};
+  std::vector<CellRange> ranges;
+  double count = 0.0;
+  for (const Cell c : cells) {
+    whole.include(c);
+    const auto near = std::find_if(ranges.begin(), ranges.end(), [&](const CellRange& r) { return r.is_near(c, by); });
+    if (near != ranges.end()) {
+      near->include(c);
+    } else if (ranges.size() < most) {
+      ranges.push_back({c, c});
+    } else {
+      count = std::numeric_limits<double>::infinity();
+    }
+  }
+  for (const CellRange& r : ranges) count += r.count_around(by);
+  return count < whole.count_around(by) ? ranges : std::vector{whole};
+}
 
 }  // namespace
 
@@ -77,16 +117,15 @@ void KeptWays::make(const OccupancyMap& map, const WallProblem& problem, const E
 void KeptWays::change(const OccupancyMap& map, const WallProblem& problem, const std::vector<Cell>& changed,
                       const Execution& execution) {
   map_ = map;
-  Cell low = changed.front();
-  Cell high = low;
-  for (const Cell c : changed) {
-    low = {std::min(low.x, c.x), std::min(low.y, c.y)};
-    high = {std::max(high.x, c.x), std::max(high.y, c.y)};
-  }
-  prices_->renew(low, high, execution);
   Bitmap wide = wide_;
-  if (const DistanceField* distances = prices_->distances()) {
-    renew_for_disc(wide, map_.blocked, *distances, problem.reach() / map_.cell, low, high, execution);
+  const DistanceField* distances = prices_->distances();
+  const double kept = distances != nullptr ? distances->kept_cells() : 0.0;
+  const std::vector<CellRange> ranges = ranges_of(changed, bounded_whole<std::uint32_t>(2.0 * kept, 0.0, 1e9));
+  for (const CellRange& r : ranges) prices_->renew(r.low, r.high, execution);
+  if (distances != nullptr) {
+    for (const CellRange& r : ranges) {
+      renew_for_disc(wide, map_.blocked, *distances, problem.reach() / map_.cell, r.low, r.high, execution);
+    }
   } else {
     wide = blocked_for_disc(map_.blocked, problem.reach() / map_.cell, execution);
   }

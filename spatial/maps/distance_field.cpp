@@ -208,6 +208,7 @@ void DistanceField::renew(const Bitmap& blocked, Cell low, Cell high, const Exec
   const DistanceField field(part, kind_, false, execution);
   const std::uint32_t most = cut_off_squared();
   for (std::uint32_t y = felt.begin.y; y < felt.end.y; ++y) {
+    execution.check();
     for (std::uint32_t x = felt.begin.x; x < felt.end.x; ++x) {
       const std::uint32_t squared = field.squared(x - seen.begin.x + 1, y - seen.begin.y + 1);
       squared_[std::size_t{y} * width_ + x] = std::min(squared, most);

@@ -33,6 +33,9 @@ class DistanceField {
   /// alike; costs what the cells around them cost, and whole fields that are not cut off. Throws as cut_off().
   void renew(const Bitmap& blocked, Cell low, Cell high, const Execution& execution);
 
+  /// Infinite where it is not cut off.
+  double kept_cells() const { return kept_cells_; }
+
   std::uint32_t width() const { return width_; }
   std::uint32_t height() const { return height_; }
   /// Squared, in the kind's units; 0 for blocked cells.

@@ -57,8 +57,10 @@ void expect_fresh_bytes(std::uint64_t seed, int changes, std::uint32_t least) {
     std::vector<CellChange> cells;
     const Cell at{below(width), below(height)};
     const bool comes = rng.below(2) == 0;
+    const bool all_over = change % 3 == 1;
     for (std::uint32_t n = below(9); n-- > 0;) {
-      cells.push_back({{std::min(width - 1, at.x + below(3)), std::min(height - 1, at.y + below(3))}, comes});
+      const Cell near{std::min(width - 1, at.x + below(3)), std::min(height - 1, at.y + below(3))};
+      cells.push_back({all_over ? Cell{below(width), below(height)} : near, comes});
     }
     replanner.update(cells);
   }

@@ -2,10 +2,8 @@
 // warren verify: is the path of an answer free, all along and with all its clearance? Decided by verify/ alone.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <new>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -46,11 +44,6 @@ std::string verdict_json(const Verdict& v, const std::string& more) {
       v.bound == BoundVerdict::absent ? "null" : fmt::format("\"{}\"", name_of(v.bound)), more);
 }
 
-/// What a path is refuted for that is no obstacle: what its answer says, and what the body can't do.
-constexpr std::string_view of_the_whole[] = {"length:", "lower_bound:", "alternatives:", "class:", "holes:", "price:",
-                                             "cost:",   "cost_error:",  "visit:",        "via:",   "return:"};
-constexpr std::string_view of_the_body[] = {"leg:", "turning radius:", "gear:", "limits:"};
-
 void print_verdict(const Verdict& v, std::string_view metres, const Palette& palette) {
   const double clearance = v.problem.clearance;
   if (v.verified) {
@@ -60,14 +53,10 @@ void print_verdict(const Verdict& v, std::string_view metres, const Palette& pal
                            v.bound == BoundVerdict::absent ? "" : fmt::format(", lower bound {}", name_of(v.bound))));
   } else {
     const Violation violation = v.first_violation.value_or(Violation{});
-    const auto is_one_of = [&](std::span<const std::string_view> begins) {
-      return std::any_of(begins.begin(), begins.end(),
-                         [&](std::string_view begin) { return violation.obstacle.starts_with(begin); });
-    };
-    if (is_one_of(of_the_whole)) {
+    if (violation.kind == ViolationKind::claim) {
       return print_text(fmt::format("{}, {}\n", palette.bad("refuted"), violation.obstacle));
     }
-    if (is_one_of(of_the_body)) {
+    if (violation.kind == ViolationKind::motion) {
       return print_text(fmt::format("{} at leg {}: {}\n", palette.bad("refuted"), violation.leg, violation.obstacle));
     }
     const std::string distance = human_number(violation.distance);

@@ -3,18 +3,27 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
 
 namespace warren {
 
-/// Where a path is not free.
+/// What a path is refuted for.
+enum class ViolationKind : std::uint8_t {
+  obstacle,  ///< it touches something, comes too near to it, or has another start or goal
+  motion,    ///< the body can't move so on that leg, or not get there
+  claim      ///< its answer says what the path does not have; of no leg
+};
+
+/// Where a path is not free, or not as it was asked for.
 struct Violation {
   std::size_t leg = 0;    ///< 0-based: from path[leg] to path[leg + 1]
   double distance = 0.0;  ///< between that leg and the obstacle; 0 inside a polygon or outside the box
   std::string
       obstacle;  ///< e.g. "wall 17: 1.5 0.5 1.5 1.5", "polygon 2: ...", "cell 3, 4", "bounds: ...", "start: ..."
+  ViolationKind kind = ViolationKind::obstacle;
 };
 
 /// What a judge says of a path.

@@ -405,7 +405,7 @@ std::optional<Violation> ArmVerifier::outside_limits(const JointState& q, std::s
     constexpr double degree = std::numbers::pi / 180.0;
     text += variable.slides ? " m"
                             : fmt::format(" ({:.6g} to {:.6g} degrees)", variable.low / degree, variable.high / degree);
-    return Violation{number, 0.0, text};
+    return Violation{number, 0.0, text, ViolationKind::motion};
   }
   return std::nullopt;
 }

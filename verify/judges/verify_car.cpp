@@ -90,7 +90,7 @@ class CarVerifier {
 
 /// Can the car drive it?
 std::optional<Violation> CarVerifier::check_driving(const CarLeg& leg, std::size_t number) const {
-  const auto bad = [&](std::string what) { return Violation{number, 0.0, std::move(what)}; };
+  const auto bad = [&](std::string what) { return Violation{number, 0.0, std::move(what), ViolationKind::motion}; };
   if (std::abs(leg.aside) > tolerance_) {
     return bad(fmt::format("leg: slides sideways by {}; between two poses a car keeps its steering", leg.aside));
   }
