@@ -49,10 +49,12 @@ StepWeights::StepWeights(const Bitmap& blocked, Weigh weigh, const Execution& ex
   known_.reset(zeros<std::uint32_t>(std::size_t{back_steps} * cells_.number_end(), execution));
 }
 
-std::uint64_t StepWeights::first_weight(VertexId lower, unsigned direction) {
-  const std::uint64_t weight = std::max(weigh_(cells_.cell(lower), direction), lengths_[direction]);
+std::uint64_t StepWeights::first_weight(VertexId from, unsigned step) {
+  const bool is_forward = step >= back_steps;
+  const Cell lower = cells_.cell(is_forward ? from : from + offsets_[step]);
+  const std::uint64_t weight = std::max(weigh_(lower, is_forward ? step : steps_there_are - 1 - step), lengths_[step]);
   if (weight <= std::numeric_limits<std::uint32_t>::max()) {  // dearer ones are asked for again
-    known_[std::size_t{back_steps} * lower + direction - back_steps] = static_cast<std::uint32_t>(weight);
+    known_[place_of(from, step)] = static_cast<std::uint32_t>(weight);
   }
   return weight;
 }
@@ -171,7 +173,8 @@ bool PriceField::repair(std::span<const Cell> touched, std::uint64_t most, const
     if (lost % expansions_per_poll == 0) execution.check();
     for (unsigned s = 0; s < 8; ++s) {
       const VertexId w = v + weights_.offset(s);
-      if (costs_[w] != 0 && known(w) > cost) doubt(w);
+      // What weighs something else now was touched, and is in doubt anyway.
+      if (costs_[w] != 0 && known(w) > cost && weights_.may_weigh(v, s, known(w) - cost)) doubt(w);
     }
   }
   for (const VertexId v : renewed) {

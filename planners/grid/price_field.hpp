@@ -56,11 +56,14 @@ class StepWeights {
   /// Of an allowed step.
   std::uint64_t weight(VertexId from, unsigned step) {
     if (!known_) return lengths_[step];
-    const bool is_forward = step >= back_steps;
-    const VertexId lower = is_forward ? from : from + offsets_[step];
-    const unsigned direction = is_forward ? step : steps_there_are - 1 - step;
-    const std::uint32_t known = known_[std::size_t{back_steps} * lower + direction - back_steps];
-    return known != 0 ? known : first_weight(lower, direction);
+    const std::uint32_t known = known_[place_of(from, step)];
+    return known != 0 ? known : first_weight(from, step);
+  }
+  /// May an allowed step weigh that? One that was not looked up may.
+  bool may_weigh(VertexId from, unsigned step, std::uint64_t weight) const {
+    if (!known_) return weight == lengths_[step];
+    const std::uint32_t known = known_[place_of(from, step)];
+    return known == 0 || known == weight;
   }
   /// Asks memory for what weight() and may_lower() will look at.
   void fetch(VertexId v) const {
@@ -94,7 +97,12 @@ class StepWeights {
   struct Free {
     void operator()(std::uint32_t* block) const { std::free(block); }
   };
-  std::uint64_t first_weight(VertexId lower, unsigned direction);
+  /// Of what is known of a step: it stands with the one of its two cells that it goes forward from.
+  std::size_t place_of(VertexId from, unsigned step) const {
+    return step >= back_steps ? std::size_t{back_steps} * from + step - back_steps
+                              : std::size_t{back_steps} * (from + offsets_[step]) + back_steps - 1 - step;
+  }
+  std::uint64_t first_weight(VertexId from, unsigned step);
   /// Without a branch for each step, which nobody could foretell.
   template <bool by_weight, class Has>
   unsigned lower_by(VertexId from, std::uint64_t here, const Has& has) const {
@@ -104,9 +112,7 @@ class StepWeights {
       const VertexId to = from + offsets_[s];
       std::uint64_t least = lengths_[s];
       if constexpr (by_weight) {
-        const std::size_t at = s >= back_steps ? std::size_t{back_steps} * from + s - back_steps
-                                               : std::size_t{back_steps} * to + back_steps - 1 - s;
-        least = std::max<std::uint64_t>(least, known[at]);
+        least = std::max<std::uint64_t>(least, known[place_of(from, s)]);
       }
       found |= static_cast<unsigned>(here + least < has(to)) << s;
     }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -67,7 +68,9 @@ std::size_t KeptWays::HashOfEnds::operator()(const Ends& ends) const {
 
 KeptWays::Leg& KeptWays::leg(Vec2 a, Vec2 b) {
   if (legs_.size() >= most_legs) legs_.clear();
-  return legs_[{a, b}];
+  Leg& leg = legs_[{a, b}];
+  leg.is_asked = true;
+  return leg;
 }
 
 void KeptWays::forget() {
@@ -91,6 +94,9 @@ bool KeptWays::update(const OccupancyMap& map, const WallProblem& problem, const
       const auto poll = [&] { execution.check(); };
       for_each_differing(map.blocked, map_.blocked, poll, [&](Cell c) { changed.push_back(c); });
       for_each_differing(map.unknown, map_.unknown, poll, [&](Cell c) { changed.push_back(c); });
+      for (auto known = legs_.begin(); known != legs_.end();) {
+        known = std::exchange(known->second.is_asked, false) ? std::next(known) : legs_.erase(known);
+      }
       if (!changed.empty()) change(map, problem, changed, execution);
     }
   } catch (...) {

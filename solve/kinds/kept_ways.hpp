@@ -39,10 +39,11 @@ class KeptWays {
   /// Kept where goals and places are as before. Throws Stopped.
   PriceField& field(std::span<const PriceField::Goal> goals, std::span<const Cell> towards, const Execution& execution);
 
-  /// What was found of a leg; none: not asked yet.
+  /// What was found of a leg; none: not asked yet. Kept while each solve asks for it.
   struct Leg {
     std::optional<double> cost;
     std::optional<bool> is_free;
+    bool is_asked = false;  // since the last update
   };
   Leg& leg(Vec2 a, Vec2 b);
 
