@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a path costs beside its length, recomputed: nothing of worlds/prices is used. A leg is cut where it passes from
 // cell to cell, along segments where the nearest place of one becomes an end; in each piece the integral is a closed
-// form (verify/exact/leg_cost). Factors are looked up in the middle of what lies between two borders; within a
-// billionth of a cell of a border the lesser one counts. O(legs * cells crossed * things near them).
+// form. Factors are looked up in the middle of what lies between two borders; within a billionth of a cell of a border
+// the lesser one counts. O(legs * cells crossed * things near them).
 #pragma once
 
 #include <span>
