@@ -2,6 +2,9 @@
 // The verification's own geometry: it shares nothing with core/plane/geometry, so that a mistake there can't confirm
 // itself. A double evaluation with an error bound answers first; what it leaves open is decided by Dyadic numbers.
 // Exact for coordinates within core/base/types.hpp's limits.
+//
+// The distance of a circular arc from a segment is in closed form: what the verification of cars is made of. Where a
+// body turns about a point, its corners follow arcs, and in the body's eyes so do the corners of what stands around.
 #pragma once
 
 #include <algorithm>
@@ -76,5 +79,17 @@ class Dyadic {
   int exponent_ = 0;
   Limbs limbs_;
 };
+
+/// From `from`, around `center`, by `turn` radians (anticlockwise, at most a half turn either way).
+struct Arc {
+  Vec2 center;
+  Vec2 from;
+  double turn = 0.0;
+
+  Vec2 at(double angle) const;  ///< the point after so much of the turn
+};
+
+/// 0 where they touch; error below 1e-14 of radius and coordinate differences.
+double distance(const Arc& arc, const Segment& s) noexcept;
 
 }  // namespace warren

@@ -11,7 +11,7 @@
 
 #include "core/plane/se2.hpp"
 #include "core/run/execution.hpp"
-#include "verify/exact/arc_distance.hpp"
+#include "verify/exact/exact_segments.hpp"
 #include "verify/judges/leg_reports.hpp"
 #include "verify/near/obstacle_sides.hpp"
 #include "verify/near/sides_near_legs.hpp"

@@ -8,7 +8,7 @@
 // The whole body is judged (verify/judges/body_on_leg.hpp): at each pose neither lies in an obstacle nor an obstacle in
 // it, and nothing lies across it. On a leg the body turns about a point (or goes straight), so its corners follow arcs,
 // and in its eyes the corners of the obstacles do: from there on the least distance is a minimum over arcs and sides in
-// closed form (verify/exact/arc_distance.hpp). No halving, no sampling. O(obstacles) once, but for maps, then
+// closed form (verify/exact/exact_segments.hpp). No halving, no sampling. O(obstacles) once, but for maps, then
 // O(legs * sides near them * corners).
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "verify/exact/arc_distance.hpp"
+#include "verify/exact/exact_segments.hpp"
 
 #include <gtest/gtest.h>
 
