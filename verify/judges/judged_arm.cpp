@@ -14,6 +14,209 @@
 namespace warren {
 namespace {
 
+double length_of(const Vec3& v) { return portable::hypot(v.x(), v.y(), v.z()); }
+
+/// From the core's nearest point to p, in the frame of a core that is no hull.
+Vec3 off_core(const SolidCore& core, const Vec3& p) {
+  Vec3 off = p;
+  off.z() -= std::clamp(p.z(), -core.half.z(), core.half.z());
+  if (core.kind == SolidKind::box) {
+    off.x() -= std::clamp(p.x(), -core.half.x(), core.half.x());
+    off.y() -= std::clamp(p.y(), -core.half.y(), core.half.y());
+  } else if (core.kind == SolidKind::cylinder) {
+    const double from_axis = portable::hypot(p.x(), p.y());
+    const double share = from_axis > core.half.x() ? (from_axis - core.half.x()) / from_axis : 0.0;
+    off.x() *= share;
+    off.y() *= share;
+  }
+  return off;
+}
+
+/// From the core to the segment's nearest point: how far it is off is convex along the segment, and its slope's sign is
+/// halved for.
+Vec3 off_core(const SolidCore& core, const Vec3& middle, const Vec3& half) {
+  const auto off_at = [&](double t) { return off_core(core, middle + t * half); };
+  if (half.isZero(0.0)) return off_at(0.0);
+  constexpr int halvings = 56;
+  double low = -1.0;
+  double high = 1.0;
+  for (int i = 0; i < halvings; ++i) {
+    const double t = 0.5 * (low + high);
+    const Vec3 off = off_at(t);
+    if (off.isZero(0.0)) return off;
+    (off.dot(half) > 0.0 ? high : low) = t;
+  }
+  const Vec3 before = off_at(low);
+  const Vec3 behind = off_at(high);
+  return before.squaredNorm() < behind.squaredNorm() ? before : behind;
+}
+
+/// The point nearest to 0 among all mixtures of at most four points.
+class Corral {
+ public:
+  explicit Corral(const Vec3& first) : nearest_(first) { points_[0] = first, shares_[0] = 1.0; }
+  const Vec3& nearest() const { return nearest_; }
+  /// False: that brings nothing, as far as numbers tell.
+  bool add(const Vec3& point);
+
+ private:
+  bool mixture_nearest_plane(std::array<double, 4>& shares) const;
+
+  std::array<Vec3, 4> points_{};
+  std::array<double, 4> shares_{};
+  std::size_t count_ = 1;
+  Vec3 nearest_;
+};
+
+/// Of the plane (line, point) through the points: the shares may be less than 0. False where the points lie in less.
+bool Corral::mixture_nearest_plane(std::array<double, 4>& shares) const {
+  std::array<Vec3, 3> base;
+  std::array<std::array<double, 3>, 3> along{};  // the way from the last point to point j, by `base`
+  Vec3 rest = points_[count_ - 1];
+  std::array<double, 3> wanted{};
+  for (std::size_t j = 0; j + 1 < count_; ++j) {
+    const Vec3 way = points_[j] - points_[count_ - 1];
+    Vec3 left = way;
+    for (int twice = 0; twice < 2; ++twice) {
+      for (std::size_t k = 0; k < j; ++k) {
+        const double more = base[k].dot(left);
+        along[j][k] += more;
+        left -= more * base[k];
+      }
+    }
+    along[j][j] = left.norm();
+    if (!(along[j][j] > 1e-12 * way.norm())) return false;
+    base[j] = left / along[j][j];
+    wanted[j] = -base[j].dot(rest);
+    rest += wanted[j] * base[j];
+  }
+  double sum = 0.0;
+  for (std::size_t j = count_ - 1; j-- > 0;) {
+    double share = wanted[j];
+    for (std::size_t k = j + 1; k + 1 < count_; ++k) share -= shares[k] * along[k][j];
+    shares[j] = share / along[j][j];
+    sum += shares[j];
+  }
+  shares[count_ - 1] = 1.0 - sum;
+  return true;
+}
+
+bool Corral::add(const Vec3& point) {
+  if (count_ == points_.size()) return false;
+  const double before = nearest_.squaredNorm();
+  points_[count_] = point;
+  shares_[count_++] = 0.0;
+  for (;;) {
+    std::array<double, 4> wanted{};
+    if (!mixture_nearest_plane(wanted)) return false;
+    double way = 1.0;  // from the shares towards those that are wanted, as far as all of them stay above 0
+    std::size_t first = count_;
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (wanted[i] > 0.0) continue;
+      const double until = shares_[i] / (shares_[i] - wanted[i]);
+      if (first < count_ && until >= way) continue;
+      first = i;
+      way = shares_[i] > 0.0 ? until : 0.0;
+    }
+    for (std::size_t i = 0; i < count_; ++i) shares_[i] += way * (wanted[i] - shares_[i]);
+    if (first == count_) break;
+    --count_;
+    std::swap(points_[first], points_[count_]);
+    std::swap(shares_[first], shares_[count_]);
+  }
+  nearest_.setZero();
+  for (std::size_t i = 0; i < count_; ++i) nearest_ += shares_[i] * points_[i];
+  return nearest_.squaredNorm() < before;
+}
+
+/// Wolfe's algorithm on b - a.
+SolidGap searched_gap(const PlacedCore& a, const PlacedCore& b, double close, double enough) {
+  constexpr int most_steps = 200;
+  const auto farthest_back = [&](const Vec3& way) -> Vec3 {  // of b - a, against the way
+    return b.frame.point(b.core.support(-b.frame.seen(way))) - a.frame.point(a.core.support(a.frame.seen(way)));
+  };
+  SolidGap gap;
+  Corral corral(farthest_back(b.frame.at - a.frame.at));
+  for (int step = 0; step < most_steps; ++step) {
+    const Vec3& nearest = corral.nearest();
+    const double length = length_of(nearest);
+    if (step == 0 || length < gap.most) gap.most = length;
+    if (!(length > 0.0)) break;
+    const Vec3 back = farthest_back(nearest);
+    const double least = back.dot(nearest) / length;
+    if (least > gap.least || step == 0) {
+      gap.least = std::max(least, 0.0);
+      gap.towards = nearest / length;
+    }
+    if (gap.most - gap.least <= close || gap.least >= enough || !corral.add(back)) break;
+  }
+  return gap;
+}
+
+bool is_spine(const SolidCore& core) { return core.kind == SolidKind::sphere || core.kind == SolidKind::capsule; }
+
+/// From a to b, a's core a point or a segment, b's no hull.
+SolidGap written_gap(const PlacedCore& a, const PlacedCore& b) {
+  const Vec3 middle = b.frame.seen(a.frame.at - b.frame.at);
+  const Vec3 off = off_core(b.core, middle, a.core.half.z() * b.frame.seen(a.frame.axes[2]));
+  const double length = length_of(off);
+  SolidGap gap{length, length, Vec3::Zero()};
+  if (length > 0.0) gap.towards = b.frame.turned(off / -length);
+  return gap;
+}
+
+}  // namespace
+
+Vec3 SolidCore::support(const Vec3& direction) const {
+  Vec3 p;
+  for (int k = 0; k < 3; ++k) p[k] = direction[k] < 0.0 ? -half[k] : half[k];
+  if (kind == SolidKind::hull) {
+    const auto less = [&](const Vec3& one, const Vec3& other) { return one.dot(direction) < other.dot(direction); };
+    return *std::max_element(corners.begin(), corners.end(), less);
+  }
+  if (kind == SolidKind::cylinder) {
+    const double across = portable::hypot(direction.x(), direction.y());
+    p.x() = across > 0.0 ? half.x() * (direction.x() / across) : half.x();
+    p.y() = across > 0.0 ? half.x() * (direction.y() / across) : 0.0;
+  }
+  return p;
+}
+
+double PlacedCore::reach(const Vec3& direction) const {
+  const Vec3 own = frame.seen(direction);
+  return frame.at.dot(direction) + core.support(own).dot(own);
+}
+
+SolidCore core_of(const Solid& solid, SolidFrame& frame) {
+  SolidCore core{solid.kind, solid.half};
+  if (solid.kind == SolidKind::sphere) core.half.setZero();
+  if (solid.kind == SolidKind::capsule) core.half = {0.0, 0.0, solid.half.z()};
+  if (solid.kind == SolidKind::sphere || solid.kind == SolidKind::capsule) core.radius = solid.half.x();
+  if (solid.kind == SolidKind::cylinder) core.half.y() = 0.0;
+  core.far = length_of(core.half);
+  if (solid.kind != SolidKind::hull) return core;
+  Vec3 low = solid.corners.front();
+  Vec3 high = low;
+  for (const Vec3& p : solid.corners) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  const Vec3 middle = low + 0.5 * (high - low);
+  core = {SolidKind::hull};
+  core.corners = solid.corners;
+  for (Vec3& p : core.corners) core.far = std::max(core.far, length_of(p -= middle));
+  frame.at = frame.point(middle);
+  return core;
+}
+
+SolidGap gap_between(const PlacedCore& a, const PlacedCore& b, double close, double enough) {
+  const bool from_a = is_spine(a.core) && b.core.kind != SolidKind::hull;
+  if (from_a) return written_gap(a, b);
+  if (!is_spine(b.core) || a.core.kind == SolidKind::hull) return searched_gap(a, b, close, enough);
+  SolidGap gap = written_gap(b, a);
+  gap.towards = -gap.towards;
+  return gap;
+}
+
+namespace {
+
 bool is_number(const Vec3& v) { return v.cwiseAbs().maxCoeff() <= largest_coordinate && v.allFinite(); }
 
 /// Rodrigues' formula.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Is the path of an arm free? The judge, not a planner: it shares nothing with worlds/arms but plain data. Frames are
-// multiplied out, distances are verify/judges/solid_gap's, and the bounds on what moves are lengths added up.
+// multiplied out, distances are verify/judges/judged_arm's, and the bounds on what moves are lengths added up.
 //
 // On a leg the variables go evenly, all at once. It is cut at its middle; where two bodies are apart there by more than
 // they can close up to either side, they are proved for the whole piece; where they are not, the halves are looked at.

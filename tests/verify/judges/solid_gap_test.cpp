@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "verify/judges/solid_gap.hpp"
+#include "verify/judges/judged_arm.hpp"
 
 #include <gtest/gtest.h>
 

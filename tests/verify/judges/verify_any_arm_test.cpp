@@ -10,7 +10,7 @@
 #include "core/base/error.hpp"
 #include "tests/seeds.hpp"
 #include "tests/worlds/arms/random_arm.hpp"
-#include "verify/judges/solid_gap.hpp"
+#include "verify/judges/judged_arm.hpp"
 #include "verify/judges/verify_arm.hpp"
 
 namespace warren {
