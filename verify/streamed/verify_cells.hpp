@@ -2,6 +2,12 @@
 // Is this path free among walls that are not held? The tiles that the path comes near are asked for, one after the
 // other, by all threads, and each leg is compared with the walls around it; nothing of a tile is kept. Cost: the tiles
 // near the path, and some hundred ns a leg; 80 bytes for each run of legs near one tile, and 5 bytes a leg.
+//
+// Almost all legs of a path over a lattice are steps from the middle of a cell to that of a neighbour. Of such a step
+// nothing but the wall between the two comes nearer than a half: all other walls lie on lines half a unit beside it, or
+// begin half a unit beside it. So where walls can be looked up one look at one wall judges a step, and where some wall
+// stands beside one, a half is the least distance. The first and the last leg may be others: these, and any path that
+// is not free or not of this kind, are judged as among cells. Cost: some ns a step.
 #pragma once
 
 #include <array>
@@ -18,6 +24,8 @@
 #include "verify/judges/verify_point.hpp"
 
 namespace warren {
+
+class LookedUpWalls;  // verify/streamed/looked_up_walls.hpp
 
 /// As verify_path among the same walls held, of a point or disc that keeps off them: InputError where contact is
 /// allowed. A wall is named by its ends alone. The result is the same for any number of threads.
@@ -70,5 +78,9 @@ class JudgeAmongCells {
   LegReport report_;
   double length_ = 0.0;
 };
+
+/// As verify_among_cells, a look at a wall a step of a path over a lattice.
+Verification verify_steps(const LookedUpWalls& walls, std::span<const Vec2> path, const VerifyOptions& options,
+                          const Execution& execution);
 
 }  // namespace warren

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The oracle is the judge that passes over all walls.
-#include "verify/streamed/verify_steps.hpp"
+#include "verify/streamed/verify_cells.hpp"
 
 #include <gtest/gtest.h>
 
