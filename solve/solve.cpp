@@ -25,8 +25,8 @@
 #include "solve/kinds/solve_to_goal.hpp"
 #include "solve/question/question_of_arm.hpp"
 #include "verify/judges/effective_scene.hpp"
+#include "verify/judges/verify_bound.hpp"
 #include "verify/judges/verify_classes.hpp"
-#include "verify/judges/verify_potential.hpp"
 #include "worlds/prices/effective_map.hpp"
 
 namespace warren {

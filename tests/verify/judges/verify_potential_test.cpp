@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bounds of all paths on random maps: below what paths cost, proved to the judge and to an oracle that samples; and
 // certificates that are none.
-#include "verify/judges/verify_potential.hpp"
+#include "verify/judges/verify_bound.hpp"
 
 #include <gtest/gtest.h>
 
