@@ -9,7 +9,6 @@
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
 #include "core/base/whole.hpp"
-#include "verify/judges/car_leg.hpp"
 #include "verify/judges/judged_factors.hpp"
 #include "verify/near/obstacle_sides.hpp"
 #include "verify/near/sides_near_legs.hpp"

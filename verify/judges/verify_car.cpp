@@ -10,7 +10,6 @@
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
 #include "verify/judges/body_on_leg.hpp"
-#include "verify/judges/car_leg.hpp"
 #include "verify/judges/judged_input.hpp"
 #include "verify/near/straight_runs.hpp"
 
