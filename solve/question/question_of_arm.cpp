@@ -18,7 +18,6 @@
 #include "worlds/arms/convex_motion.hpp"
 #include "worlds/arms/puma560.hpp"
 #include "worlds/arms/serial_chain.hpp"
-#include "worlds/arms/touching_pairs.hpp"
 
 namespace warren {
 namespace {

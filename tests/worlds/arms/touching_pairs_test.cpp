@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/arms/touching_pairs.hpp"
+#include "worlds/arms/chain_model.hpp"
 
 #include <gtest/gtest.h>
 
