@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A car's world as planners/grid/motion_lattice.hpp searches it: on a map its cells, motions looked up by stamps
-// (worlds/poses/swept_stamps.hpp); among walls and polygons cells of a given size around the start, motions certified
+// (worlds/poses/motion_set.hpp); among walls and polygons cells of a given size around the start, motions certified
 // one by one. Start and goal are any poses, joined to states around them by the car's own curves, which are certified
 // against the obstacles. The estimate is the larger of two: a field of steps between cells where the disc around the
 // reference point that the body holds fits, and, near a single goal, the length of the car's curve without obstacles.
@@ -22,7 +22,6 @@
 #include "spatial/maps/free_cells.hpp"
 #include "worlds/poses/car_world.hpp"
 #include "worlds/poses/motion_set.hpp"
-#include "worlds/poses/swept_stamps.hpp"
 
 namespace warren {
 
