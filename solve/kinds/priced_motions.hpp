@@ -18,7 +18,7 @@
 #include "planners/shorten/priced_taut.hpp"
 #include "scenes/scene/prices.hpp"
 #include "scenes/scene/scene.hpp"
-#include "worlds/prices/area_factors.hpp"
+#include "worlds/prices/effective_map.hpp"
 
 namespace warren {
 

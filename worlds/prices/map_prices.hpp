@@ -18,7 +18,7 @@
 #include "scenes/scene/prices.hpp"
 #include "spatial/maps/distance_field.hpp"
 #include "spatial/maps/free_cells.hpp"
-#include "worlds/prices/area_factors.hpp"
+#include "worlds/prices/effective_map.hpp"
 
 namespace warren {
 

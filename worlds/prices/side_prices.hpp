@@ -10,7 +10,7 @@
 #include "core/plane/nearness.hpp"
 #include "scenes/scene/prices.hpp"
 #include "spatial/obstacles/wall_index.hpp"
-#include "worlds/prices/area_factors.hpp"
+#include "worlds/prices/effective_map.hpp"
 
 namespace warren {
 
