@@ -24,7 +24,6 @@
 #include "worlds/arms/convex_motion.hpp"
 #include "worlds/arms/puma560.hpp"
 #include "worlds/arms/serial_chain.hpp"
-#include "worlds/arms/tool_postures.hpp"
 
 namespace warren {
 namespace {

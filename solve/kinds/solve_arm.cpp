@@ -20,7 +20,6 @@
 #include "solve/question/question_of_arm.hpp"
 #include "worlds/arms/arm_world.hpp"
 #include "worlds/arms/puma560.hpp"
-#include "worlds/arms/tool_postures.hpp"
 
 namespace warren {
 namespace {

@@ -207,4 +207,152 @@ std::vector<JointState> puma560_inverse_place(const SerialChain& chain, const Ve
   return all;
 }
 
+namespace {
+
+struct Interval {
+  double low;
+  double high;
+  Interval operator-() const { return {-high, -low}; }
+  Interval operator+(const Interval& r) const { return {low + r.low, high + r.high}; }
+  Interval operator-(const Interval& r) const { return {low - r.high, high - r.low}; }
+  double middle() const { return 0.5 * (low + high); }
+  double half() const { return 0.5 * (high - low); }
+};
+
+constexpr Interval any_angle{-std::numbers::pi, std::numbers::pi};
+
+/// Of a number that is at least 0.
+Interval square_of(const Interval& r) {
+  const double least = r.low > 0.0 ? r.low : r.high < 0.0 ? r.high : 0.0;
+  return {least * least, std::max(r.low * r.low, r.high * r.high)};
+}
+
+Interval root_of(const Interval& r) { return {std::sqrt(std::max(0.0, r.low)), std::sqrt(std::max(0.0, r.high))}; }
+
+/// The angles in [0, pi] whose cosine is in above / below, with below > 0; low > high: none.
+Interval angles_of(const Interval& above, const Interval& below) {
+  const double least = std::min(above.low / below.low, above.low / below.high);
+  const double most = std::max(above.high / below.low, above.high / below.high);
+  if (least > 1.0 || most < -1.0) return {1.0, 0.0};
+  return {portable::acos(std::min(most, 1.0)), portable::acos(std::max(least, -1.0))};
+}
+
+/// What the first three joints would have to be for a tip that is somewhere in a ball, seen from frame 3.
+class FirstJoints {
+ public:
+  FirstJoints(const SerialChain& chain, const Vec3& place)
+      : chain_(chain),
+        upper_arm_(chain.table().joints[1].a),
+        place_(place),
+        away_(portable::hypot(place.x(), place.y())) {}
+
+  /// Can any tip so near this one do? Never false where one can.
+  bool can_reach(const Vec3& tip, double near) const {
+    const DhTable& table = chain_.table();
+    const double ahead = table.joints[2].a + tip.x();
+    const double forearm = portable::hypot(ahead, tip.z());
+    const double side = table.joints[2].d - tip.y();
+    if (std::max(side - near, -side - near) > away_) return false;
+    if (!(upper_arm_ > 0.0) || !(forearm > 2.0 * near)) return true;
+    const Interval sides{std::clamp(side - near, -away_, away_), std::clamp(side + near, -away_, away_)};
+    const Interval square = square_of(sides);
+    const Interval forward = root_of({away_ * away_ - square.high, away_ * away_ - square.low});
+    const Interval aside = -Interval{aside_of(sides.high), aside_of(sides.low)};
+    const Interval bent{portable::atan2(tip.z(), ahead) - portable::asin(near / forearm),
+                        portable::atan2(tip.z(), ahead) + portable::asin(near / forearm)};
+    const Interval far = square_of(forward) + square_of({place_.z(), place_.z()});
+    const Interval long_arm = square_of({forearm - near, forearm + near});
+    const double first = upper_arm_ * upper_arm_;
+    const Interval elbow = angles_of(far - Interval{first, first} - long_arm,
+                                     {2.0 * upper_arm_ * (forearm - near), 2.0 * upper_arm_ * (forearm + near)});
+    if (elbow.low > elbow.high) return false;
+    Interval shoulder{0.0, std::numbers::pi};
+    if (far.low > 0.0) {
+      shoulder = angles_of(far + Interval{first, first} - long_arm,
+                           {2.0 * upper_arm_ * std::sqrt(far.low), 2.0 * upper_arm_ * std::sqrt(far.high)});
+      if (shoulder.low > shoulder.high) return false;
+    }
+    const double turn = portable::atan2(place_.y(), place_.x());
+    const Interval up = rising(forward);
+    const Interval half{std::numbers::pi, std::numbers::pi};
+    const auto fits = [&](const Interval& q1, const Interval& rise) {
+      return (is_within(0, q1) || away_ == 0.0) && ((is_within(1, rise - shoulder) && is_within(2, elbow - bent)) ||
+                                                    (is_within(1, rise + shoulder) && is_within(2, -elbow - bent)));
+    };
+    return fits(Interval{turn, turn} + aside, up) || fits(Interval{turn, turn} - half - aside, half - up);
+  }
+
+ private:
+  /// Of the place, ahead of the first joint, as seen in the arm's plane.
+  double aside_of(double side) const {
+    return portable::atan2(-side, std::sqrt(std::max(0.0, away_ * away_ - side * side)));
+  }
+  /// How steep the place is, so far ahead.
+  Interval rising(const Interval& forward) const {
+    if (place_.z() == 0.0) return forward.low > 0.0 ? Interval{0.0, 0.0} : any_angle;
+    const double a = portable::atan2(place_.z(), forward.low);
+    const double b = portable::atan2(place_.z(), forward.high);
+    return {std::min(a, b), std::max(a, b)};
+  }
+  bool is_within(std::size_t joint, const Interval& angles) const {
+    constexpr double rounding = 1e-9;
+    constexpr double turn = 2.0 * std::numbers::pi;
+    const double turns = std::ceil((chain_.low(joint) - rounding - angles.high) / turn);
+    return angles.low + turns * turn <= chain_.high(joint) + rounding;
+  }
+
+  const SerialChain& chain_;
+  double upper_arm_;
+  Vec3 place_;
+  double away_;  // of the place from the axis of joint 1
+};
+
+/// Of joints 4 and 5.
+struct Piece {
+  Interval fourth;
+  Interval fifth;
+};
+
+Vec3 tip_in_frame_3(const SerialChain& chain, const JointState& q) {
+  return chain.frame(q, 3).inverse() * chain.tool_pose(q).translation();
+}
+
+}  // namespace
+
+ToolPostures tool_postures(const SerialChain& chain, const Vec3& place, double sixth, std::size_t enough,
+                           const Execution& execution) {
+  constexpr double finest = 1e-4;
+  constexpr std::size_t most_pieces = 200'000;
+  const FirstJoints first(chain, place);
+  const double tool = std::abs(chain.table().tool.translation().z());
+  const double rounding = 1e-12 * (chain.reach() + place.norm());
+  ToolPostures found;
+  std::vector<Piece> pieces{{{chain.low(3), chain.high(3)}, {chain.low(4), chain.high(4)}}};
+  if (!chain.moves(4)) pieces = {{{0.0, 0.0}, {0.0, 0.0}}};
+  std::size_t looked_at = 0;
+  while (!pieces.empty()) {
+    std::vector<Piece> halves;
+    for (const Piece& piece : pieces) {
+      execution.check();
+      const JointState wrist{0.0, 0.0, 0.0, piece.fourth.middle(), piece.fifth.middle(), sixth};
+      const double near = tool * (piece.fourth.half() + piece.fifth.half()) + rounding;
+      if (!first.can_reach(tip_in_frame_3(chain, wrist), near)) continue;
+      const auto states = puma560_inverse_place(chain, place, {wrist[3], wrist[4], wrist[5]});
+      found.states.insert(found.states.end(), states.begin(), states.end());
+      Piece low = piece;
+      Piece high = piece;
+      const bool across = piece.fourth.half() > piece.fifth.half();
+      (across ? low.fourth : low.fifth).high = across ? piece.fourth.middle() : piece.fifth.middle();
+      (across ? high.fourth : high.fifth).low = across ? piece.fourth.middle() : piece.fifth.middle();
+      halves.insert(halves.end(), {low, high});
+    }
+    looked_at += pieces.size();
+    const bool is_fine = halves.empty() || std::max(halves[0].fourth.half(), halves[0].fifth.half()) < finest;
+    found.none_is_left = halves.empty() && found.states.empty();
+    if (is_fine || found.states.size() >= enough || looked_at > most_pieces) break;
+    pieces = std::move(halves);
+  }
+  return found;
+}
+
 }  // namespace warren

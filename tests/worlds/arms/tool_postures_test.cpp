@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "worlds/arms/tool_postures.hpp"
 
 #include <gtest/gtest.h>
 
