@@ -14,7 +14,6 @@
 #include "core/base/error.hpp"
 #include "pictures/layers/draw_cells.hpp"
 #include "planners/graph/assemble_graph.hpp"
-#include "worlds/poses/differential_curve.hpp"
 #include "worlds/poses/dubins_curve.hpp"
 #include "worlds/poses/reeds_shepp_curve.hpp"
 #include "worlds/poses/steering_curve.hpp"

@@ -28,7 +28,6 @@
 #include "core/plane/se2.hpp"
 #include "scenes/scene/scene.hpp"
 #include "worlds/poses/certified_motion.hpp"
-#include "worlds/poses/differential_curve.hpp"
 #include "worlds/poses/dubins_curve.hpp"
 #include "worlds/poses/obstacle_tree.hpp"
 #include "worlds/poses/reeds_shepp_curve.hpp"

@@ -4,6 +4,10 @@
 // A SteeringWord is the recipe, in units of the turning radius; a SteeringCurve puts it between two poses, with the
 // poses between the pieces computed once, so that a pose on the way costs one sine and one cosine. Which word is the
 // shortest: worlds/poses/dubins_curve.hpp, worlds/poses/reeds_shepp_curve.hpp.
+//
+// How a differential drive goes from pose to pose: it turns on the spot towards the goal, or away from it to drive
+// backwards, goes straight, and turns on the spot to the goal's heading. It takes the way that turns less, of equal
+// ones that forwards. It drives no arcs: its `turning radius` only says how much a radian of turning counts.
 #pragma once
 
 #include <array>
@@ -106,5 +110,12 @@ std::vector<double> leg_lengths(std::span<const Se2> poses, std::span<const doub
 
 /// The pose at the share t of the leg from a to b, which is straight or an arc.
 Se2 pose_on_leg(const Se2& a, const Se2& b, double t);
+
+struct DifferentialCurve {
+  static constexpr bool one_way = false;
+  static constexpr bool turns_on_spot = true;
+  /// From a to b; turning_radius > 0. Of the word's length a radian of turning on the spot is one.
+  static SteeringWord shortest(const Se2& a, const Se2& b, double turning_radius) noexcept;
+};
 
 }  // namespace warren
