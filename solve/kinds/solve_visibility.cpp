@@ -14,7 +14,7 @@
 #include "planners/graph/assemble_graph.hpp"
 #include "planners/graph/queue_choice.hpp"
 #include "planners/visibility/disc_path.hpp"
-#include "planners/visibility/sampled_visibility.hpp"
+#include "planners/visibility/visibility_graph.hpp"
 #include "planners/visibility/visibility_path.hpp"
 #include "solve/kinds/geometric_roadmaps.hpp"
 #include "solve/kinds/plane_steps.hpp"
