@@ -72,7 +72,7 @@ complains(verify/judges/verify_a.cpp "#include \"verify/near/arcs.hpp\"" "scenes
 complains(spatial/points/a.cpp "#include <tbb/parallel_for.h>" "rule 'tbb'")
 complains(spatial/obstacles/wall_index.cpp "#include <nanoflann.hpp>" "rule 'nanoflann'")
 complains(solve/kept/roadmap_file.cpp "#include <xxhash.h>" "rule 'xxhash'")
-complains(planners/axis/medial_axis.cpp "#include <boost/polygon/voronoi.hpp>" "rule 'boost'")
+complains(planners/axis/medial_axis_planner.cpp "#include <boost/polygon/voronoi.hpp>" "rule 'boost'")
 complains(planners/grid/a.cpp "#include <atomic>" "rule 'threads'")
 complains(planners/grid/a.cpp "auto n = std::thread::hardware_concurrency();" "rule 'cores'")
 complains(scenes/mazes/maze.cpp "#include <sstream>" "rule 'streams'")

@@ -1,16 +1,161 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planners/axis/medial_axis.hpp"
 
+#include <boost/polygon/voronoi_builder.hpp>
+#include <boost/polygon/voronoi_diagram.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "core/base/error.hpp"
+#include "core/base/trigonometry.hpp"
 #include "core/plane/geometry.hpp"
 #include "planners/vertical_cells/cell_decomposition.hpp"
+#include "planners/visibility/noding.hpp"
 
 namespace warren {
 namespace {
+
+constexpr double largest_turn = 1.0 / 32.0;  // radians between two tangents
+
+Vec2 unit(Vec2 v) {
+  const double length = norm(v);
+  return length > 0.0 ? (1.0 / length) * v : Vec2{1.0, 0.0};
+}
+
+namespace boost_polygon = boost::polygon;
+
+constexpr std::size_t bytes_per_segment = 1000;
+constexpr std::uint32_t questions_per_poll = 1 << 12;
+constexpr std::size_t items_per_poll = 1 << 16;
+
+/// Of the construction that runs in this thread: Boost makes its predicates itself, so they look here.
+thread_local const Execution* construction = nullptr;
+
+class ConstructionScope {
+ public:
+  explicit ConstructionScope(const Execution& execution) { construction = &execution; }
+  ~ConstructionScope() { construction = nullptr; }
+  ConstructionScope(const ConstructionScope&) = delete;
+  ConstructionScope& operator=(const ConstructionScope&) = delete;
+};
+
+/// Throws Stopped, every some thousand questions.
+void poll_sometimes() {
+  thread_local std::uint32_t questions = 0;
+  if (++questions % questions_per_poll == 0) construction->check();
+}
+
+/// Boost's own predicates; the order of events is asked for while they are sorted, queued and taken.
+struct PolledPredicates
+    : boost_polygon::detail::voronoi_predicates<boost_polygon::detail::voronoi_ctype_traits<std::int32_t>> {
+  template <class Site, class Circle>
+  class event_comparison_predicate {  // NOLINT(readability-identifier-naming): Boost's name
+   public:
+    template <class A, class B>
+    bool operator()(const A& a, const B& b) const {
+      poll_sometimes();
+      return plain_(a, b);
+    }
+
+   private:
+    using Plain = boost_polygon::detail::voronoi_predicates<
+        boost_polygon::detail::voronoi_ctype_traits<std::int32_t>>::event_comparison_predicate<Site, Circle>;
+    Plain plain_;
+  };
+};
+
+/// And the one that asks which vertices are the same, edge by edge, at the end.
+struct PolledDiagramTraits : boost_polygon::voronoi_diagram_traits<double> {
+  class vertex_equality_predicate_type {  // NOLINT(readability-identifier-naming): Boost's name
+   public:
+    bool operator()(const vertex_type& v, const vertex_type& w) const {
+      poll_sometimes();
+      return plain_(v, w);
+    }
+
+   private:
+    boost_polygon::voronoi_diagram_traits<double>::vertex_equality_predicate_type plain_;
+  };
+};
+
+using Diagram = boost_polygon::voronoi_diagram<double, PolledDiagramTraits>;
+using Builder = boost_polygon::voronoi_builder<std::int32_t, boost_polygon::detail::voronoi_ctype_traits<std::int32_t>,
+                                               PolledPredicates>;
+
+/// Between two vertices, and between two sites that share no point (or are two segments that share an end).
+struct VoronoiEdge {
+  std::uint32_t from, to;
+  std::uint32_t site, other;
+};
+
+struct VoronoiDiagram {
+  std::vector<Vec2> vertices;  ///< in grid units
+  std::vector<VoronoiSite> sites;
+  std::vector<VoronoiEdge> edges;
+};
+
+VoronoiSite site_of(const Diagram::cell_type& cell, std::span<const SnappedSegment> segments) {
+  const SnappedSegment& s = segments[cell.source_index()];
+  const auto number = static_cast<std::uint32_t>(cell.source_index());
+  const Vec2 a{static_cast<double>(s.x1), static_cast<double>(s.y1)};
+  const Vec2 b{static_cast<double>(s.x2), static_cast<double>(s.y2)};
+  if (cell.contains_segment()) return {{a, b}, number};
+  const bool is_end = cell.source_category() == boost_polygon::SOURCE_CATEGORY_SEGMENT_END_POINT;
+  return {is_end ? AxisSite{b, b} : AxisSite{a, a}, number};
+}
+
+/// segments meet at their ends only, as snap_segments leaves them. Throws Stopped; for memory only before it
+/// begins.
+VoronoiDiagram voronoi_diagram(std::span<const SnappedSegment> segments, const Execution& execution) {
+  execution.check();
+  execution.reserve(segments.size() * bytes_per_segment);
+  const ConstructionScope scope(execution);
+  Builder builder;
+  for (const SnappedSegment& s : segments) {
+    poll_sometimes();
+    if (s.x1 == s.x2 && s.y1 == s.y2) {
+      builder.insert_point(s.x1, s.y1);
+    } else {
+      builder.insert_segment(s.x1, s.y1, s.x2, s.y2);
+    }
+  }
+  Diagram diagram;
+  builder.construct(&diagram);
+  execution.check();
+
+  VoronoiDiagram result;
+  std::size_t taken = 0;
+  const auto poll = [&] {
+    if (++taken % items_per_poll == 0) execution.check();
+  };
+  result.vertices.reserve(diagram.num_vertices());
+  for (const auto& vertex : diagram.vertices()) {
+    poll();
+    result.vertices.push_back({vertex.x(), vertex.y()});
+  }
+  result.sites.reserve(diagram.num_cells());
+  for (const auto& cell : diagram.cells()) {
+    poll();
+    result.sites.push_back(site_of(cell, segments));
+  }
+  const auto vertex_number = [&](const Diagram::vertex_type* v) {
+    return static_cast<std::uint32_t>(v - diagram.vertices().data());
+  };
+  const auto site_number = [&](const Diagram::cell_type* c) {
+    return static_cast<std::uint32_t>(c - diagram.cells().data());
+  };
+  result.edges.reserve(diagram.num_edges() / 2);
+  for (const auto& edge : diagram.edges()) {
+    poll();
+    if (&edge > edge.twin() || edge.is_secondary() || edge.is_infinite()) continue;
+    result.edges.push_back({vertex_number(edge.vertex0()), vertex_number(edge.vertex1()), site_number(edge.cell()),
+                            site_number(edge.twin()->cell())});
+  }
+  return result;
+}
 
 constexpr double units_of_resolution = 4.0;
 
@@ -19,6 +164,79 @@ constexpr double units_of_resolution = 4.0;
 double without_noise(double coordinate) { return std::nearbyint(coordinate * 4096.0) / 4096.0; }
 
 }  // namespace
+
+AxisCurve::AxisCurve(const AxisSite& one, const AxisSite& other, Vec2 from, Vec2 to) : from_(from), to_(to) {
+  if (one.is_point() != other.is_point()) {
+    const Vec2 focus = one.is_point() ? one.a : other.a;
+    const AxisSite& directrix = one.is_point() ? other : one;
+    along_ = unit(directrix.b - directrix.a);
+    origin_ = directrix.a + dot(focus - directrix.a, along_) * along_;
+    const double side = cross(along_, focus - directrix.a);
+    upwards_ = side < 0.0 ? Vec2{along_.y, -along_.x} : Vec2{-along_.y, along_.x};
+    focal_ = std::abs(side);
+    waist_ = 0.0;
+  }
+  if (focal_ == 0.0) {
+    origin_ = from;
+    along_ = unit(to - from);
+    if (one.is_point() && other.is_point()) waist_ = parameter_beside(one.a);
+  }
+  first_ = parameter_beside(from);
+  last_ = parameter_beside(to);
+}
+
+Vec2 AxisCurve::at(double parameter) const {
+  const Vec2 foot = origin_ + parameter * along_;
+  if (focal_ == 0.0) return foot;
+  return foot + (0.5 * (parameter / focal_ * parameter + focal_)) * upwards_;
+}
+
+AxisCurve AxisCurve::part(double from, double to) const {
+  AxisCurve result = *this;
+  result.first_ = from;
+  result.last_ = to;
+  result.from_ = from == first_ ? from_ : from == last_ ? to_ : at(from);
+  result.to_ = to == first_ ? from_ : to == last_ ? to_ : at(to);
+  return result;
+}
+
+AxisCurve AxisCurve::between(Vec2 from, Vec2 to) const {
+  AxisCurve result = *this;
+  result.from_ = from;
+  result.to_ = to;
+  return result;
+}
+
+double AxisCurve::length() const {
+  if (focal_ == 0.0) return std::abs(last_ - first_);
+  const auto from_apex = [&](double t) {
+    const double slope = t / focal_;
+    return 0.5 * (t * std::sqrt(1.0 + slope * slope) + focal_ * portable::asinh(slope));
+  };
+  return std::abs(from_apex(last_) - from_apex(first_));
+}
+
+double AxisCurve::slope_angle(double parameter) const { return portable::atan(parameter / focal_); }
+
+void AxisCurve::append_polyline(std::vector<Vec2>& path) const {
+  if (focal_ > 0.0) {
+    const auto append = [&](double t0, double t1) {
+      const double turn = slope_angle(t1) - slope_angle(t0);
+      const double count = std::max(1.0, std::ceil(std::abs(turn) / largest_turn));
+      double touches = t0;
+      for (double i = 1.0; i <= count; i += 1.0) {
+        const double next = i == count ? t1 : focal_ * portable::tan(slope_angle(t0) + turn * (i / count));
+        const double height = 0.5 * (touches / focal_ * next + focal_);  // where the tangents of both meet
+        path.push_back(origin_ + (0.5 * (touches + next)) * along_ + height * upwards_);
+        touches = next;
+      }
+    };
+    const bool over_apex = std::min(first_, last_) < 0.0 && std::max(first_, last_) > 0.0;
+    if (over_apex) append(first_, 0.0);  // a tangent at the narrowest point keeps its clearance exactly
+    append(over_apex ? 0.0 : first_, last_);
+  }
+  path.push_back(to_);
+}
 
 MedialAxis::MedialAxis(const PlaneObstacles& obstacles, const Execution& execution) {
   collect(obstacles);

@@ -12,6 +12,7 @@
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
 #include "core/search/graph.hpp"
+#include "planners/visibility/noding.hpp"
 #include "tests/planners/visibility/plane_worlds.hpp"
 
 namespace warren {
