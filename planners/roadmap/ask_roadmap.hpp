@@ -25,7 +25,6 @@
 #include "planners/graph/queue_choice.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
 #include "planners/graph/roadmap_search.hpp"
-#include "planners/graph/shared_edge_states.hpp"
 #include "planners/roadmap/build_roadmap.hpp"
 #include "planners/roadmap/plan_in_rounds.hpp"
 
