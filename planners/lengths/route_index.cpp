@@ -12,7 +12,6 @@
 #include "parallel/sort.hpp"
 #include "planners/lengths/core_graph.hpp"
 #include "planners/lengths/dissection.hpp"
-#include "planners/lengths/min_plus.hpp"
 
 namespace warren {
 namespace {

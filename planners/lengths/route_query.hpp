@@ -12,7 +12,6 @@
 
 #include "core/base/raw_vector.hpp"
 #include "core/run/execution.hpp"
-#include "planners/lengths/min_plus.hpp"
 #include "planners/lengths/route_index.hpp"
 #include "planners/lengths/separator_fronts.hpp"
 #include "planners/lengths/tree_routes.hpp"

@@ -16,8 +16,12 @@
 // To build, each node hands its parent the lengths between its bounds by ways through itself. Leaves of some dozens
 // of junctions are eliminated by least degree and not stored: their ways are hops.
 // Cost: 0.2 to 0.4 entries a junction and level of the dissection; time is cubic in the size of the largest cut.
+//
+// Fronts are made of sums of lengths and their least, many at once (lessen_row). Integers only, so every instruction
+// set gives the same numbers; which one is used is asked of the processor once.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "core/base/raw_vector.hpp"
@@ -26,6 +30,33 @@
 #include "planners/lengths/dissection.hpp"
 
 namespace warren {
+
+/// No way. Two lengths, and a length and no_way, can be added.
+inline constexpr std::uint32_t no_way = std::uint32_t{1} << 30;
+
+/// No way among short lengths.
+inline constexpr std::uint16_t no_short_way = 0xffff;
+
+/// least[i] becomes the smaller of itself and first + rest[i], for i < count. The arrays don't overlap.
+using LessenRow = void (*)(std::uint32_t* least, const std::uint32_t* rest, std::uint32_t first, std::size_t count);
+
+/// The fastest of this processor.
+LessenRow lessen_row();
+/// The same of short lengths; no_short_way lessens nothing that is at most no_way.
+using LessenRowShort = void (*)(std::uint32_t* least, const std::uint16_t* rest, std::uint32_t first,
+                                std::size_t count);
+LessenRowShort lessen_row_short();
+
+/// lessen_row() where it is told by what: by[i] becomes `gate` where least[i] became smaller. `by` overlaps neither.
+using LessenRowBy = void (*)(std::uint32_t* least, std::uint32_t* by, const std::uint32_t* rest, std::uint32_t first,
+                             std::uint32_t gate, std::size_t count);
+LessenRowBy lessen_row_by();
+
+/// What needs nothing special.
+void lessen_row_short_plain(std::uint32_t* least, const std::uint16_t* rest, std::uint32_t first, std::size_t count);
+void lessen_row_plain(std::uint32_t* least, const std::uint32_t* rest, std::uint32_t first, std::size_t count);
+void lessen_row_by_plain(std::uint32_t* least, std::uint32_t* by, const std::uint32_t* rest, std::uint32_t first,
+                         std::uint32_t gate, std::size_t count);
 
 /// A hop is a way from a gate to another that passes no third: along one chain, or through the junctions of one leaf.
 /// Its turns are one number: at each junction, the gate where it begins included, it takes one of so many exits, that

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The oracle is the sum itself, one by one.
-#include "planners/lengths/min_plus.hpp"
+#include "planners/lengths/separator_fronts.hpp"
 
 #include <gtest/gtest.h>
 
