@@ -17,7 +17,7 @@ struct RrtOptions {
   /// sample is a gaussian one, near the obstacles.
   std::optional<SamplerKind> sampler = {};
   /// rrt_connect, where no sampler is asked for: first the way over the places that are free at one heading
-  /// (planners/trees/way_over_places.hpp). Off for ways that differ from seed to seed.
+  /// (planners/trees/rrt_connect.hpp). Off for ways that differ from seed to seed.
   bool places = true;
   std::optional<double> step = {};  ///< longest motion of a tree, in the world's metric, > 0; none: by world
   double goal_bias = 0.05;          ///< share of the samples that are the goal, 0 .. 1; only for rrt

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/trees/way_over_places.hpp"
+#include "planners/trees/rrt_connect.hpp"
 
-#include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 
