@@ -20,7 +20,6 @@
 #include "core/base/packed_values.hpp"
 #include "core/run/execution.hpp"
 #include "planners/mazes/overlay.hpp"
-#include "planners/mazes/overlay_path.hpp"
 #include "planners/mazes/overlay_search.hpp"
 
 namespace warren::distributed {

@@ -10,7 +10,6 @@
 #include "core/base/raw_vector.hpp"
 #include "parallel/asked_memory.hpp"
 #include "planners/graph/no_path.hpp"
-#include "planners/mazes/overlay_search.hpp"
 
 namespace warren {
 namespace {

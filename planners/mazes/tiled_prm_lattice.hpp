@@ -34,7 +34,7 @@
 #include "parallel/chunks.hpp"
 #include "planners/graph/roadmap_options.hpp"
 #include "planners/mazes/overlay.hpp"
-#include "planners/mazes/overlay_path.hpp"
+#include "planners/mazes/overlay_search.hpp"
 #include "planners/mazes/tile_grid.hpp"
 #include "planners/mazes/tile_plane.hpp"
 #include "planners/mazes/tile_reduction.hpp"

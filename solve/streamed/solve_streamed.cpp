@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "planners/mazes/overlay_path.hpp"
+#include "planners/mazes/overlay_search.hpp"
 #include "planners/mazes/tile_source.hpp"
 #include "planners/mazes/tiled_prm_lattice.hpp"
 #include "solve/answer/path_hash.hpp"
