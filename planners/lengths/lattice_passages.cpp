@@ -11,8 +11,8 @@
 #include "parallel/chunks.hpp"
 #include "planners/mazes/tile_grid.hpp"
 #include "planners/mazes/tile_plane.hpp"
+#include "planners/mazes/tile_source.hpp"
 #include "planners/mazes/wall_marking.hpp"
-#include "planners/mazes/wall_partition.hpp"
 
 namespace warren {
 

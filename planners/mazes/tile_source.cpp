@@ -1,12 +1,286 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planners/mazes/tile_source.hpp"
 
-#include <algorithm>
+#include <type_traits>
 
-#include "core/base/raw_vector.hpp"
-#include "planners/mazes/wall_steps.hpp"
+#include "core/base/error.hpp"
+#include "parallel/asked_memory.hpp"
 
 namespace warren {
+namespace {
+
+/// At least 16384 walls, at most 512 chunks: so that their counts stay small beside the walls.
+std::size_t grain_of(std::size_t walls) { return std::max<std::size_t>(16384, (walls + 511) / 512); }
+
+constexpr std::size_t band_bytes = std::size_t{64} << 20;  // smaller bands are not worth their count
+constexpr std::uint32_t most_bands_in_order = 16;
+constexpr std::uint32_t most_bands = 64;
+
+std::size_t bytes_of_tile(const WallCounts& counts, std::size_t tile, std::size_t wall_bytes) {
+  return counts.narrow().of_tile(tile) * sizeof(NarrowWall) + counts.wide().of_tile(tile) * wall_bytes;
+}
+
+/// Chunks looked at for all bands together, over the number of chunks.
+double passes(const WallCounts& counts, const TileGrid& grid, const TileBands& bands) {
+  std::size_t looks = 0;
+  std::vector<std::uint8_t> met(bands.count);
+  for (std::size_t chunk = 0; chunk < counts.chunks(); ++chunk) {
+    std::fill(met.begin(), met.end(), std::uint8_t{0});
+    for (std::size_t tile = 0; tile < counts.tiles(); ++tile) {
+      if (counts.has(chunk, tile)) met[bands.of(grid, tile)] = 1;
+    }
+    looks += static_cast<std::size_t>(std::count(met.begin(), met.end(), 1));
+  }
+  return static_cast<double>(looks) / static_cast<double>(counts.chunks());
+}
+
+/// So many that a band takes half of what is left.
+std::uint32_t bands_by_memory(std::size_t bytes, const Execution& execution) {
+  if (execution.deadline == nullptr) return 1;
+  const std::size_t limit = execution.deadline->memory_bytes();
+  const std::size_t held = resident_bytes();
+  const std::size_t left = limit > held ? (limit - held) / 2 : 0;
+  if (bytes <= left) return 1;
+  return static_cast<std::uint32_t>(std::min<std::size_t>(most_bands, bytes / std::max(left, band_bytes) + 1));
+}
+
+using detail::middle_of, detail::WallSteps;
+
+/// Where the walls of each of these tiles begin; returns how many there are.
+std::size_t add_up(const ChunkCounts& counts, std::span<const std::size_t> tiles, RawVector<std::uint32_t>& first) {
+  std::uint64_t sum = 0;
+  for (const std::size_t tile : tiles) {
+    first[tile] = static_cast<std::uint32_t>(sum);
+    sum += counts.of_tile(tile);
+  }
+  if (sum >= 0xffffffffU) throw InputError("walls", "make more than 2^32 - 1 entries in the tiles that they pass");
+  return sum;
+}
+
+/// What it held is gone.
+template <class Wall>
+void resize_touched(RawVector<Wall>& walls, std::size_t count, const Execution& execution) {
+  const std::size_t room = walls.capacity();
+  if (count > room) {
+    let_go(walls);
+    execution.reserve(count * sizeof(Wall));
+  }
+  walls.resize(count);
+  if (count > room) touch_first(walls, execution);
+}
+
+}  // namespace
+
+void ChunkCounts::add_up() {
+  std::fill_n(before_.begin(), tiles_, 0U);
+  for (std::size_t i = tiles_; i < before_.size(); ++i) before_[i] += before_[i - tiles_];
+}
+
+WallCounts::WallCounts(const WallSet& walls, const WallFiler& filer, std::size_t tiles, const Execution& execution)
+    : walls_(walls.size()), grain_(grain_of(walls.size())), tiles_(tiles) {
+  execution.reserve(2 * (chunks() + 1) * tiles * sizeof(std::uint32_t));
+  narrow_ = ChunkCounts(chunks(), tiles);
+  wide_ = ChunkCounts(chunks(), tiles);
+  walls.visit([&](auto given) { count(given, filer, execution); });
+  narrow_.add_up();
+  any_wide_ ? wide_.add_up() : void(wide_ = {});
+}
+
+Range WallCounts::chunk(std::size_t number) const { return {number * grain_, std::min(walls_, (number + 1) * grain_)}; }
+
+template <class Wall>
+void WallCounts::count(std::span<const Wall> walls, const WallFiler& filer, const Execution& execution) {
+  std::vector<Box> boxes(chunks());
+  std::vector<std::uint8_t> wide_found(chunks());
+  for_chunks(walls.size(), grain_, execution, [&](Range r) {
+    const std::size_t chunk = r.first / grain_;
+    std::uint32_t* const narrow = narrow_.counts(chunk);
+    std::uint32_t* const wide = wide_.counts(chunk);
+    std::fill_n(narrow, tiles_, 0U);
+    std::fill_n(wide, tiles_, 0U);
+    const WallFiler own = filer;
+    GrowingBox box;
+    bool any_wide = false;
+    const auto count_narrow = [=](std::size_t tile, const detail::WallSteps&) { ++narrow[tile]; };
+    const auto count_wide = [&](std::size_t tile) {
+      ++wide[tile];
+      any_wide = true;
+    };
+    for (const Wall& wall : walls.subspan(r.first, r.size())) {
+      box.include(wall);
+      own.file(wall, count_narrow, count_wide);
+    }
+    boxes[chunk] = box.box();
+    wide_found[chunk] = any_wide ? 1 : 0;
+  });
+  for (const Box& box : boxes) box_.include(box);
+  any_wide_ = std::find(wide_found.begin(), wide_found.end(), 1) != wide_found.end();
+}
+
+std::vector<std::size_t> TileBands::tiles(const TileGrid& grid, std::uint32_t band) const {
+  std::vector<std::size_t> tiles;
+  for (std::size_t tile = 0; tile < grid.count(); ++tile) {
+    if (of(grid, tile) == band) tiles.push_back(tile);
+  }
+  return tiles;
+}
+
+TileBands choose_bands(const WallCounts& counts, const TileGrid& grid, std::size_t wall_bytes,
+                       const Execution& execution) {
+  std::size_t bytes = 0;
+  for (std::size_t tile = 0; tile < counts.tiles(); ++tile) bytes += bytes_of_tile(counts, tile, wall_bytes);
+  if (bytes <= band_bytes) return {};
+  const auto bands = [&](bool by_rows, std::size_t count) {
+    return TileBands{
+        static_cast<std::uint32_t>(std::min<std::size_t>(by_rows ? grid.tile_rows : grid.tile_cols, count)), by_rows};
+  };
+  constexpr double about_one_pass = 1.5;
+  const std::size_t in_order = std::min<std::size_t>(most_bands_in_order, bytes / band_bytes + 1);
+  for (const bool by_rows : {false, true}) {
+    const TileBands some = bands(by_rows, in_order);
+    if (passes(counts, grid, some) < about_one_pass) return some;
+  }
+  return bands(grid.tile_rows > grid.tile_cols, bands_by_memory(bytes, execution));
+}
+
+WallPartition::WallPartition(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid, double halo,
+                             const Execution& execution)
+    : WallPartition(
+          walls, more, grid, halo, [](const WallCounts&) { return TileBands(); }, execution) {}
+
+WallPartition::WallPartition(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid, double halo,
+                             const Choose& choose, const Execution& execution)
+    : walls_(walls),
+      more_(more),
+      grid_(grid),
+      filer_(grid_, halo),
+      counts_(walls, filer_, grid.count(), execution),
+      bands_(choose(counts_)),
+      first_narrow_(grid.count()),
+      first_wide_(grid.count()) {
+  if (bands_.count == 1) {
+    file(0, execution);
+    return;
+  }
+  std::vector<std::uint64_t> narrow(bands_.count);
+  std::vector<std::uint64_t> wide(bands_.count);
+  for (std::size_t tile = 0; tile < grid_.count(); ++tile) {
+    narrow[bands_.of(grid_, tile)] += counts_.narrow().of_tile(tile);
+    wide[bands_.of(grid_, tile)] += counts_.wide().of_tile(tile);
+  }
+  make_room(std::ranges::max(narrow), std::ranges::max(wide), execution);
+}
+
+void WallPartition::make_room(std::size_t narrow, std::size_t wide, const Execution& execution) {
+  resize_touched(narrow_, narrow, execution);
+  walls_.visit([&](auto walls) { resize_touched(wide_like(walls.data()), wide, execution); });
+}
+
+std::vector<std::size_t> WallPartition::file(std::uint32_t band, const Execution& execution) {
+  std::vector<std::size_t> tiles = bands_.tiles(grid_, band);
+  if (filed_ == band) return tiles;
+  filed_ = nothing;
+  place(tiles);
+  std::vector<std::size_t> chunks;
+  for (std::size_t chunk = 0; chunk < counts_.chunks(); ++chunk) {
+    const auto has = [&](std::size_t tile) { return counts_.has(chunk, tile); };
+    if (std::any_of(tiles.begin(), tiles.end(), has)) chunks.push_back(chunk);
+  }
+  make_room(narrow_count_, wide_count_, execution);
+  walls_.visit([&](auto walls) { scatter(walls, chunks, execution); });
+  filed_ = band;
+  return tiles;
+}
+
+void WallPartition::place(std::span<const std::size_t> tiles) {
+  std::fill(first_narrow_.begin(), first_narrow_.end(), nothing);
+  std::fill(first_wide_.begin(), first_wide_.end(), nothing);
+  narrow_count_ = add_up(counts_.narrow(), tiles, first_narrow_);
+  wide_count_ = add_up(counts_.wide(), tiles, first_wide_);
+}
+
+/// All that the loop reads is its own: what it writes might be any of the members.
+template <class Wall>
+void WallPartition::scatter(std::span<const Wall> walls, std::span<const std::size_t> chunks,
+                            const Execution& execution) {
+  std::vector<std::uint64_t> middles(grid_.count());
+  for (std::size_t tile = 0; tile < middles.size(); ++tile) middles[tile] = middle_of(grid_, tile);
+  for_chunks(chunks.size(), 1, execution, [&](Range r) {
+    std::vector<std::uint32_t> narrow_places = places(counts_.narrow(), first_narrow_, chunks[r.first]);
+    std::vector<std::uint32_t> wide_places;
+    if (counts_.any_wide()) wide_places = places(counts_.wide(), first_wide_, chunks[r.first]);
+    std::uint32_t* const narrow = narrow_places.data();
+    std::uint32_t* const wide = wide_places.data();
+    NarrowWall* const narrow_walls = narrow_.data();
+    auto* const wide_walls = wide_like(walls.data()).data();
+    const std::uint64_t* const middle = middles.data();
+    const WallFiler filer = filer_;
+    const Range range = counts_.chunk(chunks[r.first]);
+    for (const Wall& wall : walls.subspan(range.first, range.size())) {
+      filer.file(
+          wall,
+          [=](std::size_t tile, const WallSteps& steps) {
+            const std::uint32_t place = narrow[tile];
+            if (place == nothing) return;
+            narrow[tile] = place + 1;
+            narrow_walls[place] = steps.from(middle[tile]);
+          },
+          [&](std::size_t tile) {
+            if (wide[tile] != nothing) wide_walls[wide[tile]++] = unpacked(wall);
+          });
+    }
+  });
+}
+
+/// Where a chunk's walls go, tile by tile; `nothing` where the tile is not of the band.
+std::vector<std::uint32_t> WallPartition::places(const ChunkCounts& counts, const RawVector<std::uint32_t>& first,
+                                                 std::size_t chunk) {
+  std::vector<std::uint32_t> next(first.begin(), first.end());
+  for (std::size_t tile = 0; tile < next.size(); ++tile) {
+    if (next[tile] != nothing) next[tile] += counts.before(chunk, tile);
+  }
+  return next;
+}
+
+TileWalls WallPartition::of(std::size_t tile) const {
+  const auto part = [tile](const auto& walls, const auto& first, const ChunkCounts& counts) {
+    using Wall = typename std::decay_t<decltype(walls)>::value_type;
+    if (walls.empty()) return std::span<const Wall>();
+    return std::span<const Wall>(walls.data() + first[tile], counts.of_tile(tile));
+  };
+  return {part(narrow_, first_narrow_, counts_.narrow()), part(floats_, first_wide_, counts_.wide()),
+          part(doubles_, first_wide_, counts_.wide()), more_};
+}
+
+TileWalls WallPartition::look_up(std::size_t tile, LooseTile& into, const Execution& execution) const {
+  const std::uint64_t middle = middle_of(grid_, tile);
+  into = {};
+  walls_.visit([&]<class Wall>(std::span<const Wall> walls) {
+    const auto take_wide = [&](const Wall& wall) {
+      if constexpr (std::is_same_v<Wall, DoubleWall>) {
+        into.doubles.push_back(wall);
+      } else {
+        into.floats.push_back(unpacked(wall));
+      }
+    };
+    for (std::size_t chunk = 0; chunk < counts_.chunks(); ++chunk) {
+      if (!counts_.has(chunk, tile)) continue;
+      execution.check();
+      for (std::size_t i = counts_.chunk(chunk).first; i < counts_.chunk(chunk).last; ++i) {
+        filer_.file(
+            walls[i],
+            [&](std::size_t to, const WallSteps& steps) {
+              if (to == tile) into.narrow.push_back(steps.from(middle));
+            },
+            [&](std::size_t to) {
+              if (to == tile) take_wide(walls[i]);
+            });
+      }
+    }
+  });
+  return {into.narrow, into.floats, into.doubles, more_};
+}
+
 namespace {
 
 void for_each_held(const WallSet& walls, std::span<const Segment> more,

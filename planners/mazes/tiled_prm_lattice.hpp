@@ -2,11 +2,11 @@
 // The lattice roadmap of planners/roadmap/prm.hpp, every edge checked, fused tile by tile: the way for mazes of
 // hundreds of millions of cells.
 //
-//   partition   walls are filed by tile, in streaming passes, band by band                 (wall_partition)
+//   partition   walls are filed by tile, in streaming passes, band by band                 (tile_source)
 //   tiles       one thread a tile, all in its cache: milestones and edges stand until a    (tile_plane, wall_marking)
 //               wall clears them; dead ends are peeled, chains contracted                   (tile_reduction)
 //   overlay     what is left of all tiles, peeled again across borders                      (overlay)
-//   search      from both ends on the overlay's core; the path's chains are expanded again  (step_search)
+//   search      from both ends on the overlay's core; the path's chains are expanded again  (overlay_search)
 //
 // The answer is the plain pipeline's: the same milestones and edges, a path of the same length (shortest paths that tie
 // may differ in their vertices). Peeling and contraction are exact for any set of walls: mazes with loops, open space,

@@ -21,7 +21,7 @@
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
 #include "planners/mazes/tile_plane.hpp"
-#include "planners/mazes/wall_partition.hpp"
+#include "planners/mazes/tile_source.hpp"
 
 namespace warren {
 

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "core/base/rng.hpp"
-#include "planners/mazes/wall_partition.hpp"
 
 namespace warren {
 namespace {

@@ -12,8 +12,8 @@
 #include "core/plane/geometry.hpp"
 #include "planners/mazes/tile_plane.hpp"
 #include "planners/mazes/tile_reduction.hpp"
+#include "planners/mazes/tile_source.hpp"
 #include "planners/mazes/wall_marking.hpp"
-#include "planners/mazes/wall_partition.hpp"
 #include "spatial/obstacles/wall_index.hpp"
 #include "tests/seeds.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/mazes/wall_partition.hpp"
+#include "planners/mazes/tile_source.hpp"
 
 #include <gtest/gtest.h>
 
