@@ -14,8 +14,8 @@
 #include "core/base/page_pool.hpp"
 #include "core/base/rng.hpp"
 #include "planners/mazes/overlay.hpp"
+#include "planners/mazes/tile_plane.hpp"
 #include "planners/mazes/tiled_prm_lattice.hpp"
-#include "planners/mazes/wall_marking.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "verify/judges/verify_point.hpp"
 

@@ -12,7 +12,6 @@
 #include "planners/mazes/tile_grid.hpp"
 #include "planners/mazes/tile_plane.hpp"
 #include "planners/mazes/tile_source.hpp"
-#include "planners/mazes/wall_marking.hpp"
 
 namespace warren {
 

@@ -8,7 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/search/graph.hpp"
-#include "planners/mazes/wall_marking.hpp"
+#include "planners/mazes/tile_plane.hpp"
 
 namespace warren {
 namespace {

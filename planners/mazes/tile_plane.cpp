@@ -2,7 +2,13 @@
 #include "planners/mazes/tile_plane.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <utility>
+
+#include "core/plane/geometry.hpp"
+#include "planners/mazes/wall_steps.hpp"
+#include "spatial/obstacles/wall_index.hpp"
 
 namespace warren {
 namespace {
@@ -118,6 +124,136 @@ const PlaneRowWork& plane_row_work() {
     return variants.list[variants.count - 1];
   }();
   return fastest;
+}
+
+namespace {
+
+constexpr std::size_t slot_of(std::uint64_t key) { return (key * 0x9e3779b97f4a7c15U) >> 56; }
+
+void clear_bits(std::uint8_t& byte, unsigned bits) { byte = static_cast<std::uint8_t>(byte & ~bits); }
+
+/// What a wall blocks of the point (col, row), its right and its upper edge, as bits; asked only for bits in `wanted`.
+unsigned blocked_bits(const Segment& wall, Vec2 point, unsigned wanted, double clearance) {
+  unsigned blocked = 0;
+  if ((wanted & plane_bit::milestone) != 0 && blocks_edge(wall, {point, point}, clearance)) {
+    blocked |= plane_bit::milestone;
+  }
+  if ((wanted & plane_bit::right) != 0 && blocks_edge(wall, {point, {point.x + 1, point.y}}, clearance)) {
+    blocked |= plane_bit::right;
+  }
+  if ((wanted & plane_bit::up) != 0 && blocks_edge(wall, {point, {point.x, point.y + 1}}, clearance)) {
+    blocked |= plane_bit::up;
+  }
+  return blocked;
+}
+
+}  // namespace
+
+bool blocks_edge(const Segment& wall, const Segment& edge, double clearance) noexcept {
+  if (clearance <= 0.0) return segments_touch(edge, wall);
+  return box_of(edge).grown(clearance).meets(box_of(wall)) && !segments_keep_distance(edge, wall, clearance);
+}
+
+WallMarker::WallMarker(double clearance)
+    : clearance_(clearance), reach_(static_cast<int>(std::ceil(clearance))), slots_(slot_count), shapes_(slot_count) {
+  assert(clearance >= 0.0 && clearance <= largest_clearance * (1 + 1e-8));
+}
+
+void WallMarker::mark(const TileWalls& walls, TilePlane& plane) {
+  assert(plane.margin() >= margin());
+  if (stride_ != plane.stride()) {
+    std::fill(slots_.begin(), slots_.end(), Slot());
+    taken_ = 0;
+    stride_ = plane.stride();
+  }
+  mark_narrow(walls.narrow, plane);
+  walls.for_each_wide([&](const Segment& wall) { mark_one(wall, plane); });
+}
+
+void WallMarker::mark_narrow(std::span<const NarrowWall> walls, TilePlane& plane) {
+  const int middle = static_cast<int>(plane.grid().side() / 2);
+  std::uint8_t* const origin = plane.at(middle, middle);
+  const auto stride = static_cast<std::int16_t>(plane.stride());
+  for (std::size_t i = 0; i < walls.size(); i += 2) {
+    const bool single = i + 1 == walls.size();
+    const auto [one, other] = detail::wall_shapes(walls.data() + i, single, stride);
+    mark_shape(one.key, walls[i], origin + one.place, plane);
+    if (!single) mark_shape(other.key, walls[i + 1], origin + other.place, plane);
+  }
+}
+
+inline void WallMarker::mark_shape(std::uint64_t key, const NarrowWall& wall, std::uint8_t* cell, TilePlane& plane) {
+  Slot& slot = slots_[slot_of(key)];
+  if (slot.known != key) {
+    const bool came_before = std::exchange(slot.seen, key) == key;
+    if (!came_before) return mark_one(plane.grid().segment(plane.tile(), wall), plane);
+    if (slot.shape == nullptr) slot.shape = &shapes_[taken_++];
+    learn(key, *slot.shape, plane.stride());
+    slot.known = key;
+  }
+  const Shape& shape = *slot.shape;
+  if (shape.count > most_clears) return mark_one(plane.grid().segment(plane.tile(), wall), plane);
+  for (unsigned c = 0; c < shape.count; ++c) cell[shape.offset[c]] &= shape.keep_bits[c];
+}
+
+/// Finds out what walls of this shape clear; a count above most_clears says that it is too much to remember. The wall
+/// stands where its lower left corner's cell is the lattice point (0, 0): coordinates differ from the world's, their
+/// differences don't.
+void WallMarker::learn(std::uint64_t key, Shape& shape, int stride) const {
+  constexpr double unit = 1.0 / narrow_unit;
+  const auto coordinate = [&](unsigned i) { return static_cast<double>((key >> (16 * i)) & 0xffff) * unit; };
+  const Segment wall{{coordinate(0), coordinate(1)}, {coordinate(2), coordinate(3)}};
+  const Vec2 corner = box_of(wall).max;
+  shape.count = corner.x > longest_shape || corner.y > longest_shape ? most_clears + 1 : 0;
+  const auto clear = [&](int col, int row, unsigned bits) {
+    const auto offset = static_cast<std::int16_t>(row * stride + col);
+    if (shape.count > most_clears) return;
+    const auto* end = shape.offset.cbegin() + shape.count;
+    const auto* found = std::find(shape.offset.cbegin(), end, offset);
+    const auto at = static_cast<std::size_t>(found - shape.offset.cbegin());
+    if (found == end) {
+      if (++shape.count > most_clears) return;
+      shape.offset[at] = offset;
+      shape.keep_bits[at] = 0xff;
+    }
+    clear_bits(shape.keep_bits[at], bits);
+  };
+  const int last_row = static_cast<int>(corner.y) + 1 + reach_;
+  for (int row = -1 - reach_; row <= last_row && shape.count <= most_clears; ++row) {
+    for (int col = -1 - reach_; col <= static_cast<int>(corner.x) + 1 + reach_; ++col) {
+      constexpr unsigned all = plane_bit::milestone | plane_bit::right | plane_bit::up;
+      const Vec2 point{static_cast<double>(col), static_cast<double>(row)};
+      const unsigned blocked = blocked_bits(wall, point, all, clearance_);
+      if (blocked != 0) clear(col, row, blocked);
+      if ((blocked & plane_bit::right) != 0) clear(col + 1, row, plane_bit::left);
+      if ((blocked & plane_bit::up) != 0) clear(col, row + 1, plane_bit::down);
+    }
+  }
+}
+
+void WallMarker::mark_one(const Segment& wall, TilePlane& plane) const {
+  const TileGrid& grid = plane.grid();
+  const std::int64_t first_col = grid.first_col(plane.tile());
+  const std::int64_t first_row = grid.first_row(plane.tile());
+  const Vec2 origin = TileGrid::point(first_col, first_row);
+  const double reach = clearance_ + 1e-6;  // far above the rounding error of what follows
+  const auto from = [](double x, int end) { return static_cast<int>(std::clamp(std::floor(x), -1.0, 1.0 + end)); };
+  const auto to = [](double x, int end) { return static_cast<int>(std::clamp(std::ceil(x), -2.0, 0.0 + end)); };
+  const Box box = box_of(wall);
+  const int last_row = to(box.max.y + reach - origin.y, plane.height());
+  for (int row = from(box.min.y - reach - origin.y - 1, plane.height()); row <= last_row; ++row) {
+    const double low = origin.y + row - reach;
+    const BandInterval x = x_range_in_band(wall, low, low + 1 + 2 * reach);
+    const int last_col = to(x.high + reach - origin.x, plane.width());
+    for (int col = from(x.low - reach - origin.x - 1, plane.width()); col <= last_col; ++col) {
+      std::uint8_t* at = plane.at(col, row);
+      if (*at == 0) continue;
+      const unsigned blocked = blocked_bits(wall, TileGrid::point(first_col + col, first_row + row), *at, clearance_);
+      clear_bits(*at, blocked);
+      if ((blocked & plane_bit::right) != 0) clear_bits(at[1], plane_bit::left);
+      if ((blocked & plane_bit::up) != 0) clear_bits(at[plane.stride()], plane_bit::down);
+    }
+  }
 }
 
 }  // namespace warren

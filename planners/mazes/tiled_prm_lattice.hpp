@@ -3,7 +3,7 @@
 // hundreds of millions of cells.
 //
 //   partition   walls are filed by tile, in streaming passes, band by band                 (tile_source)
-//   tiles       one thread a tile, all in its cache: milestones and edges stand until a    (tile_plane, wall_marking)
+//   tiles       one thread a tile, all in its cache: milestones and edges stand until a    (tile_plane)
 //               wall clears them; dead ends are peeled, chains contracted                   (tile_reduction)
 //   overlay     what is left of all tiles, peeled again across borders                      (overlay)
 //   search      from both ends on the overlay's core; the path's chains are expanded again  (overlay_search)
@@ -39,7 +39,6 @@
 #include "planners/mazes/tile_plane.hpp"
 #include "planners/mazes/tile_reduction.hpp"
 #include "planners/mazes/tile_source.hpp"
-#include "planners/mazes/wall_marking.hpp"
 
 namespace warren {
 // Who makes and reduces the tiles of a lattice where that is not the planner's own process.

@@ -13,7 +13,6 @@
 #include "planners/mazes/tile_plane.hpp"
 #include "planners/mazes/tile_reduction.hpp"
 #include "planners/mazes/tile_source.hpp"
-#include "planners/mazes/wall_marking.hpp"
 #include "spatial/obstacles/wall_index.hpp"
 #include "tests/seeds.hpp"
 
