@@ -13,7 +13,6 @@
 #include "core/search/indexed_heap.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/sort.hpp"
-#include "planners/graph/hierarchy_query.hpp"
 
 namespace warren {
 namespace {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
@@ -72,6 +73,213 @@ void check_hierarchy(const Hierarchy& hierarchy, std::size_t vertex_count, const
   for_chunks(vertex_count, grain, execution, [&](Range r) {
     for (std::size_t v = r.first; v < r.last; ++v) check.shortcuts(static_cast<VertexId>(v));
   });
+}
+
+namespace {
+
+constexpr auto later_in_queue = [](const QueueEntry& a, const QueueEntry& b) { return b < a; };
+
+const HierarchyEnd* end_at(const std::vector<HierarchyEnd>& ends, VertexId vertex) {
+  const auto found = std::find_if(ends.begin(), ends.end(), [&](const HierarchyEnd& e) { return e.vertex == vertex; });
+  return found == ends.end() ? nullptr : &*found;
+}
+
+/// Where an end stands on a vertex, is the next one joined to it, too? Then a search goes there at once.
+bool is_detour(const std::vector<HierarchyEnd>& ends, VertexId vertex, VertexId next) {
+  const HierarchyEnd* first = end_at(ends, vertex);
+  return first != nullptr && first->length == 0.0 && end_at(ends, next) != nullptr;
+}
+
+}  // namespace
+
+void HierarchyClimb::clear() {
+  if (slots_.empty()) slots_.resize(std::size_t{1} << first_bits);
+  for (const std::uint32_t slot : used_) slots_[slot] = {};
+  used_.clear();
+  queue_.clear();
+}
+
+void HierarchyClimb::grow() {
+  const std::vector<Slot> before = std::exchange(slots_, std::vector<Slot>(2 * slots_.size()));
+  --shift_;
+  for (std::uint32_t& slot : used_) {
+    const std::size_t next = slot_of(before[slot].vertex);
+    slots_[next] = before[slot];
+    slot = static_cast<std::uint32_t>(next);
+  }
+}
+
+void HierarchyClimb::reach(VertexId v, double length, VertexId parent) {
+  std::size_t slot = slot_of(v);
+  if (length >= slots_[slot].length) return;
+  if (slots_[slot].vertex == no_vertex) {
+    if (2 * used_.size() >= slots_.size()) {
+      grow();
+      slot = slot_of(v);
+    }
+    used_.push_back(static_cast<std::uint32_t>(slot));
+  }
+  slots_[slot] = {v, parent, length};
+  queue_.push_back({length, v});
+  std::push_heap(queue_.begin(), queue_.end(), later_in_queue);
+}
+
+QueueEntry HierarchyClimb::pop() {
+  const QueueEntry next = queue_.front();
+  do {
+    std::pop_heap(queue_.begin(), queue_.end(), later_in_queue);
+    queue_.pop_back();
+  } while (!queue_.empty() && queue_.front().key > length(queue_.front().vertex));
+  return next;
+}
+
+RawVector<VertexId> HierarchyClimb::back_from(VertexId v) const {
+  RawVector<VertexId> way;
+  for (; v != no_vertex; v = slots_[slot_of(v)].parent) way.push_back(v);
+  return way;
+}
+
+void HierarchyQuery::begin(HierarchyClimb& side, std::span<const HierarchyEnd> ends) {
+  side.clear();
+  for (const HierarchyEnd& end : ends) side.reach(end.vertex, end.length, no_vertex);
+}
+
+bool HierarchyQuery::search(std::span<const HierarchyEnd> start, std::span<const HierarchyEnd> goal, double limit) {
+  begin(scratch_.sides[0], start);
+  begin(scratch_.sides[1], goal);
+  best_ = limit;
+  meeting_ = no_vertex;
+  settled_ = 0;
+  looks_ = 0;
+  for (;;) {
+    const auto& [forward, backward] = scratch_.sides;
+    const bool first = goes_on(forward);
+    const bool second = goes_on(backward);
+    if (!first && !second) return meeting_ != no_vertex;
+    settle(first && (!second || !(backward.top() < forward.top())) ? 0 : 1);
+    if (settled_ % expansions_per_poll == 0) execution_.check();
+  }
+}
+
+void HierarchyQuery::settle(std::size_t side) {
+  HierarchyClimb& climb = scratch_.sides[side];
+  const QueueEntry next = climb.pop();
+  const VertexId v = next.vertex;
+  ++settled_;
+  const double whole = next.key + scratch_.sides[1 - side].length(v);
+  if (whole < best_) {
+    best_ = whole;
+    meeting_ = v;
+  }
+  const std::span<const HierarchyArc> row = hierarchy_.row(v);
+  looks_ += row.size();
+  const auto is_shorter = [&](const HierarchyArc& arc) { return climb.length(arc.to) + arc.length < next.key; };
+  if (std::any_of(row.begin(), row.end(), is_shorter)) return;  // a way from above
+  for (const HierarchyArc& arc : row) climb.reach(arc.to, next.key + arc.length, v);
+  if (!climb.empty()) fetch_row(climb.top().vertex);
+}
+
+/// Asks the memory for what is settled after the other end's turn.
+void HierarchyQuery::fetch_row(VertexId v) const {
+  const auto row = hierarchy_.row(v);
+  constexpr std::size_t arcs_a_line = 64 / sizeof(HierarchyArc);
+  for (std::size_t i = 0; i < std::min<std::size_t>(row.size(), 8 * arcs_a_line); i += arcs_a_line) {
+    __builtin_prefetch(row.data() + i);
+  }
+}
+
+/// An arc of the row of `low`.
+void HierarchyQuery::add_part(VertexId from, VertexId to, VertexId low, VertexId high) {
+  scratch_.parts.push_back({from, to, hierarchy_.arcs[hierarchy_.arc_to(low, high)].middle, 0});
+}
+
+/// All parts down to edges, those of one depth after each other: the memory is asked for all their rows before the
+/// first is read.
+void HierarchyQuery::take_apart() {
+  std::vector<PartOfWay>& parts = scratch_.parts;
+  // A shortest way passes no vertex twice.
+  const std::size_t most = std::min<std::size_t>(2 * hierarchy_.vertex_count() + parts.size(), no_vertex);
+  std::size_t first = 0;
+  for (std::size_t last = parts.size(); first < last; first = std::exchange(last, parts.size())) {
+    for (std::size_t i = first; i < last; ++i) {
+      if (parts[i].middle != no_vertex) __builtin_prefetch(hierarchy_.first.data() + parts[i].middle);
+    }
+    for (std::size_t i = first; i < last; ++i) {
+      if (parts[i].middle != no_vertex) __builtin_prefetch(hierarchy_.row(parts[i].middle).data());
+    }
+    for (std::size_t i = first; i < last; ++i) {
+      const auto [from, to, middle, none] = parts[i];
+      if (middle == no_vertex) continue;
+      parts[i].first = static_cast<std::uint32_t>(parts.size());
+      add_part(from, middle, middle, from);
+      add_part(middle, to, middle, to);
+      if (parts.size() % expansions_per_poll == 0) execution_.check();
+      if (parts.size() > most) throw InputError("roadmap", "the shortcuts of its index have no end; build it anew");
+    }
+  }
+}
+
+/// Their ends, the first one left out.
+void HierarchyQuery::append_edges(std::uint32_t part, RawVector<VertexId>& way) {
+  todo_.assign(1, part);
+  while (!todo_.empty()) {
+    const PartOfWay& next = scratch_.parts[todo_.back()];
+    todo_.pop_back();
+    if (next.middle == no_vertex) {
+      way.push_back(next.to);
+    } else {
+      todo_.push_back(next.first + 1);
+      todo_.push_back(next.first);
+    }
+  }
+}
+
+RawVector<VertexId> HierarchyQuery::path() {
+  const RawVector<VertexId> climb = scratch_.sides[0].back_from(meeting_);
+  const RawVector<VertexId> descent = scratch_.sides[1].back_from(meeting_);
+  scratch_.parts.clear();
+  for (std::size_t i = climb.size(); i-- > 1;) add_part(climb[i], climb[i - 1], climb[i], climb[i - 1]);
+  for (std::size_t i = 1; i < descent.size(); ++i) add_part(descent[i - 1], descent[i], descent[i], descent[i - 1]);
+  const auto arcs = static_cast<std::uint32_t>(scratch_.parts.size());
+  take_apart();
+  RawVector<VertexId> way;
+  way.push_back(climb.back());
+  for (std::uint32_t arc = 0; arc < arcs; ++arc) append_edges(arc, way);
+  return way;
+}
+
+SearchResult route_by_hierarchy(const Hierarchy& hierarchy, std::span<const Edge> ends, std::span<const double> lengths,
+                                HierarchyScratch& scratch, const Execution& execution) {
+  constexpr double nowhere = std::numeric_limits<double>::infinity();
+  const auto start = static_cast<VertexId>(hierarchy.vertex_count());
+  std::array<std::vector<HierarchyEnd>, 2> joined;
+  double direct = nowhere;
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    if (ends[i].from == start) {
+      direct = lengths[i];
+    } else {
+      joined[ends[i].to - start].push_back({ends[i].from, lengths[i]});
+    }
+  }
+  HierarchyQuery query(hierarchy, scratch, execution);
+  SearchResult found;
+  if (query.search(joined[0], joined[1], direct)) {
+    const RawVector<VertexId> way = query.path();
+    std::size_t first = 0;
+    std::size_t last = way.size() - 1;
+    if (first < last && is_detour(joined[0], way[first], way[first + 1])) ++first;
+    if (first < last && is_detour(joined[1], way[last], way[last - 1])) --last;
+    found.path.reserve(way.size() + 2);
+    found.path.push_back(start);
+    found.path.insert(found.path.end(), way.begin() + static_cast<std::ptrdiff_t>(first),
+                      way.begin() + static_cast<std::ptrdiff_t>(last + 1));
+    found.path.push_back(start + 1);
+  } else if (direct < nowhere) {
+    found.path = {start, start + 1};
+  }
+  found.status = found.path.empty() ? SearchStatus::exhausted : SearchStatus::found;
+  found.expanded = query.settled();
+  return found;
 }
 
 }  // namespace warren

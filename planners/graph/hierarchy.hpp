@@ -4,15 +4,27 @@
 // between any two vertices some shortest way climbs by arcs from both ends and meets. Plain arrays, as a file may hold
 // them: 4 bytes a vertex and 16 an arc. Rows stand in the order of the roadmap's vertices, which follows the plane, not
 // in that of taking out: taking a way apart reads rows that lie together.
+//
+// Questions to a hierarchy: the shortest way between two places that are joined to some of its vertices. Both ends
+// climb by Dijkstra's search, the one whose next vertex is nearer first; a vertex to which a way from above is shorter
+// is not climbed from (stalling), and neither end goes on beyond the best way found. Then each arc is taken apart into
+// the edges that it stands for. Exact but for rounding: a way that is longer by less than that may be taken.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
 #include "core/run/execution.hpp"
 #include "core/search/graph.hpp"
+#include "core/search/indexed_heap.hpp"
+#include "core/search/search.hpp"
 
 namespace warren {
 
@@ -40,5 +52,108 @@ struct Hierarchy {
 /// that are none. Throws InputError, which names the array as part of `where`, and Stopped. O(arcs log degree).
 void check_hierarchy(const Hierarchy& hierarchy, std::size_t vertex_count, const std::string& where,
                      const Execution& execution);
+
+/// What one end of a question has reached of a hierarchy: a few thousand vertices of millions. They stand in a table of
+/// their own, by a hash of their numbers, so that a question touches some hundred kilobytes that stay in the nearest
+/// caches, and a thread needs no array as long as the roadmap. One end's distances, parents and queue. Vertices leave
+/// the queue by distance, then by number.
+class HierarchyClimb {
+ public:
+  /// Before each question: forgets all. O(vertices that were reached).
+  void clear();
+  /// Of the way to v; infinity: not reached.
+  double length(VertexId v) const { return slots_[slot_of(v)].length; }
+  /// Is this the shortest way to v so far? Then it is kept, and v waits in the queue.
+  void reach(VertexId v, double length, VertexId parent);
+
+  bool empty() const { return queue_.empty(); }
+  const QueueEntry& top() const { return queue_.front(); }
+  /// Takes the top, and what waits behind it for ways that are no longer the shortest.
+  QueueEntry pop();
+  /// The vertices from v back to where the climb began.
+  RawVector<VertexId> back_from(VertexId v) const;
+
+ private:
+  struct Slot {
+    VertexId vertex = no_vertex;  // none: the slot is empty
+    VertexId parent = no_vertex;
+    double length = std::numeric_limits<double>::infinity();
+  };
+  static constexpr unsigned first_bits = 13;
+
+  /// Where v stands; the empty slot for it where it doesn't.
+  std::size_t slot_of(VertexId v) const {
+    std::size_t slot = v * std::uint64_t{0x9e3779b97f4a7c15U} >> shift_;
+    while (slots_[slot].vertex != v && slots_[slot].vertex != no_vertex) slot = (slot + 1) & (slots_.size() - 1);
+    return slot;
+  }
+  void grow();
+
+  std::vector<Slot> slots_;  // open addressing, at most half full
+  unsigned shift_ = 64 - first_bits;
+  std::vector<std::uint32_t> used_;  // slots
+  std::vector<QueueEntry> queue_;    // a heap, with entries of ways that were longer
+};
+
+/// A vertex that start or goal is joined to, and how far it is.
+struct HierarchyEnd {
+  VertexId vertex;
+  double length;
+};
+
+/// An edge of a way, or an arc that stands for two of them.
+struct PartOfWay {
+  VertexId from;
+  VertexId to;
+  VertexId middle;      // no_vertex: an edge
+  std::uint32_t first;  // of its two parts, which follow each other
+};
+
+/// What one thread keeps from one question to the next: as much as the largest of them touched.
+struct HierarchyScratch {
+  std::array<HierarchyClimb, 2> sides;
+  std::vector<PartOfWay> parts;
+};
+
+/// One thread's. Refers to all that it is given.
+class HierarchyQuery {
+ public:
+  HierarchyQuery(const Hierarchy& hierarchy, HierarchyScratch& scratch, const Execution& execution)
+      : hierarchy_(hierarchy), scratch_(scratch), execution_(execution) {}
+
+  /// Is there a way shorter than `limit`? Lengths of the ends included. Throws Stopped.
+  bool search(std::span<const HierarchyEnd> start, std::span<const HierarchyEnd> goal, double limit);
+  /// After a search that found one: from the vertex of start that it leaves from to that of the goal. Throws Stopped,
+  /// and InputError for an index whose shortcuts have no end.
+  RawVector<VertexId> path();
+
+  std::uint64_t settled() const { return settled_; }
+  std::uint64_t looks() const { return looks_; }  ///< at arcs, by the last search
+
+ private:
+  void begin(HierarchyClimb& side, std::span<const HierarchyEnd> ends);
+  bool goes_on(const HierarchyClimb& side) const { return !side.empty() && side.top().key < best_; }
+  void settle(std::size_t side);
+  void fetch_row(VertexId v) const;
+  void add_part(VertexId from, VertexId to, VertexId low, VertexId high);
+  void take_apart();
+  void append_edges(std::uint32_t part, RawVector<VertexId>& way);
+
+  const Hierarchy& hierarchy_;
+  HierarchyScratch& scratch_;
+  const Execution& execution_;
+  double best_ = 0.0;
+  VertexId meeting_ = no_vertex;
+  std::uint64_t settled_ = 0;
+  std::uint64_t looks_ = 0;
+  std::vector<std::uint32_t> todo_;  // parts
+};
+
+/// The route of a question by a hierarchy: start and goal are two vertices more, which no way passes between its ends.
+/// Start has the number vertex_count() of the hierarchy, goal the next one. `ends`: their edges, from a vertex of the
+/// roadmap to one of them, or from start to goal; `lengths`: of each. The length of what is found is left 0. Throws
+/// Stopped, and InputError as HierarchyQuery::path does.
+SearchResult route_by_hierarchy(const Hierarchy& hierarchy, std::span<const Edge> ends, std::span<const double> lengths,
+                                HierarchyScratch& scratch, const Execution& execution);
 
 }  // namespace warren

@@ -21,7 +21,6 @@
 #include "planners/graph/any_world.hpp"
 #include "planners/graph/components.hpp"
 #include "planners/graph/hierarchy.hpp"
-#include "planners/graph/hierarchy_query.hpp"
 #include "planners/graph/queue_choice.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
 #include "planners/graph/roadmap_search.hpp"

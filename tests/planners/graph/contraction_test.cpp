@@ -14,7 +14,7 @@
 #include "core/base/error.hpp"
 #include "core/search/indexed_heap.hpp"
 #include "core/search/search.hpp"
-#include "planners/graph/hierarchy_query.hpp"
+#include "planners/graph/hierarchy.hpp"
 
 namespace warren {
 namespace {
