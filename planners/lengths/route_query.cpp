@@ -8,7 +8,6 @@
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
-#include "planners/lengths/mark_walk.hpp"
 
 namespace warren {
 namespace {

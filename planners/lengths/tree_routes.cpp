@@ -2,12 +2,10 @@
 #include "planners/lengths/tree_routes.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/lengths/cell_marks.hpp"
-#include "planners/lengths/mark_walk.hpp"
 
 namespace warren {
 namespace {

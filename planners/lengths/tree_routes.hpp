@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ways in the trees that hang off the core: where a cell reaches the core, and where two cells of one tree meet. Cells
 // are climbed in at most three tiles, pieces between them; two or three microseconds at any size.
+//
+// What such ways are written by: a walk over the lattice by its marks, cell after cell, that writes where it is. Each
+// step waits for the marks that the one before it led to, so some walks are made side by side.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,6 +16,106 @@
 #include "planners/lengths/route_index.hpp"
 
 namespace warren {
+
+/// Where a walk stands, and where its cells go.
+class MarkWalk {
+ public:
+  explicit MarkWalk(const RouteIndex& index)
+      : index_(index),
+        marks_(index.marks()),
+        next_{1, index.places().size().cols, ~CellId{0}, ~index.places().size().cols + 1} {}
+
+  bool goes() const { return left_ > 0; }
+  /// Asks the memory for what a walk from there looks at.
+  void prefetch(LatticePlace p) const { marks_.prefetch_tile(LatticePlaces::tile_of(p)); }
+
+ protected:
+  // Column in bits 0 to 5, row in bits 7 to 12, as in cell_marks.hpp.
+  static constexpr std::uint32_t col_bits = 63;
+  static constexpr unsigned row_shift = 7;
+
+  /// Its cells go to `to`, `to` + direction, ...
+  void begin(LatticePlace from, std::uint32_t steps, CellId* to, int direction) {
+    left_ = steps;
+    cell_ = index_.places().cell_of(from);
+    to_ = to;
+    direction_ = direction;
+    stand_at(from);
+  }
+  void write() const { *to_ = cell_; }
+  /// False where that leaves the lattice.
+  bool go(unsigned way) {
+    --left_;
+    cell_ += next_[way];
+    to_ += direction_;
+    const std::uint32_t next = at_ + motion[way];
+    if ((next & guards) != 0) [[unlikely]]
+      return cross(way);
+    at_ = next;
+    return true;
+  }
+  LatticePlace place() const {
+    return tile_ * LatticePlaces::tile_places + ((at_ >> row_shift) << 6U | (at_ & col_bits));
+  }
+  std::uint32_t col() const { return at_ & col_bits; }
+  bool is_lowest_row() const { return at_ <= col_bits; }
+  /// Its marks.
+  const std::uint64_t* row() const { return words_ + std::size_t{at_ >> row_shift} * mark_word::count; }
+  std::uint32_t left() const { return left_; }
+
+  const RouteIndex& index_;
+  const CellMarks marks_;
+
+ private:
+  static constexpr std::uint32_t guards = ~(col_bits | col_bits << row_shift);
+  static constexpr std::array<std::uint32_t, 4> motion{1, 1U << row_shift, ~std::uint32_t{0}, ~(1U << row_shift) + 1};
+
+  bool cross(unsigned way) {
+    const LatticePlace next = index_.places().step(place(), way);
+    if (next >= index_.places().place_count()) return false;
+    prefetch(next);
+    stand_at(next);
+    return true;
+  }
+  void stand_at(LatticePlace p) {
+    tile_ = LatticePlaces::tile_of(p);
+    index_.look_at_tile(p);
+    words_ = marks_.tile(tile_);
+    const std::uint32_t in_tile = p % LatticePlaces::tile_places;
+    at_ = in_tile >> 6U << row_shift | (in_tile & col_bits);
+  }
+
+  const std::array<CellId, 4> next_;  // what a motion adds to a cell, modulo 2^32
+  std::uint32_t left_ = 0;
+  CellId cell_ = 0;
+  CellId* to_ = nullptr;
+  int direction_ = 1;
+  std::uint32_t tile_ = 0;
+  std::uint32_t at_ = 0;  // in it
+  const std::uint64_t* words_ = nullptr;
+};
+
+/// Makes walks of all ways, four side by side. Walk: a MarkWalk with begin(way) and step(); ways have `from`.
+template <class Walk, class Way>
+void walk_side_by_side(const RouteIndex& index, std::span<const Way> ways) {
+  constexpr std::size_t ahead = 4;  // ways whose first tile is asked for before their turn
+  std::array<Walk, 4> walks{Walk(index), Walk(index), Walk(index), Walk(index)};
+  std::size_t next = 0;
+  for (bool goes = true; goes;) {
+    goes = false;
+    for (Walk& walk : walks) {
+      if (walk.goes()) {
+        walk.step();
+      } else if (next < ways.size()) {
+        walk.begin(ways[next++]);
+        if (next + ahead < ways.size()) walk.prefetch(ways[next + ahead].from);
+      } else {
+        continue;
+      }
+      goes = true;
+    }
+  }
+}
 
 /// Part of a way to the core, and where its cells go: from `from` to `to` = `steps` steps on, the first one to `first`,
 /// each further one `direction`, 1 or -1, beside the one before it.
