@@ -13,7 +13,7 @@
 #include "bench/report.hpp"
 #include "bench/test_graphs.hpp"
 #include "core/search/search.hpp"
-#include "planners/graph/both_ends.hpp"
+#include "planners/graph/queue_choice.hpp"
 #include "planners/graph/reduce_graph.hpp"
 
 namespace warren::bench {

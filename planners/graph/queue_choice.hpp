@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The one place where a search of a graph and its queue are chosen, once a search.
+// And the rounds of core/search/bidirectional_search.hpp with a thread for each side: the same path, length and counts
+// as on one thread. The first rounds are too short to pay for a thread.
 #pragma once
 
 #include <cstddef>
 #include <variant>
 
 #include "core/run/execution.hpp"
+#include "core/search/bidirectional_search.hpp"
 #include "core/search/search.hpp"
 #include "core/search/search_queues.hpp"
+#include "parallel/chunks.hpp"
 #include "planners/graph/roadmap_options.hpp"
 
 namespace warren {
@@ -91,6 +95,17 @@ inline SearchResult search_blindly(SearchKind search, const Graph& graph, Vertex
   const auto should_stop = [&] { return execution.should_stop(); };
   return search == SearchKind::bfs ? breadth_first(graph, start, goal, state, should_stop)
                                    : depth_first(graph, start, goal, state, should_stop);
+}
+
+/// Both sides, on two threads where execution.threads allows it. Throws what a side's callables throw.
+template <class Forward, class Backward>
+SearchResult bidirectional(Forward& forward, Backward& backward, const Execution& execution) {
+  constexpr std::uint64_t rounds_alone = 5;
+  const auto together = [&](std::uint64_t round, const auto& first, const auto& second) {
+    round < rounds_alone ? InTurn()(round, first, second) : run_both(execution, first, second);
+  };
+  return bidirectional(
+      forward, backward, [&] { return execution.should_stop(); }, together);
 }
 
 }  // namespace warren

@@ -5,7 +5,6 @@
 #include <type_traits>
 
 #include "parallel/chunks.hpp"
-#include "planners/graph/both_ends.hpp"
 #include "planners/graph/queue_choice.hpp"
 
 namespace warren {

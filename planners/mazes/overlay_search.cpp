@@ -8,7 +8,7 @@
 #include <set>
 
 #include "core/base/error.hpp"
-#include "planners/graph/both_ends.hpp"
+#include "planners/graph/queue_choice.hpp"
 
 namespace warren {
 namespace {

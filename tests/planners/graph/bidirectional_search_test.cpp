@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/graph/both_ends.hpp"
+#include "planners/graph/queue_choice.hpp"
 
 #include <gtest/gtest.h>
 
