@@ -10,7 +10,6 @@
 
 #include "core/base/rng.hpp"
 #include "core/plane/geometry.hpp"
-#include "spatial/obstacles/motion_bunch.hpp"
 
 namespace warren {
 namespace {
