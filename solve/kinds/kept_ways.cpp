@@ -8,7 +8,6 @@
 #include <limits>
 #include <utility>
 
-#include "core/base/differing_cells.hpp"
 #include "core/base/whole.hpp"
 
 namespace warren {

@@ -12,7 +12,7 @@
 
 #include "apps/serve/graphs/json_body_io.hpp"
 #include "apps/serve/http/http_message.hpp"
-#include "core/base/differing_cells.hpp"
+#include "core/base/bitmap.hpp"
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
 #include "core/plane/polygon.hpp"
