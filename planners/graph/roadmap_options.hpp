@@ -52,7 +52,7 @@ double estimated_way(const W& world, HeuristicKind kind, const typename W::State
 /// independent. lattice: the cell centres of a maze. halton: the Halton sequence, shifted by the seed. random:
 /// independent uniform. gaussian, bridge, mixture: planners/roadmap/sampler.hpp. corridor: the middles of a map's
 /// corridors, by the distance transform (worlds/rasters/corridor_points.hpp); where the world knows none, as random.
-/// cell_centres: of a map (spatial/points/cell_milestones.hpp), all at once; for worlds without cells as random.
+/// cell_centres: of a map (spatial/maps/free_cells.hpp), all at once; for worlds without cells as random.
 enum class SamplerKind : std::uint8_t {
   uniform,
   lattice,

@@ -13,7 +13,7 @@
 #include "core/run/execution.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "spatial/maps/distance_field.hpp"
-#include "spatial/points/cell_milestones.hpp"
+#include "spatial/maps/free_cells.hpp"
 #include "worlds/rasters/corridor_points.hpp"
 
 namespace warren {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "spatial/points/cell_milestones.hpp"
+#include "spatial/maps/free_cells.hpp"
 
 #include <gtest/gtest.h>
 
