@@ -15,7 +15,6 @@
 #include "core/base/solution.hpp"
 #include "core/plane/se2.hpp"
 #include "core/run/execution.hpp"
-#include "planners/grid/cell_field.hpp"
 #include "planners/grid/motion_lattice.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/kinds/priced_motions.hpp"

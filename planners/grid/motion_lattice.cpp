@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "planners/grid/cell_field.hpp"
+#include "planners/grid/motion_lattice.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include "core/base/raw_vector.hpp"
 #include "spatial/maps/free_cells.hpp"
 
 namespace warren {
