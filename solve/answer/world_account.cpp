@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "scenes/files/scene_io.hpp"
@@ -173,6 +175,22 @@ void add_problem_facts(const Scene& scene, std::vector<Fact>& facts) {
   }
 }
 
+Fact joint_fact(const ArmVariable& variable, std::size_t number) {
+  const char* unit = variable.slides ? "m" : "rad";
+  std::string text = variable.name + ": ";
+  text += variable.continuous ? "turns without end"
+                              : fmt::format("{} {} to {} {}", variable.slides ? "slides" : "turns",
+                                            human_number(variable.low), human_number(variable.high), unit);
+  if (variable.speed > 0.0) text += fmt::format(", at most {} {}/s", human_number(variable.speed), unit);
+  JsonObject json;
+  json.add("name", variable.name);
+  json.add("type", variable.slides ? "prismatic" : variable.continuous ? "continuous" : "revolute");
+  json.add("low", variable.low);
+  json.add("high", variable.high);
+  if (variable.speed > 0.0) json.add("speed", variable.speed);
+  return {fmt::format("joint {}", number), std::move(text), json.closed()};
+}
+
 }  // namespace
 
 std::vector<Fact> facts_of(const Scene& scene, const Execution& execution) {
@@ -185,6 +203,30 @@ std::string facts_json(const std::vector<Fact>& facts) {
   std::string text = R"({"schema": "warren.info/1")";
   for (const Fact& fact : facts) text += ",\n " + json_string(fact.name) + ": " + fact.json;
   return text + "}\n";
+}
+
+std::vector<Fact> facts_of(const ArmModel& model) {
+  std::vector<Fact> facts{{"robot", model.name, json_string(model.name)}, {"kind", "arm", json_string("arm")}};
+  for (std::size_t i = 0; i < model.variables.size(); ++i) facts.push_back(joint_fact(model.variables[i], i + 1));
+  facts.push_back(count_fact("moving joints", model.joints.size()));
+  facts.push_back(count_fact("links", model.links.size()));
+  std::array<std::size_t, 5> solids{};
+  for (const ArmLink& link : model.links) {
+    for (const Solid& solid : link.solids) ++solids[static_cast<std::size_t>(solid.kind)];
+  }
+  constexpr std::array<const char*, 5> kinds{"spheres", "boxes", "cylinders", "capsules", "hulls"};
+  for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+    if (solids[kind] > 0) facts.push_back(count_fact(kinds[kind], solids[kind]));
+  }
+  facts.push_back(count_fact("pairs", model.pairs.size()));
+  const auto add_lines = [&](const char* name, const std::vector<std::string>& lines) {
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      facts.push_back({fmt::format("{} {}", name, i + 1), lines[i], json_string(lines[i])});
+    }
+  };
+  add_lines("assumed", model.assumed);
+  add_lines("told", model.told);
+  return facts;
 }
 
 }  // namespace warren

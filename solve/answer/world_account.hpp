@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which world was solved, in figures and in words.
+// Which world was solved, in figures and in words; what is in a world, and in a robot that files describe, line by
+// line.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "core/run/execution.hpp"
+#include "scenes/scene/arm_model.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace warren {
@@ -45,6 +47,9 @@ struct Fact {
 
 /// Throws Stopped. O(size of the scene), for its hash.
 std::vector<Fact> facts_of(const Scene& scene, const Execution& execution);
+/// Of a robot: its joints with limits and speeds, links, solids, pairs that are kept apart, and what is taken for
+/// granted.
+std::vector<Fact> facts_of(const ArmModel& model);
 /// All facts as one object of warren.info/1.
 std::string facts_json(const std::vector<Fact>& facts);
 

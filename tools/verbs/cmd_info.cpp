@@ -17,7 +17,6 @@
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "scenes/text/output_file_io.hpp"
-#include "solve/answer/arm_account.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/kept/roadmap_file_io.hpp"
 #include "solve/kept/roadmap_sections.hpp"
