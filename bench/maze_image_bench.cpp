@@ -19,7 +19,6 @@
 #include "planners/roadmap/lazy_prm.hpp"
 #include "planners/roadmap/prm.hpp"
 #include "scenes/files/image_io.hpp"
-#include "scenes/files/maze_image_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "worlds/plane/grid_world.hpp"
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Images as occupancy maps need them: PNG (all colour types and depths, interlaced or not), PGM (binary and ASCII, 8
 // and 16 bits) and BMP (not compressed), handed over a run of pixels at a time, so that nothing but a row is ever held.
+//
+// Mazes as images (PNG, PGM): dark pixels (grey below 128, transparent ones over white) are walls. The single bright
+// pixel of the first row is the entrance, that of the last row the exit; where there isn't exactly one, start and goal
+// are left open.
 #pragma once
 
 #include <cstdint>
@@ -54,5 +58,8 @@ enum class UnknownCells : std::uint8_t {
 
 /// A map in binary: free 254, blocked 0. Throws as OutputFile does.
 void write_map_pgm(const OccupancyMap& map, const std::string& path, UnknownCells unknown, const Execution& execution);
+
+/// A pixel is a cell of side 1, the lower left corner of the image is (0, 0). Throws InputError, Stopped.
+OccupancyMap read_maze_image(const InputFile& file, const Execution& execution);
 
 }  // namespace warren

@@ -14,7 +14,6 @@
 #include "scenes/files/image_io.hpp"
 #include "scenes/files/mask_io.hpp"
 #include "scenes/files/maze_file_io.hpp"
-#include "scenes/files/maze_image_io.hpp"
 #include "scenes/files/micromouse_io.hpp"
 #include "scenes/files/moving_ai_io.hpp"
 #include "scenes/files/npy_io.hpp"

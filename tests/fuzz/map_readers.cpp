@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "scenes/files/maze_image_io.hpp"
+#include "scenes/files/image_io.hpp"
 #include "scenes/files/moving_ai_io.hpp"
 #include "scenes/files/read_world_io.hpp"
 #include "scenes/files/ros_map_io.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenes/files/maze_image_io.hpp"
+#include "scenes/files/image_io.hpp"
 
 #include <gtest/gtest.h>
 

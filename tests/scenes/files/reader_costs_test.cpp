@@ -13,7 +13,7 @@
 #include "core/base/error.hpp"
 #include "scenes/arms/dh_table_io.hpp"
 #include "scenes/files/geojson_io.hpp"
-#include "scenes/files/maze_image_io.hpp"
+#include "scenes/files/image_io.hpp"
 #include "scenes/files/micromouse_io.hpp"
 #include "scenes/files/moving_ai_io.hpp"
 #include "scenes/files/npy_io.hpp"
