@@ -18,7 +18,6 @@
 #include "core/base/types.hpp"
 #include "parallel/asked_memory.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
-#include "scenes/scene/rings.hpp"
 #include "scenes/text/json_text.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "scenes/text/scene_text.hpp"
@@ -28,8 +27,8 @@ namespace {
 
 /// What GeoJSON's geometries mean for a world: outlines are obstacles, lines walls, points nothing, unless the feature
 /// around them says that they are start, goal or bounds. That is known when the feature ends, so geometries wait here.
-/// Polygons with holes are cut (scenes/scene/rings.hpp). Refers to the file's name, which must outlive it. All that is
-/// wrong throws InputError with file and line.
+/// Polygons with holes are cut (scenes/scene/plane_obstacles.hpp). Refers to the file's name, which must outlive it.
+/// All that is wrong throws InputError with file and line.
 class GeojsonPieces {
  public:
   enum class Kind : std::uint8_t { polygon, wall, point };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // GeoJSON (RFC 7946), in and out: a FeatureCollection, Feature or geometry. Polygons and MultiPolygons are obstacles,
-// LineStrings walls; a polygon with holes becomes several that touch (scenes/scene/rings). A feature
+// LineStrings walls; a polygon with holes becomes several that touch (scenes/scene/plane_obstacles). A feature
 // whose properties have a "role" says what else a world holds: "start" and "goal" (Points), "bounds" (a Polygon, taken
 // as its box). Rings of either orientation, closed as the RFC demands; a third coordinate is dropped; features without
 // geometry, properties and foreign members are passed over. Also a bare array of rings, open or closed, as earcut's

@@ -14,7 +14,6 @@
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
-#include "scenes/scene/rings.hpp"
 #include "scenes/text/scene_text.hpp"
 #include "spatial/obstacles/polygon_index.hpp"
 

@@ -5,7 +5,7 @@
 //  - A polymap: `poly`, `1`, the number of rings, then for each the number of its corners and the corners. Free is what
 //    lies inside an odd number of rings, blocked all else, in the box of all rings too.
 // An outer ring alone is made of walls where it runs along its box, and of obstacles that fill the box where it does
-// not; of several the outside is one obstacle with holes (scenes/scene/rings.hpp), a little larger than their
+// not; of several the outside is one obstacle with holes (scenes/scene/plane_obstacles.hpp), a little larger than their
 // box, as obstacles are with free islands inside.
 //  - .poly: lines `X Y`; any other line (blank, `//`, `#`, END) ends a ring. Each ring is an obstacle.
 #pragma once

@@ -12,7 +12,6 @@
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
-#include "scenes/scene/rings.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "scenes/text/scene_text.hpp"
 

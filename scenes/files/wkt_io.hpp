@@ -3,7 +3,7 @@
 // mark nothing, GEOMETRYCOLLECTION holds any of them, EMPTY is nothing. Any number of geometries, apart by blanks,
 // lines or
 // `;`; upper or lower case; `SRID=n;` and Z, M, ZM are understood and dropped. A polygon with holes becomes several
-// that touch (scenes/scene/rings). Rings of either orientation, closed.
+// that touch (scenes/scene/plane_obstacles). Rings of either orientation, closed.
 #pragma once
 
 #include <string>

@@ -5,13 +5,471 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
 #include "parallel/chunks.hpp"
-#include "scenes/scene/rings.hpp"
 
 namespace warren {
+namespace {
+
+/// Closed rings, one after the other; side i runs from corner i to the next one of its ring.
+class RingSides {
+ public:
+  /// first: the number of each ring's first corner, ascending from 0. Refers to the corners.
+  RingSides(std::span<const Vec2> corners, std::span<const std::uint32_t> first);
+
+  std::size_t size() const { return corners_.size(); }
+  std::uint32_t next(std::size_t i) const { return next_[i]; }
+  std::uint32_t previous(std::size_t i) const { return previous_[i]; }
+  Vec2 corner(std::size_t i) const { return corners_[i]; }
+  Segment side(std::size_t i) const { return {corners_[i], corners_[next_[i]]}; }
+  /// Does the side run with the sweep?
+  bool ahead(std::size_t i) const { return is_before(corners_[i], corners_[next_[i]]); }
+  /// The end of a side that the sweep reaches first, and the other.
+  Vec2 low(std::size_t i) const { return ahead(i) ? corners_[i] : corners_[next_[i]]; }
+  Vec2 high(std::size_t i) const { return ahead(i) ? corners_[next_[i]] : corners_[i]; }
+
+  /// Do the sides share more than a corner in which one follows the other?
+  bool meet(std::size_t i, std::size_t j) const;
+  /// Do they cross, or share more than a point? Where one ends on the other they do not.
+  bool cross(std::size_t i, std::size_t j) const;
+  /// Does the ring turn back on itself in corner i?
+  bool fold(std::size_t i) const;
+
+ private:
+  std::span<const Vec2> corners_;
+  std::vector<std::uint32_t> next_;
+  std::vector<std::uint32_t> previous_;
+};
+
+/// May rings meet? At points: from the inside that they bound, which lies left of their sides.
+enum class RingContacts : std::uint8_t { none, at_points };
+
+/// A line swept over closed rings of corners (Shamos, Hoey 1976). It stops at the first contact of two sides that must
+/// not meet, and tells at each corner which side lies directly below: O(n log n), exact, whatever the rings: neighbours
+/// on the line are compared, and where rings meet first, two neighbours meet. Corners are ordered by x, then y, as if
+/// the line leaned a little, so vertical sides and equal x need no rule of their own. Where rings may touch at points,
+/// the corners of one place are passed together; that they touch and do not cross there is seen by what is inside: of
+/// the sides on the line every second one has the inside above it. The sides on the sweep line, lowest first. They do
+/// not cross left of it, or the sweep would have ended.
+class RingSweep {
+ public:
+  static constexpr std::uint32_t no_side = 0xffffffffU;
+
+  /// Refers to both. No ring folds.
+  RingSweep(const RingSides& rings, const Execution& execution, RingContacts contacts = RingContacts::none)
+      : rings_(rings),
+        execution_(execution),
+        may_touch_(contacts == RingContacts::at_points),
+        order_(Order{&rings, &contact_, may_touch_}),
+        place_(rings.size(), order_.end()) {}
+
+  /// Calls visit(corners, below, touched) once the sweep has passed the corners of a place, one where rings may not
+  /// touch. below: the side that lies directly below, or no_side; touched: the side that the place lies on, between its
+  /// ends, or no_side. The first contact that may not be, where the sweep ended, if there is one. Throws Stopped.
+  template <class Visit>
+  std::optional<SideContact> run(const Visit& visit);
+
+ private:
+  /// Compares a side that begins in the corner that the line has reached with those on the line.
+  struct Order {
+    const RingSides* rings;
+    std::optional<SideContact>* contact;
+    bool may_touch;
+    bool operator()(std::uint32_t i, std::uint32_t j) const;
+  };
+  using Status = std::set<std::uint32_t, Order>;
+
+  std::uint32_t pass(std::span<const std::uint32_t> corners);
+  void look_around(Vec2 here, Status::iterator lowest);
+  void compare(std::uint32_t i, std::uint32_t j) {
+    if (!contact_ && (may_touch_ ? rings_.cross(i, j) : rings_.meet(i, j))) contact_ = SideContact{i, j};
+  }
+  Status::iterator remove(std::uint32_t side);
+  void insert(std::uint32_t side);
+
+  const RingSides& rings_;
+  const Execution& execution_;
+  bool may_touch_;
+  std::optional<SideContact> contact_;
+  std::uint32_t touched_ = no_side;
+  Status order_;
+  std::vector<Status::iterator> place_;
+};
+
+RingSides::RingSides(std::span<const Vec2> corners, std::span<const std::uint32_t> first)
+    : corners_(corners), next_(corners.size()), previous_(corners.size()) {
+  const auto count = static_cast<std::uint32_t>(corners.size());
+  for (std::size_t r = 0; r < first.size(); ++r) {
+    const std::uint32_t end = r + 1 < first.size() ? first[r + 1] : count;
+    for (std::uint32_t i = first[r]; i < end; ++i) {
+      next_[i] = i + 1 < end ? i + 1 : first[r];
+      previous_[next_[i]] = i;
+    }
+  }
+}
+
+bool RingSides::meet(std::size_t i, std::size_t j) const {
+  if (next(i) == j) return fold(j);
+  if (next(j) == i) return fold(i);
+  return segments_touch(side(i), side(j));
+}
+
+bool RingSides::cross(std::size_t i, std::size_t j) const {
+  const bool in_line = orient2d(low(i), high(i), low(j)) == 0 && orient2d(low(i), high(i), high(j)) == 0;
+  if (in_line) return is_before(low(i), high(j)) && is_before(low(j), high(i));
+  return segments_cross(side(i), side(j));
+}
+
+bool RingSides::fold(std::size_t i) const {
+  const Vec2 p = corner(previous(i));
+  const Vec2 q = corner(next(i));
+  return on_segment(q, {p, corner(i)}) || on_segment(p, {corner(i), q});
+}
+
+bool RingSweep::Order::operator()(std::uint32_t i, std::uint32_t j) const {
+  if (i == j) return false;
+  const Vec2 a = rings->low(i);
+  const Vec2 b = rings->low(j);
+  int side = 0;  // of j, seen from i
+  if (is_before(b, a)) {
+    side = -orient2d(b, rings->high(j), a);
+    if (side == 0 && may_touch) side = -orient2d(b, rings->high(j), rings->high(i));
+    if (side == 0) *contact = SideContact{i, j};  // i begins on j
+  } else if (is_before(a, b)) {
+    side = orient2d(a, rings->high(i), b);
+    if (side == 0 && may_touch) side = orient2d(a, rings->high(i), rings->high(j));
+    if (side == 0) *contact = SideContact{i, j};
+  } else {
+    side = orient2d(a, rings->high(i), rings->high(j));
+    const bool may_meet = may_touch || rings->next(i) == j || rings->next(j) == i;
+    if (side == 0 || !may_meet) *contact = SideContact{i, j};
+  }
+  return side > 0 || (side == 0 && i < j);
+}
+
+/// Takes the sides off that end in the corners and puts those on that begin there. The side below them.
+std::uint32_t RingSweep::pass(std::span<const std::uint32_t> corners) {
+  const Vec2 here = rings_.corner(corners.front());
+  Status::iterator lowest = order_.end();  // what lies above or begins in the corners
+  for (const std::uint32_t corner : corners) {
+    for (const std::uint32_t side : {rings_.previous(corner), corner}) {
+      if (rings_.high(side) == here) lowest = remove(side);
+    }
+  }
+  for (const std::uint32_t corner : corners) {
+    for (const std::uint32_t side : {rings_.previous(corner), corner}) {
+      if (!(rings_.low(side) == here) || contact_) continue;
+      insert(side);
+      lowest = place_[side];
+    }
+  }
+  if (contact_) return no_side;
+  while (lowest != order_.begin() && rings_.low(*std::prev(lowest)) == here) --lowest;
+  if (may_touch_) look_around(here, lowest);
+  return lowest == order_.begin() ? no_side : *std::prev(lowest);
+}
+
+/// Is the inside between every second pair of sides? And do the corners lie on the side below or above?
+void RingSweep::look_around(Vec2 here, Status::iterator lowest) {
+  touched_ = no_side;
+  const auto look_at = [&](std::uint32_t side) {
+    if (on_segment(here, rings_.side(side))) touched_ = side;
+  };
+  bool inside = false;
+  if (lowest != order_.begin()) {
+    inside = rings_.ahead(*std::prev(lowest));
+    look_at(*std::prev(lowest));
+  }
+  for (auto at = lowest; at != order_.end(); ++at) {
+    if (rings_.ahead(*at) == inside) contact_ = SideContact{*at, *at};
+    inside = !inside;
+    if (rings_.low(*at) == here) continue;
+    look_at(*at);
+    return;
+  }
+}
+
+RingSweep::Status::iterator RingSweep::remove(std::uint32_t side) {
+  const auto after = order_.erase(place_[side]);
+  place_[side] = order_.end();
+  if (after != order_.begin() && after != order_.end()) compare(*std::prev(after), *after);
+  return after;
+}
+
+void RingSweep::insert(std::uint32_t side) {
+  const auto at = order_.insert(side).first;
+  place_[side] = at;
+  if (contact_) return;
+  if (at != order_.begin()) compare(*std::prev(at), side);
+  if (std::next(at) != order_.end()) compare(side, *std::next(at));
+}
+
+template <class Visit>
+std::optional<SideContact> RingSweep::run(const Visit& visit) {
+  std::vector<std::uint32_t> corners(rings_.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::uint32_t>(i);
+  std::sort(corners.begin(), corners.end(),
+            [&](std::uint32_t i, std::uint32_t j) { return is_before(rings_.corner(i), rings_.corner(j)); });
+  constexpr std::size_t batch = 4096;
+  std::size_t end = 0;
+  std::size_t places = 0;
+  for (std::size_t k = 0; k < corners.size(); k = end) {
+    if (places++ % batch == 0) execution_.check();
+    const auto here = [&](std::size_t other) { return rings_.corner(corners[other]) == rings_.corner(corners[k]); };
+    if (!may_touch_ && k > 0 && here(k - 1)) return SideContact{corners[k - 1], corners[k]};
+    for (end = k + 1; may_touch_ && end < corners.size() && here(end);) ++end;
+    const std::span<const std::uint32_t> place(corners.data() + k, end - k);
+    const std::uint32_t below = pass(place);
+    if (contact_) return contact_;
+    visit(place, below, touched_);
+  }
+  return std::nullopt;
+}
+
+/// The cuts, as a line sweeps over the rings. Between a side with the inside above it and the next side above lies an
+/// open strip; its post is the corner that the line passed last in it (or on the side, or where it opened). Nothing
+/// lies between a post and the next corner in the strip, so what joins the two meets no ring, and no two such joins
+/// cross.
+class HoleTies {
+ public:
+  HoleTies(const RingSides& rings, std::span<const std::uint32_t> ring_first)
+      : rings_(rings), posts_(rings.size()), place_(rings.size(), Place::other), one_of_(rings.size()) {
+    for (std::size_t r = 1; r < ring_first.size(); ++r) {
+      std::uint32_t low = ring_first[r];
+      std::uint32_t high = low;
+      for (std::uint32_t i = rings.next(low); i != ring_first[r]; i = rings.next(i)) {
+        if (is_before(rings.corner(i), rings.corner(low))) low = i;
+        if (is_before(rings.corner(high), rings.corner(i))) high = i;
+      }
+      place_[low] = Place::leftmost;
+      place_[high] = Place::rightmost;
+    }
+  }
+
+  /// Corners of one place, where rings touch; below: the side that they lie directly above; touched: the one that they
+  /// lie on. Who touches is tied there already.
+  void pass(std::span<const std::uint32_t> corners, std::uint32_t below, std::uint32_t touched) {
+    const std::uint32_t one = corners.front();
+    place_[one] = place_of(corners, touched);
+    for (const std::uint32_t corner : corners) one_of_[corner] = one;
+    if (touched != RingSweep::no_side) touches_.emplace_back(touched, one);
+    if (below != RingSweep::no_side && rings_.ahead(below)) arrive(one, below);
+    for (const std::uint32_t corner : corners) {
+      const std::uint32_t before = rings_.previous(corner);
+      if (rings_.ahead(before)) arrive(one, before);  // ends here, with the inside above it
+      if (rings_.ahead(corner)) posts_[corner] = one;
+    }
+  }
+
+  /// The one of the corners of its place that stands for all of them.
+  std::uint32_t one_of(std::uint32_t corner) const { return one_of_[corner]; }
+  /// Sides and the corners that lie on them, these from left to right.
+  const std::vector<std::pair<std::uint32_t, std::uint32_t>>& touches() const { return touches_; }
+  const std::vector<std::pair<std::uint32_t, std::uint32_t>>& cuts() const { return cuts_; }
+
+ private:
+  /// Of holes, where nothing else lies further left or right.
+  enum class Place : std::uint8_t { other, leftmost, rightmost };
+
+  Place place_of(std::span<const std::uint32_t> corners, std::uint32_t touched) const {
+    bool ends = touched != RingSweep::no_side;  // does a side end here, or begin?
+    bool begins = ends;
+    Place place = Place::other;
+    for (const std::uint32_t corner : corners) {
+      const bool arrives = rings_.ahead(rings_.previous(corner));
+      const bool leaves = rings_.ahead(corner);
+      ends = ends || arrives || !leaves;
+      begins = begins || leaves || !arrives;
+      if (place_[corner] != Place::other) place = place_[corner];
+    }
+    return (place == Place::leftmost && ends) || (place == Place::rightmost && begins) ? Place::other : place;
+  }
+
+  void arrive(std::uint32_t corner, std::uint32_t side) {
+    std::uint32_t& post = posts_[side];
+    if (place_[corner] == Place::leftmost || place_[post] == Place::rightmost) cuts_.emplace_back(post, corner);
+    post = corner;
+  }
+
+  const RingSides& rings_;
+  std::vector<std::uint32_t> posts_;  // of the strip above each side; only of sides on the line, with the inside above
+  std::vector<Place> place_;
+  std::vector<std::uint32_t> one_of_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> touches_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> cuts_;
+};
+
+/// The polygon's inside lies left of each side: the outer ring runs anticlockwise, holes clockwise.
+class HoleCutter {
+ public:
+  void add_ring(const std::vector<Vec2>& ring) {
+    const auto first = static_cast<std::uint32_t>(corners_.size());
+    const auto n = static_cast<std::uint32_t>(ring.size());
+    for (std::uint32_t i = 0; i < n; ++i) {
+      corners_.push_back(ring[i]);
+      add_line(first + i, first + (i + 1) % n);
+    }
+    ring_first_.push_back(first);
+  }
+
+  /// Ties all rings but the first one to what lies left and right of them. False: rings cross, or share more than a
+  /// point, or a hole lies outside.
+  bool tie_holes(const Execution& execution) {
+    const RingSides rings(corners_, ring_first_);
+    HoleTies ties(rings, ring_first_);
+    RingSweep sweep(rings, execution, RingContacts::at_points);
+    if (sweep.run([&](auto corners, auto below, auto touched) { ties.pass(corners, below, touched); })) return false;
+    const auto split = [&](std::uint32_t side, std::uint32_t corner) {  // what is left of the line is its first part
+      add_line(corner, lines_[side].to);
+      lines_[side].to = corner;
+    };
+    const auto& touches = ties.touches();
+    for (const auto& [side, corner] : touches) {
+      if (!rings.ahead(side)) split(side, corner);
+    }
+    for (auto touch = touches.rbegin(); touch != touches.rend(); ++touch) {
+      if (rings.ahead(touch->first)) split(touch->first, touch->second);
+    }
+    for (Line& line : lines_) line = {ties.one_of(line.from), ties.one_of(line.to)};
+    for (const auto& [from, to] : ties.cuts()) {
+      add_line(from, to);
+      add_line(to, from);
+    }
+    return true;
+  }
+
+  /// The outlines left of all lines; none where these do not close.
+  std::vector<std::vector<Vec2>> pieces() {
+    std::vector<std::vector<std::uint32_t>> leaving(corners_.size());
+    for (std::uint32_t i = 0; i < lines_.size(); ++i) leaving[lines_[i].from].push_back(i);
+    std::vector<char> used(lines_.size(), 0);
+    std::vector<std::vector<Vec2>> result;
+    for (std::uint32_t first = 0; first < lines_.size(); ++first) {
+      if (used[first] != 0) continue;
+      std::vector<Vec2>& outline = result.emplace_back();
+      std::uint32_t line = first;
+      do {
+        if (used[line] != 0) return {};
+        used[line] = 1;
+        outline.push_back(corners_[lines_[line].from]);
+        line = next_line(line, leaving[lines_[line].to]);
+      } while (line != first);
+      if (anticlockwise(outline) != outline) return {};
+    }
+    return result;
+  }
+
+ private:
+  struct Line {
+    std::uint32_t from, to;
+  };
+
+  void add_line(std::uint32_t from, std::uint32_t to) { lines_.push_back({from, to}); }
+
+  /// Of the lines that leave the end of `arriving`, the first one clockwise of the way back.
+  std::uint32_t next_line(std::uint32_t arriving, const std::vector<std::uint32_t>& leaving) const {
+    const Vec2 at = corners_[lines_[arriving].to];
+    const Vec2 back = corners_[lines_[arriving].from];
+    std::uint32_t best = leaving.front();
+    for (const std::uint32_t line : leaving) {
+      if (turns_sooner(at, back, corners_[lines_[line].to], corners_[lines_[best].to])) best = line;
+    }
+    return best;
+  }
+
+  /// Going clockwise from `back` around `at`, a full turn for `back` itself, is p met before q?
+  static bool turns_sooner(Vec2 at, Vec2 back, Vec2 p, Vec2 q) {
+    const auto quarter = [&](Vec2 r) {  // 0: right of the way back; 1: straight on; 2: left of it; 3: the way back
+      const int side = orient2d(at, back, r);
+      if (side != 0) return side < 0 ? 0 : 2;
+      return on_segment(r, {at, back}) || on_segment(back, {at, r}) ? 3 : 1;
+    };
+    if (quarter(p) != quarter(q)) return quarter(p) < quarter(q);
+    return orient2d(at, p, q) < 0;
+  }
+
+  std::vector<Vec2> corners_;
+  std::vector<Line> lines_;  // sides, and each cut in both directions
+  std::vector<std::uint32_t> ring_first_;
+};
+
+/// The sides that two of the pieces have, in opposite directions.
+std::vector<Segment> shared_sides(std::span<const std::vector<Vec2>> pieces) {
+  std::vector<Segment> sides;
+  for (const std::vector<Vec2>& piece : pieces) {
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      const Vec2 a = piece[i];
+      const Vec2 b = piece[i + 1 == piece.size() ? 0 : i + 1];
+      sides.push_back(is_before(a, b) ? Segment{a, b} : Segment{b, a});
+    }
+  }
+  std::sort(sides.begin(), sides.end(),
+            [](const Segment& s, const Segment& t) { return s.a == t.a ? is_before(s.b, t.b) : is_before(s.a, t.a); });
+  std::vector<Segment> shared;
+  for (std::size_t i = 1; i < sides.size(); ++i) {
+    if (sides[i] == sides[i - 1]) shared.push_back(sides[i]);
+  }
+  return shared;
+}
+
+std::optional<SideContact> compare_all(const RingSides& outline) {
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    for (std::size_t j = i + 1; j < outline.size(); ++j) {
+      if (outline.meet(i, j)) return SideContact{i, j};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<std::vector<Vec2>> without_holes(const std::vector<Vec2>& outer, std::span<const std::vector<Vec2>> holes,
+                                             const Execution& execution) {
+  std::vector<std::vector<Vec2>> rings{anticlockwise(outer)};
+  for (const std::vector<Vec2>& hole : holes) {
+    std::vector<Vec2> ring = anticlockwise(hole);
+    std::reverse(ring.begin(), ring.end());
+    if (ring.size() < 3 || anticlockwise(ring) == ring) return {};  // what has no area can't be turned
+    rings.push_back(std::move(ring));
+  }
+  HoleCutter cutter;
+  for (const std::vector<Vec2>& ring : rings) {
+    if (ring.size() < 3 || self_contact(ring, execution)) return {ring};
+    cutter.add_ring(ring);
+  }
+  if (!cutter.tie_holes(execution)) return {};
+  return cutter.pieces();
+}
+
+bool add_without_holes(Scene& scene, std::size_t line, const std::vector<Vec2>& outer,
+                       std::span<const std::vector<Vec2>> holes, const Execution& execution) {
+  std::vector<std::vector<Vec2>> pieces = without_holes(outer, holes, execution);
+  const std::vector<Segment> seams = shared_sides(pieces);
+  scene.seams.insert(scene.seams.end(), seams.begin(), seams.end());
+  for (std::vector<Vec2>& piece : pieces) scene.polygons.push_back({std::move(piece), line});
+  return !pieces.empty();
+}
+
+bool stands_on_seam(const Scene& scene, Vec2 p) {
+  return std::any_of(scene.seams.begin(), scene.seams.end(),
+                     [&](const Segment& s) { return on_segment(p, s) && !(p == s.a) && !(p == s.b); });
+}
+
+std::optional<SideContact> self_contact(std::span<const Vec2> corners, const Execution& execution) {
+  constexpr std::size_t few = 24;
+  constexpr std::uint32_t one_ring[] = {0};
+  const RingSides outline(corners, one_ring);
+  if (outline.size() <= few) return compare_all(outline);
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    if (outline.fold(i)) return SideContact{outline.previous(i), i};
+  }
+  return RingSweep(outline, execution).run([](auto, auto, auto) {});
+}
+
 namespace {
 
 constexpr std::size_t obstacle_grain = 512;

@@ -6,7 +6,6 @@
 #include "core/base/error.hpp"
 #include "planners/vertical_cells/cell_decomposition.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
-#include "scenes/scene/rings.hpp"
 
 namespace warren {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scenes/scene/rings.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,6 @@
 #include "core/base/rng.hpp"
 #include "core/plane/geometry.hpp"
 #include "core/plane/polygon.hpp"
-#include "scenes/scene/plane_obstacles.hpp"
 
 namespace warren {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The sweep against all pairs of sides in plain integers, on small grids where contacts of every kind are common.
-#include "scenes/scene/rings.hpp"
+#include "scenes/scene/plane_obstacles.hpp"
 
 #include <gtest/gtest.h>
 
