@@ -7,7 +7,6 @@
 #include "parallel/chunks.hpp"
 #include "scenes/mazes/maze_carving.hpp"
 #include "scenes/mazes/spanning_maze.hpp"
-#include "scenes/mazes/spanning_tile.hpp"
 
 namespace warren::maze {
 namespace {
