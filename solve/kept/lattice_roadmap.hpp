@@ -5,11 +5,19 @@
 // Ends are joined to the lattice as solve() joins them: to the milestones within a step that they reach freely, and
 // where there is none to the nearest of the 256 nearest that they do. An end on a milestone that has an edge needs no
 // look at the walls; others have one (WallsNearEnds), and the walls of a file are made first.
+//
+// The walls of a kept maze as its judge looks them up (KeptCells): by bits of the file, read by code of verify/ and
+// held against the world's hash, or by bits of its own. Some milliseconds or a second once, at 10^8 cells; then each
+// look is free.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -20,12 +28,42 @@
 #include "planners/lengths/route_index.hpp"
 #include "planners/lengths/route_query.hpp"
 #include "scenes/scene/scene.hpp"
-#include "solve/kept/kept_cells.hpp"
+#include "solve/kept/roadmap_file.hpp"
 #include "solve/question/question.hpp"
 #include "solve/question/solve_options.hpp"
+#include "verify/streamed/looked_up_walls.hpp"
 #include "worlds/plane/maze_world.hpp"
 
 namespace warren {
+
+/// Immutable; any number of threads may look.
+struct KeptCells {
+  /// Looks for a wall on each side of the rim.
+  KeptCells(std::unique_ptr<const LookedUpWalls> cells, std::size_t count);
+  /// The walls around the cells that meet a box, unit by unit, and some of the rim: what a scene of them all says of
+  /// motions in the box, this one does.
+  Scene walls_in(const Box& box) const;
+
+  std::unique_ptr<const LookedUpWalls> walls;  ///< as the judge sees them
+  std::size_t wall_count;                      ///< of the world: not of units
+ private:
+  std::vector<Segment> rim_;  // a unit of each side: the reference point stays in the box of all walls
+};
+
+/// Is the world inside a maze whose walls stand wherever its lattice has no passage, and nothing else?
+bool walls_are_passages(const RoadmapFile& file, const Scene& outline);
+/// Is it a maze, and nothing else?
+bool is_nothing_but_maze(const Scene& scene);
+/// Of such a file, which must outlive it. Throws InputError for a world of another hash, Stopped.
+std::unique_ptr<KeptCells> cells_of_file(const RoadmapFile& file, MazeHint maze, const std::string& hash,
+                                         const Execution& execution);
+/// Of the words of a lattice, which must outlive it; `where` names them. Throws as above.
+std::unique_ptr<KeptCells> cells_of_words(const std::string& where, MazeHint maze, std::span<const std::uint64_t> right,
+                                          std::span<const std::uint64_t> up, const std::string& hash,
+                                          const Execution& execution);
+/// Of walls that are held. Nothing for worlds that hold more than a maze of units on its grid. Throws Stopped.
+std::unique_ptr<KeptCells> cells_of_scene(const Scene& scene, const Execution& execution);
+
 /// The world of a roadmap. Whoever asks a lattice in a file for a length needs none of its walls, and making those of
 /// 10^8 cells takes a second and 1.6 GB: there they are made when a picture or an explanation first needs them. A judge
 /// and ends off the lattice look them up one by one, where bits say them. Moves leave references to scenes valid only

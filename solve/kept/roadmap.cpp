@@ -13,7 +13,7 @@
 #include "core/base/error.hpp"
 #include "parallel/sort.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
-#include "solve/kept/kept_cells.hpp"
+#include "solve/kept/lattice_roadmap.hpp"
 #include "solve/kept/maze_bits.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/question_of_pose.hpp"

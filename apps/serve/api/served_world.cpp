@@ -10,7 +10,7 @@
 #include "core/base/error.hpp"
 #include "scenes/text/price_text.hpp"
 #include "solve/explain_answer.hpp"
-#include "solve/kept/kept_cells.hpp"
+#include "solve/kept/lattice_roadmap.hpp"
 #include "solve/kept/roadmap.hpp"
 #include "solve/kinds/kept_ways.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
