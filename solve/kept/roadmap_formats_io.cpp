@@ -3,11 +3,14 @@
 
 #include <fmt/compile.h>
 #include <fmt/format.h>
+#include <zlib.h>
 
+#include <cassert>
 #include <cmath>
 #include <limits>
 
 #include "core/base/error.hpp"
+#include "scenes/files/npy_io.hpp"
 #include "scenes/text/json_text.hpp"
 #include "scenes/text/output_file_io.hpp"
 
@@ -283,5 +286,202 @@ BinaryUnit::BinaryUnit(double largest) {
 std::int64_t BinaryUnit::multiple(double number) const { return std::llround(std::ldexp(number, bits_)); }
 
 std::string BinaryUnit::name() const { return "2^" + std::to_string(-bits_); }
+
+namespace {
+
+using Shape = std::vector<std::uint64_t>;
+
+class NpzWriter {
+ public:
+  NpzWriter(const ExportedRoadmapView& roadmap, const ExportedEdgesView& edges, OutputFile& file,
+            const Execution& execution)
+      : parts_(roadmap.parts), edges_(edges), zip_(file), execution_(execution) {}
+
+  /// Index is int32, what SciPy calculates with, or int64 where that is too narrow.
+  template <class Index>
+  void write_indices() {
+    const std::string_view type = sizeof(Index) == 4 ? "<i4" : "<i8";
+    of_edges<Index>("indices", type, [](const ExportedEdge& edge) { return static_cast<Index>(edge.to); });
+    begin("indptr", type, {parts_.vertex_count() + 1}, sizeof(Index));
+    constexpr std::size_t grain = vertices_a_piece / 2;  // up to a block of ends is counted for each
+    write_in_pieces(zip_, parts_.vertex_count() + 1, grain, execution_, [&](Range range, std::string& bytes) {
+      edges_.visit_rows(range, [&](std::uint64_t number) { append_little_endian(bytes, static_cast<Index>(number)); });
+    });
+    zip_.end();
+  }
+  void write_matrix() {
+    const std::uint64_t widest = std::max<std::uint64_t>(parts_.vertex_count(), edges_.count());
+    widest <= std::numeric_limits<std::int32_t>::max() ? write_indices<std::int32_t>() : write_indices<std::int64_t>();
+    small("format", "|S3", {}, "csr");
+    std::string shape;
+    for (int axis = 0; axis < 2; ++axis) append_little_endian(shape, std::int64_t(parts_.vertex_count()));
+    small("shape", "<i8", {2}, shape);
+    of_edges<double>("data", "<f8", [&](const ExportedEdge& edge) { return edges_.length(edge); });
+  }
+  void write_vertices() {
+    begin("states", "<f8", {parts_.vertex_count(), parts_.dimension}, sizeof(double));
+    of_span(parts_.states);
+    begin("component", "<u4", {parts_.vertex_count()}, sizeof(VertexId));
+    of_span(parts_.component);
+  }
+  void write_edge_states() {
+    of_edges<std::uint8_t>("edge_states", "|u1",
+                           [](const ExportedEdge& edge) { return static_cast<std::uint8_t>(edge.state); });
+  }
+  void close() { zip_.close(); }
+
+ private:
+  void begin(const std::string& name, std::string_view type, const Shape& shape, std::uint64_t bytes_a_number) {
+    std::uint64_t bytes = bytes_a_number;
+    for (const std::uint64_t extent : shape) bytes *= extent;
+    const std::string header = npy_header(type, shape);
+    zip_.begin(name + ".npy", header.size() + bytes);
+    zip_.write(header);
+  }
+  void small(const std::string& name, std::string_view type, const Shape& shape, std::string_view bytes) {
+    begin(name, type, shape, shape.empty() ? bytes.size() : bytes.size() / shape.front());
+    zip_.write(bytes);
+    zip_.end();
+  }
+  /// One number an edge.
+  template <class Number, class Value>
+  void of_edges(const std::string& name, std::string_view type, const Value& value) {
+    begin(name, type, {edges_.count()}, sizeof(Number));
+    write_in_pieces(zip_, edges_.ends(), edges_.grain, execution_, [&](Range range, std::string& bytes) {
+      edges_.visit(range, [&](const ExportedEdge& edge) { append_little_endian<Number>(bytes, value(edge)); });
+    });
+    zip_.end();
+  }
+  template <class Number>
+  void of_span(std::span<const Number> numbers) {
+    constexpr std::size_t block = std::size_t{1} << 17;
+    for (std::size_t first = 0; first < numbers.size(); first += block) {
+      execution_.check();
+      const std::span<const Number> some = numbers.subspan(first, std::min(block, numbers.size() - first));
+      zip_.write({reinterpret_cast<const char*>(some.data()), some.size_bytes()});
+      execution_.advance(some.size());
+    }
+    zip_.end();
+  }
+
+  const RoadmapParts& parts_;
+  const ExportedEdgesView& edges_;
+  StoredZip zip_;
+  const Execution& execution_;
+};
+
+}  // namespace
+
+ExportAccount write_roadmap_npz(const ExportedRoadmapView& roadmap, const std::string& path,
+                                const Execution& execution) {
+  const ExportedEdgesView edges(roadmap, EdgeWays::both, execution);
+  OutputFile file(path, execution);
+  NpzWriter writer(roadmap, edges, file, execution);
+  writer.write_matrix();
+  writer.write_vertices();
+  if (roadmap.options.with_unchecked) writer.write_edge_states();
+  writer.close();
+  file.commit();
+  return edges.account();
+}
+
+namespace {
+
+constexpr std::uint16_t plain_version = 20;
+constexpr std::uint16_t zip64_version = 45;
+constexpr std::uint16_t sum_follows = 8;  // flag: check sum and sizes stand behind the member
+constexpr std::uint16_t stored = 0;
+constexpr std::uint16_t midnight = 0;
+constexpr std::uint16_t first_day = 0x21;  // 1980-01-01
+constexpr std::uint16_t zip64_field = 1;
+constexpr std::uint16_t nothing_16 = 0;
+constexpr std::uint32_t nothing_32 = 0;
+constexpr std::uint64_t nothing_64 = 0;
+constexpr std::uint32_t said_in_zip64 = 0xffffffff;
+
+/// The fields of a record, one after the other, each as wide as its type.
+template <class... Fields>
+void append_fields(std::string& text, Fields... fields) {
+  (append_little_endian(text, fields), ...);
+}
+
+std::uint16_t size_16(std::string_view text) { return static_cast<std::uint16_t>(text.size()); }
+
+}  // namespace
+
+std::uint32_t StoredZip::short_form(std::uint64_t number) const {
+  return is_long(number) ? said_in_zip64 : static_cast<std::uint32_t>(number);
+}
+
+void StoredZip::put(std::string_view bytes) {
+  file_.write(bytes);
+  place_ += bytes.size();
+}
+
+void StoredZip::begin(std::string_view name, std::uint64_t bytes) {
+  members_.push_back({std::string{name}, bytes, place_});
+  const bool zip64 = is_long(bytes);
+  std::string extra;
+  if (zip64) append_fields(extra, zip64_field, std::uint16_t{16}, nothing_64, nothing_64);
+  const std::uint32_t size = zip64 ? said_in_zip64 : nothing_32;
+  std::string head;
+  append_fields(head, std::uint32_t{0x04034b50}, zip64 ? zip64_version : plain_version, sum_follows, stored, midnight,
+                first_day, nothing_32, size, size, size_16(name), size_16(extra));
+  put(head.append(name).append(extra));
+}
+
+void StoredZip::write(std::string_view bytes) {
+  Member& member = members_.back();
+  member.check_sum = static_cast<std::uint32_t>(
+      ::crc32_z(member.check_sum, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
+  member.written += bytes.size();
+  put(bytes);
+}
+
+void StoredZip::end() {
+  const Member& member = members_.back();
+  assert(member.written == member.bytes);
+  std::string tail;
+  append_fields(tail, std::uint32_t{0x08074b50}, member.check_sum);
+  if (is_long(member.bytes)) {
+    append_fields(tail, member.bytes, member.bytes);
+  } else {
+    append_fields(tail, static_cast<std::uint32_t>(member.bytes), static_cast<std::uint32_t>(member.bytes));
+  }
+  put(tail);
+}
+
+void StoredZip::append_entry(std::string& text, const Member& member) const {
+  std::string extra;
+  if (is_long(member.bytes)) append_fields(extra, member.bytes, member.bytes);
+  if (is_long(member.place)) append_fields(extra, member.place);
+  std::string field;
+  if (!extra.empty()) append_fields(field, zip64_field, size_16(extra));
+  field += extra;
+  const std::uint16_t version = field.empty() ? plain_version : zip64_version;
+  append_fields(text, std::uint32_t{0x02014b50}, version, version, sum_follows, stored, midnight, first_day,
+                member.check_sum, short_form(member.bytes), short_form(member.bytes), size_16(member.name),
+                size_16(field), nothing_16, nothing_16, nothing_16, nothing_32, short_form(member.place));
+  text.append(member.name).append(field);
+}
+
+void StoredZip::append_end(std::string& text, std::uint64_t directory_bytes) const {
+  const std::uint64_t count = members_.size();
+  if (is_long(place_) || is_long(directory_bytes)) {
+    append_fields(text, std::uint32_t{0x06064b50}, std::uint64_t{44}, zip64_version, zip64_version, nothing_32,
+                  nothing_32, count, count, directory_bytes, place_);
+    append_fields(text, std::uint32_t{0x07064b50}, nothing_32, place_ + directory_bytes, std::uint32_t{1});
+  }
+  const auto short_count = static_cast<std::uint16_t>(count);
+  append_fields(text, std::uint32_t{0x06054b50}, nothing_16, nothing_16, short_count, short_count,
+                short_form(directory_bytes), short_form(place_), nothing_16);
+}
+
+void StoredZip::close() {
+  std::string directory;
+  for (const Member& member : members_) append_entry(directory, member);
+  append_end(directory, directory.size());
+  put(directory);
+}
 
 }  // namespace warren
