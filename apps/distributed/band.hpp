@@ -20,7 +20,7 @@
 #include "scenes/mazes/spanning_maze.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/question/question.hpp"
-#include "solve/streamed/streamed_walls.hpp"
+#include "solve/streamed/solve_streamed.hpp"
 #include "verify/streamed/verify_cells.hpp"
 
 namespace warren::distributed {

@@ -29,7 +29,7 @@
 #include "core/run/execution.hpp"
 #include "parallel/once.hpp"
 #include "planners/mazes/tiled_prm_lattice.hpp"
-#include "solve/streamed/streamed_walls.hpp"
+#include "solve/streamed/solve_streamed.hpp"
 #include "verify/streamed/verify_cells.hpp"
 
 namespace warren::distributed {

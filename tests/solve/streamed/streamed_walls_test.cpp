@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solve/streamed/streamed_walls.hpp"
+#include "solve/streamed/solve_streamed.hpp"
 
 #include <gtest/gtest.h>
 
