@@ -16,7 +16,6 @@
 #include "core/base/error.hpp"
 #include "scenes/files/maze_file_io.hpp"
 #include "scenes/files/npy_io.hpp"
-#include "scenes/files/npy_maze_io.hpp"
 #include "scenes/files/read_world_io.hpp"
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/input_file_io.hpp"

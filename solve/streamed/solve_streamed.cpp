@@ -17,7 +17,6 @@
 #include "planners/mazes/tile_source.hpp"
 #include "planners/mazes/tiled_prm_lattice.hpp"
 #include "scenes/files/maze_file_io.hpp"
-#include "scenes/files/npy_maze_io.hpp"
 #include "scenes/mazes/spanning_maze.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "solve/answer/path_hash.hpp"

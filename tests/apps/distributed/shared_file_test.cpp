@@ -11,7 +11,7 @@
 #include "apps/distributed/shared_solve.hpp"
 #include "core/base/error.hpp"
 #include "planners/mazes/tile_reduction.hpp"
-#include "scenes/files/npy_maze_io.hpp"
+#include "scenes/files/maze_file_io.hpp"
 #include "scenes/files/read_world_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "tests/apps/distributed/solved_by_ranks.hpp"

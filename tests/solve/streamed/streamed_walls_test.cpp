@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/base/error.hpp"
-#include "scenes/files/npy_maze_io.hpp"
+#include "scenes/files/maze_file_io.hpp"
 #include "scenes/files/read_world_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
