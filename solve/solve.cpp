@@ -19,7 +19,7 @@
 #include "solve/kinds/keep_route.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/lower_bound.hpp"
-#include "solve/kinds/map_steps.hpp"
+#include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/kinds/solve_to_goal.hpp"

@@ -14,7 +14,6 @@
 #include "planners/graph/assemble_graph.hpp"
 #include "planners/grid/skeleton_planner.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
-#include "solve/kinds/map_steps.hpp"
 #include "solve/kinds/plane_steps.hpp"
 
 namespace warren {

@@ -11,7 +11,7 @@
 #include "core/base/error.hpp"
 #include "core/base/whole.hpp"
 #include "planners/grid/visiting_order.hpp"
-#include "solve/kinds/map_steps.hpp"
+#include "solve/kinds/plane_steps.hpp"
 #include "spatial/maps/distance_field.hpp"
 #include "verify/judges/verify_map.hpp"
 

@@ -14,7 +14,6 @@
 #include "planners/visibility/disc_path.hpp"
 #include "planners/visibility/visibility_path.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
-#include "solve/kinds/map_steps.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/solve_steps.hpp"

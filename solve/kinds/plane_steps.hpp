@@ -1,19 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the planners for a point or disc among polygons and walls share (solve_plane.cpp, solve_visibility.cpp): the
-// question, and how their answers tell it.
+// What the planners for a point or disc in the plane share. Among polygons and walls (solve_plane.cpp,
+// solve_visibility.cpp): the question, and how their answers tell it. On an occupancy map (solve_map.cpp): the
+// question, paths over cells, and the verification against closed cells.
 #pragma once
 
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
+#include "core/base/bitmap.hpp"
 #include "core/base/solution.hpp"
 #include "core/plane/polygon.hpp"
+#include "core/plane/se2.hpp"
 #include "planners/axis/medial_axis_planner.hpp"
 #include "planners/vertical_cells/cell_planner.hpp"
+#include "scenes/scene/occupancy_map.hpp"
 #include "solve/answer/by_products.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
+#include "verify/judges/verify_point.hpp"
 
 namespace warren {
 
@@ -58,5 +65,55 @@ WallProblem voronoi_problem(const Scene& scene, const Question& question);
 double axis_clearance(const WallProblem& problem);
 /// A box without area has no middle: throws InputError with the file's name.
 void check_axis_box(const Scene& scene);
+
+/// The planner voronoi on a map.
+Answer solve_on_skeleton(const SolveRequest& request);
+
+/// Throws UsageError where contact is to be allowed, and as wall_problem does.
+WallProblem map_problem(const Scene& scene, const Question& options);
+
+/// The cells that the robot may not enter, among them the water if it starts on land.
+Bitmap closed_cells(const OccupancyMap& map, Vec2 start);
+
+/// Does the robot fit there as an end, as the verification sees it?
+bool stands_free_on_map(const OccupancyMap& map, const WallProblem& problem, Vec2 p, const Execution& execution);
+/// Then its goal may lie there, too.
+bool starts_on_water(const OccupancyMap& map, Vec2 start);
+/// What is said of the ends where one is called blocked (solve/kinds/solve_steps.hpp): by the verification.
+Outcome settled_on_map(Outcome outcome, const OccupancyMap& map, const WallProblem& problem,
+                       const Execution& execution);
+
+/// Is it proved that no path leads from start to goal? A point between closed cells goes where cells with a common side
+/// are free. A disc's middle is nowhere where the middle of the cell is nearer than the radius less half a diagonal;
+/// all other cells are given it, corners too. O(cells).
+bool provably_apart(const OccupancyMap& map, const Bitmap& closed, const WallProblem& problem,
+                    const Execution& execution);
+
+/// The same for a body that turns: a car that is a disc by its disc, an outline by its first corner, a point: no motion
+/// takes it from where one pose has it to where the other has it.
+bool provably_apart(const OccupancyMap& map, const RobotSpec& robot, const Se2& start, const Se2& goal,
+                    const Execution& execution);
+
+/// Does a body that keeps `reach` get from a point to the middle of a cell in a straight line?
+bool is_joined(const OccupancyMap& map, double reach, Vec2 p, Cell cell, const Execution& execution);
+
+/// The cells by whose middles a path may begin or end at p, the nearest first, one of those that steps join nearby: a
+/// point's own; a disc may fit where it stands and not at the middle of its cell, but at one of those around it. wide:
+/// where its middle may not be.
+std::vector<Cell> cells_joined_to(const OccupancyMap& map, const Bitmap& wide, double reach, Vec2 p, Cell own,
+                                  const Execution& execution);
+
+/// From the start over the middles of the cells where the path turns to the goal; each cell is a neighbour of the one
+/// before.
+Path<Vec2> path_over_cells(const OccupancyMap& map, Vec2 start, std::span<const Cell> cells, Vec2 goal);
+
+/// A path on a map judged against the closed cells: whole problem, ends included.
+Verification verify_map_path(const OccupancyMap& map, const WallProblem& problem, std::span<const Vec2> path,
+                             const Execution& execution);
+
+/// Verifies a solved answer and fills in length and clearance. A path that fails is a bug, std::logic_error; but for
+/// paths over_cells of a disc, which may fail on the way between an end and the middle of its cell: not_connected.
+void verify_solved_on_map(Answer& answer, const OccupancyMap& map, const WallProblem& problem, bool over_cells,
+                          const Execution& execution);
 
 }  // namespace warren

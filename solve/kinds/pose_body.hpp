@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "solve/kinds/map_steps.hpp"
+#include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/sampled_solve.hpp"
 

@@ -12,7 +12,7 @@
 #include "core/base/whole.hpp"
 #include "planners/grid/path_classes.hpp"
 #include "planners/shorten/priced_taut.hpp"
-#include "solve/kinds/map_steps.hpp"
+#include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "verify/judges/verify_classes.hpp"
 #include "verify/judges/verify_map.hpp"

@@ -17,7 +17,6 @@
 #include "solve/kinds/geometric_roadmaps.hpp"
 #include "solve/kinds/goals_on_map.hpp"
 #include "solve/kinds/kept_ways.hpp"
-#include "solve/kinds/map_steps.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/priced_motions.hpp"
 #include "solve/kinds/routes_on_map.hpp"

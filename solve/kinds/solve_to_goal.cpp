@@ -11,7 +11,7 @@
 #include "core/base/error.hpp"
 #include "solve/kinds/goals_on_map.hpp"
 #include "solve/kinds/lower_bound.hpp"
-#include "solve/kinds/map_steps.hpp"
+#include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/question/question_of_arm.hpp"

@@ -11,7 +11,6 @@
 #include "core/plane/se2.hpp"
 #include "solve/kinds/geometric_roadmaps.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
-#include "solve/kinds/map_steps.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/pose_body.hpp"
 #include "solve/kinds/priced_motions.hpp"
