@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scenes/files/read_world_io.hpp"
-#include "scenes/files/mask_io.hpp"
+#include "scenes/files/ros_map_io.hpp"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,6 @@
 #include "scenes/arms/moveit_io.hpp"
 #include "scenes/files/geojson_io.hpp"
 #include "scenes/files/image_io.hpp"
-#include "scenes/files/mask_io.hpp"
 #include "scenes/files/maze_file_io.hpp"
 #include "scenes/files/micromouse_io.hpp"
 #include "scenes/files/moving_ai_io.hpp"

@@ -3,6 +3,8 @@
 // PGM or PNG image that it names. A cell is free, occupied, unknown, or (modes scale and raw) between; only free cells
 // may be driven on. Cells that are not free are blocked. The rules differ between ROS 1 and Nav2 at equality and for
 // pictures with alpha, so they are an option.
+//
+// The files that prices name, read: masks of map servers, and polygons that are kept out of.
 #pragma once
 
 #include <array>
@@ -35,5 +37,15 @@ std::string map_image_of(const std::string& yaml);
 
 /// Writes NAME.yaml and, beside it, NAME.pgm: the YAML only where its image is whole. Throws as OutputFile does.
 void write_ros_map(const OccupancyMap& map, const std::string& path, const Execution& execution);
+
+/// Reads the masks that nobody has read yet. What `keep-out` names may be a GeoJSON or scene, too: its polygons become
+/// keep_out or, with a factor, areas, and it is no mask more. Throws ReadError, InputError naming file and line,
+/// Stopped.
+void read_masks(Prices& prices, const Execution& execution);
+
+/// `name` as a file that stands in `file` means it: absolute, ~/…, or beside that.
+std::string path_beside(const std::string& file, const std::string& name);
+/// What `path` is called in a file that is written to `file`; read back by path_beside.
+std::string name_beside(const std::string& file, const std::string& path);
 
 }  // namespace warren

@@ -18,7 +18,7 @@
 #include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
 #include "scenes/arms/solid_text.hpp"
-#include "scenes/files/mask_io.hpp"
+#include "scenes/files/ros_map_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "scenes/text/price_text.hpp"

@@ -26,7 +26,7 @@
 #include "core/base/error.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/layers/draw_bodies.hpp"
-#include "scenes/files/mask_io.hpp"
+#include "scenes/files/ros_map_io.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"

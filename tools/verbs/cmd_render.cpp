@@ -7,7 +7,7 @@
 #include "core/base/error.hpp"
 #include "pictures/draw_answer.hpp"
 #include "pictures/formats/write_picture.hpp"
-#include "scenes/files/mask_io.hpp"
+#include "scenes/files/ros_map_io.hpp"
 #include "solve/answer/read_answer_io.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/question/question.hpp"

@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "core/base/error.hpp"
-#include "scenes/files/mask_io.hpp"
 #include "scenes/files/npy_io.hpp"
+#include "scenes/files/ros_map_io.hpp"
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/output_file_io.hpp"
