@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scenes/files/read_world_io.hpp"
-#include "scenes/files/ros_map_io.hpp"
 
 #include <fmt/format.h>
 
@@ -18,6 +17,7 @@
 #include "scenes/files/npy_io.hpp"
 #include "scenes/files/png_io.hpp"
 #include "scenes/files/ring_lists_io.hpp"
+#include "scenes/files/ros_map_io.hpp"
 #include "scenes/files/scene_io.hpp"
 #include "scenes/files/wkt_io.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
