@@ -21,7 +21,6 @@
 #include "scenes/files/ros_map_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/text/output_file_io.hpp"
-#include "scenes/text/price_text.hpp"
 #include "scenes/text/scene_text.hpp"
 
 namespace warren {

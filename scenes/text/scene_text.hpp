@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The words of one line of a scene file: fields between blanks or commas up to a `#`, numbers as the C locale writes
 // them, and errors that name file and line. Numbers that are not finite or beyond largest_coordinate are refused,
-// numbers nearer to zero than smallest_coordinate are zero.
+// numbers nearer to zero than smallest_coordinate are zero. Robots, prices and forbidden areas as such words: the same
+// lines in a scene, on a command line and in an answer.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <span>
@@ -14,9 +17,11 @@
 #include <string_view>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "core/plane/wall_set.hpp"
 #include "core/run/execution.hpp"
+#include "scenes/scene/prices.hpp"
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/input_file_io.hpp"
 
@@ -197,5 +202,31 @@ class WallCollector {
   const Execution& execution_;
   std::variant<RawVector<PackedWall>, RawVector<FloatWall>, RawVector<DoubleWall>> walls_;
 };
+
+/// How a line of prices begins.
+struct PriceWord {
+  std::string_view name;
+  std::string_view usage;
+  bool once;  ///< in a file
+};
+inline constexpr std::array<PriceWord, 5> price_line_words{
+    {{"clearance-price", "clearance-price P [D]", true},
+     {"area", "area F X Y X Y X Y ...", false},
+     {"mask", "mask FILE areas F | mask FILE speed [BASE MULTIPLIER] | mask FILE keep-out [F]", false},
+     {"keep-out", "keep-out X Y X Y X Y ...", false},
+     {"unknown", "unknown F", true}}};
+
+/// Reads what follows the word, one of these, to the line's end: areas and masks are added, others are replaced. Masks
+/// are named, not read (scenes/files/ros_map_io.hpp). Throws InputError naming the fields' place, Stopped.
+void read_price(const PriceWord& word, scene_text::Fields& fields, Prices& prices, const Execution& execution);
+
+/// Reads such a line from its word on. Throws InputError naming `where`, Stopped.
+void read_price_line(std::string_view line, const std::string& where, Prices& prices, const Execution& execution);
+
+/// A line each, which read_price reads back the same; name_of_file(file): what a mask's file is to be called.
+std::vector<std::string> price_lines(const Prices& prices,
+                                     const std::function<std::string(const std::string&)>& name_of_file);
+/// The same by the files' own names.
+std::vector<std::string> price_lines(const Prices& prices);
 
 }  // namespace warren

@@ -11,7 +11,6 @@
 #include "core/base/error.hpp"
 #include "core/base/whole.hpp"
 #include "scenes/text/json_text.hpp"
-#include "scenes/text/price_text.hpp"
 #include "scenes/text/scene_text.hpp"
 #include "solve/question/asked_words.hpp"
 

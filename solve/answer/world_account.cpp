@@ -12,7 +12,7 @@
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/json_text.hpp"
-#include "scenes/text/price_text.hpp"
+#include "scenes/text/scene_text.hpp"
 #include "solve/question/question.hpp"
 
 namespace warren {

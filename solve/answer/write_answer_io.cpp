@@ -11,7 +11,7 @@
 #include <variant>
 
 #include "scenes/scene/arm_model.hpp"
-#include "scenes/text/price_text.hpp"
+#include "scenes/text/scene_text.hpp"
 #include "solve/answer/explanation_text.hpp"
 #include "solve/answer/path_hash.hpp"
 #include "solve/answer/stage_lines.hpp"

@@ -14,7 +14,7 @@
 #include "scenes/scene/arm_model.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "scenes/text/json_text.hpp"
-#include "scenes/text/price_text.hpp"
+#include "scenes/text/scene_text.hpp"
 #include "solve/kept/checksum.hpp"
 #include "solve/kept/roadmap_file.hpp"
 #include "solve/kept/roadmap_sections.hpp"

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "scenes/text/price_text.hpp"
+#include "scenes/text/scene_text.hpp"
 
 namespace warren {
 namespace {

@@ -20,7 +20,7 @@
 #include "scenes/scene/plane_obstacles.hpp"
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/json_text.hpp"
-#include "scenes/text/price_text.hpp"
+#include "scenes/text/scene_text.hpp"
 #include "solve/question/question.hpp"
 
 namespace warren::serve {

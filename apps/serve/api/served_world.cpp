@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "scenes/text/price_text.hpp"
+#include "scenes/text/scene_text.hpp"
 #include "solve/explain_answer.hpp"
 #include "solve/kept/lattice_roadmap.hpp"
 #include "solve/kept/roadmap.hpp"
