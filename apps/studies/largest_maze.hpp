@@ -12,7 +12,7 @@
 
 #include "apps/studies/machine.hpp"
 #include "apps/studies/maze_trial.hpp"
-#include "pictures/plots/plot_sheet.hpp"
+#include "pictures/plots/plot.hpp"
 #include "scenes/text/human_units.hpp"
 
 namespace warren::studies {

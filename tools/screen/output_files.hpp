@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/run/execution.hpp"
-#include "pictures/plots/plot_sheet.hpp"
+#include "pictures/plots/plot.hpp"
 #include "scenes/scene/scene.hpp"
 #include "tools/words/command.hpp"
 

@@ -17,7 +17,7 @@
 #include "core/run/execution.hpp"
 #include "core/run/trace.hpp"
 #include "pictures/model/axis.hpp"
-#include "pictures/plots/plot_sheet.hpp"
+#include "pictures/plots/plot.hpp"
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/answer/answer.hpp"

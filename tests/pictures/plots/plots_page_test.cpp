@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pictures/plots/plot_sheet.hpp"
 
 #include <gtest/gtest.h>
 
