@@ -14,7 +14,6 @@
 #include "pictures/layers/draw_arm.hpp"
 #include "pictures/layers/draw_bodies.hpp"
 #include "pictures/layers/draw_cells.hpp"
-#include "pictures/layers/draw_prices.hpp"
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/answer/world_account.hpp"

@@ -1,9 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pictures/layers/draw_cells.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <map>
+#include <string>
+#include <tuple>
 #include <utility>
+
+#include "scenes/text/human_units.hpp"
+#include "spatial/maps/distance_field.hpp"
 
 namespace warren {
 namespace {
@@ -73,6 +83,170 @@ std::vector<PictureLayer> cells_of_map(const OccupancyMap& map, const Execution&
   layers.push_back(cells_layer("occupied", std::string(occupied), known_of(map, execution), at, execution));
   layers.back().fill = colors::occupied_cell;
   if (!map.unknown.empty()) layers.push_back(cells_layer("unknown", "unknown cells", map.unknown, at, execution));
+  return layers;
+}
+
+namespace {
+
+/// Of length in a cell; 0: nothing may be there.
+double factor_of(const PriceMask& mask, int value) {
+  constexpr int full = 100;
+  const double share = value / 100.0;
+  switch (mask.kind) {
+    case MaskKind::areas:
+      return value == full ? 0.0 : value <= 0 ? 1.0 : 1.0 + (mask.factor.value_or(1.0) - 1.0) * share;
+    case MaskKind::keep_out:
+      return value == full ? mask.factor.value_or(0.0) : 1.0;
+    case MaskKind::speed:
+      break;
+  }
+  if (value <= 0) return 1.0;
+  const double limit = mask.base + mask.multiplier * value;
+  return limit <= 0.0 ? 0.0 : std::max(1.0, full / limit);
+}
+
+PictureLayer layer_of_areas(std::string id, std::string label, double opacity) {
+  return {.id = std::move(id),
+          .label = std::move(label),
+          .part = Part::world,
+          .color = mixed(colors::search_tree, colors::text, 70),
+          .width = widths::outline,
+          .closed = true,
+          .fill = colors::search_tree,
+          .opacity = opacity,
+          .blocks = false};
+}
+
+/// The dearer the stronger, of the dearest so much.
+double strength(double factor, double dearest) {
+  constexpr double weakest = 0.15;
+  constexpr double strongest = 0.6;
+  return dearest > 1.0 ? std::lerp(weakest, strongest, std::log(factor) / std::log(dearest)) : weakest;
+}
+
+class PriceLayers {
+ public:
+  PriceLayers(const Prices& prices, const Execution& execution) : prices_(prices), execution_(execution) {}
+
+  std::vector<PictureLayer> take() {
+    for (const PricedArea& area : prices_.areas) dearest_ = std::max(dearest_, area.factor);
+    for (const PriceMask& mask : prices_.masks) {
+      for (int value = 1; value <= 100; ++value) dearest_ = std::max(dearest_, factor_of(mask, value));
+    }
+    add_areas();
+    for (const PriceMask& mask : prices_.masks) {
+      if (mask.read) add_mask(mask, *mask.read);
+    }
+    add_keep_out();
+    return std::move(layers_);
+  }
+
+ private:
+  void add_areas() {
+    std::map<double, PolygonSet> by_factor;
+    for (const PricedArea& area : prices_.areas) by_factor[area.factor].add(area.corners);
+    for (auto& [factor, outlines] : by_factor) {
+      PictureLayer layer =
+          layer_of_areas(fmt::format("area_{}", layers_.size()),
+                         fmt::format("area, {} times as dear", human_number(factor)), strength(factor, dearest_));
+      layer.lines = std::move(outlines);
+      layers_.push_back(std::move(layer));
+    }
+  }
+
+  /// In four steps of price, so that a mask of a hundred values has a legend that is read.
+  void add_mask(const PriceMask& mask, const MaskCells& cells) {
+    constexpr std::size_t steps = 4;
+    std::array<double, 101> factors{};
+    double most = 1.0;
+    for (int value = 0; value <= 100; ++value)
+      most = std::max(most, factors[static_cast<std::size_t>(value)] = factor_of(mask, value));
+    execution_.reserve((steps + 1) * (std::size_t{cells.width} / 8 + 8) * cells.height);
+    std::vector<Bitmap> bits(steps + 1);
+    for (Bitmap& bitmap : bits) bitmap = Bitmap(cells.width, cells.height);
+    std::array<double, steps + 1> dearest{};
+    for (std::uint32_t y = 0; y < cells.height; ++y) {
+      execution_.check();
+      for (std::uint32_t x = 0; x < cells.width; ++x) {
+        const int value = cells.values[std::size_t{y} * cells.width + x];
+        const double factor = value < 0 ? 1.0 : factors[static_cast<std::size_t>(value)];
+        if (factor == 1.0) continue;
+        const double share = most > 1.0 ? std::log(factor) / std::log(most) : 1.0;
+        const std::size_t step = factor == 0.0 ? steps : std::min(steps - 1, static_cast<std::size_t>(share * steps));
+        bits[step].set(x, y);
+        dearest[step] = std::max(dearest[step], factor);
+      }
+    }
+    const double c = std::cos(cells.yaw_rad);
+    const double s = std::sin(cells.yaw_rad);
+    const auto at = [&](Vec2 p) {
+      const Vec2 q = cells.cell * p;
+      return cells.origin + Vec2{c * q.x - s * q.y, s * q.x + c * q.y};
+    };
+    for (std::size_t step = 0; step <= steps; ++step) {
+      if (bits[step].count() == 0) continue;
+      const bool is_forbidden = step == steps;
+      PictureLayer layer =
+          cells_layer(fmt::format("mask_{}", layers_.size()),
+                      is_forbidden ? "keep out" : fmt::format("up to {} times as dear", human_number(dearest[step])),
+                      bits[step], at, execution_);
+      layer.fill = is_forbidden ? colors::wrong : colors::search_tree;
+      layer.opacity = is_forbidden ? forbidden_opacity : strength(dearest[step], dearest_);
+      layer.blocks = false;
+      layers_.push_back(std::move(layer));
+    }
+  }
+
+  void add_keep_out() {
+    if (prices_.keep_out.empty()) return;
+    PictureLayer layer = layer_of_areas("keep_out", "keep out", forbidden_opacity);
+    layer.color = colors::wrong;
+    layer.fill = colors::wrong;
+    for (const KeepOut& area : prices_.keep_out) layer.lines.add(area.corners);
+    layers_.push_back(std::move(layer));
+  }
+
+  static constexpr double forbidden_opacity = 0.5;
+
+  const Prices& prices_;
+  const Execution& execution_;
+  double dearest_ = 1.0;
+  std::vector<PictureLayer> layers_;
+};
+
+/// Free cells whose middle is nearer than that to a blocked one. Layers of several reaches lie upon each other: the
+/// nearer the dearer.
+std::optional<PictureLayer> near_obstacles(const OccupancyMap& map, double reach, std::string id, std::string label,
+                                           const Execution& execution) {
+  Bitmap near = blocked_for_disc(map.blocked, reach / map.cell, execution);
+  for (std::uint32_t y = 0; y < near.height(); ++y) {
+    execution.check();
+    const auto blocked = map.blocked.row(y);
+    const auto row = near.row(y);
+    for (std::size_t w = 0; w < row.size(); ++w) row[w] &= ~blocked[w];
+  }
+  if (near.count() == 0) return std::nullopt;
+  const auto at = [&](Vec2 p) { return world_point(map, p); };
+  PictureLayer layer = cells_layer(std::move(id), std::move(label), near, at, execution);
+  layer.fill = colors::search_tree;
+  layer.opacity = 0.1;
+  layer.blocks = false;
+  return layer;
+}
+
+}  // namespace
+
+std::vector<PictureLayer> price_layers(const Prices& prices, const std::optional<OccupancyMap>& map, double radius,
+                                       const Execution& execution) {
+  std::vector<PictureLayer> layers;
+  if (map && prices.clearance && prices.clearance->reach && prices.clearance->price > 0.0) {
+    for (const auto& [share, id, label] :
+         {std::tuple{1.0, "nearness", "nearness costs"}, {0.6, "nearness_more", ""}, {0.3, "nearness_most", ""}}) {
+      if (auto near = near_obstacles(*map, share * *prices.clearance->reach + radius, id, label, execution))
+        layers.push_back(std::move(*near));
+    }
+  }
+  for (PictureLayer& layer : PriceLayers(prices, execution).take()) layers.push_back(std::move(layer));
   return layers;
 }
 

@@ -18,7 +18,7 @@
 #include "core/base/error.hpp"
 #include "core/run/execution.hpp"
 #include "pictures/formats/markup.hpp"
-#include "pictures/layers/draw_prices.hpp"
+#include "pictures/layers/draw_cells.hpp"
 #include "scenes/files/scene_io.hpp"
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/human_units.hpp"
