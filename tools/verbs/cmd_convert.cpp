@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "apps/serve/graphs/route_graph.hpp"
 #include "apps/serve/graphs/route_graph_io.hpp"
-#include "apps/serve/graphs/simplify_graph.hpp"
 #include "apps/serve/http/http_message.hpp"
 #include "core/base/error.hpp"
 #include "pictures/formats/write_picture.hpp"

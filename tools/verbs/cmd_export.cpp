@@ -4,7 +4,6 @@
 
 #include "apps/serve/graphs/route_graph.hpp"
 #include "apps/serve/graphs/route_graph_io.hpp"
-#include "apps/serve/graphs/simplify_graph.hpp"
 #include "apps/serve/http/http_message.hpp"
 #include "core/base/error.hpp"
 #include "pictures/formats/write_picture.hpp"

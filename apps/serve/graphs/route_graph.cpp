@@ -4,13 +4,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <optional>
+#include <set>
+#include <tuple>
 #include <utility>
 
 #include "apps/serve/graphs/edge_judge.hpp"
 #include "apps/serve/http/http_message.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/kept/export_roadmap.hpp"
+#include "solve/kinds/solve_steps.hpp"
+#include "verify/judges/effective_scene.hpp"
 
 namespace warren::serve {
 namespace {
@@ -109,6 +115,177 @@ RouteGraph built_graph(const Scene& scene, const RobotSpec& robot, double cleara
   check_drives_edges(robot);
   if (options.samples) check_size(*options.samples, 0);
   return graph_of_roadmap(built_roadmap(scene, robot, clearance, options, execution), execution);
+}
+
+namespace {
+
+double distance_to_leg(Vec2 p, Vec2 a, Vec2 b) {
+  const Vec2 along = b - a;
+  const double square = dot(along, along);
+  const double share = square > 0.0 ? std::clamp(dot(p - a, along) / square, 0.0, 1.0) : 0.0;
+  return distance(p, a + share * along);
+}
+
+class Simplifying {
+ public:
+  Simplifying(const RouteGraph& graph, double within, const MayLead& may_lead, const Execution& execution)
+      : graph_(graph),
+        ends_(ends_of(graph)),
+        within_(within),
+        may_lead_(may_lead),
+        execution_(execution),
+        around_(graph.nodes.size()),
+        is_gone_(graph.nodes.size(), false) {
+    for (std::size_t e = 0; e < ends_.size(); ++e) {
+      const auto [from, to] = ends_[e];
+      between_[{from, to}].push_back(e);
+      around_[from].insert(to);
+      around_[to].insert(from);
+    }
+    for (std::size_t v = 0; v < around_.size(); ++v) is_passed_.push_back(is_passed(v));
+  }
+
+  RouteGraph made() {
+    RouteGraph made = graph_;
+    for (const std::vector<std::size_t>& chain : chains()) {
+      execution_.check();
+      replace(chain, 0, chain.size() - 1);
+    }
+    made.nodes.clear();
+    made.edges.clear();
+    for (std::size_t v = 0; v < is_gone_.size(); ++v) {
+      if (!is_gone_[v]) made.nodes.push_back(graph_.nodes[v]);
+    }
+    for (std::size_t e = 0; e < ends_.size(); ++e) {
+      const auto instead = instead_.find(e);
+      if (instead != instead_.end()) {
+        made.edges.push_back(instead->second);
+      } else if (!is_gone_[ends_[e].from] && !is_gone_[ends_[e].to]) {
+        made.edges.push_back(graph_.edges[e]);
+      }
+    }
+    return made;
+  }
+
+ private:
+  std::size_t count(std::size_t from, std::size_t to) const {
+    const auto known = between_.find({from, to});
+    return known == between_.end() ? 0 : known->second.size();
+  }
+
+  /// Does it lead on, from one neighbour to the other, in the same directions on both sides, with nothing said of it?
+  bool is_passed(std::size_t v) const {
+    const RouteNode& node = graph_.nodes[v];
+    if (node.theta || node.more != "{}" || around_[v].size() != 2 || around_[v].contains(v)) return false;
+    const std::size_t a = *around_[v].begin();
+    const std::size_t b = *around_[v].rbegin();
+    const bool goes_on = count(a, v) == count(v, b) && count(b, v) == count(v, a);
+    if (!goes_on || count(a, v) > 1 || count(b, v) > 1) return false;
+    for (const auto& [from, to] : {std::pair{a, v}, {v, b}, {b, v}, {v, a}}) {
+      if (count(from, to) > 0 && graph_.edges[between_.at({from, to}).front()].more != "{}") return false;
+    }
+    return true;
+  }
+
+  /// From a node that stays to one, over nodes that need not; a round without one that stays begins at its first.
+  std::vector<std::vector<std::size_t>> chains() const {
+    std::vector<std::vector<std::size_t>> chains;
+    std::vector<bool> seen(is_passed_.size(), false);
+    const auto follow = [&](std::size_t first, std::size_t next) {
+      std::vector<std::size_t> chain{first, next};
+      while (is_passed_[chain.back()] && chain.back() != first) {
+        const std::size_t v = chain.back();
+        seen[v] = true;
+        const std::size_t before = chain[chain.size() - 2];
+        chain.push_back(*around_[v].begin() == before ? *around_[v].rbegin() : *around_[v].begin());
+      }
+      chains.push_back(std::move(chain));
+    };
+    for (std::size_t v = 0; v < is_passed_.size(); ++v) {
+      if (is_passed_[v]) continue;
+      for (const std::size_t next : around_[v]) {
+        if (is_passed_[next] && !seen[next]) follow(v, next);
+      }
+    }
+    for (std::size_t v = 0; v < is_passed_.size(); ++v) {
+      if (!is_passed_[v] || seen[v]) continue;
+      seen[v] = true;
+      follow(v, *around_[v].begin());
+    }
+    return chains;
+  }
+
+  void replace(const std::vector<std::size_t>& chain, std::size_t first, std::size_t last) {
+    if (last - first < 2) return;
+    const Vec2 a = graph_.nodes[chain[first]].at;
+    const Vec2 b = graph_.nodes[chain[last]].at;
+    std::size_t farthest = first + (last - first) / 2;
+    double most = within_;
+    for (std::size_t i = first + 1; i < last; ++i) {
+      const double off = distance_to_leg(graph_.nodes[chain[i]].at, a, b);
+      if (off > most) std::tie(farthest, most) = std::pair{i, off};
+    }
+    const std::pair<std::size_t, std::size_t> joined = std::minmax(chain[first], chain[last]);
+    const bool is_new = chain[first] != chain[last] && !around_[chain[first]].contains(chain[last]);
+    if (most > within_ || !is_new || joined_.contains(joined) || (may_lead_ && !may_lead_(a, b))) {
+      replace(chain, first, farthest);
+      return replace(chain, farthest, last);
+    }
+    joined_.insert(joined);
+    for (std::size_t i = first + 1; i < last; ++i) is_gone_[chain[i]] = true;
+    const std::vector<std::size_t> there(chain.begin() + static_cast<std::ptrdiff_t>(first),
+                                         chain.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+    join(there);
+    join({there.rbegin(), there.rend()});
+  }
+
+  /// One edge for a chain, where it leads this way.
+  void join(const std::vector<std::size_t>& chain) {
+    if (count(chain[0], chain[1]) == 0) return;
+    constexpr double of_floats = 1e-6;  // Nav2 keeps costs so
+    double cost = 0.0;
+    bool is_length = true;
+    for (std::size_t i = 1; i < chain.size(); ++i) {
+      const RouteEdge& edge = graph_.edges[between_.at({chain[i - 1], chain[i]}).front()];
+      const double length = distance(graph_.nodes[chain[i - 1]].at, graph_.nodes[chain[i]].at);
+      cost += edge.cost.value_or(length);
+      is_length = is_length && (!edge.cost || std::abs(*edge.cost - length) <= of_floats * (1.0 + length));
+    }
+    const std::size_t first = between_.at({chain[0], chain[1]}).front();
+    RouteEdge edge = graph_.edges[first];
+    edge.to = graph_.nodes[chain.back()].id;
+    edge.cost = is_length ? std::optional<double>() : cost;
+    instead_.emplace(first, std::move(edge));
+  }
+
+  const RouteGraph& graph_;
+  std::vector<RouteEnds> ends_;
+  double within_;
+  const MayLead& may_lead_;
+  const Execution& execution_;
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> between_;  // edges, by their ends
+  std::vector<std::set<std::size_t>> around_;
+  std::vector<bool> is_passed_;
+  std::vector<bool> is_gone_;
+  std::set<std::pair<std::size_t, std::size_t>> joined_;
+  std::map<std::size_t, RouteEdge> instead_;  // of the first edge of a chain
+};
+
+}  // namespace
+
+RouteGraph simplified(const RouteGraph& graph, double within, const MayLead& may_lead, const Execution& execution) {
+  return Simplifying(graph, within, may_lead, execution).made();
+}
+
+RouteGraph simplified_in(const Scene& scene, const Question& body, const RouteGraph& graph, double within,
+                         const Execution& execution) {
+  const RobotSpec robot = robot_of(scene, body);
+  check_drives_edges(robot);
+  const std::optional<Scene> barred = effective_scene(scene, prices_of(scene, body), execution);
+  const Scene& judged = barred ? *barred : scene;
+  const EdgeJudge judge(judged, room_of(judged, execution), robot, clearance_of(scene, body));
+  const auto is_free = [&](Vec2 a, Vec2 b) { return judge.judge({{{.at = a}, {.at = b}}}, execution).front().free; };
+  return simplified(graph, within, is_free, execution);
 }
 
 }  // namespace warren::serve
