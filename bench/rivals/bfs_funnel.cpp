@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // warren beside what somebody writes who knows that the walls are a maze: cells read back from the walls, breadth-first
-// search, funnel (apps/studies/bfs_funnel_baseline.hpp). The same walls for both, from memory to path; the contestants
+// search, funnel (apps/studies/largest_maze.hpp). The same walls for both, from memory to path; the contestants
 // take turns, the least of each counts. In a perfect maze there is one corridor, so warren's lattice path, pulled taut
 // with next to no clearance, must be as long as the funnel's: that is compared, to the millionth part. warren's own
 // path is timed with and without that, and verified outside of the clock.
@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/studies/bfs_funnel_baseline.hpp"
+#include "apps/studies/largest_maze.hpp"
 #include "bench/rivals/stopwatch.hpp"
 #include "planners/mazes/tiled_prm_lattice.hpp"
 #include "planners/shorten/taut_path.hpp"

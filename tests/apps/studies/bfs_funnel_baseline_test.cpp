@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Oracles: the independent verifier says that the path is one, and taut_path, which works on any walls and knows no
 // cells, that it can't be shorter.
-#include "apps/studies/bfs_funnel_baseline.hpp"
+#include "apps/studies/largest_maze.hpp"
 
 #include <gtest/gtest.h>
 
