@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The pictures of a comparison of planners: for each contender the run whose path is of median length, with its roadmap
 // or tree, its path and the body along it; and the pages that a planner adds (the layers of some headings); and
-// one figure of all these paths.
+// one figure of all these paths, in which none hides another.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,8 @@
 #include "apps/studies/planner_contest.hpp"
 #include "apps/studies/search_contest.hpp"
 #include "apps/studies/search_graph.hpp"
+#include "core/base/types.hpp"
+#include "core/plane/polygon.hpp"
 #include "core/run/execution.hpp"
 #include "pictures/model/picture_options.hpp"
 #include "scenes/scene/scene.hpp"
@@ -36,5 +39,15 @@ void make_folder(const std::string& folder);
 std::vector<std::string> draw_searches(const Scene& scene, const SearchGraph& graph,
                                        const SearchContestOptions& options, const std::string& folder,
                                        const PictureOptions& look, const Execution& execution);
+
+// Paths that share parts, drawn so that none hides another: where several run along the same stretch they take turns in
+// dashes, elsewhere each is a line.
+
+/// For each path the chains that show it; all of them together cover every path. Stretches are shared in either
+/// direction, wherever the paths' corners are; all lies on a raster of 2^-14 of the paths' extent, so what is nearer
+/// than that is the same. dash > 0: about how long a dash is, world units. O(legs · log + dashes) where legs are short
+/// or run along the axes; a long slanted one is held against the corners in its columns or rows. Throws Stopped.
+std::vector<PolygonSet> lines_side_by_side(std::span<const std::vector<Vec2>> paths, double dash,
+                                           const Execution& execution);
 
 }  // namespace warren::studies

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pictures/layers/lines_side_by_side.hpp"
+#include "apps/studies/contest_pictures.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace warren {
+namespace warren::studies {
 namespace {
 
 double length_of(const PolygonSet& lines) {
@@ -86,4 +86,4 @@ TEST(LinesSideBySide, ShortAndDegeneratePartsStillShowAll) {
 }
 
 }  // namespace
-}  // namespace warren
+}  // namespace warren::studies
