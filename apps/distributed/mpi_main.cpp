@@ -20,7 +20,6 @@
 #include "solve/kept/checksum.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
-#include "tools/screen/signals.hpp"
 #include "tools/screen/terminal.hpp"
 #include "tools/words/help.hpp"
 

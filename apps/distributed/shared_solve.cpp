@@ -23,7 +23,6 @@
 #include "solve/streamed/solve_streamed.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/run_of_verb.hpp"
-#include "tools/screen/signals.hpp"
 #include "tools/verbs/answer_command.hpp"
 #include "tools/words/option_values.hpp"
 #include "tools/words/output_words.hpp"

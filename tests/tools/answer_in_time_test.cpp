@@ -8,7 +8,6 @@
 #include "solve/solve.hpp"
 #include "tests/tools/process.hpp"
 #include "tools/screen/exit_code.hpp"
-#include "tools/screen/signals.hpp"
 #include "tools/verbs/answer_command.hpp"
 
 namespace warren::test {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How the program ends: its exit code, the table of docs/file_formats.md, and the one line on standard error that says
 // what went wrong, here and nowhere else; also where nothing else works any more.
+// And the signals that end it.
 #pragma once
 
 #include <functional>
 #include <string_view>
+
+#include "core/run/execution.hpp"
 
 namespace warren::tools {
 namespace exit_code {
@@ -43,5 +46,17 @@ int say_memory_is_out() noexcept;
 /// Memory that runs out in a destructor, or while an error is told, ends the program by say_memory_is_out(), too, where
 /// it would have been aborted.
 void install_last_words();
+
+// SIGINT, SIGTERM and SIGHUP (unless nohup has it ignored) set a flag that every stage polls: the program ends in
+// order, and a second one within a second changes nothing about that, for a key pressed twice must leave no
+// half-written file; after a second it kills at once. A file that grows past its limit (SIGXFSZ) is an output that
+// can't be written. SIGPIPE ends the program quietly, SIGQUIT at once, with a core where the system keeps one.
+
+void install_signal_handlers();
+
+/// 0, or the number of the signal that came.
+const SignalFlag& signal_flag();
+/// The signal that came has done what it could: the next one stops what runs then.
+void forget_signal();
 
 }  // namespace warren::tools

@@ -16,7 +16,6 @@
 #include "solve/question/limits.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
-#include "tools/screen/signals.hpp"
 #include "tools/words/option_values.hpp"
 
 namespace warren::tools {

@@ -17,7 +17,6 @@
 #include "scenes/text/input_file_io.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/run_of_verb.hpp"
-#include "tools/screen/signals.hpp"
 #include "tools/screen/terminal.hpp"
 #include "tools/screen/world_files.hpp"
 #include "tools/words/command.hpp"

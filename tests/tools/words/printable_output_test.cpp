@@ -9,7 +9,6 @@
 #include "scenes/text/input_file_io.hpp"
 #include "tests/tools/process.hpp"
 #include "tools/screen/exit_code.hpp"
-#include "tools/screen/signals.hpp"
 
 namespace warren::test {
 namespace {
