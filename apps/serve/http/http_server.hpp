@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // HTTP/1.1 by Boost.Beast for one service: the only place with sockets. All connections are looked after by the thread
-// that calls run(), which computes nothing; answers that take time are made by a crew of a few threads.
+// that calls run(), which computes nothing; answers that take time are made by a crew of a few threads (TaskCrew).
 //
 // A connection costs its buffers and no thread, and every stage of it has an end that drop after drop of bytes doesn't
 // move: a request's head, its body, its answer's way out. Where all places are taken, the connection that has waited
@@ -9,11 +9,16 @@
 #pragma once
 
 #include <array>
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "apps/serve/http/http_message.hpp"
@@ -102,6 +107,36 @@ class HttpServer {
  private:
   class Connections;
   std::unique_ptr<Connections> connections_;
+};
+
+// A few threads that take tasks from a short queue, so that whoever hands them out never waits: a full queue says no.
+// A task may run loops of parallel/chunks.hpp.
+
+class TaskCrew {
+ public:
+  /// threads >= 1. Where the system makes fewer, there are fewer; where it makes none, offer() does the task itself.
+  TaskCrew(unsigned threads, std::size_t most_waiting);
+  /// As end().
+  ~TaskCrew() { end(); }
+  TaskCrew(const TaskCrew&) = delete;
+  TaskCrew& operator=(const TaskCrew&) = delete;
+
+  /// Does the task soon, on one of the threads; false: too many wait already. Tasks don't throw.
+  bool offer(std::function<void()> task);
+  /// Tasks that nobody has begun.
+  std::size_t waiting() const;
+  /// Waits for the tasks that have begun; the others are never done. offer() then says no.
+  void end();
+
+ private:
+  void work();
+
+  const std::size_t most_waiting_;
+  mutable std::mutex mutex_;  // guards what follows but threads_, which its owner alone touches
+  std::condition_variable wake_;
+  std::deque<std::function<void()>> tasks_;
+  bool ended_ = false;
+  std::vector<std::thread> threads_;
 };
 
 }  // namespace warren::serve

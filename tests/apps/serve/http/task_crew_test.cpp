@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/serve/http/task_crew.hpp"
+#include "apps/serve/http/http_server.hpp"
 
 #include <gtest/gtest.h>
 
