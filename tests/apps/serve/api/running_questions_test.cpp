@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "apps/serve/api/running_questions.hpp"
+#include "apps/serve/api/world_service.hpp"
 
 #include <gtest/gtest.h>
 
