@@ -26,6 +26,9 @@ constexpr std::size_t chunk_count(std::size_t n, std::size_t grain) { return (n 
 namespace detail {
 /// Calls call(body, chunk) for chunk = 0 .. chunks - 1 on up to `threads` threads; returns when all are done.
 void run_chunks(std::size_t chunks, unsigned threads, const void* body, void (*call)(const void*, std::size_t));
+/// The same on threads of their own, on fewer where the system makes no more: for the thread sanitizer (Debian's oneTBB
+/// gives it false reports) and for forked processes. Some tens of microseconds a thread and loop.
+void run_plain_chunks(std::size_t chunks, unsigned threads, const void* body, void (*call)(const void*, std::size_t));
 /// Tells progress and trace about one chunk.
 class ChunkTrace {
  public:

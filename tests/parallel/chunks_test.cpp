@@ -19,7 +19,6 @@
 
 #include "core/base/rng.hpp"
 #include "core/run/trace.hpp"
-#include "parallel/plain_chunks.hpp"
 #include "parallel/sort.hpp"
 #include "tests/parallel/on_threads.hpp"
 
