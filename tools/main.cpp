@@ -16,7 +16,6 @@
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/terminal.hpp"
-#include "tools/verbs/cmd_completion.hpp"
 #include "tools/words/command.hpp"
 #include "tools/words/help.hpp"
 

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // warren completion bash|zsh|fish: what a shell needs to complete our words. The scripts ask the program itself, by
-// `warren complete WORDS` (tools/verbs/cmd_completion.hpp), and add the names of files, which shells know better.
-
-#include "tools/verbs/cmd_completion.hpp"
-
+// `warren complete WORDS` (tools/words/command.hpp), and add the names of files, which shells know better.
 #include <fmt/format.h>
 
 #include <algorithm>
