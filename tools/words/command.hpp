@@ -92,7 +92,7 @@ const OptionSpec* option_named(const Command& command, std::string_view name);
 void add_options(std::vector<OptionSpec>& to, std::span<const OptionSpec> more,
                  std::initializer_list<std::string_view> without = {});
 
-// The verbs, in files cmd_NAME.cpp: update is in that of build.
+// The verbs, in files cmd_NAME.cpp: update is in that of build, man in that of help.
 Command bench_scen_command();
 Command build_command();
 Command compare_command();
