@@ -49,7 +49,7 @@ struct SearchBorder {
 };
 
 /// What a side writes all the time may not share a cache line with what the other reads all the time.
-inline constexpr std::size_t apart = 128;
+inline constexpr std::size_t bytes_apart = 128;
 
 /// One side of the search. Neighbours: neighbours(v, visit) calls visit(w, length) for each neighbour in ascending
 /// order; an implicit graph may ask visit.wants(w, length) first, whether an edge of at least this length could help,
@@ -161,7 +161,7 @@ class SearchSide {
   Queue& queue_;
   SearchState& state_;
   RawVector<std::uint8_t> closed_;                 // as published
-  alignas(apart) std::vector<VertexId> labelled_;  // in this round, perhaps more than once
+  alignas(bytes_apart) std::vector<VertexId> labelled_;  // in this round, perhaps more than once
   std::vector<VertexId> newly_closed_;             // in this round
   SearchBorder border_;
   std::uint64_t settled_ = 0;

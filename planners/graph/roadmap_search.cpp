@@ -22,7 +22,7 @@ SearchResult search_from_both_ends(QueueKind kind, std::size_t vertex_count, con
   const std::array<Estimate, 2> to_root{estimate_to(roots[0]), estimate_to(roots[1])};
   const SearchResult found = with_queue(kind, 0, execution, [&](const auto& empty_queue) {
     using Queue = std::remove_cvref_t<decltype(empty_queue)>;
-    struct alignas(apart) Side {
+    struct alignas(bytes_apart) Side {
       Queue queue;
       std::optional<SearchSide<Queue, Neighbours, Estimate, Estimate>> search;
     };

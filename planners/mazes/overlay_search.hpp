@@ -121,7 +121,7 @@ class StepSide {
   std::vector<std::uint8_t> is_near_;   // one a block of vertices: has it labels?
   std::vector<std::uint32_t> first_;    // entry of each bucket
   std::vector<std::uint64_t> is_used_;  // one bit a bucket
-  alignas(apart) std::vector<Entry> entries_;
+  alignas(bytes_apart) std::vector<Entry> entries_;
   std::vector<VertexId> bucket_;    // the one that is emptied
   std::vector<VertexId> labelled_;  // in this round, perhaps more than once
   std::vector<Told> told_;          // since it was last asked

@@ -219,7 +219,7 @@ namespace detail {
 
 /// What one end of a search has for itself.
 template <World W>
-struct alignas(apart) LazyEnd {
+struct alignas(bytes_apart) LazyEnd {
   LazyGraph<W> graph;
   SearchState state;
   std::vector<Edge> edges;

@@ -12,7 +12,7 @@ namespace warren {
 namespace {
 
 constexpr double on_border = 1e-9;
-constexpr double full_turn = 2.0 * std::numbers::pi;
+constexpr double whole_turn = 2.0 * std::numbers::pi;
 
 Vec2 in_mask(const MaskCells& mask, Vec2 in_world) {
   const auto [sine, cosine] = portable::sin_and_cos(mask.yaw_rad);
@@ -40,8 +40,8 @@ void add_crossings(const JudgedArc& arc, Vec2 on, Vec2 along, std::vector<double
   if (!(std::abs(sine) <= 1.0)) return;
   const double angle = portable::asin(sine);
   for (const double end : {angle, std::numbers::pi - angle}) {
-    const double turned = std::remainder(b + end - arc.heading_rad, full_turn);
-    for (const double whole : {-full_turn, 0.0, full_turn}) {
+    const double turned = std::remainder(b + end - arc.heading_rad, whole_turn);
+    for (const double whole : {-whole_turn, 0.0, whole_turn}) {
       const double share = (turned + whole) / arc.turn_rad;
       if (share > 0.0 && share < 1.0) cuts.push_back(share);
     }
