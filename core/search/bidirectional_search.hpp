@@ -160,9 +160,9 @@ class SearchSide {
   const ToRoot& to_root_;
   Queue& queue_;
   SearchState& state_;
-  RawVector<std::uint8_t> closed_;                 // as published
+  RawVector<std::uint8_t> closed_;                       // as published
   alignas(bytes_apart) std::vector<VertexId> labelled_;  // in this round, perhaps more than once
-  std::vector<VertexId> newly_closed_;             // in this round
+  std::vector<VertexId> newly_closed_;                   // in this round
   SearchBorder border_;
   std::uint64_t settled_ = 0;
   std::uint64_t pushes_ = 1;  // the root

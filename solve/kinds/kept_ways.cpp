@@ -5,7 +5,6 @@
 #include <bit>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 #include "core/base/whole.hpp"
@@ -14,6 +13,7 @@ namespace warren {
 namespace {
 
 constexpr std::size_t most_legs = 1 << 18;
+constexpr std::size_t few_cells = 1024;  // changed cells, each of which is looked at for itself
 
 /// Columns low.x to high.x of rows low.y to high.y.
 struct CellRange {
@@ -32,24 +32,18 @@ struct CellRange {
   }
 };
 
-/// Ranges that hold all of the cells: few far-apart ones where what lies within `by` of them is less than of one range
+/// Ranges that hold all of the cells: of few cells far apart several, where less lies within `by` of these than of one
 /// around all.
 std::vector<CellRange> ranges_of(std::span<const Cell> cells, std::uint32_t by) {
-  constexpr std::size_t most = 256;
   CellRange whole{cells.front(), cells.front()};
+  for (const Cell c : cells) whole.include(c);
+  if (cells.size() > few_cells) return {whole};
   std::vector<CellRange> ranges;
-  double count = 0.0;
   for (const Cell c : cells) {
-    whole.include(c);
     const auto near = std::find_if(ranges.begin(), ranges.end(), [&](const CellRange& r) { return r.is_near(c, by); });
-    if (near != ranges.end()) {
-      near->include(c);
-    } else if (ranges.size() < most) {
-      ranges.push_back({c, c});
-    } else {
-      count = std::numeric_limits<double>::infinity();
-    }
+    near != ranges.end() ? near->include(c) : ranges.push_back({c, c});
   }
+  double count = 0.0;
   for (const CellRange& r : ranges) count += r.count_around(by);
   return count < whole.count_around(by) ? ranges : std::vector{whole};
 }
@@ -163,8 +157,7 @@ void KeptWays::change(const OccupancyMap& map, const WallProblem& problem, const
 }
 
 void KeptWays::forget_legs(const std::vector<Cell>& changed, double reach) {
-  constexpr std::size_t few = 1024;
-  if (changed.size() > few) return legs_.clear();
+  if (changed.size() > few_cells) return legs_.clear();
   const auto square = [](Cell c) {
     return Box{{static_cast<double>(c.x), static_cast<double>(c.y)}, {c.x + 1.0, c.y + 1.0}};
   };
