@@ -11,9 +11,10 @@
 #include "core/base/error.hpp"
 #include "core/base/types.hpp"
 #include "core/search/search_queues.hpp"
-#include "spatial/maps/free_cells.hpp"
 
 namespace warren {
+
+StepRule rule_of(Diagonal diagonal) { return diagonal == Diagonal::none ? StepRule::four : StepRule::eight; }
 
 /// Jump point search (Harabor, Grastien 2011) for octile maps on which a diagonal step needs both cells beside it free:
 /// the successors of a cell are the next cells where a shortest path may have to turn. Rows and columns are scanned 64
@@ -112,8 +113,6 @@ constexpr unsigned step_of(int dx, int dy) {
 }
 
 double diagonal_cost(Diagonal diagonal) { return diagonal == Diagonal::unit ? 1.0 : std::numbers::sqrt2; }
-
-StepRule rule_of(Diagonal diagonal) { return diagonal == Diagonal::none ? StepRule::four : StepRule::eight; }
 
 /// Length of a shortest path without obstacles: consistent.
 class FreeDistance {

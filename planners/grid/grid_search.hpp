@@ -19,12 +19,15 @@
 #include "core/base/enum_names.hpp"
 #include "core/run/execution.hpp"
 #include "core/search/search.hpp"
+#include "spatial/maps/free_cells.hpp"
 
 namespace warren {
 
 /// What a diagonal step costs; none: sides only. A step to the side costs 1.
 enum class Diagonal : std::uint8_t { sqrt2, unit, none };
 constexpr auto enum_names(Diagonal) { return std::array<std::string_view, 3>{"sqrt2", "unit", "none"}; }
+/// The steps that there are, whatever they cost.
+StepRule rule_of(Diagonal diagonal);
 
 /// bfs minimises steps. jump_points: the same lengths as astar, only with Diagonal::sqrt2.
 enum class GridMethod : std::uint8_t { astar, dijkstra, bfs, jump_points };

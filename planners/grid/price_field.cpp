@@ -21,8 +21,6 @@ Number* zeros(std::size_t count, const Execution& execution) {
   return block;
 }
 
-StepRule rule_of(Diagonal diagonal) { return diagonal == Diagonal::none ? StepRule::four : StepRule::eight; }
-
 }  // namespace
 
 StepWeights::StepWeights(const Bitmap& blocked, Diagonal diagonal, const Execution& execution)

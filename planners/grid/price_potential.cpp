@@ -163,7 +163,7 @@ class Marching {
     for (std::size_t i = 0; i < 4; ++i) {
       const double price = prices_[triangles_.number(goal_.x, goal_.y, i)];
       const auto first = [&](VertexId v, double x, double y) {
-        offer(v, price * distance(question_.goal, {goal_.x + x, goal_.y + y}));
+        offer(v, price * distance(question_.goal, Vec2{goal_.x + x, goal_.y + y}));
       };
       first(middle(goal_), 0.5, 0.5);
       first(corner(goal_, i), corners[i][0], corners[i][1]);

@@ -34,9 +34,9 @@ PlaceGrid narrowed(const PlaceGrid& grid) {
 }
 
 /// The flood of a grid from some places: which step, modulo 3, reached each place.
-class Flood {
+class FloodOfPlaces {
  public:
-  Flood(const PlaceGrid& free, const RowBits& from) : free_(free), front_(from) {
+  FloodOfPlaces(const PlaceGrid& free, const RowBits& from) : free_(free), front_(from) {
     steps_[0] = from;
     first_ = free.rows + 1;
     for (std::size_t r = 1; r <= free.rows; ++r) {
@@ -74,7 +74,7 @@ class Flood {
   std::size_t step_ = 0;
 };
 
-Place Flood::reach(const RowBits& to) {
+Place FloodOfPlaces::reach(const RowBits& to) {
   if (first_ >= last_) return {-1, -1};
   Place met = common(to);
   RowBits wide{};
@@ -101,7 +101,7 @@ Place Flood::reach(const RowBits& to) {
 
 /// A neighbour of a place that step k reached, reached by step k - 1 modulo 3, was reached by step k - 1: the steps of
 /// neighbours differ by one at most.
-std::vector<Place> Flood::way_to(Place last) const {
+std::vector<Place> FloodOfPlaces::way_to(Place last) const {
   constexpr std::array<Place, 8> ways{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}}};
   std::vector<Place> way(step_ + 1);
   way[step_] = last;
@@ -173,7 +173,7 @@ PlaceWay straightened(const PlaceGrid& free, const std::vector<Place>& way, Vec2
 }
 
 PlaceWay way_over(const PlaceGrid& free, Vec2 start, Vec2 goal) {
-  Flood flood(free, places_around(free, start));
+  FloodOfPlaces flood(free, places_around(free, start));
   const Place last = flood.reach(places_around(free, goal));
   return last.x < 0 ? PlaceWay{} : straightened(free, flood.way_to(last), start, goal);
 }

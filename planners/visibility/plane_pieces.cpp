@@ -15,7 +15,7 @@
 namespace warren {
 namespace {
 
-constexpr std::size_t items_per_poll = 1 << 14;
+constexpr std::size_t pieces_a_look = 1 << 14;
 constexpr std::size_t looks_per_poll = 1 << 12;  // exact predicates can take microseconds
 
 /// All sides and walls as segments between numbered points, as they are given.
@@ -62,12 +62,12 @@ std::vector<PointId> number_points(std::span<const Vec2> ends, std::vector<Vec2>
   });
   std::vector<PointId> number(ends.size());  // first of all the first end at the same place
   for (std::size_t k = 0; k < order.size(); ++k) {
-    if (k % items_per_poll == 0) execution.check();
+    if (k % pieces_a_look == 0) execution.check();
     const bool again = k > 0 && ends[order[k]] == ends[order[k - 1]];
     number[order[k]] = again ? number[order[k - 1]] : order[k];
   }
   for (std::size_t i = 0; i < ends.size(); ++i) {
-    if (i % items_per_poll == 0) execution.check();
+    if (i % pieces_a_look == 0) execution.check();
     if (number[i] == i) {
       number[i] = static_cast<PointId>(points.size());
       points.push_back(ends[i]);
@@ -87,7 +87,7 @@ bool is_left(const Segment& s, Vec2 at) {
 }
 
 constexpr double open_sight = std::numeric_limits<double>::infinity();
-constexpr double margin = 1e-9;          // of places: far above their rounding, far below a range's width
+constexpr double place_margin = 1e-9;    // of places: far above their rounding, far below a range's width
 constexpr double shallow = 1e-6;         // sines below this: a distance along the ray is not to be trusted
 constexpr double outwards = 1.0 + 1e-9;  // distances are rounded up by this
 constexpr double bent = 0.999;           // a chord of a range of directions, at its middle, and rounding
@@ -172,7 +172,7 @@ void PlanePieces::cut(std::span<const PointId> ends, std::span<const std::int32_
   pieces.reserve(segments.size() + cuts.size());
   auto cut = cuts.begin();
   for (std::uint32_t i = 0; i < segments.size(); ++i) {
-    if (i % items_per_poll == 0) execution.check();
+    if (i % pieces_a_look == 0) execution.check();
     PointId last = ends[2 * i];
     for (; cut != cuts.end() && cut->segment == i; ++cut) {
       pieces.push_back({last, cut->at, rises[i]});
@@ -202,7 +202,7 @@ void PlanePieces::list_at_points(const Execution& execution) {
   execution.reserve((points_.size() + 2 * pieces_.size()) * sizeof(std::uint32_t));
   assign_polled(first_at_point_, points_.size() + 1, std::uint32_t{0}, [&] { execution.check(); });
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
-    if (i % items_per_poll == 0) execution.check();
+    if (i % pieces_a_look == 0) execution.check();
     ++first_at_point_[pieces_[i].a];
     ++first_at_point_[pieces_[i].b];
   }
@@ -210,7 +210,7 @@ void PlanePieces::list_at_points(const Execution& execution) {
   for (std::uint32_t& first : first_at_point_) sum += first, first = sum;
   at_point_.resize(sum);
   for (std::size_t i = pieces_.size(); i-- > 0;) {
-    if (i % items_per_poll == 0) execution.check();
+    if (i % pieces_a_look == 0) execution.check();
     at_point_[--first_at_point_[pieces_[i].a]] = static_cast<std::uint32_t>(i);
     at_point_[--first_at_point_[pieces_[i].b]] = static_cast<std::uint32_t>(i);
   }
@@ -299,8 +299,8 @@ void NearPieces::open(std::span<const PlaceRange> ranges) {
   for (const PlaceRange& r : ranges) {
     const double end = r.last >= r.first ? r.last : r.last + 4.0;
     if (end - r.first >= 4.0 - 2.0 / scale && r.reach == open_sight) return sight_.fill(open_sight);
-    const auto first = static_cast<std::size_t>((r.first + 4.0 - margin) * scale);
-    const auto last = static_cast<std::size_t>((end + 4.0 + margin) * scale);
+    const auto first = static_cast<std::size_t>((r.first + 4.0 - place_margin) * scale);
+    const auto last = static_cast<std::size_t>((end + 4.0 + place_margin) * scale);
     for (std::size_t i = first; i <= last; ++i) sight_[i % directions] = std::max(sight_[i % directions], r.reach);
   }
 }
@@ -370,10 +370,10 @@ void NearPieces::see(std::uint32_t piece) {
   const double first = direction_place(v.first) + 4.0;  // so that a margin before place 0 stays positive
   double last = direction_place(v.last) + 4.0;
   if (last < first) last += 4.0;
-  v.outer_begin = static_cast<std::size_t>((first - margin) * scale);
-  v.outer_end = static_cast<std::size_t>((last + margin) * scale) + 1;
-  v.begin = static_cast<std::size_t>(std::ceil((first + margin) * scale));
-  v.end = static_cast<std::size_t>(std::floor((last - margin) * scale));
+  v.outer_begin = static_cast<std::size_t>((first - place_margin) * scale);
+  v.outer_end = static_cast<std::size_t>((last + place_margin) * scale) + 1;
+  v.begin = static_cast<std::size_t>(std::ceil((first + place_margin) * scale));
+  v.end = static_cast<std::size_t>(std::floor((last - place_margin) * scale));
   if (v.begin >= v.end) {  // too narrow to hide anything
     seen_.push_back(piece);
     return;
@@ -391,8 +391,8 @@ bool NearPieces::is_hidden(SegmentGrid::Cell cell) const {
   const double distance = norm(nearest);
   if (!(distance > 0.0)) return false;
   const BoxView view = view_of(box);
-  const double first = direction_place(view.first) + 4.0 - margin;
-  double last = direction_place(view.last) + 4.0 + margin;
+  const double first = direction_place(view.first) + 4.0 - place_margin;
+  double last = direction_place(view.last) + 4.0 + place_margin;
   if (last < first) last += 4.0;
   const auto end = static_cast<std::size_t>(last * scale);
   for (auto i = static_cast<std::size_t>(first * scale); i <= end; ++i) {

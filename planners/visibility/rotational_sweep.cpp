@@ -40,7 +40,7 @@ void visit_free(const PlanePieces& pieces, Vec2 at, std::vector<Spoke>& spokes, 
 }
 
 constexpr double place_doubt = 1e-12;  // places that differ by more are in the directions' order for certain
-constexpr std::size_t pieces_per_poll = 1 << 14;
+constexpr std::size_t near_per_poll = 1 << 14;
 
 }  // namespace
 
@@ -169,7 +169,7 @@ void RotationalSweep::prepare(Vec2 eye, std::span<const std::uint32_t> near, std
   next_end_.clear();
   crossed_at_first_.clear();
   for (std::size_t i = 0; i < near.size(); ++i) {
-    if (i % pieces_per_poll == 0) execution_.check();
+    if (i % near_per_poll == 0) execution_.check();
     add_piece(pieces_.pieces()[near[i]].a, pieces_.pieces()[near[i]].b);
   }
   if (extra && !(*extra == eye)) events_.push_back({*extra, direction_place(*extra - eye), target, none, none, false});

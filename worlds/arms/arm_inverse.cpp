@@ -14,7 +14,7 @@ namespace {
 /// What is missing: a way, in units of the arm's length, and a turn.
 using ToolError = std::array<double, 6>;
 
-double square_of(const ToolError& error) {
+double error_sq(const ToolError& error) {
   double sum = 0.0;
   for (const double part : error) sum += part * part;
   return sum;
@@ -123,7 +123,7 @@ class ToolSearch {
         columns_[joint.variable][as_number(k) + 3] += by_turn[k];
       }
     }
-    return square_of(error_);
+    return error_sq(error_);
   }
 
   /// One damped step; what would leave the limits is held there, and the others step again.

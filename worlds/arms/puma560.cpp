@@ -18,7 +18,7 @@ using Complex = std::complex<double>;
 using Angles = std::array<double, 3>;
 
 constexpr double degree = std::numbers::pi / 180.0;
-constexpr double full_turn = 2.0 * std::numbers::pi;
+constexpr double whole_turn = 2.0 * std::numbers::pi;
 /// Squares so little below zero, in units of the arm's size squared, are roundings of zero.
 constexpr double slack = 1e-14;
 
@@ -127,8 +127,8 @@ std::vector<double> turns_within(const SerialChain& chain, std::size_t joint, do
   constexpr double rounding = 1e-12;
   std::vector<double> angles;
   const double low = chain.low(joint) - rounding;
-  for (double k = std::ceil((low - angle) / full_turn);; k += 1.0) {
-    const double turned = angle + k * full_turn;
+  for (double k = std::ceil((low - angle) / whole_turn);; k += 1.0) {
+    const double turned = angle + k * whole_turn;
     if (turned > chain.high(joint) + rounding) return angles;
     angles.push_back(std::clamp(turned, chain.low(joint), chain.high(joint)));
   }

@@ -26,7 +26,7 @@ namespace {
 
 constexpr double quarter = 0.5 * std::numbers::pi;
 
-enum class Shape : std::uint8_t { lsl, lsr, lrl, lrlr_out, lrlr_in, lrsl, lrsr, lrslr };
+enum class WordShape : std::uint8_t { lsl, lsr, lrl, lrlr_out, lrlr_in, lrsl, lrsr, lrslr };
 
 /// How the goal was changed before the word was solved for it.
 struct Change {
@@ -37,7 +37,7 @@ struct Change {
 
 struct Solved {
   double length = std::numeric_limits<double>::infinity();
-  Shape shape = Shape::lsl;
+  WordShape shape = WordShape::lsl;
   Change change;
   double first = 0.0;
   double middle = 0.0;
@@ -70,28 +70,28 @@ SteeringWord plain_word(const Solved& w) {
   const auto straight = [&](double way) { word.add(Steer::straight, way); };
   left(w.first);
   switch (w.shape) {
-    case Shape::lsl:
+    case WordShape::lsl:
       straight(w.middle), left(w.last);
       break;
-    case Shape::lsr:
+    case WordShape::lsr:
       straight(w.middle), right(w.last);
       break;
-    case Shape::lrl:
+    case WordShape::lrl:
       right(w.middle), left(w.last);
       break;
-    case Shape::lrlr_out:
+    case WordShape::lrlr_out:
       right(w.middle), left(-w.middle), right(w.last);
       break;
-    case Shape::lrlr_in:
+    case WordShape::lrlr_in:
       right(w.middle), left(w.middle), right(w.last);
       break;
-    case Shape::lrsl:
+    case WordShape::lrsl:
       right(-quarter), straight(w.middle), left(w.last);
       break;
-    case Shape::lrsr:
+    case WordShape::lrsr:
       right(-quarter), straight(w.middle), right(w.last);
       break;
-    case Shape::lrslr:
+    case WordShape::lrslr:
       right(-quarter), straight(w.middle), left(-quarter), right(w.last);
       break;
   }
@@ -194,7 +194,7 @@ class Enumeration {
   double tangent(double apart) const { return apart <= 2.0 + same_ ? 0.0 : root(apart * apart - 4.0); }
   /// The arc between circles that touch is none, as the tangent is.
   double arc_of(double cosine) const { return cosine >= 1.0 - 0.25 * same_ ? 0.0 : portable::acos(cosine); }
-  void take(const Frame& frame, Shape shape, double first, double middle, double last, double fixed) {
+  void take(const Frame& frame, WordShape shape, double first, double middle, double last, double fixed) {
     taker_.take({fixed + std::abs(first) + std::abs(last), shape, frame.change, first, middle, last});
   }
   void solve_straight(const Frame& f);
@@ -212,17 +212,18 @@ class Enumeration {
 template <class Taker>
 void Enumeration<Taker>::solve_straight(const Frame& f) {
   // What rounding alone turns, or drives between two circles that are one, is no piece.
-  if (f.to_left.size <= 1e-9 + 4.0 * off_) take(f, Shape::lsl, 0.0, 0.0, f.phi, 0.0);
+  if (f.to_left.size <= 1e-9 + 4.0 * off_) take(f, WordShape::lsl, 0.0, 0.0, f.phi, 0.0);
   if (worth(f.to_left.size + f.turn())) {
     const double first = f.to_left.angle;
-    if (f.to_left.size * std::abs(first) <= 4.0 * off_) take(f, Shape::lsl, 0.0, f.to_left.size, f.phi, f.to_left.size);
-    take(f, Shape::lsl, first, f.to_left.size, wrapped(f.phi - first), f.to_left.size);
+    if (f.to_left.size * std::abs(first) <= 4.0 * off_)
+      take(f, WordShape::lsl, 0.0, f.to_left.size, f.phi, f.to_left.size);
+    take(f, WordShape::lsl, first, f.to_left.size, wrapped(f.phi - first), f.to_left.size);
   }
   if (f.to_right.size >= 2.0 - touching_) {
     const double straight = tangent(f.to_right.size);
     if (worth(straight + f.turn())) {
       const double first = wrapped(f.to_right.angle + portable::atan2(2.0, straight));
-      take(f, Shape::lsr, first, straight, wrapped(first - f.phi), straight);
+      take(f, WordShape::lsr, first, straight, wrapped(first - f.phi), straight);
     }
   }
 }
@@ -233,7 +234,7 @@ void Enumeration<Taker>::solve_arcs(const Frame& f) {
     const double arc = 2.0 * portable::asin(std::min(0.25 * f.to_left.size, 1.0));
     if (worth(std::max(arc, f.turn()))) {
       const double first = wrapped(f.to_left.angle - 0.5 * arc + std::numbers::pi);
-      take(f, Shape::lrl, first, -arc, wrapped(f.phi - first - arc), arc);
+      take(f, WordShape::lrl, first, -arc, wrapped(f.phi - first - arc), arc);
     }
   }
   solve_four_arcs(f);
@@ -248,7 +249,7 @@ void Enumeration<Taker>::solve_four_arcs(const Frame& f) {
     const double arc = arc_of(out_cosine);
     if (worth(2.0 * arc + f.turn(-2.0 * arc))) {
       const double first = wrapped(f.to_right.angle + arc + quarter);
-      take(f, Shape::lrlr_out, first, arc, wrapped(first - 2.0 * arc - f.phi), 2.0 * arc);
+      take(f, WordShape::lrlr_out, first, arc, wrapped(first - 2.0 * arc - f.phi), 2.0 * arc);
     }
   }
   const double in_cosine = (20.0 - f.to_right.size * f.to_right.size) / 16.0;
@@ -256,7 +257,7 @@ void Enumeration<Taker>::solve_four_arcs(const Frame& f) {
     const double arc = arc_of(in_cosine);
     if (worth(2.0 * arc + f.turn())) {
       const double first = wrapped(f.to_right.angle + quarter + portable::atan2(portable::sin(arc), 2.0 - in_cosine));
-      take(f, Shape::lrlr_in, first, -arc, wrapped(first - f.phi), 2.0 * arc);
+      take(f, WordShape::lrlr_in, first, -arc, wrapped(first - f.phi), 2.0 * arc);
     }
   }
 }
@@ -268,13 +269,13 @@ void Enumeration<Taker>::solve_quarter(const Frame& f) {
     const double straight = 2.0 - across;
     if (worth(quarter + std::abs(straight) + f.turn(quarter))) {
       const double first = wrapped(f.to_left.angle + portable::atan2(across, -2.0));
-      take(f, Shape::lrsl, first, straight, wrapped(f.phi - first - quarter), quarter + std::abs(straight));
+      take(f, WordShape::lrsl, first, straight, wrapped(f.phi - first - quarter), quarter + std::abs(straight));
     }
   }
   const double straight = 2.0 - f.to_right.size;
   if (worth(quarter + std::abs(straight) + f.turn(quarter))) {
     const double first = wrapped(f.to_right.angle + quarter);
-    take(f, Shape::lrsr, first, straight, wrapped(first + quarter - f.phi), quarter + std::abs(straight));
+    take(f, WordShape::lrsr, first, straight, wrapped(first + quarter - f.phi), quarter + std::abs(straight));
   }
 }
 
@@ -285,7 +286,7 @@ void Enumeration<Taker>::solve_two_quarters(const Frame& f) {
   const double straight = 4.0 - across;
   if (!worth(2.0 * quarter + std::abs(straight) + f.turn())) return;
   const double first = wrapped(f.to_right.angle + portable::atan2(across, -2.0));
-  take(f, Shape::lrslr, first, straight, wrapped(first - f.phi), 2.0 * quarter + std::abs(straight));
+  take(f, WordShape::lrslr, first, straight, wrapped(first - f.phi), 2.0 * quarter + std::abs(straight));
 }
 
 /// Some order of poses.
