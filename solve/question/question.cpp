@@ -235,9 +235,9 @@ void check_plannable(const Scene& scene, const Question& problem) {
   if (is_arm(robot)) {
     if (!is_flat(scene)) return;
     throw UsageError(
-        fmt::format("{}an arm plans among spheres and boxes; walls, polygons, bounds and maps have no "
-                    "height: they take a point, disc, polygon or car",
-                    where));
+        fmt::format("{}an arm plans among spheres and boxes; walls, polygons, places to keep out of, bounds and maps "
+                    "have no height: they take a point, disc, polygon or car",
+                    problem.prices.keep_out.empty() ? where : "@keep_out: "));
   }
   if (has_solids(scene)) {
     throw UsageError(

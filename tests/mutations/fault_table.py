@@ -7,7 +7,7 @@ breaks, in which the original and the fault stand between brackets:
 
     if (⟦ s_a * s_b > 0 ⇒ s_a * s_b >= 0 ⟧) return false;
 
-An original that ends in a semicolon, or in one and a brace, is a statement, any other one an expression; a fault of nothing
+An original that ends in a semicolon, or in one and a brace, is a statement, any other one a whole expression; a fault of nothing
 leaves the statement out. Faults of one and the same text may share it.
 """
 
@@ -17,6 +17,8 @@ import zlib
 
 BRACKETS = re.compile(r"⟦(.*?)⇒(.*?)⟧", re.DOTALL)
 STATEMENT = re.compile(r";\s*\}?$")
+NO_BEGIN = re.compile(r"(?:&&|\|\||[-+*/%&]\s|[<>=!]=|[/%<>=,|?:.])")
+NO_END = re.compile(r"(?<!\+)\+$|(?<!-)-$|[*/%<>=,&|?:!.]$")
 TITLE = re.compile(r"([a-z][a-z0-9_]*): +(\S+)$")
 
 
@@ -70,10 +72,28 @@ def read_table(path):
     return faults
 
 
+def is_expression(text):
+    """Whether it may stand between parentheses: no operator waits for its other side, no bracket for its other half, and
+    no comma makes two of it."""
+    opened = {")": "(", "]": "[", "}": "{"}
+    waiting = []
+    for mark in re.sub(r'"(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])\'|<[\w:, ]+>', "0", text):
+        if mark in "([{":
+            waiting.append(mark)
+        elif mark in opened and (not waiting or waiting.pop() != opened[mark]):
+            return False
+        elif mark in ",;" and not waiting:
+            return False
+    return bool(text) and not waiting and not NO_BEGIN.match(text) and not NO_END.search(text)
+
+
 def check(faults):
     numbers = {}
     for fault in faults:
-        fault.parts()
+        _, original, wrong, _ = fault.parts()
+        for text in () if STATEMENT.search(original) else (original, wrong):
+            if not is_expression(text):
+                raise TableError(f"{fault.name}: {text or 'nothing'}: neither a statement nor a whole expression")
         if not fault.why or not fault.area:
             raise TableError(f"{fault.name}: has no area or no line that says why it would hurt")
         other = numbers.setdefault(fault.number, fault)

@@ -58,6 +58,10 @@ class Table(unittest.TestCase):
     def test_what_is_missing_is_named(self):
         for text, message in (("[area]\nwrong: a.cpp\n  f(⟦ a ⇒ b ⟧)\n", "wrong: has no area or no line that says why"),
                               ("[area]\nwrong: a.cpp\nwhy: it hurts\n  f(a)\n", "wrong: its text needs one pair"),
+                              ("[area]\nwrong: a.cpp\nwhy: it hurts\n  f(⟦ a && ⇒ ⟧ b)\n", "wrong: a &&: neither a statement"),
+                              ("[area]\nwrong: a.cpp\nwhy: it hurts\n  f(⟦ a, b ⇒ b, a ⟧)\n", "wrong: a, b: neither a statement"),
+                              ("[area]\nwrong: a.cpp\nwhy: it hurts\n  f(⟦ g(a ⇒ g(b ⟧))\n", r"wrong: g\(a: neither a statement"),
+                              ("[area]\nwrong: a.cpp\nwhy: it hurts\n  f(⟦ a ⇒ ⟧)\n", "wrong: nothing: neither a statement"),
                               ("what is this?\n", ":1: neither an area")):
             with self.assertRaisesRegex(TableError, message):
                 table(text)

@@ -3,9 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
+#include "solve/question/question_of_arm.hpp"
+
 namespace warren::test {
+
+std::vector<double> state_at(const RobotSpec& robot, Vec2 place) {
+  if (!is_arm(robot)) return {place.x, place.y};
+  return {0.2 * (place.x - 5.0), 0.1 * (place.y - 5.0), 0.0, 0.0, 0.0, 0.0};
+}
+
 namespace {
 
 bool meets(const Answer& answer, Box box) {
@@ -18,7 +27,16 @@ bool meets(const Answer& answer, Box box) {
   return false;
 }
 
+/// An arm stops at what it has to pass.
+bool stops(const StateList& states, std::span<const double> at) {
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (std::ranges::equal(states[i], at)) return true;
+  }
+  return false;
+}
+
 bool passes(const Answer& answer, Vec2 place) {
+  if (is_arm(answer.problem.robot)) return stops(answer.states, state_at(answer.problem.robot, place));
   double nearest = distance(answer.path.front(), place);
   for (std::size_t i = 1; i < answer.path.size(); ++i) {
     const Vec2 along = answer.path[i] - answer.path[i - 1];
@@ -31,7 +49,8 @@ bool passes(const Answer& answer, Vec2 place) {
 
 constexpr Box lower{{4.0, 0.0}, {6.0, 4.0}};  // below the block in the middle, where the shortest way leads
 constexpr Vec2 stop{5.0, 9.0};
-const std::vector<double> beside_all{9.3, 0.4};  // in a corner where no way leads
+constexpr Vec2 other_stop{2.0, 8.0};
+constexpr Vec2 beside_all{9.3, 0.4};  // in a corner where no way leads
 
 std::vector<Vec2> corners(Box b) { return {b.min, {b.max.x, b.min.y}, b.max, {b.min.x, b.max.y}}; }
 
@@ -40,6 +59,13 @@ PriceMask mask(MaskKind kind, std::int8_t value) {
   PriceMask made{.kind = kind, .file = "mask.yaml"};
   made.read = std::move(cells);
   return made;
+}
+
+/// Where it began.
+bool is_back(const Answer& answer) {
+  const StateList& states = answer.states;
+  if (is_arm(answer.problem.robot)) return std::ranges::equal(states[0], states[states.size() - 1]);
+  return answer.path.front() == answer.path.back();
 }
 
 bool is_priced(const Answer& answer) { return answer.price && answer.cost; }
@@ -71,6 +97,14 @@ Scene polygon_room() {
   return scene;
 }
 
+/// A sphere where the wrist of a Puma is that stands over its joints' zeros.
+Scene sphere_room() {
+  Scene scene;
+  scene.source = "room";
+  scene.spheres.push_back({0.4521, -0.15005, 0.4318, 0.06});
+  return scene;
+}
+
 void add_prices(std::vector<AskedRow>& rows) {
   const auto add = [&](std::string name, auto ask) {
     rows.push_back({std::move(name), ask, is_priced, false, [](Answer& a) { *a.cost *= 0.999; }});
@@ -99,15 +133,12 @@ void add_prices(std::vector<AskedRow>& rows) {
 void add_choices(std::vector<AskedRow>& rows) {
   const auto add = [&](std::string name, auto ask, auto is_heard) { rows.push_back({std::move(name), ask, is_heard}); };
   add(
-      "goal",
-      [](Question& q, SolveOptions&) {
-        q.rule.others.push_back({stop.x, stop.y});
-      },
+      "goal", [](Question& q, SolveOptions&) { q.rule.others.push_back(state_at(*q.robot, stop)); },
       [](const Answer& a) { return a.goal_index.has_value(); });
   add(
       "goal_tolerance",
       [](Question& q, SolveOptions&) {
-        q.goal = {4.6, 5.0};  // in the block
+        q.goal = state_at(*q.robot, {4.6, 5.0});  // in the block
         q.rule.tolerance = 2.0;
       },
       [](const Answer& a) { return a.goal_reached && a.goal_reached->distance <= 2.0; });
@@ -117,38 +148,34 @@ void add_choices(std::vector<AskedRow>& rows) {
   add(
       "visit",
       [](Question& q, SolveOptions&) {
-        q.rule.visit = {{stop.x, stop.y}, {2.0, 8.0}};
+        q.rule.visit = {state_at(*q.robot, stop), state_at(*q.robot, other_stop)};
       },
-      [](const Answer& a) {
-        return a.order.size() == 2 && passes(a, stop) && passes(a, {2.0, 8.0});
-      });
+      [](const Answer& a) { return a.order.size() == 2 && passes(a, stop) && passes(a, other_stop); });
   rows.back().by_all = true;
-  rows.back().spoil = [](Answer& a) { a.problem.rule.visit[1] = beside_all; };
+  rows.back().spoil = [](Answer& a) { a.problem.rule.visit[1] = state_at(a.problem.robot, beside_all); };
   add(
       "return",
       [](Question& q, SolveOptions&) {
         q.goal.clear();
-        q.rule.visit = {{stop.x, stop.y}};
+        q.rule.visit = {state_at(*q.robot, stop)};
         q.rule.back = true;
       },
-      [](const Answer& a) { return passes(a, stop) && a.path.front() == a.path.back(); });
+      [](const Answer& a) { return passes(a, stop) && is_back(a); });
   rows.back().by_all = true;
-  rows.back().spoil = [](Answer& a) { a.problem.rule.visit[0] = beside_all; };
+  rows.back().with = "visit";
+  rows.back().spoil = [](Answer& a) { a.problem.rule.visit[0] = state_at(a.problem.robot, beside_all); };
   add(
-      "via",
-      [](Question&, SolveOptions& o) {
-        o.trees.via = {{stop.x, stop.y}};
-      },
+      "via", [](Question& q, SolveOptions& o) { o.trees.via = {state_at(*q.robot, stop)}; },
       [](const Answer& a) { return passes(a, stop); });
   rows.back().by_all = true;
-  rows.back().spoil = [](Answer& a) { a.problem.via[0] = beside_all; };
+  rows.back().spoil = [](Answer& a) { a.problem.via[0] = state_at(a.problem.robot, beside_all); };
   add(
       "alternatives", [](Question& q, SolveOptions&) { q.route.alternatives = 2; },
       [](const Answer& a) { return !a.alternatives.empty(); });
   add(
       "keep_to",
       [](Question& q, SolveOptions&) {
-        q.route.keep_to = {q.start, {5.0, 3.0}, q.goal};
+        q.route.keep_to = {q.start, state_at(*q.robot, {5.0, 3.0}), q.goal};
       },
       [](const Answer& a) { return a.keeping.has_value(); });
   add(
@@ -182,7 +209,8 @@ std::vector<AskedBody> asked_bodies() {
           {"car on a map", map_room(), car},
           {"car among polygons", polygon_room(), car},
           {"differential drive on a map", map_room(), drive},
-          {"differential drive among polygons", polygon_room(), drive}};
+          {"differential drive among polygons", polygon_room(), drive},
+          {"arm at a sphere", sphere_room(), {.kind = RobotKind::puma560, .radius = 0.04}}};
 }
 
 }  // namespace warren::test

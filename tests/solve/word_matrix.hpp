@@ -22,6 +22,7 @@ struct AskedRow {
   /// Makes the answer claim what its path does not do, which the judge has to see; empty: it claims nothing of the
   /// word.
   std::function<void(Answer&)> spoil = {};
+  std::string with = {};  ///< another word that is asked with it, and may be refused first
 };
 
 /// A body in a world, whose start and goal are free and joined, and a place that is not on the shortest way.
@@ -33,7 +34,10 @@ struct AskedBody {
 
 /// All words. Their places are those of asked_bodies().
 std::vector<AskedRow> asked_rows();
-/// Points, discs, polygons that turn, cars and differential drives, on a map and among polygons.
+/// Points, discs, polygons that turn, cars and differential drives, on a map and among polygons; an arm at a sphere.
 std::vector<AskedBody> asked_bodies();
+/// What a question of the body names for a place of the plane: its two coordinates; of an arm the posture that its own
+/// plane has there, two of its joints. Headings are added by the caller.
+std::vector<double> state_at(const RobotSpec& robot, Vec2 place);
 
 }  // namespace warren::test

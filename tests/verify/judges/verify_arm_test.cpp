@@ -122,7 +122,10 @@ TEST_F(VerifyArmPath, HoldsThePathToItsEndsAndLimits) {
   EXPECT_EQ(refusal({rest_, turned_}, {.start = rest_, .goal = turned_}), "");
   EXPECT_EQ(refusal({turned_, rest_}, {.goal_place = Vec3(0.4521, -0.15005, 0.4318)}), "");
   EXPECT_EQ(refusal({rest_, turned_}, {.goal_place = Vec3(0.4521, -0.15005, 0.4318)}).substr(0, 5), "goal:");
-  EXPECT_EQ(refusal({rest_, {0, -0.8, 0, 0, 0, 0}}).substr(0, 15), "limits: joint 2");
+  const std::vector<JointState> beyond = {rest_, {0, -0.8, 0, 0, 0, 0}};
+  EXPECT_EQ(refusal(beyond).substr(0, 15), "limits: joint 2");
+  EXPECT_EQ(verify(beyond).first_violation->kind, ViolationKind::motion);
+  EXPECT_EQ(verify({rest_, turned_}, {.goal = rest_}).first_violation->kind, ViolationKind::obstacle);
   EXPECT_EQ(refusal({rest_, {0, 0, 1e50, 0, 0, 0}}).substr(0, 15), "limits: joint 3");
 }
 

@@ -49,6 +49,7 @@ TEST(VerifyCar, MeasuresArcsAndStraightsExactly) {
   EXPECT_EQ(tight.first_violation->leg, 1U);
   EXPECT_NEAR(tight.first_violation->distance, 0.5, 1e-12);
   EXPECT_EQ(tight.first_violation->obstacle.substr(0, 7), "wall 0:");
+  EXPECT_EQ(tight.first_violation->kind, ViolationKind::obstacle);
 }
 
 struct Bad {
@@ -74,6 +75,7 @@ TEST(VerifyCar, RefusesWhatTheCarCannotDrive) {
     ASSERT_FALSE(v.verified);
     EXPECT_EQ(v.first_violation->leg, bad.path.size() - 2);
     EXPECT_EQ(v.first_violation->obstacle.substr(0, std::string(bad.obstacle).size()), bad.obstacle);
+    EXPECT_EQ(v.first_violation->kind, ViolationKind::motion);
   }
 }
 
