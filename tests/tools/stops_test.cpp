@@ -40,7 +40,9 @@ TEST(Stops, SignalsEndItWithTheirCodeAndPartialFigures) {
   for (const auto& [number, code, name] :
        {Stop{SIGHUP, 129, "SIGHUP"}, Stop{SIGINT, 130, "SIGINT"}, Stop{SIGTERM, 143, "SIGTERM"}}) {
     SCOPED_TRACE(name);
+    const auto before = std::signal(number, SIG_DFL);  // where the tests run under nohup, ignored
     Process process(long_run);
+    std::signal(number, before);
     wait_until_it_works(process);
     process.send(number);
     const Outcome outcome = process.wait();
