@@ -82,7 +82,8 @@ struct Settings {
   std::vector<std::string> folders;
   double step = 1.0;               // as solve/kinds/solve_arm.cpp has it
   std::string sampler = "halton";  // the same
-  double worth = 0.03;
+  double domain = 4.0;             // the same; 0: none
+  double worth = 0.2;
   std::uint64_t nodes = 100'000;
   std::uint64_t seed = 1;
   int repeats = 3;
@@ -127,6 +128,7 @@ Planned<World> plan(const World& world, const ArmProblem& problem, const Setting
   options.seed = settings.seed;
   options.nodes = settings.nodes;
   options.step = settings.step;
+  if (settings.domain > 0.0) options.domain = settings.domain;
   options.sampler = enum_named<SamplerKind>(settings.sampler);
   const Execution execution = alone();
   const JointState goal = problem.goal_state();
@@ -201,6 +203,7 @@ Row run(const std::string& set, const fs::path& scene_file, const RobotSpec& rob
   rrt.seed = settings.seed;
   rrt.nodes = settings.nodes;
   rrt.step = settings.step;
+  if (settings.domain > 0.0) rrt.domain = settings.domain;
   rrt.sampler = enum_named<SamplerKind>(settings.sampler);
   rrt_connect(WorldView(recording), problem.start, std::span(&goal, 1), rrt, alone());
   time_edges(row, world, motions);
@@ -308,6 +311,7 @@ int run_all(int argc, char** argv) {
   app.add_option("ROBOT", settings.robot, "its words, \"urdf FILE srdf FILE\"")->required();
   app.add_option("SET", settings.folders, "folders of sceneNNNN.yaml and requestNNNN.yaml")->required();
   app.add_option("--step", settings.step, "longest motion of a tree (default: the planner's)");
+  app.add_option("--domain", settings.domain, "of vertices that failed, in steps; 0: none");
   app.add_option("--sampler", settings.sampler, "of the trees (default: the planner's)");
   app.add_option("--worth", settings.worth, "a round of shortening that takes off a smaller share is the last");
   app.add_option("--nodes", settings.nodes, "of both trees");

@@ -111,6 +111,8 @@ class AnyWorld {
   virtual double sampled_volume() const = 0;
   /// Dimensions of that space: fewer than the world's where some coordinates are always the same.
   virtual std::size_t sampled_dimension() const = 0;
+  /// at_unit() looks at so many coordinates, the first ones.
+  virtual std::size_t unit_dimension() const = 0;
   /// Samples that a first roadmap needs.
   virtual double suggested_samples(const Execution& execution) const = 0;
   /// Of a roadmap that is tried first, >= 1, where many questions are easy; else as many as there are.
@@ -207,6 +209,10 @@ class WorldView final : public AnyWorldOf<W> {
   }
   std::size_t sampled_dimension() const override {
     if constexpr (requires { world_.sampled_dimension(); }) return world_.sampled_dimension();
+    return dimension;
+  }
+  std::size_t unit_dimension() const override {
+    if constexpr (requires { world_.unit_dimension(); }) return world_.unit_dimension();
     return dimension;
   }
   double suggested_samples(const Execution& execution) const override {

@@ -77,7 +77,7 @@ typename W::State sample_state(const W& world, const RoadmapOptions& options, st
       return world.at_unit(stratified_point(options.seed, index, count, height_over_width(world.box())));
     }
   }
-  if (options.sampler == SamplerKind::halton) return world.at_unit(halton_point<W::dimension>(options.seed, index));
+  if (options.sampler == SamplerKind::halton) return world.at_unit(halton_point_of(world, options.seed, index));
   if (options.sampler == SamplerKind::corridor) return world.corridor_state(options.seed, index);
   return uniform_state(world, options.seed, index);
 }

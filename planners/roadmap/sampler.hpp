@@ -15,6 +15,8 @@
 #include <cstdint>
 #include <numbers>
 #include <optional>
+#include <type_traits>
+#include <utility>
 
 #include "core/base/rng.hpp"
 #include "core/base/trigonometry.hpp"
@@ -23,24 +25,55 @@
 
 namespace warren {
 
-/// The index-th point of the Halton sequence in bases 2, 3, 5, …, shifted by a random vector of the seed
-/// (Cranley-Patterson), so that seeds differ.
-template <std::size_t D>
-std::array<double, D> halton_point(std::uint64_t seed, std::uint64_t index) {
-  static_assert(D <= 14);
-  constexpr std::uint64_t bases[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43};
-  std::array<double, D> point;
-  for (std::size_t axis = 0; axis < D; ++axis) {
-    double digit = 1.0;
-    double value = 0.0;
-    for (std::uint64_t i = index + 1; i > 0; i /= bases[axis]) {
-      digit /= static_cast<double>(bases[axis]);
-      value += digit * static_cast<double>(i % bases[axis]);
-    }
-    value += uniform(seed, 0, axis);
-    point[axis] = value < 1.0 ? value : value - 1.0;
+namespace detail {
+
+inline constexpr std::array<std::uint64_t, 14> halton_bases{2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43};
+
+/// What each digit behind the point is worth in a base, the first one first.
+template <std::uint64_t base>
+constexpr auto digit_values() {
+  std::array<double, 64> values{};
+  double value = 1.0;
+  for (double& digit : values) digit = value /= static_cast<double>(base);
+  return values;
+}
+
+/// The digits of a number behind the point, in reverse.
+template <std::uint64_t base>
+double radical_inverse(std::uint64_t number) {
+  static constexpr auto values = digit_values<base>();
+  double sum = 0.0;
+  for (std::size_t place = 0; number > 0; ++place, number /= base) {
+    sum += values[place] * static_cast<double>(number % base);
   }
-  return point;
+  return sum;
+}
+
+}  // namespace detail
+
+/// The index-th point of the Halton sequence in bases 2, 3, 5, …, shifted by a random vector of the seed
+/// (Cranley-Patterson), so that seeds differ. Its first `axes` coordinates, the others 0.
+template <std::size_t D>
+std::array<double, D> halton_point(std::uint64_t seed, std::uint64_t index, std::size_t axes = D) {
+  static_assert(D <= detail::halton_bases.size());
+  const auto coordinate = [&]<std::size_t axis>(std::integral_constant<std::size_t, axis>) {
+    if (axis >= axes) return 0.0;
+    const double value = detail::radical_inverse<detail::halton_bases[axis]>(index + 1) + uniform(seed, 0, axis);
+    return value < 1.0 ? value : value - 1.0;
+  };
+  const auto all = [&]<std::size_t... axis>(std::index_sequence<axis...>) {
+    return std::array{coordinate(std::integral_constant<std::size_t, axis>{})...};
+  };
+  return all(std::make_index_sequence<D>{});
+}
+
+/// Of any world: one that has no say about it is made of all its coordinates.
+template <World W>
+std::array<double, W::dimension> halton_point_of(const W& world, std::uint64_t seed, std::uint64_t index) {
+  if constexpr (requires { world.unit_dimension(); }) {
+    return halton_point<W::dimension>(seed, index, world.unit_dimension());
+  }
+  return halton_point<W::dimension>(seed, index);
 }
 
 /// Do samples of this kind depend on what is free?
@@ -145,7 +178,7 @@ typename W::State target_state(const W& world, SamplerKind kind, std::uint64_t s
   if (looks_at_obstacles(kind)) {
     if (const auto state = obstacle_sample(world, kind, seed, index, query)) return *state;
   }
-  if (kind == SamplerKind::halton) return world.at_unit(halton_point<W::dimension>(seed, index));
+  if (kind == SamplerKind::halton) return world.at_unit(halton_point_of(world, seed, index));
   if (kind == SamplerKind::corridor) return world.corridor_state(seed, index);
   return uniform_state(world, seed, index);
 }

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -98,7 +99,7 @@ class RrtConnectSearch {
     begun_ = true;
     while (!arrived() && !gave_up() && goes_on()) {
       execution.check();
-      for (MotionTree<W>& tree : trees_) tree.ask_room(execution);
+      for (MotionTree<W>& tree : trees_) tree.ask_room(execution, options_->domain ? sizeof(float) : 0);
       take_step();
     }
     counters_.refused = refused_motions(query_);
@@ -114,6 +115,10 @@ class RrtConnectSearch {
            trees_[side].cost(from) + trees_[side].length(from, next) + least_rest(side, next) < most_;
   }
   void meet(std::size_t side, VertexId grown);
+  /// Samples that are farther away than that don't grow the vertex.
+  double radius(std::size_t side, VertexId v) const { return v < radii_[side].size() ? radii_[side][v] : unbounded; }
+  void change_radius(std::size_t side, VertexId v, bool is_free);
+  bool other_is_due() const;
   std::optional<VertexId> walk(MotionTree<W>& tree, VertexId from, const PlaceWay& way, const Execution& execution);
   VertexId try_places(std::size_t side, VertexId root, const Execution& execution);
   void try_places(const Execution& execution);
@@ -128,10 +133,11 @@ class RrtConnectSearch {
   std::uint64_t idle_samples_ = 0;
   std::uint64_t seed_;
   typename W::Query query_;
-  std::array<MotionTree<W>, 2> trees_;  // from the start, from the goals
-  VertexId goal_count_ = 0;             // so many roots has the second
-  std::array<VertexId, 2> meeting_{};   // where they meet, in each tree
-  std::size_t turn_ = 0;                // whose turn it is
+  std::array<MotionTree<W>, 2> trees_;       // from the start, from the goals
+  VertexId goal_count_ = 0;                  // so many roots has the second
+  std::array<VertexId, 2> meeting_{};        // where they meet, in each tree
+  std::size_t turn_ = 0;                     // whose turn it is
+  std::array<std::vector<float>, 2> radii_;  // of the vertices' domains; infinite beyond the end
   bool arrived_ = false;
   bool begun_;  // the way over places is tried by the first pair of trees alone
   Counters counters_;
@@ -228,20 +234,46 @@ auto RrtConnectSearch<W>::next_target() -> std::optional<State> {
   return target_state(*world_, options_->sampler_of(index), seed_, index, query_);
 }
 
+/// After a motion from a vertex, which was free or not.
+template <SteerableWorld W>
+void RrtConnectSearch<W>::change_radius(std::size_t side, VertexId v, bool is_free) {
+  constexpr float change = 1e-4F;
+  std::vector<float>& radii = radii_[side];
+  if (v >= radii.size()) {
+    if (is_free) return;
+    radii.resize(trees_[side].size(), std::numeric_limits<float>::infinity());
+  }
+  const auto first = static_cast<float>(*options_->domain * step_);
+  if (is_free) {
+    radii[v] *= 1.0F + change;
+  } else {
+    radii[v] = std::isinf(radii[v]) ? first : std::max(radii[v] * (1.0F - change), static_cast<float>(step_));
+  }
+}
+
+/// In turns; where there are domains, a tree that is less than half of the other one goes on.
+template <SteerableWorld W>
+bool RrtConnectSearch<W>::other_is_due() const {
+  return !options_->domain || trees_[1 - turn_].size() < 2 * trees_[turn_].size();
+}
+
 template <SteerableWorld W>
 void RrtConnectSearch<W>::take_step() {
-  MotionTree<W>& mine = trees_[turn_];
+  const std::size_t side = turn_;
+  MotionTree<W>& mine = trees_[side];
   const std::optional<State> target = next_target();
   if (!target) {
     ++idle_samples_;
     return;
   }
   const VertexId from = mine.nearest(*target, counters_);
+  if (other_is_due()) turn_ = 1 - side;
+  if (options_->domain && mine.length(from, *target) > radius(side, from)) return;
   const State next = mine.towards(from, *target, step_);
-  if (is_worth(turn_, from, next)) {
-    if (const auto grown = mine.join(from, next, query_, counters_)) meet(turn_, *grown);
-  }
-  turn_ = 1 - turn_;
+  if (!is_worth(side, from, next)) return;
+  const auto grown = mine.join(from, next, query_, counters_);
+  if (options_->domain) change_radius(side, from, grown.has_value());
+  if (grown) meet(side, *grown);
 }
 
 template <SteerableWorld W>

@@ -13,6 +13,9 @@ void RrtOptions::validate() const {
   if (step && !(*step > 0.0 && std::isfinite(*step))) {
     throw InputError("step", "must be a positive number", std::to_string(*step));
   }
+  if (domain && !(*domain >= 1.0 && std::isfinite(*domain))) {
+    throw InputError("domain", "must be a number from 1 on", std::to_string(*domain));
+  }
   if (!(goal_bias >= 0.0 && goal_bias <= 1.0)) {
     throw InputError("goal bias", "must be from 0 to 1", std::to_string(goal_bias));
   }

@@ -20,7 +20,11 @@ struct RrtOptions {
   /// (planners/trees/rrt_connect.hpp). Off for ways that differ from seed to seed.
   bool places = true;
   std::optional<double> step = {};  ///< longest motion of a tree, in the world's metric, > 0; none: by world
-  double goal_bias = 0.05;          ///< share of the samples that are the goal, 0 .. 1; only for rrt
+  /// rrt_connect: a vertex that a motion from has failed is grown towards samples within so many steps alone, for of
+  /// those farther away obstacles near to it take the most (dynamic domain: Yershova, Jaillet, Simeon, LaValle, ICRA
+  /// 2005); and a tree of less than half the other's states goes on. >= 1; none: towards any sample, in turns.
+  std::optional<double> domain = {};
+  double goal_bias = 0.05;  ///< share of the samples that are the goal, 0 .. 1; only for rrt
   /// A tree of so many gives up (rrt_connect: start's and goal's together), and after 64 times as many samples.
   std::uint64_t nodes = 100'000;  ///< 2 .. 2^31
   std::uint32_t trees = 1;        ///< grown independently at once, 1 .. 4096; the first to arrive answers

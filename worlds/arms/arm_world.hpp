@@ -61,6 +61,8 @@ class ArmWorld {
   /// Volume, in the metric, of the box of limits of the variables that are not idle, and how many these are.
   double sampled_volume() const;
   std::size_t sampled_dimension() const;
+  /// Joints that there are.
+  std::size_t unit_dimension() const { return ways_.size(); }
   const ArmModel& model() const { return kinematics_.model(); }
   const ArmKinematics& kinematics() const { return kinematics_; }
   std::size_t variable_count() const { return ways_.size(); }

@@ -100,6 +100,29 @@ TEST(ArmPlanners, FindVerifiedPathsTheSameForAnyNumberOfThreads) {
   }
 }
 
+/// Fewer motions are asked for, of which more are free.
+TEST(ArmPlanners, ADomainKeepsTreesFromObstaclesThatAreNear) {
+  Counters with;
+  Counters without;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    const Question q = random_question(seed);
+    const ArmWorld world(q.scene, model_of(q.table, 0.05, false), {});
+    const auto planned = [&](std::optional<double> domain) {
+      const RrtOptions trees{.sampler = SamplerKind::halton, .step = 1.0, .domain = domain, .seed = seed};
+      return rrt_connect(WorldView(world), q.start, std::span(&q.goal, 1), trees, {.threads = 1});
+    };
+    const Solution<JointState> near = planned(4.0);
+    ASSERT_EQ(near.outcome, Outcome::solved);
+    expect_verified(q, near.path);
+    EXPECT_EQ(near.path, planned(4.0).path);
+    with += near.counters;
+    without += planned({}).counters;
+  }
+  EXPECT_LT(2 * with.edges_checked, without.edges_checked);
+  EXPECT_GT(with.edges_free * without.edges_checked, without.edges_free * with.edges_checked);
+}
+
 constexpr const char* nine_spheres = "tests/data/nine-spheres.scene";
 
 class StudyScene : public ::testing::TestWithParam<const char*> {
