@@ -256,7 +256,7 @@ TEST(Streamed, ArraysLargerThanTheMemoryAreReadInWindows) {
 #ifdef NDEBUG
   constexpr double most_bytes = 50.4e6;
 #else
-  constexpr double most_bytes = 60e6;  // of the program's own code, larger with asserts, the system counts what it likes
+  constexpr double most_bytes = 60e6;  // of its own code, larger with asserts, the system counts what it likes
 #endif
   const Folder folder;
   ASSERT_EQ(run({"generate", "maze", "2000x2000", "--loops", "0.05", "-o", folder.path("a.maze")}).code, 0);
