@@ -82,7 +82,7 @@ struct Settings {
   std::vector<std::string> folders;
   double step = 1.0;               // as solve/kinds/solve_arm.cpp has it
   std::string sampler = "halton";  // the same
-  double domain = 4.0;             // the same; 0: none
+  double domain = 5.0;             // the same; 0: none
   double worth = 0.2;
   std::uint64_t nodes = 100'000;
   std::uint64_t seed = 1;
@@ -168,7 +168,9 @@ void time_edges(Row& row, const ArmWorld& world, const std::vector<std::pair<Joi
 
 Row run(const std::string& set, const fs::path& scene_file, const RobotSpec& robot, const Settings& settings) {
   std::string number = scene_file.stem().string().substr(5);
-  Row row{set, number};
+  Row row;
+  row.set = set;
+  row.name = number;
   double begun = thread_seconds();
   Scene asked = read_world(scene_file.string(), alone());
   const InputFile request((scene_file.parent_path() / ("request" + number + ".yaml")).string(), alone());

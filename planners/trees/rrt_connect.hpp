@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -99,7 +98,7 @@ class RrtConnectSearch {
     begun_ = true;
     while (!arrived() && !gave_up() && goes_on()) {
       execution.check();
-      for (MotionTree<W>& tree : trees_) tree.ask_room(execution, options_->domain ? sizeof(float) : 0);
+      for (MotionTree<W>& tree : trees_) tree.ask_room(execution, 1);  // a bit of failed_
       take_step();
     }
     counters_.refused = refused_motions(query_);
@@ -115,9 +114,7 @@ class RrtConnectSearch {
            trees_[side].cost(from) + trees_[side].length(from, next) + least_rest(side, next) < most_;
   }
   void meet(std::size_t side, VertexId grown);
-  /// Samples that are farther away than that don't grow the vertex.
-  double radius(std::size_t side, VertexId v) const { return v < radii_[side].size() ? radii_[side][v] : unbounded; }
-  void change_radius(std::size_t side, VertexId v, bool is_free);
+  bool is_beyond_domain(std::size_t side, VertexId v, const State& target) const;
   bool other_is_due() const;
   std::optional<VertexId> walk(MotionTree<W>& tree, VertexId from, const PlaceWay& way, const Execution& execution);
   VertexId try_places(std::size_t side, VertexId root, const Execution& execution);
@@ -137,7 +134,7 @@ class RrtConnectSearch {
   VertexId goal_count_ = 0;                  // so many roots has the second
   std::array<VertexId, 2> meeting_{};        // where they meet, in each tree
   std::size_t turn_ = 0;                     // whose turn it is
-  std::array<std::vector<float>, 2> radii_;  // of the vertices' domains; infinite beyond the end
+  std::array<std::vector<bool>, 2> failed_;  // from which vertices a motion has; beyond the end none
   bool arrived_ = false;
   bool begun_;  // the way over places is tried by the first pair of trees alone
   Counters counters_;
@@ -234,21 +231,11 @@ auto RrtConnectSearch<W>::next_target() -> std::optional<State> {
   return target_state(*world_, options_->sampler_of(index), seed_, index, query_);
 }
 
-/// After a motion from a vertex, which was free or not.
+/// Does an obstacle near to the vertex take the most of samples so far away?
 template <SteerableWorld W>
-void RrtConnectSearch<W>::change_radius(std::size_t side, VertexId v, bool is_free) {
-  constexpr float change = 1e-4F;
-  std::vector<float>& radii = radii_[side];
-  if (v >= radii.size()) {
-    if (is_free) return;
-    radii.resize(trees_[side].size(), std::numeric_limits<float>::infinity());
-  }
-  const auto first = static_cast<float>(*options_->domain * step_);
-  if (is_free) {
-    radii[v] *= 1.0F + change;
-  } else {
-    radii[v] = std::isinf(radii[v]) ? first : std::max(radii[v] * (1.0F - change), static_cast<float>(step_));
-  }
+bool RrtConnectSearch<W>::is_beyond_domain(std::size_t side, VertexId v, const State& target) const {
+  if (!options_->domain || v >= failed_[side].size() || !failed_[side][v]) return false;
+  return trees_[side].length(v, target) > *options_->domain * step_;
 }
 
 /// In turns; where there are domains, a tree that is less than half of the other one goes on.
@@ -268,12 +255,13 @@ void RrtConnectSearch<W>::take_step() {
   }
   const VertexId from = mine.nearest(*target, counters_);
   if (other_is_due()) turn_ = 1 - side;
-  if (options_->domain && mine.length(from, *target) > radius(side, from)) return;
+  if (is_beyond_domain(side, from, *target)) return;
   const State next = mine.towards(from, *target, step_);
   if (!is_worth(side, from, next)) return;
-  const auto grown = mine.join(from, next, query_, counters_);
-  if (options_->domain) change_radius(side, from, grown.has_value());
-  if (grown) meet(side, *grown);
+  if (const auto grown = mine.join(from, next, query_, counters_)) return meet(side, *grown);
+  if (!options_->domain) return;
+  if (from >= failed_[side].size()) failed_[side].resize(mine.size());
+  failed_[side][from] = true;
 }
 
 template <SteerableWorld W>

@@ -60,7 +60,7 @@ class Arm : public UsualBody {
   /// ninth of the time, by the domain a mean one half of that, or less.
   void suit(RrtOptions& options) const {
     constexpr double usual_step = 1.0;
-    constexpr double usual_domain = 4.0;
+    constexpr double usual_domain = 5.0;
     if (problem_.table) return;
     if (!options.sampler) options.sampler = SamplerKind::halton;
     if (!options.step) options.step = usual_step;

@@ -14,14 +14,14 @@ struct Named {
   const char* text;
 };
 
-constexpr Named worlds[] = {{"bounds.scene", "bounds 0 0 12 12\n"},
-                            {"walls.scene", "0 0 12 0\n0 12 12 12\n5 1 5 3\n"},
-                            {"polygon.scene", "bounds 0 0 12 12\npolygon 9 9 11 9 11 11\n"},
-                            {"box.scene", "box 3 3 3 4 4 4\n"},
-                            {"sphere.scene", "sphere 5 5 5 1\n"},
-                            {"mixed.scene", "bounds 0 0 12 12\nbox 1 1 0 3 3 1\npolygon 9 9 11 9 11 11\n"},
-                            {"a.map", "type octile\nheight 3\nwidth 4\nmap\n....\n.@@.\n....\n"},
-                            {"none.geojson", R"({"type": "FeatureCollection", "features": []})"}};
+constexpr Named judged_worlds[] = {{"bounds.scene", "bounds 0 0 12 12\n"},
+                                   {"walls.scene", "0 0 12 0\n0 12 12 12\n5 1 5 3\n"},
+                                   {"polygon.scene", "bounds 0 0 12 12\npolygon 9 9 11 9 11 11\n"},
+                                   {"box.scene", "box 3 3 3 4 4 4\n"},
+                                   {"sphere.scene", "sphere 5 5 5 1\n"},
+                                   {"mixed.scene", "bounds 0 0 12 12\nbox 1 1 0 3 3 1\npolygon 9 9 11 9 11 11\n"},
+                                   {"a.map", "type octile\nheight 3\nwidth 4\nmap\n....\n.@@.\n....\n"},
+                                   {"none.geojson", R"({"type": "FeatureCollection", "features": []})"}};
 
 constexpr Named bodies[] = {
     {"point", "[[0.5, 0.5], [0.5, 2.5]]"},
@@ -35,7 +35,7 @@ constexpr Named bodies[] = {
 TEST(VerifyCombinations, EveryBodyInEveryWorldEndsInAVerdictOrARefusal) {
   const Folder folder;
   int verdicts = 0;
-  for (const Named& world : worlds) {
+  for (const Named& world : judged_worlds) {
     const std::string file = folder.write(world.name, world.text);
     for (const Named& body : bodies) {
       const Json path = Json::parse(body.text);

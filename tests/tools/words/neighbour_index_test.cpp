@@ -11,7 +11,7 @@ namespace {
 
 using test::joined;
 using test::run;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 TEST(NeighbourIndex, GivesTheSamePath) {
   const std::vector<std::string> town{
