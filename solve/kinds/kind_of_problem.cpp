@@ -78,36 +78,31 @@ std::vector<PlannerKind> planners_of(const std::vector<const SolveKind*>& kinds)
   return planners;
 }
 
+template <class Word>
+std::vector<PlannerKind> takers_of(Word word) {
+  return planners_where([&](const SolveKind& kind, const PlannerChoice& choice) { return takes(kind, choice, word); });
+}
+
 std::string takers_text(const std::vector<PlannerKind>& takers) {
   return fmt::format("{} {} it", listed(takers), takers.size() == 1 ? "takes" : "take");
 }
 
+/// Those of the kinds that fit a problem; where these have none, all, and for which problems.
 template <class Word>
-bool any_takes(const SolveKind& kind, Word word) {
-  return std::any_of(kind.planners.begin(), kind.planners.end(),
-                     [&](const PlannerChoice& choice) { return takes(kind, choice, word); });
-}
-
-/// Refuses an option where the problem is known: others of its planners take the option, or the option is for other
-/// problems.
-[[noreturn]] void refuse_for_problem(Option option, PlannerKind planner, const std::vector<const SolveKind*>& fitting) {
-  const auto is_here = [&](const SolveKind& kind) {
-    return std::find(fitting.begin(), fitting.end(), &kind) != fitting.end();
-  };
-  const auto here = planners_where(
-      [&](const SolveKind& kind, const PlannerChoice& choice) { return is_here(kind) && takes(kind, choice, option); });
-  std::string taken = takers_text(here);
-  if (here.empty()) {
-    std::vector<std::string_view> problems;
-    for (const SolveKind& kind : solve_kinds()) {
-      if (any_takes(kind, option)) problems.push_back(kind.problem);
-    }
-    const auto all =
-        planners_where([&](const SolveKind& kind, const PlannerChoice& choice) { return takes(kind, choice, option); });
-    taken = fmt::format("{} for {}", takers_text(all), listed(problems));
+std::string takers_text(Word word, const std::vector<const SolveKind*>& fitting) {
+  const auto here = planners_where([&](const SolveKind& kind, const PlannerChoice& choice) {
+    return std::find(fitting.begin(), fitting.end(), &kind) != fitting.end() && takes(kind, choice, word);
+  });
+  if (!here.empty()) return takers_text(here);
+  const std::vector<PlannerKind> all = takers_of(word);
+  if (all.empty()) return "no planner of this version takes it";
+  std::vector<std::string_view> problems;
+  for (const SolveKind& kind : solve_kinds()) {
+    if (std::any_of(kind.planners.begin(), kind.planners.end(),
+                    [&](const PlannerChoice& choice) { return takes(kind, choice, word); }))
+      problems.push_back(kind.problem);
   }
-  throw UsageError(fmt::format("@{}: {} would ignore it for {}; {}", name_of(option), name_of(planner),
-                               fitting.front()->problem, taken));
+  return fmt::format("{} for {}", takers_text(all), listed(problems));
 }
 
 /// Refuses the options that the planner takes in none of `kinds`, which all have it; `fitting` are the kinds of the
@@ -118,11 +113,12 @@ void refuse_ignored(const SolveOptions& options, PlannerKind planner, const std:
     if (std::any_of(kinds.begin(), kinds.end(),
                     [&](const SolveKind* kind) { return takes(*kind, *choice_in(*kind, planner), option); }))
       continue;
-    if (!fitting.empty()) refuse_for_problem(option, planner, fitting);
-    const auto takers =
-        planners_where([&](const SolveKind& kind, const PlannerChoice& choice) { return takes(kind, choice, option); });
-    throw UsageError(
-        fmt::format("@{}: {} would ignore it; {}", name_of(option), name_of(planner), takers_text(takers)));
+    if (fitting.empty()) {
+      throw UsageError(fmt::format("@{}: {} would ignore it; {}", name_of(option), name_of(planner),
+                                   takers_text(takers_of(option))));
+    }
+    throw UsageError(fmt::format("@{}: {} would ignore it for {}; {}", name_of(option), name_of(planner),
+                                 fitting.front()->problem, takers_text(option, fitting)));
   }
 }
 
@@ -131,24 +127,10 @@ void refuse_ignored_words(AskedWords asked, const SolveKind& chosen, PlannerKind
                           const Question& question, const std::vector<const SolveKind*>& fitting) {
   for (const AskedWord word : words_of(asked)) {
     if (takes_all(chosen, *choice_in(chosen, planner), {word}, {})) continue;
-    const auto is_here = [&](const SolveKind& kind) {
-      return std::find(fitting.begin(), fitting.end(), &kind) != fitting.end();
-    };
-    const auto here = planners_where(
-        [&](const SolveKind& kind, const PlannerChoice& choice) { return is_here(kind) && takes(kind, choice, word); });
-    std::vector<std::string_view> problems;
-    for (const SolveKind& kind : solve_kinds()) {
-      if (any_takes(kind, word)) problems.push_back(kind.problem);
-    }
-    const auto all =
-        planners_where([&](const SolveKind& kind, const PlannerChoice& choice) { return takes(kind, choice, word); });
-    const std::string taken = !here.empty() ? takers_text(here)
-                              : all.empty() ? "no planner of this version takes it"
-                                            : fmt::format("{} for {}", takers_text(all), listed(problems));
     const bool is_factor = word == AskedWord::keep_out_factor || word == AskedWord::unknown_factor;
     const std::string_view what = is_factor ? "its factor" : word == AskedWord::goal_heading ? "its angle" : "it";
     throw UsageError(fmt::format("{}: {} would ignore {} for {}; {}", place_of_word(word, scene, question),
-                                 name_of(planner), what, fitting.front()->problem, taken));
+                                 name_of(planner), what, fitting.front()->problem, takers_text(word, fitting)));
   }
 }
 
@@ -270,11 +252,7 @@ const SolveKind& verifying_kind(const Scene& scene, const Question& question) {
   return **found;
 }
 
-bool planner_takes(PlannerKind planner, Option option) {
-  const auto takers =
-      planners_where([&](const SolveKind& kind, const PlannerChoice& choice) { return takes(kind, choice, option); });
-  return std::find(takers.begin(), takers.end(), planner) != takers.end();
-}
+bool planner_takes(PlannerKind planner, Option option) { return std::ranges::count(takers_of(option), planner) > 0; }
 
 bool planner_takes(PlannerKind planner, Option option, const Scene& scene, const Question& question) {
   const std::vector<const SolveKind*> fitting = fitting_kinds(scene, robot_of(scene, question));
@@ -284,11 +262,7 @@ bool planner_takes(PlannerKind planner, Option option, const Scene& scene, const
   });
 }
 
-bool planner_takes(PlannerKind planner, AskedWord word) {
-  const auto takers =
-      planners_where([&](const SolveKind& kind, const PlannerChoice& choice) { return takes(kind, choice, word); });
-  return std::find(takers.begin(), takers.end(), planner) != takers.end();
-}
+bool planner_takes(PlannerKind planner, AskedWord word) { return std::ranges::count(takers_of(word), planner) > 0; }
 
 std::vector<PlannerKind> planners_there_are() {
   return planners_where([](const SolveKind&, const PlannerChoice&) { return true; });
