@@ -161,98 +161,70 @@ class SampledVisibilitySolve {
   double proof_s_ = 0.0;
 };
 
-/// One solve.
-class VisibilitySolve {
- public:
-  VisibilitySolve(const SolveRequest& request, const WallProblem& problem, const VisibilityRequest& asked)
-      : request_(request), problem_(problem), asked_(asked) {}
+void solve_whole(const SolveRequest& request, const WallProblem& problem, const VisibilityOptions& options,
+                 Answer& answer) {
+  const VisibilityRoadmap* known = asked_roadmap<VisibilityRoadmap>(request);
+  PlaneObstacles obstacles;
+  if (known == nullptr) obstacles = indexed_obstacles(request, answer);
+  if (stand_on_seams(request, problem, answer)) return;
+  PlannedRoadmap<Vec2>* keep = request.keep != nullptr ? &request.keep->roadmap : nullptr;
+  const auto& [start, goal] = std::tie(problem.start, problem.goal);
+  take_solution(answer, known != nullptr
+                            ? visibility_path(*known, start, goal, options, request.execution, keep)
+                            : confined_visibility_path(obstacles, start, goal, options, request.execution, keep));
+  if (answer.outcome == Outcome::not_connected) answer.outcome = Outcome::infeasible;  // the graph misses no path
+  verify_solved(answer, request.scene, problem, request.execution, request.asked.judged());
+  answer.optimal = answer.verified && has_queue(options.search);
+}
 
-  void run(Answer& answer) {
-    const VisibilityRoadmap* known = asked_roadmap<VisibilityRoadmap>(request_);
-    PlaneObstacles obstacles;
-    if (known == nullptr) obstacles = indexed_obstacles(request_, answer);
-    if (stand_on_seams(request_, problem_, answer)) return;
-    PlannedRoadmap<Vec2>* keep = request_.keep != nullptr ? &request_.keep->roadmap : nullptr;
-    const auto& [start, goal] = std::tie(problem_.start, problem_.goal);
-    take_solution(answer,
-                  known != nullptr
-                      ? visibility_path(*known, start, goal, asked_.options, request_.execution, keep)
-                      : confined_visibility_path(obstacles, start, goal, asked_.options, request_.execution, keep));
-    if (answer.outcome == Outcome::not_connected) answer.outcome = Outcome::infeasible;  // the graph misses no path
-    verify_solved(answer, request_.scene, problem_, request_.execution, request_.asked.judged());
-    answer.optimal = answer.verified && has_queue(asked_.options.search);
+// The same for a disc, or a point that keeps a clearance.
+
+DiscPath plan_disc(const SolveRequest& request, const WallProblem& problem, Answer& answer) {
+  const DiscRoadmap* known = asked_roadmap<DiscRoadmap>(request);
+  const Execution& execution = request.execution;
+  std::optional<DiscGround> ground;
+  if (known == nullptr) {
+    const PlaneObstacles obstacles = indexed_obstacles(request, answer);
+    const StageTimer timer(execution, "index", answer.seconds.index);
+    ground.emplace(obstacles, execution);
   }
+  const StageTimer timer(execution, "search", answer.seconds.search);
+  return known != nullptr ? shortest_disc_path(*known, problem.start, problem.goal, problem.reach(), execution)
+                          : shortest_disc_path(*ground, problem.start, problem.goal, problem.reach(), execution);
+}
 
- private:
-  const SolveRequest& request_;
-  const WallProblem& problem_;
-  const VisibilityRequest& asked_;
-};
-
-/// The same for a disc, or a point that keeps a clearance.
-class DiscSolve {
- public:
-  DiscSolve(const SolveRequest& request, const WallProblem& problem) : request_(request), problem_(problem) {}
-
-  void run(Answer& answer) {
-    const DiscPath path = plan(answer);
-    answer.outcome = path.outcome;
-    answer.roadmap = {path.circles + 2, path.candidates, 0};
-    answer.counters.edges_checked = path.checked;
-    answer.counters.edges_free = path.free;
-    answer.counters.expanded = path.arrivals;
-    if (path.outcome == Outcome::solved) {
-      answer.path = polyline_of(path, request_.execution);
-      tell_bracket(path, answer);
-      if (request_.keep != nullptr) request_.keep->arcs = arcs_of(path);
-    }
-    settle_blocked_ends(answer, request_.scene, problem_, request_.execution, request_.asked.judged());
-    verify_solved(answer, request_.scene, problem_, request_.execution, request_.asked.judged());
-    constexpr double bracket = 1e-9;  // of the length: more than the trifles by which it is open
-    answer.optimal = answer.verified && path.length - path.lower_bound <= bracket * path.length;
+ArcPath arcs_of(const DiscPath& path) {
+  ArcPath arcs{{path.pieces.front().from}, {0.0}};
+  for (const DiscPiece& piece : path.pieces) {
+    arcs.points.push_back(piece.to);
+    arcs.turns.push_back(piece.anticlockwise ? piece.angle : -piece.angle);
   }
+  return arcs;
+}
 
- private:
-  DiscPath plan(Answer& answer) const {
-    const DiscRoadmap* known = asked_roadmap<DiscRoadmap>(request_);
-    const Execution& execution = request_.execution;
-    std::optional<DiscGround> ground;
-    if (known == nullptr) {
-      const PlaneObstacles obstacles = indexed_obstacles(request_, answer);
-      const StageTimer timer(execution, "index", answer.seconds.index);
-      ground.emplace(obstacles, execution);
-    }
-    const StageTimer timer(execution, "search", answer.seconds.search);
-    return known != nullptr ? shortest_disc_path(*known, problem_.start, problem_.goal, problem_.reach(), execution)
-                            : shortest_disc_path(*ground, problem_.start, problem_.goal, problem_.reach(), execution);
+void tell_bracket(const DiscPath& path, Answer& answer) {
+  const double drawn = path_length(answer.path, [](Vec2 a, Vec2 b) { return distance(a, b); });
+  answer.path_figures.push_back({"arcs", path.arcs()});
+  answer.path_figures.push_back({"excess", std::max(0.0, drawn - path.length)});
+  answer.lower_bound = path.lower_bound;
+}
+
+void solve_disc(const SolveRequest& request, const WallProblem& problem, Answer& answer) {
+  const DiscPath path = plan_disc(request, problem, answer);
+  answer.outcome = path.outcome;
+  answer.roadmap = {path.circles + 2, path.candidates, 0};
+  answer.counters.edges_checked = path.checked;
+  answer.counters.edges_free = path.free;
+  answer.counters.expanded = path.arrivals;
+  if (path.outcome == Outcome::solved) {
+    answer.path = polyline_of(path, request.execution);
+    tell_bracket(path, answer);
+    if (request.keep != nullptr) request.keep->arcs = arcs_of(path);
   }
-
-  static ArcPath arcs_of(const DiscPath& path) {
-    ArcPath arcs{{path.pieces.front().from}, {0.0}};
-    for (const DiscPiece& piece : path.pieces) {
-      arcs.points.push_back(piece.to);
-      arcs.turns.push_back(piece.anticlockwise ? piece.angle : -piece.angle);
-    }
-    return arcs;
-  }
-
-  static void tell_bracket(const DiscPath& path, Answer& answer) {
-    const double drawn = path_length(answer.path, [](Vec2 a, Vec2 b) { return distance(a, b); });
-    answer.path_figures.push_back({"arcs", path.arcs()});
-    answer.path_figures.push_back({"excess", std::max(0.0, drawn - path.length)});
-    answer.lower_bound = path.lower_bound;
-  }
-
-  const SolveRequest& request_;
-  const WallProblem& problem_;
-};
-
-Answer solve_disc(const SolveRequest& request, const WallProblem& problem, const SearchChoice& search) {
-  DiscSolve solve(request, problem);
-  Answer answer;
-  describe_plane_planner(answer, request, problem, search);
-  answer_within_limits(answer, [&] { solve.run(answer); });
-  return answer;
+  settle_blocked_ends(answer, request.scene, problem, request.execution, request.asked.judged());
+  verify_solved(answer, request.scene, problem, request.execution, request.asked.judged());
+  constexpr double bracket = 1e-9;  // of the length: more than the trifles by which it is open
+  answer.optimal = answer.verified && path.length - path.lower_bound <= bracket * path.length;
 }
 
 }  // namespace
@@ -260,17 +232,20 @@ Answer solve_disc(const SolveRequest& request, const WallProblem& problem, const
 Answer solve_by_visibility(const SolveRequest& request) {
   const WallProblem problem = touching_problem(request);
   const SearchChoice search = search_choice(request.options);
-  if (problem.reach() > 0.0) return solve_disc(request, problem, search);
-  const VisibilityRequest asked = options_of(request, search);
   Answer answer;
   describe_plane_planner(answer, request, problem, search);
+  if (problem.reach() > 0.0) {
+    answer_within_limits(answer, [&] { solve_disc(request, problem, answer); });
+    return answer;
+  }
+  const VisibilityRequest asked = options_of(request, search);
   if (asked.options.edges == VisibilityEdges::full) answer.options.push_back({"full", true});
   if (asked.options.lazy) answer.options.push_back({"lazy", true});
   if (asked.sample_step) answer.options.push_back({"sampled_edges", *asked.sample_step});
   SampledVisibilitySolve sampled(request, problem, asked);
   answer_within_limits(answer, [&] {
     if (asked.sample_step) return sampled.run(answer);
-    VisibilitySolve(request, problem, asked).run(answer);
+    solve_whole(request, problem, asked.options, answer);
   });
   answer.solve_s -= sampled.proof_s();
   return answer;
