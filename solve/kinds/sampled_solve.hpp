@@ -277,9 +277,7 @@ class SampledSolve {
       return body_.improved(*world_, path, {.seed = seed, .hopeless = hopeless}, on, counters);
     };
     body.draws = Body::improves_by_draws;
-    body.length = [this](const Path<State>& path) {
-      return path_length(path, [this](const State& a, const State& b) { return body_.length(*world_, a, b); });
-    };
+    body.length = [this](const Path<State>& path) { return length_of(path); };
     if (request_.keep != nullptr) body.kept = [this](const Path<State>& path) { keep_improved(path); };
     if (wants_exact_bound()) body.lower_bound = [this] { return bound(BoundEffort::exact); };
     body.judged_s = [this](const Path<State>& path) {
@@ -326,14 +324,19 @@ class SampledSolve {
     const bool is_small = !request_.scene.map && corner_count(request_.scene) <= few;
     return request_.options.bound || request_.options.anytime.gap || is_small;
   }
-  /// What ends the search does not end the work: its path is judged and told in the memory that there is.
-  void plan_better() {
+  /// None where start or all of them are blocked, which the answer says.
+  std::vector<State> free_goals() {
     std::vector<State> goals = detail::free_states(*world_, std::span<const State>(goals_));
     auto query = world_->make_query();
-    if (const bool is_free = world_->is_free(body_.start(), query); !is_free || goals.empty()) {
-      answer_.outcome = is_free ? Outcome::goal_blocked : Outcome::start_blocked;
-      return;
-    }
+    const bool is_free = world_->is_free(body_.start(), query);
+    if (is_free && !goals.empty()) return goals;
+    answer_.outcome = is_free ? Outcome::goal_blocked : Outcome::start_blocked;
+    return {};
+  }
+  /// What ends the search does not end the work: its path is judged and told in the memory that there is.
+  void plan_better() {
+    const std::vector<State> goals = free_goals();
+    if (goals.empty()) return;
     AnytimeOptions options = better_options();
     options.lower_bound = bound(BoundEffort::simple);
     options.all_goals = answer_.problem.goal.size() == answer_.problem.start.size();  // else some headings or postures
@@ -357,12 +360,8 @@ class SampledSolve {
   }
   void plan_on_lattice() {
     if constexpr (requires { body_.on_lattice(*world_, goals_, answer_); }) {
-      const std::vector<State> goals = detail::free_states(*world_, std::span<const State>(goals_));
-      auto query = world_->make_query();
-      if (const bool is_free = world_->is_free(body_.start(), query); !is_free || goals.empty()) {
-        answer_.outcome = is_free ? Outcome::goal_blocked : Outcome::start_blocked;
-        return;
-      }
+      const std::vector<State> goals = free_goals();
+      if (goals.empty()) return;
       path_ = body_.on_lattice(*world_, goals, answer_);
       answer_.outcome = path_.empty() ? Outcome::not_connected : Outcome::solved;
       if (!path_.empty()) answer_.lower_bound = bound(BoundEffort::simple);
@@ -372,7 +371,7 @@ class SampledSolve {
   /// Of planners that leave it to who asks: in the metric that they make small, and never to a path that costs more.
   void shorten_better() {
     const StageTimer timer(execution(), "optimise", answer_.seconds.optimise, path_.size());
-    answer_.raw_length = body_of_better().length(path_);
+    answer_.raw_length = length_of(path_);
     try {
       const ImproveOptions how{.seed = answer_.seed};
       Path<State> shorter = body_.improved(*world_, path_, how, execution(), answer_.counters);
@@ -382,6 +381,9 @@ class SampledSolve {
   }
   double cost_of(const Path<State>& path) const {
     return path_length(path, [this](const State& a, const State& b) { return world_->distance(a, b); });
+  }
+  double length_of(const Path<State>& path) const {
+    return path_length(path, [this](const State& a, const State& b) { return body_.length(*world_, a, b); });
   }
   void plan_trees() { take(grow_trees()); }
   Solution<State> grow_trees() {
@@ -458,11 +460,11 @@ class SampledSolve {
     if (request_.options.optimise && !gets_better(request_.planner)) {
       const StageTimer timer(execution(), "optimise", answer_.seconds.optimise, path_.size());
       if constexpr (requires { body_.paths_weighed(); }) choose_path();
-      answer_.raw_length =
-          path_length(path_, [this](const State& a, const State& b) { return body_.length(*world_, a, b); });
+      answer_.raw_length = length_of(path_);
       path_ = body_.shortened(*world_, std::move(path_), answer_);
     }
-    const std::optional<double> cost = cost_of_better();
+    std::optional<double> cost;
+    if (Body::has_cost && gets_better(request_.planner)) cost = cost_of(path_);
     body_.judge(*world_, std::move(path_), answer_);
     if (!on_lattice()) {
       answer_.cost = cost;
@@ -472,15 +474,9 @@ class SampledSolve {
       answer_.optimal = paid - *answer_.lower_bound <= as_good * paid;
     }
   }
-  std::optional<double> cost_of_better() const {
-    if (!Body::has_cost || !gets_better(request_.planner)) return std::nullopt;
-    return path_length(path_, [this](const State& a, const State& b) { return world_->distance(a, b); });
-  }
   /// Why there is no path, one word a cause.
   std::string_view cause() const {
-    if (answer_.outcome == Outcome::start_blocked || answer_.outcome == Outcome::goal_blocked) {
-      return body_.cause_of_blocked(*world_, answer_.outcome, goals_);
-    }
+    if (is_blocked(answer_.outcome)) return body_.cause_of_blocked(*world_, answer_.outcome, goals_);
     if (goals_.empty()) return "goal_not_found";
     return cause_of_separation(answer_, by_roadmap());
   }
