@@ -32,10 +32,7 @@ void change(OccupancyMap& map, Cell c, bool blocked) {
 
 /// Of cells: whose middle may be in the box, the others being too far away for any rounding.
 Box cells_near(const OccupancyMap& map, const Box& box) {
-  Box all;
-  for (const double right : {0.0, 1.0}) {
-    for (const double up : {0.0, 1.0}) all.include(world_point(map, {right * map.width(), up * map.height()}));
-  }
+  Box all = world_box(map, {{0.0, 0.0}, {1.0 * map.width(), 1.0 * map.height()}});
   double off = map.cell;
   for (const Vec2 corner : {all.min, all.max}) off += 0x1p-45 * (std::abs(corner.x) + std::abs(corner.y));
   all = all.grown(off);

@@ -200,12 +200,7 @@ void check_classes(Verdict& verdict, const OccupancyMap& judged, const RecordedA
   for (const MapHole& hole : answer.holes) {
     bool is_there = hole.id >= 1 && hole.id <= found.holes.size();
     if (is_there) {
-      const Box& cells = found.holes[hole.id - 1];
-      Box box;
-      box.include(world_point(map, cells.min));
-      box.include(world_point(map, cells.max));
-      box.include(world_point(map, {cells.min.x, cells.max.y}));
-      box.include(world_point(map, {cells.max.x, cells.min.y}));
+      const Box box = world_box(map, found.holes[hole.id - 1]);
       const double off = distance(box.min, hole.box.min) + distance(box.max, hole.box.max);
       is_there = off <= 1e-9 * (map.cell + norm(box.min) + norm(box.max));
     }

@@ -31,6 +31,14 @@ Vec2 map_point(const OccupancyMap& map, Vec2 in_world) {
 
 Vec2 cell_centre(const OccupancyMap& map, Cell cell) { return world_point(map, {cell.x + 0.5, cell.y + 0.5}); }
 
+Box world_box(const OccupancyMap& map, const Box& in_cells) {
+  Box box;
+  for (const double x : {in_cells.min.x, in_cells.max.x}) {
+    for (const double y : {in_cells.min.y, in_cells.max.y}) box.include(world_point(map, {x, y}));
+  }
+  return box;
+}
+
 std::optional<Cell> cell_at(const OccupancyMap& map, Vec2 in_world) {
   const Vec2 p = map_point(map, in_world);
   if (!(p.x >= 0.0 && p.y >= 0.0 && p.x < map.width() && p.y < map.height())) return std::nullopt;

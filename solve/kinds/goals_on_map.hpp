@@ -119,7 +119,7 @@ GoalChoice choose_goal(WaysOverCells& ways, const OccupancyMap& map, const WallP
 
 /// No path that does what is asked is shorter: straight ways between what may be chosen, world units. none: where
 /// nothing but a tolerance is asked, whose path is compared with those to its own end.
-std::optional<double> bound_of_choice(const WallProblem& asked, bool open_end);
+std::optional<double> bound_of_choice(Vec2 start, Vec2 goal, const GoalRule& rule, bool open_end);
 
 /// The bound of an answer whose planner was given one of the places that would have done, of which alone it knows the
 /// best.

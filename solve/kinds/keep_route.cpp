@@ -10,6 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "core/plane/se2.hpp"
+#include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/question/question_of_arm.hpp"
 
@@ -54,13 +55,6 @@ OnRoute nearest_on(const State& a, const State& b, const State& to) {
   }
   found.distance = std::sqrt(sum);
   return found;
-}
-
-/// How far the body reaches: so far from its route it is still on it.
-double extent(const RobotSpec& robot) {
-  double farthest = robot.radius;
-  for (const Vec2 p : robot.outline) farthest = std::max(farthest, norm(p));
-  return farthest;
 }
 
 bool is_plain(const RobotSpec& robot) { return robot.kind == RobotKind::point || robot.kind == RobotKind::disc; }
@@ -187,7 +181,8 @@ void keep_to_route(Answer& answer, const Scene& scene, const Question& question,
   check_route(rule.keep_to, answer);
   const StageTimer timer(execution, "keep", answer.seconds.verify, rule.keep_to.size());
   const Problem& problem = answer.problem;
-  const double slack = extent(problem.robot) + (scene.map ? scene.map->cell : 0.0);
+  // So far from its route the body is still on it.
+  const double slack = extent_of(problem.robot) + (scene.map ? scene.map->cell : 0.0);
   const bool is_car = problem.robot.kind == RobotKind::car;
   const std::vector<State> rest = rest_of_route(rule.keep_to, problem.start, slack, !is_car);
   KeptRoute told;

@@ -67,13 +67,8 @@ class Routes {
     std::vector<MapHole> holes;
     for (const std::int32_t id : ids) {
       const HoleCuts::Hole& cells = cuts_.holes()[as_whole<std::size_t>(id - 1)];
-      MapHole hole{as_whole<std::uint32_t>(id), {}};
-      for (const std::uint32_t x : {cells.low.x, cells.high.x + 1}) {
-        for (const std::uint32_t y : {cells.low.y, cells.high.y + 1}) {
-          hole.box.include(world_point(asked_.map, {static_cast<double>(x), static_cast<double>(y)}));
-        }
-      }
-      holes.push_back(hole);
+      const Box box{{1.0 * cells.low.x, 1.0 * cells.low.y}, {cells.high.x + 1.0, cells.high.y + 1.0}};
+      holes.push_back({as_whole<std::uint32_t>(id), world_box(asked_.map, box)});
     }
     return holes;
   }

@@ -65,11 +65,7 @@ bool add_changed_cells(const OccupancyMap& a, const OccupancyMap& b, std::vector
     if (std::equal(a.blocked.row(y).begin(), a.blocked.row(y).end(), b.blocked.row(y).begin())) continue;
     for (std::uint32_t x = 0; x < a.width(); ++x) {
       if (a.blocked.test(x, y) == b.blocked.test(x, y)) continue;
-      Box box;
-      for (const double right : {0.0, 1.0}) {
-        for (const double up : {0.0, 1.0}) box.include(world_point(a, {x + right, y + up}));
-      }
-      places.push_back(box);
+      places.push_back(world_box(a, {{1.0 * x, 1.0 * y}, {x + 1.0, y + 1.0}}));
       if (places.size() > most_changed_places) return false;
     }
   }

@@ -182,7 +182,8 @@ class CellSolve {
       answer_.problem.goal = {reached.goal.x, reached.goal.y};
     }
     verify_solved_on_map(answer_, map_, reached, true, request_.execution);
-    if (prices_ && answer_.verified) answer_.lower_bound = bound_of_choice(problem_, has_open_end(request_));
+    if (!prices_ || !answer_.verified) return;
+    answer_.lower_bound = bound_of_choice(problem_.start, problem_.goal, problem_.rule, has_open_end(request_));
   }
 
   GoalChoice choose() {
@@ -464,7 +465,7 @@ Answer solve_chosen(const SolveRequest& request) {
   answer.solve_s += chosen.solve_s;
   take_choice(answer, choice, answer.outcome);
   const bool is_one_place = problem.rule.others.empty() && !problem.rule.region;
-  const auto bound = bound_of_choice(problem, has_open_end(request));
+  const auto bound = bound_of_choice(problem.start, problem.goal, problem.rule, has_open_end(request));
   if (answer.verified && (bound || !is_one_place)) take_bound_of_choice(answer, bound);
   return answer;
 }

@@ -172,12 +172,7 @@ Verdict verify_plane_answer(const Scene& scene, const WallProblem& problem, cons
 
 Box room_of(const Scene& scene, const Execution& execution) {
   if (!scene.map) return scene.bounds ? *scene.bounds : obstacle_box(scene, execution);
-  const Box cells{{0.0, 0.0}, {static_cast<double>(scene.map->width()), static_cast<double>(scene.map->height())}};
-  Box box;
-  for (const double x : {cells.min.x, cells.max.x}) {
-    for (const double y : {cells.min.y, cells.max.y}) box.include(world_point(*scene.map, {x, y}));
-  }
-  return box;
+  return world_box(*scene.map, {{0.0, 0.0}, {1.0 * scene.map->width(), 1.0 * scene.map->height()}});
 }
 
 double end_margin(const Scene& scene, const RobotSpec& robot, double clearance, double extent,

@@ -415,11 +415,8 @@ class Visits {
   void tell_bound(Answer& answer) const {
     const bool in_metric = gets_better(request_.planner);
     if (is_arm(answer.problem.robot) || (answer.cost && !answer.price && !in_metric)) return;
-    WallProblem asked;
-    asked.start = *plane_point(answer.problem.start);
-    asked.goal = *plane_point(answer.problem.goal);
-    asked.rule = rule_;
-    answer.lower_bound = bound_of_choice(asked, is_open_);
+    answer.lower_bound =
+        bound_of_choice(*plane_point(answer.problem.start), *plane_point(answer.problem.goal), rule_, is_open_);
   }
 
   static constexpr double none = std::numeric_limits<double>::infinity();

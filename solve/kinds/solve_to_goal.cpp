@@ -264,13 +264,8 @@ class ToGoal {
     take_bound_of_choice(answer, std::nullopt);
     const bool in_metric = gets_better(request_.planner);
     if (is_arm(answer.problem.robot) || (answer.cost && !answer.price && !in_metric)) return;
-    answer.lower_bound = bound_;
-    if (!rule_.region) return;
-    WallProblem asked;
-    asked.start = position(answer.problem.start);
-    asked.goal = position(goals_.front());
-    asked.rule = rule_;
-    answer.lower_bound = bound_of_choice(asked, false);
+    answer.lower_bound =
+        rule_.region ? bound_of_choice(position(answer.problem.start), position(goals_.front()), rule_, false) : bound_;
   }
 
   const SolveKind& kind_;

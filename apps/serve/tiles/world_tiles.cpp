@@ -202,11 +202,7 @@ constexpr std::uint8_t blocked_shade = 255;
 constexpr std::uint8_t unknown_shade = 80;
 
 Box box_of_map(const OccupancyMap& map) {
-  Box box;
-  for (const double x : {0.0, static_cast<double>(map.width())}) {
-    for (const double y : {0.0, static_cast<double>(map.height())}) box.include(world_point(map, {x, y}));
-  }
-  return box;
+  return world_box(map, {{0.0, 0.0}, {1.0 * map.width(), 1.0 * map.height()}});
 }
 
 /// Of a cell's middle, from the squares of blocked cells and of those around the map; four bytes a cell.
