@@ -296,9 +296,8 @@ struct AnsweredChunk {
 class Batch {
  public:
   Batch(const RoadmapQuery& query, const BatchOptions& options, const Execution& execution)
-      : query_(query), options_(options), one_thread_(execution) {
+      : query_(query), options_(options), one_thread_(execution.quiet()) {
     one_thread_.threads = 1;
-    one_thread_.progress = nullptr;
   }
 
   void answer(const BatchQuestion& question, QuestionScratch& scratch, AnsweredChunk& chunk) const {
@@ -409,9 +408,8 @@ class Matrix {
       for (const BatchQuestion& goal : goals_) query_.expect(goal.start, execution_);
     }
     entries_.resize(pairs);
-    Execution one_thread = execution_;
+    Execution one_thread = execution_.quiet();
     one_thread.threads = 1;
-    one_thread.progress = nullptr;
     const std::size_t share = std::max<std::size_t>(1, (pairs + scratch_.size() - 1) / scratch_.size());
     for_chunks(pairs, share, execution_, [&](Range r) {
       for (std::size_t i = r.first; i < r.last; ++i) {

@@ -76,9 +76,7 @@ Verification judged_beside(const std::function<void(const Answer&)>& beside, con
   };
   if (!beside) return timed();
   Verification verdict;
-  Execution quiet = execution;
-  quiet.progress = nullptr;
-  for_chunks(2, 1, quiet, [&](Range r) {
+  for_chunks(2, 1, execution.quiet(), [&](Range r) {
     if (r.first == 0) {
       beside(answer);
     } else {

@@ -61,7 +61,6 @@ struct UsualBody {
   static constexpr bool has_cost = false;          ///< is what the planners make small another measure than the length?
   static constexpr bool judged_by_index = false;   ///< does its judge take an ObstacleIndex?
   static constexpr bool improves_by_draws = true;  ///< does improved() make use of its seed?
-  static constexpr std::string_view noun = "body";
   /// What nobody asked for of the trees.
   static void suit(RrtOptions&) {}
 

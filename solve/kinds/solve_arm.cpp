@@ -27,7 +27,6 @@ namespace {
 class Arm : public UsualBody {
  public:
   using World = ArmWorld;
-  static constexpr std::string_view noun = "arm";
 
   explicit Arm(const SolveRequest& request)
       : scene_(request.scene),

@@ -107,11 +107,9 @@ LegReport BodyVerifier::check_all(std::span<const Leg> legs, std::span<const Se2
                                   const Settle& settle, const ReportOf& report_of) {
   constexpr double widening = 8.0;
   constexpr std::size_t legs_a_chunk = 16;
-  Execution quiet = execution_;
-  quiet.progress = nullptr;
   execution_.reserve(legs.size());
   std::vector<std::uint8_t> settled(legs.size());
-  const LegReport at_once = report_legs(legs.size(), legs_a_chunk, quiet, [&](Range r) {
+  const LegReport at_once = report_legs(legs.size(), legs_a_chunk, execution_.quiet(), [&](Range r) {
     LegReport part;
     for (std::size_t i = r.first; i < r.last; ++i) {
       const LegReport leg = settle(i);

@@ -73,11 +73,9 @@ bool runs_along_blocked(const OccupancyMap& map, const Segment& wall) {
 /// Walls beside a map are its borders and no obstacles more (worlds/rasters/lattice_polygons.hpp).
 void check_walls_of_map(const Scene& scene, const Execution& execution) {
   constexpr std::size_t grain = std::size_t{1} << 12;
-  Execution quiet = execution;
-  quiet.progress = nullptr;
   const std::size_t count = scene.walls.size();
   std::vector<std::size_t> first(chunk_count(count, grain), count);
-  for_chunks(count, grain, quiet, [&](Range r) {
+  for_chunks(count, grain, execution.quiet(), [&](Range r) {
     std::size_t i = r.first;
     while (i < r.last && runs_along_blocked(*scene.map, scene.walls.segment(i))) ++i;
     if (i < r.last) first[r.first / grain] = i;

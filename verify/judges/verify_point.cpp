@@ -143,10 +143,8 @@ class Verifier {
 /// The first point whose coordinates are not numbers or too large; the path's size, if there is none.
 std::size_t first_misfit(std::span<const Vec2> path, const Execution& execution) {
   constexpr std::size_t grain = std::size_t{1} << 14;
-  Execution quiet = execution;
-  quiet.progress = nullptr;
   std::vector<std::size_t> first(chunk_count(path.size(), grain), path.size());
-  for_chunks(path.size(), grain, quiet, [&](Range r) {
+  for_chunks(path.size(), grain, execution.quiet(), [&](Range r) {
     const auto fits = [](Vec2 p) { return std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate; };
     const auto part = path.subspan(r.first, r.size());
     const auto misfit = std::find_if_not(part.begin(), part.end(), fits);

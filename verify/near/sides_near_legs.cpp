@@ -62,13 +62,8 @@ PathSurroundings::PathSurroundings(const Scene& scene, const Obstacles& obstacle
     largest_ = std::max(largest_, part.largest);
   }
   if (!scene.map) return;
-  const double width = scene.map->width();
-  const double height = scene.map->height();
-  for (const Vec2 corner : {Vec2{0.0, 0.0}, {width, 0.0}, {width, height}, {0.0, height}}) {
-    const Vec2 p = world_point(*scene.map, corner);
-    box_.include(p);
-    largest_ = std::max({largest_, std::abs(p.x), std::abs(p.y)});
-  }
+  box_ = world_box(*scene.map, {{0.0, 0.0}, {1.0 * scene.map->width(), 1.0 * scene.map->height()}});
+  largest_ = largest_of({box_.min, box_.max});
 }
 
 /// Cells about as wide as the boxes, but not more than a million.

@@ -113,9 +113,7 @@ class LegsAmongCells {
   void file_legs() {
     constexpr std::size_t grain = std::size_t{1} << 14;
     std::vector<RawVector<Run>> parts(chunk_count(legs_.leg_count(), grain));
-    Execution quiet = execution_;
-    quiet.progress = nullptr;
-    for_chunks(legs_.leg_count(), grain, quiet, [&](Range r) {
+    for_chunks(legs_.leg_count(), grain, execution_.quiet(), [&](Range r) {
       for (std::size_t leg = r.first; leg < r.last; ++leg) add_runs(leg, parts[r.first / grain]);
     });
     std::size_t total = 0;
