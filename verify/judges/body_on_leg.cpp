@@ -100,21 +100,6 @@ std::vector<Vec2> BodyVerifier::corners_at(const Leg& leg, double t) const {
   return corners;
 }
 
-/// Is p in the closed body? By exact signs, but the corners are rounded.
-bool BodyVerifier::body_holds(const std::vector<Vec2>& corners, Vec2 p) const {
-  bool inside = false;
-  Vec2 a = corners.back();
-  for (const Vec2 b : corners) {
-    if (exact::contains({a, b}, p)) return true;
-    if ((a.y <= p.y) != (b.y <= p.y)) {
-      const int side = exact::side_of(a, b, p);
-      if (b.y > a.y ? side > 0 : side < 0) inside = !inside;
-    }
-    a = b;
-  }
-  return inside;
-}
-
 double BodyVerifier::distance_to(const std::vector<Vec2>& corners, const Segment& s) const {
   if (body_holds(corners, s.a)) return 0.0;
   double least = infinity;

@@ -63,11 +63,11 @@ std::string Obstacles::name(std::size_t i) const {
   return fmt::format("polygon {}: {}", ring.polygon, numbers(segment(i)));
 }
 
-bool strictly_inside(const Ring& ring, Vec2 p) {
+bool outline_holds(std::span<const Vec2> corners, Vec2 p, bool on_outline) {
   bool inside = false;
-  Vec2 a = ring.corners.back();
-  for (const Vec2 b : ring.corners) {
-    if (exact::contains({a, b}, p)) return false;
+  Vec2 a = corners.back();
+  for (const Vec2 b : corners) {
+    if (exact::contains({a, b}, p)) return on_outline;
     // Sides count where they cross the height of p going right of it; a half-open rule counts shared corners once.
     if ((a.y <= p.y) != (b.y <= p.y)) {
       const int side = exact::side_of(a, b, p);

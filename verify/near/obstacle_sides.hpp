@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -59,7 +60,9 @@ class Obstacles {
   std::vector<std::size_t> first_side_;
 };
 
-/// Is p in the open inside of the ring (the side left of it)? Exact; O(corners).
-bool strictly_inside(const Ring& ring, Vec2 p);
+/// Is p inside of the outline? on_outline: what is said of a place on it. Exact; O(corners).
+bool outline_holds(std::span<const Vec2> corners, Vec2 p, bool on_outline);
+/// Is p in the open inside of the ring (the side left of it)?
+inline bool strictly_inside(const Ring& ring, Vec2 p) { return outline_holds(ring.corners, p, false); }
 
 }  // namespace warren
