@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "parallel/asked_memory.hpp"
 #include "scenes/scene/convex_hull.hpp"
 
 namespace warren {
@@ -169,16 +168,11 @@ Solid solid_of_numbers(const SolidWord& word, std::span<const double> numbers, c
 }
 
 Solid read_solid(const SolidWord& word, scene_text::Fields& fields, const Execution& execution) {
-  constexpr std::size_t numbers_per_look = 4096;
   std::vector<double> numbers;
-  while (!fields.done()) {
-    push_asked(numbers, fields.number(), execution);
-    if (numbers.size() % numbers_per_look == 0) execution.check();
-  }
+  scene_text::read_numbers(fields, numbers, execution);
   const bool right = word.numbers > 0 ? numbers.size() == word.numbers : !numbers.empty() && numbers.size() % 3 == 0;
   if (!right) {
-    fields.place().fail(fmt::format("expected `{}`", word.usage),
-                        fmt::format("{} number{}", numbers.size(), numbers.size() == 1 ? "" : "s"));
+    fields.place().fail(fmt::format("expected `{}`", word.usage), scene_text::numbers_text(numbers.size()));
   }
   execution.reserve(3 * numbers.size() * sizeof(double));
   return solid_of_numbers(word, numbers, fields.place(), execution);

@@ -9,9 +9,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <iterator>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -52,7 +52,6 @@ class SceneReader {
     void (SceneReader::*read)(Fields&);
   };
   static constexpr std::size_t item_count = 24;
-  static constexpr std::size_t numbers_per_look = 4096;
   static constexpr std::size_t most_named = 1024;  // joints
   static const std::array<Item, item_count> items;
   enum ItemNumber : std::size_t {
@@ -105,15 +104,12 @@ class SceneReader {
   /// The numbers that are left in the line; their count is checked against the item's usage.
   const std::vector<double>& numbers(Fields& fields, std::size_t least, std::size_t most) {
     numbers_.clear();
-    while (!fields.done()) {
-      push_asked(numbers_, fields.number(), execution_);
-      if (numbers_.size() % numbers_per_look == 0) execution_.check();
-    }
+    scene_text::read_numbers(fields, numbers_, execution_);
     if (numbers_.size() < least || numbers_.size() > most) refuse_count(fields.place(), numbers_.size());
     return numbers_;
   }
   [[noreturn]] void refuse_count(const Place& place, std::size_t count) const {
-    place.fail(fmt::format("expected `{}`", item_->usage), fmt::format("{} number{}", count, count == 1 ? "" : "s"));
+    place.fail(fmt::format("expected `{}`", item_->usage), scene_text::numbers_text(count));
   }
   [[noreturn]] void refuse(const Place& place, std::string_view what, double value) const {
     place.fail(fmt::format("`{}`: {}", item_->name, what), fmt::format("{}", value));
@@ -126,11 +122,7 @@ class SceneReader {
   std::vector<Vec2> corners(Fields& fields) {
     const std::vector<double>& n = numbers(fields, 6, std::numeric_limits<std::size_t>::max());
     if (n.size() % 2 != 0) refuse_count(fields.place(), n.size());
-    execution_.reserve(n.size() * sizeof(double));
-    std::vector<Vec2> points;
-    points.reserve(n.size() / 2);
-    for (std::size_t i = 0; i < n.size(); i += 2) points.push_back({n[i], n[i + 1]});
-    return points;
+    return scene_text::points_of(n, execution_);
   }
   void read_polygon(Fields& fields) { push_asked(scene_.polygons, {corners(fields), fields.place().line}, execution_); }
   void read_sphere(Fields& fields) {
@@ -226,8 +218,7 @@ class SceneReader {
   void check_other_goal(const Place& place) const {
     for (const std::size_t count : {scene_.goal.size(), scene_.other_goals.back().size()}) {
       if (count == 2 || count == 3) continue;
-      place.fail("several goals are places of the plane, `goal X Y [THETA]` each",
-                 fmt::format("{} number{}", count, count == 1 ? "" : "s"));
+      place.fail("several goals are places of the plane, `goal X Y [THETA]` each", scene_text::numbers_text(count));
     }
   }
   NamedState named_state(Fields& fields, std::string_view word) {
@@ -357,8 +348,7 @@ void SceneReader::check_arm_lines() const {
 void SceneReader::check_state(const std::vector<double>& given, ItemNumber item) const {
   if (given.empty() || (scene_.robot && scene_.robot->kind == RobotKind::urdf)) return;
   if (const std::size_t count = given.size(); count == 1 || count == 4 || count == 5) {
-    place_of(item).fail(fmt::format("expected `{}`", items[item].usage),
-                        fmt::format("{} number{}", count, count == 1 ? "" : "s"));
+    place_of(item).fail(fmt::format("expected `{}`", items[item].usage), scene_text::numbers_text(count));
   }
   if (!scene_.robot) return;
   const std::size_t wanted = state_size(*scene_.robot);
@@ -403,15 +393,17 @@ void append_number(std::string& text, double x) {
 }
 
 /// An item and its numbers, one line.
-template <class... Numbers>
-void append_line(std::string& text, std::string_view item, Numbers... numbers) {
+void append_item(std::string& text, std::string_view item, std::span<const double> numbers) {
   text.append(item);
-  const auto append = [&](double x) {
+  for (const double x : numbers) {
     text.push_back(' ');
     append_number(text, x);
-  };
-  (append(numbers), ...);
+  }
   text.push_back('\n');
+}
+template <class... Numbers>
+void append_line(std::string& text, std::string_view item, Numbers... numbers) {
+  append_item(text, item, std::array{static_cast<double>(numbers)...});
 }
 
 void append_points(std::string& text, std::string_view item, const std::vector<Vec2>& points,
@@ -429,13 +421,7 @@ void append_points(std::string& text, std::string_view item, const std::vector<V
 }
 
 void append_state(std::string& text, std::string_view item, const std::vector<double>& state) {
-  if (state.empty()) return;
-  text.append(item);
-  for (const double x : state) {
-    text.push_back(' ');
-    append_number(text, x);
-  }
-  text.push_back('\n');
+  if (!state.empty()) append_item(text, item, state);
 }
 
 std::string number(double x) {

@@ -67,6 +67,24 @@ double Fields::out_of_range(std::string_view field) const {
   place_.fail("numbers must not exceed 1e60 in magnitude", field);
 }
 
+void read_numbers(Fields& fields, std::vector<double>& numbers, const Execution& execution) {
+  constexpr std::size_t numbers_per_look = 4096;
+  while (!fields.done()) {
+    push_asked(numbers, fields.number(), execution);
+    if (numbers.size() % numbers_per_look == 0) execution.check();
+  }
+}
+
+std::string numbers_text(std::size_t count) { return fmt::format("{} number{}", count, count == 1 ? "" : "s"); }
+
+std::vector<Vec2> points_of(std::span<const double> numbers, const Execution& execution) {
+  execution.reserve(numbers.size() * sizeof(double));
+  std::vector<Vec2> points;
+  points.reserve(numbers.size() / 2);
+  for (std::size_t i = 0; i < numbers.size(); i += 2) points.push_back({numbers[i], numbers[i + 1]});
+  return points;
+}
+
 std::string_view nearest_word(std::string_view written, std::span<const std::string_view> known) {
   constexpr std::size_t longest_word = 32;
   if (written.size() > longest_word) return {};
@@ -128,9 +146,6 @@ class RobotReader {
     const bool is_option = fields_.place().line == 0;
     fields_.place().fail(fmt::format("expected `{}`", is_option ? robot_option : robot_usage), found);
   }
-  [[noreturn]] void refuse_count(std::size_t count) const {
-    refuse_usage(fmt::format("{} number{}", count, count == 1 ? "" : "s"));
-  }
   [[noreturn]] void refuse(std::string_view what, double value) const {
     fields_.place().fail(fmt::format("`robot`: {}", what), fmt::format("{}", value));
   }
@@ -145,21 +160,15 @@ class RobotReader {
 
   std::vector<double> numbers(std::size_t least, std::size_t most) {
     std::vector<double> read;
-    while (!fields_.done()) {
-      push_asked(read, fields_.number(), execution_);
-      if (read.size() % numbers_per_look == 0) execution_.check();
-    }
-    if (read.size() < least || read.size() > most) refuse_count(read.size());
+    scene_text::read_numbers(fields_, read, execution_);
+    if (read.size() < least || read.size() > most) refuse_usage(scene_text::numbers_text(read.size()));
     return read;
   }
 
   std::vector<Vec2> corners() {
     const std::vector<double> n = numbers(6, std::numeric_limits<std::size_t>::max());
-    if (n.size() % 2 != 0) refuse_count(n.size());
-    std::vector<Vec2> points;
-    execution_.reserve(n.size() * sizeof(double));
-    for (std::size_t i = 0; i < n.size(); i += 2) points.push_back({n[i], n[i + 1]});
-    return points;
+    if (n.size() % 2 != 0) refuse_usage(scene_text::numbers_text(n.size()));
+    return scene_text::points_of(n, execution_);
   }
 
   /// Named numbers, `radius R` and the like: each once, in any order.
@@ -179,10 +188,12 @@ class RobotReader {
     if (!has_radius) refuse_usage("no radius");
   }
 
-  [[noreturn]] void refuse_car(std::string_view found) const {
-    const std::size_t word = fields_.place().line == 0 ? car_usage.find(' ') + 1 : 0;
-    fields_.place().fail(fmt::format("expected `{}`", car_usage.substr(word)), found);
+  /// Options take a line without its first word.
+  [[noreturn]] void refuse_line(std::string_view usage, std::string_view found) const {
+    const std::size_t word = fields_.place().line == 0 ? usage.find(' ') + 1 : 0;
+    fields_.place().fail(fmt::format("expected `{}`", usage.substr(word)), found);
   }
+  [[noreturn]] void refuse_car(std::string_view found) const { refuse_line(car_usage, found); }
   SteeringKind steering() {
     const std::string_view name = fields_.word();
     if (const auto kind = enum_named<SteeringKind>(name)) return *kind;
@@ -223,10 +234,7 @@ class RobotReader {
     if (!has("turning")) refuse_car("no turning radius");
   }
 
-  [[noreturn]] void refuse_urdf(std::string_view found) const {
-    const std::size_t word = fields_.place().line == 0 ? urdf_usage.find(' ') + 1 : 0;
-    fields_.place().fail(fmt::format("expected `{}`", urdf_usage.substr(word)), found);
-  }
+  [[noreturn]] void refuse_urdf(std::string_view found) const { refuse_line(urdf_usage, found); }
   std::string urdf_word(std::string_view before) {
     const std::string_view word = fields_.word();
     if (word.empty()) refuse_urdf(fmt::format("nothing behind {}", before));
@@ -418,22 +426,15 @@ class PriceReader {
     return factor;
   }
   std::vector<double> numbers(std::size_t least, std::size_t most) {
-    constexpr std::size_t numbers_per_look = 4096;
     std::vector<double> read;
-    while (!fields_.done()) {
-      push_asked(read, fields_.number(), execution_);
-      if (read.size() % numbers_per_look == 0) execution_.check();
-    }
-    const std::size_t count = read.size();
-    if (count < least || count > most) refuse_usage(fmt::format("{} number{}", count, count == 1 ? "" : "s"));
+    scene_text::read_numbers(fields_, read, execution_);
+    if (read.size() < least || read.size() > most) refuse_usage(scene_text::numbers_text(read.size()));
     return read;
   }
   std::vector<Vec2> corners() {
     const std::vector<double> n = numbers(6, std::numeric_limits<std::size_t>::max());
     if (n.size() % 2 != 0) refuse_usage(fmt::format("{} coordinates", n.size()));
-    execution_.reserve(n.size() * sizeof(double));
-    std::vector<Vec2> points;
-    for (std::size_t i = 0; i < n.size(); i += 2) points.push_back({n[i], n[i + 1]});
+    std::vector<Vec2> points = scene_text::points_of(n, execution_);
     check_body(points, fields_.place().text(), execution_);
     return points;
   }

@@ -80,6 +80,13 @@ class Fields {
   const Execution* execution_;
 };
 
+/// The numbers that are left in the line, behind those that are there. Throws as Fields::number(), Stopped.
+void read_numbers(Fields& fields, std::vector<double>& numbers, const Execution& execution);
+/// "1 number", "4 numbers".
+std::string numbers_text(std::size_t count);
+/// Of x and y, one after the other. Throws Stopped.
+std::vector<Vec2> points_of(std::span<const double> numbers, const Execution& execution);
+
 /// The known word that is nearest to what was written, by edit distance; empty if none is near.
 std::string_view nearest_word(std::string_view written, std::span<const std::string_view> known);
 
