@@ -104,15 +104,8 @@ void GeojsonPieces::settle_role(const Piece& piece, const std::string& role) {
 
 void GeojsonPieces::settle_obstacle(Piece& piece) {
   if (piece.kind == Kind::point) return;  // a mark on a map blocks nothing
-  if (piece.kind == Kind::wall) {
-    for (std::size_t i = 1; i < piece.points.size(); ++i) {
-      walls_.add(piece.points[i - 1].x, piece.points[i - 1].y, piece.points[i].x, piece.points[i].y);
-    }
-    return;
-  }
-  if (piece.holes.empty()) {
-    push_asked(scene_.polygons, {std::move(piece.points), piece.line}, execution_);
-  } else if (!add_without_holes(scene_, piece.line, piece.points, piece.holes, execution_)) {
+  if (piece.kind == Kind::wall) return walls_.add_chain(piece.points);
+  if (!add_without_holes(scene_, piece.line, std::move(piece.points), piece.holes, execution_)) {
     fail_at(piece.line, misplaced_hole);
   }
 }

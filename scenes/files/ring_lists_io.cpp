@@ -211,7 +211,6 @@ class SortedRings {
 
 void add_blocked(Scene& scene, const ScenePolygon& ring, std::span<const std::vector<Vec2>> holes,
                  const Execution& execution) {
-  if (holes.empty()) return push_asked(scene.polygons, ring, execution);
   if (add_without_holes(scene, ring.line, ring.corners, holes, execution)) return;
   throw InputError(fmt::format("{}:{}", scene.source, ring.line), std::string(misplaced_hole));
 }

@@ -222,9 +222,7 @@ class WktReader {
   void line() {
     const Chain read = chain();
     if (read.points.size() == 1) fail_at(read.line, "a LINESTRING needs two positions or more");
-    for (std::size_t i = 1; i < read.points.size(); ++i) {
-      walls_.add(read.points[i - 1].x, read.points[i - 1].y, read.points[i].x, read.points[i].y);
-    }
+    walls_.add_chain(read.points);
   }
   /// The first ring; the others are its holes.
   void polygon() {
@@ -247,11 +245,7 @@ class WktReader {
       }
     });
     if (outline.points.empty()) return;
-    if (holes.empty()) {
-      push_asked(scene_.polygons, {std::move(outline.points), outline.line}, execution_);
-      return;
-    }
-    if (!add_without_holes(scene_, outline.line, outline.points, holes, execution_)) {
+    if (!add_without_holes(scene_, outline.line, std::move(outline.points), holes, execution_)) {
       fail_at(outline.line, misplaced_hole);
     }
   }

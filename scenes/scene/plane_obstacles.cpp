@@ -10,6 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
+#include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {
@@ -445,8 +446,12 @@ std::vector<std::vector<Vec2>> without_holes(const std::vector<Vec2>& outer, std
   return cutter.pieces();
 }
 
-bool add_without_holes(Scene& scene, std::size_t line, const std::vector<Vec2>& outer,
+bool add_without_holes(Scene& scene, std::size_t line, std::vector<Vec2> outer,
                        std::span<const std::vector<Vec2>> holes, const Execution& execution) {
+  if (holes.empty()) {
+    push_asked(scene.polygons, {std::move(outer), line}, execution);
+    return true;
+  }
   std::vector<std::vector<Vec2>> pieces = without_holes(outer, holes, execution);
   const std::vector<Segment> seams = shared_sides(pieces);
   scene.seams.insert(scene.seams.end(), seams.begin(), seams.end());

@@ -40,9 +40,9 @@ inline constexpr std::string_view misplaced_hole =
 std::vector<std::vector<Vec2>> without_holes(const std::vector<Vec2>& outer, std::span<const std::vector<Vec2>> holes,
                                              const Execution& execution);
 
-/// Adds the pieces as polygons of that line, and the cuts between them as seams. False: the rings can't be those of a
-/// polygon with holes, and nothing is added.
-bool add_without_holes(Scene& scene, std::size_t line, const std::vector<Vec2>& outer,
+/// Adds the pieces as polygons of that line, the outer ring as it is where there are no holes, and the cuts between
+/// them as seams. False: the rings can't be those of a polygon with holes, and nothing is added.
+bool add_without_holes(Scene& scene, std::size_t line, std::vector<Vec2> outer,
                        std::span<const std::vector<Vec2>> holes, const Execution& execution);
 
 /// Is the point on a seam, between its ends? Then it is strictly inside of the polygon that was cut there.

@@ -169,8 +169,11 @@ class WallCollector {
     }
     push(std::get<RawVector<DoubleWall>>(walls_), {x1, y1, x2, y2});
   }
-  std::size_t size() const {
-    return std::visit([](const auto& walls) { return walls.size(); }, walls_);
+  /// From each point to the next.
+  void add_chain(std::span<const Vec2> points) {
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      add(points[i - 1].x, points[i - 1].y, points[i].x, points[i].y);
+    }
   }
   WallSet take() {
     return std::visit([](auto& walls) { return WallSet(std::move(walls)); }, walls_);
