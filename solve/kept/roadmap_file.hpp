@@ -200,11 +200,9 @@ class RoadmapFile {
   std::optional<std::span<const T>> optional_section(std::string_view name, const Execution& execution) const {
     return find(name) == nullptr ? std::nullopt : std::optional(section<T>(name, execution));
   }
-  /// The section with nothing of it checked: for who calls first_look(place).ensure() before it looks. Throws
-  /// InputError where it is missing or of another type.
-  template <FileElement T>
-  std::span<const T> unchecked_section(std::string_view name) const {
-    return unchecked<T>(required(name, element_type<T>()));
+  /// Of the section, with nothing of it checked: for who calls first_look(place).ensure() before it looks.
+  std::span<const std::byte> unchecked_bytes(const SectionPlace& place) const {
+    return bytes().subspan(place.offset, place.bytes());
   }
 
   /// Checks what of a section was not checked yet, on all threads. Throws InputError, Stopped.

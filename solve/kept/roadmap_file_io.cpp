@@ -26,11 +26,9 @@
 namespace warren {
 namespace {
 
-constexpr std::array graph_section_names{std::string_view("meta"),       std::string_view("states"),
-                                         std::string_view("edge.first"), std::string_view("edge.to"),
-                                         std::string_view("edge.state"), std::string_view("component"),
-                                         std::string_view("up.first"),   std::string_view("up.to"),
-                                         std::string_view("up.middle"),  std::string_view("up.length")};
+constexpr std::array<std::string_view, 10> graph_section_names{"meta",       "states",    "edge.first", "edge.to",
+                                                               "edge.state", "component", "up.first",   "up.to",
+                                                               "up.middle",  "up.length"};
 constexpr std::size_t longest_meta = std::size_t{1} << 20;
 
 std::uint64_t hash_number(std::string_view digits) {

@@ -23,30 +23,10 @@ constexpr std::size_t arc_grain = std::size_t{1} << 16;
 
 /// Elements of other widths are bytes.
 ElementType type_of(std::size_t bytes) {
-  switch (bytes) {
-    case 2:
-      return element_type<std::uint16_t>();
-    case 4:
-      return element_type<std::uint32_t>();
-    case 8:
-      return element_type<std::uint64_t>();
-    default:
-      return element_type<std::byte>();
-  }
-}
-
-/// The bytes of a section of whatever type.
-std::span<const std::byte> bytes_of(const RoadmapFile& file, const SectionPlace& place) {
-  switch (place.type.bytes()) {
-    case 2:
-      return std::as_bytes(file.unchecked_section<std::uint16_t>(place.name));
-    case 4:
-      return std::as_bytes(file.unchecked_section<std::uint32_t>(place.name));
-    case 8:
-      return std::as_bytes(file.unchecked_section<std::uint64_t>(place.name));
-    default:
-      return file.unchecked_section<std::byte>(place.name);
-  }
+  return bytes == 2   ? element_type<std::uint16_t>()
+         : bytes == 4 ? element_type<std::uint32_t>()
+         : bytes == 8 ? element_type<std::uint64_t>()
+                      : element_type<std::byte>();
 }
 
 /// What call() gives; its failures name the file.
@@ -239,7 +219,7 @@ std::unique_ptr<RouteIndex> read_lattice(const RoadmapFile& file, LatticeSize si
     if (place == nullptr || place->type != type_of(section.element_bytes)) {
       throw InputError(file.name(), "a section of its index is missing or of another type", section.name);
     }
-    section.bytes = bytes_of(file, *place);
+    section.bytes = file.unchecked_bytes(*place);
     section.first_look = file.first_look(*place);
     if (!is_read_in_parts(section.name)) file.check_section(*place, execution);
   }
