@@ -17,6 +17,7 @@
 #include "planners/visibility/disc_ground.hpp"
 #include "planners/visibility/visibility_path.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
+#include "solve/kinds/sampled_roadmap.hpp"
 
 namespace warren {
 
@@ -24,6 +25,17 @@ namespace warren {
 BuiltArrays build_geometric(const SolveRequest& request);
 std::unique_ptr<RoadmapSession> open_geometric(const SolveRequest& request, const RoadmapArrays& arrays,
                                                const ConnectionRule& rule);
+
+/// The same with what samples a Body, for planners that do.
+template <class Body>
+BuiltArrays build_sampled_or_geometric(const SolveRequest& request) {
+  return is_roadmap_planner(request.planner) ? build_sampled<Body>(request) : build_geometric(request);
+}
+template <class Body>
+std::unique_ptr<RoadmapSession> open_sampled_or_geometric(const SolveRequest& request, const RoadmapArrays& arrays,
+                                                          const ConnectionRule& rule) {
+  return (is_roadmap_planner(request.planner) ? open_sampled<Body> : open_geometric)(request, arrays, rule);
+}
 
 /// Known: VisibilityRoadmap, DiscRoadmap, CellRoadmap, AxisRoadmap or SkeletonRoadmap. Refers to the arrays.
 template <class Known>

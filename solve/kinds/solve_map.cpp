@@ -20,7 +20,6 @@
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/priced_motions.hpp"
 #include "solve/kinds/routes_on_map.hpp"
-#include "solve/kinds/sampled_roadmap.hpp"
 #include "solve/kinds/sampled_solve.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/kinds/solve_to_goal.hpp"
@@ -563,16 +562,6 @@ Answer solve_occupancy(const SolveRequest& request) {
   return rule_of(request.scene, request.question).empty() ? solve_to_place(request) : solve_chosen(request);
 }
 
-BuiltArrays build_occupancy(const SolveRequest& request) {
-  return is_roadmap_planner(request.planner) ? build_sampled<BodyOnMap>(request) : build_geometric(request);
-}
-
-std::unique_ptr<RoadmapSession> open_occupancy(const SolveRequest& request, const RoadmapArrays& arrays,
-                                               const ConnectionRule& rule) {
-  const auto open = is_roadmap_planner(request.planner) ? open_sampled<BodyOnMap> : open_geometric;
-  return open(request, arrays, rule);
-}
-
 Verdict recheck_occupancy(const Scene& scene, const Question& question, const RecordedAnswer& answer,
                           const Execution& execution) {
   check_state_width(answer, 2, "a point or disc");
@@ -596,8 +585,8 @@ SolveKind occupancy_kind() {
           solve_occupancy,
           nullptr,
           recheck_occupancy,
-          build_occupancy,
-          open_occupancy,
+          build_sampled_or_geometric<BodyOnMap>,
+          open_sampled_or_geometric<BodyOnMap>,
           false,
           true};
 }

@@ -20,7 +20,6 @@
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/priced_motions.hpp"
-#include "solve/kinds/sampled_roadmap.hpp"
 #include "solve/kinds/sampled_solve.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "worlds/plane/polygon_world.hpp"
@@ -191,16 +190,6 @@ Answer solve_plane(const SolveRequest& request) {
   }
 }
 
-BuiltArrays build_on_plane(const SolveRequest& request) {
-  return is_roadmap_planner(request.planner) ? build_sampled<PointAmongPolygons>(request) : build_geometric(request);
-}
-
-std::unique_ptr<RoadmapSession> open_on_plane(const SolveRequest& request, const RoadmapArrays& arrays,
-                                              const ConnectionRule& rule) {
-  const auto open = is_roadmap_planner(request.planner) ? open_sampled<PointAmongPolygons> : open_geometric;
-  return open(request, arrays, rule);
-}
-
 Verdict recheck_plane(const Scene& scene, const Question& question, const RecordedAnswer& answer,
                       const Execution& execution) {
   check_polygons(scene, execution);
@@ -280,8 +269,8 @@ SolveKind plane_kind() {
           solve_plane,
           nullptr,
           recheck_plane,
-          build_on_plane,
-          open_on_plane};
+          build_sampled_or_geometric<PointAmongPolygons>,
+          open_sampled_or_geometric<PointAmongPolygons>};
 }
 
 }  // namespace warren
