@@ -29,12 +29,17 @@ inline std::string json_of(std::uint64_t value) { return std::to_string(value); 
 inline std::string json_of(std::uint32_t value) { return std::to_string(value); }
 inline std::string json_of(std::string_view text) { return json_string(text); }
 
+/// A list of what json_of_item(item) says of each.
+template <class Items, class JsonOfItem>
+std::string json_list_of(const Items& items, std::string_view between, const JsonOfItem& json_of_item) {
+  std::string text = "[";
+  for (const auto& item : items) text.append(text.size() > 1 ? between : "").append(json_of_item(item));
+  return text + "]";
+}
 /// "[1.0,2.0]"
 template <class T>
-std::string json_list(std::span<const T> values) {
-  std::string text = "[";
-  for (const T& value : values) text.append(text.size() > 1 ? "," : "").append(json_of(value));
-  return text + "]";
+std::string json_list(std::span<const T> values, std::string_view between = ",") {
+  return json_list_of(values, between, [](const T& value) { return json_of(value); });
 }
 /// A list of numbers, appended.
 void append_json_list(std::string& text, std::span<const double> values);

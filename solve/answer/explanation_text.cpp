@@ -272,9 +272,7 @@ std::string explanation_json(const Answer& answer) {
   json.add_json("motions", motions.closed());
   json.add_json("components", explained.components ? components_json(*explained.components) : "null");
   json.add_json("narrowest", narrowest_json(explained.narrowest));
-  std::string hints = "[";
-  for (const Hint& hint : explained.hints) hints.append(hints.size() > 1 ? "," : "").append(hint_json(hint));
-  json.add_json("hints", hints + "]");
+  json.add_json("hints", json_list_of(explained.hints, ",", hint_json));
   json.add_or_null("stopped_by", explained.stopped.has_value(),
                    explained.stopped ? name_of(*explained.stopped) : std::string_view{});
   return json.closed();

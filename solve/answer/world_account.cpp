@@ -67,11 +67,7 @@ std::string description_of(const Scene& scene) {
 
 namespace {
 
-std::string numbers_json(const std::vector<double>& numbers) {
-  std::string text = "[";
-  for (const double value : numbers) text += (text.size() > 1 ? ", " : "") + json_number(value);
-  return text + "]";
-}
+std::string numbers_json(const std::vector<double>& numbers) { return json_list(std::span(numbers), ", "); }
 
 /// Without what the last digits of a double may be by rounding.
 std::string rounded_text(double number) {
@@ -153,9 +149,7 @@ Fact prices_fact(const Prices& prices) {
   if (!prices.masks.empty()) add(counted(prices.masks.size(), "mask", "masks"));
   if (!prices.keep_out.empty()) add(counted(prices.keep_out.size(), "forbidden area", "forbidden areas"));
   if (prices.unknown) add(fmt::format("unknown {}", rounded_text(*prices.unknown)));
-  std::string json = "[";
-  for (const std::string& line : price_lines(prices)) json += (json.size() > 1 ? ", " : "") + json_string(line);
-  return {"prices", std::move(text), json + "]"};
+  return {"prices", std::move(text), json_list(std::span<const std::string>(price_lines(prices)), ", ")};
 }
 
 void add_problem_facts(const Scene& scene, std::vector<Fact>& facts) {

@@ -49,12 +49,6 @@ std::string json_of(const WrongEdge& wrong) {
   return json.closed();
 }
 
-std::string wrong_edges_json(const std::vector<WrongEdge>& edges) {
-  std::string text = "[";
-  for (const WrongEdge& edge : edges) text.append(text.size() > 1 ? "," : "").append(json_of(edge));
-  return text + "]";
-}
-
 std::string options_json(const Answer& answer) {
   JsonObject options;
   for (const NamedFigure& option : answer.options) options.add_json(option.name, figure_json(option.value));
@@ -118,17 +112,15 @@ std::string blocked_json(const BlockedEnd& blocked) {
 }
 
 std::string improvements_json(const Answer& answer) {
-  std::string text = "[";
-  for (const Improvement& improvement : answer.improvements) {
+  return json_list_of(answer.improvements, ", ", [&](const Improvement& improvement) {
     JsonObject json;
     json.add("iterations", improvement.iterations);
     json.add("seconds", improvement.seconds);
     json.add("length", improvement.length);
     if (answer.cost) json.add("cost", improvement.cost);
     json.add("by", improvement.by);
-    text.append(text.size() > 1 ? ", " : "").append(json.closed());
-  }
-  return text + "]";
+    return json.closed();
+  });
 }
 
 std::string price_json(const PriceParts& price) {
@@ -142,10 +134,7 @@ std::string price_json(const PriceParts& price) {
 }
 
 std::string list_json(const std::vector<std::vector<double>>& states) {
-  std::string text = "[";
-  for (const std::vector<double>& state : states)
-    text.append(text.size() > 1 ? ", " : "").append(json_list(std::span(state)));
-  return text + "]";
+  return json_list_of(states, ", ", [](const std::vector<double>& state) { return json_list(std::span(state)); });
 }
 
 std::string reached_json(const GoalReached& reached) {
@@ -157,21 +146,17 @@ std::string reached_json(const GoalReached& reached) {
 }
 
 std::string class_json(const std::vector<std::int32_t>& passed) {
-  std::string text = "[";
-  for (const std::int32_t hole : passed) text.append(text.size() > 1 ? ", " : "").append(std::to_string(hole));
-  return text + "]";
+  return json_list_of(passed, ", ", [](std::int32_t hole) { return std::to_string(hole); });
 }
 
 std::string holes_json(const std::vector<MapHole>& holes) {
-  std::string text = "[";
-  for (const MapHole& hole : holes) {
+  return json_list_of(holes, ", ", [](const MapHole& hole) {
     JsonObject json;
     json.add("id", hole.id);
     const Box& b = hole.box;
     json.add_json("box", json_list(std::span<const double>(std::array{b.min.x, b.min.y, b.max.x, b.max.y})));
-    text.append(text.size() > 1 ? ", " : "").append(json.closed());
-  }
-  return text + "]";
+    return json.closed();
+  });
 }
 
 /// Which of the goals was reached and in which order places were visited, where there was a choice.
@@ -237,17 +222,12 @@ std::vector<double> numbers_of_pose(const Eigen::Isometry3d& pose) {
 }
 
 void add_arm(JsonObject& json, const ArmModel& model, const std::vector<std::string>& told) {
-  const auto list = [](const auto& items, const auto& name) {
-    std::string text = "[";
-    for (const auto& item : items) text += (text.size() > 1 ? ", " : "") + json_string(name(item));
-    return text + "]";
-  };
-  json.add_json("joints", list(model.variables, [](const ArmVariable& variable) { return variable.name; }));
-  const auto line_itself = [](const std::string& line) { return line; };
-  json.add_json("assumed", list(model.assumed, line_itself));
+  const auto name_json = [](const ArmVariable& variable) { return json_string(variable.name); };
+  json.add_json("joints", json_list_of(model.variables, ", ", name_json));
+  json.add_json("assumed", json_list(std::span<const std::string>(model.assumed), ", "));
   std::vector<std::string> all = model.told;
   all.insert(all.end(), told.begin(), told.end());
-  json.add_json("told", list(all, line_itself));
+  json.add_json("told", json_list(std::span<const std::string>(all), ", "));
 }
 
 /// What the question says beyond start, goal and body, so that a judge knows it.
@@ -266,10 +246,7 @@ void add_asked(JsonObject& json, const Problem& problem) {
   if (!problem.via.empty()) json.add_json("via", list_json(problem.via));
   if (rule.back) json.add("return", true);
   if (problem.prices.empty()) return;
-  std::string text = "[";
-  for (const std::string& line : price_lines(problem.prices))
-    text.append(text.size() > 1 ? ", " : "").append(json_string(line));
-  json.add_json("prices", text + "]");
+  json.add_json("prices", json_list(std::span<const std::string>(price_lines(problem.prices)), ", "));
 }
 
 void add_problem(JsonObject& json, const Answer& answer) {
@@ -406,7 +383,7 @@ std::string figure_json(const Figure& figure) {
   const auto text_of = [](const auto& value) {
     using Value = std::decay_t<decltype(value)>;
     if constexpr (std::is_same_v<Value, std::vector<WrongEdge>>) {
-      return wrong_edges_json(value);
+      return json_list_of(value, ",", [](const WrongEdge& wrong) { return json_of(wrong); });
     } else if constexpr (std::is_same_v<Value, std::vector<std::uint64_t>>) {
       return json_list(std::span(value));
     } else {

@@ -313,14 +313,6 @@ std::uint64_t component_count(const RoadmapArrays& arrays) {
   return count;
 }
 
-std::string prices_json(const Prices& prices) {
-  std::string text = "[";
-  for (const std::string& line : price_lines(prices)) {
-    text.append(text.size() > 1 ? ", " : "").append(json_string(line));
-  }
-  return text + "]";
-}
-
 void add_recipe(JsonObject& object, const Roadmap& roadmap, const Execution& execution) {
   const SolveOptions& o = roadmap.options;
   object.add("robot", std::string_view(robot_text(roadmap.robot)));
@@ -328,7 +320,9 @@ void add_recipe(JsonObject& object, const Roadmap& roadmap, const Execution& exe
     object.add("table_hash", std::string_view(table_hash(roadmap.robot, execution)));
   }
   object.add("clearance", roadmap.clearance);
-  if (!roadmap.prices.empty()) object.add_json("prices", prices_json(roadmap.prices));
+  if (!roadmap.prices.empty()) {
+    object.add_json("prices", json_list(std::span<const std::string>(price_lines(roadmap.prices)), ", "));
+  }
   object.add("planner", name_of(o.planner.value_or(PlannerKind::prm)));
   if (o.sampler) object.add("sampler", name_of(*o.sampler));
   object.add("seed", o.seed);
