@@ -47,25 +47,32 @@ RawVector<std::uint64_t> packed(const MazeCells& cells, const Execution& executi
   return words;
 }
 
-/// The maze whose walls stand wherever there is no passage: tile by tile, so that the rows of bits and the columns of
-/// bytes of a tile stay in the first-level cache.
-MazeCells cells_of(const LatticePassages& lattice, const Execution& execution) {
-  const LatticePlaces places(lattice.size());
-  MazeCells cells(lattice.size().rows, lattice.size().cols, execution);
-  const std::span<std::uint8_t> bytes = cells.bytes();
+/// Calls visit(first column, first row, columns, rows) for the tiles of a lattice, on all threads.
+template <class Visit>
+void for_each_tile(LatticeSize size, const Execution& execution, const Visit& visit) {
+  const LatticePlaces places(size);
   for_chunks(places.tile_count(), 16, execution, [&](Range r) {
     for (std::size_t tile = r.first; tile < r.last; ++tile) {
       const auto first_col = static_cast<std::uint32_t>(tile % places.tile_cols()) * LatticePlaces::side;
       const auto first_row = static_cast<std::uint32_t>(tile / places.tile_cols()) * LatticePlaces::side;
-      const std::uint32_t cols = std::min(LatticePlaces::side, lattice.size().cols - first_col);
-      const std::uint32_t rows = std::min(LatticePlaces::side, lattice.size().rows - first_row);
-      for (std::uint32_t row = 0; row < rows; ++row) {
-        const auto open = lattice.open_words(first_col, first_row + row);
-        std::size_t at = cells.index(first_col, first_row + row);
-        for (std::uint32_t col = 0; col < cols; ++col, at += cells.stride()) {
-          const std::uint64_t passages = (open[0] >> col & 1U) | (open[1] >> col & 1U) << 1;
-          bytes[at] = static_cast<std::uint8_t>(passages ^ MazeCells::all_walls);
-        }
+      visit(first_col, first_row, std::min(LatticePlaces::side, size.cols - first_col),
+            std::min(LatticePlaces::side, size.rows - first_row));
+    }
+  });
+}
+
+/// The maze whose walls stand wherever there is no passage: tile by tile, so that the rows of bits and the columns of
+/// bytes of a tile stay in the first-level cache.
+MazeCells cells_of(const LatticePassages& lattice, const Execution& execution) {
+  MazeCells cells(lattice.size().rows, lattice.size().cols, execution);
+  const std::span<std::uint8_t> bytes = cells.bytes();
+  for_each_tile(lattice.size(), execution, [&](auto first_col, auto first_row, auto cols, auto rows) {
+    for (std::uint32_t row = 0; row < rows; ++row) {
+      const auto open = lattice.open_words(first_col, first_row + row);
+      std::size_t at = cells.index(first_col, first_row + row);
+      for (std::uint32_t col = 0; col < cols; ++col, at += cells.stride()) {
+        const std::uint64_t passages = (open[0] >> col & 1U) | (open[1] >> col & 1U) << 1;
+        bytes[at] = static_cast<std::uint8_t>(passages ^ MazeCells::all_walls);
       }
     }
   });
@@ -85,30 +92,23 @@ bool begins_with_outline(const Scene& scene) {
 /// Tile by tile, as cells_of().
 LatticePassages passages_between(const MazeCells& cells, const Execution& execution) {
   const LatticeSize size{cells.rows(), cells.cols()};
-  const LatticePlaces places(size);
   PassageWords words = LatticePassages::closed(size, execution);
   const std::size_t stride = LatticePassages::words_a_row(size.cols);
-  for_chunks(places.tile_count(), 16, execution, [&](Range r) {
-    for (std::size_t tile = r.first; tile < r.last; ++tile) {
-      const auto first_col = static_cast<std::uint32_t>(tile % places.tile_cols()) * LatticePlaces::side;
-      const auto first_row = static_cast<std::uint32_t>(tile / places.tile_cols()) * LatticePlaces::side;
-      const std::uint32_t cols = std::min(LatticePlaces::side, size.cols - first_col);
-      const std::uint32_t rows = std::min(LatticePlaces::side, size.rows - first_row);
-      std::array<std::uint64_t, LatticePlaces::side> right{};
-      std::array<std::uint64_t, LatticePlaces::side> up{};
-      for (std::uint32_t col = 0; col < cols; ++col) {
-        const std::uint8_t* const bytes = cells.bytes().data() + cells.index(first_col + col, first_row);
-        for (std::uint32_t row = 0; row < rows; ++row) {
-          const std::uint64_t open = ~std::uint64_t{bytes[row]};
-          right[row] |= (open & 1U) << col;
-          up[row] |= (open >> 1 & 1U) << col;
-        }
-      }
+  for_each_tile(size, execution, [&](auto first_col, auto first_row, auto cols, auto rows) {
+    std::array<std::uint64_t, LatticePlaces::side> right{};
+    std::array<std::uint64_t, LatticePlaces::side> up{};
+    for (std::uint32_t col = 0; col < cols; ++col) {
+      const std::uint8_t* const bytes = cells.bytes().data() + cells.index(first_col + col, first_row);
       for (std::uint32_t row = 0; row < rows; ++row) {
-        const std::size_t word = (first_row + row) * stride + first_col / LatticePlaces::side;
-        words.right[word] = right[row];
-        words.up[word] = up[row];
+        const std::uint64_t open = ~std::uint64_t{bytes[row]};
+        right[row] |= (open & 1U) << col;
+        up[row] |= (open >> 1 & 1U) << col;
       }
+    }
+    for (std::uint32_t row = 0; row < rows; ++row) {
+      const std::size_t word = (first_row + row) * stride + first_col / LatticePlaces::side;
+      words.right[word] = right[row];
+      words.up[word] = up[row];
     }
   });
   return {size, std::move(words)};

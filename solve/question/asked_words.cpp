@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -16,6 +17,13 @@ namespace {
 
 [[noreturn]] void refuse_number(std::string_view option, std::string_view what, std::string_view range, double found) {
   throw UsageError(fmt::format("@{}: {} is a number {} (found: {})", option, what, range, found));
+}
+
+/// Where it is said; range: from low to high, in words.
+template <class T>
+void check_number(std::string_view option, std::string_view what, const std::optional<T>& number, double low,
+                  double high, std::string_view range) {
+  if (number && !(*number >= low && *number <= high)) refuse_number(option, what, range, *number);
 }
 
 void check_factor(std::string_view option, double factor) {
@@ -125,18 +133,14 @@ void check_prices(const Prices& prices) {
 }
 
 void check_goal_rule(const GoalRule& rule) {
-  if (rule.tolerance && !(*rule.tolerance >= 0.0)) {
-    refuse_number("goal_tolerance", "a distance", "from 0 on, or inf", *rule.tolerance);
-  }
-  if (rule.region && !(*rule.region >= 0.0 && *rule.region <= largest_coordinate)) {
-    refuse_number("goal_region", "a distance", "from 0 to 1e60", *rule.region);
-  }
+  constexpr double endless = std::numeric_limits<double>::infinity();
+  check_number("goal_tolerance", "a distance", rule.tolerance, 0.0, endless, "from 0 on, or inf");
+  check_number("goal_region", "a distance", rule.region, 0.0, largest_coordinate, "from 0 to 1e60");
   if (rule.region && rule.tolerance) {
     throw UsageError("@goal_region: any place in it is as good, which leaves nothing to @goal_tolerance; say one");
   }
-  if (rule.heading_rad && !(*rule.heading_rad >= 0.0 && *rule.heading_rad <= 3.15)) {
-    refuse_number(rule.region ? "goal_region" : "goal_tolerance", "an angle", "from 0 to 3.15 rad", *rule.heading_rad);
-  }
+  const std::string_view of_heading = rule.region ? "goal_region" : "goal_tolerance";
+  check_number(of_heading, "an angle", rule.heading_rad, 0.0, 3.15, "from 0 to 3.15 rad");
   check_places("goal", rule.others);
   check_places("visit", rule.visit);
   constexpr std::size_t most_visits = 12;
@@ -151,16 +155,10 @@ void check_goal_rule(const GoalRule& rule) {
 }
 
 void check_route_rule(const RouteRule& route) {
-  if (route.alternatives && !(*route.alternatives >= 1 && *route.alternatives <= most_alternatives)) {
-    refuse_number("alternatives", "the number of paths", fmt::format("from 1 to {}", most_alternatives),
-                  *route.alternatives);
-  }
-  if (route.hole && !(*route.hole >= 0.0 && *route.hole <= largest_coordinate)) {
-    refuse_number("alternatives", "the size of a hole", "from 0 to 1e60", *route.hole);
-  }
-  if (route.stretch && !(*route.stretch >= 1.0 && *route.stretch <= largest_coordinate)) {
-    refuse_number("stretch", "a share of the least cost", "from 1 to 1e60", *route.stretch);
-  }
+  check_number("alternatives", "the number of paths", route.alternatives, 1.0, most_alternatives,
+               fmt::format("from 1 to {}", most_alternatives));
+  check_number("alternatives", "the size of a hole", route.hole, 0.0, largest_coordinate, "from 0 to 1e60");
+  check_number("stretch", "a share of the least cost", route.stretch, 1.0, largest_coordinate, "from 1 to 1e60");
   if (route.stretch && !route.alternatives) throw UsageError("@stretch: is for @alternatives");
   if (route.unless_gain && !(*route.unless_gain >= 0.0 && *route.unless_gain < 1.0)) {
     refuse_number("unless_gain", "a share of the cost", "from 0 to below 1", *route.unless_gain);
