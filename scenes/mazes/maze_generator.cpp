@@ -13,7 +13,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <string>
 #include <tuple>
 #include <vector>
 
@@ -79,18 +78,6 @@ void describe(const MazeOptions& options, Scene& scene) {
 }
 
 constexpr std::size_t outline_grain = std::size_t{1} << 16;
-
-Box box_of_walls(const WallSet& walls, const Execution& execution) {
-  std::vector<Box> boxes(chunk_count(walls.size(), outline_grain));
-  for_chunks(walls.size(), outline_grain, execution, [&](Range r) {
-    Box box;
-    for (std::size_t i = r.first; i < r.last; ++i) box.include(box_of(walls.segment(i)));
-    boxes[r.first / outline_grain] = box;
-  });
-  Box all;
-  for (const Box& box : boxes) all.include(box);
-  return all;
-}
 
 /// The size of a maze with these walls' box.
 std::optional<MazeHint> size_of_box(const Box& box) {

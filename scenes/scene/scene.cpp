@@ -51,23 +51,6 @@ class Hasher {
   std::uint64_t state_;
 };
 
-template <class Walls>
-Box box_of_walls(Walls walls, const Execution& execution) {
-  std::vector<Box> parts(chunk_count(walls.size(), scene_grain));
-  for_chunks(walls.size(), scene_grain, execution, [&](Range r) {
-    Box box;
-    for (const auto& wall : walls.subspan(r.first, r.size())) {
-      const Segment s = wall.segment();
-      box.include(s.a);
-      box.include(s.b);
-    }
-    parts[r.first / scene_grain] = box;
-  });
-  Box all;
-  for (const Box& part : parts) all.include(part);
-  return all;
-}
-
 /// The numbers that shape it: those of its pose, of its size, and its corners.
 void add_solid(Hasher& hasher, const Solid& solid) {
   hasher.add(std::uint64_t{static_cast<std::uint8_t>(solid.kind)});
@@ -186,8 +169,26 @@ Scene without_arrays(const Scene& scene) {
   return rest;
 }
 
+Box box_of_walls(const WallSet& set, const Execution& execution) {
+  return set.visit([&](auto walls) {
+    std::vector<Box> parts(chunk_count(walls.size(), scene_grain));
+    for_chunks(walls.size(), scene_grain, execution, [&](Range r) {
+      Box box;
+      for (const auto& wall : walls.subspan(r.first, r.size())) {
+        const Segment s = wall.segment();
+        box.include(s.a);
+        box.include(s.b);
+      }
+      parts[r.first / scene_grain] = box;
+    });
+    Box all;
+    for (const Box& part : parts) all.include(part);
+    return all;
+  });
+}
+
 Box obstacle_box(const Scene& scene, const Execution& execution) {
-  Box box = scene.walls.visit([&](auto walls) { return box_of_walls(walls, execution); });
+  Box box = box_of_walls(scene.walls, execution);
   for (const ScenePolygon& polygon : scene.polygons) {
     for (const Vec2 corner : polygon.corners) box.include(corner);
   }

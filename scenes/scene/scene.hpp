@@ -203,6 +203,8 @@ inline bool has_solids(const Scene& scene) {
   return !scene.spheres.empty() || !scene.boxes.empty() || !scene.solids.empty();
 }
 
+/// The box of all walls; empty if there are none.
+Box box_of_walls(const WallSet& walls, const Execution& execution);
 /// The box of all walls and polygons (not of the bounds, nor of solids); empty if there are none.
 Box obstacle_box(const Scene& scene, const Execution& execution = {});
 
