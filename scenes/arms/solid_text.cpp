@@ -7,7 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/base/error.hpp"
 #include "scenes/scene/convex_hull.hpp"
 
 namespace warren {

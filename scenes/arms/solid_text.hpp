@@ -8,7 +8,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"

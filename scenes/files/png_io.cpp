@@ -12,7 +12,6 @@
 #include <cstring>
 #include <exception>
 #include <new>
-#include <stdexcept>
 
 #include "core/base/error.hpp"
 #include "scenes/text/output_file_io.hpp"

@@ -14,7 +14,6 @@
 #include <span>
 #include <vector>
 
-#include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
 #include "scenes/arms/solid_text.hpp"

@@ -8,7 +8,6 @@
 #include <string>
 #include <utility>
 
-#include "scenes/files/scene_io.hpp"
 #include "scenes/scene/scene.hpp"
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/json_text.hpp"

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "core/plane/cell_walls.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
 #include "planners/shorten/taut_path.hpp"

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -13,7 +12,6 @@
 #include "planners/grid/visiting_order.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "spatial/maps/distance_field.hpp"
-#include "verify/judges/verify_map.hpp"
 
 namespace warren {
 namespace {

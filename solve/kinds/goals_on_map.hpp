@@ -8,8 +8,6 @@
 #include <functional>
 #include <optional>
 #include <span>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "core/base/bitmap.hpp"

@@ -11,7 +11,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 
 #include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"

@@ -6,9 +6,6 @@
 
 #include <functional>
 #include <span>
-#include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include "core/base/bitmap.hpp"

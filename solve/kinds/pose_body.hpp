@@ -6,8 +6,6 @@
 #pragma once
 
 #include <algorithm>
-#include <numeric>
-#include <span>
 #include <utility>
 #include <vector>
 

@@ -15,7 +15,6 @@
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "verify/judges/verify_classes.hpp"
-#include "verify/judges/verify_map.hpp"
 #include "worlds/plane/grid_world.hpp"
 
 namespace warren {

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Joins ArmWorld with the planners that take it: an arm among convex solids. A goal of three numbers is a place of the
 // tool and is met in any posture within the limits.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
 #include <optional>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 

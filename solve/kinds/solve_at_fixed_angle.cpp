@@ -10,7 +10,6 @@
 #include <cmath>
 #include <optional>
 #include <span>
-#include <utility>
 
 #include "core/base/error.hpp"
 #include "planners/visibility/visibility_path.hpp"

@@ -25,7 +25,6 @@
 #include "solve/kinds/solve_to_goal.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "spatial/maps/distance_field.hpp"
-#include "verify/judges/verify_map.hpp"
 #include "worlds/plane/grid_world.hpp"
 #include "worlds/prices/map_prices.hpp"
 

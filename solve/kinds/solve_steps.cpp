@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/run/trace.hpp"
 #include "solve/question/asked_words.hpp"
 #include "verify/judges/effective_scene.hpp"
 #include "verify/judges/verify_body_price.hpp"

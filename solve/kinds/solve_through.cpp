@@ -8,7 +8,6 @@
 #include <limits>
 #include <numbers>
 #include <optional>
-#include <string>
 #include <variant>
 
 #include "core/base/error.hpp"

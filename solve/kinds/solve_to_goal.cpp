@@ -15,7 +15,6 @@
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/question/question_of_arm.hpp"
-#include "spatial/maps/distance_field.hpp"
 
 namespace warren {
 namespace {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <string>
 
 #include "core/base/error.hpp"
 #include "planners/mazes/tiled_prm_lattice.hpp"

@@ -3,9 +3,7 @@
 // the world.
 #pragma once
 
-#include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "planners/graph/roadmap_options.hpp"

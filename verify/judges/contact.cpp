@@ -2,7 +2,6 @@
 #include "verify/judges/contact.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "core/base/whole.hpp"

@@ -9,10 +9,8 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "core/base/types.hpp"
 #include "core/run/execution.hpp"

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "core/run/execution.hpp"
 #include "scenes/scene/prices.hpp"

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/base/trigonometry.hpp"
 #include "core/base/types.hpp"
 #include "core/base/whole.hpp"
 #include "verify/judges/judged_arm.hpp"

@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "core/base/error.hpp"
-#include "core/base/trigonometry.hpp"
 #include "verify/judges/body_on_leg.hpp"
 #include "verify/judges/judged_input.hpp"
 #include "verify/near/straight_runs.hpp"

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"

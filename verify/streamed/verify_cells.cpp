@@ -18,7 +18,6 @@
 #include "parallel/chunks.hpp"
 #include "parallel/sort.hpp"
 #include "verify/exact/exact_segments.hpp"
-#include "verify/judges/judged_input.hpp"
 #include "verify/judges/leg_reports.hpp"
 #include "verify/near/leg_boxes.hpp"
 #include "verify/streamed/looked_up_walls.hpp"
