@@ -17,29 +17,12 @@ namespace {
 
 /// What JSON writes for a character below 0x20, and for those that end or begin something.
 void append_escaped(std::string& text, char c) {
-  switch (c) {
-    case '"':
-    case '\\':
-      text += '\\';
-      text += c;
-      return;
-    case '\b':
-      text += "\\b";
-      return;
-    case '\f':
-      text += "\\f";
-      return;
-    case '\n':
-      text += "\\n";
-      return;
-    case '\r':
-      text += "\\r";
-      return;
-    case '\t':
-      text += "\\t";
-      return;
-    default:
-      text += fmt::format("\\u{:04x}", static_cast<unsigned>(static_cast<unsigned char>(c)));
+  constexpr std::string_view characters = "\"\\\b\f\n\r\t";
+  constexpr std::string_view letters = "\"\\bfnrt";
+  if (const std::size_t at = characters.find(c); at != std::string_view::npos) {
+    text += {'\\', letters[at]};
+  } else {
+    text += fmt::format("\\u{:04x}", static_cast<unsigned>(static_cast<unsigned char>(c)));
   }
 }
 
