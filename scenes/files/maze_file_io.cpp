@@ -71,14 +71,15 @@ FileHeader header_for(std::uint32_t rows, std::uint32_t cols) {
 }
 
 /// A maze's description, but for the walls.
-Scene scene_of(const MazeFile& maze, const std::string& name) {
+Scene scene_of(MazeHint maze, const std::string& name, std::optional<std::uint64_t> hash) {
   Scene scene;
-  scene.maze = MazeHint{maze.rows(), maze.cols()};
-  scene.start = {0.5, 1.0};
-  scene.goal = {maze.cols() + 0.5, static_cast<double>(maze.rows())};
+  set_maze(scene, maze);
   scene.source = name;
-  scene.packed = PackedMaze{name, maze.hash()};
+  scene.packed = PackedMaze{name, hash};
   return scene;
+}
+Scene scene_of(const MazeFile& maze, const std::string& name) {
+  return scene_of(MazeHint{maze.rows(), maze.cols()}, name, maze.hash());
 }
 
 }  // namespace
@@ -318,25 +319,13 @@ RawVector<std::uint8_t> empty_maze(Range rows, std::uint32_t cols, const Executi
   return bits;
 }
 
-template <class T>
-std::uint64_t hash_of_rows(std::span<const WallOf<T>> walls) {
-  return WallsHash::of_chunk(walls);
-}
-
 }  // namespace
 
 std::optional<Scene> unmade_npy(const InputFile& file) {
   const NpyWalls array = npy_walls(file);
   if (!is_aligned(file, array)) return std::nullopt;
   const auto maze = array.is_float ? size_of(walls_in<float>(file, array)) : size_of(walls_in<double>(file, array));
-  if (!maze) return std::nullopt;
-  Scene scene;
-  scene.maze = maze;
-  scene.start = {0.5, 1.0};
-  scene.goal = {maze->cols + 0.5, static_cast<double>(maze->rows)};
-  scene.source = file.name();
-  scene.packed = PackedMaze{file.name(), std::nullopt};
-  return scene;
+  return maze ? std::optional(scene_of(*maze, file.name(), std::nullopt)) : std::nullopt;
 }
 
 NpyMaze::NpyMaze(const InputFile& file, MazeHint maze, const Execution& execution, std::optional<TileRows> held)
@@ -363,8 +352,9 @@ void NpyMaze::read(const InputFile& file, const Execution& execution) {
   for (std::size_t first = 0; first < walls.size(); first += window) {
     const std::span<const WallOf<T>> some = walls.subspan(first, std::min(window, walls.size() - first));
     parts.assign(chunk_count(some.size(), WallsHash::grain), 0);
-    for_chunks(some.size(), WallsHash::grain, execution,
-               [&](Range r) { parts[r.first / WallsHash::grain] = hash_of_rows<T>(some.subspan(r.first, r.size())); });
+    for_chunks(some.size(), WallsHash::grain, execution, [&](Range r) {
+      parts[r.first / WallsHash::grain] = WallsHash::of_chunk(some.subspan(r.first, r.size()));
+    });
     for (const std::uint64_t part : parts) hash.add(part);
     for (std::size_t i = 0; i < some.size(); ++i) {
       if (i % WallsHash::grain == 0) execution.check();

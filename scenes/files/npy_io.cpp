@@ -321,10 +321,8 @@ Scene read_npy(const InputFile& file, const Execution& execution) {
   Scene scene;
   scene.walls = walls_of(file, header, execution);
   scene.source = file.name();
-  if (const auto hint = maze_of_walls(scene.walls, {execution.threads, execution.deadline})) {
-    scene.maze = hint;
-    scene.start = {0.5, 1.0};
-    scene.goal = {hint->cols + 0.5, static_cast<double>(hint->rows)};
+  if (const auto maze = maze_of_walls(scene.walls, {execution.threads, execution.deadline})) {
+    set_maze(scene, *maze);
   }
   return scene;
 }

@@ -69,9 +69,7 @@ void open_loops(MazeCells& cells, std::uint64_t count, std::uint64_t standing, s
 
 /// All but the walls.
 void describe(const MazeOptions& options, Scene& scene) {
-  scene.maze = MazeHint{options.rows, options.cols};
-  scene.start = {0.5, 1.0};
-  scene.goal = {options.cols + 0.5, static_cast<double>(options.rows)};
+  set_maze(scene, {options.rows, options.cols});
   scene.source = fmt::format("maze:{}x{},seed={},algorithm={},loops={}", options.rows, options.cols, options.seed,
                              name_of(options.algorithm), options.loops);
   if (options.algorithm == MazeAlgorithm::mst) scene.formula = MazeFormula{options.seed, options.loops};
@@ -156,6 +154,12 @@ MazeCells::MazeCells(std::uint32_t rows, std::uint32_t cols, const Execution& ex
   execution.reserve(bytes);
   bits_.resize(bytes);
   fill_bytes(bits_, all_walls, execution);
+}
+
+void set_maze(Scene& scene, MazeHint maze) {
+  scene.maze = maze;
+  scene.start = {0.5, 1.0};
+  scene.goal = {maze.cols + 0.5, static_cast<double>(maze.rows)};
 }
 
 MazeCells generate_maze(const MazeOptions& options, const Execution& execution) {

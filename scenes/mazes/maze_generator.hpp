@@ -108,7 +108,10 @@ std::size_t maze_wall_bytes(std::uint32_t rows, std::uint32_t cols);
 /// Are these, to the bit, the walls that maze_walls() makes of the cells, not merged? Makes none.
 bool has_maze_walls(const WallSet& walls, const MazeCells& cells, const Execution& execution);
 
-/// A scene with walls, maze hint, start (0.5, 1) and goal (cols + 0.5, rows).
+/// Makes the scene one of a maze of this size: its hint, start (0.5, 1) and goal (cols + 0.5, rows).
+void set_maze(Scene& scene, MazeHint maze);
+
+/// A scene with the walls, and all that set_maze() sets.
 Scene maze_scene(const MazeOptions& options, bool merged, const Execution& execution);
 
 /// The scene of a maze of the algorithm mst with its walls left out: O(1), of any size below 2^27 x 2^27. Throws
