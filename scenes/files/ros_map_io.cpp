@@ -218,37 +218,6 @@ class PixelValues {
   std::vector<std::int8_t> values_;
 };
 
-/// Takes values and fills in the map.
-class Classifier {
- public:
-  explicit Classifier(OccupancyMap& map) : map_(map) {}
-
-  void begin(const ImageHeader& header, const Execution& execution) {
-    map_.blocked = cell_bitmap(header.width, header.height, execution);
-    map_.unknown = cell_bitmap(header.width, header.height, execution);
-  }
-
-  void row(const PixelValues& values, const PixelRun& run) {
-    values.row(run, [&](std::uint32_t x, std::uint32_t y, std::int8_t value, const std::uint16_t* pixel) {
-      if (value == free_value) {
-        ++map_.free;
-        map_.grey_free += values.is_saved_unknown(pixel) ? 1 : 0;
-        return;
-      }
-      map_.blocked.set(x, y);
-      ++(value == occupied_value ? map_.occupied : value == unknown_value ? map_.unknown_count : map_.between);
-      if (value == unknown_value) map_.unknown.set(x, y);
-    });
-  }
-
-  void end() {
-    if (map_.unknown_count == 0) map_.unknown = Bitmap();
-  }
-
- private:
-  OccupancyMap& map_;
-};
-
 /// Reads the image that the YAML names; answers its path.
 std::string read_pixels(const std::string& yaml, const Description& description, const ImageSink& sink,
                         const Execution& execution) {
@@ -302,14 +271,24 @@ OccupancyMap read_ros_map(const InputFile& yaml, const Execution& execution, Map
   map.origin = {description.origin[0], description.origin[1]};
   map.yaw_rad = description.origin[2];
   PixelValues values(description, rules);
-  Classifier classifier(map);
+  const auto take = [&](std::uint32_t x, std::uint32_t y, std::int8_t value, const std::uint16_t* pixel) {
+    if (value == free_value) {
+      ++map.free;
+      map.grey_free += values.is_saved_unknown(pixel) ? 1 : 0;
+      return;
+    }
+    map.blocked.set(x, y);
+    ++(value == occupied_value ? map.occupied : value == unknown_value ? map.unknown_count : map.between);
+    if (value == unknown_value) map.unknown.set(x, y);
+  };
   const ImageSink sink{[&](const ImageHeader& header) {
                          values.begin(header);
-                         classifier.begin(header, execution);
+                         map.blocked = cell_bitmap(header.width, header.height, execution);
+                         map.unknown = cell_bitmap(header.width, header.height, execution);
                        },
-                       [&](const PixelRun& run) { classifier.row(values, run); }};
+                       [&](const PixelRun& run) { values.row(run, take); }};
   map.image = read_pixels(yaml.name(), description, sink, execution);
-  classifier.end();
+  if (map.unknown_count == 0) map.unknown = Bitmap();
   return map;
 }
 
