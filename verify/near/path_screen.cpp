@@ -51,19 +51,15 @@ struct CoveredCells {
   };
 
   template <class T>
-  [[gnu::always_inline]] static inline void find_boxes(const WallOf<T>* walls, Boxes<T>& boxes) {
-    for (std::size_t i = 0; i < block_size; ++i) {
-      const WallOf<T> w = walls[i];
-      boxes.x_min[i] = w.x1 < w.x2 ? w.x1 : w.x2;
-      boxes.x_max[i] = w.x1 < w.x2 ? w.x2 : w.x1;
-      boxes.y_min[i] = w.y1 < w.y2 ? w.y1 : w.y2;
-      boxes.y_max[i] = w.y1 < w.y2 ? w.y2 : w.y1;
-    }
+  [[gnu::always_inline]] static inline WallOf<T> ends_of(const WallOf<T>& wall) {
+    return wall;
   }
+  [[gnu::always_inline]] static inline PackedWall::Ends ends_of(const PackedWall& wall) { return wall.ends(); }
 
-  [[gnu::always_inline]] static inline void find_boxes(const PackedWall* walls, Boxes<std::int32_t>& boxes) {
+  template <class Wall, class T>
+  [[gnu::always_inline]] static inline void find_boxes(const Wall* walls, Boxes<T>& boxes) {
     for (std::size_t i = 0; i < block_size; ++i) {
-      const PackedWall::Ends w = walls[i].ends();
+      const auto w = ends_of(walls[i]);
       boxes.x_min[i] = w.x1 < w.x2 ? w.x1 : w.x2;
       boxes.x_max[i] = w.x1 < w.x2 ? w.x2 : w.x1;
       boxes.y_min[i] = w.y1 < w.y2 ? w.y1 : w.y2;
