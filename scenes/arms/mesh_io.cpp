@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -78,12 +77,9 @@ class MeshCollector {
 // behind.
 
 std::uint32_t obj_corner(const scene_text::Place& place, std::string_view word, std::size_t points) {
-  std::int64_t number = 0;
-  const std::string_view first = word.substr(0, word.find('/'));
-  const auto [end, error] = std::from_chars(first.data(), first.data() + first.size(), number);
+  auto number = scene_text::number_in_full<std::int64_t>(word.substr(0, word.find('/'))).value_or(0);
   if (number < 0) number += static_cast<std::int64_t>(points) + 1;
-  if (error != std::errc() || end != first.data() + first.size() || number < 1 ||
-      number > static_cast<std::int64_t>(points)) {
+  if (number < 1 || number > static_cast<std::int64_t>(points)) {
     place.fail(fmt::format("a face names one of the {} points so far", points), word);
   }
   return static_cast<std::uint32_t>(number - 1);

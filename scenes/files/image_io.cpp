@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <numeric>
 #include <optional>
 #include <string_view>
@@ -140,14 +139,13 @@ class PgmTokens {
   std::uint32_t number(std::string_view what, std::uint32_t least, std::uint32_t most) {
     skip();
     const std::string_view word = rest_.substr(0, word_length());
-    std::uint32_t value = 0;
-    const auto [last, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (word.empty() || error != std::errc() || last != word.data() + word.size() || value < least || value > most) {
+    const auto value = scene_text::number_in_full<std::uint32_t>(word);
+    if (!value || *value < least || *value > most) {
       scene_text::Place{name_, line_}.fail(fmt::format("expected {}, {} to {}", what, least, most),
                                            word.empty() ? "the end of the file" : word);
     }
     rest_.remove_prefix(word.size());
-    return value;
+    return *value;
   }
   std::string_view rest() const { return rest_; }
   void magic() { rest_.remove_prefix(2); }

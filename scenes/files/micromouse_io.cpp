@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <string>
 #include <vector>
 
@@ -236,13 +235,12 @@ class NumberedCells {
   }
   static std::uint32_t read(scene_text::Fields& fields, std::uint32_t most) {
     const std::string_view word = fields.word();
-    std::uint32_t number = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (word.empty() || error != std::errc() || end != word.data() + word.size() || number > most) {
+    const auto number = scene_text::number_in_full<std::uint32_t>(word);
+    if (!number || *number > most) {
       fields.place().fail("expected X Y N E S W: a cell of a micromouse maze, whole numbers, and 1 where a wall is",
                           word);
     }
-    return number;
+    return *number;
   }
   template <class Visit>
   void for_cells(const Visit& visit) const {

@@ -64,10 +64,9 @@ std::string_view without_trailing_blanks(std::string_view line, std::size_t widt
 
 template <class T>
 T number(std::string_view field, const scene_text::Place& place, std::string_view what) {
-  T value{};
-  const auto [last, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc() || last != field.data() + field.size()) place.fail(fmt::format("expected {}", what), field);
-  return value;
+  const auto value = scene_text::number_in_full<T>(field);
+  if (!value) place.fail(fmt::format("expected {}", what), field);
+  return *value;
 }
 
 std::uint32_t size_line(TextLines& lines, std::string_view word) {

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <limits>
 #include <set>
 
@@ -21,6 +20,7 @@
 #include "scenes/files/scene_io.hpp"
 #include "scenes/files/wkt_io.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
+#include "scenes/text/scene_text.hpp"
 
 namespace warren {
 namespace {
@@ -76,13 +76,12 @@ class MazeSource {
   }
   template <class T>
   T number(std::string_view text, std::string_view name) const {
-    T value{};
-    const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || last != text.data() + text.size()) {
+    const auto value = scene_text::number_in_full<T>(text);
+    if (!value) {
       fail(fmt::format("{} must be {} (found: {})", name,
                        std::is_integral_v<T> ? "a whole number that is not negative" : "a number", text));
     }
-    return value;
+    return *value;
   }
   void parse_size(std::string_view size, MazeOptions& options) const {
     if (size.find('x') == std::string_view::npos) fail("the size is missing");
@@ -132,10 +131,8 @@ Scene empty_world(std::string_view source) {
   std::string_view height = source.substr(empty_prefix.size());
   const std::string_view width = cut(height, 'x');
   const auto side = [&](std::string_view text) {
-    double value = 0.0;
-    const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool is_side = error == std::errc() && last == text.data() + text.size();
-    if (is_side && value >= 1e-6 && value <= 1e9) return value;
+    const auto value = scene_text::number_in_full<double>(text);
+    if (value && *value >= 1e-6 && *value <= 1e9) return *value;
     throw UsageError(fmt::format("{}: expected empty:WIDTHxHEIGHT, each from 1e-6 to 1e9", source));
   };
   Scene scene;

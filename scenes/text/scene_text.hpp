@@ -7,11 +7,13 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <functional>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -35,6 +37,14 @@ struct Place {
   /// Throws InputError; `found` is shortened and made printable.
   [[noreturn]] void fail(std::string_view what, std::string_view found = {}) const;
 };
+
+/// The number that a text is, all of it; nothing where it is none, or beyond what a T holds.
+template <class T>
+std::optional<T> number_in_full(std::string_view text) {
+  T value{};
+  const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && last == text.data() + text.size() ? std::optional(value) : std::nullopt;
+}
 
 inline bool is_blank(char c) { return c == ' ' || c == ',' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
 

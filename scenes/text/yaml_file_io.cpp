@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <istream>
 #include <sstream>
 #include <system_error>
@@ -64,13 +63,9 @@ void YamlFile::fail(const YAML::Node& node, std::string_view what) const {
 /// yaml-cpp's own conversion takes memory that has run out for a wrong number.
 double YamlFile::number(const YAML::Node& node, std::string_view key, std::string_view expected) const {
   const std::string_view text = node.IsScalar() ? std::string_view(node.Scalar()) : std::string_view();
-  const char* const first = text.data() + (text.starts_with('+') ? 1 : 0);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(first, text.data() + text.size(), value);
-  if (text.empty() || error != std::errc() || end != text.data() + text.size()) {
-    fail(node, fmt::format("`{}` must be {}", key, expected));
-  }
-  return value;
+  const auto value = scene_text::number_in_full<double>(text.substr(text.starts_with('+') ? 1 : 0));
+  if (!value) fail(node, fmt::format("`{}` must be {}", key, expected));
+  return *value;
 }
 
 }  // namespace warren

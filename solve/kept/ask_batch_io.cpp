@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -68,10 +67,8 @@ std::string_view take_field(std::string_view& line) {
 }
 
 std::optional<double> number_of(std::string_view field) {
-  double value = 0.0;
-  const auto [last, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  const bool is_number = error == std::errc() && last == field.data() + field.size() && std::isfinite(value);
-  return is_number ? std::optional(value) : std::nullopt;
+  const auto value = scene_text::number_in_full<double>(field);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 /// Only a goal's heading may be missing, or all of a state: then the world's own stands.
