@@ -5,7 +5,7 @@
 // are told apart), what both paths cost, what an edge costs that rrt-connect asks, and how many paths that are free at
 // 32 states a radian collide in between, says the judge (not with --proved-alone, for hard sets: others take long
 // there).
-//   arm_problems "urdf ROBOT.urdf srdf ROBOT.srdf" SET... [--json FILE] [--csv FILE]
+//   arm_problems "urdf ROBOT.urdf srdf ROBOT.srdf" SET... [--json FILE] [--csv FILE] [--proved-alone]
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>

@@ -165,6 +165,7 @@ bool PriceField::repair(std::span<const Cell> touched, std::uint64_t most, const
     const auto [cost, v] = doubtful.back();
     doubtful.pop_back();
     if (costs_[v] == 0 || over_neighbours(v, cost) <= cost) continue;
+    const bool is_told = (costs_[v] & is_expanded) != 0;  // else others may rest on what it had before
     costs_[v] = 0;
     renewed.push_back(v);
     if (++lost > most) return false;
@@ -172,7 +173,8 @@ bool PriceField::repair(std::span<const Cell> touched, std::uint64_t most, const
     for (unsigned s = 0; s < 8; ++s) {
       const VertexId w = v + weights_.offset(s);
       // What weighs something else now was touched, and is in doubt anyway.
-      if (costs_[w] != 0 && known(w) > cost && weights_.may_weigh(v, s, known(w) - cost)) doubt(w);
+      if (costs_[w] == 0 || known(w) <= cost) continue;
+      if (!is_told || weights_.may_weigh(v, s, known(w) - cost)) doubt(w);
     }
   }
   for (const VertexId v : renewed) {

@@ -78,7 +78,7 @@ StepWeights priced(const Bitmap& map, std::uint64_t seed) {
 /// Cells that come and go, and steps that get dearer and cheaper: what is asked after a repair is what a new field
 /// says, to the unit and cell by cell, wherever it is asked and however much was known before.
 TEST(PriceField, RepairedItIsAsANewOne) {
-  for (const std::uint64_t seed : test::seeds(1000, 40)) {
+  for (const std::uint64_t seed : test::seeds(1000, 100)) {
     SCOPED_TRACE(seed);
     SequentialRng rng(seed);
     std::uint64_t cells = 0;  // drawn
@@ -97,7 +97,7 @@ TEST(PriceField, RepairedItIsAsANewOne) {
     const std::vector<Cell> starts{random_cell(map, seed, cells++), random_cell(map, seed, cells++)};
     const std::span<const Cell> towards = seed % 3 == 0 ? std::span<const Cell>() : std::span(starts);
     std::optional<PriceField> field(std::in_place, weights, goals, towards, Execution{});
-    for (int change = 0; change < 6; ++change) {
+    for (int change = 0; change < 40; ++change) {
       if (!map.test(starts[0].x, starts[0].y)) field->cost(starts[0], {});
       std::vector<Cell> touched;
       const Cell at = random_cell(map, seed, cells++);
