@@ -5,6 +5,7 @@
 #include <bit>
 #include <limits>
 #include <new>
+#include <stdexcept>
 #include <utility>
 
 #include "core/base/whole.hpp"
@@ -196,13 +197,13 @@ std::pair<std::vector<Cell>, std::size_t> PriceField::path(Cell from, const Exec
          goal != goal_cells_.end() && goal->first == v; ++goal) {
       if (goals_[goal->second].cost == known(v)) return {cells, goal->second};
     }
-    for (unsigned rest = weights_.allowed(v); rest != 0; rest &= rest - 1) {
+    const VertexId before = v;
+    for (unsigned rest = weights_.allowed(v); rest != 0 && v == before; rest &= rest - 1) {
       const auto s = static_cast<unsigned>(std::countr_zero(rest));
       const VertexId w = v + weights_.offset(s);
-      if (known(w) >= known(v) || known(w) + weights_.weight(v, s) != known(v)) continue;
-      v = w;
-      break;
+      if (known(w) < known(v) && known(w) + weights_.weight(v, s) == known(v)) v = w;
     }
+    if (v == before) throw std::logic_error("a field's cost rests on none of its neighbours'");
     cells.push_back(weights_.cells().cell(v));
   }
 }
