@@ -111,29 +111,22 @@ class BestFirst : public GraphSearch {
   SearchState state_;
 };
 
-class BreadthFirst : public GraphSearch {
+/// Breadth-first or depth-first.
+class QueuelessSearch : public GraphSearch {
  public:
-  explicit BreadthFirst(const SearchGraph& graph) : graph_(graph) { state_.resize(graph.graph.vertex_count()); }
+  QueuelessSearch(const SearchGraph& graph, SearchKind search) : graph_(graph), is_deep_(search == SearchKind::dfs) {
+    state_.resize(graph.graph.vertex_count());
+  }
   SearchResult run(const Execution& execution) override {
     state_.clear();
-    return breadth_first(graph_.graph, graph_.start, graph_.goal, state_, [&] { return execution.should_stop(); });
+    const auto stop = [&] { return execution.should_stop(); };
+    return is_deep_ ? depth_first(graph_.graph, graph_.start, graph_.goal, state_, stop)
+                    : breadth_first(graph_.graph, graph_.start, graph_.goal, state_, stop);
   }
 
  private:
   const SearchGraph& graph_;
-  SearchState state_;
-};
-
-class DepthFirst : public GraphSearch {
- public:
-  explicit DepthFirst(const SearchGraph& graph) : graph_(graph) { state_.resize(graph.graph.vertex_count()); }
-  SearchResult run(const Execution& execution) override {
-    state_.clear();
-    return depth_first(graph_.graph, graph_.start, graph_.goal, state_, [&] { return execution.should_stop(); });
-  }
-
- private:
-  const SearchGraph& graph_;
+  bool is_deep_;
   SearchState state_;
 };
 
@@ -201,14 +194,8 @@ SearchGraph geometric_graph(std::uint32_t size, double degree, std::uint64_t see
 
 std::unique_ptr<GraphSearch> graph_search(const SearchGraph& graph, const SearchVariant& variant) {
   if (variant.library == SearchLibrary::boost) return boost_search(graph, variant.search);
-  switch (variant.search) {
-    case SearchKind::bfs:
-      return std::make_unique<BreadthFirst>(graph);
-    case SearchKind::dfs:
-      return std::make_unique<DepthFirst>(graph);
-    default:
-      return best_first_search(graph, variant.search, variant.queue.value_or(QueuePolicy::heap));
-  }
+  if (!has_queue(variant.search)) return std::make_unique<QueuelessSearch>(graph, variant.search);
+  return best_first_search(graph, variant.search, variant.queue.value_or(QueuePolicy::heap));
 }
 
 double path_length(const SearchGraph& graph, std::span<const VertexId> path) {
