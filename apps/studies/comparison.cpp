@@ -28,11 +28,6 @@ std::optional<Distribution> distribution(const Contender& contender, const Figur
   return distribution_of(values);
 }
 
-template <class Number>
-std::optional<double> if_solved(const ComparedRun& run, Number value) {
-  return run.solved() ? std::optional(static_cast<double>(value)) : std::nullopt;
-}
-
 /// A run that was cut says nothing about others.
 bool is_known(const Contender& c) {
   return c.deterministic && !c.runs.empty() && c.runs.front().outcome != Outcome::stopped;
@@ -140,19 +135,19 @@ ComparisonRow row_of(const Contender& contender) {
   row.runs = contender.runs.size();
   for (const ComparedRun& run : contender.runs) row.solved += run.solved() ? 1 : 0;
   row.success = success_of(contender, row);
-  row.length = distribution(contender, [](const ComparedRun& r) { return if_solved(r, r.length); });
+  /// A figure, or one that some runs have.
+  const auto of_solved = [&](auto ComparedRun::*figure) {
+    return distribution(
+        contender, [&](const ComparedRun& r) { return r.solved() ? std::optional<double>(r.*figure) : std::nullopt; });
+  };
+  row.length = of_solved(&ComparedRun::length);
   row.priced_cost = distribution(
       contender, [](const ComparedRun& r) { return r.solved() && r.is_priced ? r.cost : std::optional<double>(); });
-  row.hops = distribution(contender, [](const ComparedRun& r) { return if_solved(r, r.hops); });
-  row.min_clearance = distribution(
-      contender, [](const ComparedRun& r) { return r.solved() ? r.min_clearance : std::optional<double>(); });
-  row.cells = distribution(contender, [](const ComparedRun& r) {
-    return r.solved() && r.cells ? std::optional(static_cast<double>(*r.cells)) : std::nullopt;
-  });
-  row.turn_rad =
-      distribution(contender, [](const ComparedRun& r) { return r.solved() ? r.turn_rad : std::optional<double>(); });
-  row.search_s =
-      distribution(contender, [](const ComparedRun& r) { return r.solved() ? r.search_s : std::optional<double>(); });
+  row.hops = of_solved(&ComparedRun::hops);
+  row.min_clearance = of_solved(&ComparedRun::min_clearance);
+  row.cells = of_solved(&ComparedRun::cells);
+  row.turn_rad = of_solved(&ComparedRun::turn_rad);
+  row.search_s = of_solved(&ComparedRun::search_s);
   row.expanded =
       distribution(contender, [](const ComparedRun& r) { return std::optional(static_cast<double>(r.expanded)); });
   row.time_s = distribution(contender, [](const ComparedRun& r) { return std::optional(r.time_s); });
