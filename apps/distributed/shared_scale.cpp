@@ -189,13 +189,10 @@ int follow_runs(const tools::Arguments& arguments, Transport& transport) {
 }  // namespace
 
 tools::Command shared_scale_command(Transport& transport) {
-  tools::Command command{"scale", "", "measure how a streamed solve spreads over ranks", {}, {}};
-  tools::add_options(command.options, scale_specs);
-  tools::add_options(command.options, tools::run_option_specs());
-  command.run = [&](const tools::Arguments& arguments) {
-    return transport.rank() > 0 ? follow_runs(arguments, transport) : lead(arguments, transport);
-  };
-  return command;
+  return {"scale", "", "measure how a streamed solve spreads over ranks",
+          tools::joined_options({scale_specs, tools::run_option_specs()}), [&](const tools::Arguments& arguments) {
+            return transport.rank() > 0 ? follow_runs(arguments, transport) : lead(arguments, transport);
+          }};
 }
 
 }  // namespace warren::distributed

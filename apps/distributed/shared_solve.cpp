@@ -157,17 +157,13 @@ std::string facts_of(const InputFile& file, const Scene& scene) {
 }  // namespace
 
 tools::Command shared_solve_command(Transport& transport) {
-  tools::Command command{"solve", "WORLD", "find a path, verify it, print a summary, by all ranks together", {}, {}};
-  tools::add_options(command.options, tools::solve_option_specs());
-  tools::add_options(command.options, tools::question_option_specs());
-  tools::add_options(command.options, tools::answer_output_specs());
-  tools::add_options(command.options, tools::path_option_specs());
-  tools::add_options(command.options, tools::run_option_specs());
-  command.run = [&](const tools::Arguments& arguments) {
-    if (transport.rank() > 0) return follow_words(arguments, transport);
-    return SharedSolve(arguments, transport).run();
-  };
-  return command;
+  return {"solve", "WORLD", "find a path, verify it, print a summary, by all ranks together",
+          tools::joined_options({tools::solve_option_specs(), tools::question_option_specs(),
+                                 tools::answer_output_specs(), tools::path_option_specs(), tools::run_option_specs()}),
+          [&](const tools::Arguments& arguments) {
+            if (transport.rank() > 0) return follow_words(arguments, transport);
+            return SharedSolve(arguments, transport).run();
+          }};
 }
 
 FollowerLimits follower_limits(const tools::Arguments& arguments, Progress& progress) {

@@ -96,9 +96,7 @@ void add_several(const tools::OptionSpec& spec, const std::string& keyword, py::
 
 tools::Command command_of(std::string_view name, std::initializer_list<std::span<const tools::OptionSpec>> options,
                           std::initializer_list<std::string_view> without) {
-  tools::Command command{name, "", "", {}, {}};
-  for (const std::span<const tools::OptionSpec> table : options) tools::add_options(command.options, table, without);
-  return command;
+  return {name, "", "", tools::options_but(tools::joined_options(options), without), {}};
 }
 
 std::string word_of(py::handle value, const std::string& keyword) {

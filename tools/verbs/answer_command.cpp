@@ -34,11 +34,7 @@ constexpr OptionSpec output_specs[] = {
 
 }  // namespace
 
-std::vector<OptionSpec> answer_output_specs() {
-  std::vector<OptionSpec> specs(std::begin(output_specs), std::end(output_specs));
-  add_options(specs, picture_option_specs());
-  return specs;
-}
+std::vector<OptionSpec> answer_output_specs() { return joined_options({output_specs, picture_option_specs()}); }
 
 AnswerCommand::AnswerCommand(const Arguments& arguments, std::string_view keep)
     : arguments_(arguments),

@@ -256,11 +256,8 @@ int bench_scen(const Arguments& arguments) {
 }  // namespace
 
 Command bench_scen_command() {
-  Command command{
-      "bench-scen", "FILE.scen", "check a Moving AI scenario file against its published lengths", {}, bench_scen};
-  add_options(command.options, bench_scen_specs);
-  add_options(command.options, run_option_specs());
-  return command;
+  return {"bench-scen", "FILE.scen", "check a Moving AI scenario file against its published lengths",
+          joined_options({bench_scen_specs, run_option_specs()}), bench_scen};
 }
 
 }  // namespace warren::tools

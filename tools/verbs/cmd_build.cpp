@@ -35,8 +35,10 @@ constexpr OptionSpec build_specs[] = {
     {"--no-world", "", "leave the world out of the file; --world of 'warren query' then names it"},
 };
 
-/// Those that some planner that keeps a roadmap takes, and that a roadmap without a question can have.
-void add_kept_options(Command& command) {
+/// Those that some planner that keeps a roadmap takes, and that a roadmap without a question can have; the others
+/// become foreign to the command.
+std::vector<OptionSpec> kept_options(Command& command) {
+  std::vector<OptionSpec> kept;
   static const std::string planners = names_of_planners(keeps_roadmap);
   for (OptionSpec spec : solve_option_specs()) {
     const auto option = option_of_words(spec.name);
@@ -58,9 +60,10 @@ void add_kept_options(Command& command) {
     } else if (option && std::none_of(std::begin(all_planners), std::end(all_planners), takes)) {
       command.foreign.emplace_back(spec.name, "is for planners whose roadmaps can't be kept; 'warren solve' takes it");
     } else {
-      command.options.push_back(spec);
+      kept.push_back(spec);
     }
   }
+  return kept;
 }
 
 int build_roadmap_file(const Arguments& arguments) {
@@ -88,17 +91,15 @@ int build_roadmap_file(const Arguments& arguments) {
 }  // namespace
 
 Command build_command() {
-  Command command{"build", "WORLD", "build a roadmap once, for many questions", {}, build_roadmap_file};
-  add_options(command.options, build_specs);
-  add_kept_options(command);
-  add_options(command.options, question_option_specs(), {"--start", "--goal", "--goal-pose", "--contact"});
   const std::initializer_list<std::string_view> not_kept = {"--areas", "--speed-zones", "--keep-out", "--unknown"};
-  add_options(command.options, price_option_specs(), not_kept);
+  Command command{"build", "WORLD", "build a roadmap once, for many questions", {}, build_roadmap_file};
+  command.options =
+      joined_options({build_specs, kept_options(command),
+                      options_but(question_option_specs(), {"--start", "--goal", "--goal-pose", "--contact"}),
+                      options_but(price_option_specs(), not_kept), world_option_specs(), run_option_specs()});
   for (const std::string_view name : not_kept) {
     command.foreign.emplace_back(name, "is for questions that keep no roadmap; 'warren solve' takes it");
   }
-  add_options(command.options, world_option_specs());
-  add_options(command.options, run_option_specs());
   return command;
 }
 
@@ -149,11 +150,8 @@ int update_roadmap(const Arguments& arguments) {
 }  // namespace
 
 Command update_command() {
-  Command command{"update", "ROADMAP WORLD", "take a roadmap into a world that has changed", {}, update_roadmap};
-  add_options(command.options, update_specs);
-  add_options(command.options, world_option_specs());
-  add_options(command.options, run_option_specs());
-  return command;
+  return {"update", "ROADMAP WORLD", "take a roadmap into a world that has changed",
+          joined_options({update_specs, world_option_specs(), run_option_specs()}), update_roadmap};
 }
 
 }  // namespace warren::tools

@@ -303,11 +303,8 @@ constexpr OptionSpec own_specs[] = {
 
 /// The options of `solve` that compare takes as they are.
 std::vector<OptionSpec> passed_specs() {
-  std::vector<OptionSpec> specs;
-  add_options(specs, solve_option_specs(), {"--planner", "--seed", "--samples"});
-  add_options(specs, question_option_specs());
-  add_options(specs, price_option_specs());
-  return specs;
+  return joined_options({options_but(solve_option_specs(), {"--planner", "--seed", "--samples"}),
+                         question_option_specs(), price_option_specs()});
 }
 
 std::uint64_t count_or(const Arguments& arguments, std::string_view option, std::uint64_t usual) {
@@ -509,13 +506,10 @@ void check_heading(const CompareOptions& options, const Scene& scene) {
 }  // namespace
 
 Command compare_command() {
-  Command command{"compare", "[WORLD]", "measure planners, or searches and their queues, side by side", {}, {}};
-  add_options(command.options, compare_option_specs());
-  add_options(command.options, world_option_specs());
-  add_options(command.options, compare_output_specs);
-  add_options(command.options, run_option_specs(), {"--budget"});
-  command.run = [](const Arguments& arguments) { return CompareCommand(arguments).run(); };
-  return command;
+  return {"compare", "[WORLD]", "measure planners, or searches and their queues, side by side",
+          joined_options({compare_option_specs(), world_option_specs(), compare_output_specs,
+                          options_but(run_option_specs(), {"--budget"})}),
+          [](const Arguments& arguments) { return CompareCommand(arguments).run(); }};
 }
 
 std::vector<OptionSpec> compare_option_specs() {
@@ -524,8 +518,7 @@ std::vector<OptionSpec> compare_option_specs() {
     if (spec.name == "--graph" || spec.name == "--planners") spec.choices = planner_names();
     spec.is_list = spec.value == "LIST";
   }
-  add_options(specs, picture_option_specs());
-  add_options(specs, passed_specs());
+  specs = joined_options({specs, picture_option_specs(), passed_specs()});
   for (const Option option : listed) {
     const auto same = [&](const OptionSpec& spec) { return spec.name == option_flag(option); };
     std::find_if(specs.begin(), specs.end(), same)->is_list = true;

@@ -148,12 +148,8 @@ int convert(const Arguments& arguments) {
 }  // namespace
 
 Command convert_command() {
-  Command command{"convert", "WORLD", "write a world in another format", {}, convert};
-  add_options(command.options, convert_specs);
-  add_options(command.options, picture_option_specs());
-  add_options(command.options, world_option_specs());
-  add_options(command.options, run_option_specs());
-  return command;
+  return {"convert", "WORLD", "write a world in another format",
+          joined_options({convert_specs, picture_option_specs(), world_option_specs(), run_option_specs()}), convert};
 }
 
 }  // namespace warren::tools

@@ -115,9 +115,8 @@ std::string write_example_files(const Example& example, const std::string& folde
 }
 
 Command example_command() {
-  Command command{"example", "[NAME]", "write a world to try things on, or list them", {}, example};
-  add_options(command.options, example_specs);
-  return command;
+  return {"example", "[NAME]", "write a world to try things on, or list them", joined_options({example_specs}),
+          example};
 }
 
 }  // namespace warren::tools

@@ -98,12 +98,9 @@ int export_roadmap_file(const Arguments& arguments) {
 }  // namespace
 
 Command export_command() {
-  Command command{"export", "ROADMAP", "write a roadmap for other programs", {}, export_roadmap_file};
-  add_options(command.options, export_specs);
-  add_options(command.options, picture_option_specs());
-  add_options(command.options, world_option_specs());
-  add_options(command.options, run_option_specs());
-  return command;
+  return {"export", "ROADMAP", "write a roadmap for other programs",
+          joined_options({export_specs, picture_option_specs(), world_option_specs(), run_option_specs()}),
+          export_roadmap_file};
 }
 
 }  // namespace warren::tools

@@ -171,12 +171,8 @@ int generate(const Arguments& arguments) {
 }  // namespace
 
 Command generate_command() {
-  Command command{
-      "generate", "maze|polygons ROWSxCOLS|COUNT", "write a maze of any size, or any number of polygons", {}, generate};
-  add_options(command.options, generate_specs);
-  add_options(command.options, picture_option_specs());
-  add_options(command.options, run_option_specs());
-  return command;
+  return {"generate", "maze|polygons ROWSxCOLS|COUNT", "write a maze of any size, or any number of polygons",
+          joined_options({generate_specs, picture_option_specs(), run_option_specs()}), generate};
 }
 
 }  // namespace warren::tools

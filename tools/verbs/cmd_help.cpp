@@ -208,9 +208,7 @@ int man(const Arguments& arguments) {
 }  // namespace
 
 Command man_command() {
-  Command command{"man", "[COMMAND]", "print the manual page of warren, or of a command", {}, man};
-  add_options(command.options, man_specs);
-  return command;
+  return {"man", "[COMMAND]", "print the manual page of warren, or of a command", joined_options({man_specs}), man};
 }
 
 }  // namespace warren::tools

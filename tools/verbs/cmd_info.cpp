@@ -129,11 +129,8 @@ int info(const Arguments& arguments) {
 }  // namespace
 
 Command info_command() {
-  Command command{"info", "FILE", "say what is in a world or a roadmap", {}, info};
-  add_options(command.options, info_specs);
-  add_options(command.options, world_option_specs());
-  add_options(command.options, run_option_specs());
-  return command;
+  return {"info", "FILE", "say what is in a world or a roadmap",
+          joined_options({info_specs, world_option_specs(), run_option_specs()}), info};
 }
 
 }  // namespace warren::tools

@@ -121,14 +121,14 @@ int largest(const Arguments& arguments) {
 }  // namespace
 
 Command largest_command() {
-  Command command{"largest", "", "find the largest maze that is solved within a budget", {}, largest};
-  add_options(command.options, search_specs);
-  add_options(command.options, maze_option_specs());
-  add_options(command.options, roadmap_option_specs(), {"--seed"});
-  add_options(command.options, question_option_specs(), {"--start", "--goal"});
-  add_options(command.options, run_option_specs(), {"--budget"});
-  command.foreign.emplace_back("--step", "is called --precision");
-  return command;
+  return {"largest",
+          "",
+          "find the largest maze that is solved within a budget",
+          joined_options({search_specs, maze_option_specs(), options_but(roadmap_option_specs(), {"--seed"}),
+                          options_but(question_option_specs(), {"--start", "--goal"}),
+                          options_but(run_option_specs(), {"--budget"})}),
+          largest,
+          {{"--step", "is called --precision"}}};
 }
 
 }  // namespace warren::tools

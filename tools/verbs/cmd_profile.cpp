@@ -246,13 +246,10 @@ int profile(const Arguments& arguments) {
 }  // namespace
 
 Command profile_command() {
-  Command command{"profile", "WORLD", "measure what each stage of a solve costs", {}, profile};
-  add_options(command.options, profile_specs);
-  add_options(command.options, solve_option_specs());
-  add_options(command.options, question_option_specs());
-  add_options(command.options, world_option_specs());
-  add_options(command.options, run_option_specs());
-  return command;
+  return {"profile", "WORLD", "measure what each stage of a solve costs",
+          joined_options(
+              {profile_specs, solve_option_specs(), question_option_specs(), world_option_specs(), run_option_specs()}),
+          profile};
 }
 
 }  // namespace warren::tools

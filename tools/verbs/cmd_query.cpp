@@ -147,8 +147,8 @@ int query_roadmap(const Arguments& arguments) {
 }  // namespace
 
 Command query_command() {
-  Command command{"query", "ROADMAP", "ask a roadmap for a path, or for many", {}, query_roadmap};
-  add_options(command.options, query_specs);
+  Command command{"query", "ROADMAP", "ask a roadmap for a path, or for many", joined_options({query_specs}),
+                  query_roadmap};
   constexpr std::string_view fixed = "the roadmap was built with its own; another one takes `warren build`";
   const Command build = build_command();  // knows what it refuses itself, and why
   for (const OptionSpec& spec : solve_option_specs()) {
@@ -162,11 +162,9 @@ Command query_command() {
     }
   }
   for (const std::string_view name : {"--robot", "--clearance", "--contact"}) command.foreign.emplace_back(name, fixed);
-  add_options(command.options, question_option_specs(), {"--robot", "--clearance", "--contact", "--goal-pose"});
-  add_options(command.options, world_option_specs());
-  add_options(command.options, answer_output_specs());
-  add_options(command.options, path_option_specs());
-  add_options(command.options, run_option_specs());
+  command.options = joined_options(
+      {command.options, options_but(question_option_specs(), {"--robot", "--clearance", "--contact", "--goal-pose"}),
+       world_option_specs(), answer_output_specs(), path_option_specs(), run_option_specs()});
   return command;
 }
 

@@ -98,13 +98,10 @@ int render(const Arguments& arguments) {
 }  // namespace
 
 Command render_command() {
-  Command command{"render", "FILE", "draw a world, with the path of an answer, or a roadmap", {}, render};
-  add_options(command.options, render_specs);
-  add_options(command.options, picture_option_specs());
-  add_options(command.options, price_option_specs());
-  add_options(command.options, world_option_specs());
-  add_options(command.options, run_option_specs());
-  return command;
+  return {"render", "FILE", "draw a world, with the path of an answer, or a roadmap",
+          joined_options(
+              {render_specs, picture_option_specs(), price_option_specs(), world_option_specs(), run_option_specs()}),
+          render};
 }
 
 }  // namespace warren::tools

@@ -122,13 +122,12 @@ int scale(const Arguments& arguments) {
 }  // namespace
 
 Command scale_command() {
-  Command command{"scale", "", "measure how time and memory grow with size and threads", {}, scale};
-  add_options(command.options, study_specs);
-  add_options(command.options, maze_option_specs());
-  add_options(command.options, roadmap_option_specs(), {"--planner", "--sampler", "--seed"});
-  add_options(command.options, question_option_specs(), {"--start", "--goal", "--goal-pose"});
-  add_options(command.options, run_option_specs(), {"--budget", "--threads"});
-  return command;
+  return {"scale", "", "measure how time and memory grow with size and threads",
+          joined_options({study_specs, maze_option_specs(),
+                          options_but(roadmap_option_specs(), {"--planner", "--sampler", "--seed"}),
+                          options_but(question_option_specs(), {"--start", "--goal", "--goal-pose"}),
+                          options_but(run_option_specs(), {"--budget", "--threads"})}),
+          scale};
 }
 
 }  // namespace warren::tools

@@ -144,17 +144,16 @@ int serve(const Arguments& arguments) {
 }  // namespace
 
 Command serve_command() {
-  Command command{"serve", "FILE", "show a world or a roadmap in the browser, and answer by HTTP", {}, serve};
-  add_options(command.options, serve_specs);
-  add_options(command.options, question_option_specs(), {"--start", "--goal", "--goal-pose", "--contact"});
-  add_options(command.options, price_option_specs());
-  add_options(command.options, world_option_specs(), {"--request"});
-  add_options(command.options, run_option_specs(), {"--budget", "--trace"});
   constexpr std::string_view in_the_page = "is chosen in the page, or in each request";
-  for (const std::string_view name : {"--start", "--goal", "--planner", "--optimise"}) {
-    command.foreign.emplace_back(name, in_the_page);
-  }
-  return command;
+  return {"serve",
+          "FILE",
+          "show a world or a roadmap in the browser, and answer by HTTP",
+          joined_options({serve_specs,
+                          options_but(question_option_specs(), {"--start", "--goal", "--goal-pose", "--contact"}),
+                          price_option_specs(), options_but(world_option_specs(), {"--request"}),
+                          options_but(run_option_specs(), {"--budget", "--trace"})}),
+          serve,
+          {{"--start", in_the_page}, {"--goal", in_the_page}, {"--planner", in_the_page}, {"--optimise", in_the_page}}};
 }
 
 }  // namespace warren::tools

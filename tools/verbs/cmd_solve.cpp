@@ -121,17 +121,10 @@ class SolveCommand : public AnswerCommand {
 }  // namespace
 
 Command solve_command() {
-  Command command{"solve", "WORLD", "find a path, verify it, print a summary", {}, {}};
-  add_options(command.options, solve_option_specs());
-  add_options(command.options, question_option_specs());
-  add_options(command.options, asked_option_specs());
-  add_options(command.options, world_option_specs());
-  add_options(command.options, answer_output_specs());
-  add_options(command.options, path_option_specs());
-  add_options(command.options, solve_specs);
-  add_options(command.options, run_option_specs());
-  command.run = [](const Arguments& arguments) { return SolveCommand(arguments).run(); };
-  return command;
+  return {"solve", "WORLD", "find a path, verify it, print a summary",
+          joined_options({solve_option_specs(), question_option_specs(), asked_option_specs(), world_option_specs(),
+                          answer_output_specs(), path_option_specs(), solve_specs, run_option_specs()}),
+          [](const Arguments& arguments) { return SolveCommand(arguments).run(); }};
 }
 
 }  // namespace warren::tools

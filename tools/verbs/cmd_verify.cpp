@@ -120,13 +120,12 @@ int verify_answer(const Arguments& arguments) {
 }  // namespace
 
 Command verify_command() {
-  Command command{"verify", "WORLD ANSWER.json", "re-check an answer independently", {}, verify_answer};
-  add_options(command.options, question_option_specs());
-  add_options(command.options, asked_option_specs(), {"--alternatives", "--stretch", "--keep-to", "--unless-gain"});
-  add_options(command.options, verify_specs);
-  add_options(command.options, world_option_specs());
-  add_options(command.options, run_option_specs());
-  return command;
+  return {
+      "verify", "WORLD ANSWER.json", "re-check an answer independently",
+      joined_options({question_option_specs(),
+                      options_but(asked_option_specs(), {"--alternatives", "--stretch", "--keep-to", "--unless-gain"}),
+                      verify_specs, world_option_specs(), run_option_specs()}),
+      verify_answer};
 }
 
 }  // namespace warren::tools

@@ -88,9 +88,10 @@ struct Command {
 /// The option of that name or short name, by either spelling; nullptr: it has none.
 const OptionSpec* option_named(const Command& command, std::string_view name);
 
-/// Appends options that several verbs share, but for those named.
-void add_options(std::vector<OptionSpec>& to, std::span<const OptionSpec> more,
-                 std::initializer_list<std::string_view> without = {});
+/// All of them, one table after the other.
+std::vector<OptionSpec> joined_options(std::initializer_list<std::span<const OptionSpec>> tables);
+/// But for those named.
+std::vector<OptionSpec> options_but(std::span<const OptionSpec> options, std::initializer_list<std::string_view> names);
 
 // The verbs, in files cmd_NAME.cpp: update is in that of build, man in that of help.
 Command bench_scen_command();

@@ -100,11 +100,17 @@ std::string options_about(std::string_view asked, std::span<const Command> comma
 
 }  // namespace
 
-void add_options(std::vector<OptionSpec>& to, std::span<const OptionSpec> more,
-                 std::initializer_list<std::string_view> without) {
-  for (const OptionSpec& option : more) {
-    if (std::find(without.begin(), without.end(), option.name) == without.end()) to.push_back(option);
-  }
+std::vector<OptionSpec> joined_options(std::initializer_list<std::span<const OptionSpec>> tables) {
+  std::vector<OptionSpec> all;
+  for (const std::span<const OptionSpec> table : tables) all.insert(all.end(), table.begin(), table.end());
+  return all;
+}
+
+std::vector<OptionSpec> options_but(std::span<const OptionSpec> options,
+                                    std::initializer_list<std::string_view> names) {
+  std::vector<OptionSpec> others(options.begin(), options.end());
+  std::erase_if(others, [&](const OptionSpec& option) { return std::ranges::count(names, option.name) > 0; });
+  return others;
 }
 
 std::string option_usage(const OptionSpec& option) {

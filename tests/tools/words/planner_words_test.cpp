@@ -15,8 +15,7 @@ namespace warren::tools {
 namespace {
 
 Arguments words_of_solve(const std::vector<std::string>& words) {
-  Command command{"solve", "", "", solve_option_specs(), {}};
-  add_options(command.options, question_option_specs());
+  const Command command{"solve", "", "", joined_options({solve_option_specs(), question_option_specs()}), {}};
   return {command, words};
 }
 
@@ -37,8 +36,7 @@ void expect_choices(std::string_view option, E, std::size_t count = enum_names(E
   const auto names = enum_names(E{});
   std::string all;
   for (std::size_t i = 0; i < count; ++i) all.append(i == 0 ? "" : " ").append(names[i]);
-  std::vector<OptionSpec> specs = solve_option_specs();
-  add_options(specs, question_option_specs());
+  const std::vector<OptionSpec> specs = joined_options({solve_option_specs(), question_option_specs()});
   const OptionSpec* spec = spec_named(specs, option);
   ASSERT_NE(spec, nullptr) << option;
   EXPECT_EQ(spec->choices, all) << option;
