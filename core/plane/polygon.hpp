@@ -31,6 +31,13 @@ struct PolygonSet {
   }
 };
 
+/// Of all of them; empty where there are none.
+inline Box box_around(std::span<const Vec2> points) {
+  Box box;
+  for (const Vec2 p : points) box.include(p);
+  return box;
+}
+
 /// What blocks the plane: polygons that run anticlockwise, each simple, with three or more corners, no two in a
 /// row equal (checked where they are read, not here); walls; and the bounds, whose four sides are walls.
 struct PlaneObstacles {
@@ -42,8 +49,7 @@ struct PlaneObstacles {
 /// The bounds, or else the box of polygons and walls; empty where there is nothing.
 inline Box box_around(const PlaneObstacles& obstacles) {
   if (obstacles.bounds) return *obstacles.bounds;
-  Box box;
-  for (const Vec2 p : obstacles.polygons.corners) box.include(p);
+  Box box = box_around(obstacles.polygons.corners);
   for (const Segment& wall : obstacles.walls) box.include(box_of(wall));
   return box;
 }

@@ -64,12 +64,6 @@ RowInterval slice(std::span<const Vec2> convex, double radius, double y) {
   return interval;
 }
 
-Box box_around(std::span<const Vec2> points) {
-  Box box;
-  for (const Vec2 p : points) box.include(p);
-  return box;
-}
-
 /// Calls add(y, from, to) for each longest run of borders between rows y - 1 and y.
 template <class Add>
 void for_borders_between_rows(const Bitmap& blocked, const Execution& execution, const Add& add) {

@@ -68,12 +68,6 @@ constexpr double edge_opacity = 0.75;
 constexpr double far_opacity = 0.6;
 constexpr std::size_t items_a_poll = std::size_t{1} << 14U;
 
-struct OnTile {
-  Box box;
-  double pixel;
-  Vec2 operator()(Vec2 p) const { return {(p.x - box.min.x) / pixel, (box.max.y - p.y) / pixel}; }
-};
-
 constexpr std::size_t milestones_a_poll = std::size_t{1} << 14U;
 /// One edge in so many may be in the list that each box looks at.
 constexpr std::uint64_t edges_a_long_one = 256;

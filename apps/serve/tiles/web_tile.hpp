@@ -42,6 +42,13 @@ struct TileGrid {
   std::optional<TilePlace> tile_at(std::string_view zoom, std::string_view x, std::string_view y) const;
 };
 
+/// From the world to the pixels of a tile, y down.
+struct OnTile {
+  Box box;
+  double pixel;
+  Vec2 operator()(Vec2 p) const { return {(p.x - box.min.x) / pixel, (box.max.y - p.y) / pixel}; }
+};
+
 /// Cells of a grid on tiles: a pixel has 2^level cells a side, or a cell 2^-level pixels, so that pixels and cells
 /// never lie askew.
 struct CellsOnTiles {

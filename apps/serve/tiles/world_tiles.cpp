@@ -285,12 +285,6 @@ std::size_t shape_count(const Scene& scene) { return scene.walls.size() + scene.
 
 BoxOf<2> as_item(const Box& box) { return {{box.min.x, box.min.y}, {box.max.x, box.max.y}}; }
 
-Box box_of_corners(const ScenePolygon& polygon) {
-  Box box;
-  for (const Vec2 p : polygon.corners) box.include(p);
-  return box;
-}
-
 std::vector<BoxOf<2>> boxes_of(const Scene& scene, const Execution& execution) {
   if (shape_count(scene) > most_shapes) {
     throw UsageError(fmt::format("a world of {} walls and polygons is too large to be shown; at most {} are",
@@ -303,7 +297,7 @@ std::vector<BoxOf<2>> boxes_of(const Scene& scene, const Execution& execution) {
     boxes.push_back(as_item(box));
   };
   for (std::size_t i = 0; i < scene.walls.size(); ++i) add(box_of(scene.walls.segment(i)));
-  for (const ScenePolygon& polygon : scene.polygons) add(box_of_corners(polygon));
+  for (const ScenePolygon& polygon : scene.polygons) add(box_around(polygon.corners));
   return boxes;
 }
 
@@ -320,7 +314,15 @@ class SeamSides {
     for (const Segment& seam : scene.seams) sides_.push_back(ordered(seam.a, seam.b));
     polled_sort(sides_.begin(), sides_.end(), execution);
   }
-  bool holds(Vec2 a, Vec2 b) const { return std::binary_search(sides_.begin(), sides_.end(), ordered(a, b)); }
+  /// Calls visit(a, b) for all other sides of a polygon.
+  template <class Visit>
+  void for_each_other_side(const ScenePolygon& polygon, const Visit& visit) const {
+    Vec2 a = polygon.corners.back();
+    for (const Vec2 b : polygon.corners) {
+      if (!std::binary_search(sides_.begin(), sides_.end(), ordered(a, b))) visit(a, b);
+      a = b;
+    }
+  }
 
  private:
   /// With the lower end first, as sides and seams are compared.
@@ -343,11 +345,7 @@ std::vector<Segment> sides_of(const Scene& scene, const SeamSides& seams, const 
   }
   for (const ScenePolygon& polygon : scene.polygons) {
     execution.check();
-    Vec2 a = polygon.corners.back();
-    for (const Vec2 b : polygon.corners) {
-      if (!seams.holds(a, b)) sides.push_back({a, b});
-      a = b;
-    }
+    seams.for_each_other_side(polygon, [&](Vec2 a, Vec2 b) { sides.push_back({a, b}); });
   }
   return sides;
 }
@@ -361,6 +359,14 @@ std::vector<BoxOf<2>> boxes_of(const std::vector<Segment>& sides, const Executio
   return boxes;
 }
 
+PolygonSet outline_on(const OnTile& tile, const ScenePolygon& polygon) {
+  std::vector<Vec2> corners;
+  for (const Vec2 p : polygon.corners) corners.push_back(tile(p));
+  PolygonSet one;
+  one.add(corners);
+  return one;
+}
+
 class ShapeTiles : public WorldTiles {
  public:
   ShapeTiles(const Scene& scene, const Execution& execution)
@@ -371,8 +377,10 @@ class ShapeTiles : public WorldTiles {
 
   std::string draw(const TilePlace& place, const Execution& execution) const override {
     Image image(TileGrid::pixels, TileGrid::pixels, colors::paper, execution);
-    const Brush brush{image, grid().box_of(place), grid().pixel(place.zoom), execution};
-    const std::vector<std::uint32_t> shapes = shapes_in(brush.box.grown(2.0 * wall_pixels * brush.pixel), execution);
+    const OnTile on_tile{grid().box_of(place), grid().pixel(place.zoom)};
+    const Brush brush{image, on_tile, execution};
+    const std::vector<std::uint32_t> shapes =
+        shapes_in(on_tile.box.grown(2.0 * wall_pixels * on_tile.pixel), execution);
     const auto walls = static_cast<std::uint32_t>(scene_.walls.size());
     const auto polygons = std::lower_bound(shapes.begin(), shapes.end(), walls);
     std::for_each(polygons, shapes.end(), [&](std::uint32_t i) { fill(brush, scene_.polygons[i - walls]); });
@@ -395,13 +403,7 @@ class ShapeTiles : public WorldTiles {
     Mask mask(TileGrid::pixels, TileGrid::pixels, execution);
     for (const std::uint32_t i : shapes_in(box, execution)) {
       if (i < scene_.walls.size()) continue;
-      PolygonSet one;
-      std::vector<Vec2> corners;
-      for (const Vec2 p : scene_.polygons[i - scene_.walls.size()].corners) {
-        corners.push_back({(p.x - box.min.x) / pixel, (box.max.y - p.y) / pixel});
-      }
-      one.add(corners);
-      mask.fill(one, 1.0, execution);
+      mask.fill(outline_on({box, pixel}, scene_.polygons[i - scene_.walls.size()]), 1.0, execution);
     }
     return mask;
   }
@@ -409,13 +411,11 @@ class ShapeTiles : public WorldTiles {
  private:
   struct Brush {
     Image& image;
-    Box box;
-    double pixel;
+    OnTile on_tile;
     const Execution& execution;
 
-    Vec2 at(Vec2 p) const { return {(p.x - box.min.x) / pixel, (box.max.y - p.y) / pixel}; }
     void line(const Segment& s, double width) const {
-      image.draw_line(at(s.a), at(s.b), width, width == wall_pixels ? colors::wall : colors::outline);
+      image.draw_line(on_tile(s.a), on_tile(s.b), width, width == wall_pixels ? colors::wall : colors::outline);
     }
   };
 
@@ -431,19 +431,11 @@ class ShapeTiles : public WorldTiles {
     return shapes;
   }
   static void fill(const Brush& brush, const ScenePolygon& polygon) {
-    std::vector<Vec2> corners;
-    for (const Vec2 p : polygon.corners) corners.push_back(brush.at(p));
-    PolygonSet one;
-    one.add(corners);
-    brush.image.fill(one, colors::polygon, 1.0, brush.execution);
+    brush.image.fill(outline_on(brush.on_tile, polygon), colors::polygon, 1.0, brush.execution);
   }
   void outline(const Brush& brush, const ScenePolygon& polygon) const {
     brush.execution.check();
-    Vec2 a = polygon.corners.back();
-    for (const Vec2 b : polygon.corners) {
-      if (!seams_.holds(a, b)) brush.line({a, b}, outline_pixels);
-      a = b;
-    }
+    seams_.for_each_other_side(polygon, [&](Vec2 a, Vec2 b) { brush.line({a, b}, outline_pixels); });
   }
 
   const Scene& scene_;
