@@ -57,7 +57,7 @@ bool pack(std::span<const Vec2> path, std::size_t first, std::size_t last, std::
   return wrong == 0;
 }
 
-constexpr std::size_t points_a_poll = std::size_t{1} << 16U;
+constexpr std::size_t legs_a_poll = std::size_t{1} << 16U;
 constexpr std::size_t blocks_a_look = 64;
 /// Points in a chain that doubles, and the same again where they are joined.
 constexpr std::size_t bytes_a_block = 4 * KeptCurve::block_points * sizeof(Vec2);
@@ -122,15 +122,17 @@ class JoinedChains {
   bool ends_seen_ = false;
 };
 
-constexpr std::size_t legs_a_poll = std::size_t{1} << 16U;
-
-PathState only_state(const Answer& answer) {
-  if (answer.states.empty()) return {.numbers = {answer.path.front().x, answer.path.front().y}, .width = 2};
+PathState kept_state(const Answer& answer, std::size_t i) {
   PathState state;
   state.width = answer.states.width;
-  std::ranges::copy(answer.states[0], state.numbers.begin());
+  std::ranges::copy(answer.states[i], state.numbers.begin());
   return state;
 }
+PathState only_state(const Answer& answer) {
+  if (answer.states.empty()) return {.numbers = {answer.path.front().x, answer.path.front().y}, .width = 2};
+  return kept_state(answer, 0);
+}
+Vec2 at(const PathState& state) { return {state.numbers[0], state.numbers[1]}; }
 
 /// Goes along a path, leg by leg.
 class Walk {
@@ -154,11 +156,9 @@ class Walk {
     if (leg_ % legs_a_poll == 0) execution_.check();
     length_ = legs_.length(leg_);
     way_ = length_;
-    if (legs_.shape() != LegShape::turning) return;
-    const PathState from = legs_.at(leg_, 0.0);
-    const PathState to = legs_.at(leg_, 1.0);
-    way_ = std::sqrt((to.numbers[0] - from.numbers[0]) * (to.numbers[0] - from.numbers[0]) +
-                     (to.numbers[1] - from.numbers[1]) * (to.numbers[1] - from.numbers[1]));
+    if (legs_.shape() == LegShape::turning) {
+      way_ = distance(serve::at(legs_.at(leg_, 0.0)), serve::at(legs_.at(leg_, 1.0)));
+    }
   }
 
   const PathLegs& legs_;
@@ -192,8 +192,6 @@ std::optional<Shares> shares_in(const Box& box, Vec2 from, Vec2 to) {
       clip(from.x, to.x - from.x, box.min.x, box.max.x) && clip(from.y, to.y - from.y, box.min.y, box.max.y);
   return is_seen ? std::optional(seen) : std::nullopt;
 }
-
-Vec2 at(const PathState& state) { return {state.numbers[0], state.numbers[1]}; }
 
 class BodyWalk {
  public:
@@ -252,16 +250,10 @@ void walk_curve(const KeptCurve& curve, const Box& box, BodyWalk& walk) {
 }
 
 PathState goal_of(const Answer& way, const KeptCurve& curve) {
-  PathState state;
-  if (way.states.empty()) {
-    std::vector<Vec2> room;
-    const Vec2 last = curve.points(curve.block_count() - 1, room).back();
-    state.numbers = {last.x, last.y};
-    return state;
-  }
-  state.width = way.states.width;
-  std::ranges::copy(way.states[way.states.size() - 1], state.numbers.begin());
-  return state;
+  if (!way.states.empty()) return kept_state(way, way.states.size() - 1);
+  std::vector<Vec2> room;
+  const Vec2 last = curve.points(curve.block_count() - 1, room).back();
+  return {.numbers = {last.x, last.y}};
 }
 
 }  // namespace
@@ -362,11 +354,10 @@ Path<Vec2> curve_of(const Answer& answer, const Execution& execution) {
   const PathLegs legs(answer);
   Path<Vec2> curve{answer.path.front()};
   for (std::size_t leg = 0; leg < legs.leg_count(); ++leg) {
-    if (leg % points_a_poll == 0) execution.check();
+    if (leg % legs_a_poll == 0) execution.check();
     const double parts = std::clamp(std::ceil(legs.length(leg) / (most_turn_rad * legs.radius(leg))), 1.0, 1000.0);
     for (double k = 1.0; k <= parts; k += 1.0) {
-      const PathState state = legs.at(leg, k / parts);
-      curve.push_back({state.numbers[0], state.numbers[1]});
+      curve.push_back(at(legs.at(leg, k / parts)));
     }
   }
   return curve;
@@ -375,7 +366,7 @@ Path<Vec2> curve_of(const Answer& answer, const Execution& execution) {
 std::vector<std::vector<Vec2>> seen_of(const KeptCurve& curve, const PathView& view, const Execution& execution) {
   std::vector<std::size_t> blocks;
   for (std::size_t block = 0; block < curve.block_count(); ++block) {
-    if (block % points_a_poll == 0) execution.check();
+    if (block % legs_a_poll == 0) execution.check();
     if (curve.box(block).meets(view.box)) blocks.push_back(block);
   }
   JoinedChains joined(view);
