@@ -627,11 +627,7 @@ void WritableService::check_token(const HttpRequest& request) const {
 HttpResponse WritableService::update(const HttpRequest& request, const Execution& execution) {
   const SceneChange wanted = read_scene_change(request.body, execution);
   CurrentValue<Version>::Change change(current_);
-  if (!change.is_mine()) {
-    HttpResponse busy = error_response(503, "busy", "", "somebody else changes the world now; try again");
-    busy.fields.emplace_back("Retry-After", "1");
-    return busy;
-  }
+  if (!change.is_mine()) return busy_response("somebody else changes the world now; try again");
   const auto before = current_.now();
   if (const std::string_view why = before->world->why_fixed(); !why.empty()) throw UsageError(std::string(why));
   const Scene& scene = before->world->whole(execution);

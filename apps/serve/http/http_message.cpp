@@ -26,6 +26,12 @@ HttpResponse error_response(const HttpError& error) {
   return error_response(error.status, error.code, error.where, error.what());
 }
 
+HttpResponse busy_response(std::string_view message) {
+  HttpResponse busy = error_response(503, "busy", "", message);
+  busy.fields.emplace_back("Retry-After", "1");
+  return busy;
+}
+
 namespace {
 
 std::string decoded(std::string_view text, bool plus_is_blank) {

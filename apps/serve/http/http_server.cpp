@@ -228,6 +228,12 @@ double seconds_between(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
 }
 
+/// Did the bytes end before a whole request was there?
+bool has_ended(const Code& code) {
+  return code == http::error::end_of_stream || code == http::error::partial_message ||
+         (code && code.category() == boost::system::system_category());
+}
+
 /// Has the other end closed the connection? Told even where bytes wait that nobody has read.
 bool has_gone(Tcp::socket& socket) {
   tcp_info info{};
@@ -382,9 +388,7 @@ class HttpServer::Connections {
                             while_open(c, [this, &c](const Code& code) { take_head(c, code); }));
   }
   void take_head(Connection& c, const Code& code) {
-    if (code == http::error::end_of_stream || (code && code.category() == boost::system::system_category()))
-      return close(c);
-    if (code == http::error::partial_message) return close(c);
+    if (has_ended(code)) return close(c);
     try {
       if (code) throw error_of_parser(code);
       c.request = request_of(c.parser->get());
@@ -410,8 +414,7 @@ class HttpServer::Connections {
     enter(c, Stage::body, limits_.body_s);
     http::async_read(c.socket, c.buffer, *c.parser, while_open(c, [this, &c](const Code& code) {
                        if (code == http::error::body_limit) return refuse(c, error_of_parser(code));
-                       if (code && code.category() == boost::system::system_category()) return close(c);
-                       if (code == http::error::end_of_stream || code == http::error::partial_message) return close(c);
+                       if (has_ended(code)) return close(c);
                        code ? refuse(c, error_of_parser(code)) : take_request(c);
                      }));
   }
@@ -447,9 +450,7 @@ class HttpServer::Connections {
     jobs_.erase(number);
     c.job = nullptr;
     figures_.working = jobs_.size();
-    HttpResponse busy = error_response(503, "busy", "", "too many requests wait; try again");
-    busy.fields.emplace_back("Retry-After", "1");
-    write(c, std::move(busy));
+    write(c, busy_response("too many requests wait; try again"));
   }
   /// Whoever has gone wants no answer, whatever was sent before that.
   void leave(Connection& c) {
@@ -491,8 +492,7 @@ class HttpServer::Connections {
     c.socket.cancel(ignored);  // a read that took too long; it may still go on for a while, by buffer and parser
     if (said.body.size() > limits_.small_body && unsent_bytes_ > 0 &&
         unsent_bytes_ + said.body.size() > limits_.unsent_bytes) {
-      said = error_response(503, "busy", "", "too many large answers are on their way; try again");
-      said.fields.emplace_back("Retry-After", "1");
+      said = busy_response("too many large answers are on their way; try again");
     }
     c.unsent_bytes = said.body.size() > limits_.small_body ? said.body.size() : 0;
     unsent_bytes_ += c.unsent_bytes;
