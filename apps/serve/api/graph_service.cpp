@@ -28,43 +28,46 @@ std::vector<DrawnEdge> edges_of(const RouteGraph& graph, const std::vector<Route
                               blocked, verdicts.size(), edge.id, edge.from, edge.to, words_of(verdicts[first])));
 }
 
-}  // namespace
-
-HttpResponse GraphService::answer(Place place, std::string_view body, const Execution& execution) const {
-  if (place == Place::check)
-    return {.body = verdicts_json(judge(execution).judge(read_drawn_edges(body, execution), execution))};
-  if (place == Place::open_graph) return told(read_nav2_graph(body, execution), execution);
-  if (place == Place::save_graph) return saved(read_graph_json(body, execution), execution);
-  return told(built(body, execution), execution);
-}
-
-const EdgeJudge& GraphService::judge(const Execution& execution) const {
-  check_drives_edges(world_.robot());
-  if (world_.query() != nullptr && world_.query()->roadmap().lattice != nullptr) {
+const EdgeJudge& judge_of(const ServedWorld& world, const Execution& execution) {
+  check_drives_edges(world.robot());
+  if (world.query() != nullptr && world.query()->roadmap().lattice != nullptr) {
     throw UsageError("a large maze is asked by its lattice, and route graphs are for maps and scenes");
   }
-  return world_.judge(execution);
+  return world.judge(execution);
 }
 
-RouteGraph GraphService::built(std::string_view body, const Execution& execution) const {
+RouteGraph asked_graph(const ServedWorld& world, std::string_view body, const Execution& execution) {
   const GraphOptions options = read_graph_options(body);
-  judge(execution);  // or there are no such graphs
+  judge_of(world, execution);  // or there are no such graphs
   const bool is_as_it_is = options.kind == GraphKind::roadmap && !options.samples && !options.neighbours;
-  if (world_.query() != nullptr && is_as_it_is) return graph_of_roadmap(world_.query()->roadmap(), execution);
-  return built_graph(world_.barred(execution), world_.robot(), world_.clearance(), options, execution);
+  if (world.query() != nullptr && is_as_it_is) return graph_of_roadmap(world.query()->roadmap(), execution);
+  return built_graph(world.barred(execution), world.robot(), world.clearance(), options, execution);
 }
 
-HttpResponse GraphService::told(const RouteGraph& graph, const Execution& execution) const {
-  const std::vector<EdgeVerdict> verdicts = judge(execution).judge(edges_of(graph, ends_of(graph)), execution);
+HttpResponse told_graph(const ServedWorld& world, const RouteGraph& graph, const Execution& execution) {
+  const std::vector<EdgeVerdict> verdicts =
+      judge_of(world, execution).judge(edges_of(graph, ends_of(graph)), execution);
   return {.body = graph_json(graph, verdicts, execution)};
 }
 
-HttpResponse GraphService::saved(const RouteGraph& graph, const Execution& execution) const {
+HttpResponse saved_graph(const ServedWorld& world, const RouteGraph& graph, const Execution& execution) {
   const std::vector<RouteEnds> ends = ends_of(graph);
-  const std::vector<EdgeVerdict> verdicts = judge(execution).judge(edges_of(graph, ends), execution);
+  const std::vector<EdgeVerdict> verdicts = judge_of(world, execution).judge(edges_of(graph, ends), execution);
   const auto first = std::find_if(verdicts.begin(), verdicts.end(), [](const EdgeVerdict& v) { return !v.free; });
   if (first != verdicts.end()) refuse_blocked(graph, verdicts, static_cast<std::size_t>(first - verdicts.begin()));
   return {.type = "application/geo+json", .body = nav2_graph_text(graph, ends, execution)};
+}
+
+}  // namespace
+
+HttpResponse answer_of_graphs(const ServedWorld& world, Place place, std::string_view body,
+                              const Execution& execution) {
+  if (place == Place::check) {
+    return {.body = verdicts_json(judge_of(world, execution).judge(read_drawn_edges(body, execution), execution))};
+  }
+  if (place == Place::open_graph) return told_graph(world, read_nav2_graph(body, execution), execution);
+  if (place == Place::save_graph) return saved_graph(world, read_graph_json(body, execution), execution);
+  return told_graph(world, asked_graph(world, body, execution), execution);
 }
 
 }  // namespace warren::serve

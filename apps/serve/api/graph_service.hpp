@@ -14,21 +14,7 @@
 
 namespace warren::serve {
 
-/// Refers to the world. Any number of threads may ask.
-class GraphService {
- public:
-  explicit GraphService(const ServedWorld& world) : world_(world) {}
-
-  /// One of the places that is_of_graphs() knows. Throws HttpError, UsageError, InputError, Stopped.
-  HttpResponse answer(Place place, std::string_view body, const Execution& execution) const;
-
- private:
-  const EdgeJudge& judge(const Execution& execution) const;
-  RouteGraph built(std::string_view body, const Execution& execution) const;
-  HttpResponse told(const RouteGraph& graph, const Execution& execution) const;
-  HttpResponse saved(const RouteGraph& graph, const Execution& execution) const;
-
-  const ServedWorld& world_;
-};
+/// place: one that is_of_graphs() knows. Throws HttpError, UsageError, InputError, Stopped.
+HttpResponse answer_of_graphs(const ServedWorld& world, Place place, std::string_view body, const Execution& execution);
 
 }  // namespace warren::serve

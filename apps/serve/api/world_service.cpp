@@ -375,7 +375,6 @@ WorldService::WorldService(const ServedWorld& world, const ServiceLimits& limits
       limits_(limits),
       layers_(world),
       world_json_(description_json(world, world.body_asked({}, {}), layers_, limits, Execution())),
-      graphs_(world),
       tiles_(limits.tile_bytes),
       paths_(world, limits) {}
 
@@ -443,7 +442,7 @@ HttpResponse WorldService::work(const HttpRequest& request, const SignalFlag& go
   if (asked.place == Place::scene) return scene(request, execution);
   if (asked.place == Place::world)
     return {.body = description_json(world_, body_in(request), layers_, limits_, execution)};
-  if (is_of_graphs(asked.place)) return graphs_.answer(asked.place, request.body, execution);
+  if (is_of_graphs(asked.place)) return answer_of_graphs(world_, asked.place, request.body, execution);
   return paths_.answer(asked, request, execution);
 }
 

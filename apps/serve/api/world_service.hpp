@@ -148,7 +148,6 @@ class WorldService : public HttpService {
   const ServiceLimits limits_;
   WorldLayers layers_;
   const std::string world_json_;
-  const GraphService graphs_;
   KeptValues<std::string> tiles_;
   PathService paths_;
   RunningQuestions running_;

@@ -27,10 +27,10 @@ constexpr const char* route = R"({"type":"FeatureCollection","name":"yard","feat
 class Graphs {
  public:
   explicit Graphs(const std::string& scene = town, const std::string& robot = "disc 1")
-      : world_(scene_of(scene), {.robot = robot_value("robot", robot)}, {}), graphs_(world_) {}
+      : world_(scene_of(scene), {.robot = robot_value("robot", robot)}, {}) {}
   HttpResponse asked(Place place, const std::string& body) {
     try {
-      return graphs_.answer(place, body, {});
+      return answer_of_graphs(world_, place, body, {});
     } catch (const HttpError& error) {
       return error_response(error);
     } catch (const UsageError& error) {
@@ -43,7 +43,6 @@ class Graphs {
 
  private:
   ServedWorld world_;
-  GraphService graphs_;
 };
 
 void expect_all_free(const Json& graph) {
