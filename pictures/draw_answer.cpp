@@ -363,12 +363,8 @@ Picture picture_of(const Scene& scene, const Drawing& drawing, const DrawingPage
 
 std::vector<std::string> write_picture(const std::string& file, const Scene& scene, const Answer& answer,
                                        ByProducts made, const PictureOptions& options, const Execution& execution) {
-  std::optional<Scene> bordered;
-  if (scene.map && scene.walls.size() == 0) {
-    bordered = scene;
-    add_map_walls(*bordered, execution);
-  }
-  const Scene& shown = bordered ? *bordered : scene;
+  std::optional<Scene> copy;
+  const Scene& shown = with_map_walls(scene, copy, execution);
   const Drawing drawing = drawing_of(shown, answer, std::move(made), execution, options.heading);
   return write_picture(file, picture_of(shown, drawing), options, execution);
 }

@@ -197,12 +197,8 @@ Drawing drawing_of(const Scene& scene, const Roadmap& roadmap, const Execution& 
 void draw_roadmap(const Roadmap& roadmap, const std::string& description, std::optional<double> heading_rad,
                   const Execution& execution, const std::function<void(const Picture&)>& draw) {
   const Scene& world = roadmap.world.whole(execution);
-  Scene bordered;
-  if (world.map) {
-    bordered = world;
-    add_map_walls(bordered, execution);
-  }
-  const Scene& scene = world.map ? bordered : world;
+  std::optional<Scene> copy;
+  const Scene& scene = with_map_walls(world, copy, execution);
   const Drawing drawing = drawing_of(scene, roadmap, execution, heading_rad);
   Picture picture = picture_of(scene, drawing);
   picture.title = title_of(world);

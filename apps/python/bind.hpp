@@ -5,8 +5,6 @@
 
 #include <pybind11/pybind11.h>
 
-#include <optional>
-
 #include "apps/python/library_calls.hpp"
 #include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
@@ -24,9 +22,6 @@ struct KeptAnswer {
 /// An answer as it is told, without what nobody asked to keep. Throws what Python's handlers of signals raise that have
 /// stopped it, or its explanation.
 KeptAnswer finished(KeptAnswer said, bool keep, CallLimits& limits);
-
-/// The scene with the borders of a map's cells as walls, as pictures and files of walls show it: itself, or `copy`.
-const Scene& bordered(const Scene& scene, std::optional<Scene>& copy, const Execution& execution);
 
 void bind_worlds(pybind11::module_& module);
 void bind_answers(pybind11::module_& module);

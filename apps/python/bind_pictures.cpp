@@ -41,7 +41,7 @@ py::bytes picture_of_world(const Scene& scene, const std::string& format, const 
   const PictureOptions options = options_of(format, keywords);
   return CallLimits().run([&](const Execution& execution) {
     std::optional<Scene> copy;
-    const Scene& shown = bordered(scene, copy, execution);
+    const Scene& shown = with_map_walls(scene, copy, execution);
     Picture picture{.scene = shown, .start = plane_point(scene.start), .goal = plane_point(scene.goal)};
     picture.title = description_of(scene);
     Drawing drawing;
@@ -56,7 +56,7 @@ py::bytes picture_of_answer(const KeptAnswer& kept, const Scene& scene, const st
   const PictureOptions options = options_of(format, keywords);
   return CallLimits().run([&](const Execution& execution) {
     std::optional<Scene> copy;
-    const Scene& shown = bordered(scene, copy, execution);
+    const Scene& shown = with_map_walls(scene, copy, execution);
     Drawing drawing = drawing_of(shown, kept.answer, kept.made, execution, options.heading);
     if (kept.made.roadmap.states.empty()) drawing.roadmap.reset();  // nothing was kept: no empty layers
     if (moving && !kept.answer.path.empty()) animate(drawing);
@@ -128,13 +128,6 @@ py::tuple body_of(const Answer& answer) {
 }
 
 }  // namespace
-
-const Scene& bordered(const Scene& scene, std::optional<Scene>& copy, const Execution& execution) {
-  if (!scene.map || scene.walls.size() > 0) return scene;
-  copy = scene;
-  add_map_walls(*copy, execution);
-  return *copy;
-}
 
 void bind_pictures(py::module_& module) {
   module.def("picture_of_world", &picture_of_world);

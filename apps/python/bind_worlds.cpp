@@ -390,7 +390,7 @@ std::vector<std::string_view> write_by_ending(const Scene& scene, const std::str
       if (!scene.map) made = map_of_scene(scene, *cell, execution);
       write_map(made ? *made : *scene.map, path, execution);
     } else {
-      write_scene(bordered(scene, copy, execution), path, execution);
+      write_scene(with_map_walls(scene, copy, execution), path, execution);
     }
     return parts_left_out(scene, path, made ? &*made : nullptr);
   });

@@ -446,12 +446,9 @@ studies::PlannerContestOptions priced_contest(const Scene& scene, studies::Plann
 void compare_planners(const Scene& scene, const studies::PlannerContestOptions& asked, const Execution& execution,
                       studies::Comparison& comparison) {
   const studies::PlannerContestOptions contest = priced_contest(scene, asked, execution, comparison);
-  std::optional<Scene> bordered;
-  if (scene.map && scene.walls.size() == 0 && needs_map_walls(scene, contest)) {
-    bordered = scene;
-    add_map_walls(*bordered, execution);
-  }
-  const Scene& world = bordered ? *bordered : scene;
+  std::optional<Scene> copy;
+  const bool has_borders = scene.map && needs_map_walls(scene, contest);
+  const Scene& world = has_borders ? with_map_walls(scene, copy, execution) : scene;
   try {
     studies::run_planner_contest(world, contest, execution, comparison);
   } catch (const UsageError& error) {

@@ -186,6 +186,13 @@ void add_map_walls(Scene& scene, const Execution& execution) {
   if (scene.map && scene.walls.size() == 0) scene.walls = WallSet::narrowest(border_walls(*scene.map, execution));
 }
 
+const Scene& with_map_walls(const Scene& scene, std::optional<Scene>& copy, const Execution& execution) {
+  if (!scene.map || scene.walls.size() > 0) return scene;
+  copy = scene;
+  add_map_walls(*copy, execution);
+  return *copy;
+}
+
 OccupancyMap map_of_scene(const Scene& scene, double cell, const Execution& execution) {
   if (!(cell > 0.0) || !std::isfinite(cell)) throw InputError("cell", "must be above 0", std::to_string(cell));
   const Box box = scene.bounds ? *scene.bounds : obstacle_box(scene, execution);

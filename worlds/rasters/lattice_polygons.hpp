@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -52,6 +53,8 @@ std::vector<Segment> border_walls(const OccupancyMap& map, const Execution& exec
 
 /// Gives a scene that is a map its border walls, for planners and pictures of walls; does nothing to other scenes.
 void add_map_walls(Scene& scene, const Execution& execution);
+/// The scene with them: itself where it has walls or is no map, else `copy`.
+const Scene& with_map_walls(const Scene& scene, std::optional<Scene>& copy, const Execution& execution);
 
 /// The scene as cells of a given side from the lower corner of its bounds, or of its obstacles' box: a cell is blocked
 /// if its closed square touches a wall or a polygon (its inside too). Throws InputError for cells beside 0 or more than
