@@ -288,14 +288,8 @@ void Leader::join_trees(std::vector<maze::RimPart> rims, const Execution& execut
 
 /// Of a key the overlay has a row, a count, two labels and a parent.
 bool Leader::can_hold(std::size_t bytes, std::uint64_t keys, const Execution& execution) const {
-  if (keys > most_keys_) return false;
-  try {
-    execution.reserve(bytes + keys * (32 + 1 + 2 * sizeof(double) + sizeof(VertexId)));
-    return true;
-  } catch (const Stopped& stopped) {
-    if (stopped.reason != StopReason::memory) throw;
-    return false;
-  }
+  const auto reserve = [&] { execution.reserve(bytes + keys * (32 + 1 + 2 * sizeof(double) + sizeof(VertexId))); };
+  return keys <= most_keys_ && memory_holds(reserve);
 }
 
 /// Each reduces its tiles, and keeps them. own: those of this rank.

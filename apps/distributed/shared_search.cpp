@@ -403,13 +403,7 @@ std::size_t BandRounds::lacking_bytes() const {
   for (const TileSummary& tile : tiles_) {
     needed += (tile.keys.size() + tile.crossings[1].size() + tile.crossings[3].size()) * bytes_of_key;
   }
-  try {
-    execution_.reserve(needed);
-    return 0;
-  } catch (const Stopped& stopped) {
-    if (stopped.reason != StopReason::memory) throw;
-    return needed;
-  }
+  return memory_holds([&] { execution_.reserve(needed); }) ? 0 : needed;
 }
 
 void BandRounds::keep_links() {

@@ -9,7 +9,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <new>
 #include <optional>
 #include <span>
 #include <string>
@@ -107,18 +106,5 @@ class RunCounters {
 /// to fill a core: latency leaves no room for another thread on the same core. Timed in each thread, so that waking
 /// threads and sharing out the work cost nothing. Takes some 10 ms of CPU. Throws Stopped.
 double arithmetic_per_second(const Execution& execution);
-
-/// Does `work` find the memory that it takes? Throws its other stops.
-template <class Work>
-bool memory_holds(const Work& work) {
-  try {
-    work();
-    return true;
-  } catch (const Stopped& stopped) {
-    if (stopped.reason != StopReason::memory) throw;
-  } catch (const std::bad_alloc&) {
-  }
-  return false;
-}
 
 }  // namespace warren::studies

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <new>
 #include <tuple>
 
 #include "apps/studies/machine.hpp"

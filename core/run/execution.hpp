@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <new>
 #include <optional>
 
 #include "core/base/error.hpp"
@@ -24,6 +25,19 @@ struct Stopped : Error {
   StopReason reason;         ///< a limit, or a signal
   std::size_t wanted_bytes;  ///< of memory: the least that the process would have held; 0: of others, and not known
 };
+
+/// Does `work` find the memory that it takes? Throws its other stops.
+template <class Work>
+bool memory_holds(const Work& work) {
+  try {
+    work();
+    return true;
+  } catch (const Stopped& stopped) {
+    if (stopped.reason != StopReason::memory) throw;
+  } catch (const std::bad_alloc&) {
+  }
+  return false;
+}
 
 /// Set by a signal handler, read by all threads: 0, or the signal's number.
 using SignalFlag = std::atomic<int>;
