@@ -152,12 +152,9 @@ class RoadmapDrawing {
     std::vector<ToolLines> lines;
     const auto add = [&](EdgeStyle style) {
       lines.push_back({style.id, style.label, style.color, style.state == EdgeState::free ? widths::edge : thin, {}});
-      const Graph graph = edges_in(style.state, arrays_, execution_);
-      for (VertexId v = 0; v < vertex_count(); ++v) {
-        for (const VertexId w : graph.neighbours(v)) {
-          if (v < w) lines.back().edges.push_back({v, w});
-        }
-      }
+      edges_in(style.state, arrays_, execution_).for_each_edge([&](VertexId v, VertexId w) {
+        lines.back().edges.push_back({v, w});
+      });
     };
     for (const EdgeStyle& style : other_edges) add(style);
     add({EdgeState::free, "free", "free edge", colors::components[0]});

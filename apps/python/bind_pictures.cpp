@@ -86,11 +86,7 @@ void add_segments(const PlannedRoadmap<State>& made, bool tree, RawVector<double
     return;
   }
   for (const Edge& edge : made.motions) add(edge.from, edge.to);
-  for (VertexId v = 0; made.motions.empty() && v < made.graph.vertex_count(); ++v) {
-    for (const VertexId w : made.graph.neighbours(v)) {
-      if (v < w) add(v, w);
-    }
-  }
+  if (made.motions.empty()) made.graph.for_each_edge(add);
 }
 
 py::array segments_of(const KeptAnswer& kept, bool tree) {

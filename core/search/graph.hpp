@@ -42,6 +42,15 @@ class Graph {
   std::span<const VertexId> neighbours(VertexId v) const {
     return {targets_.data() + offsets_[v], targets_.data() + offsets_[v + 1]};
   }
+  /// Calls visit(v, w) for each edge once, v < w, by ascending v and then w.
+  template <class Visit>
+  void for_each_edge(const Visit& visit) const {
+    for (VertexId v = 0; v < vertex_count(); ++v) {
+      for (const VertexId w : neighbours(v)) {
+        if (v < w) visit(v, w);
+      }
+    }
+  }
   std::size_t degree(VertexId v) const { return offsets_[v + 1] - offsets_[v]; }
   /// The edge ends of all rows, one row after the other: those of v are first_end(v) .. first_end(v) + degree(v) - 1.
   std::size_t first_end(VertexId v) const { return offsets_[v]; }

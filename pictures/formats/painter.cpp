@@ -261,20 +261,15 @@ class Painter {
   void edges(const std::vector<std::uint8_t>& color) {
     const PlannedRoadmap<Vec2>& roadmap = *picture_.roadmap;
     LineGroup group(surface_, page_, execution_, {.stroke = colors::components[0], .width = width(widths::edge, 0.3)});
-    const auto visit = [&](const auto& take) {
-      for (VertexId v = 0; v < roadmap.graph.vertex_count(); ++v) {
-        for (const VertexId w : roadmap.graph.neighbours(v)) {
-          if (v < w) take(v, w);
-        }
-      }
-    };
-    visit([&](VertexId v, VertexId w) { group.measure(std::array{roadmap.states[v], roadmap.states[w]}); });
+    roadmap.graph.for_each_edge([&](VertexId v, VertexId w) {
+      group.measure(std::array{roadmap.states[v], roadmap.states[w]});
+    });
     group.thinned();
     group.begin("edges", "roadmap edges", roadmap.graph.edge_count());
     for (std::size_t c = 0; c < colors::components.size(); ++c) {
       if (std::find(color.begin(), color.end(), c) == color.end()) continue;
       group.take_color(colors::components[c]);
-      visit([&](VertexId v, VertexId w) {
+      roadmap.graph.for_each_edge([&](VertexId v, VertexId w) {
         if (color[v] == c) group.segment(roadmap.states[v], roadmap.states[w]);
       });
     }

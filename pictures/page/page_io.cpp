@@ -180,13 +180,10 @@ class PageWriter {
     numbers<float>("states", roadmap.states, moving());
     numbers<std::uint8_t>("component", component);
     auto edges = numbers<std::uint32_t>("edges");
-    for (VertexId v = 0; v < roadmap.graph.vertex_count(); ++v) {
-      for (const VertexId w : roadmap.graph.neighbours(v)) {
-        if (w < v) continue;
-        edges.add(v);
-        edges.add(w);
-      }
-    }
+    roadmap.graph.for_each_edge([&](VertexId v, VertexId w) {
+      edges.add(v);
+      edges.add(w);
+    });
     edges.end();
     if (parts_.has(Part::search) && !roadmap.search_tree.empty()) {
       execution_.reserve(roadmap.states.size() * sizeof(std::int32_t));
