@@ -328,8 +328,7 @@ void animate(Drawing& drawing) {
     take_lengths(drawing);
   }
   if (body.outline.empty() && body.radius == 0.0) {
-    Box box;
-    for (const Vec2 p : drawing.path) box.include(p);
+    const Box box = box_around(drawing.path);
     body.radius = point_share * std::max(box.width(), box.height());
   }
 }

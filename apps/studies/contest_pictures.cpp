@@ -46,17 +46,20 @@ Leg leg_between(Vec2 a, Vec2 b) {
   return {a.x, a.y, b.x, b.y};
 }
 
+/// The longer side of the box of all of them.
+double extent_of(std::span<const std::vector<Vec2>> paths) {
+  Box box;
+  for (const std::vector<Vec2>& path : paths) box.include(box_around(path));
+  return box.empty() ? 0.0 : std::max(box.width(), box.height());
+}
+
 /// Paths with a corner wherever one of them has one on a leg of another (or of its own), so that legs which overlap
 /// become legs that are the same. Corners lie on a raster below what is seen: paths that are pulled taut by different
 /// ways differ by a millionth.
 class PathsCut {
  public:
   PathsCut(std::span<const std::vector<Vec2>> paths, const Execution& execution) : execution_(execution) {
-    Box box;
-    for (const std::vector<Vec2>& path : paths) {
-      for (const Vec2 p : path) box.include(p);
-    }
-    const double extent = box.empty() ? 0.0 : std::max(box.width(), box.height());
+    const double extent = extent_of(paths);
     constexpr int bits = 14;
     if (extent > 0.0) step_ = std::ldexp(1.0, std::ilogb(extent) - bits);
     for (const std::vector<Vec2>& path : paths) {
@@ -243,11 +246,7 @@ std::vector<std::string> write_named(const std::string& folder, const std::strin
 
 /// Some sixty dashes across all that is drawn.
 double dash_of(const std::vector<std::vector<Vec2>>& paths) {
-  Box box;
-  for (const std::vector<Vec2>& path : paths) {
-    for (const Vec2 p : path) box.include(p);
-  }
-  const double extent = box.empty() ? 0.0 : std::max(box.width(), box.height());
+  const double extent = extent_of(paths);
   return extent > 0.0 ? extent / 60.0 : 1.0;
 }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -56,8 +55,7 @@ std::uint64_t expanded_by(const Answer& answer) {
 double metric_cost(const Answer& answer) {
   if (answer.price && answer.cost) return *answer.cost;
   if (answer.problem.robot.kind != RobotKind::polygon || answer.states.width != 3) return answer.length;
-  double weight = 0.0;
-  for (const Vec2 corner : answer.problem.robot.outline) weight = std::max(weight, norm(corner));
+  const double weight = outline_reach(answer.problem.robot.outline);
   return path_length(poses_of(answer.states), [&](const Se2& a, const Se2& b) {
     return std::hypot(distance(a.position(), b.position()), weight * turn_between(a.theta, b.theta));
   });

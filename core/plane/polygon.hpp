@@ -2,6 +2,7 @@
 // Polygons as flat arrays, and everything that blocks the plane: the plain data that worlds and planners share.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -36,6 +37,13 @@ inline Box box_around(std::span<const Vec2> points) {
   Box box;
   for (const Vec2 p : points) box.include(p);
   return box;
+}
+
+/// How far the farthest corner is from the reference point, (0, 0); 0 where there is none.
+inline double outline_reach(std::span<const Vec2> outline) {
+  double reach = 0.0;
+  for (const Vec2 corner : outline) reach = std::max(reach, norm(corner));
+  return reach;
 }
 
 /// What blocks the plane: polygons that run anticlockwise, each simple, with three or more corners, no two in a

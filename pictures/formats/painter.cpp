@@ -243,11 +243,7 @@ class Painter {
       }
     });
     if (run) group.segment(run->a, run->b);
-    if (picture_.scene.bounds) {
-      const auto [low, high] = *picture_.scene.bounds;
-      const std::array corners{low, Vec2{high.x, low.y}, high, Vec2{low.x, high.y}, low};
-      for (std::size_t i = 1; i < corners.size(); ++i) group.segment(corners[i - 1], corners[i]);
-    }
+    for (const Segment& side : bounds_walls(picture_.scene)) group.segment(side.a, side.b);
     end(group, picture_.scene.map ? "borders of blocked cells" : "walls");
   }
 

@@ -107,8 +107,7 @@ template <class Cover>
 void cover_inside(const PolygonSet& outlines, std::size_t columns, std::size_t all_rows, const Execution& execution,
                   const Cover& cover) {
   execution.check();
-  Box box;
-  for (const Vec2 p : outlines.corners) box.include(p);
+  const Box box = box_around(outlines.corners);
   if (box.empty()) return;
   const double top = std::clamp(std::floor(box.min.y), 0.0, static_cast<double>(all_rows));
   const double bottom = std::clamp(std::ceil(box.max.y), 0.0, static_cast<double>(all_rows));

@@ -299,12 +299,6 @@ namespace {
 
 constexpr std::string_view duration = "dur=\"8s\" repeatCount=\"indefinite\"";
 
-double size_of(const MovingBody& body) {
-  double size = body.outline.empty() ? body.radius : 0.0;
-  for (const Vec2 p : body.outline) size = std::max(size, norm(p));
-  return size;
-}
-
 std::string joined(const std::vector<double>& values, int decimals) {
   std::string text;
   for (const double value : values) {
@@ -348,7 +342,7 @@ std::string shape_of(const MovingBody& body, double scale, double line_width) {
 }  // namespace
 
 Timetable timetable_of(const MovingBody& body) {
-  const double size = size_of(body);
+  const double size = body.outline.empty() ? body.radius : outline_reach(body.outline);
   Timetable table;
   double travel = 0.0;
   double way = 0.0;

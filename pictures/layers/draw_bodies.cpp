@@ -31,11 +31,17 @@ std::vector<Vec2> outline_of(const RobotSpec& robot) {
   return circle_outline({}, robot.radius, 64);
 }
 
+std::vector<Vec2> moved_to(const Se2& pose, std::span<const Vec2> points) {
+  const Rotation turned(pose.theta);
+  std::vector<Vec2> moved;
+  for (const Vec2 p : points) moved.push_back(pose.position() + turned(p));
+  return moved;
+}
+
 class BodyDrawing {
  public:
   BodyDrawing(std::span<const Se2> poses, const RobotSpec& robot, BodyMotion motion)
-      : poses_(poses), motion_(motion), outline_(outline_of(robot)) {
-    for (const Vec2 p : outline_) size_ = std::max(size_, norm(p));
+      : poses_(poses), motion_(motion), outline_(outline_of(robot)), size_(outline_reach(outline_)) {
     has_heading_ = motion == BodyMotion::driving || !robot.outline.empty();
     const std::vector<double> lengths =
         leg_lengths(poses, motion == BodyMotion::driving ? leg_turns(poses) : std::vector<double>(poses.size(), 0.0));
@@ -81,26 +87,15 @@ class BodyDrawing {
     return motion_ == BodyMotion::driving ? pose_on_leg(poses_[i - 1], poses_[i], share)
                                           : interpolate(poses_[i - 1], poses_[i], share);
   }
-  void add_body(PictureLayer& layer, const Se2& pose) const {
-    const Rotation turned(pose.theta);
-    std::vector<Vec2> corners;
-    for (const Vec2 p : outline_) corners.push_back(pose.position() + turned(p));
-    layer.lines.add(corners);
-  }
+  void add_body(PictureLayer& layer, const Se2& pose) const { layer.lines.add(moved_to(pose, outline_)); }
   /// A triangle inside, at the end that goes ahead.
   void add_front(PictureLayer& layer, const Se2& pose) const {
-    Box box;
-    for (const Vec2 p : outline_) box.include(p);
+    const Box box = box_around(outline_);
     const double middle = 0.5 * (box.min.y + box.max.y);
     const double half = 0.16 * std::min(box.width(), box.height());
     const double tip = box.max.x - 0.06 * box.width();
-    const Rotation turned(pose.theta);
-    std::vector<Vec2> triangle;
-    for (const Vec2 p :
-         {Vec2{tip, middle}, Vec2{tip - 1.7 * half, middle + half}, Vec2{tip - 1.7 * half, middle - half}}) {
-      triangle.push_back(pose.position() + turned(p));
-    }
-    layer.lines.add(triangle);
+    const double end = tip - 1.7 * half;
+    layer.lines.add(moved_to(pose, std::array{Vec2{tip, middle}, Vec2{end, middle + half}, Vec2{end, middle - half}}));
   }
 
   /// Not too near to each other, nor too many; of a car where it changes between forwards and backwards.
@@ -154,7 +149,7 @@ class BodyDrawing {
   std::span<const Se2> poses_;
   BodyMotion motion_;
   std::vector<Vec2> outline_;
-  double size_ = 0.0;  // of the farthest point
+  double size_;  // of the farthest point
   bool has_heading_ = false;
   std::vector<double> travels_;  // way of the farthest point, at most, until each pose
 };
@@ -255,8 +250,7 @@ LayerOptions one_layer(const Scene& scene, const RobotSpec& robot, double cleara
   constexpr double cells = 400.0;
   constexpr double most_cells = 20'000.0;
   constexpr double least_cells = 16.0;
-  double reach = clearance;
-  for (const Vec2 p : robot.outline) reach = std::max(reach, clearance + norm(p));
+  const double reach = clearance + outline_reach(robot.outline);
   LayerOptions options;
   options.clearance = clearance;
   const Box inner = scene.bounds ? *scene.bounds : obstacle_box(scene, execution);

@@ -340,13 +340,7 @@ class PageWriter {
     picture_.scene.walls.visit([&](auto all) {
       for (const auto& wall : all) add(wall.segment().a, wall.segment().b);
     });
-    if (picture_.scene.bounds) {
-      const auto [low, high] = *picture_.scene.bounds;
-      add(low, {high.x, low.y});
-      add({high.x, low.y}, high);
-      add(high, {low.x, high.y});
-      add({low.x, high.y}, low);
-    }
+    for (const Segment& side : bounds_walls(picture_.scene)) add(side.a, side.b);
     xy.end();
   }
 

@@ -13,6 +13,7 @@
 #include "apps/serve/http/http_message.hpp"
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
+#include "core/plane/polygon.hpp"
 #include "parallel/chunks.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/paths/timed_path.hpp"
@@ -406,12 +407,7 @@ std::vector<PathPlace> places_along(const Answer& answer, std::size_t count, con
   return places;
 }
 
-double reach_of(const RobotSpec& robot) {
-  if (robot.outline.empty()) return robot.radius;
-  double reach = 0.0;
-  for (const Vec2 corner : robot.outline) reach = std::max(reach, norm(corner));
-  return reach;
-}
+double reach_of(const RobotSpec& robot) { return robot.outline.empty() ? robot.radius : outline_reach(robot.outline); }
 
 SweptBodies swept_bodies(const Answer& way, const KeptCurve& curve, const PathView& view, const Execution& execution) {
   const double reach = reach_of(way.problem.robot);

@@ -25,9 +25,7 @@ namespace {
 
 RobotSpec disc_around(const RobotSpec& robot) {
   if (robot.kind != RobotKind::polygon) return robot;
-  RobotSpec disc{.kind = RobotKind::disc};
-  for (const Vec2 corner : robot.outline) disc.radius = std::max(disc.radius, norm(corner));
-  return disc;
+  return {.kind = RobotKind::disc, .radius = outline_reach(robot.outline)};
 }
 
 void check_size(std::uint64_t nodes, std::uint64_t edge_ends) {
