@@ -104,9 +104,11 @@ std::string contender_name(const Contender& contender, bool with_planner);
 /// planner's contenders apart.
 std::vector<std::string> plot_names_of(std::span<const Contender* const> contenders, bool with_planner);
 
-/// In the order in which they are met.
-inline void add_once(std::vector<std::string>& words, const std::string& word) {
-  if (std::find(words.begin(), words.end(), word) == words.end()) words.push_back(word);
+/// In the order in which they are met; the word's place among them.
+inline std::size_t add_once(std::vector<std::string>& words, const std::string& word) {
+  const auto place = static_cast<std::size_t>(std::find(words.begin(), words.end(), word) - words.begin());
+  if (place == words.size()) words.push_back(word);
+  return place;
 }
 
 /// Those of a problem, in their order.

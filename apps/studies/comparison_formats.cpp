@@ -207,9 +207,10 @@ void add_costs(std::vector<std::string>& fields, const ComparedRun& run, const s
   }
 }
 
+std::string known(bool is_known, auto value) { return is_known ? fmt::format("{}", value) : std::string{}; }
+
 /// What a run says for itself; what a planner counts is left empty for searches.
 std::vector<std::string> run_fields(const ComparedRun& run, bool is_planner) {
-  const auto known = [](bool is_known, auto value) { return is_known ? fmt::format("{}", value) : std::string{}; };
   const auto figure = [&](const auto& value) { return known(value.has_value(), value.value_or(0)); };
   std::vector<std::string> fields{
       std::to_string(run.seed), std::string(name_of(run.outcome)), fmt::format("{}", run.time_s),
@@ -258,7 +259,6 @@ constexpr std::string_view properties =
     "solution segments INTEGER\nstates expanded INTEGER\nsearch time REAL\nseed INTEGER\n";
 
 std::string run_line(const ComparedRun& run) {
-  const auto known = [](bool is_known, auto value) { return is_known ? fmt::format("{}", value) : std::string{}; };
   const int solved = run.solved() ? 1 : 0;
   return fmt::format("{}; {}; {}; {}; {}; {}; {}; {}; {}; {}; \n", status_of(run.outcome), run.time_s, solved, solved,
                      known(run.solved(), run.length),

@@ -30,7 +30,7 @@ std::string series_name(const SweepCurve& curve) {
 std::size_t color_of(const std::vector<SweepCurve>& curves, const std::string& name) {
   std::vector<std::string> names;
   for (const SweepCurve& curve : curves) add_once(names, series_name(curve));
-  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  return add_once(names, name);
 }
 
 Plot time_plot(const std::vector<SweepCurve>& curves, const std::string& search) {
@@ -296,11 +296,9 @@ HeatMap heat_map(const Family& family, const ShownFigure& figure) {
   }
   map.cells.resize(map.columns.size() * map.rows.size());
   for (const Contender* c : family.members) {
-    const auto index = [&](const std::vector<std::string>& words, const std::string& axis) {
-      return static_cast<std::size_t>(std::find(words.begin(), words.end(), word_of(c->dealt, axis)) - words.begin());
-    };
-    HeatMap::Cell& cell =
-        map.cells[index(map.rows, family.axes[1]) * map.columns.size() + index(map.columns, family.axes[0])];
+    const std::size_t column = add_once(map.columns, word_of(c->dealt, family.axes[0]));
+    const std::size_t row = add_once(map.rows, word_of(c->dealt, family.axes[1]));
+    HeatMap::Cell& cell = map.cells[row * map.columns.size() + column];
     cell.value = figure.value(row_of(*c));
     cell.text = cell.value ? figure.text(*cell.value) : "none";
   }
