@@ -113,10 +113,6 @@ Unlocked::~Unlocked() {
   or_sleep_at_exit([&] { PyEval_RestoreThread(state_); });
 }
 
-void let_python_handle_signals() {
-  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-}
-
 CallLimits::CallLimits(unsigned threads, std::optional<double> budget_s, std::optional<std::size_t> memory,
                        py::object progress)
     : progress_(std::move(progress)) {
@@ -184,7 +180,8 @@ void CallLimits::raise_failure() {
 
 void CallLimits::raise_what_stopped(StopReason reason) {
   raise_failure();
-  if (is_signal(reason)) let_python_handle_signals();
+  // Python runs its handlers, which raise KeyboardInterrupt, most of all.
+  if (is_signal(reason) && PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
 std::string with_keywords(std::string text) {

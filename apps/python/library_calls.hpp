@@ -49,9 +49,6 @@ class Unlocked {
   PyThreadState* state_;
 };
 
-/// Python runs its handlers; throws what they raise: KeyboardInterrupt, most of all.
-void let_python_handle_signals();
-
 /// What a call may take, as its keywords say, and the function that is told how far it is.
 class CallLimits {
  public:

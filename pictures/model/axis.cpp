@@ -12,7 +12,10 @@
 namespace warren {
 
 std::vector<double> PlotAxis::ticks() const {
-  if (!logarithmic_) return round_ticks();
+  if (!logarithmic_) {
+    const double step = tick_step(high_ - low_, 5.0);
+    return ticks_between(low_, high_, whole_ ? std::max(1.0, step) : step);
+  }
   std::vector<double> ticks;
   const bool few = high_ - low_ < 2.5;
   for (int decade = static_cast<int>(std::floor(low_)); decade <= static_cast<int>(std::ceil(high_)); ++decade) {
@@ -23,11 +26,6 @@ std::vector<double> PlotAxis::ticks() const {
     }
   }
   return ticks;
-}
-
-std::vector<double> PlotAxis::round_ticks() const {
-  const double step = tick_step(high_ - low_, 5.0);
-  return ticks_between(low_, high_, whole_ ? std::max(1.0, step) : step);
 }
 
 PlotAxis axis_around(double low, double high, bool logarithmic, bool from_zero, bool whole) {

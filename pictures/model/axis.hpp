@@ -22,7 +22,6 @@ class PlotAxis {
 
  private:
   double scaled(double value) const { return logarithmic_ ? std::log10(value) : value; }
-  std::vector<double> round_ticks() const;
 
   bool logarithmic_;
   bool whole_;

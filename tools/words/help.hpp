@@ -55,10 +55,4 @@ std::vector<std::pair<std::string_view, std::vector<const Command*>>> grouped_co
 /// Made anew by each build (cmake/commit.cmake) and linked into the program alone.
 std::string_view build_commit();
 
-/// "g++ 12.2.0, Release".
-std::string build_compiler();
-
-/// "x86-64; used here: avx2": what the code needs, and what it takes beside that where the processor has it.
-std::string build_instruction_sets();
-
 }  // namespace warren::tools

@@ -20,18 +20,6 @@
 
 namespace warren::serve {
 
-std::unique_ptr<WorldTiles> tiles_of(const Scene& scene, const Execution& execution) {
-  if (scene.map) return map_tiles(*scene.map, execution);
-  if (scene.maze) {
-    constexpr double no_reach = 0.0;
-    if (auto passages = passages_of_maze(scene, no_reach, execution)) {
-      MazeOutline outline = MazeOutline::of_walls(scene.walls, passages->size(), execution);
-      return maze_tiles(std::move(*passages), std::move(outline), execution);
-    }
-  }
-  return shape_tiles(scene, execution);
-}
-
 // Tiles of mazes. Where a cell has two pixels or more its walls are drawn as lines, else the share of its walls is a
 // shade: of each cell where it is a pixel, of squares of cells from the pyramid beyond. Wall by wall the same numbers
 // decide, so a tile costs 512 x 512 looks at bits or bytes at most, whatever the maze's size.
@@ -523,11 +511,15 @@ std::unique_ptr<WorldTiles> maze_tiles(LatticePassages passages, MazeOutline out
   return std::make_unique<MazeTiles>(std::move(passages), std::move(outline), grid, cells, execution);
 }
 
-std::unique_ptr<WorldTiles> map_tiles(const OccupancyMap& map, const Execution& execution) {
-  return std::make_unique<MapTiles>(map, execution);
-}
-
-std::unique_ptr<WorldTiles> shape_tiles(const Scene& scene, const Execution& execution) {
+std::unique_ptr<WorldTiles> tiles_of(const Scene& scene, const Execution& execution) {
+  if (scene.map) return std::make_unique<MapTiles>(*scene.map, execution);
+  if (scene.maze) {
+    constexpr double no_reach = 0.0;
+    if (auto passages = passages_of_maze(scene, no_reach, execution)) {
+      MazeOutline outline = MazeOutline::of_walls(scene.walls, passages->size(), execution);
+      return maze_tiles(std::move(*passages), std::move(outline), execution);
+    }
+  }
   return std::make_unique<ShapeTiles>(scene, execution);
 }
 

@@ -61,11 +61,8 @@ struct MazeOutline {
 
 /// Of a maze in which a wall stands wherever the lattice has no passage.
 std::unique_ptr<WorldTiles> maze_tiles(LatticePassages passages, MazeOutline outline, const Execution& execution);
-/// Of a map; refers to it.
-std::unique_ptr<WorldTiles> map_tiles(const OccupancyMap& map, const Execution& execution);
-/// Of walls, polygons and bounds; refers to the scene. Throws UsageError for more than most_shapes of them.
-std::unique_ptr<WorldTiles> shape_tiles(const Scene& scene, const Execution& execution);
-/// By the scene's kind. Throws as they do.
+/// Of a maze, a map, or walls, polygons and bounds; refers to the scene but for a maze's. Throws UsageError for more
+/// than most_shapes walls and polygons.
 std::unique_ptr<WorldTiles> tiles_of(const Scene& scene, const Execution& execution);
 
 /// The index of shapes is made on one thread, and can't be stopped: two seconds for so many.
