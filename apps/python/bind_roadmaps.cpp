@@ -62,8 +62,7 @@ py::tuple free_rows_of(KeptRoadmap& kept) {
 /// 0 unchecked, 1 free, 2 blocked: of each edge end.
 py::array edge_states(KeptRoadmap& kept) {
   const Asking asking(kept);
-  const RoadmapArrays* arrays = nullptr;
-  CallLimits().run([&](const Execution& execution) { arrays = &kept.arrays(execution); });
+  const RoadmapArrays* arrays = CallLimits().run([&](const Execution& execution) { return &kept.arrays(execution); });
   py::array_t<std::uint8_t> states(static_cast<py::ssize_t>(arrays->candidates.targets().size()));
   std::uint8_t* to = states.mutable_data();
   for (std::size_t i = 0; i < arrays->candidates.targets().size(); ++i) {
@@ -76,8 +75,7 @@ py::array edge_states(KeptRoadmap& kept) {
 py::array states_of(const py::object& self) {
   auto& kept = self.cast<KeptRoadmap&>();
   const Asking asking(kept);
-  const RoadmapArrays* arrays = nullptr;
-  CallLimits().run([&](const Execution& execution) { arrays = &kept.arrays(execution); });
+  const RoadmapArrays* arrays = CallLimits().run([&](const Execution& execution) { return &kept.arrays(execution); });
   const auto width = static_cast<py::ssize_t>(arrays->dimension);
   return view_of(arrays->states.data(), {static_cast<py::ssize_t>(arrays->states.size()) / width, width}, self);
 }
@@ -249,9 +247,8 @@ void bind_roadmaps(py::module_& module) {
       .def_property_readonly(
           "world",
           [](const KeptRoadmap& kept) -> const Scene& {
-            const Scene* whole = nullptr;
-            CallLimits().run([&](const Execution& execution) { whole = &kept.roadmap().world.whole(execution); });
-            return *whole;
+            return *CallLimits().run(
+                [&](const Execution& execution) { return &kept.roadmap().world.whole(execution); });
           },
           py::return_value_policy::reference_internal)
       .def_property_readonly("robot", [](const KeptRoadmap& kept) { return robot_text(kept.roadmap().robot); })
