@@ -170,10 +170,8 @@ void note_left_out(const Arguments& arguments, const Scene& scene, const std::st
 }
 
 void check_rules_of_maps(const Arguments& arguments) {
-  for (const std::string_view option : {"--map-rules", "--request"}) {
-    if (!arguments.has(option) || arguments.has("--world")) continue;
-    throw UsageError(fmt::format("{}: is for the world that --world names; a roadmap has its own inside", option));
-  }
+  if (arguments.has("--world")) return;
+  arguments.refuse({"--map-rules", "--request"}, "is for the world that --world names; a roadmap has its own inside");
 }
 
 Roadmap load_roadmap(const Arguments& arguments, const Execution& execution, StageTimes& seconds) {

@@ -13,7 +13,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <initializer_list>
 #include <iterator>
 #include <string>
 #include <string_view>
@@ -223,12 +222,6 @@ void check_joining(const Arguments& arguments) {
   }
 }
 
-/// Throws UsageError where one of these is given; `why` says what takes them.
-void refuse(const Arguments& arguments, std::initializer_list<std::string_view> options, std::string_view why) {
-  for (const std::string_view option : options) {
-    if (arguments.has(option)) throw UsageError(fmt::format("{}: {}", option, why));
-  }
-}
 /// Options with one value go to all contenders, those with several are dealt. Throws UsageError.
 studies::PlannerDeal deal_words(const Arguments& arguments, std::vector<PlannerKind> planners, DealKind kind) {
   check_joining(arguments);
@@ -240,7 +233,7 @@ studies::PlannerDeal deal_words(const Arguments& arguments, std::vector<PlannerK
     if (kind == DealKind::graph && left_to_others) continue;
     const std::string_view flag = option_flag(option);
     const bool named_list = arguments.has(list_flag(option));
-    if (named_list) refuse(arguments, {flag}, fmt::format("{} gives it, too", list_flag(option)));
+    if (named_list) arguments.refuse({flag}, fmt::format("{} gives it, too", list_flag(option)));
     const std::string_view name = named_list ? list_flag(option) : flag;
     const auto text = arguments.value(name);
     const bool always = named_list || option == Option::samples;  // which "auto" is no option of, but a value
@@ -317,8 +310,8 @@ std::uint64_t first_seed(const Arguments& arguments) {
 }
 
 studies::PlannerContestOptions contest_options(const Arguments& arguments) {
-  refuse(arguments, {"--sizes", "--degree", "--peer", "--graph"},
-         "compares searches, and --planners compares planners; give one of the two");
+  arguments.refuse({"--sizes", "--degree", "--peer", "--graph"},
+                   "compares searches, and --planners compares planners; give one of the two");
   if (arguments.has("--trials") && arguments.has("--seeds")) {
     throw UsageError("--trials: with --planners the same as --seeds; give one of the two");
   }
@@ -359,7 +352,7 @@ std::vector<studies::SearchVariant> variants_of(const Arguments& arguments) {
     }
     if (peer) variants.push_back({search, std::nullopt, studies::SearchLibrary::boost});
   }
-  if (!any_queue) refuse(arguments, {"--queues"}, "bfs and dfs have no priority queue; astar and dijkstra take one");
+  if (!any_queue) arguments.refuse({"--queues"}, "bfs and dfs have no priority queue; astar and dijkstra take one");
   if (peer && !studies::has_boost_graph())
     studies::graph_search({}, {SearchKind::bfs, std::nullopt, studies::SearchLibrary::boost});  // says so
   return variants;
@@ -369,8 +362,8 @@ std::optional<studies::SizeSweepOptions> sweep_options(const Arguments& argument
   constexpr double most_degree = 1e6;
   constexpr std::uint64_t most_size = std::uint64_t{1} << 31;
   if (!arguments.has("--sizes")) {
-    refuse(arguments, {"--degree"}, "is about the random graphs of --sizes");
-    refuse(arguments, {"--seeds"}, "counts the runs of --planners, or the random graphs of --sizes");
+    arguments.refuse({"--degree"}, "is about the random graphs of --sizes");
+    arguments.refuse({"--seeds"}, "counts the runs of --planners, or the random graphs of --sizes");
     return std::nullopt;
   }
   studies::SizeSweepOptions options;
@@ -387,16 +380,16 @@ std::optional<studies::SizeSweepOptions> sweep_options(const Arguments& argument
 /// What a world would take is refused where there is none.
 void refuse_world_options(const Arguments& arguments) {
   constexpr std::string_view why = "is about a world; give WORLD, too";
-  for (const OptionSpec& spec : passed_specs()) refuse(arguments, {spec.name}, why);
-  refuse(arguments, {"--graph", "--samplers", "--samples", "--map-rules", "--request", "--pictures"}, why);
+  arguments.refuse(passed_specs(), why);
+  arguments.refuse({"--graph", "--samplers", "--samples", "--map-rules", "--request", "--pictures"}, why);
 }
 
 /// Options of the world's graph; checked for the planners that may make it, so far as that needs no world.
 void take_graph_options(const Arguments& arguments, CompareOptions& options) {
-  refuse(arguments, {"--optimise", "--pipeline", "--lazy"}, "changes no graph; --planners compares planners with it");
-  refuse(arguments, {"--search"}, "searches are compared; say --searches");
-  refuse(arguments, {"--heuristic"}, "is compared by --planners prm --heuristic euclidean,manhattan");
-  refuse(arguments, {"--queue"}, "queues are compared; say --queues");
+  arguments.refuse({"--optimise", "--pipeline", "--lazy"}, "changes no graph; --planners compares planners with it");
+  arguments.refuse({"--search"}, "searches are compared; say --searches");
+  arguments.refuse({"--heuristic"}, "is compared by --planners prm --heuristic euclidean,manhattan");
+  arguments.refuse({"--queue"}, "queues are compared; say --queues");
   options.graph = given_choice<PlannerKind>(arguments, "--graph");
   studies::PlannerDeal& deal = options.graph_deal;
   deal = deal_words(arguments, options.graph ? std::vector{*options.graph} : planners_there_are(), DealKind::graph);
@@ -538,7 +531,7 @@ CompareOptions compare_options(const Arguments& arguments) {
   }
   options.pictures = arguments.value("--pictures").value_or("");
   options.look = picture_words(arguments, arguments.has("--pictures"), "--pictures FOLDER");
-  refuse(arguments, {"--parallel"}, "runs --planners beside each other; searches are timed one by one");
+  arguments.refuse({"--parallel"}, "runs --planners beside each other; searches are timed one by one");
   options.searches.variants = variants_of(arguments);
   options.searches.trials = given_value(arguments, "--trials", auto_or_count_value, std::uint64_t{1}, most_runs);
   options.searches.budget_s = options.budget_s;

@@ -54,9 +54,7 @@ int simplify_graph(const Arguments& arguments, const std::string& file) {
   const double within = *given_value(arguments, "--simplify", number_value, 0.0, largest_coordinate);
   if (!file.ends_with(".geojson")) throw UsageError("--simplify: a route graph is written as -o FILE.geojson");
   const auto world = arguments.value("--world");
-  for (const char* option : {"--robot", "--clearance"}) {
-    if (!world && arguments.has(option)) throw UsageError(fmt::format("{}: is for --world", option));
-  }
+  if (!world) arguments.refuse({"--robot", "--clearance"}, "is for --world");
   Run run(arguments);
   StageTimes seconds;
   const Scene scene = world ? load_world(*world, arguments, run.execution(), seconds) : Scene{};
@@ -123,9 +121,7 @@ int convert(const Arguments& arguments) {
   if (!file) throw UsageError("-o FILE is missing");
   check_map_or_world_file(*file);
   if (arguments.has("--simplify")) return simplify_graph(arguments, *file);
-  for (const char* option : {"--world", "--robot", "--clearance"}) {
-    if (arguments.has(option)) throw UsageError(fmt::format("{}: is for --simplify", option));
-  }
+  arguments.refuse({"--world", "--robot", "--clearance"}, "is for --simplify");
   if (!is_map_ending(*file) && !file->ends_with(".png") && arguments.has("--cell")) {
     throw UsageError("--cell: only maps have cells: .map, .yaml, .pgm and .png");
   }

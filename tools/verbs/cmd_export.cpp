@@ -69,9 +69,7 @@ int export_roadmap_file(const Arguments& arguments) {
   const auto file = output_file(arguments, "--output");
   if (!file) throw UsageError("-o FILE is missing");
   if (is_picture(ending_of(*file))) {
-    for (const std::string_view option : {"--unchecked", "--frame", "--simplify"}) {
-      if (arguments.has(option)) throw UsageError(fmt::format("{}: means nothing to a picture", option));
-    }
+    arguments.refuse({"--unchecked", "--frame", "--simplify"}, "means nothing to a picture");
     check_picture("--output", *file);
     return draw_roadmap(arguments, *file, picture_words(arguments, true, {}, *file));
   }

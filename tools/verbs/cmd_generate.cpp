@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <functional>
-#include <span>
 #include <string>
-#include <string_view>
 
 #include "core/base/error.hpp"
 #include "pictures/formats/write_picture.hpp"
@@ -47,17 +45,8 @@ constexpr OptionSpec generate_specs[] = {
     {"--corners", "N", "corners of each polygon (default: 3 to 12, at random)"},
 };
 
-constexpr std::string_view maze_only[] = {"--algorithm", "--loops", "--unit-walls"};
-constexpr std::string_view polygons_only[] = {"--corners"};
-
-void refuse_options(const Arguments& arguments, std::span<const std::string_view> options, std::string_view of) {
-  for (const std::string_view option : options) {
-    if (arguments.has(option)) throw UsageError(fmt::format("{}: an option of {}", option, of));
-  }
-}
-
 MazeOptions maze_options(const Arguments& arguments) {
-  refuse_options(arguments, polygons_only, "generate polygons");
+  arguments.refuse({"--corners"}, "an option of generate polygons");
   MazeOptions options = parse_maze_source("maze:" + arguments.operand(1));
   if (arguments.operand(1).find(',') != std::string::npos) {
     throw UsageError("expected ROWSxCOLS (found: '" + arguments.operand(1) +
@@ -69,7 +58,7 @@ MazeOptions maze_options(const Arguments& arguments) {
 
 PolygonOptions polygon_options(const Arguments& arguments) {
   constexpr std::uint32_t most = 1U << 30;
-  refuse_options(arguments, maze_only, "generate maze");
+  arguments.refuse({"--algorithm", "--loops", "--unit-walls"}, "an option of generate maze");
   PolygonOptions options;
   options.count = count_value("COUNT", arguments.operand(1), 1, most);
   options.seed = seed_word(arguments);

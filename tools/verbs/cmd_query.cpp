@@ -71,12 +71,10 @@ class ManyQuestions {
       : arguments_(arguments),
         options_{search_words(arguments), arguments.has("--lengths-only"), arguments.has("--csv")},
         keep_file_(output_file(arguments, "--keep")) {
-    std::vector<std::string_view> one{"--start", "--goal", "--json", "--picture", "--explain"};
-    for (const OptionSpec& spec : picture_option_specs()) one.push_back(spec.name);
-    for (const OptionSpec& spec : path_option_specs()) one.push_back(spec.name);
-    for (const std::string_view option : one) {
-      if (arguments.has(option)) throw UsageError(fmt::format("{}: is for one question; {} has many", option, of));
-    }
+    const std::string why = fmt::format("is for one question; {} has many", of);
+    arguments.refuse({"--start", "--goal", "--json", "--picture", "--explain"}, why);
+    arguments.refuse(picture_option_specs(), why);
+    arguments.refuse(path_option_specs(), why);
   }
   /// ask(query, options, execution) says what it did and how much was wrong.
   template <class Ask>

@@ -51,17 +51,12 @@ std::unique_ptr<serve::ServedWorld> load_served(const Arguments& arguments, cons
   read_asked_files(body, arguments, run.execution());
   StageTimes seconds;
   if (is_roadmap_named(file)) {
-    for (const std::string_view name : {"--robot", "--clearance"}) {
-      if (arguments.has(name)) throw UsageError(fmt::format("{}: the roadmap was built with its own", name));
-    }
-    for (const OptionSpec& word : price_option_specs()) {
-      if (arguments.has(word.name))
-        throw UsageError(fmt::format("{}: a roadmap knows no prices; serve its world", word.name));
-    }
+    arguments.refuse({"--robot", "--clearance"}, "the roadmap was built with its own");
+    arguments.refuse(price_option_specs(), "a roadmap knows no prices; serve its world");
     check_rules_of_maps(arguments);
     return std::make_unique<serve::ServedWorld>(load_roadmap(arguments, run.execution(), seconds), run.execution());
   }
-  if (arguments.has("--world")) throw UsageError("--world: is for a roadmap whose file has none, and this is a world");
+  arguments.refuse({"--world"}, "is for a roadmap whose file has none, and this is a world");
   return std::make_unique<serve::ServedWorld>(load_world(file, arguments, run.execution(), seconds), body,
                                               run.execution());
 }

@@ -137,6 +137,16 @@ std::vector<std::string> Arguments::values(std::string_view option) const {
   return all;
 }
 
+void Arguments::refuse(std::initializer_list<std::string_view> options, std::string_view why) const {
+  for (const std::string_view option : options) {
+    if (has(option)) throw UsageError(fmt::format("{}: {}", option, why));
+  }
+}
+
+void Arguments::refuse(std::span<const OptionSpec> options, std::string_view why) const {
+  for (const OptionSpec& option : options) refuse({option.name}, why);
+}
+
 Arguments Arguments::of(std::string_view option, std::string value) {
   Arguments one;
   one.options_.emplace_back(option, std::move(value));

@@ -18,6 +18,7 @@ namespace warren::tools {
 // of forty lines instead of a library, since help, completions, manual page and suggestions need the table anyway.
 
 struct Command;
+struct OptionSpec;
 
 class Arguments {
  public:
@@ -33,6 +34,9 @@ class Arguments {
   std::optional<std::string> value(std::string_view option) const;
   /// All that was given with it, where it takes several words.
   std::vector<std::string> values(std::string_view option) const;
+  /// Throws UsageError, "OPTION: WHY", where one of these is given.
+  void refuse(std::initializer_list<std::string_view> options, std::string_view why) const;
+  void refuse(std::span<const OptionSpec> options, std::string_view why) const;
   /// These words, but for some options.
   Arguments without(std::span<const std::string_view> options) const;
   const std::string& operand(std::size_t i) const { return operands_[i]; }

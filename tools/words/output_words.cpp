@@ -47,17 +47,10 @@ std::span<const OptionSpec> picture_option_specs() { return picture_specs; }
 PictureOptions picture_words(const Arguments& arguments, bool is_drawn, std::string_view draws, std::string_view file) {
   PictureOptions options;
   if (!is_drawn) {
-    for (const OptionSpec& spec : picture_specs) {
-      if (arguments.has(spec.name)) throw UsageError(fmt::format("{}: goes with {}", spec.name, draws));
-    }
+    arguments.refuse(picture_specs, fmt::format("goes with {}", draws));
     return options;
   }
-  if (file.ends_with(".html")) {
-    for (const char* option : {"--size", "--dpi"}) {
-      if (arguments.has(option))
-        throw UsageError(fmt::format("{}: a page fills its window; say .svg, .png or .pdf", option));
-    }
-  }
+  if (file.ends_with(".html")) arguments.refuse({"--size", "--dpi"}, "a page fills its window; say .svg, .png or .pdf");
   if (arguments.has("--show")) {
     options.parts = Parts::none();
     for (const Part part : given_values(arguments, "--show", "--show", choice_value<Part>)) {
@@ -111,9 +104,7 @@ std::span<const OptionSpec> path_option_specs() { return path_specs; }
 
 PathFileOptions path_words(const Arguments& arguments) {
   if (!arguments.has("--path")) {
-    for (const OptionSpec& spec : path_specs) {
-      if (arguments.has(spec.name)) throw UsageError(fmt::format("{}: goes with --path FILE", spec.name));
-    }
+    arguments.refuse(path_specs, "goes with --path FILE");
     return {};
   }
   path_format(std::string(*arguments.value("--path")));
