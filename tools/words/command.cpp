@@ -21,11 +21,6 @@ namespace {
   throw UsageError("unknown option " + std::string{name} + suggestion(name, known));
 }
 
-bool is_choice(const OptionSpec& option, std::string_view word) {
-  const std::vector<std::string> choices = words_of(option.choices);
-  return std::find(choices.begin(), choices.end(), word) != choices.end();
-}
-
 }  // namespace
 
 const OptionSpec* option_named(const Command& command, std::string_view name) {
@@ -44,6 +39,11 @@ std::vector<std::string> words_of(std::string_view text) {
     at = end + 1;
   }
   return words;
+}
+
+bool is_among(std::string_view word, std::string_view words) {
+  const std::vector<std::string> all = words_of(words);
+  return std::find(all.begin(), all.end(), word) != all.end();
 }
 
 Arguments::Arguments(const Command& command, std::span<const std::string> words) {
@@ -83,7 +83,7 @@ void Arguments::take_option(const Command& command, std::span<const std::string>
     }
     std::string value = equals != std::string::npos ? word.substr(equals + 1) : "";
     const bool is_gone = option->name == "--lazy" && i + 1 < words.size() && words[i + 1] == "path";  // refused by name
-    const bool is_next = i + 1 < words.size() && (is_gone || is_choice(*option, words[i + 1]));
+    const bool is_next = i + 1 < words.size() && (is_gone || is_among(words[i + 1], option->choices));
     if (equals == std::string::npos && is_next) value = words[++i];
     options_.emplace_back(option->name, std::move(value));
     return;

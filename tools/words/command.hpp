@@ -60,6 +60,7 @@ class Arguments {
 
 /// Those between the blanks.
 std::vector<std::string> words_of(std::string_view text);
+bool is_among(std::string_view word, std::string_view words);
 
 /// One long option. `value` names what follows it, a word each; empty for a flag. `choices` lists the words it takes,
 /// blank-separated. What a value is completed with follows from its name: FILE, FOLDER and WORLD are files, folders and

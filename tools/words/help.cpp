@@ -92,8 +92,7 @@ std::string options_about(std::string_view asked, std::span<const Command> comma
     return &option == option_named(command, name);
   };
   const auto takes_it = [&](const Command& command, const OptionSpec& option) {
-    const std::vector<std::string> choices = words_of(option.choices);
-    return !has_name(command, option) && std::find(choices.begin(), choices.end(), word) != choices.end();
+    return !has_name(command, option) && is_among(word, option.choices);
   };
   return options_with_verbs(commands, width, has_name) + options_with_verbs(commands, width, takes_it);
 }
@@ -276,11 +275,6 @@ constexpr NamedGroup command_groups[] = {
     {"Measuring", "profile largest scale bench-scen"},
     {"Help", "help man completion"},
 };
-
-bool is_among(std::string_view name, std::string_view names) {
-  const std::vector<std::string> words = words_of(names);
-  return std::find(words.begin(), words.end(), name) != words.end();
-}
 
 std::string_view group_of(const OptionSpec& option) {
   if (!option.group.empty()) return option.group;
