@@ -63,11 +63,7 @@ PolygonOptions polygon_options(const Arguments& arguments) {
   options.count = count_value("COUNT", arguments.operand(1), 1, most);
   options.seed = seed_word(arguments);
   options.corners = given_count(arguments, "--corners", 3, most);
-  try {
-    options.validate();
-  } catch (const InputError& error) {
-    throw UsageError(error.what());
-  }
+  as_usage([&] { options.validate(); });
   return options;
 }
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/base/enum_names.hpp"
+#include "core/base/error.hpp"
 #include "core/base/types.hpp"
 #include "tools/words/command.hpp"
 
@@ -67,6 +68,16 @@ inline constexpr auto choice_text = [] {
 /// The names of an enum, apart by blanks, as OptionSpec::choices has them.
 template <NamedEnum E>
 inline constexpr std::string_view choices_of{choice_text<E>.first.data(), choice_text<E>.second};
+
+/// What is wrong with data that stands in an option is wrong with the command line.
+template <class Read>
+auto as_usage(const Read& read) {
+  try {
+    return read();
+  } catch (const InputError& error) {
+    throw UsageError(error.what());
+  }
+}
 
 /// What `read`, one of the functions above, makes of an option's value; nothing where the option is not given.
 template <class Read, class... Limits>

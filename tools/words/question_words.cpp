@@ -111,11 +111,7 @@ constexpr OptionSpec asked_specs[] = {
 constexpr std::size_t price_count = 6;
 
 RobotSpec robot_option(std::string_view option, std::string_view text) {
-  try {
-    return robot_value(std::string{option}, text);
-  } catch (const InputError& error) {
-    throw UsageError(error.what());
-  }
+  return as_usage([&] { return robot_value(std::string{option}, text); });
 }
 
 Eigen::Isometry3d pose_value(std::string_view option, std::string_view text) {
@@ -142,11 +138,7 @@ ClearancePrice clearance_price_value(std::string_view option, std::string_view t
 
 PricedArea area_option(std::string_view option, std::string text) {
   std::replace(text.begin(), text.end(), ';', ' ');
-  try {
-    return area_value(std::string{option}, text);
-  } catch (const InputError& error) {
-    throw UsageError(error.what());
-  }
+  return as_usage([&] { return area_value(std::string{option}, text); });
 }
 
 /// "FILE,1,2": the numbers behind the last commas, as many as there may be or none; a name may have commas, too.
