@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "core/base/trigonometry.hpp"
 #include "pictures/draw_answer.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/layers/draw_arm.hpp"

@@ -2,8 +2,6 @@
 // A roadmap that Python holds, with what its questions need: made when they are first asked, kept for the next ones.
 #pragma once
 
-#include <memory>
-
 #include "apps/python/arrays.hpp"
 #include "parallel/once.hpp"
 #include "solve/kept/roadmap_query.hpp"

@@ -3,7 +3,6 @@
 // Execution that they make.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>

@@ -7,7 +7,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 
 #include "core/base/solution.hpp"
 #include "core/run/execution.hpp"
