@@ -32,19 +32,16 @@ namespace warren::tools {
 namespace {
 
 constexpr OptionSpec convert_specs[] = {
-    {"--output",
-     "FILE",
-     "where to: .walls .scene .npy .maze .geojson .wkt .map .yaml .pgm .svg .png .pdf .html by ending; - is standard "
-     "output. "
-     "A "
-     "map's .png has a pixel a cell; of other worlds it is a picture unless --cell is given",
-     {},
-     "-o"},
+    {.name = "--output",
+     .value = "FILE",
+     .help = "where to: .walls .scene .npy .maze .geojson .wkt .map .yaml .pgm .svg .png .pdf .html by ending; - is "
+             "standard output. A map's .png has a pixel a cell; of other worlds it is a picture unless --cell is given",
+     .short_name = "-o"},
     {"--cell", "C", "make a map of walls or polygons, with cells of this side"},
     {"--simplify", "D",
      "WORLD is a route graph of Nav2: leave out the nodes of chains that stay within D metres of a straight edge. "
-     "Nodes "
-     "and edges that somebody has written metadata, operations or headings on stay, and so do costs and directions"},
+     "Nodes and edges that somebody has written metadata, operations or headings on stay, and so do costs and "
+     "directions"},
     {"--world", "WORLD", "with --simplify: make only edges along which the body goes free in this world"},
     {"--robot", "\"BODY\"", "with --world: the body (default: the world's, else point)"},
     {"--clearance", "R", "with --world: room to keep around the body (default: the world's, else 0)"},

@@ -22,11 +22,10 @@ namespace warren::tools {
 namespace {
 
 constexpr OptionSpec export_specs[] = {
-    {"--output",
-     "FILE",
-     "where to: .geojson .graphml .gr .csv .npz .dot, or as a picture .svg .png .pdf .html, by ending",
-     {},
-     "-o"},
+    {.name = "--output",
+     .value = "FILE",
+     .help = "where to: .geojson .graphml .gr .csv .npz .dot, or as a picture .svg .png .pdf .html, by ending",
+     .short_name = "-o"},
     {"--unchecked", "", "write edges, too, that nothing has checked yet (of lazy-prm)"},
     {"--frame", "NAME", "name of the coordinate frame in .geojson (default: map)"},
     {"--simplify", "D",

@@ -30,11 +30,10 @@ namespace warren::tools {
 namespace {
 
 constexpr OptionSpec generate_specs[] = {
-    {"--output",
-     "FILE",
-     "where to: .walls .scene .npy .maze .geojson .wkt .svg .png .pdf .html by ending; - is standard output",
-     {},
-     "-o"},
+    {.name = "--output",
+     .value = "FILE",
+     .help = "where to: .walls .scene .npy .maze .geojson .wkt .svg .png .pdf .html by ending; - is standard output",
+     .short_name = "-o"},
     {.name = "--seed",
      .value = "N",
      .help = "which of all such worlds: another seed makes another (default: 1)",

@@ -57,8 +57,7 @@ class SolveCommand : public AnswerCommand {
     if (!is_unmade(scene_)) {
       throw UsageError(
           "--resume: keeps tiles of mazes that are made tile by tile: of mst and .maze with --pipeline streamed, and "
-          "of "
-          ".npy where --memory does not hold their walls");
+          "of .npy where --memory does not hold their walls");
     }
     ResumeFile kept(file, run.execution());
     Answer answer =

@@ -96,6 +96,7 @@ std::string options_about(std::string_view asked, std::span<const Command> comma
   };
   return options_with_verbs(commands, width, has_name) + options_with_verbs(commands, width, takes_it);
 }
+
 /// "g++ 12.2.0, Release".
 std::string build_compiler() {
 #ifdef __clang__
@@ -126,7 +127,6 @@ std::string build_instruction_sets() {
   return "plain code alone";
 #endif
 }
-
 
 }  // namespace
 
@@ -259,9 +259,7 @@ constexpr NamedGroup option_groups[] = {
     {"Mazes", "--algorithm --loops"},
     {"Outputs",
      "--output --picture --figures --curves --table --json --no-path --csv --runs --log --html --pictures --report "
-     "--save-roadmap --keep "
-     "--explain --show "
-     "--heading --size --dpi --title"},
+     "--save-roadmap --keep --explain --show --heading --size --dpi --title"},
     {"Path as a file",
      "--path --every --speed --acceleration --lateral-acceleration --joint-speed --joint-acceleration --frame"},
     {"Run", "--threads --budget --memory --quiet --progress --color --trace --resume"},

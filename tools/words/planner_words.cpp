@@ -43,13 +43,12 @@ constexpr OptionSpec planner_specs[] = {
      "path; warren then says by how much (default: euclidean)",
      choices_of<HeuristicKind>},
     {"--queue", "NAME", "the priority queue of astar and dijkstra (default: heap)", choices_of<QueueKind>},
-    {"--lazy",
-     "[WHEN]",
-     "visibility: look for edges only where the search needs them (by itself from 20000 corners on). lazy-prm always "
-     "does so, and takes --lazy expansion",
-     choices_of<LazyCheck>,
-     {},
-     true},
+    {.name = "--lazy",
+     .value = "[WHEN]",
+     .help = "visibility: look for edges only where the search needs them (by itself from 20000 corners on). lazy-prm "
+             "always does so, and takes --lazy expansion",
+     .choices = choices_of<LazyCheck>,
+     .value_optional = true},
     {"--pipeline", "NAME",
      "how prm works through a maze. plain: one stage after the other; tiled: square by square, each through all "
      "stages while it is in the cache; streamed: as tiled, without holding the whole maze in memory. Default: tiled on "
@@ -241,8 +240,7 @@ std::vector<OptionSpec> solve_option_specs() {
       "how to find the path. prm joins samples to a roadmap and checks all of it, lazy-prm only what the search meets. "
       "visibility: the shortest path among polygons; cells: through slices of the free space; voronoi: as far "
       "from obstacles as can be. rrt grows a tree from the start, rrt-connect one from either end. grid searches "
-      "cells. "
-      "anytime, rrt-star and informed-rrt-star get better until they are stopped (default: by world and body)";
+      "cells. anytime, rrt-star and informed-rrt-star get better until they are stopped (default: by world and body)";
   return specs;
 }
 

@@ -26,15 +26,11 @@ constexpr OptionSpec question_specs[] = {
     {"--start", "X,Y[,THETA]",
      "where to start: X,Y; for a body that turns X,Y,THETA (radians, or 90deg); for an arm one number a "
      "joint (default: the file's)"},
-    {"--goal",
-     "X,Y[,THETA]",
-     "where to arrive, as --start; without THETA at any heading. X,Y,Z: a place of an arm's tool. Several times: the "
-     "cheapest to reach (default: the file's)",
-     {},
-     {},
-     false,
-     false,
-     true},
+    {.name = "--goal",
+     .value = "X,Y[,THETA]",
+     .help = "where to arrive, as --start; without THETA at any heading. X,Y,Z: a place of an arm's tool. Several "
+             "times: the cheapest to reach (default: the file's)",
+     .may_repeat = true},
     {"--goal-pose", "X,Y,Z,QX,QY,QZ,QW",
      "where an arm's tool is to arrive: a place, and a turn as a quaternion (default: the file's)"},
     {"--clearance", "R",
@@ -48,44 +44,28 @@ constexpr OptionSpec question_specs[] = {
 constexpr OptionSpec asked_specs[] = {
     {"--clearance-price", "P[,D]",
      "what nearness costs: a metre in touch with an obstacle costs P metres more, from a distance D on nothing "
-     "(default "
-     "of D: the body's least width)"},
-    {"--area",
-     "AREA",
-     "\"F X Y X Y X Y ...\": in this polygon a metre costs F metres, F at least 1; may be given several times: the "
-     "greatest counts",
-     {},
-     {},
-     false,
-     false,
-     true},
-    {"--areas",
-     "FILE,F",
-     "a mask, as map servers read it: its values 1 to 99 are factors up to F, 100 is blocked",
-     {},
-     {},
-     false,
-     false,
-     true},
-    {"--speed-zones",
-     "FILE[,BASE,MULTIPLIER]",
-     "a mask of Nav2's speed limits, BASE + MULTIPLIER * value per cent: slow cells cost as much longer, a limit of 0 "
-     "is blocked (default: 100,-1)",
-     {},
-     {},
-     false,
-     false,
-     true},
-    {"--keep-out",
-     "FILE[,F]",
-     "nothing may be in these areas: a mask's value 100, or the polygons of a GeoJSON or scene. With F they are "
-     "passable, "
-     "and a metre costs F metres",
-     {},
-     {},
-     false,
-     false,
-     true},
+     "(default of D: the body's least width)"},
+    {.name = "--area",
+     .value = "AREA",
+     .help =
+         "\"F X Y X Y X Y ...\": in this polygon a metre costs F metres, F at least 1; may be given several times: the "
+         "greatest counts",
+     .may_repeat = true},
+    {.name = "--areas",
+     .value = "FILE,F",
+     .help = "a mask, as map servers read it: its values 1 to 99 are factors up to F, 100 is blocked",
+     .may_repeat = true},
+    {.name = "--speed-zones",
+     .value = "FILE[,BASE,MULTIPLIER]",
+     .help = "a mask of Nav2's speed limits, BASE + MULTIPLIER * value per cent: slow cells cost as much longer, a "
+             "limit of 0 is blocked (default: 100,-1)",
+     .may_repeat = true},
+    {.name = "--keep-out",
+     .value = "FILE[,F]",
+     .help =
+         "nothing may be in these areas: a mask's value 100, or the polygons of a GeoJSON or scene. With F they are "
+         "passable, and a metre costs F metres",
+     .may_repeat = true},
     {"--unknown", "blocked|F",
      "unknown cells of a map: blocked, or passable, where a metre costs F metres, F at least 1 (default: blocked)"},
     {"--goal-tolerance", "R[,ANGLE]",
@@ -101,8 +81,7 @@ constexpr OptionSpec asked_specs[] = {
     {"--return", "", "with --visit: end at the start; there is no goal then"},
     {"--alternatives", "K[,SIZE]",
      "also tell other ways: of each of the K cheapest classes the cheapest path. Paths are of one class where "
-     "obstacles "
-     "at least SIZE across are on the same sides of them (default of SIZE: the body's length; 0: all)"},
+     "obstacles at least SIZE across are on the same sides of them (default of SIZE: the body's length; 0: all)"},
     {"--stretch", "S", "with --alternatives: they cost at most S times as much as the cheapest (default: 1.5)"},
     {"--keep-to", "OLD.json",
      "go on along the path of this older answer, unless that is blocked now or a new one is clearly cheaper"},
