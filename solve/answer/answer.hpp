@@ -151,26 +151,8 @@ struct HandedPath {
   std::string hash;          ///< solve/answer/path_hash.hpp
 };
 
-/// A path, and what answers say of it, made here or read from a file.
-struct ToldPath {
-  std::optional<double> lower_bound;  ///< proved: no path has less cost or, where that is not told, length
-  std::optional<double> cost;         ///< in the planner's own units, where that is not the length
-  std::optional<PriceParts> price;    ///< where prices were asked: then cost is length and all its parts
-  std::string bound_of;               ///< of a priced lower bound: "all" paths, or those over the "lattice"; else empty
-  std::optional<std::uint64_t> goal_index;    ///< of several goals, from 0: the one that is reached
-  std::optional<GoalReached> goal_reached;    ///< where the question left a choice of places
-  std::vector<std::uint64_t> order;           ///< of places to visit, from 0, as they are visited
-  std::vector<AlternativePath> alternatives;  ///< the cheapest first; the answer's own path is none of them
-  std::vector<std::int32_t> passed;           ///< where alternatives were asked: the class of the answer's own path
-  std::vector<MapHole> holes;                 ///< those that the classes name
-  std::optional<double> hole_size;   ///< where alternatives are told: the longer side of a hole's box, at least
-  std::optional<KeptRoute> keeping;  ///< where an older path was to be kept
-  Path<Vec2> path;   ///< of the reference point in the plane, as pictures show it; a point's or disc's states
-  StateList states;  ///< start to goal, where a state is more than a point of the plane; else empty
-};
-
 /// What solve() found: an outcome, a verified path where there is one, and the account of the work.
-struct Answer : ToldPath {
+struct Answer {
   Outcome outcome = Outcome::stopped;     ///< how it ended
   std::optional<StopReason> stop_reason;  ///< of stopped, and of planners that get better until they are stopped
   bool verified = false;                  ///< has it a path that a judge found free, with all its clearance?
@@ -180,10 +162,22 @@ struct Answer : ToldPath {
   double length = 0.0;                    ///< only where verified, as all that is said of the path
   double min_clearance = 0.0;             ///< room around the body along the path
   std::optional<double> raw_length;       ///< before it was pulled taut
-  bool optimal = false;  ///< proved: no shorter path exists but for 1e-9; of a disc: than with its arcs
+  bool optimal = false;               ///< proved: no shorter path exists but for 1e-9; of a disc: than with its arcs
+  std::optional<double> lower_bound;  ///< proved: no path has less cost or, where that is not told, length
   std::vector<Improvement> improvements;  ///< of planners that get better with time: each path that was the best so far
   std::optional<std::uint64_t> iterations;  ///< the turns that these have done: as many give the same answer
   std::string ended_by;  ///< of these: optimum, lattice, gap, iterations, caller, or as stop_reason; empty: others
+  std::optional<double> cost;       ///< in the planner's own units, where that is not the length
+  std::optional<PriceParts> price;  ///< where prices were asked: then cost is length and all its parts
+  std::string bound_of;             ///< of a priced lower bound: "all" paths, or those over the "lattice"; else empty
+  std::optional<std::uint64_t> goal_index;    ///< of several goals, from 0: the one that is reached
+  std::optional<GoalReached> goal_reached;    ///< where the question left a choice of places
+  std::vector<std::uint64_t> order;           ///< of places to visit, from 0, as they are visited
+  std::vector<AlternativePath> alternatives;  ///< the cheapest first; the answer's own path is none of them
+  std::vector<std::int32_t> passed;           ///< where alternatives were asked: the class of the answer's own path
+  std::vector<MapHole> holes;                 ///< those that the classes name
+  std::optional<double> hole_size;   ///< where alternatives are told: the longer side of a hole's box, at least
+  std::optional<KeptRoute> keeping;  ///< where an older path was to be kept
   std::optional<double> turn_rad;    ///< all turning along the path, of bodies that turn
   Problem problem;                   ///< what was asked, with what the world's file and the defaults add
   WorldAccount world;                ///< of which world
@@ -205,8 +199,10 @@ struct Answer : ToldPath {
   double solve_s = 0.0;                   ///< of the whole call, wall-clock
   std::size_t wanted_memory_bytes = 0;    ///< stopped by memory: the least that it needs, as far as known; else 0
   std::size_t peak_memory_bytes = 0;      ///< the most that the process has held so far
-  std::optional<HandedPath> handed;       ///< instead of `path`, where solve_within() was given a taker and used it
-  bool tells_path = true;                 ///< does JSON list the path's states, or only their number and hash?
+  Path<Vec2> path;  ///< of the reference point in the plane, as pictures show it; a point's or disc's states
+  std::optional<HandedPath> handed;  ///< instead of `path`, where solve_within() was given a taker and used it
+  StateList states;                  ///< start to goal, where a state is more than a point of the plane; else empty
+  bool tells_path = true;            ///< does JSON list the path's states, or only their number and hash?
 };
 
 /// How much more than the lower bound the path costs, as a share of that; none where either is not known.

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -285,11 +286,13 @@ class AnswerReader {
 
 RecordedAnswer recorded(const Answer& answer) {
   RecordedAnswer record;
-  static_cast<ToldPath&>(record) = answer;
   record.problem = answer.problem.question();
   record.via = answer.problem.via;
   record.world_hash = answer.world.hash;
   record.length = answer.length;
+  record.lower_bound = answer.lower_bound;
+  record.cost = answer.cost;
+  record.price = answer.price;
   const auto number = [&](std::string_view name) -> std::optional<double> {
     const Figure* figure = figure_named(answer.options, name);
     const double* value = figure != nullptr ? std::get_if<double>(figure) : nullptr;
@@ -297,7 +300,18 @@ RecordedAnswer recorded(const Answer& answer) {
   };
   record.driving = {number("turn_cost"), number("cusp_cost"), number("reverse_cost"),
                     figure_named(answer.options, "optimise") != nullptr};
+  record.goal_index = answer.goal_index;
+  record.bound_of = answer.bound_of;
+  record.goal_reached = answer.goal_reached;
+  record.order = answer.order;
+  record.alternatives = answer.alternatives;
+  record.passed = answer.passed;
+  record.holes = answer.holes;
+  record.hole_size = answer.hole_size;
+  record.keeping = answer.keeping;
   record.file = "answer";
+  record.path = answer.path;
+  record.states = answer.states;
   return record;
 }
 
