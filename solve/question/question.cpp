@@ -182,6 +182,8 @@ WallProblem wall_problem(const Scene& scene, const Question& options, Contact us
   problem.goal = problem.start;
   const bool ends_anywhere = !options.rule.visit.empty() && options.goal.empty() && scene.goal.empty();
   if (!options.rule.back && !ends_anywhere) problem.goal = plane_state("@goal", options.goal, scene.goal);
+  for (const auto& place : options.rule.others) plane_state("@goal", place, {});
+  for (const auto& place : options.rule.visit) plane_state("@visit", place, {});
   problem.clearance = clearance_of(scene, options);
   problem.prices = prices_of(scene, options);
   problem.rule = rule_of(scene, options);

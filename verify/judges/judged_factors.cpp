@@ -97,6 +97,7 @@ JudgedFactors::JudgedFactors(const Scene& scene, const Prices& prices, const Exe
 double JudgedFactors::over(const Segment& leg) {
   const Segment own = map_ != nullptr ? Segment{map_point(*map_, leg.a), map_point(*map_, leg.b)} : leg;
   const JudgedRay ray(own);
+  if (!(ray.length > 0.0)) return 0.0;  // places that differ in the world alone
   cuts_.clear();
   for (const Area& area : areas_) {
     for (std::size_t i = 0; i < area.corners.size(); ++i) {

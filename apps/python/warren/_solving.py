@@ -23,6 +23,12 @@ def finished(core, world):
     return answer
 
 
+def _takes_old_answer(options):
+    """keep_to may be an Answer."""
+    if isinstance(options.get("keep_to"), Answer):
+        options["keep_to"] = options["keep_to"]._core
+
+
 @documented(_core.solve_keywords())
 def solve(world, start=None, goal=None, *, keep=False, explain=False, on_improvement=None, **options):
     """Finds a path, verified by code that shares nothing with the planner.
@@ -79,6 +85,7 @@ def solve(world, start=None, goal=None, *, keep=False, explain=False, on_improve
     'goal_blocked'
     """
     there = as_world(world)
+    _takes_old_answer(options)
     options["start"] = start
     if goal is not None or "goals" not in options:
         options["goal"] = goal
@@ -119,6 +126,7 @@ class Replanner:
     __slots__ = ("_core",)
 
     def __init__(self, world, start=None, goal=None, **options):
+        _takes_old_answer(options)
         options["start"] = start
         if goal is not None or "goals" not in options:
             options["goal"] = goal

@@ -307,6 +307,17 @@ def test_a_replanner_answers_as_a_fresh_solve():
     assert again.solve().cost == first.cost
 
 
+def test_a_route_is_kept_to_an_answer():
+    cells = np.zeros((20, 30), bool)
+    cells[5:15, 14] = True
+    question = (warren.grid(cells), (2.5, 10.5), (27.5, 10.5))
+    old = warren.solve(*question, clearance_price=(3, 2))
+    kept = warren.solve(*question, clearance_price=(3, 2), keep_to=old, unless_gain=0.05)
+    assert kept.keeping.kept and kept.cost == pytest.approx(old.cost)
+    again = warren.Replanner(*question, clearance_price=(3, 2), keep_to=old, unless_gain=0.05)
+    assert again.solve().keeping.kept
+
+
 def test_holes_and_certificates(tmp_path):
     cells = np.zeros((20, 30), bool)
     cells[5:15, 14] = True

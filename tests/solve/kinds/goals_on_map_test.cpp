@@ -54,6 +54,21 @@ std::vector<Cell> reachable(const Bitmap& blocked, Cell start) {
 
 double off(Cell c, const std::vector<double>& place) { return std::hypot(c.x + 0.5 - place[0], c.y + 0.5 - place[1]); }
 
+/// Each of the places is looked at, not the first alone.
+TEST(GoalsOnMap, TakesPlacesOfTwoNumbers) {
+  const Scene scene = scene_of(Bitmap(6, 6));
+  Question question;
+  question.start = {0.5, 0.5};
+  question.goal = {2.5, 2.5};
+  for (auto* places : {&question.rule.others, &question.rule.visit}) {
+    *places = {{1.5, 2.5, 7.0}};
+    EXPECT_THROW(solve(scene, question, {}), UsageError);
+    *places = {{1.5, 2.5}};
+    EXPECT_EQ(solve(scene, question, {}).outcome, Outcome::solved);
+    places->clear();
+  }
+}
+
 TEST(GoalsOnMap, OfSeveralGoalsTheNearestIsReached) {
   for (const std::uint64_t seed : test::seeds(120, 15)) {
     SCOPED_TRACE(seed);

@@ -40,6 +40,10 @@ TEST(VerifyPrice, PathsOnMapsCostWhatBruteForceSays) {
       const PriceParts brute = brute_parts(*effective.map, a, b, prices, radius);
       EXPECT_NEAR(found.clearance, brute.clearance, 1e-9 * (1.0 + brute.clearance)) << i;
       EXPECT_NEAR(found.areas, brute.areas, 1e-9 * (1.0 + brute.areas)) << i;
+      // A leg so short that its ends are one place of the map.
+      const std::array twice{a, Vec2{std::nextafter(a.x, b.x), a.y}, b};
+      EXPECT_NEAR(verify_price(effective, twice, prices, radius, {}).sum(), found.sum(), 1e-9 * (1.0 + found.sum()))
+          << i;
     }
   }
   EXPECT_GT(asked, 4);
