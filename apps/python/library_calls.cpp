@@ -22,6 +22,7 @@ namespace {
 constinit SignalFlag flag{0};
 constexpr std::array<int, 3> watched{SIGINT, SIGTERM, SIGHUP};
 std::array<struct sigaction, watched.size()> pythons;  // what Python does at each; only the main thread writes it
+int watches = 0;  // calls that are on the main thread: one, and those that its on_improvement makes
 
 /// Called by any thread. Python's own handler only takes a note, too.
 void take_note(int number) {
@@ -89,7 +90,7 @@ void set_stopped(StopReason reason, std::size_t wanted_bytes) {
 }  // namespace
 
 SignalWatch::SignalWatch() : is_watching_(is_main_thread()) {
-  if (!is_watching_) return;
+  if (!is_watching_ || watches++ > 0) return;
   flag.store(0, std::memory_order_relaxed);
   for (std::size_t i = 0; i < watched.size(); ++i) {
     ::sigaction(watched[i], nullptr, &pythons[i]);
@@ -101,7 +102,7 @@ SignalWatch::SignalWatch() : is_watching_(is_main_thread()) {
 }
 
 SignalWatch::~SignalWatch() {
-  if (!is_watching_) return;
+  if (!is_watching_ || --watches > 0) return;
   for (std::size_t i = 0; i < watched.size(); ++i) {
     if (is_handled_by_function(pythons[i])) ::sigaction(watched[i], &pythons[i], nullptr);
   }

@@ -134,6 +134,14 @@ def test_handlers_are_as_they_were_afterwards():
     assert warren.solve("maze:5x5")  # an old signal stops no new call
 
 
+def test_a_call_within_a_call_leaves_signals_as_they_were():
+    warren.solve("maze:9x9,loops=0.2", planner="anytime", iterations=9,
+                 on_improvement=lambda better: warren.solve("maze:5x5") and None)
+    with pytest.raises(KeyboardInterrupt):
+        os.kill(os.getpid(), signal.SIGINT)
+        time.sleep(1)
+
+
 def closed():
     names = {"warren": warren}
     exec(CLOSED, names)  # noqa: S102
