@@ -20,8 +20,8 @@
 namespace warren::python {
 
 /// While it lives on the main thread, signals that Python handles stop the call. Does nothing on other threads, as
-/// Python does. Of calls within a call the outermost alone does so. Nothing else of Python runs on that thread meanwhile:
-/// a handler may set another one, and may compute itself. Made and ended with the interpreter's lock held.
+/// Python does. Of calls within a call the outermost alone does so. Nothing else of Python runs on that thread
+/// meanwhile: a handler may set another one, and may compute itself. Made and ended with the interpreter's lock held.
 class SignalWatch {
  public:
   SignalWatch();
