@@ -212,8 +212,7 @@ void add_choices(Drawing& drawing, const GoalRule& rule, const std::vector<std::
                       .over_roadmap = true};
   for (const auto* states : {&rule.others, &rule.visit, &via}) {
     for (const std::vector<double>& state : *states) {
-      const Vec2 p = *plane_point(state);
-      places.lines.add(std::array{p, p});
+      if (const auto p = plane_point(state)) places.lines.add(std::array{*p, *p});
     }
   }
   if (!places.lines.empty()) drawing.layers.push_back(std::move(places));

@@ -297,9 +297,15 @@ void check_bound(Verdict& verdict, const Scene& scene, const RecordedAnswer& ans
   }
   const ClaimedBound claim{*answer.lower_bound, answer.cost, verdict.length, answer.state_width(),
                            answer.states.numbers};
-  const JudgedBound judged =
-      verify_bound(scene, {problem.robot, problem.start, problem.goal, problem.clearance}, claim, execution);
+  const auto judged_to = [&](const std::vector<double>& goal) {
+    return verify_bound(scene, {problem.robot, problem.start, goal, problem.clearance}, claim, execution);
+  };
+  const JudgedBound judged = judged_to(problem.goal);
   verdict.bound = judged.verdict;
+  for (const std::vector<double>& other : problem.rule.others) {  // a nearer one may be blocked, which nobody judges
+    if (verdict.bound != BoundVerdict::checked) break;
+    if (judged_to(other).verdict != BoundVerdict::checked) verdict.bound = BoundVerdict::unchecked;
+  }
   if (judged.verdict == BoundVerdict::refuted) refute(verdict, "lower_bound: " + judged.what);
 }
 

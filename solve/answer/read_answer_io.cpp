@@ -103,7 +103,7 @@ class AnswerReader {
     --arrays_;
     if (in("path") && arrays_ == 1) end_point();
     if (in_states() && arrays_ == 1) {
-      if (numbers_.size() < 2) refuse(point_expected, fmt::format("{} numbers", numbers_.size()));
+      if (numbers_.size() < (in("goals") ? 1U : 2U)) refuse(point_expected, fmt::format("{} numbers", numbers_.size()));
       (in("goals") ? goals_ : in("via") ? answer_.via : answer_.problem.rule.visit).push_back(numbers_);
     }
     if (objects_ == 2) end_inner_list();
@@ -120,9 +120,9 @@ class AnswerReader {
   RecordedAnswer finish() {
     if (!has_path_) throw InputError(file_, "the answer has no key \"path\"");
     if (answer_.path.empty()) throw InputError(file_, "key \"path\" has no points: there is nothing to check");
+    const bool of_arm = answer_.problem.robot && answer_.problem.robot->kind == RobotKind::urdf;
     for (const auto& [name, state] : {std::pair{"start", &answer_.problem.start}, {"goal", &answer_.problem.goal}}) {
       key_ = name;  // one number is for arms of one joint
-      const bool of_arm = answer_.problem.robot && answer_.problem.robot->kind == RobotKind::urdf;
       if (state->size() == 1 && !of_arm) refuse(point_expected);
     }
     GoalRule& rule = answer_.problem.rule;
@@ -130,7 +130,7 @@ class AnswerReader {
     if (answer_.price) answer_.price->error = cost_error_;
     try {
       check_prices(answer_.problem.prices);
-      check_goal_rule(rule);
+      check_goal_rule(rule, of_arm ? 1 : 2);
     } catch (const UsageError& error) {
       throw InputError(file_, error.spelled("", '_'));
     }

@@ -118,13 +118,12 @@ double free_curve(const Problem& problem) {
 
 /// In joint space. A tool whose place is the goal goes no farther than its distance from each axis times the turn about
 /// it, all told: so its way is at most the root of the sum of these distances' squares times the way in joint space.
-double least_turns(const Problem& problem, const Execution& execution) {
-  const ArmModel model = arm_model_of(problem.robot, problem.clearance, execution);
+double least_turns(const ArmModel& model, const Problem& problem, const std::vector<double>& goal) {
   const JointState start = joint_state(problem.start);
   double sum = 0.0;
-  if (!problem.goal_pose && problem.goal.size() == model.variables.size()) {
-    for (std::size_t j = 0; j < problem.goal.size(); ++j) {
-      const double way = variable_way(model.variables[j], start[j], problem.goal[j]);
+  if (!problem.goal_pose && goal.size() == model.variables.size()) {
+    for (std::size_t j = 0; j < goal.size(); ++j) {
+      const double way = variable_way(model.variables[j], start[j], goal[j]);
       sum += way * way;
     }
     return below_rounding(std::sqrt(sum), most_joints);
@@ -134,11 +133,19 @@ double least_turns(const Problem& problem, const Execution& execution) {
     const double reach = kinematics.tool_reach(j);
     sum += reach * reach;
   }
-  const Vec3 place = problem.goal_pose ? Vec3(problem.goal_pose->translation())
-                                       : Vec3(problem.goal[0], problem.goal[1], problem.goal[2]);
+  const Vec3 place = problem.goal_pose ? Vec3(problem.goal_pose->translation()) : Vec3(goal[0], goal[1], goal[2]);
   constexpr double tolerance = 1e-9;  // of the judge, and more than what rounding does to either
   const double way = (place - kinematics.tool_pose(start).translation()).norm();
   return sum > 0.0 ? std::max(0.0, way - tolerance) / std::sqrt(sum) * (1.0 - tolerance) : 0.0;
+}
+
+/// To the goal that is nearest by that.
+double least_turns(const Problem& problem, const Execution& execution) {
+  const ArmModel model = arm_model_of(problem.robot, problem.clearance, execution);
+  double least = least_turns(model, problem, problem.goal);
+  for (const std::vector<double>& other : problem.rule.others)
+    least = std::min(least, least_turns(model, problem, other));
+  return least;
 }
 
 bool is_told(const Answer& answer, std::string_view option) {
@@ -214,8 +221,8 @@ void tell_bound(Answer& answer, const Scene& scene, const SolveOptions& options,
   if (options.bound && !is_told(answer, name_of(Option::bound))) answer.options.push_back({"bound", true});
   if (!answer.verified || !options.trees.via.empty()) return;
   const GoalRule& rule = answer.problem.rule;
-  if (!answer.lower_bound && !answer.optimal && (!rule.others.empty() || rule.region))
-    return;  // another goal may be nearer
+  const bool is_open = rule.region || (!rule.others.empty() && !is_arm(answer.problem.robot));
+  if (!answer.lower_bound && !answer.optimal && is_open) return;  // another goal may be nearer
   const double cost = answer.cost.value_or(answer.length);
   if (answer.lower_bound) {  // the planner's own
   } else if (answer.optimal) {

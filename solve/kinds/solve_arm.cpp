@@ -85,8 +85,10 @@ class Arm : public UsualBody {
   }
   void judge(const World& world, const Path<JointState>& path, Answer& answer) const {
     ArmProblem reached = problem_;
-    take_reached_goal(reached, path.back());
+    const std::size_t number = take_reached_goal(reached, path.back());
     answer.problem.goal = reached.goal;
+    answer.problem.rule.others = reached.other_goals;
+    if (!reached.other_goals.empty()) answer.goal_index = number;
     const StageTimer timer(execution_, "verify", answer.seconds.verify, path.size());
     const Verification found = verify_arm(scene_, problem_.model, path, reached.verify_options(), execution_);
     take_verdict(answer, found);
@@ -161,15 +163,17 @@ bool fits_arm(const Scene&, const RobotSpec& robot) { return is_arm(robot); }
 
 Verdict recheck_arm(const Scene& scene, const Question& question, const RecordedAnswer& answer,
                     const Execution& execution) {
-  const ArmProblem problem = arm_problem(scene, question, execution);
+  ArmProblem problem = arm_problem(scene, question, execution);
   check_state_width(answer, problem.width(), "an arm");
   Path<JointState> path;
   for (std::size_t i = 0; i < answer.states.size(); ++i) path.push_back(joint_state(answer.states[i]));
   if (answer.states.empty()) {  // two joints
     for (const Vec2 p : answer.path) path.push_back(joint_state(std::array{p.x, p.y}));
   }
-  const Verification found = verify_arm(scene, problem.model, path, problem.verify_options(), execution);
-  return {found, problem.general()};
+  take_reached_goal(problem, path.back());
+  Verdict verdict{verify_arm(scene, problem.model, path, problem.verify_options(), execution), problem.general()};
+  if (!question.rule.empty()) verdict.problem.rule = question.rule;
+  return verdict;
 }
 
 }  // namespace

@@ -53,10 +53,10 @@ void check_mask(const PriceMask& mask) {
   }
 }
 
-void check_places(std::string_view option, const std::vector<std::vector<double>>& places) {
+void check_places(std::string_view option, const std::vector<std::vector<double>>& places, std::size_t least = 2) {
   for (const std::vector<double>& place : places) {
     const auto is_coordinate = [](double x) { return std::abs(x) <= largest_coordinate; };
-    const bool known = place.size() >= 2 && place.size() <= most_joints;
+    const bool known = place.size() >= least && place.size() <= most_joints;
     if (known && std::all_of(place.begin(), place.end(), is_coordinate)) continue;
     throw UsageError(fmt::format("@{}: a place is X,Y or X,Y,THETA, each at most 1e60", option));
   }
@@ -132,7 +132,7 @@ void check_prices(const Prices& prices) {
   if (prices.unknown) check_factor("unknown", *prices.unknown);
 }
 
-void check_goal_rule(const GoalRule& rule) {
+void check_goal_rule(const GoalRule& rule, std::size_t least_numbers) {
   constexpr double endless = std::numeric_limits<double>::infinity();
   check_number("goal_tolerance", "a distance", rule.tolerance, 0.0, endless, "from 0 on, or inf");
   check_number("goal_region", "a distance", rule.region, 0.0, largest_coordinate, "from 0 to 1e60");
@@ -141,7 +141,7 @@ void check_goal_rule(const GoalRule& rule) {
   }
   const std::string_view of_heading = rule.region ? "goal_region" : "goal_tolerance";
   check_number(of_heading, "an angle", rule.heading_rad, 0.0, 3.15, "from 0 to 3.15 rad");
-  check_places("goal", rule.others);
+  check_places("goal", rule.others, least_numbers);
   check_places("visit", rule.visit);
   constexpr std::size_t most_visits = 12;
   if (rule.visit.size() > most_visits) {

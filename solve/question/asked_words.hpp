@@ -102,7 +102,7 @@ PricedArea area_value(const std::string& where, std::string_view text);
 
 /// Throws UsageError for prices and rules that no world can be asked for: numbers out of range, areas of two corners.
 void check_prices(const Prices& prices);
-void check_goal_rule(const GoalRule& rule);
+void check_goal_rule(const GoalRule& rule, std::size_t least_numbers = 2);  ///< of a goal
 void check_route_rule(const RouteRule& route);
 /// Throws UsageError for what this world and body give no meaning to: unknown cells where there is no map, a reach that
 /// nobody says of a body without width, a price of nearness where the path may touch.

@@ -123,6 +123,7 @@ Problem ArmProblem::general() const {
   Problem problem{robot, {}, goal, clearance, Contact::blocked};
   problem.start.assign(start.begin(), start.begin() + as_whole<std::ptrdiff_t>(width()));
   problem.goal_pose = goal_pose;
+  problem.rule.others = other_goals;
   problem.told = told;
   return problem;
 }
@@ -173,11 +174,13 @@ double reach_of(const ArmProblem& problem) {
   return problem.table ? SerialChain(*problem.table).reach() : ArmKinematics(problem.model).reach();
 }
 
-void take_reached_goal(ArmProblem& problem, const JointState& end) {
-  for (const std::vector<double>& other : problem.other_goals) {
-    if (joint_state(other) == end) problem.goal = other;
+std::size_t take_reached_goal(ArmProblem& problem, const JointState& end) {
+  std::size_t number = 0;
+  for (std::size_t i = 0; i < problem.other_goals.size(); ++i) {
+    if (joint_state(problem.other_goals[i]) == end && problem.goal_state() != end) number = i + 1;
   }
-  problem.other_goals.clear();
+  if (number > 0) std::swap(problem.goal, problem.other_goals[number - 1]);
+  return number;
 }
 
 std::vector<JointState> goal_states(const ArmProblem& problem, const Execution& execution) {

@@ -44,8 +44,8 @@ ArmModel arm_model_of(const RobotSpec& robot, double clearance, const Execution&
 /// Upper bound of the distance of any point of the arm from its base.
 double reach_of(const ArmProblem& problem);
 
-/// The path's end as the goal where several would do.
-void take_reached_goal(ArmProblem& problem, const JointState& end);
+/// Where several goals would do, the one that the path ends at changes places with the first. Which it is, from 0.
+std::size_t take_reached_goal(ArmProblem& problem, const JointState& end);
 
 /// Throws UsageError where start or goal are missing or have the wrong size. Ends that are beyond a limit of an arm of
 /// files by at most 1e-5 are moved onto it, and told.

@@ -122,6 +122,32 @@ TEST_F(SolveUrdf, AJointWithoutEndGoesTheShorterWay) {
   EXPECT_EQ(run({"verify", file_, file}).code, 0);
 }
 
+/// The first goal is farther than the way to the second. Of one joint and of two.
+TEST_F(SolveUrdf, SeveralNamedGoalsAreBoundedAndToldTogether) {
+  const std::string slides =
+      R"(<robot name="r"><link name="b"/><link name="s"/><link name="t"><collision><geometry><sphere radius="0.05"/></geometry></collision></link>)"
+      R"(<joint name="x" type="prismatic"><parent link="b"/><child link="s"/><axis xyz="1 0 0"/><limit lower="-5" upper="5"/></joint>)"
+      R"(<joint name="y" type="prismatic"><parent link="s"/><child link="t"/><axis xyz="0 1 0"/><limit lower="-5" upper="5"/></joint></robot>)";
+  const std::string robot = "robot urdf " + folder_.write("slides.urdf", slides);
+  const std::string file = folder_.path("goals.json");
+  const auto expect_second = [&](const std::string& lines, const Json& goals, double bound) {
+    const std::string scene = folder_.write("goals.scene", robot + lines);
+    ASSERT_EQ(run({"solve", scene, "--planner", "rrt-star", "--iterations", "6", "--json", file, "--quiet"}).code, 0);
+    const Json answer = Json::parse(folder_.read("goals.json"));
+    EXPECT_EQ(answer["goals"], goals);
+    EXPECT_EQ(answer["goal"], goals[0]);
+    EXPECT_EQ(answer["goal_index"], 1);
+    EXPECT_NEAR(answer["lower_bound"], bound, 1e-9);
+    const Outcome verdict = run({"verify", scene, file});
+    EXPECT_EQ(verdict.code, 0) << verdict.err;
+    EXPECT_NE(verdict.out.find("lower bound checked"), std::string::npos) << verdict.out;
+  };
+  expect_second("\nbox -0.8 0.45 -0.3 0.8 0.55 0.3\nstart joints x 0 y 0\ngoal joints x 0 y -3\ngoal joints x 0 y 1\n",
+                Json::parse("[[0.0, 1.0], [0.0, -3.0]]"), 1.0);
+  expect_second(" base s tip t\nbox 1 1 1 2 2 2\nstart 0\ngoal joints y -3\ngoal joints y 1\n",
+                Json::parse("[[1.0], [-3.0]]"), 1.0);
+}
+
 /// Their states in a file have two numbers, as places of the plane.
 TEST_F(SolveUrdf, StopsOfTwoJointsAreStates) {
   const auto part = [](const std::string& name) {
