@@ -423,14 +423,14 @@ class ArmModelMaker {
     }
   }
 
-  /// A variable stays where all that follow it are within their limits; it has no end only where none feels the turn.
+  /// All that follow a variable are within their limits and speeds; it has no end only where none feels the turn.
   void narrow_variables() {
     for (const UrdfJoint& joint : tree_.joints) {
       if (joint.leader == no_urdf_part || variables_[joint.leader] == no_variable) continue;
       ArmVariable& variable = model_.variables[variables_[joint.leader]];
-      const bool whole = joint.multiplier == std::floor(joint.multiplier);
-      if (joint.kind != UrdfJointKind::continuous || !whole) variable.continuous = false;
+      variable.continuous &= joint.kind == UrdfJointKind::continuous && std::fmod(joint.multiplier, 1.0) == 0.0;
       if (joint.multiplier == 0.0) continue;
+      if (joint.speed > 0.0) variable.speed = std::min(variable.speed, joint.speed / std::abs(joint.multiplier));
       const double one = (joint.low - joint.offset) / joint.multiplier;
       const double other = (joint.high - joint.offset) / joint.multiplier;
       variable.low = std::max(variable.low, std::min(one, other));

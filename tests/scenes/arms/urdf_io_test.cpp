@@ -306,6 +306,20 @@ TEST_F(Urdf, MimicsFollowAlongChainsAndNarrowLimits) {
       joint("3", "revolute", "c", "d",
             "<limit lower=\"-1\" upper=\"0\"/><mimic joint=\"2\" multiplier=\"0.5\" offset=\"-1\"/>");
   EXPECT_EQ(read(robot(links + ends + first + second)).variables[0].low, 0.5);
+  const auto speed = [&](const std::string& own, const std::string& second_speed) {
+    return read(robot(links + joint("1", "revolute", "a", "b", "<limit lower=\"-9\" upper=\"9\"" + own + "/>") +
+                      joint("2", "revolute", "b", "c",
+                            "<limit lower=\"-9\" upper=\"9\"" + second_speed +
+                                "/><mimic joint=\"1\" multiplier=\"-4\"/>") +
+                      joint("3", "revolute", "c", "d",
+                            "<limit lower=\"-9\" upper=\"9\" velocity=\"1\"/><mimic joint=\"2\" multiplier=\"0.5\"/>")))
+        .variables[0]
+        .speed;
+  };
+  EXPECT_EQ(speed(" velocity=\"2\"", " velocity=\"1\""), 0.25);
+  EXPECT_EQ(speed(" velocity=\"2\"", ""), 0.5) << "of the second the file does not say";
+  EXPECT_EQ(speed(" velocity=\"0.125\"", " velocity=\"1\""), 0.125);
+  EXPECT_EQ(speed("", " velocity=\"1\""), 0.0);
   const std::string turning = joint("1", "continuous", "a", "b");
   const auto follows = [&](const std::string& multiplier) {
     return read(robot(links + turning +
