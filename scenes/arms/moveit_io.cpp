@@ -137,6 +137,8 @@ class MoveItStates : public MoveItNodes {
   /// Of a robot_state or start_state.
   void take_state(Scene& scene, const Node& state) {
     const Node joints = at(state, "joint_state");
+    for (const char* key : {"joint_state", "multi_dof_joint_state"})
+      know_frame(at(at(at(state, key), "header"), "frame_id"));
     if (!joints.IsNull()) take_joints(scene, joints);
     for_each(at(state, "multi_dof_joint_state"), "transforms", [&](const Node& base) {
       if (!pose(base, "translation", "rotation").is_identity()) yaml_.fail(base, "the arm's base must stand at 0 0 0");
@@ -163,6 +165,18 @@ class MoveItStates : public MoveItNodes {
     };
     each("primitives", "primitive_poses", [&](const Node& n, const PoseNumbers& p) { return primitive(n, p); });
     each("meshes", "mesh_poses", [&](const Node& n, const PoseNumbers& p) { return mesh(n, p); });
+  }
+
+  void know_frame(const Node& name) {
+    if (name.IsScalar()) root_frames_.insert(name.Scalar());
+  }
+  /// Poses are read in the frame of the robot's root; where another one is nobody knows before the robot's state.
+  void check_frame(const Node& posed) const {
+    const Node frame = at(at(posed, "header"), "frame_id");
+    if (frame.IsNull() || (frame.IsScalar() && root_frames_.contains(frame.Scalar()))) return;
+    yaml_.fail(frame,
+               "poses are read in the frame of the robot's root: give this one in it, with `frame_id` \"\" or world; "
+               "a scene may name the root's frame as a `child_frame_id` of `fixed_frame_transforms` at 0 0 0");
   }
 
   ArmFiles& arm_of(Scene& scene) const { return scene.arm ? *scene.arm : scene.arm.emplace(); }
@@ -232,6 +246,8 @@ class MoveItStates : public MoveItNodes {
     execution_.reserve(3 * all.size() * sizeof(double));
     return solid_of_numbers(*solid_word_named("hull"), all, yaml_.place(shape), execution_);
   }
+
+  std::set<std::string> root_frames_{"", "world"};  ///< names of the root's frame
 };
 
 class MoveItSceneReader : public MoveItStates {
@@ -248,9 +264,11 @@ class MoveItSceneReader : public MoveItStates {
     for_each(root, "fixed_frame_transforms", [&](const Node& frame) {
       const bool same = pose(at(frame, "transform"), "translation", "rotation").is_identity();
       if (!same) yaml_.fail(frame, "frames must stand at 0 0 0: what is in them would be elsewhere");
+      know_frame(at(frame, "child_frame_id"));
+      know_frame(at(at(frame, "header"), "frame_id"));
     });
-    for_each(world, "collision_objects", [&](const Node& object) { take_object(object); });
     take_state(scene_, at(root, "robot_state"));
+    for_each(world, "collision_objects", [&](const Node& object) { take_object(object); });
     take_matrix(at(root, "allowed_collision_matrix"));
     refuse_sizes(root, "link_padding", "padding", 0.0);
     refuse_sizes(root, "link_scale", "scale", 1.0);
@@ -268,10 +286,7 @@ class MoveItSceneReader : public MoveItStates {
   }
   void take_object(const Node& object) {
     if (const Node id = at(object, "id"); id.IsScalar()) ids_.insert(id.Scalar());
-    if (const Node frame = at(at(object, "header"), "frame_id"); frame.IsScalar() && !frame.Scalar().empty()) {
-      if (frame_.empty()) frame_ = frame.Scalar();
-      if (frame.Scalar() != frame_) yaml_.fail(frame, fmt::format("all objects must be in one frame, here {}", frame_));
-    }
+    check_frame(object);
     for_each_solid(object, [&](Solid solid) {
       if (solid.kind == SolidKind::sphere) {
         const Vec3 at = solid.pose.translation();
@@ -281,7 +296,7 @@ class MoveItSceneReader : public MoveItStates {
       }
     });
   }
-  /// As MoveIt reads it: what stands above the diagonal; defaults where there is no entry.
+  /// As MoveIt reads it: what stands above the diagonal; defaults where there is no entry, false before true.
   void take_matrix(const Node& matrix) {
     const std::vector<std::string> names = words(matrix, "entry_names");
     std::size_t row = 0;
@@ -306,16 +321,24 @@ class MoveItSceneReader : public MoveItStates {
     if (count(matrix, "default_entry_values") != names.size()) {
       yaml_.place(matrix).fail("`default_entry_values` must have as many items as `default_entry_names`");
     }
-    const std::set<std::string> entries(known.begin(), known.end());
+    std::map<std::string, bool> defaults;
     std::size_t i = 0;
     for_each(matrix, "default_entry_values", [&](const Node& value) {
-      const std::string& name = names[i++];
-      if (entries.contains(name)) return;
+      const bool may_touch = truth(value, "default_entry_values");
+      defaults.emplace(names[i++], may_touch).first->second &= may_touch;
+    });
+    const auto is_never = [&](const std::string& name) {
+      const auto found = defaults.find(name);
+      return found != defaults.end() && !found->second;
+    };
+    std::set<std::string> paired(known.begin(), known.end());
+    for (const std::string& name : names) {
+      if (!paired.insert(name).second) continue;
       for (const std::string& other : known) {
-        if (truth(value, "default_entry_values")) allow(name, other);
+        if (!is_never(name) && !is_never(other)) allow(name, other);
       }
       known.push_back(name);
-    });
+    }
   }
   std::vector<std::string> words(const Node& map, const char* key) const {
     std::vector<std::string> all;
@@ -337,7 +360,6 @@ class MoveItSceneReader : public MoveItStates {
 
   Scene scene_;
   std::set<std::string> ids_;  ///< of the world's objects
-  std::string frame_;
 };
 
 class MoveItRequestReader : public MoveItStates {
@@ -381,6 +403,8 @@ class MoveItRequestReader : public MoveItStates {
       yaml_.place(goal).fail("a goal needs `joint_constraints`, or one of `position_constraints`");
     }
     const Node place = at(goal, kinds[1])[0];
+    check_frame(place);
+    if (count(goal, kinds[2]) > 0) check_frame(at(goal, kinds[2])[0]);
     if (const Node offset = at(place, "target_point_offset"); !offset.IsNull()) {
       if (numbers<3>(offset, "target_point_offset") != std::array<double, 3>{}) {
         yaml_.fail(offset, "`target_point_offset` must be 0 0 0");

@@ -157,6 +157,60 @@ TEST(MoveIt, LinksAreAsLargeAsTheirFilesSay) {
   EXPECT_THROW(read_moveit(scene("0", "1.1")), InputError);
 }
 
+/// False before true, in any order.
+TEST(MoveIt, ADefaultThatForbidsWins) {
+  const auto allowed = [](const std::string& names, const std::string& values) {
+    return read_moveit(
+               "robot_model_name: r\nallowed_collision_matrix: {entry_names: [c], entry_values: [[false]], "
+               "default_entry_names: " +
+               names + ", default_entry_values: " + values + "}\n")
+        .arm.value_or(ArmFiles{})
+        .allowed;
+  };
+  using Pairs = std::vector<std::array<std::string, 2>>;
+  EXPECT_EQ(allowed("[a, b]", "[false, true]"), (Pairs{{"b", "c"}}));
+  EXPECT_EQ(allowed("[b, a]", "[true, false]"), (Pairs{{"b", "c"}}));
+  EXPECT_EQ(allowed("[b, c]", "[true, false]"), Pairs());
+  EXPECT_EQ(allowed("[a, b]", "[true, true]"), (Pairs{{"a", "c"}, {"b", "c"}, {"b", "a"}}));
+}
+
+/// Objects and goals stand in the root's frame, or are refused.
+TEST(MoveIt, FramesAreTheRootsOrRefused) {
+  const auto scene = [](const std::string& object, const std::string& more) {
+    return with(scene_text, "    - id: ball", "    - id: ball\n      header: {frame_id: " + object + "}") + more;
+  };
+  const std::string fixed = "fixed_frame_transforms: [{header: {frame_id: base}, child_frame_id: odom, transform: {}}]";
+  EXPECT_NO_THROW(read_moveit(scene("\"\"", "")));
+  EXPECT_NO_THROW(read_moveit(scene("world", "")));
+  EXPECT_NO_THROW(read_moveit(scene("odom", fixed)));
+  EXPECT_NO_THROW(read_moveit(scene("base", fixed)));
+  EXPECT_NO_THROW(read_moveit(with(scene("base", ""), "joint_state:", "joint_state:\n    header: {frame_id: base}")));
+  const auto expect_refused = [](const auto& read, const std::string& place, const std::string& frame) {
+    try {
+      read();
+      ADD_FAILURE() << "accepted " << frame;
+    } catch (const InputError& error) {
+      const std::string what = error.what();
+      EXPECT_TRUE(what.starts_with(place + ": poses are read in the frame of the robot's root")) << what;
+      EXPECT_TRUE(what.ends_with("(found: " + frame + ")")) << what;
+    }
+  };
+  for (const std::string frame : {"hand", "base"})
+    expect_refused([&] { read_moveit(scene(frame, "")); }, "a.yaml:36", frame);
+  const auto request = [](const std::string& place, const std::string& turn) {
+    Scene taken;
+    take_moveit_request(
+        taken,
+        file_of("goal_constraints:\n- position_constraints: [{header: {frame_id: " + place +
+                "}, constraint_region: {primitive_poses: [{position: [1, 2, 3]}]}}]\n" +
+                "  orientation_constraints: [{header: {frame_id: " + turn + "}, orientation: [0, 0, 0, 1]}]\n"),
+        {});
+  };
+  EXPECT_NO_THROW(request("world", "\"\""));
+  expect_refused([&] { request("hand", "world"); }, "a.yaml:2", "hand");
+  expect_refused([&] { request("world", "hand"); }, "a.yaml:3", "hand");
+}
+
 TEST(MoveIt, BecomesASceneThatReadsBackTheSame) {
   Scene scene = read_moveit(scene_text);
   take_moveit_request(scene, file_of(request_text), {});
