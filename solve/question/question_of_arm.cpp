@@ -46,6 +46,17 @@ std::vector<double> state_named(const ArmModel& model, const NamedState& named) 
   return state;
 }
 
+/// Of an arm of three joints three numbers are their state, unless the file is one that names joints or a tool: there
+/// they may be the tool's place, as a goal by position of MoveIt.
+void refuse_unclear(const ArmProblem& problem, const Scene& scene) {
+  const bool has_names = scene.named_start || (problem.robot.files && !problem.robot.files->tool.empty());
+  if (scene.goal.size() != 3 || problem.width() != 3 || !has_names) return;
+  throw UsageError(fmt::format(
+      "{}: the goal's three numbers may be a place of the tool or the state of three joints; say the joints "
+      "by their names (`goal joints NAME VALUE ...`, `joint_constraints`), or @goal A,B,C for these",
+      scene.source));
+}
+
 /// What is asked for, else what the file says: states by names, a pose, numbers.
 void take_goal(ArmProblem& problem, const Scene& scene, const Question& options) {
   const bool is_asked = options.goal_pose || !options.goal.empty();
@@ -58,6 +69,7 @@ void take_goal(ArmProblem& problem, const Scene& scene, const Question& options)
       problem.other_goals.push_back(state_named(problem.model, scene.named_goals[i]));
     }
   } else if (!problem.goal_pose) {
+    if (!is_asked) refuse_unclear(problem, scene);
     problem.goal = state_of("@goal", options.goal, scene.goal, problem.width(), true);
   }
 }

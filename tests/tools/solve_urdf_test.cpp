@@ -176,6 +176,30 @@ TEST_F(SolveUrdf, StopsOfTwoJointsAreStates) {
   }
 }
 
+/// Three numbers are the state of three joints, or refused where a place may be meant.
+TEST_F(SolveUrdf, ThreeNumbersOfThreeJointsAreNoPlace) {
+  const std::string three =
+      "cylinder 9 0 0 9 0 1 0.1\nrobot urdf " + folder_.path("crane.urdf") + " base world tip lower";
+  const auto scene = [&](const std::string& lines) { return folder_.write("three.scene", three + lines); };
+  const std::string plain = scene("\nstart 0 0 0\ngoal 0.4 0.3 0.2\n");
+  const Outcome state = run({"solve", plain, "--json", "-"});
+  ASSERT_EQ(state.code, 0) << state.err;
+  EXPECT_EQ(Json::parse(state.out)["path"].back(), Json::parse("[0.4, 0.3, 0.2]"));
+  const std::string named = "\nstart joints base 0 shoulder 0 elbow 0\ngoal 0.4 0.3 0.2\n";
+  for (const std::string& lines : {named, std::string(" tool upper\nstart 0 0 0\ngoal 0.4 0.3 0.2\n")}) {
+    const Outcome unclear = run({"solve", scene(lines), "--json", "-"});
+    EXPECT_EQ(unclear.code, 2);
+    EXPECT_NE(unclear.err.find("may be a place of the tool or the state of three joints"), std::string::npos);
+  }
+  EXPECT_EQ(run({"solve", scene(named), "--goal", "0.4,0.3,0.2", "--quiet"}).code, 0);
+  const std::string request = folder_.write(
+      "three.yaml",
+      "start_state: {joint_state: {name: [base, shoulder, elbow], position: [0, 0, 0]}}\n"
+      "goal_constraints: [{position_constraints: [{link_name: lower, constraint_region: {primitive_poses: "
+      "[{position: [0.4, 0.3, 0.2]}]}}]}]\n");
+  EXPECT_EQ(run({"solve", plain, "--request", request, "--json", "-"}).code, 2);
+}
+
 TEST_F(SolveUrdf, PlacesAndPosesOfTheToolAreGoals) {
   const Json place = solved({"--goal", "0.4,0.5,0.5"});
   EXPECT_EQ(place["status"], "solved");
