@@ -177,12 +177,14 @@ tools::Command comparing() {
 
 /// A copy of the world is changed.
 std::unique_ptr<Replanner> replanner_of(const Scene& scene, py::dict keywords) {
+  const std::optional<Answer> old = take_old_answer(keywords);
   join_hole(keywords);
   const tools::Arguments words = arguments_of(made_once<solving>(), keywords);
   Question question = tools::question_words(words);
   const SolveOptions options = tools::solve_words(words);
   check_solver_options(options);
   CallLimits().run([&](const Execution& execution) { tools::read_asked_files(question, words, execution); });
+  if (old) question.route.keep_to = states_of(recorded(*old));
   return std::make_unique<Replanner>(scene, std::move(question), options);
 }
 

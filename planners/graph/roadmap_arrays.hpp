@@ -68,8 +68,10 @@ struct RoadmapArrays {
 class SharedEdgeStates {
  public:
   SharedEdgeStates() = default;
+  /// Copies them: two bits an edge.
   explicit SharedEdgeStates(std::span<const std::uint64_t> words) : words_(words.begin(), words.end()) {}
 
+  /// What is known of the edge now. Any thread may call it.
   EdgeState operator[](std::size_t end) const {
     const std::uint64_t word = word_of(end).load(std::memory_order_relaxed);
     return static_cast<EdgeState>(word >> shift_of(end) & 3U);

@@ -23,7 +23,7 @@ struct Violation {
   double distance = 0.0;  ///< between that leg and the obstacle; 0 inside a polygon or outside the box
   std::string
       obstacle;  ///< e.g. "wall 17: 1.5 0.5 1.5 1.5", "polygon 2: ...", "cell 3, 4", "bounds: ...", "start: ..."
-  ViolationKind kind = ViolationKind::obstacle;
+  ViolationKind kind = ViolationKind::obstacle;  ///< what the path is refuted for
 };
 
 /// What a judge says of a path.
