@@ -24,10 +24,12 @@ namespace {
 
 constexpr double bound_rounding = 1e-9;
 
+double straight(Vec2 a, Vec2 b) { return std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y)); }
+
 /// The weight of a radian of a body that turns: how far it reaches.
 double turn_weight(const RobotSpec& robot) {
   double farthest = 0.0;
-  for (const Vec2 p : robot.outline) farthest = std::max(farthest, norm(p));
+  for (const Vec2 p : robot.outline) farthest = std::max(farthest, straight({0.0, 0.0}, p));
   return farthest;
 }
 
@@ -62,9 +64,14 @@ double own_cost(const RobotSpec& robot, const ClaimedBound& claim) {
 }
 
 /// Looks for a way of a point that is shorter than `limit`. Arrivals at a corner are told apart, since of those at one
-/// side of a wall that ends there others lead on than of those at the other: a later one is dropped where a way leads
-/// from an earlier one to it through the corner, and so to all that it leads to. That is not said of one that comes
-/// along an obstacle, on whichever side.
+/// side of a wall that ends there others lead on than of those at the other. None is lost, as a way that goes on from
+/// what is left out goes on, no longer, from one that is kept:
+/// - A leg over a corner is two legs. So it comes along an obstacle all its way or nowhere.
+/// - A leg doesn't go back to where the last came from, which ends there on the side where it began. Only about the tip
+///   of a wall, where nothing else is, it may end on the other.
+/// - Which side an arrival is on is told by the last leg through the open, or at a tip, where there is but one; ways
+///   that set off along a wall from its tip, or from the start, may be on both. Where it is told, an arrival is covered
+///   if a way leads from an earlier one through the corner and back along it: the two are on one side.
 class ShorterWay {
  public:
   ShorterWay(const Scene& scene, Vec2 start, Vec2 goal, double limit, const Execution& execution)
@@ -74,29 +81,29 @@ class ShorterWay {
       const Segment s = obstacles.segment(i);
       for (const Vec2 p : {s.a, s.b}) {
         if (p == start || p == goal) continue;
-        if (distance(start, p) + distance(p, goal) < limit) places_.push_back(p);
+        if (straight(start, p) + straight(p, goal) < limit) places_.push_back(p);
       }
     }
     std::sort(places_.begin() + 2, places_.end(),
               [](Vec2 a, Vec2 b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); });
     places_.erase(std::unique(places_.begin() + 2, places_.end()), places_.end());
     arrived_.resize(places_.size());
+    for (const Vec2 p : places_) tips_.push_back(is_tip(p));
   }
 
   /// Its places, where each two legs that follow each other are free; empty: there is none; nothing: too many legs were
   /// asked about.
   std::optional<std::vector<Vec2>> find() {
-    settle({0.0, 0.0, none, 0, false});
+    settle({0.0, 0.0, none, 0, true, false});
     while (!open_.empty()) {
+      if (asked_ > most_judged_legs) return std::nullopt;
       Leg leg = open_.top();
       open_.pop();
-      leg.along = comes_along(place_before(leg), places_[leg.to]);
-      if (leg.to != 1 && is_covered(leg)) continue;
-      if (goes_on(leg.before, places_[leg.to])) {
+      if (!look_along(leg) || (leg.to != 1 && is_covered(leg))) continue;
+      if (is_free_on(leg.before, std::array{places_[leg.to]})) {
         settle(leg);
         if (leg.to == 1) return way();
       }
-      if (asked_ > most_judged_legs) return std::nullopt;
     }
     return std::vector<Vec2>{};
   }
@@ -113,41 +120,70 @@ class ShorterWay {
     double way;          ///< with the leg
     std::size_t before;  ///< the arrival that it goes on from; none: the start
     std::size_t to;      ///< a place
-    bool along;          ///< an obstacle; known when the leg comes first
+    bool along;          ///< an obstacle; known when the leg comes first, and so is
+    bool is_told;        ///< on which side
     bool operator<(const Leg& o) const { return std::tie(promise, to, before) > std::tie(o.promise, o.to, o.before); }
   };
 
   Vec2 place_before(const Leg& leg) const { return places_[leg.before == none ? 0 : arrivals_[leg.before].to]; }
-  /// Goes the way to an arrival on to a place? Of it the last leg tells, and those before it as far as legs come along
-  /// obstacles, on whichever side.
-  bool goes_on(std::size_t arrival, Vec2 to) {
-    std::vector<Vec2> path{to, places_[arrivals_[arrival].to]};
-    for (bool is_told = false; arrivals_[arrival].before != none && !is_told; arrival = arrivals_[arrival].before) {
-      path.push_back(place_before(arrivals_[arrival]));
-      is_told = !arrivals_[arrival].along;
+  /// Back from the leg's end, as far as it tells on which side that is.
+  std::vector<Vec2> tail(const Leg& last) const {
+    std::vector<Vec2> path{places_[last.to]};
+    for (const Leg* leg = &last; leg->before != none; leg = &arrivals_[leg->before]) {
+      path.push_back(place_before(*leg));
+      if (!leg->along || tips_[leg->to]) break;
     }
+    return path;
+  }
+  /// Goes the way to an arrival on to these places?
+  bool is_free_on(std::size_t arrival, std::span<const Vec2> onwards) {
+    std::vector<Vec2> path = tail(arrivals_[arrival]);
     std::reverse(path.begin(), path.end());
+    path.insert(path.end(), onwards.begin(), onwards.end());
     ++asked_;
     return is_free(path);
   }
-  /// Nothing is covered that comes along an obstacle.
   bool is_covered(const Leg& leg) {
+    if (!leg.is_told) return false;
+    const std::vector<Vec2> back = tail(leg);
     const std::vector<std::size_t>& earlier = arrived_[leg.to];
-    return !leg.along && std::any_of(earlier.begin(), earlier.end(),
-                                     [&](std::size_t arrival) { return goes_on(arrival, place_before(leg)); });
+    return std::any_of(earlier.begin(), earlier.end(),
+                       [&](std::size_t arrival) { return is_free_on(arrival, std::span(back).subspan(1)); });
   }
-  /// Does an obstacle lie on the last of the leg?
-  bool comes_along(Vec2 came, Vec2 at) const {
-    bool found = false;
-    const auto lies_on_it = [&](Vec2 p) {
-      return exact::side_of(came, at, p) == 0 && (p.x - at.x) * (came.x - at.x) + (p.y - at.y) * (came.y - at.y) > 0.0;
-    };
-    index_.sides().for_each([&](const Box& box) { return !box.contains(at); },
+  /// Fills in what is known when a leg comes first. False: it leads over a corner, the start or the goal.
+  bool look_along(Leg& leg) {
+    const Segment s{place_before(leg), places_[leg.to]};
+    const auto is_on = [&](Vec2 p) { return !(p == s.a) && !(p == s.b) && exact::contains(s, p); };
+    const Box around = box_of(s);
+    bool is_over = is_on(places_[0]) || is_on(places_[1]);
+    leg.along = false;
+    index_.sides().for_each([&](const Box& box) { return is_over || !box.meets(around); },
                             [&](std::size_t i) {
-                              const Segment s = index_.obstacles().segment(i);
-                              found = found || (exact::contains(s, at) && (lies_on_it(s.a) || lies_on_it(s.b)));
+                              const Segment side = index_.obstacles().segment(i);
+                              is_over = is_over || is_on(side.a) || is_on(side.b);
+                              leg.along = leg.along || (exact::contains(side, s.a) && exact::contains(side, s.b));
                             });
-    return found;
+    const Leg& before = arrivals_[leg.before];
+    leg.is_told = !leg.along || tips_[leg.to] || (!tips_[before.to] && (!before.along || before.is_told));
+    if (is_over) ++asked_;
+    return !is_over;
+  }
+  /// Do all obstacles lead from here into one direction?
+  bool is_tip(Vec2 at) const {
+    std::optional<Vec2> first;
+    bool is_one = true;
+    index_.sides().for_each(
+        [&](const Box& box) { return !box.contains(at); },
+        [&](std::size_t i) {
+          const Segment s = index_.obstacles().segment(i);
+          if (!exact::contains(s, at)) return;
+          for (const Vec2 p : {s.a, s.b}) {
+            if (p == at) continue;
+            if (!first) first = p;
+            is_one = is_one && exact::side_of(at, *first, p) == 0 && !exact::contains({*first, p}, at);
+          }
+        });
+    return is_one;
   }
   void settle(const Leg& leg) {
     execution_.reserve(places_.size() * sizeof(Leg));
@@ -155,10 +191,11 @@ class ShorterWay {
     arrivals_.push_back(leg);
     arrived_[leg.to].push_back(arrival);
     for (std::size_t to = 1; to < places_.size(); ++to) {
-      if (to == leg.to) continue;
-      const double there = leg.way + distance(places_[leg.to], places_[to]);
-      const double promise = there + distance(places_[to], places_[1]);
-      if (promise < limit_) open_.push({promise, there, arrival, to, false});
+      const bool is_back = leg.before != none && to == arrivals_[leg.before].to;
+      if (to == leg.to || (is_back && !(leg.along && tips_[leg.to]))) continue;
+      const double there = leg.way + straight(places_[leg.to], places_[to]);
+      const double promise = there + straight(places_[to], places_[1]);
+      if (promise < limit_) open_.push({promise, there, arrival, to, false, false});
     }
   }
   std::vector<Vec2> way() const {
@@ -175,6 +212,7 @@ class ShorterWay {
   double limit_;
   const Execution& execution_;
   std::vector<Vec2> places_;  // start, goal, corners that may lie on a way
+  std::vector<bool> tips_;    // of the places
   std::vector<Leg> arrivals_;
   std::vector<std::vector<std::size_t>> arrived_;  // at each place
   std::priority_queue<Leg> open_;
@@ -201,7 +239,7 @@ JudgedBound judge_by_search(const Scene& scene, const BoundQuestion& asked, doub
   const bool is_point = asked.robot.kind == RobotKind::point || asked.robot.radius == 0.0;
   if (!is_point || asked.clearance > 0.0 || !search.is_free(way)) return {};
   double length = 0.0;
-  for (std::size_t i = 1; i < way.size(); ++i) length += distance(way[i - 1], way[i]);
+  for (std::size_t i = 1; i < way.size(); ++i) length += straight(way[i - 1], way[i]);
   return {BoundVerdict::refuted, fmt::format("the answer says {}, and a free way has {}", bound, length)};
 }
 

@@ -38,6 +38,20 @@ Scene touching_boxes(std::uint64_t seed) {
   return scene;
 }
 
+/// Walls of length 1 on a grid: they go on in one another, branch and end.
+Scene walls_in_pieces(std::uint64_t seed) {
+  std::vector<Segment> walls;
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    if (uniform(seed, i, 2) > 0.35) continue;
+    const Vec2 at{3.0 + static_cast<double>(i / 2 % 10), 3.0 + static_cast<double>(i / 20)};
+    walls.push_back({at, at + (i % 2 == 0 ? Vec2{1, 0} : Vec2{0, 1})});
+  }
+  Scene scene;
+  scene.walls = WallSet::narrowest(walls);
+  scene.bounds = Box{{0, 0}, {17, 17}};
+  return scene;
+}
+
 BoundVerdict said_of(const Scene& scene, Vec2 start, Vec2 goal, double bound, double length, double radius = 0.0) {
   const RobotSpec body{.kind = RobotKind::disc, .radius = radius};
   const std::array ends{start.x, start.y, goal.x, goal.y};
@@ -49,7 +63,7 @@ TEST(VerifyBound, TheJudgesSearchIsThePlannersShortestPath) {
   std::size_t around = 0;
   for (const std::uint64_t seed : test::seeds(400, 60)) {
     SCOPED_TRACE(seed);
-    const Scene scene = touching_boxes(seed);
+    const Scene scene = seed % 2 == 0 ? touching_boxes(seed) : walls_in_pieces(seed);
     const Vec2 start{1, 2 + std::floor(13 * uniform(seed, 0, 1))};
     const Vec2 goal{16, 2 + 13 * uniform(seed, 1, 1)};
     const Solution<Vec2> shortest = confined_visibility_path(plane_obstacles(scene, {}), start, goal, {}, {});
@@ -64,6 +78,38 @@ TEST(VerifyBound, TheJudgesSearchIsThePlannersShortestPath) {
     EXPECT_EQ(said_of(scene, start, goal, length * 1.001, 2.0 * length, 0.2), BoundVerdict::unchecked);
   }
   EXPECT_GT(around, 10U);
+}
+
+/// A way around a wall, and beside it sides that are short against what the claim leaves: many walks to and fro and
+/// around would be short enough, and all of them would be asked about before the search is over.
+TEST(VerifyBound, ShortSidesAreNotWalkedToAndFro) {
+  const auto said = [](std::vector<ScenePolygon> polygons, std::vector<Segment> walls) {
+    Scene scene;
+    walls.push_back({{5, 0}, {5, 8}});
+    scene.walls = WallSet::narrowest(walls);
+    scene.polygons = std::move(polygons);
+    scene.bounds = Box{{0, 0}, {10, 10}};
+    const double length = 2.0 * distance(Vec2{1, 1}, Vec2{5, 8});
+    EXPECT_EQ(said_of(scene, {1, 1}, {9, 1}, length * (1.0 + 1e-6), 2.0 * length), BoundVerdict::refuted);
+    return said_of(scene, {1, 1}, {9, 1}, length, length);
+  };
+  for (const double side : {0.1, 0.01, 1e-4, 1e-9}) {
+    SCOPED_TRACE(side);
+    EXPECT_EQ(said({{{{3, 3}, {4, 3 + 0.5 * side}, {3, 3 + side}}}}, {}), BoundVerdict::checked);
+    EXPECT_EQ(said({}, {{{3, 3}, {3, 3 + side}}, {{3, 3 + side}, {3, 3 + 2.0 * side}}}), BoundVerdict::checked);
+    EXPECT_EQ(said({}, {{{5, 8}, {5, 8 - side}}, {{5, 8 - side}, {5 - 0.5 * side, 8 - side}}}), BoundVerdict::checked);
+  }
+  for (const int corners : {8, 60}) {
+    ScenePolygon round;
+    for (int i = 0; i < corners; ++i) {
+      const double turn = 2.0 * std::numbers::pi * i / corners;
+      round.corners.push_back({3 + 0.4 * std::cos(turn), 3 + 0.4 * std::sin(turn)});
+    }
+    EXPECT_EQ(said({round}, {}), BoundVerdict::checked);
+  }
+  std::vector<Segment> pieces;
+  for (int i = 0; i < 40; ++i) pieces.push_back({{3, 3 + 0.02 * i}, {3, 3 + 0.02 * (i + 1)}});
+  EXPECT_EQ(said({}, pieces), BoundVerdict::checked);
 }
 
 TEST(VerifyBound, ACostIsThePathsOwnInTheBodysMetric) {
