@@ -188,6 +188,8 @@ std::string end_text(const Answer& answer) {
   if (answer.ended_by == "goal") return "there is no better one to this goal";
   if (answer.ended_by == "lattice") return "the lattice has no better one";
   if (answer.ended_by == "gap") return "as near to the best as --gap asks for";
+  if (answer.ended_by == "goal_gap") return "as near to the best to this goal as --gap asks for";
+  if (answer.ended_by == "lattice_gap") return "as near to the lattice's best as --gap asks for";
   if (answer.ended_by == "iterations") return "all turns are done";
   if (answer.ended_by == "nodes") return "its tree has all --nodes";
   if (answer.ended_by == "caller") return "the caller had enough";

@@ -166,7 +166,9 @@ struct Answer {
   std::optional<double> lower_bound;  ///< proved: no path has less cost or, where that is not told, length
   std::vector<Improvement> improvements;  ///< of planners that get better with time: each path that was the best so far
   std::optional<std::uint64_t> iterations;  ///< the turns that these have done: as many give the same answer
-  std::string ended_by;  ///< of these: optimum, lattice, gap, iterations, caller, or as stop_reason; empty: others
+  /// Of these: optimum, goal, lattice, gap, goal_gap, lattice_gap, iterations, nodes, caller, or as stop_reason; empty:
+  /// others.
+  std::string ended_by;
   std::optional<double> cost;       ///< in the planner's own units, where that is not the length
   std::optional<PriceParts> price;  ///< where prices were asked: then cost is length and all its parts
   std::string bound_of;             ///< of a priced lower bound: "all" paths, or those over the "lattice"; else empty

@@ -476,6 +476,7 @@ void take_bound_of_choice(Answer& answer, std::optional<double> bound) {
   answer.lower_bound = bound;
   answer.optimal = false;
   if (answer.ended_by == "optimum") answer.ended_by = "goal";
+  if (answer.ended_by == "gap") answer.ended_by = "goal_gap";
 }
 
 Path<Vec2> cut_at_region(Path<Vec2> path, Vec2 place, double radius) {

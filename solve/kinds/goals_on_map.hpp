@@ -120,7 +120,7 @@ GoalChoice choose_goal(WaysOverCells& ways, const OccupancyMap& map, const WallP
 std::optional<double> bound_of_choice(Vec2 start, Vec2 goal, const GoalRule& rule, bool open_end);
 
 /// The bound of an answer whose planner was given one of the places that would have done, of which alone it knows the
-/// best.
+/// best, and how near to it the path is.
 void take_bound_of_choice(Answer& answer, std::optional<double> bound);
 
 /// A path cut where it first comes as near to a place.

@@ -44,6 +44,7 @@
 #include "core/base/solution.hpp"
 #include "planners/anytime/anytime.hpp"
 #include "planners/graph/roadmap_options.hpp"
+#include "planners/grid/motion_lattice.hpp"
 #include "planners/shorten/shortcut.hpp"
 #include "solve/answer/answer.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
@@ -472,6 +473,12 @@ class SampledSolve {
       const double paid = answer_.cost.value_or(answer_.length);
       answer_.optimal = paid - *answer_.lower_bound <= as_good * paid;
     }
+    // It was measured over the lattice.
+    if (on_lattice() && answer_.ended_by == "gap" && !is_within_gap()) answer_.ended_by = "lattice_gap";
+  }
+  bool is_within_gap() const {
+    const std::optional<double> told = gap_of(answer_);
+    return told && *told <= request_.options.anytime.gap.value_or(LatticeSearchOptions{}.gap);
   }
   /// Why there is no path, one word a cause.
   std::string_view cause() const {

@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <variant>
 
 #include "core/base/error.hpp"
@@ -52,6 +55,13 @@ void add_work(Answer& answer, const Answer& before) {
   answer.roadmap.edges += before.roadmap.edges;
 }
 
+/// Of what ended the searches of two legs the one that leaves more to be found.
+bool is_worse_end(std::string_view end, std::string_view other) {
+  constexpr std::array<std::string_view, 7> best_first{"",    "optimum",  "goal",       "lattice",
+                                                       "gap", "goal_gap", "lattice_gap"};
+  return std::ranges::find(best_first, end) >= std::ranges::find(best_first, other);
+}
+
 /// The path goes on where the one before ended.
 void add_path(Answer& answer, const Answer& before) {
   Path<Vec2> path = before.path;
@@ -73,7 +83,7 @@ void add_path(Answer& answer, const Answer& before) {
   answer.min_clearance = std::min(answer.min_clearance, before.min_clearance);
   if (answer.turn_rad && before.turn_rad) *answer.turn_rad += *before.turn_rad;
   if (answer.iterations && before.iterations) answer.iterations = std::max(*answer.iterations, *before.iterations);
-  if (!before.ended_by.empty() && before.ended_by != "optimum") {
+  if (!before.ended_by.empty() && is_worse_end(before.ended_by, answer.ended_by)) {
     answer.ended_by = before.ended_by;
     answer.stop_reason = before.stop_reason;
   }

@@ -36,6 +36,8 @@ TEST(AnswerSummary, SaysHowAPathGotBetterAndWhatEndedIt) {
   for (const auto& [end, words] :
        {std::pair("optimum", "there is no better one"), std::pair("gap", "as near to the best as --gap asks for"),
         std::pair("iterations", "all turns are done"), std::pair("goal", "there is no better one to this goal"),
+        std::pair("goal_gap", "as near to the best to this goal as --gap asks for"),
+        std::pair("lattice_gap", "as near to the lattice's best as --gap asks for"),
         std::pair("caller", "the caller had enough")}) {
     answer.ended_by = end;
     expect_line(answer, std::string("better        240 turns, cost 31.25 to 25 in 1 step; ") + words);

@@ -159,8 +159,9 @@ class Answer(Pictured):
 
     iterations = told("iterations", """The turns of a planner that gets better, which `iterations=` repeats on any machine;
         None of the others.""")
-    ended_by = told("ended_by", '''What ended a planner that gets better: "optimum", "gap", "iterations", "caller" (`on_improvement`
-        said False), "budget", "memory" or a signal; None of the others.''')
+    ended_by = told("ended_by", '''What ended a planner that gets better: "optimum", "gap", "iterations", "nodes", "caller"
+        (`on_improvement` said False), "budget", "memory" or a signal; "goal", "goal_gap", "lattice" or "lattice_gap": the
+        best, or near it, to one of several goals, of each leg, or over the lattice. None of the others.''')
 
     @property
     def improvements(self):

@@ -54,6 +54,28 @@ TEST(BetterWithTime, AGapThatIsReachedEndsIt) {
   EXPECT_EQ(solve(world(worlds[0]), {}, options, {.budget = 60s}).planner, "anytime");
 }
 
+/// "gap" is told only where the answer's own gap is within what was asked.
+TEST(BetterWithTime, AGapToOnePlaceOfSeveralIsNamedSo) {
+  const Scene flat = world("examples/worlds/flat.yaml");
+  SolveOptions options = better(PlannerKind::anytime, 50);
+  options.anytime.gap = 0.01;
+  Question region{.start = {0.5, 0.5}, .goal = {4.3, 0.5}};
+  Question others = region;
+  Question visit = region;
+  region.rule.region = 0.3;
+  others.rule.others = {{4.3, 3.5}};
+  visit.rule.visit = {{2.5, 3.0}};
+  for (const Question& asked : {region, others, visit}) {
+    const Answer answer = solve(flat, asked, options);
+    ASSERT_TRUE(answer.verified);
+    EXPECT_TRUE(answer.ended_by == "goal_gap" || answer.ended_by == "goal" || answer.ended_by == "iterations")
+        << answer.ended_by;
+  }
+  EXPECT_EQ(solve(flat, region, options).ended_by, "goal_gap");
+  options.anytime.iterations = 1;
+  EXPECT_NE(solve(flat, visit, options).ended_by, "goal_gap");  // a leg that comes near does not speak for the others
+}
+
 TEST(BetterWithTime, ABudgetThatEndsWithAPathIsAnAnswer) {
   const Scene scene = world(worlds[0]);
   const Answer answer = solve(scene, {}, better(PlannerKind::anytime), {.budget = 1500ms});
