@@ -322,7 +322,7 @@ template <SteerableWorld W>
 void AnytimeSearch<W>::take(Found& found) {
   constexpr double worth = 1e-4;
   solution_.counters += found.counters;
-  if (found.path.empty()) return;
+  if (found.path.empty() || is_enough_) return;
   const double before = solution_.cost;
   const bool is_better = found.cost < before * (1.0 - 1e-12) || !has_path();
   if (found.by == Part::shorten) {

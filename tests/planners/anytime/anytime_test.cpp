@@ -170,6 +170,22 @@ TEST(Anytime, WhoIsToldMayHaveEnough) {
   EXPECT_EQ(found.ended_by, "caller");
 }
 
+/// Though a turn may find several better paths.
+TEST(Anytime, WhoHasEnoughIsNotToldAgain) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    const auto problem = sampled_problems::body(seed);
+    for (const std::size_t most : {1, 2, 3, 4}) {
+      std::size_t told = 0;
+      const std::function<bool(const Improvement&)> tell = [&](const Improvement&) { return ++told < most; };
+      Execution execution;
+      execution.on_improvement = &tell;
+      const auto found = plan(problem, turns(30), execution);
+      EXPECT_LE(told, most);
+      EXPECT_EQ(found.improvements.size(), told);
+    }
+  }
+}
+
 TEST(Anytime, WithoutAWayItSaysThatNoneWasFound) {
   auto problem = sampled_problems::car<CarWorld<ReedsSheppCurve>>();
   Scene shut;
