@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -111,13 +112,23 @@ std::string blocked_json(const BlockedEnd& blocked) {
   return json.closed();
 }
 
+/// Is what the planner made small more than the length? Of a differential drive turning counts, but the answer, whose
+/// path has poses where it turns on the spot, has no such cost.
+bool tells_costs(const Answer& answer) {
+  constexpr double rounding = 1e-9;
+  return answer.cost || std::ranges::any_of(answer.improvements, [](const Improvement& better) {
+           return std::abs(better.cost - better.length) > rounding * better.cost;
+         });
+}
+
 std::string improvements_json(const Answer& answer) {
+  const bool with_cost = tells_costs(answer);
   return json_list_of(answer.improvements, ", ", [&](const Improvement& improvement) {
     JsonObject json;
     json.add("iterations", improvement.iterations);
     json.add("seconds", improvement.seconds);
     json.add("length", improvement.length);
-    if (answer.cost) json.add("cost", improvement.cost);
+    if (with_cost) json.add("cost", improvement.cost);
     json.add("by", improvement.by);
     return json.closed();
   });

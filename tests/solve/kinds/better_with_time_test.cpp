@@ -5,10 +5,12 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/error.hpp"
 #include "scenes/files/read_world_io.hpp"
+#include "solve/answer/write_answer_io.hpp"
 #include "solve/solve.hpp"
 #include "tests/paths.hpp"
 
@@ -74,6 +76,23 @@ TEST(BetterWithTime, AGapToOnePlaceOfSeveralIsNamedSo) {
   EXPECT_EQ(solve(flat, region, options).ended_by, "goal_gap");
   options.anytime.iterations = 1;
   EXPECT_NE(solve(flat, visit, options).ended_by, "goal_gap");  // a leg that comes near does not speak for the others
+}
+
+/// What its planner makes small counts turning, so the length may rise; of other cars it is the length.
+TEST(BetterWithTime, CostsAreToldWhereTheyAreNotTheLength) {
+  const auto told = [](const Scene& scene, const SolveOptions& options) {
+    const Answer answer = solve(scene, {}, options);
+    EXPECT_TRUE(verify(scene, answer).verified);
+    EXPECT_FALSE(answer.cost);
+    EXPECT_FALSE(answer.improvements.empty());
+    std::string text;
+    write_answer_json(answer, {}, [&](std::string_view piece) { text += piece; });
+    return text;
+  };
+  SolveOptions options = better(PlannerKind::anytime, 12);
+  EXPECT_EQ(told(world("examples/worlds/car-20.scene"), options).find("\"cost\""), std::string::npos);
+  options.car.steering = SteeringKind::differential;
+  EXPECT_NE(told(world("examples/worlds/car-20.scene"), options).find("\"cost\""), std::string::npos);
 }
 
 TEST(BetterWithTime, ABudgetThatEndsWithAPathIsAnAnswer) {
