@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -76,6 +77,17 @@ TEST(BetterWithTime, AGapToOnePlaceOfSeveralIsNamedSo) {
   EXPECT_EQ(solve(flat, region, options).ended_by, "goal_gap");
   options.anytime.iterations = 1;
   EXPECT_NE(solve(flat, visit, options).ended_by, "goal_gap");  // a leg that comes near does not speak for the others
+}
+
+TEST(BetterWithTime, AGapOverTheLatticeIsNamedSo) {
+  SolveOptions options = better(PlannerKind::grid);
+  for (const auto& [gap, end] : {std::pair(0.04, "lattice_gap"), std::pair(0.2, "gap")}) {
+    options.anytime.gap = gap;
+    const Answer answer = solve(world("examples/worlds/car-20.scene"), {}, options);
+    ASSERT_TRUE(answer.verified);
+    EXPECT_EQ(answer.ended_by, end);
+    EXPECT_EQ(*gap_of(answer) <= gap, answer.ended_by == "gap");
+  }
 }
 
 /// What its planner makes small counts turning, so the length may rise; of other cars it is the length.
