@@ -2,15 +2,15 @@
 #include "core/run/execution.hpp"
 
 #include <sched.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
-#include <cstring>
+#include <cstdlib>
 #include <memory>
+#include <string_view>
 #include <thread>
 
 #include "core/base/page_pool.hpp"
@@ -54,14 +54,18 @@ std::optional<std::size_t> number_in(const char* path) {
   return static_cast<std::size_t>(value);
 }
 
-std::size_t machine_available_bytes() {
-  const File file(std::fopen("/proc/meminfo", "r"));
+/// What the line of a name and a colon says in kilobytes.
+std::optional<std::size_t> kilobytes_in(const char* path, std::string_view name) {
+  const File file(std::fopen(path, "r"));
   char line[128];
   while (file && std::fgets(line, sizeof line, file.get()) != nullptr) {
-    unsigned long long kilobytes = 0;
-    if (std::sscanf(line, "MemAvailable: %llu", &kilobytes) == 1) return static_cast<std::size_t>(kilobytes) * 1024;
+    if (std::string_view(line).starts_with(name)) return std::strtoull(line + name.size(), nullptr, 10) * 1024;
   }
-  return std::numeric_limits<std::size_t>::max();
+  return std::nullopt;
+}
+
+std::size_t machine_available_bytes() {
+  return kilobytes_in("/proc/meminfo", "MemAvailable:").value_or(std::numeric_limits<std::size_t>::max());
 }
 
 StopReason reason_of_signal(int number) {
@@ -176,9 +180,8 @@ std::size_t resident_bytes() {
 }
 
 std::size_t peak_resident_bytes() {
-  rusage usage{};
-  if (::getrusage(RUSAGE_SELF, &usage) != 0) return 0;
-  const std::size_t bytes = static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+  // Not getrusage's: that begins with what the process held that this program was started from.
+  const std::size_t bytes = kilobytes_in("/proc/self/status", "VmHWM:").value_or(0);
   return bytes - std::min(bytes, PagePool::least_idle_bytes());
 }
 

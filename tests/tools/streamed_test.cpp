@@ -112,6 +112,14 @@ TEST(Streamed, MazesThatTheMemoryDoesNotHoldAreStreamed) {
   EXPECT_LT(answer["peak_memory_bytes"].get<double>(), 95e6);
 }
 
+TEST(Streamed, ThePeakOfMemoryIsNotThatOfWhoStartedTheProgram) {
+  if (!test::memory_is_ours()) GTEST_SKIP() << "a sanitizer holds more";
+  const std::string held(200'000'000, 'x');
+  const Json answer = answered({"solve", "maze:41x41", "--no-path"});
+  EXPECT_LT(answer["peak_memory_bytes"].get<double>(), 0.5 * static_cast<double>(held.size()));
+  EXPECT_GT(answer["peak_memory_bytes"].get<double>(), 1e6);
+}
+
 TEST(Streamed, PathsThatAreNotHeldAreTheSame) {
   const Folder folder;
   for (const char* world : {"maze:200x300,algorithm=mst,seed=3", "maze:300x300,algorithm=mst,loops=0.1"}) {
