@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <optional>
 #include <set>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -45,16 +44,21 @@ class Routes {
     if (asked.problem.reach() > 0.0) holes_.emplace(with_cells(asked.map, cuts_.cells()), 0.0, execution);
   }
 
-  /// The cheapest first.
-  std::vector<AlternativePath> find(std::size_t count) {
+  /// The cheapest first. plain: found where no other ways are asked; it stands for its class where it is as cheap.
+  std::vector<AlternativePath> find(std::size_t count, const Path<Vec2>& plain) {
     std::vector<AlternativePath> paths;
+    if (auto path = verified(plain)) paths.push_back(std::move(*path));
     for (const ClassPath& way : over_cells(count)) {
-      if (auto path = verified(way)) paths.push_back(std::move(*path));
+      if (auto path = verified(pulled_between_cells(
+              path_over_cells(asked_.map, asked_.problem.start, way.cells, asked_.problem.goal)))) {
+        paths.push_back(std::move(*path));
+      }
     }
     std::stable_sort(paths.begin(), paths.end(),
                      [](const AlternativePath& a, const AlternativePath& b) { return a.cost < b.cost; });
     while (!paths.empty() && paths.back().cost > stretch_ * paths.front().cost) paths.pop_back();
-    check_classes(paths);
+    keep_one_a_class(paths);
+    if (paths.size() > count) paths.resize(count);
     return paths;
   }
 
@@ -136,9 +140,9 @@ class Routes {
   }
 
   /// none: not free between an end and the middle of its cell.
-  std::optional<AlternativePath> verified(const ClassPath& way) const {
+  std::optional<AlternativePath> verified(Path<Vec2> way) const {
     AlternativePath path;
-    path.path = pulled_between_cells(path_over_cells(asked_.map, asked_.problem.start, way.cells, asked_.problem.goal));
+    path.path = std::move(way);
     path.passed = word(path.path);
     const Verification verdict = verify_map_path(asked_.map, asked_.problem, path.path, execution_);
     if (!verdict.verified) return std::nullopt;
@@ -155,12 +159,18 @@ class Routes {
     return path;
   }
 
-  void check_classes(const std::vector<AlternativePath>& paths) const {
+  /// The cheapest, by the judge's cuts as well as by those that answers tell.
+  void keep_one_a_class(std::vector<AlternativePath>& paths) const {
     std::vector<Path<Vec2>> all;
     for (const AlternativePath& path : paths) all.push_back(path.path);
     const ClassRule rule{asked_.problem.reach(), hole_};
-    if (same_class(judged_classes(closed_, rule, all, execution_).classes)) {
-      throw std::logic_error("two alternatives are of one class by the judge's cuts");
+    JudgedClasses judged = judged_classes(closed_, rule, all, execution_);
+    for (auto* classes : {&judged.classes, &judged.told}) {
+      while (const auto same = same_class(*classes)) {
+        const auto dearer = static_cast<std::ptrdiff_t>(same->second);
+        paths.erase(paths.begin() + dearer);
+        for (auto* list : {&judged.classes, &judged.told}) list->erase(list->begin() + dearer);
+      }
     }
   }
 
@@ -186,7 +196,7 @@ void take_alternatives(Answer& answer, const RouteRule& route, const RoutesAsked
   if (asked.problem.start == asked.problem.goal) return;
   const StageTimer timer(execution, "alternatives", answer.seconds.optimise, asked.map.blocked.size());
   Routes routes(route, asked, execution);
-  std::vector<AlternativePath> paths = routes.find(std::size_t{1} + *route.alternatives);
+  std::vector<AlternativePath> paths = routes.find(std::size_t{1} + *route.alternatives, answer.path);
   answer.counters.expanded += routes.expanded();
   if (paths.empty()) return;
   answer.holes = routes.named(paths);

@@ -26,8 +26,8 @@ struct RoutesAsked {
 };
 
 /// Takes the cheapest of the paths as the answer's own, and the others as its alternatives, all of them verified, of
-/// different classes by the judge's own cuts. Nothing changes where the cells join start and goal nowhere. Throws
-/// UsageError where the question has stops or a region, Stopped.
+/// different classes by the judge's own cuts. answer: has the path that is found without alternatives, which is never
+/// cheaper than what is taken. Throws UsageError where the question has stops or a region, Stopped.
 void take_alternatives(Answer& answer, const RouteRule& route, const RoutesAsked& asked, const Execution& execution);
 
 }  // namespace warren

@@ -158,6 +158,30 @@ TEST(Alternatives, OnRandomMaps) {
   }
 }
 
+TEST(Alternatives, TheFirstIsNoDearerThanThePathWithoutThem) {
+  for (const std::uint64_t seed : test::seeds(400, 40)) {
+    SCOPED_TRACE(seed);
+    SequentialRng rng(seed);
+    Bitmap blocked(60, 60);
+    for (int n = 0; n < 40; ++n) {
+      const auto x = static_cast<std::uint32_t>(2 + rng.below(50));
+      const auto y = static_cast<std::uint32_t>(2 + rng.below(50));
+      const auto size = static_cast<std::uint32_t>(1 + rng.below(6));
+      for (std::uint32_t row = 0; row < size; ++row) blocked.set_run(y + row, x, x + 1 + rng.below(6));
+    }
+    Question question{.robot = RobotSpec{.kind = RobotKind::disc, .radius = 0.3 + 0.01 * rng.below(90)},
+                      .start = {1.0, 1.0 + static_cast<double>(rng.below(58))},
+                      .goal = {59.0, 1.0 + static_cast<double>(rng.below(58))}};
+    question.prices.clearance = ClearancePrice{2.0, 0.5 + 0.1 * rng.below(25)};
+    if (seed % 4 == 0) question.robot = RobotSpec{.kind = RobotKind::point};
+    const Answer plain = solve(scene_of(blocked), question, by_grid());
+    if (!plain.verified) continue;
+    question.route.alternatives = 3;
+    EXPECT_LE(*solve(scene_of(blocked), question, by_grid()).cost, *plain.cost * (1.0 + 1e-12));
+    expect_alternatives(scene_of(blocked), question, 0);
+  }
+}
+
 using States = std::vector<std::vector<double>>;
 
 States states_of(const Path<Vec2>& path) {
