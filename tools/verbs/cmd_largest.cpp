@@ -39,8 +39,8 @@ constexpr OptionSpec search_specs[] = {
      "plot time against the number of cells, as .svg, .png or .pdf by ending; - is standard output"},
 };
 
-/// "5" or "5%".
-double share_value(std::string_view option, std::string_view text) {
+/// "5" or "5%", unlike share_value.
+double percent_value(std::string_view option, std::string_view text) {
   if (text.ends_with('%')) text.remove_suffix(1);
   return number_value(option, text, 0.01, 100.0) / 100.0;
 }
@@ -64,7 +64,7 @@ studies::SizeSearch size_search(const Arguments& arguments, double shape_rows, d
     throw UsageError(fmt::format("--start-size: expected {} to {}, as --max-size and the shape say (found: {})",
                                  search.least, search.most, search.start));
   }
-  search.step = given_value(arguments, "--precision", share_value).value_or(search.step);
+  search.step = given_value(arguments, "--precision", percent_value).value_or(search.step);
   return search;
 }
 

@@ -97,8 +97,9 @@ constexpr OptionSpec planner_specs[] = {
      "anytime, rrt-star, informed-rrt-star: end after N turns of work, which gives the same answer on any machine. "
      "--budget ends them, too, with the best path so far"},
     {"--gap", "SHARE",
-     "anytime, rrt-star, informed-rrt-star: end when the path is proved to be at most SHARE, such as 1%, longer than "
-     "the shortest"},
+     "anytime, rrt-star, informed-rrt-star: end when the path is proved to be at most SHARE, such as 1% or 0.01, "
+     "longer "
+     "than the shortest"},
     {"--parts", "LIST",
      "anytime: what takes turns, separated by commas: tree, restarts, roadmap, shorten (default: all)"},
     {"--bound", "", "also prove a lower bound, how short no path can be, as near as can be; takes time of its own"},

@@ -79,6 +79,14 @@ TEST(PlannerWords, WhatIsSaidIsGivenAndNothingElse) {
   EXPECT_TRUE(solve_words(words_of_solve({"--lazy"})).visibility.lazy);
 }
 
+TEST(PlannerWords, AGapIsAShareAsANumberOrInPerCent) {
+  for (const char* word : {"0.001", "1e-3", "0.1%"}) {
+    EXPECT_DOUBLE_EQ(solve_words(words_of_solve({"--gap", word})).anytime.gap.value_or(-1.0), 0.001) << word;
+  }
+  EXPECT_EQ(solve_words(words_of_solve({"--gap", "0"})).anytime.gap, 0.0);
+  EXPECT_THROW(solve_words(words_of_solve({"--gap", "-1%"})), UsageError);
+}
+
 TEST(PlannerWords, ErrorsOfTheLibraryNameTheFlag) {
   const UsageError error("@goal_bias: prm would ignore it; rrt takes it");
   EXPECT_EQ(error.spelled("--", '-'), "--goal-bias: prm would ignore it; rrt takes it");

@@ -58,7 +58,10 @@ TEST(QuestionWords, GoalsAndTheirRulesAreRead) {
   EXPECT_EQ(route.alternatives, 4U);
   EXPECT_EQ(route.hole, 0.3);
   EXPECT_EQ(route.stretch, 2.0);
-  EXPECT_EQ(question_of({"--unless-gain", "10%", "--keep-to", "old.json"}).route.unless_gain, 0.1);
+  for (const char* share : {"10%", "0.1"}) {
+    EXPECT_EQ(question_of({"--unless-gain", share, "--keep-to", "old.json"}).route.unless_gain, 0.1) << share;
+  }
+  EXPECT_EQ(question_of({"--unless-gain", "0.005", "--keep-to", "old.json"}).route.unless_gain, 0.005);
 }
 
 TEST(QuestionWords, WrongValuesAreRefusedByName) {
