@@ -25,8 +25,15 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-tools::Command saving_paths() { return command_of("save_path", {tools::path_option_specs()}); }
-tools::Command sampling() { return command_of("sample", {tools::path_option_specs()}, {"--frame"}); }
+/// What others call `every` is near to words that mean something else.
+tools::Command with_every(tools::Command command) {
+  for (const std::string_view other : {"--step", "--steps", "--spacing", "--interval", "--dt", "--resolution"}) {
+    command.foreign.emplace_back(other, "places so far apart, or moments, are asked for by every=");
+  }
+  return command;
+}
+tools::Command saving_paths() { return with_every(command_of("save_path", {tools::path_option_specs()})); }
+tools::Command sampling() { return with_every(command_of("sample", {tools::path_option_specs()}, {"--frame"})); }
 
 py::array path_of(const py::object& self) {
   const Answer& answer = self.cast<const KeptAnswer&>().answer;

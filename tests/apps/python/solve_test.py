@@ -231,6 +231,9 @@ def test_a_path_is_sampled_along_its_curve():
     for keyword in ("budget", "frame"):
         with pytest.raises(TypeError, match=rf"^sample\(\) got an unexpected keyword argument '{keyword}'"):
             answer.sample(**{keyword: "1"})
+    for other in ("step", "spacing"):
+        with pytest.raises(warren.UsageError, match=rf"^{other}: .* every="):
+            answer.sample(**{other: 0.1})
 
 
 def test_a_path_is_written_as_the_program_writes_it(program, tmp_path):
