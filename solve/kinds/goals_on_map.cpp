@@ -304,9 +304,20 @@ class Choosing {
       }
       ends_.insert(ends_.end(), more.begin(), more.end());
     }
-    first_ = ways_.cheapest(problem_.start, ends_);
+    first_ = stay_in_region();
+    if (!first_) first_ = ways_.cheapest(problem_.start, ends_);
     if (first_) return true;
     return rule_.tolerance ? take_nearest() : fail();
+  }
+
+  /// Whoever starts in a region is there.
+  std::optional<WaysOverCells::Way> stay_in_region() const {
+    const Vec2 start = problem_.start;
+    const auto own = cell_at(map_, start);
+    for (std::size_t i = 0; own && rule_.region && i < goals_.size(); ++i) {
+      if (distance(start, goals_[i]) <= *rule_.region) return WaysOverCells::Way{{*own}, 0, start, {*own, 0, start, i}};
+    }
+    return std::nullopt;
   }
 
   /// The place that is nearest to any of the goals.

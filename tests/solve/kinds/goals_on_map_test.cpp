@@ -210,6 +210,28 @@ TEST(GoalsOnMap, ARegionIsEnteredWhereThatIsCheapest) {
   }
 }
 
+TEST(GoalsOnMap, WhoStartsInARegionStays) {
+  const Scene scene = scene_of(Bitmap(12, 12));
+  const std::vector<double> start{3.3, 4.4};
+  for (const PlannerKind planner : {PlannerKind::grid, PlannerKind::prm, PlannerKind::lazy_prm, PlannerKind::rrt,
+                                    PlannerKind::rrt_connect, PlannerKind::rrt_star, PlannerKind::anytime}) {
+    SCOPED_TRACE(name_of(planner));
+    Question question{.start = start, .goal = {5.3, 4.4}, .rule = {.region = 2.1}};
+    SolveOptions options = mapped_by(planner);
+    if (gets_better(planner)) options.anytime.iterations = 2;
+    const Answer near = solve(scene, question, options);
+    ASSERT_TRUE(near.verified);
+    EXPECT_EQ(near.length, 0.0);
+    EXPECT_EQ(near.problem.goal, start);
+    EXPECT_NEAR(near.goal_reached->distance, 2.0, 1e-12);
+    question.goal = {11.0, 11.0};
+    question.rule.others = {{1.4, 4.4}};
+    const Answer other = solve(scene, question, options);
+    EXPECT_EQ(other.length, 0.0);
+    EXPECT_EQ(other.goal_index, 1U);
+  }
+}
+
 TEST(GoalsOnMap, VisitsAreInTheBestOfAllOrders) {
   for (const std::uint64_t seed : test::seeds(60, 8)) {
     SCOPED_TRACE(seed);
