@@ -80,7 +80,7 @@ constexpr OptionSpec asked_specs[] = {
      .goes_on = true},
     {"--return", "", "with --visit: end at the start; there is no goal then"},
     {"--alternatives", "K[,SIZE]",
-     "also tell other ways: of each of the K cheapest classes the cheapest path. Paths are of one class where "
+     "also tell other ways: of each of the K next cheapest classes the cheapest path. Paths are of one class where "
      "obstacles at least SIZE across are on the same sides of them (default of SIZE: the body's length; 0: all)"},
     {"--stretch", "S", "with --alternatives: they cost at most S times as much as the cheapest (default: 1.5)"},
     {"--keep-to", "OLD.json",
