@@ -123,9 +123,12 @@ Deadline::Deadline(double seconds, std::size_t memory_bytes, const SignalFlag* s
   }
 }
 
-Deadline::Deadline(const Deadline* whole, double seconds) : Deadline(seconds) {
+Deadline::Deadline(const Deadline* whole, double seconds, std::size_t kept_back_bytes) : Deadline(seconds) {
   if (whole == nullptr) return;
   memory_bytes_ = whole->memory_bytes_;
+  if (memory_bytes_ != std::numeric_limits<std::size_t>::max()) {
+    memory_bytes_ -= std::min(memory_bytes_, kept_back_bytes);
+  }
   signal_ = whole->signal_;
   whole_ = whole;
   if (whole->end_ && (!end_ || *whole->end_ < *end_)) end_ = whole->end_;

@@ -54,8 +54,8 @@ class Deadline {
   explicit Deadline(double seconds, std::size_t memory_bytes = std::numeric_limits<std::size_t>::max(),
                     const SignalFlag* signal = nullptr);
   /// A part of what runs under `whole` (nullptr: no limit): it ends so many seconds from now (infinity: with the
-  /// whole), or with the whole, and has its memory and its signal.
-  Deadline(const Deadline* whole, double seconds);
+  /// whole), or with the whole, and has its memory, less what is kept back of it, and its signal.
+  Deadline(const Deadline* whole, double seconds, std::size_t kept_back_bytes = 0);
 
   /// Why to stop, if it is time to.
   std::optional<StopReason> reached() const noexcept;

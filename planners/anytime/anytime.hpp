@@ -70,6 +70,7 @@ struct AnytimeBody {
   bool draws = true;  ///< does `shortened` make use of the seed? Else what it has shortened is as short as it gets
   std::function<double(const Path<State>&)> length;    ///< as answers have it
   std::function<double(const Path<State>&)> judged_s;  ///< judges a path: the seconds that it took
+  std::size_t judge_bytes = 0;                         ///< of memory, what the judge holds whatever the path
   std::function<void(const Path<State>&)> kept;        ///< takes each path that was the best; empty: nobody does
   std::function<double()> lower_bound;  ///< a better one, asked for once there is a path; empty: there is none
 };
@@ -122,7 +123,7 @@ class AnytimeSearch {
       if (has_path() && !is_straight_ && body_.lower_bound) {
         solution_.lower_bound = std::max(solution_.lower_bound, body_.lower_bound());
       }
-      const Deadline sooner(execution_.deadline, seconds_before_the_judge());
+      const Deadline sooner(execution_.deadline, seconds_before_the_judge(), bytes_of_the_judge());
       Execution within = execution_;
       if (execution_.deadline != nullptr) within.deadline = &sooner;
       while (!is_ended()) take_turn(within);
@@ -176,6 +177,10 @@ class AnytimeSearch {
     if (!has_path() || !has_end) return std::numeric_limits<double>::infinity();
     const double judged_s = body_.judged_s(solution_.path);
     return std::max(0.0, execution_.deadline->seconds_left() - 2.0 * judged_s);
+  }
+  std::size_t bytes_of_the_judge() const {
+    constexpr std::size_t a_state = 512;
+    return has_path() ? body_.judge_bytes + a_state * solution_.path.size() : 0;
   }
   bool end(std::string_view why) {
     solution_.ended_by = why;

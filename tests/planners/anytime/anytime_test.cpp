@@ -5,6 +5,8 @@
 
 #include <atomic>
 #include <functional>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "tests/planners/trees/sampled_problems.hpp"
@@ -88,6 +90,24 @@ TEST(Anytime, IsTheSameForAnyThreadsInEveryKindOfWorld) {
   expect_same_for_any_threads(sampled_problems::car<CarWorld<DubinsCurve>>(), 10);
   expect_same_for_any_threads(sampled_problems::car<CarWorld<ReedsSheppCurve>>(), 10);
   expect_same_for_any_threads(sampled_problems::arm(), 10);
+}
+
+TEST(Anytime, MemoryForTheJudgeIsKeptBackOnceThereIsAPath) {
+  const auto problem = sampled_problems::body(3);
+  AnytimeBody<Se2> body = body_of(problem);
+  body.judge_bytes = std::size_t{1} << 40U;  // more than there is: what is found first is the answer
+  std::optional<AnytimeSolution<Se2>> alone;
+  for (const unsigned threads : {1U, 2U, 8U}) {
+    SCOPED_TRACE(threads);
+    const Deadline all(std::numeric_limits<double>::infinity(), resident_bytes() + (std::size_t{1} << 32U));
+    const auto found = anytime(problem.view, problem.start, std::span(&problem.goal, 1), turns(1000), body,
+                               {.threads = threads, .deadline = &all});
+    expect_honest(problem, found);
+    EXPECT_EQ(found.ended_by, "memory");
+    if (!alone) alone = found;
+    EXPECT_EQ(found.iterations, alone->iterations);
+    EXPECT_EQ(found.cost, alone->cost);
+  }
 }
 
 TEST(Anytime, AStraightWayIsTheBestAtOnce) {
