@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -159,7 +160,8 @@ class Routes {
     return path;
   }
 
-  /// The cheapest, by the judge's cuts as well as by those that answers tell.
+  /// The cheapest, by the judge's cuts as well as by those that answers tell. Only the path that was found without
+  /// alternatives is of another one's class.
   void keep_one_a_class(std::vector<AlternativePath>& paths) const {
     std::vector<Path<Vec2>> all;
     for (const AlternativePath& path : paths) all.push_back(path.path);
@@ -172,6 +174,7 @@ class Routes {
         for (auto* list : {&judged.classes, &judged.told}) list->erase(list->begin() + dearer);
       }
     }
+    if (paths.size() + 1 < all.size()) throw std::logic_error("two alternatives are of one class by the judge's cuts");
   }
 
   const RoutesAsked& asked_;

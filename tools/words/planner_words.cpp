@@ -98,8 +98,7 @@ constexpr OptionSpec planner_specs[] = {
      "--budget ends them, too, with the best path so far"},
     {"--gap", "SHARE",
      "anytime, rrt-star, informed-rrt-star: end when the path is proved to be at most SHARE, such as 1% or 0.01, "
-     "longer "
-     "than the shortest"},
+     "longer than the shortest"},
     {"--parts", "LIST",
      "anytime: what takes turns, separated by commas: tree, restarts, roadmap, shorten (default: all)"},
     {"--bound", "", "also prove a lower bound, how short no path can be, as near as can be; takes time of its own"},
