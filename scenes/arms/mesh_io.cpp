@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <map>
 #include <numbers>
 #include <span>
@@ -339,6 +340,30 @@ Mesh read_mesh(const InputFile& file, const Execution& execution) {
   if (ending == "stl") return read_stl(file, execution);
   if (ending == "dae") return ColladaReader(file, execution).read();
   throw InputError(file.name(), "expected a mesh of an ending that is known: .obj, .stl, .dae", ending);
+}
+
+std::vector<std::string> mesh_places(const std::string& name, const ArmFiles& files) {
+  namespace fs = std::filesystem;
+  constexpr std::string_view of_package = "package://";
+  constexpr std::string_view of_file = "file://";
+  if (name.starts_with(of_file)) return {name.substr(of_file.size())};
+  const bool is_package = name.starts_with(of_package);
+  const std::string path = is_package ? name.substr(of_package.size()) : name;
+  if (fs::path(path).is_absolute()) return {path};
+  std::vector<std::string> found;
+  std::error_code error;
+  fs::path folder = fs::absolute(files.urdf, error).lexically_normal().parent_path();
+  if (!is_package) found.push_back((folder / path).string());
+  const auto add = [&](const fs::path& beside) {
+    found.push_back((beside / path).string());
+    if (is_package) found.push_back((beside / path.substr(std::min(path.find('/'), path.size() - 1) + 1)).string());
+  };
+  for (const std::string& package : files.packages) add(package);
+  for (std::size_t up = 0; is_package && up < 64; ++up, folder = folder.parent_path()) {
+    add(folder);
+    if (folder == folder.parent_path()) break;
+  }
+  return found;
 }
 
 std::string hull_excess(const Mesh& mesh, const Solid& hull, const Execution& execution) {

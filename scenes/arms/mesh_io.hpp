@@ -25,6 +25,9 @@ struct Mesh {
 /// its <up_axis> turns nothing, as in RViz and MoveIt. Throws InputError naming file and, of text, line; Stopped.
 Mesh read_mesh(const InputFile& file, const Execution& execution);
 
+/// Where the mesh that a URDF calls `name` may be, in this order.
+std::vector<std::string> mesh_places(const std::string& name, const ArmFiles& files);
+
 /// What the mesh's hull has more than the mesh: "1.32 times its volume", where the mesh is closed.
 std::string hull_excess(const Mesh& mesh, const Solid& hull, const Execution& execution);
 

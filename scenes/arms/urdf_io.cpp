@@ -324,32 +324,8 @@ class MeshShelf {
   std::vector<std::string> told;  ///< a line a mesh
 
  private:
-  /// Where a mesh may be, in this order.
-  std::vector<std::string> places(const std::string& name) const {
-    namespace fs = std::filesystem;
-    constexpr std::string_view of_package = "package://";
-    constexpr std::string_view of_file = "file://";
-    if (name.starts_with(of_file)) return {name.substr(of_file.size())};
-    const bool is_package = name.starts_with(of_package);
-    const std::string path = is_package ? name.substr(of_package.size()) : name;
-    if (fs::path(path).is_absolute()) return {path};
-    std::vector<std::string> found;
-    std::error_code error;
-    fs::path folder = fs::absolute(files_.urdf, error).lexically_normal().parent_path();
-    if (!is_package) found.push_back((folder / path).string());
-    const auto add = [&](const fs::path& beside) {
-      found.push_back((beside / path).string());
-      if (is_package) found.push_back((beside / path.substr(std::min(path.find('/'), path.size() - 1) + 1)).string());
-    };
-    for (const std::string& package : files_.packages) add(package);
-    for (std::size_t up = 0; is_package && up < 64; ++up, folder = folder.parent_path()) {
-      add(folder);
-      if (folder == folder.parent_path()) break;
-    }
-    return found;
-  }
   std::string found(pugi::xml_node mesh, const std::string& name) const {
-    const std::vector<std::string> tried = places(name);
+    const std::vector<std::string> tried = mesh_places(name, files_);
     for (const std::string& place : tried) {
       std::error_code error;
       if (std::filesystem::is_regular_file(place, error)) return place;
@@ -378,6 +354,7 @@ class ArmModelMaker {
 
   ArmModel make(const XmlFile* srdf) {
     model_.name = tree_.xml.root().attribute("name").value();
+    check_said();
     choose_variables();
     narrow_variables();
     hold_joints();
@@ -390,11 +367,14 @@ class ArmModelMaker {
     pair_links(srdf);
     model_.told.push_back(fmt::format("the tool is {}", tree_.links[tool].name));
     model_.told.insert(model_.told.end(), shelf_.told.begin(), shelf_.told.end());
+    if (!missing_.empty())
+      model_.told.push_back(fmt::format("named, but not in the robot: {}", fmt::join(missing_, ", ")));
     return std::move(model_);
   }
 
  private:
   static constexpr std::size_t no_variable = no_urdf_part;
+  static constexpr std::string_view to_carry = "attach a body to";
 
   void choose_variables() {
     variables_.assign(tree_.joints.size(), no_variable);
@@ -449,6 +429,7 @@ class ArmModelMaker {
       const std::size_t joint = tree_.joint_named(name);
       if (joint == no_urdf_part && value != 0.0)
         throw InputError(files_.urdf, "has no joint of this name to hold", name);
+      if (joint == no_urdf_part) missing_.insert(name);
       if (joint != no_urdf_part && joints[joint].moves()) held_[joint] = value;
     }
     for (std::size_t j = 0; j < joints.size(); ++j) {
@@ -461,11 +442,7 @@ class ArmModelMaker {
 
   /// As said; the group's tip; else what hangs on its last joint, on as far as there is one joint, which doesn't move.
   std::size_t tool_link() const {
-    if (!files_.tool.empty()) {
-      const std::size_t link = tree_.link_named(files_.tool);
-      if (link == no_urdf_part) throw InputError(files_.urdf, "has no link of this name to be the tool", files_.tool);
-      return link;
-    }
+    if (!files_.tool.empty()) return link_named(files_.tool, "be the tool");
     if (group_.tip != no_urdf_part) return group_.tip;
     const std::vector<UrdfJoint>& joints = tree_.joints;
     std::size_t last = 0;
@@ -484,7 +461,7 @@ class ArmModelMaker {
   std::vector<bool> links_that_matter(std::size_t tool) const {
     std::vector<bool> matters(tree_.links.size(), false);
     matters[tool] = true;
-    for (const AttachedSolid& attached : files_.attached) matters[carrier(attached)] = true;
+    for (const AttachedSolid& attached : files_.attached) matters[link_named(attached.link, to_carry)] = true;
     for (std::size_t j = tree_.joints.size(); j-- > 0;) {
       const UrdfJoint& joint = tree_.joints[j];
       if (tree_.links[joint.below].node.child("collision")) matters[joint.below] = true;
@@ -492,11 +469,19 @@ class ArmModelMaker {
     }
     return matters;
   }
-  std::size_t carrier(const AttachedSolid& attached) const {
-    const std::size_t link = tree_.link_named(attached.link);
-    if (link == no_urdf_part)
-      throw InputError(files_.urdf, "has no link of this name to attach a body to", attached.link);
+  std::size_t link_named(const std::string& name, std::string_view use) const {
+    const std::size_t link = tree_.link_named(name);
+    if (link == no_urdf_part) throw InputError(files_.urdf, fmt::format("has no link of this name to {}", use), name);
     return link;
+  }
+  /// Of a link, or of what is carried.
+  bool is_known(std::string_view name) const {
+    return tree_.link_named(std::string(name)) != no_urdf_part ||
+           std::ranges::any_of(files_.attached, [&](const AttachedSolid& a) { return a.solid.name == name; });
+  }
+  void check_said() const {
+    for (const auto& [name, place] : files_.said)
+      if (!is_known(name)) throw InputError(place, fmt::format("{} has no link of this name", files_.urdf), name);
   }
 
   void place_links(std::size_t tool) {
@@ -583,7 +568,7 @@ class ArmModelMaker {
 
   void carry() {
     for (const AttachedSolid& attached : files_.attached) {
-      const std::size_t link = carrier(attached);
+      const std::size_t link = link_named(attached.link, to_carry);
       Solid solid = attached.solid;
       solid.pose = poses_[link] * solid.pose;
       const std::string name = solid.name.empty() ? fmt::format("what {} carries", attached.link) : solid.name;
@@ -602,6 +587,8 @@ class ArmModelMaker {
     for (std::size_t i = 0; i < count; ++i) named.emplace(model_.links[i].name, i);
     Allowed allowed;
     const auto allow = [&](std::string_view one, std::string_view other) {
+      for (const std::string_view name : {one, other})
+        if (!is_known(name)) missing_.emplace(name);
       const auto [first, last] = named.equal_range(one);
       const auto [others, end] = named.equal_range(other);
       for (auto a = first; a != last; ++a)
@@ -611,6 +598,7 @@ class ArmModelMaker {
     for (const auto& [one, other] : files_.allowed) allow(one, other);
     for (std::size_t i = own; i < count; ++i) {
       for (const std::string& link : files_.attached[i - own].may_touch) {
+        if (!is_known(link)) missing_.insert(link);
         const auto [first, last] = named.equal_range(link);
         for (auto a = first; a != last; ++a) allowed.insert(ordered(a->second, i));
       }
@@ -664,6 +652,7 @@ class ArmModelMaker {
   std::vector<int> frames_;               // by link
   std::vector<Eigen::Isometry3d> poses_;  // by link, in its frame
   std::vector<std::size_t> numbers_;      // by link, in the model
+  std::set<std::string> missing_;         // what is named, but not there
 };
 
 UrdfGroup chosen_group(const ArmFiles& files, const UrdfTree& tree, const XmlFile* srdf, const Execution& execution) {

@@ -40,6 +40,7 @@ class SceneReader {
     scene_.walls = walls_.take();
     scene_.source = file_.name();
     check_whole();
+    if (scene_.arm && first_lines_[moveit_item] > 0) scene_.arm->said.clear();
     return std::move(scene_);
   }
 
@@ -50,7 +51,7 @@ class SceneReader {
     bool once;
     void (SceneReader::*read)(Fields&);
   };
-  static constexpr std::size_t item_count = 24;
+  static constexpr std::size_t item_count = 25;
   static constexpr std::size_t most_named = 1024;  // joints
   static const std::array<Item, item_count> items;
   enum ItemNumber : std::size_t {
@@ -61,7 +62,8 @@ class SceneReader {
     attach_item = 15,
     hold_item = 16,
     allow_item = 17,
-    tool_item = 18
+    tool_item = 18,
+    moveit_item = 24
   };
 
   void refuse_other_encodings() const {
@@ -156,6 +158,8 @@ class SceneReader {
     std::string word = word_of(fields);
     for (; solid_word_named(word) == nullptr; word = word_of(fields)) attached.may_touch.push_back(word);
     attached.solid = warren::read_solid(*solid_word_named(word), fields, execution_);
+    note_link(arm(), attached.link, fields.place());
+    for (const std::string& link : attached.may_touch) note_link(arm(), link, fields.place());
     push_asked(arm().attached, std::move(attached), execution_);
   }
   void read_hold(Fields& fields) {
@@ -313,6 +317,7 @@ const std::array<SceneReader::Item, SceneReader::item_count> SceneReader::items 
     {price_line_words[2].name, price_line_words[2].usage, price_line_words[2].once, &SceneReader::read_prices},
     {price_line_words[3].name, price_line_words[3].usage, price_line_words[3].once, &SceneReader::read_prices},
     {price_line_words[4].name, price_line_words[4].usage, price_line_words[4].once, &SceneReader::read_prices},
+    {"moveit-names", "moveit-names", true, &SceneReader::check_done},
 }};
 
 void SceneReader::check_whole() const {
@@ -487,6 +492,7 @@ void append_arm(std::string& text, const ArmFiles& arm) {
   for (const auto& [joint, value] : arm.held) text += fmt::format("hold {} {}\n", joint, number(value));
   for (const auto& [first, second] : arm.allowed) text += fmt::format("allow {} {}\n", first, second);
   if (!arm.tool.empty()) text += fmt::format("tool {}\n", arm.tool);
+  if (arm.said.empty() && !(arm.allowed.empty() && arm.attached.empty())) text += "moveit-names\n";
   for (const AttachedSolid& attached : arm.attached) {
     text += "attach " + attached.link;
     for (const std::string& link : attached.may_touch) text += ' ' + link;

@@ -124,6 +124,7 @@ RobotSpec with_what_is_said(RobotSpec robot, const Scene& scene) {
   }
   files.allowed.insert(files.allowed.end(), said.allowed.begin(), said.allowed.end());
   files.attached.insert(files.attached.end(), said.attached.begin(), said.attached.end());
+  files.said.insert(files.said.end(), said.said.begin(), said.said.end());
   return robot;
 }
 

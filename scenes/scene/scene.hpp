@@ -91,6 +91,9 @@ struct ArmFiles {
   std::vector<std::array<std::string, 2>> allowed = {};   ///< pairs of links that may touch, beside the SRDF's
   std::vector<AttachedSolid> attached = {};               ///< what the arm carries
   std::string tool = {};  ///< the link whose frame the tool is; empty: the group's tip, or what hangs on its last joint
+  /// Names of links that lines of text say, each with its place: one that the robot lacks is refused. MoveIt's are
+  /// none of these; one that is lacking is told.
+  std::vector<std::pair<std::string, std::string>> said = {};
   std::optional<ArmModel> read = {};  ///< what the files say, where somebody has read them
 };
 

@@ -324,10 +324,16 @@ void read_hold(Fields& fields, ArmFiles& files) {
   files.held.emplace_back(std::move(joint), value);
 }
 
+void note_link(ArmFiles& files, const std::string& link, const scene_text::Place& place) {
+  constexpr std::size_t most_noted = 8192;
+  if (files.said.size() < most_noted) files.said.emplace_back(link, place.text());
+}
+
 void read_allow(Fields& fields, ArmFiles& files) {
   std::array<std::string, 2> links;
   for (std::string& link : links) link = fields.word();
   if (links[1].empty()) fields.place().fail("expected `allow LINK LINK`", "too few words");
+  for (const std::string& link : links) note_link(files, link, fields.place());
   files.allowed.push_back(std::move(links));
 }
 

@@ -130,6 +130,9 @@ std::string urdf_words(const ArmFiles& files);
 void read_hold(scene_text::Fields& fields, ArmFiles& files);
 void read_allow(scene_text::Fields& fields, ArmFiles& files);
 
+/// Notes that a line names a link, which the robot must have: of the first few thousand of them.
+void note_link(ArmFiles& files, const std::string& link, const scene_text::Place& place);
+
 /// Reads what follows the word `robot`, to the line's end. Throws InputError naming the fields' place, Stopped.
 RobotSpec read_robot(scene_text::Fields& fields, const Execution& execution);
 

@@ -33,8 +33,24 @@ std::vector<double> state_of(std::string_view option, const std::vector<double>&
   throw UsageError(fmt::format("{}: an arm takes {} (found: {} numbers)", option, expected, state.size()));
 }
 
-/// Names that are no variables are of joints that don't move. Throws UsageError where a variable is missing.
-std::vector<double> state_named(const ArmModel& model, const NamedState& named) {
+/// Of a joint that is no variable; nothing: it neither follows one nor is held.
+std::optional<double> place_of_joint(const ArmProblem& problem, std::span<const double> state, std::string_view name) {
+  for (const ArmJoint& joint : problem.model.joints) {
+    if (joint.name == name) return joint.multiplier * state[joint.variable] + joint.offset;
+  }
+  if (!problem.robot.files) return std::nullopt;
+  for (const auto& [held, value] : problem.robot.files->held) {
+    if (held == name) return value;
+  }
+  return std::nullopt;
+}
+
+constexpr double rounded_joints = 1e-5;  // files write pi as 3.14159
+
+/// Names that are no variables are of joints that follow one, or are held: a goal has them where they are. Throws
+/// UsageError where one is not, and where a variable is missing.
+std::vector<double> state_named(const ArmProblem& problem, const Scene& scene, const NamedState& named, bool is_goal) {
+  const ArmModel& model = problem.model;
   std::vector<double> state;
   for (const ArmVariable& variable : model.variables) {
     const auto found = std::find(named.names.begin(), named.names.end(), variable.name);
@@ -42,6 +58,20 @@ std::vector<double> state_named(const ArmModel& model, const NamedState& named) 
       throw UsageError(fmt::format("the request: says nothing of joint '{}', which moves", variable.name));
     }
     state.push_back(named.values[as_whole<std::size_t>(found - named.names.begin())]);
+  }
+  const std::string end = fmt::format("{}: the {}", scene.source, is_goal ? "goal" : "start");
+  for (std::size_t i = 0; i < named.names.size(); ++i) {
+    const std::string& name = named.names[i];
+    if (std::ranges::count(model.variables, name, &ArmVariable::name) > 0) continue;
+    const auto stays = place_of_joint(problem, state, name);
+    if (!stays) {
+      throw UsageError(
+          fmt::format("{} names joint '{}', which neither moves nor is held; take it out, or `hold` it", end, name));
+    }
+    if (is_goal && !(std::abs(*stays - named.values[i]) <= rounded_joints)) {
+      throw UsageError(
+          fmt::format("{} has joint '{}' at {:.9g}, but it is at {:.9g} there", end, name, named.values[i], *stays));
+    }
   }
   return state;
 }
@@ -64,9 +94,9 @@ void take_goal(ArmProblem& problem, const Scene& scene, const Question& options)
   if (!is_asked && scene.goal_pose) problem.goal_pose = scene.goal_pose;
   if (!is_asked && !scene.named_goals.empty()) {
     problem.goal_pose.reset();
-    problem.goal = state_named(problem.model, scene.named_goals.front());
+    problem.goal = state_named(problem, scene, scene.named_goals.front(), true);
     for (std::size_t i = 1; i < scene.named_goals.size(); ++i) {
-      problem.other_goals.push_back(state_named(problem.model, scene.named_goals[i]));
+      problem.other_goals.push_back(state_named(problem, scene, scene.named_goals[i], true));
     }
   } else if (!problem.goal_pose) {
     if (!is_asked) refuse_unclear(problem, scene);
@@ -74,15 +104,13 @@ void take_goal(ArmProblem& problem, const Scene& scene, const Question& options)
   }
 }
 
-/// Files write pi as 3.14159.
 void move_onto_limits(const ArmModel& model, std::string_view end, std::span<double> state,
                       std::vector<std::string>& told) {
-  constexpr double rounded_limits = 1e-5;
   for (std::size_t j = 0; j < state.size(); ++j) {
     const ArmVariable& variable = model.variables[j];
     if (variable.continuous) continue;
     const double within = std::clamp(state[j], variable.low, variable.high);
-    if (state[j] == within || !(std::abs(state[j] - within) <= rounded_limits)) continue;
+    if (state[j] == within || !(std::abs(state[j] - within) <= rounded_joints)) continue;
     told.push_back(
         fmt::format("{}: {} is moved from {:.9g} onto its limit, {:.9g}", end, variable.name, state[j], within));
     state[j] = within;
@@ -170,7 +198,8 @@ ArmProblem arm_problem(const Scene& scene, const Question& options, const Execut
   problem.clearance = clearance_of(scene, options);
   problem.model = arm_model_of(problem.robot, problem.clearance, execution);
   if (problem.robot.files) problem.robot.files->read = problem.model;
-  const std::vector<double> said = scene.named_start ? state_named(problem.model, *scene.named_start) : scene.start;
+  const std::vector<double> said =
+      scene.named_start ? state_named(problem, scene, *scene.named_start, false) : scene.start;
   std::vector<double> start = state_of("@start", options.start, said, problem.width(), false);
   take_goal(problem, scene, options);
   if (!problem.table) {

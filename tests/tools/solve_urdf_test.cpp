@@ -200,6 +200,29 @@ TEST_F(SolveUrdf, ThreeNumbersOfThreeJointsAreNoPlace) {
   EXPECT_EQ(run({"solve", plain, "--request", request, "--json", "-"}).code, 2);
 }
 
+/// Joints that an end names beside those that move stand where it says, or it is refused.
+TEST_F(SolveUrdf, EndsNameJointsThatMoveFollowOrAreHeld) {
+  const auto asked = [&](const std::string& start, const std::string& goal) {
+    const std::string ends = "\nstart joints base 0 shoulder 0 elbow 0 slide 0" + start +
+                             "\ngoal joints base 0.5 shoulder 0 elbow 0 slide 0.1" + goal + "\n";
+    return run({"solve", folder_.write("ends.scene", "sphere 9 9 9 1\nrobot " + robot_ + ends), "--json", "-"});
+  };
+  for (const auto& [start, goal] :
+       {std::pair("", ""), {" grip 0.5", ""}, {"", " grip 0.01"}, {" lamp 0", " lamp 0\nhold lamp 0"}}) {
+    const Outcome taken = asked(start, goal);
+    EXPECT_EQ(taken.code, 0) << taken.err;
+  }
+  for (const auto& [start, goal, says] : {std::tuple(" elbw 1", "", "the start names joint 'elbw', which"),
+                                          {"", " elbw 1", "the goal names joint 'elbw', which"},
+                                          {"", " grip 0.5", "joint 'grip' at 0.5, but it is at 0.01 there"},
+                                          {"", "\nallow hook fingr", "ends.scene:5: "},
+                                          {"", "\nattach hook fingr sphere 0 0 0 1", "(found: fingr)"}}) {
+    const Outcome refused = asked(start, goal);
+    EXPECT_EQ(refused.code, std::string(says).find("joint") == std::string::npos ? 65 : 2) << says;
+    EXPECT_NE(refused.err.find(says), std::string::npos) << refused.err;
+  }
+}
+
 TEST_F(SolveUrdf, PlacesAndPosesOfTheToolAreGoals) {
   const Json place = solved({"--goal", "0.4,0.5,0.5"});
   EXPECT_EQ(place["status"], "solved");

@@ -219,6 +219,8 @@ TEST(MoveIt, BecomesASceneThatReadsBackTheSame) {
   const Scene back = read_scene(InputFile::of_bytes("a.scene", text), {});
   EXPECT_EQ(scene_hash(back), scene_hash(scene));
   EXPECT_EQ(back.arm->held, scene.arm->held);
+  EXPECT_EQ(back.arm->allowed, scene.arm->allowed);
+  EXPECT_TRUE(back.arm->said.empty()) << "the robot may lack what a scene of MoveIt names";
   EXPECT_EQ(back.named_goals.size(), 2U);
 }
 

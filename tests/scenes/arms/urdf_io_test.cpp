@@ -252,6 +252,21 @@ TEST_F(Urdf, PairsLeaveOutNeighboursAndWhatIsAllowed) {
   EXPECT_EQ(pairs(read(two_arms(), files)).size(), all.size() - 1);
 }
 
+/// An SRDF and a scene of MoveIt may name more than there is, which is told; a line of text may not.
+TEST_F(Urdf, NamesThatTheRobotLacksAreToldOrRefused) {
+  ArmFiles files;
+  files.group = "both";
+  files.allowed = {{"left_hand", "lost"}};
+  files.held = {{"wheel", 0.0}};
+  files.attached = {{"left_hand", {.name = "tray"}, {"tray table"}}};
+  EXPECT_EQ(read(two_arms(), files).told.back(), "named, but not in the robot: lost, nobody, tray table, wheel");
+  files.said = {{"right_bare", "a.scene:2"}, {"tray", "a.scene:2"}};
+  EXPECT_NO_THROW(read(two_arms(), files));
+  files.said.emplace_back("left_hnd", "a.scene:3");
+  expect_refused(two_arms(), files, "robot.urdf has no link of this name (found: left_hnd)");
+  expect_refused(two_arms(), files, "a.scene:3: ");
+}
+
 TEST_F(Urdf, LinksMayBeAllowedAllAndForbiddenSome) {
   ArmFiles files;
   files.group = "left";

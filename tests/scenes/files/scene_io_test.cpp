@@ -158,6 +158,9 @@ TEST(SceneText, WritesSolidsAndWhatIsSaidOfAnArmAsItReadThem) {
       "hull 0.1 0 0 1 0 0 0 1 0 0 0 1\n";
   const Scene scene = read(directory, text);
   ASSERT_TRUE(scene.arm && scene.named_start);
+  const auto& [palm, place] = scene.arm->said.at(4);
+  EXPECT_EQ(palm, "palm");
+  EXPECT_TRUE(place.ends_with(":6")) << place;
   EXPECT_EQ(scene.named_start->names, (std::vector<std::string>{"a", "b"}));
   EXPECT_EQ(scene.named_goals.at(1).values, (std::vector<double>{2, 1}));
   EXPECT_EQ(scene.arm->attached.at(0).may_touch, (std::vector<std::string>{"finger", "palm"}));
