@@ -34,12 +34,18 @@ constexpr std::size_t numbers_a_look = 4096;
 /// Collects points and polygons, which it cuts into triangles.
 class MeshCollector {
  public:
-  MeshCollector(const std::string& name, const Execution& execution) : name_(name), execution_(execution) {}
+  MeshCollector(const std::string& name, const Vec3& scale, const Execution& execution)
+      : name_(name), scale_(scale), execution_(execution) {}
 
   std::size_t points() const { return mesh_.points.size(); }
-  void add_point(const Vec3& point) {
-    if (!(point.array().abs() <= largest_coordinate).all())
-      throw InputError(name_, "a point of the mesh is not finite, or beyond 1e60");
+  /// line: of text, else 0.
+  void add_point(const Vec3& read, std::size_t line = 0) {
+    const Vec3 point = read.cwiseProduct(scale_);
+    if (!(point.array().abs() <= farthest_mesh_point).all()) {
+      scene_text::Place{name_, line}.fail(
+          fmt::format("point {} of the mesh is not finite, or beyond {} m", points() + 1, farthest_mesh_point),
+          fmt::format("{} {} {}", point.x(), point.y(), point.z()));
+    }
     if (points() == most_mesh_points) throw InputError(name_, "a mesh may have at most 2^30 points");
     push_asked(mesh_.points, point, execution_);
     if (points() % numbers_a_look == 0) execution_.check();
@@ -70,6 +76,7 @@ class MeshCollector {
 
  private:
   const std::string& name_;
+  const Vec3 scale_;
   const Execution& execution_;
   Mesh mesh_;
 };
@@ -86,8 +93,8 @@ std::uint32_t obj_corner(const scene_text::Place& place, std::string_view word, 
   return static_cast<std::uint32_t>(number - 1);
 }
 
-Mesh read_obj(const InputFile& file, const Execution& execution) {
-  MeshCollector mesh(file.name(), execution);
+Mesh read_obj(const InputFile& file, const Vec3& scale, const Execution& execution) {
+  MeshCollector mesh(file.name(), scale, execution);
   std::vector<std::uint32_t> corners;
   TextLines lines(file, execution);
   while (lines.next()) {
@@ -96,7 +103,7 @@ Mesh read_obj(const InputFile& file, const Execution& execution) {
     if (word == "v") {
       Vec3 point;
       for (double& x : std::span(point.data(), 3)) x = fields.number();
-      mesh.add_point(point);
+      mesh.add_point(point, lines.number());
     } else if (word == "f") {
       corners.clear();
       while (!fields.done()) {
@@ -112,8 +119,8 @@ Mesh read_obj(const InputFile& file, const Execution& execution) {
 
 // STL: triangles of three points each.
 
-void add_stl_corner(MeshCollector& mesh, const Vec3& point) {
-  mesh.add_point(point);
+void add_stl_corner(MeshCollector& mesh, const Vec3& point, std::size_t line = 0) {
+  mesh.add_point(point, line);
   const auto count = static_cast<std::uint32_t>(mesh.points());
   if (count % 3 == 0) mesh.add_polygon(std::array{count - 3, count - 2, count - 1});
 }
@@ -121,34 +128,37 @@ void add_stl_corner(MeshCollector& mesh, const Vec3& point) {
 constexpr std::size_t stl_head = 84;
 constexpr std::size_t stl_triangle = 50;
 
-Mesh read_stl_text(const InputFile& file, const Execution& execution) {
-  MeshCollector mesh(file.name(), execution);
+Mesh read_stl_text(const InputFile& file, const Vec3& scale, const Execution& execution) {
+  MeshCollector mesh(file.name(), scale, execution);
   TextLines lines(file, execution);
   while (lines.next()) {
     scene_text::Fields fields = lines.fields();
-    if (fields.word() != "vertex") continue;
+    const std::string_view word = fields.word();
+    if (word == "endloop" && mesh.points() % 3 != 0) lines.place().fail("a triangle has three corners", lines.line());
+    if (word != "vertex") continue;
     Vec3 point;
     for (double& x : std::span(point.data(), 3)) x = fields.number();
     if (!fields.done()) fields.place().fail("expected `vertex X Y Z`", lines.line());
-    add_stl_corner(mesh, point);
+    add_stl_corner(mesh, point, lines.number());
   }
   if (mesh.points() % 3 != 0) lines.place().fail("the file ends inside a triangle");
   return mesh.take();
 }
 
-Mesh read_stl(const InputFile& file, const Execution& execution) {
+Mesh read_stl(const InputFile& file, const Vec3& scale, const Execution& execution) {
   const std::string_view bytes = file.bytes();
   std::uint32_t count = 0;
   if (bytes.size() >= stl_head) std::memcpy(&count, bytes.data() + stl_head - sizeof(count), sizeof(count));
   const std::size_t size = stl_head + count * stl_triangle;
-  if (size != bytes.size() && bytes.starts_with("solid")) return read_stl_text(file, execution);
-  if (bytes.size() < stl_head || size > bytes.size()) {
+  const bool is_text = bytes.starts_with("solid") && bytes.substr(0, stl_head).find('\0') == std::string_view::npos;
+  if (size != bytes.size() && is_text) return read_stl_text(file, scale, execution);
+  if (bytes.size() < stl_head || size != bytes.size()) {
     throw InputError(
         file.name(),
         fmt::format("expected an STL: text that begins with `solid`, or {} bytes of {} triangles", size, count),
         fmt::format("{} bytes", bytes.size()));
   }
-  MeshCollector mesh(file.name(), execution);
+  MeshCollector mesh(file.name(), scale, execution);
   for (std::size_t corner = 0; corner < std::size_t{3} * count; ++corner) {
     Eigen::Vector3f point;
     const std::size_t at = stl_head + corner / 3 * stl_triangle + sizeof(point) * (1 + corner % 3);
@@ -165,8 +175,10 @@ constexpr std::size_t most_collada_nodes = 100'000;
 
 class ColladaReader {
  public:
-  ColladaReader(const InputFile& file, const Execution& execution)
-      : xml_(file, "COLLADA", most_collada_bytes, execution), execution_(execution), mesh_(file.name(), execution) {
+  ColladaReader(const InputFile& file, const Vec3& scale, const Execution& execution)
+      : xml_(file, "COLLADA", most_collada_bytes, execution),
+        execution_(execution),
+        mesh_(file.name(), scale, execution) {
     for (const auto& [library, kind] :
          {std::pair{"library_geometries", "geometry"}, std::pair{"library_visual_scenes", "visual_scene"},
           std::pair{"library_nodes", "node"}}) {
@@ -267,10 +279,14 @@ class ColladaReader {
     const pugi::xml_node array = source.child("float_array");
     std::string_view text = array.child_value();
     Vec3 point;
-    for (Eigen::Index i = 0; !text.empty(); i = (i + 1) % 3) {
-      if (!take_number(text, point[i])) xml_.fail(array, "expected numbers", text);
-      if (i == 2) mesh_.add_point(pose * point);
+    Eigen::Index count = 0;
+    for (; !text.empty(); ++count) {
+      if (!take_number(text, point[count % 3])) xml_.fail(array, "expected numbers", text);
+      if (count % 3 == 2) mesh_.add_point(pose * point);
     }
+    const auto said = xml_.number(array, "count");
+    if (count % 3 != 0 || (said && *said != static_cast<double>(count)))
+      xml_.fail(array, "expected three numbers a point, and as many as `count` says", fmt::format("{} numbers", count));
   }
   /// Polygons of as many corners as `sizes` says, its last for all that follow; without any: all of a <p> in one.
   void add_polygons(pugi::xml_node part, std::string_view sizes, std::size_t first) {
@@ -282,10 +298,14 @@ class ColladaReader {
       if (std::string_view(input.attribute("semantic").value()) == "VERTEX") offset = at;
     }
     std::size_t size = 0;
+    std::size_t said_sizes = 0;
     const auto next_size = [&] {
-      if (!sizes.empty() && !take_number(sizes, size)) xml_.fail(part, "expected counts of corners", sizes);
+      if (sizes.empty()) return;
+      ++said_sizes;
+      if (!take_number(sizes, size) || size == 0) xml_.fail(part, "expected counts of corners", sizes);
     };
     next_size();
+    std::size_t made = 0;
     std::vector<std::uint32_t> corners;
     for (const pugi::xml_node list : part.children("p")) {
       std::string_view text = list.child_value();
@@ -299,11 +319,16 @@ class ColladaReader {
         if (i % stride != stride - 1 || corners.size() != size) continue;
         mesh_.add_polygon(corners);
         corners.clear();
+        ++made;
         next_size();
       }
+      if (size > 0 && !corners.empty()) xml_.fail(list, "it ends inside a polygon");
       mesh_.add_polygon(corners);
       corners.clear();
     }
+    const auto said = xml_.number(part, "count");
+    if (size > 0 && (said_sizes > std::max<std::size_t>(1, made) || (said && *said != static_cast<double>(made))))
+      xml_.fail(part, "expected as many polygons as `count` and <vcount> say", fmt::format("{} in <p>", made));
   }
 
   XmlFile xml_;
@@ -333,12 +358,12 @@ bool is_closed(const Mesh& mesh, const Execution& execution) {
 
 }  // namespace
 
-Mesh read_mesh(const InputFile& file, const Execution& execution) {
+Mesh read_mesh(const InputFile& file, const Execution& execution, const Vec3& scale) {
   std::string ending = file.name().substr(std::min(file.name().size(), file.name().find_last_of("./") + 1));
   for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  if (ending == "obj") return read_obj(file, execution);
-  if (ending == "stl") return read_stl(file, execution);
-  if (ending == "dae") return ColladaReader(file, execution).read();
+  if (ending == "obj") return read_obj(file, scale, execution);
+  if (ending == "stl") return read_stl(file, scale, execution);
+  if (ending == "dae") return ColladaReader(file, scale, execution).read();
   throw InputError(file.name(), "expected a mesh of an ending that is known: .obj, .stl, .dae", ending);
 }
 

@@ -21,9 +21,13 @@ struct Mesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
+/// In metres along each axis: beyond, doubles leave planner and judge too few digits to agree.
+inline constexpr double farthest_mesh_point = 1e5;
+
 /// By the ending of the file's name, .obj, .stl or .dae. COLLADA: all that its scene shows, in metres by its <unit>;
-/// its <up_axis> turns nothing, as in RViz and MoveIt. Throws InputError naming file and, of text, line; Stopped.
-Mesh read_mesh(const InputFile& file, const Execution& execution);
+/// its <up_axis> turns nothing, as in RViz and MoveIt. Throws InputError naming file and, of text, line, at a point
+/// that is farther than farthest_mesh_point, scaled, too; Stopped.
+Mesh read_mesh(const InputFile& file, const Execution& execution, const Vec3& scale = Vec3::Ones());
 
 /// Where the mesh that a URDF calls `name` may be, in this order.
 std::vector<std::string> mesh_places(const std::string& name, const ArmFiles& files);

@@ -313,8 +313,7 @@ class MeshShelf {
     const Vec3 scale = xml_.vector(mesh, "scale", Vec3::Ones());
     const auto [at, is_new] = hulls_.try_emplace({path, {scale.x(), scale.y(), scale.z()}});
     if (!is_new) return at->second;
-    Mesh read = read_mesh(InputFile(path, execution_), execution_);
-    for (Vec3& point : read.points) point = point.cwiseProduct(scale);
+    const Mesh read = read_mesh(InputFile(path, execution_), execution_, scale);
     at->second = convex_hull(read.points, path, execution_);
     told.push_back(fmt::format("hull of {}: {}", std::filesystem::path(path).filename().string(),
                                hull_excess(read, at->second, execution_)));

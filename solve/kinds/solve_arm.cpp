@@ -91,6 +91,7 @@ class Arm : public UsualBody {
     if (!reached.other_goals.empty()) answer.goal_index = number;
     const StageTimer timer(execution_, "verify", answer.seconds.verify, path.size());
     const Verification found = verify_arm(scene_, problem_.model, path, reached.verify_options(), execution_);
+    if (!found.verified) refuse_far_solids(found);
     take_verdict(answer, found);
     answer.states.width = problem_.width();
     for (const JointState& q : path) {
@@ -111,6 +112,23 @@ class Arm : public UsualBody {
   }
 
  private:
+  /// Of solids this far away planner and judge know distances only to what rounding leaves: no bug of either.
+  void refuse_far_solids(const Verification& found) const {
+    constexpr double farthest = 1e5;
+    const auto is_far = [](const Solid& solid) {
+      double corners = 0.0;
+      for (const Vec3& corner : solid.corners) corners = std::max(corners, corner.cwiseAbs().maxCoeff());
+      return !(solid.pose.translation().cwiseAbs().maxCoeff() + solid.half.maxCoeff() + corners <= farthest);
+    };
+    std::vector<Solid> solids = solids_of(scene_, execution_);
+    for (const ArmLink& link : problem_.model.links)
+      solids.insert(solids.end(), link.solids.begin(), link.solids.end());
+    if (std::ranges::none_of(solids, is_far)) return;
+    throw InputError(scene_.source,
+                     "a solid of it or of its arm is larger or farther away than 1e5 m, where no path can be verified; "
+                     "cut it off nearer to the arm",
+                     found.first_violation.value_or(Violation{}).obstacle);
+  }
   /// A few that are quickly found, and where none of these is free others: first those of large pieces of the wrist's
   /// turns, then of smaller ones.
   std::vector<JointState> postures(const World& world) {

@@ -111,6 +111,14 @@ TEST_F(SolveUrdf, SolidsBeyondWhatFloatsHoldAreAnswered) {
   }
 }
 
+TEST_F(SolveUrdf, WhatIsTooLargeToBeVerifiedIsRefused) {
+  const std::string scene =
+      folder_.write("large.scene", "cylinder 5 0 0 5 0 1e9 1\nrobot " + robot_ + "\nstart 0 0 0 0\ngoal 0.5 0 0 0\n");
+  const Outcome outcome = run({"solve", scene});
+  EXPECT_EQ(outcome.code, 65) << outcome.err;
+  EXPECT_NE(outcome.err.find("larger or farther away than 1e5 m"), std::string::npos) << outcome.err;
+}
+
 TEST_F(SolveUrdf, AJointWithoutEndGoesTheShorterWay) {
   const Json answer = solved({"--start", "4.6,-1,0,0", "--goal", "-1.68,-1,0,0"});
   EXPECT_EQ(answer["status"], "solved");

@@ -73,6 +73,10 @@ TEST(MeshIo, RefusesBadInputInOneLine) {
   std::string nan = test_meshes::stl_bytes();
   nan.replace(96, 4, "\xff\xff\xff\xff");
   const auto dae = [](const std::string& nodes) { return test_meshes::dae(nodes, "1"); };
+  const auto changed = [&](std::string_view old, std::string_view now) {
+    std::string text = dae("");
+    return text.replace(text.find(old), old.size(), now);
+  };
   std::string many = "<library_nodes>";
   for (int i = 0; i < 20; ++i) {
     std::string twice = "<instance_node url=\"#n" + std::to_string(i + 1) + "\"/>";
@@ -81,27 +85,40 @@ TEST(MeshIo, RefusesBadInputInOneLine) {
   many += "<node id=\"n20\"/></library_nodes>";
   std::string bomb = dae("<instance_node url=\"#n0\"/>");
   bomb.insert(bomb.find("<scene>"), many);
-  const Case cases[] = {{"a.obj", "v 1 2\n", "a.obj:1: a number is missing"},
-                        {"a.obj", "v 1 2 3\nf 1 2 3\n", "a.obj:2: a face names one of the 1 points so far (found: 2)"},
-                        {"a.obj", "v 1 2 3\nf 1 1\n", "at least three corners"},
-                        {"a.obj", "v 1 2 3\nf 1 0 1\n", "a face names one of"},
-                        {"a.obj", "v 1 2 1e70\n", "1e60"},
-                        {"a.obj", "", "no points"},
-                        {"a.stl", "solid x\nvertex 1 2 3\n", "inside a triangle"},
-                        {"a.stl", "solid x\nvertex 1 2 3 4\n", "expected `vertex X Y Z`"},
-                        {"a.stl", "solid x\n", "no points"},
-                        {"a.stl", half, "expected an STL"},
-                        {"a.stl", "", "expected an STL"},
-                        {"a.stl", nan, "not finite"},
-                        {"a.ply", "ply", "ending that is known"},
-                        {"ply", "ply", "ending that is known"},
-                        {"a.dae", "<robot/>", "whose first element is <COLLADA> (found: robot)"},
-                        {"a.dae", "<COLLADA>\n<a>\n</COLLADA>", "a.dae:3: expected XML"},
-                        {"a.dae", dae("<rotate>0 0 0 1</rotate>"), "no direction"},
-                        {"a.dae", dae("<rotate>0 0 1</rotate>"), "expected 4 numbers"},
-                        {"a.dae", dae("<lookat>0</lookat>"), "export the mesh as OBJ or STL"},
-                        {"a.dae", dae("<instance_geometry url=\"#none\"/>"), "nothing in this file has this id"},
-                        {"a.dae", bomb, "at most 100000 nodes"}};
+  const Case cases[] = {
+      {"a.obj", "v 1 2\n", "a.obj:1: a number is missing"},
+      {"a.obj", "v 1 2 3\nf 1 2 3\n", "a.obj:2: a face names one of the 1 points so far (found: 2)"},
+      {"a.obj", "v 1 2 3\nf 1 1\n", "at least three corners"},
+      {"a.obj", "v 1 2 3\nf 1 0 1\n", "a face names one of"},
+      {"a.obj", "v 1 2 1e70\n", "1e60"},
+      {"a.obj", "", "no points"},
+      {"a.stl", "solid x\nvertex 1 2 3\n", "inside a triangle"},
+      {"a.stl", "solid x\nvertex 1 2 3 4\n", "expected `vertex X Y Z`"},
+      {"a.stl", "solid x\n", "no points"},
+      {"a.stl", half, "expected an STL"},
+      {"a.stl", test_meshes::stl_bytes() + "x", "or 484 bytes of 8 triangles (found: 485 bytes)"},
+      {"a.stl", "solid\nvertex 0 0 0\nvertex 1 0 0\nendloop\n", "a.stl:4: a triangle has three corners"},
+      {"a.obj", "v 1 2 3\nv 0 0 1e8\n",
+       "a.obj:2: point 2 of the mesh is not finite, or beyond 100000 m (found: 0 0 100000000)"},
+      {"a.stl", "solid\nvertex 0 0 -1e8\n", "a.stl:2: point 1 of the mesh"},
+      {"a.dae", dae("<scale>1e8 1 1</scale>"), "a.dae: point 2 of the mesh"},
+      {"a.dae", changed("count=\"18\"", "count=\"21\""), "as many as `count` says (found: 18 numbers)"},
+      {"a.dae", changed("0 1 2 3 5 4", "0 1 2 3 5 6"), "expected numbers of the 6 points"},
+      {"a.dae", changed("0 1 2 3 5 4", "0 1 2 3 5"), "ends inside a polygon"},
+      {"a.dae", changed("count=\"2\"", "count=\"3\""), "as many polygons as `count`"},
+      {"a.dae", changed("4 4 4", "4 4 4 4"), "<vcount> say (found: 3 in <p>)"},
+      {"a.dae", changed("4 4 4", "0 4 4"), "expected counts of corners"},
+      {"a.stl", "", "expected an STL"},
+      {"a.stl", nan, "not finite"},
+      {"a.ply", "ply", "ending that is known"},
+      {"ply", "ply", "ending that is known"},
+      {"a.dae", "<robot/>", "whose first element is <COLLADA> (found: robot)"},
+      {"a.dae", "<COLLADA>\n<a>\n</COLLADA>", "a.dae:3: expected XML"},
+      {"a.dae", dae("<rotate>0 0 0 1</rotate>"), "no direction"},
+      {"a.dae", dae("<rotate>0 0 1</rotate>"), "expected 4 numbers"},
+      {"a.dae", dae("<lookat>0</lookat>"), "export the mesh as OBJ or STL"},
+      {"a.dae", dae("<instance_geometry url=\"#none\"/>"), "nothing in this file has this id"},
+      {"a.dae", bomb, "at most 100000 nodes"}};
   for (const Case& c : cases) {
     SCOPED_TRACE(c.says);
     try {
