@@ -3,6 +3,7 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <utility>
@@ -143,8 +144,19 @@ py::dict judge(const Scene& scene, RecordedAnswer answer, py::dict keywords) {
   return account;
 }
 
+/// Its states have as many numbers as it has joints, which the judge counts.
+bool is_arm_of_files(const Scene& scene, const py::dict& keywords) {
+  py::dict words = keywords.attr("copy")();
+  take_limits(words);
+  take_certificate(words);
+  const Question question = tools::question_words(arguments_of(made_once<verifying>(), words));
+  return robot_of(scene, question).kind == RobotKind::urdf;
+}
+
 py::dict judge_states(const Scene& scene, const py::object& states, const py::dict& keywords) {
-  const NumberRows rows = rows_of(states, "path", {2, 3, 6});
+  const NumberRows rows = is_arm_of_files(scene, keywords)
+                              ? rows_of(states, "path", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, most_joints})
+                              : rows_of(states, "path", {2, 3, 6});
   RecordedAnswer answer;
   answer.file = "path";
   const auto end = [&](std::size_t i) {
@@ -156,7 +168,7 @@ py::dict judge_states(const Scene& scene, const py::object& states, const py::di
   if (rows.columns != 2) answer.states.width = rows.columns;
   for (std::size_t i = 0; i < rows.rows; ++i) {
     const double* state = rows.numbers + i * rows.columns;
-    answer.path.push_back({state[0], state[1]});
+    answer.path.push_back({state[0], state[std::min<std::size_t>(1, rows.columns - 1)]});
     if (rows.columns != 2) answer.states.add({state, rows.columns});
   }
   return judge(scene, answer, keywords);

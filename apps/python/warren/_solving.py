@@ -183,7 +183,7 @@ def verify(world, path, **options):
     ----------
     world : World, str, path, ndarray, or geometry
         As :func:`solve` takes it.
-    path : Answer, array_like (n, 2), (n, 3) or (n, 6), or str or path
+    path : Answer, array_like (n, 2), (n, 3), (n, 6) or (n, joints), or str or path
         Whose states are judged; a name is of a file with an answer as JSON.
     start, goal : sequence of float, optional
         Where the path must begin and end (default: the answer's, else the world's, else its own ends).

@@ -206,6 +206,21 @@ def test_verify_judges_answers_arrays_and_files(tmp_path):
         warren.verify(world, np.zeros((3, 4)))
 
 
+@pytest.mark.parametrize("joints", [1, 2, 4, 8, 14])
+def test_a_path_of_an_arm_of_files_has_its_joints(tmp_path, joints):
+    links = "".join(f'<link name="l{i}"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>'
+                    for i in range(joints + 1))
+    chain = "".join(f'<joint name="j{i}" type="prismatic"><parent link="l{i}"/><child link="l{i + 1}"/>'
+                    '<origin xyz="1 0 0"/><axis xyz="0 0 1"/><limit lower="-1" upper="1"/></joint>' for i in range(joints))
+    (tmp_path / "arm.urdf").write_text(f'<robot name="r">{links}{chain}</robot>')
+    scene = tmp_path / "arm.scene"
+    scene.write_text(f"robot urdf {tmp_path / 'arm.urdf'}\nsphere 0 9 0 1\n")
+    path = np.linspace(np.zeros(joints), np.full(joints, 0.1), 3)
+    assert warren.verify(str(scene), path)
+    with pytest.raises(warren.InputError, match="numbers a state for an arm"):
+        warren.verify(str(scene), np.zeros((2, joints % 14 + 1)))
+
+
 def test_a_path_of_a_world_without_ends_is_judged_by_its_own():
     world = warren.scene(walls=[(3, 0, 3, 5)], bounds=(0, 0, 9, 9))
     assert warren.verify(world, [(1, 1), (1, 6), (8, 6)]) and not warren.verify(world, [(1, 1), (8, 1)])
