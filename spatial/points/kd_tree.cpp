@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
 
@@ -172,7 +173,7 @@ class NearestSet {
   double worst_ = infinity;
 };
 
-constexpr std::size_t smallest_tree = 128;
+constexpr double largest_in_floats = 1e18;  // so that squares are numbers, too
 
 }  // namespace
 
@@ -336,6 +337,16 @@ template class KdTree<16>;
 
 template <int D>
 void GrowingTree<D>::insert(const Point& p) {
+  if constexpr (is_wide) {
+    const std::size_t place = (points_.size() - filed_) % 8;
+    if (place == 0) newest_.push_back({});
+    for (std::size_t axis = 0; axis < D; ++axis) {
+      if (p[axis] == 0.0) continue;
+      axes_ = std::max(axes_, axis + 1);
+      largest_ = std::max(largest_, std::abs(p[axis]));
+      newest_.back()[axis][place] = static_cast<float>(std::clamp(p[axis], -largest_in_floats, largest_in_floats));
+    }
+  }
   points_.push_back(p);
   if (points_.size() - filed_ == smallest_tree) rebuild();
 }
@@ -351,6 +362,57 @@ void GrowingTree<D>::rebuild() {
   const Execution alone{.threads = 1};
   levels_.push_back({first, KdTree<D>(std::span<const Point>(points_).subspan(first), alone)});
   filed_ = points_.size();
+  newest_.clear();
+  axes_ = 0;
+  largest_ = 0.0;
+}
+
+template <int D>
+template <class Most, class Take>
+void GrowingTree<D>::look_at_newest(const Point& p, const Most& most, const Take& take) const {
+  const auto look_at = [&](std::size_t id) { take(as_whole<VertexId>(id), distance_between<D>(points_[id], p)); };
+  double largest = infinity;
+  if constexpr (is_wide) {
+    largest = largest_;
+    for (const double x : p) largest = std::max(largest, std::abs(x));
+  }
+  if (!(largest <= largest_in_floats)) {
+    for (std::size_t id = filed_; id < points_.size(); ++id) look_at(id);
+    return;
+  }
+  if constexpr (is_wide) {
+    using Four = float __attribute__((vector_size(16)));
+    std::array<float, D> from;
+    for (std::size_t axis = 0; axis < D; ++axis) from[axis] = static_cast<float>(p[axis]);
+    // A difference is wrong by two roundings of its numbers and one of its own, their squares' sum by one a term.
+    const double wrong = 0x1p-22 * D * largest;
+    const auto reach = [&] {
+      const double far = std::min((most() + wrong) * (1.0 + 1e-5), 16.0 * largest_in_floats);
+      return static_cast<float>(far * far);
+    };
+    float limit = reach();
+    for (std::size_t block = 0; block < newest_.size(); ++block) {
+      std::array<Four, 2> sums{};
+      for (std::size_t axis = 0; axis < axes_; ++axis) {
+        for (std::size_t half = 0; half < 2; ++half) {
+          Four d;
+          std::memcpy(&d, &newest_[block][axis][4 * half], sizeof d);
+          d -= from[axis];
+          sums[half] += d * d;
+        }
+      }
+      std::array<std::uint64_t, 2> near;
+      const auto either = (sums[0] <= limit) | (sums[1] <= limit);
+      std::memcpy(&near, &either, sizeof near);
+      if ((near[0] | near[1]) == 0) continue;
+      const std::size_t first = filed_ + 8 * block;
+      for (std::size_t i = 0; i < 8 && first + i < points_.size(); ++i) {
+        if (sums[i / 4][i % 4] > limit) continue;
+        look_at(first + i);
+        limit = reach();
+      }
+    }
+  }
 }
 
 template <int D>
@@ -367,9 +429,11 @@ Neighbour GrowingTree<D>::nearest(const Point& p) {
     level.tree.nearest(p, 1, no_vertex, found_);
     consider(found_.front().id, found_.front().distance);
   }
-  for (std::size_t i = filed_; i < points_.size(); ++i) {
-    best = std::min(best, Neighbour{as_whole<VertexId>(i), distance_between<D>(points_[i], p)});
-  }
+  look_at_newest(
+      p, [&] { return best.distance; },
+      [&](VertexId id, double d) {
+        best = std::min(best, Neighbour{id, d});
+      });
   return best;
 }
 
@@ -399,10 +463,11 @@ void GrowingTree<D>::nearest(const Point& p, std::size_t k, std::vector<Neighbou
     keep();
   }
   const double most = reach();
-  for (std::size_t i = filed_; i < points_.size(); ++i) {
-    const double distance = distance_between<D>(points_[i], p);
-    if (distance <= most) out.push_back({as_whole<VertexId>(i), distance});
-  }
+  look_at_newest(
+      p, [most] { return most; },
+      [&](VertexId id, double distance) {
+        if (distance <= most) out.push_back({id, distance});
+      });
   keep();
   std::sort(out.begin(), out.end());
 }

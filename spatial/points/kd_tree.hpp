@@ -61,8 +61,10 @@ extern template class KdTree<16>;
 /// (Bentley, Saxe, J. Algorithms 1, 1980): the newest up to 127 points are looked at one by one; when there are 128
 /// they become a k-d tree, and two trees of one size become one of the double size, so that n points lie in at most
 /// log2(n / 128) trees. An insertion costs O(log^2 n) on average, a query O(log^2 n) and 128 distances at most, and of
-/// k neighbours k log k. The answers are those of brute force, ties by id. Measured in
-/// bench/certified_motion_bench.cpp. Points are numbered as they come. For one thread. D = 2, 3, 4 and 6.
+/// k neighbours k log k. Where D > 4 a tree spares few distances: it takes 1024 points, of which eight at once are
+/// looked at in floats; only those that may be near enough by these are looked at themselves. The answers are those of
+/// brute force, ties by id. Measured in bench/certified_motion_bench.cpp. Points are numbered as they come. For one
+/// thread. D = 2, 3, 4 and 6.
 template <int D>
 class GrowingTree {
  public:
@@ -83,11 +85,23 @@ class GrowingTree {
     std::size_t first;
     KdTree<D> tree;
   };
+  static constexpr bool is_wide = D > 4;
+  static constexpr std::size_t smallest_tree = is_wide ? 1024 : 128;
   void rebuild();
+  /// take(id, distance) for each of the newest points that is not farther than most() at the time; for some others,
+  /// too.
+  template <class Most, class Take>
+  void look_at_newest(const Point& p, const Most& most, const Take& take) const;
+
+  /// Eight points in floats, by axis.
+  using Eight = std::array<std::array<float, 8>, D>;
 
   std::vector<Point> points_;
   std::vector<Level> levels_;     // large ones first, sizes halve or more
   std::size_t filed_ = 0;         // points in levels
+  std::vector<Eight> newest_;     // where D is wide
+  std::size_t axes_ = 0;          // of these, all others are 0
+  double largest_ = 0.0;          // coordinate of these, in size
   std::vector<Neighbour> found_;  // scratch
 };
 

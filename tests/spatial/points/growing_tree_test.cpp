@@ -14,11 +14,11 @@ namespace warren {
 namespace {
 
 template <int D>
-PointOf<D> random_point(std::uint64_t seed, std::uint64_t index) {
+PointOf<D> random_point(std::uint64_t seed, std::uint64_t index, double scale = 1.0, double off = 0.0) {
   // On a coarse grid for some seeds, so that points and distances tie.
   const auto coordinate = [&](std::uint64_t axis) {
     const double u = uniform(seed, index, axis);
-    return seed % 3 == 0 ? std::floor(8.0 * u) : u;
+    return off + scale * (seed % 3 == 0 ? std::floor(8.0 * u) : u);
   };
   if constexpr (D == 2) {
     return {coordinate(0), coordinate(1)};
@@ -42,17 +42,17 @@ double plain_distance(const PointOf<D>& a, const PointOf<D>& b) {
 
 /// After every insertion one query of each kind, against a plain loop.
 template <int D>
-void expect_as_brute_force(std::uint64_t seed, std::size_t count) {
-  SCOPED_TRACE(testing::Message() << "D " << D << " seed " << seed);
+void expect_as_brute_force(std::uint64_t seed, std::size_t count, double scale = 1.0, double off = 0.0) {
+  SCOPED_TRACE(testing::Message() << "D " << D << " seed " << seed << " scale " << scale << " off " << off);
   GrowingTree<D> tree;
   std::vector<PointOf<D>> points;
   std::vector<Neighbour> all;
   std::vector<Neighbour> found;
   for (std::size_t i = 0; i < count; ++i) {
-    points.push_back(random_point<D>(seed, i));
+    points.push_back(random_point<D>(seed, i, scale, off));
     tree.insert(points.back());
     ASSERT_EQ(tree.size(), points.size());
-    const PointOf<D> query = random_point<D>(seed + 100, i);
+    const PointOf<D> query = random_point<D>(seed + 100, i, scale, off);
     all.clear();
     for (std::size_t j = 0; j < points.size(); ++j) {
       all.push_back({static_cast<VertexId>(j), plain_distance<D>(points[j], query)});
@@ -73,6 +73,13 @@ TEST(GrowingTree, FindsTheNearestAtEverySizeAsBruteForceDoes) {
   }
   expect_as_brute_force<3>(1, 1500);
   expect_as_brute_force<16>(1, 1500);
+  expect_as_brute_force<16>(3, 1100);
+}
+
+TEST(GrowingTree, IsExactWhereFloatsAreNot) {
+  expect_as_brute_force<16>(1, 300, 1e-3, 1e6);
+  expect_as_brute_force<16>(3, 300, 1e-9, 1.0);
+  for (const double scale : {1e-25, 1e17, 1e18, 1e19, 1e60}) expect_as_brute_force<16>(1, 200, scale, -0.5 * scale);
 }
 
 }  // namespace
