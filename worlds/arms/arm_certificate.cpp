@@ -118,44 +118,46 @@ class alignas(32) ArmMotion {
     return true;
   }
 
-  /// How much the arm may turn away from what it does at a moment: (1) of the head comment, links and pairs in lanes.
+  /// How much the arm may turn away from what it does at a moment: (1) of the head comment, links in lanes.
   [[gnu::always_inline]] inline void bound_bends(T factor) {
     const std::size_t slots = setup_.drives.size();
-    std::array<T, most_frames + 1> turned;  // by the slot and those before it
-    std::array<T, most_frames + 1> own;
-    std::array<T, most_frames + 1> before;
-    turned[0] = T(0);
+    turned_[0] = T(0);
     for (std::size_t slot = 1; slot < slots; ++slot) {
       const ArmDrive& drive = setup_.drives[slot];
       size_[slot] = std::abs(way_[slot]);
       speed_ += size_[slot];
       travel_ += size_[slot] * static_cast<T>(drive.most_reach);
-      own[slot] = drive.slides ? T(0) : size_[slot];
-      before[slot] = 2 * turned[drive.parent];
-      turned[slot] = turned[drive.parent] + own[slot];
+      own_[slot] = drive.slides ? T(0) : size_[slot];
+      before_[slot] = 2 * turned_[drive.parent];
+      turned_[slot] = turned_[drive.parent] + own_[slot];
     }
-    const Lanes<T> up = all_of<T>(factor * T(1.00001));
+    up_ = factor * T(1.00001);
     for (std::size_t link = 0; link < setup_.moving; link += width) {
       Lanes<T> sum{};
       for (std::size_t slot = 1; slot < slots; ++slot) {
-        const T weight = size_[slot] * (own[slot] + before[slot]);
+        const T weight = size_[slot] * (own_[slot] + before_[slot]);
         sum += weight * lanes_at<T>(&tables_.reach[slot * setup_.link_lanes + link]);
       }
-      sum *= up;
+      sum *= all_of<T>(up_);
       std::memcpy(&scratch_.bends[link], &sum, sizeof sum);
     }
+  }
+  /// The same of pairs, once one is asked for: most motions that are blocked meet what stands around.
+  [[gnu::always_inline]] inline void bound_pairs() {
+    if (are_pairs_bounded_) return;
+    are_pairs_bounded_ = true;
     for (std::size_t pair = 0; pair < setup_.pairs.size(); pair += width) {
       std::array<T, width> common{};
       for (std::size_t i = 0; i < width && pair + i < setup_.pairs.size(); ++i) {
-        common[i] = 2 * turned[setup_.pairs[pair + i].common];
+        common[i] = 2 * turned_[setup_.pairs[pair + i].common];
       }
       const Lanes<T> less = lanes_at<T>(common.data());
       Lanes<T> sum{};
-      for (std::size_t slot = 1; slot < slots; ++slot) {
-        const Lanes<T> sway = own[slot] + greater<T>(before[slot] - less, Lanes<T>{});
+      for (std::size_t slot = 1; slot < setup_.drives.size(); ++slot) {
+        const Lanes<T> sway = own_[slot] + greater<T>(before_[slot] - less, Lanes<T>{});
         sum += size_[slot] * sway * lanes_at<T>(&tables_.pair_reach[slot * setup_.pair_lanes + pair]);
       }
-      sum *= up;
+      sum *= all_of<T>(up_);
       std::memcpy(&scratch_.bends[setup_.link_lanes + pair], &sum, sizeof sum);
     }
   }
@@ -458,6 +460,7 @@ class alignas(32) ArmMotion {
 
   [[gnu::always_inline]] inline bool look_at_pair(std::uint32_t pair, unsigned& open) {
     const auto [a, b, common] = setup_.pairs[pair];
+    bound_pairs();
     const T room = T(0.5) * half_ * half_ * scratch_.bends[setup_.link_lanes + pair] + slack_ + tables_.clearance;
     const ArmBallLanes<T>& hull_a = hull_of(a);
     const ArmBallLanes<T>& hull_b = hull_of(b);
@@ -565,9 +568,14 @@ class alignas(32) ArmMotion {
   std::span<const double> all_way_;
   std::array<T, most_frames + 1> start_;
   std::array<T, most_frames + 1> way_;
-  std::array<T, most_frames + 1> size_;  // of the way
-  T speed_ = 0;                          // sum of the sizes
-  T travel_ = 0;                         // of any point, at most
+  std::array<T, most_frames + 1> size_;    // of the way
+  std::array<T, most_frames + 1> own_;     // of the turn
+  std::array<T, most_frames + 1> before_;  // twice what turns before
+  std::array<T, most_frames + 1> turned_;  // by the slot and those before it
+  T up_;                                   // for rounding
+  bool are_pairs_bounded_ = false;
+  T speed_ = 0;   // sum of the sizes
+  T travel_ = 0;  // of any point, at most
   Lanes<T> middle_;
   std::array<T, width> middles_;
   T half_;
