@@ -46,12 +46,12 @@ class MotionTree {
   /// What growing has taken: a state check 1, a motion check 4, a neighbour query 1 for each neighbour that it gives.
   std::uint64_t work() const { return work_; }
 
-  /// Asks for what the tree takes while it doubles, once it has doubled, and so many more bytes a state. Throws
-  /// Stopped.
+  /// Asks for what the tree takes while it grows by an eighth, a copy of what it has included, whenever it has, and for
+  /// so many more bytes a state: what is asked long before it is used, others take for theirs. Throws Stopped.
   void ask_room(const Execution& execution, std::size_t more_bytes = 0) {
     constexpr std::size_t index_bytes = 32;  // of its own, a state
     if (states_.size() < asked_at_) return;
-    asked_at_ = 2 * states_.size();
+    asked_at_ = states_.size() + states_.size() / 8;
     execution.reserve(
         asked_at_ * (sizeof(State) + sizeof(VertexId) + sizeof(double) + sizeof(Embedding) + index_bytes + more_bytes));
   }
