@@ -83,6 +83,7 @@ struct Settings {
   double step = 1.0;               // as solve/kinds/solve_arm.cpp has it
   std::string sampler = "halton";  // the same
   double domain = 5.0;             // the same; 0: none
+  double moving = 6.0;             // the same
   double worth = 0.2;
   std::uint64_t nodes = 100'000;
   std::uint64_t seed = 1;
@@ -121,15 +122,21 @@ struct Planned {
   double shorten_s = 0.0;
 };
 
-template <class World>
-Planned<World> plan(const World& world, const ArmProblem& problem, const Settings& settings) {
-  const WorldView view(world);
+RrtOptions options_of(const Settings& settings) {
   RrtOptions options;
   options.seed = settings.seed;
   options.nodes = settings.nodes;
   options.step = settings.step;
   if (settings.domain > 0.0) options.domain = settings.domain;
+  options.moving = settings.moving;
   options.sampler = enum_named<SamplerKind>(settings.sampler);
+  return options;
+}
+
+template <class World>
+Planned<World> plan(const World& world, const ArmProblem& problem, const Settings& settings) {
+  const WorldView view(world);
+  const RrtOptions options = options_of(settings);
   const Execution execution = alone();
   const JointState goal = problem.goal_state();
   Planned<World> planned;
@@ -201,13 +208,7 @@ Row run(const std::string& set, const fs::path& scene_file, const RobotSpec& rob
   RecordingWorld recording(asked, problem.model, options);
   recording.asked = &motions;
   const JointState goal = problem.goal_state();
-  RrtOptions rrt;
-  rrt.seed = settings.seed;
-  rrt.nodes = settings.nodes;
-  rrt.step = settings.step;
-  if (settings.domain > 0.0) rrt.domain = settings.domain;
-  rrt.sampler = enum_named<SamplerKind>(settings.sampler);
-  rrt_connect(WorldView(recording), problem.start, std::span(&goal, 1), rrt, alone());
+  rrt_connect(WorldView(recording), problem.start, std::span(&goal, 1), options_of(settings), alone());
   time_edges(row, world, motions);
   if (settings.proved_alone) return row;
   const SampledWorld sampled(asked, problem.model, options);
@@ -314,6 +315,7 @@ int run_all(int argc, char** argv) {
   app.add_option("SET", settings.folders, "folders of sceneNNNN.yaml and requestNNNN.yaml")->required();
   app.add_option("--step", settings.step, "longest motion of a tree (default: the planner's)");
   app.add_option("--domain", settings.domain, "of vertices that failed, in steps; 0: none");
+  app.add_option("--moving", settings.moving, "joints that a motion moves on average");
   app.add_option("--sampler", settings.sampler, "of the trees (default: the planner's)");
   app.add_option("--worth", settings.worth, "a round of shortening that takes off a smaller share is the last");
   app.add_option("--nodes", settings.nodes, "of both trees");

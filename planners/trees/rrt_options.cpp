@@ -16,6 +16,7 @@ void RrtOptions::validate() const {
   if (domain && !(*domain >= 1.0 && std::isfinite(*domain))) {
     throw InputError("domain", "must be a number from 1 on", std::to_string(*domain));
   }
+  if (moving && !(*moving > 0.0)) throw InputError("moving", "must be a number above 0", std::to_string(*moving));
   if (!(goal_bias >= 0.0 && goal_bias <= 1.0)) {
     throw InputError("goal bias", "must be from 0 to 1", std::to_string(goal_bias));
   }

@@ -24,6 +24,9 @@ struct RrtOptions {
   /// those farther away obstacles near to it take the most (dynamic domain: Yershova, Jaillet, Simeon, LaValle, ICRA
   /// 2005); and a tree of less than half the other's states goes on. >= 1; none: towards any sample, in turns.
   std::optional<double> domain = {};
+  /// rrt_connect of arms: a motion towards a sample moves so many joints on average, others each time, for one of all
+  /// joints of a long arm is seldom free. > 0; none: all.
+  std::optional<double> moving = {};
   double goal_bias = 0.05;  ///< share of the samples that are the goal, 0 .. 1; only for rrt
   /// A tree of so many gives up (rrt_connect: start's and goal's together), and after 64 times as many samples.
   std::uint64_t nodes = 100'000;  ///< 2 .. 2^31

@@ -291,6 +291,7 @@ TEST(Rrt, RefusesOptionsOutOfRange) {
   EXPECT_EQ(message({}), "nothing");
   EXPECT_EQ(message({.step = 0.0}).substr(0, 4), "step");
   EXPECT_EQ(message({.domain = 0.5}).substr(0, 6), "domain");
+  EXPECT_EQ(message({.moving = 0.0}).substr(0, 6), "moving");
   EXPECT_EQ(message({.goal_bias = 1.5}).substr(0, 9), "goal bias");
   EXPECT_EQ(message({.nodes = 1}).substr(0, 5), "nodes");
   EXPECT_EQ(message({.trees = 0}).substr(0, 5), "trees");
