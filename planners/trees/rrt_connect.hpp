@@ -109,7 +109,7 @@ class RrtConnectSearch {
   std::uint64_t most_steps() const { return 64 * options_->nodes; }
   std::size_t node_count() const { return trees_[0].size() + trees_[1].size(); }
   std::optional<State> next_target();
-  void leave_joints(State& target, const State& from) const;
+  bool leave_joints(State& target, const State& from) const;
   void take_step();
   double least_rest(std::size_t side, const State& state) const;
   bool is_worth(std::size_t side, VertexId from, const State& next) const {
@@ -235,20 +235,22 @@ auto RrtConnectSearch<W>::next_target() -> std::optional<State> {
   return target_state(*world_, options_->sampler_of(index), seed_, index, query_);
 }
 
-/// Some of the target's joints become as they are at the vertex.
+/// Some of the target's joints become as they are at the vertex. False: all of them.
 template <SteerableWorld W>
-void RrtConnectSearch<W>::leave_joints(State& target, const State& from) const {
+bool RrtConnectSearch<W>::leave_joints(State& target, const State& from) const {
   constexpr std::uint64_t purpose = 0x6c65617665U;
   if constexpr (requires { target.size(); }) {
     static_assert(std::tuple_size_v<State> <= 16);
     const auto joints = static_cast<double>(world_->unit_dimension());
-    if (!options_->moving || *options_->moving >= joints || counters_.samples <= first_targets) return;
+    if (!options_->moving || *options_->moving >= joints || counters_.samples <= first_targets) return true;
     const double left = std::round(16.0 * (1.0 - *options_->moving / joints));
     const std::uint64_t bits = random_bits(seed_, counters_.samples, purpose);
     for (std::size_t j = 0; j < target.size(); ++j) {
       if (static_cast<double>(bits >> (4 * j) & 15U) < left) target[j] = from[j];
     }
+    return !(target == from);
   }
+  return true;
 }
 
 /// Does an obstacle near to the vertex take the most of samples so far away?
@@ -276,8 +278,7 @@ void RrtConnectSearch<W>::take_step() {
   const VertexId from = mine.nearest(*target, counters_);
   if (other_is_due()) turn_ = 1 - side;
   if (is_beyond_domain(side, from, *target)) return;
-  leave_joints(*target, mine.state(from));
-  if (*target == mine.state(from)) return;
+  if (!leave_joints(*target, mine.state(from))) return;
   const State next = mine.towards(from, *target, step_);
   if (!is_worth(side, from, next)) return;
   if (const auto grown = mine.join(from, next, query_, counters_)) return meet(side, *grown);
