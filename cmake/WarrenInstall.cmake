@@ -20,7 +20,14 @@ install(TARGETS warren_all EXPORT warren COMPONENT library)
 # Headers as others include them, <warren/...>: for programs of this build, examples above all, and for the package.
 list(JOIN warren_libraries " " warren_folders)
 set(warren_headers ${PROJECT_BINARY_DIR}/include)
-add_custom_target(warren_headers
+set(warren_copied ${warren_headers}/warren/warren.hpp)  # what is told is looked at again after it was written
+foreach(folder IN LISTS warren_libraries)
+  file(GLOB_RECURSE own CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/${folder}/*.hpp)
+  list(REMOVE_ITEM own pictures/warren.hpp)
+  list(TRANSFORM own PREPEND ${warren_headers}/warren/)
+  list(APPEND warren_copied ${own})
+endforeach()
+add_custom_target(warren_headers BYPRODUCTS ${warren_copied}
   COMMAND ${CMAKE_COMMAND} -DFROM=${PROJECT_SOURCE_DIR} -DTO=${warren_headers} -DFOLDERS=${warren_folders}
           -P ${CMAKE_CURRENT_LIST_DIR}/public_headers.cmake VERBATIM)
 add_dependencies(warren_all warren_headers)

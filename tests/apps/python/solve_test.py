@@ -217,7 +217,7 @@ def test_a_path_of_an_arm_of_files_has_its_joints(tmp_path, joints):
     scene.write_text(f"robot urdf {tmp_path / 'arm.urdf'}\nsphere 0 9 0 1\n")
     path = np.linspace(np.zeros(joints), np.full(joints, 0.1), 3)
     assert warren.verify(str(scene), path)
-    with pytest.raises(warren.InputError, match="numbers a state for an arm"):
+    with pytest.raises(warren.InputError, match=rf"an arm takes {joints} joint value"):
         warren.verify(str(scene), np.zeros((2, joints % 14 + 1)))
 
 
