@@ -49,9 +49,10 @@ class MotionTree {
   /// Asks for what the tree takes while it grows by an eighth, a copy of what it has included, whenever it has, and for
   /// so many more bytes a state: what is asked long before it is used, others take for theirs. Throws Stopped.
   void ask_room(const Execution& execution, std::size_t more_bytes = 0) {
-    constexpr std::size_t index_bytes = 32;  // of its own, a state
+    constexpr std::size_t index_bytes = sizeof(Embedding) > 4 * sizeof(double) ? 96 : 32;  // of its own, a state
     if (states_.size() < asked_at_) return;
-    asked_at_ = states_.size() + states_.size() / 8;
+    constexpr std::size_t least = 64;  // small trees count, too: there may be 4,096
+    asked_at_ = states_.size() + std::max(least, states_.size() / 8);
     execution.reserve(
         asked_at_ * (sizeof(State) + sizeof(VertexId) + sizeof(double) + sizeof(Embedding) + index_bytes + more_bytes));
   }
@@ -151,7 +152,7 @@ class MotionTree {
   GrowthDirection direction_;
   std::vector<State> states_;
   GrowingTree<embedding_dimension<W>> index_;
-  std::size_t asked_at_ = 1024;  // at so many states memory is asked for again
+  std::size_t asked_at_ = 0;  // at so many states memory is asked for again
   std::uint64_t work_ = 0;
 };
 

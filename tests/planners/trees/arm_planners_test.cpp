@@ -124,6 +124,37 @@ TEST(ArmPlanners, ADomainKeepsTreesFromObstaclesThatAreNear) {
   EXPECT_GT(with.edges_free * without.edges_checked, without.edges_free * with.edges_checked);
 }
 
+/// Of the motions that trees grow; where as many move as there are joints, none is left out.
+TEST(ArmPlanners, MotionsTowardsSamplesMoveSomeJoints) {
+  double few = 0.0;
+  double more = 0.0;
+  double all = 0.0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    const Question q = random_question(seed, 60);
+    const ArmWorld world(q.scene, model_of(q.table, 0.05, false), {});
+    const auto moved = [&](std::optional<double> moving) {
+      const RrtOptions trees{.sampler = SamplerKind::halton, .step = 0.1, .moving = moving, .nodes = 400, .seed = seed};
+      PlannedRoadmap<JointState> grown;
+      const auto found = rrt_connect(WorldView(world), q.start, std::span(&q.goal, 1), trees, {.threads = 1}, &grown);
+      if (found.outcome == Outcome::solved) expect_verified(q, found.path);
+      double joints = 0.0;
+      for (const Edge& motion : grown.motions) {
+        for (std::size_t j = 0; j < 6; ++j)
+          joints += grown.states[motion.from][j] != grown.states[motion.to][j] ? 1 : 0;
+      }
+      return std::pair(joints / static_cast<double>(std::max<std::size_t>(1, grown.motions.size())), found.path);
+    };
+    const auto whole = moved({});
+    EXPECT_EQ(moved(6.0), whole);
+    few += moved(2.0).first;
+    more += moved(4.0).first;
+    all += whole.first;
+  }
+  EXPECT_LT(few + 5.0, more);
+  EXPECT_LT(more + 5.0, all);
+}
+
 constexpr const char* nine_spheres = "tests/data/nine-spheres.scene";
 
 class StudyScene : public ::testing::TestWithParam<const char*> {
