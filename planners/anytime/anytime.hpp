@@ -433,6 +433,7 @@ auto AnytimeSearch<W>::draw_roadmap(const Execution& execution) -> Found {
   RoadmapOptions options = options_.roadmap;
   options.samples = first_samples << std::min(roadmaps_, most_doublings);
   options.seed = random_bits(options_.trees.seed, roadmaps_, 14);
+  options.tells_separation = false;
   const State& goal = goals_[roadmaps_ % goals_.size()];
   const Solution<State> solution = [&] {
     if constexpr (W::one_way) {

@@ -13,6 +13,7 @@
 #include "core/plane/wall_set.hpp"
 #include "core/search/search.hpp"
 #include "core/search/union_find.hpp"
+#include "parallel/asked_memory.hpp"
 #include "parallel/sort.hpp"
 #include "planners/graph/assemble_graph.hpp"
 #include "planners/graph/components.hpp"
@@ -481,7 +482,7 @@ bool AxisPlanning::ends_are_joined(const AxisGraph& axis_graph) {
   const auto points_of = [&](VertexId end) {
     std::vector<Vec2> points;
     for (VertexId v = 0; v < axis_graph.vertex_count(); ++v) {
-      if (parts.connected(v, end)) points.push_back(axis_graph.place(v));
+      if (parts.connected(v, end)) push_asked(points, axis_graph.place(v), execution_);
     }
     return points;
   };

@@ -15,6 +15,7 @@
 #include "core/base/world.hpp"
 #include "core/run/execution.hpp"
 #include "core/search/graph.hpp"
+#include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/graph/state_index.hpp"
 
@@ -65,7 +66,7 @@ Separation separation_of(const W& world, std::span<const typename W::State> stat
     std::vector<PointOf<embedding_dimension<W>>> points;
     for (std::size_t i = 0; i < states.size(); ++i) {
       if (components.label[i] != components.label[v]) continue;
-      points.push_back(embedded(world, states[i]));
+      push_asked(points, embedded(world, states[i]), execution);
     }
     return points;
   };

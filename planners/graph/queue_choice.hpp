@@ -76,12 +76,19 @@ auto with_queue(QueueKind kind, std::size_t vertex_count, const Execution& execu
   return call(ComparedQueue(kind, execution));
 }
 
+/// Asks for what a search of so many vertices takes, its queue included, where the state has to grow. Throws Stopped.
+inline void ask_room(const SearchState& state, std::size_t vertex_count, const Execution& execution) {
+  constexpr std::size_t bytes_a_vertex = 24;
+  if (state.vertex_count() < vertex_count) execution.reserve(vertex_count * bytes_a_vertex);
+}
+
 /// A* or Dijkstra, by the estimate, over vertex_count vertices, which the state is sized for. Whether it was stopped is
 /// in the result; sizing throws Stopped.
 template <class Neighbours, class Estimate>
 SearchResult search_best_first(QueueKind kind, std::size_t vertex_count, VertexId start, VertexId goal,
                                const Neighbours& neighbours, const Estimate& estimate, SearchState& state,
                                const Execution& execution) {
+  ask_room(state, vertex_count, execution);
   state.resize(vertex_count, [&] { execution.check(); });
   return with_queue(kind, vertex_count, execution, [&](auto& queue) {
     return best_first(start, goal, neighbours, estimate, queue, state, [&] { return execution.should_stop(); });
@@ -91,6 +98,7 @@ SearchResult search_best_first(QueueKind kind, std::size_t vertex_count, VertexI
 /// The blind search of this kind, as search_best_first.
 inline SearchResult search_blindly(SearchKind search, const Graph& graph, VertexId start, VertexId goal,
                                    SearchState& state, const Execution& execution) {
+  ask_room(state, graph.vertex_count(), execution);
   state.resize(graph.vertex_count(), [&] { execution.check(); });
   const auto should_stop = [&] { return execution.should_stop(); };
   return search == SearchKind::bfs ? breadth_first(graph, start, goal, state, should_stop)

@@ -120,6 +120,7 @@ struct RoadmapOptions {
   NeighbourIndex neighbour_index = NeighbourIndex::by_counts;  ///< of the milestones
   /// How start and goal are joined; none: by the rule, and where that finds nothing to the nearest that will do.
   std::optional<GrowingAttach> attach = {};
+  bool tells_separation = true;  ///< where there is no path: how far apart are the parts? Takes a pass over the roadmap
 
   /// Throws InputError for values outside their ranges.
   void validate() const;

@@ -19,6 +19,8 @@ SearchResult search_from_both_ends(QueueKind kind, std::size_t vertex_count, con
                                    const std::array<Neighbours, 2>& neighbours, const EstimateTo& estimate_to,
                                    const std::array<SearchState*, 2>& states, const Execution& execution) {
   using Estimate = decltype(estimate_to(no_vertex));
+  constexpr std::size_t bytes_a_vertex = 36;
+  if (states[0]->vertex_count() < vertex_count) execution.reserve(vertex_count * bytes_a_vertex);
   const std::array<Estimate, 2> to_root{estimate_to(roots[0]), estimate_to(roots[1])};
   const SearchResult found = with_queue(kind, 0, execution, [&](const auto& empty_queue) {
     using Queue = std::remove_cvref_t<decltype(empty_queue)>;
@@ -69,7 +71,6 @@ SearchResult search_best(const Graph& graph, VertexId start, VertexId goal, cons
   const GraphEdges neighbours{graph, asked.length};
   const Execution& execution = asked.execution;
   const std::size_t n = graph.vertex_count();
-  execution.reserve(n * 36);
   std::array<SearchState, 2> states;
   SearchResult found;
   if (n >= fewest_for_both_ends && asked.estimate_fits) {

@@ -36,6 +36,7 @@ Graph reversed(const Graph& graph, const Execution& execution) {
 
 Components reached_and_reaching(const Graph& graph, VertexId from, VertexId to, const Execution& execution) {
   Components parts;
+  execution.reserve(graph.vertex_count() * (sizeof(VertexId) + sizeof(double) + 2 * sizeof(VertexId)));
   parts.label.assign(graph.vertex_count(), no_vertex);
   const auto mark = [&](const Graph& along, VertexId root) {
     SearchState state;

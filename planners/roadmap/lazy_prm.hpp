@@ -318,7 +318,6 @@ RawVector<VertexId> LazyPlan<W>::search_expanding() {
 
 template <World W>
 RawVector<VertexId> LazyPlan<W>::search_from_start() {
-  execution_.reserve(states_.size() * 24);
   SearchState state;
   SearchResult found = expand_from(start_vertex(), goal_vertex(), state, keep_ ? &free_edges_ : nullptr);
   if (keep_) tree_ = search_tree(state);
@@ -327,7 +326,6 @@ RawVector<VertexId> LazyPlan<W>::search_from_start() {
 
 template <World W>
 RawVector<VertexId> LazyPlan<W>::search_from_both_ends() {
-  execution_.reserve(states_.size() * 36);
   const DeadEnds dead_ends = find_dead_ends();
   std::array<LazyEnd<W>, 2> ends{LazyEnd<W>{lazy_graph(), {}, {}}, LazyEnd<W>{lazy_graph(), {}, {}}};
   for (LazyEnd<W>& end : ends) {
@@ -371,7 +369,7 @@ DeadEnds LazyPlan<W>::find_dead_ends() const {
 
 template <World W>
 void LazyPlan<W>::finish(PlannedRoadmap<State>* keep) {
-  if (this->is_apart()) {  // explores all that start and goal can reach
+  if (this->is_to_separate()) {  // explores all that start and goal can reach
     SearchState from_start;
     SearchState from_goal;
     expand_from(start_vertex(), no_vertex, from_start, nullptr);

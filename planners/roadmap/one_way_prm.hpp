@@ -169,7 +169,7 @@ std::uint64_t OneWayPlan<W>::free_count() const {
 
 template <World W>
 void OneWayPlan<W>::finish(PlannedRoadmap<State>* keep) {
-  if (this->is_apart()) {
+  if (this->is_to_separate()) {
     check_all();
     solution_.counters.edges_free += free_count() - solution_.roadmap.edges;
     const Graph graph = free_part(candidates_, known_, execution_);

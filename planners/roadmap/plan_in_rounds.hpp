@@ -76,7 +76,10 @@ class Rounds {
     solution_.counters.decreases += found.decreases;
   }
 
-  bool is_apart() const { return solution_.outcome == Outcome::not_connected && !states_.empty(); }
+  /// Does somebody want to know what is between start and goal?
+  bool is_to_separate() const {
+    return options_.tells_separation && solution_.outcome == Outcome::not_connected && !states_.empty();
+  }
   void tell_separation(const Components& components) {
     solution_.separation =
         separation_of(world_, std::span<const State>(states_), components, start_vertex(), goal_vertex(), execution_);
@@ -84,6 +87,7 @@ class Rounds {
   /// Between what start has reached and what has reached the goal.
   void tell_separation(const SearchState& from_start, const SearchState& from_goal) {
     Components reached;
+    execution_.reserve(states_.size() * sizeof(VertexId));
     assign_polled(reached.label, states_.size(), no_vertex, [&] { execution_.check(); });
     for (VertexId v = 0; v < states_.size(); ++v) {
       if (from_start.reached(v)) reached.label[v] = start_vertex();

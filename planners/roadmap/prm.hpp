@@ -119,7 +119,7 @@ bool PrmPlan<W>::search() {
 
 template <World W>
 void PrmPlan<W>::finish(PlannedRoadmap<State>* keep) {
-  if (this->is_apart()) {
+  if (this->is_to_separate()) {
     if (reduced_) components_ = components(graph_, execution_);
     this->tell_separation(components_);
   }

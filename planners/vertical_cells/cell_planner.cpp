@@ -8,6 +8,7 @@
 #include "core/plane/geometry.hpp"
 #include "core/search/graph.hpp"
 #include "core/search/search.hpp"
+#include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/graph/components.hpp"
 #include "planners/graph/no_path.hpp"
@@ -130,7 +131,7 @@ Separation cell_separation(const CellDecomposition& cells, const Components& par
     std::vector<Vec2> points{end};
     for (std::uint32_t d = 0; d < cells.doors.size(); ++d) {
       const Door& door = cells.doors[d];
-      if (!door.shut && parts.connected(door.left, vertex)) points.push_back(doors.middle(d));
+      if (!door.shut && parts.connected(door.left, vertex)) push_asked(points, doors.middle(d), execution);
     }
     return points;
   };

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "parallel/asked_memory.hpp"
 #include "parallel/sort.hpp"
 #include "planners/graph/assemble_graph.hpp"
 #include "planners/graph/components.hpp"
@@ -42,6 +43,7 @@ SearchResult lazy_visibility_search(const VisibleCorners& corners, Vec2 start, V
   CornerSight sight(corners, execution);
   SearchState state;
   const auto poll = [&] { execution.check(); };
+  ask_room(state, n + 2, execution);
   state.resize(n + 2, poll);
   IndexedHeap<4> queue;
   queue.resize(n + 2, poll);
@@ -166,8 +168,8 @@ class VisibilityPlan {
     std::vector<Vec2> with_start{start_};
     std::vector<Vec2> with_goal{goal_};
     for (VertexId v = 0; v < visibility.size(); ++v) {
-      if (parts.connected(v, visibility.start_vertex())) with_start.push_back(visibility.positions()[v]);
-      if (parts.connected(v, visibility.goal_vertex())) with_goal.push_back(visibility.positions()[v]);
+      if (parts.connected(v, visibility.start_vertex())) push_asked(with_start, visibility.positions()[v], execution_);
+      if (parts.connected(v, visibility.goal_vertex())) push_asked(with_goal, visibility.positions()[v], execution_);
     }
     solution_.separation = separation_between<2>(std::move(with_start), std::move(with_goal), execution_);
   }

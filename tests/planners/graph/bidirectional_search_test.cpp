@@ -3,10 +3,17 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <limits>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
+#include "core/run/execution.hpp"
 #include "core/search/search_queues.hpp"
+#include "planners/graph/assemble_graph.hpp"
+#include "planners/graph/roadmap_search.hpp"
+#include "planners/roadmap/build_roadmap.hpp"
 #include "tests/core/search/search_graphs.hpp"
 #include "tests/seeds.hpp"
 
@@ -189,6 +196,40 @@ TEST(Bidirectional, AnExceptionOfEitherSideArrivesHere) {
     execution.threads = 2;
     EXPECT_THROW(bidirectional(forward, backward, execution), std::runtime_error);
   }
+}
+
+/// Two searches of a lazy roadmap that found no path once took 20 MB that nobody had asked for.
+TEST(SearchStates, AreAskedForBeforeTheyGrow) {
+  const Graph alone = assemble_graph(1'000'000, std::vector<Edge>{{0, 1}}, {});
+  auto nowhere = [](VertexId, const auto&) {};
+  const auto zero = [](VertexId) { return 0.0; };
+  const auto no_estimate = [](VertexId, VertexId) { return 0.0; };
+  constexpr std::size_t a_bit = 1 << 20;
+  const auto end = static_cast<VertexId>(alone.vertex_count() - 1);
+  const auto is_refused = [&](const auto& search) {
+    const Deadline deadline(std::numeric_limits<double>::infinity(), resident_bytes() + a_bit);
+    Execution execution;
+    execution.deadline = &deadline;
+    return !memory_holds([&] { search(execution); });
+  };
+  SearchState state;
+  std::array<SearchState, 2> states;
+  const auto best = [&](const Execution& execution) {
+    search_best_first(QueueKind::heap, alone.vertex_count(), 0, end, nowhere, zero, state, execution);
+  };
+  EXPECT_TRUE(is_refused(best));
+  EXPECT_TRUE(is_refused(
+      [&](const Execution& execution) { search_blindly(SearchKind::dfs, alone, 0, end, state, execution); }));
+  EXPECT_TRUE(is_refused([&](const Execution& execution) {
+    const ImplicitSearch asked{VertexDistance(no_estimate), true, QueueKind::heap, alone.vertex_count(), execution};
+    search_implicit_from_both_ends({AnyNeighbours(nowhere), AnyNeighbours(nowhere)}, {0, end}, asked,
+                                   {&states[0], &states[1]});
+  }));
+  EXPECT_TRUE(is_refused([&](const Execution& execution) { reached_and_reaching(alone, 0, end, execution); }));
+  state.resize(alone.vertex_count());
+  EXPECT_FALSE(is_refused([&](const Execution& execution) {
+    search_blindly(SearchKind::bfs, alone, 0, end, state, execution);
+  })) << "a state that has the room is not asked for again";
 }
 
 }  // namespace

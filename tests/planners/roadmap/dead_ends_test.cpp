@@ -309,6 +309,9 @@ TEST(DeadEnds, OfAMazeWithoutAWayLeaveTheOutcomeAndTheGapAsTheyAre) {
   ASSERT_TRUE(eager.separation.is_known());
   EXPECT_EQ(lazy.separation.start_size, eager.separation.start_size);
   EXPECT_EQ(lazy.separation.nearest_gap, eager.separation.nearest_gap);
+  options.tells_separation = false;
+  EXPECT_FALSE(lazy_prm(WorldView(world), Vec2{1, 1}, Vec2{100, 100}, options, {}).separation.is_known());
+  EXPECT_FALSE(prm(WorldView(world), Vec2{1, 1}, Vec2{100, 100}, options, {}).separation.is_known());
 }
 
 }  // namespace

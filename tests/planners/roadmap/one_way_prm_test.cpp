@@ -144,6 +144,11 @@ TEST(OneWayPrm, TellsHowFarStartAndGoalAreApart) {
   EXPECT_GT(solution.separation.start_size, 20U);
   EXPECT_GT(solution.separation.goal_size, 20U);
   EXPECT_GT(solution.separation.nearest_gap, 0.0);
+  const RoadmapOptions untold{.samples = 300, .seed = 1, .tells_separation = false};
+  const auto unasked = one_way_prm(WorldView(world), start, goal, untold, true, {});
+  EXPECT_EQ(unasked.outcome, Outcome::not_connected);
+  EXPECT_FALSE(unasked.separation.is_known());
+  EXPECT_LT(unasked.counters.edges_checked, solution.counters.edges_checked) << "nobody wants the other edges";
   EXPECT_EQ(one_way_prm(WorldView(world), {6, 1, 0}, goal, {.samples = 10}, true, {}).outcome, Outcome::start_blocked);
   EXPECT_EQ(one_way_prm(WorldView(world), start, {6, 1, 0}, {.samples = 10}, true, {}).outcome, Outcome::goal_blocked);
 }
