@@ -81,7 +81,7 @@ struct Settings {
   std::string robot;
   std::vector<std::string> folders;
   double step = 1.0;               // as solve/kinds/solve_arm.cpp has it
-  std::string sampler = "halton";  // the same
+  std::string sampler = "random";  // the same
   double domain = 5.0;             // the same; 0: none
   double moving = 6.0;             // the same
   double worth = 0.2;

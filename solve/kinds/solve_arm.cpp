@@ -60,7 +60,7 @@ class Arm : public UsualBody {
     constexpr double usual_domain = 5.0;
     constexpr double usual_moving = 6.0;
     if (problem_.table) return;
-    if (!options.sampler) options.sampler = SamplerKind::halton;
+    if (!options.sampler) options.sampler = SamplerKind::random;
     if (!options.step) options.step = usual_step;
     options.domain = usual_domain;
     options.moving = usual_moving;

@@ -9,6 +9,7 @@
 #include <nanoflann.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -16,6 +17,7 @@
 
 #include "core/base/raw_vector.hpp"
 #include "parallel/sort.hpp"
+#include "spatial/points/disc_points.hpp"
 
 namespace warren {
 namespace {
@@ -174,6 +176,52 @@ class NearestSet {
 };
 
 constexpr double largest_in_floats = 1e18;  // so that squares are numbers, too
+
+using Lanes4 = float __attribute__((vector_size(16)));
+using Lanes8 = float __attribute__((vector_size(32)));
+template <int D>
+using Blocks = std::span<const std::array<std::array<float, 8>, D>>;
+
+/// The squared distances of points, eight a block, from one whose coordinates are these on the first axes, and whose
+/// square on the others is `beyond`; the least of them.
+template <class Lanes, int D>
+[[gnu::always_inline]] inline float measure_by_lanes(Blocks<D> blocks, std::span<const float> from, float beyond,
+                                                     float* squares) {
+  constexpr std::size_t width = sizeof(Lanes) / sizeof(float);
+  Lanes least = Lanes{} + std::numeric_limits<float>::infinity();
+  for (const auto& block : blocks) {
+    for (std::size_t part = 0; part < 8; part += width) {
+      Lanes sum = Lanes{} + beyond;
+      for (std::size_t axis = 0; axis < from.size(); ++axis) {
+        Lanes d;
+        std::memcpy(&d, &block[axis][part], sizeof d);
+        d -= from[axis];
+        sum += d * d;
+      }
+      std::memcpy(squares + part, &sum, sizeof sum);
+      least = sum < least ? sum : least;
+    }
+    squares += 8;
+  }
+  std::array<float, width> all;
+  std::memcpy(all.data(), &least, sizeof least);
+  return *std::min_element(all.begin(), all.end());
+}
+
+template <int D>
+float measure_baseline(Blocks<D> blocks, std::span<const float> from, float beyond, float* squares) {
+  return measure_by_lanes<Lanes4, D>(blocks, from, beyond, squares);
+}
+#if defined(__x86_64__) && !defined(WARREN_PLAIN)
+template <int D>
+[[gnu::target("avx2")]] float measure_avx2(Blocks<D> blocks, std::span<const float> from, float beyond,
+                                           float* squares) {
+  return measure_by_lanes<Lanes8, D>(blocks, from, beyond, squares);
+}
+#else
+template <int D>
+constexpr auto measure_avx2 = measure_baseline<D>;
+#endif
 
 }  // namespace
 
@@ -339,7 +387,9 @@ template <int D>
 void GrowingTree<D>::insert(const Point& p) {
   if constexpr (is_wide) {
     const std::size_t place = (points_.size() - filed_) % 8;
-    if (place == 0) newest_.push_back({});
+    if (place == 0) newest_.emplace_back()[0].fill(std::numeric_limits<float>::infinity());
+    newest_.back()[0][place] = 0.0F;
+    axes_ = std::max<std::size_t>(axes_, 1);
     for (std::size_t axis = 0; axis < D; ++axis) {
       if (p[axis] == 0.0) continue;
       axes_ = std::max(axes_, axis + 1);
@@ -368,8 +418,8 @@ void GrowingTree<D>::rebuild() {
 }
 
 template <int D>
-template <class Most, class Take>
-void GrowingTree<D>::look_at_newest(const Point& p, const Most& most, const Take& take) const {
+template <class Take>
+void GrowingTree<D>::look_at_newest(const Point& p, double most, bool only_nearest, const Take& take) {
   const auto look_at = [&](std::size_t id) { take(as_whole<VertexId>(id), distance_between<D>(points_[id], p)); };
   double largest = infinity;
   if constexpr (is_wide) {
@@ -381,36 +431,27 @@ void GrowingTree<D>::look_at_newest(const Point& p, const Most& most, const Take
     return;
   }
   if constexpr (is_wide) {
-    using Four = float __attribute__((vector_size(16)));
+    static const auto measure =
+        detail::best_instruction_set() == detail::InstructionSet::baseline ? measure_baseline<D> : measure_avx2<D>;
     std::array<float, D> from;
-    for (std::size_t axis = 0; axis < D; ++axis) from[axis] = static_cast<float>(p[axis]);
-    // A difference is wrong by two roundings of its numbers and one of its own, their squares' sum by one a term.
-    const double wrong = 0x1p-22 * D * largest;
-    const auto reach = [&] {
-      const double far = std::min((most() + wrong) * (1.0 + 1e-5), 16.0 * largest_in_floats);
-      return static_cast<float>(far * far);
-    };
-    float limit = reach();
-    for (std::size_t block = 0; block < newest_.size(); ++block) {
-      std::array<Four, 2> sums{};
-      for (std::size_t axis = 0; axis < axes_; ++axis) {
-        for (std::size_t half = 0; half < 2; ++half) {
-          Four d;
-          std::memcpy(&d, &newest_[block][axis][4 * half], sizeof d);
-          d -= from[axis];
-          sums[half] += d * d;
-        }
-      }
-      std::array<std::uint64_t, 2> near;
-      const auto either = (sums[0] <= limit) | (sums[1] <= limit);
-      std::memcpy(&near, &either, sizeof near);
-      if ((near[0] | near[1]) == 0) continue;
-      const std::size_t first = filed_ + 8 * block;
-      for (std::size_t i = 0; i < 8 && first + i < points_.size(); ++i) {
-        if (sums[i / 4][i % 4] > limit) continue;
-        look_at(first + i);
-        limit = reach();
-      }
+    double beyond = 0.0;  // on axes that all others have 0 on
+    for (std::size_t axis = 0; axis < D; ++axis) {
+      from[axis] = static_cast<float>(p[axis]);
+      if (axis >= axes_) beyond += p[axis] * p[axis];
+    }
+    squares_.resize(8 * newest_.size());
+    const float least = measure(newest_, {from.data(), axes_}, static_cast<float>(beyond), squares_.data());
+    // A difference is wrong by two roundings of its numbers and one of its own, their squares' sum by one a term, and
+    // squares of the least numbers are lost.
+    const double wrong = 0x1p-22 * D * largest + 1e-18;
+    const auto farther = [&](double distance) { return (distance + wrong) * (1.0 + 1e-5); };
+    if (only_nearest) most = std::min(most, farther(std::sqrt(double{least})));
+    const double far = std::min(farther(most), 16.0 * largest_in_floats);
+    const auto limit = static_cast<float>(far * far);
+    for (std::size_t first = 0; first < squares_.size(); first += 8) {
+      unsigned near = 0;
+      for (std::size_t i = 0; i < 8; ++i) near |= squares_[first + i] <= limit ? 1U << i : 0U;
+      for (; near != 0; near &= near - 1) look_at(filed_ + first + as_whole<std::size_t>(std::countr_zero(near)));
     }
   }
 }
@@ -429,11 +470,9 @@ Neighbour GrowingTree<D>::nearest(const Point& p) {
     level.tree.nearest(p, 1, no_vertex, found_);
     consider(found_.front().id, found_.front().distance);
   }
-  look_at_newest(
-      p, [&] { return best.distance; },
-      [&](VertexId id, double d) {
-        best = std::min(best, Neighbour{id, d});
-      });
+  look_at_newest(p, best.distance, true, [&](VertexId id, double distance) {
+    best = std::min(best, Neighbour{id, distance});
+  });
   return best;
 }
 
@@ -463,11 +502,9 @@ void GrowingTree<D>::nearest(const Point& p, std::size_t k, std::vector<Neighbou
     keep();
   }
   const double most = reach();
-  look_at_newest(
-      p, [most] { return most; },
-      [&](VertexId id, double distance) {
-        if (distance <= most) out.push_back({id, distance});
-      });
+  look_at_newest(p, most, false, [&](VertexId id, double distance) {
+    if (distance <= most) out.push_back({id, distance});
+  });
   keep();
   std::sort(out.begin(), out.end());
 }

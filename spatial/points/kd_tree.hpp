@@ -88,12 +88,12 @@ class GrowingTree {
   static constexpr bool is_wide = D > 4;
   static constexpr std::size_t smallest_tree = is_wide ? 1024 : 128;
   void rebuild();
-  /// take(id, distance) for each of the newest points that is not farther than most() at the time; for some others,
-  /// too.
-  template <class Most, class Take>
-  void look_at_newest(const Point& p, const Most& most, const Take& take) const;
+  /// take(id, distance) for each of the newest points that is not farther than `most`, where only the nearest counts
+  /// for those that may be it; for some others, too.
+  template <class Take>
+  void look_at_newest(const Point& p, double most, bool only_nearest, const Take& take);
 
-  /// Eight points in floats, by axis.
+  /// Eight points in floats, by axis; where there is none, the first one's is infinite.
   using Eight = std::array<std::array<float, 8>, D>;
 
   std::vector<Point> points_;
@@ -102,6 +102,7 @@ class GrowingTree {
   std::vector<Eight> newest_;     // where D is wide
   std::size_t axes_ = 0;          // of these, all others are 0
   double largest_ = 0.0;          // coordinate of these, in size
+  std::vector<float> squares_;    // scratch
   std::vector<Neighbour> found_;  // scratch
 };
 

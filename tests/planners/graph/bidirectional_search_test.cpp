@@ -207,6 +207,7 @@ TEST(SearchStates, AreAskedForBeforeTheyGrow) {
   constexpr std::size_t a_bit = 1 << 20;
   const auto end = static_cast<VertexId>(alone.vertex_count() - 1);
   const auto is_refused = [&](const auto& search) {
+    give_freed_pages_back();  // of other tests: they are given back before anything is refused
     const Deadline deadline(std::numeric_limits<double>::infinity(), resident_bytes() + a_bit);
     Execution execution;
     execution.deadline = &deadline;

@@ -78,8 +78,10 @@ TEST(GrowingTree, FindsTheNearestAtEverySizeAsBruteForceDoes) {
 
 TEST(GrowingTree, IsExactWhereFloatsAreNot) {
   expect_as_brute_force<16>(1, 300, 1e-3, 1e6);
+  expect_as_brute_force<16>(1, 300, 1e-2, 1e3);
   expect_as_brute_force<16>(3, 300, 1e-9, 1.0);
-  for (const double scale : {1e-25, 1e17, 1e18, 1e19, 1e60}) expect_as_brute_force<16>(1, 200, scale, -0.5 * scale);
+  for (const double scale : {1e-25, 1e-22, 1e-21, 1e17, 1e18, 1e19, 1e60})
+    expect_as_brute_force<16>(1, 200, scale, -0.5 * scale);
 }
 
 }  // namespace
