@@ -17,7 +17,7 @@
 namespace warren {
 
 /// Immutable after construction; any number of threads may query. All answers are exact: the same neighbours, distances
-/// and order as brute force. Instantiated for D = 2, 3, 4 and 6.
+/// and order as brute force. Instantiated for D = 2, 3, 4 and 16.
 template <int D>
 class KdTree : public NeighboursByVisits<KdTree<D>, D> {
  public:
@@ -61,10 +61,10 @@ extern template class KdTree<16>;
 /// (Bentley, Saxe, J. Algorithms 1, 1980): the newest up to 127 points are looked at one by one; when there are 128
 /// they become a k-d tree, and two trees of one size become one of the double size, so that n points lie in at most
 /// log2(n / 128) trees. An insertion costs O(log^2 n) on average, a query O(log^2 n) and 128 distances at most, and of
-/// k neighbours k log k. Where D > 4 a tree spares few distances: it takes 1024 points, of which eight at once are
+/// k neighbours k log k. Where D > 4 a tree spares few distances: it takes 2048 points, of which eight at once are
 /// looked at in floats; only those that may be near enough by these are looked at themselves. The answers are those of
 /// brute force, ties by id. Measured in bench/certified_motion_bench.cpp. Points are numbered as they come. For one
-/// thread. D = 2, 3, 4 and 6.
+/// thread. D = 2, 3, 4 and 16.
 template <int D>
 class GrowingTree {
  public:
@@ -86,7 +86,7 @@ class GrowingTree {
     KdTree<D> tree;
   };
   static constexpr bool is_wide = D > 4;
-  static constexpr std::size_t smallest_tree = is_wide ? 1024 : 128;
+  static constexpr std::size_t smallest_tree = is_wide ? 2048 : 128;
   void rebuild();
   /// take(id, distance) for each of the newest points that is not farther than `most`, where only the nearest counts
   /// for those that may be it; for some others, too.
