@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdlib>
+#include <functional>
 #include <map>
 #include <memory>
 #include <new>
@@ -25,14 +28,44 @@ namespace {
 constexpr double points_a_pixel = 0.75;
 constexpr double largest_side = 14'400.0;  // a side of a page
 
+/// libharu goes on with what an allocation that failed gave it. So small ones get a last bit of memory, and who draws
+/// asks whether one failed. Of a thread that makes one document after the other.
+class DocumentMemory {
+ public:
+  static void begin() {
+    used_ = 0;
+    has_failed_ = false;
+  }
+  static bool has_failed() { return has_failed_; }
+  static void* take(HPDF_UINT bytes) {
+    if (void* const block = std::malloc(bytes)) return block;
+    has_failed_ = true;
+    const std::size_t whole = (std::size_t{bytes} + alignment - 1) / alignment * alignment;
+    if (whole > last_.size() - used_) return nullptr;
+    used_ += whole;
+    return last_.data() + used_ - whole;
+  }
+  static void give_back(void* block) {
+    const std::less<const void*> lies_before;
+    if (lies_before(block, last_.data()) || !lies_before(block, last_.data() + last_.size())) std::free(block);
+  }
+
+ private:
+  static constexpr std::size_t alignment = alignof(std::max_align_t);
+  alignas(std::max_align_t) static inline thread_local std::array<std::byte, std::size_t{1} << 16U> last_;
+  static inline thread_local std::size_t used_ = 0;
+  static inline thread_local bool has_failed_ = false;
+};
+
 struct FreeDocument {
   void operator()(HPDF_Doc document) const { HPDF_Free(document); }
 };
 
 class PdfSurface : public Surface {
  public:
-  PdfSurface(const Page& page, const Execution& execution)
-      : page_(page), execution_(execution), document_(HPDF_New(nullptr, nullptr)) {
+  PdfSurface(const Page& page, const Execution& execution) : page_(page), execution_(execution) {
+    DocumentMemory::begin();
+    document_.reset(HPDF_NewEx(nullptr, DocumentMemory::take, DocumentMemory::give_back, 0, nullptr));
     if (!document_) throw std::bad_alloc();
     HPDF_SetCompressionMode(document_.get(), HPDF_COMP_ALL);
     sheet_ = HPDF_AddPage(document_.get());
@@ -107,6 +140,7 @@ class PdfSurface : public Surface {
     HPDF_Page_SetTextMatrix(sheet_, cosine, sine, -sine, cosine, real(p.x), real(p.y));
     HPDF_Page_ShowText(sheet_, words.c_str());
     HPDF_Page_EndText(sheet_);
+    check();
   }
 
   bool takes_as_mask(std::size_t points) const override {
@@ -174,6 +208,7 @@ class PdfSurface : public Surface {
       HPDF_ExtGState_SetAlphaStroke(state, real(pen_.opacity));
     }
     HPDF_Page_SetExtGState(sheet_, state);
+    check();
   }
 
   void paint_path() {
@@ -194,7 +229,8 @@ class PdfSurface : public Surface {
     paint_path();
   }
   void check() const {
-    if (HPDF_GetError(document_.get()) != HPDF_OK) throw std::bad_alloc();  // all that is asked of it is right
+    const bool failed = HPDF_GetError(document_.get()) != HPDF_OK;  // all that is asked of it is right
+    if (failed || DocumentMemory::has_failed()) throw std::bad_alloc();
   }
 
   const Page& page_;

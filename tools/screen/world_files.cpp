@@ -161,12 +161,10 @@ std::vector<std::string> write_world(const Scene& scene, const std::string& file
   return write_picture(file, picture, options, execution);
 }
 
-void note_left_out(const Arguments& arguments, const Scene& scene, const std::string& file,
-                   const OccupancyMap* becomes) {
+std::string note_of_left_out(const Scene& scene, const std::string& file, const OccupancyMap* becomes) {
   const std::vector<std::string_view> lost = parts_left_out(scene, file, becomes);
-  if (lost.empty() || arguments.has("--quiet")) return;
-  say_on_standard_error(
-      fmt::format("warren: note: {}: its format has no {}: left out\n", printable(file), fmt::join(lost, ", ")));
+  if (lost.empty()) return {};
+  return fmt::format("warren: note: {}: its format has no {}: left out\n", printable(file), fmt::join(lost, ", "));
 }
 
 void check_rules_of_maps(const Arguments& arguments) {

@@ -40,10 +40,8 @@ Scene load_world(const InputFile& file, const Arguments& arguments, const Execut
 std::vector<std::string> write_world(const Scene& scene, const std::string& file, const PictureOptions& options,
                                      const std::string& command_line, const Execution& execution);
 
-/// Says on standard error, unless --quiet is given, what the file's format has no words for: it is not lost without
-/// one.
-void note_left_out(const Arguments& arguments, const Scene& scene, const std::string& file,
-                   const OccupancyMap* becomes = nullptr);
+/// A line that says what the file's format has no words for, to be told once nothing can fail; empty: it has them all.
+std::string note_of_left_out(const Scene& scene, const std::string& file, const OccupancyMap* becomes = nullptr);
 
 /// Throws UsageError unless `file` has an ending that write_world knows, WriteError unless it can be written.
 void check_world_file(const std::string& file);

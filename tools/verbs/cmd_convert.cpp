@@ -87,23 +87,21 @@ bool becomes_map(const Scene& scene, std::string_view file, const Arguments& arg
   return is_map_ending(file) || (file.ends_with(".png") && (scene.map || arguments.has("--cell")));
 }
 
-void write_any(Scene& scene, const std::string& file, const Arguments& arguments, const PictureOptions& options,
-               const Execution& execution) {
+/// What there is to note, once all is done.
+std::string write_any(Scene& scene, const std::string& file, const Arguments& arguments, const PictureOptions& options,
+                      const Execution& execution) {
   if (becomes_map(scene, file, arguments)) {
     const auto cell = given_value(arguments, "--cell", positive_value);
     if (cell) check_cell(*cell, scene);
     const OccupancyMap map = map_for(scene, cell, execution);
-    if (map.free == 0 && !arguments.has("--quiet")) {
-      say_on_standard_error(
-          "warren: note: no cell of the map is free, each touches a wall; a smaller --cell leaves some\n");
-    }
     write_map(map, file, execution);
-    note_left_out(arguments, scene, file, &map);
-    return;
+    constexpr std::string_view no_cell =
+        "warren: note: no cell of the map is free, each touches a wall; a smaller --cell leaves some\n";
+    return (map.free == 0 ? std::string(no_cell) : std::string()) + note_of_left_out(scene, file, &map);
   }
   add_map_walls(scene, execution);
   say_of_picture(arguments, file, write_world(scene, file, options, arguments.command_line(), execution));
-  if (!is_picture(ending_of(file))) note_left_out(arguments, scene, file);
+  return is_picture(ending_of(file)) ? std::string() : note_of_left_out(scene, file);
 }
 
 /// Throws as check_world_file does; a YAML has its image beside it.
@@ -128,13 +126,15 @@ int convert(const Arguments& arguments) {
   StageTimes seconds;
   double write_seconds = 0.0;
   Scene scene = load_world(arguments.operand(0), arguments, run.execution(), seconds);
+  std::string note;
   {
     const StageTimer timer(run.execution(), "write", write_seconds);
-    write_any(scene, *file, arguments, options, run.execution());
+    note = write_any(scene, *file, arguments, options, run.execution());
   }
   run.end();
   if (!run.quiet() && *file != "-")
     print_text(fmt::format("{}: {}\n", run.palette().strong(*file), description_of(scene)));
+  if (!run.quiet()) say_on_standard_error(note);
   return exit_code::success;
 }
 

@@ -136,19 +136,21 @@ int generate(const Arguments& arguments) {
     scene = make(run.execution());
   }
   double write_seconds = 0.0;
+  std::string note;
   {
     const StageTimer timer(run.execution(), "write", write_seconds);
     const auto bounds = scene.bounds;
     if (ending_of(*file) == ".wkt") scene.bounds.reset();  // or no polygons could be written there
     say_of_picture(arguments, *file, write_world(scene, *file, options, arguments.command_line(), run.execution()));
     scene.bounds = bounds;
-    if (!is_picture(ending_of(*file))) note_left_out(arguments, scene, *file);
+    if (!is_picture(ending_of(*file))) note = note_of_left_out(scene, *file);
   }
   run.end();
   if (!run.quiet() && *file != "-") {
     print_text(fmt::format("{}: {}, generated in {}, written in {}\n", run.palette().strong(*file),
                            description_of(scene), human_seconds(seconds), human_seconds(write_seconds)));
   }
+  if (!run.quiet()) say_on_standard_error(note);
   return exit_code::success;
 }
 
