@@ -33,28 +33,28 @@ constexpr double largest_side = 14'400.0;  // a side of a page
 class DocumentMemory {
  public:
   static void begin() {
-    used_ = 0;
-    has_failed_ = false;
+    used = 0;
+    failed = false;
   }
-  static bool has_failed() { return has_failed_; }
+  static bool has_failed() { return failed; }
   static void* take(HPDF_UINT bytes) {
     if (void* const block = std::malloc(bytes)) return block;
-    has_failed_ = true;
+    failed = true;
     const std::size_t whole = (std::size_t{bytes} + alignment - 1) / alignment * alignment;
-    if (whole > last_.size() - used_) return nullptr;
-    used_ += whole;
-    return last_.data() + used_ - whole;
+    if (whole > last.size() - used) return nullptr;
+    used += whole;
+    return last.data() + used - whole;
   }
   static void give_back(void* block) {
     const std::less<const void*> lies_before;
-    if (lies_before(block, last_.data()) || !lies_before(block, last_.data() + last_.size())) std::free(block);
+    if (lies_before(block, last.data()) || !lies_before(block, last.data() + last.size())) std::free(block);
   }
 
  private:
   static constexpr std::size_t alignment = alignof(std::max_align_t);
-  alignas(std::max_align_t) static inline thread_local std::array<std::byte, std::size_t{1} << 16U> last_;
-  static inline thread_local std::size_t used_ = 0;
-  static inline thread_local bool has_failed_ = false;
+  alignas(std::max_align_t) static inline thread_local std::array<std::byte, std::size_t{1} << 16U> last;
+  static inline thread_local std::size_t used = 0;
+  static inline thread_local bool failed = false;
 };
 
 struct FreeDocument {
