@@ -32,7 +32,7 @@ void change(OccupancyMap& map, Cell c, bool blocked) {
 
 /// Of cells: whose middle may be in the box, the others being too far away for any rounding.
 Box cells_near(const OccupancyMap& map, const Box& box) {
-  Box all = world_box(map, {{0.0, 0.0}, {1.0 * map.width(), 1.0 * map.height()}});
+  Box all = world_box(map);
   double off = map.cell;
   for (const Vec2 corner : {all.min, all.max}) off += 0x1p-45 * (std::abs(corner.x) + std::abs(corner.y));
   all = all.grown(off);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -64,6 +65,22 @@ class Bitmap {
       const std::uint64_t ones = count == word_bits ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
       words[word] |= ones << (first % word_bits);
       first = end;
+    }
+  }
+  /// Sets what is set in the other one, of this size or empty, with calls of poll() on the way.
+  template <class Poll = NoPoll>
+  void add(const Bitmap& other, const Poll& poll = {}) {
+    assert(other.height_ == 0 || (width_ == other.width_ && height_ == other.height_));
+    for (std::uint32_t y = 0; y < other.height_; ++y, poll()) {
+      for (std::size_t w = y * stride_; w < (y + 1) * stride_; ++w) words_[w] |= other.words_[w];
+    }
+  }
+  /// Clears what is set in the other one; as add(), and this one may be empty, too.
+  template <class Poll = NoPoll>
+  void remove(const Bitmap& other, const Poll& poll = {}) {
+    assert(other.height_ == 0 || words_.empty() || (width_ == other.width_ && height_ == other.height_));
+    for (std::uint32_t y = 0; y < other.height_; ++y, poll()) {
+      for (std::size_t w = y * stride_; w < (y + 1) * stride_; ++w) words_[w] &= ~other.words_[w];
     }
   }
   /// Is the cell inside the bitmap and set? Any coordinates.

@@ -238,13 +238,6 @@ std::function<Vec2(Vec2)> placed(const HeadingCells& heading) {
   return [&heading, turned = Rotation(heading.yaw_rad)](Vec2 p) { return heading.origin + turned(heading.cell * p); };
 }
 
-std::vector<Vec2> turned_outline(const RobotSpec& robot, double heading_rad) {
-  const Rotation turned(heading_rad);
-  std::vector<Vec2> outline;
-  for (const Vec2 p : robot.outline) outline.push_back(turned(p));
-  return outline;
-}
-
 /// As far as the reference point may be while some of the body is in the bounds, or at the obstacles.
 LayerOptions one_layer(const Scene& scene, const RobotSpec& robot, double clearance, const Execution& execution) {
   constexpr double cells = 400.0;
@@ -299,7 +292,7 @@ HeadingCells heading_cells(const Scene& scene, const RobotSpec& robot, double cl
   cells.yaw_rad = scene.map ? scene.map->yaw_rad : 0.0;
   const double seen_rad = heading_rad - cells.yaw_rad;
   cells.heading_degrees = seen_rad / degree;
-  RobotSpec standing{.kind = RobotKind::polygon, .outline = turned_outline(robot, seen_rad)};
+  RobotSpec standing{.kind = RobotKind::polygon, .outline = moved_to({0.0, 0.0, seen_rad}, robot.outline)};
   HeadingLayers layers =
       scene.map ? map_layers(*scene.map, standing.outline, 1, clearance, execution)
                 : orientation_layers(scene, standing, one_layer(scene, standing, clearance, execution), execution);

@@ -34,12 +34,7 @@ std::vector<CellRun> runs_of(const Bitmap& cells, std::uint32_t y) {
 Bitmap known_of(const OccupancyMap& map, const Execution& execution) {
   execution.reserve(map.blocked.bytes());
   Bitmap known = map.blocked;
-  for (std::uint32_t y = 0; y < map.unknown.height(); ++y) {
-    execution.check();
-    const auto unknown = map.unknown.row(y);
-    const auto row = known.row(y);
-    for (std::size_t w = 0; w < row.size(); ++w) row[w] &= ~unknown[w];
-  }
+  known.remove(map.unknown, [&] { execution.check(); });
   return known;
 }
 
@@ -219,12 +214,7 @@ class PriceLayers {
 std::optional<PictureLayer> near_obstacles(const OccupancyMap& map, double reach, std::string id, std::string label,
                                            const Execution& execution) {
   Bitmap near = blocked_for_disc(map.blocked, reach / map.cell, execution);
-  for (std::uint32_t y = 0; y < near.height(); ++y) {
-    execution.check();
-    const auto blocked = map.blocked.row(y);
-    const auto row = near.row(y);
-    for (std::size_t w = 0; w < row.size(); ++w) row[w] &= ~blocked[w];
-  }
+  near.remove(map.blocked, [&] { execution.check(); });
   if (near.count() == 0) return std::nullopt;
   const auto at = [&](Vec2 p) { return world_point(map, p); };
   PictureLayer layer = cells_layer(std::move(id), std::move(label), near, at, execution);

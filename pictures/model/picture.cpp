@@ -165,9 +165,7 @@ std::optional<Box> known_part(const OccupancyMap& map, const Execution& executio
                   std::min(rows.last + 1.0 + margin, static_cast<double>(map.height()))};
   constexpr double most = 0.9;
   if (high.x - low.x > most * map.width() && high.y - low.y > most * map.height()) return std::nullopt;
-  Box box;
-  for (const Vec2 corner : {low, Vec2{high.x, low.y}, high, Vec2{low.x, high.y}}) box.include(world_point(map, corner));
-  return box;
+  return world_box(map, {low, high});
 }
 
 std::vector<Vec2> part_in_box(std::span<const Vec2> outline, const Box& box) {

@@ -96,8 +96,7 @@ void GeojsonPieces::settle_role(const Piece& piece, const std::string& role) {
     return;
   }
   if (scene_.bounds) fail_at(piece.line, "a second \"bounds\"");
-  Box box;
-  for (const Vec2 p : piece.points) box.include(p);
+  const Box box = box_around(piece.points);
   if (!(box.width() > 0.0) || !(box.height() > 0.0)) fail_at(piece.line, "the bounds have no area");
   scene_.bounds = box;
 }

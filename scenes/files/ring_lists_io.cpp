@@ -126,8 +126,7 @@ std::optional<int> side_of(const Box& box, Vec2 p) {
 void confine(Scene& scene, const ScenePolygon& ring, const Execution& execution) {
   const std::vector<Vec2> corners = anticlockwise(ring.corners);
   const std::size_t n = corners.size();
-  Box box;
-  for (const Vec2 p : corners) box.include(p);
+  const Box box = box_around(corners);
   const Vec2 box_corners[] = {{box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}, box.min};
   WallCollector walls(execution);
   std::size_t first = 0;

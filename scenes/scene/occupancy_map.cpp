@@ -39,6 +39,8 @@ Box world_box(const OccupancyMap& map, const Box& in_cells) {
   return box;
 }
 
+Box world_box(const OccupancyMap& map) { return world_box(map, {{0.0, 0.0}, {1.0 * map.width(), 1.0 * map.height()}}); }
+
 std::optional<Cell> cell_at(const OccupancyMap& map, Vec2 in_world) {
   const Vec2 p = map_point(map, in_world);
   if (!(p.x >= 0.0 && p.y >= 0.0 && p.x < map.width() && p.y < map.height())) return std::nullopt;

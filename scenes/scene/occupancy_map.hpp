@@ -49,6 +49,8 @@ Vec2 map_point(const OccupancyMap& map, Vec2 in_world);
 Vec2 cell_centre(const OccupancyMap& map, Cell cell);
 /// The world's box around a box of the map's coordinates.
 Box world_box(const OccupancyMap& map, const Box& in_cells);
+/// The same around all of the map.
+Box world_box(const OccupancyMap& map);
 /// The cell that holds a point (on a border: the upper or right one); nothing outside of the map.
 std::optional<Cell> cell_at(const OccupancyMap& map, Vec2 in_world);
 

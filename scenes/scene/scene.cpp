@@ -193,13 +193,7 @@ Box obstacle_box(const Scene& scene, const Execution& execution) {
   for (const ScenePolygon& polygon : scene.polygons) {
     for (const Vec2 corner : polygon.corners) box.include(corner);
   }
-  if (scene.map) {
-    const double width = scene.map->width();
-    const double height = scene.map->height();
-    for (const Vec2 corner : {Vec2{0.0, 0.0}, {width, 0.0}, {width, height}, {0.0, height}}) {
-      box.include(world_point(*scene.map, corner));
-    }
-  }
+  if (scene.map) box.include(world_box(*scene.map));
   return box;
 }
 
@@ -210,9 +204,13 @@ std::vector<Segment> bounds_walls(const Scene& scene) {
   return {{corners[0], corners[1]}, {corners[1], corners[2]}, {corners[2], corners[3]}, {corners[3], corners[0]}};
 }
 
-double checked_clearance(double clearance) {
-  if (clearance >= 0.0 && clearance <= largest_coordinate) return clearance;
-  throw InputError("clearance", "must be a number from 0 to 1e60", std::to_string(clearance));
+double checked_length(const char* name, double value, bool may_be_zero) {
+  const bool is_enough = may_be_zero ? value >= 0.0 : value > 0.0;
+  if (is_enough && value <= largest_coordinate) return value;
+  throw InputError(name, may_be_zero ? "must be a number from 0 to 1e60" : "must be a number above 0, up to 1e60",
+                   std::to_string(value));
 }
+
+double checked_clearance(double clearance) { return checked_length("clearance", clearance, true); }
 
 }  // namespace warren

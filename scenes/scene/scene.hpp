@@ -214,7 +214,9 @@ Box obstacle_box(const Scene& scene, const Execution& execution = {});
 /// The four sides of the bounds as walls; none without bounds.
 std::vector<Segment> bounds_walls(const Scene& scene);
 
-/// The clearance, if it is one that a body can keep: throws InputError where it is not from 0 to largest_coordinate.
+/// The value, if it is above 0, or 0 where that may be, up to largest_coordinate; else throws InputError naming it.
+double checked_length(const char* name, double value, bool may_be_zero);
+/// The same of a clearance that a body shall keep, which may be 0.
 double checked_clearance(double clearance);
 
 /// What a unit of a scene's coordinates is called, where its file says so. "cells" of mazes, of Moving AI's maps and of

@@ -46,9 +46,6 @@ class BoxTree {
   std::size_t size() const { return boxes_.size(); }
   /// Which box, of those given, stands at each place.
   std::span<const std::uint32_t> order() const { return order_; }
-  std::size_t bytes() const {
-    return boxes_.size() * (sizeof(BoxOf<D>) + sizeof(std::uint32_t)) + nodes_.size() * sizeof(Node);
-  }
 
   /// Calls visit(place) for boxes whose distance from `from` is at most `within`, nearer subtrees first. What visit
   /// returns is the new `within`, not larger than the last one; a negative number ends the search. Distances are exact

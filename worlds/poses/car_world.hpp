@@ -7,12 +7,10 @@
 // Every motion is certified free all along (worlds/poses/certified_motion.hpp): on a straight piece each point of the
 // body goes as far as the reference point, on an arc farther by the ratio of its distance from the turning centre to
 // the turning radius (of a disc, which looks the same however it is turned, the middle alone counts). Without bounds
-// the reference point stays in the obstacles' box, on the curve too. On a map the body moves among the borders between
-// free and blocked cells, which the scene has as walls (worlds/rasters/lattice_polygons.hpp): as it touches none of
-// them, it is among free cells wholly or not at all. The metric is the curve's length; for Dubins curves it has a
-// direction. The chord in (x, y, rho cos theta, rho sin theta), shortened by sqrt(2), never exceeds it. The metric of a
-// differential drive is that of turning bodies, the root of the squares of way and weighed turn, whatever it turns on
-// the way: what it turns there obeys no triangle inequality.
+// the reference point stays in the obstacles' box, on the curve too. The metric is the curve's length; for Dubins
+// curves it has a direction. The chord in (x, y, rho cos theta, rho sin theta), shortened by sqrt(2), never exceeds it.
+// The metric of a differential drive is that of turning bodies, the root of the squares of way and weighed turn,
+// whatever it turns on the way: what it turns there obeys no triangle inequality.
 #pragma once
 
 #include <array>
@@ -27,9 +25,9 @@
 #include "core/base/world.hpp"
 #include "core/plane/se2.hpp"
 #include "scenes/scene/scene.hpp"
+#include "worlds/poses/body_among_obstacles.hpp"
 #include "worlds/poses/certified_motion.hpp"
 #include "worlds/poses/dubins_curve.hpp"
-#include "worlds/poses/obstacle_tree.hpp"
 #include "worlds/poses/reeds_shepp_curve.hpp"
 #include "worlds/poses/steering_curve.hpp"
 
@@ -46,44 +44,35 @@ struct CarOptions {
 /// The body among the obstacles, whatever the steering. Immutable after construction; one Query a thread.
 class CarBody {
  public:
-  struct Query {
-    Footprint footprint;
-    std::uint64_t refused = 0;  ///< motions that were neither proved free nor blocked
-  };
+  using Query = BodyAmongObstacles::Query;
 
   /// Throws InputError for options out of range, outlines of the car and of obstacles that are no simple polygons, and
   /// a scene without anything that confines the car. Copies a map. Throws Stopped.
   CarBody(const Scene& scene, const CarOptions& options, const Execution& execution = {});
 
-  Query make_query() const { return {Footprint(outline_.size())}; }
+  Query make_query() const { return body_.make_query(); }
   /// Poses at which the body is in the bounds, if it can be there at that angle.
-  Se2 at_unit(const std::array<double, 3>& u) const;
-  bool is_free(const Se2& a, Query& query) const;
+  Se2 at_unit(const std::array<double, 3>& u) const { return body_.at_unit(u); }
+  bool is_free(const Se2& a, Query& query) const { return body_.is_free(a, query); }
   /// Lower bound of the distance to the nearest obstacle less the clearance; <= 0: not free. More than `enough` counts
   /// as any number above it.
-  double clearance(const Se2& a, double enough, Query& query) const;
+  double clearance(const Se2& a, double enough, Query& query) const { return body_.clearance(a, enough, query); }
   MotionVerdict judge(const SteeringCurve& curve, Query& query) const;
   bool is_free_curve(const SteeringCurve& curve, Query& query) const;
 
   double turning_radius() const { return turning_radius_; }
   double resolution() const { return resolution_; }
-  const Box& box() const { return box_; }  ///< the bounds, else the box of the obstacles
+  const Box& box() const { return body_.box(); }  ///< the bounds, else the box of the obstacles
   /// How far any point of the body goes while the reference point goes 1 with this steering.
   double pace(Steer steer) const { return pace_[as_whole<std::size_t>(as_whole<int>(steer) + 2)]; }
 
  private:
   bool confines(const Box& way) const;
-  /// Is the body where it may be, if it touches no obstacle?
-  bool is_confined(const Se2& a) const;
 
-  std::vector<Vec2> outline_;  // of the disc: its middle
   double turning_radius_;
-  double reach_;  // kept around the outline when planning: the clearance, of discs their radius too, and rounding
   std::array<double, 5> pace_{0.0, 1.0, 1.0, 1.0, 0.0};  // by Steer
   double resolution_;
-  ObstacleTree tree_;
-  Box box_;
-  std::optional<OccupancyMap> map_;
+  BodyAmongObstacles body_;  // its reach: the clearance, of discs their radius too, and rounding
 };
 
 /// Curve: DubinsCurve, ReedsSheppCurve or DifferentialCurve.

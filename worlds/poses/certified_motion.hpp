@@ -9,8 +9,7 @@
 // Pieces are looked at breadth first, so that blocked motions are known early: a blocked one of N pieces costs some
 // log2 N clearances instead of N / 2. They wait in a ring of fixed size, and where that is full a piece is finished
 // depth first, on a stack of fixed size: no allocation. A free motion of length L that keeps a distance c costs about
-// L / c clearances, and at least one; half of that where a look tells how far around the middle it proves
-// (certified_parts), since then only the rest is cut.
+// L / c clearances, and at least one.
 #pragma once
 
 #include <array>
@@ -21,24 +20,18 @@ namespace warren {
 
 enum class MotionVerdict : std::uint8_t { free, blocked, refused };
 
-namespace detail {
-
-/// The shares middle - half .. middle + half of a motion, the parts of the body, a bit each, that are not proved free
-/// there yet, and how far to both sides of the middle they have been proved free.
+/// The shares middle - half .. middle + half of a motion.
 struct OpenPiece {
+  static constexpr double finest = 0x1p-31;  ///< half of a piece where bits run out
+
   double middle;
   double half;
-  std::uint32_t parts;
-  double proved = 0.0;
 
-  OpenPiece before() const { return {middle - proved - side(), side(), parts}; }
-  OpenPiece after() const { return {middle + proved + side(), side(), parts}; }
-
- private:
-  double side() const { return 0.5 * (half - proved); }
+  OpenPiece before() const { return {middle - 0.5 * half, 0.5 * half}; }
+  OpenPiece after() const { return {middle + 0.5 * half, 0.5 * half}; }
 };
 
-inline constexpr double finest_half = 0x1p-31;  ///< where bits run out
+namespace detail {
 
 /// First in, first out, of fixed size.
 class PieceQueue {
@@ -59,14 +52,14 @@ class PieceQueue {
   std::size_t count_ = 0;
 };
 
-/// Looks at the piece and its parts, depth first; free when all of them are.
+/// Looks at the piece and what it is cut into, depth first; free when all of that is.
 template <class Look>
 MotionVerdict finish_depth_first(const OpenPiece& begin, const Look& look) {
   std::array<OpenPiece, 40> stack;  // halves halve at least: one waits on each of 31 levels
   std::size_t top = 0;
   stack[top++] = begin;
   while (top > 0) {
-    OpenPiece piece = stack[--top];
+    const OpenPiece piece = stack[--top];
     bool split = false;
     const MotionVerdict verdict = look(piece, split);
     if (verdict == MotionVerdict::free) continue;
@@ -77,16 +70,18 @@ MotionVerdict finish_depth_first(const OpenPiece& begin, const Look& look) {
   return MotionVerdict::free;
 }
 
-/// The whole motion, breadth first. look(piece, split): the verdict on a piece; takes the bits of parts away that need
-/// not be looked at again, tells what it proved of the others, and whether the rest shall be cut.
+}  // namespace detail
+
+/// The whole motion, breadth first. look(piece, split): the verdict on a piece, and, where it is refused, whether it
+/// shall be cut.
 template <class Look>
-MotionVerdict judge_pieces(std::uint32_t parts, const Look& look) {
-  PieceQueue queue;
-  queue.push({0.5, 0.5, parts});
+MotionVerdict judge_pieces(const Look& look) {
+  detail::PieceQueue queue;
+  queue.push({0.5, 0.5});
   while (!queue.empty()) {
-    OpenPiece piece = queue.pop();
+    const OpenPiece piece = queue.pop();
     if (queue.full()) {
-      const MotionVerdict verdict = finish_depth_first(piece, look);
+      const MotionVerdict verdict = detail::finish_depth_first(piece, look);
       if (verdict != MotionVerdict::free) return verdict;
       continue;
     }
@@ -100,40 +95,22 @@ MotionVerdict judge_pieces(std::uint32_t parts, const Look& look) {
   return MotionVerdict::free;
 }
 
-}  // namespace detail
-
 /// clearance(t, enough): of the body at the share t of the motion; may answer anything above `enough` when it is more.
 /// travel(t, u): along the motion from share t to share u >= t. resolution: a length > 0. Both ends are looked at only
 /// as ends of pieces, so a free verdict includes them.
 template <class Clearance, class Travel>
 MotionVerdict certified_motion(const Clearance& clearance, const Travel& travel, double resolution) {
-  const auto look = [&](const detail::OpenPiece& piece, bool& split) {
+  const auto look = [&](const OpenPiece& piece, bool& split) {
     const double before = travel(piece.middle - piece.half, piece.middle);
     const double after = travel(piece.middle, piece.middle + piece.half);
     const double reach = before > after ? before : after;
     const double room = clearance(piece.middle, reach);
     if (room > reach) return MotionVerdict::free;
     if (room <= 0.0) return MotionVerdict::blocked;
-    split = reach > resolution && piece.half > detail::finest_half;
+    split = reach > resolution && piece.half > OpenPiece::finest;
     return MotionVerdict::refused;
   };
-  return detail::judge_pieces(1, look);
-}
-
-/// The same for a body of up to 32 parts, a bit of `all` each: what is proved of a part on a piece need not be proved
-/// again on what is cut from it. look(middle, half, parts): stays each of these parts free from `middle` for `half` to
-/// both sides, as shares of the motion? Takes the bits of those away that do; returns for how much, 0 .. half, the
-/// others do, and a negative number where one is blocked. finest: the share down to which pieces are cut, > 0.
-template <class Look>
-MotionVerdict certified_parts(std::uint32_t all, const Look& look, double finest) {
-  const auto judge = [&](detail::OpenPiece& piece, bool& split) {
-    piece.proved = look(piece.middle, piece.half, piece.parts);
-    if (piece.proved < 0.0) return MotionVerdict::blocked;
-    if (piece.parts == 0) return MotionVerdict::free;
-    split = piece.half > finest && piece.half > detail::finest_half;
-    return MotionVerdict::refused;
-  };
-  return detail::judge_pieces(all, judge);
+  return judge_pieces(look);
 }
 
 }  // namespace warren

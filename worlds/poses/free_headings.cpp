@@ -22,10 +22,7 @@ class BlockedHeadings {
   static constexpr double full_turn = 2.0 * half_turn;
 
   BlockedHeadings(std::span<const Vec2> outline, double room, const Execution& execution)
-      : outline_(outline), room_(room), execution_(execution) {
-    for (const Vec2 p : outline) reach_ = std::max(reach_, norm(p));
-    reach_ += room;
-  }
+      : outline_(outline), room_(room), execution_(execution), reach_(outline_reach(outline) + room) {}
 
   double reach() const { return reach_; }
 
@@ -114,7 +111,7 @@ class BlockedHeadings {
   std::span<const Vec2> outline_;
   double room_;
   const Execution& execution_;
-  double reach_ = 0.0;
+  double reach_;
   std::array<double, 24> events_{};  // of a pair: two corners meet two lines and two ends, two ends two lines
   std::size_t count_ = 0;
   std::vector<std::pair<double, double>> blocked_;
@@ -156,8 +153,7 @@ std::vector<HeadingInterval> free_headings(const Scene& scene, std::span<const V
   for (std::size_t i = 0; i < scene.walls.size(); ++i) add(scene.walls.segment(i));
   for (const Segment& side : bounds_walls(scene)) add(side);
   for (const ScenePolygon& polygon : scene.polygons) {
-    Vec2 before = polygon.corners.back();
-    for (const Vec2 corner : polygon.corners) add({std::exchange(before, corner), corner});
+    for_each_side(polygon.corners, [&](Vec2 a, Vec2 b) { add({a, b}); });
   }
   return std::move(blocked).free();
 }

@@ -237,16 +237,10 @@ class ShapeSweep {
         reach_(reach),
         from_rad_(motions.heading_rad(shape.from)),
         curve_({0.0, 0.0, from_rad_}, {1.0 * shape.dx, 1.0 * shape.dy, motions.heading_rad(shape.to)}, shape.word,
-               motions.turning_radius()) {
-    for (const Vec2 p : outline) {
-      radius_ = std::max(radius_, norm(p));
-      box_.include(p);
-    }
-    for (std::size_t i = 0; i < curve_.piece_count(); ++i) {
-      lengths_[i] = curve_.piece_length(i);
-      paces_[i] = pace(curve_.piece(i).steer);
-    }
-  }
+               motions.turning_radius()),
+        radius_(outline_reach(outline)),
+        box_(box_around(outline)),
+        travelled_(curve_, [this](Steer steer) { return pace(steer); }) {}
 
   /// Those that may be touched, row by row.
   std::vector<CellAt> cells(const Execution& execution) const {
@@ -274,15 +268,6 @@ class ShapeSweep {
     return most;
   }
   Se2 pose(double t) const { return curve_.at(t * curve_.length()); }
-  double travelled(double t) const {
-    double s = t * curve_.length();
-    double travel = 0.0;
-    for (std::size_t i = 0; i < curve_.piece_count() && s > 0.0; ++i) {
-      travel += paces_[i] * std::min(s, lengths_[i]);
-      s -= lengths_[i];
-    }
-    return travel;
-  }
   /// A lower bound of the distance between body and square, less the reach; exact where it is small.
   double clearance(const Se2& pose, Vec2 middle, double enough) const {
     constexpr double half_diagonal = 0.5 * std::numbers::sqrt2;
@@ -298,8 +283,9 @@ class ShapeSweep {
     return distance(outline_, square) - reach_;
   }
   bool is_clear_of(Vec2 middle) const {
+    const double length = curve_.length();
     return certified_motion([&](double t, double enough) { return clearance(pose(t), middle, enough); },
-                            [&](double t, double u) { return travelled(u) - travelled(t); },
+                            [&](double t, double u) { return travelled_(u * length) - travelled_(t * length); },
                             resolution) == MotionVerdict::free;
   }
 
@@ -307,10 +293,9 @@ class ShapeSweep {
   double reach_;
   double from_rad_;
   SteeringCurve curve_;
-  double radius_ = 0.0;
+  double radius_;
   Box box_;  // of the outline
-  std::array<double, SteeringWord::most_pieces> lengths_{};
-  std::array<double, SteeringWord::most_pieces> paces_{};
+  CurveTravel travelled_;
 };
 
 }  // namespace
@@ -366,17 +351,6 @@ bool SweptStamps::is_free(const FreeCells& map, Cell from, const LatticeMotion& 
     if ((~map.from(number) & row.bits) != 0) return false;
   }
   return true;
-}
-
-std::vector<CellAt> SweptStamps::cells(const LatticeMotion& motion) const {
-  std::vector<CellAt> cells;
-  const Stamp& stamp = of(motion);
-  for (std::size_t i = stamp.first; i < stamp.last; ++i) {
-    for (std::int32_t bit = 0; bit < 64; ++bit) {
-      if ((rows_[i].bits >> as_whole<unsigned>(bit) & 1U) != 0) cells.push_back({rows_[i].x + bit, rows_[i].y});
-    }
-  }
-  return cells;
 }
 
 }  // namespace warren

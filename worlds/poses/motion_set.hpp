@@ -107,10 +107,6 @@ class SweptStamps {
   /// Is the motion free of blocked cells, and within the map, where it begins in the middle of the cell?
   bool is_free(const FreeCells& map, Cell from, const LatticeMotion& motion) const;
 
-  std::size_t bytes() const { return rows_.size() * sizeof(Row); }
-  /// The cells of a motion's stamp as seen from the cell where its shape begins: for tests and pictures.
-  std::vector<std::array<std::int32_t, 2>> cells(const LatticeMotion& motion) const;
-
  private:
   struct Row {
     std::int32_t x;

@@ -81,12 +81,6 @@ Turning turning_of(std::span<const Vec2> corners) {
   return rises == 1 ? (left ? Turning::left : Turning::right) : Turning::neither;
 }
 
-Box box_of(std::span<const Vec2> corners) {
-  Box box;
-  for (const Vec2 p : corners) box.include(p);
-  return box;
-}
-
 /// Does the whole body stay more than `reach` before the line through p, whose normal is `outward`, for so long?
 bool stays_before(const Footprint& body, double time, Vec2 p, Vec2 outward, double reach) {
   const std::span<const Vec2> corners = body.corners();
@@ -105,8 +99,7 @@ double largest_coordinate_of(const Box& box) {
 }  // namespace
 
 void Footprint::finish() {
-  box_ = {};
-  for (const Vec2 p : corners_) box_.include(p);
+  box_ = box_around(corners_);
   for (std::size_t i = 0; i + 1 < corners_.size(); ++i) sides_[i] = corners_[i + 1] - corners_[i];
   sides_.back() = corners_.front() - corners_.back();
   for (std::size_t i = 0; i < sides_.size(); ++i) inverse_squares_[i] = inverse_square(sides_[i]);
@@ -124,13 +117,7 @@ ObstacleTree::ObstacleTree(const Scene& scene, double reach, const Execution& ex
   constexpr double relative = 4e-14;
   Box all = box_;
   if (bounds_) all.include(*bounds_);
-  if (scene.map) {
-    const double width = scene.map->width();
-    const double height = scene.map->height();
-    for (const Vec2 p : {Vec2{}, Vec2{width, 0.0}, Vec2{0.0, height}, Vec2{width, height}}) {
-      all.include(world_point(*scene.map, p));
-    }
-  }
+  if (scene.map) all.include(world_box(*scene.map));
   rounding_ = relative * (largest_coordinate_of(all) + 2.0 * reach);
   std::vector<Segment> sides;
   std::vector<std::span<const Vec2>> convex;
@@ -142,11 +129,7 @@ ObstacleTree::ObstacleTree(const Scene& scene, double reach, const Execution& ex
       continue;
     }
     others.emplace_back(polygon.corners);
-    Vec2 a = polygon.corners.back();
-    for (const Vec2 b : polygon.corners) {
-      sides.push_back({a, b});
-      a = b;
-    }
+    for_each_side(polygon.corners, [&](Vec2 a, Vec2 b) { sides.push_back({a, b}); });
   }
   file_sides(sides, execution);
   file_polygons(others, execution);
@@ -164,14 +147,14 @@ void ObstacleTree::file_sides(const std::vector<Segment>& sides, const Execution
 
 void ObstacleTree::file_polygons(const std::vector<std::span<const Vec2>>& polygons, const Execution& execution) {
   std::vector<BoxOf<2>> boxes;
-  for (const auto corners : polygons) boxes.push_back(box_of_body(box_of(corners)));
+  for (const auto corners : polygons) boxes.push_back(box_of_body(box_around(corners)));
   polygon_tree_ = BoxTree<2>(boxes, execution);
   for (const std::uint32_t id : polygon_tree_.order()) polygons_.emplace_back(polygons[id].begin(), polygons[id].end());
 }
 
 void ObstacleTree::file_convex(const std::vector<std::span<const Vec2>>& polygons, const Execution& execution) {
   std::vector<BoxOf<2>> boxes;
-  for (const auto corners : polygons) boxes.push_back(box_of_body(box_of(corners)));
+  for (const auto corners : polygons) boxes.push_back(box_of_body(box_around(corners)));
   convex_tree_ = BoxTree<2>(boxes, execution);
   for (const std::uint32_t id : convex_tree_.order()) {
     const std::span<const Vec2> corners = polygons[id];
@@ -182,7 +165,7 @@ void ObstacleTree::file_convex(const std::vector<std::span<const Vec2>>& polygon
       const Vec2 right = (1.0 / norm(side.along)) * Vec2{side.along.y, -side.along.x};
       convex_sides_.push_back({side, left ? right : Vec2{} - right});
     }
-    convex_.push_back({first, as_whole<std::uint32_t>(convex_sides_.size()), box_of(corners)});
+    convex_.push_back({first, as_whole<std::uint32_t>(convex_sides_.size()), box_around(corners)});
   }
 }
 
@@ -336,14 +319,6 @@ void ObstacleTree::take_blocked_places(std::span<const Vec2> mirrored_body, doub
     const std::array<Vec2, 2> ends{side.a, side.a + side.along};
     warren::take_blocked_places(ends, mirrored_body, reach, free);
   }
-}
-
-std::size_t ObstacleTree::bytes() const {
-  std::size_t sum = convex_tree_.bytes() + convex_.size() * sizeof(ConvexPolygon) +
-                    convex_sides_.size() * sizeof(ConvexSide) + side_tree_.bytes() + polygon_tree_.bytes() +
-                    sides_.size() * sizeof(Side);
-  for (const auto& polygon : polygons_) sum += polygon.size() * sizeof(Vec2);
-  return sum;
 }
 
 }  // namespace warren

@@ -84,7 +84,6 @@ class ObstacleTree {
   const std::optional<Box>& bounds() const { return bounds_; }
   /// The box of walls and polygons; empty without any.
   const Box& obstacle_box() const { return box_; }
-  std::size_t bytes() const;
 
  private:
   struct Side {

@@ -2,11 +2,8 @@
 #include "worlds/poses/se2_world.hpp"
 
 #include <algorithm>
-#include <string>
 
-#include "core/base/error.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
-#include "worlds/poses/pose_in_bounds.hpp"
 #include "worlds/rasters/convex_pieces.hpp"
 
 namespace warren {
@@ -14,44 +11,20 @@ namespace {
 
 double radius_of(std::span<const Vec2> outline, const Execution& execution) {
   check_body(outline, "robot", execution);
-  double radius = 0.0;
-  for (const Vec2 p : outline) radius = std::max(radius, norm(p));
-  return radius;
-}
-
-double positive(const char* name, double value) {
-  if (value > 0.0 && value <= largest_coordinate) return value;
-  throw InputError(name, "must be a number above 0, up to 1e60", std::to_string(value));
+  return checked_length("robot: radius", outline_reach(outline), false);
 }
 
 }  // namespace
 
 Se2World::Se2World(const Scene& scene, std::span<const Vec2> outline, const Se2Options& options,
                    const Execution& execution)
-    : outline_(outline.begin(), outline.end()),
-      radius_(positive("robot: radius", radius_of(outline, execution))),
-      angle_weight_(positive("angle weight", options.angle_weight.value_or(radius_))),
-      resolution_(positive("resolution", options.resolution.value_or(1e-4 * radius_))),
-      planning_clearance_(checked_clearance(options.clearance) * (1.0 + 1e-9)),
-      tree_(scene, radius_ + planning_clearance_, execution) {
-  box_ = scene.bounds ? *scene.bounds : tree_.obstacle_box();
-  if (box_.empty()) throw InputError("world", "has neither obstacles nor bounds: nothing confines the robot");
+    : radius_(radius_of(outline, execution)),
+      angle_weight_(checked_length("angle weight", options.angle_weight.value_or(radius_), false)),
+      resolution_(checked_length("resolution", options.resolution.value_or(1e-4 * radius_), false)),
+      body_(scene, outline, checked_clearance(options.clearance) * (1.0 + 1e-9), 0.0, "robot", execution) {
   if (!scene.map) return;
-  map_ = *scene.map;
-  const DistanceField field(map_->blocked, CellDistance::squares, true, execution);
-  corridors_.emplace(*map_, field, planning_clearance_ / map_->cell, execution);
-}
-
-Se2 Se2World::at_unit(const std::array<double, 3>& u) const {
-  return confined_pose(box_, tree_.bounds().has_value(), outline_, planning_clearance_, u);
-}
-
-double Se2World::clearance(const State& a, double enough, Query& query) const {
-  const Rotation turned(a.theta);
-  const std::span<Vec2> corners = query.footprint.corners();
-  for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = a.position() + turned(outline_[i]);
-  query.footprint.finish();
-  return tree_.clearance(query.footprint, enough + planning_clearance_) - planning_clearance_;
+  const DistanceField field(scene.map->blocked, CellDistance::squares, true, execution);
+  corridors_.emplace(*scene.map, field, body_.reach() / scene.map->cell, execution);
 }
 
 Se2 Se2World::corridor_state(std::uint64_t seed, std::uint64_t index) const {
@@ -63,56 +36,42 @@ Se2 Se2World::corridor_state(std::uint64_t seed, std::uint64_t index) const {
 
 PlaceGrid Se2World::free_places(const State& a) const {
   constexpr std::size_t most_pieces = 256;
-  if (tree_.piece_count() > most_pieces) return {};
+  if (body_.obstacles().piece_count() > most_pieces) return {};
   const Rotation turned(a.theta);
   std::vector<Vec2> mirrored;
-  mirrored.reserve(outline_.size());
-  Box body;
-  for (const Vec2 p : outline_) {
-    const Vec2 arm = turned(p);
-    body.include(arm);
-    mirrored.push_back(Vec2{} - arm);
-  }
-  Box places = box_;
-  if (tree_.bounds()) {
-    const Box wide = body.grown(planning_clearance_);
-    places = {box_.min - wide.min, box_.max - wide.max};
-  }
+  mirrored.reserve(body_.outline().size());
+  for (const Vec2 p : body_.outline()) mirrored.push_back(Vec2{} - turned(p));
+  const Box places = body_.places(a.theta);
   if (places.empty()) return {};
   PlaceGrid free = PlaceGrid::over(places);
-  tree_.take_blocked_places(convex_hull(std::move(mirrored)), planning_clearance_, free);
+  body_.obstacles().take_blocked_places(convex_hull(std::move(mirrored)), body_.reach(), free);
   return free;
 }
-
-/// Is the body where it may be, if it touches no obstacle?
-bool Se2World::is_confined(const State& a) const {
-  if (!map_) return tree_.bounds() || box_.contains(a.position());
-  const std::optional<Cell> cell = cell_at(*map_, placed(a, outline_.front()));
-  return cell && !map_->blocked.test(cell->x, cell->y);
-}
-
-bool Se2World::is_free(const State& a, Query& query) const { return is_confined(a) && clearance(a, 0.0, query) > 0.0; }
 
 MotionVerdict Se2World::judge_motion(const State& a, const State& b, Query& query) const {
   const Vec2 way = b.position() - a.position();
   const double turn = turn_between(a.theta, b.theta);
   const double whole = norm(way) + radius_ * std::abs(turn);
   Footprint& body = query.footprint;
-  for (std::size_t i = 0; i < outline_.size(); ++i) body.bends()[i] = 0.5 * turn * turn * norm(outline_[i]);
-  const auto look = [&](double middle, double half, std::uint32_t& parts) {
-    const Vec2 position = a.position() + middle * way;
-    const Rotation turned(a.theta + middle * turn);
-    for (std::size_t i = 0; i < outline_.size(); ++i) {
-      const Vec2 arm = turned(outline_[i]);
+  const std::span<const Vec2> outline = body_.outline();
+  for (std::size_t i = 0; i < outline.size(); ++i) body.bends()[i] = 0.5 * turn * turn * norm(outline[i]);
+  const double finest = std::max(whole > 0.0 ? resolution_ / whole : 1.0, OpenPiece::finest);
+  const auto look = [&](const OpenPiece& piece, bool& split) {
+    const Vec2 position = a.position() + piece.middle * way;
+    const Rotation turned(a.theta + piece.middle * turn);
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      const Vec2 arm = turned(outline[i]);
       body.corners()[i] = position + arm;
       body.velocities()[i] = way + turn * Vec2{-arm.y, arm.x};
     }
     body.finish();
-    const Room room = tree_.room(body, {half, half * whole}, planning_clearance_);
-    if (room == Room::clear) parts = 0;
-    return room == Room::blocked ? -1.0 : 0.0;
+    const Room room = body_.obstacles().room(body, {piece.half, piece.half * whole}, body_.reach());
+    if (room == Room::clear) return MotionVerdict::free;
+    if (room == Room::blocked) return MotionVerdict::blocked;
+    split = piece.half > finest;
+    return MotionVerdict::refused;
   };
-  return certified_parts(1, look, whole > 0.0 ? resolution_ / whole : 1.0);
+  return judge_pieces(look);
 }
 
 bool Se2World::is_free_motion(const State& a, const State& b, Query& query) const {

@@ -10,10 +10,6 @@
 // (its farthest corner from the reference point), so that a unit of either moves no point further than a unit. It is
 // the geodesic metric of a cylinder of radius w, so the chord in (x, y, w cos theta, w sin theta) never exceeds it.
 // Planning widens the clearance by the factor 1 + 1e-9 plus rounding, so that a verification can't fail by rounding.
-//
-// On a map the body moves among the borders between free and blocked cells, which the scene has as walls
-// (worlds/rasters/lattice_polygons.hpp). A body that touches none of them is wholly among free cells or wholly among
-// blocked ones: one of its corners tells which.
 #pragma once
 
 #include <array>
@@ -27,8 +23,8 @@
 #include "core/plane/se2.hpp"
 #include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
+#include "worlds/poses/body_among_obstacles.hpp"
 #include "worlds/poses/certified_motion.hpp"
-#include "worlds/poses/obstacle_tree.hpp"
 #include "worlds/rasters/corridor_points.hpp"
 
 namespace warren {
@@ -44,10 +40,7 @@ class Se2World {
  public:
   static constexpr std::size_t dimension = 3;
   using State = Se2;
-  struct Query {
-    Footprint footprint;
-    std::uint64_t refused = 0;  ///< motions that were neither proved free nor blocked
-  };
+  using Query = BodyAmongObstacles::Query;
 
   /// Throws InputError for options out of range, outlines of the body and of obstacles that are no simple polygons, and
   /// a scene without anything that confines the body. Without bounds the box of the obstacles confines the reference
@@ -55,10 +48,10 @@ class Se2World {
   Se2World(const Scene& scene, std::span<const Vec2> outline, const Se2Options& options,
            const Execution& execution = {});
 
-  Query make_query() const { return {Footprint(outline_.size())}; }
+  Query make_query() const { return body_.make_query(); }
   /// Poses at which the body is in the bounds, if it can be there at that angle; on maps, poses of the map's box.
-  State at_unit(const std::array<double, 3>& u) const;
-  bool is_free(const State& a, Query& query) const;
+  State at_unit(const std::array<double, 3>& u) const { return body_.at_unit(u); }
+  bool is_free(const State& a, Query& query) const { return body_.is_free(a, query); }
   bool is_free_motion(const State& a, const State& b, Query& query) const;
   double distance(const State& a, const State& b) const {
     const double turn = angle_weight_ * turn_between(a.theta, b.theta);
@@ -76,11 +69,7 @@ class Se2World {
 
   /// Lower bound of the distance to the nearest obstacle less the clearance; <= 0: not free. More than `enough` counts
   /// as any number above it.
-  double clearance(const State& a, double enough, Query& query) const;
-  /// Upper bound of the way of any point of the body.
-  double travel(const State& a, const State& b) const {
-    return norm(b.position() - a.position()) + radius_ * std::abs(turn_between(a.theta, b.theta));
-  }
+  double clearance(const State& a, double enough, Query& query) const { return body_.clearance(a, enough, query); }
   MotionVerdict judge_motion(const State& a, const State& b, Query& query) const;
 
   /// Where the reference point may be while the body has the heading of a, on a coarse grid; no places where there are
@@ -92,25 +81,16 @@ class Se2World {
   double suggested_samples(const Execution&) const { return 400.0; }
   std::uint64_t first_samples() const { return 50; }  ///< of a roadmap that is tried first
   /// Of the box times a full turn, in the metric.
-  double sampled_volume() const { return box_.width() * box_.height() * 2.0 * std::numbers::pi * angle_weight_; }
-  std::span<const Vec2> outline() const { return outline_; }
+  double sampled_volume() const { return box().width() * box().height() * 2.0 * std::numbers::pi * angle_weight_; }
   double radius() const { return radius_; }  ///< of the body: its farthest corner from the reference point
-  double angle_weight() const { return angle_weight_; }
   double resolution() const { return resolution_; }
-  const Box& box() const { return box_; }  ///< the bounds, else the box of the obstacles
-  const ObstacleTree& obstacles() const { return tree_; }
+  const Box& box() const { return body_.box(); }  ///< the bounds, else the box of the obstacles
 
  private:
-  bool is_confined(const State& a) const;
-
-  std::vector<Vec2> outline_;
   double radius_;
   double angle_weight_;
   double resolution_;
-  double planning_clearance_;
-  ObstacleTree tree_;
-  Box box_;
-  std::optional<OccupancyMap> map_;
+  BodyAmongObstacles body_;
   std::optional<CorridorPoints> corridors_;  // only of maps
 };
 

@@ -10,6 +10,7 @@
 // ones that forwards. It drives no arcs: its `turning radius` only says how much a radian of turning counts.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -96,6 +97,33 @@ class SteeringCurve {
   std::size_t count_ = 0;
   double radius_;
   double length_ = 0.0;
+};
+
+/// How far a body has gone along a curve, at most.
+class CurveTravel {
+ public:
+  /// pace(steer): how far any of its points goes while the reference point goes 1 with this steering.
+  template <class Pace>
+  CurveTravel(const SteeringCurve& curve, const Pace& pace) : count_(curve.piece_count()) {
+    for (std::size_t i = 0; i < count_; ++i) {
+      lengths_[i] = curve.piece_length(i);
+      paces_[i] = pace(curve.piece(i).steer);
+    }
+  }
+  /// After the way s from the begin.
+  double operator()(double s) const {
+    double travel = 0.0;
+    for (std::size_t i = 0; i < count_ && s > 0.0; ++i) {
+      travel += paces_[i] * std::min(s, lengths_[i]);
+      s -= lengths_[i];
+    }
+    return travel;
+  }
+
+ private:
+  std::array<double, SteeringWord::most_pieces> lengths_{};
+  std::array<double, SteeringWord::most_pieces> paces_{};
+  std::size_t count_;
 };
 
 /// Appends the poses at which the steering or the gear changes, and so many in longer arcs that none turns by more than

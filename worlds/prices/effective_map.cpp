@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -113,8 +112,7 @@ std::array<Vec2, 4> mask_square(const OccupancyMap& map, const MaskCells& mask, 
 }
 
 void add_polygon_cells(Bitmap& cells, std::span<const Vec2> corners, const Execution& execution) {
-  Box box;
-  for (const Vec2 p : corners) box.include(p);
+  const Box box = box_around(corners);
   const auto first = [](double low, std::uint32_t end) {
     return bounded_whole<std::uint32_t>(std::floor(low), 0.0, end);
   };
@@ -142,13 +140,7 @@ void add_polygon_cells(Bitmap& cells, std::span<const Vec2> corners, const Execu
 OccupancyMap effective_map(const OccupancyMap& map, const Prices& prices, const Execution& execution) {
   execution.reserve(2 * map.blocked.bytes() + map.unknown.bytes() + map.water.bytes());
   OccupancyMap effective = map;
-  if (prices.unknown && !map.unknown.empty()) {
-    for (std::uint32_t y = 0; y < map.height(); ++y) {
-      const auto unknown = map.unknown.row(y);
-      const auto blocked = effective.blocked.row(y);
-      for (std::size_t w = 0; w < blocked.size(); ++w) blocked[w] &= ~unknown[w];
-    }
-  }
+  if (prices.unknown) effective.blocked.remove(map.unknown);
   Bitmap forbidden = cell_bitmap(map.width(), map.height(), execution);
   for (const KeepOut& area : prices.keep_out) {
     std::vector<Vec2> corners;
@@ -158,17 +150,9 @@ OccupancyMap effective_map(const OccupancyMap& map, const Prices& prices, const 
   for_blocked(prices, execution, [&](const MaskCells& cells, std::uint32_t x, std::uint32_t y) {
     add_polygon_cells(forbidden, mask_square(map, cells, x, y), execution);
   });
-  for (std::uint32_t y = 0; y < map.height(); ++y) {
-    const auto closed = forbidden.row(y);
-    const auto blocked = effective.blocked.row(y);
-    for (std::size_t w = 0; w < closed.size(); ++w) blocked[w] |= closed[w];
-    if (map.water.empty()) continue;  // it is blocked all the same: but to paths that begin on it
-    const auto water = effective.water.row(y);
-    for (std::size_t w = 0; w < closed.size(); ++w) water[w] &= ~closed[w];
-  }
-  std::uint64_t blocked = 0;
-  for (const std::uint64_t word : effective.blocked.words()) blocked += as_whole<std::uint64_t>(std::popcount(word));
-  effective.free = map.blocked.size() - blocked;
+  effective.blocked.add(forbidden);
+  effective.water.remove(forbidden);  // it is blocked all the same: but to paths that begin on it
+  effective.free = map.blocked.size() - effective.blocked.count();
   return effective;
 }
 
@@ -189,15 +173,10 @@ Scene restricted_scene(const Scene& scene, const Prices& prices, const Execution
 namespace {
 
 bool is_inside(std::span<const Vec2> corners, Vec2 p) {
-  bool inside = false;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    Segment side = polygon_side(corners, i);
-    if (distance(p, side) <= AreaFactors::on_border) return false;
-    if ((side.a.x <= p.x) == (side.b.x <= p.x)) continue;
-    if (side.a.x > side.b.x) std::swap(side.a, side.b);
-    if (orient2d(side.a, side.b, p) < 0) inside = !inside;
+    if (distance(p, polygon_side(corners, i)) <= AreaFactors::on_border) return false;
   }
-  return inside;
+  return holds(corners, p);
 }
 
 }  // namespace

@@ -139,11 +139,7 @@ MapPrices::MapPrices(const OccupancyMap& effective, double radius, const Prices&
       }
     }
   }
-  for (std::uint32_t y = 0; any_unknown && y < map_.height(); ++y) {
-    const auto unknown = map_.unknown.row(y);
-    const auto touched = touched_.row(y);
-    for (std::size_t w = 0; w < touched.size(); ++w) touched[w] |= unknown[w];
-  }
+  if (any_unknown) touched_.add(map_.unknown);
 }
 
 void MapPrices::keep_near(double cells, const Execution& execution) {
@@ -305,20 +301,12 @@ double MapPrices::half_step(Cell cell, unsigned direction, Scratch& scratch) con
   return cost;
 }
 
-double MapPrices::step(Cell from, unsigned direction, Scratch& scratch) const {
+std::uint64_t MapPrices::step_up(Cell from, unsigned direction, Scratch& scratch) const {
   const auto [dx, dy] = cell_steps[direction];
   const Cell to{as_whole<std::uint32_t>(std::int64_t{from.x} + dx), as_whole<std::uint32_t>(std::int64_t{from.y} + dy)};
   const auto back = as_whole<unsigned>(cell_steps.size()) - 1 - direction;
-  return half_step(from, direction, scratch) + half_step(to, back, scratch);
-}
-
-std::uint64_t MapPrices::step_up(Cell from, unsigned direction, Scratch& scratch) const {
-  return bounded_whole<std::uint64_t>(std::ceil(units * step(from, direction, scratch)));
-}
-
-std::uint64_t MapPrices::step_down(Cell from, unsigned direction, Scratch& scratch) const {
-  constexpr double rounding = 1e-4;  // units: far more than the sum is off by
-  return bounded_whole<std::uint64_t>(std::floor(units * step(from, direction, scratch) - rounding));
+  const double cost = half_step(from, direction, scratch) + half_step(to, back, scratch);
+  return bounded_whole<std::uint64_t>(std::ceil(units * cost));
 }
 
 }  // namespace warren

@@ -76,10 +76,6 @@ class MapPrices {
   /// The leg from the middle of a free cell to that of its free neighbour; direction: of cell_steps
   /// (spatial/maps/free_cells.hpp). Whole units of 2^-20 cell, rounded up; there and back weigh the same.
   std::uint64_t step_up(Cell from, unsigned direction, Scratch& scratch) const;
-  /// The same, rounded down: no more than what the leg costs.
-  std::uint64_t step_down(Cell from, unsigned direction, Scratch& scratch) const;
-  /// The factor of length at a place of the world, >= 1; on borders the lesser.
-  double factor_at(Vec2 p) const { return has_areas_ ? factor(map_point(map_, p)) : 1.0; }
   /// What nearness costs at a free place of the map, a unit of length.
   double nearness_at(Vec2 p, Scratch& scratch) const;
 
@@ -92,7 +88,6 @@ class MapPrices {
   double areas_in(Vec2 p, Vec2 u, double length, Scratch& scratch) const;
   double factor(Vec2 p) const;
   double half_step(Cell cell, unsigned direction, Scratch& scratch) const;
-  double step(Cell from, unsigned direction, Scratch& scratch) const;
   bool is_near_area(Cell cell) const { return has_areas_ && touched_.holds(cell.x, cell.y); }
 
   std::uint64_t number_ = fresh_number();

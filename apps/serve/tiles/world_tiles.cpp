@@ -189,10 +189,6 @@ std::unique_ptr<PlaceDistances> MazeTiles::distances(const Execution&) const {
 constexpr std::uint8_t blocked_shade = 255;
 constexpr std::uint8_t unknown_shade = 80;
 
-Box box_of_map(const OccupancyMap& map) {
-  return world_box(map, {{0.0, 0.0}, {1.0 * map.width(), 1.0 * map.height()}});
-}
-
 /// Of a cell's middle, from the squares of blocked cells and of those around the map; four bytes a cell.
 class MapDistances : public PlaceDistances {
  public:
@@ -213,7 +209,7 @@ class MapDistances : public PlaceDistances {
 class MapTiles : public WorldTiles {
  public:
   MapTiles(const OccupancyMap& map, const Execution& execution)
-      : WorldTiles(grid_around(box_of_map(map))),
+      : WorldTiles(grid_around(world_box(map))),
         map_(map),
         far_(
             map.width(), map.height(), [this](std::uint32_t x, std::uint32_t y) { return shade_of(x, y); }, execution) {

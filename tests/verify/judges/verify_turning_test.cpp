@@ -158,7 +158,9 @@ TEST(VerifySe2, AgreesWithTheFastWorldAndWithSampledDistances) {
         for (const Vec2 p : body) sampled = std::min({sampled, p.x, p.y, 10.0 - p.x, 10.0 - p.y});
       }
       EXPECT_LE(v.min_clearance, sampled);
-      EXPECT_GE(v.min_clearance, sampled - world.travel(a, b) / 400.0 - 1e-3 * world.radius());
+      const double turn = std::abs(turn_between(a.theta, b.theta));
+      const double travel = distance(a.position(), b.position()) + world.radius() * turn;
+      EXPECT_GE(v.min_clearance, sampled - travel / 400.0 - 1e-3 * world.radius());
     }
   }
   EXPECT_GT(free, test::share(100));

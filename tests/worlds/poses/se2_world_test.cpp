@@ -195,7 +195,8 @@ TEST(Se2World, RefusesNothingThatHasAHundredthOfTheRadiusToSpare) {
       for (int step = 0; step <= 64 && least > 0.0; ++step) {
         least = std::min(least, plain_clearance(scene, kite, world.interpolate(a, b, step / 64.0)));
       }
-      const double between_samples = world.travel(a, b) / 128.0;
+      const double turn = std::abs(turn_between(a.theta, b.theta));
+      const double between_samples = (distance(a.position(), b.position()) + world.radius() * turn) / 128.0;
       const bool accepted = world.is_free_motion(a, b, query);
       if (least <= 0.0) {
         EXPECT_FALSE(accepted) << i;

@@ -102,7 +102,7 @@ TEST(MapPrices, CostsAddUpOverPieces) {
   }
 }
 
-TEST(MapPrices, StepsAreLegsRoundedUpAndDown) {
+TEST(MapPrices, StepsAreLegsRoundedUp) {
   constexpr double units = 1 << 20;
   MapPrices::Scratch scratch;  // for all: each lies where the one before lay
   for (const std::uint64_t seed : seeds(20, 4)) {
@@ -121,8 +121,6 @@ TEST(MapPrices, StepsAreLegsRoundedUpAndDown) {
           const std::uint64_t up = priced.step_up({x, y}, step, scratch);
           EXPECT_NEAR(static_cast<double>(up), exact + 0.5, 0.5 + 1e-5 * exact) << x << ' ' << y << ' ' << step;
           EXPECT_EQ(up, priced.step_up(to, 7 - step, scratch));
-          EXPECT_LE(priced.step_down({x, y}, step, scratch), up);
-          EXPECT_GE(priced.step_down({x, y}, step, scratch) + 2, up);
         }
       }
     }
