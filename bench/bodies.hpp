@@ -108,15 +108,16 @@ inline ArmWorld world_of(std::size_t n, double tool = 0.0) {
 
 /// Of a Puma with such a tool among spheres, by a plain loop.
 inline double plain_clearance(const SerialChain& chain, const Scene& scene, const JointState& q) {
-  ChainPosture at;
-  chain.place(q, at);
+  std::vector<Vec3> points;
+  for (std::size_t i = 0; i <= chain.joint_count(); ++i) points.push_back(chain.frame(q, i).translation());
+  points.push_back(chain.tool_pose(q).translation());
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < chain.point_count(); ++i) {
-    const Vec3 way = at.points[i] - at.points[i - 1];
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const Vec3 way = points[i] - points[i - 1];
     const double square = way.squaredNorm();
     if (!(square > 0.0)) continue;
     for (const Sphere& s : scene.spheres) {
-      const Vec3 to = Vec3(s.x, s.y, s.z) - at.points[i - 1];
+      const Vec3 to = Vec3(s.x, s.y, s.z) - points[i - 1];
       const double t = std::clamp(to.dot(way) / square, 0.0, 1.0);
       least = std::min(least, (to - t * way).norm() - s.radius);
     }

@@ -122,7 +122,7 @@ void move_onto_limits(const ArmModel& model, std::string_view end, std::span<dou
 std::vector<std::array<double, 3>> wrists_to_try(const ArmProblem& problem, const SerialChain& chain) {
   const JointState& start = problem.start;
   std::vector<std::array<double, 3>> wrists{{start[3], start[4], start[5]}};
-  if (!chain.moves(4)) return wrists;
+  if (chain.table().tool.translation().z() == 0.0) return wrists;
   for (const int fifth : {-2, -1, 0, 1, 2}) {
     for (const int fourth : {-2, 0, 2}) {
       if (fifth == 0 && fourth != 0) continue;

@@ -13,7 +13,6 @@ namespace warren {
 namespace {
 
 std::size_t frame_number(int frame) { return as_whole<std::size_t>(frame); }
-JointSet set_of(std::size_t joint) { return JointSet{1} << joint; }
 
 /// Whoever made the model has told users what is wrong with their files; here no number may name what is not there.
 void check_model(const ArmModel& model) {
@@ -56,48 +55,38 @@ struct ArmKinematics::Ball {
 
 ArmKinematics::ArmKinematics(ArmModel model) : model_(std::move(model)) {
   check_model(model_);
-  const std::size_t joints = model_.joints.size();
-  for (std::size_t j = 0; j < joints; ++j) {
-    above_[j] = set_of(j) | joints_above(model_.joints[j].parent);
-    reach_[j].assign(model_.links.size(), 0.0);
-  }
-  for (std::size_t link = 0; link < model_.links.size(); ++link) {
-    for (const Solid& solid : model_.links[link].solids) {
+  std::vector<double> reach(model_.joints.size(), 0.0);
+  for (const ArmLink& link : model_.links) {
+    for (const Solid& solid : link.solids) {
       const Vec3 along = solid.half.z() * solid.pose.linear().col(2);
       const Vec3 middle = solid.pose.translation();
       const double rim = solid.kind == SolidKind::cylinder ? solid.half.x() : 0.0;
-      if (solid.kind == SolidKind::sphere) find_reach(link, {middle, 0.0}, solid.half.x());
+      if (solid.kind == SolidKind::sphere) add_reach(link.frame, {middle, 0.0}, solid.half.x(), reach);
       if (solid.kind == SolidKind::cylinder || solid.kind == SolidKind::capsule) {
         const double margin = solid.half.x() - rim;
-        find_reach(link, {middle - along, rim}, margin);
-        find_reach(link, {middle + along, rim}, margin);
+        add_reach(link.frame, {middle - along, rim}, margin, reach);
+        add_reach(link.frame, {middle + along, rim}, margin, reach);
       }
       for (int corner = 0; corner < 8 && solid.kind == SolidKind::box; ++corner) {
         const Vec3 sides(corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0);
-        find_reach(link, {placed_point(solid.pose, solid.half.cwiseProduct(sides)), 0.0}, 0.0);
+        add_reach(link.frame, {placed_point(solid.pose, solid.half.cwiseProduct(sides)), 0.0}, 0.0, reach);
       }
-      for (const Vec3& corner : solid.corners) find_reach(link, {placed_point(solid.pose, corner), 0.0}, 0.0);
+      for (const Vec3& corner : solid.corners)
+        add_reach(link.frame, {placed_point(solid.pose, corner), 0.0}, 0.0, reach);
     }
   }
-  std::vector<double> of_tool(joints, 0.0);
-  whole_reach_ = std::max(whole_reach_, add_reach(model_.tool_frame, {model_.tool.translation(), 0.0}, of_tool));
-  for (std::size_t j = 0; j < joints; ++j) {
-    const double most =
-        std::max(of_tool[j], reach_[j].empty() ? 0.0 : *std::max_element(reach_[j].begin(), reach_[j].end()));
-    tool_reach_[model_.joints[j].variable] += std::abs(model_.joints[j].multiplier) * of_tool[j];
-    if (most > 1e-12 && model_.joints[j].multiplier != 0.0) moving_[model_.joints[j].variable] = true;
+  std::vector<double> of_tool(reach.size(), 0.0);
+  add_reach(model_.tool_frame, {model_.tool.translation(), 0.0}, 0.0, of_tool);
+  for (std::size_t j = 0; j < reach.size(); ++j) {
+    const ArmJoint& joint = model_.joints[j];
+    tool_reach_[joint.variable] += std::abs(joint.multiplier) * of_tool[j];
+    if (std::max(reach[j], of_tool[j]) > 1e-12 && joint.multiplier != 0.0) moving_[joint.variable] = true;
   }
 }
 
-void ArmKinematics::find_reach(std::size_t link, const Ball& ball, double margin) {
-  std::vector<double> reach(model_.joints.size(), 0.0);
-  whole_reach_ = std::max(whole_reach_, margin + add_reach(model_.links[link].frame, ball, reach));
-  for (std::size_t j = 0; j < reach.size(); ++j) reach_[j][link] = std::max(reach_[j][link], reach[j]);
-}
-
-/// How far a ball that is fixed in a frame may come from the axes of this frame and those before it; returns how far
-/// from the base.
-double ArmKinematics::add_reach(int frame, Ball ball, std::vector<double>& reach) const {
+/// How far a ball that is fixed in a frame may come from the axes of this frame and those before it, and with its
+/// margin from the base.
+void ArmKinematics::add_reach(int frame, Ball ball, double margin, std::vector<double>& reach) {
   constexpr double upward = 1.0 + 1e-12;
   while (frame != base_frame) {
     const std::size_t number = frame_number(frame);
@@ -106,26 +95,24 @@ double ArmKinematics::add_reach(int frame, Ball ball, std::vector<double>& reach
     if (joint.slides) {
       const ArmVariable& variable = model_.variables[joint.variable];
       const double middle = 0.5 * (variable.low + variable.high);
-      reach[number] = 1.0;
+      reach[number] = std::max(reach[number], 1.0);
       ball.centre += (joint.multiplier * middle + joint.offset) * joint.axis;
       ball.radius += upward * std::abs(joint.multiplier) * (variable.high - middle);
     } else {
       ball.radius = upward * ((ball.centre - beside).norm() + ball.radius);
-      reach[number] = ball.radius;
+      reach[number] = std::max(reach[number], ball.radius);
       ball.centre = beside;
     }
     ball.centre = placed_point(joint.origin, ball.centre);
     frame = joint.parent;
   }
-  return ball.centre.norm() + ball.radius;
+  whole_reach_ = std::max(whole_reach_, margin + (ball.centre.norm() + ball.radius));
 }
 
 const MovingFrame& ArmKinematics::frame(const ArmPosture& posture, int number) {
   static const MovingFrame base;
   return number == base_frame ? base : posture[frame_number(number)];
 }
-
-JointSet ArmKinematics::joints_above(int frame) const { return frame == base_frame ? 0 : above_[frame_number(frame)]; }
 
 void ArmKinematics::place(const JointState& q, ArmPosture& posture) const {
   for (std::size_t j = 0; j < model_.joints.size(); ++j) {
@@ -144,23 +131,6 @@ void ArmKinematics::place(const JointState& q, ArmPosture& posture) const {
   }
 }
 
-double ArmKinematics::rate_of(std::size_t joint, const JointState& way) const {
-  return model_.joints[joint].multiplier * way[model_.joints[joint].variable];
-}
-
-void ArmKinematics::move(const JointState& way, ArmPosture& posture, JointSet joints) const {
-  for (std::size_t j = 0; j < model_.joints.size(); ++j) {
-    const ArmJoint& joint = model_.joints[j];
-    const MovingFrame& parent = frame(posture, joint.parent);
-    MovingFrame& own = posture[j];
-    own.spin = parent.spin;
-    own.velocity = parent.velocity + parent.spin.cross(own.at - parent.at);
-    if ((joints & set_of(j)) == 0) continue;
-    const Vec3 by_joint = rate_of(j, way) * (own.turn * joint.axis);
-    (joint.slides ? own.velocity : own.spin) += by_joint;
-  }
-}
-
 Eigen::Isometry3d ArmKinematics::tool_pose(const JointState& q) const {
   ArmPosture posture;
   place(q, posture);
@@ -169,27 +139,6 @@ Eigen::Isometry3d ArmKinematics::tool_pose(const JointState& q) const {
   pose.linear() = last.turn;
   pose.translation() = last.at;
   return pose * model_.tool;
-}
-
-double ArmKinematics::bend(std::size_t link, const JointState& way, JointSet joints) const {
-  constexpr double upward = 1.0 + 1e-12;
-  double bend = 0.0;
-  double behind = 0.0;  // sum of rate x reach over the joints behind
-  for (int at = model_.links[link].frame; at != base_frame; at = model_.joints[frame_number(at)].parent) {
-    const std::size_t j = frame_number(at);
-    if ((joints & set_of(j)) == 0) continue;
-    const double rate = std::abs(rate_of(j, way));
-    const double speed = rate * reach_[j][link];
-    if (!model_.joints[j].slides) bend += rate * (speed + 2.0 * behind);
-    behind += speed;
-  }
-  return upward * bend;
-}
-
-double ArmKinematics::travel(std::size_t link, const JointState& way) const {
-  double sum = 0.0;
-  for (std::size_t j = 0; j < model_.joints.size(); ++j) sum += std::abs(rate_of(j, way)) * reach_[j][link];
-  return (1.0 + 1e-12) * sum;
 }
 
 std::size_t ArmKinematics::variable_outside_limits(const JointState& q) const {

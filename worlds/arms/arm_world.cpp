@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -15,13 +14,6 @@
 namespace warren {
 
 namespace {
-
-double checked_arm_length(const char* name, double value, bool may_be_zero) {
-  const bool is_enough = may_be_zero ? value >= 0.0 : value > 0.0;
-  if (is_enough && value <= largest_coordinate) return value;
-  throw InputError(name, may_be_zero ? "must be a number from 0 to 1e60" : "must be a number above 0, up to 1e60",
-                   std::to_string(value));
-}
 
 const ArmModel& with_links(const ArmModel& model) {
   if (model.links.empty()) throw InputError("arm", "has no link of any length");
@@ -48,9 +40,8 @@ std::vector<Solid> solids_of(const Scene& scene, const Execution& execution) {
 ArmWorld::ArmWorld(const Scene& scene, const ArmModel& model, const ArmOptions& options, const Execution& execution)
     : kinematics_(with_links(model)),
       ways_(model.variables),
-      resolution_(checked_arm_length("resolution", options.resolution.value_or(1e-5 * kinematics_.reach()), false)),
-      certificate_(model, solids_of(scene, execution), checked_arm_length("clearance", options.clearance, true),
-                   resolution_, execution) {}
+      resolution_(checked_length("resolution", options.resolution.value_or(1e-5 * kinematics_.reach()), false)),
+      certificate_(model, solids_of(scene, execution), checked_clearance(options.clearance), resolution_, execution) {}
 
 JointState ArmWorld::at_unit(const std::array<double, dimension>& u) const {
   JointState q{};

@@ -117,9 +117,8 @@ ArmModel model_of(const DhTable& table, double radius, bool self_collision, doub
 void leave_out_touching(ArmModel& model, const Execution& execution) {
   constexpr std::uint64_t states = 1000;
   const ArmKinematics arm(model);
-  std::erase_if(model.pairs, [&](const LinkPair& pair) {
-    return arm.joints_between(model.links[pair[0]].frame, model.links[pair[1]].frame) == 0;
-  });
+  std::erase_if(model.pairs,
+                [&](const LinkPair& pair) { return model.links[pair[0]].frame == model.links[pair[1]].frame; });
   std::vector<std::vector<ConvexBody>> bodies(model.links.size());
   for (std::size_t link = 0; link < model.links.size(); ++link) {
     for (const Solid& solid : model.links[link].solids) bodies[link].emplace_back(solid);

@@ -131,12 +131,6 @@ Vec3 ConvexBody::core_support(const Vec3& direction, std::size_t& near) const {
   return point;
 }
 
-Vec3 ConvexBody::support(const Vec3& direction) const {
-  const double length = direction.norm();
-  const Vec3 of_core = core_support(direction);
-  return length > 0.0 ? Vec3(of_core + (margin_ / length) * direction) : of_core;
-}
-
 namespace {
 
 constexpr double no_bound = std::numeric_limits<double>::infinity();

@@ -47,8 +47,6 @@ class ConvexBody {
     std::size_t near = 0;
     return core_support(direction, near);
   }
-  /// The same of the whole body.
-  Vec3 support(const Vec3& direction) const;
   /// The body is what is within this of the core; >= 0.
   double margin() const { return margin_; }
   /// Of a ball that holds the body.

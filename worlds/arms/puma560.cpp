@@ -27,25 +27,11 @@ struct Row {
 };
 constexpr std::array<Row, 6> standard_rows{
     {{0, 0, 90}, {0, 0.4318, 0}, {0.15005, 0.0203, -90}, {0.4318, 0, 90}, {0, 0, -90}, {0, 0, 0}}};
-constexpr std::array<Row, 6> modified_rows{
-    {{0, 0, 0}, {0.2435, 0, -90}, {-0.0934, 0.4318, 0}, {0.4331, -0.0203, 90}, {0, 0, -90}, {0, 0, 90}}};
 
 constexpr std::array<std::array<double, 2>, 6> classic_degrees{
     {{-160, 160}, {-45, 225}, {-225, 45}, {-110, 170}, {-100, 100}, {-266, 266}}};
 constexpr std::array<std::array<double, 2>, 6> symmetric_degrees{
     {{-160, 160}, {-110, 110}, {-135, 135}, {-266, 266}, {-100, 100}, {-266, 266}}};
-
-DhTable table_of(DhConvention convention, const std::array<Row, 6>& rows, double tool, PumaLimits limits) {
-  const auto& range = limits == PumaLimits::classic ? classic_degrees : symmetric_degrees;
-  DhTable table;
-  table.convention = convention;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    table.joints.push_back(
-        {rows[i].d, rows[i].a, rows[i].alpha_degrees * degree, range[i][0] * degree, range[i][1] * degree, 0.0});
-  }
-  table.tool.translation() = Vec3(0.0, 0.0, tool);
-  return table;
-}
 
 bool is_near(double x, double y) { return std::abs(x - y) <= 1e-12; }
 
@@ -105,23 +91,6 @@ class ShoulderAndElbow {
   double side_;      // offset from that plane
 };
 
-/// The last three angles: turn is the tool's, seen from frame 3.
-std::vector<Angles> wrists_for(const Eigen::Matrix3d& turn) {
-  constexpr double straight = 1e-9;
-  const double sine = portable::hypot(turn(0, 2), turn(1, 2));
-  if (sine < straight) {
-    // Joints 4 and 6 turn about one line: all of it by joint 6.
-    const bool ahead = turn(2, 2) > 0.0;
-    return {{0.0, ahead ? 0.0 : std::numbers::pi, portable::atan2(turn(1, 0), turn(1, 1))}};
-  }
-  std::vector<Angles> wrists;
-  for (const double s : {1.0, -1.0}) {
-    wrists.push_back({portable::atan2(-s * turn(1, 2), -s * turn(0, 2)), portable::atan2(s * sine, turn(2, 2)),
-                      portable::atan2(-s * turn(2, 1), s * turn(2, 0))});
-  }
-  return wrists;
-}
-
 /// The angle and all full turns from it that are within a joint's limits.
 std::vector<double> turns_within(const SerialChain& chain, std::size_t joint, double angle) {
   constexpr double rounding = 1e-12;
@@ -149,20 +118,17 @@ void add_turns(const SerialChain& chain, const JointState& angles, std::vector<J
   all.insert(all.end(), states.begin(), states.end());
 }
 
-void check_shape(const SerialChain& chain) {
-  if (!has_puma560_shape(chain)) {
-    throw InputError("arm", "only arms of the Puma 560's shape have inverse kinematics in closed form here");
-  }
-}
-
 }  // namespace
 
 DhTable puma560_table(double tool, PumaLimits limits) {
-  return table_of(DhConvention::standard, standard_rows, tool, limits);
-}
-
-DhTable puma560_modified_table(double tool, PumaLimits limits) {
-  return table_of(DhConvention::modified, modified_rows, tool, limits);
+  const auto& range = limits == PumaLimits::classic ? classic_degrees : symmetric_degrees;
+  DhTable table;
+  for (std::size_t i = 0; i < standard_rows.size(); ++i) {
+    const auto [d, a, alpha_degrees] = standard_rows[i];
+    table.joints.push_back({d, a, alpha_degrees * degree, range[i][0] * degree, range[i][1] * degree, 0.0});
+  }
+  table.tool.translation() = Vec3(0.0, 0.0, tool);
+  return table;
 }
 
 bool has_puma560_shape(const SerialChain& chain) {
@@ -179,25 +145,11 @@ bool has_puma560_shape(const SerialChain& chain) {
   return table.tool.linear().isIdentity(0.0) && tool.x() == 0.0 && tool.y() == 0.0;
 }
 
-std::vector<JointState> puma560_inverse(const SerialChain& chain, const Eigen::Isometry3d& pose) {
-  check_shape(chain);
-  const DhTable& table = chain.table();
-  const Vec3 wrist = pose.translation() - table.tool.translation().z() * pose.linear().col(2);
-  const ShoulderAndElbow arm(table, {0.0, 0.0, table.joints[3].d});
-  std::vector<JointState> all;
-  for (const Angles& first : arm.solve(wrist)) {
-    const JointState posture{first[0], first[1], first[2], 0.0, 0.0, 0.0};
-    const Eigen::Matrix3d turn = chain.frame(posture, 3).linear().transpose() * pose.linear();
-    for (const Angles& last : wrists_for(turn)) {
-      add_turns(chain, {first[0], first[1], first[2], last[0], last[1], last[2]}, all);
-    }
-  }
-  return all;
-}
-
 std::vector<JointState> puma560_inverse_place(const SerialChain& chain, const Vec3& place,
                                               const std::array<double, 3>& wrist) {
-  check_shape(chain);
+  if (!has_puma560_shape(chain)) {
+    throw InputError("arm", "only arms of the Puma 560's shape have inverse kinematics in closed form here");
+  }
   const JointState bent{0.0, 0.0, 0.0, wrist[0], wrist[1], wrist[2]};
   const Vec3 tip = chain.frame(bent, 3).inverse() * chain.tool_pose(bent).translation();
   std::vector<JointState> all;
@@ -328,7 +280,7 @@ ToolPostures tool_postures(const SerialChain& chain, const Vec3& place, double s
   const double rounding = 1e-12 * (chain.reach() + place.norm());
   ToolPostures found;
   std::vector<Piece> pieces{{{chain.low(3), chain.high(3)}, {chain.low(4), chain.high(4)}}};
-  if (!chain.moves(4)) pieces = {{{0.0, 0.0}, {0.0, 0.0}}};
+  if (tool == 0.0) pieces = {{{0.0, 0.0}, {0.0, 0.0}}};
   std::size_t looked_at = 0;
   while (!pieces.empty()) {
     std::vector<Piece> halves;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Unimation Puma 560: its Denavit-Hartenberg tables (metres, after Corke and Armstrong-Helouvry, ICRA 1994), its
+// The Unimation Puma 560: its Denavit-Hartenberg table (metres, after Corke and Armstrong-Helouvry, ICRA 1994), its
 // joint limits, its inverse kinematics in closed form, and a search for postures at a place.
 //
-// Inverse kinematics (after Paul and Zhang, Int. J. Robotics Research 5(2), 1986): the wrist's place gives the shoulder
-// on two sides and for each the elbow on two, the tool's turn gives the wrist in two ways: eight branches, and each
-// angle again a full turn further where the limits leave room for that. Where an end of the reach or a straight wrist
-// makes two branches one, it is told once.
+// Inverse kinematics (after Paul and Zhang, Int. J. Robotics Research 5(2), 1986) of a wrist whose angles are given:
+// the tip's place gives the shoulder on two sides and for each the elbow on two: four branches, and each angle again a
+// full turn further where the limits leave room for that. Where an end of the reach makes two branches one, it is told
+// once.
 //
 // Which postures bring the tool's tip to a place, for an arm of the Puma 560's shape? Joints 4 and 5 are free, and for
 // each turn of theirs the first three follow in closed form. So the two are searched: their limits are halved again and
@@ -34,21 +34,15 @@ constexpr std::string_view name_of(PumaLimits limits) {
 
 /// The standard table; the tool stands `tool` metres along the last z axis.
 DhTable puma560_table(double tool = 0.0, PumaLimits limits = PumaLimits::classic);
-/// The same arm as a modified table with the dimensions of Armstrong, Khatib and Burdick (1986), which differ by
-/// millimetres and have the shoulder's offset in two parts.
-DhTable puma560_modified_table(double tool = 0.0, PumaLimits limits = PumaLimits::classic);
-
-/// All joint angles within the limits that bring the tool to `pose`, for an arm of puma560_table's shape (any lengths
-/// d3, d4, a2, a3, any limits, a tool along the last z axis). In a fixed order; empty: out of reach. Throws InputError
-/// for chains of another shape.
-std::vector<JointState> puma560_inverse(const SerialChain& chain, const Eigen::Isometry3d& pose);
 
 /// All joint angles within the limits that bring the tool's tip to `place`, with the wrist's three angles as given: the
-/// four branches of shoulder and elbow and their full turns.
+/// four branches of shoulder and elbow and their full turns. For an arm of puma560_table's shape (any lengths d3, d4,
+/// a2, a3, any limits, a tool along the last z axis). In a fixed order; empty: out of reach. Throws InputError for
+/// chains of another shape.
 std::vector<JointState> puma560_inverse_place(const SerialChain& chain, const Vec3& place,
                                               const std::array<double, 3>& wrist);
 
-/// Is this a chain that the two above take?
+/// Is this a chain of that shape?
 bool has_puma560_shape(const SerialChain& chain);
 
 struct ToolPostures {

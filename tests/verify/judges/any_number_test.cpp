@@ -20,6 +20,7 @@
 #include "core/run/trace.hpp"
 #include "tests/seeds.hpp"
 #include "tests/verify/judges/bounding_judge.hpp"
+#include "tests/worlds/arms/arm_oracle.hpp"
 #include "verify/judges/verify_arm.hpp"
 #include "verify/judges/verify_car.hpp"
 #include "verify/judges/verify_map.hpp"
@@ -404,7 +405,8 @@ TEST(JudgesOfAnyNumber, OfArmsAgreeWithASecondJudge) {
   const std::vector<std::uint64_t> seeds = test::seeds(legs / 10, 100);
   for (const std::uint64_t seed : seeds) {
     SCOPED_TRACE(seed);
-    const DhTable table = seed % 2 == 0 ? puma560_table(0.1) : puma560_modified_table(0.3, PumaLimits::symmetric);
+    const DhTable table =
+        seed % 2 == 0 ? puma560_table(0.1) : arm_oracle::modified_puma_table(0.3, PumaLimits::symmetric);
     const auto u = [&](std::uint64_t i, std::uint64_t axis) { return uniform(seed, i, axis); };
     Scene scene;
     for (std::uint64_t i = 0; i < 3; ++i) {

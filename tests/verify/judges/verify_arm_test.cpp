@@ -35,7 +35,7 @@ TEST(VerifyArm, AgreesWithDenseSamplingAndNeverPromisesMoreClearanceThanThereIs)
     SCOPED_TRACE(seed);
     Scene scene = scattered_spheres(seed, 8);
     add_boxes(scene, seed, 2);
-    const DhTable table = seed % 2 == 0 ? puma560_table(0.1) : puma560_modified_table();
+    const DhTable table = seed % 2 == 0 ? puma560_table(0.1) : modified_puma_table();
     const double radius = 0.04;
     const ArmModel model = model_of(table, radius, false);
     for (std::uint64_t i = 0; i < 4; ++i) {
@@ -65,7 +65,7 @@ TEST(VerifyArm, PassesEveryMotionThatThePlannersAccept) {
     SCOPED_TRACE(seed);
     Scene scene = scattered_spheres(seed, 5);
     add_boxes(scene, seed, 3);
-    const DhTable table = seed % 2 == 0 ? puma560_table(0.1) : puma560_modified_table(0.1);
+    const DhTable table = seed % 2 == 0 ? puma560_table(0.1) : modified_puma_table(0.1);
     const bool self = seed % 3 == 0;
     const ArmModel model = model_of(table, 0.05, self, 0.01);
     const ArmWorld world(scene, model, {.clearance = 0.01});

@@ -13,7 +13,7 @@
 
 #include "core/base/rng.hpp"
 #include "scenes/scene/scene.hpp"
-#include "worlds/arms/serial_chain.hpp"
+#include "worlds/arms/puma560.hpp"
 
 namespace warren::arm_oracle {
 
@@ -168,6 +168,17 @@ inline JointState random_state(const DhTable& table, std::uint64_t seed, std::ui
   return q;
 }
 
+/// But for rounding; joints that the table lacks stay at 0.
+inline bool is_within_limits(const DhTable& table, const JointState& q) {
+  constexpr double rounding = 1e-12;
+  for (std::size_t j = 0; j < q.size(); ++j) {
+    const double low = j < table.joints.size() ? table.joints[j].low_rad : 0.0;
+    const double high = j < table.joints.size() ? table.joints[j].high_rad : 0.0;
+    if (!(q[j] >= low - rounding && q[j] <= high + rounding)) return false;
+  }
+  return true;
+}
+
 /// Spheres around the arm, none at its base.
 inline Scene scattered_spheres(std::uint64_t seed, std::size_t count) {
   Scene scene;
@@ -190,6 +201,25 @@ inline void add_boxes(Scene& scene, std::uint64_t seed, std::size_t count) {
     scene.boxes.push_back(box);
     ++added;
   }
+}
+
+/// The Puma 560 as a modified table with the dimensions of Armstrong, Khatib and Burdick (1986), which differ by
+/// millimetres from those of the standard one and have the shoulder's offset in two parts.
+inline DhTable modified_puma_table(double tool = 0.0, PumaLimits limits = PumaLimits::classic) {
+  constexpr double quarter = std::numbers::pi / 2.0;
+  constexpr std::array<std::array<double, 3>, 6> rows{{{0, 0, 0},
+                                                       {0.2435, 0, -quarter},
+                                                       {-0.0934, 0.4318, 0},
+                                                       {0.4331, -0.0203, quarter},
+                                                       {0, 0, -quarter},
+                                                       {0, 0, quarter}}};
+  DhTable table = puma560_table(tool, limits);
+  table.convention = DhConvention::modified;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto& [d, a, alpha] = rows[i];
+    table.joints[i] = {d, a, alpha, table.joints[i].low_rad, table.joints[i].high_rad, 0.0};
+  }
+  return table;
 }
 
 /// A table of random lengths and twists.

@@ -32,7 +32,7 @@ struct Setting {
 ArmWorld world_of(const Setting& s) { return {s.scene, model_of(s.table, s.radius, s.self_collision), s.options}; }
 Setting setting(std::uint64_t seed) {
   Setting s;
-  s.table = seed % 4 == 0   ? puma560_modified_table(0.15)
+  s.table = seed % 4 == 0   ? modified_puma_table(0.15)
             : seed % 4 == 1 ? puma560_table()
             : seed % 4 == 2 ? puma560_table(0.2, PumaLimits::symmetric)
                             : random_table(seed, seed % 8 == 3 ? DhConvention::standard : DhConvention::modified);

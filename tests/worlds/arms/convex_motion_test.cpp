@@ -123,11 +123,11 @@ TEST(ConvexMotion, ThePlaneTellsTheDistance) {
     EXPECT_NEAR(found.direction.norm(), 1.0, 1e-12);
     if (found.below <= 0.0) continue;
     ++apart;
-    const double along_a =
-        found.direction.dot(a.pose * ConvexBody(a.solid).support(a.pose.linear().transpose() * found.direction));
-    const double along_b =
-        found.direction.dot(b.pose * ConvexBody(b.solid).support(b.pose.linear().transpose() * -found.direction));
-    EXPECT_NEAR(along_b - along_a, found.below, 1e-11);
+    const auto farthest = [](const PosedSolid& of, const Vec3& direction) {
+      const ConvexBody body(of.solid);
+      return direction.dot(of.pose * body.core_support(of.pose.linear().transpose() * direction)) + body.margin();
+    };
+    EXPECT_NEAR(-farthest(b, -found.direction) - farthest(a, found.direction), found.below, 1e-11);
   }
   EXPECT_GT(apart, 2);
 }
@@ -285,7 +285,7 @@ TEST(ConvexMotion, OfALargeHullTheFarthestCornerIsFound) {
     const Vec3 direction = draw.vector();
     double most = -1e9;
     for (const Vec3& corner : hull.corners) most = std::max(most, direction.dot(hull.pose * corner));
-    EXPECT_NEAR(direction.dot(body.support(direction)), most, 1e-14);
+    EXPECT_NEAR(direction.dot(body.core_support(direction)), most, 1e-14);
     EXPECT_LE(most, direction.dot(body.centre()) + direction.norm() * body.radius());
   }
 }
