@@ -226,8 +226,6 @@ Scene read_maze_file(const InputFile& file, const Execution& execution) {
   return scene;
 }
 
-Scene unmade_maze_file(const InputFile& file) { return scene_of(MazeFile(file), file.name()); }
-
 void write_maze_file(const CellWallSource& cells, const std::string& path, const Execution& execution) {
   assert(cells.side_log2() == CellBits::usual_side_log2);
   constexpr std::size_t grain = 8;  // a reader's scratch is large
@@ -321,13 +319,6 @@ RawVector<std::uint8_t> empty_maze(Range rows, std::uint32_t cols, const Executi
 
 }  // namespace
 
-std::optional<Scene> unmade_npy(const InputFile& file) {
-  const NpyWalls array = npy_walls(file);
-  if (!is_aligned(file, array)) return std::nullopt;
-  const auto maze = array.is_float ? size_of(walls_in<float>(file, array)) : size_of(walls_in<double>(file, array));
-  return maze ? std::optional(scene_of(*maze, file.name(), std::nullopt)) : std::nullopt;
-}
-
 NpyMaze::NpyMaze(const InputFile& file, MazeHint maze, const Execution& execution, std::optional<TileRows> held)
     : array_(npy_walls(file)),
       maze_(maze),
@@ -414,8 +405,12 @@ std::optional<Scene> unmade_maze(const std::string& source) {
 }
 
 std::optional<Scene> unmade_maze(const InputFile& file) {
-  if (is_maze_file(file.bytes())) return unmade_maze_file(file);
-  return is_npy(file.bytes()) ? unmade_npy(file) : std::nullopt;
+  if (is_maze_file(file.bytes())) return scene_of(MazeFile(file), file.name());
+  if (!is_npy(file.bytes())) return std::nullopt;
+  const NpyWalls array = npy_walls(file);
+  if (!is_aligned(file, array)) return std::nullopt;
+  const auto maze = array.is_float ? size_of(walls_in<float>(file, array)) : size_of(walls_in<double>(file, array));
+  return maze ? std::optional(scene_of(*maze, file.name(), std::nullopt)) : std::nullopt;
 }
 
 }  // namespace warren

@@ -60,24 +60,18 @@ class MazeFile : public CellBits {
 /// The maze with its walls, as the generator makes them: one cell long, in the course's order. Throws InputError for
 /// damaged files and for 2^32 cells and more, Stopped.
 Scene read_maze_file(const InputFile& file, const Execution& execution);
-/// The same without the walls (is_unmade). Looks at the header alone.
-Scene unmade_maze_file(const InputFile& file);
 
 /// Writes a maze with tiles of 256 x 256 cells. Throws WriteError, Stopped.
 void write_maze_file(const CellWallSource& cells, const std::string& path, const Execution& execution);
 /// The same of a scene's walls. Throws InputError for whatever is no maze closed but for its two doors.
 void write_maze_file(const Scene& scene, const std::string& path, const Execution& execution);
 
-/// The maze whose walls the array holds, without them (is_unmade); nothing where its first four rows are no outline of
-/// a maze. Throws InputError.
-std::optional<Scene> unmade_npy(const InputFile& file);
-
 /// Holds the cells, not the file.
 class NpyMaze {
  public:
-  /// maze: as unmade_npy() says; held: rows of tiles whose cells are kept, and the row of cells below them, of all that
-  /// are looked at; none: all. Throws InputError for a wall off the grid, outside the outline or in one of its doors;
-  /// Stopped.
+  /// maze: as unmade_maze() says; held: rows of tiles whose cells are kept, and the row of cells below them, of all
+  /// that are looked at; none: all. Throws InputError for a wall off the grid, outside the outline or in one of its
+  /// doors; Stopped.
   NpyMaze(const InputFile& file, MazeHint maze, const Execution& execution, std::optional<TileRows> held = {});
   const CellBits& cells() const { return cells_; }
   std::size_t wall_count() const { return array_.walls; }
@@ -110,7 +104,7 @@ class NpyMaze {
 std::optional<Scene> unmade_maze(const std::string& source);
 
 /// A file of a maze, without its walls; nothing where its format or its walls are others. Looks at its header, of an
-/// array at the outline too. Throws InputError.
+/// array at its first four rows too, which must be the outline. Throws InputError.
 std::optional<Scene> unmade_maze(const InputFile& file);
 
 }  // namespace warren

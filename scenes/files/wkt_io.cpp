@@ -29,8 +29,8 @@ char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + '
 /// Words, numbers and marks, with their lines.
 class Tokens {
  public:
-  Tokens(const InputFile& file, const Execution& execution)
-      : name_(file.name()), text_(file.bytes()), execution_(execution) {
+  Tokens(const std::string& name, std::string_view text, const Execution& execution)
+      : name_(name), text_(text), execution_(execution) {
     if (text_.starts_with("\xef\xbb\xbf")) text_.remove_prefix(3);
   }
   std::size_t line() const { return line_; }
@@ -117,7 +117,7 @@ class Tokens {
 class WktReader {
  public:
   WktReader(const InputFile& file, const Execution& execution)
-      : name_(file.name()), execution_(execution), tokens_(file, execution), walls_(execution) {}
+      : name_(file.name()), execution_(execution), tokens_(file.name(), file.bytes(), execution), walls_(execution) {}
 
   Scene read() {
     while (!tokens_.done()) {
@@ -265,25 +265,17 @@ std::string position_text(Vec2 p) { return fmt::format("{} {}", p.x + 0.0, p.y +
 }  // namespace
 
 bool is_wkt(std::string_view bytes) {
-  bytes = bytes.substr(0, bytes_that_tell);
-  if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
-  const auto skip = [&] {
-    while (!bytes.empty() && is_wkt_space(bytes.front())) bytes.remove_prefix(1);
-  };
-  const auto word = [&] {
-    std::string text;
-    for (skip(); !bytes.empty() && is_letter(bytes.front()) && text.size() < 24; bytes.remove_prefix(1))
-      text += upper(bytes.front());
-    return text;
-  };
-  std::string first = word();
-  if (first == "SRID") return bytes.starts_with('=');
-  while (first.ends_with('Z') || first.ends_with('M')) first.pop_back();
-  if (std::find(type_names.begin(), type_names.end(), first) == type_names.end()) return false;
-  std::string second = word();
-  if (second == "Z" || second == "M" || second == "ZM") second = word();
-  skip();
-  return second == "EMPTY" || (second.empty() && bytes.starts_with('('));
+  const std::string nameless;
+  const Execution unlimited;
+  Tokens head(nameless, bytes.substr(0, bytes_that_tell), unlimited);
+  if (head.take_word("SRID")) return head.next_is('=');
+  std::string type = head.word();
+  while (type.ends_with('Z') || type.ends_with('M')) type.pop_back();
+  if (std::find(type_names.begin(), type_names.end(), type) == type_names.end()) return false;
+  for (const std::string_view tag : {"ZM", "Z", "M"}) {
+    if (head.take_word(tag)) break;
+  }
+  return head.take_word("EMPTY") || head.next_is('(');
 }
 
 Scene read_wkt(const InputFile& file, const Execution& execution) { return WktReader(file, execution).read(); }

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The algorithms. Mazes that grow cell by cell: recursive backtracker, randomised Prim, and Wilson's loop-erased walks.
-// Mazes that join regions of cells: randomised Kruskal, the biased one of the course, and the minimum spanning tree.
+// Mazes that join regions of cells: randomised Kruskal, and the biased one of the course.
 #include "scenes/mazes/maze_carving.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <vector>
-
-#include "parallel/chunks.hpp"
-#include "scenes/mazes/spanning_maze.hpp"
 
 namespace warren::maze {
 namespace {
@@ -335,40 +332,6 @@ void carve_course(MazeCells& cells, std::uint64_t seed, const Execution& executi
     poll.step(carved);
     if (carver.try_wall()) ++carved;
   }
-}
-
-/// The algorithm mst into cells that are held: tile by tile, in parallel. Kruskal's maze with a hash as the shuffle, so
-/// it looks as that of kruskal. 15 ns a cell on two cores.
-void carve_mst(MazeCells& cells, std::uint64_t seed, const Execution& execution) {
-  const SpanningMaze maze(cells.rows(), cells.cols(), seed, 0.0, {execution.threads, execution.deadline});
-  for_chunks(maze.tile_count(), 16, {execution.threads, execution.deadline}, [&](Range r) {
-    const auto reader = maze.reader();
-    CellTile tile;
-    for (std::size_t t = r.first; t < r.last; ++t) {
-      reader->read(t, tile);
-      copy_tile(tile, cells, tile.first_col);
-      execution.advance(std::uint64_t{tile.width} * tile.height);
-      execution.check();
-    }
-  });
-  cells.bytes()[cells.index(cells.cols() - 1, cells.rows() - 1)] |=
-      MazeCells::right_wall;  // the exit is no cell's business
-}
-
-void open_drawn_loops(MazeCells& cells, double loops, std::uint64_t seed, const Execution& execution) {
-  const EdgeWeights weights(seed);
-  const LoopDraw falls(loops);
-  for_chunks(cells.cols(), 16, execution, [&](Range r) {
-    for (std::size_t c = r.first; c < r.last; ++c) {
-      const auto col = static_cast<std::uint32_t>(c);
-      for (std::uint32_t row = 0; row < cells.rows(); ++row) {
-        if ((row & 0xffffU) == 0) execution.check();
-        const auto falls_at = [&](unsigned direction) { return falls(weights(edge_number(col, row, direction))); };
-        if (col + 1 < cells.cols() && cells.wall_right(col, row) && falls_at(0)) cells.open_right(col, row);
-        if (row + 1 < cells.rows() && cells.wall_above(col, row) && falls_at(1)) cells.open_above(col, row);
-      }
-    }
-  });
 }
 
 }  // namespace warren::maze

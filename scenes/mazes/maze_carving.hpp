@@ -22,9 +22,6 @@ void carve_kruskal(MazeCells& cells, std::uint64_t seed, const Execution& execut
 void carve_prim(MazeCells& cells, std::uint64_t seed, const Execution& execution);
 void carve_wilson(MazeCells& cells, std::uint64_t seed, const Execution& execution);
 void carve_course(MazeCells& cells, std::uint64_t seed, const Execution& execution);
-void carve_mst(MazeCells& cells, std::uint64_t seed, const Execution& execution);
-/// The loops of mst: every interior wall that stands falls by itself, as its weight says.
-void open_drawn_loops(MazeCells& cells, double loops, std::uint64_t seed, const Execution& execution);
 
 /// Scratch bits of a cell's byte while a maze is carved.
 inline constexpr std::uint8_t in_maze = 4;

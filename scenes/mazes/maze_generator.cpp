@@ -27,10 +27,9 @@ namespace {
 
 constexpr std::size_t generator_grain = std::size_t{1} << 18;
 
-/// In the order of MazeAlgorithm.
-constexpr std::array<void (*)(MazeCells&, std::uint64_t, const Execution&), enum_names(MazeAlgorithm{}).size()> carvers{
-    maze::carve_backtracker, maze::carve_kruskal, maze::carve_prim,
-    maze::carve_wilson,      maze::carve_course,  maze::carve_mst};
+/// In the order of MazeAlgorithm; mst, the last, is made tile by tile.
+constexpr std::array<void (*)(MazeCells&, std::uint64_t, const Execution&), enum_names(MazeAlgorithm{}).size() - 1>
+    carvers{maze::carve_backtracker, maze::carve_kruskal, maze::carve_prim, maze::carve_wilson, maze::carve_course};
 
 void check_size(std::uint32_t rows, std::uint32_t cols) {
   const std::uint64_t count = std::uint64_t{rows} * cols;
@@ -65,6 +64,23 @@ void open_loops(MazeCells& cells, std::uint64_t count, std::uint64_t standing, s
       if (row + 1 < cells.rows() && cells.wall_above(col, row) && falls()) cells.open_above(col, row);
     }
   }
+}
+
+/// All that are the source's; `filled` is told of each cell.
+void fill_cells(const CellWallSource& source, MazeCells& cells, const Execution& execution,
+                Progress* filled = nullptr) {
+  constexpr std::size_t grain = 8;  // a reader's scratch is large
+  for_chunks(source.tile_count(), grain, execution, [&](Range r) {
+    const auto reader = source.reader();
+    CellTile tile;
+    for (std::size_t number = r.first; number < r.last; ++number) {
+      reader->read(number, tile);
+      copy_tile(tile, cells, tile.first_col);
+      if (filled != nullptr) filled->advance(std::uint64_t{tile.width} * tile.height);
+    }
+  });
+  cells.bytes()[cells.index(source.cols() - 1, source.rows() - 1)] |=
+      MazeCells::right_wall;  // the exit is no cell's business
 }
 
 /// All but the walls.
@@ -169,11 +185,15 @@ MazeCells generate_maze(const MazeOptions& options, const Execution& execution) 
   check_size(options.rows, options.cols);
   MazeCells cells(options.rows, options.cols, {execution.threads, execution.deadline});
   if (execution.progress != nullptr) execution.progress->begin("generate", cells.cell_count());
+  if (options.algorithm == MazeAlgorithm::mst) {
+    const Execution quiet{execution.threads, execution.deadline};
+    fill_cells(SpanningMaze(options.rows, options.cols, options.seed, options.loops, quiet), cells, quiet,
+               execution.progress);
+    return cells;
+  }
   carvers.at(static_cast<std::size_t>(options.algorithm))(cells, options.seed, execution);
   clear_scratch(cells, {execution.threads, execution.deadline});
-  if (options.loops > 0.0 && options.algorithm == MazeAlgorithm::mst) {
-    maze::open_drawn_loops(cells, options.loops, options.seed, {execution.threads, execution.deadline});
-  } else if (options.loops > 0.0) {
+  if (options.loops > 0.0) {
     const std::uint64_t standing = interior_walls(cells, {execution.threads, execution.deadline});
     const auto count = static_cast<std::uint64_t>(std::round(options.loops * static_cast<double>(standing)));
     open_loops(cells, std::min(count, standing), standing, options.seed, execution);
@@ -210,18 +230,8 @@ std::optional<MazeHint> maze_of_walls(const WallSet& walls, const Execution& exe
 }
 
 MazeCells cells_from(const CellWallSource& source, const Execution& execution) {
-  constexpr std::size_t grain = 8;  // a reader's scratch is large
   MazeCells cells(source.rows(), source.cols(), execution);
-  for_chunks(source.tile_count(), grain, execution, [&](Range r) {
-    const auto reader = source.reader();
-    CellTile tile;
-    for (std::size_t number = r.first; number < r.last; ++number) {
-      reader->read(number, tile);
-      copy_tile(tile, cells, tile.first_col);
-    }
-  });
-  cells.bytes()[cells.index(source.cols() - 1, source.rows() - 1)] |=
-      MazeCells::right_wall;  // the exit is no cell's business
+  fill_cells(source, cells, execution);
   return cells;
 }
 
