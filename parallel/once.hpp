@@ -64,6 +64,13 @@ class OneAtATime {
     const std::lock_guard lock(mutex_);
     return call();
   }
+  /// The same for what may take long: nobody waits. false: another thread is at it, and nothing was called.
+  template <class Call>
+  bool unless_busy(const Call& call) const {
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (lock.owns_lock()) call();
+    return lock.owns_lock();
+  }
 
  private:
   mutable std::mutex mutex_;  // guards what its owner touches in calls alone

@@ -66,5 +66,19 @@ TEST(MadeOnce, WhoWaitsIsStoppedByItsOwnDeadline) {
   EXPECT_EQ(made, 3);
 }
 
+TEST(OneAtATime, WhoFindsItBusyGoesOnWithoutTheCall) {
+  const OneAtATime one;
+  int calls = 0;
+  EXPECT_TRUE(one.unless_busy([&] {
+    std::jthread([&] {
+      for (int i = 0; i < 2; ++i) EXPECT_FALSE(one.unless_busy([&] { ++calls; }));  // who was refused ends nothing
+    }).join();
+    ++calls;
+  }));
+  EXPECT_EQ(calls, 1);
+  EXPECT_TRUE(one.unless_busy([&] { ++calls; }));
+  EXPECT_EQ(calls, 2);
+}
+
 }  // namespace
 }  // namespace warren

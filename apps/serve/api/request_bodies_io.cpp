@@ -7,6 +7,7 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -45,26 +46,24 @@ void for_each_in(const OrderedJson& json, const std::string& where, std::size_t 
 DrawnShapes shapes_of(const OrderedJson& json, const std::string& where) {
   if (!json.is_object()) refuse_json(where, "an object with walls and polygons");
   DrawnShapes shapes;
-  for (const auto& [key, value] : json.items()) {
-    if (key == "walls") {
-      for_each_in(value, where + ".walls", most_changed_shapes, [&](const OrderedJson& item, const std::string& place) {
-        const auto [ax, ay, bx, by] = numbers_of<4>(item, place);
-        shapes.walls.push_back({{ax, ay}, {bx, by}});
-      });
-    } else if (key == "polygons") {
-      for_each_in(value, where + ".polygons", most_changed_shapes,
-                  [&](const OrderedJson& ring, const std::string& place) {
-                    std::vector<Vec2>& corners = shapes.polygons.emplace_back();
-                    for_each_in(ring, place, most_corners, [&](const OrderedJson& corner, const std::string& at) {
-                      const auto [x, y] = numbers_of<2>(corner, at);
-                      corners.push_back({x, y});
-                    });
-                    if (corners.size() < 3) refuse_json(place, "three corners or more");
-                  });
-    } else {
-      refuse_json(where, "the keys walls, polygons");
-    }
-  }
+  const auto take_wall = [&](const OrderedJson& item, const std::string& place) {
+    const auto [ax, ay, bx, by] = numbers_of<4>(item, place);
+    shapes.walls.push_back({{ax, ay}, {bx, by}});
+  };
+  const auto take_ring = [&](const OrderedJson& ring, const std::string& place) {
+    std::vector<Vec2>& corners = shapes.polygons.emplace_back();
+    for_each_in(ring, place, most_corners, [&](const OrderedJson& corner, const std::string& at) {
+      const auto [x, y] = numbers_of<2>(corner, at);
+      corners.push_back({x, y});
+    });
+    if (corners.size() < 3) refuse_json(place, "three corners or more");
+  };
+  const auto each = [&](const auto& take) {
+    return [&](const OrderedJson& list, const std::string& key) {
+      for_each_in(list, where + "." + key, most_changed_shapes, take);
+    };
+  };
+  take_keys(json, where, {{"walls", each(take_wall)}, {"polygons", each(take_ring)}});
   return shapes;
 }
 
@@ -77,10 +76,10 @@ std::vector<Box> boxes_of(const OrderedJson& json, const std::string& where) {
   return boxes;
 }
 
-std::vector<CellChange> cells_of(const OrderedJson& json) {
+std::vector<CellChange> cells_of(const OrderedJson& json, const std::string& where) {
   constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
   std::vector<CellChange> cells;
-  for_each_in(json, "cells", most_changed_shapes, [&](const OrderedJson& item, const std::string& place) {
+  for_each_in(json, where, most_changed_shapes, [&](const OrderedJson& item, const std::string& place) {
     if (!item.is_array() || item.size() != 3 || !item[2].is_boolean()) refuse_json(place, "column, row, true or false");
     const auto number = [&](std::size_t i) { return static_cast<std::uint32_t>(whole_number(item[i], place, most)); };
     cells.push_back({{number(0), number(1)}, item[2].get<bool>()});
@@ -236,13 +235,11 @@ ChangedScene changed_map(const Scene& scene, const SceneChange& change, const Ex
 }
 
 std::string shapes_json(const DrawnShapes& shapes) {
-  std::string walls = "[";
-  for (const Segment& wall : shapes.walls) {
-    if (walls.size() > 1) walls += ',';
-    append_json_list(walls, std::array{wall.a.x, wall.a.y, wall.b.x, wall.b.y});
-  }
+  const auto wall_json = [](const Segment& wall) {
+    return json_list(std::span<const double>(std::array{wall.a.x, wall.a.y, wall.b.x, wall.b.y}));
+  };
   JsonObject json;
-  json.add_json("walls", walls + "]");
+  json.add_json("walls", json_list_of(shapes.walls, ",", wall_json));
   json.add_json("polygons", json_chains(shapes.polygons, Execution()));
   return json.closed();
 }
@@ -289,148 +286,112 @@ std::vector<std::vector<double>> states_of(const OrderedJson& json, const std::s
 }
 
 /// Lines as answers have them. Files are not for whoever asks to choose.
-Prices prices_of(const OrderedJson& json) {
+Prices prices_of(const OrderedJson& json, const std::string& key) {
   Prices prices;
-  for_each_in(json, "prices", most_corners, [&](const OrderedJson& line, const std::string& place) {
+  for_each_in(json, key, most_corners, [&](const OrderedJson& line, const std::string& place) {
     if (!line.is_string()) refuse_word(place, "a line, such as 'clearance-price 3 0.5'");
     read_price_line(line.get<std::string>(), place, prices, Execution());
   });
-  if (!prices.masks.empty())
-    refuse_word("prices", "no masks: --areas, --speed-zones, --keep-out give the service's own");
+  if (!prices.masks.empty()) refuse_word(key, "no masks: --areas, --speed-zones, --keep-out give the service's own");
   return prices;
 }
 
-/// Prices, choices of goals and of ways, by the names that answers have. Is it such a word?
-bool take_asked(const std::string& key, const OrderedJson& value, ServedQuestion& question) {
-  GoalRule& rule = question.rule;
-  RouteRule& route = question.route;
-  if (key == "prices") {
-    question.prices = prices_of(value);
-  } else if (key == "goals") {
-    rule.others = states_of(value, key);
-    if (rule.others.empty()) refuse_word(key, "one or more");
-    question.goal = rule.others.front();
-    rule.others.erase(rule.others.begin());
-  } else if (key == "goal_tolerance") {
-    rule.tolerance = value == "inf" ? std::numeric_limits<double>::infinity() : number_of(value, key);
-  } else if (key == "goal_region") {
-    rule.region = number_of(value, key);
-  } else if (key == "goal_heading_rad") {
-    rule.heading_rad = number_of(value, key);
-  } else if (key == "visit") {
-    rule.visit = states_of(value, key);
-  } else if (key == "return") {
-    rule.back = flag_of(value, key);
-  } else if (key == "alternatives") {
-    const double count = number_of(value, key);
-    if (!(count >= 1.0 && count <= most_alternatives)) refuse_word(key, fmt::format("1 to {}", most_alternatives));
-    route.alternatives = static_cast<std::uint32_t>(count);
-  } else if (key == "hole") {
-    route.hole = number_of(value, key);
-  } else if (key == "stretch") {
-    route.stretch = number_of(value, key);
-  } else if (key == "keep_to") {
-    route.keep_to = states_of(value, key);
-  } else if (key == "unless_gain") {
-    route.unless_gain = number_of(value, key);
-  } else {
-    return false;
-  }
-  return true;
+double tolerance_of(const OrderedJson& json, std::string_view key) {
+  return json == "inf" ? std::numeric_limits<double>::infinity() : number_of(json, key);
 }
 
-double budget_of(const OrderedJson& json) {
+std::uint32_t alternatives_of(const OrderedJson& json, std::string_view key) {
+  const double count = number_of(json, key);
+  if (!(count >= 1.0 && count <= most_alternatives)) refuse_word(key, fmt::format("1 to {}", most_alternatives));
+  return static_cast<std::uint32_t>(count);
+}
+
+double budget_of(const OrderedJson& json, std::string_view key) {
   constexpr double a_ms = 1e-3;
-  if (!json.is_number() || !(json.get<double>() > 0.0)) refuse_word("budget_ms", "a number above 0");
+  if (!json.is_number() || !(json.get<double>() > 0.0)) refuse_word(key, "a number above 0");
   return a_ms * json.get<double>();
 }
 
-RobotSpec robot_of(const OrderedJson& json) {
-  if (!json.is_string()) refuse_word("robot", "what --robot takes");
-  return robot_value("robot", json.get<std::string>());
+RobotSpec robot_of(const OrderedJson& json, const std::string& key) {
+  if (!json.is_string()) refuse_word(key, "what --robot takes");
+  return robot_value(key, json.get<std::string>());
 }
 
-double clearance_of(const OrderedJson& json) {
-  if (!json.is_number()) refuse_word("clearance", "a number");
-  return json.get<double>();
-}
-
-PlannerKind planner_of(const OrderedJson& json) {
+PlannerKind planner_of(const OrderedJson& json, std::string_view key) {
   const auto planner = json.is_string() ? enum_named<PlannerKind>(json.get<std::string>()) : std::nullopt;
-  if (!planner) refuse_word("planner", "the name of a planner");
+  if (!planner) refuse_word(key, "the name of a planner");
   return *planner;
 }
 
-std::string watch_of(const OrderedJson& json) {
+std::string watch_of(const OrderedJson& json, std::string_view key) {
   constexpr std::size_t longest = 64;
   const std::string name = json.is_string() ? json.get<std::string>() : "";
   constexpr std::string_view known = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_";
   if (name.empty() || name.size() > longest || name.find_first_not_of(known) != std::string::npos) {
-    refuse_word("watch", "1 to 64 letters, digits, - and _");
+    refuse_word(key, "1 to 64 letters, digits, - and _");
   }
   return name;
 }
 
-void take(const std::string& key, const OrderedJson& value, QueryBody& body) {
-  if (key == "start") {
-    body.question.start = state_of(value, "start");
-  } else if (key == "goal") {
-    body.question.goal = state_of(value, "goal");
-  } else if (key == "robot") {
-    body.question.robot = robot_of(value);
-  } else if (key == "clearance") {
-    body.question.clearance = clearance_of(value);
-  } else if (key == "optimise") {
-    body.question.optimise = flag_of(value, "optimise");
-  } else if (key == "explain") {
-    body.question.explains = flag_of(value, "explain");
-  } else if (key == "path") {
-    body.tells_path = flag_of(value, "path");
-  } else if (key == "planner") {
-    body.question.planner = planner_of(value);
-  } else if (key == "budget_ms") {
-    body.question.budget_s = budget_of(value);
-  } else if (key == "watch") {
-    body.watch = watch_of(value);
-  } else if (!take_asked(key, value, body.question)) {
-    refuse_word("body",
-                "the keys start, goal, robot, clearance, optimise, planner, budget_ms, explain, path, watch, prices, "
-                "goals, goal_tolerance, goal_region, goal_heading_rad, visit, return, alternatives, hole, stretch, "
-                "keep_to, unless_gain");
-  }
+std::vector<ErasedPlace> erased_of(const OrderedJson& json, const std::string& key) {
+  std::vector<ErasedPlace> places;
+  for_each_in(json, key, most_changed_shapes, [&](const OrderedJson& item, const std::string& place) {
+    const auto [x, y, reach] = numbers_of<3>(item, place);
+    if (reach < 0.0) refuse_json(place, "x, y and a reach of 0 or more");
+    places.push_back({{x, y}, reach});
+  });
+  return places;
 }
 
 }  // namespace
 
 QueryBody read_query_body(std::string_view text) {
   QueryBody body;
-  const OrderedJson json = json_object_of(text, deepest_json, {});
-  for (const auto& [key, value] : json.items()) take(key, value, body);
+  ServedQuestion& question = body.question;
+  GoalRule& rule = question.rule;
+  RouteRule& route = question.route;
+  const auto take_goals = [&](const OrderedJson& value, const std::string& key) {
+    rule.others = states_of(value, key);
+    if (rule.others.empty()) refuse_word(key, "one or more");
+    question.goal = rule.others.front();
+    rule.others.erase(rule.others.begin());
+  };
+  take_keys(json_object_of(text, deepest_json, {}), "body",
+            {{"start", into(question.start, state_of)},
+             {"goal", into(question.goal, state_of)},
+             {"robot", into(question.robot, robot_of)},
+             {"clearance", into(question.clearance, number_of)},
+             {"optimise", into(question.optimise, flag_of)},
+             {"planner", into(question.planner, planner_of)},
+             {"budget_ms", into(question.budget_s, budget_of)},
+             {"explain", into(question.explains, flag_of)},
+             {"path", into(body.tells_path, flag_of)},
+             {"watch", into(body.watch, watch_of)},
+             {"prices", into(question.prices, prices_of)},
+             {"goals", take_goals},
+             {"goal_tolerance", into(rule.tolerance, tolerance_of)},
+             {"goal_region", into(rule.region, number_of)},
+             {"goal_heading_rad", into(rule.heading_rad, number_of)},
+             {"visit", into(rule.visit, states_of)},
+             {"return", into(rule.back, flag_of)},
+             {"alternatives", into(route.alternatives, alternatives_of)},
+             {"hole", into(route.hole, number_of)},
+             {"stretch", into(route.stretch, number_of)},
+             {"keep_to", into(route.keep_to, states_of)},
+             {"unless_gain", into(route.unless_gain, number_of)}});
   return body;
 }
 
 SceneChange read_scene_change(std::string_view text, const Execution& execution) {
   SceneChange change;
-  const OrderedJson json = json_object_of(text, deepest_json, execution);
-  for (const auto& [key, value] : json.items()) {
-    if (key == "add") {
-      change.add = shapes_of(value, "add");
-    } else if (key == "remove") {
-      change.remove = shapes_of(value, "remove");
-    } else if (key == "erase") {
-      for_each_in(value, "erase", most_changed_shapes, [&](const OrderedJson& item, const std::string& place) {
-        const auto [x, y, reach] = numbers_of<3>(item, place);
-        if (reach < 0.0) refuse_json(place, "x, y and a reach of 0 or more");
-        change.erase.push_back({{x, y}, reach});
-      });
-    } else if (key == "block" || key == "free") {
-      (key == "block" ? change.block : change.free) = boxes_of(value, key);
-    } else if (key == "cells") {
-      change.cells = cells_of(value);
-    } else {
-      refuse_json("body", "the keys add, remove, erase, or of a map block, free, cells");
-    }
-  }
+  take_keys(json_object_of(text, deepest_json, execution), "body",
+            {{"add", into(change.add, shapes_of)},
+             {"remove", into(change.remove, shapes_of)},
+             {"erase", into(change.erase, erased_of)},
+             {"block", into(change.block, boxes_of)},
+             {"free", into(change.free, boxes_of)},
+             {"cells", into(change.cells, cells_of)}},
+            "add, remove, erase, or of a map block, free, cells");
   return change;
 }
 

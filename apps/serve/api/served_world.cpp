@@ -12,7 +12,6 @@
 #include "solve/explain_answer.hpp"
 #include "solve/kept/lattice_roadmap.hpp"
 #include "solve/kept/roadmap.hpp"
-#include "solve/kinds/kept_ways.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/question/question.hpp"
 #include "solve/solve.hpp"
@@ -59,30 +58,16 @@ Answer solve_with_ways(const Scene& scene, const Question& asked, const Prices& 
                        const Execution& execution, ByProducts* keep, LatestWays& latest) {
   std::string name =
       fmt::format("{} {} {}", robot_text(*asked.robot), *asked.clearance, fmt::join(price_lines(own), "\n"));
-  std::unique_ptr<KeptWays> ways = latest.take(name);
-  Answer answer = solve_explained(scene, asked, options, execution, keep, nullptr, ways.get());
-  if (!answer.stop_reason) latest.put(std::move(name), std::move(ways));
+  std::pair<std::string, std::unique_ptr<KeptWays>> ways;  // this question's alone until they are put back
+  latest.use([&](auto& those) { those.swap(ways); });
+  if (ways.first != name) ways.second.reset();  // before there are new ones
+  if (!ways.second) ways = {std::move(name), std::make_unique<KeptWays>()};
+  Answer answer = solve_explained(scene, asked, options, execution, keep, nullptr, ways.second.get());
+  if (!answer.stop_reason) latest.use([&](auto& those) { those.swap(ways); });  // those before end after the lock
   return answer;
 }
 
 }  // namespace
-
-LatestWays::LatestWays() = default;
-LatestWays::~LatestWays() = default;
-
-std::unique_ptr<KeptWays> LatestWays::take(const std::string& question) {
-  std::unique_ptr<KeptWays> latest;  // of another question: ends before there are new ones
-  const bool is_same = one_([&] { return latest.swap(ways_), question == question_; });
-  if (!is_same) latest.reset();
-  return latest ? std::move(latest) : std::make_unique<KeptWays>();
-}
-
-void LatestWays::put(std::string question, std::unique_ptr<KeptWays> ways) {
-  one_([&] {
-    question_.swap(question);
-    ways_.swap(ways);  // those before end after the lock
-  });
-}
 
 ServedWorld::ServedWorld(Scene scene, const Question& body, const Execution& execution) : body_(body) {
   body.validate();

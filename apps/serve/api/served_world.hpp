@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "apps/serve/graphs/edge_judge.hpp"
@@ -22,11 +23,8 @@
 #include "solve/answer/by_products.hpp"
 #include "solve/kept/roadmap.hpp"
 #include "solve/kept/roadmap_query.hpp"
+#include "solve/kinds/kept_ways.hpp"
 #include "solve/question/solve_options.hpp"
-
-namespace warren {
-class KeptWays;  // solve/kinds/kept_ways.hpp
-}
 
 namespace warren::serve {
 
@@ -46,21 +44,8 @@ struct ServedQuestion {
 };
 
 /// What the latest question over the priced cells of a map has left for the next one with its body and its prices,
-/// whatever has changed in the map meanwhile (solve/kinds/kept_ways.hpp). Any number of threads may call.
-class LatestWays {
- public:
-  LatestWays();
-  ~LatestWays();
-  /// For the caller alone, until they are put back; new ones where the latest are of another question or not there.
-  std::unique_ptr<KeptWays> take(const std::string& question);
-  /// Only whole ones: after a stop they are dropped.
-  void put(std::string question, std::unique_ptr<KeptWays> ways);
-
- private:
-  OneAtATime one_;
-  std::string question_;
-  std::unique_ptr<KeptWays> ways_;  // nullptr: none, or taken
-};
+/// whatever has changed in the map meanwhile, and its name. nullptr: nothing yet, or somebody has taken it.
+using LatestWays = Guarded<std::pair<std::string, std::unique_ptr<KeptWays>>>;
 
 /// Any number of threads may ask.
 class ServedWorld {

@@ -267,12 +267,9 @@ WorldLayers::WorldLayers(const ServedWorld& world)
       starts_(most_bytes_of_starts(bytes_a_start_)) {}
 
 std::string WorldLayers::json(const RobotSpec& robot) const {
-  std::string text = "[";
-  for (const LayerAccount& account : accounts_) {
-    text += (text.size() > 1 ? "," : "") +
-            json_of_account(account.is_of_path ? sweep_account(robot) : account, world_.hash());
-  }
-  return text + "]";
+  return json_list_of(accounts_, ",", [&](const LayerAccount& account) {
+    return json_of_account(account.is_of_path ? sweep_account(robot) : account, world_.hash());
+  });
 }
 
 bool WorldLayers::knows(std::string_view name) const {
@@ -318,19 +315,24 @@ const RoadmapLayer& WorldLayers::axis(const Execution& execution) const {
   return axis_.get(execution, [&] { return std::make_unique<RoadmapLayer>(arrays.parts(), execution); });
 }
 
-MadeByName<StartDistances>::Lease WorldLayers::from_start(const std::optional<std::vector<double>>& from,
-                                                          const Execution& execution) const {
+/// use: gets the distances, which stay while it does.
+template <class Use>
+std::string WorldLayers::from_start(const std::optional<std::vector<double>>& from, const Execution& execution,
+                                    const Use& use) const {
   if (!from) throw UsageError("from: the start of the search is expected, as ?from=x,y");
   const std::string name = fmt::format("{}", fmt::join(*from, ","));
-  return starts_.get(name, bytes_a_start_, execution, [&] {
-    return std::make_unique<StartDistances>(start_distances(*world_.query(), *from, execution));
-  });
+  const auto kept =
+      starts_.find_or_put(name, bytes_a_start_, [] { return std::make_unique<MadeOnce<StartDistances>>(); });
+  return use((*kept)->get(
+      execution, [&] { return std::make_unique<StartDistances>(start_distances(*world_.query(), *from, execution)); }));
 }
 
 std::string WorldLayers::legend(std::string_view name, const std::optional<std::vector<double>>& from,
                                 const Execution& execution) const {
   refuse_missing(name);
-  if (name == "search") return search_legend(*from_start(from, execution), world_);
+  if (name == "search") {
+    return from_start(from, execution, [&](const StartDistances& made) { return search_legend(made, world_); });
+  }
   if (name == "clearance") return clearance_legend(clearance(execution), world_);
   if (name == "axis") return axis_legend(axis(execution), !world_.robot().outline.empty());
   if (world_.passages(execution) != nullptr) {
@@ -349,7 +351,9 @@ std::string WorldLayers::draw(std::string_view name, const TilePlace& tile,
   const double pixel = grid.pixel(tile.zoom);
   if (name == "axis") return axis(execution).draw(box, pixel, RoadmapInk::one, execution);
   if (name == "search") {
-    return roadmap(execution).draw(box, pixel, search_inks, from_start(from, execution)->inks, execution);
+    return from_start(from, execution, [&](const StartDistances& made) {
+      return roadmap(execution).draw(box, pixel, search_inks, made.inks, execution);
+    });
   }
   if (const LatticePassages* passages = world_.passages(execution)) {
     return draw_passages(*passages, box, pixel, execution);

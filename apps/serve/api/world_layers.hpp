@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -47,8 +48,9 @@ class WorldLayers {
 
  private:
   void refuse_missing(std::string_view name) const;
-  MadeByName<StartDistances>::Lease from_start(const std::optional<std::vector<double>>& from,
-                                               const Execution& execution) const;
+  template <class Use>
+  std::string from_start(const std::optional<std::vector<double>>& from, const Execution& execution,
+                         const Use& use) const;
   const RoadmapLayer& roadmap(const Execution& execution) const;
   std::uint64_t passages(const Execution& execution) const;
   const ClearanceLayer& clearance(const Execution& execution) const;
@@ -62,7 +64,7 @@ class WorldLayers {
   MadeOnce<RoadmapArrays> axis_arrays_;
   MadeOnce<RoadmapLayer> axis_;
   std::size_t bytes_a_start_;
-  mutable MadeByName<StartDistances> starts_;
+  mutable KeptValues<std::unique_ptr<MadeOnce<StartDistances>>> starts_;
 };
 
 }  // namespace warren::serve

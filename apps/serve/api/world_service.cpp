@@ -70,8 +70,7 @@ std::string RunningQuestions::told(const std::string& name, std::uint64_t from) 
     return true;
   });
   if (!is_running) return "{\"running\":false}";
-  std::string list;
-  for (const Told& one : fresh) {
+  const auto told_json = [](const Told& one) {
     JsonObject json;
     json.add("iterations", one.improvement.iterations);
     json.add("seconds", one.improvement.seconds);
@@ -80,12 +79,12 @@ std::string RunningQuestions::told(const std::string& name, std::uint64_t from) 
     json.add("by", std::string_view(one.improvement.by));
     json.add_or_null("lower_bound", one.improvement.lower_bound > 0.0, one.improvement.lower_bound);
     json.add_json("chains", json_chains({one.way}, {}));
-    list += (list.empty() ? "" : ", ") + json.closed();
-  }
+    return json.closed();
+  };
   JsonObject json;
   json.add("running", true);
   json.add("first", first);
-  json.add_json("improvements", "[" + list + "]");
+  json.add_json("improvements", json_list_of(fresh, ", ", told_json));
   return json.closed();
 }
 
@@ -99,14 +98,12 @@ std::size_t sample_count(const HttpRequest& request) {
   throw HttpError(400, "bad_request", "query", "samples: expected a whole number, 2 to 2000");
 }
 
+std::string place_json(Vec2 at) { return json_list(std::span<const double>(std::array{at.x, at.y})); }
+
 /// What is drawn of a body: corners, or the radius of one that has none.
 void add_outline(JsonObject& json, const RobotSpec& robot) {
-  std::string outline;
-  for (const Vec2 corner : robot.outline) {
-    outline += (outline.empty() ? "" : ",") + json_list(std::span<const double>(std::array{corner.x, corner.y}));
-  }
   json.add("radius", robot.outline.empty() ? robot.radius : 0.0);
-  json.add_json("outline", "[" + outline + "]");
+  json.add_json("outline", json_list_of(robot.outline, ",", place_json));
 }
 
 // What a service says of its world and of itself.
@@ -126,7 +123,7 @@ std::string tiles_json(const TileGrid& grid, const std::string& hash) {
   json.add("url", "v/" + hash + "/tiles/{z}/{x}/{y}.png");
   json.add("pixels", std::uint32_t{TileGrid::pixels});
   json.add("levels", std::uint32_t{grid.levels});
-  json.add_json("corner", json_list(std::span<const double>(std::array{grid.corner.x, grid.corner.y})));
+  json.add_json("corner", place_json(grid.corner));
   json.add("span", grid.span);
   return json.closed();
 }
@@ -166,9 +163,8 @@ std::string ground_json(const ServedWorld& world, const Question& body, const Ex
   constexpr std::size_t most_points = 300'000;
   const Scene& outline = world.outline();
   const double radius = body.robot->outline.empty() ? body.robot->radius : 0.0;
-  std::string text;
   std::size_t points = 0;
-  for (const PictureLayer& layer : price_layers(prices_of(outline, body), outline.map, radius, execution)) {
+  const auto layer_json = [&](const PictureLayer& layer) {
     std::vector<std::vector<Vec2>> chains;
     points += layer.lines.corners.size();
     for (std::size_t i = 0; i < layer.lines.size() && points <= most_points; ++i)
@@ -178,9 +174,9 @@ std::string ground_json(const ServedWorld& world, const Question& body, const Ex
     json.add("color", css_color(layer.fill.value_or(layer.color)));
     json.add("opacity", layer.opacity);
     json.add_json("chains", json_chains(chains, execution));
-    text += (text.empty() ? "" : ",") + json.closed();
-  }
-  return "[" + text + "]";
+    return json.closed();
+  };
+  return json_list_of(price_layers(prices_of(outline, body), outline.map, radius, execution), ",", layer_json);
 }
 
 std::string description_json(const ServedWorld& world, const Question& body, const WorldLayers& layers,
@@ -209,9 +205,7 @@ std::string description_json(const ServedWorld& world, const Question& body, con
   json.add("writable", is_writable && !outline.map);
   json.add("cells_writable", is_writable && outline.map.has_value());
   json.add("wants_token", limits.wants_token);
-  std::string options;
-  for (const std::string& word : limits.options) options += (options.empty() ? "" : ",") + json_string(word);
-  json.add_json("options", "[" + options + "]");
+  json.add_json("options", json_list(std::span(limits.options)));
   json.add_json("tiles", tiles_json(world.tiles().grid(), world.hash()));
   json.add_json("layers", layers.json(*body.robot));
   json.add_json("ground", ground_json(world, body, execution));
@@ -341,31 +335,28 @@ HttpResponse PathService::clearance(const KeptPath& kept, const HttpRequest& req
   if (!world_.is_own(way.problem.robot, world_.clearance())) {
     other.emplace(world_.barred(execution), world_.box(), way.problem.robot, world_.clearance());
   }
-  std::string text;
-  for (const PathPlace& place : places_along(way, count, execution)) {
+  const auto place_told = [&](const PathPlace& place) {
     execution.check();
     const double clearance = world_.clearance_at(place.state.used(), execution, other ? &*other : nullptr);
     JsonObject told;
     told.add("along", place.along);
     told.add_json("at", json_list(place.state.used()));
     told.add_or_null("clearance", std::isfinite(clearance), clearance);
-    text += (text.empty() ? "" : ",") + told.closed();
-  }
+    return told.closed();
+  };
   JsonObject json;
   json.add("length", kept.way.length);
   json.add_or_null("min_clearance", std::isfinite(kept.way.min_clearance), kept.way.min_clearance);
-  json.add_json("places", "[" + text + "]");
+  json.add_json("places", json_list_of(places_along(way, count, execution), ",", place_told));
   return {.body = json.closed() + "\n"};
 }
 
 HttpResponse PathService::sweep(const KeptPath& kept, const HttpRequest& request, const Execution& execution) const {
   const SweptBodies bodies = swept_bodies(kept.way, kept.curve, view_of(request), execution);
-  std::string places;
-  for (const PathState& place : bodies.places) places += (places.empty() ? "" : ",") + json_list(place.used());
   JsonObject json;
   add_outline(json, kept.way.problem.robot);
   json.add("apart", bodies.apart);
-  json.add_json("places", "[" + places + "]");
+  json.add_json("places", json_list_of(bodies.places, ",", [](const PathState& at) { return json_list(at.used()); }));
   return {.body = json.closed() + "\n"};
 }
 
@@ -592,30 +583,30 @@ HttpResponse WorldService::metrics(const HttpFigures& figures) const {
 }
 
 WritableService::WritableService(std::unique_ptr<ServedWorld> world, const ServiceLimits& limits, std::string token)
-    : limits_(limits),
-      token_(std::move(token)),
-      current_(std::make_unique<Version>(std::move(world), limits, limits.writable ? &kept_ : nullptr)) {}
+    : limits_(limits), token_(std::move(token)) {
+  versions_.put("", std::make_unique<Version>(std::move(world), limits, limits.writable ? &kept_ : nullptr), 0);
+}
 
 std::size_t WritableService::most_body(const HttpRequest& head) const {
-  if (!limits_.writable || !is_update(head)) return current_.now()->service.most_body(head);
+  if (!limits_.writable || !is_update(head)) return (*now())->service.most_body(head);
   check_token(head);
   return limits_.batch_body;
 }
 
 std::optional<HttpResponse> WritableService::at_once(const HttpRequest& request, const HttpFigures& figures) {
   if (is_update(request)) return std::nullopt;
-  return current_.now()->service.at_once(request, figures);
+  return (*now())->service.at_once(request, figures);
 }
 
 HttpResponse WritableService::work(const HttpRequest& request, const SignalFlag& gone) {
-  if (!is_update(request)) return current_.now()->service.work(request, gone);
+  if (!is_update(request)) return (*now())->service.work(request, gone);
   check_token(request);
   const Deadline deadline(limits_.budget_s, limits_.memory_bytes, &gone);
   const Execution execution{.threads = limits_.threads, .deadline = &deadline};
   return update(request, execution);
 }
 
-void WritableService::prepare(const SignalFlag& gone) { current_.now()->service.prepare(gone); }
+void WritableService::prepare(const SignalFlag& gone) { (*now())->service.prepare(gone); }
 
 void WritableService::check_token(const HttpRequest& request) const {
   if (token_.empty() || is_same_secret(request.authorization, "Bearer " + token_)) return;
@@ -625,21 +616,26 @@ void WritableService::check_token(const HttpRequest& request) const {
 
 HttpResponse WritableService::update(const HttpRequest& request, const Execution& execution) {
   const SceneChange wanted = read_scene_change(request.body, execution);
-  CurrentValue<Version>::Change change(current_);
-  if (!change.is_mine()) return busy_response("somebody else changes the world now; try again");
-  const auto before = current_.now();
-  if (const std::string_view why = before->world->why_fixed(); !why.empty()) throw UsageError(std::string(why));
-  const Scene& scene = before->world->whole(execution);
+  HttpResponse said;
+  if (changing_.unless_busy([&] { said = change(wanted, execution); })) return said;
+  return busy_response("somebody else changes the world now; try again");
+}
+
+HttpResponse WritableService::change(const SceneChange& wanted, const Execution& execution) {
+  const Versions::Lease held = now();
+  const ServedWorld& before = *(*held)->world;
+  if (const std::string_view why = before.why_fixed(); !why.empty()) throw UsageError(std::string(why));
+  const Scene& scene = before.whole(execution);
   if (scene.maze) maze_ = scene.maze;
-  ChangedScene now = changed(scene, wanted, maze_, execution);
-  auto next = std::make_unique<Version>(before->world->changed(std::move(now.scene), execution), limits_, &kept_);
+  ChangedScene made = changed(scene, wanted, maze_, execution);
+  auto next = std::make_unique<Version>(before.changed(std::move(made.scene), execution), limits_, &kept_);
   JsonObject json;
   json.add("schema", "warren.change/1");
-  json.add("before", std::string_view(before->world->hash()));
+  json.add("before", std::string_view(before.hash()));
   json.add("hash", std::string_view(next->world->hash()));
-  tell_change(json, now);
+  tell_change(json, made);
   execution.check();
-  change.replace(std::move(next));
+  versions_.put("", std::move(next), 0);
   return {.body = json.closed() + "\n"};
 }
 

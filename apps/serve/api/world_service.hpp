@@ -28,6 +28,8 @@
 
 namespace warren::serve {
 
+struct SceneChange;  // apps/serve/api/request_bodies_io.hpp
+
 // Questions that are being answered, by the names that their askers gave them, and each better path of planners that
 // get better with time: whoever waits for the answer sees what there is already.
 
@@ -173,14 +175,19 @@ class WritableService : public HttpService {
     std::unique_ptr<ServedWorld> world;
     WorldService service;
   };
+  using Versions = KeptValues<std::unique_ptr<Version>>;  // the current one is kept; the others are leased
+
+  Versions::Lease now() const { return versions_.find(""); }
   void check_token(const HttpRequest& request) const;
   HttpResponse update(const HttpRequest& request, const Execution& execution);
+  HttpResponse change(const SceneChange& wanted, const Execution& execution);
 
   const ServiceLimits limits_;
   const std::string token_;
   std::optional<MazeHint> maze_;  // what the walls were of; of whoever changes the world
   LatestWays kept_;
-  mutable CurrentValue<Version> current_;
+  mutable Versions versions_{1};
+  OneAtATime changing_;
 };
 
 }  // namespace warren::serve

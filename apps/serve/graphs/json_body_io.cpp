@@ -75,6 +75,18 @@ const OrderedJson& list_of(const OrderedJson& json, const std::string& where, st
   return json;
 }
 
+void take_keys(const OrderedJson& json, const std::string& where, std::initializer_list<JsonKey> keys,
+               std::string names) {
+  for (const auto& [key, value] : json.items()) {
+    const auto known = std::ranges::find(keys, std::string_view(key), &JsonKey::name);
+    if (known == keys.end() && names.empty()) {
+      for (const JsonKey& one : keys) names.append(names.empty() ? "" : ", ").append(one.name);
+    }
+    if (known == keys.end()) refuse_json(where, "the keys " + names);
+    known->take(value, key);
+  }
+}
+
 const OrderedJson* member(const OrderedJson& json, const char* key) {
   const auto found = json.find(key);
   return found == json.end() || found->is_null() ? nullptr : &*found;

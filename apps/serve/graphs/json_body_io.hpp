@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -23,6 +25,21 @@ OrderedJson json_object_of(std::string_view text, std::size_t deepest, const Exe
 double finite_number(const OrderedJson& json, const std::string& where);
 std::uint64_t whole_number(const OrderedJson& json, const std::string& where, std::uint64_t most);
 const OrderedJson& list_of(const OrderedJson& json, const std::string& where, std::size_t most);
+
+/// A key that an object may have, and what takes its value.
+struct JsonKey {
+  std::string_view name;
+  std::function<void(const OrderedJson& value, const std::string& key)> take;
+};
+/// What takes a value: `to` becomes what read(value, key) says.
+template <class T, class Read>
+auto into(T& to, Read read) {
+  return [&to, read](const OrderedJson& value, const std::string& key) { to = read(value, key); };
+}
+/// All that an object has, in its order. Throws HttpError that names `where` and the keys for any other; names: them in
+/// other words.
+void take_keys(const OrderedJson& json, const std::string& where, std::initializer_list<JsonKey> keys,
+               std::string names = {});
 
 /// nullptr where there is no such key, or it is null.
 const OrderedJson* member(const OrderedJson& json, const char* key);

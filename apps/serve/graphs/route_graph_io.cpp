@@ -51,12 +51,6 @@ std::string verdict_json(const EdgeVerdict& verdict) {
   return json.closed();
 }
 
-std::string list_of_verdicts(const std::vector<EdgeVerdict>& verdicts) {
-  std::string text = "[";
-  for (const EdgeVerdict& verdict : verdicts) text.append(text.size() > 1 ? ",\n" : "").append(verdict_json(verdict));
-  return text + "]";
-}
-
 std::string node_json(const RouteNode& node) {
   JsonObject json;
   json.add("id", node.id);
@@ -266,21 +260,19 @@ GraphOptions read_graph_options(std::string_view text) {
   constexpr std::uint64_t most = std::uint64_t{1} << 31U;
   GraphOptions options;
   const OrderedJson json = json_object_of(text, deepest_json, {});
-  for (const auto& [key, value] : json.items()) {
-    if (key == "kind") {
-      const auto kind = value.is_string() ? enum_named<GraphKind>(value.get<std::string>()) : std::nullopt;
-      if (!kind) refuse_json("kind", "\"axis\" or \"roadmap\"");
-      options.kind = *kind;
-    } else if (key == "samples") {
-      options.samples = whole_number(value, key, most);
-    } else if (key == "neighbours") {
-      options.neighbours = static_cast<std::uint32_t>(whole_number(value, key, most));
-    } else if (key == "seed") {
-      options.seed = whole_number(value, key, std::numeric_limits<std::uint64_t>::max());
-    } else {
-      refuse_json("body", "the keys kind, samples, neighbours, seed");
-    }
-  }
+  const auto kind_of = [](const OrderedJson& value, const std::string& key) {
+    const auto kind = value.is_string() ? enum_named<GraphKind>(value.get<std::string>()) : std::nullopt;
+    if (!kind) refuse_json(key, "\"axis\" or \"roadmap\"");
+    return *kind;
+  };
+  const auto up_to = [](std::uint64_t largest) {
+    return [=](const OrderedJson& value, const std::string& key) { return whole_number(value, key, largest); };
+  };
+  take_keys(json, "body",
+            {{"kind", into(options.kind, kind_of)},
+             {"samples", into(options.samples, up_to(most))},
+             {"neighbours", into(options.neighbours, up_to(most))},
+             {"seed", into(options.seed, up_to(std::numeric_limits<std::uint64_t>::max()))}});
   return options;
 }
 
@@ -295,18 +287,13 @@ std::vector<DrawnEdge> read_drawn_edges(std::string_view text, const Execution& 
 
 std::string verdicts_json(const std::vector<EdgeVerdict>& verdicts) {
   JsonObject json;
-  json.add_json("edges", list_of_verdicts(verdicts));
+  json.add_json("edges", json_list_of(verdicts, ",\n", verdict_json));
   return json.closed() + "\n";
 }
 
 std::string graph_json(const RouteGraph& graph, const std::vector<EdgeVerdict>& verdicts, const Execution& execution) {
   const auto list = [&](const auto& items, auto json_of_item) {
-    std::string text = "[";
-    for (const auto& item : items) {
-      execution.check();
-      text.append(text.size() > 1 ? ",\n" : "").append(json_of_item(item));
-    }
-    return text + "]";
+    return json_list_of(items, ",\n", [&](const auto& item) { return execution.check(), json_of_item(item); });
   };
   JsonObject json;
   json.add("schema", "warren.graph/1");
@@ -315,7 +302,7 @@ std::string graph_json(const RouteGraph& graph, const std::vector<EdgeVerdict>& 
   if (graph.more != "{}") json.add("more", std::string_view(graph.more));
   json.add_json("nodes", list(graph.nodes, node_json));
   json.add_json("edges", list(graph.edges, edge_json));
-  json.add_json("verdicts", list_of_verdicts(verdicts));
+  json.add_json("verdicts", json_list_of(verdicts, ",\n", verdict_json));
   return json.closed() + "\n";
 }
 

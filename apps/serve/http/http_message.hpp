@@ -37,8 +37,8 @@ struct HttpError : TextError {
   HttpError(unsigned status_code, std::string_view short_code, std::string_view place, std::string_view message)
       : TextError(message), status(status_code), code(short_code), where(place) {}
   unsigned status;
-  std::string_view code;   ///< a literal: "not_found"
-  std::string_view where;  ///< a literal: "path", "Host"; may be empty
+  std::string_view code;  ///< a literal: "not_found"
+  std::string where;      ///< "path", "Host", or a key of the body that is gone by then; may be empty
 };
 
 /// The same as an answer.

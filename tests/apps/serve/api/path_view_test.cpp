@@ -130,7 +130,7 @@ TEST(PathView, ArcsOfCarsAreChords) {
   answer.path = {{0, 0}, {2, 2}};
   const Path<Vec2> curve = curve_of(answer, {});
   EXPECT_GT(curve.size(), 15U);
-  for (const Vec2 p : curve) EXPECT_NEAR(distance(p, {0, 2}), 2.0, 1e-9);
+  for (const Vec2 p : curve) EXPECT_NEAR(distance(p, Vec2{0.0, 2.0}), 2.0, 1e-9);
 }
 
 }  // namespace

@@ -114,6 +114,22 @@ TEST(QueryBody, ARefusalSaysWhatIsExpected) {
   }
 }
 
+TEST(QueryBody, ARefusalHoldsItsPlaceWhenTheBodyIsGone) {
+  const std::pair<const char*, std::string> cases[] = {
+      {R"({"stretch": "x"})", "stretch"},    {R"({"goal_tolerance": "far"})", "goal_tolerance"},
+      {R"({"prices": [2]})", "prices[0]"},   {R"({"goals": [[0, 0], 2]})", "goals[1]"},
+      {R"({"visit": [["x"]]})", "visit[0]"}, {R"({"return": 1})", "return"},
+  };
+  for (const auto& [text, where] : cases) {
+    try {
+      read_query_body(text);
+      ADD_FAILURE() << text;
+    } catch (const HttpError& error) {
+      EXPECT_EQ(error.where, where) << text;
+    }
+  }
+}
+
 TEST(QueryBody, NestingIsOfTheDeepestLineAndNotOfTexts) {
   EXPECT_EQ(nesting_of(""), 0U);
   EXPECT_EQ(nesting_of("{\"a\": [1]}"), 2U);
