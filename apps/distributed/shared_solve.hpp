@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What `warren-mpi` does on each rank. `solve`: the words of `warren solve`, for mazes of mst that are made tile by
-// tile, by all ranks together. `scale` (shared_scale.cpp): what the clock, the processors, the wire and each rank's
+// tile, by all ranks together. `scale` (shared_scale_io.cpp): what the clock, the processors, the wire and each rank's
 // memory take of it.
 #pragma once
 

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Boost.Graph's searches on the same graph with the same numbering, the peer of `warren compare --peer boost`: its
 // compressed rows, edge lengths in an array, maps allocated once. A visitor ends each search at the goal by throwing,
-// as Boost's own example of A* does; its priority queue is Boost's indirect 4-ary heap. A build without Boost.Graph has
-// no such peer.
+// as Boost's own example of A* does; its priority queue is Boost's indirect 4-ary heap.
 #include "apps/studies/search_graph.hpp"
 
-#if __has_include(<boost/graph/astar_search.hpp>)
 #include <algorithm>
 #include <boost/graph/astar_search.hpp>
 #include <boost/graph/breadth_first_search.hpp>
@@ -170,23 +168,8 @@ class BoostSearch : public GraphSearch {
 
 }  // namespace
 
-bool has_boost_graph() { return true; }
-
 std::unique_ptr<GraphSearch> boost_search(const SearchGraph& graph, SearchKind search) {
   return std::make_unique<BoostSearch>(graph, search);
 }
 
 }  // namespace warren::studies
-#else
-#include "core/base/error.hpp"
-
-namespace warren::studies {
-
-bool has_boost_graph() { return false; }
-
-std::unique_ptr<GraphSearch> boost_search(const SearchGraph&, SearchKind) {
-  throw UsageError("@peer: this program was built without Boost.Graph (install libboost-dev and build it again)");
-}
-
-}  // namespace warren::studies
-#endif

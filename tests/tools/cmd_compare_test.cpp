@@ -8,7 +8,6 @@
 #include <set>
 #include <sstream>
 
-#include "apps/studies/search_graph.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "tests/paths.hpp"
 #include "tests/tools/compared.hpp"
@@ -137,14 +136,8 @@ TEST(Compare, OfTheSummaryEverySearchHasALine) {
   }
 }
 
-TEST(Compare, ThePeerIsComparedOrSaidToBeMissing) {
+TEST(Compare, ThePeerIsCompared) {
   const ProgramRun run = run_program("compare maze:15x15,loops=0.2 --peer boost --trials 2 --quiet --json - 2>&1");
-  if (!studies::has_boost_graph()) {
-    EXPECT_EQ(run.exit_code, 2);
-    EXPECT_NE(run.out.find("--peer"), std::string::npos);
-    EXPECT_EQ(run.out.find('\n'), run.out.size() - 1);
-    return;
-  }
   ASSERT_EQ(run.exit_code, 0) << run.out;
   std::map<std::string, double> lengths;
   std::set<std::string> peers;

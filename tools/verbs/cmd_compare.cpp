@@ -353,8 +353,6 @@ std::vector<studies::SearchVariant> variants_of(const Arguments& arguments) {
     if (peer) variants.push_back({search, std::nullopt, studies::SearchLibrary::boost});
   }
   if (!any_queue) arguments.refuse({"--queues"}, "bfs and dfs have no priority queue; astar and dijkstra take one");
-  if (peer && !studies::has_boost_graph())
-    studies::graph_search({}, {SearchKind::bfs, std::nullopt, studies::SearchLibrary::boost});  // says so
   return variants;
 }
 

@@ -1,15 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `warren-mpi scale`: the same maze by more and more ranks (strong), and mazes that grow with them (weak).
+// `warren-mpi scale`: the same maze by more and more ranks (strong), and mazes that grow with them (weak). What was
+// measured becomes a table for people and JSON (warren.ranks/1).
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstdint>
 #include <limits>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "apps/distributed/leader_follower.hpp"
 #include "apps/distributed/rank_protocol.hpp"
-#include "apps/distributed/ranks_report_io.hpp"
 #include "apps/distributed/shared_solve.hpp"
 #include "apps/studies/machine.hpp"
+#include "apps/studies/study_report.hpp"
+#include "core/base/enum_names.hpp"
 #include "scenes/mazes/maze_generator.hpp"
+#include "scenes/text/human_units.hpp"
 #include "solve/streamed/solve_streamed.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
@@ -30,6 +42,84 @@ constexpr tools::OptionSpec scale_specs[] = {
      "numbers of ranks, separated by commas, at most those that mpirun has started (default: 1 and all)"},
     {"--json", "FILE", "write warren.ranks/1; - is standard output"},
 };
+
+/// What a rank has used in one run.
+struct RankUse {
+  double cpu_s;
+  std::uint64_t bytes_sent, peak_bytes;
+};
+
+struct RanksRun {
+  bool is_strong;  ///< the same maze by more ranks; else one that grows with them
+  std::uint32_t ranks, rows, cols;
+  double length = 0.0;
+  double seconds = 0.0;
+  std::vector<RankUse> used = {};                         ///< by rank
+  std::array<std::uint64_t, request_count> traffic = {};  ///< bytes, by what was asked
+
+  double cells() const { return static_cast<double>(rows) * cols; }
+  std::string_view scaling() const { return is_strong ? "strong" : "weak"; }
+  double cpu_s() const {
+    double sum = 0.0;
+    for (const RankUse& rank : used) sum += rank.cpu_s;
+    return sum;
+  }
+  std::uint64_t bytes_sent() const {
+    std::uint64_t sum = 0;
+    for (const RankUse& rank : used) sum += rank.bytes_sent;
+    return sum;
+  }
+  /// Of the rank that held most.
+  std::uint64_t peak_bytes() const {
+    std::uint64_t most = 0;
+    for (const RankUse& rank : used) most = std::max(most, rank.peak_bytes);
+    return most;
+  }
+};
+
+studies::TextTable ranks_table(std::span<const RanksRun> runs) {
+  studies::TextTable table{
+      {"scaling", "ranks", "maze", "clock", "CPU", "CPU a cell", "of 1 rank", "sent a cell", "peak a rank"}, 1, {}};
+  for (const RanksRun& run : runs) {
+    const auto first =
+        std::find_if(runs.begin(), runs.end(), [&](const RanksRun& r) { return r.is_strong == run.is_strong; });
+    const double cpu_ns = 1e9 * run.cpu_s() / run.cells();
+    table.rows.push_back({std::string(run.scaling()), std::to_string(run.ranks),
+                          fmt::format("{}x{}", run.rows, run.cols), fmt::format("{:.2f} s", run.seconds),
+                          fmt::format("{:.2f} s", run.cpu_s()), fmt::format("{:.2f} ns", cpu_ns),
+                          fmt::format("{:.3f}", cpu_ns / (1e9 * first->cpu_s() / first->cells())),
+                          fmt::format("{:.4f} B", static_cast<double>(run.bytes_sent()) / run.cells()),
+                          human_bytes(static_cast<double>(run.peak_bytes()))});
+  }
+  return table;
+}
+
+std::string ranks_json(std::span<const RanksRun> runs, const MazeOptions& mazes, unsigned threads) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const RanksRun& run : runs) {
+    nlohmann::ordered_json ranks = nlohmann::ordered_json::array();
+    for (const RankUse& used : run.used) {
+      ranks.push_back({{"cpu_s", used.cpu_s}, {"bytes_sent", used.bytes_sent}, {"peak_memory_bytes", used.peak_bytes}});
+    }
+    nlohmann::ordered_json traffic = nlohmann::ordered_json::object();
+    for (std::size_t i = 0; i < request_count; ++i) {
+      if (run.traffic[i] > 0) traffic[std::string(name_of(static_cast<Request>(i)))] = run.traffic[i];
+    }
+    list.push_back({{"scaling", run.scaling()},
+                    {"ranks", run.ranks},
+                    {"rows", run.rows},
+                    {"cols", run.cols},
+                    {"length", run.length},
+                    {"clock_s", run.seconds},
+                    {"cpu_s", run.cpu_s()},
+                    {"bytes_sent", run.bytes_sent()},
+                    {"bytes_by_request", traffic},
+                    {"by_rank", ranks}});
+  }
+  const nlohmann::ordered_json whole{
+      {"schema", "warren.ranks/1"}, {"seed", mazes.seed}, {"loops", mazes.loops}, {"threads", threads}, {"runs", list}};
+  return whole.dump(2) + "\n";
+}
 
 /// The first ranks of a run, as if they were all.
 class FirstRanks : public Transport {
@@ -155,9 +245,7 @@ int lead(const tools::Arguments& arguments, Transport& transport) {
     }
   }
   run.end();
-  tools::write_report(arguments, "--json", [&] {
-    return ranks_json(runs, {mazes.made.seed, mazes.made.loops, run.threads()});
-  });
+  tools::write_report(arguments, "--json", [&] { return ranks_json(runs, mazes.made, run.threads()); });
   if (arguments.value("--json") != "-" && !run.quiet()) tools::print_text(ranks_table(runs).text(run.palette()));
   return tools::exit_code::success;
 }
