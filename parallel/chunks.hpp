@@ -70,6 +70,29 @@ auto sum_of_chunks(std::size_t n, std::size_t grain, const Execution& execution,
   return std::accumulate(parts.begin(), parts.end(), decltype(count(Range{})){0});
 }
 
+/// The first of n for which there is one in first_in(Range), which gives the end of its range where it finds none; n
+/// where no chunk has one.
+template <class FirstIn>
+std::size_t first_in_chunks(std::size_t n, std::size_t grain, const Execution& execution, const FirstIn& first_in) {
+  std::vector<std::size_t> firsts(chunk_count(n, grain), n);
+  for_chunks(n, grain, execution, [&](Range r) {
+    const std::size_t i = first_in(r);
+    if (i < r.last) firsts[r.first / grain] = i;
+  });
+  const auto found = std::find_if(firsts.begin(), firsts.end(), [n](std::size_t i) { return i < n; });
+  return found == firsts.end() ? n : *found;
+}
+
+/// The same where each index is asked by itself: is_one(index).
+template <class IsOne>
+std::size_t first_that(std::size_t n, std::size_t grain, const Execution& execution, const IsOne& is_one) {
+  return first_in_chunks(n, grain, execution, [&](Range r) {
+    std::size_t i = r.first;
+    while (i < r.last && !is_one(i)) ++i;
+    return i;
+  });
+}
+
 /// Calls both, at the same time where execution.threads and the system allow it, and returns when both are done. Throws
 /// what one of them throws; the other may then not have begun.
 template <class First, class Second>

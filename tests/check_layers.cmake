@@ -104,7 +104,7 @@ set(texts "^(scenes|worlds|verify|solve|pictures|apps)/")
 only(tbb "#include <(oneapi/)?tbb/" "^parallel/[a-z_]*[.]cpp$")
 only(nanoflann "#include <nanoflann" "^(spatial/points/kd_tree[.]cpp$|bench/|tests/)")
 only(xxhash "#include <xxh" "^solve/kept/checksum[.]cpp$")
-only(boost "#include <boost/" "${above}|^apps/studies/boost_search[.]cpp$|^apps/studies/statistics[.]cpp$|^planners/axis/medial_axis[.]cpp$|${sockets}")
+only(boost "#include <boost/" "${above}|^apps/studies/boost_search[.]cpp$|^apps/studies/statistics[.]cpp$|^planners/axis/medial_axis[.]cpp$|^verify/exact/exact_segments[.]cpp$|${sockets}")
 only(sockets "#include <(sys/socket|netinet/[a-z]*|netdb)[.]h>|boost/(asio|beast)" "${sockets}|^tests/")
 only(threads "#include <(thread|mutex|shared_mutex|atomic|barrier|latch|semaphore|condition_variable|future|stop_token)>"
      "^(core/run|parallel|planners/graph|apps/serve/http|tests)/")

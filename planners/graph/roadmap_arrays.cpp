@@ -17,28 +17,6 @@ namespace {
 
 constexpr std::size_t parts_grain = std::size_t{1} << 14;
 
-/// The first of n for which first_bad(range), the range's first or its end, says that there is one; else n.
-template <class FirstBad>
-std::size_t first_in_chunks(std::size_t n, const Execution& execution, const FirstBad& first_bad) {
-  std::vector<std::size_t> bad(chunk_count(n, parts_grain), n);
-  for_chunks(n, parts_grain, execution, [&](Range r) {
-    const std::size_t i = first_bad(r);
-    if (i < r.last) bad[r.first / parts_grain] = i;
-  });
-  const auto found = std::find_if(bad.begin(), bad.end(), [n](std::size_t i) { return i < n; });
-  return found == bad.end() ? n : *found;
-}
-
-/// The same where each element is asked by itself.
-template <class IsBad>
-std::size_t first_that(std::size_t n, const Execution& execution, const IsBad& is_bad) {
-  return first_in_chunks(n, execution, [&](Range r) {
-    std::size_t i = r.first;
-    while (i < r.last && !is_bad(i)) ++i;
-    return i;
-  });
-}
-
 class PartsCheck {
  public:
   PartsCheck(const RoadmapParts& parts, const std::string& where, const Execution& execution)
@@ -75,7 +53,7 @@ class PartsCheck {
   }
   void check_states() const {
     const auto states = parts_.states;
-    const std::size_t bad = first_in_chunks(states.size(), execution_, [&](Range r) {
+    const std::size_t bad = first_in_chunks(states.size(), parts_grain, execution_, [&](Range r) {
       const auto part = states.subspan(r.first, r.size());
       bool all = true;  // without a branch an element: memory speed
       for (const double x : part) all &= std::abs(x) <= largest_coordinate;
@@ -89,8 +67,9 @@ class PartsCheck {
   }
   void check_headings() const {
     const std::size_t n = parts_.vertex_count();
-    const std::size_t bad =
-        first_that(n, execution_, [&](std::size_t v) { return std::abs(parts_.states[3 * v + 2]) > largest_heading; });
+    const std::size_t bad = first_that(n, parts_grain, execution_, [&](std::size_t v) {
+      return std::abs(parts_.states[3 * v + 2]) > largest_heading;
+    });
     if (bad == n) return;
     fail("states[" + number(3 * bad + 2) + "]", "expected a heading of at most 1000 rad",
          std::to_string(parts_.states[3 * bad + 2]));
@@ -103,7 +82,7 @@ class PartsCheck {
     const auto first = parts_.first;
     if (first.front() != 0) fail("first[0]", "expected 0", number(first.front()));
     const std::size_t bad =
-        first_that(first.size() - 1, execution_, [&](std::size_t v) { return first[v] > first[v + 1]; });
+        first_that(first.size() - 1, parts_grain, execution_, [&](std::size_t v) { return first[v] > first[v + 1]; });
     if (bad == first.size() - 1) return;
     fail("first[" + number(bad + 1) + "]", "expected no less than " + number(first[bad]), number(first[bad + 1]));
   }
@@ -128,7 +107,7 @@ class PartsCheck {
   void check_rows() const {
     const std::size_t n = parts_.vertex_count();
     const std::size_t bad =
-        first_that(n, execution_, [&](std::size_t v) { return !is_sound_row(static_cast<VertexId>(v)); });
+        first_that(n, parts_grain, execution_, [&](std::size_t v) { return !is_sound_row(static_cast<VertexId>(v)); });
     if (bad == n) return;
     for (std::size_t end = parts_.first[bad]; end < parts_.first[bad + 1]; ++end) {
       const std::string place = "to[" + number(end) + "]";
@@ -144,7 +123,7 @@ class PartsCheck {
   void check_edge_states() const {
     constexpr std::uint64_t low_bits = 0x5555555555555555U;
     const auto words = parts_.edge_states;
-    const std::size_t bad = first_that(words.size(), execution_,
+    const std::size_t bad = first_that(words.size(), parts_grain, execution_,
                                        [&](std::size_t i) { return (words[i] & words[i] >> 1U & low_bits) != 0; });
     if (bad != words.size()) {
       const int bit = std::countr_zero(words[bad] & words[bad] >> 1U & low_bits);
@@ -183,7 +162,7 @@ class PartsCheck {
   void check_twins() const {
     const std::size_t n = parts_.vertex_count();
     std::vector<std::size_t> uppers(chunk_count(n, parts_grain), 0);
-    const std::size_t bad = first_in_chunks(n, execution_, [&](Range r) {
+    const std::size_t bad = first_in_chunks(n, parts_grain, execution_, [&](Range r) {
       std::size_t count = 0;
       for (std::size_t i = r.first; i < r.last; ++i) {
         const auto v = static_cast<VertexId>(i);
@@ -196,7 +175,7 @@ class PartsCheck {
     });
     if (bad != n) fail_twin(static_cast<VertexId>(bad));
     if (2 * std::accumulate(uppers.begin(), uppers.end(), std::size_t{0}) == parts_.to.size()) return;
-    const std::size_t lower = first_that(n, execution_, [&](std::size_t i) {
+    const std::size_t lower = first_that(n, parts_grain, execution_, [&](std::size_t i) {
       return !has_all_twins(static_cast<VertexId>(i), parts_.first[i], parts_.first[i + 1]);
     });
     fail_twin(static_cast<VertexId>(lower));
@@ -214,7 +193,7 @@ class PartsCheck {
     const std::size_t n = parts_.vertex_count();
     const RawVector<VertexId> expected = free_components(parts_, execution_);
     const std::size_t bad =
-        first_that(n, execution_, [&](std::size_t v) { return expected[v] != parts_.component[v]; });
+        first_that(n, parts_grain, execution_, [&](std::size_t v) { return expected[v] != parts_.component[v]; });
     if (bad == n) return;
     fail("component[" + number(bad) + "]",
          "expected the smallest vertex that free edges lead to, " + number(expected[bad]),

@@ -10,7 +10,6 @@
 #include <cmath>
 #include <limits>
 #include <span>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
@@ -151,17 +150,13 @@ RawVector<std::uint8_t> open_directions(const MazeCells& cells, const Execution&
 
 std::optional<std::size_t> first_wall_off_grid(const WallSet& walls, MazeHint hint, const Execution& execution) {
   return walls.visit([&](auto span) -> std::optional<std::size_t> {
-    std::vector<std::size_t> firsts(chunk_count(span.size(), flood_grain), span.size());
-    for_chunks(span.size(), flood_grain, execution, [&](Range r) {
-      const auto part = span.subspan(r.first, r.size());
-      if (all_on_grid_exactly(part, hint)) return;
-      std::size_t i = 0;
-      while (all_on_grid_exactly(part.subspan(i, 1), hint)) ++i;
-      firsts[r.first / flood_grain] = r.first + i;
+    const std::size_t first = first_in_chunks(span.size(), flood_grain, execution, [&](Range r) {
+      if (all_on_grid_exactly(span.subspan(r.first, r.size()), hint)) return r.last;
+      std::size_t i = r.first;
+      while (all_on_grid_exactly(span.subspan(i, 1), hint)) ++i;
+      return i;
     });
-    const auto first = std::find_if(firsts.begin(), firsts.end(), [&](std::size_t i) { return i < span.size(); });
-    if (first == firsts.end()) return std::nullopt;
-    return *first;
+    return first == span.size() ? std::nullopt : std::optional(first);
   });
 }
 

@@ -47,6 +47,15 @@ TEST(ForChunks, VisitsEachIndexOnceInChunksThatDependOnSizeAndGrainAlone) {
   }
 }
 
+TEST(FirstThat, IsTheLeastForAnyNumberOfThreads) {
+  for (const unsigned threads : thread_counts) {
+    for (const std::size_t least : {0U, 99U, 100U, 4321U, 4999U, 5000U}) {
+      EXPECT_EQ(first_that(5000, 100, on(threads), [&](std::size_t i) { return i >= least; }), least);
+    }
+    EXPECT_EQ(first_that(0, 100, on(threads), [](std::size_t) { return true; }), 0U);
+  }
+}
+
 TEST(ForChunks, RunsLoopsInsideOfLoops) {
   for (const unsigned outer : thread_counts) {
     for (const unsigned inner : thread_counts) {

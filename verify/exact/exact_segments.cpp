@@ -2,10 +2,10 @@
 #include "verify/exact/exact_segments.hpp"
 
 #include <algorithm>
+#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
-#include <cstddef>
+#include <cstdint>
 #include <numbers>
-#include <utility>
 
 #include "core/base/trigonometry.hpp"
 #include "core/base/whole.hpp"
@@ -35,18 +35,57 @@ int compare_products(double a, double b, double c, double d) noexcept {
   return sign_of(std::fma(a, b, -left) - std::fma(c, d, -right));
 }
 
+using Whole = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>, boost::multiprecision::et_off>;
+
+/// number * 2^exponent, whose sums, differences and products are not rounded. A decision takes about a microsecond, so
+/// it is only asked where a filter in doubles leaves it open. The exponent is a multiple of 32.
+struct Dyadic {
+  Whole number;
+  int exponent = 0;
+
+  int sign() const { return number.sign(); }
+  Whole in_units_of(int lower) const { return number << (exponent - lower); }
+};
+
+Dyadic exactly(double finite) {
+  int exponent = 0;
+  const Whole mantissa = bounded_whole<std::int64_t>(std::ldexp(std::frexp(finite, &exponent), 53));
+  exponent -= 53;
+  return {mantissa << (exponent & 31), exponent & ~31};
+}
+
+Dyadic operator+(const Dyadic& a, const Dyadic& b) {
+  const int lower = std::min(a.exponent, b.exponent);
+  return {a.in_units_of(lower) + b.in_units_of(lower), lower};
+}
+Dyadic operator-(const Dyadic& a, const Dyadic& b) { return a + Dyadic{-b.number, b.exponent}; }
+Dyadic operator*(const Dyadic& a, const Dyadic& b) { return {a.number * b.number, a.exponent + b.exponent}; }
+
+/// As a double, to some roundings: of its highest three words of 32 bits, 65 bits or more where there are as many.
+double rounded(const Dyadic& x) {
+  if (x.sign() == 0) return 0.0;
+  const Whole size = abs(x.number);
+  const int words = as_whole<int>(msb(size) / 32) + 1;
+  const int lowest = std::max(words - 3, 0);
+  double value = 0.0;
+  for (int i = words; i-- > lowest;) {
+    value = 0x1p32 * value + Whole((size >> (32 * i)) & 0xffffffffU).convert_to<double>();
+  }
+  return x.sign() * std::ldexp(value, x.exponent + 32 * lowest);
+}
+
 /// The same plane without rounding.
 struct ExactVec {
   Dyadic x, y;
 };
-ExactVec between(Vec2 from, Vec2 to) { return {Dyadic(to.x) - Dyadic(from.x), Dyadic(to.y) - Dyadic(from.y)}; }
+ExactVec between(Vec2 from, Vec2 to) { return {exactly(to.x) - exactly(from.x), exactly(to.y) - exactly(from.y)}; }
 Dyadic dot(const ExactVec& a, const ExactVec& b) { return a.x * b.x + a.y * b.y; }
 Dyadic cross(const ExactVec& a, const ExactVec& b) { return a.x * b.y - a.y * b.x; }
 
 bool exactly_closer(Vec2 p, const Segment& s, double r) {
   const ExactVec along = between(s.a, s.b);
   const ExactVec to_p = between(s.a, p);
-  const Dyadic r_sq = Dyadic(r) * Dyadic(r);
+  const Dyadic r_sq = exactly(r) * exactly(r);
   const Dyadic length_sq = dot(along, along);
   const Dyadic t = dot(along, to_p);
   if (t.sign() <= 0) return (dot(to_p, to_p) - r_sq).sign() < 0;
@@ -65,7 +104,7 @@ double area_between(Vec2 a, Vec2 b, Vec2 p) noexcept {
   const double right = (b.y - a.y) * (p.x - a.x);
   const double area = left - right;
   if (std::abs(area) > most_cancelled * (std::abs(left) + std::abs(right))) return area;
-  return cross(between(a, b), between(a, p)).rounded();
+  return rounded(cross(between(a, b), between(a, p)));
 }
 
 double distance_sq(Vec2 p, const Segment& s) noexcept {
@@ -152,111 +191,8 @@ bool closer_than(const Segment& s, const Segment& t, double r) noexcept {
 
 namespace warren {
 namespace {
-
-using Limbs = std::vector<std::uint32_t>;
-
-void trim(Limbs& limbs) {
-  while (!limbs.empty() && limbs.back() == 0) limbs.pop_back();
-}
-
-int compare(const Limbs& a, const Limbs& b) {
-  if (a.size() != b.size()) return a.size() < b.size() ? -1 : 1;
-  for (std::size_t i = a.size(); i-- > 0;) {
-    if (a[i] != b[i]) return a[i] < b[i] ? -1 : 1;
-  }
-  return 0;
-}
-
-Limbs sum(Limbs a, const Limbs& b) {
-  a.resize(std::max(a.size(), b.size()) + 1);
-  std::uint64_t carry = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    carry += std::uint64_t{a[i]} + (i < b.size() ? b[i] : 0);
-    a[i] = as_whole<std::uint32_t>(carry);
-    carry >>= 32;
-  }
-  return a;
-}
-
-/// a - b, where a >= b.
-Limbs difference(Limbs a, const Limbs& b) {
-  std::uint64_t borrow = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const std::uint64_t taken = borrow + (i < b.size() ? b[i] : 0);
-    borrow = taken > a[i] ? 1 : 0;
-    a[i] = as_whole<std::uint32_t>(a[i] - taken);
-  }
-  return a;
-}
-
-Limbs product(const Limbs& a, const Limbs& b) {
-  Limbs result(a.size() + b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::uint64_t carry = 0;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      carry += std::uint64_t{a[i]} * b[j] + result[i + j];
-      result[i + j] = as_whole<std::uint32_t>(carry);
-      carry >>= 32;
-    }
-    result[i + b.size()] = as_whole<std::uint32_t>(carry);
-  }
-  return result;
-}
-
-}  // namespace
-
-Dyadic::Dyadic(int sign, int exponent, Limbs limbs) : sign_(sign), exponent_(exponent), limbs_(std::move(limbs)) {
-  trim(limbs_);
-  if (limbs_.empty()) sign_ = 0;
-}
-
-Dyadic::Dyadic(double value) {
-  if (value == 0.0) return;
-  int binary_exponent = 0;
-  const double fraction = std::frexp(std::abs(value), &binary_exponent);
-  const auto mantissa = bounded_whole<std::uint64_t>(std::ldexp(fraction, 53));
-  binary_exponent -= 53;
-  const int shift = ((binary_exponent % 32) + 32) % 32;
-  const std::uint64_t low = (mantissa & 0xffffffffU) << shift;
-  const std::uint64_t high = ((mantissa >> 32) << shift) + (low >> 32);
-  *this = Dyadic(value > 0.0 ? 1 : -1, (binary_exponent - shift) / 32,
-                 {as_whole<std::uint32_t>(low), as_whole<std::uint32_t>(high), as_whole<std::uint32_t>(high >> 32)});
-}
-
-double Dyadic::rounded() const {
-  const std::size_t parts = std::min<std::size_t>(limbs_.size(), 3);  // 65 bits or more, where there are as many
-  double value = 0.0;
-  for (std::size_t i = 1; i <= parts; ++i) value = 0x1p32 * value + limbs_[limbs_.size() - i];
-  return sign_ * std::ldexp(value, 32 * (exponent_ + as_whole<int>(limbs_.size() - parts)));
-}
-
-Dyadic::Limbs Dyadic::limbs_from(int exponent) const {
-  Limbs limbs(as_whole<std::size_t>(exponent_ - exponent));
-  limbs.insert(limbs.end(), limbs_.begin(), limbs_.end());
-  return limbs;
-}
-
-Dyadic operator+(const Dyadic& a, const Dyadic& b) {
-  if (a.sign_ == 0) return b;
-  if (b.sign_ == 0) return a;
-  const int exponent = std::min(a.exponent_, b.exponent_);
-  const Limbs left = a.limbs_from(exponent);
-  const Limbs right = b.limbs_from(exponent);
-  if (a.sign_ == b.sign_) return {a.sign_, exponent, sum(left, right)};
-  if (compare(left, right) >= 0) return {a.sign_, exponent, difference(left, right)};
-  return {b.sign_, exponent, difference(right, left)};
-}
-
-Dyadic operator-(const Dyadic& a, const Dyadic& b) { return a + Dyadic(-b.sign_, b.exponent_, b.limbs_); }
-
-Dyadic operator*(const Dyadic& a, const Dyadic& b) {
-  return {a.sign_ * b.sign_, a.exponent_ + b.exponent_, product(a.limbs_, b.limbs_)};
-}
-
 // Arc and segment: nearest points are ends of one or the other, or lie on a line through the centre that is square to
 // the segment; or they are one point.
-
-namespace {
 
 /// Does the arc have a point in this direction from its centre?
 bool sweeps(const Arc& arc, Vec2 direction) {

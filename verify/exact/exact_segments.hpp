@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The verification's own geometry: it shares nothing with core/plane/geometry, so that a mistake there can't confirm
-// itself. A double evaluation with an error bound answers first; what it leaves open is decided by Dyadic numbers.
-// Exact for coordinates within core/base/types.hpp's limits.
+// itself. A double evaluation with an error bound answers first; what it leaves open is decided without rounding, with
+// Boost.Multiprecision's whole numbers. Exact for coordinates within core/base/types.hpp's limits.
 //
 // The distance of a circular arc from a segment is in closed form: what the verification of cars is made of. Where a
 // body turns about a point, its corners follow arcs, and in the body's eyes so do the corners of what stands around.
 #pragma once
 
 #include <algorithm>
-#include <cstdint>
-#include <vector>
 
 #include "core/base/types.hpp"
 
@@ -49,35 +47,6 @@ inline double gap_sq(const Box& a, const Box& b) noexcept {
 }  // namespace warren::exact
 
 namespace warren {
-// Numbers m * 2^e with m of any size: sums, differences and products of doubles without rounding. About a microsecond
-// an operation, so it only decides what a filter in doubles leaves open. Deliberately plain (schoolbook arithmetic on
-// 32-bit limbs): it is the last word of the verification.
-
-class Dyadic {
- public:
-  Dyadic() = default;
-  /// Exactly `value`, which is finite.
-  explicit Dyadic(double value);
-
-  /// +1, 0 or -1.
-  int sign() const { return sign_; }
-  /// As a double, to some roundings; within the range of doubles.
-  double rounded() const;
-
-  friend Dyadic operator+(const Dyadic& a, const Dyadic& b);
-  friend Dyadic operator-(const Dyadic& a, const Dyadic& b);
-  friend Dyadic operator*(const Dyadic& a, const Dyadic& b);
-
- private:
-  using Limbs = std::vector<std::uint32_t>;
-  Dyadic(int sign, int exponent, Limbs limbs);
-  Limbs limbs_from(int exponent) const;
-
-  // value = sign * (limbs_[0] + limbs_[1] * 2^32 + ...) * 2^(32 * exponent_); the highest limb is not zero
-  int sign_ = 0;
-  int exponent_ = 0;
-  Limbs limbs_;
-};
 
 /// From `from`, around `center`, by `turn` radians (anticlockwise, at most a half turn either way).
 struct Arc {

@@ -39,8 +39,6 @@ BodyVerifier::BodyVerifier(const Scene& scene, std::span<const Vec2> outline, do
   rounding_ = 2e-14 * (surroundings_.largest_coordinate() + 2.0 * radius_ + clearance) + 4.0 * bend_;
   finest_ = std::max(1e-9 * radius_, 0.1 * rounding_);  // so no leg is halved more than some 50 times
   close_ = 1e-3 * radius_;
-  if (index_ != nullptr) return;
-  for (const Ring& ring : obstacles_.rings()) ring_boxes_.push_back(ring.box());
 }
 
 /// Around the body and its reach on parts of the leg, which are about as long as the boxes are wide. Ends are in the
@@ -260,28 +258,11 @@ LegReport BodyVerifier::check_pose(const Se2& pose, std::size_t number) const {
   } else if (!surroundings_.box().grown(poses_off_).contains({pose.x, pose.y})) {
     return bad(fmt::format("box: {} {} is outside the box of the obstacles", pose.x, pose.y));
   }
-  if (const auto polygon = polygon_around(corners.front())) {
-    return bad(fmt::format("polygon {}: holds {} {}", *polygon, corners.front().x, corners.front().y));
+  if (const auto ring = ring_around(obstacles_, index_, corners.front(), execution_)) {
+    return bad(fmt::format("polygon {}: holds {} {}", obstacles_.rings()[*ring].polygon, corners.front().x,
+                           corners.front().y));
   }
   return {};
-}
-
-std::optional<std::size_t> BodyVerifier::polygon_around(Vec2 p) const {
-  std::optional<std::size_t> first;  // a ring
-  const auto ask = [&](std::size_t i) {
-    const Ring& ring = obstacles_.rings()[i];
-    if ((first && *first < i) || ring.polygon == Ring::none) return;
-    if (strictly_inside(ring, p)) first = i;
-  };
-  if (index_ != nullptr) {
-    index_->rings().for_each([&](const Box& box) { return !box.contains(p); }, ask);
-  } else {
-    for (std::size_t i = 0; i < ring_boxes_.size() && !first; ++i) {
-      if (ring_boxes_[i].contains(p)) ask(i);
-    }
-  }
-  if (!first) return std::nullopt;
-  return obstacles_.rings()[*first].polygon;
 }
 
 }  // namespace warren

@@ -69,8 +69,6 @@ class BodyVerifier {
   /// Notes a distance, which is known but for `rounding`, if it is the least.
   void note(double distance, double rounding, const NearSide& side, std::size_t number, LegReport& report) const;
   bool leaves_box(const Arc& way) const;
-  /// The first polygon that holds p in its inside.
-  std::optional<std::size_t> polygon_around(Vec2 p) const;
   double distance_to_sweep(const std::vector<Vec2>& corners, Vec2 way, const Segment& s) const;
   double distance_to_arcs(const std::vector<Vec2>& corners, const Arc& way, const Segment& s) const;
   std::vector<Vec2> corners_at(const Leg& leg, double t) const;
@@ -94,8 +92,7 @@ class BodyVerifier {
   const Execution& execution_;
   std::optional<Box> confines_;
   const OccupancyMap* map_;  // nullptr: the scene is none
-  std::vector<Box> ring_boxes_;
-  double reach_ = 0.0;  // obstacles farther away are left out
+  double reach_ = 0.0;       // obstacles farther away are left out
   double radius_ = 0.0;
   double bend_ = 0.0;
   double rounding_ = 0.0;  // bounds the error of every distance computed here, a bend included

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "core/base/whole.hpp"
@@ -73,15 +72,10 @@ bool runs_along_blocked(const OccupancyMap& map, const Segment& wall) {
 void check_walls_of_map(const Scene& scene, const Execution& execution) {
   constexpr std::size_t grain = std::size_t{1} << 12;
   const std::size_t count = scene.walls.size();
-  std::vector<std::size_t> first(chunk_count(count, grain), count);
-  for_chunks(count, grain, execution.quiet(), [&](Range r) {
-    std::size_t i = r.first;
-    while (i < r.last && runs_along_blocked(*scene.map, scene.walls.segment(i))) ++i;
-    if (i < r.last) first[r.first / grain] = i;
+  const std::size_t i = first_that(count, grain, execution.quiet(), [&](std::size_t wall) {
+    return !runs_along_blocked(*scene.map, scene.walls.segment(wall));
   });
-  for (const std::size_t i : first) {
-    if (i < count) refuse(scene, fmt::format("wall {} runs over free cells of the map: the map is judged alone", i));
-  }
+  if (i < count) refuse(scene, fmt::format("wall {} runs over free cells of the map: the map is judged alone", i));
 }
 
 }  // namespace

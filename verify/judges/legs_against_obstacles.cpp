@@ -209,7 +209,7 @@ class ObstaclePass {
     const PathScreen::Rest sides = screened(screen, obstacles_.sides().size(), obstacles_.wall_count(), sides_in);
     all.doubtful.insert(all.doubtful.end(), sides.doubtful.begin(), sides.doubtful.end());
     for (const Ring& ring : obstacles_.rings()) {
-      if (ring.polygon != Ring::none) all.box.include(ring.box());  // the bounds are no obstacle in this sense
+      if (ring.polygon != Ring::none) all.box.include(ring.box);  // the bounds are no obstacle in this sense
     }
     return all;
   }
@@ -261,7 +261,7 @@ Tally compare_indexed(const ObstacleIndex& index, const LegBoxes& legs, const Ve
     parts[r.first / leg_grain] = comparison.take();
   });
   Tally all;
-  all.box = index.box();
+  all.box = index.extent().box;
   for (Tally& part : parts) all.join(std::move(part));
   return all;
 }

@@ -8,10 +8,8 @@
 #include <cassert>
 #include <cmath>
 #include <optional>
-#include <vector>
 
 #include "core/base/error.hpp"
-#include "core/base/whole.hpp"
 #include "parallel/chunks.hpp"
 #include "verify/exact/exact_segments.hpp"
 #include "verify/judges/contact.hpp"
@@ -73,28 +71,10 @@ class Verifier {
 
   /// Who starts outside a polygon and never passes its sides stays outside.
   void check_insides(Tally& tally) const {
-    const std::optional<std::size_t> ring = first_ring_around_start();
+    const std::optional<std::size_t> ring = ring_around(obstacles_, index_, path_.front(), execution_);
     if (!ring) return;
     tally.least = 0.0;
     tally.violation = std::min(tally.violation, LegContact{0, obstacles_.first_side(*ring)});
-  }
-
-  std::optional<std::size_t> first_ring_around_start() const {
-    const Vec2 start = path_.front();
-    std::optional<std::size_t> first;
-    const auto ask = [&](std::size_t ring) {
-      if ((first && *first < ring) || obstacles_.rings()[ring].polygon == Ring::none) return;
-      if (strictly_inside(obstacles_.rings()[ring], start)) first = ring;
-    };
-    if (index_ != nullptr) {
-      index_->rings().for_each([&](const Box& box) { return !box.contains(start); }, ask);
-      return first;
-    }
-    for (std::size_t ring = 0; ring < obstacles_.rings().size() && !first; ++ring) {
-      if (ring % 1024 == 0) execution_.check();
-      ask(ring);
-    }
-    return first;
   }
 
   void check_box(Tally& tally) {
@@ -143,14 +123,8 @@ class Verifier {
 /// The first point whose coordinates are not numbers or too large; the path's size, if there is none.
 std::size_t first_misfit(std::span<const Vec2> path, const Execution& execution) {
   constexpr std::size_t grain = std::size_t{1} << 14;
-  std::vector<std::size_t> first(chunk_count(path.size(), grain), path.size());
-  for_chunks(path.size(), grain, execution.quiet(), [&](Range r) {
-    const auto fits = [](Vec2 p) { return std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate; };
-    const auto part = path.subspan(r.first, r.size());
-    const auto misfit = std::find_if_not(part.begin(), part.end(), fits);
-    if (misfit != part.end()) first[r.first / grain] = r.first + as_whole<std::size_t>(misfit - part.begin());
-  });
-  return *std::min_element(first.begin(), first.end());
+  const auto fits = [](Vec2 p) { return std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate; };
+  return first_that(path.size(), grain, execution.quiet(), [&](std::size_t i) { return !fits(path[i]); });
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "core/base/error.hpp"
 #include "parallel/sort.hpp"
@@ -18,20 +19,37 @@ std::size_t numbered(std::size_t count) {
   throw InputError("world", "has 2^32 walls and sides or more: too many to be indexed for its judge");
 }
 
-Box box_of_all(const Obstacles& obstacles, const Execution& execution) {
-  constexpr std::size_t walls_a_poll = std::size_t{1} << 16;
-  Box box;
-  for (std::size_t i = 0; i < obstacles.wall_count(); ++i) {
-    if (i % walls_a_poll == 0) execution.check();
-    box.include(box_of(obstacles.segment(i)));
-  }
-  for (const Ring& ring : obstacles.rings()) {
-    if (ring.polygon != Ring::none) box.include(ring.box());
-  }
-  return box;
+}  // namespace
+
+double ObstacleExtent::largest_coordinate() const {
+  if (with_bounds.empty()) return 0.0;
+  const auto [low, high] = with_bounds;
+  return std::max({std::abs(low.x), std::abs(low.y), std::abs(high.x), std::abs(high.y)});
 }
 
-}  // namespace
+ObstacleExtent extent_of(const Obstacles& obstacles, const Execution& execution) {
+  constexpr std::size_t grain = std::size_t{1} << 14;
+  const auto confines = [&](std::size_t i) {
+    if (i < obstacles.wall_count()) return true;
+    return obstacles.rings()[obstacles.sides()[i - obstacles.wall_count()].ring].polygon != Ring::none;
+  };
+  std::vector<ObstacleExtent> parts(chunk_count(obstacles.size(), grain));
+  for_chunks(obstacles.size(), grain, execution, [&](Range r) {
+    ObstacleExtent part;
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      const Box box = box_of(obstacles.segment(i));
+      part.with_bounds.include(box);
+      if (confines(i)) part.box.include(box);
+    }
+    parts[r.first / grain] = part;
+  });
+  ObstacleExtent all;
+  for (const ObstacleExtent& part : parts) {
+    all.box.include(part.box);
+    all.with_bounds.include(part.with_bounds);
+  }
+  return all;
+}
 
 ObstacleIndex::ObstacleIndex(const Scene& scene, const Execution& execution)
     : scene_(scene),
@@ -39,12 +57,27 @@ ObstacleIndex::ObstacleIndex(const Scene& scene, const Execution& execution)
       sides_(
           numbered(obstacles_.size()), [&](std::size_t i) { return box_of(obstacles_.segment(i)); }, execution),
       rings_(
-          obstacles_.rings().size(), [&](std::size_t i) { return obstacles_.rings()[i].box(); }, execution),
-      box_(box_of_all(obstacles_, execution)) {
-  Box all = box_;
-  if (scene.bounds) all.include(*scene.bounds);
-  if (all.empty()) return;
-  for (const double x : {all.min.x, all.min.y, all.max.x, all.max.y}) largest_ = std::max(largest_, std::abs(x));
+          obstacles_.rings().size(), [&](std::size_t i) { return obstacles_.rings()[i].box; }, execution),
+      extent_(extent_of(obstacles_, execution.quiet())) {}
+
+std::optional<std::size_t> ring_around(const Obstacles& obstacles, const ObstacleIndex* index, Vec2 p,
+                                       const Execution& execution) {
+  constexpr std::size_t rings_a_poll = 1024;
+  std::optional<std::size_t> first;
+  const auto ask = [&](std::size_t i) {
+    const Ring& ring = obstacles.rings()[i];
+    if ((first && *first < i) || ring.polygon == Ring::none || !ring.box.contains(p)) return;
+    if (strictly_inside(ring, p)) first = i;
+  };
+  if (index != nullptr) {
+    index->rings().for_each([&](const Box& box) { return !box.contains(p); }, ask);
+    return first;
+  }
+  for (std::size_t i = 0; i < obstacles.rings().size() && !first; ++i) {
+    if (i % rings_a_poll == 0) execution.check();
+    ask(i);
+  }
+  return first;
 }
 
 void BoxBlocks::put_in_order(RawVector<Middle>& middles, const Execution& execution) {

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
@@ -116,6 +117,15 @@ void BoxBlocks::for_some_near(const Box& place, const Visit& visit) const {
   for_each_in(block, visit);
 }
 
+/// What obstacles take of the plane.
+struct ObstacleExtent {
+  Box box;          ///< of walls and polygons
+  Box with_bounds;  ///< of the bounds, too
+  double largest_coordinate() const;
+};
+/// One pass over all; throws Stopped.
+ObstacleExtent extent_of(const Obstacles& obstacles, const Execution& execution);
+
 /// Refers to the scene, which must outlive it and stay as it is. Immutable: any number of threads may ask.
 class ObstacleIndex {
  public:
@@ -124,18 +134,20 @@ class ObstacleIndex {
 
   const Scene& scene() const { return scene_; }
   const Obstacles& obstacles() const { return obstacles_; }
-  const BoxBlocks& sides() const { return sides_; }       ///< numbers as obstacles() has them
-  const BoxBlocks& rings() const { return rings_; }       ///< numbers of obstacles().rings()
-  const Box& box() const { return box_; }                 ///< of walls and polygons, without the bounds
-  double largest_coordinate() const { return largest_; }  ///< the largest magnitude, of the bounds too
+  const BoxBlocks& sides() const { return sides_; }  ///< numbers as obstacles() has them
+  const BoxBlocks& rings() const { return rings_; }  ///< numbers of obstacles().rings()
+  const ObstacleExtent& extent() const { return extent_; }
 
  private:
   const Scene& scene_;
   Obstacles obstacles_;
   BoxBlocks sides_;
   BoxBlocks rings_;
-  Box box_;
-  double largest_ = 0.0;
+  ObstacleExtent extent_;
 };
+
+/// The first polygon's ring that holds p in its inside; without an index all are asked. Throws Stopped.
+std::optional<std::size_t> ring_around(const Obstacles& obstacles, const ObstacleIndex* index, Vec2 p,
+                                       const Execution& execution);
 
 }  // namespace warren

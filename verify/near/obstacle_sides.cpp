@@ -32,12 +32,6 @@ std::string numbers(const Segment& s) { return fmt::format("{} {} {} {}", s.a.x,
 
 }  // namespace
 
-Box Ring::box() const {
-  Box box;
-  for (const Vec2 p : corners) box.include(p);
-  return box;
-}
-
 Obstacles::Obstacles(const Scene& scene) : scene_(scene) {
   if (scene.bounds) {
     const Box& b = *scene.bounds;
@@ -51,6 +45,7 @@ Obstacles::Obstacles(const Scene& scene) : scene_(scene) {
   }
   for (std::size_t ring = 0; ring < rings_.size(); ++ring) {
     first_side_.push_back(sides_.size());
+    for (const Vec2 p : rings_[ring].corners) rings_[ring].box.include(p);
     for (std::size_t side = 0; side < rings_[ring].corners.size(); ++side) sides_.push_back({ring, side});
   }
 }

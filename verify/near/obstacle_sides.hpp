@@ -20,8 +20,8 @@ namespace warren {
 struct Ring {
   std::vector<Vec2> corners;
   std::size_t polygon = 0;  ///< its number in the scene; `none`: the bounds
+  Box box = {};             ///< of the corners
   static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-  Box box() const;
 };
 
 /// Refers to the scene's walls, which must outlive it.

@@ -17,10 +17,6 @@ namespace {
 constexpr std::size_t surroundings_grain = std::size_t{1} << 14;
 constexpr std::uint64_t most_cells_a_side = 64;
 
-double largest_of(const Segment& s) {
-  return std::max({std::abs(s.a.x), std::abs(s.a.y), std::abs(s.b.x), std::abs(s.b.y)});
-}
-
 void sort_once_each(std::vector<std::uint32_t>& numbers) {
   std::sort(numbers.begin(), numbers.end());
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
@@ -31,39 +27,11 @@ void sort_once_each(std::vector<std::uint32_t>& numbers) {
 PathSurroundings::PathSurroundings(const Scene& scene, const Obstacles& obstacles, const ObstacleIndex* index,
                                    const Execution& execution)
     : scene_(scene), obstacles_(obstacles), index_(scene.map ? nullptr : index) {
-  if (index_ != nullptr) {
-    box_ = index_->box();
-    largest_ = index_->largest_coordinate();
-    return;
+  if (scene.map) {
+    extent_.box = extent_.with_bounds = world_box(*scene.map);
+  } else {
+    extent_ = index != nullptr ? index->extent() : extent_of(obstacles, execution);
   }
-  struct Part {
-    Box box;
-    double largest = 0.0;
-  };
-  const auto confines = [&](std::size_t i) {  // bounds are no part of the box
-    if (i < obstacles.wall_count()) return true;
-    return obstacles.rings()[obstacles.sides()[i - obstacles.wall_count()].ring].polygon != Ring::none;
-  };
-  const std::size_t count = scene.map ? 0 : obstacles.size();
-  std::vector<Part> parts(chunk_count(count, surroundings_grain));
-  for_chunks(count, surroundings_grain, execution, [&](warren::Range r) {
-    Part part;
-    for (std::size_t i = r.first; i < r.last; ++i) {
-      const Segment s = obstacles.segment(i);
-      part.largest = std::max(part.largest, largest_of(s));
-      if (!confines(i)) continue;
-      part.box.include(s.a);
-      part.box.include(s.b);
-    }
-    parts[r.first / surroundings_grain] = part;
-  });
-  for (const Part& part : parts) {
-    box_.include(part.box);
-    largest_ = std::max(largest_, part.largest);
-  }
-  if (!scene.map) return;
-  box_ = world_box(*scene.map, {{0.0, 0.0}, {1.0 * scene.map->width(), 1.0 * scene.map->height()}});
-  largest_ = largest_of({box_.min, box_.max});
 }
 
 /// Cells about as wide as the boxes, but not more than a million.

@@ -36,8 +36,8 @@ class PathSurroundings {
                    const Execution& execution);
 
   /// Of all walls and polygons, or of the map.
-  const Box& box() const { return box_; }
-  double largest_coordinate() const { return largest_; }
+  const Box& box() const { return extent_.box; }
+  double largest_coordinate() const { return extent_.largest_coordinate(); }
 
   /// To be called before gather(): with all boxes that it will be asked for, in any number of calls.
   void file(std::span<const Box> boxes, const Execution& execution);
@@ -73,8 +73,7 @@ class PathSurroundings {
   const Scene& scene_;
   const Obstacles& obstacles_;
   const ObstacleIndex* index_;
-  Box box_;
-  double largest_ = 0.0;
+  ObstacleExtent extent_;
   Box grid_;  // of the boxes
   double side_ = 1.0;
   std::uint32_t columns_ = 0;

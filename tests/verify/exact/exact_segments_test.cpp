@@ -10,17 +10,18 @@
 namespace warren {
 namespace {
 
-TEST(Dyadic, RoundsToTheDoublesThatItIsMadeOf) {
-  for (const double x : {0.0, 1.0, -1.0, 0.1, -1e-100, 3e200, 0x1.fffffffffffffp+60, 5e-324})
-    EXPECT_EQ(Dyadic(x).rounded(), x);
-}
-
-TEST(Dyadic, RoundsSumsAndProductsAsDoublesDo) {
-  for (std::uint64_t i = 0; i < 1000; ++i) {
-    const double a = (uniform(1, i, 0) - 0.5) * std::ldexp(1.0, static_cast<int>(i % 120) - 60);
-    const double b = uniform(1, i, 1) - 0.5;
-    EXPECT_DOUBLE_EQ((Dyadic(a) * Dyadic(b)).rounded(), a * b);
-    EXPECT_DOUBLE_EQ((Dyadic(a) + Dyadic(b)).rounded(), a + b);
+/// Ends of a wall 5 away, and a point off its line by one unit in the last place, in units of any size.
+TEST(ExactSegments, DecideTheSameInUnitsOfAnySize) {
+  for (int exponent = -330; exponent <= 195; ++exponent) {
+    SCOPED_TRACE(exponent);
+    const double unit = std::ldexp(1.0, exponent);
+    const Segment wall{{-unit, 7.0 * unit}, {7.0 * unit, unit}};
+    EXPECT_FALSE(exact::closer_than({{0.0, 0.0}, {0.0, 0.0}}, wall, 5.0 * unit));
+    EXPECT_TRUE(exact::closer_than({{0.0, 0.0}, {0.0, 0.0}}, wall, std::nextafter(5.0 * unit, 1e61)));
+    const Vec2 third{unit / 3.0, unit / 3.0};
+    EXPECT_EQ(exact::side_of({-unit, -unit}, {unit, unit}, third), 0);
+    EXPECT_EQ(exact::side_of({-unit, -unit}, {unit, unit}, {third.x, std::nextafter(third.y, 1e61)}), 1);
+    EXPECT_EQ(exact::side_of({-unit, -unit}, {unit, unit}, {third.x, std::nextafter(third.y, 0.0)}), -1);
   }
 }
 
