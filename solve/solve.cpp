@@ -313,7 +313,7 @@ void check_bound(Verdict& verdict, const Scene& scene, const RecordedAnswer& ans
 SolveOptions options_of_roadmap(const SolveOptions& options, PlannerKind planner) {
   SolveOptions kept = options;
   kept.planner = planner;
-  for (const Option option : options_in(question_options)) copy_option(option, kept, {});
+  for (const Option option : question_options.members()) copy_option(option, kept, {});
   return kept;
 }
 

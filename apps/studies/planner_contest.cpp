@@ -291,7 +291,7 @@ std::vector<PlannerContender> with_clearances(const std::vector<PlannerContender
 
 std::vector<PlannerContender> contenders_of(const PlannerDeal& deal, PlannerKind planner) {
   SolveOptions usual{.planner = planner, .seed = deal.common.seed};
-  for (const Option option : options_in(given(deal.common))) {
+  for (const Option option : given(deal.common).members()) {
     if (!refusal(planner, option, deal.common)) copy_option(option, usual, deal.common);
   }
   std::vector<PlannerContender> all{{usual, deal.question, {}}};
@@ -336,7 +336,7 @@ std::vector<PlannerContender> without_strange_options(std::vector<PlannerContend
   };
   const std::vector<PlannerContender> all = contenders;
   for (PlannerContender& contender : contenders) {
-    for (const Option option : options_in(given(contender.options))) {
+    for (const Option option : given(contender.options).members()) {
       if (takes(contender, option)) continue;
       const bool is_for_others = std::any_of(all.begin(), all.end(), [&](const PlannerContender& other) {
         return given(other.options).has(option) && takes(other, option);
@@ -358,7 +358,7 @@ void run_planner_contest(const Scene& scene, const PlannerContestOptions& option
 
 std::vector<PlannerContender> deal_planners(const PlannerDeal& deal) {
   deal.question.validate();
-  for (const Option option : options_in(given(deal.common))) check_taken(deal.planners, option, deal.common);
+  for (const Option option : given(deal.common).members()) check_taken(deal.planners, option, deal.common);
   for (const DealtOption& list : deal.lists) {
     for (const DealtValue& value : list.values) check_taken(deal.planners, list.option, value.value);
   }

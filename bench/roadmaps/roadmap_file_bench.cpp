@@ -35,7 +35,9 @@ class FileToRead {
 
   void write(const Execution& execution) const {
     const RoadmapSection section = roadmap_section<std::uint64_t>("numbers", numbers_);
-    write_roadmap_file(path_, {1, 2, "bench"}, {&section, 1}, execution);
+    OutputFile file(path_, execution);
+    write_roadmap_file(file, {1, 2, "bench"}, {&section, 1}, execution);
+    file.commit();
   }
   const std::string& path() const { return path_; }
   std::span<const std::uint64_t> numbers() const { return numbers_; }

@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/enum_names.hpp"
+
 namespace warren {
 
 /// A part of pictures that can be left out.
@@ -17,19 +19,7 @@ constexpr auto enum_names(Part) {
 }
 
 /// Which parts a picture shows.
-class Parts {
- public:
-  static constexpr Parts all() { return Parts{0xffU}; }  ///< every part
-  static constexpr Parts none() { return Parts{0}; }     ///< no part
-  /// These and one more.
-  constexpr Parts with(Part part) const { return Parts{bits_ | 1U << static_cast<unsigned>(part)}; }
-  /// Is it one of these?
-  constexpr bool has(Part part) const { return (bits_ >> static_cast<unsigned>(part) & 1U) != 0; }
-
- private:
-  constexpr explicit Parts(unsigned bits) : bits_(bits) {}
-  unsigned bits_;
-};
+using Parts = EnumSet<Part>;
 
 /// What sizes of pages are given in.
 enum class LengthUnit : std::uint8_t { px, mm };

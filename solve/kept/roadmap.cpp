@@ -25,7 +25,7 @@ namespace {
 
 /// What says how a roadmap is searched or how its planner works while it searches means nothing to one that is kept.
 void refuse_what_is_asked_later(const SolveOptions& options) {
-  for (const Option option : options_in(given(options))) {
+  for (const Option option : given(options).members()) {
     if (question_options.has(option)) {
       throw UsageError(fmt::format("@{}: is for a question; say it when the roadmap is asked", name_of(option)));
     }
@@ -170,7 +170,7 @@ void check_buildable(const Scene& scene, const Question& question, const SolveOp
   refuse_what_is_asked_later(options);
   check_solver_options(options);
   constexpr AskedWords kept_words{AskedWord::clearance_price, AskedWord::area};
-  for (const AskedWord word : words_of(words_in(prices_of(scene, question)))) {
+  for (const AskedWord word : words_in(prices_of(scene, question)).members()) {
     if (kept_words.has(word)) continue;
     throw UsageError(
         fmt::format("{}: kept roadmaps hold prices of nearness and of areas that are polygons, and no others; solve "
@@ -179,7 +179,7 @@ void check_buildable(const Scene& scene, const Question& question, const SolveOp
   }
   if (const AskedWords words = words_in(question.rule); !words.empty()) {
     throw UsageError(
-        fmt::format("@{}: kept roadmaps are asked for one goal; solve takes it", name_of(words_of(words).front())));
+        fmt::format("@{}: kept roadmaps are asked for one goal; solve takes it", name_of(words.members().front())));
   }
   builder_of(options, scene, without_ends(scene, question));
 }

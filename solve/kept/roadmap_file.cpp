@@ -154,33 +154,12 @@ Execution without_progress(const Execution& execution) { return {execution.threa
 
 constexpr std::array<char, section_alignment> zeros{};
 
-void check_writable(const std::string& path, const RoadmapFileHeader& header,
-                    std::span<const RoadmapSection> sections) {
-  const auto is_printable = [](char c) { return c >= ' ' && c <= '~'; };
-  if (header.writer.size() > sizeof(FixedHeader::writer) ||
-      !std::all_of(header.writer.begin(), header.writer.end(), is_printable)) {
-    throw InputError(path, "the writer must be at most 16 printable characters", header.writer);
-  }
-  if (sections.size() > most_sections) {
-    throw InputError(path, "a roadmap file has at most 64 sections", std::to_string(sections.size()));
-  }
-  for (std::size_t i = 0; i < sections.size(); ++i) {
-    const std::string_view name = sections[i].name;
-    if (!is_section_name(name)) {
-      throw InputError(path, "a section's name must be 1 to 16 of a-z, 0-9, dot and underscore", name);
-    }
-    const auto before = sections.first(i);
-    if (std::any_of(before.begin(), before.end(), [&](const RoadmapSection& s) { return s.name == name; })) {
-      throw InputError(path, "a section's name may stand once", name);
-    }
-    assert(sections[i].type.is_legal() && sections[i].bytes.size() % sections[i].type.bytes() == 0);
-  }
-}
-
 std::vector<SectionPlace> places_of(std::span<const RoadmapSection> sections) {
+  assert(sections.size() <= most_sections);
   std::vector<SectionPlace> places;
   std::size_t blocks = 0;
   for (const RoadmapSection& s : sections) {
+    assert(is_section_name(s.name) && s.type.is_legal() && s.bytes.size() % s.type.bytes() == 0);
     places.push_back({std::string{s.name}, s.type, s.optional, 0, s.bytes.size() / s.type.bytes(), blocks});
     blocks += places.back().blocks();
   }
@@ -325,18 +304,14 @@ void RoadmapFile::check_all(const Execution& execution) const {
 
 /// The first damaged block is named whichever thread finds which.
 void RoadmapFile::check_blocks(Range blocks, const Execution& execution) const {
-  std::vector<std::uint8_t> damaged(blocks.size(), 0);
-  for_chunks(blocks.size(), 1, execution, [&](Range r) {
-    const std::size_t block = blocks.first + r.first;
-    if (checked_.test(block)) return;
-    if (is_sound(block)) {
-      checked_.set(block);
-    } else {
-      damaged[r.first] = 1;
-    }
+  const std::size_t first = first_that(blocks.size(), 1, execution, [&](std::size_t i) {
+    const std::size_t block = blocks.first + i;
+    if (checked_.test(block)) return false;
+    if (!is_sound(block)) return true;
+    checked_.set(block);
+    return false;
   });
-  const auto first = std::find(damaged.begin(), damaged.end(), 1);
-  if (first != damaged.end()) refuse(blocks.first + static_cast<std::size_t>(first - damaged.begin()));
+  if (first < blocks.size()) refuse(blocks.first + first);
 }
 
 void RoadmapFile::check_block(std::size_t block) const {
@@ -372,17 +347,8 @@ void RoadmapFile::refuse(std::size_t block) const {
                                ": their checksum is another one; make or copy the roadmap again");
 }
 
-void write_roadmap_file(const std::string& path, const RoadmapFileHeader& header,
-                        std::span<const RoadmapSection> sections, const Execution& execution) {
-  check_writable(path, header, sections);
-  OutputFile file(path, execution);  // first: a place that can't be written is known before the work
-  write_roadmap_file(file, path, header, sections, execution);
-  file.commit();
-}
-
-void write_roadmap_file(OutputFile& file, const std::string& path, const RoadmapFileHeader& header,
-                        std::span<const RoadmapSection> sections, const Execution& execution) {
-  check_writable(path, header, sections);
+void write_roadmap_file(OutputFile& file, const RoadmapFileHeader& header, std::span<const RoadmapSection> sections,
+                        const Execution& execution) {
   const std::vector<SectionPlace> places = places_of(sections);
   const std::string head = header_of(header, places, checksums_of(sections, execution));
   std::size_t bytes = head.size();

@@ -255,12 +255,9 @@ RoadmapSection roadmap_section(std::string_view name, std::span<const T> element
   return {name, element_type<T>(), std::as_bytes(elements), optional};
 }
 
-/// Writes the file beside its place and renames it. Throws InputError for names that are wrong or stand twice, more
-/// than 64 sections, a writer that doesn't fit; WriteError, Stopped as OutputFile does.
-void write_roadmap_file(const std::string& path, const RoadmapFileHeader& header,
-                        std::span<const RoadmapSection> sections, const Execution& execution);
-/// The same into a file that the caller completes and puts in its place.
-void write_roadmap_file(OutputFile& file, const std::string& path, const RoadmapFileHeader& header,
-                        std::span<const RoadmapSection> sections, const Execution& execution);
+/// Into a file that the caller completes and puts in its place: at most 64 sections, each of another name. Throws
+/// WriteError, Stopped as OutputFile does.
+void write_roadmap_file(OutputFile& file, const RoadmapFileHeader& header, std::span<const RoadmapSection> sections,
+                        const Execution& execution);
 
 }  // namespace warren

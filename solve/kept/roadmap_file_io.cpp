@@ -175,12 +175,11 @@ std::string roadmap_meta(const RoadmapFile& file, const Execution& execution) {
 
 void write_roadmap(const Roadmap& roadmap, const std::string& path, const Execution& execution, bool with_world) {
   OutputFile file(path, execution);  // first: a place that can't be written is known before the work
-  write_roadmap(roadmap, file, path, execution, with_world);
+  write_roadmap(roadmap, file, execution, with_world);
   file.commit();
 }
 
-void write_roadmap(const Roadmap& roadmap, OutputFile& file, const std::string& path, const Execution& execution,
-                   bool with_world) {
+void write_roadmap(const Roadmap& roadmap, OutputFile& file, const Execution& execution, bool with_world) {
   if (roadmap.file != nullptr) roadmap.file->check_all(execution);  // nothing is copied that nobody looked at
   const std::string meta = meta_json(roadmap, execution);
   const RoadmapParts parts = roadmap.arrays.parts();
@@ -192,10 +191,11 @@ void write_roadmap(const Roadmap& roadmap, OutputFile& file, const std::string& 
   roadmap.lattice != nullptr ? append_lattice_sections(*roadmap.lattice, sections) : append_graph(parts, sections);
   const HierarchySections index(roadmap.arrays.hierarchy, execution);
   index.append_to(sections);
+  static_assert(sizeof("warren " WARREN_VERSION) - 1 <= sizeof(FixedHeader::writer));
   const RoadmapFileHeader header{.world_hash = hash_number(roadmap.world_hash),
                                  .recipe_hash = hash_of(recipe_json(roadmap, execution)),
                                  .writer = "warren " WARREN_VERSION};
-  write_roadmap_file(file, path, header, sections, execution);
+  write_roadmap_file(file, header, sections, execution);
 }
 
 void check_roadmap(const RoadmapFile& file, const Execution& execution) {

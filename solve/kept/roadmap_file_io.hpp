@@ -19,9 +19,8 @@ namespace warren {
 /// WriteError, Stopped.
 void write_roadmap(const Roadmap& roadmap, const std::string& path, const Execution& execution = {},
                    bool with_world = true);
-/// The same into a file that the caller completes and puts in its place, `path`.
-void write_roadmap(const Roadmap& roadmap, OutputFile& file, const std::string& path, const Execution& execution,
-                   bool with_world = true);
+/// The same into a file that the caller completes and puts in its place.
+void write_roadmap(const Roadmap& roadmap, OutputFile& file, const Execution& execution, bool with_world = true);
 
 /// Reads a whole roadmap and holds all of it against what it promises, but for the walls of a lattice: these are looked
 /// at when Roadmap::world is first asked for the whole. `world`: for a file that has none, or to make

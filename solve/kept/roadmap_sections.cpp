@@ -70,15 +70,10 @@ WallSet walls_as(std::span<const T> numbers, const Execution& execution) {
 template <class T>
 bool can_be_packed(std::span<const T> numbers, const Execution& execution) {
   const std::size_t count = numbers.size() / 4;
-  std::vector<std::uint8_t> fit(chunk_count(count, wall_grain), 1);
-  for_chunks(count, wall_grain, execution, [&](Range r) {
-    for (std::size_t i = 4 * r.first; i < 4 * r.last; i += 4) {
-      if (PackedWall::fits(numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3])) continue;
-      fit[r.first / wall_grain] = 0;
-      return;
-    }
-  });
-  return std::find(fit.begin(), fit.end(), 0) == fit.end();
+  return count == first_that(count, wall_grain, execution, [&](std::size_t i) {
+           const T* const x = &numbers[4 * i];
+           return !PackedWall::fits(x[0], x[1], x[2], x[3]);
+         });
 }
 
 [[noreturn]] void refuse(const RoadmapFile& file, std::string_view section, std::string_view what) {
@@ -90,13 +85,10 @@ template <class T>
 void check_walls(const RoadmapFile& file, std::string_view section, std::span<const T> numbers,
                  const Execution& execution) {
   if (numbers.size() % 4 != 0) refuse(file, section, "expected four numbers a wall");
-  std::vector<std::uint8_t> good(chunk_count(numbers.size(), wall_grain), 1);
-  for_chunks(numbers.size(), wall_grain, execution, [&](Range r) {
-    const auto part = numbers.subspan(r.first, r.size());
-    const auto is_coordinate = [](T x) { return std::abs(static_cast<double>(x)) <= largest_coordinate; };
-    good[r.first / wall_grain] = std::all_of(part.begin(), part.end(), is_coordinate) ? 1 : 0;
-  });
-  if (std::find(good.begin(), good.end(), 0) == good.end()) return;
+  const auto is_wrong = [&](std::size_t i) {
+    return !(std::abs(static_cast<double>(numbers[i])) <= largest_coordinate);
+  };
+  if (first_that(numbers.size(), wall_grain, execution, is_wrong) == numbers.size()) return;
   refuse(file, section, "expected numbers of at most 1e60");
 }
 

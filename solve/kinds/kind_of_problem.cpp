@@ -30,8 +30,8 @@ bool takes(const SolveKind& kind, const PlannerChoice& choice, AskedWord word) {
 
 /// Does the planner of this kind take all of it? solve() keeps routes, whoever plans.
 bool takes_all(const SolveKind& kind, const PlannerChoice& choice, AskedWords words, const SolveOptions& options) {
-  const std::vector<AskedWord> asked = words_of(words);
-  const std::vector<Option> wanted = options_in(given(options));
+  const std::vector<AskedWord> asked = words.members();
+  const std::vector<Option> wanted = given(options).members();
   return std::all_of(asked.begin(), asked.end(),
                      [&](AskedWord word) { return takes(kind, choice, word) || word == AskedWord::keep_to; }) &&
          std::all_of(wanted.begin(), wanted.end(), [&](Option option) { return takes(kind, choice, option); });
@@ -109,7 +109,7 @@ std::string takers_text(Word word, const std::vector<const SolveKind*>& fitting)
 /// problem, where that is known.
 void refuse_ignored(const SolveOptions& options, PlannerKind planner, const std::vector<const SolveKind*>& kinds,
                     const std::vector<const SolveKind*>& fitting = {}) {
-  for (const Option option : options_in(given(options))) {
+  for (const Option option : given(options).members()) {
     if (std::any_of(kinds.begin(), kinds.end(),
                     [&](const SolveKind* kind) { return takes(*kind, *choice_in(*kind, planner), option); }))
       continue;
@@ -125,7 +125,7 @@ void refuse_ignored(const SolveOptions& options, PlannerKind planner, const std:
 /// Refuses the first of the words that the planner of this kind would ignore.
 void refuse_ignored_words(AskedWords asked, const SolveKind& chosen, PlannerKind planner, const Scene& scene,
                           const Question& question, const std::vector<const SolveKind*>& fitting) {
-  for (const AskedWord word : words_of(asked)) {
+  for (const AskedWord word : asked.members()) {
     if (takes_all(chosen, *choice_in(chosen, planner), {word}, {})) continue;
     const bool is_factor = word == AskedWord::keep_out_factor || word == AskedWord::unknown_factor;
     const std::string_view what = is_factor ? "its factor" : word == AskedWord::goal_heading ? "its angle" : "it";

@@ -18,7 +18,7 @@ namespace {
 /// Is anything asked that makes places dear?
 bool asks_price(const Prices& prices) {
   const AskedWords asked = words_in(prices);
-  const std::vector<AskedWord> words = words_of(price_words);
+  const std::vector<AskedWord> words = price_words.members();
   return std::any_of(words.begin(), words.end(), [&](AskedWord word) { return asked.has(word); });
 }
 
@@ -170,8 +170,8 @@ Verdict verify_plane_answer(const Scene& scene, const WallProblem& problem, cons
 }
 
 Box room_of(const Scene& scene, const Execution& execution) {
-  if (!scene.map) return scene.bounds ? *scene.bounds : obstacle_box(scene, execution);
-  return world_box(*scene.map, {{0.0, 0.0}, {1.0 * scene.map->width(), 1.0 * scene.map->height()}});
+  if (scene.map) return world_box(*scene.map);
+  return scene.bounds ? *scene.bounds : obstacle_box(scene, execution);
 }
 
 double end_margin(const Scene& scene, const RobotSpec& robot, double clearance, double extent,

@@ -99,14 +99,6 @@ AskedWords words_in(const RouteRule& route) {
   return words;
 }
 
-std::vector<AskedWord> words_of(AskedWords words) {
-  std::vector<AskedWord> list;
-  for (std::size_t i = 0; i < asked_word_count; ++i) {
-    if (words.has(static_cast<AskedWord>(i))) list.push_back(static_cast<AskedWord>(i));
-  }
-  return list;
-}
-
 PricedArea area_value(const std::string& where, std::string_view text) {
   scene_text::Fields fields(text, {where, 0});
   Prices prices;

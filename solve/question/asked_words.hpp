@@ -6,10 +6,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "core/base/enum_names.hpp"
 #include "scenes/scene/prices.hpp"
@@ -43,30 +41,8 @@ constexpr auto enum_names(AskedWord) {
       "unknown",         "keep_out",       "unknown", "goal",         "goal_tolerance",
       "goal_region",     "goal_tolerance", "visit",   "alternatives", "keep_to"};
 }
-/// Enumerators of AskedWord.
-inline constexpr std::size_t asked_word_count = enum_names(AskedWord{}).size();
-
 /// A set of them.
-class AskedWords {
- public:
-  /// Those of the list.
-  constexpr AskedWords(std::initializer_list<AskedWord> words = {}) {
-    for (const AskedWord word : words) bits_ |= std::uint32_t{1} << static_cast<unsigned>(word);
-  }
-  /// Is it in the set?
-  constexpr bool has(AskedWord word) const { return (bits_ >> static_cast<unsigned>(word) & 1U) != 0; }
-  /// Are there none?
-  constexpr bool empty() const { return bits_ == 0; }
-  /// Those of either.
-  constexpr AskedWords operator|(AskedWords more) const {
-    more.bits_ |= bits_;
-    return more;
-  }
-  friend constexpr bool operator==(AskedWords, AskedWords) = default;
-
- private:
-  std::uint32_t bits_ = 0;
-};
+using AskedWords = EnumSet<AskedWord>;
 
 /// What is geometry: it says what blocks, and planners of maps or polygons take it with these.
 inline constexpr AskedWords restriction_words{AskedWord::keep_out, AskedWord::unknown};
@@ -94,8 +70,6 @@ inline AskedWords words_in(const Question& question) {
 inline AskedWords words_in(const Scene& scene, const Question& question) {
   return words_in(prices_of(scene, question)) | words_in(rule_of(scene, question)) | words_in(question.route);
 }
-/// In the order of the enumeration.
-std::vector<AskedWord> words_of(AskedWords words);
 
 /// Reads "F X Y X Y X Y ..."; throws InputError naming `where`.
 PricedArea area_value(const std::string& where, std::string_view text);

@@ -77,14 +77,6 @@ Figure option_figure(const std::vector<AnytimePart>& parts) {
 
 void SolveOptions::validate() const { visit_options(OptionCheck{}, *this); }
 
-std::vector<Option> options_in(OptionSet set) {
-  std::vector<Option> options;
-  for (std::size_t i = 0; i < option_count; ++i) {
-    if (set.has(static_cast<Option>(i))) options.push_back(static_cast<Option>(i));
-  }
-  return options;
-}
-
 OptionSet given(const SolveOptions& options) {
   OptionSet set;
   if (const auto star = star_option(options)) set = {*star};

@@ -7,7 +7,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <string_view>
@@ -231,25 +230,7 @@ constexpr auto enum_names(Option) {
 inline constexpr std::size_t option_count = enum_names(Option{}).size();
 
 /// Which of the options are given.
-class OptionSet {
- public:
-  /// Those of the list.
-  constexpr OptionSet(std::initializer_list<Option> options = {}) {
-    for (const Option option : options) bits_ |= bit(option);
-  }
-  /// Is it in the set?
-  constexpr bool has(Option option) const { return (bits_ & bit(option)) != 0; }
-  /// Those of either.
-  constexpr OptionSet operator|(OptionSet more) const {
-    more.bits_ |= bits_;
-    return more;
-  }
-  friend constexpr bool operator==(OptionSet, OptionSet) = default;
-
- private:
-  static constexpr std::uint64_t bit(Option option) { return std::uint64_t{1} << static_cast<unsigned>(option); }
-  std::uint64_t bits_ = 0;
-};
+using OptionSet = EnumSet<Option>;
 /// What a question asks of a roadmap that is there; a roadmap that is kept has none of them.
 inline constexpr OptionSet question_options{Option::search,    Option::queue,        Option::optimise,
                                             Option::cusp_cost, Option::reverse_cost, Option::heuristic,
@@ -258,8 +239,6 @@ inline constexpr OptionSet question_options{Option::search,    Option::queue,   
 inline constexpr OptionSet asked_options = question_options | OptionSet{Option::attach};
 /// How planners work, which roadmaps that are kept don't show.
 inline constexpr OptionSet work_options{Option::lazy, Option::pipeline, Option::sampled_edges, Option::neighbour_index};
-/// In the order of the enumeration.
-std::vector<Option> options_in(OptionSet set);
 
 /// Numbers that an option takes: from low to high; without an end those above 0. The rest means nothing to other types.
 struct OptionRange {

@@ -52,9 +52,9 @@ PictureOptions picture_words(const Arguments& arguments, bool is_drawn, std::str
   }
   if (file.ends_with(".html")) arguments.refuse({"--size", "--dpi"}, "a page fills its window; say .svg, .png or .pdf");
   if (arguments.has("--show")) {
-    options.parts = Parts::none();
+    options.parts = {};
     for (const Part part : given_values(arguments, "--show", "--show", choice_value<Part>)) {
-      options.parts = options.parts.with(part);
+      options.parts = options.parts | Parts{part};
     }
   }
   constexpr double least_dpi = 10.0;

@@ -74,7 +74,7 @@ TEST(SolidRaster, AFaceIsMetFromOutsideWhereItIs) {
 TEST(SolidRaster, PartsThatAreNotShownAreNotThere) {
   SolidView view = view_along_x();
   view.solids = {{{0, 0, 0}, {0, 0, 0}, 0.3, red, Part::body}};
-  EXPECT_EQ(tint(draw_solids(view, Parts::none().with(Part::world), 60, 60, {}), 30, 30), 0);
+  EXPECT_EQ(tint(draw_solids(view, {Part::world}, 60, 60, {}), 30, 30), 0);
 }
 
 TEST(SolidRaster, TinyAndHugeWorldsLookAlike) {

@@ -71,7 +71,7 @@ TEST(WritePicture, PartsThatAreNotShownAreNotThere) {
     EXPECT_TRUE(holds(all, std::string("<g id=\"") + id + "\"")) << id;
   }
   PictureOptions path;
-  path.parts = Parts::none().with(Part::path);
+  path.parts = {Part::path};
   const std::string some = written(write_svg, titled_picture(scene), path);
   EXPECT_TRUE(holds(some, "<g id=\"goal\""));
   for (const char* id : {"polygons", "walls", "axes", "scale", "legend"}) {

@@ -101,11 +101,11 @@ TEST(Page, TheLegendTellsWhatIsDrawnAndNothingElse) {
   EXPECT_EQ(labels_of(laid_out(picture)),
             (std::vector<std::string>{"obstacle", "bounds", "medial axis", "path", "start"}));
   PictureOptions some;
-  some.parts = Parts::none().with(Part::path).with(Part::legend);
+  some.parts = {Part::path, Part::legend};
   const Page page = laid_out(picture, some);
   EXPECT_EQ(labels_of(page), (std::vector<std::string>{"path", "start"}));
   EXPECT_TRUE(page.frame.empty());
-  some.parts = Parts::none().with(Part::path);
+  some.parts = {Part::path};
   EXPECT_TRUE(laid_out(picture, some).legend.empty());
 }
 

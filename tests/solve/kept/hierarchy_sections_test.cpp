@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "tests/solve/kept/small_roadmap_file.hpp"
 
 namespace warren {
 namespace {
@@ -29,7 +30,7 @@ class HierarchyFile : public testing::Test {
   void TearDown() override { std::filesystem::remove(path_); }
 
   Hierarchy read_back(std::span<const RoadmapSection> sections) const {
-    write_roadmap_file(path_, {.writer = "test"}, sections, {});
+    test::write_sections(path_, {.writer = "test"}, sections);
     return read_hierarchy(RoadmapFile(path_, {}), 3, {});
   }
   Hierarchy read_back(const Arrays& arrays) const {

@@ -38,7 +38,7 @@ TEST(RoadmapFile, GivesBackWhatWasWritten) {
   const SmallRoadmapFile small;
   const TemporaryDirectory directory;
   const std::string path = directory.file("a.roadmap");
-  write_roadmap_file(path, small.header, small.sections(), {});
+  test::write_sections(path, small.header, small.sections());
   const RoadmapFile file(path, {});
   EXPECT_EQ(file.header().world_hash, small.header.world_hash);
   EXPECT_EQ(file.header().recipe_hash, 42U);
@@ -60,7 +60,7 @@ TEST(RoadmapFile, GivesBackWhatWasWritten) {
 
 TEST(RoadmapFile, TakesAFileWithoutSections) {
   const TemporaryDirectory directory;
-  write_roadmap_file(directory.file("a"), {}, {}, {});
+  test::write_sections(directory.file("a"), {}, {});
   EXPECT_TRUE(RoadmapFile(directory.file("a"), {}).sections().empty());
 }
 
@@ -259,7 +259,7 @@ class LargeRoadmapFile : public ::testing::Test {
     for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = i * 0x9e3779b97f4a7c15U;
     const std::vector<char> text(1000, 'x');
     const std::vector sections{roadmap_section<std::uint64_t>("numbers", numbers), roadmap_section<char>("text", text)};
-    write_roadmap_file(path_, {}, sections, {});
+    test::write_sections(path_, {}, sections);
     offset_ = RoadmapFile(path_, {}).find("numbers")->offset;
   }
   void flip(std::size_t at) const {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A .roadmap file of a few sections of all kinds, for whoever wants to read or break one.
+// .roadmap files of given sections, and one of a few sections of all kinds, for whoever wants to read or break one.
 #pragma once
 
 #include <numeric>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,14 @@
 #include "tests/scenes/files/temporary_directory.hpp"
 
 namespace warren::test {
+
+/// The whole file, in its place.
+inline void write_sections(const std::string& path, const RoadmapFileHeader& header,
+                           std::span<const RoadmapSection> sections, const Execution& execution = {}) {
+  OutputFile file(path, execution);
+  write_roadmap_file(file, header, sections, execution);
+  file.commit();
+}
 
 struct SmallRoadmapFile {
   std::string meta = R"({"planner":"prm"})";
@@ -30,7 +39,7 @@ struct SmallRoadmapFile {
   /// The file's bytes.
   std::string written(const Execution& execution = {}) const {
     const TemporaryDirectory directory;
-    write_roadmap_file(directory.file("a.roadmap"), header, sections(), execution);
+    write_sections(directory.file("a.roadmap"), header, sections(), execution);
     return directory.read("a.roadmap");
   }
 };
