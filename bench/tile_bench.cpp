@@ -62,8 +62,8 @@ void bm_partition(benchmark::State& state) {
   std::size_t entries = 0;
   for (std::size_t tile = 0; tile < grid.count(); ++tile) {
     const TileWalls walls = filed.of(tile);
-    bytes += walls.narrow.size_bytes() + walls.floats.size_bytes() + walls.doubles.size_bytes();
-    entries += walls.narrow.size() + walls.floats.size() + walls.doubles.size();
+    bytes += walls.narrow.size_bytes() + walls.wide.size_bytes();
+    entries += walls.narrow.size() + walls.wide.size();
   }
   check(entries >= scene.walls.size(), "WallPartition: walls are missing");
   for (auto _ : state) {

@@ -183,7 +183,7 @@ SearchGraph geometric_graph(std::uint32_t size, double degree, std::uint64_t see
   const double radius = std::sqrt(degree / std::numbers::pi);
   const std::array<RawVector<Edge>, 1> edges{edges_within(made.at, radius, execution)};
   const auto length = [&](VertexId v, VertexId w) { return distance(made.at[v], made.at[w]); };
-  made.graph = assemble_graph(size, edges, execution, length);
+  made.graph = with_lengths(assemble_graph(size, edges, execution), execution, length);
   const Components parts = components(made.graph, execution);
   const VertexId largest = largest_component(parts);
   const double side = std::sqrt(static_cast<double>(size));

@@ -73,11 +73,10 @@ class GraphSearch {
   virtual SearchResult run(const Execution& execution) = 0;
 };
 
-/// The graph must outlive it. Throws UsageError for a library that this build does not have.
+/// The graph must outlive it.
 std::unique_ptr<GraphSearch> graph_search(const SearchGraph& graph, const SearchVariant& variant);
 
-/// Was the program built where Boost.Graph was found? (boost_search.cpp)
-bool has_boost_graph();
+/// The same of Boost.Graph (boost_search.cpp).
 std::unique_ptr<GraphSearch> boost_search(const SearchGraph& graph, SearchKind search);
 
 /// Sum of the lengths along a path; the path's vertices are neighbours.

@@ -40,8 +40,6 @@ class ValuePacker {
   void add_list(const std::vector<T, A>& values) {
     add_list(std::span<const T>(values));
   }
-  /// As they are, without their number.
-  void add_bytes(std::span<const std::byte> bytes) { append(bytes.data(), bytes.size()); }
   void add_text(std::string_view text) { add_list(std::span<const char>(text)); }
 
   std::span<const std::byte> bytes() const { return bytes_; }

@@ -13,22 +13,16 @@ Graph Graph::from_edges(std::size_t vertex_count, std::span<const Edge> edges) {
   if (edges.size() > std::numeric_limits<EdgeEnd>::max() / 2) {
     throw InputError("graph", "too many edges for 32-bit positions; use fewer samples or neighbours");
   }
-  RawVector<EdgeEnd> offsets(vertex_count + 1, 0);
-  for (const Edge& e : edges) {
-    ++offsets[e.from + 1];
-    ++offsets[e.to + 1];
-  }
-  for (std::size_t v = 0; v < vertex_count; ++v) offsets[v + 1] += offsets[v];
-  RawVector<VertexId> targets(2 * edges.size());
-  RawVector<EdgeEnd> next(offsets.begin(), offsets.end() - 1);
-  for (const Edge& e : edges) {
-    targets[next[e.from]++] = e.to;
-    targets[next[e.to]++] = e.from;
-  }
+  ItemsByKey rows = items_by_key(vertex_count, [&](const auto& visit) {
+    for (const Edge& e : edges) {
+      visit(e.from, e.to);
+      visit(e.to, e.from);
+    }
+  });
   for (std::size_t v = 0; v < vertex_count; ++v) {
-    std::sort(targets.begin() + offsets[v], targets.begin() + offsets[v + 1]);
+    std::sort(rows.items.begin() + rows.first[v], rows.items.begin() + rows.first[v + 1]);
   }
-  return Graph(std::move(offsets), std::move(targets));
+  return Graph(std::move(rows.first), std::move(rows.items));
 }
 
 std::size_t Components::size_of(VertexId v) const {

@@ -185,7 +185,7 @@ class AxisGraph {
   const Execution& execution_;
   std::array<AxisPlace, 2> ends_;
   std::vector<AxisLink> links_;
-  std::vector<std::uint32_t> first_, at_;  // the links at vertex v are at_[first_[v]] .. at_[first_[v + 1] - 1]
+  ItemsByKey links_at_;  // each vertex, by number
 };
 
 constexpr std::size_t links_per_poll = 1 << 14;
@@ -224,20 +224,13 @@ void AxisGraph::join(VertexId v, double clearance) {
 }
 
 void AxisGraph::index_links() {
-  first_.assign(vertex_count() + 1, 0);
-  for (std::size_t i = 0; i < links_.size(); ++i) {
-    if (i % links_per_poll == 0) execution_.check();
-    ++first_[links_[i].from + 1];
-    ++first_[links_[i].to + 1];
-  }
-  std::partial_sum(first_.begin(), first_.end(), first_.begin());
-  at_.resize(first_.back());
-  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-  for (std::uint32_t i = 0; i < links_.size(); ++i) {
-    if (i % links_per_poll == 0) execution_.check();
-    at_[next[links_[i].from]++] = i;
-    at_[next[links_[i].to]++] = i;
-  }
+  links_at_ = items_by_key(vertex_count(), [&](const auto& visit) {
+    for (std::uint32_t i = 0; i < links_.size(); ++i) {
+      if (i % links_per_poll == 0) execution_.check();
+      visit(links_[i].from, i);
+      visit(links_[i].to, i);
+    }
+  });
 }
 
 Graph AxisGraph::graph() const {
@@ -278,8 +271,8 @@ SearchResult AxisGraph::search(SearchKind search, QueueKind queue_kind) const {
     found = search_blindly(search, graph(), start(), goal(), state, execution_);
   } else {
     const auto neighbours = [&](VertexId v, const auto& visit) {
-      for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
-        const AxisLink& l = links_[at_[i]];
+      for (const std::uint32_t i : links_at_.of(v)) {
+        const AxisLink& l = links_[i];
         visit(l.from == v ? l.to : l.from, l.length);
       }
     };
@@ -293,8 +286,8 @@ SearchResult AxisGraph::search(SearchKind search, QueueKind queue_kind) const {
 
 const AxisLink& AxisGraph::link_between(VertexId v, VertexId w) const {
   const AxisLink* best = nullptr;
-  for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
-    const AxisLink& l = links_[at_[i]];
+  for (const std::uint32_t i : links_at_.of(v)) {
+    const AxisLink& l = links_[i];
     if ((l.from == v ? l.to : l.from) != w) continue;
     if (best == nullptr || l.length < best->length) best = &l;
   }

@@ -68,9 +68,9 @@ class Assembly {
     blocks_ = chunk_count(vertex_count_, std::size_t{1} << bits_);
   }
 
-  GraphRows run() {
+  Graph run() {
     check_parts();
-    if (vertex_count_ == 0) return {RawVector<EdgeEnd>(1, 0), {}};
+    if (vertex_count_ == 0) return {};
     cut_ordered_parts();
     cut_loose_parts();
     count_halves();
@@ -213,15 +213,16 @@ class Assembly {
     return {routed_.data() + routed_begin_[block], routed_.data() + routed_begin_[block + 1]};
   }
 
-  GraphRows fill_rows() {
+  Graph fill_rows() {
     execution_.reserve((vertex_count_ + 2 * edge_count_) * sizeof(VertexId));
-    GraphRows rows{RawVector<EdgeEnd>(vertex_count_ + 1), RawVector<VertexId>(2 * edge_count_)};
-    rows.offsets[vertex_count_] = static_cast<EdgeEnd>(2 * edge_count_);
+    RawVector<EdgeEnd> offsets(vertex_count_ + 1);
+    RawVector<VertexId> targets(2 * edge_count_);
+    offsets[vertex_count_] = static_cast<EdgeEnd>(2 * edge_count_);
     for_chunks(vertex_count_, std::size_t{1} << bits_, execution_,
-               [&](Range r) { fill_block(r.first >> bits_, r, rows); });
-    return rows;
+               [&](Range r) { fill_block(r.first >> bits_, r, offsets, targets); });
+    return {std::move(offsets), std::move(targets)};
   }
-  void fill_block(std::size_t block, Range r, GraphRows& rows) const {
+  void fill_block(std::size_t block, Range r, std::span<EdgeEnd> offsets, std::span<VertexId> targets) const {
     std::vector<EdgeEnd> next(r.size() + 1, 0);  // row v's cursor is next[v - r.first]
     const auto first = static_cast<VertexId>(r.first);
     const auto size = static_cast<VertexId>(r.size());
@@ -232,18 +233,18 @@ class Assembly {
     });
     auto at = static_cast<EdgeEnd>(ends_[block]);
     for (std::size_t i = 0; i < size; ++i) {
-      rows.offsets[r.first + i] = at;
+      offsets[r.first + i] = at;
       at += std::exchange(next[i], at);
     }
-    for (const RoutedHalf& h : routed_to(block)) rows.targets[next[h.row - first]++] = h.target;
+    for (const RoutedHalf& h : routed_to(block)) targets[next[h.row - first]++] = h.target;
     for_block_edges(block, [&](const Edge& e) {
-      rows.targets[next[e.from - first]++] = e.to;
-      if (e.to - first < size) rows.targets[next[e.to - first]++] = e.from;
+      targets[next[e.from - first]++] = e.to;
+      if (e.to - first < size) targets[next[e.to - first]++] = e.from;
     });
     EdgeEnd begin = static_cast<EdgeEnd>(ends_[block]);
     for (std::size_t i = 0; i < size; begin = next[i++]) {
-      VertexId* const row = rows.targets.data() + begin;
-      VertexId* const row_end = rows.targets.data() + next[i];
+      VertexId* const row = targets.data() + begin;
+      VertexId* const row_end = targets.data() + next[i];
       if (!std::is_sorted(row, row_end)) std::sort(row, row_end);
     }
   }
@@ -265,14 +266,9 @@ class Assembly {
 
 }  // namespace
 
-GraphRows assemble_rows(std::size_t vertex_count, std::span<const RawVector<Edge>> parts, const Execution& execution) {
+Graph assemble_graph(std::size_t vertex_count, std::span<const RawVector<Edge>> parts, const Execution& execution) {
   const std::vector<std::span<const Edge>> spans(parts.begin(), parts.end());
   return Assembly(vertex_count, spans, execution).run();
-}
-
-Graph assemble_graph(std::size_t vertex_count, std::span<const RawVector<Edge>> parts, const Execution& execution) {
-  GraphRows rows = assemble_rows(vertex_count, parts, execution);
-  return Graph(std::move(rows.offsets), std::move(rows.targets));
 }
 
 Graph assemble_graph(std::size_t vertex_count, std::span<const Edge> edges, const Execution& execution) {
@@ -280,8 +276,7 @@ Graph assemble_graph(std::size_t vertex_count, std::span<const Edge> edges, cons
   for (std::size_t i = 0; i < edges.size(); i += smallest_run) {
     parts.push_back(edges.subspan(i, std::min(smallest_run, edges.size() - i)));
   }
-  GraphRows rows = Assembly(vertex_count, parts, execution).run();
-  return Graph(std::move(rows.offsets), std::move(rows.targets));
+  return Assembly(vertex_count, parts, execution).run();
 }
 
 }  // namespace warren

@@ -15,7 +15,9 @@
 // tile order: see docs/performance.md and bench/graph_bench.cpp.
 #pragma once
 
+#include <cstddef>
 #include <span>
+#include <utility>
 
 #include "core/search/graph.hpp"
 #include "parallel/chunks.hpp"
@@ -29,29 +31,20 @@ Graph assemble_graph(std::size_t vertex_count, std::span<const RawVector<Edge>> 
 /// The same of one list of edges.
 Graph assemble_graph(std::size_t vertex_count, std::span<const Edge> edges, const Execution& execution);
 
-/// The arrays of a graph before they become one.
-struct GraphRows {
-  RawVector<EdgeEnd> offsets;
-  RawVector<VertexId> targets;
-};
-GraphRows assemble_rows(std::size_t vertex_count, std::span<const RawVector<Edge>> parts, const Execution& execution);
-
-/// The same with lengths: length(v, w) is called once an edge end, by several threads at once.
+/// The graph with lengths: length(v, w) is called once an edge end, by several threads at once. Throws Stopped.
 template <class Length>
-Graph assemble_graph(std::size_t vertex_count, std::span<const RawVector<Edge>> parts, const Execution& execution,
-                     const Length& length) {
+Graph with_lengths(Graph graph, const Execution& execution, const Length& length) {
   constexpr std::size_t grain = std::size_t{1} << 14;
-  GraphRows rows = assemble_rows(vertex_count, parts, execution);
-  execution.reserve(rows.targets.size() * sizeof(double));
-  RawVector<double> lengths(rows.targets.size());
-  for_chunks(vertex_count, grain, execution, [&](Range r) {
-    for (std::size_t v = r.first; v < r.last; ++v) {
-      for (EdgeEnd e = rows.offsets[v]; e < rows.offsets[v + 1]; ++e) {
-        lengths[e] = length(static_cast<VertexId>(v), rows.targets[e]);
-      }
+  execution.reserve(graph.targets().size() * sizeof(double));
+  RawVector<double> lengths(graph.targets().size());
+  for_chunks(graph.vertex_count(), grain, execution, [&](Range r) {
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      const auto v = static_cast<VertexId>(i);
+      std::size_t end = graph.first_end(v);
+      for (const VertexId w : graph.neighbours(v)) lengths[end++] = length(v, w);
     }
   });
-  return Graph(std::move(rows.offsets), std::move(rows.targets), std::move(lengths));
+  return std::move(graph).with_lengths(std::move(lengths));
 }
 
 }  // namespace warren

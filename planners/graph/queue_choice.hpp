@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstddef>
-#include <variant>
 
 #include "core/run/execution.hpp"
 #include "core/search/bidirectional_search.hpp"
@@ -30,41 +29,6 @@ class PolledArray : public Queue {
   const Execution* execution_;
 };
 
-/// The queues that are there to be compared with the heap, as one type: else each search of each world would be
-/// compiled four times. Choosing costs one or two nanoseconds an operation; apps/studies/search_contest times each
-/// queue without it.
-class ComparedQueue {
- public:
-  ComparedQueue(QueueKind kind, const Execution& execution)
-      : queue_(kind == QueueKind::lazy_heap      ? Any(LazyHeap())
-               : kind == QueueKind::sorted_array ? Any(PolledArray<SortedArray>(execution))
-                                                 : Any(PolledArray<ResortedArray>(execution))) {}
-
-  template <class Poll>
-  void resize(std::size_t vertex_count, const Poll& poll) {
-    std::visit([&](auto& queue) { queue.resize(vertex_count, poll); }, queue_);
-  }
-  bool empty() const {
-    return std::visit([](const auto& queue) { return queue.empty(); }, queue_);
-  }
-  void clear() {
-    std::visit([](auto& queue) { queue.clear(); }, queue_);
-  }
-  void push(VertexId v, double key) {
-    std::visit([&](auto& queue) { queue.push(v, key); }, queue_);
-  }
-  const QueueEntry& top() const {
-    return std::visit([](const auto& queue) -> const QueueEntry& { return queue.top(); }, queue_);
-  }
-  QueueEntry pop() {
-    return std::visit([](auto& queue) { return queue.pop(); }, queue_);
-  }
-
- private:
-  using Any = std::variant<LazyHeap, PolledArray<SortedArray>, PolledArray<ResortedArray>>;
-  Any queue_;
-};
-
 /// Calls f with an empty queue of the kind, ready for vertex_count vertices. Throws Stopped.
 template <class F>
 auto with_queue(QueueKind kind, std::size_t vertex_count, const Execution& execution, const F& f) {
@@ -73,7 +37,9 @@ auto with_queue(QueueKind kind, std::size_t vertex_count, const Execution& execu
     return f(queue);
   };
   if (kind == QueueKind::heap) return call(IndexedHeap<4>());
-  return call(ComparedQueue(kind, execution));
+  if (kind == QueueKind::lazy_heap) return call(LazyHeap());
+  if (kind == QueueKind::sorted_array) return call(PolledArray<SortedArray>(execution));
+  return call(PolledArray<ResortedArray>(execution));
 }
 
 /// Asks for what a search of so many vertices takes, its queue included, where the state has to grow. Throws Stopped.

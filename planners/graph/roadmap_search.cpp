@@ -95,24 +95,14 @@ auto estimates(const RoadmapSearch& asked, const VertexOf& vertex_of) {
 }
 
 /// A search tree over keys as the tree over the vertices on their chains.
-template <class Reduced>
-std::vector<Edge> expanded_tree(const Reduced& reduced, const std::vector<Edge>& keys, const Execution& execution) {
+std::vector<Edge> expanded_tree(const TwiceReducedGraphView& reduced, const std::vector<Edge>& keys,
+                                const Execution& execution) {
   std::vector<Edge> tree;
   for (const Edge& e : keys) {
     const RawVector<VertexId> chain = reduced.expand(std::array{e.from, e.to}, execution);
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) tree.push_back({chain[i], chain[i + 1]});
   }
   return tree;
-}
-
-template <class Reduced>
-SearchResult search_keys(const Reduced& reduced, const RoadmapSearch& asked) {
-  const auto vertex_of = [&](VertexId key) { return reduced.vertex_of(key); };
-  SearchResult found = search_best(reduced.graph(), reduced.key_of(asked.start), reduced.key_of(asked.goal),
-                                   estimates(asked, vertex_of), asked);
-  found.path = reduced.expand(found.path, asked.execution);
-  if (asked.tree != nullptr) *asked.tree = expanded_tree(reduced, *asked.tree, asked.execution);
-  return found;
 }
 
 /// Breadth or depth first.
@@ -177,12 +167,13 @@ SearchResult search_roadmap(const Graph& graph, const RoadmapSearch& asked) {
   return search_best(graph, asked.start, asked.goal, estimates(asked, itself), asked);
 }
 
-SearchResult search_roadmap(const ReducedGraphView& reduced, const RoadmapSearch& asked) {
-  return search_keys(reduced, asked);
-}
-
 SearchResult search_roadmap(const TwiceReducedGraphView& reduced, const RoadmapSearch& asked) {
-  return search_keys(reduced, asked);
+  const auto vertex_of = [&](VertexId key) { return reduced.vertex_of(key); };
+  SearchResult found = search_best(reduced.graph(), reduced.key_of(asked.start), reduced.key_of(asked.goal),
+                                   estimates(asked, vertex_of), asked);
+  found.path = reduced.expand(found.path, asked.execution);
+  if (asked.tree != nullptr) *asked.tree = expanded_tree(reduced, *asked.tree, asked.execution);
+  return found;
 }
 
 SearchResult search_implicit(const AnyNeighbours& neighbours, VertexId from, VertexId to, const ImplicitSearch& asked,

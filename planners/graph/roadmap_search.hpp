@@ -70,7 +70,6 @@ std::optional<TwiceReducedGraphView> reduced_for_search(const Graph& graph, cons
 /// Searches the graph, or the keys of a reduced one: then the path is of the vertices that they stand for. Throws
 /// Stopped at the deadline.
 SearchResult search_roadmap(const Graph& graph, const RoadmapSearch& asked);
-SearchResult search_roadmap(const ReducedGraphView& reduced, const RoadmapSearch& asked);
 SearchResult search_roadmap(const TwiceReducedGraphView& reduced, const RoadmapSearch& asked);
 
 /// What a search of a graph needs that expands its vertices itself, as lazily checked roadmaps do.

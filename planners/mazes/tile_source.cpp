@@ -16,8 +16,8 @@ constexpr std::size_t band_bytes = std::size_t{64} << 20;  // smaller bands are 
 constexpr std::uint32_t most_bands_in_order = 16;
 constexpr std::uint32_t most_bands = 64;
 
-std::size_t bytes_of_tile(const WallCounts& counts, std::size_t tile, std::size_t wall_bytes) {
-  return counts.narrow().of_tile(tile) * sizeof(NarrowWall) + counts.wide().of_tile(tile) * wall_bytes;
+std::size_t bytes_of_tile(const WallCounts& counts, std::size_t tile) {
+  return counts.narrow().of_tile(tile) * sizeof(NarrowWall) + counts.wide().of_tile(tile) * sizeof(DoubleWall);
 }
 
 /// Chunks looked at for all bands together, over the number of chunks.
@@ -55,6 +55,12 @@ std::size_t add_up(const ChunkCounts& counts, std::span<const std::size_t> tiles
   }
   if (sum >= 0xffffffffU) throw InputError("walls", "make more than 2^32 - 1 entries in the tiles that they pass");
   return sum;
+}
+
+template <class Wall>
+DoubleWall widened(const Wall& wall) {
+  const Segment s = wall.segment();
+  return {s.a.x, s.a.y, s.b.x, s.b.y};
 }
 
 /// What it held is gone.
@@ -125,10 +131,9 @@ std::vector<std::size_t> TileBands::tiles(const TileGrid& grid, std::uint32_t ba
   return tiles;
 }
 
-TileBands choose_bands(const WallCounts& counts, const TileGrid& grid, std::size_t wall_bytes,
-                       const Execution& execution) {
+TileBands choose_bands(const WallCounts& counts, const TileGrid& grid, const Execution& execution) {
   std::size_t bytes = 0;
-  for (std::size_t tile = 0; tile < counts.tiles(); ++tile) bytes += bytes_of_tile(counts, tile, wall_bytes);
+  for (std::size_t tile = 0; tile < counts.tiles(); ++tile) bytes += bytes_of_tile(counts, tile);
   if (bytes <= band_bytes) return {};
   const auto bands = [&](bool by_rows, std::size_t count) {
     return TileBands{
@@ -152,6 +157,7 @@ WallPartition::WallPartition(const WallSet& walls, std::span<const Segment> more
                              const Choose& choose, const Execution& execution)
     : walls_(walls),
       more_(more),
+      execution_(execution),
       grid_(grid),
       filer_(grid_, halo),
       counts_(walls, filer_, grid.count(), execution),
@@ -159,7 +165,7 @@ WallPartition::WallPartition(const WallSet& walls, std::span<const Segment> more
       first_narrow_(grid.count()),
       first_wide_(grid.count()) {
   if (bands_.count == 1) {
-    file(0, execution);
+    WallPartition::begin_band(0, execution);
     return;
   }
   std::vector<std::uint64_t> narrow(bands_.count);
@@ -173,10 +179,10 @@ WallPartition::WallPartition(const WallSet& walls, std::span<const Segment> more
 
 void WallPartition::make_room(std::size_t narrow, std::size_t wide, const Execution& execution) {
   resize_touched(narrow_, narrow, execution);
-  walls_.visit([&](auto walls) { resize_touched(wide_like(walls.data()), wide, execution); });
+  resize_touched(wide_, wide, execution);
 }
 
-std::vector<std::size_t> WallPartition::file(std::uint32_t band, const Execution& execution) {
+std::vector<std::size_t> WallPartition::begin_band(std::uint32_t band, const Execution& execution) {
   std::vector<std::size_t> tiles = bands_.tiles(grid_, band);
   if (filed_ == band) return tiles;
   filed_ = nothing;
@@ -212,7 +218,7 @@ void WallPartition::scatter(std::span<const Wall> walls, std::span<const std::si
     std::uint32_t* const narrow = narrow_places.data();
     std::uint32_t* const wide = wide_places.data();
     NarrowWall* const narrow_walls = narrow_.data();
-    auto* const wide_walls = wide_like(walls.data()).data();
+    DoubleWall* const wide_walls = wide_.data();
     const std::uint64_t* const middle = middles.data();
     const WallFiler filer = filer_;
     const Range range = counts_.chunk(chunks[r.first]);
@@ -226,7 +232,7 @@ void WallPartition::scatter(std::span<const Wall> walls, std::span<const std::si
             narrow_walls[place] = steps.from(middle[tile]);
           },
           [&](std::size_t tile) {
-            if (wide[tile] != nothing) wide_walls[wide[tile]++] = unpacked(wall);
+            if (wide[tile] != nothing) wide_walls[wide[tile]++] = widened(wall);
           });
     }
   });
@@ -248,21 +254,13 @@ TileWalls WallPartition::of(std::size_t tile) const {
     if (walls.empty()) return std::span<const Wall>();
     return std::span<const Wall>(walls.data() + first[tile], counts.of_tile(tile));
   };
-  return {part(narrow_, first_narrow_, counts_.narrow()), part(floats_, first_wide_, counts_.wide()),
-          part(doubles_, first_wide_, counts_.wide()), more_};
+  return {part(narrow_, first_narrow_, counts_.narrow()), part(wide_, first_wide_, counts_.wide()), more_};
 }
 
 TileWalls WallPartition::look_up(std::size_t tile, LooseTile& into, const Execution& execution) const {
   const std::uint64_t middle = middle_of(grid_, tile);
   into = {};
-  walls_.visit([&]<class Wall>(std::span<const Wall> walls) {
-    const auto take_wide = [&](const Wall& wall) {
-      if constexpr (std::is_same_v<Wall, DoubleWall>) {
-        into.doubles.push_back(wall);
-      } else {
-        into.floats.push_back(unpacked(wall));
-      }
-    };
+  walls_.visit([&](auto walls) {
     for (std::size_t chunk = 0; chunk < counts_.chunks(); ++chunk) {
       if (!counts_.has(chunk, tile)) continue;
       execution.check();
@@ -273,12 +271,12 @@ TileWalls WallPartition::look_up(std::size_t tile, LooseTile& into, const Execut
               if (to == tile) into.narrow.push_back(steps.from(middle));
             },
             [&](std::size_t to) {
-              if (to == tile) take_wide(walls[i]);
+              if (to == tile) into.wide.push_back(widened(walls[i]));
             });
       }
     }
   });
-  return {into.narrow, into.floats, into.doubles, more_};
+  return {into.narrow, into.wide, more_};
 }
 
 namespace {
@@ -291,49 +289,18 @@ void for_each_held(const WallSet& walls, std::span<const Segment> more,
   for (const Segment& wall : more) visit(wall);
 }
 
-class HeldTiles : public TileSource {
+class PartitionReader : public TileReader {
  public:
-  HeldTiles(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid, double halo, std::uint32_t bands,
-            const Execution& execution)
-      : walls_(walls),
-        more_(more),
-        execution_(execution),
-        partition_(
-            walls, more, grid, halo, [&](const WallCounts& counts) { return bands_for(bands, counts, grid); },
-            execution) {}
-
-  std::uint32_t band_count() const override { return partition_.band_count(); }
-  std::vector<std::size_t> begin_band(std::uint32_t band, const Execution& execution) override {
-    return partition_.file(band, execution);
-  }
-  std::unique_ptr<TileReader> reader() const override { return std::make_unique<Reader>(partition_, execution_); }
-  Box box() const override { return partition_.box(); }
-  void for_each_near(const Box&, const std::function<void(const Segment&)>& visit) const override {
-    for_each_held(walls_, more_, visit);
+  PartitionReader(const WallPartition& partition, const Execution& execution)
+      : partition_(partition), execution_(execution) {}
+  TileWalls read(std::size_t tile) override {
+    return partition_.is_filed(tile) ? partition_.of(tile) : partition_.look_up(tile, loose_, execution_);
   }
 
  private:
-  class Reader : public TileReader {
-   public:
-    Reader(const WallPartition& partition, const Execution& execution) : partition_(partition), execution_(execution) {}
-    TileWalls read(std::size_t tile) override {
-      return partition_.is_filed(tile) ? partition_.of(tile) : partition_.look_up(tile, loose_, execution_);
-    }
-
-   private:
-    const WallPartition& partition_;
-    const Execution& execution_;
-    LooseTile loose_;
-  };
-  TileBands bands_for(std::uint32_t asked, const WallCounts& counts, const TileGrid& grid) const {
-    if (asked > 0) return {std::min(asked, grid.tile_cols)};
-    return choose_bands(counts, grid, walls_.holds_doubles() ? sizeof(DoubleWall) : sizeof(FloatWall), execution_);
-  }
-
-  const WallSet& walls_;
-  std::span<const Segment> more_;
+  const WallPartition& partition_;
   const Execution& execution_;
-  WallPartition partition_;
+  LooseTile loose_;
 };
 
 /// A few walls among the milestones of one tile: one pass, and nothing is counted.
@@ -360,7 +327,7 @@ class OneTile : public TileSource {
   class Reader : public TileReader {
    public:
     explicit Reader(const OneTile& tile) : tile_(tile) {}
-    TileWalls read(std::size_t) override { return {tile_.narrow_, tile_.floats_, tile_.doubles_, tile_.more_}; }
+    TileWalls read(std::size_t) override { return {tile_.narrow_, tile_.wide_, tile_.more_}; }
 
    private:
     const OneTile& tile_;
@@ -375,20 +342,17 @@ class OneTile : public TileSource {
       box.include(wall);
       filer.file(
           wall, [&](std::size_t, const detail::WallSteps& steps) { *end++ = steps.from(middle); },
-          [&](std::size_t) { keep_wide(unpacked(wall)); });
+          [&](std::size_t) { wide_.push_back(widened(wall)); });
     }
     narrow_.resize(static_cast<std::size_t>(end - narrow_.data()));
     box_ = box.box();
   }
-  void keep_wide(const FloatWall& wall) { floats_.push_back(wall); }
-  void keep_wide(const DoubleWall& wall) { doubles_.push_back(wall); }
 
   const WallSet& walls_;
   std::span<const Segment> more_;
   const TileGrid grid_;
   RawVector<NarrowWall> narrow_;
-  RawVector<FloatWall> floats_;
-  RawVector<DoubleWall> doubles_;
+  RawVector<DoubleWall> wide_;
   Box box_;
 };
 
@@ -451,18 +415,26 @@ TileWalls CellTiles::Reader::read(std::size_t tile) {
       out += col >= 0 ? (line[col] & CellTile::upper_wall) >> 1 : 0;
     }
   }
-  return {.narrow = {walls_.data(), static_cast<std::size_t>(out - walls_.data())},
-          .floats = {},
-          .doubles = {},
-          .more = {}};
+  return {.narrow = {walls_.data(), static_cast<std::size_t>(out - walls_.data())}, .wide = {}, .more = {}};
 }
 
 }  // namespace
 
+std::unique_ptr<TileReader> WallPartition::reader() const {
+  return std::make_unique<PartitionReader>(*this, execution_);
+}
+
+void WallPartition::for_each_near(const Box&, const std::function<void(const Segment&)>& visit) const {
+  for_each_held(walls_, more_, visit);
+}
+
 std::unique_ptr<TileSource> held_tiles(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid,
                                        double halo, std::uint32_t bands, const Execution& execution) {
   if (OneTile::takes(walls, grid)) return std::make_unique<OneTile>(walls, more, grid, halo);
-  return std::make_unique<HeldTiles>(walls, more, grid, halo, bands, execution);
+  const auto choose = [&](const WallCounts& counts) {
+    return bands > 0 ? TileBands{std::min(bands, grid.tile_cols)} : choose_bands(counts, grid, execution);
+  };
+  return std::make_unique<WallPartition>(walls, more, grid, halo, choose, execution);
 }
 
 std::unique_ptr<TileSource> cell_tiles(const CellWallSource& cells, const TileGrid& grid) {

@@ -9,8 +9,8 @@
 // (tile_bands); chunk borders depend on the number of walls alone and each chunk has its own places, so there are no
 // atomics and the order is the walls' order. A wall that is a multiple of
 // 1/128 in every coordinate and at most 64 long along each axis is filed in 8 bytes (NarrowWall), whatever it came as;
-// any other is copied as it is (wide). A long wall is filed in the tiles that it passes, row of tiles by row of tiles,
-// not in all that its box meets: memory is at most 8 bytes a short wall (16 or 32 where it is wide), a few per cent
+// any other as doubles (wide). A long wall is filed in the tiles that it passes, row of tiles by row of tiles,
+// not in all that its box meets: memory is at most 8 bytes a short wall (32 where it is wide), a few per cent
 // for walls near borders, and one copy a tile passed for long ones; asked of the memory limit before it is taken.
 // Cost: 2 to 3 ns a wall to count, 4 to 6 to scatter (bench/tiled_phases.cpp).
 #pragma once
@@ -238,15 +238,13 @@ struct TileBands {
   std::vector<std::size_t> tiles(const TileGrid& grid, std::uint32_t band) const;
 };
 
-/// wall_bytes: of a wide wall. Asks the memory limit how much is left.
-TileBands choose_bands(const WallCounts& counts, const TileGrid& grid, std::size_t wall_bytes,
-                       const Execution& execution);
+/// Asks the memory limit how much is left.
+TileBands choose_bands(const WallCounts& counts, const TileGrid& grid, const Execution& execution);
 
 /// All that a tile needs to know of the walls: each list holds walls of its own.
 struct TileWalls {
   std::span<const NarrowWall> narrow;
-  std::span<const FloatWall> floats;
-  std::span<const DoubleWall> doubles;
+  std::span<const DoubleWall> wide;
   std::span<const Segment> more;  ///< the same for every tile: may lie anywhere
 
   /// Calls visit(const Segment&) for each wall, as the exact segment that it is in the world.
@@ -269,8 +267,7 @@ struct TileWalls {
   }
   template <class Visit>
   void for_each_wide(const Visit& visit) const {
-    for (const FloatWall& w : floats) visit(w.segment());
-    for (const DoubleWall& w : doubles) visit(w.segment());
+    for (const DoubleWall& w : wide) visit(w.segment());
     for (const Segment& w : more) visit(w);
   }
 };
@@ -278,61 +275,7 @@ struct TileWalls {
 /// The lists of a tile that is read by itself.
 struct LooseTile {
   RawVector<NarrowWall> narrow;
-  RawVector<FloatWall> floats;
-  RawVector<DoubleWall> doubles;
-};
-
-/// Any number of threads may read, but while a band is filed.
-class WallPartition {
- public:
-  /// Files all tiles. `more` are a few walls beside the set (bounds), kept by reference, as are the walls, which file()
-  /// and look_up() read. halo >= 0, in the world's unit. Throws Stopped at the deadline or before memory would pass its
-  /// limit, InputError where walls and tiles make 2^32 entries or more.
-  WallPartition(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid, double halo,
-                const Execution& execution);
-  /// Where there is one band it is filed; else none is, yet.
-  using Choose = std::function<TileBands(const WallCounts&)>;
-  WallPartition(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid, double halo,
-                const Choose& choose, const Execution& execution);
-
-  std::uint32_t band_count() const { return bands_.count; }
-  /// Files the walls of a band's tiles in the place of those before, and returns the tiles, ascending. Throws as above.
-  std::vector<std::size_t> file(std::uint32_t band, const Execution& execution);
-  bool is_filed(std::size_t tile) const { return bands_.of(grid_, tile) == filed_; }
-  /// Of a tile that is filed.
-  TileWalls of(std::size_t tile) const;
-  /// Of any tile: looks through the chunks that have walls of it.
-  TileWalls look_up(std::size_t tile, LooseTile& into, const Execution& execution) const;
-  /// Of the set's walls.
-  const Box& box() const { return counts_.box(); }
-
- private:
-  static constexpr std::uint32_t nothing = ~std::uint32_t{0};
-
-  void make_room(std::size_t narrow, std::size_t wide, const Execution& execution);
-  void place(std::span<const std::size_t> tiles);
-  static std::vector<std::uint32_t> places(const ChunkCounts& counts, const RawVector<std::uint32_t>& first,
-                                           std::size_t chunk);
-  template <class Wall>
-  void scatter(std::span<const Wall> walls, std::span<const std::size_t> chunks, const Execution& execution);
-  RawVector<FloatWall>& wide_like(const PackedWall*) { return floats_; }
-  RawVector<FloatWall>& wide_like(const FloatWall*) { return floats_; }
-  RawVector<DoubleWall>& wide_like(const DoubleWall*) { return doubles_; }
-
-  const WallSet& walls_;
-  std::span<const Segment> more_;
-  const TileGrid grid_;
-  const WallFiler filer_;
-  const WallCounts counts_;
-  TileBands bands_;
-  std::uint32_t filed_ = nothing;
-  std::size_t narrow_count_ = 0;  // of the tiles that are filed
-  std::size_t wide_count_ = 0;
-  RawVector<std::uint32_t> first_narrow_;  // where the tile's walls begin; `nothing`: it is not filed
-  RawVector<std::uint32_t> first_wide_;
-  RawVector<NarrowWall> narrow_;
-  RawVector<FloatWall> floats_;    // wide walls, if the set holds floats or packed ones
-  RawVector<DoubleWall> doubles_;  // wide walls, if the set holds doubles
+  RawVector<DoubleWall> wide;
 };
 
 /// Gives tiles; belongs to one thread.
@@ -362,6 +305,57 @@ class TileSource {
   virtual Box box() const = 0;
   /// Calls visit with every wall whose box meets `around`, and perhaps others.
   virtual void for_each_near(const Box& around, const std::function<void(const Segment&)>& visit) const = 0;
+};
+
+/// Walls that are held, filed by tile. Any number of threads may read, but while a band is filed.
+class WallPartition : public TileSource {
+ public:
+  /// Files all tiles. `more` are a few walls beside the set (bounds), kept by reference, as are the walls, which
+  /// begin_band() and look_up() read. halo >= 0, in the world's unit. Throws Stopped at the deadline or before memory
+  /// would pass its limit, InputError where walls and tiles make 2^32 entries or more.
+  WallPartition(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid, double halo,
+                const Execution& execution);
+  /// Where there is one band it is filed; else none is, yet.
+  using Choose = std::function<TileBands(const WallCounts&)>;
+  WallPartition(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid, double halo,
+                const Choose& choose, const Execution& execution);
+
+  std::uint32_t band_count() const override { return bands_.count; }
+  /// Files the walls of a band's tiles in the place of those before, and returns the tiles, ascending. Throws as above.
+  std::vector<std::size_t> begin_band(std::uint32_t band, const Execution& execution) override;
+  std::unique_ptr<TileReader> reader() const override;
+  Box box() const override { return counts_.box(); }
+  void for_each_near(const Box& around, const std::function<void(const Segment&)>& visit) const override;
+  bool is_filed(std::size_t tile) const { return bands_.of(grid_, tile) == filed_; }
+  /// Of a tile that is filed.
+  TileWalls of(std::size_t tile) const;
+  /// Of any tile: looks through the chunks that have walls of it.
+  TileWalls look_up(std::size_t tile, LooseTile& into, const Execution& execution) const;
+
+ private:
+  static constexpr std::uint32_t nothing = ~std::uint32_t{0};
+
+  void make_room(std::size_t narrow, std::size_t wide, const Execution& execution);
+  void place(std::span<const std::size_t> tiles);
+  static std::vector<std::uint32_t> places(const ChunkCounts& counts, const RawVector<std::uint32_t>& first,
+                                           std::size_t chunk);
+  template <class Wall>
+  void scatter(std::span<const Wall> walls, std::span<const std::size_t> chunks, const Execution& execution);
+
+  const WallSet& walls_;
+  std::span<const Segment> more_;
+  const Execution execution_;
+  const TileGrid grid_;
+  const WallFiler filer_;
+  const WallCounts counts_;
+  TileBands bands_;
+  std::uint32_t filed_ = nothing;
+  std::size_t narrow_count_ = 0;  // of the tiles that are filed
+  std::size_t wide_count_ = 0;
+  RawVector<std::uint32_t> first_narrow_;  // where the tile's walls begin; `nothing`: it is not filed
+  RawVector<std::uint32_t> first_wide_;
+  RawVector<NarrowWall> narrow_;
+  RawVector<DoubleWall> wide_;
 };
 
 /// Walls that are held, filed by tile, in so many bands of columns; 0: chosen by their number, order and the memory

@@ -16,20 +16,14 @@ constexpr std::size_t polled_vertices = std::size_t{1} << 14;
 Graph reversed(const Graph& graph, const Execution& execution) {
   const std::size_t n = graph.vertex_count();
   execution.reserve((n + 1) * 2 * sizeof(EdgeEnd) + graph.targets().size() * sizeof(VertexId));
-  RawVector<EdgeEnd> offsets(n + 1);
-  std::fill(offsets.begin(), offsets.end(), EdgeEnd{0});
-  for (VertexId v = 0; v < n; ++v) {
-    if (v % polled_vertices == 0) execution.check();
-    for (const VertexId w : graph.neighbours(v)) ++offsets[w + 1];
-  }
-  for (std::size_t v = 0; v < n; ++v) offsets[v + 1] += offsets[v];
-  RawVector<EdgeEnd> next(offsets.begin(), offsets.end() - 1);
-  RawVector<VertexId> targets(graph.targets().size());
-  for (VertexId v = 0; v < n; ++v) {
-    if (v % polled_vertices == 0) execution.check();
-    for (const VertexId w : graph.neighbours(v)) targets[next[w]++] = v;
-  }
-  return {std::move(offsets), std::move(targets)};
+  const auto each = [&](const auto& visit) {
+    for (VertexId v = 0; v < n; ++v) {
+      if (v % polled_vertices == 0) execution.check();
+      for (const VertexId w : graph.neighbours(v)) visit(w, v);
+    }
+  };
+  ItemsByKey rows = items_by_key(n, each, [&] { execution.check(); });
+  return {std::move(rows.first), std::move(rows.items)};
 }
 
 }  // namespace
@@ -63,24 +57,18 @@ Graph one_way_graph(std::size_t vertex_count, const EdgeParts& edges, const Exec
   if (ends >= std::numeric_limits<EdgeEnd>::max())
     throw InputError("roadmap", "more than 2^32 - 1 edges; ask for fewer samples or neighbours");
   execution.reserve((vertex_count + 1) * 2 * sizeof(EdgeEnd) + ends * sizeof(VertexId));
-  RawVector<EdgeEnd> offsets(vertex_count + 1);
-  std::fill(offsets.begin(), offsets.end(), EdgeEnd{0});
-  for (const RawVector<Edge>& part : edges) {
-    execution.check();
-    for (const Edge& e : part) ++offsets[e.from + 1];
-  }
-  for (std::size_t v = 0; v < vertex_count; ++v) offsets[v + 1] += offsets[v];
-  RawVector<EdgeEnd> next(offsets.begin(), offsets.end() - 1);
-  RawVector<VertexId> targets(ends);
-  for (const RawVector<Edge>& part : edges) {
-    execution.check();
-    for (const Edge& e : part) targets[next[e.from]++] = e.to;
-  }
+  const auto each = [&](const auto& visit) {
+    for (const RawVector<Edge>& part : edges) {
+      execution.check();
+      for (const Edge& e : part) visit(e.from, e.to);
+    }
+  };
+  ItemsByKey rows = items_by_key(vertex_count, each, [&] { execution.check(); });
   for (std::size_t v = 0; v < vertex_count; ++v) {
     if (v % polled_vertices == 0) execution.check();
-    std::sort(targets.begin() + offsets[v], targets.begin() + offsets[v + 1]);
+    std::sort(rows.items.begin() + rows.first[v], rows.items.begin() + rows.first[v + 1]);
   }
-  return {std::move(offsets), std::move(targets)};
+  return {std::move(rows.first), std::move(rows.items)};
 }
 
 Graph free_part(const Graph& candidates, std::span<const std::uint64_t> edge_states, const Execution& execution) {
@@ -98,23 +86,6 @@ Graph free_part(const Graph& candidates, std::span<const std::uint64_t> edge_sta
   }
   offsets[candidates.vertex_count()] = static_cast<EdgeEnd>(targets.size());
   return {std::move(offsets), std::move(targets)};
-}
-
-Graph free_part_with_lengths(const Graph& candidates, std::span<const std::uint64_t> edge_states,
-                             const VertexDistance& length, const Execution& execution) {
-  const Graph free = free_part(candidates, edge_states, execution);
-  execution.reserve(free.bytes() + free.targets().size() * sizeof(double));
-  RawVector<double> lengths(free.targets().size());
-  for_chunks(free.vertex_count(), polled_vertices, execution, [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; ++i) {
-      const auto v = static_cast<VertexId>(i);
-      std::size_t end = free.first_end(v);
-      for (const VertexId w : free.neighbours(v)) lengths[end++] = length(std::min(v, w), std::max(v, w));
-    }
-  });
-  return {{free.offsets().begin(), free.offsets().end()},
-          {free.targets().begin(), free.targets().end()},
-          std::move(lengths)};
 }
 
 }  // namespace warren

@@ -159,10 +159,6 @@ Graph one_way_graph(std::size_t vertex_count, const EdgeParts& edges, const Exec
 /// The edges of a graph that are free.
 Graph free_part(const Graph& candidates, std::span<const std::uint64_t> edge_states, const Execution& execution);
 
-/// The same with the lengths of the edges.
-Graph free_part_with_lengths(const Graph& candidates, std::span<const std::uint64_t> edge_states,
-                             const VertexDistance& length, const Execution& execution);
-
 /// Of a graph whose edges lead from a row to its targets: what `from` reaches has its label, and what reaches `to` has
 /// that of `to`.
 Components reached_and_reaching(const Graph& graph, VertexId from, VertexId to, const Execution& execution);

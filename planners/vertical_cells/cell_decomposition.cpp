@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iterator>
+#include <set>
 
 #include "core/plane/geometry.hpp"
 #include "parallel/sort.hpp"
@@ -60,15 +62,6 @@ bool holds(const CellDecomposition& cells, const VerticalCell& cell, Vec2 p) {
   return cells.side(cell.lower, p) >= 0 && cells.side(cell.upper, p) <= 0;
 }
 
-/// Mixes the bits of a number (the finaliser of MurmurHash3).
-std::uint32_t mixed(std::uint32_t h) {
-  h ^= h >> 16;
-  h *= 0x85ebca6bU;
-  h ^= h >> 13;
-  h *= 0xc2b2ae35U;
-  return h ^ h >> 16;
-}
-
 constexpr std::size_t corners_per_poll = 4096;
 constexpr std::size_t bytes_per_corner = 150;
 
@@ -82,124 +75,25 @@ struct SweepEntry {
   std::uint32_t polygon;  ///< the polygon whose inside lies above, or none
 };
 
-/// The segments that a vertical sweep line meets, from bottom to top, as a treap (Seidel, Aragon 1996) whose nodes are
-/// also linked to their neighbours. Whoever inserts names the place, so the order compares nothing by itself; a search
-/// takes any test that is false below some place and true above it. Expected O(log n) a search, O(1) a step, an
-/// insertion or a removal at a known place. Priorities are a hash of the node's number: the same for every run.
-class SweepOrder {
- public:
-  using Node = std::uint32_t;
-  static constexpr Node none = 0xffffffffU;
-
-  /// Starts with one entry, the lowest, which stays.
-  explicit SweepOrder(const SweepEntry& lowest) { make_node(lowest); }
-
-  static constexpr Node lowest() { return 0; }
-  Node highest() const { return highest_; }
-  SweepEntry& entry(Node n) { return nodes_[n].entry; }
-  const SweepEntry& entry(Node n) const { return nodes_[n].entry; }
-  Node above(Node n) const { return nodes_[n].above; }
-  Node below(Node n) const { return nodes_[n].below; }
-
-  /// Puts the entry right above `place`.
-  Node insert_above(Node place, const SweepEntry& entry);
-  void erase(Node n);  ///< not the lowest
-
-  /// The lowest entry for which the test is true (as it then is for all above), or none.
-  template <class Test>
-  Node first_where(const Test& test) const {
-    Node found = none;
-    for (Node n = root_; n != none;) {
-      const bool here = test(nodes_[n].entry);
-      if (here) found = n;
-      n = here ? nodes_[n].left : nodes_[n].right;
-    }
-    return found;
-  }
-
- private:
-  struct NodeData {
-    SweepEntry entry;
-    Node left, right, parent;  // of the tree, which is a heap by priority
-    Node below, above;         // neighbours in the order
-    std::uint32_t priority;
-  };
-
-  Node make_node(const SweepEntry& entry);
-  void rotate_up(Node n);
-  Node& link_from_parent(Node n);
-
-  std::vector<NodeData> nodes_;
-  std::vector<Node> unused_;
-  Node root_ = 0;
-  Node highest_ = 0;
+/// What may change where an entry stays in its place.
+struct SweepPlace {
+  mutable SweepEntry entry;
 };
 
-SweepOrder::Node SweepOrder::make_node(const SweepEntry& entry) {
-  Node n;
-  if (unused_.empty()) {
-    n = static_cast<Node>(nodes_.size());
-    nodes_.emplace_back();
-  } else {
-    n = unused_.back();
-    unused_.pop_back();
+/// All entries are alike, so that each stays where it was put; a search is for the first of which a test is true, which
+/// is false below some place and true above it.
+struct ByPlace {
+  using is_transparent = void;  // NOLINT(readability-identifier-naming): the standard's name
+  bool operator()(const SweepPlace&, const SweepPlace&) const { return false; }
+  template <class Test>
+  bool operator()(const SweepPlace& place, const Test& test) const {
+    return !test(place.entry);
   }
-  nodes_[n] = {entry, none, none, none, none, none, mixed(n + 1)};
-  return n;
-}
+};
 
-SweepOrder::Node& SweepOrder::link_from_parent(Node n) {
-  const Node parent = nodes_[n].parent;
-  if (parent == none) return root_;
-  return nodes_[parent].left == n ? nodes_[parent].left : nodes_[parent].right;
-}
-
-void SweepOrder::rotate_up(Node n) {
-  const Node parent = nodes_[n].parent;
-  link_from_parent(parent) = n;
-  nodes_[n].parent = nodes_[parent].parent;
-  nodes_[parent].parent = n;
-  const bool was_left = nodes_[parent].left == n;
-  Node& outer = was_left ? nodes_[parent].left : nodes_[parent].right;
-  Node& inner = was_left ? nodes_[n].right : nodes_[n].left;
-  outer = inner;
-  if (inner != none) nodes_[inner].parent = parent;
-  inner = parent;
-}
-
-SweepOrder::Node SweepOrder::insert_above(Node place, const SweepEntry& entry) {
-  const Node n = make_node(entry);
-  const Node next = nodes_[place].above;
-  nodes_[n].below = place;
-  nodes_[n].above = next;
-  nodes_[place].above = n;
-  (next == none ? highest_ : nodes_[next].below) = n;
-  if (nodes_[place].right == none) {
-    nodes_[place].right = n;
-    nodes_[n].parent = place;
-  } else {  // the next one is the leftmost of that subtree, so it has no left child
-    nodes_[next].left = n;
-    nodes_[n].parent = next;
-  }
-  while (nodes_[n].parent != none && nodes_[nodes_[n].parent].priority < nodes_[n].priority) rotate_up(n);
-  return n;
-}
-
-void SweepOrder::erase(Node n) {
-  assert(n != lowest());
-  while (nodes_[n].left != none || nodes_[n].right != none) {
-    const Node left = nodes_[n].left;
-    const Node right = nodes_[n].right;
-    const bool left_up = right == none || (left != none && nodes_[left].priority > nodes_[right].priority);
-    rotate_up(left_up ? left : right);
-  }
-  link_from_parent(n) = none;
-  const Node below = nodes_[n].below;
-  const Node above = nodes_[n].above;
-  nodes_[below].above = above;
-  (above == none ? highest_ : nodes_[above].below) = below;
-  unused_.push_back(n);
-}
+/// The segments that a vertical sweep line meets, from bottom to top; the first one is the box's lower side. O(log n) a
+/// search, O(1) a step, an insertion or a removal at a known place.
+using SweepOrder = std::multiset<SweepPlace, ByPlace>;
 
 /// At a corner the sweep takes the segments that touch it off the line (they end there, or pass through it and go on
 /// from there), sorts what goes on to the right by angle, and puts that in their place. Gaps on the left end their
@@ -214,7 +108,7 @@ class CellSweep {
   CellDecomposition take() { return std::move(result_); }
 
  private:
-  using Node = SweepOrder::Node;
+  using Node = SweepOrder::const_iterator;
   /// A corner, or behind them a point that is asked about.
   struct Event {
     Vec2 at;
@@ -252,7 +146,7 @@ class CellSweep {
   bool touches_floor(Vec2 p) const { return p.y == result_.box.min.y || p.x == result_.box.max.x; }
   bool touches_ceiling(Vec2 p) const { return p.y == result_.box.max.y || p.x == result_.box.min.x; }
   std::uint32_t segment_of(Node n) const {
-    return n == SweepOrder::none ? CellDecomposition::ceiling_segment : order_.entry(n).segment;
+    return n == order_.end() ? CellDecomposition::ceiling_segment : n->entry.segment;
   }
 
   const PlaneObstacles& obstacles_;
@@ -271,7 +165,7 @@ class CellSweep {
   std::vector<std::uint32_t> ending_, starting_, asked_;  // segments; segments; points
   std::vector<Node> touching_;                            // from bottom to top
   std::vector<Node> put_;                                 // where starting_ went
-  Node below_ = 0, above_ = 0;                            // the neighbours of all that; above_ may be SweepOrder::none
+  Node below_, above_;                                    // the neighbours of all that; above_ may be the end
 };
 
 CellSweep::CellSweep(const PlaneObstacles& obstacles, std::span<const Vec2> points, Overlaps overlaps,
@@ -279,7 +173,7 @@ CellSweep::CellSweep(const PlaneObstacles& obstacles, std::span<const Vec2> poin
     : obstacles_(obstacles),
       overlaps_(overlaps),
       execution_(execution),
-      order_(SweepEntry{{}, {}, CellDecomposition::floor_segment, no_number, no_number}) {
+      order_{SweepPlace{{{}, {}, CellDecomposition::floor_segment, no_number, no_number}}} {
   const std::size_t corners = obstacles.polygons.corners.size() + 2 * obstacles.walls.size();
   if (corners + points.size() >= std::size_t{1} << 31) throw InputError("cells", "expected fewer than 2^31 corners");
   execution.reserve(corners * bytes_per_corner);
@@ -290,7 +184,7 @@ CellSweep::CellSweep(const PlaneObstacles& obstacles, std::span<const Vec2> poin
   add_polygons();
   add_walls();
   add_points(points);
-  node_of_.assign(result_.segments.size(), SweepOrder::none);
+  node_of_.assign(result_.segments.size(), order_.end());
 }
 
 void CellSweep::choose_box(std::span<const Vec2> points) {
@@ -361,7 +255,7 @@ void CellSweep::run() {
   });
   result_.cells.reserve(events_.size() + 1);
   result_.doors.reserve(events_.size());
-  order_.entry(SweepOrder::lowest()).cell = open_cell(CellDecomposition::floor_segment, SweepOrder::none);
+  order_.begin()->entry.cell = open_cell(CellDecomposition::floor_segment, order_.end());
   result_.cells.front().left = no_number;
   std::size_t polled = 0;
   for (std::size_t first = 0, last = 0; first < events_.size(); first = last) {
@@ -405,19 +299,15 @@ void CellSweep::sort_segment(std::uint32_t segment) {
 
 void CellSweep::find_touching() {
   touching_.clear();
-  Node first = SweepOrder::none;
+  Node first;
   if (ending_.empty()) {
-    first = order_.first_where([&](const SweepEntry& entry) { return side(entry, at_) <= 0; });
+    first = order_.lower_bound([&](const SweepEntry& entry) { return side(entry, at_) <= 0; });
   } else {
     first = node_of_[ending_.front()];
-    while (side(order_.entry(order_.below(first)), at_) == 0) first = order_.below(first);
+    while (side(std::prev(first)->entry, at_) == 0) --first;
   }
-  below_ = first == SweepOrder::none ? order_.highest() : order_.below(first);
-  above_ = first;
-  while (above_ != SweepOrder::none && side(order_.entry(above_), at_) == 0) {
-    touching_.push_back(above_);
-    above_ = order_.above(above_);
-  }
+  below_ = std::prev(first);
+  for (above_ = first; above_ != order_.end() && side(above_->entry, at_) == 0; ++above_) touching_.push_back(above_);
 }
 
 /// Where are the points that lie here? Asked before the corner is passed and after, for the cells left and right.
@@ -427,16 +317,16 @@ void CellSweep::answer_questions(bool passed) {
     const auto is_side = [&](std::uint32_t segment) { return !is_wall(segment); };
     const bool on_side =
         std::any_of(starting_.begin(), starting_.end(), is_side) ||
-        std::any_of(touching_.begin(), touching_.end(), [&](Node n) { return is_side(order_.entry(n).segment); });
-    const bool blocked = !on_side && order_.entry(below_).polygon != no_number;
+        std::any_of(touching_.begin(), touching_.end(), [&](Node n) { return is_side(n->entry.segment); });
+    const bool blocked = !on_side && below_->entry.polygon != no_number;
     for (const std::uint32_t i : asked_) result_.places[i].blocked = blocked;
   } else if (ending_.empty() && starting_.empty()) {
     return;  // nothing has changed since
   }
   for (const std::uint32_t i : asked_) {
     CellPlace& place = result_.places[i];
-    for (Node n = below_; n != above_; n = order_.above(n)) {
-      const std::uint32_t cell = order_.entry(n).cell;
+    for (Node n = below_; n != above_; ++n) {
+      const std::uint32_t cell = n->entry.cell;
       if (cell != no_number && !is_flat(result_, obstacles_, result_.cells[cell])) place.cells.push_back(cell);
     }
     std::sort(place.cells.begin(), place.cells.end());
@@ -445,26 +335,26 @@ void CellSweep::answer_questions(bool passed) {
 }
 
 void CellSweep::pass_corner() {
-  const std::uint32_t lower_cell = order_.entry(below_).cell;
+  const std::uint32_t lower_cell = below_->entry.cell;
   const Node top = touching_.empty() ? below_ : touching_.back();
-  const std::uint32_t upper_cell = order_.entry(top).cell;
-  const std::uint32_t upper_polygon = order_.entry(top).polygon;
+  const std::uint32_t upper_cell = top->entry.cell;
+  const std::uint32_t upper_polygon = top->entry.polygon;
   close_cells();
   sort_starting();
   put_starting();
   open_cells(upper_polygon);
   const Node last = put_.empty() ? below_ : put_.back();
-  const bool on_floor = below_ == SweepOrder::lowest() && touches_floor(at_);
-  const bool on_ceiling = above_ == SweepOrder::none && touches_ceiling(at_);
-  add_door(lower_cell, order_.entry(below_).cell, false, on_floor);
-  add_door(upper_cell, order_.entry(last).cell, true, on_ceiling);
+  const bool on_floor = below_ == order_.begin() && touches_floor(at_);
+  const bool on_ceiling = above_ == order_.end() && touches_ceiling(at_);
+  add_door(lower_cell, below_->entry.cell, false, on_floor);
+  add_door(upper_cell, last->entry.cell, true, on_ceiling);
   check_neighbours(below_, put_.empty() ? above_ : put_.front());
   if (!put_.empty()) check_neighbours(last, above_);
 }
 
 void CellSweep::close_cells() {
   const auto close = [&](Node n) {
-    const std::uint32_t cell = order_.entry(n).cell;
+    const std::uint32_t cell = n->entry.cell;
     if (cell != no_number) result_.cells[cell].right = corner_;
   };
   close(below_);
@@ -476,7 +366,7 @@ void CellSweep::close_cells() {
 void CellSweep::sort_starting() {
   std::size_t ended = 0;
   for (const Node n : touching_) {
-    const SweepEntry& entry = order_.entry(n);
+    const SweepEntry& entry = n->entry;
     if (entry.b == at_) {
       ++ended;
     } else {
@@ -503,9 +393,9 @@ void CellSweep::put_starting() {
     const SweepEntry entry{s.a, s.b, segment, no_number, no_number};
     if (i < touching_.size()) {
       place = touching_[i];
-      order_.entry(place) = entry;
+      place->entry = entry;
     } else {
-      place = order_.insert_above(place, entry);
+      place = order_.insert(std::next(place), SweepPlace{entry});
     }
     node_of_[segment] = place;
     put_.push_back(place);
@@ -515,17 +405,17 @@ void CellSweep::put_starting() {
 
 /// Opens a cell in each free gap right of the corner. upper_polygon: what lies below above_, on both sides.
 void CellSweep::open_cells(std::uint32_t upper_polygon) {
-  std::uint32_t polygon = order_.entry(below_).polygon;
-  order_.entry(below_).cell = no_number;
+  std::uint32_t polygon = below_->entry.polygon;
+  below_->entry.cell = no_number;
   if (polygon == no_number) {
-    order_.entry(below_).cell = open_cell(order_.entry(below_).segment, put_.empty() ? above_ : put_.front());
+    below_->entry.cell = open_cell(below_->entry.segment, put_.empty() ? above_ : put_.front());
   }
   for (std::size_t i = 0; i < put_.size(); ++i) {
-    SweepEntry& entry = order_.entry(put_[i]);
+    SweepEntry& entry = put_[i]->entry;
     polygon = polygon_beyond(polygon, entry.segment);
     entry.polygon = polygon;
     const bool is_last = i + 1 == put_.size();
-    const bool is_void = !is_last && orient2d(at_, entry.b, order_.entry(put_[i + 1]).b) == 0;
+    const bool is_void = !is_last && orient2d(at_, entry.b, put_[i + 1]->entry.b) == 0;
     if (polygon == no_number && !is_void) entry.cell = open_cell(entry.segment, is_last ? above_ : put_[i + 1]);
   }
   if (polygon == upper_polygon) return;
@@ -553,9 +443,9 @@ void CellSweep::add_door(std::uint32_t left, std::uint32_t right, bool above, bo
 
 /// Does the upper one stay above the lower one, up to where the first of them ends?
 void CellSweep::check_neighbours(Node lower, Node upper) const {
-  if (lower == SweepOrder::lowest() || upper == SweepOrder::none) return;
-  const SweepEntry& low = order_.entry(lower);
-  const SweepEntry& high = order_.entry(upper);
+  if (lower == order_.begin() || upper == order_.end()) return;
+  const SweepEntry& low = lower->entry;
+  const SweepEntry& high = upper->entry;
   const bool low_ends = is_before(low.b, high.b);
   const int order = low_ends ? -side(high, low.b) : side(low, high.b);
   if (order < 0) clash(low.segment, high.segment);

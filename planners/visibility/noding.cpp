@@ -9,6 +9,7 @@
 #include "core/plane/geometry.hpp"
 #include "parallel/asked_memory.hpp"
 #include "parallel/sort.hpp"
+#include "spatial/obstacles/segment_grid.hpp"
 
 namespace warren {
 namespace {
@@ -32,85 +33,6 @@ struct PieceCut {
 struct CrossingCuts {
   RawVector<PieceCut> cuts;  ///< some more than once
   bool crossed = false;      ///< is one of them a rounded crossing?
-};
-
-constexpr std::size_t pieces_per_poll = 4096;
-
-/// The pieces' neighbourhoods: each is filed under the squares that its box meets, column by column along itself.
-class PieceGrid {
- public:
-  PieceGrid(const std::vector<IntegerPiece>& pieces, const Execution& execution) : pieces_(pieces) {
-    for (const IntegerPiece& p : pieces) box_.include(box_of({p.a, p.b}));
-    const double side = std::max({box_.width(), box_.height(), 1.0});
-    columns_ = static_cast<std::size_t>(std::clamp(std::sqrt(static_cast<double>(pieces.size())), 1.0, 4096.0));
-    square_ = side / static_cast<double>(columns_) * (1.0 + 1e-12);
-    const std::size_t squares = columns_ * columns_;
-    execution.reserve((2 * squares + 1) * sizeof(std::size_t));
-    assign_polled(first_, squares + 1, std::size_t{0}, [&] { execution.check(); });
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      if (i % pieces_per_poll == 0) execution.check();
-      for_each_square(pieces[i], [&](std::size_t s) { ++first_[s + 1]; });
-    }
-    RawVector<std::size_t> next(squares);
-    for (std::size_t s = 0; s < squares; ++s) {
-      if (s % pieces_per_poll == 0) execution.check();
-      next[s] = first_[s];
-      first_[s + 1] += first_[s];
-    }
-    execution.reserve(first_.back() * sizeof(std::uint32_t));
-    filed_.resize(first_.back());
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      if (i % pieces_per_poll == 0) execution.check();
-      for_each_square(pieces[i], [&](std::size_t s) { filed_[next[s]++] = static_cast<std::uint32_t>(i); });
-    }
-  }
-
-  /// Calls visit(i, j) for pieces i < j that share a square and whose boxes meet, some pairs more than once.
-  template <class Visit>
-  void for_each_pair(const Execution& execution, const Visit& visit) const {
-    constexpr std::size_t looks_per_poll = 4096;  // exact ones take microseconds
-    std::size_t looks = 0;
-    for (std::size_t s = 0; s + 1 < first_.size(); ++s) {
-      for (std::size_t k = first_[s]; k < first_[s + 1]; ++k) {
-        const Box box = box_of({pieces_[filed_[k]].a, pieces_[filed_[k]].b});
-        for (std::size_t l = k + 1; l < first_[s + 1]; ++l) {
-          if (++looks % looks_per_poll == 0) execution.check();
-          if (box.meets(box_of({pieces_[filed_[l]].a, pieces_[filed_[l]].b}))) visit(filed_[k], filed_[l]);
-        }
-      }
-    }
-  }
-
- private:
-  std::size_t index(double from_edge) const {
-    return std::min(columns_ - 1, static_cast<std::size_t>(std::max(0.0, from_edge / square_)));
-  }
-  template <class Visit>
-  void for_each_square(const IntegerPiece& piece, const Visit& visit) const {
-    const Vec2 a = is_before(piece.b, piece.a) ? piece.b : piece.a;
-    const Vec2 b = is_before(piece.b, piece.a) ? piece.a : piece.b;
-    const std::size_t last = index(b.x - box_.min.x);
-    for (std::size_t column = index(a.x - box_.min.x); column <= last; ++column) {
-      const auto height_at = [&](double x) {
-        if (x <= a.x) return a.y;
-        return x >= b.x ? b.y : a.y + (x - a.x) / (b.x - a.x) * (b.y - a.y);
-      };
-      const double left = box_.min.x + square_ * static_cast<double>(column);
-      const double y1 = a.x == b.x ? a.y : height_at(left);
-      const double y2 = a.x == b.x ? b.y : height_at(left + square_);
-      const std::size_t top = index(std::max(y1, y2) + 1.0 - box_.min.y);
-      for (std::size_t row = index(std::min(y1, y2) - 1.0 - box_.min.y); row <= top; ++row) {
-        visit(row * columns_ + column);
-      }
-    }
-  }
-
-  const std::vector<IntegerPiece>& pieces_;
-  Box box_;
-  std::size_t columns_ = 1;
-  double square_ = 1.0;
-  RawVector<std::size_t> first_;
-  RawVector<std::uint32_t> filed_;
 };
 
 Vec2 rounded_crossing(const IntegerPiece& p, const IntegerPiece& q) {
@@ -147,8 +69,14 @@ void cut_pair(const std::vector<IntegerPiece>& pieces, std::uint32_t i, std::uin
 /// What is left to cut. Throws Stopped at the deadline and the memory limit: crowded pieces have many cuts.
 CrossingCuts find_cuts(const std::vector<IntegerPiece>& pieces, const Execution& execution) {
   CrossingCuts found;
-  const PieceGrid grid(pieces, execution);
-  grid.for_each_pair(execution, [&](std::uint32_t i, std::uint32_t j) { cut_pair(pieces, i, j, found, execution); });
+  execution.reserve(pieces.size() * sizeof(Segment));
+  std::vector<Segment> segments;
+  segments.reserve(pieces.size());
+  for (const IntegerPiece& p : pieces) segments.push_back({p.a, p.b});
+  SegmentGrid(segments, execution).for_each_pair(segments, execution, [&](std::uint32_t i, std::uint32_t j) {
+    cut_pair(pieces, i, j, found, execution);
+    return true;
+  });
   return found;
 }
 
@@ -259,7 +187,8 @@ PolygonSet with_cuts(const PolygonSet& polygons, const std::vector<IntegerPiece>
     return dot(c.at - sides[c.piece].a, sides[c.piece].b - sides[c.piece].a);
   };
   polled_sort(cuts.begin(), cuts.end(), execution, [&](const PieceCut& c, const PieceCut& d) {
-    return c.piece != d.piece ? c.piece < d.piece : along(c) < along(d);
+    if (c.piece != d.piece) return c.piece < d.piece;
+    return along(c) != along(d) ? along(c) < along(d) : is_before(c.at, d.at);
   });
   PolygonSet result;
   auto cut = cuts.begin();

@@ -134,7 +134,10 @@ PlanePieces::PlanePieces(const PlaneObstacles& obstacles, const Execution& execu
   std::vector<Segment> segments(pieces_.size());
   for (std::size_t i = 0; i < segments.size(); ++i) segments[i] = segment(static_cast<std::uint32_t>(i));
   grid_ = SegmentGrid(segments, execution);
-  find_crossings(execution);
+  grid_.for_each_pair(segments, execution, [&](std::uint32_t i, std::uint32_t j) {
+    crosses_ = segments_cross(segments[i], segments[j]);
+    return !crosses_;
+  });
   sound_depths(execution);
 }
 
@@ -200,41 +203,14 @@ void PlanePieces::merge(RawVector<Piece>& pieces, const Execution& execution) {
 
 void PlanePieces::list_at_points(const Execution& execution) {
   execution.reserve((points_.size() + 2 * pieces_.size()) * sizeof(std::uint32_t));
-  assign_polled(first_at_point_, points_.size() + 1, std::uint32_t{0}, [&] { execution.check(); });
-  for (std::size_t i = 0; i < pieces_.size(); ++i) {
-    if (i % pieces_a_look == 0) execution.check();
-    ++first_at_point_[pieces_[i].a];
-    ++first_at_point_[pieces_[i].b];
-  }
-  std::uint32_t sum = 0;
-  for (std::uint32_t& first : first_at_point_) sum += first, first = sum;
-  at_point_.resize(sum);
-  for (std::size_t i = pieces_.size(); i-- > 0;) {
-    if (i % pieces_a_look == 0) execution.check();
-    at_point_[--first_at_point_[pieces_[i].a]] = static_cast<std::uint32_t>(i);
-    at_point_[--first_at_point_[pieces_[i].b]] = static_cast<std::uint32_t>(i);
-  }
-}
-
-void PlanePieces::find_crossings(const Execution& execution) {
-  std::size_t looks = 0;
-  for (std::uint32_t row = 0; row < grid_.rows(); ++row) {
-    execution.check();
-    for (std::uint32_t col = 0; col < grid_.cols(); ++col) {
-      const std::span<const std::uint32_t> here = grid_.in_cell({col, row});
-      for (std::size_t i = 0; i < here.size(); ++i) {
-        const Segment s = segment(here[i]);
-        const Box box = box_of(s);
-        for (std::size_t j = i + 1; j < here.size(); ++j) {
-          if (++looks % looks_per_poll == 0) execution.check();
-          const Segment t = segment(here[j]);
-          if (!box.meets(box_of(t)) || !segments_cross(s, t)) continue;
-          crosses_ = true;
-          return;
-        }
-      }
+  const auto each = [&](const auto& visit) {
+    for (std::uint32_t i = 0; i < pieces_.size(); ++i) {
+      if (i % pieces_a_look == 0) execution.check();
+      visit(pieces_[i].a, i);
+      visit(pieces_[i].b, i);
     }
-  }
+  };
+  at_point_ = items_by_key(points_.size(), each, [&] { execution.check(); });
 }
 
 int PlanePieces::rise_across(std::uint32_t piece, Vec2 from, Vec2 to) const {

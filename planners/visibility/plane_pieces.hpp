@@ -20,6 +20,7 @@
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
 #include "core/run/execution.hpp"
+#include "core/search/graph.hpp"
 #include "spatial/obstacles/segment_grid.hpp"
 
 namespace warren {
@@ -48,9 +49,7 @@ class PlanePieces {
   std::size_t corner_count() const { return corner_count_; }
   std::span<const Piece> pieces() const { return pieces_; }
   Segment segment(std::uint32_t piece) const { return {points_[pieces_[piece].a], points_[pieces_[piece].b]}; }
-  std::span<const std::uint32_t> pieces_at(PointId p) const {
-    return {at_point_.data() + first_at_point_[p], at_point_.data() + first_at_point_[p + 1]};
-  }
+  std::span<const std::uint32_t> pieces_at(PointId p) const { return at_point_.of(p); }
   const SegmentGrid& grid() const { return grid_; }
   /// Do pieces cross inside both?
   bool crosses() const { return crosses_; }
@@ -67,7 +66,6 @@ class PlanePieces {
   void cut(std::span<const PointId> ends, std::span<const std::int32_t> rises, const Execution& execution);
   void merge(RawVector<Piece>& pieces, const Execution& execution);
   void list_at_points(const Execution& execution);
-  void find_crossings(const Execution& execution);
   void sound_depths(const Execution& execution);
   int rise_across(std::uint32_t piece, Vec2 from, Vec2 to) const;
   int rise_in_cell(SegmentGrid::Cell cell, Vec2 from, Vec2 to) const;
@@ -75,8 +73,7 @@ class PlanePieces {
   std::vector<Vec2> points_;
   std::size_t corner_count_ = 0;
   RawVector<Piece> pieces_;
-  RawVector<std::uint32_t> first_at_point_;
-  RawVector<std::uint32_t> at_point_;
+  ItemsByKey at_point_;
   SegmentGrid grid_;
   RawVector<std::int32_t> depth_;  // beside the lower left corner of each cell
   std::int32_t outside_depth_ = 0;

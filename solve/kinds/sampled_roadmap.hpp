@@ -276,8 +276,10 @@ Hierarchy hierarchy_of(const W& world, const BuiltRoadmap<typename W::State>& bu
                        const Execution& execution) {
   const bool in_pattern = takes_all_places(sampler) || sampler == SamplerKind::halton;
   if (is_one_way<W> || in_pattern || built.states.size() < fewest_contracted_states) return {};
-  const auto length = [&](VertexId v, VertexId w) { return world.distance(built.states[v], built.states[w]); };
-  const Graph free = free_part_with_lengths(built.candidates, built.edge_states, VertexDistance(length), execution);
+  const auto length = [&](VertexId v, VertexId w) {
+    return world.distance(built.states[std::min(v, w)], built.states[std::max(v, w)]);
+  };
+  const Graph free = with_lengths(free_part(built.candidates, built.edge_states, execution), execution, length);
   return contract(free, execution).value_or(Hierarchy{});
 }
 

@@ -69,7 +69,8 @@ SegmentGrid::SegmentGrid(std::span<const Segment> segments, const Execution& exe
   for (const Segment& s : segments) box.include(box_of(s));
   for (double scale = 1.0;; scale *= 2.0) {
     lay_out(box, segments.size(), scale);
-    offsets_.assign(cell_count() + 1, 0);
+    execution.reserve((cell_count() + 1) * sizeof(std::uint64_t));
+    assign_polled(offsets_, cell_count() + 1, std::uint64_t{0}, [&] { execution.check(); });
     const std::uint64_t most_listings = most_listings_each * segments.size() + 4 * std::uint64_t{most_lines};
     std::uint64_t listings = 0;
     for (std::size_t i = 0; i < segments.size() && (listings <= most_listings || cell_count() <= 64); ++i) {

@@ -27,7 +27,7 @@ class SegmentGrid {
   };
 
   SegmentGrid() = default;
-  /// Fewer than 2^32 segments, finite. The outermost lines keep clear of all segments. Throws Stopped at the deadline.
+  /// Fewer than 2^32 segments, finite. The outermost lines keep clear of all segments. Throws Stopped.
   SegmentGrid(std::span<const Segment> segments, const Execution& execution);
 
   std::uint32_t cols() const { return cols_; }
@@ -44,6 +44,23 @@ class SegmentGrid {
   std::span<const std::uint32_t> in_cell(Cell c) const {
     const std::size_t i = index(c);
     return {segments_.data() + offsets_[i], segments_.data() + offsets_[i + 1]};
+  }
+  /// Calls visit(i, j) for segments i < j that are listed in one cell and whose boxes meet, some pairs more than once,
+  /// until it returns false. segments: those that the grid is made of. Throws Stopped.
+  template <class Visit>
+  void for_each_pair(std::span<const Segment> segments, const Execution& execution, const Visit& visit) const {
+    constexpr std::size_t looks_per_poll = 1 << 12;  // exact predicates can take microseconds
+    std::size_t looks = 0;
+    for (std::size_t cell = 0; cell < cell_count(); ++cell) {
+      if (cell % (1 << 16) == 0) execution.check();
+      for (std::uint64_t k = offsets_[cell]; k < offsets_[cell + 1]; ++k) {
+        const Box box = box_of(segments[segments_[k]]);
+        for (std::uint64_t l = k + 1; l < offsets_[cell + 1]; ++l) {
+          if (++looks % looks_per_poll == 0) execution.check();
+          if (box.meets(box_of(segments[segments_[l]])) && !visit(segments_[k], segments_[l])) return;
+        }
+      }
+    }
   }
   std::size_t bytes() const { return offsets_.size() * 8 + segments_.size() * 4; }
 

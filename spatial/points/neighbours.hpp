@@ -152,19 +152,6 @@ class Neighbours {
   void for_each_later_pair(Range ids, const SearchRadius& radius, const Visit& visit) const {
     with([&](const auto& index) { index.for_each_later_pair(ids, radius, visit); });
   }
-  /// Calls visit(i, neighbours) for each point i of the range, with its k nearest other points as a vector that is
-  /// valid during the call. One range a chunk: ranges may run at once.
-  template <class Visit>
-  void for_each_nearest(Range ids, std::size_t k, const Visit& visit) const {
-    with([&](const auto& index) {
-      std::vector<Neighbour> found;
-      for (std::size_t i = ids.first; i < ids.last; ++i) {
-        const auto id = as_whole<VertexId>(i);
-        index.nearest(index.point(id), k, id, found);
-        visit(id, std::as_const(found));
-      }
-    });
-  }
 
  private:
   template <class Use>

@@ -90,14 +90,6 @@ void PointGrid::sort_points(std::span<const Vec2> points, const Execution& execu
   points_ = sorted_;
 }
 
-void PointGrid::within(Vec2 p, const SearchRadius& radius, VertexId except, std::vector<Neighbour>& out) const {
-  out.clear();
-  for_each_within(p, radius, [&](VertexId id, double distance) {
-    if (id != except) out.push_back({id, distance});
-  });
-  std::sort(out.begin(), out.end());
-}
-
 /// The k nearest points of the window among those with squared distance <= square (fewer if there are not so many). For
 /// any k and any crowding; O(points of the window).
 void PointGrid::nearest_in_window(Vec2 p, const Window& w, double square, std::size_t k, VertexId except,

@@ -71,7 +71,7 @@ namespace warren {
 
 /// Immutable after construction; any number of threads may query. All answers are exact: the same neighbours, distances
 /// and order as brute force over core's distance().
-class PointGrid {
+class PointGrid : public NeighboursByVisits<PointGrid, 2> {
  public:
   PointGrid() = default;  ///< no points
   /// Points in tile order, which is best, are not copied: they must outlive the grid. Coordinates finite; below 2^32
@@ -93,8 +93,6 @@ class PointGrid {
 
   /// The k points nearest to p (fewer if there are not so many) but `except`, ascending by (distance, id).
   void nearest(Vec2 p, std::size_t k, VertexId except, std::vector<Neighbour>& out) const;
-  /// All points at a distance <= radius from p but `except`, ascending by (distance, id).
-  void within(Vec2 p, const SearchRadius& radius, VertexId except, std::vector<Neighbour>& out) const;
   /// Calls visit(id, distance) for all points at a distance <= radius from p; ascending by id if in tile order.
   template <class Visit>
   void for_each_within(Vec2 p, const SearchRadius& radius, const Visit& visit) const;
@@ -271,26 +269,20 @@ class PointGrid::CellCandidates {
 template <class Visit>
 void PointGrid::for_each_later_pair(Range ids, const SearchRadius& radius, const Visit& visit) const {
   if (radius.square() < 0.0) return;
-  const auto visit_one = [&](VertexId i) {
-    for_each_within(point(i), radius, [&](VertexId j, double) {
-      if (j > i) visit(i, j);
-    });
-  };
+  if (!in_tile_order()) return NeighboursByVisits::for_each_later_pair(ids, radius, visit);
   constexpr std::uint32_t cells_together = 4;  // looked around once: fewer looks, but more points for each to compare
   CellCandidates candidates(*this);
   auto i = as_whole<VertexId>(ids.first);
   while (i < ids.last) {
-    if (!in_tile_order()) {
-      visit_one(i++);
-      continue;
-    }
     VertexId end = last_of(i, ids, cells_together);
     bool few = candidates.gather(i, end, radius.reach());
     if (!few) {
       end = last_of(i, ids, 1);
       few = candidates.gather(i, end, radius.reach());
     }
-    for (; i < end; ++i) few ? candidates.visit_later(i, radius.square(), visit) : visit_one(i);
+    if (!few) NeighboursByVisits::for_each_later_pair({i, end}, radius, visit);
+    for (VertexId v = i; few && v < end; ++v) candidates.visit_later(v, radius.square(), visit);
+    i = end;
   }
 }
 

@@ -110,7 +110,8 @@ TEST(AssembleGraph, TargetsOutOfOrderWithinARowAreSorted) {
 
 TEST(AssembleGraph, LengthsStandBesideTheirEdges) {
   const std::vector<RawVector<Edge>> parts{{{0, 2}, {1, 2}}};
-  const Graph graph = assemble_graph(3, parts, on(2), [](VertexId v, VertexId w) { return 10.0 * v + w; });
+  const auto length = [](VertexId v, VertexId w) { return 10.0 * v + w; };
+  const Graph graph = with_lengths(assemble_graph(3, parts, on(2)), on(2), length);
   ASSERT_TRUE(graph.has_lengths());
   EXPECT_EQ(graph.lengths(2)[0], 20.0);
   EXPECT_EQ(graph.lengths(2)[1], 21.0);

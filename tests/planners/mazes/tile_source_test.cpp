@@ -24,8 +24,7 @@ std::vector<char> bytes_of(std::span<const Wall> walls) {
 
 void expect_same(const TileWalls& found, const TileWalls& expected) {
   EXPECT_EQ(bytes_of(found.narrow), bytes_of(expected.narrow));
-  EXPECT_EQ(bytes_of(found.floats), bytes_of(expected.floats));
-  EXPECT_EQ(bytes_of(found.doubles), bytes_of(expected.doubles));
+  EXPECT_EQ(bytes_of(found.wide), bytes_of(expected.wide));
   EXPECT_EQ(found.more.data(), expected.more.data());
 }
 

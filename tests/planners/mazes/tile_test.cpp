@@ -148,7 +148,7 @@ TEST(WallPartition, NeitherFormNorBandsChangeWhatATileHolds) {
         EXPECT_EQ(found.box().max, expected.box().max);
         std::size_t tiles = 0;
         for (std::uint32_t band = 0; band < found.band_count(); ++band) {
-          for (const std::size_t tile : found.file(band, {})) {
+          for (const std::size_t tile : found.begin_band(band, {})) {
             ASSERT_TRUE(found.is_filed(tile));
             ASSERT_EQ(walls_of(found, grid, tile), walls_of(expected, grid, tile)) << tile;
             ++tiles;
@@ -177,7 +177,7 @@ TEST(TileBands, AreManyWhereWallsComeInOrderAndAsTheMemoryAsksWhereTheyDoNot) {
   for (std::size_t i = in_no_order.size(); i > 1; --i) std::swap(in_no_order[i - 1], in_no_order[rng.below(i)]);
   const auto bands_of = [&](const WallSet& walls, const Execution& execution) {
     const WallFiler filer(grid, 1.11);
-    return choose_bands(WallCounts(walls, filer, grid.count(), {}), grid, sizeof(FloatWall), execution).count;
+    return choose_bands(WallCounts(walls, filer, grid.count(), {}), grid, execution).count;
   };
   const WallSet ordered(std::move(in_order));
   const WallSet mixed(std::move(in_no_order));

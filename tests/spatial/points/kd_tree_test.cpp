@@ -148,11 +148,13 @@ TYPED_TEST(KdTreeIn, NeighboursEqualBruteForce) {
         expect_later<D>(one, set.points, 0.3);
       }
       const Neighbours<D> neighbours(set.points, execution);
-      neighbours.for_each_nearest({0, set.points.size()}, 5, [&](VertexId i, const std::vector<Neighbour>& found) {
+      std::vector<Neighbour> found;
+      for (VertexId i = 0; i < set.points.size(); ++i) {
+        neighbours.nearest(set.points[i], 5, i, found);
         const auto all = all_by_distance<D>(set.points, set.points[i], i);
         const auto count = static_cast<std::ptrdiff_t>(std::min<std::size_t>(5, all.size()));
         ASSERT_EQ(found, std::vector<Neighbour>(all.begin(), all.begin() + count));
-      });
+      }
     }
   }
 }
