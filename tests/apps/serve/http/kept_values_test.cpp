@@ -58,10 +58,10 @@ TEST(KeptValues, StayWhileSomebodyHoldsThem) {
   EXPECT_EQ(*kept.put("large", "L", 51), "L");
 }
 
-/// Cannot be kept: its memory ends where it is moved there.
+/// Cannot be kept: its memory ends where it is put there.
 struct Unkept {
   explicit Unkept(int value_of) : value(value_of) {}
-  Unkept(Unkept&& other) : value(other.value) {
+  Unkept(const Unkept& other) : value(other.value) {
     if (value < 0) throw std::bad_alloc();
   }
   int value;
