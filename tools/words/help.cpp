@@ -51,9 +51,12 @@ std::string option_entry(const OptionSpec& option, std::size_t width) {
   return entry(option_usage(option), option_text(option), width);
 }
 
+/// A command of warren-mpi may lack some of them.
 std::string most_used_text(const Command& command, std::string_view names, std::size_t width) {
   std::string text = fmt::format("\nMost used, of {} options:\n", command.options.size());
-  for (const std::string& name : words_of(names)) text += option_entry(*option_named(command, name), width);
+  for (const std::string& name : words_of(names)) {
+    if (const OptionSpec* option = option_named(command, name)) text += option_entry(*option, width);
+  }
   return text;
 }
 

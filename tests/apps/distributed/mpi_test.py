@@ -359,6 +359,13 @@ class Faults(unittest.TestCase):
                 self.assertEqual(found, code, err)
                 self.assertEqual(sum(line.startswith("warren-mpi:") for line in err.splitlines()), 1, err)
 
+    def test_each_command_tells_its_options(self):
+        for words in (["solve", "--help"], ["scale", "--help"], ["solve", "--help", "all"], ["scale", "--help", "all"]):
+            with self.subTest(words=words):
+                found, out, err = run(mpirun(2, words), 60)
+                self.assertEqual(found, 0, err)
+                self.assertIn("Usage: warren " + words[0], out)
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1] + sys.argv[4:])

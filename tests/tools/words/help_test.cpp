@@ -47,6 +47,13 @@ TEST(Help, LinesFitTheScreen) {
   }
 }
 
+TEST(Help, OfACommandThatLacksOptionsOfItsNamesake) {
+  tools::Command scale = *std::find_if(tools::command_table().begin(), tools::command_table().end(),
+                                       [](const tools::Command& command) { return command.name == "scale"; });
+  scale.options.erase(scale.options.begin() + 1, scale.options.end());
+  EXPECT_NE(tools::command_help(scale, 80, false).find("Usage: warren scale"), std::string::npos);
+}
+
 TEST(Help, IsShortWhereThereAreManyOptionsAndAllIsThereWhenAsked) {
   for (const tools::Command& command : tools::command_table()) {
     const std::string name{command.name};
