@@ -104,8 +104,8 @@ void one_question(benchmark::State& state) {
 }
 BENCHMARK(one_question)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
-/// range(0): 0 solved afresh, 1 by a Replanner. A block of 10 x 10 cells comes onto the last path, and goes again; the
-/// next one lies farther along.
+/// range(0): 0 solved afresh, 1 by a Replanner. A block of 10 x 10 cells comes and goes again, range(1): 0 on the last
+/// path, farther along each time; 1 anywhere that leaves start and goal free.
 void replan(benchmark::State& state) {
   PricedMap world;
   Question question;
@@ -123,19 +123,37 @@ void replan(benchmark::State& state) {
   };
   Answer answer = answered();
   std::uint64_t round = 0;
+  const auto corner = [&] {
+    if (state.range(1) == 0) {
+      const Vec2 on = answer.path[1 + round % (answer.path.size() - 2)];
+      return Cell{static_cast<std::uint32_t>(on.x / cell) - 5, static_cast<std::uint32_t>(on.y / cell) - 5};
+    }
+    const auto at = [&](std::uint64_t axis) {
+      return 50 + static_cast<std::uint32_t>(random_bits(2, round, axis) % (map_side - 124));
+    };
+    return Cell{at(0), at(1)};
+  };
   for (auto _ : state) {
     bench::check(answer.outcome == Outcome::solved, "replanned");
-    const Vec2 on = answer.path[1 + round++ % (answer.path.size() - 2)];
-    const Box block{{on.x - 5.0 * cell, on.y - 5.0 * cell}, {on.x + 5.0 * cell, on.y + 5.0 * cell}};
-    replanner.update(block, true);
+    const Cell low = corner();
+    ++round;
+    std::vector<CellChange> come;
+    std::vector<CellChange> gone;
+    for (std::uint32_t y = low.y; y < low.y + 10; ++y) {
+      for (std::uint32_t x = low.x; x < low.x + 10; ++x) {
+        come.push_back({{x, y}, true});
+        gone.push_back({{x, y}, world.map.blocked.test(x, y)});
+      }
+    }
+    replanner.update(come);
     benchmark::DoNotOptimize(answered());
-    replanner.update(block, false);
+    replanner.update(gone);
     answer = answered();
   }
   state.SetItemsProcessed(2 * static_cast<std::int64_t>(state.iterations()));
   state.SetLabel(state.range(0) != 0 ? "replanned" : "afresh");
 }
-BENCHMARK(replan)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(replan)->ArgsProduct({{0, 1}, {0, 1}})->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace warren
