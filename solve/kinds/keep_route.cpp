@@ -79,6 +79,7 @@ std::optional<Cost> cost_now(const std::vector<State>& states, const Scene& scen
   asked.rule = {};
   asked.goal = states.back();
   asked.goal_pose.reset();
+  asked.robot = problem.robot;  // as options have made it
   const RecordedAnswer path = path_of(states, asked);
   Cost cost;
   cost.verdict = verifying_kind(scene, asked).verify(scene, asked, path, execution);
@@ -97,7 +98,40 @@ bool ends_at(const State& end, const State& goal) {
   return true;
 }
 
-void check_route(const std::vector<State>& route, const Answer& answer) {
+/// The goals that were asked for, in their order: take_goal() has changed places.
+std::vector<State> asked_goals(const Answer& answer) {
+  std::vector<State> goals = answer.problem.rule.others;
+  State first = answer.goal_reached ? answer.goal_reached->asked : answer.problem.goal;
+  const std::uint64_t number = answer.goal_index.value_or(0);
+  if (number > 0 && number <= goals.size()) std::swap(first, goals[number - 1]);
+  goals.insert(goals.begin(), std::move(first));
+  return goals;
+}
+
+/// Where a route ends, of the goals that were asked for.
+struct RouteEnd {
+  std::size_t number;
+  double distance;  // to that one
+};
+
+/// None: at no goal, nor so near to one as a tolerance or region takes.
+std::optional<RouteEnd> end_of(const State& end, const std::vector<State>& goals, const GoalRule& rule) {
+  std::optional<RouteEnd> nearest;
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    const State& goal = goals[i];
+    if (ends_at(end, goal)) return RouteEnd{i, 0.0};
+    if (!rule.region && !rule.tolerance) continue;
+    const bool is_turned = goal.size() == 3 && end.size() == 3;
+    if (is_turned && !(std::abs(turn_between(end[2], goal[2])) <= rule.heading_rad.value_or(0.0) + 1e-9)) continue;
+    const double off = distance(Vec2{end[0], end[1]}, Vec2{goal[0], goal[1]});
+    if (!(off <= rule.region.value_or(rule.tolerance.value_or(0.0)) * (1.0 + 1e-12))) continue;
+    if (!nearest || off < nearest->distance) nearest = RouteEnd{i, off};
+  }
+  return nearest;
+}
+
+/// Where it ends; none: the question leaves that to the planner.
+std::optional<RouteEnd> check_route(const std::vector<State>& route, const Answer& answer) {
   const Problem& problem = answer.problem;
   if (answer.price && !is_plain(problem.robot)) {
     throw UsageError("@keep_to: what an older path of a car costs in turns and gears is not compared; ask without");
@@ -111,15 +145,30 @@ void check_route(const std::vector<State>& route, const Answer& answer) {
     throw UsageError(
         fmt::format("@keep_to: the path's states have {} numbers, the body's {}", state.size(), problem.start.size()));
   }
-  // Several goals may do: what the question leaves open, the path that is planned anew has decided.
-  std::vector<State> goals = problem.rule.others;
-  goals.push_back(problem.goal);
-  const bool is_open = problem.goal_pose || problem.rule.region || problem.rule.tolerance || is_arm(problem.robot);
-  if (is_open ||
-      std::any_of(goals.begin(), goals.end(), [&](const State& goal) { return ends_at(route.back(), goal); })) {
-    return;
+  if (problem.goal_pose || is_arm(problem.robot)) return std::nullopt;
+  const std::optional<RouteEnd> end = end_of(route.back(), asked_goals(answer), problem.rule);
+  if (!end) throw UsageError("@keep_to: the path ends at another place than the goal");
+  return end;
+}
+
+/// The answer's goal is where the kept route ends.
+void take_end(Answer& answer, const State& place, const RouteEnd& end) {
+  std::vector<State> goals = asked_goals(answer);
+  const std::optional<GoalReached> before = std::exchange(answer.goal_reached, std::nullopt);
+  const std::optional<std::uint64_t> number_before = answer.goal_index;
+  GoalRule& rule = answer.problem.rule;
+  if (rule.region || rule.tolerance) {
+    answer.goal_reached = GoalReached{goals[end.number], end.distance, {}};
+    if (end.distance == 0.0) answer.goal_reached->distance_bound = 0.0;
+    if (before && number_before.value_or(0) == end.number && end.distance > 0.0) {
+      answer.goal_reached->distance_bound = before->distance_bound;
+    }
   }
-  throw UsageError("@keep_to: the path ends at another place than the goal");
+  answer.problem.goal = std::move(goals.front());
+  goals.erase(goals.begin());
+  rule.others = std::move(goals);
+  if (!rule.others.empty()) answer.goal_index = end.number;
+  take_goal(answer.problem, place, answer.goal_index);
 }
 
 void take(Answer& answer, const std::vector<State>& states, const Cost& cost) {
@@ -178,7 +227,7 @@ void keep_to_route(Answer& answer, const Scene& scene, const Question& question,
     throw UsageError("@keep_to: is for a way to a goal; of places to visit nobody knows which are left");
   }
   if (!options.trees.via.empty()) throw UsageError("@keep_to: nobody knows which places of @via are left");
-  check_route(rule.keep_to, answer);
+  const std::optional<RouteEnd> end = check_route(rule.keep_to, answer);
   const StageTimer timer(execution, "keep", answer.seconds.verify, rule.keep_to.size());
   const Problem& problem = answer.problem;
   // So far from its route the body is still on it.
@@ -194,7 +243,15 @@ void keep_to_route(Answer& answer, const Scene& scene, const Question& question,
   }
   const double gain = rule.unless_gain.value_or(usual_unless_gain);
   told.kept = kept && (!told.new_cost || (1.0 - gain) * kept->sum <= *told.new_cost);
-  if (told.kept) take(answer, rest, *kept);
+  // A tolerance asks for the nearest place that can be reached.
+  if (end && problem.rule.tolerance && answer.verified && answer.goal_reached &&
+      end->distance > answer.goal_reached->distance * (1.0 + 1e-9)) {
+    told.kept = false;
+  }
+  if (told.kept) {
+    take(answer, rest, *kept);
+    if (end) take_end(answer, rule.keep_to.back(), *end);
+  }
   answer.keeping = told;
 }
 

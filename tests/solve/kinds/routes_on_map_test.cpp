@@ -291,6 +291,69 @@ TEST(KeepRoute, OfPolygonsAndOtherPlannersToo) {
   EXPECT_THROW(solve(scene, question, options), UsageError);
 }
 
+std::vector<std::vector<double>> route_of(const Answer& answer) {
+  std::vector<std::vector<double>> route;
+  for (const Vec2 p : answer.path) route.push_back({p.x, p.y});
+  return route;
+}
+
+TEST(KeepRoute, EndsWhereTheQuestionAllows) {
+  const Scene scene = around_a_block(7);
+  const Question old{.start = {2.0, 12.0}, .goal = {28.0, 12.0}};
+  const auto route = route_of(solve(scene, old, by_grid()));
+  const auto asked = [&](std::vector<double> goal) {
+    Question question = old;
+    question.goal = std::move(goal);
+    question.route.keep_to = route;
+    return question;
+  };
+  Question question = asked({28.0, 14.0});
+  question.rule.region = 1.0;
+  EXPECT_THROW(solve(scene, question, by_grid()), UsageError);
+  question.rule.region = 2.5;
+  question.route.unless_gain = 0.9;
+  for (const bool is_priced : {false, true}) {
+    if (is_priced) question.prices.clearance = ClearancePrice{1.0, 2.0};
+    const Answer kept = solve(scene, question, by_grid());
+    ASSERT_TRUE(kept.keeping && kept.keeping->kept && kept.verified);
+    EXPECT_EQ(kept.problem.goal, route.back());
+    EXPECT_EQ(kept.goal_reached->distance, 2.0);
+    EXPECT_TRUE(verify(scene, recorded(kept)).verified);
+  }
+  question = asked({28.0, 14.0});
+  question.rule.tolerance = 1.0;
+  EXPECT_THROW(solve(scene, question, by_grid()), UsageError);
+  question.rule.tolerance = 2.5;
+  EXPECT_FALSE(solve(scene, question, by_grid()).keeping->kept);  // the goal itself can be reached
+  question = asked({2.0, 14.0});
+  question.rule.others = {{28.0, 12.0}, {2.0, 10.0}};
+  question.route.unless_gain = 0.99;
+  const Answer second = solve(scene, question, by_grid());
+  ASSERT_TRUE(second.keeping->kept);
+  EXPECT_EQ(second.goal_index, 1U);
+  EXPECT_EQ(second.problem.goal, route.back());
+  EXPECT_TRUE(verify(scene, recorded(second)).verified);
+}
+
+TEST(KeepRoute, OfCarsIsJudgedByTheOptions) {
+  const Scene scene = around_a_block(7);
+  Question question{.robot = RobotSpec{.kind = RobotKind::car, .radius = 0.2, .turning_radius = 1.0},
+                    .start = {2.0, 12.0, 0.0},
+                    .goal = {28.0, 12.0, 0.0}};
+  SolveOptions options;
+  options.planner = PlannerKind::rrt_connect;
+  const Answer first = solve(scene, question, options);
+  ASSERT_TRUE(first.verified);
+  for (std::size_t i = 0; i < first.states.size(); ++i) {
+    const auto state = first.states[i];
+    question.route.keep_to.emplace_back(state.begin(), state.end());
+  }
+  question.route.unless_gain = 0.99;
+  EXPECT_TRUE(solve(scene, question, options).keeping->kept);
+  options.car.turning_radius = 2.0;
+  EXPECT_FALSE(solve(scene, question, options).keeping->kept_cost);
+}
+
 void expect_bound(const Scene& scene, const Question& question, double gap, double worth) {
   SolveOptions options = by_grid();
   options.anytime.gap = gap;
