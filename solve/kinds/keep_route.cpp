@@ -72,13 +72,16 @@ struct Cost {
   double sum = 0.0;
 };
 
+/// is_at_goal: else the judge asks whether an arm's tool is where it shall be.
 std::optional<Cost> cost_now(const std::vector<State>& states, const Scene& scene, const Question& question,
-                             const Problem& problem, const Execution& execution) {
+                             const Problem& problem, bool is_at_goal, const Execution& execution) {
   Question asked = question;
   asked.route = {};
   asked.rule = {};
-  asked.goal = states.back();
-  asked.goal_pose.reset();
+  if (is_at_goal) {
+    asked.goal = states.back();
+    asked.goal_pose.reset();
+  }
   asked.robot = problem.robot;  // as options have made it
   const RecordedAnswer path = path_of(states, asked);
   Cost cost;
@@ -124,13 +127,15 @@ std::optional<RouteEnd> end_of(const State& end, const std::vector<State>& goals
     const bool is_turned = goal.size() == 3 && end.size() == 3;
     if (is_turned && !(std::abs(turn_between(end[2], goal[2])) <= rule.heading_rad.value_or(0.0) + 1e-9)) continue;
     const double off = distance(Vec2{end[0], end[1]}, Vec2{goal[0], goal[1]});
-    if (!(off <= rule.region.value_or(rule.tolerance.value_or(0.0)) * (1.0 + 1e-12))) continue;
+    // Far from the origin places are rounded more.
+    const double rounding = 0x1p-45 * (std::abs(goal[0]) + std::abs(goal[1]));
+    if (!(off <= rule.region.value_or(rule.tolerance.value_or(0.0)) * (1.0 + 1e-12) + rounding)) continue;
     if (!nearest || off < nearest->distance) nearest = RouteEnd{i, off};
   }
   return nearest;
 }
 
-/// Where it ends; none: the question leaves that to the planner.
+/// Where it ends; none: the goal is a place of an arm's tool, and the judge asks.
 std::optional<RouteEnd> check_route(const std::vector<State>& route, const Answer& answer) {
   const Problem& problem = answer.problem;
   if (answer.price && !is_plain(problem.robot)) {
@@ -145,8 +150,11 @@ std::optional<RouteEnd> check_route(const std::vector<State>& route, const Answe
     throw UsageError(
         fmt::format("@keep_to: the path's states have {} numbers, the body's {}", state.size(), problem.start.size()));
   }
-  if (problem.goal_pose || is_arm(problem.robot)) return std::nullopt;
-  const std::optional<RouteEnd> end = end_of(route.back(), asked_goals(answer), problem.rule);
+  if (problem.goal_pose) return std::nullopt;
+  const std::vector<State> goals = asked_goals(answer);
+  const auto is_of_tool = [&](const State& goal) { return goal.size() != route.back().size(); };
+  if (is_arm(problem.robot) && std::any_of(goals.begin(), goals.end(), is_of_tool)) return std::nullopt;
+  const std::optional<RouteEnd> end = end_of(route.back(), goals, problem.rule);
   if (!end) throw UsageError("@keep_to: the path ends at another place than the goal");
   return end;
 }
@@ -235,7 +243,7 @@ void keep_to_route(Answer& answer, const Scene& scene, const Question& question,
   const bool is_car = problem.robot.kind == RobotKind::car;
   const std::vector<State> rest = rest_of_route(rule.keep_to, problem.start, slack, !is_car);
   KeptRoute told;
-  const std::optional<Cost> kept = cost_now(rest, scene, question, problem, execution);
+  const std::optional<Cost> kept = cost_now(rest, scene, question, problem, end.has_value(), execution);
   if (kept) told.kept_cost = kept->sum;
   if (answer.verified) {
     const auto price = judged_price(scene, problem.prices, problem.robot, recorded(answer), execution);

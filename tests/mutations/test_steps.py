@@ -17,8 +17,9 @@ PROGRAMS = ("core", "spatial", "scenes", "worlds", "verify", "planners", "solve"
             "distributed", "tools", "program", "matrix")  # those that there are, the last ones last
 QUICK_S = 0.2  # tests up to this long are asked before the others
 MOST_MEMORY = 6 << 30
-# Labels: what looks at the sources, what knows no geometry, and what is asked otherwise.
-NOT_ASKED = "house|parallel|faults|fuzz|" + "|".join(PROGRAMS)
+# Labels: what looks at the sources, and what knows no geometry. Names: what is asked otherwise, or asks for more memory.
+LABELS_NOT_ASKED = "^(house|parallel|faults|fuzz)$"
+NOT_ASKED = "^(package_consumer|browser|(" + "|".join(PROGRAMS) + ")_tests[.][0-9]+)$"
 FAILED = re.compile(r"^\[  FAILED  \] ([\w/.]+)", re.MULTILINE)
 BEGUN = re.compile(r"^\[ RUN      \] ([\w/.]+)$", re.MULTILINE)
 CTEST_FAILED = re.compile(r"^\t *\d+ - (\S+) \(", re.MULTILINE)
@@ -93,7 +94,7 @@ def ask_program(folder, step, fault, scratch):
 
 
 def ask_ctest(folder, step, fault, scratch):
-    command = ["ctest", "--test-dir", folder, "--stop-on-failure", "-LE", f"^({NOT_ASKED})$", "-E", "^package_consumer$"]
+    command = ["ctest", "--test-dir", folder, "--stop-on-failure", "-LE", LABELS_NOT_ASKED, "-E", NOT_ASKED]
     code, text = run(command, folder, fault, scratch, 120 + 10 * step.seconds)
     failed = CTEST_FAILED.findall(text)
     if code is None:

@@ -265,6 +265,16 @@ TEST(KeepRoute, ChangesWhereAMuchCheaperWayOpensOrTheOldOneIsBlocked) {
   EXPECT_TRUE(forced.verified);
 }
 
+std::vector<std::vector<double>> route_of(const Answer& answer) {
+  std::vector<std::vector<double>> route;
+  for (const Vec2 p : answer.path) route.push_back({p.x, p.y});
+  for (std::size_t i = 0; i < answer.states.size(); ++i) {
+    if (i == 0) route.clear();
+    route.emplace_back(answer.states[i].begin(), answer.states[i].end());
+  }
+  return route;
+}
+
 TEST(KeepRoute, OfPolygonsAndOtherPlannersToo) {
   const Scene scene = around_a_block(7);
   Question question{
@@ -276,10 +286,7 @@ TEST(KeepRoute, OfPolygonsAndOtherPlannersToo) {
   options.optimise = true;
   const Answer first = solve(scene, question, options);
   ASSERT_TRUE(first.verified);
-  for (std::size_t i = 0; i < first.states.size(); ++i) {
-    const auto state = first.states[i];
-    question.route.keep_to.emplace_back(state.begin(), state.end());
-  }
+  question.route.keep_to = route_of(first);
   options.seed = 2;
   const Answer second = solve(scene, question, options);
   ASSERT_TRUE(second.keeping);
@@ -289,12 +296,6 @@ TEST(KeepRoute, OfPolygonsAndOtherPlannersToo) {
   }
   question.route.keep_to.back()[0] = 20.0;
   EXPECT_THROW(solve(scene, question, options), UsageError);
-}
-
-std::vector<std::vector<double>> route_of(const Answer& answer) {
-  std::vector<std::vector<double>> route;
-  for (const Vec2 p : answer.path) route.push_back({p.x, p.y});
-  return route;
 }
 
 TEST(KeepRoute, EndsWhereTheQuestionAllows) {
@@ -335,6 +336,79 @@ TEST(KeepRoute, EndsWhereTheQuestionAllows) {
   EXPECT_TRUE(verify(scene, recorded(second)).verified);
 }
 
+TEST(KeepRoute, UnderAToleranceGoesToWhatIsNearestNow) {
+  Bitmap blocked = around_a_block(7).map->blocked;
+  Scene scene = around_a_block(7);
+  const std::vector<double> goal{28.0, 12.0};
+  for (std::uint32_t y = 10; y < 14; ++y) scene.map->blocked.set_run(y, 26, 30);
+  Question question{.start = {2.0, 12.0}, .goal = goal, .rule = {.tolerance = 5.0}};
+  const Answer near = solve(scene, question, by_grid());
+  ASSERT_TRUE(near.verified && near.goal_reached->distance > 0.0);
+  question.route.keep_to = route_of(near);
+  const Answer again = solve(scene, question, by_grid());
+  EXPECT_TRUE(again.keeping->kept);
+  EXPECT_EQ(again.problem.goal, near.problem.goal);
+  EXPECT_EQ(again.goal_reached->distance, near.goal_reached->distance);
+  EXPECT_EQ(again.goal_reached->asked, goal);
+  scene.map->blocked = blocked;
+  const Answer there = solve(scene, question, by_grid());
+  EXPECT_FALSE(there.keeping->kept);
+  EXPECT_EQ(there.goal_reached->distance, 0.0);
+}
+
+TEST(KeepRoute, OfTurningBodiesKeepsTheirHeading) {
+  const Scene scene = around_a_block(7);
+  Question question{
+      .robot = RobotSpec{.kind = RobotKind::polygon, .outline = {{-0.5, -0.3}, {0.5, -0.3}, {0.5, 0.3}, {-0.5, 0.3}}},
+      .start = {2.0, 12.0, 0.0},
+      .goal = {28.0, 12.0, 1.0}};
+  SolveOptions options;
+  options.planner = PlannerKind::rrt_connect;
+  question.route.keep_to = route_of(solve(scene, question, options));
+  question.route.unless_gain = 0.99;
+  question.rule.region = 1.0;
+  question.goal = {28.5, 12.0, 1.1};
+  EXPECT_THROW(solve(scene, question, options), UsageError);
+  question.rule.heading_rad = 0.2;
+  const Answer kept = solve(scene, question, options);
+  ASSERT_TRUE(kept.keeping->kept);
+  EXPECT_EQ(kept.problem.goal, question.route.keep_to.back());
+  EXPECT_EQ(kept.goal_reached->distance, 0.5);
+}
+
+TEST(KeepRoute, OfArmsEndsAtTheGoalOrWithTheToolThere) {
+  Scene scene;
+  Question question{.robot = RobotSpec{.kind = RobotKind::puma560, .radius = 0.05},
+                    .start = {0, 0, 0, 0, 0, 0},
+                    .goal = {1, 0, 0, 0, 0, 0}};
+  SolveOptions options;
+  options.planner = PlannerKind::rrt_connect;
+  const Answer first = solve(scene, question, options);
+  ASSERT_TRUE(first.verified);
+  question.route.keep_to = route_of(first);
+  question.route.unless_gain = 0.99;
+  EXPECT_TRUE(solve(scene, question, options).keeping->kept);
+  question.goal = {-1, 0, 0, 0, 0, 0};
+  EXPECT_THROW(solve(scene, question, options), UsageError);
+  question.rule.others = {{1, 0, 0, 0, 0, 0}};
+  const Answer second = solve(scene, question, options);
+  ASSERT_TRUE(second.keeping->kept);
+  EXPECT_EQ(second.goal_index, 1U);
+  EXPECT_EQ(second.problem.goal, question.route.keep_to.back());
+  question.rule.others.clear();
+  question.goal = {0.4, 0.3, 0.3};  // of the tool
+  question.route = {};
+  const Answer tool = solve(scene, question, options);
+  ASSERT_TRUE(tool.verified);
+  question.route.keep_to = route_of(tool);
+  EXPECT_TRUE(solve(scene, question, options).keeping->kept);
+  question.goal = {0.4, 0.3, 0.31};
+  const Answer beside = solve(scene, question, options);
+  EXPECT_TRUE(beside.verified);
+  EXPECT_FALSE(beside.keeping->kept);
+  EXPECT_FALSE(beside.keeping->kept_cost);
+}
+
 TEST(KeepRoute, OfCarsIsJudgedByTheOptions) {
   const Scene scene = around_a_block(7);
   Question question{.robot = RobotSpec{.kind = RobotKind::car, .radius = 0.2, .turning_radius = 1.0},
@@ -344,10 +418,7 @@ TEST(KeepRoute, OfCarsIsJudgedByTheOptions) {
   options.planner = PlannerKind::rrt_connect;
   const Answer first = solve(scene, question, options);
   ASSERT_TRUE(first.verified);
-  for (std::size_t i = 0; i < first.states.size(); ++i) {
-    const auto state = first.states[i];
-    question.route.keep_to.emplace_back(state.begin(), state.end());
-  }
+  question.route.keep_to = route_of(first);
   question.route.unless_gain = 0.99;
   EXPECT_TRUE(solve(scene, question, options).keeping->kept);
   options.car.turning_radius = 2.0;
