@@ -16,6 +16,7 @@
 #include "solve/answer/stage_lines.hpp"
 #include "solve/explain_answer.hpp"
 #include "solve/question/question_of_arm.hpp"
+#include "solve/question/solve_options.hpp"
 
 namespace warren {
 namespace {
@@ -44,7 +45,12 @@ std::string why_not_connected(const Answer& answer) {
     const std::string from = stops == 0 ? "to the first stop" : fmt::format("from stop {} on", stops);
     return fmt::format("{} no way was found; there may be one", from);
   }
-  return "this roadmap does not join start and goal; another might";
+  const auto planner = enum_named<PlannerKind>(answer.planner);
+  const bool by_trees =
+      planner && (*planner == PlannerKind::rrt || *planner == PlannerKind::rrt_connect || gets_better(*planner));
+  return fmt::format("{} start and goal; {} might",
+                     by_trees ? "these samples do not join" : "this roadmap does not join",
+                     by_trees ? "others" : "another");
 }
 
 std::string headline(const Answer& answer, const Palette& palette) {

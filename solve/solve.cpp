@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -277,32 +278,158 @@ void check_certificate(Verdict& verdict, const Scene& scene, const RecordedAnswe
   if (judged.verdict == BoundVerdict::refuted) refute(verdict, "lower_bound: " + judged.what);
 }
 
-/// So is the lower bound.
-void check_bound(Verdict& verdict, const Scene& scene, const RecordedAnswer& answer, const Execution& execution) {
-  if (!verdict.verified || !answer.lower_bound) return;
-  const Problem& problem = verdict.problem;
-  if (answer.certificate) return check_certificate(verdict, scene, answer, execution);
-  if (answer.price && answer.cost) {  // of costs, not of lengths: the judge's search knows none
-    constexpr double rounding = 1e-9;
-    const Path<Vec2>& path = answer.path;
-    const bool is_straight = path.empty() || *answer.lower_bound <= distance(path.front(), path.back());
-    verdict.bound = is_straight ? BoundVerdict::checked : BoundVerdict::unchecked;
-    if (*answer.lower_bound <= *answer.cost * (1.0 + rounding)) return;
-    verdict.bound = BoundVerdict::refuted;
-    return refute(verdict, "lower_bound: above the path's cost");
+/// All goals that an answer was asked for: the one that a tolerance or region was about, or that is reached, first.
+std::vector<std::vector<double>> asked_goals(const RecordedAnswer& answer, const std::vector<double>& goal,
+                                             const GoalRule& rule) {
+  std::vector<std::vector<double>> goals{answer.goal_reached ? answer.goal_reached->asked : goal};
+  goals.insert(goals.end(), rule.others.begin(), rule.others.end());
+  return goals;
+}
+
+/// Of several goals, and of what a tolerance or region takes, the judge of the kind asks for the place where the path
+/// ends, if it may end there; what is wrong with that, else.
+std::string take_end(Question& asked, const Question& question, const Scene& scene, const RecordedAnswer& answer) {
+  if (answer.path.empty() || asked.goal_pose) return {};
+  const bool is_said = !question.goal.empty() || asked.goal.empty();  // by the question or the world
+  const GoalRule rule = rule_of(scene, asked);
+  const bool takes_others = rule.region || rule.tolerance;
+  if ((!is_said && !takes_others) || rule.back) return {};
+  std::vector<double> end{answer.path.back().x, answer.path.back().y};
+  if (const std::size_t count = answer.states.size(); count > 0)
+    end.assign(answer.states[count - 1].begin(), answer.states[count - 1].end());
+  const RecordedAnswer none;
+  auto goals = asked_goals(is_said ? none : answer, asked.goal.empty() ? scene.goal : asked.goal, rule);
+  const bool of_arm = is_arm(robot_of(scene, asked));
+  if (of_arm && takes_others) return "goal_tolerance: an arm's goal is met as it stands";
+  const auto is_state = [&](const std::vector<double>& goal) {
+    return of_arm ? goal.size() == end.size() : std::min(goal.size(), end.size()) >= 2;
+  };
+  if (!std::all_of(goals.begin(), goals.end(), is_state)) return {};  // the kind's judge says so
+  const auto reached = reached_goal(end, goals, rule);
+  if (takes_others) {
+    asked.goal = std::move(end);
+    if (reached) return {};
+    return fmt::format("{}: the path ends farther from every goal", rule.region ? "goal_region" : "goal_tolerance");
   }
-  if (!problem.rule.visit.empty()) {  // a way that passes the stops by would be shorter
-    verdict.bound = BoundVerdict::unchecked;
+  if (!reached) return {};                                                                 // so says the kind's judge
+  for (std::vector<double>& some : goals) some.resize(std::min(some.size(), end.size()));  // headings of a file
+  asked.goal = std::move(goals[reached->number]);
+  goals.erase(goals.begin() + static_cast<std::ptrdiff_t>(reached->number));
+  asked.rule.others = std::move(goals);
+  return {};
+}
+
+/// So is what an answer says of the goal that it reaches, and of the order of places to visit.
+void check_goal_told(Verdict& verdict, const RecordedAnswer& answer) {
+  if (!verdict.verified || answer.path.empty()) return;
+  const GoalRule& rule = answer.problem.rule;
+  if (answer.goal_index && *answer.goal_index > rule.others.size()) {
+    return refute(verdict, fmt::format("goal_index: the answer has no goal {}", *answer.goal_index));
+  }
+  if (const auto& told = answer.goal_reached) {
+    if (!rule.region && !rule.tolerance) return refute(verdict, "goal_reached: no tolerance or region was asked for");
+    if (told->asked.size() < 2) return refute(verdict, "goal_reached: `asked` is no place");
+    const std::vector<double>& goal = answer.problem.goal;
+    const Vec2 end = answer.path.back();
+    const double off_end = goal.size() < 2 ? 0.0 : distance(end, Vec2{goal[0], goal[1]});
+    if (off_end > 1e-9 * (1.0 + norm(end))) return refute(verdict, "goal: the path ends elsewhere");
+    const double off = distance(answer.path.back(), Vec2{told->asked[0], told->asked[1]});
+    const double rounding = 1e-9 * (1.0 + norm(answer.path.back()));
+    if (std::abs(off - told->distance) > rounding) {
+      return refute(verdict,
+                    fmt::format("goal_reached: the answer says {}, its path ends {} off", told->distance, off));
+    }
+    if (told->distance_bound && *told->distance_bound > off + rounding) {
+      return refute(verdict, "goal_reached: `distance_bound` is above the distance");
+    }
+  }
+  if (answer.order.empty()) return;
+  std::vector<std::uint64_t> sorted = answer.order;
+  std::sort(sorted.begin(), sorted.end());
+  bool is_whole = sorted.size() == rule.visit.size();
+  for (std::size_t i = 0; is_whole && i < sorted.size(); ++i) is_whole = sorted[i] == i;
+  PathPlace place;
+  for (std::size_t i = 0; is_whole && i < answer.order.size(); ++i) {
+    const auto next = passed(verdict.problem.robot, answer.path, answer.states, rule.visit[answer.order[i]], place);
+    is_whole = next.has_value();
+    place = next.value_or(place);
+  }
+  if (!is_whole) refute(verdict, "order: the path visits the places in another one");
+}
+
+/// What may end anywhere near its goals is at least as long as the straight way to the nearest, but for so much. What
+/// is priced costs as much at least.
+BoundVerdict bound_near(const Problem& problem, const RecordedAnswer& answer, double off) {
+  constexpr double rounding = 1e-9;
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::vector<double>& goal : asked_goals(answer, problem.goal, answer.problem.rule)) {
+    least = std::min(least, distance(Vec2{problem.start[0], problem.start[1]}, Vec2{goal[0], goal[1]}) - off);
+  }
+  const bool is_straight = *answer.lower_bound <= std::max(0.0, least) * (1.0 + rounding);
+  return is_straight ? BoundVerdict::checked : BoundVerdict::unchecked;
+}
+
+/// What an answer says of its bound follows from that.
+std::string wrong_gap(const RecordedAnswer& answer, double cost) {
+  constexpr double slack = 1e-5;  // arcs are told as lines
+  constexpr double nothing = 1e-9;
+  const double bound = *answer.lower_bound;
+  if (answer.optimal && !(cost - bound <= slack * cost + nothing)) {
+    return fmt::format("optimal: the lower bound is {}, the path's cost {}", bound, cost);
+  }
+  const double gap = bound > 0.0 ? std::max(0.0, cost / bound - 1.0) : cost > 0.0 ? -1.0 : 0.0;  // -1: there is none
+  if (!answer.gap || std::abs(*answer.gap - gap) <= slack * (1.0 + gap)) return {};
+  return fmt::format("gap: the answer says {}, its cost and bound are {} and {}", *answer.gap, cost, bound);
+}
+
+/// So is the lower bound. others: goals beside the one that is reached.
+void check_bound(Verdict& verdict, const Scene& scene, const RecordedAnswer& answer,
+                 const std::vector<std::vector<double>>& others, const Execution& execution) {
+  if (!verdict.verified) return;
+  if (!answer.lower_bound) {
+    if (answer.optimal || answer.gap) refute(verdict, "optimal, gap: the answer tells no lower bound");
     return;
   }
-  const ClaimedBound claim{*answer.lower_bound, answer.cost, verdict.length, answer.state_width(),
-                           answer.states.numbers};
+  const Problem& problem = verdict.problem;
+  const ClaimedBound claim{*answer.lower_bound, answer.price ? std::nullopt : answer.cost, verdict.length,
+                           answer.state_width(), answer.states.numbers};
   const auto judged_to = [&](const std::vector<double>& goal) {
     return verify_bound(scene, {problem.robot, problem.start, goal, problem.clearance}, claim, execution);
   };
-  const JudgedBound judged = judged_to(problem.goal);
+  const double priced = answer.price ? answer.price->sum() : 0.0;
+  const double cost = answer.cost.value_or(verdict.length + priced);
+  constexpr double rounding = 1e-9;
+  JudgedBound judged = answer.price ? JudgedBound{} : judged_to({});  // against its own path
+  if (answer.price && *answer.lower_bound > cost * (1.0 + rounding)) {
+    judged = {BoundVerdict::refuted, "above the path's cost"};
+  }
+  if (judged.verdict == BoundVerdict::refuted) {
+    verdict.bound = judged.verdict;
+    return refute(verdict, "lower_bound: " + judged.what);
+  }
+  if (std::string wrong = wrong_gap(answer, cost); !wrong.empty()) return refute(verdict, std::move(wrong));
+  const GoalRule& rule = answer.problem.rule;
+  const auto& told = answer.goal_reached;
+  const double off = rule.region.value_or(told && rule.tolerance ? told->distance : 0.0);
+  const bool has_headings = told && problem.goal.size() == 3;
+  const bool is_turned =
+      has_headings && (told->asked.size() < 3 || std::abs(turn_between(problem.goal[2], told->asked[2])) > rounding);
+  const bool is_near = off > 0.0 || is_turned;
+  if (answer.certificate && !is_near) return check_certificate(verdict, scene, answer, execution);
+  verdict.bound = BoundVerdict::unchecked;
+  if (!problem.rule.visit.empty() || !rule.visit.empty()) return;  // a way that passes the stops by would be shorter
+  if (is_near || answer.price) {                                   // of costs the judge's search knows none
+    const bool is_plane = !is_arm(problem.robot) && !rule.back && !answer.certificate;
+    if (is_plane) verdict.bound = bound_near(problem, answer, off);
+    if (answer.price || is_turned || !is_plane) return;
+    judged = judged_to(problem.goal);  // a free way to an end that does is one
+    if (judged.verdict != BoundVerdict::refuted) return;
+    verdict.bound = judged.verdict;
+    return refute(verdict, "lower_bound: " + judged.what);
+  }
+  judged = judged_to(problem.goal);
   verdict.bound = judged.verdict;
-  for (const std::vector<double>& other : problem.rule.others) {  // a nearer one may be blocked, which nobody judges
+  for (const std::vector<double>& other : others) {  // a nearer one may be blocked, which nobody judges
     if (verdict.bound != BoundVerdict::checked) break;
     if (judged_to(other).verdict != BoundVerdict::checked) verdict.bound = BoundVerdict::unchecked;
   }
@@ -410,18 +537,21 @@ Verdict verify_within(const Scene& scene, const Question& question, const Record
                       const Execution& execution) {
   question.validate();
   check_same_world(answer, answer.file, scene, execution);
-  const Question asked = merged(question, answer.problem);
+  Question asked = merged(question, answer.problem);
   const Prices prices = prices_of(scene, asked);
   const std::optional<Scene> effective = effective_scene(scene, prices, execution);
   const Scene& judged = effective ? *effective : scene;
+  std::string wrong_end = take_end(asked, question, scene, answer);
   Verdict verdict = verifying_kind(judged, asked).verify(judged, asked, answer, execution);
+  if (verdict.verified && !wrong_end.empty()) refute(verdict, std::move(wrong_end));
   check_length(verdict, answer);
   check_stops_passed(verdict, asked.rule, answer);
+  check_goal_told(verdict, answer);
   check_price(verdict, judged, prices, answer, execution);
   check_alternatives(verdict, judged, asked, prices, answer, execution);
   const bool is_same = !question.robot && question.start.empty() && question.goal.empty() && !question.clearance &&
                        question.prices.empty() && question.rule.empty();
-  if (is_same) check_bound(verdict, judged, answer, execution);
+  if (is_same) check_bound(verdict, judged, answer, asked.rule.others, execution);
   return verdict;
 }
 
@@ -441,7 +571,8 @@ Answer solve_explained(const Scene& scene, const Question& question, const Solve
   price_heuristic(scene, question, options, execution, answer);
   const Prices prices = is_blocked(answer.outcome) ? prices_of(scene, question) : Prices{};
   const std::optional<Scene> effective = effective_scene(scene, prices, execution);
-  explain_blocked_end(effective ? *effective : scene, answer, execution);
+  const OccupancyMap* own = effective && scene.map ? &*scene.map : nullptr;
+  explain_blocked_end(effective ? *effective : scene, answer, execution, own);
   tell_memory(answer, execution);
   return answer;
 }

@@ -26,8 +26,9 @@ class KeptWays;  // solve/kinds/kept_ways.hpp
 Answer solve(const Scene& scene, const Question& question = {}, const SolveOptions& options = {},
              const Limits& limits = {}, ByProducts* keep = nullptr);
 
-/// Judges the path of an answer against every obstacle of the scene, for the whole body and the whole question. Throws
-/// UsageError, InputError for states that are none of this body, Stopped.
+/// Judges the path of an answer against every obstacle of the scene, for the whole body and the whole question; and
+/// what it claims of its path: length, cost and price, goal, order, other ways, bound. Throws UsageError, InputError
+/// for states that are none of this body, Stopped.
 Verdict verify(const Scene& scene, const Answer& answer, const Limits& limits = {});
 /// The same for an answer that was read from a file; what the question says goes before what the file says.
 Verdict verify(const Scene& scene, const RecordedAnswer& answer, const Question& question = {},

@@ -200,7 +200,7 @@ WARREN_ARCHIVED(OccupancyMap, format, blocked, unknown, water, free, occupied, u
                 origin, yaw_rad, start, goal, source, image)
 WARREN_ARCHIVED(PackedMaze, file, hash)
 WARREN_ARCHIVED(PricedArea, factor, corners, line)
-WARREN_ARCHIVED(MaskCells, width, height, values, cell, origin, yaw_rad)
+WARREN_ARCHIVED(MaskCells, width, height, values, cell, origin, yaw_rad, image)
 WARREN_ARCHIVED(PriceMask, kind, file, factor, base, multiplier, read)
 WARREN_ARCHIVED(KeepOut, corners, line)
 WARREN_ARCHIVED(Prices, clearance, areas, masks, keep_out, unknown)

@@ -191,7 +191,7 @@ struct Improvement {
   double seconds = 0.0;          ///< since the search began, wall-clock
   double cost = 0.0;             ///< in the body's metric, which is what gets better
   double length = 0.0;           ///< as answers have it
-  std::string by;                ///< the part that found it: straight, tree, restarts, roadmap or shorten
+  std::string by;                ///< the part that found it: straight, tree, restarts, roadmap, shorten or optimise
   double lower_bound = 0.0;      ///< of all costs, as far as it is proved when it came; 0: nothing is
 };
 

@@ -307,7 +307,10 @@ class ColladaReader {
     next_size();
     std::size_t made = 0;
     std::vector<std::uint32_t> corners;
-    for (const pugi::xml_node list : part.children("p")) {
+    for (const pugi::xml_node child : part.children()) {
+      const bool has_holes = std::string_view(child.name()) == "ph";  // which lie inside of its <p>
+      const pugi::xml_node list = has_holes ? child.child("p") : child;
+      if (std::string_view(list.name()) != "p") continue;
       std::string_view text = list.child_value();
       for (std::size_t i = 0; !text.empty(); ++i) {
         if (i % numbers_a_look == 0) execution_.check();

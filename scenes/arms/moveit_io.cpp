@@ -52,9 +52,26 @@ class MoveItNodes {
       : yaml_(file, what, most_mebibytes, execution), execution_(execution) {}
 
  protected:
-  static Node at(const Node& map, const char* key) {
-    const Node found = map.IsMap() ? map[key] : Node();
+  /// Null where the key, or the map itself, is missing.
+  Node at(const Node& map, const char* key) const {
+    if (map.IsNull()) return Node();
+    if (!map.IsMap()) yaml_.fail(map, fmt::format("expected keys with values here, `{}` among them", key));
+    const Node found = map[key];
     return found ? found : Node();
+  }
+  /// What has a key that nobody reads, or one twice, is not what its writer means.
+  void expect_keys(const Node& map, std::string_view what, std::initializer_list<std::string_view> known) const {
+    if (map.IsNull()) return;
+    if (!map.IsMap()) yaml_.fail(map, fmt::format("expected {}: keys with values", what));
+    std::set<std::string> seen;
+    for (const auto& entry : map) {
+      execution_.check();
+      const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
+      if (std::ranges::find(known, key) == known.end()) {
+        yaml_.fail(entry.first, fmt::format("no key of {}, which are {}", what, fmt::join(known, ", ")));
+      }
+      if (!seen.insert(key).second) yaml_.fail(entry.first, "this key stands here twice");
+    }
   }
   /// Each of a list; of nothing where the key is missing.
   template <class Take>
@@ -69,7 +86,8 @@ class MoveItNodes {
   }
   std::size_t count(const Node& map, const char* key) const {
     const Node list = at(map, key);
-    return list.IsSequence() ? list.size() : 0;
+    if (!list.IsNull() && !list.IsSequence()) yaml_.fail(list, fmt::format("`{}` must be a list", key));
+    return list.size();
   }
   Node needed(const Node& map, const char* key) const {
     const Node found = at(map, key);
@@ -90,6 +108,9 @@ class MoveItNodes {
     if (!node.IsMap() && (!node.IsSequence() || node.size() != N)) {
       yaml_.fail(node, fmt::format("`{}` must be {} numbers", key, N));
     }
+    const auto what = fmt::format("`{}`", key);
+    if (node.IsMap() && N == 4) expect_keys(node, what, {"x", "y", "z", "w"});
+    if (node.IsMap() && N < 4) expect_keys(node, what, {"x", "y", "z"});
     std::array<double, N> found{};
     for (std::size_t i = 0; i < N; ++i) {
       found[i] = number(node.IsMap() ? needed(node, names[i]) : Node(node[i]), node.IsMap() ? names[i] : key);
@@ -97,11 +118,16 @@ class MoveItNodes {
     return found;
   }
   PoseNumbers pose(const Node& node, const char* at_key = "position", const char* turn_key = "orientation") const {
+    expect_keys(node, "a pose", {at_key, turn_key});
     PoseNumbers pose;
     if (const Node place = at(node, at_key); !place.IsNull()) pose.at = numbers<3>(place, at_key);
-    if (const Node turn = at(node, turn_key); !turn.IsNull()) pose.turn = numbers<4>(turn, turn_key);
-    if (pose.turn == std::array<double, 4>{}) yaml_.place(node).fail("a quaternion must not be 0 0 0 0");
+    if (const Node turn = at(node, turn_key); !turn.IsNull()) pose.turn = quaternion(turn, turn_key);
     return pose;
+  }
+  std::array<double, 4> quaternion(const Node& node, std::string_view key) const {
+    const auto turn = numbers<4>(node, key);
+    if (turn == std::array<double, 4>{}) yaml_.place(node).fail("a quaternion must not be 0 0 0 0");
+    return turn;
   }
   /// A word, as a line of a scene holds it.
   std::string word(const Node& node, std::string_view key) const {
@@ -136,9 +162,13 @@ class MoveItStates : public MoveItNodes {
  protected:
   /// Of a robot_state or start_state.
   void take_state(Scene& scene, const Node& state) {
+    expect_keys(state, "a robot's state",
+                {"joint_state", "multi_dof_joint_state", "attached_collision_objects", "is_diff"});
     const Node joints = at(state, "joint_state");
-    for (const char* key : {"joint_state", "multi_dof_joint_state"})
-      know_frame(at(at(at(state, key), "header"), "frame_id"));
+    expect_keys(joints, "a state of joints", {"header", "name", "position", "velocity", "effort"});
+    expect_keys(at(state, "multi_dof_joint_state"), "a state of joints",
+                {"header", "joint_names", "transforms", "twist", "wrench"});
+    for (const char* key : {"joint_state", "multi_dof_joint_state"}) know_frame(frame_name(at(state, key)));
     if (!joints.IsNull()) take_joints(scene, joints);
     for_each(at(state, "multi_dof_joint_state"), "transforms", [&](const Node& base) {
       if (!pose(base, "translation", "rotation").is_identity()) yaml_.fail(base, "the arm's base must stand at 0 0 0");
@@ -148,6 +178,14 @@ class MoveItStates : public MoveItNodes {
   /// A box, ball or cylinder, or a mesh's hull: take(solid) for each.
   template <class Take>
   void for_each_solid(const Node& object, const Take& take) const {
+    expect_keys(object, "a collision object",
+                {"header", "id", "pose", "type", "primitives", "primitive_poses", "meshes", "mesh_poses", "planes",
+                 "plane_poses", "subframe_names", "subframe_poses", "operation"});
+    const Node operation = at(object, "operation");
+    const std::string does = operation.IsScalar() ? operation.Scalar() : "";
+    constexpr std::string_view zero("\0", 1);  // as ROS 2 prints a byte
+    if (!operation.IsNull() && does != "0" && does != zero && does != "add" && does != "ADD")
+      yaml_.fail(operation, "`operation` must be 0 or add: the objects that are there");
     const PoseNumbers stand = pose(at(object, "pose"));
     for (const char* key : {"planes", "plane_poses"}) {
       if (count(object, key) > 0) yaml_.fail(at(object, key), "planes are not read: a box does instead");
@@ -167,19 +205,25 @@ class MoveItStates : public MoveItNodes {
     each("meshes", "mesh_poses", [&](const Node& n, const PoseNumbers& p) { return mesh(n, p); });
   }
 
-  void know_frame(const Node& name) {
-    if (name.IsScalar()) root_frames_.insert(name.Scalar());
+  void know_frame(const std::string& name) { root_frames_.insert(name); }
+  std::string frame_name(const Node& posed) const {
+    const Node header = at(posed, "header");
+    expect_keys(header, "a header", {"seq", "stamp", "frame_id"});
+    const Node name = at(header, "frame_id");
+    if (!name.IsNull() && !name.IsScalar()) yaml_.fail(name, "`frame_id` must be a name");
+    return name.IsScalar() ? name.Scalar() : "";
   }
   /// Poses are read in the frame of the robot's root; where another one is nobody knows before the robot's state.
   void check_frame(const Node& posed) const {
-    const Node frame = at(at(posed, "header"), "frame_id");
-    if (frame.IsNull() || (frame.IsScalar() && root_frames_.contains(frame.Scalar()))) return;
-    yaml_.fail(frame,
+    if (root_frames_.contains(frame_name(posed))) return;
+    yaml_.fail(at(at(posed, "header"), "frame_id"),
                "poses are read in the frame of the robot's root: give this one in it, with `frame_id` \"\" or world; "
-               "a scene may name the root's frame as a `child_frame_id` of `fixed_frame_transforms` at 0 0 0");
+               "a scene may name the root's frame in one of `fixed_frame_transforms` at 0 0 0");
   }
 
   ArmFiles& arm_of(Scene& scene) const { return scene.arm ? *scene.arm : scene.arm.emplace(); }
+  /// What the world's own line says of the robot, which the request takes the place of; null: nothing.
+  ArmFiles* line_of(Scene& scene) const { return scene.robot && scene.robot->files ? &*scene.robot->files : nullptr; }
 
  private:
   void take_joints(Scene& scene, const Node& joints) const {
@@ -195,25 +239,38 @@ class MoveItStates : public MoveItNodes {
     }
     if (state.names.empty()) return;
     for (std::size_t i = 0; i < state.names.size(); ++i) values[state.names[i]] = state.values[i];
+    if (ArmFiles* line = line_of(scene))
+      std::erase_if(line->held, [&](const auto& joint) { return values.contains(joint.first); });
     auto& held = arm_of(scene).held;
     for (const auto& joint : held) values.insert(joint);
     held.assign(values.begin(), values.end());
     scene.start.clear();
     scene.named_start = std::move(state);
   }
-  void take_attached(Scene& scene, const Node& attached) const {
+  /// Takes the place of what had this name before: a request's that of the scene's.
+  void take_attached(Scene& scene, const Node& attached) {
+    expect_keys(attached, "what is attached", {"link_name", "object", "touch_links", "detach_posture", "weight"});
     const std::string link = word(needed(attached, "link_name"), "link_name");
     std::vector<std::string> touched;
     for_each(attached, "touch_links", [&](const Node& n) { touched.push_back(word(n, "touch_links")); });
     const Node object = needed(attached, "object");
-    if (const Node frame = at(at(object, "header"), "frame_id"); frame.IsScalar() && !frame.Scalar().empty()) {
-      if (frame.Scalar() != link) yaml_.fail(frame, fmt::format("what is attached must be in the frame {}", link));
-    }
-    for_each_solid(object, [&](Solid solid) {
-      push_asked(arm_of(scene).attached, {link, std::move(solid), touched}, execution_);
+    if (const std::string frame = frame_name(object); !frame.empty() && frame != link)
+      yaml_.fail(at(at(object, "header"), "frame_id"), fmt::format("what is attached must be in the frame {}", link));
+    std::vector<AttachedSolid>& all = arm_of(scene).attached;
+    const Node id = at(object, "id");
+    const std::string name = id.IsScalar() ? id.Scalar() : "";
+    std::erase_if(all, [&](const AttachedSolid& old) {
+      if (name.empty() || old.solid.name != name) return false;
+      for (const std::string& other : old.may_touch)
+        if (std::ranges::find(touched, other) == touched.end()) touched.push_back(other);
+      return true;
     });
+    if (count(object, "primitives") + count(object, "meshes") == 0)
+      yaml_.place(object).fail("what is attached needs its shapes here: `primitives` or `meshes`");
+    for_each_solid(object, [&](Solid solid) { push_asked(all, {link, std::move(solid), touched}, execution_); });
   }
   Solid primitive(const Node& shape, const PoseNumbers& pose) const {
+    expect_keys(shape, "a primitive", {"type", "dimensions", "polygon"});
     const Node type = needed(shape, "type");
     const std::string name = type.IsScalar() ? type.Scalar() : "";
     const Node size = needed(shape, "dimensions");
@@ -236,6 +293,7 @@ class MoveItStates : public MoveItNodes {
     yaml_.fail(type, "`type` must be box, sphere or cylinder");
   }
   Solid mesh(const Node& shape, const PoseNumbers& stand) const {
+    expect_keys(shape, "a mesh", {"vertices", "triangles"});
     const Eigen::Isometry3d pose = stand.pose();
     std::vector<double> all;
     for_each(shape, "vertices", [&](const Node& vertex) {
@@ -256,16 +314,23 @@ class MoveItSceneReader : public MoveItStates {
 
   Scene read() {
     const Node& root = yaml_.root();
+    expect_keys(root, "a planning scene of MoveIt",
+                {"name", "robot_state", "robot_model_name", "fixed_frame_transforms", "allowed_collision_matrix",
+                 "link_padding", "link_scale", "object_colors", "world", "is_diff"});
     const Node world = at(root, "world");
-    if (!at(at(at(world, "octomap"), "octomap"), "data").IsNull() &&
-        count(at(at(world, "octomap"), "octomap"), "data") > 0) {
+    expect_keys(world, "the world of a planning scene", {"collision_objects", "octomap"});
+    const Node stamped = at(world, "octomap");
+    expect_keys(stamped, "an octomap", {"header", "origin", "octomap"});
+    expect_keys(at(stamped, "octomap"), "an octomap", {"header", "binary", "id", "resolution", "data"});
+    const Node octomap = at(at(stamped, "octomap"), "data");
+    if (octomap.IsScalar() ? !octomap.Scalar().empty() : octomap.size() > 0)
       yaml_.fail(at(world, "octomap"), "octomaps are not read");
-    }
     for_each(root, "fixed_frame_transforms", [&](const Node& frame) {
-      const bool same = pose(at(frame, "transform"), "translation", "rotation").is_identity();
+      expect_keys(frame, "a fixed frame", {"header", "child_frame_id", "transform"});
+      const bool same = pose(needed(frame, "transform"), "translation", "rotation").is_identity();
       if (!same) yaml_.fail(frame, "frames must stand at 0 0 0: what is in them would be elsewhere");
-      know_frame(at(frame, "child_frame_id"));
-      know_frame(at(at(frame, "header"), "frame_id"));
+      if (const Node child = at(frame, "child_frame_id"); child.IsScalar()) know_frame(child.Scalar());
+      know_frame(frame_name(frame));
     });
     take_state(scene_, at(root, "robot_state"));
     for_each(world, "collision_objects", [&](const Node& object) { take_object(object); });
@@ -279,6 +344,7 @@ class MoveItSceneReader : public MoveItStates {
   /// Links are as large as their files say.
   void refuse_sizes(const Node& root, const char* list, const char* key, double usual) const {
     for_each(root, list, [&](const Node& link) {
+      expect_keys(link, "a link's size", {"link_name", key});
       const Node size = needed(link, key);
       if (number(size, key) == usual) return;
       yaml_.fail(size, fmt::format("`{}` must be {}: links are not made larger; `clearance` keeps room", list, usual));
@@ -298,9 +364,12 @@ class MoveItSceneReader : public MoveItStates {
   }
   /// As MoveIt reads it: what stands above the diagonal; defaults where there is no entry, false before true.
   void take_matrix(const Node& matrix) {
+    expect_keys(matrix, "a matrix of allowed collisions",
+                {"entry_names", "entry_values", "default_entry_names", "default_entry_values"});
     const std::vector<std::string> names = words(matrix, "entry_names");
     std::size_t row = 0;
     for_each(matrix, "entry_values", [&](const Node& values) {
+      if (values.IsMap()) expect_keys(values, "a row of the matrix", {"enabled"});
       const Node list = values.IsMap() ? at(values, "enabled") : values;
       if (!list.IsSequence() || list.size() != names.size() || row == names.size()) {
         yaml_.fail(values, fmt::format("`entry_values` must be {0} lists of {0}", names.size()));
@@ -368,15 +437,32 @@ class MoveItRequestReader : public MoveItStates {
 
   void read(Scene& scene) {
     const Node& root = yaml_.root();
-    if (const Node group = at(root, "group_name"); !group.IsNull()) arm_of(scene).group = word(group, "group_name");
+    expect_keys(
+        root, "a request of MoveIt",
+        {"workspace_parameters", "start_state", "goal_constraints", "path_constraints", "trajectory_constraints",
+         "reference_trajectories", "pipeline_id", "planner_id", "group_name", "num_planning_attempts",
+         "allowed_planning_time", "max_velocity_scaling_factor", "max_acceleration_scaling_factor",
+         "cartesian_speed_limited_link", "cartesian_speed_end_effector_link", "max_cartesian_speed"});
+    if (!root["group_name"] && !root["start_state"] && !root["goal_constraints"])
+      yaml_.place(root).fail("a request of MoveIt needs `group_name`, `start_state` or `goal_constraints`");
+    if (const Node group = at(root, "group_name"); !group.IsNull()) {
+      arm_of(scene).group = word(group, "group_name");
+      if (ArmFiles* line = line_of(scene); line != nullptr && !line->srdf.empty()) {  // which has the group
+        line->group = arm_of(scene).group;
+        line->base.clear();
+        line->tip.clear();
+      }
+    }
     take_state(scene, at(root, "start_state"));
     const Node way = at(root, "path_constraints");
+    expect_constraint(way);
     for (const char* key : kinds) {
       if (count(way, key) > 0) yaml_.fail(at(way, key), "constraints on the way are not kept: `path_constraints`");
     }
-    if (count(at(root, "trajectory_constraints"), "constraints") > 0) {
-      yaml_.fail(at(root, "trajectory_constraints"), "constraints on the way are not kept: `trajectory_constraints`");
-    }
+    const Node along = at(root, "trajectory_constraints");
+    expect_keys(along, "constraints on the way", {"constraints"});
+    if (count(along, "constraints") > 0)
+      yaml_.fail(along, "constraints on the way are not kept: `trajectory_constraints`");
     scene.goal.clear();
     scene.named_goals.clear();
     scene.goal_pose.reset();
@@ -391,7 +477,11 @@ class MoveItRequestReader : public MoveItStates {
   static constexpr std::array<const char*, 4> kinds{"joint_constraints", "position_constraints",
                                                     "orientation_constraints", "visibility_constraints"};
 
+  void expect_constraint(const Node& node) const {
+    expect_keys(node, "constraints", {"name", kinds[0], kinds[1], kinds[2], kinds[3]});
+  }
   void take_goal(Scene& scene, const Node& goal) const {
+    expect_constraint(goal);
     if (count(goal, kinds[3]) > 0) yaml_.fail(at(goal, kinds[3]), "`visibility_constraints` are not kept");
     if (count(goal, kinds[0]) > 0) {
       if (count(goal, kinds[1]) + count(goal, kinds[2]) > 0) {
@@ -403,33 +493,46 @@ class MoveItRequestReader : public MoveItStates {
       yaml_.place(goal).fail("a goal needs `joint_constraints`, or one of `position_constraints`");
     }
     const Node place = at(goal, kinds[1])[0];
-    check_frame(place);
-    if (count(goal, kinds[2]) > 0) check_frame(at(goal, kinds[2])[0]);
+    expect_keys(place, "a position", {"header", "link_name", "target_point_offset", "constraint_region", "weight"});
     if (const Node offset = at(place, "target_point_offset"); !offset.IsNull()) {
       if (numbers<3>(offset, "target_point_offset") != std::array<double, 3>{}) {
         yaml_.fail(offset, "`target_point_offset` must be 0 0 0");
       }
     }
-    if (const Node link = at(place, "link_name"); !link.IsNull()) arm_of(scene).tool = word(link, "link_name");
+    if (const Node link = at(place, "link_name"); !link.IsNull()) {
+      arm_of(scene).tool = word(link, "link_name");
+      if (ArmFiles* line = line_of(scene)) line->tool = arm_of(scene).tool;
+    }
     if (count(goal, kinds[2]) > 0) {
       const Node link = at(at(goal, kinds[2])[0], "link_name");
       const bool same = !link.IsScalar() || link.Scalar() == arm_of(scene).tool;
       if (!same) yaml_.fail(link, "place and turn must be of one link, here " + arm_of(scene).tool);
     }
     const Node region = needed(place, "constraint_region");
-    if (count(region, "primitive_poses") != 1) yaml_.fail(region, "a place needs one of `primitive_poses`");
-    PoseNumbers pose{.at = numbers<3>(needed(at(region, "primitive_poses")[0], "position"), "position")};
+    expect_keys(region, "a region", {"primitives", "primitive_poses", "meshes", "mesh_poses"});
+    if (count(region, "meshes") > 0 || count(region, "primitive_poses") != 1)
+      yaml_.fail(region, "a place needs one of `primitive_poses`");
+    check_frame(place);
+    const Node middle = at(region, "primitive_poses")[0];
+    expect_keys(middle, "a pose", {"position", "orientation"});
+    PoseNumbers pose{.at = numbers<3>(needed(middle, "position"), "position")};
     if (count(goal, kinds[2]) == 0) {
       scene.goal.assign(pose.at.begin(), pose.at.end());
       return;
     }
-    pose.turn = this->pose(at(goal, kinds[2])[0]).turn;
+    const Node turned = at(goal, kinds[2])[0];
+    expect_keys(turned, "an orientation",
+                {"header", "orientation", "link_name", "absolute_x_axis_tolerance", "absolute_y_axis_tolerance",
+                 "absolute_z_axis_tolerance", "parameterization", "weight"});
+    check_frame(turned);
+    pose.turn = quaternion(needed(turned, "orientation"), "orientation");
     scene.goal_pose = pose.pose();
   }
   void take_joint_goal(Scene& scene, const Node& goal) const {
     NamedState state;
     std::set<std::string> seen;
     for_each(goal, kinds[0], [&](const Node& joint) {
+      expect_keys(joint, "a joint's goal", {"joint_name", "position", "tolerance_above", "tolerance_below", "weight"});
       const Node name = needed(joint, "joint_name");
       if (!seen.insert(word(name, "joint_name")).second) yaml_.fail(name, "this joint stands here twice");
       state.names.push_back(name.Scalar());

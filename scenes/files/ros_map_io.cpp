@@ -312,7 +312,7 @@ MaskCells read_mask(const InputFile& yaml, const Execution& execution, MapServer
                                       mask.values[std::size_t{y} * mask.width + x] = value;
                                     });
                        }};
-  read_pixels(yaml.name(), description, sink, execution);
+  mask.image = read_pixels(yaml.name(), description, sink, execution);
   return mask;
 }
 

@@ -44,6 +44,7 @@ struct MaskCells {
   double cell = 1.0;                ///< side of a cell, world units; > 0
   Vec2 origin;                      ///< lower left corner of cell (0, 0)
   double yaw_rad = 0.0;             ///< turned about its origin, counter-clockwise
+  std::string image = {};           ///< path of the image that the YAML names
 };
 
 /// areas: values 1 .. 99 are factors. speed: values are limits of speed, factors of time. keep_out: 100 is blocked.

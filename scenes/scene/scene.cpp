@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <set>
 
 #include "core/base/rng.hpp"
 #include "parallel/chunks.hpp"
@@ -64,6 +66,18 @@ void add_solid(Hasher& hasher, const Solid& solid) {
   }
 }
 
+void add_word(Hasher& hasher, std::string_view word) {
+  hasher.add(std::uint64_t{word.size()});
+  for (const char letter : word) hasher.add(std::uint64_t{static_cast<unsigned char>(letter)});
+}
+
+/// What its arm carries; what else a world says of an arm, its robot's words say, too.
+void add_carried(Hasher& hasher, const AttachedSolid& attached) {
+  add_word(hasher, attached.link);
+  for (const std::string& link : attached.may_touch) add_word(hasher, link);
+  add_solid(hasher, attached.solid);
+}
+
 /// walls: their hash.
 std::string hash_with(std::uint64_t walls, const Scene& scene) {
   Hasher hasher(walls);
@@ -84,6 +98,9 @@ std::string hash_with(std::uint64_t walls, const Scene& scene) {
     for (const double number : box.high) hasher.add(number);
   }
   for (const Solid& solid : scene.solids) add_solid(hasher, solid);
+  if (scene.arm) {
+    for (const AttachedSolid& attached : scene.arm->attached) add_carried(hasher, attached);
+  }
   hasher.add(std::uint64_t{scene.bounds.has_value()});
   if (scene.bounds) {
     const Box& box = *scene.bounds;
@@ -122,9 +139,26 @@ RobotSpec with_what_is_said(RobotSpec robot, const Scene& scene) {
     const auto same = [&](const auto& other) { return other.first == joint.first; };
     if (std::ranges::none_of(files.held, same)) files.held.push_back(joint);
   }
-  files.allowed.insert(files.allowed.end(), said.allowed.begin(), said.allowed.end());
+  const std::set<std::array<std::string, 2>> own(files.allowed.begin(), files.allowed.end());
+  std::ranges::copy_if(said.allowed, std::back_inserter(files.allowed),
+                       [&](const auto& p) { return !own.contains(p); });
   files.attached.insert(files.attached.end(), said.attached.begin(), said.attached.end());
   files.said.insert(files.said.end(), said.said.begin(), said.said.end());
+  return robot;
+}
+
+RobotSpec without_what_is_said(RobotSpec robot, const Scene& scene) {
+  if (!robot.files) return robot;
+  ArmFiles& files = *robot.files;
+  files.read.reset();
+  if (!scene.arm) return robot;
+  std::erase_if(files.held, [&](const auto& joint) { return std::ranges::count(scene.arm->held, joint) > 0; });
+  const std::set<std::array<std::string, 2>> said(scene.arm->allowed.begin(), scene.arm->allowed.end());
+  std::erase_if(files.allowed, [&](const auto& pair) { return said.contains(pair); });
+  if (files.group == scene.arm->group) files.group.clear();
+  if (files.tool == scene.arm->tool) files.tool.clear();
+  files.attached.clear();
+  files.said.clear();
   return robot;
 }
 

@@ -166,10 +166,14 @@ std::size_t state_size(const RobotSpec& robot);
 /// The robot with what the scene says of its arm (Scene::arm) in its files; others as they are.
 RobotSpec with_what_is_said(RobotSpec robot, const Scene& scene);
 
-/// A 64-bit hash of everything that shapes the free space (walls in order, polygons, solids, bounds), as 16 hex
-/// digits: the same for the same world whatever file it came from and however its walls are held. Words are folded by
-/// wide multiplications (as wyhash does), chunk by chunk in parallel; about memory speed. Not for adversaries. Of walls
-/// that are left out: of their formula or file, another number than of the walls.
+/// The robot without what the scene says of its arm, and without what its files say: for a scene that says other
+/// things.
+RobotSpec without_what_is_said(RobotSpec robot, const Scene& scene);
+
+/// A 64-bit hash of everything that shapes the free space (walls in order, polygons, solids, bounds, what an arm
+/// carries), as 16 hex digits: the same for the same world whatever file it came from and however its walls are held.
+/// Words are folded by wide multiplications (as wyhash does), chunk by chunk in parallel; about memory speed. Not for
+/// adversaries. Of walls that are left out: of their formula or file, another number than of the walls.
 std::string scene_hash(const Scene& scene, const Execution& execution = {});
 
 /// Are the walls left out, because they are many and can be had tile by tile?

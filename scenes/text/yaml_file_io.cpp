@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <istream>
 #include <sstream>
 #include <system_error>
@@ -38,6 +39,33 @@ class PolledText : public std::stringbuf {
   bool is_first_ = true;
 };
 
+/// Of the line where what is in it begins; 0: there is none. The library reads the first document alone, as far as a
+/// line that begins with `...` or `%`.
+std::size_t line_of_second_document(std::string_view text, const Execution& execution) {
+  bool has_content = false;
+  bool is_second = false;
+  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    if (number % 4096 == 0) execution.check();
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    constexpr std::string_view blanks = " \t\r";
+    const std::string_view mark = line.substr(0, 3);
+    const bool is_mark =
+        (mark == "---" || mark == "...") && (line.size() == 3 || blanks.find(line[3]) != std::string_view::npos);
+    is_second |= has_content && (is_mark || line.starts_with('%'));
+    if (line.starts_with('%')) continue;
+    if (is_mark) line.remove_prefix(3);
+    const std::size_t first = line.find_first_not_of(blanks);
+    if (first == std::string_view::npos || line[first] == '#') continue;
+    if (is_second) return number;
+    has_content = true;
+  }
+  return 0;
+}
+
 }  // namespace
 
 YamlFile::YamlFile(const InputFile& file, std::string_view what, std::size_t most_mebibytes, const Execution& execution)
@@ -53,6 +81,8 @@ YamlFile::YamlFile(const InputFile& file, std::string_view what, std::size_t mos
   } catch (const YAML::Exception& error) {
     place(error.mark).fail("expected YAML: " + error.msg);
   }
+  if (const std::size_t line = line_of_second_document(file.bytes(), execution); line > 0)
+    scene_text::Place{name_, line}.fail(fmt::format("a second document begins here: {} is one", what));
   if (!root_.IsMap()) throw InputError(name_, fmt::format("expected {}: keys with values", what));
 }
 

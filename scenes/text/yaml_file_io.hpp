@@ -16,7 +16,8 @@ namespace warren {
 
 class YamlFile {
  public:
-  /// what: "a map server's YAML". Throws InputError where the file is larger or no YAML of keys with values, Stopped.
+  /// what: "a map server's YAML". Throws InputError where the file is larger, no YAML of keys with values, or
+  /// more than one document, Stopped.
   YamlFile(const InputFile& file, std::string_view what, std::size_t most_mebibytes, const Execution& execution);
 
   const YAML::Node& root() const { return root_; }

@@ -61,6 +61,10 @@ void add_samples(Lines& lines, const Answer& answer) {
   if (by_trees(answer)) {
     return lines.add("samples", fmt::format("{} drawn to grow towards{}", grouped(c.samples), rounds));
   }
+  const auto planner = enum_named<PlannerKind>(answer.planner);
+  if (planner && gets_better(*planner)) {  // what can make nothing better is dropped, too
+    return lines.add("samples", fmt::format("{} drawn{}: {} kept", grouped(c.samples), rounds, grouped(c.kept)));
+  }
   lines.add("samples",
             fmt::format("{} drawn{}: {} kept, {} ({}) {}", grouped(c.samples), rounds, grouped(c.kept),
                         grouped(c.samples - c.kept), share(c.samples - c.kept, c.samples), why_dropped(answer)));

@@ -36,8 +36,9 @@ class AnswerReader {
   bool boolean(bool value) {
     if (in("return")) answer_.problem.rule.back = value;
     if (in("kept")) keeping().kept = value;
+    if (in("optimal")) answer_.optimal = value;
     if (in_option("optimise")) answer_.driving.optimise = value;
-    return in("return") || in("kept") || other("true or false");
+    return in("return") || in("kept") || in("optimal") || other("true or false");
   }
   bool number_integer(Json::number_integer_t value) { return number(static_cast<double>(value)); }
   bool number_unsigned(Json::number_unsigned_t value) { return number(static_cast<double>(value)); }
@@ -47,7 +48,9 @@ class AnswerReader {
       if (text != "allowed" && text != "blocked") refuse("\"allowed\" or \"blocked\"", text);
       answer_.problem.contact = text == "allowed" ? Contact::allowed : Contact::blocked;
     } else if (in("robot")) {
-      answer_.problem.robot = robot_value(fmt::format("{}: key \"robot\"", file_), text);
+      RobotSpec robot = robot_value(fmt::format("{}: key \"robot\"", file_), text);
+      if (robot.files) robot.files->said.clear();  // what MoveIt says, the robot may lack
+      answer_.problem.robot = std::move(robot);
     } else if (in("prices") && arrays_ == 1) {
       read_price_line(text, fmt::format("{}: key \"prices\"", file_), answer_.problem.prices, execution_);
     } else if (in("goal_tolerance") && text == "inf") {
@@ -211,6 +214,7 @@ class AnswerReader {
     }
     if (in("length")) answer_.length = value;
     if (in("lower_bound")) answer_.lower_bound = value;
+    if (in("gap")) answer_.gap = value;
     if (in("cost")) answer_.cost = value;
     if (in("cost_error")) cost_error_ = value;
     if (in("goal_tolerance")) answer_.problem.rule.tolerance = value;
@@ -251,8 +255,8 @@ class AnswerReader {
   }
   bool in_states() const { return in("goals") || in("visit") || in("via"); }
   bool in_number() const {
-    return in("clearance") || in("length") || in("lower_bound") || in("cost") || in("cost_error") || in("hole_size") ||
-           in("goal_tolerance") || in("goal_region") || in("goal_heading_rad");
+    return in("clearance") || in("length") || in("lower_bound") || in("gap") || in("cost") || in("cost_error") ||
+           in("hole_size") || in("goal_tolerance") || in("goal_region") || in("goal_heading_rad");
   }
   void end_point() {
     constexpr std::size_t batch = 1 << 14;
@@ -291,6 +295,7 @@ RecordedAnswer recorded(const Answer& answer) {
   record.world_hash = answer.world.hash;
   record.length = answer.length;
   record.lower_bound = answer.lower_bound;
+  record.optimal = answer.optimal;
   record.cost = answer.cost;
   record.price = answer.price;
   const auto number = [&](std::string_view name) -> std::optional<double> {

@@ -36,6 +36,8 @@ struct RecordedAnswer {
   std::optional<std::string> world_hash;      ///< of the world that it is for; none: the file doesn't say
   std::optional<double> length;               ///< that it claims
   std::optional<double> lower_bound;          ///< the same
+  bool optimal = false;                       ///< the same
+  std::optional<double> gap;                  ///< the same
   std::optional<double> cost;                 ///< the same; with a lower bound, which is of it then
   std::optional<PriceParts> price;            ///< the same
   AskedDriving driving;                       ///< behind the parts of that price

@@ -187,13 +187,16 @@ class BlockedArm {
 /// Of a place that no posture brings the tool to: how far it is from the base, and how far all links would reach in a
 /// line.
 void explain_reach(Answer& answer, const Vec3& place, const ArmProblem& problem) {
-  if (!problem.table) return;
-  const DhTable& table = *problem.table;
-  double reach = table.tool.translation().norm();
-  for (const DhJoint& joint : table.joints) reach += portable::hypot(joint.a, joint.d);
+  double reach = problem.table ? problem.table->tool.translation().norm() : reach_of(problem);
+  if (!problem.table && !(place.norm() > reach)) return;  // what others might reach
+  if (problem.table) {
+    for (const DhJoint& joint : problem.table->joints) reach += portable::hypot(joint.a, joint.d);
+  }
   answer.blocked = BlockedEnd{.is_start = false, .by = "outside of what the tool reaches within the joints' limits"};
-  answer.blocked->hint = fmt::format("it is {} from the base, and all links in a line are {} long",
-                                     human_number(place.norm()), human_number(reach));
+  answer.blocked->hint =
+      fmt::format("it is {} from the base, and {} {}", human_number(place.norm()),
+                  problem.table ? "all links in a line are as long as" : "no point of the arm gets farther than",
+                  human_number(reach));
 }
 
 /// Angles that no joint has: degrees are meant.
@@ -255,7 +258,7 @@ void explain_blocked_arm(const Scene& scene, Answer& answer, const Execution& ex
   const bool is_start = answer.outcome == Outcome::start_blocked;
   const std::vector<double>& asked = is_start ? answer.problem.start : answer.problem.goal;
   const BlockedArm arm(scene, answer.problem, execution);
-  if (!is_start && asked.empty()) return;  // a pose of the tool
+  if (!is_start && asked.empty()) return explain_reach(answer, answer.problem.goal_pose->translation(), arm.problem());
   if (arm.problem().any_posture() && !is_start) return explain_tool_place(answer, arm, {asked[0], asked[1], asked[2]});
   const JointState q = joint_state(asked);
   auto met = arm.met(q, 0.0);

@@ -327,14 +327,16 @@ std::string numbers(const Box& box) {
 }
 
 /// Of a map of metres, where the cell is, and whether anything is known of it; of all maps, that it is none of theirs.
-std::string cell_in_words(const Scene& scene, const std::string& name) {
+std::string cell_in_words(const Scene& scene, const std::string& name, const OccupancyMap* own) {
   if (!scene.map || !name.starts_with("cell ")) return {};
   const OccupancyMap& map = *scene.map;
   const auto x = number_after(name, "cell ");  // none below 0
   const auto y = number_after(std::string_view(name).substr(name.rfind(' ')), " ");
   if (!x || !y || *x >= map.blocked.width() || *y >= map.blocked.height()) return "the cell is outside of the map";
-  if (map.format != MapFormat::ros) return {};
   const Cell cell{static_cast<std::uint32_t>(*x), static_cast<std::uint32_t>(*y)};
+  if (own != nullptr && !own->blocked.test(cell.x, cell.y))
+    return "the map has the cell free: an area or mask to keep out of closes it";
+  if (map.format != MapFormat::ros) return {};
   const Vec2 middle = cell_centre(map, cell);
   const bool is_unknown = map.unknown_count > 0 && map.unknown.test(cell.x, cell.y);
   return fmt::format("the cell is {}at {}, {} m", is_unknown ? "unknown, " : "", human_number(middle.x),
@@ -403,7 +405,7 @@ std::optional<std::size_t> number_after(std::string_view name, std::string_view 
   return error == std::errc() && end != name.data() ? std::optional(number) : std::nullopt;
 }
 
-void explain_blocked_end(const Scene& scene, Answer& answer, const Execution& execution) {
+void explain_blocked_end(const Scene& scene, Answer& answer, const Execution& execution, const OccupancyMap* own) {
   if (!is_blocked(answer.outcome) || is_unmade(scene)) return;
   const bool is_start = answer.outcome == Outcome::start_blocked;
   std::vector<double> state = is_start ? answer.problem.start : answer.problem.goal;
@@ -428,7 +430,7 @@ void explain_blocked_end(const Scene& scene, Answer& answer, const Execution& ex
     if (answer.blocked->hint.empty() && !is_in_it && answer.blocked->needed == 0.0) {
       answer.blocked->hint = "it only touches it there, and with contact blocked what touches is not free";
     }
-    if (answer.blocked->hint.empty()) answer.blocked->hint = cell_in_words(scene, answer.blocked->by);
+    if (answer.blocked->hint.empty()) answer.blocked->hint = cell_in_words(scene, answer.blocked->by, own);
     if (auto place = search.free_place()) {
       answer.blocked->distance = norm(Vec2{(*place)[0], (*place)[1]} - search.at());
       answer.blocked->free_place = std::move(*place);

@@ -19,8 +19,10 @@
 
 namespace warren {
 
-/// Fills in answer.blocked where start or goal is blocked. What stops meanwhile leaves it as far as it has come.
-void explain_blocked_end(const Scene& scene, Answer& answer, const Execution& execution);
+/// Fills in answer.blocked where start or goal is blocked. What stops meanwhile leaves it as far as it has come. `own`:
+/// of a scene whose map has more cells closed, by areas and masks, the map without these.
+void explain_blocked_end(const Scene& scene, Answer& answer, const Execution& execution,
+                         const OccupancyMap* own = nullptr);
 
 /// The same of an arm (blocked_arm.cpp): the limit, solid or link in the way by the judge's word, how deep a link
 /// stands in it, and a free posture nearby; of a place of the tool, a place nearby that some posture reaches. Some ten

@@ -231,8 +231,10 @@ Roadmap update(const Roadmap& roadmap, Scene now, const Execution& execution, Up
   }
   BuildAccount built;
   now.prices = {};
-  Roadmap next = build_within(std::move(now), roadmap.question(), roadmap.options, execution, roadmap.index, &built,
-                              old ? &*old : nullptr);
+  Question question = roadmap.question();
+  question.robot = without_what_is_said(roadmap.robot, roadmap.world.outline());  // the changed world says its own
+  Roadmap next =
+      build_within(std::move(now), question, roadmap.options, execution, roadmap.index, &built, old ? &*old : nullptr);
   if (account == nullptr) return next;
   const EdgeCounts edges = count_edges(next, execution);
   account->built_anew = !old || next.lattice != nullptr;

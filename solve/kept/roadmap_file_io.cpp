@@ -296,7 +296,7 @@ std::vector<double> numbers_of(const ArmModel& model) {
 /// What files say is a part of the body: the hash of a table's bytes, or of what a URDF means, 16 hex digits.
 std::string table_hash(const RobotSpec& robot, const Execution& execution) {
   if (robot.files) {
-    RobotSpec alone = robot;  // what a world adds to it is in that world's hash
+    RobotSpec alone = robot;  // what a world adds to it is in its words, or in that world's hash
     const ArmFiles& f = *robot.files;
     alone.files = ArmFiles{f.urdf, f.srdf, f.group, f.base, f.tip, f.packages};
     alone.files->tool = f.tool;
@@ -517,6 +517,7 @@ void read_meta(const std::string& where, std::string_view text, Roadmap& roadmap
   roadmap.world = KeptWorld(std::move(named));
   roadmap.world_hash = meta.text("world_hash");
   roadmap.robot = robot_value(fmt::format("{}: key \"robot\"", where), meta.text("robot"));
+  if (roadmap.robot.files) roadmap.robot.files->said.clear();  // what MoveIt says, the robot may lack
   if (is_of_file(roadmap.robot) && table_hash(roadmap.robot, execution) != meta.text("table_hash")) {
     throw InputError(where, fmt::format("was made for another arm than {} has now; build it anew",
                                         roadmap.robot.files ? roadmap.robot.files->urdf : roadmap.robot.table));

@@ -469,9 +469,9 @@ double tour_bound(Vec2 start, std::span<const Vec2> places, std::span<const Vec2
 
 }  // namespace
 
-std::optional<double> bound_of_choice(Vec2 start, Vec2 goal, const GoalRule& rule, bool open_end) {
+std::optional<double> bound_of_choice(Vec2 start, Vec2 goal, const GoalRule& rule, bool open_end, double off) {
   const bool one_place = rule.others.empty() && !rule.region && rule.visit.empty() && !rule.back;
-  if (one_place || rule.tolerance) return std::nullopt;
+  if (one_place && off == 0.0) return std::nullopt;
   std::vector<Vec2> places;
   for (const std::vector<double>& place : rule.visit) places.push_back({place[0], place[1]});
   std::vector<Vec2> ends;
@@ -480,7 +480,7 @@ std::optional<double> bound_of_choice(Vec2 start, Vec2 goal, const GoalRule& rul
     for (const std::vector<double>& other : rule.others) ends.push_back({other[0], other[1]});
   }
   constexpr double rounding = 0x1p-40;
-  return std::max(0.0, (tour_bound(start, places, ends) - rule.region.value_or(0.0)) * (1.0 - rounding));
+  return std::max(0.0, (tour_bound(start, places, ends) - rule.region.value_or(off)) * (1.0 - rounding));
 }
 
 void take_bound_of_choice(Answer& answer, std::optional<double> bound) {

@@ -115,9 +115,12 @@ struct GoalChoice {
 GoalChoice choose_goal(WaysOverCells& ways, const OccupancyMap& map, const WallProblem& problem,
                        std::span<const Vec2> via, bool open_end);
 
-/// No path that does what is asked is shorter: straight ways between what may be chosen, world units. none: where
-/// nothing but a tolerance is asked, whose path is compared with those to its own end.
-std::optional<double> bound_of_choice(Vec2 start, Vec2 goal, const GoalRule& rule, bool open_end);
+/// No path that does what is asked is shorter: straight ways between what may be chosen, world units. off: how far from
+/// a goal a path may end under a tolerance, as the answer's own does. none: where there is nothing to choose.
+std::optional<double> bound_of_choice(Vec2 start, Vec2 goal, const GoalRule& rule, bool open_end, double off = 0.0);
+
+/// How far from the goal that was asked for its path ends.
+inline double off_goal(const Answer& answer) { return answer.goal_reached ? answer.goal_reached->distance : 0.0; }
 
 /// The bound of an answer whose planner was given one of the places that would have done, of which alone it knows the
 /// best, and how near to it the path is.

@@ -92,15 +92,6 @@ std::optional<Cost> cost_now(const std::vector<State>& states, const Scene& scen
   return cost;
 }
 
-bool ends_at(const State& end, const State& goal) {
-  constexpr double rounding = 1e-9;
-  for (std::size_t i = 0; i < std::min(end.size(), goal.size()); ++i) {
-    const double off = end.size() == 3 && i == 2 ? turn_between(end[i], goal[i]) : end[i] - goal[i];
-    if (std::abs(off) > rounding * (1.0 + std::abs(goal[i]))) return false;
-  }
-  return true;
-}
-
 /// The goals that were asked for, in their order: take_goal() has changed places.
 std::vector<State> asked_goals(const Answer& answer) {
   std::vector<State> goals = answer.problem.rule.others;
@@ -111,32 +102,8 @@ std::vector<State> asked_goals(const Answer& answer) {
   return goals;
 }
 
-/// Where a route ends, of the goals that were asked for.
-struct RouteEnd {
-  std::size_t number;
-  double distance;  // to that one
-};
-
-/// None: at no goal, nor so near to one as a tolerance or region takes.
-std::optional<RouteEnd> end_of(const State& end, const std::vector<State>& goals, const GoalRule& rule) {
-  std::optional<RouteEnd> nearest;
-  for (std::size_t i = 0; i < goals.size(); ++i) {
-    const State& goal = goals[i];
-    if (ends_at(end, goal)) return RouteEnd{i, 0.0};
-    if (!rule.region && !rule.tolerance) continue;
-    const bool is_turned = goal.size() == 3 && end.size() == 3;
-    if (is_turned && !(std::abs(turn_between(end[2], goal[2])) <= rule.heading_rad.value_or(0.0) + 1e-9)) continue;
-    const double off = distance(Vec2{end[0], end[1]}, Vec2{goal[0], goal[1]});
-    // Far from the origin places are rounded more.
-    const double rounding = 0x1p-45 * (std::abs(goal[0]) + std::abs(goal[1]));
-    if (!(off <= rule.region.value_or(rule.tolerance.value_or(0.0)) * (1.0 + 1e-12) + rounding)) continue;
-    if (!nearest || off < nearest->distance) nearest = RouteEnd{i, off};
-  }
-  return nearest;
-}
-
 /// Where it ends; none: the goal is a place of an arm's tool, and the judge asks.
-std::optional<RouteEnd> check_route(const std::vector<State>& route, const Answer& answer) {
+std::optional<PathEnd> check_route(const std::vector<State>& route, const Answer& answer) {
   const Problem& problem = answer.problem;
   if (answer.price && !is_plain(problem.robot)) {
     throw UsageError("@keep_to: what an older path of a car costs in turns and gears is not compared; ask without");
@@ -154,13 +121,13 @@ std::optional<RouteEnd> check_route(const std::vector<State>& route, const Answe
   const std::vector<State> goals = asked_goals(answer);
   const auto is_of_tool = [&](const State& goal) { return goal.size() != route.back().size(); };
   if (is_arm(problem.robot) && std::any_of(goals.begin(), goals.end(), is_of_tool)) return std::nullopt;
-  const std::optional<RouteEnd> end = end_of(route.back(), goals, problem.rule);
+  const std::optional<PathEnd> end = reached_goal(route.back(), goals, problem.rule);
   if (!end) throw UsageError("@keep_to: the path ends at another place than the goal");
   return end;
 }
 
 /// The answer's goal is where the kept route ends.
-void take_end(Answer& answer, const State& place, const RouteEnd& end) {
+void take_end(Answer& answer, const State& place, const PathEnd& end) {
   std::vector<State> goals = asked_goals(answer);
   const std::optional<GoalReached> before = std::exchange(answer.goal_reached, std::nullopt);
   const std::optional<std::uint64_t> number_before = answer.goal_index;
@@ -189,6 +156,9 @@ void take(Answer& answer, const std::vector<State>& states, const Cost& cost) {
   answer.length = cost.verdict.length;
   answer.min_clearance = cost.verdict.min_clearance;
   answer.raw_length.reset();
+  answer.improvements.clear();  // of the path that was found
+  answer.iterations.reset();
+  answer.ended_by.clear();
   answer.optimal = false;
   answer.path_figures.clear();
   if (answer.price || cost.price.sum() > 0.0) {
@@ -235,7 +205,7 @@ void keep_to_route(Answer& answer, const Scene& scene, const Question& question,
     throw UsageError("@keep_to: is for a way to a goal; of places to visit nobody knows which are left");
   }
   if (!options.trees.via.empty()) throw UsageError("@keep_to: nobody knows which places of @via are left");
-  const std::optional<RouteEnd> end = check_route(rule.keep_to, answer);
+  const std::optional<PathEnd> end = check_route(rule.keep_to, answer);
   const StageTimer timer(execution, "keep", answer.seconds.verify, rule.keep_to.size());
   const Problem& problem = answer.problem;
   // So far from its route the body is still on it.

@@ -156,6 +156,11 @@ bool is_told(const Answer& answer, std::string_view option) {
 /// Beyond, cells are not cut any smaller.
 constexpr std::uint64_t most_parts_of_cells = std::uint64_t{1} << 26U;
 
+/// May the path end at another place than that of a goal, or with another heading? Others may be as near then.
+bool ends_near(const Answer& answer) {
+  return answer.goal_reached && (answer.goal_reached->distance > 0.0 || answer.problem.rule.heading_rad);
+}
+
 /// One start, one goal.
 bool has_one_way(const Problem& problem) {
   const GoalRule& rule = problem.rule;
@@ -221,7 +226,7 @@ void tell_bound(Answer& answer, const Scene& scene, const SolveOptions& options,
   if (options.bound && !is_told(answer, name_of(Option::bound))) answer.options.push_back({"bound", true});
   if (!answer.verified || !options.trees.via.empty()) return;
   const GoalRule& rule = answer.problem.rule;
-  const bool is_open = rule.region || (!rule.others.empty() && !is_arm(answer.problem.robot));
+  const bool is_open = rule.region || ends_near(answer) || (!rule.others.empty() && !is_arm(answer.problem.robot));
   if (!answer.lower_bound && !answer.optimal && is_open) return;  // another goal may be nearer
   const double cost = answer.cost.value_or(answer.length);
   if (answer.lower_bound) {  // the planner's own
@@ -249,7 +254,8 @@ void prove_on_map(Answer& answer, const Scene& scene, const SolveOptions& option
   const RobotKind body = answer.problem.robot.kind;
   const bool is_plain = body == RobotKind::point || body == RobotKind::disc;
   if (!(options.bound || gap || keeps) || !answer.verified || !scene.map || !is_plain) return;
-  if (answer.planner != name_of(PlannerKind::grid) || !options.trees.via.empty() || !has_one_way(answer.problem))
+  if (answer.planner != name_of(PlannerKind::grid) || !options.trees.via.empty() || !has_one_way(answer.problem) ||
+      ends_near(answer))
     return;
   double seconds = 0.0;
   const StageTimer timer(execution, "bound", seconds, scene.map->blocked.size());

@@ -87,7 +87,9 @@ class Routes {
     const auto joined = [&](Vec2 place, Cell own) {
       return cells_joined_to(asked_.map, asked_.wide, asked_.problem.reach(), place, own, execution_);
     };
-    const ClassChoice choice{count, stretch_};
+    // Over cells a way is longer than pulled taut, by up to 1 / cos(pi / 8): so much more may be within the stretch.
+    constexpr double longer = 1.0824;
+    const ClassChoice choice{count, stretch_ * longer};
     for (const Cell goal : joined(asked_.problem.goal, *own_goal)) {
       const PriceField::Goal goals[] = {{goal}};
       for (const Cell start : joined(asked_.problem.start, *own_start)) {

@@ -348,6 +348,7 @@ class SampledSolve {
     AnytimeOptions options = better_options();
     options.lower_bound = bound(BoundEffort::simple);
     options.all_goals = answer_.problem.goal.size() == answer_.problem.start.size();  // else some headings or postures
+    const auto begin = std::chrono::steady_clock::now();
     AnytimeSolution<State> found = anytime(*view_, State(body_.start()), goals, options, body_of_better(), execution());
     answer_.lower_bound = found.lower_bound;
     answer_.improvements = std::move(found.improvements);
@@ -356,7 +357,7 @@ class SampledSolve {
     answer_.optimal = found.ended_by == "optimum";
     end_limits(found.stop_reason);
     take(std::move(found));
-    if (request_.options.optimise && answer_.outcome == Outcome::solved) shorten_better();
+    if (request_.options.optimise && answer_.outcome == Outcome::solved) shorten_better(begin);
   }
   /// Where a stop ended the search: its path is judged in the time that it takes.
   void end_limits(StopReason reason) {
@@ -377,13 +378,22 @@ class SampledSolve {
     }
   }
   /// Of planners that leave it to who asks: in the metric that they make small, and never to a path that costs more.
-  void shorten_better() {
+  /// begin: of the search.
+  void shorten_better(std::chrono::steady_clock::time_point begin) {
     const StageTimer timer(execution(), "optimise", answer_.seconds.optimise, path_.size());
     answer_.raw_length = length_of(path_);
     try {
       const ImproveOptions how{.seed = answer_.seed};
       Path<State> shorter = body_.improved(*world_, path_, how, execution(), answer_.counters);
-      if (cost_of(shorter) < cost_of(path_)) path_ = std::move(shorter);
+      if (!(cost_of(shorter) < cost_of(path_))) return;
+      path_ = std::move(shorter);
+      if (answer_.improvements.empty()) return;
+      Improvement better = answer_.improvements.back();
+      better.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      better.cost = cost_of(path_);
+      better.length = length_of(path_);
+      better.by = "optimise";
+      answer_.improvements.push_back(std::move(better));
     } catch (const Stopped&) {  // it stays as it is
     }
   }

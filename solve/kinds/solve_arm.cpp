@@ -109,7 +109,7 @@ class Arm : public UsualBody {
     if (outcome == Outcome::start_blocked) {
       return is_outside(problem_.start) ? "start_outside_limits" : "start_in_collision";
     }
-    if (goals.empty() && !tip_is_blocked(scene_, problem_)) return "goal_out_of_reach";
+    if (goals.empty()) return tip_is_blocked(scene_, problem_) ? "goal_in_collision" : "goal_out_of_reach";
     return std::all_of(goals.begin(), goals.end(), is_outside) ? "goal_outside_limits" : "goal_in_collision";
   }
 
@@ -145,6 +145,9 @@ class Arm : public UsualBody {
       return free;
     };
     if (!problem_.any_posture() || !free_of(states).empty()) return states;
+    constexpr double beyond_doubt = 1.001;  // places are met to within a tolerance
+    const Vec3 place = problem_.goal_pose ? Vec3(problem_.goal_pose->translation()) : problem_.goal_place();
+    if (place.norm() > beyond_doubt * world.kinematics().reach()) return {};
     if (!problem_.table || !has_puma560_shape(SerialChain(*problem_.table))) {
       tried_ = states.size();
       knows_all_ = false;

@@ -181,7 +181,8 @@ class CellSolve {
     }
     verify_solved_on_map(answer_, map_, reached, true, request_.execution);
     if (!prices_ || !answer_.verified) return;
-    answer_.lower_bound = bound_of_choice(problem_.start, problem_.goal, problem_.rule, has_open_end(request_));
+    answer_.lower_bound =
+        bound_of_choice(problem_.start, problem_.goal, problem_.rule, has_open_end(request_), off_goal(answer_));
   }
 
   GoalChoice choose() {
@@ -463,7 +464,8 @@ Answer solve_chosen(const SolveRequest& request) {
   answer.solve_s += chosen.solve_s;
   take_choice(answer, choice, answer.outcome);
   const bool is_one_place = problem.rule.others.empty() && !problem.rule.region;
-  const auto bound = bound_of_choice(problem.start, problem.goal, problem.rule, has_open_end(request));
+  const auto bound =
+      bound_of_choice(problem.start, problem.goal, problem.rule, has_open_end(request), off_goal(answer));
   if (answer.verified && (bound || !is_one_place)) take_bound_of_choice(answer, bound);
   return answer;
 }

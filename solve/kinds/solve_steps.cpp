@@ -232,6 +232,8 @@ void judge_prices(Answer& answer, const Scene& scene, const Question& question, 
   }
   answer.price = price;
   answer.cost = answer.length + price.sum();
+  constexpr double rounding = 1e-9;  // who planned may have proved what it costs without
+  answer.optimal &= answer.lower_bound && *answer.cost - *answer.lower_bound <= rounding * *answer.cost;
 }
 
 }  // namespace warren

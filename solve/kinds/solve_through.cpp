@@ -143,6 +143,7 @@ class ThroughStops {
     }
     Execution execution = request_.execution;
     std::optional<Deadline> share;
+    double seconds = 0.0;
     const std::function<bool(const Improvement&)> forward = [&](const Improvement& leg_is_better) {
       Improvement better = leg_is_better;
       better.cost += told_cost(whole_);
@@ -151,7 +152,7 @@ class ThroughStops {
       return !is_last || (*request_.execution.on_improvement)(better);
     };
     if (improves()) {  // the legs share the time
-      const double seconds = execution.seconds_left() / static_cast<double>(stops_.size() + 1 - leg);
+      seconds = execution.seconds_left() / static_cast<double>(stops_.size() + 1 - leg);
       execution.deadline = &share.emplace(request_.execution.deadline, seconds);
       if (execution.on_improvement != nullptr) execution.on_improvement = &forward;
     }
@@ -160,6 +161,15 @@ class ThroughStops {
     const SolveRequest of_leg{options_,         request_.scene, question,
                               request_.planner, execution,      keep != nullptr ? &made : nullptr};
     Answer answer = solve_leg_(of_leg);
+    // Where a share brings no path, more of what is left does.
+    while (share && answer.stop_reason == StopReason::time && answer.outcome == Outcome::stopped &&
+           !request_.execution.should_stop()) {
+      add_work(work_, answer);
+      made = {};
+      seconds = std::min(2.0 * seconds, request_.execution.seconds_left());
+      share.emplace(request_.execution.deadline, seconds);
+      answer = solve_leg_(of_leg);
+    }
     if (keep != nullptr) add_by_products(*keep, std::move(made));
     if (!is_last && turned == nullptr && answer.outcome == Outcome::goal_blocked) {
       const std::string_view body = name_of(robot_of(request_.scene, request_.question).kind);
@@ -311,6 +321,7 @@ class Visits {
                     }).run();
     add_work(answer, work_);
     answer.problem.rule = rule_;
+    answer.goal_index.reset();  // the rule has the places alone
     if (!answer.verified) return answer;
     answer.order = order_;
     tell_bound(answer);
@@ -424,8 +435,8 @@ class Visits {
   void tell_bound(Answer& answer) const {
     const bool in_metric = gets_better(request_.planner);
     if (is_arm(answer.problem.robot) || (answer.cost && !answer.price && !in_metric)) return;
-    answer.lower_bound =
-        bound_of_choice(*plane_point(answer.problem.start), *plane_point(answer.problem.goal), rule_, is_open_);
+    answer.lower_bound = bound_of_choice(*plane_point(answer.problem.start), *plane_point(answer.problem.goal), rule_,
+                                         is_open_, off_goal(answer));
   }
 
   static constexpr double none = std::numeric_limits<double>::infinity();

@@ -33,7 +33,9 @@ class ToGoal {
         goals_(goals_of(request.scene, request.question)) {}
 
   Answer run() {
-    if (goals_.front().empty()) return kind_.solve(request_);  // which says that it is missing
+    const RobotKind body = robot_of(request_.scene, request_.question).kind;
+    const bool is_refused = request_.scene.map && (body == RobotKind::point || body == RobotKind::disc);
+    if (goals_.front().empty() || is_refused) return kind_.solve(request_);  // which says what is missing, or why
     if (rule_.region && (!find_places() || plan_to_places())) return told();
     // Who gets better would spend all the time on a goal that is cut off.
     const bool keeps_time = rule_.tolerance && gets_better(request_.planner) && is_cut_off();
@@ -63,8 +65,9 @@ class ToGoal {
     tell_bound(answer, request_.scene, request_.options, execution);
     work_ += answer.counters;
     solve_s_ += answer.solve_s;
-    last_ = {answer.outcome, answer.verified && answer.optimal, answer.verified ? answer.lower_bound : std::nullopt};
     const double paid = paid_for(answer, request_);
+    const bool is_best = answer.optimal && paid <= told_cost(answer) * (1.0 + 0x1p-40);  // prices come later
+    last_ = {answer.outcome, answer.verified && is_best, answer.verified ? answer.lower_bound : std::nullopt};
     if (best_ && !is_better(answer, paid)) return;
     best_ = std::move(answer);
     best_paid_ = paid;
@@ -258,13 +261,15 @@ class ToGoal {
   /// Of what was left to choose from: the planner's own is of the goal that it was given.
   void bound() {
     Answer& answer = *best_;
-    if (place_ && rule_.tolerance) return;  // it is compared with paths to the same place
-    if ((rule_.others.empty() && !rule_.region) || (all_proved_ && !place_)) return;
+    const bool is_near = place_ && rule_.tolerance;  // others may be as near
+    if (!is_near && ((rule_.others.empty() && !rule_.region) || (all_proved_ && !place_))) return;
     take_bound_of_choice(answer, std::nullopt);
     const bool in_metric = gets_better(request_.planner);
     if (is_arm(answer.problem.robot) || (answer.cost && !answer.price && !in_metric)) return;
-    answer.lower_bound =
-        rule_.region ? bound_of_choice(position(answer.problem.start), position(goals_.front()), rule_, false) : bound_;
+    const Vec2 start = position(answer.problem.start);
+    answer.lower_bound = rule_.region || is_near
+                             ? bound_of_choice(start, position(goals_.front()), rule_, false, off_goal(answer))
+                             : bound_;
   }
 
   const SolveKind& kind_;

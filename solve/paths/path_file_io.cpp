@@ -44,6 +44,8 @@ class Rows {
   std::uint64_t visit(const std::function<void(const Row&)>& row) {
     visit_ = &row;
     written_ = 0;
+    leg_ = 0;
+    turned_ = {};
     options_.every_s ? by_time() : by_way();
     return written_;
   }
@@ -94,7 +96,16 @@ class Rows {
   }
   void tell_at(const PathMoment& moment, double time_s, double along) {
     if (++written_ % places_a_poll == 0) execution_.check();
-    (*visit_)({moment.leg, legs_.at(moment.leg, moment.share), along, time_s, moment.speed});
+    for (; leg_ < moment.leg; ++leg_) add_turns(leg_, turned_);
+    std::array<double, most_joints> turned = turned_;
+    if (moment.share >= 1.0) add_turns(moment.leg, turned);  // whose end is the next state as it stands
+    PathState state = legs_.at(moment.leg, moment.share);
+    for (std::size_t k = 0; k < state.width; ++k) state.numbers[k] += turned[k];
+    (*visit_)({moment.leg, state, along, time_s, moment.speed});
+  }
+  /// Joints without end go the shorter way around: what is read as straight lines between rows must count on.
+  void add_turns(std::size_t leg, std::array<double, most_joints>& turned) const {
+    for (std::size_t k = 0; k < legs_.width(); ++k) turned[k] += legs_.whole_turns(leg, k);
   }
 
   const PathLegs& legs_;
@@ -102,6 +113,8 @@ class Rows {
   const Execution& execution_;
   std::optional<TimedPath> timed_;
   const std::function<void(const Row&)>* visit_ = nullptr;
+  std::size_t leg_ = 0;                       // of the last row
+  std::array<double, most_joints> turned_{};  // up to this leg, of joints without end
   std::uint64_t written_ = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/base/trigonometry.hpp"
 #include "core/plane/se2.hpp"
@@ -182,6 +183,12 @@ double PathLegs::joint_turn(std::size_t i, std::size_t k) const {
   const auto& files = answer_->problem.robot.files;
   const double way = number(i + 1, k) - number(i, k);
   return files && files->read ? variable_way(files->read->variables[k], 0.0, way) : way;
+}
+
+double PathLegs::whole_turns(std::size_t i, std::size_t k) const {
+  if (shape_ != LegShape::joints) return 0.0;
+  const double numbers = number(i + 1, k) - number(i, k);
+  return 2.0 * std::numbers::pi * std::round((joint_turn(i, k) - numbers) / (2.0 * std::numbers::pi));
 }
 
 std::array<double, most_joints> PathLegs::direction(std::size_t leg) const {

@@ -47,6 +47,9 @@ class PathLegs {
   bool goes_on(std::size_t i, std::size_t j) const;
   /// How much joint k turns, in rad, or slides, in m, its sign with it; arms alone.
   double joint_turn(std::size_t i, std::size_t k) const;
+  /// By how much, in rad, joint k stands farther at the end of leg i than its state's number says: 0, or a full turn or
+  /// several, of a joint without end that goes the shorter way around.
+  double whole_turns(std::size_t i, std::size_t k) const;
   /// The state at a share of leg i, 0 to 1.
   PathState at(std::size_t i, double share) const;
 

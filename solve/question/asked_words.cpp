@@ -111,7 +111,7 @@ void check_prices(const Prices& prices) {
     if (!(clearance->price >= 0.0 && clearance->price <= largest_price)) {
       refuse_number("clearance_price", "a price", fmt::format("from 0 to {}", largest_price), clearance->price);
     }
-    if (clearance->reach && !(*clearance->reach > 0.0 && *clearance->reach <= largest_coordinate)) {
+    if (clearance->reach && !(*clearance->reach >= smallest_coordinate && *clearance->reach <= largest_coordinate)) {
       refuse_number("clearance_price", "the distance from which nothing is paid", "above 0", *clearance->reach);
     }
   }
@@ -152,6 +152,7 @@ void check_route_rule(const RouteRule& route) {
   check_number("alternatives", "the size of a hole", route.hole, 0.0, largest_coordinate, "from 0 to 1e60");
   check_number("stretch", "a share of the least cost", route.stretch, 1.0, largest_coordinate, "from 1 to 1e60");
   if (route.stretch && !route.alternatives) throw UsageError("@stretch: is for @alternatives");
+  if (route.hole && !route.alternatives) throw UsageError("@hole: is for @alternatives");
   if (route.unless_gain && !(*route.unless_gain >= 0.0 && *route.unless_gain < 1.0)) {
     refuse_number("unless_gain", "a share of the cost", "from 0 to below 1", *route.unless_gain);
   }

@@ -158,6 +158,32 @@ void take_goal(Problem& problem, std::vector<double> reached, const std::optiona
     problem.rule.others[*number - 1] = std::move(first);
 }
 
+std::optional<PathEnd> reached_goal(std::span<const double> end, const std::vector<std::vector<double>>& goals,
+                                    const GoalRule& rule) {
+  constexpr double rounding = 1e-9;
+  const auto is_there = [&](const std::vector<double>& goal) {
+    for (std::size_t i = 0; i < std::min(end.size(), goal.size()); ++i) {
+      const double off = end.size() == 3 && i == 2 ? turn_between(end[i], goal[i]) : end[i] - goal[i];
+      if (std::abs(off) > rounding * (1.0 + std::abs(goal[i]))) return false;
+    }
+    return true;
+  };
+  std::optional<PathEnd> nearest;
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    const std::vector<double>& goal = goals[i];
+    if (is_there(goal)) return PathEnd{i, 0.0};
+    if (!rule.region && !rule.tolerance) continue;
+    const bool is_turned = goal.size() == 3 && end.size() == 3;
+    if (is_turned && !(std::abs(turn_between(end[2], goal[2])) <= rule.heading_rad.value_or(0.0) + rounding)) continue;
+    const double off = distance(Vec2{end[0], end[1]}, Vec2{goal[0], goal[1]});
+    // Far from the origin places are rounded more.
+    const double misplaced = 0x1p-45 * (std::abs(goal[0]) + std::abs(goal[1]));
+    if (!(off <= rule.region.value_or(rule.tolerance.value_or(0.0)) * (1.0 + 1e-12) + misplaced)) continue;
+    if (!nearest || off < nearest->distance) nearest = PathEnd{i, off};
+  }
+  return nearest;
+}
+
 void Question::validate() const {
   const auto is_coordinate = [](double x) { return std::abs(x) <= largest_coordinate; };
   for (const auto& [name, state] : {std::pair{"start", &start}, std::pair{"goal", &goal}}) {
@@ -243,8 +269,8 @@ void check_plannable(const Scene& scene, const Question& problem) {
   }
   if (has_solids(scene)) {
     throw UsageError(
-        fmt::format("{}a {} plans among walls, polygons and bounds or on a map; {} take an arm (puma560, arm)", where,
-                    name_of(robot.kind), scene.solids.empty() ? "spheres and boxes" : "solids"));
+        fmt::format("{}a {} plans among walls, polygons and bounds or on a map; {} take an arm (puma560, arm, urdf)",
+                    where, name_of(robot.kind), scene.solids.empty() ? "spheres and boxes" : "solids"));
   }
   if (is_unmade(scene) && robot.kind != RobotKind::point && robot.kind != RobotKind::disc) {
     throw UsageError(fmt::format("{}where walls are made tile by tile a point or disc plans; a {} takes a smaller maze",

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -120,6 +121,17 @@ GoalRule rule_of(const Scene& scene, const Question& question);
 
 /// The problem's goal is the one that is reached: of several, the number of which is told, the first takes its place.
 void take_goal(Problem& problem, std::vector<double> reached, const std::optional<std::uint64_t>& number);
+
+/// Where a path ends, of the goals that were asked for.
+struct PathEnd {
+  std::size_t number;  ///< of the goal
+  double distance;     ///< to that one, of the reference point; 0: there
+};
+
+/// Of the plane, and so are tolerance and region; an arm's goals are of as many joints. None: the path ends at no goal,
+/// nor so near to one as a tolerance or region takes.
+std::optional<PathEnd> reached_goal(std::span<const double> end, const std::vector<std::vector<double>>& goals,
+                                    const GoalRule& rule);
 
 /// The problem of a point or disc. A heading in the file (of a body that was overridden) means nothing to them. Throws
 /// UsageError where start or goal are missing or have the wrong size, where contact contradicts the clearance, and

@@ -45,21 +45,22 @@ std::optional<double> place_of_joint(const ArmProblem& problem, std::span<const 
   return std::nullopt;
 }
 
+constexpr double farthest_turn = 100.0;
 constexpr double rounded_joints = 1e-5;  // files write pi as 3.14159
 
 /// Names that are no variables are of joints that follow one, or are held: a goal has them where they are. Throws
 /// UsageError where one is not, and where a variable is missing.
 std::vector<double> state_named(const ArmProblem& problem, const Scene& scene, const NamedState& named, bool is_goal) {
   const ArmModel& model = problem.model;
+  const std::string end = fmt::format("{}: the {}", scene.source, is_goal ? "goal" : "start");
   std::vector<double> state;
   for (const ArmVariable& variable : model.variables) {
     const auto found = std::find(named.names.begin(), named.names.end(), variable.name);
     if (found == named.names.end()) {
-      throw UsageError(fmt::format("the request: says nothing of joint '{}', which moves", variable.name));
+      throw UsageError(fmt::format("{} says nothing of joint '{}', which moves", end, variable.name));
     }
     state.push_back(named.values[as_whole<std::size_t>(found - named.names.begin())]);
   }
-  const std::string end = fmt::format("{}: the {}", scene.source, is_goal ? "goal" : "start");
   for (std::size_t i = 0; i < named.names.size(); ++i) {
     const std::string& name = named.names[i];
     if (std::ranges::count(model.variables, name, &ArmVariable::name) > 0) continue;
@@ -101,6 +102,17 @@ void take_goal(ArmProblem& problem, const Scene& scene, const Question& options)
   } else if (!problem.goal_pose) {
     if (!is_asked) refuse_unclear(problem, scene);
     problem.goal = state_of("@goal", options.goal, scene.goal, problem.width(), true);
+  }
+}
+
+/// Of joints without end, whose turns are rounded more the farther they are from 0.
+void check_turns(const ArmModel& model, std::string_view end, std::span<const double> state) {
+  for (std::size_t j = 0; j < state.size(); ++j) {
+    const ArmVariable& variable = model.variables[j];
+    if (!variable.continuous || std::abs(state[j]) <= farthest_turn) continue;
+    throw UsageError(
+        fmt::format("{}: joint '{}', which has no end, takes -{} to {}; say it without full turns (found: {})", end,
+                    variable.name, farthest_turn, farthest_turn, state[j]));
   }
 }
 
@@ -198,10 +210,14 @@ ArmProblem arm_problem(const Scene& scene, const Question& options, const Execut
   problem.clearance = clearance_of(scene, options);
   problem.model = arm_model_of(problem.robot, problem.clearance, execution);
   if (problem.robot.files) problem.robot.files->read = problem.model;
-  const std::vector<double> said =
-      scene.named_start ? state_named(problem, scene, *scene.named_start, false) : scene.start;
+  const bool is_named = scene.named_start && options.start.empty();
+  const std::vector<double> said = is_named ? state_named(problem, scene, *scene.named_start, false) : scene.start;
   std::vector<double> start = state_of("@start", options.start, said, problem.width(), false);
   take_goal(problem, scene, options);
+  check_turns(problem.model, options.start.empty() ? scene.source + ": the start" : "@start", start);
+  const std::string of_goal = options.goal.empty() ? scene.source + ": the goal" : "@goal";
+  if (!problem.any_posture()) check_turns(problem.model, of_goal, problem.goal);
+  for (const std::vector<double>& goal : problem.other_goals) check_turns(problem.model, of_goal, goal);
   if (!problem.table) {
     move_onto_limits(problem.model, "start", start, problem.told);
     if (!problem.any_posture()) move_onto_limits(problem.model, "goal", problem.goal, problem.told);
@@ -250,7 +266,7 @@ std::vector<JointState> goal_states(const ArmProblem& problem, const Execution& 
 }
 
 bool tip_is_blocked(const Scene& scene, const ArmProblem& problem) {
-  if (!problem.table) return false;
+  if (!problem.table || problem.goal_pose) return false;
   const ConvexBody tip({SolidKind::sphere, Eigen::Isometry3d(Eigen::Translation3d(problem.goal_place())),
                         Vec3(problem.robot.radius, 0.0, 0.0)});
   const MovingFrame still;

@@ -29,6 +29,9 @@ class OutputConflicts : public testing::Test {
     std::filesystem::create_directory(path("pictures"));
     folder_.write("m.pgm", cells);
     folder_.write("m.yaml", "image: m.pgm" + std::string{ros_keys});
+    folder_.write("z.pgm", cells);
+    folder_.write("z.yaml", "image: z.pgm" + std::string{ros_keys});
+    folder_.write("arm.urdf", "<robot name=\"r\"/>");
     folder_.write("arm.txt", arm_table);
     folder_.write("s.map", "type octile\nheight 1\nwidth 2\nmap\n..\n");
     folder_.write("s.scen", "version 1\n0\ts.map\t2\t1\t0\t0\t1\t0\t1\n");
@@ -50,7 +53,8 @@ class OutputConflicts : public testing::Test {
   }
   std::string contents() const {
     std::string all;
-    for (const char* name : {"w.scene", "a.json", "m.pgm", "m.yaml", "arm.txt", "s.map", "s.scen", "arm.scene"}) {
+    for (const char* name : {"w.scene", "a.json", "m.pgm", "m.yaml", "z.pgm", "z.yaml", "arm.txt", "arm.urdf", "s.map",
+                             "s.scen", "arm.scene"}) {
       all += folder_.read(name);
     }
     return all;
@@ -98,11 +102,13 @@ TEST_F(OutputConflicts, NorFilesThatItsInputNames) {
   refused("convert @m.yaml -o @m.pgm", said);
   refused("convert @m.pgm -o @m.yaml", said);  // whose image would be m.pgm
   refused("solve @m.yaml --start 0.5,1.5 --goal 2.5,1.5 --json @m.pgm", said);
+  refused("solve @m.yaml --start 0.5,1.5 --goal 2.5,1.5 --keep-out @z.yaml --json @z.pgm", said);
   refused("solve @arm.scene --json @arm.txt", said);
   refused("compare @arm.scene --planners prm --json @arm.txt", said);
   const std::vector<std::string> by_option{
       "solve", path("w.scene"), "--robot", "arm " + path("arm.txt") + " radius 0.1", "--json", path("./arm.txt")};
   check({by_option, 2, said});
+  check({{"solve", path("arm.scene"), "--robot", "urdf " + path("arm.urdf"), "--json", path("arm.urdf")}, 2, said});
   EXPECT_EQ(contents(), before_);
 }
 

@@ -2,6 +2,7 @@
 // Arms that a URDF describes: solved, judged, kept, timed, told, refused.
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/tools/process.hpp"
 
@@ -241,9 +242,14 @@ TEST_F(SolveUrdf, PlacesAndPosesOfTheToolAreGoals) {
   const std::string file = folder_.path("pose.json");
   ASSERT_EQ(run({"solve", file_, "--goal-pose", "-1.0,0,0.4,0,0,1,0", "--json", file, "--quiet"}).code, 0);
   EXPECT_EQ(run({"verify", file_, file}).code, 0);
-  const Json far = solved({"--goal", "5,5,5"}, 1);
-  EXPECT_EQ(far["status"], "not_connected");
-  EXPECT_EQ(far["cause"], "goal_not_found");
+  for (const auto& goal : {std::pair{"--goal", "5,5,5"}, {"--goal-pose", "5,5,5,0,0,0,1"}}) {
+    const Json far = solved({goal.first, goal.second}, 1);
+    EXPECT_EQ(far["status"], "goal_blocked") << goal.first;
+    EXPECT_EQ(far["cause"], "goal_out_of_reach") << goal.first;
+  }
+  const Json low = solved({"--goal", "0,0,-0.85"}, 1);  // as far as the arm is long, and no posture gets there
+  EXPECT_EQ(low["status"], "not_connected");
+  EXPECT_EQ(low["cause"], "goal_not_found");
 }
 
 TEST_F(SolveUrdf, EndsThatAreBlockedAreTold) {
@@ -274,12 +280,99 @@ TEST_F(SolveUrdf, ARoadmapIsKeptAndKnowsItsRobot) {
   EXPECT_NE(stale.err.find("another arm"), std::string::npos) << stale.err;
 }
 
+/// The robot lacks what a scene of MoveIt names; what is written of the two is read back.
+TEST_F(SolveUrdf, AnswersAndRoadmapsOfMoveItsScenesAreReadBack) {
+  const std::string scene = folder_.write("yard.yaml", R"(robot_model_name: crane
+allowed_collision_matrix: {entry_names: [hook, lamp], entry_values: [[false, true], [true, false]]}
+world:
+  collision_objects:
+    - id: pillar
+      primitives: [{type: cylinder, dimensions: [1, 0.1]}]
+      primitive_poses: [{position: [0.7, 0, 0.5]}]
+)");
+  const std::vector<std::string> ends{"--start", "-0.9,0.3,0.2,0", "--goal", "0.9,0.3,0.2,0.1"};
+  const auto asked = [&](std::vector<std::string> words) {
+    words.insert(words.end(), ends.begin(), ends.end());
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.code, 0) << shown(words) << outcome.err;
+  };
+  const std::string answer = folder_.path("yard.json");
+  const std::string roadmap = folder_.path("yard.roadmap");
+  asked({"solve", scene, "--robot", robot_, "--json", answer, "--quiet"});
+  EXPECT_EQ(run({"verify", scene, answer}).code, 0);
+  EXPECT_EQ(run({"render", scene, "--answer", answer, "-o", folder_.path("yard.svg")}).code, 0);
+  ASSERT_EQ(run({"build", scene, "--robot", robot_, "-o", roadmap, "--samples", "200", "--quiet"}).code, 0);
+  asked({"query", roadmap, "--json", "-"});
+  EXPECT_EQ(run({"update", roadmap, scene, "-o", folder_.path("new.roadmap"), "--quiet"}).code, 0);
+  asked({"query", folder_.path("new.roadmap"), "--json", "-"});
+}
+
+/// What is carried is a part of the body: of another roadmap, and of another world.
+TEST_F(SolveUrdf, ARoadmapIsUpdatedToWhatTheChangedWorldSaysOfTheArm) {
+  const std::string roadmap = folder_.path("crane.roadmap");
+  ASSERT_EQ(run({"build", file_, "-o", roadmap, "--samples", "600", "--quiet"}).code, 0);
+  const std::string laden = folder_.write(
+      "laden.scene", "robot " + robot_ + "\n" + yard + "attach hook sphere 0.25 0 0 0.15\nallow upper hook\n");
+  const std::vector<std::string> ends{"--start", "-0.9,0.3,0.2,0", "--goal", "0.9,0.3,0.2,0.1", "--json", "-"};
+  const auto asked = [&](const std::string& kept) {
+    std::vector<std::string> words{"query", kept};
+    words.insert(words.end(), ends.begin(), ends.end());
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return outcome.out;
+  };
+  const std::string changed = folder_.path("laden.roadmap");
+  ASSERT_EQ(run({"update", roadmap, laden, "-o", changed, "--quiet"}).code, 0);
+  EXPECT_EQ(run({"verify", laden, folder_.write("laden.json", asked(changed))}).code, 0);
+  EXPECT_EQ(Json::parse(folder_.read("laden.json"))["robot"].get<std::string>(), robot_ + " allow upper hook");
+  EXPECT_EQ(run({"verify", laden, folder_.write("bare.json", asked(roadmap))}).code, 65) << "of another world";
+  const std::string back = folder_.path("back.roadmap");
+  ASSERT_EQ(run({"update", changed, file_, "-o", back, "--quiet"}).code, 0);
+  EXPECT_EQ(Json::parse(asked(back))["path"], Json::parse(asked(roadmap))["path"]);
+  EXPECT_EQ(Json::parse(asked(back))["robot"], Json(robot_));
+}
+
+TEST_F(SolveUrdf, ATwiceSaidToolOrGroupIsRefusedWhereItDiffers) {
+  const std::string request =
+      folder_.write("request.yaml", "group_name: arms\nstart_state: {joint_state: {name: [base], position: [0.1]}}\n");
+  const Outcome outcome = run({"solve", file_, "--robot", robot_, "--request", request, "--json", "-"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_NE(outcome.err.find("--robot: says group arm, the request arms"), std::string::npos) << outcome.err;
+}
+
 TEST_F(SolveUrdf, IsTimedByItsFile) {
   const std::string path = folder_.path("crane.csv");
   const Outcome outcome = run({"solve", file_, "--path", path, "--joint-speed", "file", "--quiet"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(folder_.read("crane.csv").substr(0, 20), "t,s,q1,q2,q3,q4,spee");
   EXPECT_EQ(run({"solve", file_, "--path", path, "--joint-speed", "1,1,1", "--quiet"}).code, 2);
+}
+
+/// What is read as straight lines between rows goes the way that was judged: the shorter one, over more than one leg.
+TEST_F(SolveUrdf, AJointWithoutEndCountsOnInFiles) {
+  const std::string path = folder_.path("turns.csv");
+  const std::vector<std::string> common{"solve",  file_,         "--start", "4.6,-1,0,0", "--via",  "-1.68,-1,0,0",
+                                        "--goal", "-1.6,-1,0,0", "--path",  path,         "--quiet"};
+  for (const std::vector<std::string>& more :
+       {std::vector<std::string>{}, {"--joint-speed", "1"}, {"--joint-speed", "1", "--every", "10ms"}}) {
+    std::vector<std::string> words = common;
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = run(words);
+    ASSERT_EQ(outcome.code, 0) << shown(words) << outcome.err;
+    std::istringstream rows(folder_.read("turns.csv"));
+    std::string row;
+    std::getline(rows, row);
+    const int commas = more.empty() ? 1 : 2;
+    double last = 4.6;
+    while (std::getline(rows, row)) {
+      std::istringstream numbers(row);
+      std::string number;
+      for (int i = 0; i <= commas; ++i) std::getline(numbers, number, ',');
+      EXPECT_LT(std::abs(std::stod(number) - last), 0.1) << row;
+      last = std::stod(number);
+    }
+    EXPECT_NEAR(last, 2.0 * M_PI - 1.6, 1e-12);
+  }
 }
 
 TEST_F(SolveUrdf, InfoTellsWhatIsInIt) {

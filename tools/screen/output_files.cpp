@@ -319,11 +319,17 @@ void check_not_written(const Arguments& arguments, const std::string& input) {
 }
 
 void check_not_written(const Arguments& arguments, const std::optional<RobotSpec>& robot) {
-  if (robot) check_not_written(arguments, robot->table);
+  if (!robot) return;
+  check_not_written(arguments, robot->table);
+  if (!robot->files) return;
+  for (const std::string& file : {robot->files->urdf, robot->files->srdf}) check_not_written(arguments, file);
 }
 
 void check_not_written(const Arguments& arguments, const Prices& prices) {
-  for (const PriceMask& mask : prices.masks) check_not_written(arguments, mask.file);
+  for (const PriceMask& mask : prices.masks) {
+    check_not_written(arguments, mask.file);
+    if (mask.read) check_not_written(arguments, mask.read->image);
+  }
 }
 
 }  // namespace warren::tools

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -114,6 +115,22 @@ Scene load_planned_world(const std::string& source, std::optional<PipelineKind> 
   return load_world(file, arguments, execution, seconds);
 }
 
+namespace {
+
+/// A goal of one tool or group means nothing to another one. before: what the world says of the arm.
+void refuse_another_robot(const ArmFiles& before, const Scene& scene, const Arguments& arguments) {
+  const auto words = arguments.value("--robot");
+  const RobotSpec robot = words ? robot_value("--robot", *words) : RobotSpec{};
+  if (!robot.files || !scene.arm) return;
+  for (const auto& [noun, own, world, asked] : {std::tuple("group", robot.files->group, before.group, scene.arm->group),
+                                                {"tool", robot.files->tool, before.tool, scene.arm->tool}}) {
+    if (own.empty() || asked == world || own == asked) continue;
+    throw UsageError(fmt::format("--robot: says {} {}, the request {}; leave it out of one", noun, own, asked));
+  }
+}
+
+}  // namespace
+
 Scene load_world(const InputFile& file, const Arguments& arguments, const Execution& execution, StageTimes& seconds) {
   const auto asked = given_choice<MapServerRules>(arguments, "--map-rules");
   const StageTimer timer(execution, "read", seconds.read);
@@ -123,7 +140,9 @@ Scene load_world(const InputFile& file, const Arguments& arguments, const Execut
   if (scene.map && scene.map->grey_free > 0 && !arguments.has("--quiet")) tell_of_grey(*scene.map);
   if (const auto name = arguments.value("--request")) {
     check_not_written(arguments, *name);
+    const ArmFiles before = scene.arm.value_or(ArmFiles{});
     take_moveit_request(scene, InputFile(*name, execution), execution);
+    refuse_another_robot(before, scene, arguments);
   }
   check_not_written(arguments, scene.robot);
   check_not_written(arguments, scene.prices);
@@ -217,7 +236,9 @@ int draw_roadmap(const Arguments& arguments, const std::string& file, const Pict
 }
 
 void read_asked_files(Question& question, const Arguments& arguments, const Execution& execution) {
+  check_not_written(arguments, question.prices);
   read_masks(question.prices, execution);
+  check_not_written(arguments, question.prices);
   const auto old = arguments.value("--keep-to");
   if (!old) return;
   check_not_written(arguments, *old);

@@ -110,12 +110,19 @@ class CompareCommand {
     try {
       StageTimes before;
       if (options_.world) scene = load_world(*options_.world, arguments_, execution_, before);
+      if (options_.planners) read_asked_masks(options_.planners->contenders);
     } catch (const Stopped& stopped) {
       comparison_.stopped = stopped.reason;
       return;
     }
     no_graph_ = run_comparison(options_, scene ? &*scene : nullptr, execution_, comparison_,
                                [&](std::string_view line) { run.note(line); });
+  }
+  void read_asked_masks(std::vector<studies::PlannerContender>& contenders) {
+    for (studies::PlannerContender& asked : contenders) {
+      read_masks(asked.question.prices, execution_);
+      check_not_written(arguments_, asked.question.prices);
+    }
   }
   void write_outputs() const {
     write_report(arguments_, "--json", [&] { return studies::comparison_json(comparison_); });
@@ -416,11 +423,10 @@ void add_pictures(studies::Comparison& comparison, const std::string& folder, st
 
 /// Planners that take no prices are left out where others take them, and a note says why.
 studies::PlannerContestOptions priced_contest(const Scene& scene, studies::PlannerContestOptions contest,
-                                              const Execution& execution, studies::Comparison& comparison) {
+                                              studies::Comparison& comparison) {
   std::optional<UsageError> refused;
   std::erase_if(contest.contenders, [&](studies::PlannerContender& asked) {
     if (asked.question.prices.empty()) return false;
-    read_masks(asked.question.prices, execution);
     try {
       choose_solver(asked.options, scene, asked.question);
       return false;
@@ -436,7 +442,7 @@ studies::PlannerContestOptions priced_contest(const Scene& scene, studies::Plann
 
 void compare_planners(const Scene& scene, const studies::PlannerContestOptions& asked, const Execution& execution,
                       studies::Comparison& comparison) {
-  const studies::PlannerContestOptions contest = priced_contest(scene, asked, execution, comparison);
+  const studies::PlannerContestOptions contest = priced_contest(scene, asked, comparison);
   std::optional<Scene> copy;
   const bool has_borders = scene.map && needs_map_walls(scene, contest);
   const Scene& world = has_borders ? with_map_walls(scene, copy, execution) : scene;

@@ -90,7 +90,7 @@ void tell(const std::vector<Fact>& facts, const std::optional<std::string>& json
   if (json) write_file(*json, facts_json(facts), run.execution());
   if (run.quiet() || json == "-") return;
   for (const Fact& fact : facts)
-    print_text(fmt::format("{}{}\n", run.palette().faint(fmt::format("{:<11}", fact.name)), printable(fact.text)));
+    print_text(fmt::format("{}{}\n", run.palette().faint(fmt::format("{:<10} ", fact.name)), printable(fact.text)));
 }
 
 int info(const Arguments& arguments) {
@@ -114,6 +114,9 @@ int info(const Arguments& arguments) {
     return exit_code::success;
   }
   if (check) throw UsageError("--check: is for roadmap files; a world is checked as it is read");
+  for (const std::string_view option : {"--srdf", "--group", "--package-path"}) {
+    if (arguments.value(option)) throw UsageError(fmt::format("{}: is for a URDF", option));
+  }
   StageTimes seconds;
   const bool is_packed = file && is_maze_file(file->bytes());
   const Scene scene = is_packed ? load_planned_world(path, std::nullopt, arguments, run.execution(), seconds)

@@ -53,6 +53,7 @@ void take_prices(const Arguments& arguments, const Scene& scene, Question& drawn
   if (!asked.empty()) drawn.prices = std::move(asked);
   check_not_written(arguments, drawn.prices);
   read_masks(drawn.prices, execution);
+  check_not_written(arguments, drawn.prices);
   drawn.prices = prices_of(scene, drawn);
 }
 

@@ -92,8 +92,9 @@ int verify_answer(const Arguments& arguments) {
   Run run(arguments);
   StageTimes seconds;
   RecordedAnswer answer = read_answer(arguments.operand(1), run.execution());
-  check_not_written(arguments, answer.problem.prices);
-  read_masks(question.prices.empty() ? answer.problem.prices : question.prices, run.execution());
+  Prices& masks = question.prices.empty() ? answer.problem.prices : question.prices;
+  read_masks(masks, run.execution());
+  check_not_written(arguments, masks);
   if (const auto proof = arguments.value("--certificate")) {
     answer.certificate = read_potential_npy(InputFile(*proof, run.execution()), run.execution());
   }

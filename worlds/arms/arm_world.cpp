@@ -16,7 +16,8 @@ namespace warren {
 namespace {
 
 const ArmModel& with_links(const ArmModel& model) {
-  if (model.links.empty()) throw InputError("arm", "has no link of any length");
+  if (model.links.empty())
+    throw InputError("arm", "none of its links has a solid; a URDF has them in <collision>", model.name);
   return model;
 }
 

@@ -173,5 +173,27 @@ TEST(StepSearch, StopsAtTheDeadline) {
   EXPECT_THROW(search_steps(overlay, c.ends, execution), Stopped);
 }
 
+/// What ranks agree on: neither an entry of a key that is settled counts, nor how far a side has looked ahead.
+TEST(StepSide, TheLeastIsThatOfOpenLabels) {
+  StepCase c;
+  for (std::uint16_t key = 0; key < 8; ++key) c.tiles[0].keys.push_back(key);
+  c.tiles[0].chains.push_back({0, 1, 0, 5});
+  c.ends.start.links.push_back({0, 0, 0.5});
+  c.ends.goal.links.push_back({1, 0, 0.5});
+  const Overlay overlay(c.grid, c.tiles, c.ends, {});
+  const auto whole = static_cast<VertexId>(overlay.vertex_count());
+  StepSide side(overlay, 60, {}, {0, whole});
+  side.clear(0, whole);
+  side.begin(5, 9.0);
+  side.begin(5, 4.0);
+  EXPECT_EQ(side.least(), 4.0);
+  side.settle_at(4);
+  EXPECT_EQ(side.least(), unreached) << "its entry at 9 is of a longer way";
+  side.begin(6, 20.0);
+  EXPECT_EQ(side.least(), 20.0);
+  side.receive({7, 12.0});
+  EXPECT_EQ(side.least(), 12.0) << "nearer than what was looked at";
+}
+
 }  // namespace
 }  // namespace warren

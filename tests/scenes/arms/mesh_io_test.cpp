@@ -48,6 +48,12 @@ TEST(MeshIo, ReadsColladaWithItsNodesAndItsUnit) {
   EXPECT_LT((turned.points.back() - Vec3(5, 2, 0)).norm(), 1e-15);
   const Mesh moved = read_as_mesh("a.dae", test_meshes::dae("<matrix>1 0 0 5 0 1 0 6 0 0 1 7 0 0 0 1</matrix>", "1"));
   EXPECT_EQ(moved.points.front(), Vec3(5, 6, 7));
+  std::string holed = test_meshes::dae("", "1");
+  const std::size_t at = holed.find("<triangles count=\"2\">");
+  holed.replace(at, holed.find("</triangles>") + 12 - at,
+                "<polygons count=\"2\"><input semantic=\"VERTEX\" source=\"#wedge-vertices\" offset=\"0\"/><p>0 1 2</p>"
+                "<ph><p>3 5 4</p><h>3 4 5</h></ph></polygons>");
+  expect_wedge(read_as_mesh("a.dae", holed));
 }
 
 TEST(MeshIo, TellsHowMuchAHullAdds) {

@@ -224,6 +224,43 @@ TEST(MoveIt, BecomesASceneThatReadsBackTheSame) {
   EXPECT_EQ(back.named_goals.size(), 2U);
 }
 
+/// A request counts instead of the world: of its robot's line, of its state, of what is carried.
+TEST(MoveIt, ARequestCountsInsteadOfTheWorld) {
+  Scene scene = read_moveit(scene_text);
+  ArmFiles line{.urdf = "a.urdf",
+                .srdf = "a.srdf",
+                .group = "two_arms",
+                .held = {{"slide", 9.0}, {"lid", 2.0}},
+                .tool = "finger"};
+  scene.robot = RobotSpec{.kind = RobotKind::urdf, .files = line};
+  const std::string carries =
+      "  attached_collision_objects:\n    - {link_name: finger, object: {id: cup, primitives: [{type: sphere, "
+      "dimensions: [0.1]}], primitive_poses: [{}]}}\n";
+  const std::string place =
+      "  - position_constraints: [{link_name: hand, constraint_region: {primitive_poses: "
+      "[{position: [1, 2, 3]}]}}]\n";
+  take_moveit_request(scene,
+                      file_of("group_name: one_arm\nstart_state:\n  joint_state: {name: [slide], position: [0.125]}\n" +
+                              carries + "goal_constraints:\n" + place),
+                      {});
+  const ArmFiles files = *with_what_is_said(*scene.robot, scene).files;
+  EXPECT_EQ(files.group, "one_arm");
+  EXPECT_EQ(files.tool, "hand");
+  EXPECT_EQ(files.held, (std::vector<std::pair<std::string, double>>{{"lid", 2.0}, {"slide", 0.125}, {"turn", 0.5}}));
+  ASSERT_EQ(files.attached.size(), 1U) << "one cup";
+  EXPECT_EQ(files.attached[0].link, "finger");
+  EXPECT_EQ(files.attached[0].may_touch, (std::vector<std::string>{"palm", "finger", "base"}));
+}
+
+TEST(MoveIt, MarksOfOneDocumentAreRead) {
+  for (const std::string before : {"---\n", "\xef\xbb\xbf# a comment\n---\n", "%YAML 1.2\n--- # one\n"}) {
+    for (const std::string behind : {"", "---\n", "...\n# the end\n"}) {
+      Scene scene;
+      EXPECT_NO_THROW(take_moveit_request(scene, file_of(before + request_text + behind), {})) << before << behind;
+    }
+  }
+}
+
 TEST(MoveIt, RefusesWhatItDoesNotRead) {
   const std::string cone = "`type` must be box, sphere or cylinder (found: cone)";
   const std::pair<std::string, std::string> scenes[] = {
@@ -243,6 +280,24 @@ TEST(MoveIt, RefusesWhatItDoesNotRead) {
       {with(scene_text, "world:", "fixed_frame_transforms: [{transform: {translation: [1, 0, 0]}}]\nworld:"),
        "a.yaml:24: frames must stand at 0 0 0"},
       {scene_text + "  : [", "a.yaml:"},
+      // What would be an obstacle, were its key another one:
+      {with(scene_text, "world:", "scene:"), "a.yaml:24: no key of a planning scene of MoveIt, which are name, "},
+      {with(scene_text, "  collision_objects:\n    - id: can", "  colision_objects:\n    - id: can"),
+       "a.yaml:25: no key of the world of a planning scene, which are collision_objects, octomap"},
+      {"collision_objects: []\n", "a.yaml:1: no key of a planning scene of MoveIt"},
+      {with(scene_text, "world:\n  collision_objects:", "world:\n"),
+       "a.yaml:26: expected the world of a planning scene"},
+      {with(scene_text, "world:", "world: {}\nworld:"), "a.yaml:25: this key stands here twice (found: world)"},
+      {scene_text + "---\nworld: {}\n", "a.yaml:42: a second document begins here"},
+      {with(scene_text, "world:\n", "world:\n  octomap: {octomap: {data: AAEC}}\n"),
+       "a.yaml:25: octomaps are not read"},
+      {with(scene_text, "    - id: ball", "    - planes: {coef: [0, 0, 1, 0]}"), "a.yaml:35: `planes` must be a list"},
+      {with(scene_text, "    - id: ball", "    - operation: 1"), "a.yaml:35: `operation` must be 0 or add"},
+      // Poses of another form:
+      {with(scene_text, "{position: [3, 2, 1], orientation: [0, 0, 0, 1]}", "[3, 2, 1, 0, 0, 0, 1]"),
+       "a.yaml:37: expected a pose: keys with values"},
+      {with(scene_text, "{position: [3, 2, 1],", "{xyz: [3, 2, 1],"),
+       "a.yaml:37: no key of a pose, which are position, orientation (found: xyz)"},
   };
   for (const auto& [text, expected] : scenes) {
     try {
@@ -253,8 +308,28 @@ TEST(MoveIt, RefusesWhatItDoesNotRead) {
     }
   }
   const std::string both = "goal_constraints: [{joint_constraints: [1], position_constraints: [1]}]";
-  for (const std::string& text :
-       {both, std::string("path_constraints: {joint_constraints: [1]}"), std::string("goal_constraints: [{}]")}) {
+  const std::string one_arm = "group_name: one_arm\n";
+  const std::string requests[] = {
+      both,
+      "goal_constraints: [{}]",
+      one_arm + "path_constraints: {joint_constraints: [1]}",
+      one_arm + "path_constraints: {joint_constraints: {joint_name: turn}}",
+      one_arm + "path_constraints: {name: way, joints: [1]}",
+      one_arm + "path_constraints: [{joint_constraints: [1]}]",
+      one_arm + "trajectory_constraints: {constraints: {joint_constraints: [1]}}",
+      one_arm + "trajectory_constraints: [1]",
+      "motion_plan_request: {group_name: one_arm}",
+      one_arm + "path_constraint: {}",
+      "{}",
+      "{a: 1},",
+      one_arm + "...\nstart_state: {}\n",
+      one_arm + "%\nstart_state: {}\n",
+      one_arm +
+          "goal_constraints: [{position_constraints: [{header: {frame: hand}, "
+          "constraint_region: {primitive_poses: [{position: [1, 2, 3]}]}}]}]",
+      one_arm + "start_state: {attached_collision_objects: [{link_name: a, object: {id: b}}]}",
+      scene_text};
+  for (const std::string& text : requests) {
     Scene scene;
     EXPECT_THROW(take_moveit_request(scene, file_of(text), {}), InputError) << text;
   }

@@ -345,6 +345,14 @@ TEST_F(Urdf, MimicsFollowAlongChainsAndNarrowLimits) {
   };
   EXPECT_TRUE(follows("-3"));
   EXPECT_FALSE(follows("0.5"));
+  const auto wound = [&](const std::string& limits) {
+    return read(robot(links + turning +
+                      joint("2", "revolute", "b", "c", limits + "<mimic joint=\"1\" multiplier=\"0.5\"/>") +
+                      joint("3", "fixed", "c", "d")))
+        .variables[0];
+  };
+  EXPECT_EQ(wound("<limit lower=\"-5\" upper=\"4\"/>").low, -10.0) << "as far as what follows it goes";
+  EXPECT_EQ(wound("<limit lower=\"-5\" upper=\"4\"/>").high, 8.0);
   expect_refused(robot(links + first + second +
                        joint("3", "revolute", "c", "d", "<limit lower=\"50\" upper=\"60\"/><mimic joint=\"2\"/>")),
                  {}, "its limits leave no value to 1, which it mimics");
@@ -424,6 +432,12 @@ TEST_F(Urdf, RefusesWhatItCannotReadAsItIsMeant) {
       {with("revolute", limit + "<axis xyz=\"0 1\"/>"), "expected 3 numbers (found: 0 1)"},
       {with("revolute", limit + "<origin xyz=\"0 1 nan\"/>"), "expected 3 numbers"},
       {with("revolute", limit + "<mimic joint=\"k\"/>"), "<mimic>: no joint has this name (found: k)"},
+      {robot(link("a") + "<xacro:hand side=\"left\"/>"), ":3: <xacro:hand>: not a URDF yet"},
+      {robot("<link name=\"a\">\n<xacro:shape/></link>"), ":3: <xacro:shape>: not a URDF yet"},
+      {robot(link("a", "<sphere radius=\"1\"/><box size=\"1 1 1\"/>") + link("b") + joint("j", "revolute", "a", "b")),
+       "<box>: a second one; each <collision> has one <geometry>"},
+      {robot("<link name=\"a\">\n<collision/></link>" + link("b") + joint("j", "revolute", "a", "b")),
+       ":3: <collision>: its <geometry> must be"},
       {robot(link("a", "<cone/>") + link("b") + joint("j", "revolute", "a", "b")), "<geometry> must be a box"},
       {robot(link("a", "<!-- -->") + link("b") + joint("j", "revolute", "a", "b")), "<geometry> must be a box"},
       {robot(link("a", "<box size=\"1 1 -1\"/>") + link("b") + joint("j", "revolute", "a", "b")),
@@ -447,6 +461,9 @@ TEST_F(Urdf, RefusesGroupsThatAreNot) {
   ArmFiles files;
   files.urdf = directory_.write("robot.urdf", two_arms());
   files.group = "left";
+  EXPECT_THROW(read_urdf(files, {}), InputError);
+  files.srdf = directory_.write("half.srdf", "<robot name=\"tried\">\n<disable_collisions link1=\"head\"/></robot>");
+  files.group.clear();
   EXPECT_THROW(read_urdf(files, {}), InputError);
   files.srdf = directory_.file("none.srdf");
   EXPECT_THROW(read_urdf(files, {}), ReadError);

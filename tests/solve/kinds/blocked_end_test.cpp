@@ -80,6 +80,13 @@ TEST(BlockedEnd, NamesTheCellOfAMap) {
   const BlockedEnd blocked = told(told_world("flat.yaml"), question);
   EXPECT_TRUE(blocked.by.starts_with("cell ")) << blocked.by;
   EXPECT_NEAR(blocked.distance, 0.25, 0.06);
+  EXPECT_NE(blocked.hint.find("the map has the cell free"), 0U);
+  Question closed = question;
+  closed.start = {0.6, 0.6};
+  closed.prices.keep_out = {{{{0.5, 0.5}, {0.9, 0.5}, {0.9, 0.9}, {0.5, 0.9}}}};
+  const BlockedEnd kept_out = told(told_world("flat.yaml"), closed);
+  EXPECT_TRUE(kept_out.by.starts_with("cell ")) << kept_out.by;
+  EXPECT_TRUE(kept_out.hint.starts_with("the map has the cell free")) << kept_out.hint;
 }
 
 void expect_near(const std::vector<double>& place, Vec2 middle, double reach) {

@@ -375,5 +375,95 @@ TEST(GoalsOnMap, AShortenedPathPassesItsPlacesAndTheJudgeWantsThemPassed) {
   }
 }
 
+/// A wall with a blocked goal in it: places on both of its sides are equally near.
+Bitmap with_wall() {
+  Bitmap map(9, 9);
+  for (std::uint32_t y = 0; y < 8; ++y) map.set(4, y);
+  return map;
+}
+
+TEST(GoalsOnMap, OfEquallyNearPlacesNoneIsCalledTheShortest) {
+  const Scene scene = scene_of(with_wall());
+  for (const PlannerKind planner : {PlannerKind::grid, PlannerKind::prm, PlannerKind::rrt_star}) {
+    SolveOptions options = mapped_by(planner);
+    options.bound = true;
+    if (planner == PlannerKind::rrt_star) options.anytime.iterations = 4;
+    Question question{.start = {0.5, 3.5}, .goal = {4.5, 0.5}, .rule = {.tolerance = 2.0}};
+    const Answer near = solve(scene, question, options);
+    SCOPED_TRACE(name_of(planner));
+    ASSERT_TRUE(near.verified);
+    EXPECT_FALSE(near.optimal);
+    EXPECT_LE(near.lower_bound.value_or(0.0), 5.0 - near.goal_reached->distance + 1e-9);
+    const Verdict verdict = verify(scene, near);
+    EXPECT_TRUE(verdict.verified);
+    RecordedAnswer claims = recorded(near);
+    claims.cost.reset();
+    claims.lower_bound = near.length;
+    EXPECT_NE(verify(scene, claims).bound, BoundVerdict::checked) << "places on the other side are as near";
+    question.goal = {3.5, 0.5};
+    EXPECT_TRUE(solve(scene, question, options).goal_reached->distance == 0.0);
+  }
+}
+
+/// What an answer says of its goal is a part of what is verified; and what the judge's own question says.
+TEST(GoalsOnMap, WhatIsToldOfTheGoalIsJudged) {
+  const Scene scene = scene_of(with_wall());
+  const Question question{.start = {0.5, 0.5}, .goal = {4.5, 0.5}, .rule = {.tolerance = 2.0}};
+  const RecordedAnswer good = recorded(solve(scene, question, mapped_by(PlannerKind::grid)));
+  const auto refuted = [&](const RecordedAnswer& answer, const Question& asked = {}) {
+    const Verdict verdict = verify(scene, answer, asked);
+    return verdict.verified ? std::string() : verdict.first_violation.value_or(Violation{}).obstacle;
+  };
+  EXPECT_EQ(refuted(good), "");
+  RecordedAnswer other = good;
+  other.goal_reached->distance *= 0.5;
+  EXPECT_TRUE(refuted(other).starts_with("goal_reached: the answer says"));
+  other = good;
+  other.goal_reached->distance_bound = 1.5 * good.goal_reached->distance;
+  EXPECT_TRUE(refuted(other).starts_with("goal_reached: `distance_bound`"));
+  other = good;
+  other.problem.rule.tolerance.reset();
+  EXPECT_TRUE(refuted(other).starts_with("goal_reached: no tolerance"));
+  other = good;
+  other.problem.rule.tolerance = 0.5 * good.goal_reached->distance;
+  EXPECT_TRUE(refuted(other).starts_with("goal_tolerance: the path ends farther"));
+  other = good;
+  other.goal_index = 1;
+  EXPECT_EQ(refuted(other), "goal_index: the answer has no goal 1");
+
+  const std::vector<double> end{good.path.back().x, good.path.back().y};
+  EXPECT_EQ(refuted(good, {.goal = {4.5, 0.5}, .rule = {.region = 2.0}}), "");
+  EXPECT_TRUE(refuted(good, {.goal = {8.5, 0.5}, .rule = {.region = 2.0}}).starts_with("goal_region: "));
+  EXPECT_TRUE(refuted(good, {.rule = {.region = 0.1}}).starts_with("goal_region: ")) << "of the goal that it asked for";
+  EXPECT_EQ(refuted(good, {.goal = {8.5, 8.5}, .rule = {.others = {{7.5, 7.5}, end}}}), "");
+  EXPECT_NE(refuted(good, {.goal = {8.5, 8.5}, .rule = {.others = {{7.5, 7.5}}}}), "");
+
+  const Question tour{.start = {0.5, 0.5}, .goal = {0.5, 8.5}, .rule = {.visit = {{3.5, 6.5}, {3.5, 1.5}}}};
+  other = recorded(solve(scene, tour, mapped_by(PlannerKind::grid)));
+  EXPECT_EQ(other.order, (std::vector<std::uint64_t>{1, 0}));
+  EXPECT_EQ(refuted(other), "");
+  std::swap(other.order[0], other.order[1]);
+  EXPECT_EQ(refuted(other), "order: the path visits the places in another one");
+  other.order = {1, 1};
+  EXPECT_EQ(refuted(other), "order: the path visits the places in another one");
+}
+
+TEST(GoalsOnMap, WhatFollowsFromTheBoundIsJudged) {
+  const Scene scene = scene_of(with_wall());
+  SolveOptions options = mapped_by(PlannerKind::grid);
+  options.bound = true;
+  const Question question{.start = {0.5, 0.5}, .goal = {8.5, 0.5}};
+  RecordedAnswer answer = recorded(solve(scene, question, options));
+  ASSERT_LT(*answer.lower_bound, 0.999 * *answer.length);
+  EXPECT_TRUE(verify(scene, answer).verified);
+  answer.gap = *answer.length / *answer.lower_bound - 1.0;
+  EXPECT_TRUE(verify(scene, answer).verified);
+  answer.gap = 0.0;
+  EXPECT_FALSE(verify(scene, answer).verified);
+  answer.gap.reset();
+  answer.optimal = true;
+  EXPECT_FALSE(verify(scene, answer).verified);
+}
+
 }  // namespace
 }  // namespace warren
