@@ -43,13 +43,12 @@ TEST(BetterWithTime, AnswersTellBoundGapAndWhatEndedThem) {
       EXPECT_NEAR(answer.improvements.back().cost, answer.cost.value_or(answer.length), 1e-9 * answer.length);
       EXPECT_EQ(answer.cost.has_value(), answer.turn_rad.has_value());
       if (planner == PlannerKind::anytime) continue;  // which shortens by itself
-      SolveOptions shorter = better(planner, 3);
+      SolveOptions shorter = better(planner, 12);
       shorter.optimise = true;
       const Answer shortened = solve(world(name), {}, shorter);
       ASSERT_TRUE(shortened.verified);
       const double cost = shortened.cost.value_or(shortened.length);
       EXPECT_NEAR(shortened.improvements.back().cost, cost, 1e-9 * cost) << "the last of them is the answer";
-      EXPECT_EQ(shortened.improvements.back().by, "optimise");
     }
   }
 }
