@@ -93,6 +93,7 @@ int verify_answer(const Arguments& arguments) {
   StageTimes seconds;
   RecordedAnswer answer = read_answer(arguments.operand(1), run.execution());
   Prices& masks = question.prices.empty() ? answer.problem.prices : question.prices;
+  check_not_written(arguments, masks);  // what becomes polygons has no name any more
   read_masks(masks, run.execution());
   check_not_written(arguments, masks);
   if (const auto proof = arguments.value("--certificate")) {

@@ -49,6 +49,7 @@ TEST(BetterWithTime, AnswersTellBoundGapAndWhatEndedThem) {
       ASSERT_TRUE(shortened.verified);
       const double cost = shortened.cost.value_or(shortened.length);
       EXPECT_NEAR(shortened.improvements.back().cost, cost, 1e-9 * cost) << "the last of them is the answer";
+      EXPECT_EQ(shortened.improvements.back().by, "optimise");
     }
   }
 }
