@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A disc on an open map with blocks that are dear to be near to: the backward field alone (weights that are known, and
-// weights that are made), a whole question beside the A* of one that has no prices, and the question asked again after
-// 100 cells have changed on its path.
+// weights that are made), a whole question beside the A* of one that has no prices, four other ways, and the question
+// asked again after 100 cells have changed on its path.
 #include <benchmark/benchmark.h>
 
+#include <iterator>
 #include <vector>
 
 #include "bench/report.hpp"
@@ -45,6 +46,19 @@ struct PricedMap {
   StepWeights weights(const MapPrices& made, MapPrices::Scratch& scratch) const {
     return {wide(), [&](Cell from, unsigned direction) { return made.step_up(from, direction, scratch); },
             bench::one_thread};
+  }
+  Question question() const {
+    Question question;
+    question.robot = {.kind = RobotKind::disc, .radius = radius};
+    question.start = {cell * (start.x + 0.5), cell * (start.y + 0.5)};
+    question.goal = {cell * (goal.x + 0.5), cell * (goal.y + 0.5)};
+    question.prices = prices;
+    return question;
+  }
+  Scene scene() const {
+    Scene scene;
+    scene.map = map;
+    return scene;
   }
 };
 
@@ -104,17 +118,27 @@ void one_question(benchmark::State& state) {
 }
 BENCHMARK(one_question)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
+/// range(0): other ways that are asked for; range(1): 1 with prices.
+void alternatives(benchmark::State& state) {
+  const PricedMap world;
+  const Scene scene = world.scene();
+  Question question = world.question();
+  if (state.range(1) == 0) question.prices = {};
+  if (state.range(0) > 0) question.route.alternatives = state.range(0);
+  for (auto _ : state) {
+    const Answer answer = solve(scene, question, {.planner = PlannerKind::grid}, {.threads = 1});
+    bench::check(answer.verified && std::ssize(answer.alternatives) == state.range(0), "alternatives");
+  }
+  state.SetLabel(state.range(1) != 0 ? "priced" : "no prices");
+}
+BENCHMARK(alternatives)->ArgsProduct({{0, 4}, {0, 1}})->Unit(benchmark::kMillisecond);
+
 /// range(0): 0 solved afresh, 1 by a Replanner. A block of 10 x 10 cells comes and goes again, range(1): 0 on the last
 /// path, farther along each time; 1 anywhere that leaves start and goal free.
 void replan(benchmark::State& state) {
-  PricedMap world;
-  Question question;
-  question.robot = {.kind = RobotKind::disc, .radius = radius};
-  question.start = {cell * (world.start.x + 0.5), cell * (world.start.y + 0.5)};
-  question.goal = {cell * (world.goal.x + 0.5), cell * (world.goal.y + 0.5)};
-  question.prices = world.prices;
-  Scene scene;
-  scene.map = world.map;
+  const PricedMap world;
+  const Question question = world.question();
+  const Scene scene = world.scene();
   const SolveOptions options{.planner = PlannerKind::grid};
   const Limits limits{.threads = 1};
   Replanner replanner(scene, question, options, limits);

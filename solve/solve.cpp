@@ -459,7 +459,9 @@ void add_account(const BuildAccount& built, Answer& answer) {
 Answer kept_and_solved(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,
                        Roadmap& roadmap, ByProducts* keep) {
   SolveOptions built_by = options_of_roadmap(options, choose_solver(options, scene, question).planner);
-  check_buildable(scene, question, built_by);
+  Question asked = question;
+  asked.rule = rule_of(scene, question);
+  check_buildable(scene, asked, built_by);
   const bool by_question = is_roadmap_planner(*built_by.planner) && grows(built_by, scene, robot_of(scene, question));
   Answer solved;
   if (by_question) {
@@ -480,12 +482,13 @@ Answer kept_and_solved(Scene scene, const Question& question, const SolveOptions
                           .bound = options.bound};
   if (!roadmap.arrays.hierarchy.empty() && !how.search) how.search = SearchMethod::astar;  // as solve searches
   QuestionScratch scratch;
-  Answer asked = query.ask_within(question.start, question.goal, how, execution, scratch, by_question ? nullptr : keep);
-  if (asked.outcome == Outcome::stopped) return asked;
+  Answer answer =
+      query.ask_within(question.start, question.goal, how, execution, scratch, by_question ? nullptr : keep);
+  if (answer.outcome == Outcome::stopped) return answer;
   learn(roadmap, query, execution);
   if (by_question) return solved;
-  add_account(account, asked);
-  return asked;
+  add_account(account, answer);
+  return answer;
 }
 
 }  // namespace

@@ -181,12 +181,13 @@ class ClassSearch {
     settled_.assign(weights.cells().number_end(), 0);
   }
 
-  std::vector<ClassPath> find(Cell start, Cell goal) {
+  std::vector<ClassPath> find(Cell start, PriceField::Goal goal) {
     std::vector<ClassPath> found;
-    const auto least = field_.cost(start, execution_);
+    beyond_ = goal.cost;
+    const auto least = left(start);
     if (!least) return found;
     limit_ = static_cast<double>(*least) * choice_.stretch;
-    const VertexId end = weights_.cells().number(goal);
+    const VertexId end = weights_.cells().number(goal.cell);
     reach(weights_.cells().number(start), 0, none, 0, *least);
     for (std::uint64_t turns = 1; !open_.empty(); ++turns) {
       if (turns % expansions_per_poll == 0) execution_.check();
@@ -215,6 +216,11 @@ class ClassSearch {
     bool is_settled;
   };
 
+  /// From a cell to the goal's.
+  std::optional<std::uint64_t> left(Cell from) {
+    const auto cost = field_.cost(from, execution_);
+    return cost ? std::optional(*cost - beyond_) : std::nullopt;
+  }
   static double key_of(const State& state) { return static_cast<double>(state.cost + state.rest); }
   void reach(VertexId cell, std::uint32_t word, std::uint32_t before, std::uint64_t cost, std::uint64_t rest) {
     std::uint32_t at = first_[cell];
@@ -239,12 +245,12 @@ class ClassSearch {
       const auto step = as_whole<unsigned>(std::countr_zero(rest));
       const VertexId to = from.cell + weights_.offset(step);
       if (settled_[to] >= choice_.count) continue;
-      const auto left = first_[to] != none ? std::optional(states_[first_[to]].rest)
-                                           : field_.cost(weights_.cells().cell(to), execution_);
-      if (!left) continue;
+      const auto onward =
+          first_[to] != none ? std::optional(states_[first_[to]].rest) : left(weights_.cells().cell(to));
+      if (!onward) continue;
       const std::uint64_t cost = from.cost + weights_.weight(from.cell, step);
-      if (static_cast<double>(cost + *left) > limit_) continue;
-      reach(to, words_.followed(from.word, cuts_.letter(here, step)), at, cost, *left);
+      if (static_cast<double>(cost + *onward) > limit_) continue;
+      reach(to, words_.followed(from.word, cuts_.letter(here, step)), at, cost, *onward);
     }
   }
   std::vector<Cell> cells_to(std::uint32_t at) const {
@@ -259,6 +265,7 @@ class ClassSearch {
   const HoleCuts& cuts_;
   const ClassChoice& choice_;
   const Execution& execution_;
+  std::uint64_t beyond_ = 0;  // of the goal
   double limit_ = 0.0;
   Words words_;
   std::vector<State> states_;
@@ -270,7 +277,7 @@ class ClassSearch {
 }  // namespace
 
 std::vector<ClassPath> cheapest_classes(StepWeights& weights, PriceField& field, const HoleCuts& cuts, Cell start,
-                                        Cell goal, const ClassChoice& choice, const Execution& execution) {
+                                        PriceField::Goal goal, const ClassChoice& choice, const Execution& execution) {
   return ClassSearch(weights, field, cuts, choice, execution).find(start, goal);
 }
 

@@ -151,6 +151,10 @@ class PriceField {
   /// such a step are lost, and found anew where somebody asks. false: more than `most` are lost; the field is of no use
   /// then. Throws Stopped, and is of no use then either.
   bool repair(std::span<const Cell> touched, std::uint64_t most, const Execution& execution);
+  /// Is it the field of these goals towards these cells?
+  bool is_of(std::span<const Goal> goals, std::span<const Cell> towards) const {
+    return std::ranges::equal(goals, goals_) && std::ranges::equal(towards, towards_);
+  }
   /// Everything that can be reached. Throws Stopped.
   void settle_all(const Execution& execution);
   /// Is its cost known, or an upper bound of it? After settle_all(): can it be reached?

@@ -317,6 +317,7 @@ class ArmModelMaker {
       if (variables_[leader] == no_variable || (leader != j && !matters[joint.below])) {
         frames_[joint.below] = frames_[joint.above];
         poses_[joint.below] = joint.moves() ? origin * motion(joint, held_[j]) : origin;
+        if (joint.moves()) push_asked(model_.standing, {joint.name, held_[j]}, execution_);
         continue;
       }
       if (model_.joints.size() == most_frames) {

@@ -138,6 +138,7 @@ struct Object {
   std::string role;  ///< of its properties
   Coordinates coordinates;
   bool in_properties = false;  ///< it or an object around it is a feature's "properties"
+  bool is_geometry = false;    ///< it stands where a geometry does
   int lists = 0;               ///< open arrays that hold no coordinates
 };
 
@@ -202,6 +203,8 @@ bool Reader::start_object(std::size_t) {
   began_ = true;
   Object opened;
   opened.in_properties = !objects_.empty() && (object().in_properties || key_ == "properties");
+  const bool is_listed = !objects_.empty() && object().lists > 0;
+  opened.is_geometry = !opened.in_properties && (objects_.empty() || is_listed || key_ == "geometry");
   objects_.push_back(std::move(opened));
   first_piece_.push_back(pieces_.size());
   key_.clear();
@@ -319,8 +322,12 @@ void Reader::end_geometry(Object& ended) {
     if (depth > 0) fail(fmt::format("a {} needs \"coordinates\"", ended.type));
     return;
   }
-  if (depth == 0) return;        // some other object's key of that name
   if (c.chains.empty()) return;  // "coordinates": [] is an empty geometry
+  if (depth == 0 && ended.is_geometry) {
+    fail("\"coordinates\" need a \"type\": Point, LineString, Polygon, MultiPoint, MultiLineString or MultiPolygon",
+         ended.type);
+  }
+  if (depth == 0) return;  // some other object's key of that name
   if (c.depth != depth)
     fail(fmt::format("the \"coordinates\" of a {} are nested {} deep", ended.type, depth), std::to_string(c.depth));
   if (depth >= 3 && ended.type != "MultiLineString") return add_rings(c);

@@ -37,6 +37,7 @@ class Picture {
     }
     if (!is_post(lines_.back().empty() ? ' ' : lines_.back().front()))
       fail(lines_.size() - 1, "expected a row of posts");
+    bool has_start = false;
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       if (lines_[i].size() > 4 * cols_ + 1) {
         fail(i, fmt::format("expected at most {} characters, as many as the first line has", 4 * cols_ + 1));
@@ -47,6 +48,9 @@ class Picture {
       for (std::size_t c = 0; c <= cols_; ++c) {
         if (c % cells_a_look == 0) execution_.check();
         i % 2 == 0 ? check_posts(i, c) : check_cells(i, c);
+        if (i % 2 == 0 || c == cols_ || at(i, 4 * c + 2) != 'S') continue;
+        if (has_start) fail(i, "a second `S`: one cell is the start");
+        has_start = true;
       }
     }
   }
@@ -100,6 +104,11 @@ class Picture {
     const char wall = at(line, 4 * c);
     if (wall != '|' && wall != ' ') {
       fail(line, fmt::format("expected `|` or a blank at column {}", 4 * c + 1), std::string(1, wall));
+    }
+    for (std::size_t column = 4 * c + 1; c < cols_ && column < 4 * c + 4; ++column) {
+      const char found = at(line, column);
+      if (found != '|' && found != '-' && !is_post(found)) continue;
+      fail(line, fmt::format("expected no wall within a cell, at column {}", column + 1), std::string(1, found));
     }
   }
 

@@ -345,13 +345,20 @@ Scene read_polygons(const InputFile& file, const Execution& execution) {
   throw InputError(file.name(), "expected the YAML of a map server, a GeoJSON or a scene with polygons");
 }
 
-/// A world's polygons; all else that it has says nothing of areas.
+/// A world's polygons and forbidden areas; masks of its own would be others' files.
 void take_polygons(const PriceMask& mask, const InputFile& file, Prices& prices, const Execution& execution) {
   Scene scene = read_polygons(file, execution);
   check_polygons(scene, execution);
+  if (!scene.prices.masks.empty()) {
+    throw InputError(file.name(), "has a `mask` line, which is not read here; say --keep-out for the mask, too");
+  }
+  if (mask.factor && !scene.seams.empty()) {
+    throw InputError(file.name(), "has polygons with holes, whose cuts would be free of the factor; a mask takes one");
+  }
+  for (KeepOut& area : scene.prices.keep_out) scene.polygons.push_back({std::move(area.corners), area.line});
   if (scene.polygons.empty()) {
     throw InputError(file.name(),
-                     "has no polygons to keep out of; a GeoJSON, a scene with `polygon` lines or a map "
+                     "has no polygons to keep out of; a GeoJSON, a scene with `polygon` or `keep-out` lines or a map "
                      "server's YAML has");
   }
   for (ScenePolygon& polygon : scene.polygons) {

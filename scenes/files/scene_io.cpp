@@ -51,7 +51,7 @@ class SceneReader {
     bool once;
     void (SceneReader::*read)(Fields&);
   };
-  static constexpr std::size_t item_count = 25;
+  static constexpr std::size_t item_count = 26;
   static constexpr std::size_t most_named = 1024;  // joints
   static const std::array<Item, item_count> items;
   enum ItemNumber : std::size_t {
@@ -63,7 +63,8 @@ class SceneReader {
     hold_item = 16,
     allow_item = 17,
     tool_item = 18,
-    moveit_item = 24
+    moveit_item = 24,
+    group_item = 25
   };
 
   void refuse_other_encodings() const {
@@ -156,7 +157,8 @@ class SceneReader {
   void read_attach(Fields& fields) {
     AttachedSolid attached{.link = word_of(fields), .solid = {}};
     std::string word = word_of(fields);
-    for (; solid_word_named(word) == nullptr; word = word_of(fields)) attached.may_touch.push_back(word);
+    const auto begins_solid = [&] { return solid_word_named(word) != nullptr && fields.number_follows(); };
+    for (; !begins_solid(); word = word_of(fields)) attached.may_touch.push_back(word);
     attached.solid = warren::read_solid(*solid_word_named(word), fields, execution_);
     note_link(arm(), attached.link, fields.place());
     for (const std::string& link : attached.may_touch) note_link(arm(), link, fields.place());
@@ -173,6 +175,10 @@ class SceneReader {
   }
   void read_tool(Fields& fields) {
     arm().tool = word_of(fields);
+    check_done(fields);
+  }
+  void read_group(Fields& fields) {
+    arm().group = word_of(fields);
     check_done(fields);
   }
   void read_bounds(Fields& fields) {
@@ -205,6 +211,7 @@ class SceneReader {
     if ((!scene_.named_goals.empty() && word != "joints") || (!scene_.goal.empty() && has_word)) {
       fields.place().fail("goals are several where all are `goal joints NAME VALUE ...` or all `goal X Y [THETA]`");
     }
+    if (!has_word) goal_lines_.push_back(fields.place().line);
     if (!has_word && !scene_.goal.empty()) {
       push_asked(scene_.other_goals, state(fields), execution_);
       check_other_goal(fields.place());
@@ -276,8 +283,9 @@ class SceneReader {
   }
   void read_robot(Fields& fields) { scene_.robot = warren::read_robot(fields, execution_); }
   void check_whole() const;
-  void check_state(const std::vector<double>& given, ItemNumber item) const;
+  void check_state(const std::vector<double>& given, ItemNumber item, std::size_t line) const;
   void check_arm_lines() const;
+  void check_robot_line(const ArmFiles& own) const;
   void check_maze() const;
   Place place_of(ItemNumber item) const { return {file_.name(), first_lines_[item]}; }
 
@@ -287,6 +295,7 @@ class SceneReader {
   WallCollector walls_;
   std::vector<double> numbers_;
   std::array<std::size_t, item_count> first_lines_{};  ///< 0: no such line
+  std::vector<std::size_t> goal_lines_;                ///< of goals that are numbers
   std::size_t last_line_ = 1;
   const Item* item_ = nullptr;  ///< of the line that is being read
 };
@@ -318,6 +327,7 @@ const std::array<SceneReader::Item, SceneReader::item_count> SceneReader::items 
     {price_line_words[3].name, price_line_words[3].usage, price_line_words[3].once, &SceneReader::read_prices},
     {price_line_words[4].name, price_line_words[4].usage, price_line_words[4].once, &SceneReader::read_prices},
     {"moveit-names", "moveit-names", true, &SceneReader::check_done},
+    {"group", "group NAME", true, &SceneReader::read_group},
 }};
 
 void SceneReader::check_whole() const {
@@ -325,9 +335,11 @@ void SceneReader::check_whole() const {
   if (scene_.walls.size() == 0 && !has_lines) {
     Place{file_.name(), last_line_}.fail("the file ends without any wall, polygon, sphere, box or bounds");
   }
-  check_state(scene_.start, start_item);
-  check_state(scene_.goal, goal_item);
-  for (const std::vector<double>& goal : scene_.other_goals) check_state(goal, goal_item);
+  check_state(scene_.start, start_item, first_lines_[start_item]);
+  check_state(scene_.goal, goal_item, goal_lines_.empty() ? 0 : goal_lines_.front());
+  for (std::size_t i = 0; i < scene_.other_goals.size(); ++i) {
+    check_state(scene_.other_goals[i], goal_item, goal_lines_[i + 1]);
+  }
   check_arm_lines();
   if (scene_.maze) check_maze();
 }
@@ -339,8 +351,9 @@ void SceneReader::check_arm_lines() const {
   if (!scene_.other_goals.empty() && !has_plane_robot) {
     place_of(goal_item).fail("an arm's goals are several where all are `goal joints NAME VALUE ...`");
   }
-  if (!scene_.robot || scene_.robot->kind == RobotKind::urdf) return;
-  for (const ItemNumber item : {attach_item, hold_item, allow_item, tool_item}) {
+  if (scene_.robot && scene_.robot->kind == RobotKind::urdf) return check_robot_line(*scene_.robot->files);
+  if (!scene_.robot) return;
+  for (const ItemNumber item : {attach_item, hold_item, allow_item, tool_item, group_item}) {
     if (first_lines_[item] > 0) place_of(item).fail(fmt::format("`{}` takes a `robot urdf`", items[item].name));
   }
   const bool has_names = scene_.named_start.has_value();
@@ -349,19 +362,36 @@ void SceneReader::check_arm_lines() const {
   }
 }
 
-void SceneReader::check_state(const std::vector<double>& given, ItemNumber item) const {
+/// A line of its own says nothing else than the robot's line says.
+void SceneReader::check_robot_line(const ArmFiles& own) const {
+  if (!scene_.arm) return;
+  const auto refuse = [&](ItemNumber item) {
+    place_of(item).fail(fmt::format("`{}` says another thing than the robot's line {}; leave one out", items[item].name,
+                                    first_lines_[robot_item]));
+  };
+  const ArmFiles& said = *scene_.arm;
+  if (!own.tool.empty() && !said.tool.empty() && own.tool != said.tool) refuse(tool_item);
+  const bool has_ends = !own.base.empty() || !own.tip.empty();
+  if (!said.group.empty() && (has_ends || (!own.group.empty() && own.group != said.group))) refuse(group_item);
+  for (const auto& held : own.held) {
+    const auto differs = [&](const auto& line) { return line.first == held.first && line.second != held.second; };
+    if (std::ranges::any_of(said.held, differs)) refuse(hold_item);
+  }
+}
+
+void SceneReader::check_state(const std::vector<double>& given, ItemNumber item, std::size_t line) const {
   if (given.empty() || (scene_.robot && scene_.robot->kind == RobotKind::urdf)) return;
   if (const std::size_t count = given.size(); count == 1 || count == 4 || count == 5) {
-    place_of(item).fail(fmt::format("expected `{}`", items[item].usage), scene_text::numbers_text(count));
+    Place{file_.name(), line}.fail(fmt::format("expected `{}`", items[item].usage), scene_text::numbers_text(count));
   }
   if (!scene_.robot) return;
   const std::size_t wanted = state_size(*scene_.robot);
   const bool any_heading = item == goal_item && wanted == 3 && given.size() == 2;
   const bool place_of_tool = item == goal_item && wanted == 6 && given.size() == 3;
   if (given.size() == wanted || any_heading || place_of_tool) return;
-  place_of(item).fail(fmt::format("`{}` must be {} numbers for the robot of line {}", items[item].name, wanted,
-                                  first_lines_[robot_item]),
-                      fmt::format("{} numbers", given.size()));
+  Place{file_.name(), line}.fail(fmt::format("`{}` must be {} numbers for the robot of line {}", items[item].name,
+                                             wanted, first_lines_[robot_item]),
+                                 fmt::format("{} numbers", given.size()));
 }
 
 void SceneReader::check_maze() const {
@@ -492,6 +522,7 @@ void append_arm(std::string& text, const ArmFiles& arm) {
   for (const auto& [joint, value] : arm.held) text += fmt::format("hold {} {}\n", joint, number(value));
   for (const auto& [first, second] : arm.allowed) text += fmt::format("allow {} {}\n", first, second);
   if (!arm.tool.empty()) text += fmt::format("tool {}\n", arm.tool);
+  if (!arm.group.empty()) text += fmt::format("group {}\n", arm.group);
   if (arm.said.empty() && !(arm.allowed.empty() && arm.attached.empty())) text += "moveit-names\n";
   for (const AttachedSolid& attached : arm.attached) {
     text += "attach " + attached.link;

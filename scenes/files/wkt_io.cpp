@@ -87,7 +87,11 @@ class Tokens {
     const bool tiny = error == std::errc::result_out_of_range && std::abs(value) < 1.0;
     if ((error != std::errc() && !tiny) || !(std::abs(value) <= largest_coordinate))
       fail("a finite number of at most 1e60");
-    text_.remove_prefix(static_cast<std::size_t>(end - text_.data()));
+    const std::size_t length = static_cast<std::size_t>(end - text_.data());
+    const bool ends =
+        length == text_.size() || is_wkt_space(*end) || std::string_view(",();").find(*end) != std::string_view::npos;
+    if (error == std::errc::invalid_argument || !ends) fail("a number");
+    text_.remove_prefix(length);
     return std::abs(value) < smallest_coordinate ? 0.0 : value;
   }
   /// Looks at the deadline now and then, and asks for the memory of what small rings follow.

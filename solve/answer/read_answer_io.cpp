@@ -57,6 +57,8 @@ class AnswerReader {
       answer_.problem.rule.tolerance = std::numeric_limits<double>::infinity();
     } else if (in("bound_of")) {
       answer_.bound_of = text;
+    } else if (in("joints") && arrays_ == 1) {
+      answer_.joints.push_back(text);
     } else if (objects_ == 2 && key_ == "world" && inner_key_ == "hash") {
       answer_.world_hash = text;
     } else {

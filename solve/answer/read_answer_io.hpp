@@ -32,6 +32,7 @@ struct AskedDriving {
 /// A path that a file holds, and what it says of its problem: the program's own answers, or a path of anybody.
 struct RecordedAnswer {
   Question problem;                           ///< what the answer says of the problem
+  std::vector<std::string> joints;            ///< of an arm, in the order of its states; empty: not told
   std::vector<std::vector<double>> via;       ///< way-points that its path passes, in their order
   std::optional<std::string> world_hash;      ///< of the world that it is for; none: the file doesn't say
   std::optional<double> length;               ///< that it claims

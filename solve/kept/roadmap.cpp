@@ -220,6 +220,17 @@ Roadmap build_within(Scene scene, const Question& question, const SolveOptions& 
   return roadmap;
 }
 
+void let_prices_go(Scene& world, const Roadmap& roadmap) {
+  Prices all = roadmap.prices;
+  add_prices(all, world.prices);
+  if (roadmap.prices.clearance) all.clearance = roadmap.prices.clearance;
+  if (price_lines(all) != price_lines(roadmap.prices)) {
+    throw UsageError(fmt::format(
+        "{}: has prices or forbidden areas that the roadmap was built without; build one of this world", world.source));
+  }
+  world.prices = {};
+}
+
 Roadmap update(const Roadmap& roadmap, Scene now, const Execution& execution, UpdateAccount* account) {
   std::optional<OldRoadmap> old;
   const bool drawn = is_roadmap_planner(*roadmap.options.planner);
@@ -230,7 +241,7 @@ Roadmap update(const Roadmap& roadmap, Scene now, const Execution& execution, Up
     }
   }
   BuildAccount built;
-  now.prices = {};
+  let_prices_go(now, roadmap);
   Question question = roadmap.question();
   question.robot = without_what_is_said(roadmap.robot, roadmap.world.outline());  // the changed world says its own
   Roadmap next =

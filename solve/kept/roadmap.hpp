@@ -81,10 +81,14 @@ struct UpdateAccount {
   std::uint64_t states_dropped = 0;  ///< that the new one has not
 };
 
+/// Takes the prices out of a world that the roadmap is asked in: its own count. Throws UsageError where the world has
+/// others; its nearness counts for nothing where the roadmap has a price of that.
+void let_prices_go(Scene& world, const Roadmap& roadmap);
+
 /// The roadmap that build() makes of a changed world by the same options, bit for bit; motions that keep clear of what
 /// has changed are not asked about again. What searches have learnt of a lazy roadmap is forgotten. Its prices are
-/// those that it was built with; of an arm of files counts what the changed world says. Takes the scene. Throws as
-/// build().
+/// those that it was built with (let_prices_go); of an arm of files counts what the changed world says. Takes the
+/// scene. Throws as build().
 Roadmap update(const Roadmap& roadmap, Scene now, const Execution& execution, UpdateAccount* account = nullptr);
 
 // A maze's lattice says where its walls are in two bits a cell: whoever keeps the roadmap of a large one in memory may

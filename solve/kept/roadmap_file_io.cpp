@@ -80,9 +80,10 @@ RoadmapArrays read_arrays(const RoadmapFile& file, const Roadmap& roadmap, const
   return arrays;
 }
 
-KeptWorld given_world(const RoadmapFile& file, Scene given, const std::string& hash, const Execution& execution) {
+KeptWorld given_world(const RoadmapFile& file, Scene given, const Roadmap& roadmap, const Execution& execution) {
+  const std::string& hash = roadmap.world_hash;
   const std::string found = scene_hash(given, execution);
-  given.prices = {};  // the roadmap has its own
+  let_prices_go(given, roadmap);
   if (found == hash) return KeptWorld(std::move(given));
   throw InputError(file.name(), fmt::format("was built for the world {}, and {} is another one", hash, given.source),
                    found);
@@ -215,8 +216,8 @@ Roadmap read_roadmap(std::unique_ptr<RoadmapFile> opened, const Execution& execu
   const RoadmapFile& file = *opened;
   Roadmap roadmap = described(file, execution);
   if (has_lattice(file)) roadmap.lattice = read_lattice(file, lattice_of(file, execution), execution);
-  roadmap.world = world ? given_world(file, std::move(*world), roadmap.world_hash, execution)
-                        : world_inside(file, roadmap, execution);
+  roadmap.world =
+      world ? given_world(file, std::move(*world), roadmap, execution) : world_inside(file, roadmap, execution);
   if (file.header().recipe_hash != hash_of(recipe_json(roadmap, execution))) {
     throw InputError(file.name(), "header and meta name different bodies or options");
   }

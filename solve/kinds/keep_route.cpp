@@ -19,16 +19,13 @@ namespace {
 
 using State = std::vector<double>;
 
-/// Of bodies of the plane the place counts, of arms all joints.
-std::size_t compared(const State& state) { return state.size() <= 3 ? 2 : state.size(); }
-
 /// The state at a share of the motion; a heading turns the shorter way.
-State between(const State& a, const State& b, double share) {
+State between(const State& a, const State& b, double share, bool of_arm) {
   if (share <= 0.0) return a;
   if (share >= 1.0) return b;
   State state = a;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    const double way = a.size() == 3 && i == 2 ? turn_between(a[2], b[2]) : b[i] - a[i];
+    const double way = a.size() == 3 && i == 2 && !of_arm ? turn_between(a[2], b[2]) : b[i] - a[i];
     state[i] += share * way;
   }
   return state;
@@ -39,17 +36,19 @@ struct OnRoute {
   double distance = std::numeric_limits<double>::infinity();
 };
 
-OnRoute nearest_on(const State& a, const State& b, const State& to) {
+/// Of bodies of the plane the place counts, of arms all joints.
+OnRoute nearest_on(const State& a, const State& b, const State& to, bool of_arm) {
+  const std::size_t compared = of_arm ? to.size() : 2;
   double along = 0.0;
   double length_sq = 0.0;
-  for (std::size_t i = 0; i < compared(to); ++i) {
+  for (std::size_t i = 0; i < compared; ++i) {
     along += (b[i] - a[i]) * (to[i] - a[i]);
     length_sq += (b[i] - a[i]) * (b[i] - a[i]);
   }
   OnRoute found;
   found.share = length_sq > 0.0 ? std::clamp(along / length_sq, 0.0, 1.0) : 0.0;
   double sum = 0.0;
-  for (std::size_t i = 0; i < compared(to); ++i) {
+  for (std::size_t i = 0; i < compared; ++i) {
     const double off = a[i] + found.share * (b[i] - a[i]) - to[i];
     sum += off * off;
   }
@@ -175,20 +174,21 @@ void take(Answer& answer, const std::vector<State>& states, const Cost& cost) {
 
 }  // namespace
 
-std::vector<State> rest_of_route(const std::vector<State>& route, const State& start, double slack, bool is_cut) {
+std::vector<State> rest_of_route(const std::vector<State>& route, const State& start, double slack, bool is_cut,
+                                 bool of_arm) {
   if (route.empty()) return {};
   if (route.size() == 1) return {start, route.front()};
   std::vector<OnRoute> on(route.size() - 1);
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < on.size(); ++i) {
-    on[i] = nearest_on(route[i], route[i + 1], start);
+    on[i] = nearest_on(route[i], route[i + 1], start, of_arm);
     least = std::min(least, on[i].distance);
   }
   std::size_t leg = 0;
   while (leg + 1 < on.size() && on[leg].distance > least + slack) ++leg;
   while (leg + 1 < on.size() && on[leg + 1].distance < on[leg].distance) ++leg;  // on with this pass
   std::vector<State> rest{start};
-  const State place = between(route[leg], route[leg + 1], on[leg].share);
+  const State place = between(route[leg], route[leg + 1], on[leg].share, of_arm);
   if (is_cut && place != start && on[leg].share < 1.0) rest.push_back(place);
   for (std::size_t i = leg + 1; i < route.size(); ++i) {
     if (route[i] != rest.back()) rest.push_back(route[i]);
@@ -211,7 +211,7 @@ void keep_to_route(Answer& answer, const Scene& scene, const Question& question,
   // So far from its route the body is still on it.
   const double slack = extent_of(problem.robot) + (scene.map ? scene.map->cell : 0.0);
   const bool is_car = problem.robot.kind == RobotKind::car;
-  const std::vector<State> rest = rest_of_route(rule.keep_to, problem.start, slack, !is_car);
+  const std::vector<State> rest = rest_of_route(rule.keep_to, problem.start, slack, !is_car, is_arm(problem.robot));
   KeptRoute told;
   const std::optional<Cost> kept = cost_now(rest, scene, question, problem, end.has_value(), execution);
   if (kept) told.kept_cost = kept->sum;

@@ -178,16 +178,12 @@ void KeptWays::forget_legs(const std::vector<Cell>& changed, double reach) {
 
 PriceField& KeptWays::field(std::span<const PriceField::Goal> goals, std::span<const Cell> towards,
                             const Execution& execution) {
-  const bool is_same = field_ && std::equal(goals.begin(), goals.end(), goals_.begin(), goals_.end()) &&
-                       std::equal(towards.begin(), towards.end(), towards_.begin(), towards_.end());
-  if (is_same) {
+  if (field_ && field_->is_of(goals, towards)) {
     if (fresh_ == 0) fresh_ = field_->expanded();
     return *field_;
   }
-  goals_.assign(goals.begin(), goals.end());
-  towards_.assign(towards.begin(), towards.end());
   fresh_ = 0;
-  return field_.emplace(*weights_, goals_, towards_, execution);
+  return field_.emplace(*weights_, goals, towards, execution);
 }
 
 }  // namespace warren

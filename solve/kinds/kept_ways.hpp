@@ -68,8 +68,6 @@ class KeptWays {
   Bitmap wide_;
   std::optional<StepWeights> weights_;
   std::optional<PriceField> field_;
-  std::vector<PriceField::Goal> goals_;  // of the field
-  std::vector<Cell> towards_;
   std::uint64_t fresh_ = 0;                         // cells that the field expanded when it was new; 0: not known yet
   std::unordered_map<Ends, Leg, HashOfEnds> legs_;  // lookups only
 };

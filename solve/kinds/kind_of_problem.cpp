@@ -87,13 +87,24 @@ std::string takers_text(const std::vector<PlannerKind>& takers) {
   return fmt::format("{} {} it", listed(takers), takers.size() == 1 ? "takes" : "take");
 }
 
-/// Those of the kinds that fit a problem; where these have none, all, and for which problems.
+/// What a question asks for: each of `words` and `options`.
+struct Asked {
+  const AskedWords& words;
+  const SolveOptions& options;
+};
+
+/// Those of the kinds that fit a problem and take all that is asked; where there are none, those that take the word
+/// alone; where these have none, all, and for which problems.
 template <class Word>
-std::string takers_text(Word word, const std::vector<const SolveKind*>& fitting) {
-  const auto here = planners_where([&](const SolveKind& kind, const PlannerChoice& choice) {
-    return std::find(fitting.begin(), fitting.end(), &kind) != fitting.end() && takes(kind, choice, word);
+std::string takers_text(Word word, const std::vector<const SolveKind*>& fitting, const Asked& asked) {
+  const auto fits = [&](const SolveKind& kind) { return std::ranges::count(fitting, &kind) > 0; };
+  const auto whole = planners_where([&](const SolveKind& kind, const PlannerChoice& choice) {
+    return fits(kind) && takes_all(kind, choice, asked.words, asked.options);
   });
-  if (!here.empty()) return takers_text(here);
+  if (!whole.empty()) return takers_text(whole);
+  const auto here = planners_where(
+      [&](const SolveKind& kind, const PlannerChoice& choice) { return fits(kind) && takes(kind, choice, word); });
+  if (!here.empty()) return takers_text(here) + ", but not with all else that is asked";
   const std::vector<PlannerKind> all = takers_of(word);
   if (all.empty()) return "no planner of this version takes it";
   std::vector<std::string_view> problems;
@@ -106,9 +117,9 @@ std::string takers_text(Word word, const std::vector<const SolveKind*>& fitting)
 }
 
 /// Refuses the options that the planner takes in none of `kinds`, which all have it; `fitting` are the kinds of the
-/// problem, where that is known.
+/// problem and `words` what is asked for, where that is known.
 void refuse_ignored(const SolveOptions& options, PlannerKind planner, const std::vector<const SolveKind*>& kinds,
-                    const std::vector<const SolveKind*>& fitting = {}) {
+                    const std::vector<const SolveKind*>& fitting = {}, const AskedWords& words = {}) {
   for (const Option option : given(options).members()) {
     if (std::any_of(kinds.begin(), kinds.end(),
                     [&](const SolveKind* kind) { return takes(*kind, *choice_in(*kind, planner), option); }))
@@ -118,19 +129,26 @@ void refuse_ignored(const SolveOptions& options, PlannerKind planner, const std:
                                    takers_text(takers_of(option))));
     }
     throw UsageError(fmt::format("@{}: {} would ignore it for {}; {}", name_of(option), name_of(planner),
-                                 fitting.front()->problem, takers_text(option, fitting)));
+                                 fitting.front()->problem, takers_text(option, fitting, {words, options})));
   }
 }
 
-/// Refuses the first of the words that the planner of this kind would ignore.
-void refuse_ignored_words(AskedWords asked, const SolveKind& chosen, PlannerKind planner, const Scene& scene,
+/// Refuses the first of the words that the planner of this kind would ignore; before it one that nobody takes here.
+void refuse_ignored_words(const Asked& asked, const SolveKind& chosen, PlannerKind planner, const Scene& scene,
                           const Question& question, const std::vector<const SolveKind*>& fitting) {
-  for (const AskedWord word : asked.members()) {
-    if (takes_all(chosen, *choice_in(chosen, planner), {word}, {})) continue;
+  std::vector<AskedWord> ignored = asked.words.members();
+  std::erase_if(ignored, [&](AskedWord word) { return takes_all(chosen, *choice_in(chosen, planner), {word}, {}); });
+  std::stable_partition(ignored.begin(), ignored.end(), [&](AskedWord word) {
+    return std::ranges::none_of(fitting, [&](const SolveKind* kind) {
+      return std::ranges::any_of(kind->planners,
+                                 [&](const PlannerChoice& choice) { return takes(*kind, choice, word); });
+    });
+  });
+  for (const AskedWord word : ignored) {
     const bool is_factor = word == AskedWord::keep_out_factor || word == AskedWord::unknown_factor;
     const std::string_view what = is_factor ? "its factor" : word == AskedWord::goal_heading ? "its angle" : "it";
     throw UsageError(fmt::format("{}: {} would ignore {} for {}; {}", place_of_word(word, scene, question),
-                                 name_of(planner), what, fitting.front()->problem, takers_text(word, fitting)));
+                                 name_of(planner), what, fitting.front()->problem, takers_text(word, fitting, asked)));
   }
 }
 
@@ -228,8 +246,8 @@ ChosenSolver choose_solver(const SolveOptions& options, const Scene& scene, cons
   if (found == fitting.end()) found = std::find_if(fitting.begin(), fitting.end(), has_it);
   if (found == fitting.end()) refuse_planner(chosen.planner, fitting);
   chosen.kind = *found;
-  refuse_ignored(options, chosen.planner, {chosen.kind}, fitting);
-  refuse_ignored_words(words, *chosen.kind, chosen.planner, scene, question, fitting);
+  refuse_ignored(options, chosen.planner, {chosen.kind}, fitting, words);
+  refuse_ignored_words({words, options}, *chosen.kind, chosen.planner, scene, question, fitting);
   check_corridors(options, scene);
   return chosen;
 }

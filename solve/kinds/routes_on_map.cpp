@@ -90,13 +90,18 @@ class Routes {
     // Over cells a way is longer than pulled taut, by up to 1 / cos(pi / 8): so much more may be within the stretch.
     constexpr double longer = 1.0824;
     const ClassChoice choice{count, stretch_ * longer};
-    for (const Cell goal : joined(asked_.problem.goal, *own_goal)) {
-      const PriceField::Goal goals[] = {{goal}};
+    for (const Cell cell : joined(asked_.problem.goal, *own_goal)) {
+      const PriceField::Goal goals[] = {{cell, asked_.ways.entry(asked_.problem.goal, cell, 0).cost}};
       for (const Cell start : joined(asked_.problem.start, *own_start)) {
         const Cell towards[] = {start};
-        PriceField field(asked_.weights, goals, towards, execution_);
-        auto found = cheapest_classes(asked_.weights, field, cuts_, start, goal, choice, execution_);
-        expanded_ += field.expanded();
+        std::optional<PriceField> own;
+        PriceField* const known = asked_.ways.field();
+        PriceField& field = known != nullptr && known->is_of(goals, towards)
+                                ? *known
+                                : own.emplace(asked_.ways.weights(), goals, towards, execution_);
+        const std::uint64_t before = field.expanded();
+        auto found = cheapest_classes(asked_.ways.weights(), field, cuts_, start, goals[0], choice, execution_);
+        expanded_ += field.expanded() - before;
         if (!found.empty()) return found;
       }
     }

@@ -188,6 +188,10 @@ Verdict recheck_arm(const Scene& scene, const Question& question, const Recorded
                     const Execution& execution) {
   ArmProblem problem = arm_problem(scene, question, execution);
   check_state_width(answer, problem.width(), "an arm");
+  if (!answer.joints.empty() &&
+      !std::ranges::equal(answer.joints, problem.model.variables, {}, {}, &ArmVariable::name)) {
+    throw InputError(answer.file, "key \"joints\": the robot has other joints, or in another order");
+  }
   Path<JointState> path;
   for (std::size_t i = 0; i < answer.states.size(); ++i) path.push_back(joint_state(answer.states[i]));
   if (answer.states.empty()) {  // two joints

@@ -274,7 +274,8 @@ void check_path_file(const RobotSpec& robot, const std::string& file, const Path
     throw UsageError("@path: the joints of an arm are written as .csv or .npy");
   }
   if (format == PathFormat::npy && options.limits) {
-    throw UsageError("@path: .npy holds places alone; .csv, .yaml and .geojson say when");
+    throw UsageError(fmt::format("@path: .npy holds places alone; {}",
+                                 is_arm ? ".csv says when" : ".csv, .yaml and .geojson say when"));
   }
   if (options.every_s && !options.limits) {
     throw UsageError(fmt::format("@every: moments need {}", is_arm ? "@joint_speed" : "@speed"));

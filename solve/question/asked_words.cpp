@@ -169,8 +169,9 @@ void check_asked(const Scene& scene, const Question& question) {
     }
   }
   check_goal_rule(question.rule);
-  if (question.prices.unknown && !scene.map) {
-    throw UsageError(fmt::format("@unknown: only maps have unknown cells, and {} is none", scene.source));
+  if ((question.prices.unknown || scene.prices.unknown) && !scene.map) {
+    const std::string said = question.prices.unknown ? "@unknown" : scene.source + ": its line 'unknown'";
+    throw UsageError(fmt::format("{}: only maps have unknown cells, and {} is none", said, scene.source));
   }
   if (clearance && question.contact == Contact::allowed) {
     throw UsageError("@contact: what pays for nearness keeps off, so 'allowed' contradicts @clearance_price");

@@ -63,8 +63,9 @@ std::string without_brackets(std::string_view text) {
 }  // namespace
 
 RobotSpec robot_value(const std::string& where, std::string_view text) {
-  const std::string words = without_brackets(text);
-  if (words.find_first_of("[]") != std::string::npos && !words.starts_with("arm "))  // whose file may be so named
+  const bool names_files = text.starts_with("arm ") || text.starts_with("urdf ");  // which may have brackets
+  const std::string words = names_files ? std::string(text) : without_brackets(text);
+  if (words.find_first_of("[]") != std::string::npos && !names_files)
     throw InputError(where, "expected [[X, Y], [X, Y], [X, Y], ...]; here brackets are missing", std::string(text));
   scene_text::Fields fields(words, {where, 0});
   return read_robot(fields, {});
@@ -206,6 +207,11 @@ WallProblem wall_problem(const Scene& scene, const Question& options, Contact us
   }
   problem.start = plane_state("@start", options.start, scene.start);
   problem.goal = problem.start;
+  const bool has_heading = (options.start.empty() && scene.start.size() == 3) ||
+                           (options.goal.empty() && !options.rule.back && scene.goal.size() == 3);
+  if (has_heading && !options.robot && !scene.robot) {
+    throw UsageError(fmt::format("{}: a point has no heading, and no line names the robot; say @robot", scene.source));
+  }
   const bool ends_anywhere = !options.rule.visit.empty() && options.goal.empty() && scene.goal.empty();
   if (!options.rule.back && !ends_anywhere) problem.goal = plane_state("@goal", options.goal, scene.goal);
   for (const auto& place : options.rule.others) plane_state("@goal", place, {});

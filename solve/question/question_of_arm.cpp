@@ -33,13 +33,16 @@ std::vector<double> state_of(std::string_view option, const std::vector<double>&
   throw UsageError(fmt::format("{}: an arm takes {} (found: {} numbers)", option, expected, state.size()));
 }
 
-/// Of a joint that is no variable; nothing: it neither follows one nor is held.
+/// Of a joint that is no variable; nothing: it neither moves nor is held.
 std::optional<double> place_of_joint(const ArmProblem& problem, std::span<const double> state, std::string_view name) {
   for (const ArmJoint& joint : problem.model.joints) {
     if (joint.name == name) return joint.multiplier * state[joint.variable] + joint.offset;
   }
+  for (const auto& [standing, value] : problem.model.standing) {
+    if (standing == name) return value;
+  }
   if (!problem.robot.files) return std::nullopt;
-  for (const auto& [held, value] : problem.robot.files->held) {
+  for (const auto& [held, value] : problem.robot.files->held) {  // which the robot may lack
     if (held == name) return value;
   }
   return std::nullopt;
@@ -48,9 +51,9 @@ std::optional<double> place_of_joint(const ArmProblem& problem, std::span<const 
 constexpr double farthest_turn = 100.0;
 constexpr double rounded_joints = 1e-5;  // files write pi as 3.14159
 
-/// Names that are no variables are of joints that follow one, or are held: a goal has them where they are. Throws
-/// UsageError where one is not, and where a variable is missing.
-std::vector<double> state_named(const ArmProblem& problem, const Scene& scene, const NamedState& named, bool is_goal) {
+/// Names that are no variables are of joints that follow one, or stand still, and a state has them where they are.
+/// Throws UsageError where one is not, and where a variable is missing; of a start of MoveIt it tells.
+std::vector<double> state_named(ArmProblem& problem, const Scene& scene, const NamedState& named, bool is_goal) {
   const ArmModel& model = problem.model;
   const std::string end = fmt::format("{}: the {}", scene.source, is_goal ? "goal" : "start");
   std::vector<double> state;
@@ -69,10 +72,12 @@ std::vector<double> state_named(const ArmProblem& problem, const Scene& scene, c
       throw UsageError(
           fmt::format("{} names joint '{}', which neither moves nor is held; take it out, or `hold` it", end, name));
     }
-    if (is_goal && !(std::abs(*stays - named.values[i]) <= rounded_joints)) {
-      throw UsageError(
-          fmt::format("{} has joint '{}' at {:.9g}, but it is at {:.9g} there", end, name, named.values[i], *stays));
-    }
+    if (std::abs(*stays - named.values[i]) <= rounded_joints) continue;
+    const std::string differs =
+        fmt::format("{} has joint '{}' at {:.9g}, but it is at {:.9g} there", end, name, named.values[i], *stays);
+    const bool is_moveits = scene.arm && std::ranges::count(scene.arm->held, std::pair(name, named.values[i])) > 0;
+    if (is_goal || !is_moveits) throw UsageError(differs);
+    problem.told.push_back(differs);
   }
   return state;
 }

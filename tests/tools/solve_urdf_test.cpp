@@ -217,13 +217,15 @@ TEST_F(SolveUrdf, EndsNameJointsThatMoveFollowOrAreHeld) {
     return run({"solve", folder_.write("ends.scene", "sphere 9 9 9 1\nrobot " + robot_ + ends), "--json", "-"});
   };
   for (const auto& [start, goal] :
-       {std::pair("", ""), {" grip 0.5", ""}, {"", " grip 0.01"}, {" lamp 0", " lamp 0\nhold lamp 0"}}) {
+       {std::pair("", ""), {" grip 0", ""}, {"", " grip 0.01"}, {" lamp 0", " lamp 0\nhold lamp 0"}}) {
     const Outcome taken = asked(start, goal);
     EXPECT_EQ(taken.code, 0) << taken.err;
   }
   for (const auto& [start, goal, says] : {std::tuple(" elbw 1", "", "the start names joint 'elbw', which"),
                                           {"", " elbw 1", "the goal names joint 'elbw', which"},
                                           {"", " grip 0.5", "joint 'grip' at 0.5, but it is at 0.01 there"},
+                                          {" grip 0.5", "", "joint 'grip' at 0.5, but it is at 0 there"},
+                                          {"", "\ntool finger\ngroup hand", "ends.scene:6: `group` says another"},
                                           {"", "\nallow hook fingr", "ends.scene:5: "},
                                           {"", "\nattach hook fingr sphere 0 0 0 1", "(found: fingr)"}}) {
     const Outcome refused = asked(start, goal);
@@ -338,6 +340,65 @@ TEST_F(SolveUrdf, ATwiceSaidToolOrGroupIsRefusedWhereItDiffers) {
   const Outcome outcome = run({"solve", file_, "--robot", robot_, "--request", request, "--json", "-"});
   EXPECT_EQ(outcome.code, 2);
   EXPECT_NE(outcome.err.find("--robot: says group arm, the request arms"), std::string::npos) << outcome.err;
+  std::string ends = robot_;
+  ends.replace(ends.rfind("group arm"), 9, "base world tip hook");
+  const std::string crane = folder_.write("m.yaml", "robot_model_name: crane\nworld: {collision_objects: []}\n");
+  const Outcome both = run({"solve", crane, "--robot", ends, "--request", request, "--json", "-"});
+  EXPECT_EQ(both.code, 2);
+  EXPECT_NE(both.err.find("--robot: says base and tip, the request group arms"), std::string::npos) << both.err;
+}
+
+/// A joint that follows one that is held stands where that one takes it, whatever else is said of it.
+TEST_F(SolveUrdf, EndsHaveWhatFollowsAHeldJointWhereItIs) {
+  const auto asked = [&](const std::string& grip) {
+    std::string robot = robot_;
+    robot.replace(robot.rfind("group arm"), 9, "base world tip lower");
+    const std::string text = "sphere 9 9 9 1\nrobot " + robot +
+                             "\nhold slide 0.1\nhold grip 0.15\nstart joints base 0 shoulder 0 elbow 0\n"
+                             "goal joints base 0.5 shoulder 0 elbow 0 grip " +
+                             grip + "\n";
+    return run({"solve", folder_.write("held.scene", text), "--json", "-"});
+  };
+  EXPECT_EQ(asked("0.01").code, 0) << asked("0.01").err;
+  EXPECT_NE(asked("0.15").err.find("joint 'grip' at 0.15, but it is at 0.01 there"), std::string::npos);
+}
+
+/// Whatever files, folders and links are called, what is written is read back.
+TEST_F(SolveUrdf, BracketsInNamesAreOfTheName) {
+  folder_.write("crane[1].urdf", crane_urdf);
+  std::string robot = robot_;
+  robot.replace(robot.find("crane.urdf"), 10, "crane[1].urdf");
+  const std::string scene = folder_.write("b.scene", "robot " + robot + "\n" + yard);
+  const std::string answer = folder_.path("b.json");
+  ASSERT_EQ(run({"solve", scene, "--json", answer, "--quiet"}).code, 0);
+  EXPECT_EQ(run({"verify", scene, answer}).code, 0);
+  EXPECT_EQ(run({"solve", file_, "--robot", robot, "--json", "-"}).code, 0);
+  std::string swapped = folder_.read("b.json");
+  swapped.replace(swapped.find("[\"base\", \"shoulder\""), 19, "[\"shoulder\", \"base\"");
+  const Outcome other = run({"verify", scene, folder_.write("s.json", swapped)});
+  EXPECT_EQ(other.code, 65);
+  EXPECT_NE(other.err.find("key \"joints\""), std::string::npos) << other.err;
+}
+
+TEST_F(SolveUrdf, ASceneOfARequestHasItsGroupAndReadsItsLinksBack) {
+  const std::string request =
+      folder_.write("r.yaml",
+                    "group_name: arm\nstart_state: {joint_state: {name: [base, shoulder, elbow, slide], "
+                    "position: [0, 0, 0, 0]}}\ngoal_constraints: [{joint_constraints: [{joint_name: base, "
+                    "position: 0.5}, {joint_name: shoulder, position: 0}, {joint_name: elbow, position: 0}, "
+                    "{joint_name: slide, position: 0}]}]\n");
+  const std::string yaml = folder_.write("m.yaml", "robot_model_name: crane\nworld: {collision_objects: []}\n");
+  const std::string scene = folder_.path("m.scene");
+  ASSERT_EQ(run({"convert", yaml, "--request", request, "-o", scene, "--quiet"}).code, 0);
+  EXPECT_NE(folder_.read("m.scene").find("group arm\n"), std::string::npos);
+  const std::string robot = robot_.substr(0, robot_.rfind(" group arm"));
+  const Outcome solved = run({"solve", scene, "--robot", robot, "--json", "-"});
+  ASSERT_EQ(solved.code, 0) << solved.err;
+  EXPECT_EQ(Json::parse(solved.out)["joints"].size(), 4U);
+  const std::string odd = folder_.write(
+      "odd.scene", "robot " + robot_ + "\n" + yard + "attach hook box sphere obox 0 0 0 0 0 0 1 0.1 0.1 0.1\n");
+  const Outcome info = run({"info", odd});
+  EXPECT_EQ(info.err.find("expected a number"), std::string::npos) << info.err;
 }
 
 TEST_F(SolveUrdf, IsTimedByItsFile) {

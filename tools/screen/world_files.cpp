@@ -122,6 +122,11 @@ void refuse_another_robot(const ArmFiles& before, const Scene& scene, const Argu
   const auto words = arguments.value("--robot");
   const RobotSpec robot = words ? robot_value("--robot", *words) : RobotSpec{};
   if (!robot.files || !scene.arm) return;
+  const bool has_ends = !robot.files->base.empty() || !robot.files->tip.empty();
+  if (has_ends && scene.arm->group != before.group) {
+    throw UsageError(
+        fmt::format("--robot: says base and tip, the request group {}; leave them out of one", scene.arm->group));
+  }
   for (const auto& [noun, own, world, asked] : {std::tuple("group", robot.files->group, before.group, scene.arm->group),
                                                 {"tool", robot.files->tool, before.tool, scene.arm->tool}}) {
     if (own.empty() || asked == world || own == asked) continue;

@@ -51,7 +51,9 @@ int simplify_graph(const Arguments& arguments, const std::string& file) {
   const double within = *given_value(arguments, "--simplify", number_value, 0.0, largest_coordinate);
   if (!file.ends_with(".geojson")) throw UsageError("--simplify: a route graph is written as -o FILE.geojson");
   const auto world = arguments.value("--world");
-  if (!world) arguments.refuse({"--robot", "--clearance"}, "is for --world");
+  arguments.refuse({"--cell"}, "is for a world; a route graph has none");
+  picture_words(arguments, false, "a picture");
+  if (!world) arguments.refuse({"--robot", "--clearance", "--map-rules", "--request"}, "is for --world");
   Run run(arguments);
   StageTimes seconds;
   const Scene scene = world ? load_world(*world, arguments, run.execution(), seconds) : Scene{};
@@ -91,6 +93,7 @@ bool becomes_map(const Scene& scene, std::string_view file, const Arguments& arg
 std::string write_any(Scene& scene, const std::string& file, const Arguments& arguments, const PictureOptions& options,
                       const Execution& execution) {
   if (becomes_map(scene, file, arguments)) {
+    arguments.refuse(picture_option_specs(), "is for a picture; an image of a map has a pixel a cell");
     const auto cell = given_value(arguments, "--cell", positive_value);
     if (cell) check_cell(*cell, scene);
     const OccupancyMap map = map_for(scene, cell, execution);

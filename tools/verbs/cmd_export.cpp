@@ -73,6 +73,7 @@ int export_roadmap_file(const Arguments& arguments) {
     return draw_roadmap(arguments, *file, picture_words(arguments, true, {}, *file));
   }
   picture_words(arguments, false, "a picture");
+  if (!file->ends_with(".geojson")) arguments.refuse({"--frame"}, "is for .geojson");
   for (const std::string& name : files_of_export(*file)) check_writable(name);
   if (arguments.has("--simplify")) {
     return export_simplified(arguments, *file, std::string(arguments.value("--frame").value_or("map")));

@@ -100,22 +100,22 @@ int info(const Arguments& arguments) {
   Run run(arguments);
   std::optional<InputFile> file;
   if (!is_made_source(path)) file.emplace(path, run.execution());
-  if (auto roadmap = file ? opened_roadmap(*file, path, run.execution()) : nullptr) {
+  auto roadmap = file ? opened_roadmap(*file, path, run.execution()) : nullptr;
+  const bool is_robot = file && roadmap == nullptr && is_urdf(*file);
+  if (roadmap == nullptr) arguments.refuse({"--check"}, "is for roadmap files; others are checked as they are read");
+  if (!is_robot) arguments.refuse({"--srdf", "--group", "--package-path"}, "is for a URDF");
+  if (roadmap != nullptr) {
     const std::string meta = roadmap_info(std::move(roadmap), check, run.execution());
     run.end();
     if (json) write_file(*json, meta, run.execution());
     if (!run.quiet() && json != "-") print_text(meta);
     return exit_code::success;
   }
-  if (file && is_urdf(*file)) {
+  if (is_robot) {
     const std::vector<Fact> facts = robot_facts(path, arguments, run.execution());
     run.end();
     tell(facts, json, run);
     return exit_code::success;
-  }
-  if (check) throw UsageError("--check: is for roadmap files; a world is checked as it is read");
-  for (const std::string_view option : {"--srdf", "--group", "--package-path"}) {
-    if (arguments.value(option)) throw UsageError(fmt::format("{}: is for a URDF", option));
   }
   StageTimes seconds;
   const bool is_packed = file && is_maze_file(file->bytes());

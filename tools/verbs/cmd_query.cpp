@@ -40,12 +40,17 @@ constexpr OptionSpec query_specs[] = {
 class QueryCommand : public AnswerCommand {
  public:
   explicit QueryCommand(const Arguments& arguments)
-      : AnswerCommand(arguments, "--keep"), question_(question_words(arguments)), how_(search_words(arguments)) {}
+      : AnswerCommand(arguments, "--keep"), question_(question_words(arguments)), how_(search_words(arguments)) {
+    if (!question_.rule.empty()) throw UsageError("--goal: a kept roadmap is asked for one goal; solve takes several");
+  }
 
  private:
   Answer find(const Run& run, StageTimes& before, ByProducts* keep) override {
     roadmap_ = load_roadmap(arguments_, run.execution(), before);
     check_outputs_of(roadmap_.robot);
+    if (question_.goal.empty() && !roadmap_.world.outline().other_goals.empty()) {
+      throw UsageError("--goal: the world has several, and a kept roadmap is asked for one; say which");
+    }
     const RoadmapQuery query(roadmap_, run.execution(), Questions::one);
     QuestionScratch scratch;
     Answer answer = query.ask_explained(question_.start, question_.goal, how_, run.execution(), scratch, keep);

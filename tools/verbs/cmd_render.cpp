@@ -64,6 +64,7 @@ int render(const Arguments& arguments) {
   check_animation(arguments, file);
   if (is_roadmap_named(arguments.operand(0))) {
     check_rules_of_maps(arguments);
+    arguments.refuse(price_option_specs(), "is for a world; a roadmap has its own inside");
     if (answer_file) throw UsageError("--answer: is drawn on a world; a roadmap is drawn alone");
     return draw_roadmap(arguments, file, options);
   }

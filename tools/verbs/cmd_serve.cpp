@@ -52,7 +52,7 @@ std::unique_ptr<serve::ServedWorld> load_served(const Arguments& arguments, cons
   StageTimes seconds;
   if (is_roadmap_named(file)) {
     arguments.refuse({"--robot", "--clearance"}, "the roadmap was built with its own");
-    arguments.refuse(price_option_specs(), "a roadmap knows no prices; serve its world");
+    arguments.refuse(price_option_specs(), "the roadmap was built with its own; serve its world for others");
     check_rules_of_maps(arguments);
     return std::make_unique<serve::ServedWorld>(load_roadmap(arguments, run.execution(), seconds), run.execution());
   }

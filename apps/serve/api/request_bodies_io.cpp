@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <span>
@@ -302,7 +303,8 @@ double tolerance_of(const OrderedJson& json, std::string_view key) {
 
 std::uint32_t alternatives_of(const OrderedJson& json, std::string_view key) {
   const double count = number_of(json, key);
-  if (!(count >= 1.0 && count <= most_alternatives)) refuse_word(key, fmt::format("1 to {}", most_alternatives));
+  if (!(count >= 1.0 && count <= most_alternatives) || count != std::floor(count))
+    refuse_word(key, fmt::format("1 to {}", most_alternatives));
   return static_cast<std::uint32_t>(count);
 }
 
@@ -350,11 +352,10 @@ QueryBody read_query_body(std::string_view text) {
   ServedQuestion& question = body.question;
   GoalRule& rule = question.rule;
   RouteRule& route = question.route;
+  std::vector<std::vector<double>> goals;
   const auto take_goals = [&](const OrderedJson& value, const std::string& key) {
-    rule.others = states_of(value, key);
-    if (rule.others.empty()) refuse_word(key, "one or more");
-    question.goal = rule.others.front();
-    rule.others.erase(rule.others.begin());
+    goals = states_of(value, key);
+    if (goals.empty()) refuse_word(key, "one or more");
   };
   take_keys(json_object_of(text, deepest_json, {}), "body",
             {{"start", into(question.start, state_of)},
@@ -379,6 +380,12 @@ QueryBody read_query_body(std::string_view text) {
              {"stretch", into(route.stretch, number_of)},
              {"keep_to", into(route.keep_to, states_of)},
              {"unless_gain", into(route.unless_gain, number_of)}});
+  if (!goals.empty()) {
+    if (!question.goal.empty()) refuse_word("goals", "one of goal and goals");
+    question.goal = goals.front();
+    rule.others.assign(goals.begin() + 1, goals.end());
+  }
+  if (rule.back && !question.goal.empty()) refuse_word("return", "no goal beside it: it ends at the start");
   return body;
 }
 
@@ -436,19 +443,13 @@ ChangedScene changed(const Scene& scene, const SceneChange& change, const std::o
   std::vector<ScenePolygon> polygons = removal.polygons_left();
   for (const std::vector<Vec2>& corners : change.add.polygons) polygons.push_back({corners});
 
-  ChangedScene result{.scene = {}, .made = {.add = change.add, .remove = removal.shapes()}};
+  ChangedScene result{.scene = without_arrays(scene), .made = {.add = change.add, .remove = removal.shapes()}};
   Scene& now = result.scene;
-  now.source = scene.source;
   now.polygons = std::move(polygons);
   now.walls = WallSet::narrowest(walls);
   now.seams = scene.seams;
-  now.bounds = scene.bounds;
-  now.clearance = scene.clearance;
+  now.maze.reset();
   if (maze && !first_wall_off_grid(now.walls, *maze, execution)) now.maze = maze;
-  now.robot = scene.robot;
-  now.start = scene.start;
-  now.goal = scene.goal;
-  now.grid = scene.grid;
   check_polygons(now, execution);
   return result;
 }

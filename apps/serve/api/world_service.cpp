@@ -562,7 +562,11 @@ HttpResponse WorldService::scene(const HttpRequest& request, const Execution& ex
   const std::size_t numbers = state_size(*body.robot);
   if (auto start = numbers_parameter(request, "start", numbers)) told.start = std::move(*start);
   const bool any_heading = std::ranges::count(parameter(request, "goal").value_or(""), ',') == 1;
-  if (auto goal = numbers_parameter(request, "goal", any_heading ? 2 : numbers)) told.goal = std::move(*goal);
+  if (auto goal = numbers_parameter(request, "goal", any_heading ? 2 : numbers)) {
+    told.goal = std::move(*goal);
+    told.other_goals.clear();
+  }
+  told.prices = world_.query() != nullptr ? world_.query()->roadmap().prices : prices_of(told, body);
   Question{.start = told.start, .goal = told.goal}.validate();
   HttpResponse response{.type = "text/plain; charset=utf-8",
                         .fields = {{"Content-Disposition", "attachment; filename=\"world.scene\""}}};

@@ -108,6 +108,36 @@ TEST(MaskFile, KeepOutTakesPolygonsOfOtherFiles) {
   EXPECT_EQ(prices.areas[0].factor, 4.0);
 }
 
+TEST(MaskFile, KeepOutTakesForbiddenAreasOfScenes) {
+  const TemporaryDirectory directory;
+  Prices prices;
+  prices.masks = {
+      {.kind = MaskKind::keep_out, .file = directory.write("a.scene", "polygon 0 0 1 0 1 1\nkeep-out 2 2 3 2 3 3\n")},
+      {.kind = MaskKind::keep_out, .file = directory.write("b.scene", "keep-out 5 5 6 5 6 6\n")}};
+  read_masks(prices, {});
+  ASSERT_EQ(prices.keep_out.size(), 3U);
+  EXPECT_EQ(prices.keep_out[1].corners[1], (Vec2{3, 2}));
+  EXPECT_EQ(prices.keep_out[2].corners[0], (Vec2{5, 5}));
+  prices.masks = {
+      {.kind = MaskKind::keep_out, .file = directory.write("c.scene", "polygon 0 0 1 0 1 1\nmask m.yaml keep-out\n")}};
+  EXPECT_THROW(read_masks(prices, {}), InputError);
+}
+
+/// Along the cuts of a polygon with a hole nothing would be paid.
+TEST(MaskFile, AFactorTakesNoPolygonWithHoles) {
+  const TemporaryDirectory directory;
+  const std::string ring = directory.write(
+      "ring.geojson",
+      R"({"type": "Polygon", "coordinates": [[[0,0],[9,0],[9,9],[0,9],[0,0]],[[3,3],[3,6],[6,6],[6,3],[3,3]]]})");
+  Prices prices;
+  prices.masks = {{.kind = MaskKind::keep_out, .file = ring, .factor = 4.0}};
+  EXPECT_THROW(read_masks(prices, {}), InputError);
+  prices = {};
+  prices.masks = {{.kind = MaskKind::keep_out, .file = ring}};
+  read_masks(prices, {});
+  EXPECT_GE(prices.keep_out.size(), 2U);
+}
+
 TEST(MaskFile, WhatIsNoMaskIsRefused) {
   const TemporaryDirectory directory;
   const std::string scene = directory.write("zones.scene", "polygon 0 0 1 0 1 1\n");

@@ -79,6 +79,9 @@ TEST(Micromouse, RefusesWithFileAndLine) {
       {"o---o\nx   |\no---o\n", ":2: expected `|` or a blank at column 1 (found: x)"},
       {"o---o\n|   | |\no---o\n", ":2: expected at most 5 characters"},
       {"o---o---o\n|\t|   |\no---o---o\n", ":2: expected blanks, not a tab, at column 2"},
+      {"o---o---o\n| S  |G |\no---o---o\n", ":2: expected no wall within a cell, at column 6 (found: |)"},
+      {"o---o---o\n|   |-- |\no---o---o\n", ":2: expected no wall within a cell, at column 6 (found: -)"},
+      {"o---o---o\n| S | S |\no---o---o\n", ":2: a second `S`"},
       {"o---o\n|   |\no---x\n", ":3: expected a post `o` at column 5 (found: x)"},
   };
   for (const auto& [text, expected] : cases) {

@@ -115,6 +115,13 @@ TEST(GeoJson, WhatIsNoneIsRefusedWithItsLine) {
   expect_refused(polygon("[[[0,0],4,[0,3],[0,0]]]"), ":2:");
   expect_refused("{\"type\": \"Polygon\"}", "needs \"coordinates\"");
   expect_refused("{\"type\": \"LineString\", \"coordinates\": [[1,2]]}", "two positions");
+  const std::string triangle = "\"coordinates\": [[[0,0],[4,0],[0,3],[0,0]]]}";
+  expect_refused("{\"type\": \"Feature\",\n\"geometry\": {\"type\": \"polygon\", " + triangle + "}",
+                 ":2: \"coordinates\" need a \"type\": Point");
+  expect_refused("{\"type\": \"Feature\", \"geometry\": {" + triangle + "}", "need a \"type\"");
+  expect_refused("{\"type\": \"GeometryCollection\", \"geometries\": [" + polygon("[[[0,0],[4,0],[0,3],[0,0]]]") +
+                     ", {\"type\": \"Polygon Z\", " + triangle + "]}",
+                 "(found: Polygon Z)");
   expect_refused("\n\n" + polygon("[[[0,0],[4,4],[4,0],[0,4],[0,0]]]"), ":4: a polygon's outline must not cross");
   expect_refused(polygon("[[[0,0],[4,4],[2,2],[0,0]]]"), ":2: this polygon has no area");
   const std::string place = R"({"type":"Feature","properties":{"role":"start"},"geometry":)";
@@ -150,6 +157,8 @@ TEST(Wkt, WhatIsNoneIsRefusedWithItsLine) {
   expect_refused("POLYGON ((0 0, 4 0, 0 0))", "four positions");
   expect_refused("POLYGON ((0 0, 4, 0 3, 0 0))", "a number");
   expect_refused("POLYGON ((0 0, 4 nan, 0 3, 0 0))", "a number");
+  expect_refused("POLYGON ((0 0, 4 0.5.7, 0 3, 0 0))", "a number");
+  expect_refused("LINESTRING (0 0-1, 2 2)", "a number");
   expect_refused("POLYGON ((0 0, 4 1e70, 0 3, 0 0))", "at most 1e60");
   expect_refused("LINESTRING (1 1)", "two positions");
   expect_refused("POINT (1 1)", "no polygon and no line");

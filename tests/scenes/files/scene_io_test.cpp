@@ -331,6 +331,9 @@ TEST(SceneText, RefusesBadInputInOneLineThatNamesFileAndLine) {
        ":3: `start` must be 2 numbers for the robot of line 1 (found: 3 numbers)"},
       {"start without heading for a car", "start 1 2\n0 0 1 1\nrobot car radius 1 turning 1\n",
        ":1: `start` must be 3 numbers for the robot of line 3 (found: 2 numbers)"},
+
+      {"second of three goals that turns for a disc", "robot disc 1\ngoal 1 2\ngoal 1 2 3\ngoal 4 4\n",
+       ":3: `goal` must be 2 numbers for the robot of line 1 (found: 3 numbers)"},
       {"planar goal for an arm", "robot puma560 radius 1\nsphere 0 0 0 1\ngoal 1 2\n",
        ":3: `goal` must be 6 numbers for the robot of line 1 (found: 2 numbers)"},
       {"grid of no cell", "grid 0 4\n0 0 1 1\n", ":1: `grid`: CELL must be greater than 0 (found: 0)"},

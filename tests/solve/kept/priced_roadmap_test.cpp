@@ -121,6 +121,31 @@ TEST(PricedRoadmap, KeepsThemWhenItsWorldChanges) {
   expect_same_price(RoadmapQuery(next).ask(question.start, question.goal), solve(now, question, options));
 }
 
+/// Else what the world forbids or makes dear would be passed over.
+TEST(PricedRoadmap, AWorldOfOtherPricesIsRefused) {
+  const RobotSpec robot = rooms_bodies().front();
+  const Question question = priced_question(robot);
+  Question plain = question;
+  plain.prices = {};
+  const SolveOptions options = roadmap_of(PlannerKind::prm);
+  Scene priced = rooms(false);
+  priced.prices = question.prices;
+  Scene closed = rooms(false);
+  closed.prices.keep_out.push_back({{{2, 0}, {3, 0}, {3, 2}}, 0});
+  const Roadmap lengths = build(rooms(false), plain, options);
+  const Roadmap prices = build(rooms(false), question, options);
+  EXPECT_THROW(update(lengths, priced, {}), UsageError);
+  EXPECT_THROW(update(lengths, closed, {}), UsageError);
+  EXPECT_THROW(update(prices, closed, {}), UsageError);
+  EXPECT_EQ(update(prices, priced, {}).prices.areas.size(), 1U);
+  const std::string file =
+      (std::filesystem::temp_directory_path() / ("warren_plain_" + std::to_string(::getpid()) + ".roadmap")).string();
+  write_roadmap(lengths, file);
+  EXPECT_THROW(read_roadmap(file, {}, closed), UsageError);
+  EXPECT_TRUE(read_roadmap(file, {}, rooms(false)).prices.empty());
+  std::filesystem::remove(file);
+}
+
 TEST(PricedRoadmap, WhatItCantKeepIsRefused) {
   const auto refusal = [](const Question& question, PlannerKind planner) -> std::string {
     try {

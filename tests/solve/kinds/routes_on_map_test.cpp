@@ -196,6 +196,9 @@ TEST(KeepRoute, TheRestBeginsWhereTheRobotIs) {
   EXPECT_EQ(rest_of_route(route, {4, 0}, 0.0, true), (States{{4, 0}, {10, 0}, {10, 10}}));
   EXPECT_EQ(rest_of_route(route, {4, 1}, 0.0, false), (States{{4, 1}, {10, 0}, {10, 10}}));
   EXPECT_EQ(rest_of_route(route, {10, 10}, 0.0, true), (States{{10, 10}}));
+  // Of an arm the third joint counts, too, and turns as it is said.
+  EXPECT_EQ(rest_of_route({{0, 0, 0}, {0, 0, 4}, {1, 0, 4}}, {0, 0, 2}, 0.0, true, true),
+            (States{{0, 0, 2}, {0, 0, 4}, {1, 0, 4}}));
 }
 
 TEST(KeepRoute, ProgressDoesNotJumpToALaterPass) {

@@ -143,6 +143,11 @@ TEST_F(RoadmapRefusals, WordsThatMeanNothing) {
   refused({"query", "@r.roadmap", "--attach", "3"}, 2, "--attach");
   refused({"query", "@r.roadmap", "--map-rules", "ros1"}, 2, "--map-rules: is for the world that --world names");
   refused({"export", "@r.roadmap", "-o", "@new.csv", "--map-rules", "ros1"}, 2, "--map-rules");
+  refused({"export", "@r.roadmap", "-o", "@new.csv", "--frame", "odom"}, 2, "--frame: is for .geojson");
+  refused({"query", "@r.roadmap", "--goal", "1,1", "--goal", "2,2"}, 2, "--goal: a kept roadmap is asked for one goal");
+  refused({"render", "@r.roadmap", "--keep-out", "@none.yaml", "-o", "@new.svg"}, 2, "--keep-out: is for a world");
+  refused({"info", "@r.roadmap", "--group", "arm"}, 2, "--group: is for a URDF");
+  refused({"info", "maze:9x9", "--check", "all"}, 2, "--check: is for roadmap files");
 }
 
 }  // namespace

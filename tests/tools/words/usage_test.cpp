@@ -179,6 +179,23 @@ TEST(Usage, AnIgnoredOptionIsToldWithTheProblemThatItIsNotFor) {
          "rrt-star and informed-rrt-star take it"});
 }
 
+/// A word that nobody takes here is told before one that another planner takes, with which it would not help.
+TEST(Usage, WhatIsIgnoredIsTheWordThatNobodyTakes) {
+  const Folder folder;
+  const std::string scene =
+      folder.write("p.scene", "bounds 0 0 9 9\nclearance-price 3 1\npolygon 3 3 5 3 5 5\nstart 1 1\ngoal 8 1\n");
+  for (const std::vector<std::string>& planner : {std::vector<std::string>(), {"--planner", "prm"}}) {
+    std::vector<std::string> words{"solve", scene, "--alternatives", "2"};
+    words.insert(words.end(), planner.begin(), planner.end());
+    check({words, 2, "--alternatives: "});
+  }
+  const std::string unknown = folder.write("u.scene", "bounds 0 0 9 9\nunknown 2\nstart 1 1\ngoal 8 1\n");
+  check({{"solve", unknown}, 2, "its line 'unknown': only maps have unknown cells"});
+  const std::string turned = folder.write("h.scene", "bounds 0 0 9 9\nstart 1 1 0.5\ngoal 8 1 0.5\n");
+  check({{"solve", turned}, 2, "a point has no heading, and no line names the robot; say --robot"});
+  EXPECT_EQ(run({"solve", turned, "--robot", "disc 0.2"}).code, 0);
+}
+
 TEST(Usage, CellsThatAreTooSmallAreRefusedByTheirOptionAndInFewDigits) {
   const Folder folder;
   const std::string scene = folder.write("s.scene", "bounds 0 0 9 9\nwall 1 1 2 2\nstart 4 4\ngoal 5 5\n");

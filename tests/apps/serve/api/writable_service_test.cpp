@@ -108,6 +108,19 @@ TEST(WritableService, WhatIsTakenBackIsTheOldWorld) {
   EXPECT_EQ(served.scene(), scene);
 }
 
+TEST(WritableService, WhatTheWorldForbidsAndAsksForOutlivesAChange) {
+  Writable served(std::string(town) + "keep-out 20 0 30 0 30 59 20 59\nclearance-price 2 1\ngoal 5 55\n");
+  const Json before = served.query();
+  const std::string scene = served.scene();
+  EXPECT_NE(scene.find("keep-out 20 0"), std::string::npos) << scene;
+  EXPECT_NE(scene.find("clearance-price 2 1"), std::string::npos) << scene;
+  const Json change = {{"walls", {{1, 1, 1.5, 1.5}}}};
+  ASSERT_EQ(served.update({{"add", change}}).status, 200U);
+  ASSERT_EQ(served.update({{"remove", change}}).status, 200U);
+  EXPECT_EQ(served.scene(), scene);
+  EXPECT_EQ(served.query().at("path"), before.at("path"));
+}
+
 /// Off the grid it is a maze no more; where that is taken back it is one again.
 TEST(WritableService, AWallAnywhereInAMazeIsGoneAround) {
   Writable served(maze_scene({12, 12, 3}, false, {}));
