@@ -203,8 +203,7 @@ void bm_later_pairs(benchmark::State& state) {
 
 /// A permutation that a stable sort by the numbers of the cells gives.
 void check_tile_order(const std::vector<Vec2>& points, const Execution& execution) {
-  const PlanarView view{&points.front().x, 2, points.size()};
-  const CellFrame frame(bounding_box(view, execution), points.size());
+  const CellFrame frame(bounding_box(points, execution), points.size());
   std::vector<std::uint32_t> plain(points.size());
   std::iota(plain.begin(), plain.end(), 0U);
   std::stable_sort(plain.begin(), plain.end(), [&](std::uint32_t i, std::uint32_t j) {

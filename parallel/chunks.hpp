@@ -62,6 +62,14 @@ void for_chunks(std::size_t n, std::size_t grain, const Execution& execution, co
                      [](const void* f, std::size_t chunk) { (*static_cast<const Run*>(f))(chunk); });
 }
 
+/// The same where each index is dealt with by itself: each(index).
+template <class Index = std::size_t, class Each>
+void for_each_index(std::size_t n, std::size_t grain, const Execution& execution, const Each& each) {
+  for_chunks(n, grain, execution, [&](Range r) {
+    for (std::size_t i = r.first; i < r.last; ++i) each(static_cast<Index>(i));
+  });
+}
+
 /// The sum of what count(Range) says of each chunk.
 template <class Count>
 auto sum_of_chunks(std::size_t n, std::size_t grain, const Execution& execution, const Count& count) {

@@ -2,6 +2,7 @@
 #include "pictures/draw_answer.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -159,8 +160,7 @@ PictureLayer informed_set(const Answer& answer, Vec2 start, Vec2 goal, const Box
   circle.push_back(circle.front());
   for (const Vec2 c : circle) {
     const Vec2 p = middle + c.x * along + c.y * across;
-    const bool is_inside = p.x >= box.min.x && p.x <= box.max.x && p.y >= box.min.y && p.y <= box.max.y;
-    is_inside ? chain.push_back(p) : end_chain();
+    box.contains(p) ? chain.push_back(p) : end_chain();
   }
   end_chain();
   return layer;
@@ -369,20 +369,6 @@ std::vector<std::string> write_picture(const std::string& file, const Scene& sce
 
 namespace {
 
-/// Words apart by commas.
-class Words {
- public:
-  void add(std::string_view word) {
-    if (word.empty()) return;
-    if (!text_.empty()) text_ += ", ";
-    text_ += word;
-  }
-  std::string take() { return std::move(text_); }
-
- private:
-  std::string text_;
-};
-
 std::string body_text(const RobotSpec& robot, std::string_view metres) {
   switch (robot.kind) {
     case RobotKind::point:
@@ -422,15 +408,13 @@ std::string subtitle_of(const Scene& scene, const RobotSpec& robot) {
 }
 
 std::string subtitle_of(const Scene& scene, const Answer& answer) {
-  Words words;
-  words.add(answer.planner);
-  words.add(answer.sampler);
-  words.add(answer.search);
-  if (answer.roadmap.samples > 0) words.add(counted(answer.roadmap.samples, "sample", "samples"));
-  if (answer.roadmap.milestones > 0) words.add(counted(answer.roadmap.milestones, "milestone", "milestones"));
-  words.add(outcome_text(answer, metres_behind(unit_of(scene))));
-  if (!answer.sampler.empty()) words.add(fmt::format("seed {}", answer.seed));
-  return subtitle_of(scene, answer.problem.robot) + "\n" + words.take();
+  std::vector<std::string> words{answer.planner, answer.sampler, answer.search};
+  std::erase(words, "");
+  if (answer.roadmap.samples > 0) words.push_back(counted(answer.roadmap.samples, "sample", "samples"));
+  if (answer.roadmap.milestones > 0) words.push_back(counted(answer.roadmap.milestones, "milestone", "milestones"));
+  words.push_back(outcome_text(answer, metres_behind(unit_of(scene))));
+  if (!answer.sampler.empty()) words.push_back(fmt::format("seed {}", answer.seed));
+  return fmt::format("{}\n{}", subtitle_of(scene, answer.problem.robot), fmt::join(words, ", "));
 }
 
 std::string subtitle_of(const Scene& scene, const RecordedAnswer& answer) {

@@ -36,8 +36,9 @@ struct EdgeStyle {
   Rgb color;
 };
 /// Free edges are drawn last, over the others.
-constexpr std::array<EdgeStyle, 2> other_edges{{{EdgeState::unchecked, "unchecked", "unchecked edge", unchecked_color},
-                                                {EdgeState::blocked, "blocked", "blocked edge", blocked_color}}};
+constexpr std::array<EdgeStyle, 3> edge_styles{{{EdgeState::unchecked, "unchecked", "unchecked edge", unchecked_color},
+                                                {EdgeState::blocked, "blocked", "blocked edge", blocked_color},
+                                                {EdgeState::free, "free", "free edge", colors::components[0]}}};
 
 /// The edges in one state.
 Graph edges_in(EdgeState state, const RoadmapArrays& arrays, const Execution& execution) {
@@ -101,7 +102,8 @@ class RoadmapDrawing {
         std::span<const double>(arrays_.states).subspan(std::size_t{v} * arrays_.dimension, arrays_.dimension));
   }
   void add_lines(Drawing& drawing) const {
-    for (const EdgeStyle& style : other_edges) {
+    for (const EdgeStyle& style : edge_styles) {
+      if (style.state == EdgeState::free) continue;  // they are the roadmap
       PictureLayer layer{.id = style.id, .label = style.label, .color = style.color, .width = thin};
       const Graph graph = edges_in(style.state, arrays_, execution_);
       for (VertexId v = 0; v < vertex_count(); ++v) {
@@ -120,7 +122,7 @@ class RoadmapDrawing {
   void add_curves(Drawing& drawing) const {
     std::array<PlannedRoadmap<Se2>, 1> roadmap;
     for (VertexId v = 0; v < vertex_count(); ++v) roadmap[0].states.push_back(pose(v));
-    const auto add = [&](EdgeStyle style) {
+    for (const EdgeStyle& style : edge_styles) {
       roadmap[0].graph = edges_in(style.state, arrays_, execution_);
       PictureLayer layer = car_curves(roadmap, roadmap_.robot, execution_).edges;
       layer.id = style.id;
@@ -128,9 +130,7 @@ class RoadmapDrawing {
       layer.color = style.color;
       if (style.state != EdgeState::free) layer.width = thin;
       if (layer.lines.size() > 0) drawing.layers.push_back(std::move(layer));
-    };
-    for (const EdgeStyle& style : other_edges) add(style);
-    add({EdgeState::free, "free", "free edge", colors::components[0]});
+    }
     drawing.roadmap.emplace();
     drawing.roadmap->states = positions();
     drawing.roadmap->graph = Graph::from_edges(vertex_count(), {});
@@ -149,14 +149,12 @@ class RoadmapDrawing {
     std::vector<JointState> states;
     for (VertexId v = 0; v < vertex_count(); ++v) states.push_back(joints(v));
     std::vector<ToolLines> lines;
-    const auto add = [&](EdgeStyle style) {
+    for (const EdgeStyle& style : edge_styles) {
       lines.push_back({style.id, style.label, style.color, style.state == EdgeState::free ? widths::edge : thin, {}});
       edges_in(style.state, arrays_, execution_).for_each_edge([&](VertexId v, VertexId w) {
         lines.back().edges.push_back({v, w});
       });
-    };
-    for (const EdgeStyle& style : other_edges) add(style);
-    add({EdgeState::free, "free", "free edge", colors::components[0]});
+    }
     ArmViews views =
         arm_roadmap_views(scene_, arm_model_of(roadmap_.robot, 0.0, execution_),
                           scene_.start.empty() ? JointState{} : joint_state(scene_.start), states, lines, execution_);

@@ -147,9 +147,8 @@ Vec2 narrowest_on(const PathParts& parts, std::size_t leg) {
 /// The square lies in the box of all.
 std::optional<double> one_sample_in(const Scene& scene, const Answer& answer, const Execution& execution) {
   const Problem& problem = answer.problem;
-  const bool is_round = problem.robot.kind == RobotKind::point || problem.robot.kind == RobotKind::disc;
   const double free = 2.0 * (answer.min_clearance - problem.clearance);
-  if (!is_round || answer.sampler.empty() || answer.raw_length || !(free > 0.0)) return std::nullopt;
+  if (!is_round(problem.robot) || answer.sampler.empty() || answer.raw_length || !(free > 0.0)) return std::nullopt;
   const Box box = room_of(scene, execution);
   return std::max(1.0, box.width() * box.height() / (free * free));
 }
@@ -286,7 +285,7 @@ class Hints {
   /// One that proves what it says, else one of another kind.
   void add_planners() {
     const RobotKind body = answer_.problem.robot.kind;
-    const bool in_plane = !scene_.map && (body == RobotKind::point || body == RobotKind::disc);
+    const bool in_plane = !scene_.map && is_round(answer_.problem.robot);
     const auto offer_planner = [&](PlannerKind planner, std::string_view why) {
       if (planner == options_.planner) return false;
       const auto change = [&](SolveOptions& options) { options.planner = planner; };

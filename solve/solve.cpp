@@ -459,9 +459,11 @@ void add_account(const BuildAccount& built, Answer& answer) {
 Answer kept_and_solved(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,
                        Roadmap& roadmap, ByProducts* keep) {
   SolveOptions built_by = options_of_roadmap(options, choose_solver(options, scene, question).planner);
-  Question asked = question;
-  asked.rule = rule_of(scene, question);
-  check_buildable(scene, asked, built_by);
+  if (const AskedWords words = words_in(rule_of(scene, question)); !words.empty()) {
+    throw UsageError(fmt::format("{}: kept roadmaps are asked for one goal; solve takes it without @save_roadmap",
+                                 place_of_word(words.members().front(), scene, question)));
+  }
+  check_buildable(scene, question, built_by);
   const bool by_question = is_roadmap_planner(*built_by.planner) && grows(built_by, scene, robot_of(scene, question));
   Answer solved;
   if (by_question) {

@@ -20,12 +20,6 @@
 #include "tools/words/help.hpp"
 
 namespace warren::tools {
-// The first pages of heap and stack, asked of the kernel at once: one call instead of some fifty interruptions, half a
-// microsecond each on a good day, ten on a bad one. A small question touches no more than these.
-
-/// Never fails: a kernel that knows no such call gives the pages one by one, as they are touched.
-void take_first_pages();
-
 namespace {
 
 int run_command(const Command& command, std::span<const std::string> words) {
@@ -67,6 +61,9 @@ int run_program(std::span<const std::string> words) {
   return run_with_errors_told("warren", usage_hint(words), [&] { return dispatch(words); });
 }
 
+// The first pages of heap and stack, asked of the kernel at once: one call instead of some fifty interruptions, half a
+// microsecond each on a good day, ten on a bad one. A small question touches no more than these.
+
 constexpr std::size_t heap_bytes = 120 << 10;  // below what malloc() maps by itself, so that it gives them out again
 constexpr std::size_t stack_bytes = 64 << 10;  // far below the first 128 KiB, which the kernel has set aside
 
@@ -81,8 +78,7 @@ void populate(std::uintptr_t first, std::size_t bytes) {
 void populate(std::uintptr_t, std::size_t) {}
 #endif
 
-}  // namespace
-
+/// Never fails: a kernel that knows no such call gives the pages one by one, as they are touched.
 void take_first_pages() {
   if (void* const heap = std::malloc(heap_bytes)) {
     populate(reinterpret_cast<std::uintptr_t>(heap), heap_bytes);
@@ -92,6 +88,7 @@ void take_first_pages() {
   populate(here - stack_bytes, stack_bytes);
 }
 
+}  // namespace
 }  // namespace warren::tools
 
 int main(int argc, char** argv) {

@@ -50,8 +50,6 @@ std::unique_ptr<CellWallReader> RemoteCells::reader() const { return std::make_u
 
 namespace {
 
-void pack_links(const EndLinks& end, ValuePacker& to) { to.add_list(end.links); }
-
 /// Edges that a rank's tiles and the row of tiles below them have to know.
 std::vector<std::uint64_t> edges_near(std::span<const std::uint64_t> edges, TileRows rows, unsigned side_log2) {
   std::vector<std::uint64_t> near;
@@ -295,8 +293,8 @@ bool Leader::can_hold(std::size_t bytes, std::uint64_t keys, const Execution& ex
 /// Each reduces its tiles, and keeps them. own: those of this rank.
 Leader::Reduced Leader::reduce_bands(const OverlayEnds& ends, BandPeeling peeling, const Execution& execution) {
   ValuePacker packer;
-  pack_links(ends.start, packer);
-  pack_links(ends.goal, packer);
+  packer.add_list(ends.start.links);
+  packer.add_list(ends.goal.links);
   packer.add(peeling);
   requests_.ask(Request::reduce, packer.bytes());
   Reduced reduced{band_.reduce(ends, peeling, execution), {}, 0};

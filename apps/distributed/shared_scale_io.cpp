@@ -59,22 +59,14 @@ struct RanksRun {
 
   double cells() const { return static_cast<double>(rows) * cols; }
   std::string_view scaling() const { return is_strong ? "strong" : "weak"; }
-  double cpu_s() const {
-    double sum = 0.0;
-    for (const RankUse& rank : used) sum += rank.cpu_s;
-    return sum;
-  }
-  std::uint64_t bytes_sent() const {
-    std::uint64_t sum = 0;
-    for (const RankUse& rank : used) sum += rank.bytes_sent;
-    return sum;
+  template <class T>
+  T sum(T RankUse::*figure) const {
+    T all = 0;
+    for (const RankUse& rank : used) all += rank.*figure;
+    return all;
   }
   /// Of the rank that held most.
-  std::uint64_t peak_bytes() const {
-    std::uint64_t most = 0;
-    for (const RankUse& rank : used) most = std::max(most, rank.peak_bytes);
-    return most;
-  }
+  std::uint64_t peak_bytes() const { return std::ranges::max(used, {}, &RankUse::peak_bytes).peak_bytes; }
 };
 
 studies::TextTable ranks_table(std::span<const RanksRun> runs) {
@@ -83,12 +75,12 @@ studies::TextTable ranks_table(std::span<const RanksRun> runs) {
   for (const RanksRun& run : runs) {
     const auto first =
         std::find_if(runs.begin(), runs.end(), [&](const RanksRun& r) { return r.is_strong == run.is_strong; });
-    const double cpu_ns = 1e9 * run.cpu_s() / run.cells();
+    const double cpu_ns = 1e9 * run.sum(&RankUse::cpu_s) / run.cells();
     table.rows.push_back({std::string(run.scaling()), std::to_string(run.ranks),
                           fmt::format("{}x{}", run.rows, run.cols), fmt::format("{:.2f} s", run.seconds),
-                          fmt::format("{:.2f} s", run.cpu_s()), fmt::format("{:.2f} ns", cpu_ns),
-                          fmt::format("{:.3f}", cpu_ns / (1e9 * first->cpu_s() / first->cells())),
-                          fmt::format("{:.4f} B", static_cast<double>(run.bytes_sent()) / run.cells()),
+                          fmt::format("{:.2f} s", run.sum(&RankUse::cpu_s)), fmt::format("{:.2f} ns", cpu_ns),
+                          fmt::format("{:.3f}", cpu_ns / (1e9 * first->sum(&RankUse::cpu_s) / first->cells())),
+                          fmt::format("{:.4f} B", static_cast<double>(run.sum(&RankUse::bytes_sent)) / run.cells()),
                           human_bytes(static_cast<double>(run.peak_bytes()))});
   }
   return table;
@@ -111,8 +103,8 @@ std::string ranks_json(std::span<const RanksRun> runs, const MazeOptions& mazes,
                     {"cols", run.cols},
                     {"length", run.length},
                     {"clock_s", run.seconds},
-                    {"cpu_s", run.cpu_s()},
-                    {"bytes_sent", run.bytes_sent()},
+                    {"cpu_s", run.sum(&RankUse::cpu_s)},
+                    {"bytes_sent", run.sum(&RankUse::bytes_sent)},
                     {"bytes_by_request", traffic},
                     {"by_rank", ranks}});
   }

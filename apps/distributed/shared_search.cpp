@@ -259,19 +259,17 @@ void SharedSearch::search() {
 void SharedSearch::tell_rims() {
   const std::vector<Bytes> answers =
       all(RoundStep::rims, [](std::size_t, ValuePacker& to) { to.add(std::uint32_t{0}); });
-  std::vector<std::array<std::array<std::vector<double>, border_count>, side_count>> rims(ranks_.size());
+  std::vector<BorderLists<double>> rims;
   for (std::size_t b = 0; b < answers.size(); ++b) {
     ValueUnpacker from(answers[b], fmt::format("rank {}", ranks_[b]));
-    for (auto& side : rims[b]) {
-      for (auto& labels : side) labels = from.take_list<double>();
-    }
+    rims.push_back(BorderLists<double>::unpack(from));
   }
   const std::vector<double> none;
   all(RoundStep::rims, [&](std::size_t b, ValuePacker& to) {
     to.add(std::uint32_t{1});
     for (std::size_t side = 0; side < side_count; ++side) {
-      to.add_list(b > 0 ? rims[b - 1][side][above] : none);
-      to.add_list(b + 1 < rims.size() ? rims[b + 1][side][below] : none);
+      to.add_list(b > 0 ? rims[b - 1].of[side][above] : none);
+      to.add_list(b + 1 < rims.size() ? rims[b + 1].of[side][below] : none);
     }
   });
 }
@@ -300,20 +298,6 @@ std::vector<RouteKey> SharedSearch::trace(std::size_t side) {
     band = is_below ? band - 1 : band + 1;
     from = {static_cast<std::uint32_t>(side), 1, is_below ? Border::above : Border::below, 0, end.crossing};
   }
-}
-
-void ToldLabels::pack(ValuePacker& to) const {
-  for (const auto& side : of) {
-    for (const auto& labels : side) to.add_list(labels);
-  }
-}
-
-ToldLabels ToldLabels::unpack(ValueUnpacker& from) {
-  ToldLabels told;
-  for (auto& side : told.of) {
-    for (auto& labels : side) labels = from.take_list<CrossingLabel>();
-  }
-  return told;
 }
 
 void HeldBand::pack(ValuePacker& to) const {

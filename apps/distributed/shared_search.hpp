@@ -46,12 +46,24 @@ struct CrossingLabel {
   double label;
 };
 /// What is told over the borders of a band, by side of the search and border.
-struct ToldLabels {
-  std::array<std::array<std::vector<CrossingLabel>, border_count>, side_count> of;
+template <class T>
+struct BorderLists {
+  std::array<std::array<std::vector<T>, border_count>, side_count> of;
 
-  void pack(ValuePacker& to) const;
-  static ToldLabels unpack(ValueUnpacker& from);
+  void pack(ValuePacker& to) const {
+    for (const auto& side : of) {
+      for (const auto& list : side) to.add_list(list);
+    }
+  }
+  static BorderLists unpack(ValueUnpacker& from) {
+    BorderLists told;
+    for (auto& side : told.of) {
+      for (auto& list : side) list = from.take_list<T>();
+    }
+    return told;
+  }
 };
+using ToldLabels = BorderLists<CrossingLabel>;
 
 /// Answer to RoundStep::hold: what is missing, or what the others must know of the band.
 struct HeldBand {

@@ -116,12 +116,9 @@ class SharedSolve : public tools::AnswerCommand {
   Scene scene_drawn(const Execution& execution, ByProducts&) override {
     return read_world(arguments_.operand(0), execution);
   }
-  void explain(const Execution&, Answer&, ByProducts&) override {}
-  const Roadmap& roadmap() const override { return roadmap_; }
 
   Transport& transport_;
   SharedQuestion asked_;
-  Roadmap roadmap_;
 };
 
 /// Says nothing of words that rank 0 refuses, too.

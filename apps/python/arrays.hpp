@@ -43,6 +43,8 @@ struct NumberRows {
   const double* numbers = nullptr;
   std::size_t rows = 0;
   std::size_t columns = 0;
+
+  std::vector<double> row(std::size_t i) const { return {numbers + i * columns, numbers + (i + 1) * columns}; }
 };
 
 /// An (n, columns) argument, of float64 or of whole numbers. Throws TypeError, which names it, for another type or

@@ -93,10 +93,6 @@ py::dict price_of(const PriceParts& price) {
   return parts;
 }
 
-py::object price_or_none(const Answer& answer) {
-  return answer.price ? py::object(price_of(*answer.price)) : py::object(py::none());
-}
-
 py::object reached_of(const Answer& answer) {
   if (!answer.goal_reached) return py::none();
   const GoalReached& reached = *answer.goal_reached;
@@ -209,7 +205,7 @@ void figure(Class& answers, const char* name, const Get& get) {
 /// Of prices, goals that are many, and other ways.
 void bind_prices(py::class_<KeptAnswer>& answers) {
   figure(answers, "cost", [](const Answer& a) { return a.cost.value_or(unknown); });
-  figure(answers, "price", &price_or_none);
+  figure(answers, "price", [](const Answer& a) { return a.price ? std::optional(price_of(*a.price)) : std::nullopt; });
   figure(answers, "cost_error", [](const Answer& a) { return a.price ? a.price->error : unknown; });
   figure(answers, "bound_of",
          [](const Answer& a) { return a.bound_of.empty() ? std::nullopt : std::optional(a.bound_of); });

@@ -5,7 +5,6 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <initializer_list>
 #include <iterator>
 
 #include "apps/python/bind.hpp"
@@ -100,16 +99,12 @@ tools::Command of_verb(std::string_view name, const tools::Command& verb, const 
   return made;
 }
 
-bool is_among(std::initializer_list<std::string_view> options, const tools::OptionSpec& spec) {
-  return std::find(options.begin(), options.end(), spec.name) != options.end();
-}
-
 /// Those that say how `warren build` works, not where things are written.
 tools::Command building() {
   return of_verb("build", tools::build_command(), [](const tools::OptionSpec& spec) {
-    return !is_among({"--output", "--no-world", "--map-rules", "--request", "--threads", "--budget", "--memory",
-                      "--quiet", "--progress", "--color", "--trace"},
-                     spec);
+    return !tools::is_among(spec.name,
+                            "--output --no-world --map-rules --request --threads --budget --memory --quiet --progress "
+                            "--color --trace");
   });
 }
 
@@ -120,7 +115,7 @@ bool is_of_search(const tools::OptionSpec& spec) {
 
 tools::Command asking() {
   return of_verb("query", tools::query_command(), [](const tools::OptionSpec& spec) {
-    return is_of_search(spec) || is_among({"--start", "--goal"}, spec);
+    return is_of_search(spec) || tools::is_among(spec.name, "--start --goal");
   });
 }
 /// Lengths alone have no bound.
@@ -236,7 +231,7 @@ py::tuple counts(KeptRoadmap& kept) {
 }
 
 void learn_from_questions(KeptRoadmap& kept) {
-  const Learning learning(kept);
+  const Asking alone(kept, true);
   CallLimits().run([&](const Execution& execution) { kept.learn(execution); });
 }
 

@@ -49,8 +49,7 @@ std::optional<Answer> take_old_answer(py::dict& keywords) {
 
 /// hole is the second half of --alternatives.
 void join_hole(py::dict& keywords) {
-  if (!keywords.contains("hole")) return;
-  const py::object hole = keywords.attr("pop")("hole");
+  const py::object hole = keywords.attr("pop")("hole", py::none());
   if (hole.is_none()) return;
   const py::object count = keywords.attr("get")("alternatives");
   if (count.is_none()) throw UsageError("hole: is for alternatives");
@@ -59,8 +58,7 @@ void join_hole(py::dict& keywords) {
 
 /// A file; none: nobody asks.
 std::optional<std::string> take_certificate(py::dict& keywords) {
-  if (!keywords.contains("certificate")) return std::nullopt;
-  const py::object file = keywords.attr("pop")("certificate");
+  const py::object file = keywords.attr("pop")("certificate", py::none());
   return file.is_none() ? std::nullopt : std::optional(word_of(file, "certificate"));
 }
 
@@ -159,12 +157,8 @@ py::dict judge_states(const Scene& scene, const py::object& states, const py::di
                               : rows_of(states, "path", {2, 3, 6});
   RecordedAnswer answer;
   answer.file = "path";
-  const auto end = [&](std::size_t i) {
-    const double* state = rows.numbers + i * rows.columns;
-    return std::vector<double>(state, state + rows.columns);
-  };
-  if (scene.start.empty() && rows.rows > 0) answer.problem.start = end(0);
-  if (scene.goal.empty() && rows.rows > 0) answer.problem.goal = end(rows.rows - 1);
+  if (scene.start.empty() && rows.rows > 0) answer.problem.start = rows.row(0);
+  if (scene.goal.empty() && rows.rows > 0) answer.problem.goal = rows.row(rows.rows - 1);
   if (rows.columns != 2) answer.states.width = rows.columns;
   for (std::size_t i = 0; i < rows.rows; ++i) {
     const double* state = rows.numbers + i * rows.columns;
@@ -215,12 +209,10 @@ KeptAnswer replanned(Replanner& replanner, const std::vector<double>& start, py:
 
 /// Without a world random graphs alone.
 studies::Comparison compare(const Scene* scene, py::dict keywords) {
-  if (keywords.contains("budget") && !keywords["budget"].is_none()) {
-    keywords["budget"] = budget_word(keywords["budget"]);
-  }
   const py::object each_budget = keywords.attr("pop")("budget", py::none());
+  const py::object word = each_budget.is_none() ? each_budget : py::object(py::str(budget_word(each_budget)));
   CallLimits limits = take_limits(keywords);
-  keywords["budget"] = each_budget;
+  keywords["budget"] = word;
   std::vector<std::string> world;
   if (scene != nullptr) world.push_back(scene->source);
   const tools::CompareOptions options =

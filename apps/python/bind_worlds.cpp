@@ -177,9 +177,7 @@ MazeHint read_maze(py::handle value) {
 /// (n, 4); boxes (n, 6); solids, lines; bounds (4,); maze (rows, cols); source. All but the checks of polygons, which
 /// need no lock: check_scene. Throws TypeError, InputError.
 Scene scene_of_arrays(const py::dict& parts) {
-  const auto part = [&](const char* name) -> py::object {
-    return parts.contains(name) ? py::object(parts[name]) : py::object(py::none());
-  };
+  const auto part = [&](const char* name) -> py::object { return parts.attr("get")(name); };
   Scene scene;
   const py::object source = part("source");
   if (!py::isinstance<py::str>(source)) refuse_part("source", "a name", source);
@@ -253,10 +251,7 @@ void take_question(Scene& scene, const py::dict& keywords) {
 Scene read_named(const std::string& source, py::dict keywords) {
   CallLimits limits = take_limits(keywords);
   const tools::Arguments words = arguments_of(made_once<reading>(), keywords);
-  return limits.run([&](const Execution& execution) {
-    StageTimes seconds;
-    return tools::load_world(source, words, execution, seconds);
-  });
+  return limits.run([&](const Execution& execution) { return tools::load_world(source, words, execution); });
 }
 
 Scene read_text(const std::string& name, const std::string& text, const py::dict& keywords) {
@@ -417,11 +412,9 @@ void bind_what_is_seen(py::class_<Scene>& scene) {
       .def_property_readonly("clearance", [](const Scene& s) { return s.clearance; })
       .def_property_readonly("start", [](const Scene& s) { return s.start; })
       .def_property_readonly("goal", [](const Scene& s) { return s.goal; })
-      .def_property_readonly("maze",
-                             [](const Scene& s) -> py::object {
-                               if (!s.maze) return py::none();
-                               return py::make_tuple(s.maze->rows, s.maze->cols);
-                             })
+      .def_property_readonly(
+          "maze",
+          [](const Scene& s) { return s.maze ? std::optional(std::pair(s.maze->rows, s.maze->cols)) : std::nullopt; })
       .def_property_readonly("raster", [](const Scene& s) -> py::object {
         if (!s.map) return py::none();
         return py::make_tuple(s.map->cell, s.map->origin.x, s.map->origin.y, s.map->yaw_rad);

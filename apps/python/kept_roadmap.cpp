@@ -12,11 +12,6 @@
 namespace warren::python {
 namespace {
 
-std::vector<double> row(const NumberRows& rows, std::size_t i) {
-  const double* first = rows.numbers + i * rows.columns;
-  return {first, first + rows.columns};
-}
-
 /// Of what is wrong with a start or a goal its row; an option that is wrong has none.
 [[noreturn]] void refuse_row(const UsageError& error, std::size_t start, std::size_t goal) {
   constexpr std::string_view of_start = "start: ";
@@ -50,9 +45,7 @@ const RawVector<double>& KeptRoadmap::lengths(const Execution& execution) const 
       for (std::size_t v = r.first; v < r.last; ++v) {
         const auto from = static_cast<VertexId>(v);
         std::size_t end = graph.first_end(from);
-        for (const VertexId to : graph.neighbours(from)) {
-          (*lengths)[end++] = length(from, to, asked);
-        }
+        for (const VertexId to : graph.neighbours(from)) (*lengths)[end++] = length(from, to, asked);
       }
     });
     return lengths;
@@ -102,7 +95,7 @@ void ask_lengths(const KeptRoadmap& kept, const NumberRows& starts, const Number
     const std::size_t start = each_to_each ? i / goals.rows : starts.rows == 1 ? 0 : i;
     const std::size_t goal = each_to_each ? i % goals.rows : goals.rows == 1 ? 0 : i;
     try {
-      const LengthAnswer answer = query.length_within(row(starts, start), row(goals, goal), how, one_thread, scratch);
+      const LengthAnswer answer = query.length_within(starts.row(start), goals.row(goal), how, one_thread, scratch);
       lengths[i] = answer.outcome == Outcome::solved ? answer.length : std::numeric_limits<double>::infinity();
     } catch (const UsageError& error) {
       refuse_row(error, start, goal);

@@ -25,7 +25,6 @@ class KeptRoadmap {
 
  private:
   friend class Asking;
-  friend class Learning;
   static constexpr int learner = -1;
   int askers_ = 0;  // calls that ask now, or `learner`; read and written with the interpreter's lock held
 
@@ -35,35 +34,20 @@ class KeptRoadmap {
   MadeOnce<RawVector<double>> lengths_;
 };
 
-/// One of those who ask: any number of them, while nobody learns. Made and ended with the interpreter's lock held,
-/// which is free between.
+/// One of those who ask: any number of them, while nobody learns; or the only one, who learns and may change the
+/// roadmap. Made and ended with the interpreter's lock held, which is free between.
 class Asking {
  public:
-  /// Throws ValueError while another thread learns.
-  explicit Asking(KeptRoadmap& kept) : kept_(kept) {
+  /// Throws ValueError while another thread learns, and for who `learns` while another one asks.
+  explicit Asking(KeptRoadmap& kept, bool learns = false) : kept_(kept) {
+    if (learns && kept.askers_ != 0) throw pybind11::value_error("learn: another thread asks this roadmap now");
     if (kept.askers_ == KeptRoadmap::learner)
       throw pybind11::value_error("roadmap: another thread calls its learn() now");
-    ++kept_.askers_;
+    kept.askers_ = learns ? KeptRoadmap::learner : kept.askers_ + 1;
   }
-  ~Asking() { --kept_.askers_; }
+  ~Asking() { kept_.askers_ = kept_.askers_ == KeptRoadmap::learner ? 0 : kept_.askers_ - 1; }
   Asking(const Asking&) = delete;
   Asking& operator=(const Asking&) = delete;
-
- private:
-  KeptRoadmap& kept_;
-};
-
-/// The only one, who may change the roadmap.
-class Learning {
- public:
-  /// Throws ValueError while another thread asks or learns.
-  explicit Learning(KeptRoadmap& kept) : kept_(kept) {
-    if (kept.askers_ != 0) throw pybind11::value_error("learn: another thread asks this roadmap now");
-    kept_.askers_ = KeptRoadmap::learner;
-  }
-  ~Learning() { kept_.askers_ = 0; }
-  Learning(const Learning&) = delete;
-  Learning& operator=(const Learning&) = delete;
 
  private:
   KeptRoadmap& kept_;

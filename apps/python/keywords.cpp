@@ -121,8 +121,7 @@ std::string word_of(py::handle value, const std::string& keyword) {
   if (PySequence_Check(value.ptr()) != 0) {
     std::string words;
     for (const py::handle item : py::reinterpret_borrow<py::sequence>(value)) {
-      const bool is_list = PySequence_Check(item.ptr()) != 0 && !py::isinstance<py::str>(item);
-      words.append(words.empty() ? "" : is_list ? ";" : ",").append(word_of(item, keyword));
+      words.append(words.empty() ? "" : is_list(item) ? ";" : ",").append(word_of(item, keyword));
     }
     return words;
   }
@@ -158,10 +157,7 @@ std::string budget_word(py::handle value) {
 }
 
 CallLimits take_limits(py::dict& keywords) {
-  const auto take = [&](const char* keyword) -> py::object {
-    if (!keywords.contains(keyword)) return py::none();
-    return keywords.attr("pop")(keyword);
-  };
+  const auto take = [&](const char* keyword) -> py::object { return keywords.attr("pop")(keyword, py::none()); };
   const auto word = [&](const char* keyword, std::string_view unit) -> std::optional<std::string> {
     const py::object value = take(keyword);
     if (value.is_none()) return std::nullopt;

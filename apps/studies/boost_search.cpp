@@ -92,7 +92,7 @@ class StraightDistance : public boost::astar_heuristic<BoostGraph, double> {
   Vec2 goal_;
 };
 
-class BoostSearch : public GraphSearch {
+class BoostSearch {
  public:
   BoostSearch(const SearchGraph& from, SearchKind search)
       : from_(from),
@@ -103,7 +103,7 @@ class BoostSearch : public GraphSearch {
         parent_(g_.size()),
         color_(g_.size()) {}
 
-  SearchResult run(const Execution& execution) override {
+  SearchResult operator()(const Execution& execution) {
     SearchResult result;
     try {
       search(Watch(from_.goal, execution, result.expanded));
@@ -168,8 +168,6 @@ class BoostSearch : public GraphSearch {
 
 }  // namespace
 
-std::unique_ptr<GraphSearch> boost_search(const SearchGraph& graph, SearchKind search) {
-  return std::make_unique<BoostSearch>(graph, search);
-}
+GraphSearch boost_search(const SearchGraph& graph, SearchKind search) { return BoostSearch(graph, search); }
 
 }  // namespace warren::studies

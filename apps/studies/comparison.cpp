@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -12,6 +11,7 @@
 
 #include "apps/studies/search_graph.hpp"
 #include "core/base/rng.hpp"
+#include "scenes/text/scene_text.hpp"
 #include "solve/answer/write_answer_io.hpp"
 
 namespace warren::studies {
@@ -156,17 +156,13 @@ ComparisonRow row_of(const Contender& contender) {
 
 std::vector<std::pair<std::string, std::string>> json_options(const std::vector<NamedFigure>& options) {
   std::vector<std::pair<std::string, std::string>> texts;
-  for (const auto& [name, value] : options) {
-    texts.emplace_back(name, figure_json(value));
-  }
+  for (const auto& [name, value] : options) texts.emplace_back(name, figure_json(value));
   return texts;
 }
 
-std::optional<double> number_in_word(const std::string& word) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  const bool is_number = error == std::errc{} && end == word.data() + word.size() && std::isfinite(value);
-  return is_number ? std::optional(value) : std::nullopt;
+std::optional<double> number_in_word(std::string_view word) {
+  const auto value = scene_text::number_in_full<double>(word);
+  return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 std::string contender_name(const Contender& contender, bool with_planner) {

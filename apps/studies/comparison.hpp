@@ -95,7 +95,7 @@ ComparisonRow row_of(const Contender& contender);
 std::vector<std::pair<std::string, std::string>> json_options(const std::vector<NamedFigure>& options);
 
 /// The number that a dealt word is, of those that are one.
-std::optional<double> number_in_word(const std::string& word);
+std::optional<double> number_in_word(std::string_view word);
 
 /// "astar, sorted-array", "prm, bfs"; `with_planner` where searches of one graph are not all there is.
 std::string contender_name(const Contender& contender, bool with_planner);

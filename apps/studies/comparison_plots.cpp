@@ -382,21 +382,21 @@ std::vector<PlotSheet> line_panels(const std::vector<Family>& families) {
 }  // namespace
 
 std::vector<PlotSheet> comparison_panels(const Comparison& comparison) {
-  if (std::any_of(comparison.contenders.begin(), comparison.contenders.end(), has_curve)) {
-    std::vector<PlotSheet> panels = curve_panels(comparison);
-    for (PlotSheet& panel : list_panels(comparison)) panels.push_back(std::move(panel));
-    for (PlotSheet& panel : box_panels(comparison)) panels.push_back(std::move(panel));
+  const bool get_better = std::ranges::any_of(comparison.contenders, has_curve);
+  std::vector<PlotSheet> panels = get_better ? curve_panels(comparison) : std::vector<PlotSheet>();
+  const auto add = [&](std::vector<PlotSheet> more) { std::ranges::move(more, std::back_inserter(panels)); };
+  add(list_panels(comparison));
+  if (get_better) {
+    add(box_panels(comparison));
     return panels;
   }
-  std::vector<PlotSheet> panels = list_panels(comparison);
-  const std::vector<SweepCurve> curves = sweep_curves(comparison);
+  const std::vector<SweepCurve> sizes = sweep_curves(comparison);
   const bool is_alone = panels.empty();
-  for (const Plot& plot : curves.empty() ? share_plots(comparison) : sweep_plots(curves)) {
-    if (!curves.empty() || is_alone || plot.series.size() <= colors::series.size()) panels.push_back(sheet_of(plot));
+  for (const Plot& plot : sizes.empty() ? share_plots(comparison) : sweep_plots(sizes)) {
+    const bool fits = !sizes.empty() || is_alone || plot.series.size() <= colors::series.size();
+    if (fits) panels.push_back(sheet_of(plot));
   }
-  if (curves.empty()) {
-    for (PlotSheet& panel : box_panels(comparison)) panels.push_back(std::move(panel));
-  }
+  if (sizes.empty()) add(box_panels(comparison));
   return panels;
 }
 

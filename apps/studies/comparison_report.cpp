@@ -22,13 +22,6 @@ bool is_sweep(const Comparison& comparison, std::size_t problem) {
   return comparison.problems[problem].kind == "geometric";
 }
 
-bool has_peer(const Comparison& comparison) {
-  for (const Contender& c : comparison.contenders) {
-    if (c.library != "warren") return true;
-  }
-  return false;
-}
-
 template <class Text>
 std::string if_known(const std::optional<Distribution>& d, const Text& text) {
   return d ? text(*d) : "-";
@@ -36,6 +29,10 @@ std::string if_known(const std::optional<Distribution>& d, const Text& text) {
 
 std::string median_number(const std::optional<Distribution>& d) {
   return if_known(d, [](const Distribution& k) { return human_number(k.median); });
+}
+
+std::string seconds_text(const std::optional<Distribution>& d, double Distribution::*figure) {
+  return d ? precise_seconds((*d).*figure) : "-";
 }
 
 std::string median_interval(const Distribution& d) {
@@ -54,13 +51,12 @@ TextTable search_table(const Comparison& comparison, std::size_t problem) {
                    "median", "95 % for the median", "mean"},
                   3,
                   {}};
-  const bool with_library = has_peer(comparison);
+  const bool with_library =
+      std::ranges::any_of(comparison.contenders, [](const Contender& c) { return c.library != "warren"; });
   for (const Contender& c : comparison.contenders) {
     if (c.problem != problem) continue;
     const ComparisonRow row = row_of(c);
-    const auto seconds = [&](double Distribution::*figure) {
-      return if_known(row.time_s, [&](const Distribution& d) { return precise_seconds(d.*figure); });
-    };
+    const auto seconds = [&](double Distribution::*figure) { return seconds_text(row.time_s, figure); };
     const auto length = [](const Distribution& d) { return fmt::format("{:.10g}", d.median); };
     table.rows.push_back({c.search, c.queue.empty() ? "-" : c.queue, with_library ? c.library : "",
                           if_known(row.length, length), median_number(row.hops), median_number(row.expanded),
@@ -94,9 +90,7 @@ TextTable planner_table(const Comparison& comparison, std::size_t problem) {
     const auto number = [&](double Distribution::*figure) {
       return if_known(row.length, [&](const Distribution& d) { return human_number(d.*figure); });
     };
-    const auto seconds = [&](double Distribution::*figure) {
-      return if_known(row.time_s, [&](const Distribution& d) { return precise_seconds(d.*figure); });
-    };
+    const auto seconds = [&](double Distribution::*figure) { return seconds_text(row.time_s, figure); };
     table.rows.push_back({planner_cell(c), fmt::format("{} of {}", row.solved, row.runs), success_text(c, row),
                           number(&Distribution::q1), number(&Distribution::median), number(&Distribution::q3),
                           row.priced_cost ? median_number(row.priced_cost) : "", median_number(row.hops),
@@ -109,12 +103,6 @@ TextTable planner_table(const Comparison& comparison, std::size_t problem) {
 }
 
 // Random graphs of many sizes as text: a table a search, sizes down, queues across, and the crossings.
-
-std::vector<std::string> searches_of(const std::vector<SweepCurve>& curves) {
-  std::vector<std::string> searches;
-  for (const SweepCurve& curve : curves) add_once(searches, curve.search);
-  return searches;
-}
 
 std::string time_at(const SweepCurve& curve, double size) {
   const auto found = std::find_if(curve.points.begin(), curve.points.end(), [&](const Vec2 p) { return p.x == size; });
@@ -218,7 +206,9 @@ std::string comparison_summary(const Comparison& comparison, const Palette& pale
 std::vector<ReportTable> sweep_tables(const Comparison& comparison) {
   const std::vector<SweepCurve> curves = sweep_curves(comparison);
   std::vector<ReportTable> tables;
-  for (const std::string& search : searches_of(curves)) tables.push_back({"", table_of(curves, search)});
+  std::vector<std::string> searches;
+  for (const SweepCurve& curve : curves) add_once(searches, curve.search);
+  for (const std::string& search : searches) tables.push_back({"", table_of(curves, search)});
   TextTable crossings{{"search", "array", "against", "from which size on the array is slower"}, 4, {}};
   for (const QueueCrossing& c : queue_crossings(curves)) {
     crossings.rows.push_back({c.search, c.array, c.heap, crossing_text(c)});

@@ -22,6 +22,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/types.hpp"
+#include "core/plane/geometry.hpp"
 #include "core/run/execution.hpp"
 #include "pictures/draw_answer.hpp"
 #include "pictures/formats/write_picture.hpp"
@@ -40,11 +41,6 @@ using Leg = std::array<double, 4>;               // of its ends, the lesser firs
 using PathNumbers = std::vector<std::uint32_t>;  // ascending, each once
 
 constexpr std::size_t legs_per_poll = 1 << 12;
-
-Leg leg_between(Vec2 a, Vec2 b) {
-  if (std::pair(b.x, b.y) < std::pair(a.x, a.y)) std::swap(a, b);
-  return {a.x, a.y, b.x, b.y};
-}
 
 /// The longer side of the box of all of them.
 double extent_of(std::span<const std::vector<Vec2>> paths) {
@@ -141,7 +137,7 @@ class SharedLegs {
       : paths_(paths), dash_(dash), execution_(execution), shown_(paths.size()) {
     for (std::uint32_t i = 0; i < paths.size(); ++i) {
       for_each_leg(i, [&](Vec2 a, Vec2 b) {
-        PathNumbers& users = users_[leg_between(a, b)];
+        PathNumbers& users = users_[ordered_ends(a, b)];
         if (users.empty() || users.back() != i) users.push_back(i);
       });
     }
@@ -153,7 +149,7 @@ class SharedLegs {
       std::vector<Vec2> run;
       const PathNumbers* along = nullptr;
       for_each_leg(i, [&](Vec2 a, Vec2 b) {
-        const PathNumbers& users = users_.at(leg_between(a, b));
+        const PathNumbers& users = users_.at(ordered_ends(a, b));
         if (along == nullptr || *along != users) {
           end_run(i, along, run);
           run = {a};
@@ -182,8 +178,7 @@ class SharedLegs {
   }
   /// Dashes of equal length, as many for each.
   void take_turns(const PathNumbers& users, const std::vector<Vec2>& run) {
-    double length = 0.0;
-    for (std::size_t k = 1; k < run.size(); ++k) length += distance(run[k - 1], run[k]);
+    const double length = path_length(run, [](Vec2 a, Vec2 b) { return distance(a, b); });
     const auto rounds = std::max(std::round(length / dash_ / static_cast<double>(users.size())), 1.0);
     const auto dashes = static_cast<std::size_t>(rounds) * users.size();
     const double each = length / static_cast<double>(dashes);
@@ -212,16 +207,6 @@ class SharedLegs {
   std::vector<PolygonSet> shown_;
 };
 
-}  // namespace
-
-std::vector<PolygonSet> lines_side_by_side(std::span<const std::vector<Vec2>> paths, double dash,
-                                           const Execution& execution) {
-  const std::vector<std::vector<Vec2>> cut = PathsCut(paths, execution).take();
-  return SharedLegs(cut, dash, execution).take();
-}
-
-namespace {
-
 struct NamedPath {
   std::string label;         ///< in the legend
   std::vector<Vec2> points;  ///< arcs as chords
@@ -244,12 +229,6 @@ std::vector<std::string> write_named(const std::string& folder, const std::strin
   return notes;
 }
 
-/// Some sixty dashes across all that is drawn.
-double dash_of(const std::vector<std::vector<Vec2>>& paths) {
-  const double extent = extent_of(paths);
-  return extent > 0.0 ? extent / 60.0 : 1.0;
-}
-
 /// The same of one figure of several paths, each in a colour of its own with its name in the legend; where paths run
 /// along the same stretches they take turns in dashes. A map's scene has its border walls.
 std::vector<std::string> draw_paths(const std::string& folder, const std::string& name, const Scene& scene,
@@ -258,7 +237,9 @@ std::vector<std::string> draw_paths(const std::string& folder, const std::string
   if (scene.map) layers = cells_of_map(*scene.map, execution);
   std::vector<std::vector<Vec2>> points;
   for (const NamedPath& path : figure.paths) points.push_back(path.points);
-  std::vector<PolygonSet> lines = lines_side_by_side(points, dash_of(points), execution);
+  const double extent = extent_of(points);
+  const double dash = extent > 0.0 ? extent / 60.0 : 1.0;  // some sixty across all that is drawn
+  std::vector<PolygonSet> lines = lines_side_by_side(points, dash, execution);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     layers.push_back({.id = fmt::format("path_{}", i + 1),
                       .label = figure.paths[i].label,
@@ -290,21 +271,6 @@ const ComparedRun* median_run(const Contender& contender) {
     return a->length != b->length ? a->length < b->length : a->seed < b->seed;
   });
   return *middle;
-}
-
-/// Letters, digits and dashes as they are, all else as one underscore.
-std::string file_name(std::string_view text) {
-  std::string name;
-  for (const char c : text) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-';
-    if (plain) {
-      name += c;
-    } else if (!name.empty() && name.back() != '_') {
-      name += '_';
-    }
-  }
-  while (name.ends_with('_')) name.pop_back();
-  return name;
 }
 
 class ContestPictures {
@@ -387,7 +353,7 @@ std::vector<FoundPath> found_paths(const SearchGraph& graph, const SearchContest
     const Deadline deadline(execution.deadline, options.budget_s);
     Execution within = execution;
     within.deadline = &deadline;
-    SearchResult result = graph_search(graph, variant)->run(within);
+    SearchResult result = graph_search(graph, variant)(within);
     if (result.status != SearchStatus::found) continue;
     const auto same = std::find_if(all.begin(), all.end(), [&](const FoundPath& f) {
       return f.first.search == variant.search && f.expanded == result.expanded && f.path == result.path;
@@ -417,6 +383,12 @@ std::string label_of(const FoundPath& found, const std::vector<FoundPath>& all, 
 
 }  // namespace
 
+std::vector<PolygonSet> lines_side_by_side(std::span<const std::vector<Vec2>> paths, double dash,
+                                           const Execution& execution) {
+  const std::vector<std::vector<Vec2>> cut = PathsCut(paths, execution).take();
+  return SharedLegs(cut, dash, execution).take();
+}
+
 std::vector<std::string> draw_contest(const Scene& scene, const PlannerContestOptions& options,
                                       const Comparison& comparison, const std::string& folder,
                                       const Execution& execution) {
@@ -427,6 +399,16 @@ std::vector<std::string> draw_contest(const Scene& scene, const PlannerContestOp
   }
   pictures.draw_paths();
   return pictures.take_notes();
+}
+
+std::string file_name(std::string_view text, char between) {
+  std::string name;
+  for (const char c : text) {
+    const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    const bool is_plain = is_letter || (c >= '0' && c <= '9') || (c == '-' && between != '-');
+    if (is_plain || !(name.empty() || name.ends_with(between))) name += is_plain ? c : between;
+  }
+  return name.substr(0, name.find_last_not_of(between) + 1);
 }
 
 void make_folder(const std::string& folder) {

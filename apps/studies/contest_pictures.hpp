@@ -6,6 +6,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/studies/comparison.hpp"
@@ -26,6 +27,10 @@ namespace warren::studies {
 std::vector<std::string> draw_contest(const Scene& scene, const PlannerContestOptions& options,
                                       const Comparison& comparison, const std::string& folder,
                                       const Execution& execution);
+
+/// A text as part of a file's name: letters and digits as they are, and dashes; all else as one `between`, but at the
+/// ends.
+std::string file_name(std::string_view text, char between = '_');
 
 /// Makes the folder where there is none; throws WriteError where that fails or it can't be written in.
 void make_folder(const std::string& folder);

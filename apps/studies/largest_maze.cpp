@@ -12,6 +12,7 @@
 #include <numbers>
 
 #include "core/base/error.hpp"
+#include "parallel/asked_memory.hpp"
 #include "pictures/plots/plot.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/text/human_units.hpp"
@@ -26,13 +27,6 @@ enum Direction : std::uint8_t { up, right, down, left };
 constexpr std::uint8_t reached = 4;
 constexpr int came_by_shift = 3;  ///< bits 3 and 4 of a reached cell's byte: the direction of the step into it
 constexpr std::size_t poll_every = std::size_t{1} << 16;
-
-/// Appends to a list that may fill much of the memory: asks before it grows.
-template <class T>
-void append(T item, RawVector<T>& list, const Execution& execution) {
-  if (list.size() == list.capacity()) execution.reserve(2 * list.size() * sizeof(T));
-  list.push_back(item);
-}
 
 /// Breadth-first search over the cells' own bytes.
 class CellWalk {
@@ -59,7 +53,7 @@ class CellWalk {
     for (std::size_t i = goal; i != start;) {
       if (steps.size() % poll_every == 0) execution_.check();
       const auto came_by = static_cast<Direction>((bytes_[i] >> came_by_shift) & 3);
-      append(came_by, steps, execution_);
+      push_asked(steps, came_by, execution_);
       i = beyond(i, static_cast<Direction>(came_by ^ 2));
     }
     std::reverse(steps.begin(), steps.end());
@@ -126,8 +120,6 @@ Spot after(const Spot& spot, const RawVector<Direction>& steps) {
   return {spot.gate + 1, spot.cell + ahead[steps[spot.gate]]};
 }
 
-double turn(Vec2 a, Vec2 b, Vec2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
-
 /// The taut string through the gates. Half-integer coordinates below 2^23 make every turn exact.
 class Funnel {
  public:
@@ -140,29 +132,30 @@ class Funnel {
       const Gate gate = gate_at(at, steps, goal);
       if (!narrow_right(gate.right, at) || !narrow_left(gate.left, at)) at = restart_;
     }
-    if (path_.back() != goal) append(goal, path_, execution_);
+    if (path_.back() != goal) push_asked(path_, goal, execution_);
     return std::move(path_);
   }
 
  private:
   Vec2 apex() const { return path_.back(); }
+  double turn_to(Vec2 corner, Vec2 p) const { return cross(corner - apex(), p - apex()); }
   /// False where the string bends round the other side's corner: the walk goes on after that corner's gate.
   bool narrow_right(Vec2 p, const Spot& at) {
-    if (turn(apex(), right_, p) < 0.0) return true;
-    if (apex() != right_ && turn(apex(), left_, p) > 0.0) return bend(left_, left_spot_);
+    if (turn_to(right_, p) < 0.0) return true;
+    if (apex() != right_ && turn_to(left_, p) > 0.0) return bend(left_, left_spot_);
     right_ = p;
     right_spot_ = at;
     return true;
   }
   bool narrow_left(Vec2 p, const Spot& at) {
-    if (turn(apex(), left_, p) > 0.0) return true;
-    if (apex() != left_ && turn(apex(), right_, p) < 0.0) return bend(right_, right_spot_);
+    if (turn_to(left_, p) > 0.0) return true;
+    if (apex() != left_ && turn_to(right_, p) < 0.0) return bend(right_, right_spot_);
     left_ = p;
     left_spot_ = at;
     return true;
   }
   bool bend(Vec2 corner, Spot spot) {
-    append(corner, path_, execution_);
+    push_asked(path_, corner, execution_);
     left_ = right_ = corner;
     left_spot_ = right_spot_ = restart_ = spot;
     return false;
@@ -176,20 +169,6 @@ class Funnel {
   Spot right_spot_;
   Spot restart_;
 };
-
-}  // namespace
-
-Path<Vec2> bfs_funnel(const Scene& scene, const Execution& execution) {
-  MazeCells cells = cells_of_walls(scene.walls, *scene.maze, execution);
-  const std::size_t first = cells.index(0, 0);
-  const std::size_t last = cells.index(cells.cols() - 1, cells.rows() - 1);
-  CellWalk walk(cells, execution);
-  if (!walk.reaches(first, last)) return {};
-  const Vec2 goal{cells.cols() + 0.5, static_cast<double>(cells.rows())};
-  return Funnel({0.5, 1.0}, execution).pull(walk.steps(first, last), goal);
-}
-
-namespace {
 
 std::uint32_t extent(double cells) {
   return static_cast<std::uint32_t>(std::clamp(std::round(cells), 1.0, 4294967295.0));
@@ -285,8 +264,7 @@ class LargestSearch {
                         human_bytes(static_cast<double>(expected))));
       return false;
     }
-    warm_.prepare(expected, execution_);
-    result_.touch = warm_.touch();
+    touch_memory(expected, result_.touch, execution_);
     return true;
   }
   bool within_budget(const MazeTrial& t) const { return t.verified && t.solve_s <= options_.budget_s; }
@@ -297,7 +275,7 @@ class LargestSearch {
       const Path<Vec2> path = bfs_funnel(scene, execution_);
       HonestBar bar;
       bar.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-      for (std::size_t i = 1; i < path.size(); ++i) bar.length += distance(path[i - 1], path[i]);
+      bar.length = path_length(path, [](Vec2 a, Vec2 b) { return distance(a, b); });
       result_.bar = bar;
     });
   }
@@ -313,7 +291,6 @@ class LargestSearch {
   const Execution& execution_;
   const std::function<void(std::string_view)>& note_;
   LargestResult result_;
-  WarmMemory warm_;
   double bytes_a_cell_ = 0.0;  // of the last run that came to its end
 };
 
@@ -491,6 +468,16 @@ void add_figures(Json& json, const LargestResult& result) {
 }
 
 }  // namespace
+
+Path<Vec2> bfs_funnel(const Scene& scene, const Execution& execution) {
+  MazeCells cells = cells_of_walls(scene.walls, *scene.maze, execution);
+  const std::size_t first = cells.index(0, 0);
+  const std::size_t last = cells.index(cells.cols() - 1, cells.rows() - 1);
+  CellWalk walk(cells, execution);
+  if (!walk.reaches(first, last)) return {};
+  const Vec2 goal{cells.cols() + 0.5, static_cast<double>(cells.rows())};
+  return Funnel({0.5, 1.0}, execution).pull(walk.steps(first, last), goal);
+}
 
 LargestResult find_largest(const LargestOptions& options, const Execution& execution,
                            const std::function<void(std::string_view)>& note) {

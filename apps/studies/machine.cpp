@@ -136,19 +136,19 @@ void restart_peak_memory() {
   PagePool::watch_idle_bytes();
 }
 
-void WarmMemory::prepare(std::size_t bytes, const Execution& execution) {
+void touch_memory(std::size_t bytes, MemoryTouch& so_far, const Execution& execution) {
   constexpr std::size_t least = std::size_t{64} << 20;
   if (execution.deadline != nullptr) {
     const std::size_t limit = execution.deadline->memory_bytes();
     const std::size_t held = resident_bytes();
     bytes = std::min(bytes, limit > held ? limit - held : 0);
   }
-  if (bytes < least || bytes <= touch_.bytes) return;
+  if (bytes < least || bytes <= so_far.bytes) return;
   const double first_s = touch_once(bytes, execution);
   const double again_s = touch_once(bytes, execution);
   // The part that an earlier call touched was warm in the first pass too: what the colds cost more is added up.
-  const double earlier_excess_s = touch_.cold_s - touch_.warm_s;
-  touch_ = {.bytes = bytes, .cold_s = again_s + std::max(0.0, first_s - again_s) + earlier_excess_s, .warm_s = again_s};
+  const double earlier_excess_s = so_far.cold_s - so_far.warm_s;
+  so_far = {.bytes = bytes, .cold_s = again_s + std::max(0.0, first_s - again_s) + earlier_excess_s, .warm_s = again_s};
 }
 
 RunCounts operator-(const RunCounts& after, const RunCounts& before) {

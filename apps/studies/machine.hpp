@@ -34,24 +34,16 @@ nlohmann::ordered_json machine_json(const Machine& machine);
 /// From now on peak_resident_bytes() tells the peak since now, where the system can do that.
 void restart_peak_memory();
 
-/// What touching memory for the first time has cost.
+/// What touching memory for the first time has cost, before a clock starts, so that what follows finds it warm.
 struct MemoryTouch {
   std::size_t bytes = 0;  ///< the most that was touched at once; 0: nothing was
   double cold_s = 0.0;    ///< the first time
   double warm_s = 0.0;    ///< the same bytes once more
 };
 
-/// Touches memory before a clock starts, so that what follows finds it warm.
-class WarmMemory {
- public:
-  /// Has so many bytes touched at once, unless they were, or are too few to matter, or more than the limit allows.
-  /// Throws Stopped at a signal.
-  void prepare(std::size_t bytes, const Execution& execution);
-  const MemoryTouch& touch() const { return touch_; }
-
- private:
-  MemoryTouch touch_;
-};
+/// Has so many bytes touched at once, unless they were, or are too few to matter, or more than the limit allows.
+/// Throws Stopped at a signal.
+void touch_memory(std::size_t bytes, MemoryTouch& so_far, const Execution& execution);
 
 /// What a run cost beside its time: CPU seconds, page faults and involuntary switches of the process, and the
 /// processor's own counts where the kernel hands them out (perf_event_open; many virtual machines and containers

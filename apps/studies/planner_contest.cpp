@@ -72,10 +72,6 @@ std::vector<Improvement> improvements_of(const Answer& answer) {
   return all;
 }
 
-std::size_t state_count(const Answer& answer) {
-  return answer.states.empty() ? answer.path.size() : answer.states.size();
-}
-
 class PlannerContest {
  public:
   PlannerContest(const Scene& scene, const PlannerContestOptions& options, const Execution& execution,
@@ -163,7 +159,7 @@ class PlannerContest {
                     .outcome = answer.outcome,
                     .time_s = answer.solve_s,
                     .length = answer.length,
-                    .hops = state_count(answer) > 0 ? state_count(answer) - 1 : 0,
+                    .hops = path_points(answer) > 0 ? path_points(answer) - 1 : 0,
                     .expanded = expanded_by(answer)};
     if (answer.verified) run.min_clearance = answer.min_clearance;
     run.cells = cells_of(answer, scene_, raster_);
@@ -302,6 +298,24 @@ std::vector<PlannerContender> contenders_of(const PlannerDeal& deal, PlannerKind
   return with_clearances(all, deal.clearances);
 }
 
+/// An option that some planner takes in this world is not for those that take it in others alone.
+std::vector<PlannerContender> without_strange_options(std::vector<PlannerContender> contenders, const Scene& scene) {
+  const auto takes = [&](const PlannerContender& contender, Option option) {
+    return planner_takes(*contender.options.planner, option, scene, contender.question);
+  };
+  const std::vector<PlannerContender> all = contenders;
+  for (PlannerContender& contender : contenders) {
+    for (const Option option : given(contender.options).members()) {
+      if (takes(contender, option)) continue;
+      const bool is_for_others = std::any_of(all.begin(), all.end(), [&](const PlannerContender& other) {
+        return given(other.options).has(option) && takes(other, option);
+      });
+      if (is_for_others) copy_option(option, contender.options, {});
+    }
+  }
+  return contenders;
+}
+
 }  // namespace
 
 bool depends_on_seed(const Answer& answer, const SolveOptions& options, const Scene& scene) {
@@ -326,28 +340,6 @@ Answer solve_contender(const Scene& scene, const PlannerContender& contender, st
   if (keep != nullptr) make_by_products(scene, contender.question, options, execution, *keep);
   return answer;
 }
-
-namespace {
-
-/// An option that some planner takes in this world is not for those that take it in others alone.
-std::vector<PlannerContender> without_strange_options(std::vector<PlannerContender> contenders, const Scene& scene) {
-  const auto takes = [&](const PlannerContender& contender, Option option) {
-    return planner_takes(*contender.options.planner, option, scene, contender.question);
-  };
-  const std::vector<PlannerContender> all = contenders;
-  for (PlannerContender& contender : contenders) {
-    for (const Option option : given(contender.options).members()) {
-      if (takes(contender, option)) continue;
-      const bool is_for_others = std::any_of(all.begin(), all.end(), [&](const PlannerContender& other) {
-        return given(other.options).has(option) && takes(other, option);
-      });
-      if (is_for_others) copy_option(option, contender.options, {});
-    }
-  }
-  return contenders;
-}
-
-}  // namespace
 
 void run_planner_contest(const Scene& scene, const PlannerContestOptions& options, const Execution& execution,
                          Comparison& comparison) {

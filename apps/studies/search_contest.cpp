@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <memory>
 #include <stdexcept>
 #include <utility>
 
 #include "apps/studies/comparison.hpp"
 #include "core/base/error.hpp"
 #include "pictures/layers/draw_bodies.hpp"
+#include "planners/graph/assemble_graph.hpp"
 #include "planners/graph/roadmap_options.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
@@ -43,7 +43,7 @@ Outcome outcome_of(SearchStatus status) {
 /// One variant at work.
 struct Entrant {
   SearchVariant variant;
-  std::unique_ptr<GraphSearch> search;
+  GraphSearch search;
   ComparedRun first;         // what every trial must repeat, and the seconds of the first, cold run
   std::uint64_t trials = 0;  // to be made; 0 for one that its budget cut
 };
@@ -110,7 +110,7 @@ class SearchContest {
     Execution within = execution_;
     within.deadline = &deadline;
     const auto begin = Clock::now();
-    SearchResult result = entrant.search->run(within);
+    SearchResult result = entrant.search(within);
     const double seconds = seconds_since(begin);
     if (result.status == SearchStatus::stopped) execution_.check();
     ComparedRun run{.outcome = outcome_of(result.status), .time_s = seconds, .expanded = result.expanded};
@@ -233,7 +233,8 @@ WorldGraph roadmap_graph(SolveRequest request, const ChosenSolver& solver) {
   made.graph.options = json_options(answer.options);
   std::erase_if(made.graph.options, [](const auto& option) { return option.first == "pipeline"; });
   made.graph.at.assign(roadmap.states.begin(), roadmap.states.end());
-  made.graph.graph = with_plane_lengths(roadmap.graph, made.graph.at);
+  const auto length = [&](VertexId v, VertexId w) { return distance(made.graph.at[v], made.graph.at[w]); };
+  made.graph.graph = with_lengths(roadmap.graph, Execution(), length);
   made.graph.start = static_cast<VertexId>(made.graph.at.size() - 2);
   made.graph.goal = static_cast<VertexId>(made.graph.at.size() - 1);
   return made;

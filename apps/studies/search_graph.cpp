@@ -68,14 +68,14 @@ VertexId nearest_in(const std::vector<Vec2>& at, const Components& components, V
 /// A* (with the straight distance as heuristic) or Dijkstra. An array that is sorted at each push can take a second for
 /// the expansions between two looks at the deadline, so there it is looked at more often.
 template <class Queue, bool Informed>
-class BestFirst : public GraphSearch {
+class BestFirst {
  public:
   explicit BestFirst(const SearchGraph& graph) : graph_(graph) {
     queue_.resize(graph.graph.vertex_count());
     state_.resize(graph.graph.vertex_count());
   }
 
-  SearchResult run(const Execution& execution) override {
+  SearchResult operator()(const Execution& execution) {
     queue_.clear();
     state_.clear();
     try {
@@ -112,31 +112,24 @@ class BestFirst : public GraphSearch {
 };
 
 /// Breadth-first or depth-first.
-class QueuelessSearch : public GraphSearch {
- public:
-  QueuelessSearch(const SearchGraph& graph, SearchKind search) : graph_(graph), is_deep_(search == SearchKind::dfs) {
-    state_.resize(graph.graph.vertex_count());
-  }
-  SearchResult run(const Execution& execution) override {
-    state_.clear();
+GraphSearch queueless_search(const SearchGraph& graph, bool is_deep) {
+  SearchState fresh;
+  fresh.resize(graph.graph.vertex_count());
+  return [&graph, is_deep, state = std::move(fresh)](const Execution& execution) mutable {
+    state.clear();
     const auto stop = [&] { return execution.should_stop(); };
-    return is_deep_ ? depth_first(graph_.graph, graph_.start, graph_.goal, state_, stop)
-                    : breadth_first(graph_.graph, graph_.start, graph_.goal, state_, stop);
-  }
-
- private:
-  const SearchGraph& graph_;
-  bool is_deep_;
-  SearchState state_;
-};
-
-template <class Queue>
-std::unique_ptr<GraphSearch> best_first_with(const SearchGraph& graph, SearchKind search) {
-  if (search == SearchKind::astar) return std::make_unique<BestFirst<Queue, true>>(graph);
-  return std::make_unique<BestFirst<Queue, false>>(graph);
+    return is_deep ? depth_first(graph.graph, graph.start, graph.goal, state, stop)
+                   : breadth_first(graph.graph, graph.start, graph.goal, state, stop);
+  };
 }
 
-std::unique_ptr<GraphSearch> best_first_search(const SearchGraph& graph, SearchKind search, QueuePolicy queue) {
+template <class Queue>
+GraphSearch best_first_with(const SearchGraph& graph, SearchKind search) {
+  if (search == SearchKind::astar) return BestFirst<Queue, true>(graph);
+  return BestFirst<Queue, false>(graph);
+}
+
+GraphSearch best_first_search(const SearchGraph& graph, SearchKind search, QueuePolicy queue) {
   switch (queue) {
     case QueuePolicy::lazy_heap:
       return best_first_with<LazyHeap>(graph, search);
@@ -153,22 +146,6 @@ std::unique_ptr<GraphSearch> best_first_search(const SearchGraph& graph, SearchK
 }
 
 }  // namespace
-
-Graph with_plane_lengths(const Graph& graph, const std::vector<Vec2>& at) {
-  RawVector<EdgeEnd> offsets(1, 0);
-  RawVector<VertexId> targets;
-  RawVector<double> lengths;
-  targets.reserve(2 * graph.edge_count());
-  lengths.reserve(2 * graph.edge_count());
-  for (VertexId v = 0; v < graph.vertex_count(); ++v) {
-    for (const VertexId w : graph.neighbours(v)) {
-      targets.push_back(w);
-      lengths.push_back(distance(at[v], at[w]));
-    }
-    offsets.push_back(static_cast<EdgeEnd>(targets.size()));
-  }
-  return {std::move(offsets), std::move(targets), std::move(lengths)};
-}
 
 SearchGraph geometric_graph(std::uint32_t size, double degree, std::uint64_t seed, const Execution& execution) {
   constexpr double bytes_a_vertex = 80.0;
@@ -192,9 +169,9 @@ SearchGraph geometric_graph(std::uint32_t size, double degree, std::uint64_t see
   return made;
 }
 
-std::unique_ptr<GraphSearch> graph_search(const SearchGraph& graph, const SearchVariant& variant) {
+GraphSearch graph_search(const SearchGraph& graph, const SearchVariant& variant) {
   if (variant.library == SearchLibrary::boost) return boost_search(graph, variant.search);
-  if (!has_queue(variant.search)) return std::make_unique<QueuelessSearch>(graph, variant.search);
+  if (!has_queue(variant.search)) return queueless_search(graph, variant.search == SearchKind::dfs);
   return best_first_search(graph, variant.search, variant.queue.value_or(QueuePolicy::heap));
 }
 

@@ -5,7 +5,7 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -32,9 +32,6 @@ struct SearchGraph {
   std::string unit = {};  ///< of lengths: "m" or "cells"; empty: nobody says
 };
 
-/// The same edges with the straight distances between their ends as lengths. O(V + E).
-Graph with_plane_lengths(const Graph& graph, const std::vector<Vec2>& at);
-
 /// `size` points drawn uniformly from a square of area `size` (so that their density is the same at any size), joined
 /// where no farther apart than the radius whose disc holds `degree` points on average. Start and goal are those nearest
 /// to the lower left and upper right corner among the vertices of the largest component. Vertices in tile order; a pure
@@ -43,7 +40,7 @@ Graph with_plane_lengths(const Graph& graph, const std::vector<Vec2>& at);
 SearchGraph geometric_graph(std::uint32_t size, double degree, std::uint64_t seed, const Execution& execution);
 
 // One way to search one graph again and again, its memory allocated once: ours with each queue, and a peer's. All stop
-// when the goal is settled. Virtual once a search, never inside it.
+// when the goal is settled.
 
 /// QueueKind, and the unordered array that is searched for its least entry, which no planner offers.
 enum class QueuePolicy : std::uint8_t { heap, lazy_heap, sorted_array, resorted_array, linear_scan };
@@ -62,22 +59,15 @@ struct SearchVariant {
   friend bool operator==(const SearchVariant&, const SearchVariant&) = default;
 };
 
-class GraphSearch {
- public:
-  virtual ~GraphSearch() = default;
-  GraphSearch() = default;
-  GraphSearch(const GraphSearch&) = delete;
-  GraphSearch& operator=(const GraphSearch&) = delete;
-  /// Searches from the graph's start to its goal. length is that of the path for A* and Dijkstra; path_length() knows
-  /// it for the others. Polls the deadline where the library can.
-  virtual SearchResult run(const Execution& execution) = 0;
-};
+/// Searches from the graph's start to its goal. length is that of the path for A* and Dijkstra; path_length() knows it
+/// for the others. Polls the deadline where the library can.
+using GraphSearch = std::function<SearchResult(const Execution&)>;
 
 /// The graph must outlive it.
-std::unique_ptr<GraphSearch> graph_search(const SearchGraph& graph, const SearchVariant& variant);
+GraphSearch graph_search(const SearchGraph& graph, const SearchVariant& variant);
 
 /// The same of Boost.Graph (boost_search.cpp).
-std::unique_ptr<GraphSearch> boost_search(const SearchGraph& graph, SearchKind search);
+GraphSearch boost_search(const SearchGraph& graph, SearchKind search);
 
 /// Sum of the lengths along a path; the path's vertices are neighbours.
 double path_length(const SearchGraph& graph, std::span<const VertexId> path);

@@ -5,19 +5,13 @@
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <numeric>
 
 namespace warren::studies {
 namespace {
 
 constexpr double tail = 0.025;                   // beyond either end of an interval
 constexpr double normal_95 = 1.959963984540054;  // the 97.5 % point of the normal distribution
-
-/// Sum of the values in ascending order, small ones first.
-double mean_of_sorted(std::span<const double> sorted) {
-  double sum = 0.0;
-  for (const double value : sorted) sum += value;
-  return sum / static_cast<double>(sorted.size());
-}
 
 /// Student's t on the scale of the logarithm (the delta method), so that it never ends below zero.
 Interval mean_interval(std::span<const double> values, double mean) {
@@ -66,7 +60,7 @@ std::optional<Distribution> distribution_of(std::span<const double> values) {
                  .median = sorted_quantile(sorted, 0.5),
                  .q3 = sorted_quantile(sorted, 0.75),
                  .most = sorted.back(),
-                 .mean = mean_of_sorted(sorted),
+                 .mean = std::accumulate(sorted.begin(), sorted.end(), 0.0) / static_cast<double>(sorted.size()),
                  .mean_ci95 = {},
                  .median_ci95 = {}};
   if (sorted.size() > 1) d.mean_ci95 = mean_interval(sorted, d.mean);

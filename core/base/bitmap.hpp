@@ -93,9 +93,24 @@ class Bitmap {
   std::span<std::uint64_t> row(std::uint32_t y) { return std::span(words_).subspan(y * stride_, stride_); }
   /// The same, to be read.
   std::span<const std::uint64_t> row(std::uint32_t y) const { return std::span(words_).subspan(y * stride_, stride_); }
+  /// What lies beyond the width is 0 again, where somebody has written to whole words.
+  void clear_beyond_width() {
+    if (width_ % word_bits == 0) return;
+    for (std::uint32_t y = 0; y < height_; ++y) row(y).back() &= bit(width_) - 1;
+  }
   /// All rows, one after the other.
   std::span<const std::uint64_t> words() const { return words_; }
 
+  /// Calls visit(x) for the set bits of a row, ascending.
+  template <class Visit>
+  void for_each_in_row(std::uint32_t y, const Visit& visit) const {
+    const std::span<const std::uint64_t> words = row(y);
+    for (std::uint32_t w = 0; w < words.size(); ++w) {
+      for (std::uint64_t rest = words[w]; rest != 0; rest &= rest - 1) {
+        visit(word_bits * w + as_whole<std::uint32_t>(std::countr_zero(rest)));
+      }
+    }
+  }
   /// How many bits are set.
   std::uint64_t count() const {
     std::uint64_t sum = 0;
@@ -109,10 +124,6 @@ class Bitmap {
     return (std::size_t{width} + word_bits - 1) / word_bits;
   }
   static constexpr std::uint64_t bit(std::uint32_t x) { return std::uint64_t{1} << (x % word_bits); }
-  void clear_beyond_width() {
-    if (width_ % word_bits == 0) return;
-    for (std::uint32_t y = 0; y < height_; ++y) row(y).back() &= bit(width_) - 1;
-  }
 
   std::uint32_t width_ = 0;
   std::uint32_t height_ = 0;

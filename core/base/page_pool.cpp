@@ -49,86 +49,80 @@ class IdlePages {
   IdlePages(const IdlePages&) = delete;
   IdlePages& operator=(const IdlePages&) = delete;
 
-  char* take(std::size_t bytes);  ///< where they lie; nullptr if no piece is so large
-  void fill(char* block, std::size_t bytes);
-  void keep(char* block, std::size_t bytes);  ///< throws std::bad_alloc before it has changed anything that matters
+  /// Where they lie; nullptr if no piece is so large.
+  /// The end of the smallest piece that will do: no call of the system, which would stop all threads for new addresses.
+  char* take(std::size_t bytes) {
+    const auto fits_worse = [bytes](const Piece& a, const Piece& b) {
+      return (a.bytes < bytes ? ~std::size_t{0} : a.bytes) < (b.bytes < bytes ? ~std::size_t{0} : b.bytes);
+    };
+    const auto piece = std::min_element(pieces_.begin(), pieces_.end(), fits_worse);
+    if (piece == pieces_.end() || piece->bytes < bytes) return nullptr;
+    char* const block = piece->at + (piece->bytes - bytes);
+    made_of_[block].assign(1, bytes);
+    idle -= bytes;
+    piece->bytes -= bytes;
+    if (piece->bytes == 0) pieces_.erase(piece);
+    least_idle = std::min(least_idle, idle);
+    return block;
+  }
+  /// Backs a block with idle pages as far as they go; the rest stays as it is.
+  void fill(char* block, std::size_t bytes) {
+    std::vector<std::size_t> sizes;
+    std::size_t filled = 0;
+    while (filled < bytes && !pieces_.empty()) {
+      const std::size_t part = std::min(bytes - filled, pieces_.back().bytes);
+      if (!move_last_piece(block + filled, part)) continue;
+      sizes.push_back(part);
+      filled += part;
+    }
+    if (filled < bytes) sizes.push_back(bytes - filled);
+    made_of_[block] = std::move(sizes);
+    least_idle = std::min(least_idle, idle);
+  }
+  /// Throws std::bad_alloc before it has changed anything that matters.
+  void keep(char* block, std::size_t bytes) {
+    std::vector<std::size_t> sizes;
+    if (const auto known = made_of_.find(block); known != made_of_.end()) {
+      sizes = std::move(known->second);
+      made_of_.erase(known);
+    }
+    std::size_t sum = 0;
+    for (const std::size_t size : sizes) sum += size;
+    if (sum != bytes) sizes.assign(1, bytes);  // another thread's block, mapped at once
+    pieces_.reserve(pieces_.size() + sizes.size());
+    for (const std::size_t size : sizes) {
+      pieces_.push_back({block, size});
+      block += size;
+    }
+    idle += bytes;
+  }
 
   int scopes = 0;
   std::size_t idle = 0;
   std::size_t least_idle = 0;
 
  private:
-  bool move_last_piece(char* to, std::size_t bytes);
+  /// Moves the end of the last piece. Where the system refuses, the piece is given up: pages are a hint, not a promise.
+  bool move_last_piece(char* to, std::size_t bytes) {
+    Piece& piece = pieces_.back();
+    char* const from = piece.at + (piece.bytes - bytes);
+    if (::mremap(from, bytes, bytes, MREMAP_MAYMOVE | MREMAP_FIXED, to) == MAP_FAILED) {
+      constexpr int flags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_FIXED;
+      if (::mmap(to, bytes, PROT_READ | PROT_WRITE, flags, -1, 0) == MAP_FAILED) throw std::bad_alloc();
+      ::munmap(piece.at, piece.bytes);
+      idle -= piece.bytes;
+      pieces_.pop_back();
+      return false;
+    }
+    idle -= bytes;
+    piece.bytes -= bytes;
+    if (piece.bytes == 0) pieces_.pop_back();
+    return true;
+  }
 
   std::vector<Piece> pieces_;
   std::map<const char*, std::vector<std::size_t>> made_of_;  // the sizes of the pieces of a block, in their order
 };
-
-/// The end of the smallest piece that will do: no call of the system, which would stop all threads for new addresses.
-char* IdlePages::take(std::size_t bytes) {
-  const auto fits_worse = [bytes](const Piece& a, const Piece& b) {
-    return (a.bytes < bytes ? ~std::size_t{0} : a.bytes) < (b.bytes < bytes ? ~std::size_t{0} : b.bytes);
-  };
-  const auto piece = std::min_element(pieces_.begin(), pieces_.end(), fits_worse);
-  if (piece == pieces_.end() || piece->bytes < bytes) return nullptr;
-  char* const block = piece->at + (piece->bytes - bytes);
-  made_of_[block].assign(1, bytes);
-  idle -= bytes;
-  piece->bytes -= bytes;
-  if (piece->bytes == 0) pieces_.erase(piece);
-  least_idle = std::min(least_idle, idle);
-  return block;
-}
-
-/// Backs a block with idle pages as far as they go; the rest stays as it is.
-void IdlePages::fill(char* block, std::size_t bytes) {
-  std::vector<std::size_t> sizes;
-  std::size_t filled = 0;
-  while (filled < bytes && !pieces_.empty()) {
-    const std::size_t part = std::min(bytes - filled, pieces_.back().bytes);
-    if (!move_last_piece(block + filled, part)) continue;
-    sizes.push_back(part);
-    filled += part;
-  }
-  if (filled < bytes) sizes.push_back(bytes - filled);
-  made_of_[block] = std::move(sizes);
-  least_idle = std::min(least_idle, idle);
-}
-
-/// Moves the end of the last piece. Where the system refuses, the piece is given up: pages are a hint, not a promise.
-bool IdlePages::move_last_piece(char* to, std::size_t bytes) {
-  Piece& piece = pieces_.back();
-  char* const from = piece.at + (piece.bytes - bytes);
-  if (::mremap(from, bytes, bytes, MREMAP_MAYMOVE | MREMAP_FIXED, to) == MAP_FAILED) {
-    constexpr int flags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_FIXED;
-    if (::mmap(to, bytes, PROT_READ | PROT_WRITE, flags, -1, 0) == MAP_FAILED) throw std::bad_alloc();
-    ::munmap(piece.at, piece.bytes);
-    idle -= piece.bytes;
-    pieces_.pop_back();
-    return false;
-  }
-  idle -= bytes;
-  piece.bytes -= bytes;
-  if (piece.bytes == 0) pieces_.pop_back();
-  return true;
-}
-
-void IdlePages::keep(char* block, std::size_t bytes) {
-  std::vector<std::size_t> sizes;
-  if (const auto known = made_of_.find(block); known != made_of_.end()) {
-    sizes = std::move(known->second);
-    made_of_.erase(known);
-  }
-  std::size_t sum = 0;
-  for (const std::size_t size : sizes) sum += size;
-  if (sum != bytes) sizes.assign(1, bytes);  // another thread's block, mapped at once
-  pieces_.reserve(pieces_.size() + sizes.size());
-  for (const std::size_t size : sizes) {
-    pieces_.push_back({block, size});
-    block += size;
-  }
-  idle += bytes;
-}
 
 /// Owned by the outermost PagePool of the thread; nullptr while there is none. No object with a destructor: glibc
 /// aborts where it has no memory to note that one.

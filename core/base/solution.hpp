@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
 #include <ranges>
 #include <span>
@@ -34,17 +35,11 @@ struct Counters {
   std::uint64_t row_bytes = 0;  ///< of the CSR rows that were assembled; the same
   /// Adds all of them.
   Counters& operator+=(const Counters& o) {
-    samples += o.samples;
-    kept += o.kept;
-    neighbour_queries += o.neighbour_queries;
-    edges_checked += o.edges_checked;
-    edges_free += o.edges_free;
-    expanded += o.expanded;
-    rounds += o.rounds;
-    refused += o.refused;
-    pushes += o.pushes;
-    decreases += o.decreases;
-    row_bytes += o.row_bytes;
+    for (const auto count : {&Counters::samples, &Counters::kept, &Counters::neighbour_queries,
+                             &Counters::edges_checked, &Counters::edges_free, &Counters::expanded, &Counters::rounds,
+                             &Counters::refused, &Counters::pushes, &Counters::decreases, &Counters::row_bytes}) {
+      this->*count += o.*count;
+    }
     return *this;
   }
   friend bool operator==(const Counters&, const Counters&) = default;
@@ -65,17 +60,11 @@ struct StageTimes {
   double verify = 0.0;      ///< judging the path
   /// Adds all of them.
   StageTimes& operator+=(const StageTimes& o) {
-    generate += o.generate;
-    read += o.read;
-    index += o.index;
-    sample += o.sample;
-    neighbours += o.neighbours;
-    connect += o.connect;
-    graph += o.graph;
-    reduce += o.reduce;
-    search += o.search;
-    optimise += o.optimise;
-    verify += o.verify;
+    for (const auto stage : {&StageTimes::generate, &StageTimes::read, &StageTimes::index, &StageTimes::sample,
+                             &StageTimes::neighbours, &StageTimes::connect, &StageTimes::graph, &StageTimes::reduce,
+                             &StageTimes::search, &StageTimes::optimise, &StageTimes::verify}) {
+      this->*stage += o.*stage;
+    }
     return *this;
   }
 };

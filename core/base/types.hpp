@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -45,6 +46,8 @@ struct Box {
   constexpr bool empty() const { return min.x > max.x || min.y > max.y; }
   constexpr double width() const { return max.x - min.x; }   ///< below 0: empty
   constexpr double height() const { return max.y - min.y; }  ///< below 0: empty
+  /// Anticlockwise from the lower left one.
+  constexpr std::array<Vec2, 4> corners() const { return {{min, {max.x, min.y}, max, {min.x, max.y}}}; }
   /// Is the point inside or on a side?
   constexpr bool contains(Vec2 p) const { return min.x <= p.x && p.x <= max.x && min.y <= p.y && p.y <= max.y; }
   /// Have the two a point in common?

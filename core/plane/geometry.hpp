@@ -5,6 +5,8 @@
 // largest_coordinate or c = 0. Distances are plain doubles, relative error below 1e-14 of the coordinate differences.
 #pragma once
 
+#include <array>
+
 #include "core/base/types.hpp"
 
 namespace warren {
@@ -14,6 +16,11 @@ int orient2d(Vec2 a, Vec2 b, Vec2 c) noexcept;
 
 /// By x, then by y.
 constexpr bool is_before(Vec2 p, Vec2 q) noexcept { return p.x < q.x || (p.x == q.x && p.y < q.y); }
+
+/// Both ends of a segment, whichever is its first: the one that is_before() the other comes first.
+constexpr std::array<double, 4> ordered_ends(Vec2 a, Vec2 b) noexcept {
+  return is_before(b, a) ? std::array{b.x, b.y, a.x, a.y} : std::array{a.x, a.y, b.x, b.y};
+}
 
 /// Does p lie on the closed segment? Exact.
 bool on_segment(Vec2 p, const Segment& s) noexcept;

@@ -140,12 +140,9 @@ inline FloatWall unpacked(const PackedWall& wall) {
 class WallSet {
  public:
   WallSet() = default;
-  /// Takes them.
-  explicit WallSet(RawVector<PackedWall> walls) : walls_(std::move(walls)) {}
-  /// Takes them.
-  explicit WallSet(RawVector<FloatWall> walls) : walls_(std::move(walls)) {}
-  /// Takes them.
-  explicit WallSet(RawVector<DoubleWall> walls) : walls_(std::move(walls)) {}
+  /// Takes them: packed, floats or doubles.
+  template <class Wall>
+  explicit WallSet(RawVector<Wall> walls) : walls_(std::move(walls)) {}
 
   /// Packs them where all fit, keeps floats where all coordinates are exact as float, doubles otherwise.
   static WallSet narrowest(std::span<const Segment> segments);
@@ -166,8 +163,6 @@ class WallSet {
   bool holds_packed() const { return std::holds_alternative<RawVector<PackedWall>>(walls_); }
   /// Are they held as floats?
   bool holds_floats() const { return std::holds_alternative<RawVector<FloatWall>>(walls_); }
-  /// Are they held as doubles?
-  bool holds_doubles() const { return std::holds_alternative<RawVector<DoubleWall>>(walls_); }
   /// Memory of the walls.
   std::size_t bytes() const {
     return visit([](auto walls) { return walls.size_bytes(); });

@@ -29,22 +29,19 @@ unsigned affinity_count() {
   return static_cast<unsigned>(std::max(1, CPU_COUNT(&mask)));
 }
 
-/// Cores that the cgroup's quota pays for, rounded up; affinity_count() where there is no quota.
-unsigned quota_count(unsigned fallback) {
-  std::FILE* file = std::fopen("/sys/fs/cgroup/cpu.max", "r");
-  if (file == nullptr) return fallback;
-  double quota = 0.0;
-  double period = 0.0;
-  const int fields = std::fscanf(file, "%lf %lf", &quota, &period);
-  std::fclose(file);
-  if (fields != 2 || period <= 0.0) return fallback;
-  return static_cast<unsigned>(std::max(1.0, std::ceil(quota / period)));
-}
-
 struct CloseFile {
   void operator()(std::FILE* f) const { std::fclose(f); }
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
+
+/// Cores that the cgroup's quota pays for, rounded up; affinity_count() where there is no quota.
+unsigned quota_count(unsigned fallback) {
+  const File file(std::fopen("/sys/fs/cgroup/cpu.max", "r"));
+  double quota = 0.0;
+  double period = 0.0;
+  if (!file || std::fscanf(file.get(), "%lf %lf", &quota, &period) != 2 || period <= 0.0) return fallback;
+  return static_cast<unsigned>(std::max(1.0, std::ceil(quota / period)));
+}
 
 /// The first number of a small file, or nothing ("max" counts as nothing).
 std::optional<std::size_t> number_in(const char* path) {
@@ -62,10 +59,6 @@ std::optional<std::size_t> kilobytes_in(const char* path, std::string_view name)
     if (std::string_view(line).starts_with(name)) return std::strtoull(line + name.size(), nullptr, 10) * 1024;
   }
   return std::nullopt;
-}
-
-std::size_t machine_available_bytes() {
-  return kilobytes_in("/proc/meminfo", "MemAvailable:").value_or(std::numeric_limits<std::size_t>::max());
 }
 
 StopReason reason_of_signal(int number) {
@@ -189,7 +182,8 @@ std::size_t peak_resident_bytes() {
 }
 
 std::size_t available_bytes() {
-  const std::size_t free = machine_available_bytes();
+  const std::size_t free =
+      kilobytes_in("/proc/meminfo", "MemAvailable:").value_or(std::numeric_limits<std::size_t>::max());
   std::size_t bytes = free - free / 16 + resident_bytes();  // who takes all of it is killed for it
   if (const auto limit = number_in("/sys/fs/cgroup/memory.max")) bytes = std::min(bytes, *limit);
   if (const auto limit = number_in("/sys/fs/cgroup/memory/memory.limit_in_bytes")) bytes = std::min(bytes, *limit);

@@ -41,20 +41,18 @@ class LineGroup {
       ink_ += pen_.width * (page_.view.scale * distance(chain[i - 1], chain[i]) + pen_.width);
     }
   }
-  /// The pen that covers no more than a share of the page with what was measured; the group takes it.
-  Pen thinned() {
+  /// Lets the pen cover no more than a share of the page with what was measured.
+  void thin_out() {
     constexpr double most_cover = 0.3;
     constexpr double least_width = 0.4;
     constexpr double least_opacity = 0.25;
+    constexpr double visibly = 0.9;
     const double allowed = most_cover * page_.data.width() * page_.data.height();
-    if (ink_ > allowed) {
-      constexpr double visibly = 0.9;
-      const double share = std::sqrt(allowed / ink_);
-      thin_ = share < visibly;
-      pen_.width = std::min(pen_.width, std::max(pen_.width * share, least_width));
-      pen_.opacity *= std::max(share, least_opacity);
-    }
-    return pen_;
+    if (!(ink_ > allowed)) return;
+    const double share = std::sqrt(allowed / ink_);
+    thin_ = share < visibly;
+    pen_.width = std::min(pen_.width, std::max(pen_.width * share, least_width));
+    pen_.opacity *= std::max(share, least_opacity);
   }
 
   /// points: how many will follow, at least.
@@ -202,7 +200,7 @@ class Painter {
                      .crisp = layer.fill && layer.part == Part::world});
     if ((layer.part == Part::roadmap || layer.part == Part::search) && !layer.fill) {
       for (std::size_t i = 0; i < layer.lines.size(); ++i) group.measure(layer.lines[i]);
-      group.thinned();
+      group.thin_out();
     }
     group.begin(layer.id, layer.label, layer.lines.corners.size());
     const bool is_cut = page_.canvas.whole && layer.part == Part::world;  // cells of a map that is not shown wholly
@@ -260,7 +258,7 @@ class Painter {
     roadmap.graph.for_each_edge([&](VertexId v, VertexId w) {
       group.measure(std::array{roadmap.states[v], roadmap.states[w]});
     });
-    group.thinned();
+    group.thin_out();
     group.begin("edges", "roadmap edges", roadmap.graph.edge_count());
     for (std::size_t c = 0; c < colors::components.size(); ++c) {
       if (std::find(color.begin(), color.end(), c) == color.end()) continue;
@@ -282,7 +280,7 @@ class Painter {
       }
     };
     visit([&](Vec2 a, Vec2 b) { group.measure(std::array{a, b}); });
-    group.thinned();
+    group.thin_out();
     group.begin("search_tree", "search tree", roadmap.search_tree.size());
     visit([&](Vec2 a, Vec2 b) { group.segment(a, b); });
     end(group, "search tree");
@@ -294,7 +292,7 @@ class Painter {
     LineGroup group(surface_, page_, execution_,
                     {.stroke = colors::components[0], .width = width(widths::milestone, 0.8)});
     for (const Vec2 p : roadmap.states) group.measure(std::array{p, p});
-    group.thinned();
+    group.thin_out();
     group.begin("milestones", "milestones", color.size());
     for (std::size_t c = 0; c < colors::components.size(); ++c) {
       group.take_color(colors::components[c]);

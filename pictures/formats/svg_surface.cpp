@@ -6,6 +6,7 @@
 #include "pictures/formats/svg_surface.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -231,15 +232,9 @@ class SvgSurface : public Surface {
     constexpr double no_turn = 1e-9;
     if (std::abs(turn) < no_turn) return command('L', at(to));
     const double radius = frame_.scale * arc_radius(from, to, turn);
-    text_ += 'A';
-    append_number(text_, radius);
-    text_ += ' ';
-    append_number(text_, radius);
-    text_ += turn > 0.0 ? " 0 0 1 " : " 0 0 0 ";
-    const Vec2 p = at(to);
-    append_number(text_, p.x);
-    text_ += ' ';
-    append_number(text_, p.y);
+    command('A', {radius, radius});
+    text_ += turn > 0.0 ? " 0 0 1" : " 0 0 0";
+    command(' ', at(to));
   }
 
   /// Ends the path before it is too long for a reader.
@@ -299,15 +294,6 @@ namespace {
 
 constexpr std::string_view duration = "dur=\"8s\" repeatCount=\"indefinite\"";
 
-std::string joined(const std::vector<double>& values, int decimals) {
-  std::string text;
-  for (const double value : values) {
-    if (!text.empty()) text += ';';
-    fmt::format_to(std::back_inserter(text), "{:.{}f}", value, decimals);
-  }
-  return text;
-}
-
 /// In degrees, without jumps.
 std::vector<double> angles_of(const std::vector<Se2>& poses) {
   std::vector<double> angles;
@@ -361,15 +347,14 @@ Timetable timetable_of(const MovingBody& body) {
 std::string svg_moving_body(const MovingBody& body, std::string_view path_id, double scale, double line_width) {
   const Timetable table = timetable_of(body);
   if (!(table.moments.back() > 0.0)) return {};
-  constexpr int fine = 6;
-  constexpr int coarse = 3;
-  const std::string moments = joined(table.moments, fine);
+  const std::string moments = fmt::format("{:.6f}", fmt::join(table.moments, ";"));
   const std::string motion = fmt::format(
-      R"(<animateMotion {} calcMode="linear" keyTimes="{}" keyPoints="{}"><mpath href="#{}"/></animateMotion>)",
-      duration, moments, joined(table.shares, fine), path_id);
+      R"(<animateMotion {} calcMode="linear" keyTimes="{}" keyPoints="{:.6f}"><mpath href="#{}"/></animateMotion>)",
+      duration, moments, fmt::join(table.shares, ";"), path_id);
+  const std::string angles = fmt::format("{:.3f}", fmt::join(angles_of(body.poses), ";"));
   const std::string turning = fmt::format(
       R"(<animateTransform attributeName="transform" type="rotate" {} calcMode="linear" keyTimes="{}" values="{}"/>)",
-      duration, moments, joined(angles_of(body.poses), coarse));
+      duration, moments, angles);
   return fmt::format(
       "<g id=\"body\" visibility=\"hidden\"><set attributeName=\"visibility\" "
       "to=\"visible\"/>\n{}\n<g>{}\n{}</g></g>\n",
@@ -378,8 +363,7 @@ std::string svg_moving_body(const MovingBody& body, std::string_view path_id, do
 
 std::string svg_moving_arm(const MovingArm& arm, double width, const std::function<Vec2(Vec2)>& at) {
   if (arm.moments.size() < 2) return {};
-  constexpr int fine = 6;
-  const std::string moments = joined(arm.moments, fine);
+  const std::string moments = fmt::format("{:.6f}", fmt::join(arm.moments, ";"));
   std::string group = "<g id=\"arm\" visibility=\"hidden\"><set attributeName=\"visibility\" to=\"visible\"/>\n";
   for (const Projection& view : arm.views) {
     std::string places;
@@ -399,7 +383,6 @@ std::string svg_moving_arm(const MovingArm& arm, double width, const std::functi
                    "attributeName=\"points\" {} calcMode=\"linear\" keyTimes=\"{}\" values=\"{}\"/></polyline>\n",
                    first, width, duration, moments, places);
   }
-
   return group + "</g>\n";
 }
 

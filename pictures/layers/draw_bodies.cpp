@@ -256,11 +256,7 @@ LayerOptions one_layer(const Scene& scene, const RobotSpec& robot, double cleara
   return options;
 }
 
-/// "heading of a state", or which share of them is drawn.
-std::string label_of(std::string what, std::size_t drawn, std::size_t count) {
-  return drawn < count ? fmt::format("{} ({} of {})", what, drawn, count) : std::move(what);
-}
-
+/// The label says which share of them is drawn, if not all are.
 PictureLayer arrows_of(const std::vector<Se2>& states, std::string id, const std::string& label, double length) {
   constexpr std::size_t most_arrows = 2000;
   const std::size_t apart = (states.size() + most_arrows - 1) / most_arrows;
@@ -268,7 +264,7 @@ PictureLayer arrows_of(const std::vector<Se2>& states, std::string id, const std
   for (std::size_t i = 0; i < states.size(); i += apart) drawn.push_back(states[i]);
   PictureLayer layer = heading_arrows(drawn, length);
   layer.id = std::move(id);
-  layer.label = label_of(label, drawn.size(), states.size());
+  layer.label = drawn.size() < states.size() ? fmt::format("{} ({} of {})", label, drawn.size(), states.size()) : label;
   layer.over_roadmap = true;
   return layer;
 }
@@ -356,9 +352,10 @@ namespace {
 Vec2 position_of(const Se2& state) { return state.position(); }
 Vec2 position_of(Vec2 state) { return state; }
 
+}  // namespace
+
 template <class State>
-PlannedRoadmap<Vec2> joined_in_the_plane(const std::vector<PlannedRoadmap<State>>& roadmaps,
-                                         const Execution& execution) {
+PlannedRoadmap<Vec2> in_the_plane(const std::vector<PlannedRoadmap<State>>& roadmaps, const Execution& execution) {
   PlannedRoadmap<Vec2> plane;
   std::vector<Edge> edges;
   for (const PlannedRoadmap<State>& roadmap : roadmaps) {
@@ -377,14 +374,7 @@ PlannedRoadmap<Vec2> joined_in_the_plane(const std::vector<PlannedRoadmap<State>
   plane.graph = assemble_graph(plane.states.size(), edges, execution);
   return plane;
 }
-
-}  // namespace
-
-PlannedRoadmap<Vec2> in_the_plane(const std::vector<PlannedRoadmap<Se2>>& roadmaps, const Execution& execution) {
-  return joined_in_the_plane(roadmaps, execution);
-}
-PlannedRoadmap<Vec2> in_the_plane(const std::vector<PlannedRoadmap<Vec2>>& roadmaps, const Execution& execution) {
-  return joined_in_the_plane(roadmaps, execution);
-}
+template PlannedRoadmap<Vec2> in_the_plane(const std::vector<PlannedRoadmap<Se2>>&, const Execution&);
+template PlannedRoadmap<Vec2> in_the_plane(const std::vector<PlannedRoadmap<Vec2>>&, const Execution&);
 
 }  // namespace warren

@@ -62,7 +62,7 @@ std::vector<PictureLayer> state_arrows(std::span<const Se2> states, double headi
 // Roadmaps and trees of bodies that turn, as a picture of the plane shows them.
 
 /// The positions of the states of several roadmaps, one after the other, with their edges. Throws Stopped.
-PlannedRoadmap<Vec2> in_the_plane(const std::vector<PlannedRoadmap<Se2>>& roadmaps, const Execution& execution);
-PlannedRoadmap<Vec2> in_the_plane(const std::vector<PlannedRoadmap<Vec2>>& roadmaps, const Execution& execution);
+template <class State>
+PlannedRoadmap<Vec2> in_the_plane(const std::vector<PlannedRoadmap<State>>& roadmaps, const Execution& execution);
 
 }  // namespace warren

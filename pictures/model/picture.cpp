@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/base/trigonometry.hpp"
+#include "core/plane/se2.hpp"
 #include "planners/graph/components.hpp"
 
 namespace warren {
@@ -57,14 +58,11 @@ std::vector<Vec2> without_arcs(std::span<const Vec2> points, std::span<const dou
       const Vec2 center = points[i - 1] + 0.5 * chord + half_cotangent * Vec2{-chord.y, chord.x};
       const Vec2 from = points[i - 1] - center;
       for (double part = 1.0; part < parts; part += 1.0) {
-        const double c = portable::cos(turn * part / parts);
-        const double s = portable::sin(turn * part / parts);
-        chain.push_back(center + Vec2{c * from.x - s * from.y, s * from.x + c * from.y});
+        chain.push_back(center + Rotation(turn * part / parts)(from));
       }
     }
     chain.push_back(points[i]);
   }
-
   return chain;
 }
 
@@ -116,25 +114,9 @@ std::vector<Vec2> circle_outline(Vec2 middle, double radius, int corners) {
 
 namespace {
 
-/// Cells from first to last of both.
-struct CellRange {
-  std::uint32_t first = 0xffffffff;
-  std::uint32_t last = 0;
-  void include(std::uint32_t cell) {
-    first = std::min(first, cell);
-    last = std::max(last, cell);
-  }
-  bool empty() const { return first > last; }
-  double count() const { return static_cast<double>(last) - first + 1.0; }
-};
-
-struct KnownCells {
-  CellRange columns;
-  CellRange rows;
-};
-
-KnownCells known_cells(const Bitmap& unknown, const Execution& execution) {
-  KnownCells known;
+/// Columns and rows of cells, from the first to the last that is known.
+Box known_cells(const Bitmap& unknown, const Execution& execution) {
+  Box known;
   const std::uint32_t tail = unknown.width() % Bitmap::word_bits;
   for (std::uint32_t y = 0; y < unknown.height(); ++y) {
     if (y % 64 == 0) execution.check();
@@ -143,10 +125,9 @@ KnownCells known_cells(const Bitmap& unknown, const Execution& execution) {
       const bool is_cut = tail != 0 && w + 1 == words.size();
       const std::uint64_t bits = ~words[w] & (is_cut ? (std::uint64_t{1} << tail) - 1 : ~std::uint64_t{0});
       if (bits == 0) continue;
-      const auto first = static_cast<std::uint32_t>(w * Bitmap::word_bits);
-      known.columns.include(first + static_cast<std::uint32_t>(std::countr_zero(bits)));
-      known.columns.include(first + static_cast<std::uint32_t>(std::bit_width(bits)) - 1);
-      known.rows.include(y);
+      const auto first = static_cast<double>(w * Bitmap::word_bits);
+      known.include(Vec2{first + std::countr_zero(bits), 1.0 * y});
+      known.include(Vec2{first + std::bit_width(bits) - 1.0, 1.0 * y});
     }
   }
   return known;
@@ -156,13 +137,13 @@ KnownCells known_cells(const Bitmap& unknown, const Execution& execution) {
 
 std::optional<Box> known_part(const OccupancyMap& map, const Execution& execution) {
   if (map.unknown.empty()) return std::nullopt;
-  const auto [columns, rows] = known_cells(map.unknown, execution);
-  if (rows.empty()) return std::nullopt;
+  const Box known = known_cells(map.unknown, execution);
+  if (known.empty()) return std::nullopt;
   constexpr double share = 1.0 / 40.0;
-  const double margin = std::max(2.0, share * std::max(columns.count(), rows.count()));
-  const Vec2 low{std::max(columns.first - margin, 0.0), std::max(rows.first - margin, 0.0)};
-  const Vec2 high{std::min(columns.last + 1.0 + margin, static_cast<double>(map.width())),
-                  std::min(rows.last + 1.0 + margin, static_cast<double>(map.height()))};
+  const double margin = std::max(2.0, share * (std::max(known.width(), known.height()) + 1.0));
+  const Vec2 low{std::max(known.min.x - margin, 0.0), std::max(known.min.y - margin, 0.0)};
+  const Vec2 high{std::min(known.max.x + 1.0 + margin, static_cast<double>(map.width())),
+                  std::min(known.max.y + 1.0 + margin, static_cast<double>(map.height()))};
   constexpr double most = 0.9;
   if (high.x - low.x > most * map.width() && high.y - low.y > most * map.height()) return std::nullopt;
   return world_box(map, {low, high});

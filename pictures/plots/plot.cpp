@@ -499,15 +499,6 @@ class HeatMapDrawing {
   }
 
   PlotSheet sheet() {
-    begin();
-    for (std::size_t row = 0; row < map_.rows.size(); ++row) {
-      for (std::size_t column = 0; column < map_.columns.size(); ++column) draw_cell(column, row);
-    }
-    return std::move(sheet_);
-  }
-
- private:
-  void begin() {
     sheet_.keep_colors();
     sheet_.begin(map_.title, frame, map_.x_label, map_.y_label, 40.0);
     for (std::size_t i = 0; i < map_.columns.size(); ++i) {
@@ -516,7 +507,13 @@ class HeatMapDrawing {
     for (std::size_t i = 0; i < map_.rows.size(); ++i) {
       sheet_.label({frame.min.x - 8.0, y_of(i) + 0.5 * cell_.y + 4.0}, Anchor::end, map_.rows[i]);
     }
+    for (std::size_t row = 0; row < map_.rows.size(); ++row) {
+      for (std::size_t column = 0; column < map_.columns.size(); ++column) draw_cell(column, row);
+    }
+    return std::move(sheet_);
   }
+
+ private:
   void draw_cell(std::size_t column, std::size_t row) {
     const HeatMap::Cell& cell = map_.cells[row * map_.columns.size() + column];
     const double share = cell.value ? share_of(*cell.value) : 0.0;

@@ -207,8 +207,8 @@ class AnytimeSearch {
   Found grow_tree(const Execution& execution);
   Found grow_restart(Restart& restart, const Execution& execution);
   Found draw_roadmap(const Execution& execution);
-  Found polished(const Execution& execution) const;
-  Found shortened(const Found& rough, std::uint64_t number, const Execution& execution) const;
+  Found shortened(Part by, const Path<State>& path, double too_dear, std::uint64_t draw,
+                  const Execution& execution) const;
   std::uint64_t share_of(Part part) const {
     return (is_alone() ? 4 : 1) * share_ / (idle_[index_of(part)] >= patience ? 2 : 1);
   }
@@ -311,9 +311,13 @@ auto AnytimeSearch<W>::grown(const Execution& execution) -> std::vector<Found> {
     }
   }
   if (parts.shorten && has_path() && dull_ < most_dull)
-    tasks.push_back([this](const Execution& on) { return polished(on); });
+    tasks.push_back([this](const Execution& on) {
+      return shortened(Part::shorten, solution_.path, std::numeric_limits<double>::infinity(), 7, on);
+    });
   for (std::size_t i = 0; i < rough_.size(); ++i) {
-    tasks.push_back([this, i](const Execution& on) { return shortened(rough_[i], i, on); });
+    tasks.push_back([this, i](const Execution& on) {
+      return shortened(rough_[i].by, rough_[i].path, near * solution_.cost, 8 + i, on);
+    });
   }
   std::vector<Found> found(tasks.size());
   Execution alone = execution;
@@ -453,22 +457,12 @@ auto AnytimeSearch<W>::draw_roadmap(const Execution& execution) -> Found {
 }
 
 template <SteerableWorld W>
-auto AnytimeSearch<W>::shortened(const Found& rough, std::uint64_t number, const Execution& execution) const -> Found {
-  Found found(rough.by);
+auto AnytimeSearch<W>::shortened(Part by, const Path<State>& path, double too_dear, std::uint64_t draw,
+                                 const Execution& execution) const -> Found {
+  Found found(by);
   found.is_shortened = true;
-  const std::uint64_t seed = random_bits(options_.trees.seed, solution_.iterations, 8 + number);
-  found.path = body_.shortened(rough.path, near * solution_.cost, seed, execution, found.counters);
-  found.cost = cost_of(found.path);
-  return found;
-}
-
-template <SteerableWorld W>
-auto AnytimeSearch<W>::polished(const Execution& execution) const -> Found {
-  Found found(Part::shorten);
-  found.is_shortened = true;
-  const std::uint64_t seed = random_bits(options_.trees.seed, solution_.iterations, 7);
-  found.path =
-      body_.shortened(solution_.path, std::numeric_limits<double>::infinity(), seed, execution, found.counters);
+  const std::uint64_t seed = random_bits(options_.trees.seed, solution_.iterations, draw);
+  found.path = body_.shortened(path, too_dear, seed, execution, found.counters);
   found.cost = cost_of(found.path);
   return found;
 }

@@ -254,9 +254,7 @@ void MedialAxis::collect(const PlaneObstacles& obstacles) {
   for (const Segment& s : obstacles_) frame_.include(box_of(s));
   if (obstacles.bounds) frame_ = *obstacles.bounds;
   true_obstacle_count_ = obstacles_.size();
-  const std::array<Vec2, 4> corners{
-      {frame_.min, {frame_.max.x, frame_.min.y}, frame_.max, {frame_.min.x, frame_.max.y}}};
-  for (std::size_t i = 0; i < 4; ++i) obstacles_.push_back({corners[i], corners[(i + 1) % 4]});
+  for_each_side(frame_.corners(), [&](Vec2 a, Vec2 b) { obstacles_.push_back({a, b}); });
   if (obstacles.bounds) true_obstacle_count_ = obstacles_.size();
 }
 

@@ -472,14 +472,8 @@ bool AxisPlanning::ends_are_joined(const AxisGraph& axis_graph) {
   for (VertexId v = 0; v < axis_graph.start(); ++v) lonely += graph.degree(v) == 0 ? 1U : 0U;
   solution_.roadmap = {axis_graph.vertex_count() - lonely, axis_graph.links().size(), parts.count - lonely};
   if (parts.connected(axis_graph.start(), axis_graph.goal())) return true;
-  const auto points_of = [&](VertexId end) {
-    std::vector<Vec2> points;
-    for (VertexId v = 0; v < axis_graph.vertex_count(); ++v) {
-      if (parts.connected(v, end)) push_asked(points, axis_graph.place(v), execution_);
-    }
-    return points;
-  };
-  solution_.separation = separation_between<2>(points_of(axis_graph.start()), points_of(axis_graph.goal()), execution_);
+  solution_.separation = separation_of_parts<2>(parts, axis_graph.start(), axis_graph.goal(), execution_,
+                                                [&](VertexId v) { return axis_graph.place(v); });
   return false;
 }
 

@@ -92,9 +92,8 @@ class Assembly {
     if (vertex_count_ > no_vertex) throw InputError("graph", "too many vertices", std::to_string(vertex_count_));
     edge_count_ = edges;
     std::vector<PartShape> shapes(parts_.size());
-    for_chunks(parts_.size(), part_grain(), execution_.quiet(), [&](Range r) {
-      for (std::size_t p = r.first; p < r.last; ++p) shapes[p] = check_part(vertex_count_, parts_[p]);
-    });
+    for_each_index(parts_.size(), part_grain(), execution_.quiet(),
+                   [&](std::size_t p) { shapes[p] = check_part(vertex_count_, parts_[p]); });
     VertexId last = 0;
     for (ordered_ = 0; ordered_ < parts_.size(); ++ordered_) {
       if (parts_[ordered_].empty()) continue;

@@ -37,12 +37,9 @@ Graph with_lengths(Graph graph, const Execution& execution, const Length& length
   constexpr std::size_t grain = std::size_t{1} << 14;
   execution.reserve(graph.targets().size() * sizeof(double));
   RawVector<double> lengths(graph.targets().size());
-  for_chunks(graph.vertex_count(), grain, execution, [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; ++i) {
-      const auto v = static_cast<VertexId>(i);
-      std::size_t end = graph.first_end(v);
-      for (const VertexId w : graph.neighbours(v)) lengths[end++] = length(v, w);
-    }
+  for_each_index<VertexId>(graph.vertex_count(), grain, execution, [&](VertexId v) {
+    std::size_t end = graph.first_end(v);
+    for (const VertexId w : graph.neighbours(v)) lengths[end++] = length(v, w);
   });
   return std::move(graph).with_lengths(std::move(lengths));
 }

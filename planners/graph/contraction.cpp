@@ -10,7 +10,6 @@
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
-#include "core/search/indexed_heap.hpp"
 #include "parallel/chunks.hpp"
 #include "parallel/sort.hpp"
 
@@ -111,15 +110,12 @@ ShrinkingGraph shrinking_graph(const Graph& graph, const Execution& execution) {
   whole.vertex.resize(n);
   whole.first.assign(graph.offsets().begin(), graph.offsets().end());
   whole.arc.resize(graph.targets().size());
-  for_chunks(n, shrinking_grain, execution, [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; ++i) {
-      const auto v = static_cast<VertexId>(i);
-      whole.vertex[v] = v;
-      const auto row = graph.neighbours(v);
-      const auto lengths = graph.lengths(v);
-      ShrinkingArc* next = whole.arc.data() + whole.first[v];
-      for (std::size_t k = 0; k < row.size(); ++k) *next++ = {row[k], no_vertex, lengths[k]};
-    }
+  for_each_index<VertexId>(n, shrinking_grain, execution, [&](VertexId v) {
+    whole.vertex[v] = v;
+    const auto row = graph.neighbours(v);
+    const auto lengths = graph.lengths(v);
+    ShrinkingArc* next = whole.arc.data() + whole.first[v];
+    for (std::size_t k = 0; k < row.size(); ++k) *next++ = {row[k], no_vertex, lengths[k]};
   });
   return whole;
 }
@@ -132,9 +128,7 @@ ShrinkingGraph shrunk(ShrinkingGraph before, std::span<const std::uint8_t> taken
   const NewArcs added = both_ways(n, shortcuts, execution);
   execution.reserve(n * 3 * sizeof(VertexId));
   RawVector<VertexId> number(n);  // in the graph after
-  for_chunks(n, shrinking_grain, execution, [&](Range r) {
-    for (std::size_t v = r.first; v < r.last; ++v) number[v] = taken[v] == 0 ? 1 : 0;
-  });
+  for_each_index(n, shrinking_grain, execution, [&](std::size_t v) { number[v] = taken[v] == 0 ? 1 : 0; });
   execution.reserve((before.arc.size() + added.arc.size()) * 2 * sizeof(ShrinkingArc));
   ShrinkingGraph after;
   after.vertex.resize(exclusive_scan(number, execution));
@@ -195,7 +189,7 @@ class WitnessSearch {
   std::span<const std::uint8_t> taken_;
   const Execution& execution_;
   std::vector<Slot> slots_;  // open addressing, at most half full
-  std::vector<QueueEntry> queue_;
+  LazyHeap queue_;
   std::uint32_t search_ = 0;
   std::size_t used_ = 0;     // slots
   std::size_t missing_ = 0;  // targets without a witness
@@ -203,7 +197,6 @@ class WitnessSearch {
 
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 constexpr double unwanted = -1.0;
-constexpr auto later_entry = [](const QueueEntry& a, const QueueEntry& b) { return b < a; };
 
 /// Where v stands; an empty slot where it doesn't.
 WitnessSearch::Slot& WitnessSearch::slot_of(VertexId v) {
@@ -238,17 +231,14 @@ void WitnessSearch::reach(VertexId v, double length) {
     slot.wanted = unwanted;
     --missing_;
   }
-  queue_.push_back({length, v});
-  std::push_heap(queue_.begin(), queue_.end(), later_entry);
+  queue_.push(v, length);
 }
 
 /// Until all targets have their witnesses.
 void WitnessSearch::search(VertexId from, double longest) {
   reach(from, 0.0);
   for (std::size_t settled = 0; missing_ > 0 && !queue_.empty() && settled < most_settled;) {
-    std::pop_heap(queue_.begin(), queue_.end(), later_entry);
-    const QueueEntry next = queue_.back();
-    queue_.pop_back();
+    const QueueEntry next = queue_.pop();
     if (next.key > slot_of(next.vertex).length) continue;
     ++settled;
     for (const ShrinkingArc& arc : graph_.row(next.vertex)) {
@@ -261,13 +251,13 @@ void WitnessSearch::search(VertexId from, double longest) {
 void WitnessSearch::append_shortcuts(VertexId v, RawVector<Shortcut>& shortcuts) {
   const auto row = graph_.row(v);
   for (std::size_t i = 0; i + 1 < row.size(); ++i) {
-    const auto later = row.subspan(i + 1);
+    const auto others = row.subspan(i + 1);
     if (i % 16 == 0) execution_.check();
-    begin(later, row[i].length);
+    begin(others, row[i].length);
     double longest = 0.0;
-    for (const ShrinkingArc& arc : later) longest = std::max(longest, row[i].length + arc.length);
+    for (const ShrinkingArc& arc : others) longest = std::max(longest, row[i].length + arc.length);
     search(row[i].to, longest);
-    for (const ShrinkingArc& arc : later) {
+    for (const ShrinkingArc& arc : others) {
       const double length = slot_of(arc.to).wanted;
       if (length != unwanted) shortcuts.push_back({row[i].to, arc.to, graph_.vertex[v], length});
     }
@@ -353,11 +343,9 @@ double ContractionRounds::density() const {
 /// No two are the same, for the scattered numbers aren't.
 RawVector<std::uint64_t> ContractionRounds::keys() const {
   RawVector<std::uint64_t> key(left_.size());
-  for_chunks(left_.size(), key_grain, execution_, [&](Range r) {
-    for (std::size_t v = r.first; v < r.last; ++v) {
-      const VertexId whole = left_.vertex[v];
-      key[v] = std::uint64_t{left_.first[v + 1] - left_.first[v] + level_[whole]} << 32 | scattered(whole);
-    }
+  for_each_index(left_.size(), key_grain, execution_, [&](std::size_t v) {
+    const VertexId whole = left_.vertex[v];
+    key[v] = std::uint64_t{left_.first[v + 1] - left_.first[v] + level_[whole]} << 32 | scattered(whole);
   });
   return key;
 }
@@ -366,12 +354,10 @@ RawVector<std::uint8_t> ContractionRounds::choose() const {
   execution_.reserve(left_.size() * (sizeof(std::uint64_t) + 1));
   const RawVector<std::uint64_t> key = keys();
   RawVector<std::uint8_t> taken(left_.size());
-  for_chunks(left_.size(), key_grain, execution_, [&](Range r) {
-    for (std::size_t v = r.first; v < r.last; ++v) {
-      const auto row = left_.row(static_cast<VertexId>(v));
-      const auto is_later = [&](const ShrinkingArc& arc) { return key[v] < key[arc.to]; };
-      taken[v] = std::all_of(row.begin(), row.end(), is_later) ? 1 : 0;
-    }
+  for_each_index<VertexId>(left_.size(), key_grain, execution_, [&](VertexId v) {
+    const auto row = left_.row(v);
+    const auto is_later = [&](const ShrinkingArc& arc) { return key[v] < key[arc.to]; };
+    taken[v] = std::all_of(row.begin(), row.end(), is_later) ? 1 : 0;
   });
   return taken;
 }
@@ -427,18 +413,14 @@ Hierarchy ContractionRounds::hierarchy() {
   execution_.reserve((level_.size() + 1) * sizeof(EdgeEnd));
   all.first.resize(level_.size() + 1);
   all.first.back() = 0;
-  for_chunks(gone_.size(), 64, execution_, [&](Range r) {
-    for (std::size_t part = r.first; part < r.last; ++part) {
-      const TakenOut& gone = gone_[part];
-      for (std::size_t i = 0; i < gone.vertex.size(); ++i) all.first[gone.vertex[i]] = gone.arcs[i];
-    }
+  for_each_index(gone_.size(), 64, execution_, [&](std::size_t part) {
+    const TakenOut& gone = gone_[part];
+    for (std::size_t i = 0; i < gone.vertex.size(); ++i) all.first[gone.vertex[i]] = gone.arcs[i];
   });
   const std::size_t arcs = scan_rows(all.first, execution_);
   execution_.reserve(arcs * sizeof(HierarchyArc));
   all.arcs.resize(arcs);
-  for_chunks(gone_.size(), 64, execution_, [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; ++i) write_rows(gone_[i], all);
-  });
+  for_each_index(gone_.size(), 64, execution_, [&](std::size_t i) { write_rows(gone_[i], all); });
   return all;
 }
 

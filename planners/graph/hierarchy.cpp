@@ -67,17 +67,11 @@ void check_hierarchy(const Hierarchy& hierarchy, std::size_t vertex_count, const
   constexpr std::size_t grain = std::size_t{1} << 14;
   const HierarchyCheck check(hierarchy, where);
   check.sizes(vertex_count);
-  for_chunks(vertex_count, grain, execution, [&](Range r) {
-    for (std::size_t v = r.first; v < r.last; ++v) check.heads(static_cast<VertexId>(v));
-  });
-  for_chunks(vertex_count, grain, execution, [&](Range r) {
-    for (std::size_t v = r.first; v < r.last; ++v) check.shortcuts(static_cast<VertexId>(v));
-  });
+  for_each_index<VertexId>(vertex_count, grain, execution, [&](VertexId v) { check.heads(v); });
+  for_each_index<VertexId>(vertex_count, grain, execution, [&](VertexId v) { check.shortcuts(v); });
 }
 
 namespace {
-
-constexpr auto later_in_queue = [](const QueueEntry& a, const QueueEntry& b) { return b < a; };
 
 const HierarchyEnd* end_at(const std::vector<HierarchyEnd>& ends, VertexId vertex) {
   const auto found = std::find_if(ends.begin(), ends.end(), [&](const HierarchyEnd& e) { return e.vertex == vertex; });
@@ -120,16 +114,12 @@ void HierarchyClimb::reach(VertexId v, double length, VertexId parent) {
     used_.push_back(static_cast<std::uint32_t>(slot));
   }
   slots_[slot] = {v, parent, length};
-  queue_.push_back({length, v});
-  std::push_heap(queue_.begin(), queue_.end(), later_in_queue);
+  queue_.push(v, length);
 }
 
 QueueEntry HierarchyClimb::pop() {
-  const QueueEntry next = queue_.front();
-  do {
-    std::pop_heap(queue_.begin(), queue_.end(), later_in_queue);
-    queue_.pop_back();
-  } while (!queue_.empty() && queue_.front().key > length(queue_.front().vertex));
+  const QueueEntry next = queue_.pop();
+  while (!queue_.empty() && queue_.top().key > length(queue_.top().vertex)) queue_.pop();
   return next;
 }
 

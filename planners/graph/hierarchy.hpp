@@ -23,8 +23,8 @@
 #include "core/base/types.hpp"
 #include "core/run/execution.hpp"
 #include "core/search/graph.hpp"
-#include "core/search/indexed_heap.hpp"
 #include "core/search/search.hpp"
+#include "core/search/search_queues.hpp"
 
 namespace warren {
 
@@ -67,7 +67,7 @@ class HierarchyClimb {
   void reach(VertexId v, double length, VertexId parent);
 
   bool empty() const { return queue_.empty(); }
-  const QueueEntry& top() const { return queue_.front(); }
+  const QueueEntry& top() const { return queue_.top(); }
   /// Takes the top, and what waits behind it for ways that are no longer the shortest.
   QueueEntry pop();
   /// The vertices from v back to where the climb began.
@@ -92,7 +92,7 @@ class HierarchyClimb {
   std::vector<Slot> slots_;  // open addressing, at most half full
   unsigned shift_ = 64 - first_bits;
   std::vector<std::uint32_t> used_;  // slots
-  std::vector<QueueEntry> queue_;    // a heap, with entries of ways that were longer
+  LazyHeap queue_;                   // with entries of ways that were longer
 };
 
 /// A vertex that start or goal is joined to, and how far it is.

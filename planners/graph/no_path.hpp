@@ -59,18 +59,25 @@ Separation separation_between(std::vector<PointOf<D>> start, std::vector<PointOf
   return result;
 }
 
-template <World W>
-Separation separation_of(const W& world, std::span<const typename W::State> states, const Components& components,
-                         VertexId start, VertexId goal, const Execution& execution) {
-  const auto points_of = [&](VertexId v) {
-    std::vector<PointOf<embedding_dimension<W>>> points;
-    for (std::size_t i = 0; i < states.size(); ++i) {
-      if (components.label[i] != components.label[v]) continue;
-      push_asked(points, embedded(world, states[i]), execution);
+/// Of what start and goal are joined with; point(v): where a vertex stands.
+template <int D, class PointAt>
+Separation separation_of_parts(const Components& parts, VertexId start, VertexId goal, const Execution& execution,
+                               const PointAt& point) {
+  const auto points_of = [&](VertexId end) {
+    std::vector<PointOf<D>> points;
+    for (VertexId v = 0; v < parts.label.size(); ++v) {
+      if (parts.connected(v, end)) push_asked(points, point(v), execution);
     }
     return points;
   };
-  return separation_between<embedding_dimension<W>>(points_of(start), points_of(goal), execution);
+  return separation_between<D>(points_of(start), points_of(goal), execution);
+}
+
+template <World W>
+Separation separation_of(const W& world, std::span<const typename W::State> states, const Components& components,
+                         VertexId start, VertexId goal, const Execution& execution) {
+  return separation_of_parts<embedding_dimension<W>>(components, start, goal, execution,
+                                                     [&](VertexId v) { return embedded(world, states[v]); });
 }
 
 /// What a planner answers when it was stopped: why, and no path. Counts and times stay as they are.

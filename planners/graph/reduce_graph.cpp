@@ -143,20 +143,16 @@ ReducedGraphView::ReducedGraphView(KeyCoverView cover, const std::vector<Part>& 
   RawVector<double> lengths(begins.back());
   via_.resize(begins.back());
   vertices_.resize(cover_.key_count());
-  for_chunks(parts.size(), 16, quiet, [&](Range r) {
-    for (std::size_t p = r.first; p < r.last; ++p) {
-      std::size_t at = begins[p];
-      for (const Chain& chain : parts[p].chains) {
-        targets[at] = chain.target;
-        lengths[at] = chain.length;
-        via_[at++] = chain.via;
-      }
+  for_each_index(parts.size(), 16, quiet, [&](std::size_t p) {
+    std::size_t at = begins[p];
+    for (const Chain& chain : parts[p].chains) {
+      targets[at] = chain.target;
+      lengths[at] = chain.length;
+      via_[at++] = chain.via;
     }
   });
-  for_chunks(cover_.graph().vertex_count(), detail::reduce_grain, quiet, [&](Range r) {
-    for (auto v = static_cast<VertexId>(r.first); v < r.last; ++v) {
-      if (cover_.is_key(v)) vertices_[cover_.rank(v)] = v;
-    }
+  for_each_index<VertexId>(cover_.graph().vertex_count(), detail::reduce_grain, quiet, [&](VertexId v) {
+    if (cover_.is_key(v)) vertices_[cover_.rank(v)] = v;
   });
   reduced_ = Graph(std::move(degrees), std::move(targets), std::move(lengths));
 }

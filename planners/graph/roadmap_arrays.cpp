@@ -216,22 +216,15 @@ RawVector<VertexId> free_components(const RoadmapParts& parts, const Execution& 
   const std::size_t n = parts.vertex_count();
   execution.reserve(n * sizeof(VertexId));
   RawVector<VertexId> parent(n);
-  for_chunks(n, grain, execution, [&](Range r) {
-    for (std::size_t v = r.first; v < r.last; ++v) parent[v] = static_cast<VertexId>(v);
-  });
+  for_each_index<VertexId>(n, grain, execution, [&](VertexId v) { parent[v] = v; });
   const UnionForest forest(parent);
-  for_chunks(n, grain, execution, [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; ++i) {
-      const auto v = static_cast<VertexId>(i);
-      for (std::size_t end = parts.first[i]; end < parts.first[i + 1]; ++end) {
-        if (parts.state_of_end(end) == EdgeState::free) forest.join(v, parts.to[end]);
-      }
+  for_each_index<VertexId>(n, grain, execution, [&](VertexId v) {
+    for (std::size_t end = parts.first[v]; end < parts.first[v + 1]; ++end) {
+      if (parts.state_of_end(end) == EdgeState::free) forest.join(v, parts.to[end]);
     }
   });
   RawVector<VertexId> label(n);
-  for_chunks(n, grain, execution, [&](Range r) {
-    for (std::size_t v = r.first; v < r.last; ++v) label[v] = forest.root(static_cast<VertexId>(v));
-  });
+  for_each_index<VertexId>(n, grain, execution, [&](VertexId v) { label[v] = forest.root(v); });
   return label;
 }
 

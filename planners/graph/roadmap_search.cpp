@@ -31,11 +31,9 @@ SearchResult search_from_both_ends(QueueKind kind, std::size_t vertex_count, con
     std::array<Side, 2> sides{Side{empty_queue, {}}, Side{empty_queue, {}}};
     // Both at once: the first touch of their memory is half of the cost. Few vertices do not repay a thread's start.
     const std::size_t grain = vertex_count < fewest_for_both_ends ? 2 : 1;
-    for_chunks(2, grain, execution, [&](Range r) {
-      for (std::size_t i = r.first; i < r.last; ++i) {
-        sides[i].search.emplace(roots[i], vertex_count, neighbours[i], to_root[1 - i], to_root[i], sides[i].queue,
-                                *states[i], [&] { execution.check(); });
-      }
+    for_each_index(2, grain, execution, [&](std::size_t i) {
+      sides[i].search.emplace(roots[i], vertex_count, neighbours[i], to_root[1 - i], to_root[i], sides[i].queue,
+                              *states[i], [&] { execution.check(); });
     });
     return bidirectional(*sides[0].search, *sides[1].search, execution);
   });

@@ -40,9 +40,7 @@ StateIndex<W> index_of_states(const W& world, std::span<const typename W::State>
     constexpr std::size_t grain = std::size_t{1} << 14;
     execution.reserve(states.size() * sizeof(PointOf<embedding_dimension<W>>));
     RawVector<PointOf<embedding_dimension<W>>> points(states.size());
-    for_chunks(states.size(), grain, execution, [&](Range r) {
-      for (std::size_t i = r.first; i < r.last; ++i) points[i] = embedded(world, states[i]);
-    });
+    for_each_index(states.size(), grain, execution, [&](std::size_t i) { points[i] = embedded(world, states[i]); });
     return StateIndex<W>(points, execution, kind);
   }
 }

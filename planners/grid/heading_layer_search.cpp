@@ -278,16 +278,6 @@ void count_moves(LayerPath& path, const LayerSearchOptions& options) {
 
 }  // namespace
 
-LayerPath layer_search(const HeadingLayers& layers, const LayerState& start, Cell goal,
-                       std::optional<std::uint32_t> goal_heading, const LayerSearchOptions& options,
-                       const Execution& execution) {
-  std::vector<LayerEnd> goals;
-  for (std::uint32_t k = 0; k < layers.angles && !goal_heading; ++k) goals.push_back({{goal.x, goal.y, k}});
-  if (goal_heading) goals.push_back({{goal.x, goal.y, *goal_heading}});
-  const LayerEnd only{start};
-  return layer_search(layers, std::span(&only, 1), goals, options, execution);
-}
-
 LayerPath layer_search(const HeadingLayers& layers, std::span<const LayerEnd> starts, std::span<const LayerEnd> goals,
                        const LayerSearchOptions& options, const Execution& execution) {
   check(layers, starts, goals, options);

@@ -14,7 +14,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -57,14 +56,9 @@ struct LayerPath {
   std::uint64_t expanded = 0;
 };
 
-/// A cheapest path; goal_heading: nullopt for any. Throws InputError for states outside the layers, costs out of range
-/// and more than HeadingLayers::most_states; Stopped.
-LayerPath layer_search(const HeadingLayers& layers, const LayerState& start, Cell goal,
-                       std::optional<std::uint32_t> goal_heading, const LayerSearchOptions& options,
-                       const Execution& execution);
-
 /// A cheapest path from any of the starts to any of the goals; ends that are not free are left out. A state may be
-/// there more than once: the cheapest counts.
+/// there more than once: the cheapest counts. Throws InputError for states outside the layers, costs out of range and
+/// more than HeadingLayers::most_states; Stopped.
 LayerPath layer_search(const HeadingLayers& layers, std::span<const LayerEnd> starts, std::span<const LayerEnd> goals,
                        const LayerSearchOptions& options, const Execution& execution);
 

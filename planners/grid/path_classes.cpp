@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <tuple>
 #include <utility>
 
@@ -176,7 +177,7 @@ class ClassSearch {
   ClassSearch(StepWeights& weights, PriceField& field, const HoleCuts& cuts, const ClassChoice& choice,
               const Execution& execution)
       : weights_(weights), field_(field), cuts_(cuts), choice_(choice), execution_(execution) {
-    execution.reserve(2 * sizeof(std::uint32_t) * weights.cells().number_end());
+    execution.reserve((sizeof(std::uint32_t) + sizeof(std::uint8_t)) * weights.cells().number_end());
     first_.assign(weights.cells().number_end(), none);
     settled_.assign(weights.cells().number_end(), 0);
   }
@@ -184,15 +185,16 @@ class ClassSearch {
   std::vector<ClassPath> find(Cell start, PriceField::Goal goal) {
     std::vector<ClassPath> found;
     beyond_ = goal.cost;
-    const auto least = left(start);
+    const VertexId begin = weights_.cells().number(start);
+    const auto least = left(begin);
     if (!least) return found;
     limit_ = static_cast<double>(*least) * choice_.stretch;
     const VertexId end = weights_.cells().number(goal.cell);
-    reach(weights_.cells().number(start), 0, none, 0, *least);
+    reach(begin, 0, none, 0, *least);
     for (std::uint64_t turns = 1; !open_.empty(); ++turns) {
       if (turns % expansions_per_poll == 0) execution_.check();
       const auto [key, at] = open_.pop();
-      State& state = states_[at];
+      State& state = state_at(at);
       if (state.is_settled || key != key_of(state) || settled_[state.cell] >= choice_.count) continue;
       ++settled_[state.cell];
       state.is_settled = true;
@@ -208,45 +210,49 @@ class ClassSearch {
  private:
   struct State {
     std::uint64_t cost;
-    std::uint64_t rest;
     VertexId cell;
-    std::uint32_t word;
     std::uint32_t before;
     std::uint32_t next;  // of the same cell
-    bool is_settled;
+    std::uint32_t word : 31;
+    std::uint32_t is_settled : 1;
   };
+  static constexpr std::uint32_t piece = 1 << 14;  // states, which stay where they are
+  State& state_at(std::uint32_t at) { return pieces_[at / piece][at % piece]; }
+  const State& state_at(std::uint32_t at) const { return pieces_[at / piece][at % piece]; }
 
   /// From a cell to the goal's.
-  std::optional<std::uint64_t> left(Cell from) {
+  std::optional<std::uint64_t> left(VertexId from) {
     const auto cost = field_.cost(from, execution_);
     return cost ? std::optional(*cost - beyond_) : std::nullopt;
   }
-  static double key_of(const State& state) { return static_cast<double>(state.cost + state.rest); }
+  double key_of(const State& state) { return static_cast<double>(state.cost + *left(state.cell)); }
   void reach(VertexId cell, std::uint32_t word, std::uint32_t before, std::uint64_t cost, std::uint64_t rest) {
     std::uint32_t at = first_[cell];
-    while (at != none && states_[at].word != word) at = states_[at].next;
+    while (at != none && state_at(at).word != word) at = state_at(at).next;
     if (at == none) {
-      at = as_whole<std::uint32_t>(states_.size());
-      if (states_.size() == states_.capacity()) execution_.reserve(2 * sizeof(State) * states_.size());
-      states_.push_back({cost, rest, cell, word, before, first_[cell], false});
+      at = count_++;
+      if (at % piece == 0) {
+        execution_.reserve(sizeof(State) * piece);
+        pieces_.push_back(std::make_unique_for_overwrite<State[]>(piece));
+      }
+      state_at(at) = {cost, cell, before, first_[cell], word, 0};
       first_[cell] = at;
     } else {
-      State& known = states_[at];
+      State& known = state_at(at);
       if (known.cost <= cost) return;
       known.cost = cost;
       known.before = before;
     }
-    open_.push(at, key_of(states_[at]));
+    open_.push(at, static_cast<double>(cost + rest));
   }
   void expand(std::uint32_t at) {
-    const State from = states_[at];
+    const State from = state_at(at);
     const Cell here = weights_.cells().cell(from.cell);
     for (unsigned rest = weights_.allowed(from.cell); rest != 0; rest &= rest - 1) {
       const auto step = as_whole<unsigned>(std::countr_zero(rest));
       const VertexId to = from.cell + weights_.offset(step);
       if (settled_[to] >= choice_.count) continue;
-      const auto onward =
-          first_[to] != none ? std::optional(states_[first_[to]].rest) : left(weights_.cells().cell(to));
+      const auto onward = left(to);
       if (!onward) continue;
       const std::uint64_t cost = from.cost + weights_.weight(from.cell, step);
       if (static_cast<double>(cost + *onward) > limit_) continue;
@@ -255,7 +261,7 @@ class ClassSearch {
   }
   std::vector<Cell> cells_to(std::uint32_t at) const {
     std::vector<Cell> cells;
-    for (; at != none; at = states_[at].before) cells.push_back(weights_.cells().cell(states_[at].cell));
+    for (; at != none; at = state_at(at).before) cells.push_back(weights_.cells().cell(state_at(at).cell));
     std::reverse(cells.begin(), cells.end());
     return cells;
   }
@@ -268,9 +274,10 @@ class ClassSearch {
   std::uint64_t beyond_ = 0;  // of the goal
   double limit_ = 0.0;
   Words words_;
-  std::vector<State> states_;
-  std::vector<std::uint32_t> first_;    // state of each cell
-  std::vector<std::uint32_t> settled_;  // states of each cell
+  std::vector<std::unique_ptr<State[]>> pieces_;
+  std::uint32_t count_ = 0;            // of states
+  std::vector<std::uint32_t> first_;   // state of each cell
+  std::vector<std::uint8_t> settled_;  // states of each cell, as many as there are classes
   BucketQueue open_{static_cast<double>(units_a_cell) / 64.0};
 };
 

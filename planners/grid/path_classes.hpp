@@ -60,7 +60,7 @@ class HoleCuts {
 
 /// How many classes are looked for.
 struct ClassChoice {
-  std::size_t count = 1;  ///< with the cheapest
+  std::size_t count = 1;  ///< with the cheapest; at most 255
   double stretch = 1.5;   ///< that cost so many times the least at most
 };
 

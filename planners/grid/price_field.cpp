@@ -13,7 +13,6 @@
 namespace warren {
 namespace {
 
-/// Numbers of the system's pages of zeros, which it gives where they are touched.
 template <class Number>
 Number* zeros(std::size_t count, const Execution& execution) {
   execution.reserve(count * sizeof(Number));
@@ -118,8 +117,7 @@ void PriceField::settle_until(const IsDone& is_done, const Execution& execution)
   if (queued_ == 0) current_ = nothing_left;
 }
 
-std::optional<std::uint64_t> PriceField::cost(Cell from, const Execution& execution) {
-  const VertexId v = weights_.cells().number(from);
+std::optional<std::uint64_t> PriceField::cost(VertexId v, const Execution& execution) {
   if (!weights_.cells().is_free(v)) return std::nullopt;
   if (!is_settled(v)) settle_until([&] { return is_settled(v); }, execution);
   if (known(v) == unreached) return std::nullopt;

@@ -34,6 +34,13 @@ inline constexpr std::uint64_t units_a_cell = std::uint64_t{1} << 20;
 /// The diagonal of a cell, rounded up.
 inline constexpr std::uint64_t units_a_diagonal = 1'482'911;
 
+struct FreePages {
+  void operator()(void* block) const { std::free(block); }
+};
+/// Numbers of the system's pages of zeros, which it gives where they are touched.
+template <class Number>
+using ZeroPages = std::unique_ptr<Number[], FreePages>;
+
 /// What steps weigh, looked up once each. Not for several threads at once: it remembers.
 class StepWeights {
  public:
@@ -94,9 +101,6 @@ class StepWeights {
  private:
   static constexpr unsigned steps_there_are = 8;
   static constexpr unsigned back_steps = 4;
-  struct Free {
-    void operator()(std::uint32_t* block) const { std::free(block); }
-  };
   /// Of what is known of a step: it stands with the one of its two cells that it goes forward from.
   std::size_t place_of(VertexId from, unsigned step) const {
     return step >= back_steps ? std::size_t{back_steps} * from + step - back_steps
@@ -125,7 +129,7 @@ class StepWeights {
   std::array<std::uint64_t, steps_there_are> lengths_{};
   std::uint64_t diagonal_at_least_;
   Weigh weigh_;
-  std::unique_ptr<std::uint32_t[], Free> known_;  // four a cell, 0: not known yet; none: lengths
+  ZeroPages<std::uint32_t> known_;  // four a cell, 0: not known yet; none: lengths
 };
 
 /// The costs to a set of goals. Refers to the weights.
@@ -143,7 +147,10 @@ class PriceField {
              const Execution& execution);
 
   /// The least cost from a cell to a goal, in units; none: there is no way. Throws Stopped.
-  std::optional<std::uint64_t> cost(Cell from, const Execution& execution);
+  std::optional<std::uint64_t> cost(Cell from, const Execution& execution) {
+    return cost(weights_.cells().number(from), execution);
+  }
+  std::optional<std::uint64_t> cost(VertexId from, const Execution& execution);
   /// The cells of the cheapest way, and the first of the goals at its end; cost(from) is there. Throws Stopped.
   std::pair<std::vector<Cell>, std::size_t> path(Cell from, const Execution& execution);
   /// After a change of cells or weights: costs are as a new field's again. touched: all cells that became free or
@@ -163,9 +170,6 @@ class PriceField {
   std::uint64_t expanded() const { return expanded_; }
 
  private:
-  struct Free {
-    void operator()(std::uint64_t* block) const { std::free(block); }
-  };
   static constexpr std::uint64_t unreached = ~std::uint64_t{0};
   static constexpr std::uint64_t nothing_left = unreached;
   static constexpr std::uint64_t bucket_count = 1024;
@@ -203,7 +207,7 @@ class PriceField {
   std::vector<Cell> towards_;
   std::vector<Goal> goals_;
   std::vector<std::pair<VertexId, std::size_t>> goal_cells_;  // sorted
-  std::unique_ptr<std::uint64_t[], Free> costs_;
+  ZeroPages<std::uint64_t> costs_;
   std::vector<std::vector<VertexId>> buckets_;  // of keys, in turns; their order within decides nothing
   std::uint64_t current_ = 0;                   // all keys below were expanded
   std::size_t queued_ = 0;

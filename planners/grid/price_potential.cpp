@@ -87,32 +87,30 @@ class PricedTriangles {
     const DistanceField field(blocked_, CellDistance::squares, true, execution);
     const double paid = question_.radius + question_.reach;
     const auto around = bounded_whole<std::int64_t>(std::ceil(paid) + 1.0, 1.0, 1e9);
-    for_chunks(height(), 16, execution, [&](Range rows) {
-      for (auto y = as_whole<std::uint32_t>(rows.first); y < rows.last; ++y) {
-        for (std::uint32_t x = 0; x < width(); ++x) {
-          if (is_outside(x, y) || field.distance(x, y) >= paid) continue;
-          std::array<double, 4> farthest_sq;
-          farthest_sq.fill(std::numeric_limits<double>::infinity());
-          const auto take = [&](double dx, double dy) { nearer_by_square(dx, dy, farthest_sq); };
-          const std::int64_t left = std::max<std::int64_t>(-1, std::int64_t{x} - around);
-          const std::int64_t right = std::min<std::int64_t>(width(), std::int64_t{x} + around);
-          for (std::int64_t column = left; column <= right; ++column) {
-            const double dx = static_cast<double>(column - std::int64_t{x});
-            if (column < 0 || column == std::int64_t{width()}) {
-              take(dx, 0.0);
-              continue;
-            }
-            const std::size_t at = std::size_t{y} * width() + as_whole<std::size_t>(column);
-            take(dx, above[at] - static_cast<double>(y));
-            take(dx, below[at] - static_cast<double>(y));
+    for_each_index<std::uint32_t>(height(), 16, execution, [&](std::uint32_t y) {
+      for (std::uint32_t x = 0; x < width(); ++x) {
+        if (is_outside(x, y) || field.distance(x, y) >= paid) continue;
+        std::array<double, 4> farthest_sq;
+        farthest_sq.fill(std::numeric_limits<double>::infinity());
+        const auto take = [&](double dx, double dy) { nearer_by_square(dx, dy, farthest_sq); };
+        const std::int64_t left = std::max<std::int64_t>(-1, std::int64_t{x} - around);
+        const std::int64_t right = std::min<std::int64_t>(width(), std::int64_t{x} + around);
+        for (std::int64_t column = left; column <= right; ++column) {
+          const double dx = static_cast<double>(column - std::int64_t{x});
+          if (column < 0 || column == std::int64_t{width()}) {
+            take(dx, 0.0);
+            continue;
           }
-          for (std::size_t i = 0; i < 4; ++i) {
-            const double share = 1.0 - (std::sqrt(farthest_sq[i]) - question_.radius) / question_.reach;
-            if (!(share > 0.0)) continue;
-            constexpr double rounding = 1e-9;
-            const double least = 1.0 + question_.price * std::min(share, 1.0) * std::min(share, 1.0) * (1.0 - rounding);
-            prices_[number(x, y, i)] = static_cast<float>(least) * (1.0F - 0x1p-22F);
-          }
+          const std::size_t at = std::size_t{y} * width() + as_whole<std::size_t>(column);
+          take(dx, above[at] - static_cast<double>(y));
+          take(dx, below[at] - static_cast<double>(y));
+        }
+        for (std::size_t i = 0; i < 4; ++i) {
+          const double share = 1.0 - (std::sqrt(farthest_sq[i]) - question_.radius) / question_.reach;
+          if (!(share > 0.0)) continue;
+          constexpr double rounding = 1e-9;
+          const double least = 1.0 + question_.price * std::min(share, 1.0) * std::min(share, 1.0) * (1.0 - rounding);
+          prices_[number(x, y, i)] = static_cast<float>(least) * (1.0F - 0x1p-22F);
         }
       }
     });

@@ -74,15 +74,11 @@ class Thinning {
         ends_(ends),
         execution_(execution),
         width_(blocked.width()),
-        rest_(blocked.width(), blocked.height()),
+        rest_(blocked.width(), blocked.height(), true),
         waits_(blocked.width(), blocked.height()),
         kept_(kept) {
     execution.reserve(2 * blocked.bytes());
-    for (std::uint32_t y = 0; y < blocked.height(); ++y) {
-      for (std::uint32_t x = 0; x < width_; ++x) {
-        if (!blocked.test(x, y)) rest_.set(x, y);
-      }
-    }
+    rest_.remove(blocked);
   }
 
   Bitmap run() {
@@ -176,12 +172,7 @@ class NumberedCells {
     }
     cells_.reserve(count);
     for (std::uint32_t y = 0; y < bits_.height(); ++y) {
-      const auto words = bits_.row(y);
-      for (std::uint32_t w = 0; w < words.size(); ++w) {
-        for (std::uint64_t rest = words[w]; rest != 0; rest &= rest - 1) {
-          cells_.push_back({64 * w + static_cast<std::uint32_t>(std::countr_zero(rest)), y});
-        }
-      }
+      bits_.for_each_in_row(y, [&](std::uint32_t x) { cells_.push_back({x, y}); });
     }
   }
   std::size_t size() const { return cells_.size(); }
@@ -192,6 +183,26 @@ class NumberedCells {
     const std::size_t word = y * bits_.row(0).size() + x / 64;
     const std::uint64_t below = (std::uint64_t{1} << x % 64) - 1;
     return before_[word] + static_cast<VertexId>(std::popcount(bits_.words()[word] & below));
+  }
+  /// Of a cell, over its sides: from the right anticlockwise.
+  struct Neighbours {
+    std::array<VertexId, 4> cell{};
+    std::size_t count = 0;
+    std::size_t size() const { return count; }
+    VertexId front() const { return cell[0]; }
+    auto begin() const { return cell.begin(); }
+    auto end() const { return cell.begin() + static_cast<std::ptrdiff_t>(count); }
+  };
+  Neighbours neighbours(VertexId v) const {
+    Neighbours found;
+    const Cell c = cells_[v];
+    for (std::size_t side = 0; side < ring.size(); side += 2) {
+      const std::int64_t x = std::int64_t{c.x} + ring[side][0];
+      const std::int64_t y = std::int64_t{c.y} + ring[side][1];
+      if (!holds(x, y)) continue;
+      found.cell[found.count++] = number(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
+    }
+    return found;
   }
 
  private:
@@ -286,15 +297,9 @@ bool SkeletonPlan::joined() {
   const Components parts = components(graph, execution_);
   plan_.roadmap = {cells_->size(), edges_.size(), parts.count};
   if (parts.connected(start(), goal())) return true;
-  const auto points_of = [&](VertexId end) {
-    std::vector<Vec2> points;
-    for (VertexId v = 0; v < cells_->size(); ++v) {
-      const Cell c = cells_->cell(v);
-      if (parts.connected(v, end)) points.push_back({c.x + 0.5, c.y + 0.5});
-    }
-    return points;
-  };
-  plan_.separation = separation_between<2>(points_of(start()), points_of(goal()), execution_);
+  plan_.separation = separation_of_parts<2>(parts, start(), goal(), execution_, [&](VertexId v) {
+    return Vec2{cells_->cell(v).x + 0.5, cells_->cell(v).y + 0.5};
+  });
   return false;
 }
 
@@ -310,18 +315,12 @@ std::vector<std::uint32_t> SkeletonPlan::widths() const {
 }
 
 void SkeletonPlan::join_end_to_axis(VertexId end, std::vector<std::uint32_t>& widths) const {
-  constexpr std::array<std::array<int, 2>, 4> sides{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
   VertexId before = no_vertex;
   for (VertexId v = end; v != no_vertex;) {
     widths[v] = DistanceField::far;
     VertexId next = no_vertex;
     int ways = 0;
-    const Cell c = cells_->cell(v);
-    for (const auto& [dx, dy] : sides) {
-      const std::int64_t x = std::int64_t{c.x} + dx;
-      const std::int64_t y = std::int64_t{c.y} + dy;
-      if (!cells_->holds(x, y)) continue;
-      const VertexId w = cells_->number(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
+    for (const VertexId w : cells_->neighbours(v)) {
       if (w == before) continue;
       next = w;
       ++ways;
@@ -416,30 +415,10 @@ class LinesOfSkeleton {
   }
 
  private:
-  struct Neighbours {
-    std::array<VertexId, 4> cell{};
-    std::size_t count = 0;
-    std::size_t size() const { return count; }
-    VertexId front() const { return cell[0]; }
-    auto begin() const { return cell.begin(); }
-    auto end() const { return cell.begin() + static_cast<std::ptrdiff_t>(count); }
-  };
-
   void poll(std::size_t i) const {
     if (i % cells_per_poll == 0) execution_.check();
   }
-  Neighbours neighbours(VertexId v) const {
-    constexpr std::array<std::array<int, 2>, 4> sides{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-    Neighbours found;
-    const Cell c = cells_.cell(v);
-    for (const auto& [dx, dy] : sides) {
-      const std::int64_t x = std::int64_t{c.x} + dx;
-      const std::int64_t y = std::int64_t{c.y} + dy;
-      if (!cells_.holds(x, y)) continue;
-      found.cell[found.count++] = cells_.number(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
-    }
-    return found;
-  }
+  NumberedCells::Neighbours neighbours(VertexId v) const { return cells_.neighbours(v); }
 
   /// Each chain once: from the end that comes first, or from either where it is walked by its own cells.
   void follow_all(VertexId v) {
@@ -457,7 +436,7 @@ class LinesOfSkeleton {
     while (next != from && neighbours(next).size() == 2) {
       poll(chain_.size());
       passed_[next] = 1;
-      const Neighbours near = neighbours(next);
+      const auto near = neighbours(next);
       const VertexId before = chain_[chain_.size() - 2];
       next = near.cell[0] == before ? near.cell[1] : near.cell[0];
       chain_.push_back(next);

@@ -57,6 +57,11 @@ class LatticePlaces {
   static unsigned along_side(LatticePlace p, unsigned direction) {
     return (direction & 1U) == 0 ? p / side % side : p % side;
   }
+  /// The cell so far along the side of a tile that a motion in this direction leaves.
+  static LatticePlace on_side(std::uint32_t tile, unsigned direction, unsigned along) {
+    constexpr std::array<LatticePlace, 4> corner{side - 1, (side - 1) * side, 0, 0};
+    return tile * tile_places + corner[direction] + along * ((direction & 1U) == 0 ? side : 1U);
+  }
   /// The neighbour, which must be in the lattice.
   LatticePlace step(LatticePlace p, unsigned direction) const {
     return p + (leaves_tile(p, direction) ? over_[direction] : inner_[direction]);

@@ -38,11 +38,9 @@ class TreePeeling {
   }
 
   RawVector<std::uint8_t> run() {
-    for_chunks(places_.tile_count(), 16, execution_, [&](Range r) {
-      for (std::size_t tile = r.first; tile < r.last; ++tile) {
-        load(static_cast<std::uint32_t>(tile));
-        peel_tile(static_cast<LatticePlace>(tile * LatticePlaces::tile_places));
-      }
+    for_each_index<std::uint32_t>(places_.tile_count(), 16, execution_, [&](std::uint32_t tile) {
+      load(tile);
+      peel_tile(tile * LatticePlaces::tile_places);
     });
     for (std::uint32_t side = growth; side / growth < most_tiles(); side *= growth) peel_squares(side);
     return std::move(bytes_);
@@ -126,11 +124,8 @@ void TreePeeling::peel_squares(std::uint32_t side) {
 }
 
 void TreePeeling::peel_border(std::uint32_t tile, unsigned direction, const TileSquare& square) {
-  const unsigned last = LatticePlaces::side - 1;
-  const std::array<LatticePlace, 4> corner{last, last * LatticePlaces::side, 0, 0};
-  const LatticePlace along = (direction & 1U) == 0 ? LatticePlaces::side : 1;
-  LatticePlace at = tile * LatticePlaces::tile_places + corner[direction];
-  for (unsigned i = 0; i <= last; ++i, at += along) {
+  for (unsigned along = 0; along < LatticePlaces::side; ++along) {
+    const LatticePlace at = LatticePlaces::on_side(tile, direction, along);
     if (bytes_[at] == 1U << direction) follow(at, square);
   }
 }
@@ -245,13 +240,11 @@ void CoreWalk::find_junctions() {
 }
 
 void CoreWalk::walk_chains() {
-  for_chunks(bits_.size(), core_row_grain, execution_, [&](Range r) {
-    for (std::size_t row = r.first; row < r.last; ++row) {
-      JunctionId v = first_[row];
-      for (std::uint64_t left = bits_[row]; left != 0; left &= left - 1, ++v) {
-        graph_.place[v] = static_cast<LatticePlace>(row * 64 + static_cast<std::size_t>(std::countr_zero(left)));
-        for (unsigned d = 0; d < 4; ++d) walk(v, d);
-      }
+  for_each_index(bits_.size(), core_row_grain, execution_, [&](std::size_t row) {
+    JunctionId v = first_[row];
+    for (std::uint64_t left = bits_[row]; left != 0; left &= left - 1, ++v) {
+      graph_.place[v] = static_cast<LatticePlace>(row * 64 + static_cast<std::size_t>(std::countr_zero(left)));
+      for (unsigned d = 0; d < 4; ++d) walk(v, d);
     }
   });
 }
@@ -295,12 +288,10 @@ bool CoreWalk::is_useless(JunctionId v, unsigned slot) const {
 void CoreWalk::drop_useless() {
   const std::size_t count = graph_.size();
   RawVector<std::uint8_t> useless(count);
-  for_chunks(count, junction_grain, execution_, [&](Range r) {
-    for (std::size_t v = r.first; v < r.last; ++v) {
-      unsigned slots = 0;
-      for (unsigned s = 0; s < 4; ++s) slots |= is_useless(static_cast<JunctionId>(v), s) ? 1U << s : 0;
-      useless[v] = static_cast<std::uint8_t>(slots);
-    }
+  for_each_index<JunctionId>(count, junction_grain, execution_, [&](JunctionId v) {
+    unsigned slots = 0;
+    for (unsigned s = 0; s < 4; ++s) slots |= is_useless(v, s) ? 1U << s : 0;
+    useless[v] = static_cast<std::uint8_t>(slots);
   });
   for_chunks(count, junction_grain, execution_, [&](Range r) {
     for (std::size_t h = 4 * r.first; h < 4 * r.last; ++h) {
@@ -328,9 +319,7 @@ class CoreReduction {
       }
     }
     renumber();
-    for_chunks(graph_.size(), 4096, execution_, [&](Range r) {
-      for (std::size_t v = r.first; v < r.last; ++v) mark_chains(static_cast<JunctionId>(v));
-    });
+    for_each_index<JunctionId>(graph_.size(), 4096, execution_, [&](JunctionId v) { mark_chains(v); });
   }
 
  private:
@@ -453,22 +442,20 @@ RawVector<std::uint64_t> mark_words(const RawVector<std::uint8_t>& peeled, const
   execution.reserve(rows * mark_word::count * sizeof(std::uint64_t));
   RawVector<std::uint64_t> words(rows * mark_word::count);
   constexpr std::size_t grain = 1024;
-  for_chunks(rows, grain, execution, [&](Range r) {
-    for (std::size_t row = r.first; row < r.last; ++row) {
-      const std::uint8_t* const bytes = peeled.data() + row * 64;
-      std::uint64_t low = 0;
-      std::uint64_t high = 0;
-      std::uint64_t off = 0;
-      for (unsigned i = 0; i < 64; ++i) {
-        low |= std::uint64_t{bytes[i] >> 4 & 1U} << i;
-        high |= std::uint64_t{bytes[i] >> 5 & 1U} << i;
-        off |= std::uint64_t{bytes[i] >> 6 & 1U} << i;
-      }
-      std::uint64_t* const out = words.data() + row * mark_word::count;
-      out[mark_word::low] = low;
-      out[mark_word::high] = high;
-      out[mark_word::core] = ~off;
+  for_each_index(rows, grain, execution, [&](std::size_t row) {
+    const std::uint8_t* const bytes = peeled.data() + row * 64;
+    std::uint64_t low = 0;
+    std::uint64_t high = 0;
+    std::uint64_t off = 0;
+    for (unsigned i = 0; i < 64; ++i) {
+      low |= std::uint64_t{bytes[i] >> 4 & 1U} << i;
+      high |= std::uint64_t{bytes[i] >> 5 & 1U} << i;
+      off |= std::uint64_t{bytes[i] >> 6 & 1U} << i;
     }
+    std::uint64_t* const out = words.data() + row * mark_word::count;
+    out[mark_word::low] = low;
+    out[mark_word::high] = high;
+    out[mark_word::core] = ~off;
   });
   return words;
 }

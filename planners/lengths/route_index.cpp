@@ -72,14 +72,12 @@ void PieceBuilder::find_exits() {
   RawVector<std::uint64_t> exits(4 * tiles);
   RawVector<std::uint32_t> first(tiles + 1);
   first[tiles] = 0;
-  for_chunks(tiles, tile_grain, execution_, [&](Range r) {
-    for (std::size_t tile = r.first; tile < r.last; ++tile) {
-      first[tile] = 0;
-      for (unsigned d = 0; d < 4; ++d) {
-        const std::uint64_t word = exits_of(marks_, static_cast<std::uint32_t>(tile), d);
-        exits[4 * tile + d] = word;
-        first[tile] += static_cast<std::uint32_t>(std::popcount(word));
-      }
+  for_each_index(tiles, tile_grain, execution_, [&](std::size_t tile) {
+    first[tile] = 0;
+    for (unsigned d = 0; d < 4; ++d) {
+      const std::uint64_t word = exits_of(marks_, static_cast<std::uint32_t>(tile), d);
+      exits[4 * tile + d] = word;
+      first[tile] += static_cast<std::uint32_t>(std::popcount(word));
     }
   });
   exclusive_scan(first, execution_);
@@ -97,12 +95,9 @@ void PieceBuilder::follow_exits(std::size_t count) {
     std::uint32_t exit = arrays_.first_exit[r.first];
     for (std::size_t side = 4 * r.first; side < 4 * r.last; ++side) {
       for (std::uint64_t left = arrays_.exits[side]; left != 0; left &= left - 1) {
-        const auto along = static_cast<LatticePlace>(std::countr_zero(left));
+        const auto along = static_cast<unsigned>(std::countr_zero(left));
         const auto direction = static_cast<unsigned>(side % 4);
-        constexpr unsigned last = LatticePlaces::side - 1;
-        const std::array<LatticePlace, 4> cell{along * LatticePlaces::side + last, last * LatticePlaces::side + along,
-                                               along * LatticePlaces::side, along};
-        const LatticePlace at = static_cast<LatticePlace>(side / 4) * LatticePlaces::tile_places + cell[direction];
+        const LatticePlace at = LatticePlaces::on_side(static_cast<std::uint32_t>(side / 4), direction, along);
         const LatticePlace door = places_.step(at, direction);
         const Climb up = forest.climb(door);
         exits_[exit++] = {up.at_core ? no_piece : forest.piece_at(up.last), 1 + up.steps, door};
@@ -191,13 +186,10 @@ Climb result_of(const TileClimb& climb, std::uint32_t steps) {
 }  // namespace
 
 std::uint64_t exits_of(CellMarks marks, std::uint32_t tile, unsigned direction) {
-  constexpr unsigned last = LatticePlaces::side - 1;
-  const std::array<LatticePlace, 4> corner{last, last * LatticePlaces::side, 0, 0};
-  const LatticePlace along = (direction & 1U) == 0 ? LatticePlaces::side : 1;
-  LatticePlace at = tile * LatticePlaces::tile_places + corner[direction];
   std::uint64_t exits = 0;
-  for (unsigned i = 0; i <= last; ++i, at += along) {
-    exits |= std::uint64_t{!marks.is_core(at) && marks.direction(at) == direction} << i;
+  for (unsigned along = 0; along < LatticePlaces::side; ++along) {
+    const LatticePlace at = LatticePlaces::on_side(tile, direction, along);
+    exits |= std::uint64_t{!marks.is_core(at) && marks.direction(at) == direction} << along;
   }
   return exits;
 }
@@ -460,11 +452,8 @@ void RouteIndex::mark_gates(const Execution& execution) {
     gates[p / 64] |= std::uint64_t{1} << p % 64;
   }
   RawVector<std::uint32_t> before(rows);
-  for_chunks(rows, 4096, execution, [&](Range r) {
-    for (std::size_t row = r.first; row < r.last; ++row) {
-      before[row] = static_cast<std::uint32_t>(std::popcount(gates[row]));
-    }
-  });
+  for_each_index(rows, 4096, execution,
+                 [&](std::size_t row) { before[row] = static_cast<std::uint32_t>(std::popcount(gates[row])); });
   exclusive_scan(before, execution);
   RawVector<GateRank> ranks(gate_place.size());
   arrays_.gates = ArrayOrView<std::uint64_t>(std::move(gates));

@@ -44,12 +44,8 @@ class PeeledBand {
     tiles_.front().closed_components += overlay.peel(execution);
     std::vector<Crossings> crossings(tiles_.size());
     constexpr std::size_t grain = 64;
-    for_chunks(tiles_.size(), grain, execution, [&](Range r) {
-      for (std::size_t t = r.first; t < r.last; ++t) crossings[t] = crossings_left(overlay, t);
-    });
-    for_chunks(tiles_.size(), grain, execution, [&](Range r) {
-      for (std::size_t t = r.first; t < r.last; ++t) prune(overlay, t, std::move(crossings[t]));
-    });
+    for_each_index(tiles_.size(), grain, execution, [&](std::size_t t) { crossings[t] = crossings_left(overlay, t); });
+    for_each_index(tiles_.size(), grain, execution, [&](std::size_t t) { prune(overlay, t, std::move(crossings[t])); });
   }
 
  private:
@@ -203,9 +199,8 @@ Overlay::Overlay(const TileGrid& grid, std::span<const TileSummary> tiles, const
   rows_.resize(start());
   left_.resize(vertex_count());
   std::vector<std::uint32_t> longest(tile_count(), 1);
-  for_chunks(tile_count(), fill_grain(grid), execution, [&](Range r) {
-    for (std::size_t tile = r.first; tile < r.last; ++tile) longest[tile] = fill_tile(grid, tiles, tile);
-  });
+  for_each_index(tile_count(), fill_grain(grid), execution,
+                 [&](std::size_t tile) { longest[tile] = fill_tile(grid, tiles, tile); });
   longest_ = *std::max_element(longest.begin(), longest.end());
   fill_ends(grid, tiles, ends);
 }

@@ -325,9 +325,7 @@ PathExpansion::PathExpansion(const Overlay& overlay, const TileGrid& grid, const
     : overlay_(overlay), grid_(grid), ends_(ends), path_(path), execution_(execution) {
   execution.reserve((leg_count() + 1) * sizeof(std::size_t));
   first_.assign(leg_count() + 1, 1);
-  for_chunks(leg_count(), legs_a_chunk, execution.quiet(), [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; ++i) first_[i + 1] = steps_of(i);
-  });
+  for_each_index(leg_count(), legs_a_chunk, execution.quiet(), [&](std::size_t i) { first_[i + 1] = steps_of(i); });
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
 }
 

@@ -403,9 +403,7 @@ SearchResult Ask<W>::search_copy() {
   const Graph graph = free_graph();
   const AskedNeighbours<W> places = neighbours(nullptr);
   const auto cost = [&](VertexId v, VertexId w) { return places.cost(v, w); };
-  const auto estimate = [&](VertexId v, VertexId w) {
-    return estimated_way(world_, options_.heuristic, places.state(v), places.state(w));
-  };
+  const auto estimate = this->estimate();
   const RoadmapSearch asked{.start = start_vertex(),
                             .goal = goal_vertex(),
                             .length = VertexDistance(cost),

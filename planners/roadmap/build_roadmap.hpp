@@ -82,14 +82,11 @@ void check_row(const W& world, std::span<const typename W::State> states, const 
 /// An edge's end at the larger vertex gets what stands at the other.
 inline void copy_to_other_ends(const Graph& graph, std::span<std::uint8_t> answers, const Execution& execution) {
   constexpr std::size_t grain = 2048;
-  for_chunks(graph.vertex_count(), grain, execution, [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; ++i) {
-      const auto v = static_cast<VertexId>(i);
-      std::size_t end = graph.first_end(v);
-      for (const VertexId w : graph.neighbours(v)) {
-        if (w >= v) break;
-        answers[end++] = answers[end_of_edge(graph, w, v)];
-      }
+  for_each_index<VertexId>(graph.vertex_count(), grain, execution, [&](VertexId v) {
+    std::size_t end = graph.first_end(v);
+    for (const VertexId w : graph.neighbours(v)) {
+      if (w >= v) break;
+      answers[end++] = answers[end_of_edge(graph, w, v)];
     }
   });
 }
@@ -97,13 +94,11 @@ inline void copy_to_other_ends(const Graph& graph, std::span<std::uint8_t> answe
 inline RawVector<std::uint64_t> packed(std::span<const std::uint8_t> states, const Execution& execution) {
   constexpr std::size_t grain = std::size_t{1} << 14;
   RawVector<std::uint64_t> words(edge_state_words(states.size()));
-  for_chunks(words.size(), grain, execution, [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; ++i) {
-      words[i] = 0;
-      const std::size_t first = i * edge_states_in_word;
-      const std::size_t last = std::min(first + edge_states_in_word, states.size());
-      for (std::size_t end = first; end < last; ++end) words[i] |= std::uint64_t{states[end]} << (2 * (end - first));
-    }
+  for_each_index(words.size(), grain, execution, [&](std::size_t i) {
+    words[i] = 0;
+    const std::size_t first = i * edge_states_in_word;
+    const std::size_t last = std::min(first + edge_states_in_word, states.size());
+    for (std::size_t end = first; end < last; ++end) words[i] |= std::uint64_t{states[end]} << (2 * (end - first));
   });
   return words;
 }

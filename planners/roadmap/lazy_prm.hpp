@@ -226,26 +226,22 @@ struct alignas(bytes_apart) LazyEnd {
 };
 
 template <World W>
-class LazyPlan : public Rounds<W> {
+class LazyPlan final : public Rounds<W> {
  public:
-  using State = typename W::State;
-  LazyPlan(const W& world, const State& start, const State& goal, const RoadmapOptions& options,
-           const Execution& execution, bool keep)
-      : Rounds<W>(world, start, goal, options, execution), keep_(keep) {}
+  using Rounds<W>::Rounds;
 
-  bool round(std::uint64_t samples) {
+ private:
+  using Rounds<W>::execution_, Rounds<W>::options_, Rounds<W>::solution_, Rounds<W>::states_, Rounds<W>::world_,
+      Rounds<W>::start_vertex, Rounds<W>::goal_vertex, Rounds<W>::milestones, Rounds<W>::keep_, Rounds<W>::tree_;
+
+  bool round(std::uint64_t samples) override {
     this->draw(samples);
     index_ = this->index_milestones();
     rule_ = this->rule_for(samples);
     join();
     return this->take(search_expanding());
   }
-  void finish(PlannedRoadmap<State>* keep);
-
- private:
-  using Rounds<W>::execution_, Rounds<W>::options_, Rounds<W>::solution_, Rounds<W>::states_, Rounds<W>::world_,
-      Rounds<W>::start_vertex, Rounds<W>::goal_vertex, Rounds<W>::milestones;
-
+  void finish() override;
   void join();
   RawVector<VertexId> search_expanding();
   RawVector<VertexId> search_from_start();
@@ -257,17 +253,11 @@ class LazyPlan : public Rounds<W> {
   ImplicitSearch asked(const VertexDistance& estimate) const {
     return {estimate, options_.search == SearchKind::astar, options_.queue, states_.size(), execution_};
   }
-  auto estimate() const {
-    return
-        [this](VertexId v, VertexId to) { return estimated_way(world_, options_.heuristic, states_[v], states_[to]); };
-  }
-  bool keep_;
   ConnectionRule rule_;
   StateIndex<W> index_;
   RawVector<Edge> end_edges_;
   Graph candidates_;  ///< unchecked; only where the rule needs them
   std::vector<Edge> free_edges_;
-  std::vector<Edge> tree_;
 };
 
 template <World W>
@@ -319,8 +309,8 @@ RawVector<VertexId> LazyPlan<W>::search_expanding() {
 template <World W>
 RawVector<VertexId> LazyPlan<W>::search_from_start() {
   SearchState state;
-  SearchResult found = expand_from(start_vertex(), goal_vertex(), state, keep_ ? &free_edges_ : nullptr);
-  if (keep_) tree_ = search_tree(state);
+  SearchResult found = expand_from(start_vertex(), goal_vertex(), state, keep_ != nullptr ? &free_edges_ : nullptr);
+  if (keep_ != nullptr) tree_ = search_tree(state);
   return std::move(found.path);
 }
 
@@ -331,7 +321,7 @@ RawVector<VertexId> LazyPlan<W>::search_from_both_ends() {
   for (LazyEnd<W>& end : ends) {
     if (!dead_ends.empty()) end.graph.leave_out(dead_ends);
   }
-  if (keep_) {
+  if (keep_ != nullptr) {
     for (LazyEnd<W>& end : ends) end.graph.record(&end.edges);
   }
   const auto estimate = this->estimate();
@@ -343,7 +333,7 @@ RawVector<VertexId> LazyPlan<W>::search_from_both_ends() {
     count(end.graph);
     free_edges_.insert(free_edges_.end(), end.edges.begin(), end.edges.end());
   }
-  if (keep_) tree_ = search_trees(ends[0].state, ends[1].state);
+  if (keep_ != nullptr) tree_ = search_trees(ends[0].state, ends[1].state);
   return found.path;
 }
 
@@ -368,7 +358,7 @@ DeadEnds LazyPlan<W>::find_dead_ends() const {
 }
 
 template <World W>
-void LazyPlan<W>::finish(PlannedRoadmap<State>* keep) {
+void LazyPlan<W>::finish() {
   if (this->is_to_separate()) {  // explores all that start and goal can reach
     SearchState from_start;
     SearchState from_goal;
@@ -376,11 +366,11 @@ void LazyPlan<W>::finish(PlannedRoadmap<State>* keep) {
     expand_from(goal_vertex(), no_vertex, from_goal, nullptr);
     this->tell_separation(from_start, from_goal);
   }
-  if (keep == nullptr) return;
+  if (keep_ == nullptr) return;
   polled_sort(free_edges_.begin(), free_edges_.end(), execution_);
   free_edges_.erase(std::unique(free_edges_.begin(), free_edges_.end()), free_edges_.end());
-  *keep = {std::move(states_), Graph(), std::move(tree_)};
-  keep->graph = assemble_graph(keep->states.size(), free_edges_, execution_);
+  *keep_ = {std::move(states_), Graph(), std::move(tree_)};
+  keep_->graph = assemble_graph(keep_->states.size(), free_edges_, execution_);
 }
 
 }  // namespace detail
@@ -391,8 +381,7 @@ template <class State>
 Solution<State> lazy_prm(const AnyWorld<State>& world, const State& start, const State& goal,
                          const RoadmapOptions& options, const Execution& execution,
                          PlannedRoadmap<State>* keep = nullptr) {
-  detail::LazyPlan<AnyWorld<State>> plan(world, start, goal, options, execution, keep != nullptr);
-  return detail::plan_in_rounds(world, start, goal, options, execution, keep, plan);
+  return detail::LazyPlan<AnyWorld<State>>(world, start, goal, options, execution, keep).run();
 }
 
 }  // namespace warren

@@ -380,11 +380,9 @@ auto plane_positions(const W& world, const RawVector<typename W::State>& states,
   } else {
     constexpr std::size_t grain = std::size_t{1} << 14;
     RawVector<Vec2> positions(states.size());
-    for_chunks(states.size(), grain, execution, [&](Range r) {
-      for (std::size_t i = r.first; i < r.last; ++i) {
-        const auto point = world.embed(states[i]);
-        positions[i] = {point[0], point[1]};
-      }
+    for_each_index(states.size(), grain, execution, [&](std::size_t i) {
+      const auto point = world.embed(states[i]);
+      positions[i] = {point[0], point[1]};
     });
     return positions;
   }
@@ -399,9 +397,7 @@ RawVector<typename W::State> in_tile_order(const W& world, const RawVector<typen
   RawVector<typename W::State> sorted;
   sorted.reserve(states.size() + 2);  // start and goal will follow
   sorted.resize(states.size());
-  for_chunks(states.size(), grain, execution, [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; ++i) sorted[i] = states[order.sample_of[i]];
-  });
+  for_each_index(states.size(), grain, execution, [&](std::size_t i) { sorted[i] = states[order.sample_of[i]]; });
   return sorted;
 }
 
@@ -415,12 +411,7 @@ RawVector<typename W::State> cell_centre_milestones(const W& world, const Execut
   for_chunks(cells.height(), rows, execution, [&](Range r) {
     RawVector<typename W::State>& part = parts[r.first / rows];
     for (auto y = static_cast<std::uint32_t>(r.first); y < r.last; ++y) {
-      const auto words = cells.row(y);
-      for (std::uint32_t w = 0; w < words.size(); ++w) {
-        for (std::uint64_t rest = words[w]; rest != 0; rest &= rest - 1) {
-          part.push_back(world.cell_state(64 * w + static_cast<std::uint32_t>(std::countr_zero(rest)), y));
-        }
-      }
+      cells.for_each_in_row(y, [&](std::uint32_t x) { part.push_back(world.cell_state(x, y)); });
     }
   });
   const RawVector<typename W::State> states = joined(parts, execution, spare);

@@ -24,27 +24,26 @@ namespace warren {
 namespace detail {
 
 template <World W>
-class OneWayPlan : public Rounds<W> {
+class OneWayPlan final : public Rounds<W> {
  public:
   using State = typename W::State;
   OneWayPlan(const W& world, const State& start, const State& goal, const RoadmapOptions& options, bool lazy,
-             const Execution& execution, bool keep)
-      : Rounds<W>(world, start, goal, options, execution), lazy_(lazy), keep_(keep) {}
+             const Execution& execution, PlannedRoadmap<State>* keep)
+      : Rounds<W>(world, start, goal, options, execution, keep), lazy_(lazy) {}
 
-  bool round(std::uint64_t samples) {
+ private:
+  using Rounds<W>::execution_, Rounds<W>::options_, Rounds<W>::solution_, Rounds<W>::states_, Rounds<W>::world_,
+      Rounds<W>::start_vertex, Rounds<W>::goal_vertex, Rounds<W>::keep_, Rounds<W>::tree_;
+
+  static constexpr std::uint64_t checks_per_poll = 64;
+
+  bool round(std::uint64_t samples) override {
     this->draw(samples);
     find_candidates(samples);
     if (!lazy_) check_all();
     return search();
   }
-  void finish(PlannedRoadmap<State>* keep);
-
- private:
-  using Rounds<W>::execution_, Rounds<W>::options_, Rounds<W>::solution_, Rounds<W>::states_, Rounds<W>::world_,
-      Rounds<W>::start_vertex, Rounds<W>::goal_vertex;
-
-  static constexpr std::uint64_t checks_per_poll = 64;
-
+  void finish() override;
   void find_candidates(std::uint64_t samples);
   RawVector<Edge> edges_to_goal(const StateIndex<W>& index, const ConnectionRule& rule);
   std::span<const State> states() const { return {states_.data(), states_.size()}; }
@@ -64,10 +63,8 @@ class OneWayPlan : public Rounds<W> {
   std::uint64_t free_count() const;
 
   bool lazy_;
-  bool keep_;
   Graph candidates_;
   RawVector<std::uint64_t> known_;  // of each edge: core/search/graph.hpp
-  std::vector<Edge> tree_;
 };
 
 template <World W>
@@ -145,7 +142,7 @@ SearchResult OneWayPlan<W>::search_best() {
   const SearchResult found = search_implicit(AnyNeighbours(neighbours), start_vertex(), goal_vertex(), asked, state);
   counters.refused = refused_motions(query);
   solution_.counters += counters;
-  if (keep_) tree_ = search_tree(state);
+  if (keep_ != nullptr) tree_ = search_tree(state);
   return found;
 }
 
@@ -155,7 +152,7 @@ SearchResult OneWayPlan<W>::search_plainly() {
   SearchState state;
   const Graph graph = free_part(candidates_, known_, execution_);
   const SearchResult found = search_blindly(options_.search, graph, start_vertex(), goal_vertex(), state, execution_);
-  if (keep_) tree_ = search_tree(state);
+  if (keep_ != nullptr) tree_ = search_tree(state);
   return found;
 }
 
@@ -168,16 +165,16 @@ std::uint64_t OneWayPlan<W>::free_count() const {
 }
 
 template <World W>
-void OneWayPlan<W>::finish(PlannedRoadmap<State>* keep) {
+void OneWayPlan<W>::finish() {
   if (this->is_to_separate()) {
     check_all();
     solution_.counters.edges_free += free_count() - solution_.roadmap.edges;
     const Graph graph = free_part(candidates_, known_, execution_);
     this->tell_separation(reached_and_reaching(graph, start_vertex(), goal_vertex(), execution_));
   }
-  if (keep == nullptr) return;
-  *keep = {RawVector<State>(), free_part(candidates_, known_, execution_), std::move(tree_)};
-  keep->states = std::move(states_);
+  if (keep_ == nullptr) return;
+  *keep_ = {RawVector<State>(), free_part(candidates_, known_, execution_), std::move(tree_)};
+  keep_->states = std::move(states_);
 }
 
 }  // namespace detail
@@ -189,8 +186,7 @@ template <class State, bool one_way>
 Solution<State> one_way_prm(const AnyWorld<State, one_way>& world, const State& start, const State& goal,
                             const RoadmapOptions& options, bool lazy, const Execution& execution,
                             PlannedRoadmap<State>* keep = nullptr) {
-  detail::OneWayPlan<AnyWorld<State, one_way>> plan(world, start, goal, options, lazy, execution, keep != nullptr);
-  return detail::plan_in_rounds(world, start, goal, options, execution, keep, plan);
+  return detail::OneWayPlan<AnyWorld<State, one_way>>(world, start, goal, options, lazy, execution, keep).run();
 }
 
 }  // namespace warren

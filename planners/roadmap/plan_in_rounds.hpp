@@ -23,18 +23,54 @@
 
 namespace warren::detail {
 
+/// start_blocked, goal_blocked, or nothing.
+template <World W>
+std::optional<Outcome> blocked_end(const W& world, const typename W::State& start, const typename W::State& goal) {
+  auto query = world.make_query();
+  if (!world.is_free(start, query)) return Outcome::start_blocked;
+  if (!world.is_free(goal, query)) return Outcome::goal_blocked;
+  return std::nullopt;
+}
+
 /// The question, the vertices of the round, and the answer so far. Vertices: milestones, start, goal.
 template <World W>
 class Rounds {
  public:
   using State = typename W::State;
+  /// keep: where given, receives the roadmap of the last round.
   Rounds(const W& world, const State& start, const State& goal, const RoadmapOptions& options,
-         const Execution& execution)
-      : world_(world), start_(start), goal_(goal), options_(options), execution_(execution) {}
+         const Execution& execution, PlannedRoadmap<State>* keep)
+      : world_(world), start_(start), goal_(goal), options_(options), execution_(execution), keep_(keep) {}
 
-  Solution<State>& solution() { return solution_; }
+  /// Runs rounds of growing size until one gives the final answer, the samples end, or the deadline comes.
+  Solution<State> run() {
+    options_.validate();
+    if (const auto blocked = blocked_end(world_, start_, goal_)) {
+      solution_.outcome = *blocked;
+      return std::move(solution_);
+    }
+    try {
+      execution_.check();
+      const std::uint64_t usual = usual_samples(world_, options_, execution_);
+      for (std::uint64_t samples = first_samples(world_, options_, execution_); samples != 0;
+           samples = next_samples(options_, usual, samples)) {
+        if (round(samples)) break;
+      }
+      finish();
+    } catch (const Stopped& stopped) {
+      mark_stopped(solution_, stopped);
+    }
+    return std::move(solution_);
+  }
 
  protected:
+  ~Rounds() = default;
+
+  /// A round with so many samples: true when the answer is final.
+  virtual bool round(std::uint64_t samples) = 0;
+  /// Ends the last round.
+  virtual void finish() = 0;
+
   /// Begins a round.
   void draw(std::uint64_t samples) {
     ++solution_.counters.rounds;
@@ -56,6 +92,10 @@ class Rounds {
     return attach_start_and_goal(world_, milestones(), index, rule, start_, goal_, solution_.counters);
   }
   ConnectionRule rule_for(std::uint64_t samples) const { return connection_rule_for(world_, options_, samples); }
+  auto estimate() const {
+    return
+        [this](VertexId v, VertexId to) { return estimated_way(world_, options_.heuristic, states_[v], states_[to]); };
+  }
 
   std::span<const State> milestones() const { return {states_.data(), states_.size() - 2}; }
   VertexId start_vertex() const { return static_cast<VertexId>(states_.size() - 2); }
@@ -101,44 +141,10 @@ class Rounds {
   const State goal_;
   const RoadmapOptions& options_;
   const Execution& execution_;
+  PlannedRoadmap<State>* keep_;
   RawVector<State> states_;
+  std::vector<Edge> tree_;  // of the search, where the roadmap is kept
   Solution<State> solution_;
 };
-
-/// start_blocked, goal_blocked, or nothing.
-template <World W>
-std::optional<Outcome> blocked_end(const W& world, const typename W::State& start, const typename W::State& goal) {
-  auto query = world.make_query();
-  if (!world.is_free(start, query)) return Outcome::start_blocked;
-  if (!world.is_free(goal, query)) return Outcome::goal_blocked;
-  return std::nullopt;
-}
-
-/// Runs rounds of growing size until one gives the final answer, the samples end, or the deadline comes.
-/// plan.round(samples) is true when the answer is final; plan.finish(keep) ends the last round.
-template <World W, class Plan>
-Solution<typename W::State> plan_in_rounds(const W& world, const typename W::State& start,
-                                           const typename W::State& goal, const RoadmapOptions& options,
-                                           const Execution& execution, PlannedRoadmap<typename W::State>* keep,
-                                           Plan& plan) {
-  options.validate();
-  Solution<typename W::State>& solution = plan.solution();
-  if (const auto blocked = blocked_end(world, start, goal)) {
-    solution.outcome = *blocked;
-    return std::move(solution);
-  }
-  try {
-    execution.check();
-    const std::uint64_t usual = usual_samples(world, options, execution);
-    for (std::uint64_t samples = first_samples(world, options, execution); samples != 0;
-         samples = next_samples(options, usual, samples)) {
-      if (plan.round(samples)) break;
-    }
-    plan.finish(keep);
-  } catch (const Stopped& stopped) {
-    mark_stopped(solution, stopped);
-  }
-  return std::move(solution);
-}
 
 }  // namespace warren::detail

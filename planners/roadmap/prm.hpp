@@ -25,27 +25,22 @@ namespace detail {
 
 /// One plan: what its rounds share.
 template <World W>
-class PrmPlan : public Rounds<W> {
+class PrmPlan final : public Rounds<W> {
  public:
-  using State = typename W::State;
-  PrmPlan(const W& world, const State& start, const State& goal, const RoadmapOptions& options,
-          const Execution& execution, bool keep)
-      : Rounds<W>(world, start, goal, options, execution), keep_(keep) {}
+  using Rounds<W>::Rounds;
 
-  /// Builds and searches a roadmap with so many samples; true when the answer is final.
-  bool round(std::uint64_t samples) {
+ private:
+  using Rounds<W>::execution_, Rounds<W>::solution_, Rounds<W>::states_, Rounds<W>::world_, Rounds<W>::start_vertex,
+      Rounds<W>::goal_vertex, Rounds<W>::keep_, Rounds<W>::tree_;
+
+  bool round(std::uint64_t samples) override {
     reduced_.reset();
     graph_ = Graph();
     this->draw(samples);
     assemble(connect(samples));
     return search();
   }
-  void finish(PlannedRoadmap<State>* keep);
-
- private:
-  using Rounds<W>::execution_, Rounds<W>::solution_, Rounds<W>::states_, Rounds<W>::world_, Rounds<W>::start_vertex,
-      Rounds<W>::goal_vertex;
-
+  void finish() override;
   EdgeParts connect(std::uint64_t samples);
   void assemble(const EdgeParts& edges);
   bool search();
@@ -54,11 +49,9 @@ class PrmPlan : public Rounds<W> {
                     : components_.connected(start_vertex(), goal_vertex());
   }
 
-  bool keep_;
   Graph graph_;
   std::optional<TwiceReducedGraphView> reduced_;
   Components components_;  // of the graph; empty if reduced_ knows them
-  std::vector<Edge> tree_;
 };
 
 template <World W>
@@ -85,10 +78,7 @@ void PrmPlan<W>::assemble(const EdgeParts& edges) {
 template <World W>
 bool PrmPlan<W>::search() {
   const auto distance = [this](VertexId v, VertexId w) { return world_.cost(states_[v], states_[w]); };
-  const HeuristicKind heuristic = this->options_.heuristic;
-  const auto estimate = [&](VertexId v, VertexId w) {
-    return estimated_way(world_, heuristic, states_[v], states_[w]);
-  };
+  const auto estimate = this->estimate();
   const RoadmapSearch asked{.start = start_vertex(),
                             .goal = goal_vertex(),
                             .length = VertexDistance(distance),
@@ -96,8 +86,8 @@ bool PrmPlan<W>::search() {
                             .search = this->options_.search,
                             .queue = this->options_.queue,
                             .execution = execution_,
-                            .tree = keep_ ? &tree_ : nullptr,
-                            .estimate_fits = never_overestimates(heuristic)};
+                            .tree = keep_ != nullptr ? &tree_ : nullptr,
+                            .estimate_fits = never_overestimates(this->options_.heuristic)};
   {
     const StageTimer timer(execution_, "reduction", solution_.seconds.search, states_.size());
     reduced_ = reduced_for_search(graph_, asked);
@@ -118,12 +108,12 @@ bool PrmPlan<W>::search() {
 }
 
 template <World W>
-void PrmPlan<W>::finish(PlannedRoadmap<State>* keep) {
+void PrmPlan<W>::finish() {
   if (this->is_to_separate()) {
     if (reduced_) components_ = components(graph_, execution_);
     this->tell_separation(components_);
   }
-  if (keep != nullptr) *keep = {std::move(states_), std::move(graph_), std::move(tree_)};
+  if (keep_ != nullptr) *keep_ = {std::move(states_), std::move(graph_), std::move(tree_)};
 }
 
 }  // namespace detail
@@ -133,8 +123,7 @@ void PrmPlan<W>::finish(PlannedRoadmap<State>* keep) {
 template <class State>
 Solution<State> prm(const AnyWorld<State>& world, const State& start, const State& goal, const RoadmapOptions& options,
                     const Execution& execution, PlannedRoadmap<State>* keep = nullptr) {
-  detail::PrmPlan<AnyWorld<State>> plan(world, start, goal, options, execution, keep != nullptr);
-  return detail::plan_in_rounds(world, start, goal, options, execution, keep, plan);
+  return detail::PrmPlan<AnyWorld<State>>(world, start, goal, options, execution, keep).run();
 }
 
 }  // namespace warren

@@ -187,13 +187,9 @@ class Puller {
 
 Path<Vec2> priced_taut(Path<Vec2> path, const PricedLegs& legs, const Execution& execution) {
   if (path.size() < 2) return path;
-  const auto whole = [&](const Path<Vec2>& of) {
-    double sum = 0.0;
-    for (std::size_t i = 1; i < of.size(); ++i) sum += legs.cost(of[i - 1], of[i]);
-    return sum;
-  };
   Path<Vec2> pulled = Puller(path, legs, execution).pulled();
-  return whole(pulled) <= whole(path) ? pulled : path;  // rounding may lose what leaving out did not gain
+  // Rounding may lose what leaving out did not gain.
+  return path_length(pulled, legs.cost) <= path_length(path, legs.cost) ? pulled : path;
 }
 
 }  // namespace warren

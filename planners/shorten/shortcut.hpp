@@ -87,11 +87,7 @@ class Shortener {
     double gain = 0.0;
   };
 
-  double whole() const {
-    double sum = 0.0;
-    for (std::size_t i = 1; i < path_.size(); ++i) sum += length_(path_[i - 1], path_[i]);
-    return sum;
-  }
+  double whole() const { return path_length(path_, length_); }
   State at(const PlaceOnPath& p) const { return world_.interpolate(path_[p.leg], path_[p.leg + 1], p.share); }
   double length_between(const PlaceOnPath& p, const PlaceOnPath& q) const;
   bool is_free(const State& a, const State& b, typename W::Query& query, Counters& counters) const {
@@ -111,6 +107,8 @@ class Shortener {
   void skip();
   void drift(std::uint64_t pass);
   void thin();
+  template <class Judge>
+  void for_each(std::size_t count, const Judge& judge);
   template <class Move>
   void move_states(const Move& move);
   template <class Make>
@@ -210,20 +208,28 @@ void Shortener<W, Length>::pull(std::uint32_t round) {
   });
 }
 
-/// Makes so many candidates, then those that are worth most and don't overlap.
+/// Calls judge(i, query, counters) for i = 0 .. count - 1.
 template <SteerableWorld W, class Length>
-template <class Make>
-void Shortener<W, Length>::change(std::size_t count, const Make& make) {
+template <class Judge>
+void Shortener<W, Length>::for_each(std::size_t count, const Judge& judge) {
   constexpr std::size_t grain = 4;
-  std::vector<Change> changes(count);
   std::vector<Counters> parts(chunk_count(count, grain));
   for_chunks(count, grain, execution_, [&](Range r) {
     auto query = world_.make_query();
     Counters& counters = parts[r.first / grain];
-    for (std::size_t i = r.first; i < r.last; ++i) changes[i] = make(i, query, counters);
+    for (std::size_t i = r.first; i < r.last; ++i) judge(i, query, counters);
     counters.refused = refused_motions(query);
   });
   for (const Counters& part : parts) counters_ += part;
+}
+
+/// Makes so many candidates, then those that are worth most and don't overlap.
+template <SteerableWorld W, class Length>
+template <class Make>
+void Shortener<W, Length>::change(std::size_t count, const Make& make) {
+  std::vector<Change> changes(count);
+  for_each(count,
+           [&](std::size_t i, typename W::Query& query, Counters& counters) { changes[i] = make(i, query, counters); });
   apply(changes);
 }
 
@@ -324,17 +330,11 @@ void Shortener<W, Length>::skip() {
 template <SteerableWorld W, class Length>
 template <class Move>
 void Shortener<W, Length>::move_states(const Move& move) {
-  constexpr std::size_t grain = 4;
   for (const std::size_t first : {1U, 2U}) {
     const std::size_t count = path_.size() > first ? (path_.size() - first) / 2 : 0;
-    std::vector<Counters> parts(chunk_count(count, grain));
-    for_chunks(count, grain, execution_, [&](Range r) {
-      auto query = world_.make_query();
-      Counters& counters = parts[r.first / grain];
-      for (std::size_t i = r.first; i < r.last; ++i) move(first + 2 * i, query, counters);
-      counters.refused = refused_motions(query);
+    for_each(count, [&](std::size_t i, typename W::Query& query, Counters& counters) {
+      move(first + 2 * i, query, counters);
     });
-    for (const Counters& part : parts) counters_ += part;
   }
 }
 

@@ -345,9 +345,7 @@ Path<Vec2> corners_of(std::span<const Vec2> path) {
 }
 
 double length_of(std::span<const Vec2> path) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) length += distance(path[i - 1], path[i]);
-  return length;
+  return path_length(path, [](Vec2 a, Vec2 b) { return distance(a, b); });
 }
 
 class Pulling {
@@ -385,11 +383,8 @@ class Pulling {
  private:
   bool keeps(std::span<const Vec2> path, double clearance, std::vector<std::uint8_t>* bad_legs) const {
     std::vector<std::uint8_t> bad(path.size() - 1, 0);
-    for_chunks(bad.size(), grain, execution_, [&](Range r) {
-      for (std::size_t i = r.first; i < r.last; ++i) {
-        bad[i] = walls_.keeps_clearance(path[i], path[i + 1], clearance) ? 0 : 1;
-      }
-    });
+    for_each_index(bad.size(), grain, execution_,
+                   [&](std::size_t i) { bad[i] = walls_.keeps_clearance(path[i], path[i + 1], clearance) ? 0 : 1; });
     const bool all = std::find(bad.begin(), bad.end(), 1) == bad.end();
     if (bad_legs != nullptr) *bad_legs = std::move(bad);
     return all;

@@ -29,10 +29,6 @@ std::string complaint(std::size_t obstacle, std::size_t other, std::size_t polyg
   return (overlap ? "overlaps " : "crosses ") + name_of(other, polygon_count) + rule;
 }
 
-void add_box(const Box& box, PolygonSet& to) {
-  to.add(std::array{box.min, Vec2{box.max.x, box.min.y}, box.max, Vec2{box.min.x, box.max.y}});
-}
-
 /// The polygons, and the outside of the bounds as four more.
 PolygonSet framed(const PlaneObstacles& obstacles) {
   PolygonSet polygons = obstacles.polygons;
@@ -41,10 +37,11 @@ PolygonSet framed(const PlaneObstacles& obstacles) {
   Box outer = inner;
   for (const Vec2 p : polygons.corners) outer.include(p);
   outer = outer.grown(std::max({outer.width(), outer.height(), std::abs(outer.min.x), std::abs(outer.max.y)}));
-  add_box({outer.min, {inner.min.x, outer.max.y}}, polygons);
-  add_box({{inner.max.x, outer.min.y}, outer.max}, polygons);
-  add_box({{inner.min.x, outer.min.y}, {inner.max.x, inner.min.y}}, polygons);
-  add_box({{inner.min.x, inner.max.y}, {inner.max.x, outer.max.y}}, polygons);
+  for (const Box& side : {Box{outer.min, {inner.min.x, outer.max.y}}, Box{{inner.max.x, outer.min.y}, outer.max},
+                          Box{{inner.min.x, outer.min.y}, {inner.max.x, inner.min.y}},
+                          Box{{inner.min.x, inner.max.y}, {inner.max.x, outer.max.y}}}) {
+    polygons.add(side.corners());
+  }
   return polygons;
 }
 
@@ -104,8 +101,7 @@ class CellSweep {
  public:
   CellSweep(const PlaneObstacles& obstacles, std::span<const Vec2> points, Overlaps overlaps,
             const Execution& execution);
-  void run();
-  CellDecomposition take() { return std::move(result_); }
+  CellDecomposition run();
 
  private:
   using Node = SweepOrder::const_iterator;
@@ -248,7 +244,7 @@ void CellSweep::add_points(std::span<const Vec2> points) {
   }
 }
 
-void CellSweep::run() {
+CellDecomposition CellSweep::run() {
   execution_.check();
   polled_sort(events_.begin(), events_.end(), execution_, [](const Event& e, const Event& f) {
     return is_before(e.at, f.at) || (e.at == f.at && e.number < f.number);
@@ -270,6 +266,7 @@ void CellSweep::run() {
     execution_.advance(last - polled);
     polled = last;
   }
+  return std::move(result_);
 }
 
 /// Which segments end and start in this point, and who asks about it?
@@ -522,18 +519,14 @@ std::array<Vec2, 4> CellDecomposition::outline(std::uint32_t cell) const {
 }
 
 CellDecomposition decompose(const PlaneObstacles& obstacles, std::span<const Vec2> points, const Execution& execution) {
-  CellSweep sweep(obstacles, points, Overlaps::refused, execution);
-  sweep.run();
-  return sweep.take();
+  return CellSweep(obstacles, points, Overlaps::refused, execution).run();
 }
 
 CellDecomposition decompose_united(const PlaneObstacles& obstacles, std::span<const Vec2> points,
                                    const Execution& execution) {
   assert(obstacles.walls.empty());
   PlaneObstacles united{node_polygons(framed(obstacles), execution).polygons, {}, std::nullopt};
-  CellSweep sweep(united, points, Overlaps::united, execution);
-  sweep.run();
-  CellDecomposition cells = sweep.take();
+  CellDecomposition cells = CellSweep(united, points, Overlaps::united, execution).run();
   for (std::size_t i = 0; i < points.size(); ++i) {
     cells.places[i].blocked = is_blocked(united.polygons, points[i]) || !cells.box.contains(points[i]);
   }

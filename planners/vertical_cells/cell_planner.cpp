@@ -401,9 +401,8 @@ Solution<Vec2> plan_on(const Ground& ground, Vec2 start, Vec2 goal, const CellOp
 DoorPoints::DoorPoints(const CellDecomposition& cells, const Execution& execution) : cells_(cells) {
   execution.reserve(cells.doors.size() * sizeof(Vec2));
   middles_.resize(cells.doors.size());
-  for_chunks(cells.doors.size(), 16384, execution, [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; ++i) middles_[i] = middle_of(static_cast<std::uint32_t>(i));
-  });
+  for_each_index<std::uint32_t>(cells.doors.size(), 16384, execution,
+                                [&](std::uint32_t door) { middles_[door] = middle_of(door); });
 }
 
 Vec2 DoorPoints::middle_of(std::uint32_t door) const {

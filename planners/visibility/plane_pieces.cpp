@@ -43,9 +43,8 @@ Sides sides_of(const PlaneObstacles& obstacles) {
   sides.corner_ends = sides.ends.size();
   if (obstacles.bounds) {
     const Box& box = *obstacles.bounds;
-    const Vec2 corners[] = {box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}};
     const int change = has_area(box) ? -1 : 0;  // outside, on the right, counts as a polygon
-    for (std::size_t i = 0; i < 4; ++i) sides.add(corners[i], corners[(i + 1) % 4], change);
+    for_each_side(box.corners(), [&](Vec2 a, Vec2 b) { sides.add(a, b, change); });
   }
   if (sides.ends.size() >= (std::size_t{1} << 32)) throw InputError("obstacles", "more than 2^31 sides and walls");
   return sides;

@@ -115,11 +115,9 @@ Graph graph_of_rows(std::size_t n, std::vector<Rows>& parts, const Execution& ex
     targets[below[w]++] = v;
   });
   parts.clear();
-  for_chunks(n, 1024, execution, [&](Range r) {
-    for (std::size_t v = r.first; v < r.last; ++v) {
-      std::inplace_merge(targets.begin() + borders.first[v], targets.begin() + borders.above[v],
-                         targets.begin() + borders.first[v + 1]);
-    }
+  for_each_index(n, 1024, execution, [&](std::size_t v) {
+    std::inplace_merge(targets.begin() + borders.first[v], targets.begin() + borders.above[v],
+                       targets.begin() + borders.first[v + 1]);
   });
   return Graph(std::move(borders.first), std::move(targets));
 }
@@ -203,6 +201,7 @@ void CornerSight::look(Vec2 eye, RotationalSweep::Turn how_far, std::span<const 
       arrive(eye, p, lanes, which, seen);
     }
   });
+  std::sort(seen.begin(), seen.end());
 }
 
 void CornerSight::above_vertex(VertexId v, SightLines which, std::vector<VertexId>& seen) {
@@ -223,7 +222,6 @@ void CornerSight::above_vertex(VertexId v, SightLines which, std::vector<VertexI
     return tangent && lanes != no_lane && !is_tangent(eye, sector, q) ? no_lane : lanes;
   };
   look(eye, RotationalSweep::Turn::upper_half, ranges, which, std::nullopt, departure, seen);
-  std::sort(seen.begin(), seen.end());
 }
 
 void CornerSight::within_ranges(VertexId v, std::span<const PlaceRange> ranges, std::optional<Vec2> extra,
@@ -242,7 +240,6 @@ void CornerSight::within_ranges(VertexId v, std::span<const PlaceRange> ranges, 
     return looked ? lanes_in_sector(eye, sector, q) : no_lane;
   };
   look(eye, RotationalSweep::Turn::whole, ranges, SightLines::reflex, extra, departure, seen);
-  std::sort(seen.begin(), seen.end());
 }
 
 void CornerSight::taut_from_vertex(VertexId v, Vec2 from, std::optional<Vec2> extra, std::vector<VertexId>& seen) {
@@ -266,7 +263,6 @@ void CornerSight::taut_from_vertex(VertexId v, Vec2 from, std::optional<Vec2> ex
   };
   const auto departure = [&](Vec2 q) { return is_taut(q) ? lanes_in_sector(eye, sector, q) : no_lane; };
   look(eye, RotationalSweep::Turn::whole, ranges, SightLines::tangent, extra, departure, seen);
-  std::sort(seen.begin(), seen.end());
 }
 
 void CornerSight::from_point(Vec2 p, SightLines which, std::optional<Vec2> extra, std::vector<VertexId>& seen) {
@@ -276,7 +272,6 @@ void CornerSight::from_point(Vec2 p, SightLines which, std::optional<Vec2> extra
     const auto departure = [&](Vec2 q) { return lanes_in_sector(p, sector, q); };
     look(p, RotationalSweep::Turn::whole, {&range, 1}, which, extra, departure, seen);
   }
-  std::sort(seen.begin(), seen.end());
   seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
 }
 

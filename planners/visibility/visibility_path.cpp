@@ -29,8 +29,7 @@ PlaneObstacles confined(PlaneObstacles obstacles) {
     if (side == BoxSide::right) behind.max.x = outer.max.x;
     if (side == BoxSide::bottom) behind.min.y = outer.min.y;
     if (side == BoxSide::top) behind.max.y = outer.max.y;
-    obstacles.polygons.add(
-        std::array{behind.min, Vec2{behind.max.x, behind.min.y}, behind.max, Vec2{behind.min.x, behind.max.y}});
+    obstacles.polygons.add(behind.corners());
     obstacles.bounds = outer;
   }
   return obstacles;

@@ -447,7 +447,10 @@ class MoveItRequestReader : public MoveItStates {
       yaml_.place(root).fail("a request of MoveIt needs `group_name`, `start_state` or `goal_constraints`");
     if (const Node group = at(root, "group_name"); !group.IsNull()) {
       arm_of(scene).group = word(group, "group_name");
-      if (ArmFiles* line = line_of(scene); line != nullptr && !line->srdf.empty()) {  // which has the group
+      ArmFiles* line = line_of(scene);
+      if (line != nullptr && line->srdf.empty() && !(line->base.empty() && line->tip.empty()))
+        yaml_.fail(group, "the robot's line says base and tip, and no SRDF that has the group; leave one out");
+      if (line != nullptr && !line->srdf.empty()) {  // which has the group
         line->group = arm_of(scene).group;
         line->base.clear();
         line->tip.clear();

@@ -139,6 +139,7 @@ struct Object {
   Coordinates coordinates;
   bool in_properties = false;  ///< it or an object around it is a feature's "properties"
   bool is_geometry = false;    ///< it stands where a geometry does
+  bool lists_places = false;   ///< its open array is of features or geometries
   int lists = 0;               ///< open arrays that hold no coordinates
 };
 
@@ -203,7 +204,7 @@ bool Reader::start_object(std::size_t) {
   began_ = true;
   Object opened;
   opened.in_properties = !objects_.empty() && (object().in_properties || key_ == "properties");
-  const bool is_listed = !objects_.empty() && object().lists > 0;
+  const bool is_listed = !objects_.empty() && object().lists == 1 && object().lists_places;
   opened.is_geometry = !opened.in_properties && (objects_.empty() || is_listed || key_ == "geometry");
   objects_.push_back(std::move(opened));
   first_piece_.push_back(pieces_.size());
@@ -250,7 +251,7 @@ bool Reader::start_array(std::size_t) {
     object().type = "Polygon";
   }
   if (list_depth_ == 0 && (key_ != "coordinates" || object().in_properties || object().lists > 0)) {
-    ++object().lists;
+    if (object().lists++ == 0) object().lists_places = key_ == "features" || key_ == "geometries";
     return true;
   }
   if (!position_.empty()) fail("expected a position of two or three numbers", "a list in it");
@@ -302,7 +303,7 @@ bool Reader::end_object() {
   objects_.pop_back();
   first_piece_.pop_back();
   end_geometry(ended);
-  if (ended.type == "Feature" || objects_.empty()) pieces_.settle(first, ended.role);
+  if (ended.type == "Feature" || !ended.role.empty() || objects_.empty()) pieces_.settle(first, ended.role);
   key_.clear();
   return true;
 }
@@ -323,7 +324,9 @@ void Reader::end_geometry(Object& ended) {
     return;
   }
   if (c.chains.empty()) return;  // "coordinates": [] is an empty geometry
-  if (depth == 0 && ended.is_geometry) {
+  const bool is_group =
+      ended.type == "Feature" || ended.type == "FeatureCollection" || ended.type == "GeometryCollection";
+  if (depth == 0 && ended.is_geometry && !is_group) {
     fail("\"coordinates\" need a \"type\": Point, LineString, Polygon, MultiPoint, MultiLineString or MultiPolygon",
          ended.type);
   }

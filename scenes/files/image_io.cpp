@@ -62,6 +62,16 @@ bool has_fourth_bytes(const Layout& layout, const Execution& execution) {
   return false;
 }
 
+/// Before anybody makes room for many pixels: a row takes so many bytes, `or_more` or not.
+void check_pixels_are_there(const InputFile& file, const ImageHeader& header, std::size_t row_bytes, std::size_t bytes,
+                            std::string_view or_more = {}) {
+  if (bytes / row_bytes >= header.height) return;
+  throw InputError(file.name(),
+                   fmt::format("expected {} x {} pixels, {} bytes{} after the header", header.width, header.height,
+                               row_bytes * header.height, or_more),
+                   fmt::format("{} bytes", bytes));
+}
+
 Layout layout_of(const InputFile& file, const Execution& execution) {
   const std::string_view bytes = file.bytes();
   Layout layout;
@@ -78,12 +88,7 @@ Layout layout_of(const InputFile& file, const Execution& execution) {
   layout.row_bytes = (std::size_t{layout.bits} * layout.header.width + 31) / 32 * 4;
   const std::size_t first = std::min<std::size_t>(number_at(bytes, 10), bytes.size());
   layout.rows = bytes.substr(first);
-  if (layout.rows.size() / layout.row_bytes < layout.header.height) {
-    throw InputError(file.name(),
-                     fmt::format("expected {} x {} pixels, {} bytes after the header", layout.header.width,
-                                 layout.header.height, layout.row_bytes * layout.header.height),
-                     fmt::format("{} bytes", layout.rows.size()));
-  }
+  check_pixels_are_there(file, layout.header, layout.row_bytes, layout.rows.size());
   const bool has_masks = number_at(bytes, 30) != 0;
   if (layout.bits == 32 && !has_masks && !has_fourth_bytes(layout, execution)) layout.header.channels = 3;
   if (layout.bits > 8) return layout;
@@ -205,22 +210,11 @@ std::uint16_t sample(std::string_view bytes, std::size_t i, bool wide) {
   return static_cast<std::uint16_t>(wide ? byte(2 * i) << 8 | byte(2 * i + 1) : byte(i));
 }
 
-/// Before anybody makes room for many pixels: `bytes_a_pixel` is the least that one takes.
-void check_pixels_are_there(const InputFile& file, const ImageHeader& header, std::size_t bytes_a_pixel,
-                            std::size_t bytes) {
-  const std::size_t row_bytes = bytes_a_pixel * header.width;
-  if (bytes / row_bytes >= header.height) return;
-  throw InputError(file.name(),
-                   fmt::format("expected {} x {} pixels, {} bytes{} after the header", header.width, header.height,
-                               row_bytes * header.height, file.bytes()[1] == '5' ? "" : " or more"),
-                   fmt::format("{} bytes", bytes));
-}
-
 void read_binary(const InputFile& file, const ImageHeader& header, std::string_view pixels, const ImageSink& sink,
                  const Execution& execution) {
   const bool wide = header.maximum > 255;
   const std::size_t row_bytes = std::size_t{header.width} * (wide ? 2 : 1);
-  check_pixels_are_there(file, header, wide ? 2 : 1, pixels.size());
+  check_pixels_are_there(file, header, row_bytes, pixels.size());
   sink.begin(header);
   execution.reserve(sizeof(std::uint16_t) * header.width);
   std::vector<std::uint16_t> samples(header.width);
@@ -248,7 +242,7 @@ void read_ascii(const InputFile& file, const ImageHeader& header, PgmTokens& tok
   constexpr std::uint32_t pixels_a_look = 1 << 14;
   constexpr std::uint64_t few_pixels = 1 << 20;  // of these the message names the line where they end
   if (std::uint64_t{header.width} * header.height > few_pixels) {
-    check_pixels_are_there(file, header, 2, tokens.rest().size());
+    check_pixels_are_there(file, header, std::size_t{2} * header.width, tokens.rest().size(), " or more");
   }
   sink.begin(header);
   execution.reserve(sizeof(std::uint16_t) * header.width);

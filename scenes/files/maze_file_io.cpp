@@ -82,15 +82,7 @@ Scene scene_of(const MazeFile& maze, const std::string& name) {
   return scene_of(MazeHint{maze.rows(), maze.cols()}, name, maze.hash());
 }
 
-}  // namespace
-
-struct MazeFile::Header {
-  std::uint32_t rows, cols;
-};
-
-bool is_maze_file(std::string_view bytes) { return bytes.starts_with(magic); }
-
-MazeFile::Header MazeFile::header_of(const InputFile& file) {
+MazeHint size_in_header(const InputFile& file) {
   const std::string_view bytes = file.bytes();
   const auto refuse = [&](const std::string& what, const std::string& found) {
     throw InputError(file.name(), what, found);
@@ -105,8 +97,8 @@ MazeFile::Header MazeFile::header_of(const InputFile& file) {
     refuse("the header is damaged: its checksum is another", fmt::format("{:08x}", header.sum));
   }
   if (header.version != version) refuse("expected a .maze file of version 1", fmt::format("{}", header.version));
-  if (header.rows < 1 || header.cols < 1 || header.rows > most_side || header.cols > most_side) {
-    refuse(fmt::format("rows and columns must be from 1 to {}", most_side),
+  if (header.rows < 1 || header.cols < 1 || header.rows > MazeFile::most_side || header.cols > MazeFile::most_side) {
+    refuse(fmt::format("rows and columns must be from 1 to {}", MazeFile::most_side),
            fmt::format("{} x {}", header.rows, header.cols));
   }
   const auto rows = static_cast<std::uint32_t>(header.rows);
@@ -122,11 +114,15 @@ MazeFile::Header MazeFile::header_of(const InputFile& file) {
   return {rows, cols};
 }
 
-MazeFile::MazeFile(const InputFile& file) : MazeFile(file, header_of(file)) {}
+}  // namespace
 
-MazeFile::MazeFile(const InputFile& file, const Header& header)
+bool is_maze_file(std::string_view bytes) { return bytes.starts_with(magic); }
+
+MazeFile::MazeFile(const InputFile& file) : MazeFile(file, size_in_header(file)) {}
+
+MazeFile::MazeFile(const InputFile& file, MazeHint size)
     : CellBits(
-          header.rows, header.cols,
+          size.rows, size.cols,
           reinterpret_cast<const std::uint8_t*>(file.bytes().data()) + header_bytes,  // NOLINT: the cells' bytes
           [&file](std::size_t first, std::size_t last) { file.forget(header_bytes + first, header_bytes + last); }),
       file_(file) {}
@@ -190,16 +186,14 @@ void MazeFile::check(Range tile_rows, const Execution& execution) const {
 }
 
 std::uint64_t MazeFile::wall_count(const Execution& execution) const {
-  std::vector<std::uint64_t> parts(bands_of(rows()), 0);
-  for_chunks(parts.size(), 1, execution, [&](Range r) {
+  const std::uint64_t standing = sum_of_chunks(bands_of(rows()), 1, execution, [&](Range r) {
     const std::string_view bytes = band(r.first);
-    for (const char byte : bytes)
-      parts[r.first] += static_cast<unsigned>(std::popcount(static_cast<unsigned char>(byte)));
+    std::uint64_t sum = 0;
+    for (const char byte : bytes) sum += static_cast<unsigned>(std::popcount(static_cast<unsigned char>(byte)));
     const auto at = static_cast<std::size_t>(bytes.data() - file_.bytes().data());
     file_.forget(at, at + bytes.size());
+    return sum;
   });
-  std::uint64_t standing = 0;
-  for (const std::uint64_t part : parts) standing += part;
   return 4 + standing - (rows() - 1) - cols();  // the outline stands in the bits as well, but for the door
 }
 

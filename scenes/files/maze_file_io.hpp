@@ -47,9 +47,7 @@ class MazeFile : public CellBits {
   std::uint64_t hash() const;
 
  private:
-  struct Header;
-  static Header header_of(const InputFile& file);
-  MazeFile(const InputFile& file, const Header& header);
+  MazeFile(const InputFile& file, MazeHint size);
   bool has_outline(std::uint32_t first_row, std::uint32_t last_row) const;
   std::string_view band(std::size_t number) const;
   std::uint32_t sum_of_band(std::size_t number) const;

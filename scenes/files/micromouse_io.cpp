@@ -107,7 +107,7 @@ class Picture {
     }
     for (std::size_t column = 4 * c + 1; c < cols_ && column < 4 * c + 4; ++column) {
       const char found = at(line, column);
-      if (found != '|' && found != '-' && !is_post(found)) continue;
+      if (found != '|' && !(found == '-' && at(line, column + 1) == '-')) continue;
       fail(line, fmt::format("expected no wall within a cell, at column {}", column + 1), std::string(1, found));
     }
   }

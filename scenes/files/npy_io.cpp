@@ -172,19 +172,6 @@ class HeaderParser {
   bool has_shape_ = false;
 };
 
-NpyWalls checked_header(const InputFile& file) {
-  const NpyWalls header = HeaderParser(file).parse();
-  const std::size_t wall_bytes = header.is_float ? sizeof(FloatWall) : sizeof(DoubleWall);
-  const std::size_t held = file.bytes().size() - header.data;
-  if (header.walls == 0) throw InputError(file.name(), "the array has no rows; expected at least one wall");
-  if (held / wall_bytes != header.walls || held % wall_bytes != 0) {
-    throw InputError(file.name(),
-                     fmt::format("expected {} bytes for each of {} rows behind the header", wall_bytes, header.walls),
-                     fmt::format("{} bytes", held));
-  }
-  return header;
-}
-
 /// Copies rows out of the file; In is what the file holds.
 template <class In>
 class Rows {
@@ -302,21 +289,28 @@ std::string header_of(std::uint64_t walls) {
 
 /// As Python writes a tuple: "()", "(28,)", "(28, 4)".
 std::string tuple_text(std::span<const std::uint64_t> numbers) {
-  std::string text = "(";
-  for (const std::uint64_t number : numbers) fmt::format_to(std::back_inserter(text), "{}, ", number);
-  if (numbers.size() == 1) text.pop_back();
-  if (numbers.size() > 1) text.resize(text.size() - 2);
-  return text + ")";
+  return fmt::format("({}{})", fmt::join(numbers, ", "), numbers.size() == 1 ? "," : "");
 }
 
 }  // namespace
 
 bool is_npy(std::string_view bytes) { return bytes.starts_with(npy_magic); }
 
-NpyWalls npy_walls(const InputFile& file) { return checked_header(file); }
+NpyWalls npy_walls(const InputFile& file) {
+  const NpyWalls header = HeaderParser(file).parse();
+  const std::size_t wall_bytes = header.is_float ? sizeof(FloatWall) : sizeof(DoubleWall);
+  const std::size_t held = file.bytes().size() - header.data;
+  if (header.walls == 0) throw InputError(file.name(), "the array has no rows; expected at least one wall");
+  if (held / wall_bytes != header.walls || held % wall_bytes != 0) {
+    throw InputError(file.name(),
+                     fmt::format("expected {} bytes for each of {} rows behind the header", wall_bytes, header.walls),
+                     fmt::format("{} bytes", held));
+  }
+  return header;
+}
 
 Scene read_npy(const InputFile& file, const Execution& execution) {
-  const NpyWalls header = checked_header(file);
+  const NpyWalls header = npy_walls(file);
   if (execution.progress != nullptr) execution.progress->begin("read", header.walls);
   Scene scene;
   scene.walls = walls_of(file, header, execution);

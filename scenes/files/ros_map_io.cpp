@@ -78,9 +78,6 @@ class DescriptionReader {
     if (!node) throw InputError(name_, fmt::format("the key `{}` is missing: a map server needs it", key));
     return node;
   }
-  double number(const YAML::Node& node, const char* key, std::string_view expected) const {
-    return yaml_.number(node, key, expected);
-  }
   template <class T>
   T converted(const YAML::Node& node, const char* key, std::string_view expected) const {
     try {
@@ -90,14 +87,14 @@ class DescriptionReader {
     }
   }
   double positive(const char* key) const {
-    const double value = number(needed(key), key, "a number above 0");
+    const double value = yaml_.number(needed(key), key, "a number above 0");
     if (!(value > smallest_coordinate && value < largest_coordinate)) {
       fail(root_[key], fmt::format("`{}` must be a number above 0", key));
     }
     return value;
   }
   double fraction(const char* key) const {
-    const double value = number(needed(key), key, "a number from 0 to 1");
+    const double value = yaml_.number(needed(key), key, "a number from 0 to 1");
     if (!(value >= 0.0 && value <= 1.0)) fail(root_[key], fmt::format("`{}` must be a number from 0 to 1", key));
     return value;
   }
@@ -107,7 +104,7 @@ class DescriptionReader {
     if (!node.IsSequence() || node.size() != 3) fail(node, fmt::format("`origin` must be {}", expected));
     std::array<double, 3> numbers{};
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-      numbers[i] = number(node[i], "origin", expected);
+      numbers[i] = yaml_.number(node[i], "origin", expected);
       if (!(std::abs(numbers[i]) <= largest_coordinate)) fail(node[i], fmt::format("`origin` must be {}", expected));
     }
     return numbers;

@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/search/union_find.hpp"
+
 namespace warren::maze {
 namespace {
 
@@ -101,7 +103,17 @@ class Walker {
   std::uint64_t carved_ = 0;
 };
 
+/// Gives the gap bytes further bits, so that no walk enters them.
+void mark_gaps(MazeCells& cells, std::uint8_t bits, const Execution& execution) {
+  constexpr std::size_t grain = std::size_t{1} << 18;
+  const auto bytes = cells.bytes();
+  for_chunks(cells.cols() + std::size_t{1}, grain, {execution.threads, execution.deadline}, [&](Range r) {
+    for (std::size_t gap = r.first; gap < r.last; ++gap) bytes[gap * cells.stride()] |= bits;
+  });
+}
+
 }  // namespace
+
 /// Recursive backtracker: a depth-first walk that goes to a random neighbour not yet visited and, where there is none,
 /// one step back. Long winding corridors, few dead ends. Needs no stack: the way back is a direction of two bits in
 /// each cell's own byte, so the whole generator lives in 1 byte a cell. Each cell is entered once and left back once:
@@ -192,7 +204,7 @@ template <class Id>
 void carve(MazeCells& cells, std::uint64_t seed, const Execution& execution) {
   execution.reserve((2 * cells.cell_count() + cells.bytes().size()) * sizeof(Id));
   RawVector<Id> walls = wall_numbers<Id>(cells, execution);
-  Regions<Id> regions(cells.bytes().size(), execution);
+  RawVector<Id> regions = single_regions<Id>(cells.bytes().size(), execution);
   const Steps at(cells);
   SequentialRng rng(seed);
   StepPoll poll(execution);
@@ -204,7 +216,7 @@ void carve(MazeCells& cells, std::uint64_t seed, const Execution& execution) {
     walls[drawn] = walls[--left];
     const auto i = static_cast<Id>(wall / 2);
     const unsigned d = wall % 2;
-    if (!regions.join(i, static_cast<Id>(at.neighbour(i, d)))) continue;
+    if (!unite(regions, i, static_cast<Id>(at.neighbour(i, d)))) continue;
     at.open(i, d);
     ++carved;
   }
@@ -237,7 +249,7 @@ class CourseCarver {
   CourseCarver(MazeCells& cells, std::uint64_t seed, const Execution& execution)
       : cells_(cells),
         at_(cells),
-        regions_(cells.cell_count(), execution),
+        regions_(single_regions<std::uint32_t>(cells.cell_count(), execution)),
         blocks_(cells.rows(), cells.cols()),
         rng_(seed) {}
 
@@ -251,7 +263,7 @@ class CourseCarver {
     const auto row = static_cast<std::uint32_t>(p.row - 1);
     const std::uint32_t rows = cells_.rows();
     const std::uint32_t neighbour = d == 0 ? cell + rows : d == 1 ? cell + 1 : d == 2 ? cell - rows : cell - 1;
-    if (!regions_.join(cell, neighbour)) return false;
+    if (!unite(regions_, cell, neighbour)) return false;
     at_.open(cells_.index(col, row), d);
     return true;
   }
@@ -262,13 +274,13 @@ class CourseCarver {
   Place place(std::uint32_t cell) const { return {cell / cells_.rows() + 1U, cell % cells_.rows() + 1U}; }
 
   std::uint32_t draw_cell() {
-    const std::uint32_t home = regions_.root(0);
+    const std::uint32_t home = root_of(regions_, std::uint32_t{0});
     std::uint32_t best = 0;
     std::uint64_t best_key = ~std::uint64_t{0};
     for (int k = 0; k < draws; ++k) {
       const auto cell = static_cast<std::uint32_t>(rng_.below(cells_.cell_count()));
       const Place p = place(cell);
-      const std::uint64_t joined = regions_.root(cell) == home ? 1 : 0;
+      const std::uint64_t joined = root_of(regions_, cell) == home ? 1 : 0;
       const std::uint64_t key = joined << 40 | (p.col + p.row);
       if (key < best_key) {
         best_key = key;
@@ -301,7 +313,7 @@ class CourseCarver {
 
   const MazeCells& cells_;
   Steps at_;
-  Regions<std::uint32_t> regions_;
+  RawVector<std::uint32_t> regions_;
   Blocks blocks_;
   SequentialRng rng_;
 };

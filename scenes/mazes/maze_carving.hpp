@@ -11,7 +11,6 @@
 #include "core/base/raw_vector.hpp"
 #include "core/base/rng.hpp"
 #include "core/run/execution.hpp"
-#include "core/search/union_find.hpp"
 #include "parallel/chunks.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 
@@ -66,9 +65,6 @@ class Steps {
   std::array<std::ptrdiff_t, 4> offsets_;
 };
 
-/// Gives the gap bytes further bits, so that no walk enters them.
-void mark_gaps(MazeCells& cells, std::uint8_t bits, const Execution& execution);
-
 /// One of the directions in a mask of 1 to 15, each as likely as the others: one random number below 12 serves 1, 2, 3
 /// and 4 candidates alike.
 class DirectionChoice {
@@ -109,22 +105,14 @@ class StepPoll {
   std::uint64_t told_ = 0;
 };
 
-/// Disjoint regions of cells (union-find) for the maze generators that join regions. One Id an element.
+/// The parents of 0 .. count - 1 as root_of() and unite() take them, each a region of its own. Throws Stopped.
 template <class Id>
-class Regions {
- public:
-  /// Elements 0 .. count - 1, each a region of its own. Throws Stopped.
-  Regions(std::size_t count, const Execution& execution) : parents_(count) {
-    for_chunks(count, std::size_t{1} << 16, {execution.threads, execution.deadline}, [&](Range r) {
-      for (std::size_t i = r.first; i < r.last; ++i) parents_[i] = static_cast<Id>(i);
-    });
-  }
-  Id root(Id i) { return root_of(parents_, i); }
-  /// Joins the regions of a and b; false if they were one already.
-  bool join(Id a, Id b) { return unite(parents_, a, b); }
-
- private:
-  RawVector<Id> parents_;
-};
+RawVector<Id> single_regions(std::size_t count, const Execution& execution) {
+  RawVector<Id> parents(count);
+  for_chunks(count, std::size_t{1} << 16, {execution.threads, execution.deadline}, [&](Range r) {
+    for (std::size_t i = r.first; i < r.last; ++i) parents[i] = static_cast<Id>(i);
+  });
+  return parents;
+}
 
 }  // namespace warren::maze

@@ -38,11 +38,6 @@ void check_size(std::uint32_t rows, std::uint32_t cols) {
                    fmt::format("{}x{}", rows, cols));
 }
 
-void fill_bytes(std::span<std::uint8_t> bytes, std::uint8_t value, const Execution& execution) {
-  for_chunks(bytes.size(), generator_grain, execution,
-             [&](Range r) { std::fill(bytes.begin() + r.first, bytes.begin() + r.last, value); });
-}
-
 void clear_scratch(MazeCells& cells, const Execution& execution) {
   const std::span<std::uint8_t> bytes = cells.bytes();
   for_chunks(bytes.size(), generator_grain, execution, [&](Range r) {
@@ -149,15 +144,6 @@ bool has_outline(const WallSet& walls, const Box& outline, const Execution& exec
 
 }  // namespace
 
-namespace maze {
-void mark_gaps(MazeCells& cells, std::uint8_t bits, const Execution& execution) {
-  const std::span<std::uint8_t> bytes = cells.bytes();
-  for_chunks(cells.cols() + std::size_t{1}, generator_grain, {execution.threads, execution.deadline}, [&](Range r) {
-    for (std::size_t gap = r.first; gap < r.last; ++gap) bytes[gap * cells.stride()] |= bits;
-  });
-}
-}  // namespace maze
-
 MazeAlgorithm maze_algorithm_named(std::string_view name) {
   if (const auto algorithm = enum_named<MazeAlgorithm>(name)) return *algorithm;
   throw InputError("maze", fmt::format("the algorithm must be one of {}", fmt::join(enum_names(MazeAlgorithm{}), ", ")),
@@ -169,7 +155,8 @@ MazeCells::MazeCells(std::uint32_t rows, std::uint32_t cols, const Execution& ex
   const std::size_t bytes = cols * stride() + 1;
   execution.reserve(bytes);
   bits_.resize(bytes);
-  fill_bytes(bits_, all_walls, execution);
+  for_chunks(bytes, generator_grain, execution,
+             [&](Range r) { std::fill(bits_.begin() + r.first, bits_.begin() + r.last, all_walls); });
 }
 
 void set_maze(Scene& scene, MazeHint maze) {

@@ -19,9 +19,6 @@ namespace {
 constexpr std::size_t wall_grain = std::size_t{1} << 16;
 constexpr std::uint32_t largest_float_side = (1U << 23U) - 1;  // side + 0.5 is a float up to here
 
-/// Are the walls of a maze of this size floats in a file?
-bool walls_are_floats(std::uint32_t rows, std::uint32_t cols) { return std::max(rows, cols) <= largest_float_side; }
-
 /// Makes walls from grid lines: line k is the coordinate k + 0.5.
 template <class Wall>
 struct GridLines;
@@ -340,7 +337,7 @@ WallStrips::WallStrips(const CellWallSource& cells, bool merged, const Execution
   }
 }
 
-bool WallStrips::holds_floats() const { return walls_are_floats(cells_.rows(), cells_.cols()); }
+bool WallStrips::holds_floats() const { return std::max(cells_.rows(), cells_.cols()) <= largest_float_side; }
 
 std::uint32_t WallStrips::width_of(std::size_t strip) const {
   const std::uint32_t side = 1U << cells_.side_log2();

@@ -551,7 +551,7 @@ class Joining {
     take_edges();
     std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) { return a.weight < b.weight; });
     execution.check();
-    Regions<std::uint32_t> regions(first_.back(), {1, execution.deadline});
+    RawVector<std::uint32_t> regions = single_regions<std::uint32_t>(first_.back(), {1, execution.deadline});
     for (std::size_t i = 0; i < edges_.size(); ++i) {
       if (i % 65536 == 0) execution.check();
       join(edges_[i], regions, joined);
@@ -613,10 +613,10 @@ class Joining {
     }
   }
 
-  void join(const Edge& edge, Regions<std::uint32_t>& regions, JoinedParts& joined) {
-    const std::uint32_t a = regions.root(edge.between.a);
-    const std::uint32_t b = regions.root(edge.between.b);
-    if (!regions.join(a, b)) return note(edge.between.edge, false, joined);
+  void join(const Edge& edge, RawVector<std::uint32_t>& regions, JoinedParts& joined) {
+    const std::uint32_t a = root_of(regions, edge.between.a);
+    const std::uint32_t b = root_of(regions, edge.between.b);
+    if (!unite(regions, a, b)) return note(edge.between.edge, false, joined);
     const std::uint32_t kept = std::min(a, b);
     const std::uint32_t gone = std::max(a, b);
     if (on_rim_[kept] != not_on_rim && on_rim_[gone] != not_on_rim) {

@@ -7,16 +7,12 @@
 
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
-#include "core/base/trigonometry.hpp"
+#include "core/plane/se2.hpp"
 
 namespace warren {
 namespace {
 
-Vec2 turned(Vec2 p, double angle_rad) {
-  if (angle_rad == 0.0) return p;
-  const auto [s, c] = portable::sin_and_cos(angle_rad);
-  return {c * p.x - s * p.y, s * p.x + c * p.y};
-}
+Vec2 turned(Vec2 p, double angle_rad) { return angle_rad == 0.0 ? p : Rotation(angle_rad)(p); }
 
 }  // namespace
 

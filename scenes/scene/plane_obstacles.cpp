@@ -20,7 +20,17 @@ namespace {
 class RingSides {
  public:
   /// first: the number of each ring's first corner, ascending from 0. Refers to the corners.
-  RingSides(std::span<const Vec2> corners, std::span<const std::uint32_t> first);
+  RingSides(std::span<const Vec2> corners, std::span<const std::uint32_t> first)
+      : corners_(corners), next_(corners.size()), previous_(corners.size()) {
+    const auto count = static_cast<std::uint32_t>(corners.size());
+    for (std::size_t r = 0; r < first.size(); ++r) {
+      const std::uint32_t end = r + 1 < first.size() ? first[r + 1] : count;
+      for (std::uint32_t i = first[r]; i < end; ++i) {
+        next_[i] = i + 1 < end ? i + 1 : first[r];
+        previous_[next_[i]] = i;
+      }
+    }
+  }
 
   std::size_t size() const { return corners_.size(); }
   std::uint32_t next(std::size_t i) const { return next_[i]; }
@@ -34,11 +44,23 @@ class RingSides {
   Vec2 high(std::size_t i) const { return ahead(i) ? corners_[next_[i]] : corners_[i]; }
 
   /// Do the sides share more than a corner in which one follows the other?
-  bool meet(std::size_t i, std::size_t j) const;
+  bool meet(std::size_t i, std::size_t j) const {
+    if (next(i) == j) return fold(j);
+    if (next(j) == i) return fold(i);
+    return segments_touch(side(i), side(j));
+  }
   /// Do they cross, or share more than a point? Where one ends on the other they do not.
-  bool cross(std::size_t i, std::size_t j) const;
+  bool cross(std::size_t i, std::size_t j) const {
+    const bool in_line = orient2d(low(i), high(i), low(j)) == 0 && orient2d(low(i), high(i), high(j)) == 0;
+    if (in_line) return is_before(low(i), high(j)) && is_before(low(j), high(i));
+    return segments_cross(side(i), side(j));
+  }
   /// Does the ring turn back on itself in corner i?
-  bool fold(std::size_t i) const;
+  bool fold(std::size_t i) const {
+    const Vec2 p = corner(previous(i));
+    const Vec2 q = corner(next(i));
+    return on_segment(q, {p, corner(i)}) || on_segment(p, {corner(i), q});
+  }
 
  private:
   std::span<const Vec2> corners_;
@@ -72,7 +94,26 @@ class RingSweep {
   /// touch. below: the side that lies directly below, or no_side; touched: the side that the place lies on, between its
   /// ends, or no_side. The first contact that may not be, where the sweep ended, if there is one. Throws Stopped.
   template <class Visit>
-  std::optional<SideContact> run(const Visit& visit);
+  std::optional<SideContact> run(const Visit& visit) {
+    std::vector<std::uint32_t> corners(rings_.size());
+    for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::uint32_t>(i);
+    std::sort(corners.begin(), corners.end(),
+              [&](std::uint32_t i, std::uint32_t j) { return is_before(rings_.corner(i), rings_.corner(j)); });
+    constexpr std::size_t batch = 4096;
+    std::size_t end = 0;
+    std::size_t places = 0;
+    for (std::size_t k = 0; k < corners.size(); k = end) {
+      if (places++ % batch == 0) execution_.check();
+      const auto here = [&](std::size_t other) { return rings_.corner(corners[other]) == rings_.corner(corners[k]); };
+      if (!may_touch_ && k > 0 && here(k - 1)) return SideContact{corners[k - 1], corners[k]};
+      for (end = k + 1; may_touch_ && end < corners.size() && here(end);) ++end;
+      const std::span<const std::uint32_t> place(corners.data() + k, end - k);
+      const std::uint32_t below = pass(place);
+      if (contact_) return contact_;
+      visit(place, below, touched_);
+    }
+    return std::nullopt;
+  }
 
  private:
   /// Compares a side that begins in the corner that the line has reached with those on the line.
@@ -80,17 +121,85 @@ class RingSweep {
     const RingSides* rings;
     std::optional<SideContact>* contact;
     bool may_touch;
-    bool operator()(std::uint32_t i, std::uint32_t j) const;
+    bool operator()(std::uint32_t i, std::uint32_t j) const {
+      if (i == j) return false;
+      const Vec2 a = rings->low(i);
+      const Vec2 b = rings->low(j);
+      int side = 0;  // of j, seen from i
+      if (is_before(b, a)) {
+        side = -orient2d(b, rings->high(j), a);
+        if (side == 0 && may_touch) side = -orient2d(b, rings->high(j), rings->high(i));
+        if (side == 0) *contact = SideContact{i, j};  // i begins on j
+      } else if (is_before(a, b)) {
+        side = orient2d(a, rings->high(i), b);
+        if (side == 0 && may_touch) side = orient2d(a, rings->high(i), rings->high(j));
+        if (side == 0) *contact = SideContact{i, j};
+      } else {
+        side = orient2d(a, rings->high(i), rings->high(j));
+        const bool may_meet = may_touch || rings->next(i) == j || rings->next(j) == i;
+        if (side == 0 || !may_meet) *contact = SideContact{i, j};
+      }
+      return side > 0 || (side == 0 && i < j);
+    }
   };
   using Status = std::set<std::uint32_t, Order>;
 
-  std::uint32_t pass(std::span<const std::uint32_t> corners);
-  void look_around(Vec2 here, Status::iterator lowest);
+  /// Takes the sides off that end in the corners and puts those on that begin there. The side below them.
+  std::uint32_t pass(std::span<const std::uint32_t> corners) {
+    const Vec2 here = rings_.corner(corners.front());
+    Status::iterator lowest = order_.end();  // what lies above or begins in the corners
+    for (const std::uint32_t corner : corners) {
+      for (const std::uint32_t side : {rings_.previous(corner), corner}) {
+        if (rings_.high(side) == here) lowest = remove(side);
+      }
+    }
+    for (const std::uint32_t corner : corners) {
+      for (const std::uint32_t side : {rings_.previous(corner), corner}) {
+        if (!(rings_.low(side) == here) || contact_) continue;
+        insert(side);
+        lowest = place_[side];
+      }
+    }
+    if (contact_) return no_side;
+    while (lowest != order_.begin() && rings_.low(*std::prev(lowest)) == here) --lowest;
+    if (may_touch_) look_around(here, lowest);
+    return lowest == order_.begin() ? no_side : *std::prev(lowest);
+  }
+  /// Is the inside between every second pair of sides? And do the corners lie on the side below or above?
+  void look_around(Vec2 here, Status::iterator lowest) {
+    touched_ = no_side;
+    const auto look_at = [&](std::uint32_t side) {
+      if (on_segment(here, rings_.side(side))) touched_ = side;
+    };
+    bool inside = false;
+    if (lowest != order_.begin()) {
+      inside = rings_.ahead(*std::prev(lowest));
+      look_at(*std::prev(lowest));
+    }
+    for (auto at = lowest; at != order_.end(); ++at) {
+      if (rings_.ahead(*at) == inside) contact_ = SideContact{*at, *at};
+      inside = !inside;
+      if (rings_.low(*at) == here) continue;
+      look_at(*at);
+      return;
+    }
+  }
   void compare(std::uint32_t i, std::uint32_t j) {
     if (!contact_ && (may_touch_ ? rings_.cross(i, j) : rings_.meet(i, j))) contact_ = SideContact{i, j};
   }
-  Status::iterator remove(std::uint32_t side);
-  void insert(std::uint32_t side);
+  Status::iterator remove(std::uint32_t side) {
+    const auto after = order_.erase(place_[side]);
+    place_[side] = order_.end();
+    if (after != order_.begin() && after != order_.end()) compare(*std::prev(after), *after);
+    return after;
+  }
+  void insert(std::uint32_t side) {
+    const auto at = order_.insert(side).first;
+    place_[side] = at;
+    if (contact_) return;
+    if (at != order_.begin()) compare(*std::prev(at), side);
+    if (std::next(at) != order_.end()) compare(side, *std::next(at));
+  }
 
   const RingSides& rings_;
   const Execution& execution_;
@@ -100,136 +209,6 @@ class RingSweep {
   Status order_;
   std::vector<Status::iterator> place_;
 };
-
-RingSides::RingSides(std::span<const Vec2> corners, std::span<const std::uint32_t> first)
-    : corners_(corners), next_(corners.size()), previous_(corners.size()) {
-  const auto count = static_cast<std::uint32_t>(corners.size());
-  for (std::size_t r = 0; r < first.size(); ++r) {
-    const std::uint32_t end = r + 1 < first.size() ? first[r + 1] : count;
-    for (std::uint32_t i = first[r]; i < end; ++i) {
-      next_[i] = i + 1 < end ? i + 1 : first[r];
-      previous_[next_[i]] = i;
-    }
-  }
-}
-
-bool RingSides::meet(std::size_t i, std::size_t j) const {
-  if (next(i) == j) return fold(j);
-  if (next(j) == i) return fold(i);
-  return segments_touch(side(i), side(j));
-}
-
-bool RingSides::cross(std::size_t i, std::size_t j) const {
-  const bool in_line = orient2d(low(i), high(i), low(j)) == 0 && orient2d(low(i), high(i), high(j)) == 0;
-  if (in_line) return is_before(low(i), high(j)) && is_before(low(j), high(i));
-  return segments_cross(side(i), side(j));
-}
-
-bool RingSides::fold(std::size_t i) const {
-  const Vec2 p = corner(previous(i));
-  const Vec2 q = corner(next(i));
-  return on_segment(q, {p, corner(i)}) || on_segment(p, {corner(i), q});
-}
-
-bool RingSweep::Order::operator()(std::uint32_t i, std::uint32_t j) const {
-  if (i == j) return false;
-  const Vec2 a = rings->low(i);
-  const Vec2 b = rings->low(j);
-  int side = 0;  // of j, seen from i
-  if (is_before(b, a)) {
-    side = -orient2d(b, rings->high(j), a);
-    if (side == 0 && may_touch) side = -orient2d(b, rings->high(j), rings->high(i));
-    if (side == 0) *contact = SideContact{i, j};  // i begins on j
-  } else if (is_before(a, b)) {
-    side = orient2d(a, rings->high(i), b);
-    if (side == 0 && may_touch) side = orient2d(a, rings->high(i), rings->high(j));
-    if (side == 0) *contact = SideContact{i, j};
-  } else {
-    side = orient2d(a, rings->high(i), rings->high(j));
-    const bool may_meet = may_touch || rings->next(i) == j || rings->next(j) == i;
-    if (side == 0 || !may_meet) *contact = SideContact{i, j};
-  }
-  return side > 0 || (side == 0 && i < j);
-}
-
-/// Takes the sides off that end in the corners and puts those on that begin there. The side below them.
-std::uint32_t RingSweep::pass(std::span<const std::uint32_t> corners) {
-  const Vec2 here = rings_.corner(corners.front());
-  Status::iterator lowest = order_.end();  // what lies above or begins in the corners
-  for (const std::uint32_t corner : corners) {
-    for (const std::uint32_t side : {rings_.previous(corner), corner}) {
-      if (rings_.high(side) == here) lowest = remove(side);
-    }
-  }
-  for (const std::uint32_t corner : corners) {
-    for (const std::uint32_t side : {rings_.previous(corner), corner}) {
-      if (!(rings_.low(side) == here) || contact_) continue;
-      insert(side);
-      lowest = place_[side];
-    }
-  }
-  if (contact_) return no_side;
-  while (lowest != order_.begin() && rings_.low(*std::prev(lowest)) == here) --lowest;
-  if (may_touch_) look_around(here, lowest);
-  return lowest == order_.begin() ? no_side : *std::prev(lowest);
-}
-
-/// Is the inside between every second pair of sides? And do the corners lie on the side below or above?
-void RingSweep::look_around(Vec2 here, Status::iterator lowest) {
-  touched_ = no_side;
-  const auto look_at = [&](std::uint32_t side) {
-    if (on_segment(here, rings_.side(side))) touched_ = side;
-  };
-  bool inside = false;
-  if (lowest != order_.begin()) {
-    inside = rings_.ahead(*std::prev(lowest));
-    look_at(*std::prev(lowest));
-  }
-  for (auto at = lowest; at != order_.end(); ++at) {
-    if (rings_.ahead(*at) == inside) contact_ = SideContact{*at, *at};
-    inside = !inside;
-    if (rings_.low(*at) == here) continue;
-    look_at(*at);
-    return;
-  }
-}
-
-RingSweep::Status::iterator RingSweep::remove(std::uint32_t side) {
-  const auto after = order_.erase(place_[side]);
-  place_[side] = order_.end();
-  if (after != order_.begin() && after != order_.end()) compare(*std::prev(after), *after);
-  return after;
-}
-
-void RingSweep::insert(std::uint32_t side) {
-  const auto at = order_.insert(side).first;
-  place_[side] = at;
-  if (contact_) return;
-  if (at != order_.begin()) compare(*std::prev(at), side);
-  if (std::next(at) != order_.end()) compare(side, *std::next(at));
-}
-
-template <class Visit>
-std::optional<SideContact> RingSweep::run(const Visit& visit) {
-  std::vector<std::uint32_t> corners(rings_.size());
-  for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::uint32_t>(i);
-  std::sort(corners.begin(), corners.end(),
-            [&](std::uint32_t i, std::uint32_t j) { return is_before(rings_.corner(i), rings_.corner(j)); });
-  constexpr std::size_t batch = 4096;
-  std::size_t end = 0;
-  std::size_t places = 0;
-  for (std::size_t k = 0; k < corners.size(); k = end) {
-    if (places++ % batch == 0) execution_.check();
-    const auto here = [&](std::size_t other) { return rings_.corner(corners[other]) == rings_.corner(corners[k]); };
-    if (!may_touch_ && k > 0 && here(k - 1)) return SideContact{corners[k - 1], corners[k]};
-    for (end = k + 1; may_touch_ && end < corners.size() && here(end);) ++end;
-    const std::span<const std::uint32_t> place(corners.data() + k, end - k);
-    const std::uint32_t below = pass(place);
-    if (contact_) return contact_;
-    visit(place, below, touched_);
-  }
-  return std::nullopt;
-}
 
 /// The cuts, as a line sweeps over the rings. Between a side with the inside above it and the next side above lies an
 /// open strip; its post is the corner that the line passed last in it (or on the side, or where it opened). Nothing

@@ -199,7 +199,6 @@ Scene without_arrays(const Scene& scene) {
   rest.named_start = scene.named_start;
   rest.other_goals = scene.other_goals;
   rest.named_goals = scene.named_goals;
-  rest.prices = scene.prices;
   rest.goal_pose = scene.goal_pose;
   rest.grid = scene.grid;
   rest.source = scene.source;

@@ -228,21 +228,12 @@ void OutputFile::write_now(std::string_view bytes) {
   }
 }
 
-/// Some file systems tell only who closes a file that it could not be written. The file stays open, for its lock.
-void OutputFile::check_written() const {
-  const int twin = ::fcntl(file_, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
-  if (twin < 0 || ::close(twin) != 0) fail(errno);
-}
-
-void OutputFile::close_file() {
-  const int file = file_;
-  file_ = -1;
-  if (file != STDOUT_FILENO && ::close(file) != 0) fail(errno);
-}
-
 void OutputFile::complete() {
   flush();
-  if (!target_.empty()) check_written();
+  if (target_.empty()) return;
+  // Some file systems tell only who closes a file that it could not be written. The file stays open, for its lock.
+  const int twin = ::fcntl(file_, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  if (twin < 0 || ::close(twin) != 0) fail(errno);
 }
 
 void OutputFile::commit() {
@@ -253,7 +244,9 @@ void OutputFile::commit() {
     discard();  // all is written and in its place: closing can't fail any more
     return;
   }
-  close_file();
+  const int file = file_;
+  file_ = -1;
+  if (file != STDOUT_FILENO && ::close(file) != 0) fail(errno);
 }
 
 void OutputFile::fail(int error) const { throw WriteError(name_, std::generic_category().message(error)); }

@@ -36,8 +36,6 @@ class OutputFile {
   bool create(std::string part);
   void flush();
   void write_now(std::string_view bytes);
-  void check_written() const;
-  void close_file();
   void discard() noexcept;
   [[noreturn]] void fail(int error) const;
 

@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "core/base/printable.hpp"
-#include "scenes/text/human_units.hpp"
 #include "scenes/text/json_text.hpp"
 #include "solve/question/solve_options.hpp"
 
@@ -44,8 +43,9 @@ std::string_view why_dropped(const Answer& answer) {
 class Lines {
  public:
   explicit Lines(const Palette& palette) : palette_(palette) {}
+  /// Nothing of what is empty.
   void add(std::string_view name, std::string_view what) {
-    text_ += fmt::format("  {}{}\n", palette_.faint(fmt::format("{:<14}", name)), what);
+    if (!what.empty()) text_ += fmt::format("  {}{}\n", palette_.faint(fmt::format("{:<14}", name)), what);
   }
   std::string text() && { return std::move(text_); }
 
@@ -137,7 +137,7 @@ void add_times(Lines& lines, const Answer& answer) {
     text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", name, 100.0 * seconds / whole);
     told += seconds;
   }
-  if (!text.empty()) lines.add("time went to", text);
+  lines.add("time went to", text);
 }
 
 std::string components_json(const ComponentFacts& facts) {
@@ -283,17 +283,14 @@ std::string explanation_json(const Answer& answer) {
 }
 
 std::string notes_text(const Answer& answer, const Palette& palette) {
-  std::string text;
-  const auto add = [&](std::string_view name, const std::string& what) {
-    if (!what.empty()) text += fmt::format("  {}{}\n", palette.faint(fmt::format("{:<14}", name)), what);
-  };
-  add("room", room_note(answer));
-  add("heuristic", heuristic_note(answer));
-  if (!answer.explained) add("samples", samples_note(answer));
-  add("note", lazy_note(answer));
-  add("note", doors_note(answer));
-  for (const std::string& line : answer.problem.told) add("note", line);
-  return text;
+  Lines lines(palette);
+  lines.add("room", room_note(answer));
+  lines.add("heuristic", heuristic_note(answer));
+  if (!answer.explained) lines.add("samples", samples_note(answer));
+  lines.add("note", lazy_note(answer));
+  lines.add("note", doors_note(answer));
+  for (const std::string& line : answer.problem.told) lines.add("note", line);
+  return std::move(lines).text();
 }
 
 }  // namespace warren

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -334,10 +333,6 @@ RecordedAnswer recorded(std::span<const std::vector<double>> states) {
     }
   }
   return record;
-}
-
-RecordedAnswer read_answer(const std::string& file, const Execution& execution) {
-  return read_answer(InputFile(file, execution), execution);
 }
 
 RecordedAnswer read_answer(const InputFile& input, const Execution& execution) {

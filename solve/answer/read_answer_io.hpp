@@ -65,11 +65,12 @@ RecordedAnswer recorded(const Answer& answer);
 /// A path alone, as states of as many numbers each.
 RecordedAnswer recorded(std::span<const std::vector<double>> states);
 
-/// Masks are named, not read: read_masks() does. "-" is standard input. Throws ReadError, InputError naming file and
-/// key, Stopped.
-RecordedAnswer read_answer(const std::string& file, const Execution& execution);
-/// The same for a file that is open already.
+/// Masks are named, not read: read_masks() does. Throws InputError naming file and key, Stopped.
 RecordedAnswer read_answer(const InputFile& input, const Execution& execution);
+/// The same for a file of this name; "-" is standard input. Throws ReadError, too.
+inline RecordedAnswer read_answer(const std::string& file, const Execution& execution) {
+  return read_answer(InputFile(file, execution), execution);
+}
 
 /// All states of its path.
 std::vector<std::vector<double>> states_of(const RecordedAnswer& answer);

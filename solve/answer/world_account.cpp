@@ -5,20 +5,14 @@
 
 #include <array>
 #include <cmath>
-#include <string>
 #include <utility>
 
-#include "scenes/scene/scene.hpp"
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/json_text.hpp"
 #include "scenes/text/scene_text.hpp"
 #include "solve/question/question.hpp"
 
 namespace warren {
-
-WorldAccount account_of(const Scene& scene, const Execution& execution) {
-  return account_of(scene, scene_hash(scene, execution));
-}
 
 WorldAccount account_of(const Scene& scene, std::string hash) {
   std::string unit{unit_of(scene)};

@@ -27,11 +27,12 @@ struct WorldAccount {
   std::uint64_t solids = 0;    ///< beside spheres and boxes, that only arms meet
 };
 
-/// Throws Stopped. O(size of the scene), for the hash.
-WorldAccount account_of(const Scene& scene, const Execution& execution);
-/// The same where the hash is known. O(1).
+/// Where the hash is known. O(1).
 WorldAccount account_of(const Scene& scene, std::string hash);
-
+/// Throws Stopped. O(size of the scene), for the hash.
+inline WorldAccount account_of(const Scene& scene, const Execution& execution) {
+  return account_of(scene, scene_hash(scene, execution));
+}
 /// Of a scene whose walls are left out and are so many.
 WorldAccount account_of(const Scene& scene, std::string hash, std::size_t walls);
 

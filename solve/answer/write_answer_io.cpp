@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <span>
-#include <string_view>
 #include <type_traits>
 #include <variant>
 
@@ -337,9 +336,7 @@ void write_states(const Path<Vec2>& path, const StateList& states, const Executi
     append_json_number(text += ", ", path[i].y);
   };
   const auto append_state = [&](std::size_t i, std::string& text) {
-    for (std::size_t k = 0; k < states.width; ++k) {
-      append_json_number(text += k == 0 ? "" : ", ", states[i][k]);
-    }
+    for (std::size_t k = 0; k < states.width; ++k) append_json_number(text += k == 0 ? "" : ", ", states[i][k]);
   };
   if (states.empty()) {
     write_path(path.size(), append_point, execution, write);

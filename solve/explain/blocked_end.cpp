@@ -10,10 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
-#include <optional>
-#include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -470,7 +467,6 @@ Scene obstacles_near(const Scene& scene, std::span<const Vec2> path, double reac
   const Vec2 twice[] = {path.front(), path.front()};
   const NearPath places(scene, path.size() > 1 ? path : std::span<const Vec2>(twice), reach, execution);
   Scene near = without_arrays(scene);
-  near.prices = {};
   std::vector<Segment> walls;
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
     if (i % obstacles_a_poll == 0) execution.check();

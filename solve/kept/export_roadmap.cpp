@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cassert>
 #include <limits>
@@ -11,7 +10,6 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "planners/graph/roadmap_arrays.hpp"
 #include "planners/roadmap/milestones.hpp"
 #include "solve/kept/roadmap_formats_io.hpp"
 #include "solve/kept/roadmap_query.hpp"

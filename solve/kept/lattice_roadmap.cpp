@@ -6,10 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <utility>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
@@ -19,7 +16,6 @@
 #include "scenes/mazes/cell_bits.hpp"
 #include "solve/kept/maze_bits.hpp"
 #include "solve/question/planner_choice.hpp"
-#include "verify/streamed/looked_up_walls.hpp"
 
 namespace warren {
 namespace {
@@ -33,15 +29,15 @@ Segment above(std::ptrdiff_t col, std::ptrdiff_t row) {
   return {{corner.x - 1, corner.y}, corner};
 }
 
+constexpr std::uint32_t most_passes = 32;
+
+LatticePassages passages_of(const Scene& scene, double reach, const Execution& execution) {
+  if (auto passages = passages_of_maze(scene, reach, execution)) return std::move(*passages);
+  const std::vector<Segment> bounds = bounds_walls(scene);
+  return wall_passages({scene.walls, bounds, scene.bounds, reach, {scene.maze->rows, scene.maze->cols}}, execution);
+}
+
 }  // namespace
-
-bool is_nothing_but_maze(const Scene& scene) {
-  return scene.maze && !scene.bounds && scene.polygons.empty() && !scene.map && !has_solids(scene);
-}
-
-bool walls_are_passages(const RoadmapFile& file, const Scene& outline) {
-  return is_nothing_but_maze(outline) && file.find("maze.walls") == nullptr && file.find("world.walls") == nullptr;
-}
 
 std::unique_ptr<KeptCells> cells_of_file(const RoadmapFile& file, MazeHint maze, const std::string& hash,
                                          const Execution& execution) {
@@ -101,18 +97,6 @@ Scene KeptCells::walls_in(const Box& box) const {
   return scene;
 }
 
-namespace {
-
-constexpr std::uint32_t most_passes = 32;
-
-LatticePassages passages_of(const Scene& scene, double reach, const Execution& execution) {
-  if (auto passages = passages_of_maze(scene, reach, execution)) return std::move(*passages);
-  const std::vector<Segment> bounds = bounds_walls(scene);
-  return wall_passages({scene.walls, bounds, scene.bounds, reach, {scene.maze->rows, scene.maze->cols}}, execution);
-}
-
-}  // namespace
-
 const WallsNearEnds::Indexed* WallsNearEnds::index(const Execution& execution) const {
   return indexed_.get_after(most_passes, execution, [&] {
     auto indexed = std::make_unique<Indexed>();
@@ -156,8 +140,7 @@ Scene WallsNearEnds::around(const Scene& scene, Vec2 p, const Execution& executi
 std::unique_ptr<RouteIndex> lattice_index(const Scene& scene, const Question& body, const SolveOptions& options,
                                           const Execution& execution) {
   const RobotSpec robot = robot_of(scene, body);
-  const bool is_maze = scene.maze && scene.polygons.empty() && !scene.map && !has_solids(scene) &&
-                       (robot.kind == RobotKind::point || robot.kind == RobotKind::disc);
+  const bool is_maze = scene.maze && scene.polygons.empty() && !scene.map && !has_solids(scene) && is_round(robot);
   if (!is_maze || options.planner != PlannerKind::prm) return nullptr;
   const double reach = clearance_of(scene, body) + robot.radius;
   const RoadmapOptions roadmap = planner_options(options, scene, WallProblem{}).roadmap;

@@ -50,10 +50,14 @@ struct KeptCells {
   std::vector<Segment> rim_;  // a unit of each side: the reference point stays in the box of all walls
 };
 
-/// Is the world inside a maze whose walls stand wherever its lattice has no passage, and nothing else?
-bool walls_are_passages(const RoadmapFile& file, const Scene& outline);
 /// Is it a maze, and nothing else?
-bool is_nothing_but_maze(const Scene& scene);
+inline bool is_nothing_but_maze(const Scene& scene) {
+  return scene.maze && !scene.bounds && scene.polygons.empty() && !scene.map && !has_solids(scene);
+}
+/// Is the world inside a maze whose walls stand wherever its lattice has no passage, and nothing else?
+inline bool walls_are_passages(const RoadmapFile& file, const Scene& outline) {
+  return is_nothing_but_maze(outline) && file.find("maze.walls") == nullptr && file.find("world.walls") == nullptr;
+}
 /// Of such a file, which must outlive it. Throws InputError for a world of another hash, Stopped.
 std::unique_ptr<KeptCells> cells_of_file(const RoadmapFile& file, MazeHint maze, const std::string& hash,
                                          const Execution& execution);

@@ -12,8 +12,6 @@
 
 #include "core/base/error.hpp"
 #include "parallel/sort.hpp"
-#include "planners/graph/roadmap_arrays.hpp"
-#include "solve/kept/lattice_roadmap.hpp"
 #include "solve/kept/maze_bits.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/question_of_pose.hpp"
@@ -141,8 +139,7 @@ ChosenSolver builder_of(const SolveOptions& options, const Scene& scene, const Q
 
 bool grows(const SolveOptions& options, const Scene& scene, const RobotSpec& robot) {
   if (options.roadmap.samples || options.sampler == SamplerKind::lattice) return false;
-  const bool is_round = robot.kind == RobotKind::point || robot.kind == RobotKind::disc;
-  return options.sampler || !scene.maze || !is_round;
+  return options.sampler || !scene.maze || !is_round(robot);
 }
 
 EdgeCounts count_edges(const Roadmap& roadmap, const Execution& execution) {
@@ -158,10 +155,6 @@ EdgeCounts count_edges(const Roadmap& roadmap, const Execution& execution) {
   }
   if (arrays.directed) return counts;
   return {counts.unchecked / 2, counts.free / 2, counts.blocked / 2};
-}
-
-std::uint64_t count_states(const Roadmap& roadmap) {
-  return roadmap.lattice != nullptr ? roadmap.lattice->passages().cell_count() : roadmap.arrays.parts().vertex_count();
 }
 
 void check_buildable(const Scene& scene, const Question& question, const SolveOptions& options) {
@@ -181,6 +174,7 @@ void check_buildable(const Scene& scene, const Question& question, const SolveOp
     throw UsageError(
         fmt::format("@{}: kept roadmaps are asked for one goal; solve takes it", name_of(words.members().front())));
   }
+  check_headings(scene, question);
   builder_of(options, scene, without_ends(scene, question));
 }
 
@@ -244,6 +238,11 @@ Roadmap update(const Roadmap& roadmap, Scene now, const Execution& execution, Up
   let_prices_go(now, roadmap);
   Question question = roadmap.question();
   question.robot = without_what_is_said(roadmap.robot, roadmap.world.outline());  // the changed world says its own
+  if (question.robot->files) {
+    ArmFiles& files = *question.robot->files;
+    if (!now.arm || now.arm->group.empty()) files.group = roadmap.robot.files->group;
+    if (!now.arm || now.arm->tool.empty()) files.tool = roadmap.robot.files->tool;
+  }
   Roadmap next =
       build_within(std::move(now), question, roadmap.options, execution, roadmap.index, &built, old ? &*old : nullptr);
   if (account == nullptr) return next;

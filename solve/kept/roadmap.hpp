@@ -48,7 +48,9 @@ struct EdgeCounts {
 /// Throws Stopped.
 EdgeCounts count_edges(const Roadmap& roadmap, const Execution& execution);
 /// States of the roadmap.
-std::uint64_t count_states(const Roadmap& roadmap);
+inline std::uint64_t count_states(const Roadmap& roadmap) {
+  return roadmap.lattice != nullptr ? roadmap.lattice->passages().cell_count() : roadmap.arrays.parts().vertex_count();
+}
 
 /// Is the number of samples found by growing? A lattice has as many as its maze has cells.
 bool grows(const SolveOptions& options, const Scene& scene, const RobotSpec& robot);

@@ -2,14 +2,10 @@
 #include "solve/kept/roadmap_file.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cstring>
-#include <vector>
 
 #include "core/base/error.hpp"
-#include "parallel/chunks.hpp"
-#include "scenes/text/output_file_io.hpp"
 #include "solve/kept/checksum.hpp"
 
 namespace warren {
@@ -19,10 +15,15 @@ bool all_zero(std::span<const std::byte> bytes) {
   return std::all_of(bytes.begin(), bytes.end(), [](std::byte b) { return b == std::byte{0}; });
 }
 
+/// Reads the header of a .roadmap file and holds all of it against the bytes that there are: afterwards each section
+/// lies within the file where the layout says, whoever made the file. Looks at nothing but the header and the zeros
+/// between sections; takes memory for at most 64 sections.
 class HeaderReader {
  public:
   HeaderReader(const std::string& name, std::span<const std::byte> bytes) : name_(name), bytes_(bytes) {}
 
+  /// Throws InputError, which names the file as `name`: no roadmap, of another byte order or major version, cut off,
+  /// bytes appended, damaged, or a table of sections that contradicts the layout.
   CheckedHeader read() {
     read_fixed();
     check_size();
@@ -179,8 +180,8 @@ std::vector<std::uint64_t> checksums_of(std::span<const RoadmapSection> sections
     }
   }
   std::vector<std::uint64_t> sums(blocks.size());
-  const Execution quiet{execution.threads, execution.deadline};
-  for_chunks(blocks.size(), 1, quiet, [&](Range r) { sums[r.first] = checksum(blocks[r.first]); });
+  for_chunks(blocks.size(), 1, without_progress(execution),
+             [&](Range r) { sums[r.first] = checksum(blocks[r.first]); });
   return sums;
 }
 
@@ -236,18 +237,14 @@ void write_section(OutputFile& file, std::span<const std::byte> bytes, const Exe
 
 }  // namespace
 
-CheckedHeader read_header(const std::string& name, std::span<const std::byte> bytes) {
-  return HeaderReader(name, bytes).read();
-}
-
 RoadmapFile::RoadmapFile(const std::string& path, const Execution& execution)
-    : file_(path, execution), head_(read_header(file_.name(), bytes())), checked_(head_.blocks) {
+    : file_(path, execution), head_(HeaderReader(file_.name(), bytes()).read()), checked_(head_.blocks) {
   check_opened(execution);
 }
 
 RoadmapFile::RoadmapFile(const std::string& name, std::string_view bytes_in_memory, const Execution& execution)
     : file_(InputFile::of_bytes(name, bytes_in_memory)),
-      head_(read_header(file_.name(), bytes())),
+      head_(HeaderReader(file_.name(), bytes()).read()),
       checked_(head_.blocks) {
   check_opened(execution);
 }

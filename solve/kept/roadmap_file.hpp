@@ -153,19 +153,12 @@ struct RoadmapFileHeader {
   std::string writer;             ///< program and version: "warren 0.1.0"; at most 16 printable characters of ASCII
 };
 
-// Reads the header of a .roadmap file and holds all of it against the bytes that there are: afterwards each section
-// lies within the file where the layout says, whoever made the file. Looks at nothing but the header and the zeros
-// between sections; takes memory for at most 64 sections.
-
+/// What is read of it once all of it was held against the bytes that there are: each section lies within the file.
 struct CheckedHeader {
   RoadmapFileHeader header;
   std::vector<SectionPlace> sections;
   std::size_t blocks = 0;
 };
-
-/// Throws InputError, which names the file as `name`: no roadmap, of another byte order or major version, cut off,
-/// bytes appended, damaged, or a table of sections that contradicts the layout.
-CheckedHeader read_header(const std::string& name, std::span<const std::byte> bytes);
 
 /// Any number of threads may read. Neither copied nor moved, for views refer to it; everything given out ends with it.
 class RoadmapFile {

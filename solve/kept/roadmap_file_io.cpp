@@ -6,7 +6,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -16,7 +15,6 @@
 #include "scenes/text/json_text.hpp"
 #include "scenes/text/scene_text.hpp"
 #include "solve/kept/checksum.hpp"
-#include "solve/kept/roadmap_file.hpp"
 #include "solve/kept/roadmap_sections.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/question/asked_words.hpp"
@@ -105,9 +103,7 @@ void check_world_of(const Scene& scene, const SolveOptions& options, const Quest
 /// The world inside. A lattice's walls are made when they are needed: what of it refers to the file and the lattice
 /// lives as long as they do.
 KeptWorld world_inside(const RoadmapFile& file, const Roadmap& roadmap, const Execution& execution) {
-  if (!has_world(file)) {
-    throw InputError(file.name(), "has no world inside; name the world that it was built for");
-  }
+  if (!has_world(file)) throw InputError(file.name(), "has no world inside; name the world that it was built for");
   Scene outline = read_world_outline(file, execution);
   outline.source = roadmap.world.outline().source;
   const LatticePassages* lattice = roadmap.lattice != nullptr ? &roadmap.lattice->passages() : nullptr;
@@ -155,87 +151,10 @@ Roadmap described(const RoadmapFile& file, const Execution& execution) {
 void check_lattice_of(const Roadmap& roadmap, const std::string& name) {
   const auto& maze = roadmap.world.outline().maze;
   const LatticeSize size = roadmap.lattice->passages().size();
-  const bool is_round = roadmap.robot.kind == RobotKind::point || roadmap.robot.kind == RobotKind::disc;
   const bool is_its = maze && maze->rows == size.rows && maze->cols == size.cols;
-  if (is_round && is_its && roadmap.options.planner == PlannerKind::prm) return;
+  if (is_round(roadmap.robot) && is_its && roadmap.options.planner == PlannerKind::prm) return;
   throw InputError(name, "its lattice is none of its world and body");
 }
-
-}  // namespace
-
-bool is_roadmap_file(std::string_view first_bytes) { return first_bytes.starts_with(roadmap_magic); }
-
-std::string roadmap_meta(const RoadmapFile& file, const Execution& execution) {
-  const SectionPlace* place = file.find("meta");
-  if (place != nullptr && place->elements > longest_meta) {
-    throw InputError(fmt::format("{}: section meta", file.name()), "expected at most 1 MiB");
-  }
-  const auto bytes = file.section<std::byte>("meta", execution);
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-void write_roadmap(const Roadmap& roadmap, const std::string& path, const Execution& execution, bool with_world) {
-  OutputFile file(path, execution);  // first: a place that can't be written is known before the work
-  write_roadmap(roadmap, file, execution, with_world);
-  file.commit();
-}
-
-void write_roadmap(const Roadmap& roadmap, OutputFile& file, const Execution& execution, bool with_world) {
-  if (roadmap.file != nullptr) roadmap.file->check_all(execution);  // nothing is copied that nobody looked at
-  const std::string meta = meta_json(roadmap, execution);
-  const RoadmapParts parts = roadmap.arrays.parts();
-  const LatticePassages* lattice = roadmap.lattice != nullptr ? &roadmap.lattice->passages() : nullptr;
-  std::optional<WorldSections> world;
-  if (with_world) world.emplace(roadmap.world.whole(execution), lattice, execution);
-  std::vector<RoadmapSection> sections{roadmap_section("meta", std::span<const char>(meta))};
-  if (world) world->append_to(sections);
-  roadmap.lattice != nullptr ? append_lattice_sections(*roadmap.lattice, sections) : append_graph(parts, sections);
-  const HierarchySections index(roadmap.arrays.hierarchy, execution);
-  index.append_to(sections);
-  static_assert(sizeof("warren " WARREN_VERSION) - 1 <= sizeof(FixedHeader::writer));
-  const RoadmapFileHeader header{.world_hash = hash_number(roadmap.world_hash),
-                                 .recipe_hash = hash_of(recipe_json(roadmap, execution)),
-                                 .writer = "warren " WARREN_VERSION};
-  write_roadmap_file(file, header, sections, execution);
-}
-
-void check_roadmap(const RoadmapFile& file, const Execution& execution) {
-  const Roadmap roadmap = described(file, execution);
-  if (has_lattice(file)) {
-    check_lattice(file, *read_lattice(file, lattice_of(file, execution), execution), execution);
-  } else {
-    read_hierarchy(file, checked_parts(file, roadmap, execution).vertex_count(), execution);
-  }
-}
-
-Roadmap read_roadmap(const std::string& path, const Execution& execution, std::optional<Scene> world) {
-  return read_roadmap(std::make_unique<RoadmapFile>(path, execution), execution, std::move(world));
-}
-
-Roadmap read_roadmap(std::unique_ptr<RoadmapFile> opened, const Execution& execution, std::optional<Scene> world) {
-  const RoadmapFile& file = *opened;
-  Roadmap roadmap = described(file, execution);
-  if (has_lattice(file)) roadmap.lattice = read_lattice(file, lattice_of(file, execution), execution);
-  roadmap.world =
-      world ? given_world(file, std::move(*world), roadmap, execution) : world_inside(file, roadmap, execution);
-  if (file.header().recipe_hash != hash_of(recipe_json(roadmap, execution))) {
-    throw InputError(file.name(), "header and meta name different bodies or options");
-  }
-  if (roadmap.robot.files) {  // once for all questions
-    roadmap.robot = with_what_is_said(std::move(roadmap.robot), roadmap.world.outline());
-    roadmap.robot.files->read = arm_model_of(roadmap.robot, roadmap.clearance, execution);
-  }
-  if (roadmap.lattice == nullptr) {
-    check_world_of(roadmap.world.outline(), roadmap.options, roadmap.question(), file.name());
-    roadmap.arrays = read_arrays(file, roadmap, execution);
-  } else {
-    check_lattice_of(roadmap, file.name());
-    roadmap.file = std::move(opened);
-  }
-  return roadmap;
-}
-
-namespace {
 
 using Json = nlohmann::json;
 
@@ -271,9 +190,7 @@ void append(std::vector<double>& numbers, const Eigen::Isometry3d& pose) {
 /// All numbers that say where an arm can be and what it meets.
 std::vector<double> numbers_of(const ArmModel& model) {
   std::vector<double> numbers;
-  for (const ArmVariable& v : model.variables) {
-    numbers.insert(numbers.end(), {v.low, v.high, v.continuous ? 1.0 : 0.0});
-  }
+  for (const ArmVariable& v : model.variables) numbers.insert(numbers.end(), {v.low, v.high, v.continuous ? 1.0 : 0.0});
   for (const ArmJoint& joint : model.joints) {
     numbers.insert(numbers.end(),
                    {static_cast<double>(joint.parent), joint.axis.x(), joint.axis.y(), joint.axis.z(),
@@ -317,9 +234,7 @@ std::uint64_t component_count(const RoadmapArrays& arrays) {
 void add_recipe(JsonObject& object, const Roadmap& roadmap, const Execution& execution) {
   const SolveOptions& o = roadmap.options;
   object.add("robot", std::string_view(robot_text(roadmap.robot)));
-  if (is_of_file(roadmap.robot)) {
-    object.add("table_hash", std::string_view(table_hash(roadmap.robot, execution)));
-  }
+  if (is_of_file(roadmap.robot)) object.add("table_hash", std::string_view(table_hash(roadmap.robot, execution)));
   object.add("clearance", roadmap.clearance);
   if (!roadmap.prices.empty()) {
     object.add_json("prices", json_list(std::span<const std::string>(price_lines(roadmap.prices)), ", "));
@@ -353,30 +268,20 @@ class MetaReader {
     return {where_, value};
   }
   double number(const char* key) const {
-    const Json& value = at(key);
-    if (!value.is_number() || !std::isfinite(value.get<double>())) fail(key, "a number");
-    return value.get<double>();
+    const auto value = taken<double>(key, &Json::is_number, "a number");
+    if (!std::isfinite(value)) fail(key, "a number");
+    return value;
   }
   std::uint64_t whole(const char* key) const {
-    const Json& value = at(key);
-    if (!value.is_number_unsigned()) fail(key, "a whole number");
-    return value.get<std::uint64_t>();
+    return taken<std::uint64_t>(key, &Json::is_number_unsigned, "a whole number");
   }
   std::uint32_t small(const char* key) const {
     const std::uint64_t value = whole(key);
     if (value > 1'000'000'000) fail(key, "a number of at most 10^9");
     return static_cast<std::uint32_t>(value);
   }
-  bool truth(const char* key) const {
-    const Json& value = at(key);
-    if (!value.is_boolean()) fail(key, "true or false");
-    return value.get<bool>();
-  }
-  std::string text(const char* key) const {
-    const Json& value = at(key);
-    if (!value.is_string()) fail(key, "a text");
-    return value.get<std::string>();
-  }
+  bool truth(const char* key) const { return taken<bool>(key, &Json::is_boolean, "true or false"); }
+  std::string text(const char* key) const { return taken<std::string>(key, &Json::is_string, "a text"); }
   template <class E>
   E named(const char* key) const {
     const auto value = enum_named<E>(text(key));
@@ -392,6 +297,12 @@ class MetaReader {
     const auto found = json_.find(key);
     if (found == json_.end()) fail(key, "it to be there");
     return *found;
+  }
+  template <class T>
+  T taken(const char* key, bool (Json::*is_such)() const noexcept, std::string_view expected) const {
+    const Json& value = at(key);
+    if (!(value.*is_such)()) fail(key, expected);
+    return value.get<T>();
   }
   const std::string& where_;
   const Json& json_;
@@ -459,6 +370,72 @@ Json parsed(const std::string& where, std::string_view text) {
 }
 
 }  // namespace
+
+std::string roadmap_meta(const RoadmapFile& file, const Execution& execution) {
+  const SectionPlace* place = file.find("meta");
+  if (place != nullptr && place->elements > longest_meta) {
+    throw InputError(fmt::format("{}: section meta", file.name()), "expected at most 1 MiB");
+  }
+  const auto bytes = file.section<std::byte>("meta", execution);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+void write_roadmap(const Roadmap& roadmap, const std::string& path, const Execution& execution, bool with_world) {
+  OutputFile file(path, execution);  // first: a place that can't be written is known before the work
+  write_roadmap(roadmap, file, execution, with_world);
+  file.commit();
+}
+
+void write_roadmap(const Roadmap& roadmap, OutputFile& file, const Execution& execution, bool with_world) {
+  if (roadmap.file != nullptr) roadmap.file->check_all(execution);  // nothing is copied that nobody looked at
+  const std::string meta = meta_json(roadmap, execution);
+  const RoadmapParts parts = roadmap.arrays.parts();
+  const LatticePassages* lattice = roadmap.lattice != nullptr ? &roadmap.lattice->passages() : nullptr;
+  std::optional<WorldSections> world;
+  if (with_world) world.emplace(roadmap.world.whole(execution), lattice, execution);
+  std::vector<RoadmapSection> sections{roadmap_section("meta", std::span<const char>(meta))};
+  if (world) world->append_to(sections);
+  roadmap.lattice != nullptr ? append_lattice_sections(*roadmap.lattice, sections) : append_graph(parts, sections);
+  const HierarchySections index(roadmap.arrays.hierarchy, execution);
+  index.append_to(sections);
+  static_assert(sizeof("warren " WARREN_VERSION) - 1 <= sizeof(FixedHeader::writer));
+  const RoadmapFileHeader header{.world_hash = hash_number(roadmap.world_hash),
+                                 .recipe_hash = hash_of(recipe_json(roadmap, execution)),
+                                 .writer = "warren " WARREN_VERSION};
+  write_roadmap_file(file, header, sections, execution);
+}
+
+void check_roadmap(const RoadmapFile& file, const Execution& execution) {
+  const Roadmap roadmap = described(file, execution);
+  if (has_lattice(file)) {
+    check_lattice(file, *read_lattice(file, lattice_of(file, execution), execution), execution);
+  } else {
+    read_hierarchy(file, checked_parts(file, roadmap, execution).vertex_count(), execution);
+  }
+}
+
+Roadmap read_roadmap(std::unique_ptr<RoadmapFile> opened, const Execution& execution, std::optional<Scene> world) {
+  const RoadmapFile& file = *opened;
+  Roadmap roadmap = described(file, execution);
+  if (has_lattice(file)) roadmap.lattice = read_lattice(file, lattice_of(file, execution), execution);
+  roadmap.world =
+      world ? given_world(file, std::move(*world), roadmap, execution) : world_inside(file, roadmap, execution);
+  if (file.header().recipe_hash != hash_of(recipe_json(roadmap, execution))) {
+    throw InputError(file.name(), "header and meta name different bodies or options");
+  }
+  if (roadmap.robot.files) {  // once for all questions
+    roadmap.robot = with_what_is_said(std::move(roadmap.robot), roadmap.world.outline());
+    roadmap.robot.files->read = arm_model_of(roadmap.robot, roadmap.clearance, execution);
+  }
+  if (roadmap.lattice == nullptr) {
+    check_world_of(roadmap.world.outline(), roadmap.options, roadmap.question(), file.name());
+    roadmap.arrays = read_arrays(file, roadmap, execution);
+  } else {
+    check_lattice_of(roadmap, file.name());
+    roadmap.file = std::move(opened);
+  }
+  return roadmap;
+}
 
 std::string recipe_json(const Roadmap& roadmap, const Execution& execution) {
   JsonObject object(",\n ", ": ");

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "core/run/execution.hpp"
 #include "scenes/text/output_file_io.hpp"
@@ -26,12 +27,14 @@ void write_roadmap(const Roadmap& roadmap, OutputFile& file, const Execution& ex
 /// at when Roadmap::world is first asked for the whole. `world`: for a file that has none, or to make
 /// sure that it is for this one. Throws ReadError, InputError (cut off, damaged, of another version, world or body, or
 /// without a world where none is given), Stopped.
-Roadmap read_roadmap(const std::string& path, const Execution& execution = {}, std::optional<Scene> world = {});
-/// The same of a file that is open already.
 Roadmap read_roadmap(std::unique_ptr<RoadmapFile> opened, const Execution& execution, std::optional<Scene> world = {});
+/// The same of a file that nobody has opened yet.
+inline Roadmap read_roadmap(const std::string& path, const Execution& execution = {}, std::optional<Scene> world = {}) {
+  return read_roadmap(std::make_unique<RoadmapFile>(path, execution), execution, std::move(world));
+}
 
 /// Does the file begin as a .roadmap does?
-bool is_roadmap_file(std::string_view first_bytes);
+inline bool is_roadmap_file(std::string_view first_bytes) { return first_bytes.starts_with(roadmap_magic); }
 
 /// Holds all of a roadmap but its world against what it promises. Throws InputError, Stopped.
 void check_roadmap(const RoadmapFile& file, const Execution& execution);

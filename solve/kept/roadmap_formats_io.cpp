@@ -6,13 +6,10 @@
 #include <zlib.h>
 
 #include <cassert>
-#include <cmath>
-#include <limits>
 
 #include "core/base/error.hpp"
 #include "scenes/files/npy_io.hpp"
 #include "scenes/text/json_text.hpp"
-#include "scenes/text/output_file_io.hpp"
 
 namespace warren {
 namespace {
@@ -61,54 +58,6 @@ void commit_both(const std::string& first_path, OutputFile& first, OutputFile& s
   in_place.keep();
 }
 
-void write_vertex_table(const RoadmapParts& parts, OutputFile& file, const Execution& execution) {
-  file.write(fmt::format("id,{},component\n", fmt::join(state_names(parts.dimension), ",")));
-  write_each_vertex(parts, file, execution, [&](std::size_t v, ExportedState state, auto out) {
-    fmt::format_to(out, FMT_COMPILE("{}"), v);
-    for (const double x : state) fmt::format_to(out, FMT_COMPILE(",{}"), x);
-    fmt::format_to(out, FMT_COMPILE(",{}\n"), parts.component[v]);
-  });
-}
-
-void write_edge_table(const ExportedEdgesView& edges, OutputFile& file, const Execution& execution) {
-  file.write("from,to,length,state\n");
-  write_each_edge(edges, file, execution, [&](const ExportedEdge& edge, auto out) {
-    fmt::format_to(out, FMT_COMPILE("{},{},{},{}\n"), edge.from, edge.to, edges.length(edge), name_of(edge.state));
-  });
-}
-
-// Numbers are quoted: a bare numeral of the language has no exponent.
-
-void write_dot_vertices(const RoadmapParts& parts, OutputFile& file, const Execution& execution) {
-  const std::vector<std::string> names = state_names(parts.dimension);
-  const std::size_t said_by_pos = is_in_plane(parts.dimension) ? 2 : 0;
-  write_each_vertex(parts, file, execution, [&](std::size_t v, ExportedState state, auto out) {
-    fmt::format_to(out, FMT_COMPILE("{} [component={}"), v, parts.component[v]);
-    if (said_by_pos != 0) fmt::format_to(out, FMT_COMPILE(", pos=\"{},{}!\""), state[0], state[1]);
-    for (std::size_t i = said_by_pos; i < state.size(); ++i) {
-      fmt::format_to(out, FMT_COMPILE(", {}=\"{}\""), names[i], state[i]);
-    }
-    fmt::format_to(out, FMT_COMPILE("];\n"));
-  });
-}
-
-void write_dot_edges(const ExportedEdgesView& edges, std::string_view arrow, OutputFile& file,
-                     const Execution& execution) {
-  write_each_edge(edges, file, execution, [&](const ExportedEdge& edge, auto out) {
-    fmt::format_to(out, FMT_COMPILE("{} {} {} [len=\"{}\"{}];\n"), edge.from, arrow, edge.to, edges.length(edge),
-                   edge.state == EdgeState::free ? "" : ", style=dashed");
-  });
-}
-
-void write_arcs(const ExportedEdgesView& edges, std::size_t vertices, OutputFile& file, const Execution& execution) {
-  const BinaryUnit unit(edges.longest(execution));
-  file.write(fmt::format("c weights are lengths in units of {}\np sp {} {}\n", unit.name(), vertices, edges.count()));
-  write_each_edge(edges, file, execution, [&](const ExportedEdge& edge, auto out) {
-    fmt::format_to(out, FMT_COMPILE("a {} {} {}\n"), std::uint64_t{edge.from} + 1, std::uint64_t{edge.to} + 1,
-                   unit.multiple(edges.length(edge)));
-  });
-}
-
 /// The numbers of a state that are written.
 ExportedState coordinates(ExportedState state) { return is_in_plane(state.size()) ? state.first(2) : state; }
 
@@ -123,16 +72,6 @@ double largest_of_states(const RoadmapParts& parts, const Execution& execution) 
   });
   const auto largest = std::max_element(largest_of.begin(), largest_of.end());
   return largest == largest_of.end() ? 0 : *largest;
-}
-
-void write_coordinates(const RoadmapParts& parts, OutputFile& file, const Execution& execution) {
-  const BinaryUnit unit(largest_of_states(parts, execution));
-  file.write(fmt::format("c coordinates are in units of {}\np aux sp co {}\n", unit.name(), parts.vertex_count()));
-  write_each_vertex(parts, file, execution, [&](std::size_t v, ExportedState state, auto out) {
-    fmt::format_to(out, FMT_COMPILE("v {}"), v + 1);
-    for (const double x : coordinates(state)) fmt::format_to(out, FMT_COMPILE(" {}"), unit.multiple(x));
-    fmt::format_to(out, FMT_COMPILE("\n"));
-  });
 }
 
 void check_loadable(const ExportedRoadmapView& roadmap, const ExportedEdgesView& edges, const std::string& path) {
@@ -154,33 +93,6 @@ void check_loadable(const ExportedRoadmapView& roadmap, const ExportedEdgesView&
   }
 }
 
-/// Metadata keep the point of whole numbers: Nav2 tells the type of a value by it.
-void write_points(const ExportedRoadmapView& roadmap, OutputFile& file, const Execution& execution) {
-  const RoadmapParts& parts = roadmap.parts;
-  const std::string frame = json_string(roadmap.options.frame);
-  write_each_vertex(parts, file, execution, [&](std::size_t v, ExportedState state, auto out) {
-    fmt::format_to(out, FMT_COMPILE("{{\"type\":\"Feature\",\"properties\":{{\"id\":{},\"frame\":{}"), v, frame);
-    if (parts.dimension == 3) fmt::format_to(out, FMT_COMPILE(",\"metadata\":{{\"theta\":{}}}"), json_number(state[2]));
-    fmt::format_to(out, FMT_COMPILE("}},\"geometry\":{{\"type\":\"Point\",\"coordinates\":[{},{}]}}}},\n"), state[0],
-                   state[1]);
-  });
-}
-
-void write_lines(const RoadmapParts& parts, const ExportedEdgesView& edges, OutputFile& file,
-                 const Execution& execution) {
-  write_each_edge(edges, file, execution, [&](const ExportedEdge& edge, auto out) {
-    const std::span<const double> a = parts.state(edge.from);
-    const std::span<const double> b = parts.state(edge.to);
-    fmt::format_to(
-        out,
-        FMT_COMPILE("{{\"type\":\"Feature\",\"properties\":{{\"id\":{},\"startid\":{},\"endid\":{},\"cost\":{}{}}},"
-                    "\"geometry\":{{\"type\":\"MultiLineString\",\"coordinates\":[[[{},{}],[{},{}]]]}}}}{}\n"),
-        parts.vertex_count() + edge.number, edge.from, edge.to, edges.length(edge),
-        edge.state == EdgeState::free ? "" : ",\"metadata\":{\"state\":\"unchecked\"}", a[0], a[1], b[0], b[1],
-        edge.number + 1 == edges.count() ? "" : ",");
-  });
-}
-
 std::string key_line(std::string_view name, std::string_view of, std::string_view type) {
   return fmt::format("<key id=\"{0}\" for=\"{1}\" attr.name=\"{0}\" attr.type=\"{2}\"/>\n", name, of, type);
 }
@@ -193,101 +105,6 @@ std::string graphml_head(const RoadmapParts& parts) {
           key_line("state", "edge", "string");
   return head + fmt::format("<graph edgedefault=\"{}\">\n", parts.directed ? "directed" : "undirected");
 }
-
-void write_nodes(const RoadmapParts& parts, OutputFile& file, const Execution& execution) {
-  const std::vector<std::string> names = state_names(parts.dimension);
-  write_each_vertex(parts, file, execution, [&](std::size_t v, ExportedState state, auto out) {
-    fmt::format_to(out, FMT_COMPILE("<node id=\"{}\">"), v);
-    for (std::size_t i = 0; i < state.size(); ++i) {
-      fmt::format_to(out, FMT_COMPILE("<data key=\"{}\">{}</data>"), names[i], state[i]);
-    }
-    fmt::format_to(out, FMT_COMPILE("<data key=\"component\">{}</data></node>\n"), parts.component[v]);
-  });
-}
-
-void write_edges(const ExportedEdgesView& edges, OutputFile& file, const Execution& execution) {
-  write_each_edge(edges, file, execution, [&](const ExportedEdge& edge, auto out) {
-    fmt::format_to(
-        out,
-        FMT_COMPILE(
-            "<edge source=\"{}\" target=\"{}\"><data key=\"length\">{}</data><data key=\"state\">{}</data></edge>\n"),
-        edge.from, edge.to, edges.length(edge), name_of(edge.state));
-  });
-}
-
-}  // namespace
-
-ExportAccount write_roadmap_csv(const ExportedRoadmapView& roadmap, const std::string& vertex_path,
-                                const std::string& edge_path, const Execution& execution) {
-  const ExportedEdgesView edges(roadmap, EdgeWays::once, execution);
-  OutputFile vertex_file(vertex_path, execution);
-  OutputFile edge_file(edge_path, execution);
-  write_vertex_table(roadmap.parts, vertex_file, execution);
-  write_edge_table(edges, edge_file, execution);
-  commit_both(vertex_path, vertex_file, edge_file);
-  return edges.account();
-}
-
-ExportAccount write_roadmap_dot(const ExportedRoadmapView& roadmap, const std::string& path,
-                                const Execution& execution) {
-  const ExportedEdgesView edges(roadmap, EdgeWays::once, execution);
-  OutputFile file(path, execution);
-  file.write(roadmap.parts.directed ? "digraph roadmap {\n" : "graph roadmap {\n");
-  file.write("node [shape=point];\n");
-  write_dot_vertices(roadmap.parts, file, execution);
-  write_dot_edges(edges, roadmap.parts.directed ? "->" : "--", file, execution);
-  file.write("}\n");
-  file.commit();
-  return edges.account();
-}
-
-ExportAccount write_roadmap_dimacs(const ExportedRoadmapView& roadmap, const std::string& arc_path,
-                                   const std::string& coordinate_path, const Execution& execution) {
-  const ExportedEdgesView edges(roadmap, EdgeWays::both, execution);
-  OutputFile arc_file(arc_path, execution);
-  OutputFile coordinate_file(coordinate_path, execution);
-  write_arcs(edges, roadmap.parts.vertex_count(), arc_file, execution);
-  write_coordinates(roadmap.parts, coordinate_file, execution);
-  commit_both(arc_path, arc_file, coordinate_file);
-  return edges.account();
-}
-
-ExportAccount write_roadmap_geojson(const ExportedRoadmapView& roadmap, const std::string& path,
-                                    const Execution& execution) {
-  const ExportedEdgesView edges(roadmap, EdgeWays::both, execution);
-  check_loadable(roadmap, edges, path);
-  OutputFile file(path, execution);
-  file.write("{\"type\":\"FeatureCollection\",\"name\":\"graph\",\"features\":[\n");
-  write_points(roadmap, file, execution);
-  write_lines(roadmap.parts, edges, file, execution);
-  file.write("]}\n");
-  file.commit();
-  return edges.account();
-}
-
-ExportAccount write_roadmap_graphml(const ExportedRoadmapView& roadmap, const std::string& path,
-                                    const Execution& execution) {
-  const ExportedEdgesView edges(roadmap, EdgeWays::once, execution);
-  OutputFile file(path, execution);
-  file.write(graphml_head(roadmap.parts));
-  write_nodes(roadmap.parts, file, execution);
-  write_edges(edges, file, execution);
-  file.write("</graph>\n</graphml>\n");
-  file.commit();
-  return edges.account();
-}
-
-BinaryUnit::BinaryUnit(double largest) {
-  if (largest == 0) return;
-  bits_ = 30 - std::ilogb(largest);
-  if (multiple(largest) > std::numeric_limits<std::int32_t>::max()) --bits_;  // rounded up to 2^31
-}
-
-std::int64_t BinaryUnit::multiple(double number) const { return std::llround(std::ldexp(number, bits_)); }
-
-std::string BinaryUnit::name() const { return "2^" + std::to_string(-bits_); }
-
-namespace {
 
 using Shape = std::vector<std::uint64_t>;
 
@@ -370,23 +187,6 @@ class NpzWriter {
   const Execution& execution_;
 };
 
-}  // namespace
-
-ExportAccount write_roadmap_npz(const ExportedRoadmapView& roadmap, const std::string& path,
-                                const Execution& execution) {
-  const ExportedEdgesView edges(roadmap, EdgeWays::both, execution);
-  OutputFile file(path, execution);
-  NpzWriter writer(roadmap, edges, file, execution);
-  writer.write_matrix();
-  writer.write_vertices();
-  if (roadmap.options.with_unchecked) writer.write_edge_states();
-  writer.close();
-  file.commit();
-  return edges.account();
-}
-
-namespace {
-
 constexpr std::uint16_t plain_version = 20;
 constexpr std::uint16_t zip64_version = 45;
 constexpr std::uint16_t sum_follows = 8;  // flag: check sum and sizes stand behind the member
@@ -408,6 +208,148 @@ void append_fields(std::string& text, Fields... fields) {
 std::uint16_t size_16(std::string_view text) { return static_cast<std::uint16_t>(text.size()); }
 
 }  // namespace
+
+ExportAccount write_roadmap_csv(const ExportedRoadmapView& roadmap, const std::string& vertex_path,
+                                const std::string& edge_path, const Execution& execution) {
+  const RoadmapParts& parts = roadmap.parts;
+  const ExportedEdgesView edges(roadmap, EdgeWays::once, execution);
+  OutputFile vertex_file(vertex_path, execution);
+  OutputFile edge_file(edge_path, execution);
+  vertex_file.write(fmt::format("id,{},component\n", fmt::join(state_names(parts.dimension), ",")));
+  write_each_vertex(parts, vertex_file, execution, [&](std::size_t v, ExportedState state, auto out) {
+    fmt::format_to(out, FMT_COMPILE("{}"), v);
+    for (const double x : state) fmt::format_to(out, FMT_COMPILE(",{}"), x);
+    fmt::format_to(out, FMT_COMPILE(",{}\n"), parts.component[v]);
+  });
+  edge_file.write("from,to,length,state\n");
+  write_each_edge(edges, edge_file, execution, [&](const ExportedEdge& edge, auto out) {
+    fmt::format_to(out, FMT_COMPILE("{},{},{},{}\n"), edge.from, edge.to, edges.length(edge), name_of(edge.state));
+  });
+  commit_both(vertex_path, vertex_file, edge_file);
+  return edges.account();
+}
+
+/// Numbers are quoted: a bare numeral of the language has no exponent.
+ExportAccount write_roadmap_dot(const ExportedRoadmapView& roadmap, const std::string& path,
+                                const Execution& execution) {
+  const RoadmapParts& parts = roadmap.parts;
+  const ExportedEdgesView edges(roadmap, EdgeWays::once, execution);
+  OutputFile file(path, execution);
+  file.write(parts.directed ? "digraph roadmap {\n" : "graph roadmap {\n");
+  file.write("node [shape=point];\n");
+  const std::vector<std::string> names = state_names(parts.dimension);
+  const std::size_t said_by_pos = is_in_plane(parts.dimension) ? 2 : 0;
+  write_each_vertex(parts, file, execution, [&](std::size_t v, ExportedState state, auto out) {
+    fmt::format_to(out, FMT_COMPILE("{} [component={}"), v, parts.component[v]);
+    if (said_by_pos != 0) fmt::format_to(out, FMT_COMPILE(", pos=\"{},{}!\""), state[0], state[1]);
+    for (std::size_t i = said_by_pos; i < state.size(); ++i) {
+      fmt::format_to(out, FMT_COMPILE(", {}=\"{}\""), names[i], state[i]);
+    }
+    fmt::format_to(out, FMT_COMPILE("];\n"));
+  });
+  const std::string_view arrow = parts.directed ? "->" : "--";
+  write_each_edge(edges, file, execution, [&](const ExportedEdge& edge, auto out) {
+    fmt::format_to(out, FMT_COMPILE("{} {} {} [len=\"{}\"{}];\n"), edge.from, arrow, edge.to, edges.length(edge),
+                   edge.state == EdgeState::free ? "" : ", style=dashed");
+  });
+  file.write("}\n");
+  file.commit();
+  return edges.account();
+}
+
+ExportAccount write_roadmap_dimacs(const ExportedRoadmapView& roadmap, const std::string& arc_path,
+                                   const std::string& coordinate_path, const Execution& execution) {
+  const std::size_t vertices = roadmap.parts.vertex_count();
+  const ExportedEdgesView edges(roadmap, EdgeWays::both, execution);
+  OutputFile arc_file(arc_path, execution);
+  OutputFile coordinate_file(coordinate_path, execution);
+  const BinaryUnit weight(edges.longest(execution));
+  arc_file.write(
+      fmt::format("c weights are lengths in units of {}\np sp {} {}\n", weight.name(), vertices, edges.count()));
+  write_each_edge(edges, arc_file, execution, [&](const ExportedEdge& edge, auto out) {
+    fmt::format_to(out, FMT_COMPILE("a {} {} {}\n"), std::uint64_t{edge.from} + 1, std::uint64_t{edge.to} + 1,
+                   weight.multiple(edges.length(edge)));
+  });
+  const BinaryUnit unit(largest_of_states(roadmap.parts, execution));
+  coordinate_file.write(fmt::format("c coordinates are in units of {}\np aux sp co {}\n", unit.name(), vertices));
+  write_each_vertex(roadmap.parts, coordinate_file, execution, [&](std::size_t v, ExportedState state, auto out) {
+    fmt::format_to(out, FMT_COMPILE("v {}"), v + 1);
+    for (const double x : coordinates(state)) fmt::format_to(out, FMT_COMPILE(" {}"), unit.multiple(x));
+    fmt::format_to(out, FMT_COMPILE("\n"));
+  });
+  commit_both(arc_path, arc_file, coordinate_file);
+  return edges.account();
+}
+
+/// Metadata keep the point of whole numbers: Nav2 tells the type of a value by it.
+ExportAccount write_roadmap_geojson(const ExportedRoadmapView& roadmap, const std::string& path,
+                                    const Execution& execution) {
+  const RoadmapParts& parts = roadmap.parts;
+  const ExportedEdgesView edges(roadmap, EdgeWays::both, execution);
+  check_loadable(roadmap, edges, path);
+  OutputFile file(path, execution);
+  file.write("{\"type\":\"FeatureCollection\",\"name\":\"graph\",\"features\":[\n");
+  const std::string frame = json_string(roadmap.options.frame);
+  write_each_vertex(parts, file, execution, [&](std::size_t v, ExportedState state, auto out) {
+    fmt::format_to(out, FMT_COMPILE("{{\"type\":\"Feature\",\"properties\":{{\"id\":{},\"frame\":{}"), v, frame);
+    if (parts.dimension == 3) fmt::format_to(out, FMT_COMPILE(",\"metadata\":{{\"theta\":{}}}"), json_number(state[2]));
+    fmt::format_to(out, FMT_COMPILE("}},\"geometry\":{{\"type\":\"Point\",\"coordinates\":[{},{}]}}}},\n"), state[0],
+                   state[1]);
+  });
+  write_each_edge(edges, file, execution, [&](const ExportedEdge& edge, auto out) {
+    const std::span<const double> a = parts.state(edge.from);
+    const std::span<const double> b = parts.state(edge.to);
+    fmt::format_to(
+        out,
+        FMT_COMPILE("{{\"type\":\"Feature\",\"properties\":{{\"id\":{},\"startid\":{},\"endid\":{},\"cost\":{}{}}},"
+                    "\"geometry\":{{\"type\":\"MultiLineString\",\"coordinates\":[[[{},{}],[{},{}]]]}}}}{}\n"),
+        parts.vertex_count() + edge.number, edge.from, edge.to, edges.length(edge),
+        edge.state == EdgeState::free ? "" : ",\"metadata\":{\"state\":\"unchecked\"}", a[0], a[1], b[0], b[1],
+        edge.number + 1 == edges.count() ? "" : ",");
+  });
+  file.write("]}\n");
+  file.commit();
+  return edges.account();
+}
+
+ExportAccount write_roadmap_graphml(const ExportedRoadmapView& roadmap, const std::string& path,
+                                    const Execution& execution) {
+  const RoadmapParts& parts = roadmap.parts;
+  const ExportedEdgesView edges(roadmap, EdgeWays::once, execution);
+  OutputFile file(path, execution);
+  file.write(graphml_head(parts));
+  const std::vector<std::string> names = state_names(parts.dimension);
+  write_each_vertex(parts, file, execution, [&](std::size_t v, ExportedState state, auto out) {
+    fmt::format_to(out, FMT_COMPILE("<node id=\"{}\">"), v);
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      fmt::format_to(out, FMT_COMPILE("<data key=\"{}\">{}</data>"), names[i], state[i]);
+    }
+    fmt::format_to(out, FMT_COMPILE("<data key=\"component\">{}</data></node>\n"), parts.component[v]);
+  });
+  write_each_edge(edges, file, execution, [&](const ExportedEdge& edge, auto out) {
+    fmt::format_to(
+        out,
+        FMT_COMPILE(
+            "<edge source=\"{}\" target=\"{}\"><data key=\"length\">{}</data><data key=\"state\">{}</data></edge>\n"),
+        edge.from, edge.to, edges.length(edge), name_of(edge.state));
+  });
+  file.write("</graph>\n</graphml>\n");
+  file.commit();
+  return edges.account();
+}
+
+ExportAccount write_roadmap_npz(const ExportedRoadmapView& roadmap, const std::string& path,
+                                const Execution& execution) {
+  const ExportedEdgesView edges(roadmap, EdgeWays::both, execution);
+  OutputFile file(path, execution);
+  NpzWriter writer(roadmap, edges, file, execution);
+  writer.write_matrix();
+  writer.write_vertices();
+  if (roadmap.options.with_unchecked) writer.write_edge_states();
+  writer.close();
+  file.commit();
+  return edges.account();
+}
 
 std::uint32_t StoredZip::short_form(std::uint64_t number) const {
   return is_long(number) ? said_in_zip64 : static_cast<std::uint32_t>(number);

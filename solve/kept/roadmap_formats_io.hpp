@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -95,12 +97,16 @@ void write_in_pieces(Sink& sink, std::size_t n, std::size_t grain, const Executi
 class BinaryUnit {
  public:
   /// For numbers of magnitude 0 .. `largest`, which is finite. Without any but 0 the unit is 1.
-  explicit BinaryUnit(double largest);
+  explicit BinaryUnit(double largest) {
+    if (largest == 0) return;
+    bits_ = 30 - std::ilogb(largest);
+    if (multiple(largest) > std::numeric_limits<std::int32_t>::max()) --bits_;  // rounded up to 2^31
+  }
 
   /// The nearest multiple, halves away from zero.
-  std::int64_t multiple(double number) const;
+  std::int64_t multiple(double number) const { return std::llround(std::ldexp(number, bits_)); }
   /// "2^-20"
-  std::string name() const;
+  std::string name() const { return "2^" + std::to_string(-bits_); }
 
  private:
   int bits_ = 0;  ///< the unit is 2^-bits_

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <new>
-#include <span>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -12,7 +11,6 @@
 #include "planners/graph/roadmap_arrays.hpp"
 #include "planners/shorten/taut_path.hpp"
 #include "solve/explain/blocked_end.hpp"
-#include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/lower_bound.hpp"
 #include "solve/kinds/question_of_pose.hpp"
 #include "solve/kinds/solve_steps.hpp"
@@ -85,6 +83,15 @@ Verification judged_beside(const std::function<void(const Answer&)>& beside, con
   return verdict;
 }
 
+Question question_to_one(const Roadmap& roadmap, const std::vector<double>& start, const std::vector<double>& goal) {
+  if (goal.empty() && !roadmap.world.outline().other_goals.empty()) {
+    throw UsageError("@goal: the world has several, and a kept roadmap is asked for one; say which");
+  }
+  Question question = question_of(roadmap, start, goal);
+  question.validate();
+  return question;
+}
+
 std::vector<double> anywhere(const Roadmap& roadmap) { return std::vector<double>(state_size(roadmap.robot), 0.0); }
 
 }  // namespace
@@ -155,8 +162,7 @@ Answer RoadmapQuery::ask_explained(const std::vector<double>& start, const std::
 Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vector<double>& goal,
                                 const RoadmapSearchFields& how, const Execution& execution, QuestionScratch& scratch,
                                 ByProducts* keep) const {
-  const Question question = question_of(roadmap_, start, goal);
-  question.validate();
+  const Question question = question_to_one(roadmap_, start, goal);
   if (roadmap_.lattice != nullptr) return ask_lattice(question, how, execution, scratch);
   SolveOptions options = roadmap_.options;
   options.search = how.search;
@@ -307,8 +313,7 @@ LengthAnswer RoadmapQuery::length_within(const std::vector<double>& start, const
     return {answer.outcome, answer.length};
   }
   refuse_search(how);
-  const Question question = question_of(roadmap_, start, goal);
-  question.validate();
+  const Question question = question_to_one(roadmap_, start, goal);
   if (!scratch.route) scratch.route.emplace(*roadmap_.lattice);
   const WallProblem problem = wall_problem(roadmap_.world.outline(), question);
   const LatticeQuestion asked(walls_->near_ends, problem, *roadmap_.lattice, *scratch.route, execution);

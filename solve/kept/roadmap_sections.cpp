@@ -6,12 +6,10 @@
 #include <algorithm>
 #include <limits>
 #include <span>
-#include <string_view>
 #include <utility>
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
-#include "planners/lengths/route_index.hpp"
 #include "scenes/files/scene_io.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "solve/kept/maze_bits.hpp"
@@ -192,12 +190,8 @@ void HierarchySections::append_to(std::vector<RoadmapSection>& sections) const {
 }
 
 void append_lattice_sections(const RouteIndex& index, std::vector<RoadmapSection>& sections) {
-  for (const RouteSection& s : route_sections(index)) {
-    sections.push_back({s.name, type_of(s.element_bytes), s.bytes});
-  }
+  for (const RouteSection& s : route_sections(index)) sections.push_back({s.name, type_of(s.element_bytes), s.bytes});
 }
-
-bool has_lattice(const RoadmapFile& file) { return file.find("passages.right") != nullptr; }
 
 bool is_lattice_section(std::string_view name) {
   const std::vector<RouteSection> kinds = route_section_kinds();
@@ -286,8 +280,6 @@ void WorldSections::append_walls(std::vector<RoadmapSection>& sections) const {
     }
   });
 }
-
-bool has_world(const RoadmapFile& file) { return file.find("world.text") != nullptr; }
 
 Scene read_world_outline(const RoadmapFile& file, const Execution& execution) {
   const auto text = file.section<std::byte>("world.text", execution);

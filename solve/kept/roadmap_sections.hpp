@@ -41,7 +41,7 @@ class HierarchySections {
 /// They live as long as the index.
 void append_lattice_sections(const RouteIndex& index, std::vector<RoadmapSection>& sections);
 
-bool has_lattice(const RoadmapFile& file);
+inline bool has_lattice(const RoadmapFile& file) { return file.find("passages.right") != nullptr; }
 /// Is it one of their names?
 bool is_lattice_section(std::string_view name);
 
@@ -85,7 +85,7 @@ inline constexpr std::array world_section_names{
     std::string_view("map.blocked"), std::string_view("map.unknown"), std::string_view("map.water")};
 
 /// Is there a world in the file?
-bool has_world(const RoadmapFile& file);
+inline bool has_world(const RoadmapFile& file) { return file.find("world.text") != nullptr; }
 /// The world, but for its source and walls. Throws InputError for sections that contradict each other, Stopped.
 Scene read_world_outline(const RoadmapFile& file, const Execution& execution);
 /// Its walls. `lattice`: of the file, as large as the outline's maze, or nullptr. Throws as above.

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -134,17 +133,9 @@ Vec2 CarLattice::place_of(double x, double y) const {
   return origin_ + (yaw_rad_ == 0.0 ? p : Rotation(yaw_rad_)(p));
 }
 
-Vec2 CarLattice::in_cells(const Se2& pose) const {
-  return (1.0 / cell_) * Rotation(-yaw_rad_)(pose.position() - origin_);
-}
-
 Se2 CarLattice::pose_of(Cell cell, std::uint32_t heading) const {
   const Vec2 p = place_of(cell.x, cell.y);
   return {p.x, p.y, wrapped_angle(motions_.heading_rad(heading) + yaw_rad_)};
-}
-
-std::uint64_t CarLattice::units_of(double length) const {
-  return static_cast<std::uint64_t>(std::llround(length / unit()));
 }
 
 /// From these cells a goal is joined: by a way no shorter than straight on.
@@ -270,10 +261,6 @@ bool CarLattice::joins(Cell cell) const {
   });
 }
 
-std::uint64_t CarLattice::shot_pause(std::uint64_t at_least) const {
-  return static_cast<std::uint64_t>(static_cast<double>(at_least) * MotionSet::cost_unit / motions_.turning_radius());
-}
-
 std::uint64_t CarLattice::curve_cost(const SteeringWord& word, std::uint64_t gear_change, LatticeShot& shot) const {
   std::uint64_t cost = motions_.cost_of(word);
   std::int8_t gear = 0;
@@ -285,15 +272,6 @@ std::uint64_t CarLattice::curve_cost(const SteeringWord& word, std::uint64_t gea
     gear = next;
   }
   return cost;
-}
-
-std::optional<LatticeShot> CarLattice::shot(Cell cell, std::uint32_t heading, std::int8_t gear, std::uint64_t most,
-                                            std::uint64_t gear_change) {
-  return shot_from(pose_of(cell, heading), gear, most, gear_change);
-}
-
-std::optional<LatticeShot> CarLattice::direct_shot(std::uint64_t most, std::uint64_t gear_change) {
-  return shot_from(start_, 0, most, gear_change);
 }
 
 std::optional<LatticeShot> CarLattice::shot_from(const Se2& from, std::int8_t gear, std::uint64_t most,

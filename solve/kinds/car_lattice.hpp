@@ -6,6 +6,7 @@
 // reference point that the body holds fits, and, near a single goal, the length of the car's curve without obstacles.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -55,15 +56,20 @@ class CarLattice {
   bool is_free_start(std::size_t number);
   bool joins(Cell cell) const;
   /// So many states are expanded between two shots.
-  std::uint64_t shot_pause(std::uint64_t at_least) const;
+  std::uint64_t shot_pause(std::uint64_t at_least) const {
+    return static_cast<std::uint64_t>(static_cast<double>(at_least) * MotionSet::cost_unit / motions_.turning_radius());
+  }
   std::optional<LatticeShot> shot(Cell cell, std::uint32_t heading, std::int8_t gear, std::uint64_t most,
-                                  std::uint64_t gear_change);
-
-  std::optional<LatticeShot> direct_shot(std::uint64_t most, std::uint64_t gear_change);
+                                  std::uint64_t gear_change) {
+    return shot_from(pose_of(cell, heading), gear, most, gear_change);
+  }
+  std::optional<LatticeShot> direct_shot(std::uint64_t most, std::uint64_t gear_change) {
+    return shot_from(start_, 0, most, gear_change);
+  }
 
   /// Of a unit of cost, in the world's.
   double unit() const { return cell_ * MotionSet::cost_unit; }
-  std::uint64_t units_of(double length) const;
+  std::uint64_t units_of(double length) const { return static_cast<std::uint64_t>(std::llround(length / unit())); }
   double cell() const { return cell_; }
   const MotionSet& motions() const { return motions_; }
   Se2 pose_of(Cell cell, std::uint32_t heading) const;
@@ -73,7 +79,8 @@ class CarLattice {
 
  private:
   Vec2 place_of(double x, double y) const;  // of cells, in the world
-  Vec2 in_cells(const Se2& pose) const;     // the middle of cell (0, 0) is (0, 0)
+  /// The middle of cell (0, 0) is (0, 0).
+  Vec2 in_cells(const Se2& pose) const { return (1.0 / cell_) * Rotation(-yaw_rad_)(pose.position() - origin_); }
   SteeringCurve curve(const Se2& a, const Se2& b) const { return {a, b, shortest_(a, b, radius_), radius_}; }
   void lay_out(const Scene& scene, const Se2& start);
   void index_map(const OccupancyMap& map, const RobotSpec& robot, double clearance);

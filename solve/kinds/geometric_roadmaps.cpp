@@ -10,9 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "parallel/sort.hpp"
-#include "planners/axis/medial_axis_planner.hpp"
 #include "planners/graph/assemble_graph.hpp"
-#include "planners/grid/skeleton_planner.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "solve/kinds/plane_steps.hpp"
 

@@ -40,6 +40,210 @@ Vec2 nearest_in(Cell cell, Vec2 to, double off) {
   return {inside(to.x, cell.x), inside(to.y, cell.y)};
 }
 
+/// One question's decisions, in their order.
+class Choosing {
+ public:
+  Choosing(WaysOverCells& ways, const OccupancyMap& map, const WallProblem& problem, bool open_end)
+      : ways_(ways), map_(map), problem_(problem), rule_(problem.rule), open_end_(open_end) {
+    goals_.push_back(problem.goal);
+    for (const std::vector<double>& other : rule_.others) goals_.push_back({other[0], other[1]});
+    choice_.goal = problem.goal;
+  }
+
+  GoalChoice chosen(std::span<const Vec2> via) {
+    for (std::size_t i = 0; i < via.size(); ++i) check_stop("@via", "way-point", i, via[i]);
+    choice_.stops.assign(via.begin(), via.end());
+    if (!open_end_ && !find_ends()) return std::move(choice_);
+    if (!rule_.visit.empty() && !find_order()) return std::move(choice_);
+    if (open_end_) {
+      ends_ = ways_.entries(choice_.stops.back());
+      choice_.stops.pop_back();
+    }
+    walk();
+    return std::move(choice_);
+  }
+
+ private:
+  bool is_free(Vec2 place) const {
+    const auto cell = cell_at(map_, place);
+    return cell &&
+           ((starts_on_water(map_, problem_.start) && starts_on_water(map_, place)) || ways_.stands_free(place));
+  }
+  void check_stop(std::string_view option, std::string_view noun, std::size_t number, Vec2 place) const {
+    if (is_free(place)) return;
+    throw UsageError(
+        fmt::format("{}: the {} does not fit at {} {}", option, name_of(problem_.robot.kind), noun, number + 1));
+  }
+
+  /// Where the path may end. A tolerance needs to know whether any of that can be reached.
+  bool find_ends() {
+    if (rule_.back) {
+      ends_ = ways_.entries(problem_.start);
+      return true;
+    }
+    for (std::size_t i = 0; i < goals_.size(); ++i) {
+      std::vector<WaysOverCells::Entry> more;
+      if (rule_.region) {
+        more = ways_.region(goals_[i], *rule_.region, i);
+      } else if (is_free(goals_[i])) {
+        more = ways_.entries(goals_[i], i);
+      }
+      ends_.insert(ends_.end(), more.begin(), more.end());
+    }
+    first_ = stay_in_region();
+    if (!first_) first_ = ways_.cheapest(problem_.start, ends_);
+    if (first_) return true;
+    return rule_.tolerance ? take_nearest() : fail();
+  }
+
+  /// Whoever starts in a region is there.
+  std::optional<WaysOverCells::Way> stay_in_region() const {
+    const Vec2 start = problem_.start;
+    const auto own = cell_at(map_, start);
+    for (std::size_t i = 0; own && rule_.region && i < goals_.size(); ++i) {
+      if (distance(start, goals_[i]) <= *rule_.region) return WaysOverCells::Way{{*own}, 0, start, {*own, 0, start, i}};
+    }
+    return std::nullopt;
+  }
+
+  /// The place that is nearest to any of the goals.
+  std::optional<std::pair<WaysOverCells::Nearest, std::size_t>> nearest() {
+    std::optional<std::pair<WaysOverCells::Nearest, std::size_t>> best;
+    for (std::size_t i = 0; i < goals_.size(); ++i) {
+      const auto place = ways_.nearest_place(goals_[i]);
+      if (place && (!best || place->distance < best->first.distance)) best = {*place, i};
+    }
+    return best;
+  }
+
+  bool take_nearest() {
+    const auto found = nearest();
+    if (!found || !(found->first.distance <= *rule_.tolerance)) return fail();
+    ends_ = {ways_.entry(found->first.place, found->first.cell, found->second)};
+    first_ = ways_.cheapest(problem_.start, ends_);
+    return first_ ? true : fail();
+  }
+
+  /// What is said where nothing that was asked can be reached: the whole is looked at before it is called so.
+  bool fail() {
+    const bool blocked = std::none_of(goals_.begin(), goals_.end(), [&](Vec2 goal) { return is_free(goal); });
+    if (!rule_.tolerance && !rule_.region) {
+      if (blocked) choice_.outcome = Outcome::goal_blocked;
+      std::copy_if(goals_.begin(), goals_.end(), std::back_inserter(choice_.unreached),
+                   [&](Vec2 goal) { return is_free(goal); });
+      return false;
+    }
+    double bound = std::numeric_limits<double>::infinity();
+    for (const Vec2 goal : goals_) bound = std::min(bound, ways_.distance_bound(goal));
+    if (bound > rule_.tolerance.value_or(rule_.region.value_or(0.0))) {
+      choice_.outcome = blocked ? Outcome::goal_blocked : Outcome::infeasible;
+    }
+    if (const auto place = nearest()) {
+      choice_.nearest = place->first.place;
+      tell_reached(place->second, place->first.distance, bound);
+    }
+    return false;
+  }
+
+  void tell_reached(std::size_t goal, double distance, std::optional<double> bound) {
+    choice_.reached = GoalReached{{goals_[goal].x, goals_[goal].y}, distance, bound};
+  }
+
+  /// One field a stop.
+  bool find_order() {
+    std::vector<Vec2> places{problem_.start};
+    for (std::size_t i = 0; i < rule_.visit.size(); ++i) {
+      const Vec2 place{rule_.visit[i][0], rule_.visit[i][1]};
+      check_stop("@visit", "place", i, place);
+      places.push_back(place);
+    }
+    const std::size_t count = rule_.visit.size();
+    const std::vector<std::uint64_t> row(count, no_leg);
+    TourCosts costs{row, std::vector(count, row), std::vector<std::uint64_t>(count, open_end_ ? 0 : no_leg)};
+    for (std::size_t j = 0; j < count; ++j) {
+      const auto found = ways_.costs(places, ways_.entries(places[j + 1]));
+      if (!found[0]) {
+        choice_.unreached = {places[j + 1]};
+        return false;
+      }
+      costs.from_start[j] = *found[0];
+      for (std::size_t i = 0; i < count; ++i) costs.between[i][j] = found[i + 1].value_or(no_leg);
+    }
+    if (!open_end_) {
+      const auto found = ways_.costs(std::span(places).subspan(1), ends_);
+      for (std::size_t i = 0; i < count; ++i) costs.to_end[i] = found[i].value_or(no_leg);
+    }
+    const auto best = best_order(costs);
+    if (!best) return false;
+    choice_.order = best->order;
+    for (const std::uint64_t i : best->order) choice_.stops.push_back(places[i + 1]);
+    return true;
+  }
+
+  void walk() {
+    Vec2 from = problem_.start;
+    for (std::size_t leg = 0; leg <= choice_.stops.size(); ++leg) {
+      const bool is_last = leg == choice_.stops.size();
+      const std::vector<WaysOverCells::Entry> ends = is_last ? ends_ : ways_.entries(choice_.stops[leg]);
+      auto way = leg == 0 && is_last && first_ ? std::move(first_) : ways_.cheapest(from, ends);
+      if (!way) {
+        choice_.unreached = is_last ? goals_ : std::vector{choice_.stops[leg]};
+        choice_.ways.clear();
+        return;
+      }
+      from = way->end.place;
+      choice_.ways.push_back(std::move(*way));
+    }
+    choice_.outcome = Outcome::solved;
+    const WaysOverCells::Entry& end = choice_.ways.back().end;
+    choice_.goal = end.place;
+    if (rule_.back || open_end_) return;
+    if (!rule_.others.empty()) choice_.goal_index = end.goal;
+    if (!rule_.tolerance && !rule_.region) return;
+    const double off = distance(end.place, goals_[end.goal]);
+    const bool at_goal = off == 0.0 || rule_.region;
+    tell_reached(end.goal, off, at_goal ? std::optional<double>() : ways_.distance_bound(goals_[end.goal]));
+    if (off == 0.0) choice_.reached->distance_bound = 0.0;
+  }
+
+  WaysOverCells& ways_;
+  const OccupancyMap& map_;
+  const WallProblem& problem_;
+  const GoalRule& rule_;
+  bool open_end_;
+  std::vector<Vec2> goals_;
+  std::vector<WaysOverCells::Entry> ends_;
+  std::optional<WaysOverCells::Way> first_;  // from the start to the ends
+  GoalChoice choice_;
+};
+
+/// Straight from the start over all places, in any order, to one of the ends; without ends to nowhere else.
+double tour_bound(Vec2 start, std::span<const Vec2> places, std::span<const Vec2> ends) {
+  double longest = 0.0;
+  for (const auto list : {places, ends}) {
+    for (const Vec2 place : list) longest = std::max(longest, distance(start, place));
+  }
+  if (!(longest > 0.0)) return 0.0;
+  const double unit = longest * 0x1p-40;  // no leg is longer than twice that
+  const auto units = [&](Vec2 a, Vec2 b) {
+    return static_cast<std::uint64_t>(distance(a, b) / unit * (1.0 - 0x1p-50));
+  };
+  const auto to_ends = [&](Vec2 from) {
+    std::uint64_t least = ends.empty() ? 0 : no_leg;
+    for (const Vec2 end : ends) least = std::min(least, units(from, end));
+    return least;
+  };
+  if (places.empty()) return static_cast<double>(to_ends(start)) * unit * (1.0 - 0x1p-50);
+  TourCosts costs;
+  for (const Vec2 place : places) {
+    costs.from_start.push_back(units(start, place));
+    costs.to_end.push_back(to_ends(place));
+    std::vector<std::uint64_t>& row = costs.between.emplace_back();
+    for (const Vec2 next : places) row.push_back(units(place, next));
+  }
+  return static_cast<double>(best_order(costs)->cost) * unit * (1.0 - 0x1p-50);
+}
+
 }  // namespace
 
 WaysOverCells::WaysOverCells(const OccupancyMap& map, const WallProblem& problem, const Bitmap& closed,
@@ -66,10 +270,6 @@ bool WaysOverCells::stands_free(Vec2 place) const { return stands_free_on_map(ma
 std::uint64_t WaysOverCells::leg_cost(Vec2 a, Vec2 b) const {
   const double cost = prices_.cost ? prices_.cost(a, b) : distance(a, b);
   return static_cast<std::uint64_t>(std::ceil(cost / map_.cell * static_cast<double>(units_a_cell)));
-}
-
-WaysOverCells::Entry WaysOverCells::entry(Vec2 place, Cell cell, std::size_t goal) const {
-  return {cell, leg_cost(place, cell_centre(map_, cell)), place, goal};
 }
 
 std::vector<WaysOverCells::Entry> WaysOverCells::entries(Vec2 place, std::size_t goal) const {
@@ -259,222 +459,10 @@ double WaysOverCells::distance_bound(Vec2 to) {
   return std::isinf(least) ? 0.0 : std::max(0.0, bound);
 }
 
-namespace {
-
-/// One question's decisions, in their order.
-class Choosing {
- public:
-  Choosing(WaysOverCells& ways, const OccupancyMap& map, const WallProblem& problem, bool open_end)
-      : ways_(ways), map_(map), problem_(problem), rule_(problem.rule), open_end_(open_end) {
-    goals_.push_back(problem.goal);
-    for (const std::vector<double>& other : rule_.others) goals_.push_back({other[0], other[1]});
-    choice_.goal = problem.goal;
-  }
-
-  GoalChoice chosen(std::span<const Vec2> via) {
-    for (std::size_t i = 0; i < via.size(); ++i) check_stop("@via", "way-point", i, via[i]);
-    choice_.stops.assign(via.begin(), via.end());
-    if (!open_end_ && !find_ends()) return std::move(choice_);
-    if (!rule_.visit.empty() && !find_order()) return std::move(choice_);
-    if (open_end_) {
-      ends_ = ways_.entries(choice_.stops.back());
-      choice_.stops.pop_back();
-    }
-    walk();
-    return std::move(choice_);
-  }
-
- private:
-  bool is_free(Vec2 place) const {
-    const auto cell = cell_at(map_, place);
-    return cell &&
-           ((starts_on_water(map_, problem_.start) && starts_on_water(map_, place)) || ways_.stands_free(place));
-  }
-  void check_stop(std::string_view option, std::string_view noun, std::size_t number, Vec2 place) const {
-    if (is_free(place)) return;
-    throw UsageError(
-        fmt::format("{}: the {} does not fit at {} {}", option, name_of(problem_.robot.kind), noun, number + 1));
-  }
-
-  /// Where the path may end. A tolerance needs to know whether any of that can be reached.
-  bool find_ends() {
-    if (rule_.back) {
-      ends_ = ways_.entries(problem_.start);
-      return true;
-    }
-    for (std::size_t i = 0; i < goals_.size(); ++i) {
-      std::vector<WaysOverCells::Entry> more;
-      if (rule_.region) {
-        more = ways_.region(goals_[i], *rule_.region, i);
-      } else if (is_free(goals_[i])) {
-        more = ways_.entries(goals_[i], i);
-      }
-      ends_.insert(ends_.end(), more.begin(), more.end());
-    }
-    first_ = stay_in_region();
-    if (!first_) first_ = ways_.cheapest(problem_.start, ends_);
-    if (first_) return true;
-    return rule_.tolerance ? take_nearest() : fail();
-  }
-
-  /// Whoever starts in a region is there.
-  std::optional<WaysOverCells::Way> stay_in_region() const {
-    const Vec2 start = problem_.start;
-    const auto own = cell_at(map_, start);
-    for (std::size_t i = 0; own && rule_.region && i < goals_.size(); ++i) {
-      if (distance(start, goals_[i]) <= *rule_.region) return WaysOverCells::Way{{*own}, 0, start, {*own, 0, start, i}};
-    }
-    return std::nullopt;
-  }
-
-  /// The place that is nearest to any of the goals.
-  std::optional<std::pair<WaysOverCells::Nearest, std::size_t>> nearest() {
-    std::optional<std::pair<WaysOverCells::Nearest, std::size_t>> best;
-    for (std::size_t i = 0; i < goals_.size(); ++i) {
-      const auto place = ways_.nearest_place(goals_[i]);
-      if (place && (!best || place->distance < best->first.distance)) best = {*place, i};
-    }
-    return best;
-  }
-
-  bool take_nearest() {
-    const auto found = nearest();
-    if (!found || !(found->first.distance <= *rule_.tolerance)) return fail();
-    ends_ = {ways_.entry(found->first.place, found->first.cell, found->second)};
-    first_ = ways_.cheapest(problem_.start, ends_);
-    return first_ ? true : fail();
-  }
-
-  /// What is said where nothing that was asked can be reached: the whole is looked at before it is called so.
-  bool fail() {
-    const bool blocked = std::none_of(goals_.begin(), goals_.end(), [&](Vec2 goal) { return is_free(goal); });
-    if (!rule_.tolerance && !rule_.region) {
-      if (blocked) choice_.outcome = Outcome::goal_blocked;
-      std::copy_if(goals_.begin(), goals_.end(), std::back_inserter(choice_.unreached),
-                   [&](Vec2 goal) { return is_free(goal); });
-      return false;
-    }
-    double bound = std::numeric_limits<double>::infinity();
-    for (const Vec2 goal : goals_) bound = std::min(bound, ways_.distance_bound(goal));
-    if (bound > rule_.tolerance.value_or(rule_.region.value_or(0.0))) {
-      choice_.outcome = blocked ? Outcome::goal_blocked : Outcome::infeasible;
-    }
-    if (const auto place = nearest()) {
-      choice_.nearest = place->first.place;
-      tell_reached(place->second, place->first.distance, bound);
-    }
-    return false;
-  }
-
-  void tell_reached(std::size_t goal, double distance, std::optional<double> bound) {
-    choice_.reached = GoalReached{{goals_[goal].x, goals_[goal].y}, distance, bound};
-  }
-
-  /// One field a stop.
-  bool find_order() {
-    std::vector<Vec2> places{problem_.start};
-    for (std::size_t i = 0; i < rule_.visit.size(); ++i) {
-      const Vec2 place{rule_.visit[i][0], rule_.visit[i][1]};
-      check_stop("@visit", "place", i, place);
-      places.push_back(place);
-    }
-    const std::size_t count = rule_.visit.size();
-    const std::vector<std::uint64_t> row(count, no_leg);
-    TourCosts costs{row, std::vector(count, row), std::vector<std::uint64_t>(count, open_end_ ? 0 : no_leg)};
-    for (std::size_t j = 0; j < count; ++j) {
-      const auto found = ways_.costs(places, ways_.entries(places[j + 1]));
-      if (!found[0]) {
-        choice_.unreached = {places[j + 1]};
-        return false;
-      }
-      costs.from_start[j] = *found[0];
-      for (std::size_t i = 0; i < count; ++i) costs.between[i][j] = found[i + 1].value_or(no_leg);
-    }
-    if (!open_end_) {
-      const auto found = ways_.costs(std::span(places).subspan(1), ends_);
-      for (std::size_t i = 0; i < count; ++i) costs.to_end[i] = found[i].value_or(no_leg);
-    }
-    const auto best = best_order(costs);
-    if (!best) return false;
-    choice_.order = best->order;
-    for (const std::uint64_t i : best->order) choice_.stops.push_back(places[i + 1]);
-    return true;
-  }
-
-  void walk() {
-    Vec2 from = problem_.start;
-    for (std::size_t leg = 0; leg <= choice_.stops.size(); ++leg) {
-      const bool is_last = leg == choice_.stops.size();
-      const std::vector<WaysOverCells::Entry> ends = is_last ? ends_ : ways_.entries(choice_.stops[leg]);
-      auto way = leg == 0 && is_last && first_ ? std::move(first_) : ways_.cheapest(from, ends);
-      if (!way) {
-        choice_.unreached = is_last ? goals_ : std::vector{choice_.stops[leg]};
-        choice_.ways.clear();
-        return;
-      }
-      from = way->end.place;
-      choice_.ways.push_back(std::move(*way));
-    }
-    choice_.outcome = Outcome::solved;
-    const WaysOverCells::Entry& end = choice_.ways.back().end;
-    choice_.goal = end.place;
-    if (rule_.back || open_end_) return;
-    if (!rule_.others.empty()) choice_.goal_index = end.goal;
-    if (!rule_.tolerance && !rule_.region) return;
-    const double off = distance(end.place, goals_[end.goal]);
-    const bool at_goal = off == 0.0 || rule_.region;
-    tell_reached(end.goal, off, at_goal ? std::optional<double>() : ways_.distance_bound(goals_[end.goal]));
-    if (off == 0.0) choice_.reached->distance_bound = 0.0;
-  }
-
-  WaysOverCells& ways_;
-  const OccupancyMap& map_;
-  const WallProblem& problem_;
-  const GoalRule& rule_;
-  bool open_end_;
-  std::vector<Vec2> goals_;
-  std::vector<WaysOverCells::Entry> ends_;
-  std::optional<WaysOverCells::Way> first_;  // from the start to the ends
-  GoalChoice choice_;
-};
-
-}  // namespace
-
 GoalChoice choose_goal(WaysOverCells& ways, const OccupancyMap& map, const WallProblem& problem,
                        std::span<const Vec2> via, bool open_end) {
   return Choosing(ways, map, problem, open_end).chosen(via);
 }
-
-namespace {
-
-/// Straight from the start over all places, in any order, to one of the ends; without ends to nowhere else.
-double tour_bound(Vec2 start, std::span<const Vec2> places, std::span<const Vec2> ends) {
-  double longest = 0.0;
-  for (const auto list : {places, ends}) {
-    for (const Vec2 place : list) longest = std::max(longest, distance(start, place));
-  }
-  if (!(longest > 0.0)) return 0.0;
-  const double unit = longest * 0x1p-40;  // no leg is longer than twice that
-  const auto units = [&](Vec2 a, Vec2 b) {
-    return static_cast<std::uint64_t>(distance(a, b) / unit * (1.0 - 0x1p-50));
-  };
-  const auto to_ends = [&](Vec2 from) {
-    std::uint64_t least = ends.empty() ? 0 : no_leg;
-    for (const Vec2 end : ends) least = std::min(least, units(from, end));
-    return least;
-  };
-  if (places.empty()) return static_cast<double>(to_ends(start)) * unit * (1.0 - 0x1p-50);
-  TourCosts costs;
-  for (const Vec2 place : places) {
-    costs.from_start.push_back(units(start, place));
-    costs.to_end.push_back(to_ends(place));
-    std::vector<std::uint64_t>& row = costs.between.emplace_back();
-    for (const Vec2 next : places) row.push_back(units(place, next));
-  }
-  return static_cast<double>(best_order(costs)->cost) * unit * (1.0 - 0x1p-50);
-}
-
-}  // namespace
 
 std::optional<double> bound_of_choice(Vec2 start, Vec2 goal, const GoalRule& rule, bool open_end, double off) {
   const bool one_place = rule.others.empty() && !rule.region && rule.visit.empty() && !rule.back;

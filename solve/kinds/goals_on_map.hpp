@@ -45,7 +45,9 @@ class WaysOverCells {
     std::size_t goal = 0;  ///< its number among those that were asked
   };
   /// By a cell to whose middle the place is joined.
-  Entry entry(Vec2 place, Cell cell, std::size_t goal) const;
+  Entry entry(Vec2 place, Cell cell, std::size_t goal) const {
+    return {cell, leg_cost(place, cell_centre(map_, cell)), place, goal};
+  }
   /// Of a place: a point's own cell; a disc may fit where it stands and not at the middle of its cell, but at one of
   /// those around it.
   std::vector<Entry> entries(Vec2 place, std::size_t goal = 0) const;

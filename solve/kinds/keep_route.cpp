@@ -56,8 +56,6 @@ OnRoute nearest_on(const State& a, const State& b, const State& to, bool of_arm)
   return found;
 }
 
-bool is_plain(const RobotSpec& robot) { return robot.kind == RobotKind::point || robot.kind == RobotKind::disc; }
-
 RecordedAnswer path_of(const std::vector<State>& states, const Question& question) {
   RecordedAnswer path = recorded(std::span(states));
   path.problem = question;
@@ -104,7 +102,7 @@ std::vector<State> asked_goals(const Answer& answer) {
 /// Where it ends; none: the goal is a place of an arm's tool, and the judge asks.
 std::optional<PathEnd> check_route(const std::vector<State>& route, const Answer& answer) {
   const Problem& problem = answer.problem;
-  if (answer.price && !is_plain(problem.robot)) {
+  if (answer.price && !is_round(problem.robot)) {
     throw UsageError("@keep_to: what an older path of a car costs in turns and gears is not compared; ask without");
   }
   if (problem.robot.kind == RobotKind::polygon &&

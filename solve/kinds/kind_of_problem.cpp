@@ -4,11 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 #include <stdexcept>
 
 #include "core/base/error.hpp"
-#include "solve/question/question.hpp"
 
 namespace warren {
 namespace {

@@ -251,9 +251,7 @@ void prove_on_map(Answer& answer, const Scene& scene, const SolveOptions& option
                   const Execution& execution) {
   const bool keeps = keep != nullptr && keep->wants_certificate;
   const std::optional<double> gap = options.anytime.gap;
-  const RobotKind body = answer.problem.robot.kind;
-  const bool is_plain = body == RobotKind::point || body == RobotKind::disc;
-  if (!(options.bound || gap || keeps) || !answer.verified || !scene.map || !is_plain) return;
+  if (!(options.bound || gap || keeps) || !answer.verified || !scene.map || !is_round(answer.problem.robot)) return;
   if (answer.planner != name_of(PlannerKind::grid) || !options.trees.via.empty() || !has_one_way(answer.problem) ||
       ends_near(answer))
     return;

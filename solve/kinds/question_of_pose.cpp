@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/kinds/question_of_pose.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -9,7 +8,6 @@
 
 #include "core/plane/geometry.hpp"
 #include "core/plane/polygon.hpp"
-#include "solve/kinds/solve_steps.hpp"
 #include "worlds/poses/free_headings.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
 
@@ -27,9 +25,9 @@ std::vector<double> state_of(std::string_view option, const std::vector<double>&
 
 bool wants_borders(const Scene& scene, const Question& question, PlannerKind planner) {
   if (!scene.map || scene.walls.size() > 0) return false;
-  const RobotKind body = robot_of(scene, question).kind;
-  if (planner == PlannerKind::voronoi || (planner == PlannerKind::grid && body != RobotKind::car)) return false;
-  return body != RobotKind::point && body != RobotKind::disc;
+  const RobotSpec robot = robot_of(scene, question);
+  if (planner == PlannerKind::voronoi || (planner == PlannerKind::grid && robot.kind != RobotKind::car)) return false;
+  return !is_round(robot);
 }
 
 Path<Se2> without_half_turns(const Path<Se2>& path) {
@@ -106,18 +104,9 @@ double extent_of(const RobotSpec& robot) {
   return extent;
 }
 
-double end_margin(const Scene& scene, const PoseProblem& problem, const Execution& execution) {
-  return end_margin(scene, problem.robot, problem.clearance, extent_of(problem.robot), execution);
-}
-
 std::vector<Se2> recorded_poses(const RecordedAnswer& answer, std::string_view body) {
   check_state_width(answer, 3, body);
-  std::vector<Se2> path;
-  for (std::size_t i = 0; i < answer.states.size(); ++i) {
-    const auto state = answer.states[i];
-    path.push_back({state[0], state[1], state[2]});
-  }
-  return path;
+  return poses_of(answer.states);
 }
 
 PoseVerifyOptions verify_options(const PoseProblem& problem) {

@@ -79,7 +79,9 @@ std::optional<double> held_radius(const RobotSpec& robot);
 /// How far the body reaches from its reference point.
 double extent_of(const RobotSpec& robot);
 /// What an end has beyond its clearance (solve/kinds/solve_steps.hpp).
-double end_margin(const Scene& scene, const PoseProblem& problem, const Execution& execution);
+inline double end_margin(const Scene& scene, const PoseProblem& problem, const Execution& execution) {
+  return end_margin(scene, problem.robot, problem.clearance, extent_of(problem.robot), execution);
+}
 /// The path of an answer whose states have three numbers; throws InputError for others.
 std::vector<Se2> recorded_poses(const RecordedAnswer& answer, std::string_view body);
 

@@ -96,9 +96,9 @@ class Routes {
         const Cell towards[] = {start};
         std::optional<PriceField> own;
         PriceField* const known = asked_.ways.field();
-        PriceField& field = known != nullptr && known->is_of(goals, towards)
-                                ? *known
-                                : own.emplace(asked_.ways.weights(), goals, towards, execution_);
+        const bool is_known = known != nullptr && known->is_of(goals, towards);
+        if (!is_known) asked_.ways.drop_field();
+        PriceField& field = is_known ? *known : own.emplace(asked_.ways.weights(), goals, towards, execution_);
         const std::uint64_t before = field.expanded();
         auto found = cheapest_classes(asked_.ways.weights(), field, cuts_, start, goals[0], choice, execution_);
         expanded_ += field.expanded() - before;

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solve/kinds/sampled_roadmap.hpp"
 
-#include <algorithm>
-#include <array>
 #include <iterator>
-
-#include "parallel/sort.hpp"
 
 namespace warren {
 namespace {

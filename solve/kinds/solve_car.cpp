@@ -105,10 +105,48 @@ class Car : public PoseBody {
   }
   /// Where a tolerance or region lets the path end, of what the lattice joins to the start: the nearest to the goals;
   /// in a region the cheapest.
-  std::vector<GoalPlace> places(const World& world, const GoalRule& rule, std::vector<std::vector<double>> goals) const;
+  std::vector<GoalPlace> places(const World& world, const GoalRule& rule,
+                                std::vector<std::vector<double>> goals) const {
+    if (!start_stands_free()) return {};
+    const CarLatticeOptions options = lattice_options();
+    CarLattice lattice(world.body(), scene(), question().robot, Curve::shortest, question().start, {}, options,
+                       execution());
+    double coarse = 0.0;  // half of the widest gap between two headings
+    for (std::uint32_t k = 1; k < lattice.headings(); ++k) {
+      const double gap = turn_between(lattice.motions().heading_rad(k - 1), lattice.motions().heading_rad(k));
+      coarse = std::max(coarse, 0.5 * std::abs(gap));
+    }
+    GoalPlaces places(std::move(goals), rule, coarse * (1.0 + 1e-9));
+    LatticeSearchOptions search;
+    search.gear_change = lattice.units_of(options.price.cusp);
+    LatticeSearch everywhere(lattice, search, execution());
+    everywhere.run();
+    everywhere.for_each_met([&](Cell cell, std::uint32_t heading, std::uint64_t cost) {
+      const Se2 pose = lattice.pose_of(cell, heading);
+      rule.region ? places.offer(pose, static_cast<double>(cost)) : places.offer(pose);
+    });
+    return places.taken();
+  }
   /// The path of least price over the lattice, near enough; where there is none, one with strokes at an end where the
   /// car can hardly move; empty: nor that.
-  Path<Se2> on_lattice(const World& world, std::span<const Se2> goals, Answer& answer) const;
+  Path<Se2> on_lattice(const World& world, std::span<const Se2> goals, Answer& answer) const {
+    OverLattice over = over_lattice(world, question().start, goals, answer);
+    const LatticeSolution& found = over.found;
+    answer.figures.push_back({"headings", std::uint64_t{lattice_options().headings}});
+    answer.figures.push_back({"cell", over.cell});
+    if (!found.found()) {
+      if constexpr (has_gears) return by_ways_out(world, goals, answer);
+      return {};
+    }
+    answer.ended_by = found.ended_by == "optimum" ? "lattice" : found.ended_by;  // others may be better
+    answer.improvements = found.improvements;
+    if (enum_named<StopReason>(found.ended_by)) answer.stop_reason = found.stop_reason;
+    const auto bound = static_cast<double>(std::min(found.bound, found.path.cost));
+    answer.figures.push_back({"lattice_cost", over.unit * static_cast<double>(found.path.cost)});
+    answer.figures.push_back({"lattice_bound", over.unit * bound * (1.0 - 1e-6)});
+    answer.figures.push_back({"lattice_gap", static_cast<double>(found.path.cost) / bound - 1.0});
+    return std::move(over.path);
+  }
   /// Along the curve; the same both ways where it is one.
   MotionLength<Se2> price_motions(const World& world) const {
     if (!pose_prices_->is_priced()) return {};
@@ -195,10 +233,80 @@ class Car : public PoseBody {
     Path<Se2> cut = shortcut(world, Path<Se2>(path), price_motions(world), answer);
     return paid(world, cut) < paid(world, path) ? cut : path;
   }
-  void check_lattice() const;
-  CarLatticeOptions lattice_options() const;
-  OverLattice over_lattice(const World& world, const Se2& start, std::span<const Se2> goals, Answer& answer) const;
-  Path<Se2> by_ways_out(const World& world, std::span<const Se2> goals, Answer& answer) const;
+  void check_lattice() const {
+    if (grid_.cell && scene().map)
+      throw UsageError("@cell: on a map the grid's positions are the middles of its cells");
+    const std::uint32_t headings = grid_.headings.value_or(16);
+    if (headings != 16 && headings != 32) throw UsageError("@headings: a car's lattice has 16 or 32");
+  }
+  CarLatticeOptions lattice_options() const {
+    CarLatticeOptions options;
+    options.headings = grid_.headings.value_or(options.headings);
+    options.cell = grid_.cell;
+    if (!options.cell && scene().grid) options.cell = scene().grid->cell;
+    options.clearance = question().clearance;
+    options.price = price_on_lattice();
+    options.turn_cost = turn_cost_on_lattice();
+    if (pose_prices_->is_priced()) options.prices = pose_prices_.get();
+    return options;
+  }
+  OverLattice over_lattice(const World& world, const Se2& start, std::span<const Se2> goals, Answer& answer) const {
+    const CarLatticeOptions options = lattice_options();
+    std::optional<CarLattice> lattice;
+    {
+      const StageTimer timer(execution(), "stamps", answer.seconds.index);
+      lattice.emplace(world.body(), scene(), question().robot, Curve::shortest, start, goals, options, execution());
+    }
+    const StageTimer timer(execution(), "search", answer.seconds.search);
+    LatticeSearchOptions search;
+    search.gear_change = lattice->units_of(options.price.cusp);
+    search.gap = anytime_.gap.value_or(search.gap);
+    search.iterations = anytime_.iterations;
+    search.unit = lattice->unit();
+    OverLattice over{.path = {},
+                     .found = LatticeSearch(*lattice, search, execution()).run(),
+                     .cell = lattice->cell(),
+                     .unit = search.unit};
+    answer.counters.expanded += over.found.expanded;
+    answer.counters.edges_checked += over.found.checked;
+    answer.counters.refused += lattice->refused();
+    answer.iterations = over.found.rounds;
+    if (over.found.found()) over.path = lattice->poses(over.found.path);
+    return over;
+  }
+  Path<Se2> by_ways_out(const World& world, std::span<const Se2> goals, Answer& answer) const {
+    constexpr std::size_t most_ends = 16;  // all are goals of one search
+    constexpr std::size_t most_starts = 4;
+    std::vector<Se2> ends(goals.begin(), goals.end());
+    std::vector<Path<Se2>> ways_in;
+    std::vector<Path<Se2>> starts;
+    {
+      const StageTimer timer(execution(), "ways out", answer.seconds.search);
+      for (const Se2& goal : goals) {
+        for (Path<Se2>& way : ways_out(world.body(), goal, most_ends, execution())) {
+          ends.push_back(way.back());
+          std::reverse(way.begin(), way.end());
+          ways_in.push_back(std::move(way));
+        }
+      }
+      starts = ways_out(world.body(), question().start, most_starts, execution());
+    }
+    if (!ways_in.empty()) starts.insert(starts.begin(), {question().start});
+    for (Path<Se2>& path : starts) {
+      const OverLattice over = over_lattice(world, path.back(), ends, answer);
+      if (!over.found.found()) continue;
+      std::uint64_t strokes = path.size() - 1;
+      path.insert(path.end(), over.path.begin() + 1, over.path.end());
+      if (const std::size_t end = over.found.path.shot.goal; end >= goals.size()) {
+        const Path<Se2>& in = ways_in[end - goals.size()];
+        path.insert(path.end(), in.begin() + 1, in.end());
+        strokes += in.size() - 1;
+      }
+      answer.figures.push_back({"strokes", strokes});
+      return std::move(path);
+    }
+    return {};
+  }
   bool is_length_alone() const { return !has_gears || (price().cusp == 0.0 && price().reverse == 1.0); }
   /// With fewer changes of gear, and less of it backwards, as their prices have it.
   Path<Se2> redriven(const World& world, Path<Se2> path, Answer& answer) const {
@@ -215,132 +323,6 @@ class Car : public PoseBody {
   bool on_lattice_;
   bool optimise_;
 };
-
-template <class Curve>
-void Car<Curve>::check_lattice() const {
-  if (grid_.cell && scene().map) throw UsageError("@cell: on a map the grid's positions are the middles of its cells");
-  const std::uint32_t headings = grid_.headings.value_or(16);
-  if (headings != 16 && headings != 32) throw UsageError("@headings: a car's lattice has 16 or 32");
-}
-
-template <class Curve>
-CarLatticeOptions Car<Curve>::lattice_options() const {
-  CarLatticeOptions options;
-  options.headings = grid_.headings.value_or(options.headings);
-  options.cell = grid_.cell;
-  if (!options.cell && scene().grid) options.cell = scene().grid->cell;
-  options.clearance = question().clearance;
-  options.price = price_on_lattice();
-  options.turn_cost = turn_cost_on_lattice();
-  if (pose_prices_->is_priced()) options.prices = pose_prices_.get();
-  return options;
-}
-
-template <class Curve>
-std::vector<GoalPlace> Car<Curve>::places(const World& world, const GoalRule& rule,
-                                          std::vector<std::vector<double>> goals) const {
-  if (!start_stands_free()) return {};
-  const CarLatticeOptions options = lattice_options();
-  CarLattice lattice(world.body(), scene(), question().robot, Curve::shortest, question().start, {}, options,
-                     execution());
-  double coarse = 0.0;  // half of the widest gap between two headings
-  for (std::uint32_t k = 1; k < lattice.headings(); ++k) {
-    const double gap = turn_between(lattice.motions().heading_rad(k - 1), lattice.motions().heading_rad(k));
-    coarse = std::max(coarse, 0.5 * std::abs(gap));
-  }
-  GoalPlaces places(std::move(goals), rule, coarse * (1.0 + 1e-9));
-  LatticeSearchOptions search;
-  search.gear_change = lattice.units_of(options.price.cusp);
-  LatticeSearch everywhere(lattice, search, execution());
-  everywhere.run();
-  everywhere.for_each_met([&](Cell cell, std::uint32_t heading, std::uint64_t cost) {
-    const Se2 pose = lattice.pose_of(cell, heading);
-    rule.region ? places.offer(pose, static_cast<double>(cost)) : places.offer(pose);
-  });
-  return places.taken();
-}
-
-template <class Curve>
-OverLattice Car<Curve>::over_lattice(const World& world, const Se2& start, std::span<const Se2> goals,
-                                     Answer& answer) const {
-  const CarLatticeOptions options = lattice_options();
-  std::optional<CarLattice> lattice;
-  {
-    const StageTimer timer(execution(), "stamps", answer.seconds.index);
-    lattice.emplace(world.body(), scene(), question().robot, Curve::shortest, start, goals, options, execution());
-  }
-  const StageTimer timer(execution(), "search", answer.seconds.search);
-  LatticeSearchOptions search;
-  search.gear_change = lattice->units_of(options.price.cusp);
-  search.gap = anytime_.gap.value_or(search.gap);
-  search.iterations = anytime_.iterations;
-  search.unit = lattice->unit();
-  OverLattice over{.path = {},
-                   .found = LatticeSearch(*lattice, search, execution()).run(),
-                   .cell = lattice->cell(),
-                   .unit = search.unit};
-  answer.counters.expanded += over.found.expanded;
-  answer.counters.edges_checked += over.found.checked;
-  answer.counters.refused += lattice->refused();
-  answer.iterations = over.found.rounds;
-  if (over.found.found()) over.path = lattice->poses(over.found.path);
-  return over;
-}
-
-template <class Curve>
-Path<Se2> Car<Curve>::on_lattice(const World& world, std::span<const Se2> goals, Answer& answer) const {
-  OverLattice over = over_lattice(world, question().start, goals, answer);
-  const LatticeSolution& found = over.found;
-  answer.figures.push_back({"headings", std::uint64_t{lattice_options().headings}});
-  answer.figures.push_back({"cell", over.cell});
-  if (!found.found()) {
-    if constexpr (has_gears) return by_ways_out(world, goals, answer);
-    return {};
-  }
-  answer.ended_by = found.ended_by == "optimum" ? "lattice" : found.ended_by;  // others may be better
-  answer.improvements = found.improvements;
-  if (enum_named<StopReason>(found.ended_by)) answer.stop_reason = found.stop_reason;
-  const auto bound = static_cast<double>(std::min(found.bound, found.path.cost));
-  answer.figures.push_back({"lattice_cost", over.unit * static_cast<double>(found.path.cost)});
-  answer.figures.push_back({"lattice_bound", over.unit * bound * (1.0 - 1e-6)});
-  answer.figures.push_back({"lattice_gap", static_cast<double>(found.path.cost) / bound - 1.0});
-  return std::move(over.path);
-}
-
-template <class Curve>
-Path<Se2> Car<Curve>::by_ways_out(const World& world, std::span<const Se2> goals, Answer& answer) const {
-  constexpr std::size_t most_ends = 16;  // all are goals of one search
-  constexpr std::size_t most_starts = 4;
-  std::vector<Se2> ends(goals.begin(), goals.end());
-  std::vector<Path<Se2>> ways_in;
-  std::vector<Path<Se2>> starts;
-  {
-    const StageTimer timer(execution(), "ways out", answer.seconds.search);
-    for (const Se2& goal : goals) {
-      for (Path<Se2>& way : ways_out(world.body(), goal, most_ends, execution())) {
-        ends.push_back(way.back());
-        std::reverse(way.begin(), way.end());
-        ways_in.push_back(std::move(way));
-      }
-    }
-    starts = ways_out(world.body(), question().start, most_starts, execution());
-  }
-  if (!ways_in.empty()) starts.insert(starts.begin(), {question().start});
-  for (Path<Se2>& path : starts) {
-    const OverLattice over = over_lattice(world, path.back(), ends, answer);
-    if (!over.found.found()) continue;
-    std::uint64_t strokes = path.size() - 1;
-    path.insert(path.end(), over.path.begin() + 1, over.path.end());
-    if (const std::size_t end = over.found.path.shot.goal; end >= goals.size()) {
-      const Path<Se2>& in = ways_in[end - goals.size()];
-      path.insert(path.end(), in.begin() + 1, in.end());
-      strokes += in.size() - 1;
-    }
-    answer.figures.push_back({"strokes", strokes});
-    return std::move(path);
-  }
-  return {};
-}
 
 constexpr OptionSet shape_options{Option::steering, Option::turning_radius};
 constexpr OptionSet curve_options = shape_options | OptionSet{Option::cusp_cost, Option::reverse_cost};

@@ -120,9 +120,7 @@ class CellSolve {
     answer_.seed = request.options.seed;
     if (request.options.optimise) answer_.options.push_back({"optimise", true});
     if (const auto gap = request.options.anytime.gap) answer_.options.push_back({"gap", *gap});
-    if (request.options.grid.diagonal) {
-      answer_.options.push_back({"diagonal", std::string(name_of(grid_.diagonal))});
-    }
+    if (request.options.grid.diagonal) answer_.options.push_back({"diagonal", std::string(name_of(grid_.diagonal))});
   }
 
   void run() {
@@ -553,9 +551,7 @@ constexpr PlannerChoice occupancy_planners[] = {
     {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound},
      restriction_words | AskedWords{AskedWord::goal}}};
 
-bool fits_occupancy(const Scene& scene, const RobotSpec& robot) {
-  return scene.map && (robot.kind == RobotKind::point || robot.kind == RobotKind::disc);
-}
+bool fits_occupancy(const Scene& scene, const RobotSpec& robot) { return scene.map && is_round(robot); }
 
 Answer solve_occupancy(const SolveRequest& request) {
   if (request.planner == PlannerKind::grid) return solve_over_cells(request);

@@ -104,9 +104,7 @@ constexpr PlannerChoice plane_planners[] = {
     {PlannerKind::voronoi, OptionSet{Option::objective, Option::search, Option::queue, Option::bound},
      restriction_words | AskedWords{AskedWord::goal}}};
 
-bool fits_plane(const Scene&, const RobotSpec& robot) {
-  return robot.kind == RobotKind::point || robot.kind == RobotKind::disc;
-}
+bool fits_plane(const Scene&, const RobotSpec& robot) { return is_round(robot); }
 
 /// The shortest path there is: of a point, which may touch what it goes around, unless the contrary is asked for, and
 /// of a disc, unless there are very many corners, or options are given that are none of its.

@@ -9,7 +9,6 @@
 #include "solve/question/asked_words.hpp"
 #include "verify/judges/effective_scene.hpp"
 #include "verify/judges/verify_body_price.hpp"
-#include "verify/judges/verify_point.hpp"
 #include "verify/judges/verify_price.hpp"
 
 namespace warren {
@@ -177,7 +176,7 @@ Box room_of(const Scene& scene, const Execution& execution) {
 double end_margin(const Scene& scene, const RobotSpec& robot, double clearance, double extent,
                   const Execution& execution) {
   const double round = end_margin(clearance + robot.radius, scene.map ? scene.map->cell : 0.0);
-  if (robot.kind == RobotKind::point || robot.kind == RobotKind::disc) return round;
+  if (is_round(robot)) return round;
   constexpr double rounding = 4e-12;  // of coordinates
   return 2.0 * round + 2e-9 * extent + rounding * largest_coordinate_of(scene, execution);
 }
@@ -187,7 +186,7 @@ std::optional<PriceParts> judged_price(const Scene& scene, const Prices& prices,
   const bool turns = robot.kind == RobotKind::polygon || robot.kind == RobotKind::car;
   if (!asks_price(prices) || answer.path.empty()) return std::nullopt;
   if (turns) return verify_body_price(scene, poses_of(answer.states), robot, prices, execution);
-  if (robot.kind != RobotKind::point && robot.kind != RobotKind::disc) return std::nullopt;
+  if (!is_round(robot)) return std::nullopt;
   return verify_price(scene, answer.path, prices, robot.radius, execution);
 }
 

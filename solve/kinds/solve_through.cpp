@@ -9,7 +9,6 @@
 #include <limits>
 #include <numbers>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <variant>
 
@@ -408,9 +407,7 @@ class Visits {
     const auto units = [&](const std::vector<double>& list) {
       constexpr std::uint64_t not_found = std::uint64_t{1} << 50U;
       std::vector<std::uint64_t> row;
-      for (const double cost : list) {
-        row.push_back(cost == none ? not_found : static_cast<std::uint64_t>(cost / unit));
-      }
+      for (const double cost : list) row.push_back(cost == none ? not_found : static_cast<std::uint64_t>(cost / unit));
       return row;
     };
     TourCosts costs{units(first), {}, units(last)};
@@ -471,13 +468,12 @@ void check_stops(const SolveRequest& request) {
   const std::size_t joints = said > 0 || is_unread ? said : state_size(robot);
   const auto check = [&](const std::vector<double>& stop, std::pair<std::string_view, std::string_view> words) {
     const auto& [option, noun] = words;
-    const bool is_plain = robot.kind == RobotKind::point || robot.kind == RobotKind::disc;
     if (is_arm(robot)) {
       if (stop.size() == joints || joints == 0) return;  // of a start that is missing the kind speaks
       throw UsageError(robot.files ? fmt::format("{}: this arm takes {} joint values a {}", option, joints, noun)
                                    : fmt::format("{}: an arm takes six joint angles a {}", option, noun));
     }
-    if (is_plain && stop.size() != 2) throw UsageError(fmt::format("{}: a point or disc takes X,Y", option));
+    if (is_round(robot) && stop.size() != 2) throw UsageError(fmt::format("{}: a point or disc takes X,Y", option));
     if (stop.size() > 3) throw UsageError(fmt::format("{}: a turning body takes X,Y or X,Y,THETA", option));
     check_heading(option, stop);
   };

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <new>
 
@@ -33,8 +32,7 @@ class ToGoal {
         goals_(goals_of(request.scene, request.question)) {}
 
   Answer run() {
-    const RobotKind body = robot_of(request_.scene, request_.question).kind;
-    const bool is_refused = request_.scene.map && (body == RobotKind::point || body == RobotKind::disc);
+    const bool is_refused = request_.scene.map && is_round(robot_of(request_.scene, request_.question));
     if (goals_.front().empty() || is_refused) return kind_.solve(request_);  // which says what is missing, or why
     if (rule_.region && (!find_places() || plan_to_places())) return told();
     // Who gets better would spend all the time on a goal that is cut off.
@@ -328,26 +326,13 @@ std::optional<GoalPlaces::Offered> GoalPlaces::offered(const Se2& pose) const {
   return best;
 }
 
-std::optional<GoalPlace> GoalPlaces::place(const Se2& pose) const {
-  if (auto found = offered(pose)) return std::move(found->place);
-  return std::nullopt;
-}
-
-void GoalPlaces::keep(Offered offered) {
+void GoalPlaces::offer(const Se2& pose, std::optional<double> rank) {
   constexpr std::size_t most = 16;
-  kept_.insert(std::upper_bound(kept_.begin(), kept_.end(), offered), std::move(offered));
-  if (kept_.size() > most) kept_.pop_back();
-}
-
-void GoalPlaces::offer(const Se2& pose) {
-  if (auto found = offered(pose)) keep(std::move(*found));
-}
-
-void GoalPlaces::offer(const Se2& pose, double rank) {
-  auto found = offered(pose);
+  std::optional<Offered> found = offered(pose);
   if (!found) return;
-  found->rank = rank;
-  keep(std::move(*found));
+  found->rank = rank.value_or(found->rank);
+  kept_.insert(std::upper_bound(kept_.begin(), kept_.end(), *found), std::move(*found));
+  if (kept_.size() > most) kept_.pop_back();
 }
 
 std::vector<GoalPlace> GoalPlaces::taken() {
@@ -360,10 +345,9 @@ std::vector<std::vector<double>> goals_of(const Scene& scene, const Question& qu
   std::vector<std::vector<double>> goals{question.goal.empty() ? scene.goal : question.goal};
   const GoalRule rule = rule_of(scene, question);
   goals.insert(goals.end(), rule.others.begin(), rule.others.end());
-  const RobotKind body = robot_of(scene, question).kind;
+  const RobotSpec robot = robot_of(scene, question);
   for (std::vector<double>& goal : goals) {  // a file's headings mean nothing to a point
-    const bool is_plain = question.goal.empty() && (body == RobotKind::point || body == RobotKind::disc);
-    if (is_plain && goal.size() == 3) goal.resize(2);
+    if (question.goal.empty() && is_round(robot) && goal.size() == 3) goal.resize(2);
   }
   return goals;
 }

@@ -37,10 +37,12 @@ class GoalPlaces {
   GoalPlaces(std::vector<std::vector<double>> goals, const GoalRule& rule, double coarse);
 
   /// As the nearest goal takes it; none: no goal does.
-  std::optional<GoalPlace> place(const Se2& pose) const;
-  /// Of equal ranks the one whose heading is less off counts, and then the first.
-  void offer(const Se2& pose, double rank);
-  void offer(const Se2& pose);  ///< by its distance
+  std::optional<GoalPlace> place(const Se2& pose) const {
+    std::optional<Offered> found = offered(pose);
+    return found ? std::optional(std::move(found->place)) : std::nullopt;
+  }
+  /// Of equal ranks the one whose heading is less off counts, and then the first. No rank: its distance.
+  void offer(const Se2& pose, std::optional<double> rank = {});
   /// The least rank first.
   std::vector<GoalPlace> taken();
 
@@ -54,7 +56,6 @@ class GoalPlaces {
     }
   };
   std::optional<Offered> offered(const Se2& pose) const;
-  void keep(Offered offered);
 
   std::vector<std::vector<double>> goals_;
   double reach_;         // world units

@@ -103,6 +103,9 @@ class AxisSolve {
   }
 
  private:
+  bool stands_free(const Se2& pose) const {
+    return turning_stands_free(request_.scene, problem_, pose, request_.execution, request_.asked.judged());
+  }
   void finish() {
     if (answer_.outcome != Outcome::solved) settle_blocked_ends();
     if (answer_.outcome == Outcome::solved && request_.scene.map) check_ends_on_map();
@@ -114,13 +117,10 @@ class AxisSolve {
 
   /// A disc that starts on water may stay there, a polygon may not.
   void check_ends_on_map() {
-    const auto stands = [&](const Se2& pose) {
-      return turning_stands_free(request_.scene, problem_, pose, request_.execution, request_.asked.judged());
-    };
     const Vec2 goal = answer_.path.back();
-    if (!stands(problem_.start)) {
+    if (!stands_free(problem_.start)) {
       answer_.outcome = Outcome::start_blocked;
-    } else if (!stands({goal.x, goal.y, problem_.start.theta})) {
+    } else if (!stands_free({goal.x, goal.y, problem_.start.theta})) {
       answer_.outcome = Outcome::goal_blocked;
     }
   }
@@ -141,9 +141,8 @@ class AxisSolve {
   void settle_blocked_ends() {
     const bool at_start = answer_.outcome == Outcome::start_blocked;
     const bool is_settled = !is_blocked(answer_.outcome);
-    settle_blocked_poses(answer_, request_.scene, problem_, request_.execution, [&](const Se2& pose) {
-      return turning_stands_free(request_.scene, problem_, pose, request_.execution, request_.asked.judged());
-    });
+    settle_blocked_poses(answer_, request_.scene, problem_, request_.execution,
+                         [this](const Se2& pose) { return stands_free(pose); });
     if (is_settled || is_blocked(answer_.outcome)) return;
     if (is_there()) return stay();
     answer_.figures.push_back({"cause", std::string(at_start ? "disc_blocked_at_start" : "disc_blocked_at_goal")});

@@ -8,9 +8,7 @@
 #include <functional>
 #include <iterator>
 #include <numbers>
-#include <span>
 #include <string_view>
-#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
@@ -253,8 +251,6 @@ void PathArrayFile::add(std::span<const Vec2> piece) {
   left_ -= rest.size();
   if (left_ == 0) file_->complete();
 }
-
-void PathArrayFile::commit() { file_->commit(); }
 
 PathFormat path_format(const std::string& file) {
   const std::size_t dot = file.rfind('.');

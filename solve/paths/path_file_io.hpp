@@ -48,7 +48,7 @@ class PathArrayFile : public PathTaker {
   void begin(std::uint64_t points) override;
   void add(std::span<const Vec2> piece) override;
   /// Puts the file into its place; without it there is none.
-  void commit();
+  void commit() { file_->commit(); }
 
  private:
   std::string name_;

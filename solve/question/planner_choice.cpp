@@ -55,9 +55,7 @@ void check_planner(const SolveOptions& asked, PlannerKind planner, SearchKind se
   if (planner == PlannerKind::prm && given(asked).has(Option::lazy)) {
     throw UsageError("@lazy: prm checks every edge; the planner lazy-prm takes this option");
   }
-  if (planner == PlannerKind::lazy_prm && asked.visibility.lazy) {
-    throw UsageError("@lazy: WHEN is missing");
-  }
+  if (planner == PlannerKind::lazy_prm && asked.visibility.lazy) throw UsageError("@lazy: WHEN is missing");
   if (planner == PlannerKind::lazy_prm && !has_queue(search)) {
     throw UsageError(
         fmt::format("@search: lazy-prm takes astar and dijkstra; the planner prm takes {} too", name_of(search)));
@@ -111,6 +109,16 @@ SamplerKind sampler_for(const SolveOptions& asked, const Scene& scene) {
   return asked.sampler.value_or(usual);
 }
 
+/// The world must have room for a cell each way; a world without extent has none for any.
+void refuse_wide_cell(double cell, const Scene& scene) {
+  const Box box = scene.bounds ? *scene.bounds : obstacle_box(scene);
+  constexpr double rounding = 1e-9;
+  const double side = std::min(box.width(), box.height());
+  if (box.empty() || side == 0.0 || side / cell + rounding >= 1.0) return;
+  throw UsageError(
+      fmt::format("@cell: {} is too large: the world has {:.6g} x {:.6g}", cell, box.width(), box.height()));
+}
+
 }  // namespace
 
 SearchChoice search_choice(const SolveOptions& asked) {
@@ -156,20 +164,6 @@ PlannerOptions planner_options(const SolveOptions& asked, const Scene& scene, co
   options.given = given_figures(asked);
   return options;
 }
-
-namespace {
-
-/// The world must have room for a cell each way; a world without extent has none for any.
-void refuse_wide_cell(double cell, const Scene& scene) {
-  const Box box = scene.bounds ? *scene.bounds : obstacle_box(scene);
-  constexpr double rounding = 1e-9;
-  const double side = std::min(box.width(), box.height());
-  if (box.empty() || side == 0.0 || side / cell + rounding >= 1.0) return;
-  throw UsageError(
-      fmt::format("@cell: {} is too large: the world has {:.6g} x {:.6g}", cell, box.width(), box.height()));
-}
-
-}  // namespace
 
 void check_cell(double cell, const Scene& scene) {
   const Box box = scene.bounds ? *scene.bounds : obstacle_box(scene);
@@ -220,10 +214,6 @@ RrtOptions tree_options(const SolveOptions& asked) {
   options.trees = asked.trees.trees.value_or(options.trees);
   options.seed = asked.seed;
   return options;
-}
-
-std::string_view sampler_name(const RrtOptions& options) {
-  return options.sampler ? name_of(*options.sampler) : "uniform-gaussian";
 }
 
 }  // namespace warren

@@ -79,6 +79,8 @@ inline constexpr OptionSet rrt_star_options{Option::iterations, Option::gap,    
 /// Throws UsageError for samplers that trees have no use for.
 RrtOptions tree_options(const SolveOptions& options);
 /// What the answer calls the trees' sampler.
-std::string_view sampler_name(const RrtOptions& options);
+inline std::string_view sampler_name(const RrtOptions& options) {
+  return options.sampler ? name_of(*options.sampler) : "uniform-gaussian";
+}
 
 }  // namespace warren

@@ -60,6 +60,11 @@ std::string without_brackets(std::string_view text) {
   return text.find_first_not_of(' ') == first ? "polygon " + words : words;
 }
 
+/// Is there anything that only bodies of the plane can meet?
+bool is_flat(const Scene& scene) {
+  return scene.walls.size() > 0 || !scene.polygons.empty() || scene.bounds || scene.map || is_unmade(scene);
+}
+
 }  // namespace
 
 RobotSpec robot_value(const std::string& where, std::string_view text) {
@@ -199,19 +204,22 @@ void Question::validate() const {
   check_route_rule(route);
 }
 
+void check_headings(const Scene& scene, const Question& question) {
+  const bool has_heading = (question.start.empty() && scene.start.size() == 3) ||
+                           (question.goal.empty() && !question.rule.back && scene.goal.size() == 3);
+  if (!has_heading || question.robot || scene.robot) return;
+  throw UsageError(fmt::format("{}: a point has no heading, and no line names the robot; say @robot", scene.source));
+}
+
 WallProblem wall_problem(const Scene& scene, const Question& options, Contact usual) {
   WallProblem problem;
   problem.robot = robot_of(scene, options);
-  if (problem.robot.kind != RobotKind::point && problem.robot.kind != RobotKind::disc) {
+  if (!is_round(problem.robot)) {
     throw UsageError(fmt::format("{}: expected a point or disc", options.robot ? "@robot" : scene.source));
   }
   problem.start = plane_state("@start", options.start, scene.start);
   problem.goal = problem.start;
-  const bool has_heading = (options.start.empty() && scene.start.size() == 3) ||
-                           (options.goal.empty() && !options.rule.back && scene.goal.size() == 3);
-  if (has_heading && !options.robot && !scene.robot) {
-    throw UsageError(fmt::format("{}: a point has no heading, and no line names the robot; say @robot", scene.source));
-  }
+  check_headings(scene, options);
   const bool ends_anywhere = !options.rule.visit.empty() && options.goal.empty() && scene.goal.empty();
   if (!options.rule.back && !ends_anywhere) problem.goal = plane_state("@goal", options.goal, scene.goal);
   for (const auto& place : options.rule.others) plane_state("@goal", place, {});
@@ -254,15 +262,6 @@ std::optional<Vec2> plane_point(const std::vector<double>& state) {
   return Vec2{state[0], state[1]};
 }
 
-namespace {
-
-/// Is there anything that only bodies of the plane can meet?
-bool is_flat(const Scene& scene) {
-  return scene.walls.size() > 0 || !scene.polygons.empty() || scene.bounds || scene.map || is_unmade(scene);
-}
-
-}  // namespace
-
 void check_plannable(const Scene& scene, const Question& problem) {
   const RobotSpec robot = robot_of(scene, problem);
   const std::string where = problem.robot ? fmt::format("@robot: in {}, ", scene.source) : scene.source + ": ";
@@ -278,7 +277,7 @@ void check_plannable(const Scene& scene, const Question& problem) {
         fmt::format("{}a {} plans among walls, polygons and bounds or on a map; {} take an arm (puma560, arm, urdf)",
                     where, name_of(robot.kind), scene.solids.empty() ? "spheres and boxes" : "solids"));
   }
-  if (is_unmade(scene) && robot.kind != RobotKind::point && robot.kind != RobotKind::disc) {
+  if (is_unmade(scene) && !is_round(robot)) {
     throw UsageError(fmt::format("{}where walls are made tile by tile a point or disc plans; a {} takes a smaller maze",
                                  where, name_of(robot.kind)));
   }

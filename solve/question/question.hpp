@@ -101,6 +101,9 @@ struct WallProblem {
   }
 };
 
+/// A point or disc: of headings it knows nothing.
+inline bool is_round(const RobotSpec& robot) { return robot.kind == RobotKind::point || robot.kind == RobotKind::disc; }
+
 /// The body that is asked about: the options', else the file's, else a point.
 RobotSpec robot_of(const Scene& scene, const Question& options);
 /// Room around the body: the options', else the file's, else 0.1 in mazes, else 0.
@@ -132,6 +135,9 @@ struct PathEnd {
 /// nor so near to one as a tolerance or region takes.
 std::optional<PathEnd> reached_goal(std::span<const double> end, const std::vector<std::vector<double>>& goals,
                                     const GoalRule& rule);
+
+/// Throws UsageError where the scene's start or goal has a heading and nobody names a robot: it is no point's.
+void check_headings(const Scene& scene, const Question& question);
 
 /// The problem of a point or disc. A heading in the file (of a body that was overridden) means nothing to them. Throws
 /// UsageError where start or goal are missing or have the wrong size, where contact contradicts the clearance, and

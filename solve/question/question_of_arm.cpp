@@ -151,17 +151,11 @@ std::vector<std::array<double, 3>> wrists_to_try(const ArmProblem& problem, cons
 
 }  // namespace
 
-bool is_arm(const RobotSpec& robot) {
-  return robot.kind == RobotKind::puma560 || robot.kind == RobotKind::arm || robot.kind == RobotKind::urdf;
-}
-
 JointState joint_state(std::span<const double> numbers) {
   JointState q{};
   std::copy_n(numbers.begin(), std::min(numbers.size(), q.size()), q.begin());
   return q;
 }
-
-JointState ArmProblem::goal_state() const { return joint_state(goal); }
 
 ArmVerifyOptions ArmProblem::verify_options() const {
   ArmVerifyOptions options{.clearance = clearance};

@@ -13,6 +13,9 @@
 
 namespace warren {
 
+/// The numbers, zeros behind them; at most most_joints.
+JointState joint_state(std::span<const double> numbers);
+
 struct ArmProblem {
   RobotSpec robot;
   std::optional<DhTable> table;  ///< of puma560 and arm
@@ -26,13 +29,15 @@ struct ArmProblem {
 
   std::size_t width() const { return model.variables.size(); }  ///< numbers of a state
   bool any_posture() const { return goal.size() != width(); }
-  JointState goal_state() const;  ///< of one number a variable
+  JointState goal_state() const { return joint_state(goal); }  ///< of one number a variable
   Vec3 goal_place() const { return {goal[0], goal[1], goal[2]}; }
   ArmVerifyOptions verify_options() const;
   Problem general() const;
 };
 
-bool is_arm(const RobotSpec& robot);
+inline bool is_arm(const RobotSpec& robot) {
+  return robot.kind == RobotKind::puma560 || robot.kind == RobotKind::arm || robot.kind == RobotKind::urdf;
+}
 
 /// Reads a table from its file; the Puma's is built in. Throws InputError, ReadError, UsageError.
 DhTable table_of(const RobotSpec& robot, const Execution& execution);
@@ -59,8 +64,5 @@ std::vector<JointState> goal_states(const ArmProblem& problem, const Execution& 
 /// Is the goal's place so near an obstacle that no link could end there, whatever the posture? Of arms whose links are
 /// capsules as far as the tool.
 bool tip_is_blocked(const Scene& scene, const ArmProblem& problem);
-
-/// The numbers, zeros behind them; at most most_joints.
-JointState joint_state(std::span<const double> numbers);
 
 }  // namespace warren

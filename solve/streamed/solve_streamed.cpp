@@ -7,27 +7,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
-#include <optional>
 #include <span>
 #include <utility>
 
 #include "core/base/error.hpp"
 #include "planners/mazes/overlay_search.hpp"
 #include "planners/mazes/tile_source.hpp"
-#include "planners/mazes/tiled_prm_lattice.hpp"
 #include "scenes/files/maze_file_io.hpp"
-#include "scenes/mazes/spanning_maze.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "solve/answer/path_hash.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/explain/blocked_end.hpp"
-#include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/lower_bound.hpp"
 #include "solve/kinds/solve_steps.hpp"
-#include "solve/question/planner_choice.hpp"
 #include "verify/streamed/looked_up_walls.hpp"
-#include "verify/streamed/verify_cells.hpp"
 
 namespace warren {
 namespace {
@@ -88,20 +81,6 @@ class ArrayWalls : public StreamedWalls {
   NpyMaze planned_;
   JudgedNpyMaze judged_;
 };
-
-}  // namespace
-
-std::unique_ptr<StreamedWalls> streamed_walls(const Scene& unmade, TileRows own, const Execution& execution) {
-  if (unmade.packed->hash) return std::make_unique<FileWalls>(*unmade.packed, own, execution);
-  return std::make_unique<ArrayWalls>(*unmade.packed, *unmade.maze, own, execution);
-}
-
-std::unique_ptr<StreamedWalls> streamed_walls(const Scene& unmade, const Execution& execution, KeptParts* kept) {
-  if (unmade.packed) return streamed_walls(unmade, {0, ((unmade.maze->rows - 1) >> tile_side_log2) + 1}, execution);
-  return std::make_unique<FormulaWalls>(*unmade.maze, *unmade.formula, execution, kept);
-}
-
-namespace {
 
 VerifyOptions judged_as(const WallProblem& problem) {
   return {.radius = problem.robot.radius, .clearance = problem.clearance, .start = problem.start, .goal = problem.goal};
@@ -244,11 +223,7 @@ class StreamedSolve {
 
 constexpr PlannerChoice streamed_planners[] = {{PlannerKind::prm, prm_takes | OptionSet{Option::pipeline}}};
 
-bool fits_streamed(const Scene& scene, const RobotSpec& robot) {
-  return is_unmade(scene) && (robot.kind == RobotKind::point || robot.kind == RobotKind::disc);
-}
-
-PlannerKind usual_streamed_planner(const SolveOptions&, const Scene&, const Question&) { return PlannerKind::prm; }
+bool fits_streamed(const Scene& scene, const RobotSpec& robot) { return is_unmade(scene) && is_round(robot); }
 
 Answer solve_request(const SolveRequest& request) {
   const WallProblem problem = keeping_off(request.scene, request.question, "prm keeps off the walls");
@@ -268,6 +243,16 @@ Verdict recheck_streamed(const Scene& scene, const Question& question, const Rec
 }
 
 }  // namespace
+
+std::unique_ptr<StreamedWalls> streamed_walls(const Scene& unmade, TileRows own, const Execution& execution) {
+  if (unmade.packed->hash) return std::make_unique<FileWalls>(*unmade.packed, own, execution);
+  return std::make_unique<ArrayWalls>(*unmade.packed, *unmade.maze, own, execution);
+}
+
+std::unique_ptr<StreamedWalls> streamed_walls(const Scene& unmade, const Execution& execution, KeptParts* kept) {
+  if (unmade.packed) return streamed_walls(unmade, {0, ((unmade.maze->rows - 1) >> tile_side_log2) + 1}, execution);
+  return std::make_unique<FormulaWalls>(*unmade.maze, *unmade.formula, execution, kept);
+}
 
 Answer solve_streamed(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
                       const Execution& execution, const StreamedHelp& help) {
@@ -295,7 +280,7 @@ SolveKind streamed_kind() {
   SolveKind kind{"a point or disc in a maze made tile by tile",
                  fits_streamed,
                  streamed_planners,
-                 usual_streamed_planner,
+                 usually<PlannerKind::prm>,
                  solve_request,
                  nullptr,
                  recheck_streamed};

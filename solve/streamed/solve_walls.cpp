@@ -165,10 +165,7 @@ constexpr AskedWords walls_words{AskedWord::goal};
 constexpr PlannerChoice walls_planners[] = {{PlannerKind::prm, plane_takes, walls_words},
                                             {PlannerKind::lazy_prm, plane_takes, walls_words}};
 
-bool fits_walls(const Scene& scene, const RobotSpec& robot) {
-  const bool plain = robot.kind == RobotKind::point || robot.kind == RobotKind::disc;
-  return plain && scene.polygons.empty();
-}
+bool fits_walls(const Scene& scene, const RobotSpec& robot) { return is_round(robot) && scene.polygons.empty(); }
 
 PlannerKind usual_walls_planner(const SolveOptions& options, const Scene& scene, const Question&) {
   return usual_roadmap_planner(options, scene);

@@ -99,12 +99,7 @@ Bitmap transposed(const Bitmap& bitmap, const Execution& execution) {
   Bitmap result(bitmap.height(), bitmap.width());
   for (std::uint32_t y = 0; y < bitmap.height(); ++y) {
     if (y % 16 == 0) execution.check();
-    const auto words = bitmap.row(y);
-    for (std::uint32_t w = 0; w < words.size(); ++w) {
-      for (std::uint64_t rest = words[w]; rest != 0; rest &= rest - 1) {
-        result.set(y, 64 * w + as_whole<std::uint32_t>(std::countr_zero(rest)));
-      }
-    }
+    bitmap.for_each_in_row(y, [&](std::uint32_t x) { result.set(y, x); });
   }
   return result;
 }
@@ -172,21 +167,19 @@ Bitmap cell_milestones(const Bitmap& blocked, const Execution& execution) {
   Bitmap kept(blocked.width(), blocked.height());
   execution.reserve(kept.bytes());
   constexpr std::uint64_t odd_columns = 0xAAAAAAAAAAAAAAAAU;
-  for_chunks(blocked.height(), rows_a_chunk, execution, [&](Range r) {
-    for (std::size_t y = r.first; y < r.last; ++y) {
-      const auto number = as_whole<std::int64_t>(y);
-      const FreeRow below(blocked, number - 1);
-      const FreeRow row(blocked, number);
-      const FreeRow above(blocked, number + 1);
-      const auto out = kept.row(as_whole<std::uint32_t>(y));
-      for (std::size_t w = 0; w < out.size(); ++w) {
-        const std::uint64_t sides = row.left(w) & row.right(w);
-        const std::uint64_t ends = below.here(w) & above.here(w);
-        const std::uint64_t level = sides & ~(below.here(w) | above.here(w));
-        const std::uint64_t upright = ends & ~(row.left(w) | row.right(w));
-        const std::uint64_t left_out = (level | upright) & (y % 2 == 0 ? odd_columns : ~odd_columns);
-        out[w] = row.here(w) & ~left_out;
-      }
+  for_each_index(blocked.height(), rows_a_chunk, execution, [&](std::size_t y) {
+    const auto number = as_whole<std::int64_t>(y);
+    const FreeRow below(blocked, number - 1);
+    const FreeRow row(blocked, number);
+    const FreeRow above(blocked, number + 1);
+    const auto out = kept.row(as_whole<std::uint32_t>(y));
+    for (std::size_t w = 0; w < out.size(); ++w) {
+      const std::uint64_t sides = row.left(w) & row.right(w);
+      const std::uint64_t ends = below.here(w) & above.here(w);
+      const std::uint64_t level = sides & ~(below.here(w) | above.here(w));
+      const std::uint64_t upright = ends & ~(row.left(w) | row.right(w));
+      const std::uint64_t left_out = (level | upright) & (y % 2 == 0 ? odd_columns : ~odd_columns);
+      out[w] = row.here(w) & ~left_out;
     }
   });
   return kept;

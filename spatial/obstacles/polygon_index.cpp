@@ -25,16 +25,14 @@ PolygonIndex::PolygonIndex(PolygonSet polygons, const Execution& execution) : po
   execution.reserve(n * (sizeof(std::uint32_t) + sizeof(Box) / 7) + polygons_.size() * 3 * sizeof(Box));
   next_.resize(n);
   std::vector<BoxOf<2>> boxes(polygons_.size());
-  for_chunks(polygons_.size(), polygon_grain, execution, [&](Range r) {
-    for (std::size_t polygon = r.first; polygon < r.last; ++polygon) {
-      const auto [first, last] = sides_of(polygon);
-      Box box;
-      for (std::size_t i = first; i < last; ++i) {
-        next_[i] = as_whole<std::uint32_t>(i + 1 < last ? i + 1 : first);
-        box.include(polygons_.corners[i]);
-      }
-      boxes[polygon] = {{box.min.x, box.min.y}, {box.max.x, box.max.y}};
+  for_each_index(polygons_.size(), polygon_grain, execution, [&](std::size_t polygon) {
+    const auto [first, last] = sides_of(polygon);
+    Box box;
+    for (std::size_t i = first; i < last; ++i) {
+      next_[i] = as_whole<std::uint32_t>(i + 1 < last ? i + 1 : first);
+      box.include(polygons_.corners[i]);
     }
+    boxes[polygon] = {{box.min.x, box.min.y}, {box.max.x, box.max.y}};
   });
   tree_ = BoxTree<2>(boxes, execution);
   for (const Vec2 p : polygons_.corners) box_.include(p);

@@ -62,7 +62,6 @@ class SegmentGrid {
       }
     }
   }
-  std::size_t bytes() const { return offsets_.size() * 8 + segments_.size() * 4; }
 
  private:
   /// Sets origin, cell size and counts for so many segments in the box.

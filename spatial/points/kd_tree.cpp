@@ -245,9 +245,8 @@ struct KdTree<D>::Forest {
     place_of.resize(input.size());
     trees.resize(top.leaves);
     for_chunks(top.leaves, 1, quiet, [&](Range range) { plant(range.first, input); });
-    for_chunks(input.size(), tree_grain, quiet, [&](Range range) {
-      for (std::size_t i = range.first; i < range.last; ++i) place_of[ids[i]] = as_whole<std::uint32_t>(i);
-    });
+    for_each_index(input.size(), tree_grain, quiet,
+                   [&](std::size_t i) { place_of[ids[i]] = as_whole<std::uint32_t>(i); });
   }
 
   /// Builds a subtree, then puts its points in the order of its leaves, so that a leaf is one run of memory.

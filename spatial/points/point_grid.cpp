@@ -15,7 +15,7 @@ constexpr std::size_t grid_grain = std::size_t{1} << 15;
 PointGrid::PointGrid(std::span<const Vec2> points, const Execution& execution) {
   if (points.empty()) return;
   execution.reserve(points.size() * 2);
-  frame_ = CellFrame(bounding_box({&points.front().x, 2, points.size()}, execution), points.size());
+  frame_ = CellFrame(bounding_box(points, execution), points.size());
   if (in_order(points, execution)) {
     points_ = points;
     file_points(execution);
@@ -81,11 +81,9 @@ void PointGrid::sort_points(std::span<const Vec2> points, const Execution& execu
   id_ = std::move(order.item);
   place_of_.resize(points.size());
   sorted_.resize(points.size());
-  for_chunks(points.size(), grid_grain, execution.quiet(), [&](Range range) {
-    for (std::size_t place = range.first; place < range.last; ++place) {
-      sorted_[place] = points[id_[place]];
-      place_of_[id_[place]] = as_whole<std::uint32_t>(place);
-    }
+  for_each_index(points.size(), grid_grain, execution.quiet(), [&](std::size_t place) {
+    sorted_[place] = points[id_[place]];
+    place_of_[id_[place]] = as_whole<std::uint32_t>(place);
   });
   points_ = sorted_;
 }

@@ -26,9 +26,9 @@ CellFrame::CellFrame(const Box& box, std::size_t count, double load) {
   rows_ = bounded_whole<std::uint32_t>(std::floor(height * scale_)) + 1;
 }
 
-Box bounding_box(PlanarView positions, const Execution& execution) {
-  std::vector<Box> boxes(chunk_count(positions.count, order_grain));
-  for_chunks(positions.count, order_grain, execution.quiet(), [&](Range range) {
+Box bounding_box(std::span<const Vec2> positions, const Execution& execution) {
+  std::vector<Box> boxes(chunk_count(positions.size(), order_grain));
+  for_chunks(positions.size(), order_grain, execution.quiet(), [&](Range range) {
     Box box;
     for (std::size_t i = range.first; i < range.last; ++i) box.include(positions[i]);
     boxes[range.first / order_grain] = box;
@@ -38,16 +38,11 @@ Box bounding_box(PlanarView positions, const Execution& execution) {
   return all;
 }
 
-TileOrder tile_order(PlanarView positions, const Execution& execution) {
-  const CellFrame frame(bounding_box(positions, execution), positions.count);
-  KeyOrder order = counting_sort(positions.count, frame.cell_count(), execution,
+TileOrder tile_order(std::span<const Vec2> positions, const Execution& execution) {
+  const CellFrame frame(bounding_box(positions, execution), positions.size());
+  KeyOrder order = counting_sort(positions.size(), frame.cell_count(), execution,
                                  [&](std::size_t i) { return frame.cell_of(positions[i]); });
   return {std::move(order.item)};
-}
-
-TileOrder tile_order(std::span<const Vec2> positions, const Execution& execution) {
-  static_assert(sizeof(Vec2) == 2 * sizeof(double));
-  return tile_order(PlanarView{positions.empty() ? nullptr : &positions.front().x, 2, positions.size()}, execution);
 }
 
 }  // namespace warren

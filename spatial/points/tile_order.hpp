@@ -6,7 +6,6 @@
 // so the order is a pure function of the points. Cost: two counting-sort passes, about 10 ns a point.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -24,22 +23,6 @@ struct TileOrder {
 
 /// The order of points in the plane. Coordinates within +-largest_coordinate; below 2^32 points. Throws Stopped.
 TileOrder tile_order(std::span<const Vec2> positions, const Execution& execution);
-
-/// Points of which every `stride`-th number, from `xy` on, is the x of a point, and the next one its y.
-struct PlanarView {
-  const double* xy;
-  std::size_t stride;
-  std::size_t count;
-  Vec2 operator[](std::size_t i) const { return {xy[i * stride], xy[i * stride + 1]}; }
-};
-TileOrder tile_order(PlanarView positions, const Execution& execution);
-
-/// Points in D >= 2 dimensions are ordered by their first two coordinates.
-template <std::size_t D>
-TileOrder tile_order(std::span<const std::array<double, D>> points, const Execution& execution) {
-  static_assert(D >= 2);
-  return tile_order(PlanarView{points.empty() ? nullptr : points.front().data(), D, points.size()}, execution);
-}
 
 /// The cells over a set of points: a pure function of their box and number. Which cell a coordinate falls in never
 /// decreases with the coordinate, rounding included; that is all that exact queries need.
@@ -85,6 +68,6 @@ class CellFrame {
 };
 
 /// Box of the points; empty if there are none.
-Box bounding_box(PlanarView positions, const Execution& execution);
+Box bounding_box(std::span<const Vec2> positions, const Execution& execution);
 
 }  // namespace warren

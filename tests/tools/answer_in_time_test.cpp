@@ -40,11 +40,9 @@ class SlowTalker : public tools::AnswerCommand {
     if (where_ == Dawdles::explaining) wait(execution);
     execution.check();
   }
-  const Roadmap& roadmap() const override { return roadmap_; }
 
   Dawdles where_;
   Scene scene_;
-  Roadmap roadmap_;
 };
 
 nlohmann::json told_in_time(const Folder& folder, const std::vector<std::string>& more, Dawdles where) {
@@ -103,10 +101,8 @@ class EndedImprover : public tools::AnswerCommand {
   }
   Scene scene_drawn(const Execution&, ByProducts&) override { return {}; }
   void explain(const Execution&, Answer&, ByProducts&) override {}
-  const Roadmap& roadmap() const override { return roadmap_; }
 
   StopReason reason_;
-  Roadmap roadmap_;
 };
 
 TEST(AnswerInTime, APathThatASignalEndedIsWrittenAndTheCodeIsTheSignals) {

@@ -334,6 +334,22 @@ TEST_F(SolveUrdf, ARoadmapIsUpdatedToWhatTheChangedWorldSaysOfTheArm) {
   EXPECT_EQ(Json::parse(asked(back))["robot"], Json(robot_));
 }
 
+/// The group is said twice in the old world, once in the robot's line of the new one.
+TEST_F(SolveUrdf, AnUpdateKeepsTheGroupThatTheChangedWorldDoesNotName) {
+  const std::string twice = folder_.write("twice.scene", "robot " + robot_ + "\n" + yard + "group arm\n");
+  const std::string roadmap = folder_.path("twice.roadmap");
+  ASSERT_EQ(run({"build", twice, "-o", roadmap, "--samples", "50", "--quiet"}).code, 0);
+  ASSERT_EQ(run({"update", roadmap, file_, "-o", roadmap + "2", "--quiet"}).code, 0);
+  EXPECT_NE(run({"info", roadmap + "2"}).out.find("group arm"), std::string::npos);
+  const std::string request = folder_.write("g.yaml", "group_name: arm\nstart_state: {}\n");
+  std::string ends = robot_;
+  ends = ends.substr(0, ends.find(" srdf")) + " base world tip hook";
+  const std::string scene = folder_.write("ends.scene", "robot " + ends + "\n" + yard);
+  const Outcome refused = run({"solve", scene, "--request", request, "--json", "-"});
+  EXPECT_EQ(refused.code, 65);
+  EXPECT_NE(refused.err.find("g.yaml:1: the robot's line says base and tip"), std::string::npos) << refused.err;
+}
+
 TEST_F(SolveUrdf, ATwiceSaidToolOrGroupIsRefusedWhereItDiffers) {
   const std::string request =
       folder_.write("request.yaml", "group_name: arms\nstart_state: {joint_state: {name: [base], position: [0.1]}}\n");

@@ -10,7 +10,6 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <ctime>
 #include <exception>
 #include <new>
@@ -32,11 +31,6 @@ constinit std::atomic<std::int64_t> first_ms{-1'000'000};  // long ago
 static_assert(SignalFlag::is_always_lock_free && std::atomic<std::int64_t>::is_always_lock_free,
               "a signal handler may only touch lock-free atomics");
 
-void say(const char* text) {
-  const ssize_t ignored = ::write(STDERR_FILENO, text, std::strlen(text));
-  static_cast<void>(ignored);
-}
-
 /// A page of an input that is no longer there: its file became shorter while it was read. Other pages are a bug's, and
 /// the signal comes again with its usual effect.
 void report_lost_page(int number, siginfo_t* info, void*) {
@@ -45,9 +39,9 @@ void report_lost_page(int number, siginfo_t* info, void*) {
     std::signal(number, SIG_DFL);
     return;
   }
-  say("warren: ");
-  say(name);
-  say(": can't be read: it became shorter meanwhile\n");
+  for (const char* part : {"warren: ", name, ": can't be read: it became shorter meanwhile\n"}) {
+    say_on_standard_error(part);
+  }
   ::_exit(exit_code::unreadable);
 }
 
@@ -82,27 +76,6 @@ bool is_ignored(int number) {
   return ::sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
 }
 
-}  // namespace
-
-void install_signal_handlers() {
-  stop_at(SIGINT);
-  stop_at(SIGTERM);
-  if (!is_ignored(SIGHUP)) stop_at(SIGHUP);  // nohup has said so
-  std::signal(SIGPIPE, SIG_DFL);
-  std::signal(SIGXFSZ, SIG_IGN);  // the write that is too long fails, as on a full disk
-  struct sigaction lost {};
-  lost.sa_sigaction = report_lost_page;
-  lost.sa_flags = SA_SIGINFO;
-  ::sigemptyset(&lost.sa_mask);
-  ::sigaction(SIGBUS, &lost, nullptr);
-}
-
-const SignalFlag& signal_flag() { return flag; }
-
-void forget_signal() { flag.store(0, std::memory_order_relaxed); }
-
-namespace {
-
 int report_bug(std::string_view program, std::string_view what) {
   return complain(
       program, exit_code::internal,
@@ -130,6 +103,23 @@ void die_if_unheard() {
 }
 
 }  // namespace
+
+void install_signal_handlers() {
+  stop_at(SIGINT);
+  stop_at(SIGTERM);
+  if (!is_ignored(SIGHUP)) stop_at(SIGHUP);  // nohup has said so
+  std::signal(SIGPIPE, SIG_DFL);
+  std::signal(SIGXFSZ, SIG_IGN);  // the write that is too long fails, as on a full disk
+  struct sigaction lost {};
+  lost.sa_sigaction = report_lost_page;
+  lost.sa_flags = SA_SIGINFO;
+  ::sigemptyset(&lost.sa_mask);
+  ::sigaction(SIGBUS, &lost, nullptr);
+}
+
+const SignalFlag& signal_flag() { return flag; }
+
+void forget_signal() { flag.store(0, std::memory_order_relaxed); }
 
 int complain(std::string_view program, int code, std::string_view text) {
   say_on_standard_error(fmt::format("{}: {}\n", program, text));

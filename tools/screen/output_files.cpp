@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <array>
-#include <cctype>
 #include <cerrno>
 #include <functional>
 #include <limits>
@@ -17,6 +16,7 @@
 #include <system_error>
 #include <vector>
 
+#include "apps/studies/contest_pictures.hpp"
 #include "core/base/error.hpp"
 #include "core/base/printable.hpp"
 #include "core/run/execution.hpp"
@@ -36,14 +36,7 @@ namespace {
 }
 
 /// "-runs-solved" of "runs solved"
-std::string file_words(std::string_view title) {
-  std::string words;
-  for (const char c : title) {
-    const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0;
-    if (is_plain || !(words.empty() || words.ends_with('-'))) words += is_plain ? c : '-';
-  }
-  return '-' + words.substr(0, words.find_last_not_of('-') + 1);
-}
+std::string file_words(std::string_view title) { return '-' + studies::file_name(title, '-'); }
 
 /// "k-length.pdf" of "k.pdf" and "maze:5x7: length"; where several titles end so, of whole titles, then with a number.
 std::vector<std::string> figure_files(const std::string& file, const std::vector<PlotSheet>& sheets) {

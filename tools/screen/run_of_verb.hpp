@@ -42,6 +42,13 @@ class Run {
   bool quiet() const { return quiet_; }
   const Palette& palette() const { return palette_; }
   unsigned threads() const { return thread_count(execution_.threads); }
+  /// What work() gives, as a stage of that name with so many items, 0: not known.
+  template <class Work>
+  auto in_stage(const char* name, const Work& work, std::uint64_t items = 0) const {
+    double seconds = 0.0;
+    const StageTimer timer(execution_, name, seconds, items);
+    return work();
+  }
   /// Says one line on standard error, above the bar; nothing with --quiet or --progress none.
   void note(std::string_view line) const;
   /// Prints the summary; where --quiet or an output forbids that, says on standard error what stopped the verb, if

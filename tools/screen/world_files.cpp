@@ -58,12 +58,6 @@ void tell_of_grey(const OccupancyMap& map) {
   throw UsageError(fmt::format("--map-rules: is for the YAML of map_server, and {} is none", source));
 }
 
-}  // namespace
-
-std::span<const OptionSpec> world_option_specs() { return world_specs; }
-
-namespace {
-
 /// Whoever types a maze's size, or the word alone, is told how a maze is called.
 InputFile file_of_world(const std::string& source, const Execution& execution) {
   const bool is_size = source == "maze" || source.find_first_not_of("0123456789x") == std::string::npos;
@@ -74,19 +68,39 @@ InputFile file_of_world(const std::string& source, const Execution& execution) {
   return InputFile(source, execution);
 }
 
+/// A goal of one tool or group means nothing to another one. before: what the world says of the arm.
+void refuse_another_robot(const ArmFiles& before, const Scene& scene, const Arguments& arguments) {
+  const auto words = arguments.value("--robot");
+  const RobotSpec robot = words ? robot_value("--robot", *words) : RobotSpec{};
+  if (!robot.files || !scene.arm) return;
+  const bool has_ends = !robot.files->base.empty() || !robot.files->tip.empty();
+  if (has_ends && scene.arm->group != before.group) {
+    throw UsageError(
+        fmt::format("--robot: says base and tip, the request group {}; leave them out of one", scene.arm->group));
+  }
+  for (const auto& [noun, own, world, asked] : {std::tuple("group", robot.files->group, before.group, scene.arm->group),
+                                                {"tool", robot.files->tool, before.tool, scene.arm->tool}}) {
+    if (own.empty() || asked == world || own == asked) continue;
+    throw UsageError(fmt::format("--robot: says {} {}, the request {}; leave it out of one", noun, own, asked));
+  }
+}
+
 }  // namespace
 
+std::span<const OptionSpec> world_option_specs() { return world_specs; }
+
 Scene load_world(const std::string& source, const Arguments& arguments, const Execution& execution,
-                 StageTimes& seconds) {
+                 StageTimes* seconds) {
   if (!is_made_source(source)) return load_world(file_of_world(source, execution), arguments, execution, seconds);
   if (arguments.has("--map-rules")) refuse_rules(source);
   if (arguments.has("--request")) throw UsageError("--request: is for a world with an arm, and this one is made");
-  const StageTimer timer(execution, "generate", seconds.generate);
+  double unasked = 0.0;
+  const StageTimer timer(execution, "generate", seconds != nullptr ? seconds->generate : unasked);
   return read_world(source, execution);
 }
 
 Scene load_planned_world(const std::string& source, std::optional<PipelineKind> pipeline, const Arguments& arguments,
-                         const Execution& execution, StageTimes& seconds) {
+                         const Execution& execution, StageTimes* seconds) {
   const auto is_large = [&](MazeHint maze) {
     constexpr double bytes_a_cell = 25.0;  // walls and tiles at their peak (docs/performance.md)
     constexpr double most_held = 4294967295.0;
@@ -115,30 +129,10 @@ Scene load_planned_world(const std::string& source, std::optional<PipelineKind> 
   return load_world(file, arguments, execution, seconds);
 }
 
-namespace {
-
-/// A goal of one tool or group means nothing to another one. before: what the world says of the arm.
-void refuse_another_robot(const ArmFiles& before, const Scene& scene, const Arguments& arguments) {
-  const auto words = arguments.value("--robot");
-  const RobotSpec robot = words ? robot_value("--robot", *words) : RobotSpec{};
-  if (!robot.files || !scene.arm) return;
-  const bool has_ends = !robot.files->base.empty() || !robot.files->tip.empty();
-  if (has_ends && scene.arm->group != before.group) {
-    throw UsageError(
-        fmt::format("--robot: says base and tip, the request group {}; leave them out of one", scene.arm->group));
-  }
-  for (const auto& [noun, own, world, asked] : {std::tuple("group", robot.files->group, before.group, scene.arm->group),
-                                                {"tool", robot.files->tool, before.tool, scene.arm->tool}}) {
-    if (own.empty() || asked == world || own == asked) continue;
-    throw UsageError(fmt::format("--robot: says {} {}, the request {}; leave it out of one", noun, own, asked));
-  }
-}
-
-}  // namespace
-
-Scene load_world(const InputFile& file, const Arguments& arguments, const Execution& execution, StageTimes& seconds) {
+Scene load_world(const InputFile& file, const Arguments& arguments, const Execution& execution, StageTimes* seconds) {
   const auto asked = given_choice<MapServerRules>(arguments, "--map-rules");
-  const StageTimer timer(execution, "read", seconds.read);
+  double unasked = 0.0;
+  const StageTimer timer(execution, "read", seconds != nullptr ? seconds->read : unasked);
   Scene scene = read_scene(file, execution, asked.value_or(MapServerRules::nav2));
   if (asked && !(scene.map && scene.map->format == MapFormat::ros)) refuse_rules(file.name());
   if (scene.map) check_not_written(arguments, scene.map->image);
@@ -196,14 +190,15 @@ void check_rules_of_maps(const Arguments& arguments) {
   arguments.refuse({"--map-rules", "--request"}, "is for the world that --world names; a roadmap has its own inside");
 }
 
-Roadmap load_roadmap(const Arguments& arguments, const Execution& execution, StageTimes& seconds) {
+Roadmap load_roadmap(const Arguments& arguments, const Execution& execution, StageTimes* seconds) {
   const std::string& file = arguments.operand(0);
   if (is_made_source(file)) {
     throw InputError(file, "is a world where a roadmap is expected; make one by `warren build`");
   }
   std::optional<Scene> world;
   if (const auto name = arguments.value("--world")) world = load_world(*name, arguments, execution, seconds);
-  const StageTimer timer(execution, "read", seconds.read);
+  double unasked = 0.0;
+  const StageTimer timer(execution, "read", seconds != nullptr ? seconds->read : unasked);
   Roadmap roadmap = read_roadmap(file, execution, std::move(world));
   check_not_written(arguments, roadmap.robot);
   return roadmap;
@@ -220,14 +215,9 @@ bool is_roadmap_named(const std::string& file) {
 
 int draw_roadmap(const Arguments& arguments, const std::string& file, const PictureOptions& options) {
   Run run(arguments);
-  StageTimes seconds;
-  const Roadmap roadmap = load_roadmap(arguments, run.execution(), seconds);
-  std::vector<std::string> notes;
-  {
-    double draw_seconds = 0.0;
-    const StageTimer timer(run.execution(), "draw", draw_seconds);
-    notes = write_picture(file, roadmap, options, arguments.command_line(), run.execution());
-  }
+  const Roadmap roadmap = load_roadmap(arguments, run.execution());
+  const std::vector<std::string> notes = run.in_stage(
+      "draw", [&] { return write_picture(file, roadmap, options, arguments.command_line(), run.execution()); });
   run.end();
   say_of_picture(arguments, file, notes);
   run.conclude(file == "-", {}, [&] {

@@ -23,18 +23,19 @@ namespace warren::tools {
 /// --map-rules, --request
 std::span<const OptionSpec> world_option_specs();
 
-/// Reads or generates WORLD as world_option_specs say; adds the time to seconds.read or seconds.generate. Throws as
-/// read_world does, and UsageError for rules of maps where the world is no map of map_server.
+/// Reads or generates WORLD as world_option_specs say; adds the time to seconds->read or seconds->generate where
+/// somebody asks. Throws as read_world does, and UsageError for rules of maps where the world is no map of map_server.
 Scene load_world(const std::string& source, const Arguments& arguments, const Execution& execution,
-                 StageTimes& seconds);
+                 StageTimes* seconds = nullptr);
 
 /// The same, but walls are left out that can be had tile by tile (is_unmade): where `pipeline` is streamed, or where it
 /// is not said and the memory would not hold them while they are planned among.
 Scene load_planned_world(const std::string& source, std::optional<PipelineKind> pipeline, const Arguments& arguments,
-                         const Execution& execution, StageTimes& seconds);
+                         const Execution& execution, StageTimes* seconds = nullptr);
 
 /// The same for a file that is open already.
-Scene load_world(const InputFile& file, const Arguments& arguments, const Execution& execution, StageTimes& seconds);
+Scene load_world(const InputFile& file, const Arguments& arguments, const Execution& execution,
+                 StageTimes* seconds = nullptr);
 
 /// Scene text, .npy, or a picture, by the file's ending; "-" is scene text. Returns as write_picture() does.
 std::vector<std::string> write_world(const Scene& scene, const std::string& file, const PictureOptions& options,
@@ -52,9 +53,9 @@ inline constexpr OptionSpec roadmap_world_option{
 /// Throws UsageError for --map-rules and --request where no --world is named that they could be for.
 void check_rules_of_maps(const Arguments& arguments);
 
-/// Adds the time to seconds. Throws as read_roadmap and load_world do, InputError for a world where a roadmap is
-/// expected, and UsageError where an output is the table of the roadmap's arm.
-Roadmap load_roadmap(const Arguments& arguments, const Execution& execution, StageTimes& seconds);
+/// Adds the time to *seconds where somebody asks. Throws as read_roadmap and load_world do, InputError for a world
+/// where a roadmap is expected, and UsageError where an output is the table of the roadmap's arm.
+Roadmap load_roadmap(const Arguments& arguments, const Execution& execution, StageTimes* seconds = nullptr);
 
 /// Is there a roadmap in the file? Pipes are taken for worlds, since what is read of them is gone.
 bool is_roadmap_named(const std::string& file);

@@ -172,7 +172,7 @@ void AnswerCommand::check_outputs_of(const RobotSpec& robot) const {
 
 void AnswerCommand::write_kept(std::optional<OutputFile>& file, const Execution& execution) const {
   file.emplace(roadmap_, execution);
-  write_roadmap(roadmap(), *file, execution);
+  write_roadmap(made_roadmap_, *file, execution);
   file->complete();
 }
 

@@ -40,11 +40,9 @@ class AnswerCommand {
   /// The world of the picture, which needs it no more, and what find() has left out of `keep`.
   virtual Scene scene_drawn(const Execution& execution, ByProducts& keep) = 0;
   /// Fills in answer.explained; only after find(), with what that has kept. Throws Stopped.
-  virtual void explain(const Execution& execution, Answer& answer, ByProducts& keep) = 0;
+  virtual void explain(const Execution& /*execution*/, Answer& /*answer*/, ByProducts& /*keep*/) {}
   /// All stages to come, where they are known.
   virtual ExpectedStages expected_stages() const { return {}; }
-  /// What goes to the file of `keep`; only after find().
-  virtual const Roadmap& roadmap() const = 0;
   /// Throws UsageError where the path of this body can't be written, or it can't be drawn, as it was asked for; find()
   /// calls it.
   void check_outputs_of(const RobotSpec& robot) const;
@@ -54,6 +52,7 @@ class AnswerCommand {
   PathTaker* path_taker() { return handed_on_ ? &*handed_on_ : nullptr; }
 
   const Arguments& arguments_;
+  Roadmap made_roadmap_;  ///< what goes to the file of `keep`: find() makes it
 
  private:
   bool takes_standard_output() const;

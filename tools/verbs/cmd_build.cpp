@@ -74,8 +74,7 @@ int build_roadmap_file(const Arguments& arguments) {
   const auto index = given_choice<IndexChoice>(arguments, "--index").value_or(IndexChoice::where_it_pays);
   check_not_written(arguments, question.robot);
   Run run(arguments);
-  StageTimes seconds;
-  Scene scene = load_world(arguments.operand(0), arguments, run.execution(), seconds);
+  Scene scene = load_world(arguments.operand(0), arguments, run.execution());
   const Roadmap roadmap = build_within(std::move(scene), question, options, run.execution(), index);
   const EdgeCounts edges = count_edges(roadmap, run.execution());
   write_roadmap(roadmap, *file, run.execution(), !arguments.has("--no-world"));
@@ -87,23 +86,6 @@ int build_roadmap_file(const Arguments& arguments) {
   });
   return exit_code::success;
 }
-
-}  // namespace
-
-Command build_command() {
-  const std::initializer_list<std::string_view> not_kept = {"--areas", "--speed-zones", "--keep-out", "--unknown"};
-  Command command{"build", "WORLD", "build a roadmap once, for many questions", {}, build_roadmap_file};
-  command.options =
-      joined_options({build_specs, kept_options(command),
-                      options_but(question_option_specs(), {"--start", "--goal", "--goal-pose", "--contact"}),
-                      options_but(price_option_specs(), not_kept), world_option_specs(), run_option_specs()});
-  for (const std::string_view name : not_kept) {
-    command.foreign.emplace_back(name, "is for questions that keep no roadmap; 'warren solve' takes it");
-  }
-  return command;
-}
-
-namespace {
 
 constexpr OptionSpec update_specs[] = {
     {"--output", "FILE", "where the new roadmap goes", {}, "-o"},
@@ -123,9 +105,8 @@ int update_roadmap(const Arguments& arguments) {
   if (!file) throw UsageError("-o FILE is missing");
   const auto report = output_file(arguments, "--report");
   Run run(arguments);
-  StageTimes seconds;
-  const Roadmap old = load_roadmap(arguments, run.execution(), seconds);
-  Scene now = load_world(arguments.operand(1), arguments, run.execution(), seconds);
+  const Roadmap old = load_roadmap(arguments, run.execution());
+  Scene now = load_world(arguments.operand(1), arguments, run.execution());
   UpdateAccount account;
   const Roadmap next = update(old, std::move(now), run.execution(), &account);
   std::optional<OutputFile> told;  // whole before the roadmap takes its place
@@ -148,6 +129,19 @@ int update_roadmap(const Arguments& arguments) {
 }
 
 }  // namespace
+
+Command build_command() {
+  const std::initializer_list<std::string_view> not_kept = {"--areas", "--speed-zones", "--keep-out", "--unknown"};
+  Command command{"build", "WORLD", "build a roadmap once, for many questions", {}, build_roadmap_file};
+  command.options =
+      joined_options({build_specs, kept_options(command),
+                      options_but(question_option_specs(), {"--start", "--goal", "--goal-pose", "--contact"}),
+                      options_but(price_option_specs(), not_kept), world_option_specs(), run_option_specs()});
+  for (const std::string_view name : not_kept) {
+    command.foreign.emplace_back(name, "is for questions that keep no roadmap; 'warren solve' takes it");
+  }
+  return command;
+}
 
 Command update_command() {
   return {"update", "ROADMAP WORLD", "take a roadmap into a world that has changed",

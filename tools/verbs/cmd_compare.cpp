@@ -108,8 +108,7 @@ class CompareCommand {
   void compare(const Run& run) {
     std::optional<Scene> scene;
     try {
-      StageTimes before;
-      if (options_.world) scene = load_world(*options_.world, arguments_, execution_, before);
+      if (options_.world) scene = load_world(*options_.world, arguments_, execution_);
       if (options_.planners) read_asked_masks(options_.planners->contenders);
     } catch (const Stopped& stopped) {
       comparison_.stopped = stopped.reason;

@@ -55,8 +55,7 @@ int simplify_graph(const Arguments& arguments, const std::string& file) {
   picture_words(arguments, false, "a picture");
   if (!world) arguments.refuse({"--robot", "--clearance", "--map-rules", "--request"}, "is for --world");
   Run run(arguments);
-  StageTimes seconds;
-  const Scene scene = world ? load_world(*world, arguments, run.execution(), seconds) : Scene{};
+  const Scene scene = world ? load_world(*world, arguments, run.execution()) : Scene{};
   const InputFile input(arguments.operand(0), run.execution());
   serve::RouteGraph graph;
   try {
@@ -126,14 +125,9 @@ int convert(const Arguments& arguments) {
   const PictureOptions options =
       picture_words(arguments, is_picture(ending_of(*file)), "-o FILE.svg or another picture", *file);
   Run run(arguments);
-  StageTimes seconds;
-  double write_seconds = 0.0;
-  Scene scene = load_world(arguments.operand(0), arguments, run.execution(), seconds);
-  std::string note;
-  {
-    const StageTimer timer(run.execution(), "write", write_seconds);
-    note = write_any(scene, *file, arguments, options, run.execution());
-  }
+  Scene scene = load_world(arguments.operand(0), arguments, run.execution());
+  const std::string note =
+      run.in_stage("write", [&] { return write_any(scene, *file, arguments, options, run.execution()); });
   run.end();
   if (!run.quiet() && *file != "-")
     print_text(fmt::format("{}: {}\n", run.palette().strong(*file), description_of(scene)));

@@ -40,8 +40,7 @@ int export_simplified(const Arguments& arguments, const std::string& file, const
   if (!file.ends_with(".geojson")) throw UsageError("--simplify: a route graph is written as -o FILE.geojson");
   if (arguments.has("--unchecked")) throw UsageError("--simplify: keeps free edges alone; leave out --unchecked");
   Run run(arguments);
-  StageTimes seconds;
-  const Roadmap roadmap = load_roadmap(arguments, run.execution(), seconds);
+  const Roadmap roadmap = load_roadmap(arguments, run.execution());
   serve::RouteGraph whole;
   serve::RouteGraph few;
   try {
@@ -75,14 +74,11 @@ int export_roadmap_file(const Arguments& arguments) {
   picture_words(arguments, false, "a picture");
   if (!file->ends_with(".geojson")) arguments.refuse({"--frame"}, "is for .geojson");
   for (const std::string& name : files_of_export(*file)) check_writable(name);
-  if (arguments.has("--simplify")) {
-    return export_simplified(arguments, *file, std::string(arguments.value("--frame").value_or("map")));
-  }
-  const ExportOptions options{.with_unchecked = arguments.has("--unchecked"),
-                              .frame = std::string(arguments.value("--frame").value_or("map"))};
+  const std::string frame = arguments.value("--frame").value_or("map");
+  if (arguments.has("--simplify")) return export_simplified(arguments, *file, frame);
+  const ExportOptions options{.with_unchecked = arguments.has("--unchecked"), .frame = frame};
   Run run(arguments);
-  StageTimes seconds;
-  const Roadmap roadmap = load_roadmap(arguments, run.execution(), seconds);
+  const Roadmap roadmap = load_roadmap(arguments, run.execution());
   const ExportAccount account = export_of_roadmap(roadmap, *file, options, run.execution());
   run.end();
   run.conclude(file == "-", {}, [&] {

@@ -2,7 +2,7 @@
 // warren generate: writes a maze of any size, or any number of polygons, the same for the same seed on every machine.
 #include <fmt/format.h>
 
-#include <functional>
+#include <optional>
 #include <string>
 
 #include "core/base/error.hpp"
@@ -66,22 +66,6 @@ PolygonOptions polygon_options(const Arguments& arguments) {
   return options;
 }
 
-/// Reads the command line at once, makes the world when it is called.
-std::function<Scene(const Execution&)> generator_of(const Arguments& arguments) {
-  const std::string& what = arguments.operand(0);
-  if (what == "maze") {
-    return [options = maze_options(arguments), merged = !arguments.has("--unit-walls")](const Execution& execution) {
-      return maze_scene(options, merged, execution);
-    };
-  }
-  if (what == "polygons") {
-    return [options = polygon_options(arguments)](const Execution& execution) {
-      return polygon_scene(options, execution);
-    };
-  }
-  throw UsageError("'" + what + "' is nothing that can be generated; did you mean maze or polygons?");
-}
-
 /// A maze whose walls nobody needs to hold, as .maze or, of mst, as .npy.
 void generate_maze_file(const MazeOptions& options, bool merged, const std::string& file, const Execution& execution) {
   if (options.algorithm == MazeAlgorithm::mst) {
@@ -119,11 +103,14 @@ bool is_written_while_made(const Arguments& arguments, const std::string& file) 
 }
 
 int generate(const Arguments& arguments) {
-  if (const auto file = arguments.value("--output"); file && is_written_while_made(arguments, *file)) {
-    return generate_packed(arguments, *file);
-  }
-  const auto make = generator_of(arguments);
   const auto file = arguments.value("--output");
+  if (file && is_written_while_made(arguments, *file)) return generate_packed(arguments, *file);
+  const std::string& what = arguments.operand(0);
+  if (what != "maze" && what != "polygons") {
+    throw UsageError("'" + what + "' is nothing that can be generated; did you mean maze or polygons?");
+  }
+  const auto maze = what == "maze" ? std::optional(maze_options(arguments)) : std::nullopt;
+  const PolygonOptions polygons = maze ? PolygonOptions{} : polygon_options(arguments);
   if (!file) throw UsageError("-o FILE is missing");
   check_world_file(*file);
   const PictureOptions options =
@@ -133,7 +120,8 @@ int generate(const Arguments& arguments) {
   Scene scene;
   {
     const StageTimer timer(run.execution(), "generate", seconds);
-    scene = make(run.execution());
+    scene = maze ? maze_scene(*maze, !arguments.has("--unit-walls"), run.execution())
+                 : polygon_scene(polygons, run.execution());
   }
   double write_seconds = 0.0;
   std::string note;

@@ -45,28 +45,10 @@ int help(const Arguments& arguments) {
   return exit_code::success;
 }
 
-}  // namespace
-
-Command help_command() {
-  Command command{"help", "[COMMAND|WORD] [all|OPTION]", "explain a command, an option or a word", {}, help};
-  command.takes_any_word = true;
-  return command;
-}
-
-namespace {
-
 /// For troff: hyphens as typed, no leading dot or quote.
 std::string escaped(std::string_view text) {
   std::string out;
-  for (const char c : text) {
-    if (c == '\\') {
-      out += "\\e";
-    } else if (c == '-') {
-      out += "\\-";
-    } else {
-      out += c;
-    }
-  }
+  for (const char& c : text) out += c == '\\' ? "\\e" : c == '-' ? "\\-" : std::string_view(&c, 1);
   return out.starts_with('.') || out.starts_with('\'') ? "\\&" + out : out;
 }
 
@@ -206,6 +188,12 @@ int man(const Arguments& arguments) {
 }
 
 }  // namespace
+
+Command help_command() {
+  Command command{"help", "[COMMAND|WORD] [all|OPTION]", "explain a command, an option or a word", {}, help};
+  command.takes_any_word = true;
+  return command;
+}
 
 Command man_command() {
   return {"man", "[COMMAND]", "print the manual page of warren, or of a command", joined_options({man_specs}), man};

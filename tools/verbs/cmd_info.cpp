@@ -86,11 +86,18 @@ std::vector<Fact> robot_facts(const std::string& path, const Arguments& argument
   return facts_of(arm_model_of(robot, 0.0, execution));
 }
 
-void tell(const std::vector<Fact>& facts, const std::optional<std::string>& json, const Run& run) {
-  if (json) write_file(*json, facts_json(facts), run.execution());
-  if (run.quiet() || json == "-") return;
+int tell(const std::string& text, const std::string& as_json, const std::optional<std::string>& json, Run& run) {
+  run.end();
+  if (json) write_file(*json, as_json, run.execution());
+  if (!run.quiet() && json != "-") print_text(text);
+  return exit_code::success;
+}
+
+int tell(const std::vector<Fact>& facts, const std::optional<std::string>& json, Run& run) {
+  std::string text;
   for (const Fact& fact : facts)
-    print_text(fmt::format("{}{}\n", run.palette().faint(fmt::format("{:<10} ", fact.name)), printable(fact.text)));
+    text += fmt::format("{}{}\n", run.palette().faint(fmt::format("{:<10} ", fact.name)), printable(fact.text));
+  return tell(text, facts_json(facts), json, run);
 }
 
 int info(const Arguments& arguments) {
@@ -106,27 +113,15 @@ int info(const Arguments& arguments) {
   if (!is_robot) arguments.refuse({"--srdf", "--group", "--package-path"}, "is for a URDF");
   if (roadmap != nullptr) {
     const std::string meta = roadmap_info(std::move(roadmap), check, run.execution());
-    run.end();
-    if (json) write_file(*json, meta, run.execution());
-    if (!run.quiet() && json != "-") print_text(meta);
-    return exit_code::success;
+    return tell(meta, meta, json, run);
   }
-  if (is_robot) {
-    const std::vector<Fact> facts = robot_facts(path, arguments, run.execution());
-    run.end();
-    tell(facts, json, run);
-    return exit_code::success;
-  }
-  StageTimes seconds;
+  if (is_robot) return tell(robot_facts(path, arguments, run.execution()), json, run);
   const bool is_packed = file && is_maze_file(file->bytes());
-  const Scene scene = is_packed ? load_planned_world(path, std::nullopt, arguments, run.execution(), seconds)
-                      : file    ? load_world(*file, arguments, run.execution(), seconds)
-                                : load_world(path, arguments, run.execution(), seconds);
-  const std::vector<Fact> facts =
-      is_packed && is_unmade(scene) ? packed_facts(scene, *file, run.execution()) : facts_of(scene, run.execution());
-  run.end();
-  tell(facts, json, run);
-  return exit_code::success;
+  const Scene scene = is_packed ? load_planned_world(path, std::nullopt, arguments, run.execution())
+                      : file    ? load_world(*file, arguments, run.execution())
+                                : load_world(path, arguments, run.execution());
+  const bool is_left_out = is_packed && is_unmade(scene);
+  return tell(is_left_out ? packed_facts(scene, *file, run.execution()) : facts_of(scene, run.execution()), json, run);
 }
 
 }  // namespace

@@ -201,9 +201,7 @@ PlotSheet profile_bars(const StageProfile& profile) {
     };
     const Rgb color = series_color(i);
     const auto pale = [](std::uint8_t c) { return static_cast<std::uint8_t>(255 - (255 - c) / 3); };
-    if (stage.one_thread_s) {
-      bar(*stage.one_thread_s, -0.4, 0.0, {pale(color.red), pale(color.green), pale(color.blue)});
-    }
+    if (stage.one_thread_s) bar(*stage.one_thread_s, -0.4, 0.0, {pale(color.red), pale(color.green), pale(color.blue)});
     bar(stage.line.wall_s, stage.one_thread_s ? 0.0 : -0.3, stage.one_thread_s ? 0.4 : 0.3, color);
     sheet.label({frame.min.x - 8.0, y + 4.0}, Anchor::end, stage.line.label);
     if (const auto gain = stage.speed_up()) {
@@ -228,9 +226,7 @@ int profile(const Arguments& arguments) {
   const bool standard_output_taken = check_reports(arguments, {"--json", "--picture"});
   check_plots(arguments);
   Run run(arguments);
-  StageTimes before;
-  const Scene scene =
-      load_planned_world(arguments.operand(0), options.roadmap.pipeline, arguments, run.execution(), before);
+  const Scene scene = load_planned_world(arguments.operand(0), options.roadmap.pipeline, arguments, run.execution());
   const StageProfile profile = profile_stages(scene, question, options, runs, run.execution());
   run.end();
   const bool is_stopped = profile.answer.outcome == Outcome::stopped;

@@ -46,27 +46,22 @@ class QueryCommand : public AnswerCommand {
 
  private:
   Answer find(const Run& run, StageTimes& before, ByProducts* keep) override {
-    roadmap_ = load_roadmap(arguments_, run.execution(), before);
-    check_outputs_of(roadmap_.robot);
-    if (question_.goal.empty() && !roadmap_.world.outline().other_goals.empty()) {
-      throw UsageError("--goal: the world has several, and a kept roadmap is asked for one; say which");
-    }
-    const RoadmapQuery query(roadmap_, run.execution(), Questions::one);
+    made_roadmap_ = load_roadmap(arguments_, run.execution(), &before);
+    check_outputs_of(made_roadmap_.robot);
+    const RoadmapQuery query(made_roadmap_, run.execution(), Questions::one);
     QuestionScratch scratch;
     Answer answer = query.ask_explained(question_.start, question_.goal, how_, run.execution(), scratch, keep);
-    if (keeps_roadmap()) learn(roadmap_, query, run.execution());
+    if (keeps_roadmap()) learn(made_roadmap_, query, run.execution());
     return answer;
   }
-  Scene scene_drawn(const Execution& execution, ByProducts&) override { return roadmap_.world.whole(execution); }
+  Scene scene_drawn(const Execution& execution, ByProducts&) override { return made_roadmap_.world.whole(execution); }
   void explain(const Execution& execution, Answer& answer, ByProducts& keep) override {
-    const AskedWith asked{.options = roadmap_.options, .samples = roadmap_.samples, .is_kept = true};
-    explain_answer(roadmap_.world.whole(execution), asked, answer, keep, execution);
+    const AskedWith asked{.options = made_roadmap_.options, .samples = made_roadmap_.samples, .is_kept = true};
+    explain_answer(made_roadmap_.world.whole(execution), asked, answer, keep, execution);
   }
-  const Roadmap& roadmap() const override { return roadmap_; }
 
   Question question_;
   RoadmapSearchFields how_;
-  Roadmap roadmap_;
 };
 
 /// A roadmap and the answers to many questions, in lines.
@@ -85,8 +80,7 @@ class ManyQuestions {
   template <class Ask>
   int run(Questions questions, const Ask& ask) const {
     Run run(arguments_);
-    StageTimes seconds;
-    Roadmap roadmap = load_roadmap(arguments_, run.execution(), seconds);
+    Roadmap roadmap = load_roadmap(arguments_, run.execution());
     const auto query = std::make_unique<RoadmapQuery>(roadmap, run.execution(), questions);
     const auto [said, wrong] = ask(*query, options_, run.execution());
     if (keep_file_) {

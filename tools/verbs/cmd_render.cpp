@@ -70,10 +70,9 @@ int render(const Arguments& arguments) {
   }
   if (arguments.has("--world")) throw UsageError("--world: is for a roadmap without its world");
   Run run(arguments);
-  StageTimes seconds;
   RecordedAnswer answer;
   if (answer_file) answer = read_answer(*answer_file, run.execution());
-  Scene scene = load_world(arguments.operand(0), arguments, run.execution(), seconds);
+  Scene scene = load_world(arguments.operand(0), arguments, run.execution());
   take_prices(arguments, scene, answer.problem, run.execution());
   check_not_written(arguments, answer.problem.robot);
   if (answer_file) check_plannable(scene, answer.problem);
@@ -83,12 +82,8 @@ int render(const Arguments& arguments) {
   if (arguments.has("--animate")) animate(drawing);
   Picture picture = picture_of(scene, drawing);
   picture.description = fmt::format("{}\n{}", drawing.subtitle, arguments.command_line());
-  double draw_seconds = 0.0;
-  std::vector<std::string> notes;
-  {
-    const StageTimer timer(run.execution(), "draw", draw_seconds);
-    notes = write_picture(file, picture, options, run.execution());
-  }
+  const std::vector<std::string> notes =
+      run.in_stage("draw", [&] { return write_picture(file, picture, options, run.execution()); });
   run.end();
   say_of_picture(arguments, file, notes);
   if (!run.quiet() && file != "-") {

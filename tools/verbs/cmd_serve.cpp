@@ -49,16 +49,14 @@ std::unique_ptr<serve::ServedWorld> load_served(const Arguments& arguments, cons
   const std::string& file = arguments.operand(0);
   Question body = question_words(arguments);
   read_asked_files(body, arguments, run.execution());
-  StageTimes seconds;
   if (is_roadmap_named(file)) {
     arguments.refuse({"--robot", "--clearance"}, "the roadmap was built with its own");
     arguments.refuse(price_option_specs(), "the roadmap was built with its own; serve its world for others");
     check_rules_of_maps(arguments);
-    return std::make_unique<serve::ServedWorld>(load_roadmap(arguments, run.execution(), seconds), run.execution());
+    return std::make_unique<serve::ServedWorld>(load_roadmap(arguments, run.execution()), run.execution());
   }
   arguments.refuse({"--world"}, "is for a roadmap whose file has none, and this is a world");
-  return std::make_unique<serve::ServedWorld>(load_world(file, arguments, run.execution(), seconds), body,
-                                              run.execution());
+  return std::make_unique<serve::ServedWorld>(load_world(file, arguments, run.execution()), body, run.execution());
 }
 
 serve::HttpPlace place_of(const Arguments& arguments) {

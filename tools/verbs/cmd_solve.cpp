@@ -66,17 +66,15 @@ class SolveCommand : public AnswerCommand {
     return answer;
   }
   Answer find(const Run& run, StageTimes& before, ByProducts* keep) override {
-    scene_ = load_planned_world(arguments_.operand(0), options_.roadmap.pipeline, arguments_, run.execution(), before);
+    scene_ = load_planned_world(arguments_.operand(0), options_.roadmap.pipeline, arguments_, run.execution(), &before);
     read_asked_files(question_, arguments_, run.execution());
     check_outputs_of(robot_of(scene_, question_));
     if (is_unmade(scene_) && arguments_.has("--explain")) {
       throw UsageError("--explain: looks at walls that are held, and these are made tile by tile");
     }
     if (const auto file = arguments_.value("--resume")) return resumed(*file, run);
-    if (!keeps_roadmap()) {
-      return solve_explained(scene_, question_, options_, run.execution(), keep, path_taker());
-    }
-    return solve_and_keep(std::move(scene_), question_, options_, run.execution(), roadmap_, keep);
+    if (!keeps_roadmap()) return solve_explained(scene_, question_, options_, run.execution(), keep, path_taker());
+    return solve_and_keep(std::move(scene_), question_, options_, run.execution(), made_roadmap_, keep);
   }
   /// Of mazes as they are usually solved, and where little follows.
   ExpectedStages expected_stages() const override {
@@ -92,14 +90,14 @@ class SolveCommand : public AnswerCommand {
     return pipeline == PipelineKind::streamed ? ExpectedStages(streamed_maze) : ExpectedStages(held_maze);
   }
   Scene scene_drawn(const Execution& execution, ByProducts& keep) override {
-    if (keeps_roadmap()) return roadmap_.world.whole(execution);
+    if (keeps_roadmap()) return made_roadmap_.world.whole(execution);
     if (is_unmade(scene_)) return read_world(arguments_.operand(0), execution);
     complete(execution, keep);
     return std::move(scene_);
   }
   void explain(const Execution& execution, Answer& answer, ByProducts& keep) override {
     const AskedWith asked{options_};
-    if (keeps_roadmap()) return explain_answer(roadmap_.world.whole(execution), asked, answer, keep, execution);
+    if (keeps_roadmap()) return explain_answer(made_roadmap_.world.whole(execution), asked, answer, keep, execution);
     if (answer.outcome != Outcome::stopped) complete(execution, keep);
     explain_answer(scene_, asked, answer, keep, execution);
   }
@@ -108,13 +106,11 @@ class SolveCommand : public AnswerCommand {
     if (!completed_) make_by_products(scene_, question_, options_, execution, keep);
     completed_ = true;
   }
-  const Roadmap& roadmap() const override { return roadmap_; }
 
   Question question_;
   SolveOptions options_;
   Scene scene_;
   bool completed_ = false;
-  Roadmap roadmap_;
 };
 
 }  // namespace

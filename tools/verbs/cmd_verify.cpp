@@ -90,7 +90,6 @@ int verify_answer(const Arguments& arguments) {
   check_not_written(arguments, question.robot);
   check_not_written(arguments, question.prices);
   Run run(arguments);
-  StageTimes seconds;
   RecordedAnswer answer = read_answer(arguments.operand(1), run.execution());
   Prices& masks = question.prices.empty() ? answer.problem.prices : question.prices;
   check_not_written(arguments, masks);  // what becomes polygons has no name any more
@@ -99,13 +98,11 @@ int verify_answer(const Arguments& arguments) {
   if (const auto proof = arguments.value("--certificate")) {
     answer.certificate = read_potential_npy(InputFile(*proof, run.execution()), run.execution());
   }
-  const Scene scene = load_planned_world(arguments.operand(0), std::nullopt, arguments, run.execution(), seconds);
+  const Scene scene = load_planned_world(arguments.operand(0), std::nullopt, arguments, run.execution());
   check_not_written(arguments, answer.problem.robot);
-  Verdict verdict;
-  {
-    const StageTimer timer(run.execution(), "verify", seconds.verify, answer.path.size() + scene.walls.size());
-    verdict = verify_within(scene, question, answer, run.execution());
-  }
+  const Verdict verdict = run.in_stage(
+      "verify", [&] { return verify_within(scene, question, answer, run.execution()); },
+      answer.path.size() + scene.walls.size());
   const bool explains = arguments.has("--explain");
   std::optional<NarrowPlace> narrow;
   if (explains && verdict.verified) narrow = narrowest_in_time(scene, verdict, answer, run);

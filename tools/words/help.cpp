@@ -131,112 +131,6 @@ std::string build_instruction_sets() {
 #endif
 }
 
-}  // namespace
-
-std::vector<OptionSpec> joined_options(std::initializer_list<std::span<const OptionSpec>> tables) {
-  std::vector<OptionSpec> all;
-  for (const std::span<const OptionSpec> table : tables) all.insert(all.end(), table.begin(), table.end());
-  return all;
-}
-
-std::vector<OptionSpec> options_but(std::span<const OptionSpec> options,
-                                    std::initializer_list<std::string_view> names) {
-  std::vector<OptionSpec> others(options.begin(), options.end());
-  std::erase_if(others, [&](const OptionSpec& option) { return std::ranges::count(names, option.name) > 0; });
-  return others;
-}
-
-std::string option_usage(const OptionSpec& option) {
-  std::string text = option.short_name.empty() ? "" : fmt::format("{}, ", option.short_name);
-  text += option.name;
-  if (!option.value.empty()) text.append(" ").append(option.value);
-  return text + (option.is_list && option.value != "LIST" ? "[,...]" : "");
-}
-
-std::string_view meaning_of(std::string_view operand) {
-  if (operand == "WORLD" || operand == "[WORLD]") {
-    return "a file with walls, polygons, a map or a maze (its content decides), - for standard input, "
-           "empty:WIDTHxHEIGHT, or maze:ROWSxCOLS[,seed=N][,algorithm=NAME][,loops=F]";
-  }
-  if (operand == "ROADMAP") return "a file that 'warren build' or 'warren solve --save-roadmap' has written";
-  if (operand == "ANSWER.json") return "what 'warren solve --json' has written";
-  if (operand == "FILE.scen") return "a scenario file of Moving AI";
-  if (operand == "SHELL") return "bash, zsh or fish";
-  if (operand == "FILE") return "a world or a roadmap";
-  if (operand == "[COMMAND]") return "one of the commands of 'warren help'";
-  if (operand == "[COMMAND|WORD]") return "a command, an option, or a word such as prm, footprint or timeout";
-  if (operand == "[all|OPTION]") return "after a command: all of its options, or one of them";
-  return {};
-}
-
-std::string program_help() {
-  std::string text =
-      "warren: finds paths among obstacles; each path that it prints has been checked by separate code\n"
-      "\nUsage: warren COMMAND [operands] [options]\n";
-  for (const auto& [title, commands] : grouped_commands()) {
-    text += fmt::format("\n{}:\n", title);
-    for (const Command* command : commands) {
-      text += fmt::format("  {:<12} {}\n", command->name, command->summary);
-    }
-  }
-  return text +
-         "\n'warren help COMMAND' lists the options of a command, 'warren help WORD' explains an option, or a word\n"
-         "that you know from elsewhere, and 'warren help all' prints everything. Try:\n\n"
-         "  warren example parking-lot                  writes a world to try things on\n"
-         "  warren solve maze:41x41 --picture maze.svg  makes a maze, solves it and draws it\n\n"
-         "Exit codes: 0 success, 1 no path or refuted, 2 wrong options, 65 bad data, 66 unreadable input, 70 bug,\n"
-         "73 unwritable output, 124 budget of time or memory reached, 129, 130 and 143 interrupted.\n";
-}
-
-std::string command_help(const Command& command, std::size_t width, bool all) {
-  width = std::max(width, narrowest);
-  const std::string_view used = all ? "" : most_used_options(command.name);
-  const std::string operands = command.operands.empty() ? "" : fmt::format(" {}", command.operands);
-  std::string text = fmt::format("warren {}: {}\n\nUsage: warren {}{} [options]\n", command.name, command.summary,
-                                 command.name, operands);
-  for (const std::string& operand : words_of(command.operands)) {
-    if (const auto meaning = meaning_of(operand); !meaning.empty()) text += '\n' + entry(operand, meaning, width);
-  }
-  for (const auto& [title, options] : grouped_options(command)) {
-    if (!used.empty()) break;
-    text += fmt::format("\n{}:\n", title);
-    for (const OptionSpec* option : options) text += option_entry(*option, width);
-  }
-  if (!used.empty()) text += most_used_text(command, used, width);
-  text += '\n' + entry("--help [all]", used.empty() ? "this text" : "this text, or all options", width);
-  return text + examples_text(command);
-}
-
-std::string word_help(std::string_view word, std::span<const Command> commands, std::size_t width) {
-  std::string text = options_about(word, commands, std::max(width, narrowest));
-  if (const std::string here = other_name(word); !here.empty()) {
-    text += wrapped(fmt::format("{}: {}.", word, here), 2, std::max(width, narrowest));
-  }
-  if (!text.empty()) return text;
-  std::vector<std::string_view> known;
-  std::set<std::string> choices;
-  for (const Command& command : commands) {
-    known.push_back(command.name);
-    for (const OptionSpec& option : command.options) {
-      known.push_back(option.name);
-      for (const std::string& choice : words_of(option.choices)) choices.insert(choice);
-    }
-  }
-  known.insert(known.end(), choices.begin(), choices.end());
-  const std::string near = suggestion(word, known);
-  throw UsageError(
-      fmt::format("nothing is called {}{}", word, near.empty() ? "; docs/other_names.md lists words" : near));
-}
-
-std::string version_text(std::string_view commit) {
-  return fmt::format(
-      "warren " WARREN_VERSION
-      "\ncommit {}\nbuilt by {}\nfor {}\nLicense BSD-3-Clause. There is no warranty, to the extent permitted by law.\n",
-      commit, build_compiler(), build_instruction_sets());
-}
-
-namespace {
-
 struct NamedGroup {
   std::string_view title;
   std::string_view names;
@@ -285,35 +179,7 @@ std::string_view group_of(const OptionSpec& option) {
   return own;
 }
 
-}  // namespace
-
-std::vector<OptionGroup> grouped_options(const Command& command) {
-  std::vector<OptionGroup> groups{{own, {}}};
-  for (const NamedGroup& group : option_groups) groups.push_back({group.title, {}});
-  for (const OptionSpec& option : command.options) {
-    const std::string_view title = group_of(option);
-    std::find_if(groups.begin(), groups.end(), [&](const OptionGroup& group) {
-      return group.title == title;
-    })->options.push_back(&option);
-  }
-  std::erase_if(groups, [](const OptionGroup& group) { return group.options.empty(); });
-  return groups;
-}
-
-std::vector<std::pair<std::string_view, std::vector<const Command*>>> grouped_commands() {
-  std::vector<std::pair<std::string_view, std::vector<const Command*>>> groups;
-  for (const NamedGroup& group : command_groups) {
-    groups.push_back({group.title, {}});
-    for (const Command& command : command_table()) {
-      if (is_among(command.name, group.names)) groups.back().second.push_back(&command);
-    }
-  }
-  return groups;
-}
-
 // What help has of all verbs beside their options: examples and what is used most, one table, since they share both.
-
-namespace {
 
 constexpr std::string_view example_lines = R"(warren example # the worlds that there are
 warren example flat # a map of three rooms
@@ -373,6 +239,130 @@ constexpr std::pair<std::string_view, std::string_view> most_used[] = {
     {"scale", "--sizes --threads --planners --samplers --seeds --repeats --budget --json --csv --html"}};
 
 }  // namespace
+
+std::vector<OptionSpec> joined_options(std::initializer_list<std::span<const OptionSpec>> tables) {
+  std::vector<OptionSpec> all;
+  for (const std::span<const OptionSpec> table : tables) all.insert(all.end(), table.begin(), table.end());
+  return all;
+}
+
+std::vector<OptionSpec> options_but(std::span<const OptionSpec> options,
+                                    std::initializer_list<std::string_view> names) {
+  std::vector<OptionSpec> others(options.begin(), options.end());
+  std::erase_if(others, [&](const OptionSpec& option) { return std::ranges::count(names, option.name) > 0; });
+  return others;
+}
+
+std::string option_usage(const OptionSpec& option) {
+  std::string text = option.short_name.empty() ? "" : fmt::format("{}, ", option.short_name);
+  text += option.name;
+  if (!option.value.empty()) text.append(" ").append(option.value);
+  return text + (option.is_list && option.value != "LIST" ? "[,...]" : "");
+}
+
+std::string_view meaning_of(std::string_view operand) {
+  if (operand == "WORLD" || operand == "[WORLD]") {
+    return "a file with walls, polygons, a map or a maze (its content decides), - for standard input, "
+           "empty:WIDTHxHEIGHT, or maze:ROWSxCOLS[,seed=N][,algorithm=NAME][,loops=F]";
+  }
+  if (operand == "ROADMAP") return "a file that 'warren build' or 'warren solve --save-roadmap' has written";
+  if (operand == "ANSWER.json") return "what 'warren solve --json' has written";
+  if (operand == "FILE.scen") return "a scenario file of Moving AI";
+  if (operand == "SHELL") return "bash, zsh or fish";
+  if (operand == "FILE") return "a world or a roadmap";
+  if (operand == "[COMMAND]") return "one of the commands of 'warren help'";
+  if (operand == "[COMMAND|WORD]") return "a command, an option, or a word such as prm, footprint or timeout";
+  if (operand == "[all|OPTION]") return "after a command: all of its options, or one of them";
+  return {};
+}
+
+std::string program_help() {
+  std::string text =
+      "warren: finds paths among obstacles; each path that it prints has been checked by separate code\n"
+      "\nUsage: warren COMMAND [operands] [options]\n";
+  for (const auto& [title, commands] : grouped_commands()) {
+    text += fmt::format("\n{}:\n", title);
+    for (const Command* command : commands) text += fmt::format("  {:<12} {}\n", command->name, command->summary);
+  }
+  return text +
+         "\n'warren help COMMAND' lists the options of a command, 'warren help WORD' explains an option, or a word\n"
+         "that you know from elsewhere, and 'warren help all' prints everything. Try:\n\n"
+         "  warren example parking-lot                  writes a world to try things on\n"
+         "  warren solve maze:41x41 --picture maze.svg  makes a maze, solves it and draws it\n\n"
+         "Exit codes: 0 success, 1 no path or refuted, 2 wrong options, 65 bad data, 66 unreadable input, 70 bug,\n"
+         "73 unwritable output, 124 budget of time or memory reached, 129, 130 and 143 interrupted.\n";
+}
+
+std::string command_help(const Command& command, std::size_t width, bool all) {
+  width = std::max(width, narrowest);
+  const std::string_view used = all ? "" : most_used_options(command.name);
+  const std::string operands = command.operands.empty() ? "" : fmt::format(" {}", command.operands);
+  std::string text = fmt::format("warren {}: {}\n\nUsage: warren {}{} [options]\n", command.name, command.summary,
+                                 command.name, operands);
+  for (const std::string& operand : words_of(command.operands)) {
+    if (const auto meaning = meaning_of(operand); !meaning.empty()) text += '\n' + entry(operand, meaning, width);
+  }
+  for (const auto& [title, options] : grouped_options(command)) {
+    if (!used.empty()) break;
+    text += fmt::format("\n{}:\n", title);
+    for (const OptionSpec* option : options) text += option_entry(*option, width);
+  }
+  if (!used.empty()) text += most_used_text(command, used, width);
+  text += '\n' + entry("--help [all]", used.empty() ? "this text" : "this text, or all options", width);
+  return text + examples_text(command);
+}
+
+std::string word_help(std::string_view word, std::span<const Command> commands, std::size_t width) {
+  std::string text = options_about(word, commands, std::max(width, narrowest));
+  if (const std::string here = other_name(word); !here.empty()) {
+    text += wrapped(fmt::format("{}: {}.", word, here), 2, std::max(width, narrowest));
+  }
+  if (!text.empty()) return text;
+  std::vector<std::string_view> known;
+  std::set<std::string> choices;
+  for (const Command& command : commands) {
+    known.push_back(command.name);
+    for (const OptionSpec& option : command.options) {
+      known.push_back(option.name);
+      for (const std::string& choice : words_of(option.choices)) choices.insert(choice);
+    }
+  }
+  known.insert(known.end(), choices.begin(), choices.end());
+  const std::string near = suggestion(word, known);
+  throw UsageError(
+      fmt::format("nothing is called {}{}", word, near.empty() ? "; docs/other_names.md lists words" : near));
+}
+
+std::string version_text(std::string_view commit) {
+  return fmt::format(
+      "warren " WARREN_VERSION
+      "\ncommit {}\nbuilt by {}\nfor {}\nLicense BSD-3-Clause. There is no warranty, to the extent permitted by law.\n",
+      commit, build_compiler(), build_instruction_sets());
+}
+
+std::vector<OptionGroup> grouped_options(const Command& command) {
+  std::vector<OptionGroup> groups{{own, {}}};
+  for (const NamedGroup& group : option_groups) groups.push_back({group.title, {}});
+  for (const OptionSpec& option : command.options) {
+    const std::string_view title = group_of(option);
+    std::find_if(groups.begin(), groups.end(), [&](const OptionGroup& group) {
+      return group.title == title;
+    })->options.push_back(&option);
+  }
+  std::erase_if(groups, [](const OptionGroup& group) { return group.options.empty(); });
+  return groups;
+}
+
+std::vector<std::pair<std::string_view, std::vector<const Command*>>> grouped_commands() {
+  std::vector<std::pair<std::string_view, std::vector<const Command*>>> groups;
+  for (const NamedGroup& group : command_groups) {
+    groups.push_back({group.title, {}});
+    for (const Command& command : command_table()) {
+      if (is_among(command.name, group.names)) groups.back().second.push_back(&command);
+    }
+  }
+  return groups;
+}
 
 std::vector<HelpExample> help_examples(std::string_view verb) {
   const std::string begins = verb.empty() ? "warren " : fmt::format("warren {} ", verb);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "apps/studies/comparison.hpp"
 #include "core/base/error.hpp"
 #include "scenes/scene/arm_model.hpp"
 #include "tools/words/unknown_words.hpp"
@@ -52,11 +53,7 @@ std::optional<double> number_or_degrees(std::string_view text) {
 
 std::optional<double> number_in(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc::result_out_of_range && end == text.data() + text.size()) return std::nullopt;
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
+  return studies::number_in_word(text);
 }
 
 double number_value(std::string_view option, std::string_view text, double low, double high) {

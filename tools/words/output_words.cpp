@@ -40,35 +40,6 @@ PageSize page_size_value(std::string_view option, std::string_view text) {
   return size;
 }
 
-}  // namespace
-
-std::span<const OptionSpec> picture_option_specs() { return picture_specs; }
-
-PictureOptions picture_words(const Arguments& arguments, bool is_drawn, std::string_view draws, std::string_view file) {
-  PictureOptions options;
-  if (!is_drawn) {
-    arguments.refuse(picture_specs, fmt::format("goes with {}", draws));
-    return options;
-  }
-  if (file.ends_with(".html")) arguments.refuse({"--size", "--dpi"}, "a page fills its window; say .svg, .png or .pdf");
-  if (arguments.has("--show")) {
-    options.parts = {};
-    for (const Part part : given_values(arguments, "--show", "--show", choice_value<Part>)) {
-      options.parts = options.parts | Parts{part};
-    }
-  }
-  constexpr double least_dpi = 10.0;
-  constexpr double most_dpi = 2400.0;
-  options.size = given_value(arguments, "--size", page_size_value);
-  options.dpi = given_value(arguments, "--dpi", number_value, least_dpi, most_dpi);
-  options.heading = given_value(arguments, "--heading", angle_value);
-  options.title = arguments.value("--title");
-  options.validate();
-  return options;
-}
-
-namespace {
-
 constexpr OptionSpec path_specs[] = {
     {"--path", "FILE", "write the path: .csv, .yaml (ROS nav_msgs/Path), .geojson or .npy by ending"},
     {"--every", "D|TIME",
@@ -99,6 +70,31 @@ std::vector<double> joint_values(std::string_view option, std::string_view text)
 }
 
 }  // namespace
+
+std::span<const OptionSpec> picture_option_specs() { return picture_specs; }
+
+PictureOptions picture_words(const Arguments& arguments, bool is_drawn, std::string_view draws, std::string_view file) {
+  PictureOptions options;
+  if (!is_drawn) {
+    arguments.refuse(picture_specs, fmt::format("goes with {}", draws));
+    return options;
+  }
+  if (file.ends_with(".html")) arguments.refuse({"--size", "--dpi"}, "a page fills its window; say .svg, .png or .pdf");
+  if (arguments.has("--show")) {
+    options.parts = {};
+    for (const Part part : given_values(arguments, "--show", "--show", choice_value<Part>)) {
+      options.parts = options.parts | Parts{part};
+    }
+  }
+  constexpr double least_dpi = 10.0;
+  constexpr double most_dpi = 2400.0;
+  options.size = given_value(arguments, "--size", page_size_value);
+  options.dpi = given_value(arguments, "--dpi", number_value, least_dpi, most_dpi);
+  options.heading = given_value(arguments, "--heading", angle_value);
+  options.title = arguments.value("--title");
+  options.validate();
+  return options;
+}
 
 std::span<const OptionSpec> path_option_specs() { return path_specs; }
 

@@ -182,6 +182,11 @@ RouteRule route_words(const Arguments& arguments) {
   return route;
 }
 
+constexpr OptionSpec maze_specs[] = {
+    {"--algorithm", "NAME", "how the mazes are made (default: backtracker)", choices_of<MazeAlgorithm>},
+    {"--loops", "F", "share of the inner walls that is taken out, which makes loops, 0 to 1 (default: 0)"},
+};
+
 }  // namespace
 
 std::span<const OptionSpec> question_option_specs() { return question_specs; }
@@ -232,15 +237,6 @@ Question question_words(const Arguments& arguments) {
   question.route = route_words(arguments);
   return question;
 }
-
-namespace {
-
-constexpr OptionSpec maze_specs[] = {
-    {"--algorithm", "NAME", "how the mazes are made (default: backtracker)", choices_of<MazeAlgorithm>},
-    {"--loops", "F", "share of the inner walls that is taken out, which makes loops, 0 to 1 (default: 0)"},
-};
-
-}  // namespace
 
 std::span<const OptionSpec> maze_option_specs() { return maze_specs; }
 

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "core/base/trigonometry.hpp"
-#include "verify/exact/exact_segments.hpp"
 
 namespace warren {
 namespace {

@@ -36,7 +36,34 @@ class BodyVerifier {
   /// least distance is known.
   template <class Settle, class ReportOf>
   LegReport check_all(std::span<const Leg> legs, std::span<const Se2> path, double reach, const Settle& settle,
-                      const ReportOf& report_of);
+                      const ReportOf& report_of) {
+    constexpr double widening = 8.0;
+    constexpr std::size_t legs_a_chunk = 16;
+    execution_.reserve(legs.size());
+    std::vector<std::uint8_t> settled(legs.size());
+    const LegReport at_once = report_legs(legs.size(), legs_a_chunk, execution_.quiet(), [&](Range r) {
+      LegReport part;
+      for (std::size_t i = r.first; i < r.last; ++i) {
+        const LegReport leg = settle(i);
+        settled[i] = leg.violation ? 1 : 0;
+        part.add(leg);
+      }
+      return part;
+    });
+    for (;; reach *= widening) {
+      look_around(legs, settled, reach);
+      LegReport whole = at_once;
+      whole.add(report_legs(legs.size(), legs_a_chunk, execution_, [&](Range r) {
+        Sides scratch;
+        LegReport part;
+        for (std::size_t i = r.first; i < r.last; ++i) {
+          if (settled[i] == 0) part.add(report_of(i, scratch));
+        }
+        return part;
+      }));
+      if (whole.least <= reach || looks_everywhere(path)) return whole;
+    }
+  }
   double least_reach() const { return 1.01 * clearance_ + radius_; }
 
   /// How far poses may lie beside the line that is checked in their place.
@@ -99,36 +126,5 @@ class BodyVerifier {
   double finest_ = 0.0;    // pieces on which the body goes less are not halved
   double close_ = 0.0;     // how sharp the least clearance shall be
 };
-
-template <class Settle, class ReportOf>
-LegReport BodyVerifier::check_all(std::span<const Leg> legs, std::span<const Se2> path, double reach,
-                                  const Settle& settle, const ReportOf& report_of) {
-  constexpr double widening = 8.0;
-  constexpr std::size_t legs_a_chunk = 16;
-  execution_.reserve(legs.size());
-  std::vector<std::uint8_t> settled(legs.size());
-  const LegReport at_once = report_legs(legs.size(), legs_a_chunk, execution_.quiet(), [&](Range r) {
-    LegReport part;
-    for (std::size_t i = r.first; i < r.last; ++i) {
-      const LegReport leg = settle(i);
-      settled[i] = leg.violation ? 1 : 0;
-      part.add(leg);
-    }
-    return part;
-  });
-  for (;; reach *= widening) {
-    look_around(legs, settled, reach);
-    LegReport whole = at_once;
-    whole.add(report_legs(legs.size(), legs_a_chunk, execution_, [&](Range r) {
-      Sides scratch;
-      LegReport part;
-      for (std::size_t i = r.first; i < r.last; ++i) {
-        if (settled[i] == 0) part.add(report_of(i, scratch));
-      }
-      return part;
-    }));
-    if (whole.least <= reach || looks_everywhere(path)) return whole;
-  }
-}
 
 }  // namespace warren

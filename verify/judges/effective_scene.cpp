@@ -27,9 +27,7 @@ template <class Run>
 void blocked_runs(const PriceMask& mask, const Execution& execution, const Run& run) {
   const MaskCells& cells = *mask.read;
   std::vector<std::uint8_t> blocked(101);
-  for (int value = 0; value <= 100; ++value) {
-    blocked[as_whole<std::size_t>(value)] = judged_factor(mask, value) ? 0 : 1;
-  }
+  for (int value = 0; value <= 100; ++value) blocked[as_whole<std::size_t>(value)] = judged_factor(mask, value) ? 0 : 1;
   for (std::uint32_t y = 0; y < cells.height; ++y) {
     execution.check();
     const auto is_blocked = [&](std::uint32_t x) {

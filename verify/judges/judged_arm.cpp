@@ -57,77 +57,73 @@ class Corral {
   explicit Corral(const Vec3& first) : nearest_(first) { points_[0] = first, shares_[0] = 1.0; }
   const Vec3& nearest() const { return nearest_; }
   /// False: that brings nothing, as far as numbers tell.
-  bool add(const Vec3& point);
+  bool add(const Vec3& point) {
+    if (count_ == points_.size()) return false;
+    const double before = nearest_.squaredNorm();
+    points_[count_] = point;
+    shares_[count_++] = 0.0;
+    for (;;) {
+      std::array<double, 4> wanted{};
+      if (!mixture_nearest_plane(wanted)) return false;
+      double way = 1.0;  // from the shares towards those that are wanted, as far as all of them stay above 0
+      std::size_t first = count_;
+      for (std::size_t i = 0; i < count_; ++i) {
+        if (wanted[i] > 0.0) continue;
+        const double until = shares_[i] / (shares_[i] - wanted[i]);
+        if (first < count_ && until >= way) continue;
+        first = i;
+        way = shares_[i] > 0.0 ? until : 0.0;
+      }
+      for (std::size_t i = 0; i < count_; ++i) shares_[i] += way * (wanted[i] - shares_[i]);
+      if (first == count_) break;
+      --count_;
+      std::swap(points_[first], points_[count_]);
+      std::swap(shares_[first], shares_[count_]);
+    }
+    nearest_.setZero();
+    for (std::size_t i = 0; i < count_; ++i) nearest_ += shares_[i] * points_[i];
+    return nearest_.squaredNorm() < before;
+  }
 
  private:
-  bool mixture_nearest_plane(std::array<double, 4>& shares) const;
+  /// Of the plane (line, point) through the points: the shares may be less than 0. False where the points lie in less.
+  bool mixture_nearest_plane(std::array<double, 4>& shares) const {
+    std::array<Vec3, 3> base;
+    std::array<std::array<double, 3>, 3> along{};  // the way from the last point to point j, by `base`
+    Vec3 rest = points_[count_ - 1];
+    std::array<double, 3> wanted{};
+    for (std::size_t j = 0; j + 1 < count_; ++j) {
+      const Vec3 way = points_[j] - points_[count_ - 1];
+      Vec3 left = way;
+      for (int twice = 0; twice < 2; ++twice) {
+        for (std::size_t k = 0; k < j; ++k) {
+          const double more = base[k].dot(left);
+          along[j][k] += more;
+          left -= more * base[k];
+        }
+      }
+      along[j][j] = left.norm();
+      if (!(along[j][j] > 1e-12 * way.norm())) return false;
+      base[j] = left / along[j][j];
+      wanted[j] = -base[j].dot(rest);
+      rest += wanted[j] * base[j];
+    }
+    double sum = 0.0;
+    for (std::size_t j = count_ - 1; j-- > 0;) {
+      double share = wanted[j];
+      for (std::size_t k = j + 1; k + 1 < count_; ++k) share -= shares[k] * along[k][j];
+      shares[j] = share / along[j][j];
+      sum += shares[j];
+    }
+    shares[count_ - 1] = 1.0 - sum;
+    return true;
+  }
 
   std::array<Vec3, 4> points_{};
   std::array<double, 4> shares_{};
   std::size_t count_ = 1;
   Vec3 nearest_;
 };
-
-/// Of the plane (line, point) through the points: the shares may be less than 0. False where the points lie in less.
-bool Corral::mixture_nearest_plane(std::array<double, 4>& shares) const {
-  std::array<Vec3, 3> base;
-  std::array<std::array<double, 3>, 3> along{};  // the way from the last point to point j, by `base`
-  Vec3 rest = points_[count_ - 1];
-  std::array<double, 3> wanted{};
-  for (std::size_t j = 0; j + 1 < count_; ++j) {
-    const Vec3 way = points_[j] - points_[count_ - 1];
-    Vec3 left = way;
-    for (int twice = 0; twice < 2; ++twice) {
-      for (std::size_t k = 0; k < j; ++k) {
-        const double more = base[k].dot(left);
-        along[j][k] += more;
-        left -= more * base[k];
-      }
-    }
-    along[j][j] = left.norm();
-    if (!(along[j][j] > 1e-12 * way.norm())) return false;
-    base[j] = left / along[j][j];
-    wanted[j] = -base[j].dot(rest);
-    rest += wanted[j] * base[j];
-  }
-  double sum = 0.0;
-  for (std::size_t j = count_ - 1; j-- > 0;) {
-    double share = wanted[j];
-    for (std::size_t k = j + 1; k + 1 < count_; ++k) share -= shares[k] * along[k][j];
-    shares[j] = share / along[j][j];
-    sum += shares[j];
-  }
-  shares[count_ - 1] = 1.0 - sum;
-  return true;
-}
-
-bool Corral::add(const Vec3& point) {
-  if (count_ == points_.size()) return false;
-  const double before = nearest_.squaredNorm();
-  points_[count_] = point;
-  shares_[count_++] = 0.0;
-  for (;;) {
-    std::array<double, 4> wanted{};
-    if (!mixture_nearest_plane(wanted)) return false;
-    double way = 1.0;  // from the shares towards those that are wanted, as far as all of them stay above 0
-    std::size_t first = count_;
-    for (std::size_t i = 0; i < count_; ++i) {
-      if (wanted[i] > 0.0) continue;
-      const double until = shares_[i] / (shares_[i] - wanted[i]);
-      if (first < count_ && until >= way) continue;
-      first = i;
-      way = shares_[i] > 0.0 ? until : 0.0;
-    }
-    for (std::size_t i = 0; i < count_; ++i) shares_[i] += way * (wanted[i] - shares_[i]);
-    if (first == count_) break;
-    --count_;
-    std::swap(points_[first], points_[count_]);
-    std::swap(shares_[first], shares_[count_]);
-  }
-  nearest_.setZero();
-  for (std::size_t i = 0; i < count_; ++i) nearest_ += shares_[i] * points_[i];
-  return nearest_.squaredNorm() < before;
-}
 
 /// Wolfe's algorithm on b - a.
 SolidGap searched_gap(const PlacedCore& a, const PlacedCore& b, double close, double enough) {
@@ -163,6 +159,51 @@ SolidGap written_gap(const PlacedCore& a, const PlacedCore& b) {
   SolidGap gap{length, length, Vec3::Zero()};
   if (length > 0.0) gap.towards = b.frame.turned(off / -length);
   return gap;
+}
+
+bool is_number(const Vec3& v) { return v.cwiseAbs().maxCoeff() <= largest_coordinate && v.allFinite(); }
+
+/// Rodrigues' formula.
+SolidFrame turned_about(const Vec3& axis, double angle) {
+  const auto [s, c] = portable::sin_and_cos(angle);
+  SolidFrame turn;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 e = turn.axes[k];
+    turn.axes[k] = c * e + s * axis.cross(e) + (1.0 - c) * axis.dot(e) * axis;
+  }
+  return turn;
+}
+
+void check_frame(int frame, std::size_t joints, const std::string& name) {
+  if (frame < base_frame || frame >= as_whole<int>(joints)) {
+    throw InputError(name, "must stand in the base or in a joint before it", fmt::format("{}", frame));
+  }
+}
+
+void check_model(const ArmModel& model) {
+  if (model.variables.size() > most_joints || model.joints.size() > most_frames) {
+    throw InputError("robot",
+                     fmt::format("must have at most {} joints, {} that move on their own", most_frames, most_joints));
+  }
+  for (std::size_t j = 0; j < model.joints.size(); ++j) {
+    const ArmJoint& joint = model.joints[j];
+    const std::string name = fmt::format("robot: joint {}", joint.name);
+    check_frame(joint.parent, j, name);
+    const bool finite =
+        std::abs(joint.multiplier) <= largest_coordinate && std::abs(joint.offset) <= largest_coordinate;
+    if (!finite || joint.variable >= model.variables.size()) throw InputError(name, "must follow a variable");
+    if (!(std::abs(joint.axis.norm() - 1.0) <= 1e-9)) throw InputError(name, "must have an axis of length 1");
+  }
+  for (const ArmLink& link : model.links) {
+    const std::string name = fmt::format("robot: link {}", link.name);
+    check_frame(link.frame, model.joints.size(), name);
+    if (link.solids.empty()) throw InputError(name, "must have a solid");
+  }
+  for (const auto& [a, b] : model.pairs) {
+    if (a < model.links.size() && b < model.links.size() && a != b) continue;
+    throw InputError("robot", "must have pairs of two of its links", fmt::format("{} {}", a, b));
+  }
+  check_frame(model.tool_frame, model.joints.size(), "robot: tool");
 }
 
 }  // namespace
@@ -214,55 +255,6 @@ SolidGap gap_between(const PlacedCore& a, const PlacedCore& b, double close, dou
   gap.towards = -gap.towards;
   return gap;
 }
-
-namespace {
-
-bool is_number(const Vec3& v) { return v.cwiseAbs().maxCoeff() <= largest_coordinate && v.allFinite(); }
-
-/// Rodrigues' formula.
-SolidFrame turned_about(const Vec3& axis, double angle) {
-  const auto [s, c] = portable::sin_and_cos(angle);
-  SolidFrame turn;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 e = turn.axes[k];
-    turn.axes[k] = c * e + s * axis.cross(e) + (1.0 - c) * axis.dot(e) * axis;
-  }
-  return turn;
-}
-
-void check_frame(int frame, std::size_t joints, const std::string& name) {
-  if (frame < base_frame || frame >= as_whole<int>(joints)) {
-    throw InputError(name, "must stand in the base or in a joint before it", fmt::format("{}", frame));
-  }
-}
-
-void check_model(const ArmModel& model) {
-  if (model.variables.size() > most_joints || model.joints.size() > most_frames) {
-    throw InputError("robot",
-                     fmt::format("must have at most {} joints, {} that move on their own", most_frames, most_joints));
-  }
-  for (std::size_t j = 0; j < model.joints.size(); ++j) {
-    const ArmJoint& joint = model.joints[j];
-    const std::string name = fmt::format("robot: joint {}", joint.name);
-    check_frame(joint.parent, j, name);
-    const bool finite =
-        std::abs(joint.multiplier) <= largest_coordinate && std::abs(joint.offset) <= largest_coordinate;
-    if (!finite || joint.variable >= model.variables.size()) throw InputError(name, "must follow a variable");
-    if (!(std::abs(joint.axis.norm() - 1.0) <= 1e-9)) throw InputError(name, "must have an axis of length 1");
-  }
-  for (const ArmLink& link : model.links) {
-    const std::string name = fmt::format("robot: link {}", link.name);
-    check_frame(link.frame, model.joints.size(), name);
-    if (link.solids.empty()) throw InputError(name, "must have a solid");
-  }
-  for (const auto& [a, b] : model.pairs) {
-    if (a < model.links.size() && b < model.links.size() && a != b) continue;
-    throw InputError("robot", "must have pairs of two of its links", fmt::format("{} {}", a, b));
-  }
-  check_frame(model.tool_frame, model.joints.size(), "robot: tool");
-}
-
-}  // namespace
 
 SolidFrame rigid_frame(const Eigen::Isometry3d& pose, const std::string& name) {
   const Eigen::Matrix3d turn = pose.linear();
@@ -336,10 +328,6 @@ int JudgedArm::joint_behind(int a, int b) const {
     later = model_.joints[as_whole<std::size_t>(later)].parent;
   }
   return a;
-}
-
-double JudgedArm::value_of(std::size_t joint, const JointState& q) const {
-  return model_.joints[joint].multiplier * q[model_.joints[joint].variable] + model_.joints[joint].offset;
 }
 
 void JudgedArm::frames_at(const JointState& from, const JointState& way, double share,

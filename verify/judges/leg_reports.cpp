@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace warren {
@@ -35,8 +34,13 @@ void Tally::join(Tally&& other) {
   box.include(other.box);
 }
 
-Comparison::Comparison(const VerifyOptions& options, double at_most) : options_(options), at_most_(at_most) {
-  narrow();
+void check_box(const Box& box, const LegBoxes& legs, Tally& tally) {
+  if (box.empty() || (box.contains(legs.box().min) && box.contains(legs.box().max))) return;
+  for (std::size_t i = 0; i < legs.path().size(); ++i) {
+    if (box.contains(legs.path()[i])) continue;
+    tally.violation = std::min(tally.violation, LegContact{i == 0 ? 0 : i - 1, box_number});
+    return;
+  }
 }
 
 /// Does the whole box lie farther from the obstacle's line than is of interest?
@@ -83,10 +87,6 @@ void Comparison::touch(const Segment& s, std::size_t leg, const Segment& obstacl
   if (options_.contact == Contact::blocked || exact::cross_inside(s, obstacle)) return forbid(leg, number);
   const LegContact contact{leg, number};
   if (tally_.contacts.empty() || tally_.contacts.back() != contact) tally_.contacts.push_back(contact);
-}
-
-void Comparison::forbid(std::size_t leg, std::size_t number) {
-  tally_.violation = std::min(tally_.violation, LegContact{leg, number});
 }
 
 void Comparison::narrow() {

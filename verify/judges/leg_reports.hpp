@@ -3,11 +3,13 @@
 // that of the legs in their order, whatever the threads.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/types.hpp"
@@ -17,6 +19,7 @@
 #include "verify/judges/contact.hpp"
 #include "verify/judges/verification.hpp"
 #include "verify/judges/verify_point.hpp"
+#include "verify/near/leg_boxes.hpp"
 
 namespace warren {
 
@@ -61,6 +64,9 @@ Verification verdict_on(const LegReport& legs, const std::optional<Violation>& s
 /// Later than every violation.
 inline constexpr LegContact no_violation{std::numeric_limits<std::size_t>::max(), 0};
 
+/// Past all numbers of obstacles: the box that confines the path, on one leg reported after them.
+inline constexpr std::size_t box_number = std::numeric_limits<std::size_t>::max() - 2;
+
 /// What a part of the obstacles says about the path.
 struct Tally {
   double least = std::numeric_limits<double>::infinity();  ///< least distance met
@@ -70,6 +76,9 @@ struct Tally {
 
   void join(Tally&& other);
 };
+
+/// The first leg that leaves the box is a violation; an empty box confines nothing.
+void check_box(const Box& box, const LegBoxes& legs, Tally& tally);
 
 /// A leg, or an obstacle, that is compared with many.
 struct BoxedSegment {
@@ -83,7 +92,7 @@ struct BoxedSegment {
 class Comparison {
  public:
   /// Distances at or above `at_most` are of no interest.
-  Comparison(const VerifyOptions& options, double at_most);
+  Comparison(const VerifyOptions& options, double at_most) : options_(options), at_most_(at_most) { narrow(); }
 
   /// Is all that lies in the box too far from the leg or obstacle, or from all in a box, to matter?
   bool skips(const BoxedSegment& one, const Box& others) const {
@@ -104,7 +113,9 @@ class Comparison {
   void compare(const Segment& s, std::size_t leg, const Segment& obstacle, std::size_t number);
   bool is_doubtful(double d, const Segment& s, const Segment& obstacle) const;
   void touch(const Segment& s, std::size_t leg, const Segment& obstacle, std::size_t number);
-  void forbid(std::size_t leg, std::size_t number);
+  void forbid(std::size_t leg, std::size_t number) {
+    tally_.violation = std::min(tally_.violation, LegContact{leg, number});
+  }
   void narrow();
 
   const VerifyOptions& options_;
@@ -112,5 +123,20 @@ class Comparison {
   double near_sq_ = 0.0;  ///< legs at this distance (squared) and above are left out
   Tally tally_;
 };
+
+/// What compare(range, comparison) finds in all chunks, each by any thread.
+template <class Compare>
+Tally tally_chunks(std::size_t count, std::size_t grain, const VerifyOptions& options, double at_most,
+                   const Execution& execution, const Compare& compare) {
+  std::vector<Tally> parts(chunk_count(count, grain));
+  for_chunks(count, grain, execution, [&](Range r) {
+    Comparison comparison(options, at_most);
+    compare(r, comparison);
+    parts[r.first / grain] = comparison.take();
+  });
+  Tally all;
+  for (Tally& part : parts) all.join(std::move(part));
+  return all;
+}
 
 }  // namespace warren

@@ -9,7 +9,6 @@
 #include "core/base/whole.hpp"
 #include "parallel/chunks.hpp"
 #include "verify/exact/exact_segments.hpp"
-#include "verify/near/leg_boxes.hpp"
 #include "verify/near/path_screen.hpp"
 
 namespace warren {
@@ -153,17 +152,10 @@ class ObstaclePass {
   /// Of the obstacles of numbers number(0) .. number(count - 1), in chunks of `size`.
   template <class Number>
   Tally tally_of(std::size_t count, std::size_t size, double at_most, const Number& number) const {
-    std::vector<Tally> parts(chunk_count(count, size));
-    for_chunks(count, size, execution_, [&](Range r) {
-      Comparison comparison(options_, at_most);
-      AgainstBlocks(ManyLegs{legs_}, comparison, execution_).compare(r, [&](std::size_t i) {
-        return BoxedSegment(obstacles_.segment(number(i)), number(i));
-      });
-      parts[r.first / size] = comparison.take();
+    const auto obstacle = [&](std::size_t i) { return BoxedSegment(obstacles_.segment(number(i)), number(i)); };
+    return tally_chunks(count, size, options_, at_most, execution_, [&](Range r, Comparison& comparison) {
+      AgainstBlocks(ManyLegs{legs_}, comparison, execution_).compare(r, obstacle);
     });
-    Tally all;
-    for (Tally& part : parts) all.join(std::move(part));
-    return all;
   }
 
   /// The extent of the middle one of some walls.
@@ -248,21 +240,17 @@ Tally compare_obstacles(const Scene& scene, const Obstacles& obstacles, const Le
 Tally compare_indexed(const ObstacleIndex& index, const LegBoxes& legs, const VerifyOptions& options,
                       const Execution& execution) {
   constexpr std::size_t leg_grain = 256;
-  std::vector<Tally> parts(chunk_count(legs.leg_count(), leg_grain));
   const ManySides sides{index};
-  for_chunks(legs.leg_count(), leg_grain, execution, [&](Range r) {
-    Comparison comparison(options, boundless);
+  const auto compare = [&](Range r, Comparison& comparison) {
     AgainstBlocks against(sides, comparison, execution);
     const auto leg = [&](std::size_t i) { return BoxedSegment(legs.leg(i), i); };
     const BoxedSegment first = leg(r.first);
     index.sides().for_some_near(first.box, [&](std::size_t side) { sides.compare(comparison, first, side); });
     against.compare_alone(first);  // what is nearest to it keeps the searches of the others narrow
     against.compare(r, leg);
-    parts[r.first / leg_grain] = comparison.take();
-  });
-  Tally all;
+  };
+  Tally all = tally_chunks(legs.leg_count(), leg_grain, options, boundless, execution, compare);
   all.box = index.extent().box;
-  for (Tally& part : parts) all.join(std::move(part));
   return all;
 }
 

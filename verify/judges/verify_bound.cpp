@@ -243,33 +243,6 @@ JudgedBound judge_by_search(const Scene& scene, const BoundQuestion& asked, doub
   return {BoundVerdict::refuted, fmt::format("the answer says {}, and a free way has {}", bound, length)};
 }
 
-}  // namespace
-
-JudgedBound verify_bound(const Scene& scene, const BoundQuestion& asked, const ClaimedBound& claim,
-                         const Execution& execution) {
-  const double cost = own_cost(asked.robot, claim);
-  if (claim.cost && std::abs(*claim.cost - cost) > bound_rounding * cost) {
-    return {BoundVerdict::refuted,
-            fmt::format("the answer says it bounds a cost of {}, its path has {}", *claim.cost, cost)};
-  }
-  const double bound = claim.lower_bound;
-  if (bound > cost * (1.0 + bound_rounding)) {
-    return {BoundVerdict::refuted, fmt::format("the answer says {}, its own path has {}", bound, cost)};
-  }
-  const bool is_place = asked.goal.empty() || (is_jointed(asked.robot) && asked.goal.size() != asked.start.size());
-  const double plain = is_place ? 0.0 : free_distance(asked.robot, asked.start, asked.goal, claim.cost.has_value());
-  if (bound <= plain * (1.0 + bound_rounding)) return {BoundVerdict::checked, {}};
-  try {
-    return is_place ? JudgedBound{} : judge_by_search(scene, asked, bound, execution);
-  } catch (const Stopped&) {
-    return {};
-  } catch (const std::bad_alloc&) {
-    return {};
-  }
-}
-
-namespace {
-
 /// More than what the few steps of each formula below are rounded by, as a share.
 constexpr double rounding = 1e-12;
 
@@ -426,6 +399,29 @@ class Proof {
 };
 
 }  // namespace
+
+JudgedBound verify_bound(const Scene& scene, const BoundQuestion& asked, const ClaimedBound& claim,
+                         const Execution& execution) {
+  const double cost = own_cost(asked.robot, claim);
+  if (claim.cost && std::abs(*claim.cost - cost) > bound_rounding * cost) {
+    return {BoundVerdict::refuted,
+            fmt::format("the answer says it bounds a cost of {}, its path has {}", *claim.cost, cost)};
+  }
+  const double bound = claim.lower_bound;
+  if (bound > cost * (1.0 + bound_rounding)) {
+    return {BoundVerdict::refuted, fmt::format("the answer says {}, its own path has {}", bound, cost)};
+  }
+  const bool is_place = asked.goal.empty() || (is_jointed(asked.robot) && asked.goal.size() != asked.start.size());
+  const double plain = is_place ? 0.0 : free_distance(asked.robot, asked.start, asked.goal, claim.cost.has_value());
+  if (bound <= plain * (1.0 + bound_rounding)) return {BoundVerdict::checked, {}};
+  try {
+    return is_place ? JudgedBound{} : judge_by_search(scene, asked, bound, execution);
+  } catch (const Stopped&) {
+    return {};
+  } catch (const std::bad_alloc&) {
+    return {};
+  }
+}
 
 JudgedBound verify_potential(const OccupancyMap& map, const PotentialClaim& claim, const CellPotential& proof,
                              const Execution& execution) {

@@ -49,7 +49,18 @@ class CarVerifier {
         });
   }
   /// Length, turns and gears.
-  void measure(Verification& result) const;
+  void measure(Verification& result) const {
+    int gear = 0;
+    for (const CarLeg& leg : legs_) {
+      result.length += leg.length;
+      result.turn_rad += std::abs(leg.turn);
+      if (leg.ahead < 0.0) result.reversed += leg.length;
+      if (leg.length <= tolerance_) continue;
+      const int now = leg.ahead < 0.0 ? -1 : 1;
+      if (gear == -now) ++result.cusps;
+      gear = now;
+    }
+  }
 
  private:
   static constexpr double small = 1e-9;  // what poses may be off by, in turning radii
@@ -63,7 +74,18 @@ class CarVerifier {
     report.add(body_.check_pose(path_[std::min(i + 1, path_.size() - 1)], i));
     return report;
   }
-  std::optional<Violation> check_driving(const CarLeg& leg, std::size_t number) const;
+  /// Can the car drive it?
+  std::optional<Violation> check_driving(const CarLeg& leg, std::size_t number) const {
+    const auto bad = [&](std::string what) { return Violation{number, 0.0, std::move(what), ViolationKind::motion}; };
+    if (std::abs(leg.aside) > tolerance_) {
+      return bad(fmt::format("leg: slides sideways by {}; between two poses a car keeps its steering", leg.aside));
+    }
+    if (!car_.turns_on_spot && leg.length + tolerance_ < car_.turning_radius * std::abs(leg.turn)) {
+      return bad(fmt::format("turning radius: {} is below {}", leg.radius, car_.turning_radius));
+    }
+    if (!car_.reverses && leg.ahead < -tolerance_) return bad(fmt::format("gear: goes backwards by {}", -leg.ahead));
+    return std::nullopt;
+  }
   void add_motion(std::size_t leg, const Leg& motion) {
     motions_.push_back(motion);
     leg_of_motion_.push_back(leg);
@@ -85,32 +107,6 @@ class CarVerifier {
   double size_ = 0.0;  // of the body
   double tolerance_ = 0.0;
 };
-
-/// Can the car drive it?
-std::optional<Violation> CarVerifier::check_driving(const CarLeg& leg, std::size_t number) const {
-  const auto bad = [&](std::string what) { return Violation{number, 0.0, std::move(what), ViolationKind::motion}; };
-  if (std::abs(leg.aside) > tolerance_) {
-    return bad(fmt::format("leg: slides sideways by {}; between two poses a car keeps its steering", leg.aside));
-  }
-  if (!car_.turns_on_spot && leg.length + tolerance_ < car_.turning_radius * std::abs(leg.turn)) {
-    return bad(fmt::format("turning radius: {} is below {}", leg.radius, car_.turning_radius));
-  }
-  if (!car_.reverses && leg.ahead < -tolerance_) return bad(fmt::format("gear: goes backwards by {}", -leg.ahead));
-  return std::nullopt;
-}
-
-void CarVerifier::measure(Verification& result) const {
-  int gear = 0;
-  for (const CarLeg& leg : legs_) {
-    result.length += leg.length;
-    result.turn_rad += std::abs(leg.turn);
-    if (leg.ahead < 0.0) result.reversed += leg.length;
-    if (leg.length <= tolerance_) continue;
-    const int now = leg.ahead < 0.0 ? -1 : 1;
-    if (gear == -now) ++result.cusps;
-    gear = now;
-  }
-}
 
 void check_car(const VerifiedCar& car) {
   if (!(car.turning_radius > 0.0 && car.turning_radius <= largest_coordinate)) {

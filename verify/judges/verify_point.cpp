@@ -4,10 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
-#include <optional>
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
@@ -23,9 +21,6 @@
 
 namespace warren {
 namespace {
-
-// Past all real numbers of obstacles: on one leg reported after them.
-constexpr std::size_t box_number = std::numeric_limits<std::size_t>::max() - 2;
 
 /// One verification in progress: the path's legs among the scene's obstacles.
 class Verifier {
@@ -46,7 +41,8 @@ class Verifier {
                                     : compare_indexed(*index_, legs_, options_, execution_);
     check_contacts(tally);
     check_insides(tally);
-    check_box(tally);
+    box_ = frame(tally);
+    check_box(box_, legs_, tally);
     LegReport legs{.least = tally.least};
     if (tally.violation != no_violation) legs.violation = describe(tally);
     Verification result = verdict_on(legs, wrong_start(path_, options_), wrong_goal(path_, options_));
@@ -75,17 +71,6 @@ class Verifier {
     if (!ring) return;
     tally.least = 0.0;
     tally.violation = std::min(tally.violation, LegContact{0, obstacles_.first_side(*ring)});
-  }
-
-  void check_box(Tally& tally) {
-    box_ = frame(tally);
-    if (box_.empty()) return;  // no obstacle, no bounds: nothing confines the path
-    if (box_.contains(legs_.box().min) && box_.contains(legs_.box().max)) return;
-    for (std::size_t i = 0; i < path_.size(); ++i) {
-      if (box_.contains(path_[i])) continue;
-      tally.violation = std::min(tally.violation, LegContact{i == 0 ? 0 : i - 1, box_number});
-      return;
-    }
   }
 
   Violation describe(const Tally& tally) const {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -44,17 +43,6 @@ struct SquaredDistance {
     return {slope * slope, -2.0 * off * slope, off * off, 0.0, true, off, slope};
   }
   double at(double t) const { return (a * t + b) * t + c; }
-};
-
-/// The integral of (1 - d / reach)^2, where the least distance d is below the reach, over t = 0 .. length. Scratch of
-/// one thread.
-class NearnessCost {
- public:
-  double over(std::span<const SquaredDistance> things, double length, double reach);
-
- private:
-  std::vector<SquaredDistance> near_;
-  std::vector<double> cuts_;
 };
 
 double least_of(const SquaredDistance& q, double length) {
@@ -95,33 +83,42 @@ double integral_of_one(const SquaredDistance& q, double from, double to, double 
   return length - 2.0 / reach * integral_of_distance(q, from, to) + squares / (reach * reach);
 }
 
-double NearnessCost::over(std::span<const SquaredDistance> things, double length, double reach) {
-  double enough = reach * reach;
-  for (const SquaredDistance& q : things) enough = std::min(enough, std::max(q.at(0.0), q.at(length)));
-  near_.clear();
-  for (const SquaredDistance& q : things) {
-    if (least_of(q, length) <= enough * (1.0 + 1e-12)) near_.push_back(q);
-  }
-  if (near_.empty()) return 0.0;
-  cuts_.assign({0.0, length});
-  for (std::size_t i = 0; i < near_.size(); ++i) {
-    const SquaredDistance& q = near_[i];
-    add_roots(q.a, q.b, q.c - reach * reach, length, cuts_);
-    for (std::size_t j = i + 1; j < near_.size(); ++j) {
-      add_roots(q.a - near_[j].a, q.b - near_[j].b, q.c - near_[j].c, length, cuts_);
+/// The integral of (1 - d / reach)^2, where the least distance d is below the reach, over t = 0 .. length. Scratch of
+/// one thread.
+class NearnessCost {
+ public:
+  double over(std::span<const SquaredDistance> things, double length, double reach) {
+    double enough = reach * reach;
+    for (const SquaredDistance& q : things) enough = std::min(enough, std::max(q.at(0.0), q.at(length)));
+    near_.clear();
+    for (const SquaredDistance& q : things) {
+      if (least_of(q, length) <= enough * (1.0 + 1e-12)) near_.push_back(q);
     }
+    if (near_.empty()) return 0.0;
+    cuts_.assign({0.0, length});
+    for (std::size_t i = 0; i < near_.size(); ++i) {
+      const SquaredDistance& q = near_[i];
+      add_roots(q.a, q.b, q.c - reach * reach, length, cuts_);
+      for (std::size_t j = i + 1; j < near_.size(); ++j) {
+        add_roots(q.a - near_[j].a, q.b - near_[j].b, q.c - near_[j].c, length, cuts_);
+      }
+    }
+    std::sort(cuts_.begin(), cuts_.end());
+    double sum = 0.0;
+    for (std::size_t i = 1; i < cuts_.size(); ++i) {
+      const double middle = 0.5 * (cuts_[i - 1] + cuts_[i]);
+      const auto nearest = std::min_element(near_.begin(), near_.end(), [&](const auto& one, const auto& other) {
+        return one.at(middle) < other.at(middle);
+      });
+      if (nearest->at(middle) < reach * reach) sum += integral_of_one(*nearest, cuts_[i - 1], cuts_[i], reach);
+    }
+    return std::max(sum, 0.0);
   }
-  std::sort(cuts_.begin(), cuts_.end());
-  double sum = 0.0;
-  for (std::size_t i = 1; i < cuts_.size(); ++i) {
-    const double middle = 0.5 * (cuts_[i - 1] + cuts_[i]);
-    const auto nearest = std::min_element(near_.begin(), near_.end(), [&](const auto& one, const auto& other) {
-      return one.at(middle) < other.at(middle);
-    });
-    if (nearest->at(middle) < reach * reach) sum += integral_of_one(*nearest, cuts_[i - 1], cuts_[i], reach);
-  }
-  return std::max(sum, 0.0);
-}
+
+ private:
+  std::vector<SquaredDistance> near_;
+  std::vector<double> cuts_;
+};
 
 /// Nearness among the cells of a map; lengths in cells.
 class NearCells {

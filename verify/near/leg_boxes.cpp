@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "verify/near/leg_boxes.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "parallel/chunks.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "verify/near/obstacle_index.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>

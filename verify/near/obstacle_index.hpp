@@ -38,13 +38,35 @@ class BoxBlocks {
  public:
   /// Boxes 0 .. count - 1, fewer than 2^32; box_of(i) may be called by any thread. Throws Stopped.
   template <class BoxOf>
-  BoxBlocks(std::size_t count, const BoxOf& box_of, const Execution& execution);
+  BoxBlocks(std::size_t count, const BoxOf& box_of, const Execution& execution) {
+    if (count == 0) return;
+    execution.reserve(count * (sizeof(Middle) + sizeof(std::uint32_t)) + count / (block_size - 1) * sizeof(Box));
+    RawVector<Middle> middles(count);
+    for_chunks(count, grain, execution, [&](Range r) {
+      for (std::size_t i = r.first; i < r.last; ++i) {
+        const Box box = box_of(i);
+        middles[i] = {box.min.x + box.max.x, box.min.y + box.max.y, as_whole<std::uint32_t>(i)};
+      }
+    });
+    put_in_order(middles, execution);
+    RawVector<Box> blocks(chunk_count(count, block_size));
+    for_chunks(count, grain, execution, [&](Range r) {
+      for (std::size_t i = r.first; i < r.last; i += block_size) {
+        Box box;
+        for_each_in(i / block_size, [&](std::size_t number) { box.include(box_of(number)); });
+        blocks[i / block_size] = box;
+      }
+    });
+    levels_ = BoxLevels(std::move(blocks));
+  }
 
   std::size_t size() const { return order_.size(); }
 
   /// Calls visit(number) for all boxes but those in blocks whose box skip(box) says to leave out.
   template <class Skip, class Visit>
-  void for_each(const Skip& skip, const Visit& visit) const;
+  void for_each(const Skip& skip, const Visit& visit) const {
+    for_each_block(skip, [&](std::size_t block) { for_each_in(block, visit); });
+  }
 
   /// The same in two steps, for who asks several questions of one neighbourhood: visit(block) for blocks of eight boxes
   /// that skip() doesn't leave out, and visit(number) for the boxes of one of them.
@@ -61,7 +83,15 @@ class BoxBlocks {
 
   /// Calls visit(number) for some boxes that are rather near: a start for who looks for the nearest.
   template <class Visit>
-  void for_some_near(const Box& place, const Visit& visit) const;
+  void for_some_near(const Box& place, const Visit& visit) const {
+    if (levels_.empty()) return;
+    std::size_t block = 0;
+    for (std::size_t level = levels_.count() - 1; level-- > 0;) {
+      const std::size_t first = block_size * block;
+      block = nearest_part(level, first, std::min(first + block_size, levels_[level].size()), place);
+    }
+    for_each_in(block, visit);
+  }
 
  private:
   struct Middle {
@@ -77,45 +107,6 @@ class BoxBlocks {
   RawVector<std::uint32_t> order_;  ///< numbers of the boxes, block by block
   BoxLevels levels_;
 };
-
-template <class BoxOf>
-BoxBlocks::BoxBlocks(std::size_t count, const BoxOf& box_of, const Execution& execution) {
-  if (count == 0) return;
-  execution.reserve(count * (sizeof(Middle) + sizeof(std::uint32_t)) + count / (block_size - 1) * sizeof(Box));
-  RawVector<Middle> middles(count);
-  for_chunks(count, grain, execution, [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; ++i) {
-      const Box box = box_of(i);
-      middles[i] = {box.min.x + box.max.x, box.min.y + box.max.y, as_whole<std::uint32_t>(i)};
-    }
-  });
-  put_in_order(middles, execution);
-  RawVector<Box> blocks(chunk_count(count, block_size));
-  for_chunks(count, grain, execution, [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; i += block_size) {
-      Box box;
-      for_each_in(i / block_size, [&](std::size_t number) { box.include(box_of(number)); });
-      blocks[i / block_size] = box;
-    }
-  });
-  levels_ = BoxLevels(std::move(blocks));
-}
-
-template <class Skip, class Visit>
-void BoxBlocks::for_each(const Skip& skip, const Visit& visit) const {
-  for_each_block(skip, [&](std::size_t block) { for_each_in(block, visit); });
-}
-
-template <class Visit>
-void BoxBlocks::for_some_near(const Box& place, const Visit& visit) const {
-  if (levels_.empty()) return;
-  std::size_t block = 0;
-  for (std::size_t level = levels_.count() - 1; level-- > 0;) {
-    const std::size_t first = block_size * block;
-    block = nearest_part(level, first, std::min(first + block_size, levels_[level].size()), place);
-  }
-  for_each_in(block, visit);
-}
 
 /// What obstacles take of the plane.
 struct ObstacleExtent {

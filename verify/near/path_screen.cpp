@@ -4,14 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <type_traits>
 
 #include "core/base/whole.hpp"
-#include "core/plane/wall_set.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {

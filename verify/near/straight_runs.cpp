@@ -2,10 +2,6 @@
 #include "verify/near/straight_runs.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
-
-#include "core/base/trigonometry.hpp"
 
 namespace warren {
 namespace {

@@ -38,6 +38,56 @@ namespace {
 bool bit(const RawVector<std::uint64_t>& bits, std::uint64_t at) { return (bits[at / 64] >> at % 64 & 1U) != 0; }
 void set_bit(RawVector<std::uint64_t>& bits, std::uint64_t at) { bits[at / 64] |= std::uint64_t{1} << at % 64; }
 
+constexpr std::size_t first_cell = 64;  // bytes before it
+constexpr unsigned tile_side_log2 = 8;
+
+std::uint64_t number_at(std::string_view bytes, std::size_t at, std::size_t size) {
+  std::uint64_t number = 0;
+  for (std::size_t i = size; i > 0; --i) number = number << 8U | as_whole<unsigned char>(bytes[at + i - 1]);
+  return number;
+}
+
+std::uint64_t row_bytes(std::uint64_t cols) { return (2 * cols + 7) / 8; }
+
+/// Rows at byte 16, columns at byte 24.
+std::uint32_t side_at(const std::string& name, std::string_view bytes, std::size_t at) {
+  const bool is_known = bytes.size() >= first_cell && bytes.starts_with("\x89WRMAZE\n") && number_at(bytes, 8, 4) == 1;
+  const std::uint64_t side = is_known ? number_at(bytes, at, 8) : 0;
+  if (side < 1 || side >= std::uint64_t{1} << 27U) throw InputError(name, "is no .maze file that can be judged");
+  return as_whole<std::uint32_t>(side);
+}
+
+constexpr unsigned npy_side_log2 = 8;
+
+/// Where the numbers begin: behind a header whose length stands at byte 8, in 2 bytes in version 1, in 4 in others.
+std::size_t begin_of_numbers(const std::string& name, std::string_view bytes) {
+  const auto byte = [&](std::size_t at) { return std::size_t{as_whole<unsigned char>(bytes[at])}; };
+  if (bytes.size() < 12 || !bytes.starts_with("\x93NUMPY"))
+    throw InputError(name, "is no .npy file that can be judged");
+  const std::size_t begin = byte(6) == 1
+                                ? 10 + byte(8) + 256 * byte(9)
+                                : 12 + byte(8) + 256 * byte(9) + 65536 * byte(10) + std::size_t{16777216} * byte(11);
+  if (begin > bytes.size()) throw InputError(name, "is no .npy file that can be judged");
+  return begin;
+}
+
+/// Eight bits as the low bits of eight bytes, in the order of memory.
+using EightBytes = std::array<std::uint8_t, 8>;
+constexpr std::array<EightBytes, 256> bytes_of_bits() {
+  std::array<EightBytes, 256> bytes{};
+  for (unsigned bits = 0; bits < 256; ++bits) {
+    for (unsigned i = 0; i < 8; ++i) bytes[bits][i] = as_whole<std::uint8_t>(bits >> i & 1U);
+  }
+  return bytes;
+}
+constexpr std::array<EightBytes, 256> spread = bytes_of_bits();
+
+/// The walls of eight cells of a row.
+std::uint64_t walls_of(std::uint64_t right, std::uint64_t above) {
+  return std::bit_cast<std::uint64_t>(spread[right & 0xffU]) | std::bit_cast<std::uint64_t>(spread[above & 0xffU])
+                                                                   << 1U;
+}
+
 }  // namespace
 
 JudgedGridLines::JudgedGridLines(std::uint32_t rows, std::uint32_t cols, unsigned side_log2, Range held,
@@ -102,29 +152,6 @@ unsigned JudgedGridLines::walls_at(std::ptrdiff_t col, std::ptrdiff_t row) const
   return (right ? CellTile::right_wall : 0U) | (above ? CellTile::upper_wall : 0U);
 }
 
-namespace {
-
-constexpr std::size_t first_cell = 64;  // bytes before it
-constexpr unsigned tile_side_log2 = 8;
-
-std::uint64_t number_at(std::string_view bytes, std::size_t at, std::size_t size) {
-  std::uint64_t number = 0;
-  for (std::size_t i = size; i > 0; --i) number = number << 8U | as_whole<unsigned char>(bytes[at + i - 1]);
-  return number;
-}
-
-std::uint64_t row_bytes(std::uint64_t cols) { return (2 * cols + 7) / 8; }
-
-/// Rows at byte 16, columns at byte 24.
-std::uint32_t side_at(const std::string& name, std::string_view bytes, std::size_t at) {
-  const bool is_known = bytes.size() >= first_cell && bytes.starts_with("\x89WRMAZE\n") && number_at(bytes, 8, 4) == 1;
-  const std::uint64_t side = is_known ? number_at(bytes, at, 8) : 0;
-  if (side < 1 || side >= std::uint64_t{1} << 27U) throw InputError(name, "is no .maze file that can be judged");
-  return as_whole<std::uint32_t>(side);
-}
-
-}  // namespace
-
 JudgedMazeFile::JudgedMazeFile(const std::string& name, std::string_view bytes, Forget forget)
     : CellWallSource(side_at(name, bytes, 16), side_at(name, bytes, 24), tile_side_log2),
       bytes_(bytes),
@@ -180,24 +207,6 @@ class JudgedMazeFile::Reader : public CellWallReader {
 
 std::unique_ptr<CellWallReader> JudgedMazeFile::reader() const { return std::make_unique<Reader>(*this); }
 
-namespace {
-
-constexpr unsigned npy_side_log2 = 8;
-
-/// Where the numbers begin: behind a header whose length stands at byte 8, in 2 bytes in version 1, in 4 in others.
-std::size_t begin_of_numbers(const std::string& name, std::string_view bytes) {
-  const auto byte = [&](std::size_t at) { return std::size_t{as_whole<unsigned char>(bytes[at])}; };
-  if (bytes.size() < 12 || !bytes.starts_with("\x93NUMPY"))
-    throw InputError(name, "is no .npy file that can be judged");
-  const std::size_t begin = byte(6) == 1
-                                ? 10 + byte(8) + 256 * byte(9)
-                                : 12 + byte(8) + 256 * byte(9) + 65536 * byte(10) + std::size_t{16777216} * byte(11);
-  if (begin > bytes.size()) throw InputError(name, "is no .npy file that can be judged");
-  return begin;
-}
-
-}  // namespace
-
 JudgedNpyMaze::JudgedNpyMaze(const std::string& name, std::string_view bytes, std::uint32_t rows, std::uint32_t cols,
                              Range held, const Forget& forget, const Execution& execution)
     : JudgedGridLines(rows, cols, npy_side_log2, held, execution) {
@@ -220,27 +229,6 @@ void JudgedNpyMaze::take_all(const std::string& name, std::string_view numbers, 
     take(name, wall[0], wall[1], wall[2], wall[3], execution);
   }
 }
-
-namespace {
-
-/// Eight bits as the low bits of eight bytes, in the order of memory.
-using EightBytes = std::array<std::uint8_t, 8>;
-constexpr std::array<EightBytes, 256> bytes_of_bits() {
-  std::array<EightBytes, 256> bytes{};
-  for (unsigned bits = 0; bits < 256; ++bits) {
-    for (unsigned i = 0; i < 8; ++i) bytes[bits][i] = as_whole<std::uint8_t>(bits >> i & 1U);
-  }
-  return bytes;
-}
-constexpr std::array<EightBytes, 256> spread = bytes_of_bits();
-
-/// The walls of eight cells of a row.
-std::uint64_t walls_of(std::uint64_t right, std::uint64_t above) {
-  return std::bit_cast<std::uint64_t>(spread[right & 0xffU]) | std::bit_cast<std::uint64_t>(spread[above & 0xffU])
-                                                                   << 1U;
-}
-
-}  // namespace
 
 JudgedPassages::JudgedPassages(const std::string& where, std::uint32_t rows, std::uint32_t cols,
                                std::span<const std::uint64_t> right, std::span<const std::uint64_t> up)

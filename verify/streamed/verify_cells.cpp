@@ -9,23 +9,18 @@
 #include <limits>
 #include <optional>
 #include <tuple>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "core/base/raw_vector.hpp"
 #include "core/base/whole.hpp"
 #include "parallel/asked_memory.hpp"
-#include "parallel/chunks.hpp"
 #include "parallel/sort.hpp"
 #include "verify/exact/exact_segments.hpp"
-#include "verify/judges/leg_reports.hpp"
 #include "verify/near/leg_boxes.hpp"
 #include "verify/streamed/looked_up_walls.hpp"
 
 namespace warren {
 namespace {
-
-constexpr std::size_t bounds_number = std::numeric_limits<std::size_t>::max() - 2;  // on one leg reported after walls
 
 /// Walls have numbers by their place: the cell left of or below them, and on which side of it they stand.
 std::size_t number_of(std::uint32_t col_and_one, std::uint32_t row_and_one, bool is_upper) {
@@ -58,21 +53,16 @@ class LegsAmongCells {
 
   Tally compare() const {
     constexpr std::size_t grain = 4;  // a reader's scratch is large
-    std::vector<Tally> parts(chunk_count(passed_.size(), grain));
-    for_chunks(passed_.size(), grain, execution_, [&](Range r) {
+    const auto compare = [&](Range r, Comparison& comparison) {
       const auto reader = cells_.reader();
       CellTile tile;
-      Comparison comparison(options_, std::numeric_limits<double>::infinity());
       for (std::size_t i = r.first; i < r.last; ++i) {
         execution_.check();
         reader->read(runs_[passed_[i].first].tile, tile);
         compare_in(tile, passed_[i], comparison);
       }
-      parts[r.first / grain] = comparison.take();
-    });
-    Tally whole;
-    for (Tally& part : parts) whole.join(std::move(part));
-    return whole;
+    };
+    return tally_chunks(passed_.size(), grain, options_, std::numeric_limits<double>::infinity(), execution_, compare);
   }
 
  private:
@@ -174,18 +164,8 @@ class LegsAmongCells {
   std::vector<Range> passed_;  // the runs of each tile that has some
 };
 
-/// The first leg that leaves the box.
-void check_box(const Box& box, const LegBoxes& legs, std::span<const Vec2> path, Tally& tally) {
-  if (box.contains(legs.box().min) && box.contains(legs.box().max)) return;
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    if (box.contains(path[i])) continue;
-    tally.violation = std::min(tally.violation, LegContact{i == 0 ? 0 : i - 1, bounds_number});
-    return;
-  }
-}
-
 Violation described(const LegContact& found, const LegBoxes& legs, const Box& box) {
-  if (found.obstacle == bounds_number) {
+  if (found.obstacle == box_number) {
     return {found.leg, 0.0, fmt::format("box: {} {} {} {}", box.min.x, box.min.y, box.max.x, box.max.y)};
   }
   const Segment wall = wall_of(found.obstacle);
@@ -216,61 +196,6 @@ Tally compared(const CellWallSource& cells, const LegBoxes& legs, const VerifyOp
     if (std::min(tally.least, least) <= reach || reach > farthest) return tally;
   }
 }
-
-}  // namespace
-
-NearestWalls nearest_among_cells(const CellWallSource& cells, Range tiles, std::span<const Vec2> path,
-                                 const VerifyOptions& options, double reach, const Execution& execution) {
-  const LegBoxes legs(path, execution);
-  const Tally tally = LegsAmongCells(cells, tiles, legs, options, reach, execution).compare();
-  return {tally.least, tally.violation.leg, tally.violation.obstacle};
-}
-
-JudgeAmongCells::JudgeAmongCells(const CellWallSource& cells, const VerifyOptions& options, const Execution& execution,
-                                 JudgesElsewhere* others)
-    : cells_(cells), options_(options), execution_(execution), others_(others) {
-  if (options.contact == Contact::allowed)
-    throw InputError("contact", "is not judged where walls are made tile by tile");
-}
-
-void JudgeAmongCells::add(std::span<const Vec2> piece) {
-  check_judged_path(piece, options_, execution_);
-  assert(points_ == 0 || piece.front() == ends_[1]);
-  const Vec2 twice[] = {piece.front(), piece.front()};
-  const std::span<const Vec2> path = piece.size() > 1 ? piece : std::span<const Vec2>(twice);
-  const LegBoxes legs(path, execution_);
-  Tally tally = compared(cells_, legs, options_, report_.least, path, others_, execution_);
-  check_box(cells_.box(), legs, path, tally);
-  LegReport report{.least = tally.least};
-  if (tally.violation != no_violation) {
-    report.violation = described(tally.violation, legs, cells_.box());
-    report.violation->leg += points_ == 0 ? 0 : points_ - 1;
-  }
-  report_.add(report);
-  length_ += legs.length();
-  if (points_ == 0) ends_[0] = piece.front();
-  ends_[1] = piece.back();
-  points_ += piece.size() - (points_ == 0 ? 0 : 1);
-}
-
-Verification JudgeAmongCells::verdict() const {
-  assert(points_ > 0);
-  std::optional<Violation> goal = wrong_goal(ends_, options_);
-  if (goal) goal->leg = legs_of(points_) - 1;
-  Verification verdict = verdict_on(report_, wrong_start(ends_, options_), goal);
-  verdict.length = length_;
-  verdict.min_clearance -= options_.radius;
-  return verdict;
-}
-
-Verification verify_among_cells(const CellWallSource& cells, std::span<const Vec2> path, const VerifyOptions& options,
-                                const Execution& execution) {
-  JudgeAmongCells judge(cells, options, execution);
-  judge.add(path);
-  return judge.verdict();
-}
-
-namespace {
 
 constexpr double half = 0.5;  // from the middle of a cell to its walls
 
@@ -344,6 +269,57 @@ std::optional<double> length_of_steps(const LookedUpWalls& walls, std::span<cons
 }
 
 }  // namespace
+
+NearestWalls nearest_among_cells(const CellWallSource& cells, Range tiles, std::span<const Vec2> path,
+                                 const VerifyOptions& options, double reach, const Execution& execution) {
+  const LegBoxes legs(path, execution);
+  const Tally tally = LegsAmongCells(cells, tiles, legs, options, reach, execution).compare();
+  return {tally.least, tally.violation.leg, tally.violation.obstacle};
+}
+
+JudgeAmongCells::JudgeAmongCells(const CellWallSource& cells, const VerifyOptions& options, const Execution& execution,
+                                 JudgesElsewhere* others)
+    : cells_(cells), options_(options), execution_(execution), others_(others) {
+  if (options.contact == Contact::allowed)
+    throw InputError("contact", "is not judged where walls are made tile by tile");
+}
+
+void JudgeAmongCells::add(std::span<const Vec2> piece) {
+  check_judged_path(piece, options_, execution_);
+  assert(points_ == 0 || piece.front() == ends_[1]);
+  const Vec2 twice[] = {piece.front(), piece.front()};
+  const std::span<const Vec2> path = piece.size() > 1 ? piece : std::span<const Vec2>(twice);
+  const LegBoxes legs(path, execution_);
+  Tally tally = compared(cells_, legs, options_, report_.least, path, others_, execution_);
+  check_box(cells_.box(), legs, tally);
+  LegReport report{.least = tally.least};
+  if (tally.violation != no_violation) {
+    report.violation = described(tally.violation, legs, cells_.box());
+    report.violation->leg += points_ == 0 ? 0 : points_ - 1;
+  }
+  report_.add(report);
+  length_ += legs.length();
+  if (points_ == 0) ends_[0] = piece.front();
+  ends_[1] = piece.back();
+  points_ += piece.size() - (points_ == 0 ? 0 : 1);
+}
+
+Verification JudgeAmongCells::verdict() const {
+  assert(points_ > 0);
+  std::optional<Violation> goal = wrong_goal(ends_, options_);
+  if (goal) goal->leg = legs_of(points_) - 1;
+  Verification verdict = verdict_on(report_, wrong_start(ends_, options_), goal);
+  verdict.length = length_;
+  verdict.min_clearance -= options_.radius;
+  return verdict;
+}
+
+Verification verify_among_cells(const CellWallSource& cells, std::span<const Vec2> path, const VerifyOptions& options,
+                                const Execution& execution) {
+  JudgeAmongCells judge(cells, options, execution);
+  judge.add(path);
+  return judge.verdict();
+}
 
 Verification verify_steps(const LookedUpWalls& walls, std::span<const Vec2> path, const VerifyOptions& options,
                           const Execution& execution) {

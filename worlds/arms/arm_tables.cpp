@@ -439,12 +439,6 @@ class ArmBuilder {
   double size_ = 0.0;
 };
 
-template <class From, class To>
-void copy_numbers(const std::vector<From>& from, std::vector<To>& to) {
-  to.clear();
-  for (const From x : from) to.push_back(static_cast<To>(x));
-}
-
 template <std::size_t n>
 std::array<float, n> floats_of(const std::array<double, n>& from) {
   std::array<float, n> to;
@@ -468,9 +462,10 @@ void copy_tables(const Doubles& from, ArmTables<float>& to) {
     to.obstacles.push_back({static_cast<float>(o.x), static_cast<float>(o.y), static_cast<float>(o.z),
                             floats_of(o.axes), floats_of(o.half), static_cast<float>(o.inflate)});
   }
-  for (std::size_t row = 0; row < from.bounds.size(); ++row) copy_numbers(from.bounds[row], to.bounds[row]);
-  copy_numbers(from.reach, to.reach);
-  copy_numbers(from.pair_reach, to.pair_reach);
+  for (std::size_t row = 0; row < from.bounds.size(); ++row)
+    to.bounds[row].assign(from.bounds[row].begin(), from.bounds[row].end());
+  to.reach.assign(from.reach.begin(), from.reach.end());
+  to.pair_reach.assign(from.pair_reach.begin(), from.pair_reach.end());
   to.clearance = static_cast<float>(from.clearance);
 }
 

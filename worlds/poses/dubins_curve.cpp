@@ -77,63 +77,59 @@ class Candidates {
   }
 
  private:
-  void add(bool mirrored, double y, double phi, double s, double c);
-  void add(Candidate candidate, double first, double unsure);
+  /// y, phi, its sine and cosine: in the mirror where mirrored.
+  void add(bool mirrored, double y, double phi, double s, double c) {
+    const double x = goal_.x;
+    const Vec2 to_left{x - s, y + c - 1.0};  // from the first circle's centre to the last one's
+    const Vec2 to_right{x + s, y - c - 1.0};
+    const double left_distance = norm(to_left);
+    const double left_angle = portable::atan2(to_left.y, to_left.x);
+    const double one_circle = 1e-9 + 4.0 * off_;
+    const double touching = 1e-11 + 8.0 * off_;   // distances and their squares, of circles at most four apart
+    const double unsure = 4.0 * std::sqrt(off_);  // of directions where circles all but touch
+    add({Shape::lsl, mirrored, phi, 0.0, left_distance, 0.0}, left_angle, 4.0 * off_ / std::max(left_distance, 1e-300));
+    if (left_distance <= one_circle) add({Shape::lsl, mirrored, phi, 0.0, 0.0, 0.0}, 0.0, 0.0);
+    const double straight_sq = dot(to_right, to_right) - 4.0;
+    if (straight_sq >= -touching) {  // circles that touch: two arcs and nothing between
+      const double straight = std::sqrt(std::max(straight_sq, 0.0));
+      add({Shape::lsr, mirrored, phi, 0.0, straight, 0.0},
+          portable::atan2(to_right.y, to_right.x) + portable::atan2(2.0, straight), unsure);
+    }
+    if (left_distance <= 4.0 + touching) {
+      const double middle = full_turn - 2.0 * portable::asin(std::min(0.25 * left_distance, 1.0));
+      add({Shape::lrl, mirrored, phi, 0.0, middle, 0.0}, left_angle + 0.5 * middle, unsure);
+    }
+  }
+  /// Adds it with this first arc, which may be `unsure` by rounding; where an arc is so nearly a full circle, also
+  /// without that arc.
+  void add(Candidate candidate, double first, double unsure) {
+    const double nearly_full = full_turn - std::clamp(unsure, 1e-6, 1.0);
+    candidate.first = positive_angle(first);
+    candidate.last = candidate.last_for(candidate.first);
+    list_[count_++] = candidate;
+    const bool first_is_full = candidate.first > nearly_full;
+    const bool last_is_full = candidate.last > nearly_full;
+    if (first_is_full) {
+      candidate.first = 0.0;
+      candidate.last = candidate.last_for(0.0);
+      list_[count_++] = candidate;
+    }
+    if (last_is_full) {
+      candidate.last = 0.0;
+      candidate.first = candidate.first_for(0.0);
+      list_[count_++] = candidate;
+    }
+    if (first_is_full && last_is_full) {
+      candidate.first = 0.0;
+      list_[count_++] = candidate;
+    }
+  }
 
   Se2 goal_;
   double off_;                      // what rounding put it off by
   std::array<Candidate, 32> list_;  // of each of eight words at most four
   std::size_t count_ = 0;
 };
-
-/// y, phi, its sine and cosine: in the mirror where mirrored.
-void Candidates::add(bool mirrored, double y, double phi, double s, double c) {
-  const double x = goal_.x;
-  const Vec2 to_left{x - s, y + c - 1.0};  // from the first circle's centre to the last one's
-  const Vec2 to_right{x + s, y - c - 1.0};
-  const double left_distance = norm(to_left);
-  const double left_angle = portable::atan2(to_left.y, to_left.x);
-  const double one_circle = 1e-9 + 4.0 * off_;
-  const double touching = 1e-11 + 8.0 * off_;   // distances and their squares, of circles at most four apart
-  const double unsure = 4.0 * std::sqrt(off_);  // of directions where circles all but touch
-  add({Shape::lsl, mirrored, phi, 0.0, left_distance, 0.0}, left_angle, 4.0 * off_ / std::max(left_distance, 1e-300));
-  if (left_distance <= one_circle) add({Shape::lsl, mirrored, phi, 0.0, 0.0, 0.0}, 0.0, 0.0);
-  const double straight_sq = dot(to_right, to_right) - 4.0;
-  if (straight_sq >= -touching) {  // circles that touch: two arcs and nothing between
-    const double straight = std::sqrt(std::max(straight_sq, 0.0));
-    add({Shape::lsr, mirrored, phi, 0.0, straight, 0.0},
-        portable::atan2(to_right.y, to_right.x) + portable::atan2(2.0, straight), unsure);
-  }
-  if (left_distance <= 4.0 + touching) {
-    const double middle = full_turn - 2.0 * portable::asin(std::min(0.25 * left_distance, 1.0));
-    add({Shape::lrl, mirrored, phi, 0.0, middle, 0.0}, left_angle + 0.5 * middle, unsure);
-  }
-}
-
-/// Adds it with this first arc, which may be `unsure` by rounding; where an arc is so nearly a full circle, also
-/// without that arc.
-void Candidates::add(Candidate candidate, double first, double unsure) {
-  const double nearly_full = full_turn - std::clamp(unsure, 1e-6, 1.0);
-  candidate.first = positive_angle(first);
-  candidate.last = candidate.last_for(candidate.first);
-  list_[count_++] = candidate;
-  const bool first_is_full = candidate.first > nearly_full;
-  const bool last_is_full = candidate.last > nearly_full;
-  if (first_is_full) {
-    candidate.first = 0.0;
-    candidate.last = candidate.last_for(0.0);
-    list_[count_++] = candidate;
-  }
-  if (last_is_full) {
-    candidate.last = 0.0;
-    candidate.first = candidate.first_for(0.0);
-    list_[count_++] = candidate;
-  }
-  if (first_is_full && last_is_full) {
-    candidate.first = 0.0;
-    list_[count_++] = candidate;
-  }
-}
 
 }  // namespace
 

@@ -197,97 +197,82 @@ class Enumeration {
   void take(const Frame& frame, WordShape shape, double first, double middle, double last, double fixed) {
     taker_.take({fixed + std::abs(first) + std::abs(last), shape, frame.change, first, middle, last});
   }
-  void solve_straight(const Frame& f);
-  void solve_arcs(const Frame& f);
-  void solve_four_arcs(const Frame& f);
-  void solve_quarter(const Frame& f);
-  void solve_two_quarters(const Frame& f);
+  void solve_straight(const Frame& f) {
+    // What rounding alone turns, or drives between two circles that are one, is no piece.
+    if (f.to_left.size <= 1e-9 + 4.0 * off_) take(f, WordShape::lsl, 0.0, 0.0, f.phi, 0.0);
+    if (worth(f.to_left.size + f.turn())) {
+      const double first = f.to_left.angle;
+      if (f.to_left.size * std::abs(first) <= 4.0 * off_)
+        take(f, WordShape::lsl, 0.0, f.to_left.size, f.phi, f.to_left.size);
+      take(f, WordShape::lsl, first, f.to_left.size, wrapped(f.phi - first), f.to_left.size);
+    }
+    if (f.to_right.size >= 2.0 - touching_) {
+      const double straight = tangent(f.to_right.size);
+      if (worth(straight + f.turn())) {
+        const double first = wrapped(f.to_right.angle + portable::atan2(2.0, straight));
+        take(f, WordShape::lsr, first, straight, wrapped(first - f.phi), straight);
+      }
+    }
+  }
+  void solve_arcs(const Frame& f) {
+    if (f.to_left.size <= 4.0 + touching_) {
+      const double arc = 2.0 * portable::asin(std::min(0.25 * f.to_left.size, 1.0));
+      if (worth(std::max(arc, f.turn()))) {
+        const double first = wrapped(f.to_left.angle - 0.5 * arc + std::numbers::pi);
+        take(f, WordShape::lrl, first, -arc, wrapped(f.phi - first - arc), arc);
+      }
+    }
+    solve_four_arcs(f);
+    solve_quarter(f);
+    solve_two_quarters(f);
+  }
+  void solve_four_arcs(const Frame& f) {
+    const double out_cosine = 0.25 * (2.0 + f.to_right.size);
+    if (out_cosine <= 1.0 + touching_) {
+      const double arc = arc_of(out_cosine);
+      if (worth(2.0 * arc + f.turn(-2.0 * arc))) {
+        const double first = wrapped(f.to_right.angle + arc + quarter);
+        take(f, WordShape::lrlr_out, first, arc, wrapped(first - 2.0 * arc - f.phi), 2.0 * arc);
+      }
+    }
+    const double in_cosine = (20.0 - f.to_right.size * f.to_right.size) / 16.0;
+    if (in_cosine >= -1.0 && in_cosine <= 1.0 + touching_) {
+      const double arc = arc_of(in_cosine);
+      if (worth(2.0 * arc + f.turn())) {
+        const double first = wrapped(f.to_right.angle + quarter + portable::atan2(portable::sin(arc), 2.0 - in_cosine));
+        take(f, WordShape::lrlr_in, first, -arc, wrapped(first - f.phi), 2.0 * arc);
+      }
+    }
+  }
+  void solve_quarter(const Frame& f) {
+    if (f.to_left.size >= 2.0 - touching_) {
+      const double across = root(f.to_left.size * f.to_left.size - 4.0);
+      const double straight = 2.0 - across;
+      if (worth(quarter + std::abs(straight) + f.turn(quarter))) {
+        const double first = wrapped(f.to_left.angle + portable::atan2(across, -2.0));
+        take(f, WordShape::lrsl, first, straight, wrapped(f.phi - first - quarter), quarter + std::abs(straight));
+      }
+    }
+    const double straight = 2.0 - f.to_right.size;
+    if (worth(quarter + std::abs(straight) + f.turn(quarter))) {
+      const double first = wrapped(f.to_right.angle + quarter);
+      take(f, WordShape::lrsr, first, straight, wrapped(first + quarter - f.phi), quarter + std::abs(straight));
+    }
+  }
+  void solve_two_quarters(const Frame& f) {
+    if (f.to_right.size < 2.0 - touching_) return;
+    const double across = root(f.to_right.size * f.to_right.size - 4.0);
+    const double straight = 4.0 - across;
+    if (!worth(2.0 * quarter + std::abs(straight) + f.turn())) return;
+    const double first = wrapped(f.to_right.angle + portable::atan2(across, -2.0));
+    take(f, WordShape::lrslr, first, straight, wrapped(first - f.phi), 2.0 * quarter + std::abs(straight));
+  }
 
   Taker& taker_;
   double off_;
   double same_;      // what is so little apart is one place: less than ends_at() allows
   double touching_;  // circles that touch up to rounding count as touching; ends_at() decides whether that is true
 };
-
-template <class Taker>
-void Enumeration<Taker>::solve_straight(const Frame& f) {
-  // What rounding alone turns, or drives between two circles that are one, is no piece.
-  if (f.to_left.size <= 1e-9 + 4.0 * off_) take(f, WordShape::lsl, 0.0, 0.0, f.phi, 0.0);
-  if (worth(f.to_left.size + f.turn())) {
-    const double first = f.to_left.angle;
-    if (f.to_left.size * std::abs(first) <= 4.0 * off_)
-      take(f, WordShape::lsl, 0.0, f.to_left.size, f.phi, f.to_left.size);
-    take(f, WordShape::lsl, first, f.to_left.size, wrapped(f.phi - first), f.to_left.size);
-  }
-  if (f.to_right.size >= 2.0 - touching_) {
-    const double straight = tangent(f.to_right.size);
-    if (worth(straight + f.turn())) {
-      const double first = wrapped(f.to_right.angle + portable::atan2(2.0, straight));
-      take(f, WordShape::lsr, first, straight, wrapped(first - f.phi), straight);
-    }
-  }
-}
-
-template <class Taker>
-void Enumeration<Taker>::solve_arcs(const Frame& f) {
-  if (f.to_left.size <= 4.0 + touching_) {
-    const double arc = 2.0 * portable::asin(std::min(0.25 * f.to_left.size, 1.0));
-    if (worth(std::max(arc, f.turn()))) {
-      const double first = wrapped(f.to_left.angle - 0.5 * arc + std::numbers::pi);
-      take(f, WordShape::lrl, first, -arc, wrapped(f.phi - first - arc), arc);
-    }
-  }
-  solve_four_arcs(f);
-  solve_quarter(f);
-  solve_two_quarters(f);
-}
-
-template <class Taker>
-void Enumeration<Taker>::solve_four_arcs(const Frame& f) {
-  const double out_cosine = 0.25 * (2.0 + f.to_right.size);
-  if (out_cosine <= 1.0 + touching_) {
-    const double arc = arc_of(out_cosine);
-    if (worth(2.0 * arc + f.turn(-2.0 * arc))) {
-      const double first = wrapped(f.to_right.angle + arc + quarter);
-      take(f, WordShape::lrlr_out, first, arc, wrapped(first - 2.0 * arc - f.phi), 2.0 * arc);
-    }
-  }
-  const double in_cosine = (20.0 - f.to_right.size * f.to_right.size) / 16.0;
-  if (in_cosine >= -1.0 && in_cosine <= 1.0 + touching_) {
-    const double arc = arc_of(in_cosine);
-    if (worth(2.0 * arc + f.turn())) {
-      const double first = wrapped(f.to_right.angle + quarter + portable::atan2(portable::sin(arc), 2.0 - in_cosine));
-      take(f, WordShape::lrlr_in, first, -arc, wrapped(first - f.phi), 2.0 * arc);
-    }
-  }
-}
-
-template <class Taker>
-void Enumeration<Taker>::solve_quarter(const Frame& f) {
-  if (f.to_left.size >= 2.0 - touching_) {
-    const double across = root(f.to_left.size * f.to_left.size - 4.0);
-    const double straight = 2.0 - across;
-    if (worth(quarter + std::abs(straight) + f.turn(quarter))) {
-      const double first = wrapped(f.to_left.angle + portable::atan2(across, -2.0));
-      take(f, WordShape::lrsl, first, straight, wrapped(f.phi - first - quarter), quarter + std::abs(straight));
-    }
-  }
-  const double straight = 2.0 - f.to_right.size;
-  if (worth(quarter + std::abs(straight) + f.turn(quarter))) {
-    const double first = wrapped(f.to_right.angle + quarter);
-    take(f, WordShape::lrsr, first, straight, wrapped(first + quarter - f.phi), quarter + std::abs(straight));
-  }
-}
-
-template <class Taker>
-void Enumeration<Taker>::solve_two_quarters(const Frame& f) {
-  if (f.to_right.size < 2.0 - touching_) return;
-  const double across = root(f.to_right.size * f.to_right.size - 4.0);
-  const double straight = 4.0 - across;
-  if (!worth(2.0 * quarter + std::abs(straight) + f.turn())) return;
-  const double first = wrapped(f.to_right.angle + portable::atan2(across, -2.0));
-  take(f, WordShape::lrslr, first, straight, wrapped(first - f.phi), 2.0 * quarter + std::abs(straight));
-}
 
 /// Some order of poses.
 bool precedes(const Se2& a, const Se2& b) {

@@ -178,20 +178,15 @@ Se2 pose_on_leg(const Se2& a, const Se2& b, double t) {
   return {p.x, p.y, wrapped_angle(a.theta + t * turn)};
 }
 
-namespace {
-
-void add_turn(SteeringWord& word, double turn_rad) {
-  word.add(turn_rad > 0.0 ? Steer::left_on_spot : Steer::right_on_spot, std::abs(turn_rad));
-}
-
-}  // namespace
-
 SteeringWord DifferentialCurve::shortest(const Se2& a, const Se2& b, double turning_radius) noexcept {
   const Se2 goal = seen_from(a, b, turning_radius);
   const double way = portable::hypot(goal.x, goal.y);
   SteeringWord word;
+  const auto add_turn = [&](double turn_rad) {
+    word.add(turn_rad > 0.0 ? Steer::left_on_spot : Steer::right_on_spot, std::abs(turn_rad));
+  };
   if (way <= SteeringCurve::nothing + off_by_rounding(a, b, turning_radius)) {
-    add_turn(word, goal.theta);
+    add_turn(goal.theta);
     return word;
   }
   const double towards = portable::atan2(goal.y, goal.x);
@@ -200,9 +195,9 @@ SteeringWord DifferentialCurve::shortest(const Se2& a, const Se2& b, double turn
   const double then_from_away = turn_between(away, goal.theta);
   const bool forwards =
       std::abs(towards) + std::abs(then) <= std::abs(away) + std::abs(then_from_away) + SteeringCurve::nothing;
-  add_turn(word, forwards ? towards : away);
+  add_turn(forwards ? towards : away);
   word.add(Steer::straight, forwards ? way : -way);
-  add_turn(word, forwards ? then : then_from_away);
+  add_turn(forwards ? then : then_from_away);
   return word;
 }
 

@@ -7,10 +7,10 @@
 #include <span>
 #include <utility>
 
-#include "core/base/trigonometry.hpp"
 #include "core/base/whole.hpp"
 #include "core/plane/geometry.hpp"
 #include "core/plane/polygon.hpp"
+#include "core/plane/se2.hpp"
 
 namespace warren {
 namespace {
@@ -78,21 +78,6 @@ std::array<Vec2, 4> mask_square_in_world(const MaskCells& mask, std::uint32_t x,
           mask_corner(mask, x, y + 1.0)};
 }
 
-/// Calls each(cells, x, y) for all blocked cells of the masks.
-template <class Each>
-void for_blocked(const Prices& prices, const Execution& execution, const Each& each) {
-  for (const PriceMask& mask : prices.masks) {
-    if (!mask.read) continue;
-    for (std::uint32_t y = 0; y < mask.read->height; ++y) {
-      execution.check();
-      for (std::uint32_t x = 0; x < mask.read->width; ++x) {
-        const int value = mask.read->values[std::size_t{y} * mask.read->width + x];
-        if (value > 0 && !mask_factor(mask, value)) each(*mask.read, x, y);
-      }
-    }
-  }
-}
-
 }  // namespace
 
 Vec2 corner_in_cells(const OccupancyMap& map, Vec2 in_world) {
@@ -147,8 +132,8 @@ OccupancyMap effective_map(const OccupancyMap& map, const Prices& prices, const 
     for (const Vec2 p : area.corners) corners.push_back(corner_in_cells(map, p));
     add_polygon_cells(forbidden, corners, execution);
   }
-  for_blocked(prices, execution, [&](const MaskCells& cells, std::uint32_t x, std::uint32_t y) {
-    add_polygon_cells(forbidden, mask_square(map, cells, x, y), execution);
+  for_mask_cells(prices, execution, [&](const MaskCells& cells, std::uint32_t x, std::uint32_t y, const auto& factor) {
+    if (!factor) add_polygon_cells(forbidden, mask_square(map, cells, x, y), execution);
   });
   effective.blocked.add(forbidden);
   effective.water.remove(forbidden);  // it is blocked all the same: but to paths that begin on it
@@ -163,7 +148,8 @@ Scene restricted_scene(const Scene& scene, const Prices& prices, const Execution
     return restricted;
   }
   for (const KeepOut& area : prices.keep_out) restricted.polygons.push_back({area.corners, area.line});
-  for_blocked(prices, execution, [&](const MaskCells& cells, std::uint32_t x, std::uint32_t y) {
+  for_mask_cells(prices, execution, [&](const MaskCells& cells, std::uint32_t x, std::uint32_t y, const auto& factor) {
+    if (factor) return;
     const std::array<Vec2, 4> square = mask_square_in_world(cells, x, y);
     restricted.polygons.push_back({{square.begin(), square.end()}, 0});
   });
@@ -183,9 +169,7 @@ bool is_inside(std::span<const Vec2> corners, Vec2 p) {
 
 Vec2 mask_corner(const MaskCells& mask, double column, double row) {
   const Vec2 p{mask.cell * column, mask.cell * row};
-  if (mask.yaw_rad == 0.0) return mask.origin + p;
-  const auto [sine, cosine] = portable::sin_and_cos(mask.yaw_rad);
-  return mask.origin + Vec2{cosine * p.x - sine * p.y, sine * p.x + cosine * p.y};
+  return mask.origin + (mask.yaw_rad == 0.0 ? p : Rotation(mask.yaw_rad)(p));
 }
 
 double AreaFactors::factor(Vec2 p) const {

@@ -40,6 +40,23 @@ Scene restricted_scene(const Scene& scene, const Prices& prices, const Execution
 
 /// A mask's value in that use: its factor, >= 1; none: blocked.
 std::optional<double> mask_factor(const PriceMask& mask, int value);
+/// Calls each(cells, x, y, factor) for the cells of value > 0 of the masks that were read. Throws Stopped.
+template <class Each>
+void for_mask_cells(const Prices& prices, const Execution& execution, const Each& each) {
+  for (const PriceMask& mask : prices.masks) {
+    if (!mask.read) continue;
+    const MaskCells& cells = *mask.read;
+    for (std::uint32_t y = 0; y < cells.height; ++y) {
+      execution.check();
+      for (std::uint32_t x = 0; x < cells.width; ++x) {
+        const int value = cells.values[std::size_t{y} * cells.width + x];
+        if (value > 0) each(cells, x, y, mask_factor(mask, value));
+      }
+    }
+  }
+}
+/// Corner (column, row) of a mask's cells, in the world.
+Vec2 mask_corner(const MaskCells& mask, double column, double row);
 
 /// A corner in cells of the map, as above.
 Vec2 corner_in_cells(const OccupancyMap& map, Vec2 in_world);
@@ -114,26 +131,20 @@ class AreaFactors {
   };
 
   template <class Placed>
-  void add_mask(const PriceMask& mask, const Placed& placed);
+  void add_mask(const PriceMask& mask, const Placed& placed) {
+    if (!mask.read) return;
+    // The axes from the far corners, so that their rounding is that of one cell.
+    const double width = mask.read->width;
+    const double height = mask.read->height;
+    const Vec2 origin = placed(mask_corner(*mask.read, 0.0, 0.0));
+    const Vec2 across = placed(mask_corner(*mask.read, width, 0.0)) - origin;
+    const Vec2 along = placed(mask_corner(*mask.read, 0.0, height)) - origin;
+    masks_.push_back({mask, origin, (1.0 / width) * across, (1.0 / height) * along});
+  }
   void cut(Vec2 p, Vec2 u, double length, std::vector<double>& cuts) const;
 
   std::vector<Area> areas_;
   std::vector<Mask> masks_;
 };
-
-/// Corner (column, row) of a mask's cells, in the world.
-Vec2 mask_corner(const MaskCells& mask, double column, double row);
-
-template <class Placed>
-void AreaFactors::add_mask(const PriceMask& mask, const Placed& placed) {
-  if (!mask.read) return;
-  // The axes from the far corners, so that their rounding is that of one cell.
-  const double width = mask.read->width;
-  const double height = mask.read->height;
-  const Vec2 origin = placed(mask_corner(*mask.read, 0.0, 0.0));
-  const Vec2 across = placed(mask_corner(*mask.read, width, 0.0)) - origin;
-  const Vec2 along = placed(mask_corner(*mask.read, 0.0, height)) - origin;
-  masks_.push_back({mask, origin, (1.0 / width) * across, (1.0 / height) * along});
-}
 
 }  // namespace warren

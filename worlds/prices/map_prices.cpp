@@ -128,17 +128,9 @@ MapPrices::MapPrices(const OccupancyMap& effective, double radius, const Prices&
   if (!has_areas_) return;
   touched_ = cell_bitmap(map_.width(), map_.height(), execution);
   for (const AreaFactors::Area& area : areas_.areas()) add_polygon_cells(touched_, area.corners, execution);
-  for (const PriceMask& mask : prices.masks) {
-    if (!mask.read) continue;
-    const MaskCells& cells = *mask.read;
-    for (std::uint32_t y = 0; y < cells.height; ++y) {
-      execution.check();
-      for (std::uint32_t x = 0; x < cells.width; ++x) {
-        const auto of_cell = mask_factor(mask, cells.values[std::size_t{y} * cells.width + x]);
-        if (of_cell && *of_cell > 1.0) add_polygon_cells(touched_, mask_square(map_, cells, x, y), execution);
-      }
-    }
-  }
+  for_mask_cells(prices, execution, [&](const MaskCells& cells, std::uint32_t x, std::uint32_t y, const auto& factor) {
+    if (factor && *factor > 1.0) add_polygon_cells(touched_, mask_square(map_, cells, x, y), execution);
+  });
   if (any_unknown) touched_.add(map_.unknown);
 }
 

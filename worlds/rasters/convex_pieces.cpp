@@ -11,11 +11,10 @@
 #include "core/base/trigonometry.hpp"
 #include "core/base/whole.hpp"
 #include "core/plane/geometry.hpp"
+#include "core/plane/se2.hpp"
 
 namespace warren {
 namespace {
-
-bool before(Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); }
 
 double area(std::span<const Vec2> outline) {
   double sum = 0.0;
@@ -58,18 +57,12 @@ std::vector<ConvexPiece> triangles_of(std::vector<Vec2> ring) {
   return triangles;
 }
 
-Vec2 rotated(Vec2 p, double c, double s) { return {c * p.x - s * p.y, s * p.x + c * p.y}; }
-Vec2 rotated(Vec2 p, double angle_rad) {
-  const auto [sine, cosine] = portable::sin_and_cos(angle_rad);
-  return rotated(p, cosine, sine);
-}
-
 /// The arc that p runs through, within its tangents: both ends and the corners between, `parts` of them.
 void add_arc(Vec2 p, double angle_rad, int parts, std::vector<Vec2>& to) {
   const double part = angle_rad / parts;
   to.push_back(p);
-  for (int i = 0; i < parts; ++i) to.push_back((1.0 / portable::cos(part / 2)) * rotated(p, (i + 0.5) * part));
-  to.push_back(rotated(p, angle_rad));
+  for (int i = 0; i < parts; ++i) to.push_back((1.0 / portable::cos(part / 2)) * Rotation((i + 0.5) * part)(p));
+  to.push_back(Rotation(angle_rad)(p));
 }
 
 constexpr int arc_parts = 4;
@@ -82,7 +75,7 @@ ConvexPiece swept_triangle(Vec2 a, Vec2 b, double angle_rad) {
     add_arc(b, angle_rad, arc_parts, corners);
   } else {
     add_arc(a, angle_rad, arc_parts, corners);
-    corners.push_back(rotated(b, angle_rad));
+    corners.push_back(Rotation(angle_rad)(b));
   }
   return convex_hull(std::move(corners));
 }
@@ -171,7 +164,7 @@ class RowSpans {
 }  // namespace
 
 ConvexPiece convex_hull(std::vector<Vec2> points) {
-  std::sort(points.begin(), points.end(), before);
+  std::sort(points.begin(), points.end(), is_before);
   points.erase(std::unique(points.begin(), points.end()), points.end());
   if (points.size() < 3) return points;
   ConvexPiece hull(2 * points.size());
@@ -208,7 +201,7 @@ std::vector<ConvexPiece> swept_by_turn(const ConvexPiece& piece, double angle_ra
     constexpr int eighths = 8;
     for (int part = 0; part < eighths; ++part) {
       std::vector<Vec2> corners;
-      for (const Vec2 p : piece) add_arc(rotated(p, angle_rad / eighths * part), angle_rad / eighths, 1, corners);
+      for (const Vec2 p : piece) add_arc(Rotation(angle_rad / eighths * part)(p), angle_rad / eighths, 1, corners);
       swept.push_back(convex_hull(std::move(corners)));
     }
     return swept;
@@ -242,12 +235,11 @@ ConvexPiece turned(std::span<const Vec2> outline, std::uint32_t k, std::uint32_t
   const bool quarters = n % 4 == 0;
   const std::uint32_t quarter = quarters ? k / (n / 4) : 0;
   const std::uint32_t rest = quarters ? k % (n / 4) : k;
-  const double angle_rad = 2.0 * std::numbers::pi * rest / n;
-  const auto [s, c] = portable::sin_and_cos(angle_rad);
+  const Rotation by_rest(2.0 * std::numbers::pi * rest / n);
   ConvexPiece result;
   result.reserve(outline.size());
   for (Vec2 p : outline) {
-    p = rotated(p, c, s);
+    p = by_rest(p);
     for (std::uint32_t q = 0; q < quarter; ++q) p = {-p.y, p.x};
     result.push_back(p);
   }

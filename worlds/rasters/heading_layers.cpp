@@ -14,6 +14,7 @@
 #include "core/base/error.hpp"
 #include "core/base/whole.hpp"
 #include "core/plane/convex_polygons.hpp"
+#include "core/plane/geometry.hpp"
 #include "core/plane/polygon.hpp"
 #include "core/plane/se2.hpp"
 #include "parallel/chunks.hpp"
@@ -32,8 +33,7 @@ struct LayerJob {
 
 /// Corners in order from the least: the same for every heading that covers the same set.
 ConvexPiece key_of(ConvexPiece corners) {
-  const auto less = [](Vec2 a, Vec2 b) { return a.x < b.x || (a.x == b.x && a.y < b.y); };
-  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end(), less), corners.end());
+  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end(), is_before), corners.end());
   return corners;
 }
 
@@ -330,7 +330,7 @@ class Widening {
       const auto row = blocked_.row(y);
       if (std::any_of(row.begin(), row.end(), [](std::uint64_t word) { return word != 0; })) widen_row(y);
     }
-    clear_beyond_width();
+    result_.clear_beyond_width();
     block_border();
     return std::move(result_);
   }
@@ -361,12 +361,6 @@ class Widening {
       or_from(doubled_[n], at(run.first), out);
       or_from(doubled_[n], at(run.last + 1 - (1 << n)), out);
     }
-  }
-
-  void clear_beyond_width() {
-    if (blocked_.width() % 64 == 0) return;
-    const std::uint64_t mask = (std::uint64_t{1} << blocked_.width() % 64) - 1;
-    for (std::uint32_t y = 0; y < blocked_.height(); ++y) result_.row(y).back() &= mask;
   }
 
   /// Positions from which the stamp reaches beyond the map.
@@ -479,8 +473,7 @@ HeadingLayers map_layers(const OccupancyMap& map, std::span<const Vec2> outline,
         std::to_string(map.width()) + " x " + std::to_string(map.height()) + " x " + std::to_string(angles));
   }
   constexpr double widest = 4096.0;  // cells: half a stamp, which has 8 MB then
-  double reach = clearance;
-  for (const Vec2 p : outline) reach = std::max(reach, clearance + norm(p));
+  const double reach = clearance + outline_reach(outline);
   if (!(reach / map.cell < widest)) {
     throw InputError("robot", "reaches over more than 4096 cells of the map", std::to_string(reach));
   }

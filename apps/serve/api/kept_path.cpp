@@ -68,6 +68,26 @@ struct SeenLegs {
   std::vector<std::vector<Vec2>> chains;
   bool begins_seen = false;  // the first leg is
   bool ends_seen = false;    // the last leg is: its end stands in the last chain
+  std::size_t points = 0;    // of what was added
+
+  /// What is seen of the block that follows; is_next: it begins where these legs end.
+  void add(SeenLegs part, bool is_next, std::size_t most_points) {
+    const bool is_open = is_next && ends_seen;  // does the last chain go on?
+    for (std::vector<Vec2>& chain : part.chains) {
+      if (is_open && part.begins_seen && &chain == &part.chains.front()) {
+        chains.back().insert(chains.back().end(), chain.begin() + 1, chain.end());
+        points += chain.size() - 1;
+      } else {
+        points += chain.size();
+        chains.push_back(std::move(chain));
+      }
+    }
+    if (points > most_points) {
+      throw HttpError(413, "path_too_long", "query",
+                      fmt::format("more than {} points; ask for a part of them by bbox and z", grouped(most_points)));
+    }
+    ends_seen = part.ends_seen;
+  }
 };
 
 SeenLegs seen_legs(std::span<const Vec2> path, const PathView& view) {
@@ -91,38 +111,6 @@ SeenLegs seen_legs(std::span<const Vec2> path, const PathView& view) {
   return seen;
 }
 
-/// What is seen of block after block.
-class JoinedChains {
- public:
-  explicit JoinedChains(const PathView& view) : most_points_(view.most_points) {}
-
-  /// is_next: it begins where the one before ends.
-  void add(SeenLegs part, bool is_next) {
-    const bool is_open = is_next && ends_seen_;  // does the last chain go on?
-    for (std::vector<Vec2>& chain : part.chains) {
-      if (is_open && part.begins_seen && &chain == &part.chains.front()) {
-        chains_.back().insert(chains_.back().end(), chain.begin() + 1, chain.end());
-        points_ += chain.size() - 1;
-      } else {
-        points_ += chain.size();
-        chains_.push_back(std::move(chain));
-      }
-    }
-    if (points_ > most_points_) {
-      throw HttpError(413, "path_too_long", "query",
-                      fmt::format("more than {} points; ask for a part of them by bbox and z", grouped(most_points_)));
-    }
-    ends_seen_ = part.ends_seen;
-  }
-  std::vector<std::vector<Vec2>> chains() { return std::move(chains_); }
-
- private:
-  std::size_t most_points_;
-  std::vector<std::vector<Vec2>> chains_;
-  std::size_t points_ = 0;
-  bool ends_seen_ = false;
-};
-
 PathState kept_state(const Answer& answer, std::size_t i) {
   PathState state;
   state.width = answer.states.width;
@@ -134,42 +122,6 @@ PathState only_state(const Answer& answer) {
   return kept_state(answer, 0);
 }
 Vec2 at(const PathState& state) { return {state.numbers[0], state.numbers[1]}; }
-
-/// Goes along a path, leg by leg.
-class Walk {
- public:
-  Walk(const PathLegs& legs, const Execution& execution) : legs_(legs), execution_(execution) { begin_leg(); }
-
-  /// target: not less than before.
-  PathPlace at(double target) {
-    while (leg_ + 1 < legs_.leg_count() && before_ + length_ < target) {
-      before_ += length_;
-      along_ += way_;
-      ++leg_;
-      begin_leg();
-    }
-    const double share = length_ > 0.0 ? std::clamp((target - before_) / length_, 0.0, 1.0) : 1.0;
-    return {along_ + share * way_, legs_.at(leg_, share)};
-  }
-
- private:
-  void begin_leg() {
-    if (leg_ % legs_a_poll == 0) execution_.check();
-    length_ = legs_.length(leg_);
-    way_ = length_;
-    if (legs_.shape() == LegShape::turning) {
-      way_ = distance(serve::at(legs_.at(leg_, 0.0)), serve::at(legs_.at(leg_, 1.0)));
-    }
-  }
-
-  const PathLegs& legs_;
-  const Execution& execution_;
-  std::size_t leg_ = 0;
-  double before_ = 0.0;  // length of all legs before
-  double along_ = 0.0;   // of the reference point's way
-  double length_ = 0.0;  // of this leg
-  double way_ = 0.0;
-};
 
 constexpr std::size_t steps_a_poll = std::size_t{1} << 12U;
 constexpr double pixels_apart = 12.0;
@@ -357,9 +309,7 @@ Path<Vec2> curve_of(const Answer& answer, const Execution& execution) {
   for (std::size_t leg = 0; leg < legs.leg_count(); ++leg) {
     if (leg % legs_a_poll == 0) execution.check();
     const double parts = std::clamp(std::ceil(legs.length(leg) / (most_turn_rad * legs.radius(leg))), 1.0, 1000.0);
-    for (double k = 1.0; k <= parts; k += 1.0) {
-      curve.push_back(at(legs.at(leg, k / parts)));
-    }
+    for (double k = 1.0; k <= parts; k += 1.0) curve.push_back(at(legs.at(leg, k / parts)));
   }
   return curve;
 }
@@ -370,24 +320,22 @@ std::vector<std::vector<Vec2>> seen_of(const KeptCurve& curve, const PathView& v
     if (block % legs_a_poll == 0) execution.check();
     if (curve.box(block).meets(view.box)) blocks.push_back(block);
   }
-  JoinedChains joined(view);
+  SeenLegs joined;
   std::array<SeenLegs, blocks_a_look> parts;
   for (std::size_t first = 0; first < blocks.size(); first += blocks_a_look) {
     const std::size_t count = std::min(blocks_a_look, blocks.size() - first);
     execution.reserve(count * bytes_a_block);
     for_chunks(count, 4, execution, [&](Range r) {
       std::vector<Vec2> room;
-      for (std::size_t i = r.first; i < r.last; ++i) {
-        parts[i] = seen_legs(curve.points(blocks[first + i], room), view);
-      }
+      for (std::size_t i = r.first; i < r.last; ++i) parts[i] = seen_legs(curve.points(blocks[first + i], room), view);
     });
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t block = blocks[first + i];
       const bool is_next = first + i > 0 && blocks[first + i - 1] + 1 == block;
-      joined.add(std::exchange(parts[i], {}), is_next);
+      joined.add(std::exchange(parts[i], {}), is_next, view.most_points);
     }
   }
-  return joined.chains();
+  return std::move(joined.chains);
 }
 
 std::vector<PathPlace> places_along(const Answer& answer, std::size_t count, const Execution& execution) {
@@ -398,11 +346,24 @@ std::vector<PathPlace> places_along(const Answer& answer, std::size_t count, con
     length += legs.length(leg);
   }
   if (length == 0.0) return {{0.0, only_state(answer)}};
-  Walk walk(legs, execution);
+  const auto wanted = [&](std::size_t k) {
+    return k + 1 == count ? length : length * static_cast<double>(k) / static_cast<double>(count - 1);
+  };
   std::vector<PathPlace> places;
-  for (std::size_t k = 0; k < count; ++k) {
-    places.push_back(
-        walk.at(k + 1 == count ? length : length * static_cast<double>(k) / static_cast<double>(count - 1)));
+  double before = 0.0;  // length of all legs before
+  double along = 0.0;   // of the reference point's way
+  for (std::size_t leg = 0; places.size() < count; ++leg) {
+    if (leg % legs_a_poll == 0) execution.check();
+    const double its = legs.length(leg);
+    const bool turns = legs.shape() == LegShape::turning;
+    const double way = turns ? distance(at(legs.at(leg, 0.0)), at(legs.at(leg, 1.0))) : its;
+    const bool is_last = leg + 1 == legs.leg_count();
+    while (places.size() < count && (is_last || !(before + its < wanted(places.size())))) {
+      const double share = its > 0.0 ? std::clamp((wanted(places.size()) - before) / its, 0.0, 1.0) : 1.0;
+      places.push_back({along + share * way, legs.at(leg, share)});
+    }
+    before += its;
+    along += way;
   }
   return places;
 }

@@ -93,14 +93,6 @@ std::vector<CellChange> cells_of(const OrderedJson& json, const std::string& whe
 
 constexpr std::size_t a_poll = 4096;
 
-using WallKey = std::array<double, 4>;
-WallKey key_of(const Segment& wall) {
-  const std::pair a{wall.a.x, wall.a.y};
-  const std::pair b{wall.b.x, wall.b.y};
-  const auto [low, high] = std::minmax(a, b);
-  return {low.first, low.second, high.first, high.second};
-}
-
 double distance_to(const std::vector<Vec2>& polygon, Vec2 p) {
   if (contains(polygon, p)) return 0.0;
   double least = std::numeric_limits<double>::infinity();
@@ -116,7 +108,7 @@ class Removal {
   Removal(const Scene& scene, const SceneChange& change, const Execution& execution)
       : scene_(scene), execution_(execution), is_gone_(scene.polygons.size(), false), shapes_(change.remove) {
     for (const ErasedPlace& place : change.erase) erase(place);
-    for (const Segment& wall : shapes_.walls) walls_.push_back(key_of(wall));
+    for (const Segment& wall : shapes_.walls) walls_.push_back(ordered_ends(wall.a, wall.b));
     std::sort(walls_.begin(), walls_.end());
     for (const std::vector<Vec2>& polygon : shapes_.polygons) take(polygon);
   }
@@ -149,7 +141,7 @@ class Removal {
   }
   bool is_removed(const Segment& wall, std::vector<bool>& used) const {
     if (walls_.empty()) return false;
-    const auto [first, last] = std::equal_range(walls_.begin(), walls_.end(), key_of(wall));
+    const auto [first, last] = std::equal_range(walls_.begin(), walls_.end(), ordered_ends(wall.a, wall.b));
     for (auto it = first; it != last; ++it) {  // each takes one
       const auto k = static_cast<std::size_t>(it - walls_.begin());
       if (used[k]) continue;
@@ -192,7 +184,7 @@ class Removal {
   const Execution& execution_;
   std::vector<bool> is_gone_;  // of polygons
   DrawnShapes shapes_;
-  std::vector<WallKey> walls_;  // sorted
+  std::vector<std::array<double, 4>> walls_;  // their ends, sorted
 };
 
 void check(const Scene& scene, const SceneChange& change) {
@@ -445,6 +437,8 @@ ChangedScene changed(const Scene& scene, const SceneChange& change, const std::o
 
   ChangedScene result{.scene = without_arrays(scene), .made = {.add = change.add, .remove = removal.shapes()}};
   Scene& now = result.scene;
+  for (const PriceMask& mask : scene.prices.masks) execution.reserve(mask.read ? mask.read->values.size() : 0);
+  now.prices = scene.prices;
   now.polygons = std::move(polygons);
   now.walls = WallSet::narrowest(walls);
   now.seams = scene.seams;

@@ -3,10 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <utility>
 #include <vector>
+
+#include "scenes/text/scene_text.hpp"
 
 namespace warren::serve {
 namespace {
@@ -117,10 +118,8 @@ std::optional<std::vector<double>> numbers_parameter(const HttpRequest& request,
   if (!text) return std::nullopt;
   std::vector<double> numbers;
   for (const std::string_view word : split(*text, ',')) {
-    double number = 0.0;
-    const char* last = word.data() + word.size();
-    const auto [read, error] = std::from_chars(word.data(), last, number);
-    if (error == std::errc() && read == last && std::isfinite(number)) numbers.push_back(number);
+    const auto number = scene_text::number_in_full<double>(word);
+    if (number && std::isfinite(*number)) numbers.push_back(*number);
   }
   if (numbers.size() == count && split(*text, ',').size() == count) return numbers;
   throw HttpError(400, "bad_request", "query",

@@ -183,7 +183,8 @@ Answer ServedWorld::ask(const ServedQuestion& question, const Execution& executi
   add_prices(asked.prices, question.prices);
   asked.rule = question.rule;
   asked.route = question.route;
-  const bool is_plain = asked.prices.empty() && asked.rule.empty() && asked.route.empty();
+  asked.goal = question.goal;
+  const bool is_plain = asked.prices.empty() && rule_of(outline(), asked).empty() && asked.route.empty();
   if (is_roadmap_ && !is_plain) {
     throw UsageError(
         "a roadmap knows no prices beside its own, and no choice of goals or ways; 'warren serve' of its world does");
@@ -204,7 +205,6 @@ Answer ServedWorld::ask(const ServedQuestion& question, const Execution& executi
   }
   const Scene& scene = whole(execution);
   asked.start = question.start;
-  asked.goal = question.goal;
   const SolveOptions options{.planner = question.planner, .optimise = question.optimise};
   const bool leaves = ways != nullptr && leaves_ways(scene, asked, options);
   Answer answer = leaves ? solve_with_ways(scene, asked, question.prices, options, execution, keep, *ways)

@@ -28,18 +28,12 @@
 
 namespace warren::serve {
 
-/// What one request asks.
-struct ServedQuestion {
-  std::vector<double> start = {};           ///< as Question has it; empty: the world's own
-  std::vector<double> goal = {};            ///< the same
-  std::optional<RobotSpec> robot = {};      ///< none: the service's; of a roadmap its own alone
-  std::optional<double> clearance = {};     ///< the same
+/// What one request asks. Without a robot or clearance of its own it has the service's; a roadmap has its own alone.
+/// Prices stand beside the service's; masks are its own alone.
+struct ServedQuestion : Question {
   bool optimise = false;                    ///< pull the path taut
   std::optional<PlannerKind> planner = {};  ///< none: the usual one; of a roadmap its own alone
   std::optional<double> budget_s = {};      ///< none: the service's
-  Prices prices = {};                       ///< beside the service's; masks are its own alone
-  GoalRule rule = {};                       ///< what reaching the goal means
-  RouteRule route = {};                     ///< which of the ways
   bool explains = false;  ///< say what would help, too; of the lattices of large mazes nothing is said
 };
 

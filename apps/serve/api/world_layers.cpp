@@ -19,7 +19,7 @@
 namespace warren::serve {
 namespace {
 
-// What the colours of layers mean, with figures: each a JSON list of "color" and "words".
+// What the colours of layers mean, with figures.
 
 /// The steps, and behind them what the start does not reach.
 inline constexpr std::array<Rgb, unreached_ink + 1> search_inks = [] {
@@ -29,20 +29,23 @@ inline constexpr std::array<Rgb, unreached_ink + 1> search_inks = [] {
   return inks;
 }();
 
-class Legend {
- public:
-  /// opacity: as two hexadecimal digits; empty: opaque.
-  void add(Rgb color, std::string_view words, std::string_view opacity = {}) {
-    JsonObject entry;
-    entry.add("color", fmt::format("#{:02x}{:02x}{:02x}{}", color.red, color.green, color.blue, opacity));
-    entry.add("words", words);
-    text_ += (text_.size() > 1 ? "," : "") + entry.closed();
-  }
-  std::string closed() const { return text_ + "]"; }
-
- private:
-  std::string text_ = "[";
+struct ColorMeaning {
+  Rgb color;
+  std::string words;
+  bool is_step = false;  ///< of a scale, above the world
 };
+using Legend = std::vector<ColorMeaning>;
+
+/// A list of "color" and "words".
+std::string json_of_legend(const Legend& legend) {
+  return json_list_of(legend, ",", [](const ColorMeaning& one) {
+    const std::string opacity = one.is_step ? fmt::format("{:02x}", step_opacity) : "";
+    JsonObject entry;
+    entry.add("color", fmt::format("#{:02x}{:02x}{:02x}{}", one.color.red, one.color.green, one.color.blue, opacity));
+    entry.add("words", one.words);
+    return entry.closed();
+  });
+}
 
 /// As people read it, what is before the point in groups of three.
 std::string grouped_number(double value) {
@@ -59,86 +62,80 @@ std::string unit_behind(const ServedWorld& world) {
 
 /// Of a scale whose steps below `needed` are not seen.
 void add_steps(Legend& legend, const Steps& steps, double needed, std::string_view behind) {
-  const std::string opacity = fmt::format("{:02x}", step_opacity);
   for (std::size_t step = 0; step < steps.count; ++step) {
     const double low = std::max(needed, static_cast<double>(step) * steps.each);
     const double high = static_cast<double>(step + 1) * steps.each;
     const bool is_last = step + 1 == steps.count;
     if (!is_last && high <= needed) continue;
-    legend.add(step_inks[step],
-               is_last ? fmt::format("{}{} and more", grouped_number(low), behind)
-                       : fmt::format("{} to {}{}", grouped_number(low), grouped_number(high), behind),
-               opacity);
+    legend.push_back({step_inks[step],
+                      is_last ? fmt::format("{}{} and more", grouped_number(low), behind)
+                              : fmt::format("{} to {}{}", grouped_number(low), grouped_number(high), behind),
+                      true});
   }
 }
 
 /// Of a maze's lattice.
-std::string passages_legend(std::uint64_t passages, std::uint64_t cells) {
-  Legend legend;
-  legend.add(component_inks[0], fmt::format("{} between {}, drawn where a cell has 8 pixels or more",
-                                            counted(passages, "passage", "passages"), counted(cells, "cell", "cells")));
-  return legend.closed();
+Legend passages_legend(std::uint64_t passages, std::uint64_t cells) {
+  return {{component_inks[0], fmt::format("{} between {}, drawn where a cell has 8 pixels or more",
+                                          counted(passages, "passage", "passages"), counted(cells, "cell", "cells"))}};
 }
 /// turns: the axis is that of the disc around a body that turns.
-std::string axis_legend(const RoadmapLayer& layer, bool turns) {
-  Legend legend;
-  legend.add(component_inks[0], fmt::format("{} and {}, as far from all obstacles as can be{}",
-                                            counted(layer.milestones(), "place", "places"),
-                                            counted(layer.free_edges(), "free edge", "free edges"),
-                                            turns ? ", of the disc around the body" : ""));
-  return legend.closed();
+Legend axis_legend(const RoadmapLayer& layer, bool turns) {
+  return {{component_inks[0], fmt::format("{} and {}, as far from all obstacles as can be{}",
+                                          counted(layer.milestones(), "place", "places"),
+                                          counted(layer.free_edges(), "free edge", "free edges"),
+                                          turns ? ", of the disc around the body" : "")}};
 }
 /// has_curves: cars drive the edges.
-std::string edges_legend(const RoadmapLayer& layer, bool has_curves) {
-  Legend legend;
-  legend.add(component_inks[0],
-             fmt::format("{} and {}{}; where a tile has more than {} edges, milestones alone",
-                         counted(layer.milestones(), "milestone", "milestones"),
-                         counted(layer.free_edges(), "free edge", "free edges"),
-                         has_curves ? ", which cars drive as curves" : "", grouped(most_drawn_edges)));
-  return legend.closed();
+Legend edges_legend(const RoadmapLayer& layer, bool has_curves) {
+  return {
+      {component_inks[0], fmt::format("{} and {}{}; where a tile has more than {} edges, milestones alone",
+                                      counted(layer.milestones(), "milestone", "milestones"),
+                                      counted(layer.free_edges(), "free edge", "free edges"),
+                                      has_curves ? ", which cars drive as curves" : "", grouped(most_drawn_edges))}};
 }
-std::string components_legend(const RoadmapLayer& layer) {
+Legend components_legend(const RoadmapLayer& layer) {
   Legend legend;
   const auto& milestones = layer.milestones_of_ink();
   for (std::size_t rank = 0; rank + 1 < component_inks.size(); ++rank) {
     if (milestones[rank] == 0) break;
-    legend.add(component_inks[rank], fmt::format("{}: {}", rank == 0 ? "largest" : fmt::format("number {}", rank + 1),
-                                                 counted(milestones[rank], "milestone", "milestones")));
+    legend.push_back(
+        {component_inks[rank], fmt::format("{}: {}", rank == 0 ? "largest" : fmt::format("number {}", rank + 1),
+                                           counted(milestones[rank], "milestone", "milestones"))});
   }
   if (layer.small_components() > 0) {
-    legend.add(component_inks.back(), fmt::format("{}: {}", counted(layer.small_components(), "other", "others"),
-                                                  counted(milestones.back(), "milestone", "milestones")));
+    legend.push_back({component_inks.back(), fmt::format("{}: {}", counted(layer.small_components(), "other", "others"),
+                                                         counted(milestones.back(), "milestone", "milestones"))});
   }
-  return legend.closed();
+  return legend;
 }
-std::string search_legend(const StartDistances& found, const ServedWorld& world) {
+Legend search_legend(const StartDistances& found, const ServedWorld& world) {
   Legend legend;
   const std::string behind = unit_behind(world);
   for (std::size_t step = 0; step < found.steps.count && found.reached > 0; ++step) {
     const bool is_last = step + 1 == found.steps.count;
     const double high = is_last ? found.farthest : static_cast<double>(step + 1) * found.steps.each;
-    legend.add(search_inks[step],
-               fmt::format("{} to {}{} from the start", grouped_number(static_cast<double>(step) * found.steps.each),
-                           grouped_number(high), behind));
+    legend.push_back({search_inks[step], fmt::format("{} to {}{} from the start",
+                                                     grouped_number(static_cast<double>(step) * found.steps.each),
+                                                     grouped_number(high), behind)});
   }
   if (const std::uint64_t others = found.inks.size() - found.reached; others > 0) {
-    legend.add(search_inks.back(), counted(others, "milestone", "milestones") + " that it does not reach");
+    legend.push_back({search_inks.back(), counted(others, "milestone", "milestones") + " that it does not reach"});
   }
-  return legend.closed();
+  return legend;
 }
-std::string clearance_legend(const ClearanceLayer& layer, const ServedWorld& world) {
+Legend clearance_legend(const ClearanceLayer& layer, const ServedWorld& world) {
   Legend legend;
   const std::string behind = unit_behind(world);
   const double needed = layer.needed();
   if (needed > 0.0) {
-    legend.add(
-        too_near_ink,
-        fmt::format("nearer than {}{}: too near for {}", grouped_number(needed), behind, robot_text(world.robot())),
-        fmt::format("{:02x}", step_opacity));
+    legend.push_back(
+        {too_near_ink,
+         fmt::format("nearer than {}{}: too near for {}", grouped_number(needed), behind, robot_text(world.robot())),
+         true});
   }
   add_steps(legend, layer.steps(), needed, behind);
-  return legend.closed();
+  return legend;
 }
 
 constexpr const char* no_roadmap =
@@ -151,22 +148,16 @@ unsigned zoom_of(double pixel, const TileGrid& grid) {
   return zoom;
 }
 
-LayerAccount roadmap_account(const ServedWorld& world) {
-  LayerAccount account{.name = "roadmap"};
-  if (world.query() == nullptr) account.why = no_roadmap;
-  if (world.query() == nullptr || world.query()->roadmap().lattice == nullptr) return account;
-  account.from_zoom = zoom_of(largest_pixel_of_passages, world.tiles().grid());
-  return account;
+/// Is it asked by the roadmap of a maze's lattice?
+bool has_lattice(const ServedWorld& world) {
+  return world.query() != nullptr && world.query()->roadmap().lattice != nullptr;
 }
 
-LayerAccount components_account(const ServedWorld& world) {
-  LayerAccount account{.name = "components"};
-  if (world.query() == nullptr) {
-    account.why = no_roadmap;
-  } else if (world.query()->roadmap().lattice != nullptr) {
-    account.why = "the roadmap of a maze's lattice holds passages and no components";
-  }
-  return account;
+// Why a layer is not there; empty: it is.
+
+std::string why_no_components(const ServedWorld& world) {
+  if (world.query() == nullptr) return no_roadmap;
+  return has_lattice(world) ? "the roadmap of a maze's lattice holds passages and no components" : "";
 }
 
 /// Up to one more than are shown.
@@ -179,15 +170,9 @@ std::size_t side_count(const Scene& scene) {
   return count;
 }
 
-LayerAccount clearance_account(const ServedWorld& world) {
-  LayerAccount account{.name = "clearance"};
-  const Scene& outline = world.outline();
-  account.from_zoom = zoom_of(world.tiles().largest_pixel_of_distances(), world.tiles().grid());
-  if (outline.maze || outline.map) return account;
-  if (side_count(outline) > most_shapes) {
-    account.why = fmt::format("at most {} walls and sides are measured", grouped(most_shapes));
-  }
-  return account;
+std::string why_no_clearance(const Scene& outline) {
+  if (outline.maze || outline.map || side_count(outline) <= most_shapes) return {};
+  return fmt::format("at most {} walls and sides are measured", grouped(most_shapes));
 }
 
 /// Distance that the middle of a round body must have; 0 of others, whose place alone doesn't say whether they fit.
@@ -195,41 +180,41 @@ double needed_around(const ServedWorld& world) {
   return world.robot().outline.empty() ? world.robot().radius + world.clearance() : 0.0;
 }
 
-LayerAccount axis_account(const ServedWorld& world) {
-  LayerAccount account{.name = "axis"};
-  if (world.query() != nullptr && world.query()->roadmap().lattice != nullptr) {
-    account.why = "the axis of a maze is its passages; see 'roadmap'";
-    return account;
-  }
+std::string why_no_axis(const ServedWorld& world) {
+  if (has_lattice(world)) return "the axis of a maze is its passages; see 'roadmap'";
   try {
     check_has_axis(world.outline(), world.robot(), world.clearance());
+    return {};
   } catch (const UsageError& error) {
-    account.why = error.what();
+    return error.what();
   }
-  return account;
 }
 
-LayerAccount search_account(const ServedWorld& world) {
-  LayerAccount account{.name = "search", .is_of_start = true};
+std::string why_no_search(const ServedWorld& world) {
+  if (world.query() == nullptr) return no_roadmap;
+  if (has_lattice(world)) return "the index of a maze's lattice finds its paths without a search";
   const bool is_round = world.robot().kind == RobotKind::point || world.robot().kind == RobotKind::disc;
-  if (world.query() == nullptr) {
-    account.why = no_roadmap;
-  } else if (world.query()->roadmap().lattice != nullptr) {
-    account.why = "the index of a maze's lattice finds its paths without a search";
-  } else if (!is_round) {
-    account.why = "the distances of a roadmap are drawn for points and discs";
-  } else if (world.query()->roadmap().options.planner == PlannerKind::lazy_prm) {
-    account.why = "this roadmap's edges are checked while it is asked; one of 'build --planner prm' has distances";
-  } else if (world.query()->roadmap().options.planner != PlannerKind::prm) {
-    account.why = "distances are drawn of roadmaps of samples; one of 'build --planner prm' has them";
-  }
-  return account;
+  if (!is_round) return "the distances of a roadmap are drawn for points and discs";
+  const auto planner = world.query()->roadmap().options.planner;
+  if (planner == PlannerKind::prm) return {};
+  return planner == PlannerKind::lazy_prm
+             ? "this roadmap's edges are checked while it is asked; one of 'build --planner prm' has distances"
+             : "distances are drawn of roadmaps of samples; one of 'build --planner prm' has them";
 }
 
-LayerAccount sweep_account(const RobotSpec& robot) {
-  LayerAccount account{.name = "sweep", .is_of_path = true};
-  if (!(reach_of(robot) > 0.0)) account.why = "a point has no extent, so it sweeps no more than its path";
-  return account;
+std::string why_no_sweep(const RobotSpec& robot) {
+  return reach_of(robot) > 0.0 ? "" : "a point has no extent, so it sweeps no more than its path";
+}
+
+std::vector<LayerAccount> accounts_of(const ServedWorld& world) {
+  const TileGrid& grid = world.tiles().grid();
+  return {{"roadmap", world.query() == nullptr ? no_roadmap : "",
+           has_lattice(world) ? zoom_of(largest_pixel_of_passages, grid) : 0},
+          {"components", why_no_components(world)},
+          {"clearance", why_no_clearance(world.outline()), zoom_of(world.tiles().largest_pixel_of_distances(), grid)},
+          {"axis", why_no_axis(world)},
+          {.name = "search", .why = why_no_search(world), .is_of_start = true},
+          {.name = "sweep", .why = why_no_sweep(world.robot()), .is_of_path = true}};
 }
 
 std::string json_of_account(const LayerAccount& account, const std::string& hash) {
@@ -261,14 +246,14 @@ std::size_t most_bytes_of_starts(std::size_t bytes_a_start) {
 
 WorldLayers::WorldLayers(const ServedWorld& world)
     : world_(world),
-      accounts_{roadmap_account(world), components_account(world), clearance_account(world),
-                axis_account(world),    search_account(world),     sweep_account(world.robot())},
+      accounts_(accounts_of(world)),
       bytes_a_start_(sizeof(StartDistances) + (world.query() == nullptr ? 0 : count_states(world.query()->roadmap()))),
       starts_(most_bytes_of_starts(bytes_a_start_)) {}
 
 std::string WorldLayers::json(const RobotSpec& robot) const {
-  return json_list_of(accounts_, ",", [&](const LayerAccount& account) {
-    return json_of_account(account.is_of_path ? sweep_account(robot) : account, world_.hash());
+  return json_list_of(accounts_, ",", [&](LayerAccount account) {
+    if (account.is_of_path) account.why = why_no_sweep(robot);
+    return json_of_account(account, world_.hash());
   });
 }
 
@@ -331,15 +316,16 @@ std::string WorldLayers::legend(std::string_view name, const std::optional<std::
                                 const Execution& execution) const {
   refuse_missing(name);
   if (name == "search") {
-    return from_start(from, execution, [&](const StartDistances& made) { return search_legend(made, world_); });
+    return from_start(from, execution,
+                      [&](const StartDistances& made) { return json_of_legend(search_legend(made, world_)); });
   }
-  if (name == "clearance") return clearance_legend(clearance(execution), world_);
-  if (name == "axis") return axis_legend(axis(execution), !world_.robot().outline.empty());
+  if (name == "clearance") return json_of_legend(clearance_legend(clearance(execution), world_));
+  if (name == "axis") return json_of_legend(axis_legend(axis(execution), !world_.robot().outline.empty()));
   if (world_.passages(execution) != nullptr) {
-    return passages_legend(passages(execution), count_states(world_.query()->roadmap()));
+    return json_of_legend(passages_legend(passages(execution), count_states(world_.query()->roadmap())));
   }
-  if (name == "components") return components_legend(roadmap(execution));
-  return edges_legend(roadmap(execution), world_.robot().kind == RobotKind::car);
+  if (name == "components") return json_of_legend(components_legend(roadmap(execution)));
+  return json_of_legend(edges_legend(roadmap(execution), world_.robot().kind == RobotKind::car));
 }
 
 std::string WorldLayers::draw(std::string_view name, const TilePlace& tile,

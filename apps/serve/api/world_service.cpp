@@ -108,12 +108,6 @@ void add_outline(JsonObject& json, const RobotSpec& robot) {
 
 // What a service says of its world and of itself.
 
-/// What is kept.
-struct KeptBytes {
-  std::size_t tile_bytes = 0;
-  std::size_t path_bytes = 0;
-};
-
 std::string box_json(const Box& box) {
   return json_list(std::span<const double>(std::array{box.min.x, box.min.y, box.max.x, box.max.y}));
 }
@@ -211,8 +205,8 @@ std::string description_json(const ServedWorld& world, const Question& body, con
   json.add_json("ground", ground_json(world, body, execution));
   return json.closed() + "\n";
 }
-/// In the text format of Prometheus.
-std::string metrics_text(const HttpFigures& f, const KeptBytes& kept) {
+/// In the text format of Prometheus. Bytes: of what is kept.
+std::string metrics_text(const HttpFigures& f, std::size_t tile_bytes, std::size_t path_bytes) {
   std::string text;
   const auto number = [](auto count) { return static_cast<double>(count); };
   add_line(text, "connections", "gauge", "Open connections.", number(f.connections));
@@ -229,8 +223,8 @@ std::string metrics_text(const HttpFigures& f, const KeptBytes& kept) {
   for (std::size_t digit = 1; digit < f.said.size(); ++digit) {
     fmt::format_to(std::back_inserter(text), "warren_responses_total{{status=\"{}xx\"}} {}\n", digit, f.said[digit]);
   }
-  add_line(text, "kept_tile_bytes", "gauge", "Tiles that are kept.", number(kept.tile_bytes));
-  add_line(text, "kept_path_bytes", "gauge", "Paths that are kept.", number(kept.path_bytes));
+  add_line(text, "kept_tile_bytes", "gauge", "Tiles that are kept.", number(tile_bytes));
+  add_line(text, "kept_path_bytes", "gauge", "Paths that are kept.", number(path_bytes));
   add_line(text, "resident_bytes", "gauge", "Memory that the process holds.", number(resident_bytes()));
   return text;
 }
@@ -399,7 +393,8 @@ std::optional<HttpResponse> WorldService::at_once(const HttpRequest& request, co
     case Place::health:
       return HttpResponse{.body = "{\"status\":\"ok\"}\n"};
     case Place::metrics:
-      return metrics(figures);
+      return HttpResponse{.type = "text/plain; version=0.0.4",
+                          .body = metrics_text(figures, tiles_.bytes(), paths_.bytes())};
     case Place::progress:
       return progress(request);
     case Place::world:
@@ -566,7 +561,7 @@ HttpResponse WorldService::scene(const HttpRequest& request, const Execution& ex
     told.goal = std::move(*goal);
     told.other_goals.clear();
   }
-  told.prices = world_.query() != nullptr ? world_.query()->roadmap().prices : prices_of(told, body);
+  add_prices(told.prices, world_.query() != nullptr ? world_.query()->roadmap().prices : body.prices);
   Question{.start = told.start, .goal = told.goal}.validate();
   HttpResponse response{.type = "text/plain; charset=utf-8",
                         .fields = {{"Content-Disposition", "attachment; filename=\"world.scene\""}}};
@@ -579,11 +574,6 @@ HttpResponse WorldService::scene(const HttpRequest& request, const Execution& ex
       },
       execution);
   return response;
-}
-
-HttpResponse WorldService::metrics(const HttpFigures& figures) const {
-  return {.type = "text/plain; version=0.0.4",
-          .body = metrics_text(figures, {.tile_bytes = tiles_.bytes(), .path_bytes = paths_.bytes()})};
 }
 
 WritableService::WritableService(std::unique_ptr<ServedWorld> world, const ServiceLimits& limits, std::string token)

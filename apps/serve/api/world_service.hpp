@@ -140,7 +140,6 @@ class WorldService : public HttpService {
   HttpResponse batch(const HttpRequest& request, const Execution& execution) const;
   HttpResponse scene(const HttpRequest& request, const Execution& execution) const;
   Question body_in(const HttpRequest& request) const;
-  HttpResponse metrics(const HttpFigures& figures) const;
   std::string layer_name(const HttpRequest& request, const Route& route) const;
   std::string tile_tag() const;
   HttpResponse tile_response(const Route& route, std::string bytes) const;

@@ -26,15 +26,12 @@ std::vector<Se2> poses_along(const DrawnEdge& edge) {
   const Vec2 way = edge.to.at - edge.from.at;
   const double along = portable::atan2(way.y, way.x);
   std::vector<Se2> path;
-  if (edge.from.theta) {
-    path.push_back({edge.from.at.x, edge.from.at.y, *edge.from.theta});
-  } else {
-    turn_all_round(edge.from.at, along, path);
-  }
-  if (edge.to.theta) {
-    path.push_back({edge.to.at.x, edge.to.at.y, *edge.to.theta});
-  } else {
-    turn_all_round(edge.to.at, along, path);
+  for (const EdgePlace& end : {edge.from, edge.to}) {
+    if (end.theta) {
+      path.push_back({end.at.x, end.at.y, *end.theta});
+    } else {
+      turn_all_round(end.at, along, path);
+    }
   }
   return path;
 }

@@ -63,9 +63,7 @@ std::uint64_t whole_number(const OrderedJson& json, const std::string& where, st
   constexpr double exact = 9007199254740992.0;
   const double number = json.is_number_float() ? json.get<double>() : -1.0;  // 3.0 is one, too
   const bool is_whole = json.is_number_unsigned() || (number >= 0.0 && number < exact && number == std::floor(number));
-  if (!is_whole || json.get<std::uint64_t>() > most) {
-    refuse_json(where, fmt::format("a whole number, 0 to {}", most));
-  }
+  if (!is_whole || json.get<std::uint64_t>() > most) refuse_json(where, fmt::format("a whole number, 0 to {}", most));
   return json.get<std::uint64_t>();
 }
 

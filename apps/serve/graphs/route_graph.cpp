@@ -59,64 +59,6 @@ RouteGraph graph_of(const RoadmapParts& parts, const Execution& execution) {
   return graph;
 }
 
-}  // namespace
-
-std::vector<RouteEnds> ends_of(const RouteGraph& graph) {
-  if (graph.nodes.empty()) refuse("Nav2 loads no route graph without nodes, and this one has none");
-  if (graph.edges.empty()) refuse("Nav2 loads no route graph without edges, and this one has none");
-  if (graph.nodes.size() > most_route_nodes || graph.edges.size() > most_route_edges) {
-    throw HttpError(413, "graph_too_large", "graph",
-                    fmt::format("at most {} nodes and {} edges, each one way, are edited here",
-                                grouped(most_route_nodes), grouped(most_route_edges)));
-  }
-  std::map<std::uint32_t, std::size_t> places;
-  for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
-    const std::uint32_t id = graph.nodes[i].id;
-    if (!places.emplace(id, i).second) refuse(fmt::format("the id {} is given to two nodes", id));
-  }
-  const auto place_of = [&](std::uint32_t id, const RouteEdge& edge) {
-    const auto found = places.find(id);
-    if (found == places.end()) refuse(fmt::format("edge {}: there is no node {}", edge.id, id));
-    return found->second;
-  };
-  std::vector<RouteEnds> ends;
-  for (const RouteEdge& edge : graph.edges) ends.push_back({place_of(edge.from, edge), place_of(edge.to, edge)});
-  return ends;
-}
-
-RouteGraph graph_of_roadmap(const Roadmap& roadmap, const Execution& execution) {
-  check_drives_edges(roadmap.robot);
-  if (roadmap.lattice == nullptr) return graph_of(roadmap.arrays.parts(), execution);
-  check_size(count_states(roadmap), 0);
-  const RoadmapArrays arrays = arrays_of(roadmap.lattice->passages(), execution);
-  return graph_of(arrays.parts(), execution);
-}
-
-void check_has_axis(const Scene& scene, const RobotSpec& robot, double clearance) {
-  check_buildable(scene, {.robot = disc_around(robot), .clearance = clearance}, {.planner = PlannerKind::voronoi});
-}
-
-Roadmap built_roadmap(const Scene& scene, const RobotSpec& robot, double clearance, const GraphOptions& options,
-                      const Execution& execution) {
-  const bool is_axis = options.kind == GraphKind::axis;
-  const Question body{.robot = is_axis ? disc_around(robot) : robot, .clearance = clearance};
-  SolveOptions how{.planner = is_axis ? PlannerKind::voronoi : PlannerKind::prm, .seed = options.seed};
-  how.roadmap = {.samples = options.samples, .neighbours = options.neighbours};
-  how.validate();
-  check_buildable(scene, body, how);
-  execution.reserve(scene.walls.size() * sizeof(Segment));
-  return build_within(scene, body, how, execution, IndexChoice::none);
-}
-
-RouteGraph built_graph(const Scene& scene, const RobotSpec& robot, double clearance, const GraphOptions& options,
-                       const Execution& execution) {
-  check_drives_edges(robot);
-  if (options.samples) check_size(*options.samples, 0);
-  return graph_of_roadmap(built_roadmap(scene, robot, clearance, options, execution), execution);
-}
-
-namespace {
-
 double distance_to_leg(Vec2 p, Vec2 a, Vec2 b) {
   const Vec2 along = b - a;
   const double square = dot(along, along);
@@ -270,6 +212,60 @@ class Simplifying {
 };
 
 }  // namespace
+
+std::vector<RouteEnds> ends_of(const RouteGraph& graph) {
+  if (graph.nodes.empty()) refuse("Nav2 loads no route graph without nodes, and this one has none");
+  if (graph.edges.empty()) refuse("Nav2 loads no route graph without edges, and this one has none");
+  if (graph.nodes.size() > most_route_nodes || graph.edges.size() > most_route_edges) {
+    throw HttpError(413, "graph_too_large", "graph",
+                    fmt::format("at most {} nodes and {} edges, each one way, are edited here",
+                                grouped(most_route_nodes), grouped(most_route_edges)));
+  }
+  std::map<std::uint32_t, std::size_t> places;
+  for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
+    const std::uint32_t id = graph.nodes[i].id;
+    if (!places.emplace(id, i).second) refuse(fmt::format("the id {} is given to two nodes", id));
+  }
+  const auto place_of = [&](std::uint32_t id, const RouteEdge& edge) {
+    const auto found = places.find(id);
+    if (found == places.end()) refuse(fmt::format("edge {}: there is no node {}", edge.id, id));
+    return found->second;
+  };
+  std::vector<RouteEnds> ends;
+  for (const RouteEdge& edge : graph.edges) ends.push_back({place_of(edge.from, edge), place_of(edge.to, edge)});
+  return ends;
+}
+
+RouteGraph graph_of_roadmap(const Roadmap& roadmap, const Execution& execution) {
+  check_drives_edges(roadmap.robot);
+  if (roadmap.lattice == nullptr) return graph_of(roadmap.arrays.parts(), execution);
+  check_size(count_states(roadmap), 0);
+  const RoadmapArrays arrays = arrays_of(roadmap.lattice->passages(), execution);
+  return graph_of(arrays.parts(), execution);
+}
+
+void check_has_axis(const Scene& scene, const RobotSpec& robot, double clearance) {
+  check_buildable(scene, {.robot = disc_around(robot), .clearance = clearance}, {.planner = PlannerKind::voronoi});
+}
+
+Roadmap built_roadmap(const Scene& scene, const RobotSpec& robot, double clearance, const GraphOptions& options,
+                      const Execution& execution) {
+  const bool is_axis = options.kind == GraphKind::axis;
+  const Question body{.robot = is_axis ? disc_around(robot) : robot, .clearance = clearance};
+  SolveOptions how{.planner = is_axis ? PlannerKind::voronoi : PlannerKind::prm, .seed = options.seed};
+  how.roadmap = {.samples = options.samples, .neighbours = options.neighbours};
+  how.validate();
+  check_buildable(scene, body, how);
+  execution.reserve(scene.walls.size() * sizeof(Segment));
+  return build_within(scene, body, how, execution, IndexChoice::none);
+}
+
+RouteGraph built_graph(const Scene& scene, const RobotSpec& robot, double clearance, const GraphOptions& options,
+                       const Execution& execution) {
+  check_drives_edges(robot);
+  if (options.samples) check_size(*options.samples, 0);
+  return graph_of_roadmap(built_roadmap(scene, robot, clearance, options, execution), execution);
+}
 
 RouteGraph simplified(const RouteGraph& graph, double within, const MayLead& may_lead, const Execution& execution) {
   return Simplifying(graph, within, may_lead, execution).made();

@@ -212,9 +212,7 @@ class Reader {
     node.at = {finite_number((*at)[0], where + ": x"), finite_number((*at)[1], where + ": y")};
     const std::string frame = properties.text("frame").value_or("map");
     if (graph.nodes.empty()) graph.frame = frame;
-    if (frame != graph.frame) {
-      refuse_json(where + ": frame", fmt::format("{}, as nodes before have it", graph.frame));
-    }
+    if (frame != graph.frame) refuse_json(where + ": frame", fmt::format("{}, as nodes before have it", graph.frame));
     node.theta = properties.heading();
     node.more = properties.rest();
     const auto [place, is_new] = places_.emplace(node.id, graph.nodes.size());

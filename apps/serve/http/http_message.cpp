@@ -9,6 +9,7 @@
 #include <string>
 
 #include "scenes/text/json_text.hpp"
+#include "scenes/text/scene_text.hpp"
 
 namespace warren::serve {
 
@@ -75,10 +76,8 @@ std::optional<HostName> host_of(std::string_view text) {
   if (end == std::string_view::npos) return host;
   text = text.substr(end + (bracketed ? 1 : 0));
   if (text.empty()) return host;
-  const char* last = text.data() + text.size();
-  if (text[0] != ':' || text.size() == 1) return std::nullopt;
-  const auto [read, error] = std::from_chars(text.data() + 1, last, host.port.emplace());
-  return error == std::errc() && read == last ? std::optional(host) : std::nullopt;
+  host.port = text[0] == ':' ? scene_text::number_in_full<std::uint16_t>(text.substr(1)) : std::nullopt;
+  return host.port ? std::optional(host) : std::nullopt;
 }
 
 /// Scheme, host, and the rest as it is, which may be nothing.

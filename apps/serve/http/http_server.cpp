@@ -57,62 +57,6 @@ class PagesOfTasks {
   std::optional<PagePool> pool_;
 };
 
-}  // namespace
-
-TaskCrew::TaskCrew(unsigned threads, std::size_t most_waiting) : most_waiting_(most_waiting) {
-  try {
-    for (unsigned i = 0; i < threads; ++i) threads_.emplace_back([this] { work(); });
-  } catch (const std::system_error&) {  // as many as there are
-  }
-}
-
-bool TaskCrew::offer(std::function<void()> task) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (ended_ || tasks_.size() >= most_waiting_) return false;
-    if (!threads_.empty()) {
-      tasks_.push_back(std::move(task));
-      wake_.notify_one();
-      return true;
-    }
-  }
-  task();
-  return true;
-}
-
-std::size_t TaskCrew::waiting() const {
-  const std::lock_guard lock(mutex_);
-  return tasks_.size();
-}
-
-void TaskCrew::end() {
-  {
-    const std::lock_guard lock(mutex_);
-    ended_ = true;
-    tasks_.clear();
-  }
-  wake_.notify_all();
-  for (std::thread& thread : threads_) thread.join();
-  threads_.clear();
-}
-
-void TaskCrew::work() {
-  PagesOfTasks pages;
-  std::unique_lock lock(mutex_);
-  while (true) {
-    wake_.wait(lock, [this] { return ended_ || !tasks_.empty(); });
-    if (ended_) return;
-    const std::function<void()> task = std::move(tasks_.front());
-    tasks_.pop_front();
-    lock.unlock();
-    task();
-    pages.end_task();
-    lock.lock();
-  }
-}
-
-namespace {
-
 namespace asio = boost::asio;
 namespace http = boost::beast::http;
 using Tcp = asio::ip::tcp;
@@ -268,6 +212,58 @@ HttpResponse said_of_what_is_thrown() {
 }
 
 }  // namespace
+
+TaskCrew::TaskCrew(unsigned threads, std::size_t most_waiting) : most_waiting_(most_waiting) {
+  try {
+    for (unsigned i = 0; i < threads; ++i) threads_.emplace_back([this] { work(); });
+  } catch (const std::system_error&) {  // as many as there are
+  }
+}
+
+bool TaskCrew::offer(std::function<void()> task) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (ended_ || tasks_.size() >= most_waiting_) return false;
+    if (!threads_.empty()) {
+      tasks_.push_back(std::move(task));
+      wake_.notify_one();
+      return true;
+    }
+  }
+  task();
+  return true;
+}
+
+std::size_t TaskCrew::waiting() const {
+  const std::lock_guard lock(mutex_);
+  return tasks_.size();
+}
+
+void TaskCrew::end() {
+  {
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+    tasks_.clear();
+  }
+  wake_.notify_all();
+  for (std::thread& thread : threads_) thread.join();
+  threads_.clear();
+}
+
+void TaskCrew::work() {
+  PagesOfTasks pages;
+  std::unique_lock lock(mutex_);
+  while (true) {
+    wake_.wait(lock, [this] { return ended_ || !tasks_.empty(); });
+    if (ended_) return;
+    const std::function<void()> task = std::move(tasks_.front());
+    tasks_.pop_front();
+    lock.unlock();
+    task();
+    pages.end_task();
+    lock.lock();
+  }
+}
 
 /// All of it is the business of the thread of run(), but for jobs' tasks, which touch their job alone.
 class HttpServer::Connections {

@@ -89,7 +89,7 @@ std::uint8_t ClearanceLayer::ink_of(double distance) const {
 }
 
 std::string ClearanceLayer::draw(const TilePlace& place, const Execution& execution) const {
-  StepTile tile;
+  PixelTile tile;
   const Box box = grid_.box_of(place);
   const double pixel = grid_.pixel(place.zoom);
   if (pixel <= largest_pixel_) {
@@ -103,10 +103,10 @@ std::string ClearanceLayer::draw(const TilePlace& place, const Execution& execut
   std::array<Rgb, step_inks.size() + 1> inks;
   std::copy(step_inks.begin(), step_inks.end(), inks.begin());
   inks.back() = too_near_ink;
-  return png_of(tile, inks, execution);
+  return png_of_steps(tile, inks, execution);
 }
 
-void ClearanceLayer::draw_each(StepTile& tile, const Box& box, double pixel, const Execution& execution) const {
+void ClearanceLayer::draw_each(PixelTile& tile, const Box& box, double pixel, const Execution& execution) const {
   for_chunks(row_pixels, rows_a_chunk, execution, [&](Range rows) {
     for (std::size_t y = rows.first; y < rows.last; ++y) {
       for (std::size_t x = 0; x < row_pixels; ++x) {
@@ -118,7 +118,7 @@ void ClearanceLayer::draw_each(StepTile& tile, const Box& box, double pixel, con
 }
 
 /// Distances change by no more than the way, so between places they are off by less than that between these.
-void ClearanceLayer::draw_between(StepTile& tile, const Box& box, double pixel, const Execution& execution) const {
+void ClearanceLayer::draw_between(PixelTile& tile, const Box& box, double pixel, const Execution& execution) const {
   constexpr std::size_t places = row_pixels / stride + 1;  // of a row, both ends included
   std::vector<double> found(places * places);
   const double way = static_cast<double>(stride) * pixel;

@@ -31,8 +31,8 @@ class ClearanceLayer {
 
  private:
   std::uint8_t ink_of(double distance) const;
-  void draw_each(StepTile& tile, const Box& box, double pixel, const Execution& execution) const;
-  void draw_between(StepTile& tile, const Box& box, double pixel, const Execution& execution) const;
+  void draw_each(PixelTile& tile, const Box& box, double pixel, const Execution& execution) const;
+  void draw_between(PixelTile& tile, const Box& box, double pixel, const Execution& execution) const;
 
   TileGrid grid_;
   double largest_pixel_;

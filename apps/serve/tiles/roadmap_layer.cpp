@@ -67,8 +67,6 @@ constexpr double milestone_pixels = 4.0;
 constexpr double edge_opacity = 0.75;
 constexpr double far_opacity = 0.6;
 constexpr std::size_t items_a_poll = std::size_t{1} << 14U;
-
-constexpr std::size_t milestones_a_poll = std::size_t{1} << 14U;
 /// One edge in so many may be in the list that each box looks at.
 constexpr std::uint64_t edges_a_long_one = 256;
 
@@ -189,7 +187,7 @@ void PlacedRoadmap::file_milestones(const Execution& execution) {
   constexpr std::size_t most_side = 1024;
   const auto count = static_cast<VertexId>(parts_.vertex_count());
   const auto poll = [&](VertexId v) {
-    if (v % milestones_a_poll == 0) execution.check();
+    if (v % items_a_poll == 0) execution.check();
   };
   const double cells = static_cast<double>(count) / milestones_a_cell;
   side_ = std::clamp<std::size_t>(static_cast<std::size_t>(std::sqrt(cells)), 1, most_side);

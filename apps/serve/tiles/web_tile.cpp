@@ -2,12 +2,12 @@
 #include "apps/serve/tiles/web_tile.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 #include <utility>
 
 #include "scenes/files/png_io.hpp"
+#include "scenes/text/scene_text.hpp"
 
 namespace warren::serve {
 namespace {
@@ -15,11 +15,9 @@ namespace {
 constexpr int closest = -6;  // 64 pixels a cell
 
 std::optional<std::uint32_t> number_below(std::uint32_t end, std::string_view digits) {
-  std::uint32_t number = 0;
-  const char* last = digits.data() + digits.size();
-  const auto [read, error] = std::from_chars(digits.data(), last, number);
+  const auto number = scene_text::number_in_full<std::uint32_t>(digits);
   const bool is_plain = digits == "0" || !digits.starts_with('0');  // one name a tile
-  return is_plain && error == std::errc() && read == last && number < end ? std::optional(number) : std::nullopt;
+  return is_plain && number && *number < end ? number : std::nullopt;
 }
 
 /// The least of 1, 2, 2.5 and 5 times a power of ten that is not below.
@@ -98,18 +96,18 @@ std::string png_of_rows(std::vector<std::array<std::uint8_t, 3>> palette, std::v
   return bytes;
 }
 
-std::string png_of(const StepTile& tile, std::span<const Rgb> inks, const Execution& execution) {
+std::string png_of_steps(const PixelTile& tile, std::span<const Rgb> inks, const Execution& execution) {
   std::vector<std::array<std::uint8_t, 3>> palette{{0, 0, 0}};
   std::vector<std::uint8_t> alphas{0};
   for (const Rgb ink : inks) {
     palette.push_back({ink.red, ink.green, ink.blue});
     alphas.push_back(step_opacity);
   }
-  const auto row = [&](std::size_t y) { return tile.steps.data() + y * TileGrid::pixels; };
+  const auto row = [&](std::size_t y) { return tile.bytes.data() + y * TileGrid::pixels; };
   return png_of_rows(palette, alphas, row, execution);
 }
 
-std::string png_of(const ShadeTile& tile, Rgb ink, const Execution& execution) {
+std::string png_of_shades(const PixelTile& tile, Rgb ink, const Execution& execution) {
   constexpr unsigned shades = 16;
   std::vector<std::array<std::uint8_t, 3>> palette;
   for (unsigned i = 0; i < shades; ++i) {
@@ -118,7 +116,7 @@ std::string png_of(const ShadeTile& tile, Rgb ink, const Execution& execution) {
   }
   std::vector<std::uint8_t> row(TileGrid::pixels);
   const auto row_of = [&](std::size_t y) {
-    const std::uint8_t* from = tile.shades.data() + y * TileGrid::pixels;
+    const std::uint8_t* from = tile.bytes.data() + y * TileGrid::pixels;
     for (std::size_t x = 0; x < row.size(); ++x) row[x] = static_cast<std::uint8_t>(from[x] >> 4U);
     return static_cast<const std::uint8_t*>(row.data());
   };

@@ -86,28 +86,20 @@ struct Steps {
   std::size_t of(double value) const;
 };
 
-/// A byte a pixel: 0 nothing, else one more than the number of its ink. Row 0 on top.
-struct StepTile {
-  std::vector<std::uint8_t> steps = std::vector<std::uint8_t>(std::size_t{TileGrid::pixels} * TileGrid::pixels, 0);
-  std::uint8_t& at(std::size_t x, std::size_t y) { return steps[y * TileGrid::pixels + x]; }
+/// A byte a pixel, 0 at first; row 0 on top.
+struct PixelTile {
+  std::vector<std::uint8_t> bytes = std::vector<std::uint8_t>(std::size_t{TileGrid::pixels} * TileGrid::pixels, 0);
+  std::uint8_t& at(std::size_t x, std::size_t y) { return bytes[y * TileGrid::pixels + x]; }
 };
 
 /// A tile as a PNG: row(y) has the number of a colour a pixel. alphas: of the first colours. Throws Stopped.
 std::string png_of_rows(std::vector<std::array<std::uint8_t, 3>> palette, std::vector<std::uint8_t> alphas,
                         const std::function<const std::uint8_t*(std::size_t)>& row, const Execution& execution);
 
-/// At most 255 inks. Throws Stopped.
-std::string png_of(const StepTile& tile, std::span<const Rgb> inks, const Execution& execution);
-
-/// A tile in sixteen shades between paper and ink as a small PNG, made in about a millisecond. A byte a pixel: 0 paper,
-/// 255 ink; row 0 on top.
-struct ShadeTile {
-  std::vector<std::uint8_t> shades = std::vector<std::uint8_t>(std::size_t{TileGrid::pixels} * TileGrid::pixels, 0);
-  std::uint8_t& at(std::size_t x, std::size_t y) { return shades[y * TileGrid::pixels + x]; }
-};
-
-/// Throws Stopped.
-std::string png_of(const ShadeTile& tile, Rgb ink, const Execution& execution);
+/// Of bytes that are 0 for nothing, else one more than the number of their ink. At most 255 inks. Throws Stopped.
+std::string png_of_steps(const PixelTile& tile, std::span<const Rgb> inks, const Execution& execution);
+/// In sixteen shades between paper, 0, and ink, 255: small, and made in about a millisecond. Throws Stopped.
+std::string png_of_shades(const PixelTile& tile, Rgb ink, const Execution& execution);
 
 /// How dark a grid of cells is, seen from afar: level k has a byte for each square of 2^k x 2^k cells, the mean of its
 /// four squares of level k - 1. Level 0, the cells themselves, is not held: whoever has them says how dark each is. A

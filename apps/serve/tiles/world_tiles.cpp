@@ -41,14 +41,14 @@ class MazeTiles : public WorldTiles {
             [this](std::uint32_t col, std::uint32_t row) { return shade_of(col, row); }, execution) {}
 
   std::string draw(const TilePlace& place, const Execution& execution) const override {
-    ShadeTile tile;
+    PixelTile tile;
     const int level = cells_.level - static_cast<int>(place.zoom);
     if (level >= 0) {
       draw_far(tile, place, static_cast<unsigned>(level), execution);
     } else {
       draw_near(tile, place, std::int64_t{1} << -level, execution);
     }
-    return png_of(tile, colors::wall, execution);
+    return png_of_shades(tile, colors::wall, execution);
   }
 
   std::unique_ptr<PlaceDistances> distances(const Execution& execution) const override;
@@ -77,7 +77,7 @@ class MazeTiles : public WorldTiles {
     return static_cast<std::uint8_t>(of_a_wall * (2U - (open & 1U) - (open >> 1U & 1U)));
   }
   /// Lighter than lines, for the path to be seen.
-  void draw_far(ShadeTile& tile, const TilePlace& place, unsigned level, const Execution& execution) const {
+  void draw_far(PixelTile& tile, const TilePlace& place, unsigned level, const Execution& execution) const {
     const LatticeSize size = passages_.size();
     const std::int64_t margin = cells_.margin >> level;
     const std::int64_t squares = (std::int64_t{size.rows} + (std::int64_t{1} << level) - 1) >> level;
@@ -97,7 +97,7 @@ class MazeTiles : public WorldTiles {
       }
     }
   }
-  void draw_near(ShadeTile& tile, const TilePlace& place, std::int64_t cell, const Execution& execution) const {
+  void draw_near(PixelTile& tile, const TilePlace& place, std::int64_t cell, const Execution& execution) const {
     const LatticeSize size = passages_.size();
     const std::int64_t left = std::int64_t{place.x} * side;
     const std::int64_t top = std::int64_t{place.y} * side;
@@ -125,9 +125,7 @@ class MazeTiles : public WorldTiles {
       const std::int64_t upper = (size.rows - 1 - row + cells_.margin) * cell;  // the pixel of the cell's upper side
       for (std::int64_t col = first_col; col <= last_col; ++col) {
         const std::int64_t leftmost = (col + cells_.margin) * cell;
-        if (row >= 0 && has_right_wall(col, row)) {
-          fill(leftmost + cell - before, upper - before, thick, cell + thick);
-        }
+        if (row >= 0 && has_right_wall(col, row)) fill(leftmost + cell - before, upper - before, thick, cell + thick);
         if (col >= 0 && has_upper_wall(col, row)) fill(leftmost - before, upper - before, cell + thick, thick);
       }
     }
@@ -216,7 +214,7 @@ class MapTiles : public WorldTiles {
   }
 
   std::string draw(const TilePlace& place, const Execution& execution) const override {
-    ShadeTile tile;
+    PixelTile tile;
     const double pixel = grid().pixel(place.zoom);
     const Box box = grid().box_of(place);
     const Vec2 first = map_point(map_, {box.min.x + 0.5 * pixel, box.max.y - 0.5 * pixel});
@@ -229,7 +227,7 @@ class MapTiles : public WorldTiles {
         tile.at(x, y) = shade_at(first + static_cast<double>(x) * right + static_cast<double>(y) * down, level);
       }
     }
-    return png_of(tile, colors::wall, execution);
+    return png_of_shades(tile, colors::wall, execution);
   }
 
   std::unique_ptr<PlaceDistances> distances(const Execution& execution) const override {
@@ -295,7 +293,7 @@ Box box_of_world(const Scene& scene, const Execution& execution) {
 class SeamSides {
  public:
   SeamSides(const Scene& scene, const Execution& execution) {
-    for (const Segment& seam : scene.seams) sides_.push_back(ordered(seam.a, seam.b));
+    for (const Segment& seam : scene.seams) sides_.push_back(ordered_ends(seam.a, seam.b));
     polled_sort(sides_.begin(), sides_.end(), execution);
   }
   /// Calls visit(a, b) for all other sides of a polygon.
@@ -303,17 +301,12 @@ class SeamSides {
   void for_each_other_side(const ScenePolygon& polygon, const Visit& visit) const {
     Vec2 a = polygon.corners.back();
     for (const Vec2 b : polygon.corners) {
-      if (!std::binary_search(sides_.begin(), sides_.end(), ordered(a, b))) visit(a, b);
+      if (!std::binary_search(sides_.begin(), sides_.end(), ordered_ends(a, b))) visit(a, b);
       a = b;
     }
   }
 
  private:
-  /// With the lower end first, as sides and seams are compared.
-  static std::array<double, 4> ordered(Vec2 a, Vec2 b) {
-    if (b.x < a.x || (b.x == a.x && b.y < a.y)) std::swap(a, b);
-    return {a.x, a.y, b.x, b.y};
-  }
   std::vector<std::array<double, 4>> sides_;
 };
 
@@ -443,13 +436,13 @@ class ShapeDistances : public PlaceDistances {
     return least;
   }
   bool are_dear() const override { return true; }
-  void leave_out(StepTile& tile, const Box& box, double pixel, const Execution& execution) const override {
+  void leave_out(PixelTile& tile, const Box& box, double pixel, const Execution& execution) const override {
     const Mask inside = tiles_.insides(box, pixel, execution);
-    for (std::size_t i = 0; i < tile.steps.size(); ++i) {
+    for (std::size_t i = 0; i < tile.bytes.size(); ++i) {
       const Vec2 middle{static_cast<double>(i % TileGrid::pixels) + 0.5,
                         static_cast<double>(i / TileGrid::pixels) + 0.5};
       const bool is_outside = !room_.contains({box.min.x + middle.x * pixel, box.max.y - middle.y * pixel});
-      if (is_outside || inside.pixels()[i] >= 128) tile.steps[i] = 0;
+      if (is_outside || inside.pixels()[i] >= 128) tile.bytes[i] = 0;
     }
   }
 

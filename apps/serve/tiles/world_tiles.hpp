@@ -24,7 +24,7 @@ class PlaceDistances {
   /// Is one a pixel too many?
   virtual bool are_dear() const { return false; }
   /// Takes out what lies inside of shapes or outside of the world, where at() doesn't. Throws Stopped.
-  virtual void leave_out(StepTile&, const Box&, double /*pixel*/, const Execution&) const {}
+  virtual void leave_out(PixelTile&, const Box&, double /*pixel*/, const Execution&) const {}
 };
 
 /// Immutable; any number of threads may draw.

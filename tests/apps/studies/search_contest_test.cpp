@@ -98,7 +98,7 @@ TEST(GraphSearch, EveryVariantFindsWhatTheOraclesSay) {
       SCOPED_TRACE(static_cast<int>(v.search));
       const auto search = graph_search(g, v);
       for (int again = 0; again < 2; ++again) {  // the second run finds the memory of the first
-        const SearchResult result = search->run({});
+        const SearchResult result = search({});
         ASSERT_EQ(result.status, SearchStatus::found);
         EXPECT_EQ(result.path.front(), g.start);
         EXPECT_EQ(result.path.back(), g.goal);
@@ -119,8 +119,8 @@ TEST(GraphSearch, EveryVariantFindsWhatTheOraclesSay) {
 TEST(GraphSearch, APeerSettlesWhatBreadthAndDepthFirstSettle) {
   const SearchGraph g = geometric_graph(500, 10.0, 3, {});
   for (const SearchKind kind : {SearchKind::bfs, SearchKind::dfs}) {
-    const SearchResult ours = graph_search(g, {kind})->run({});
-    const SearchResult theirs = graph_search(g, {kind, std::nullopt, SearchLibrary::boost})->run({});
+    const SearchResult ours = graph_search(g, {kind})({});
+    const SearchResult theirs = graph_search(g, {kind, std::nullopt, SearchLibrary::boost})({});
     EXPECT_EQ(ours.path, theirs.path);
     EXPECT_EQ(ours.expanded, theirs.expanded);
   }
@@ -137,7 +137,7 @@ SearchGraph parted_graph() {
 TEST(GraphSearch, WithoutAPathEveryVariantSaysSo) {
   const SearchGraph g = parted_graph();
   ASSERT_EQ(g.graph.edge_count(), 0U);
-  for (const SearchVariant& v : all_variants()) EXPECT_EQ(graph_search(g, v)->run({}).status, SearchStatus::exhausted);
+  for (const SearchVariant& v : all_variants()) EXPECT_EQ(graph_search(g, v)({}).status, SearchStatus::exhausted);
 }
 
 TEST(SearchContest, EveryVariantIsTimedAsOftenAsAsked) {

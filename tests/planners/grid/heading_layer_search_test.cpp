@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <queue>
 #include <set>
 #include <tuple>
@@ -18,6 +19,17 @@
 
 namespace warren {
 namespace {
+
+/// From one state to a cell; goal_heading: nullopt for any.
+LayerPath layer_search(const HeadingLayers& layers, const LayerState& start, Cell goal,
+                       std::optional<std::uint32_t> goal_heading, const LayerSearchOptions& options,
+                       const Execution& execution) {
+  std::vector<LayerEnd> goals;
+  for (std::uint32_t k = 0; k < layers.angles && !goal_heading; ++k) goals.push_back({{goal.x, goal.y, k}});
+  if (goal_heading) goals.push_back({{goal.x, goal.y, *goal_heading}});
+  const LayerEnd only{start};
+  return layer_search(layers, std::span(&only, 1), goals, options, execution);
+}
 
 /// The course's scene: a square of 50 in corridors of 50 to 300, y down.
 Scene course_scene() {

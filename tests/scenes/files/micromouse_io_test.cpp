@@ -70,6 +70,13 @@ TEST(Micromouse, TrailingBlanksMayBeMissing) {
   EXPECT_TRUE(scene.start.empty());
 }
 
+TEST(Micromouse, CellsMayHaveLettersAndNumbers) {
+  const TemporaryDirectory directory;
+  const Scene scene =
+      read_world(directory.write("m.txt", "o---o---o\n| S  -1 |\no---o---o\n|+o| 12|\no---o---o\n"), {});
+  EXPECT_EQ(scene.start, (std::vector<double>{1, 2}));
+}
+
 TEST(Micromouse, RefusesWithFileAndLine) {
   const TemporaryDirectory directory;
   const std::pair<const char*, const char*> cases[] = {

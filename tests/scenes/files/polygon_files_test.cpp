@@ -91,6 +91,15 @@ TEST(GeoJson, RolesLinesAndHeightsAreUnderstood) {
   EXPECT_EQ(scene.walls.segment(3), (Segment{{7, 7}, {8, 8}}));
 }
 
+TEST(GeoJson, OtherObjectsMayHaveCoordinates) {
+  const Scene scene = read(R"({"type": "FeatureCollection", "label": {"coordinates": [1, 2]}, "features": [
+    {"type": "feature", "points": [{"coordinates": [1, 2]}], "properties": {"role": "bounds"},
+     "geometry": {"type": "Polygon", "coordinates": [[[0,0],[4,0],[4,4],[0,4],[0,0]]]}},
+    {"type": "Polygon", "coordinates": [[[1,1],[2,1],[1,2],[1,1]]]}]})");
+  EXPECT_TRUE(scene.bounds);
+  EXPECT_EQ(scene.polygons.size(), 1U);
+}
+
 TEST(GeoJson, WhatIsNoneIsRefusedWithItsLine) {
   const auto polygon = [](const std::string& coordinates) {
     return "{\"type\": \"Polygon\",\n\"coordinates\": " + coordinates + "}";

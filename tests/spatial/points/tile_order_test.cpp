@@ -49,16 +49,6 @@ TEST(TileOrder, NumbersNeighboursNear) {
   EXPECT_LT(steps / 40'000.0, 4.0 / 200.0);  // a step is a few cells; unsorted it is half the square
 }
 
-TEST(TileOrder, SortsPointsOfMoreDimensionsByTheFirstTwo) {
-  std::vector<std::array<double, 3>> solid(1000);
-  std::vector<Vec2> flat(1000);
-  for (std::size_t i = 0; i < solid.size(); ++i) {
-    flat[i] = {uniform(9, i, 0), uniform(9, i, 1)};
-    solid[i] = {flat[i].x, flat[i].y, uniform(9, i, 2)};
-  }
-  EXPECT_EQ(tile_order(std::span<const std::array<double, 3>>(solid), {}).sample_of, tile_order(flat, {}).sample_of);
-}
-
 TEST(CellFrame, HasFewCellsWhateverTheShape) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     for (const auto& [name, points] : test::point_sets<2>(seed, 500)) {

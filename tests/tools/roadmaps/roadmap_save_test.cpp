@@ -130,7 +130,9 @@ TEST_F(RoadmapSave, WhatIsKeptInNoWayIsRefused) {
          "--lazy: a roadmap"});
   check({{"solve", "maze:9x9", "--save-roadmap", path("no/folder")}, 73, "no/folder"});
   const std::string goals = folder_.write("g.scene", "bounds 0 0 9 9\nstart 1 1\ngoal 8 8\ngoal 1 8\n");
-  check({{"solve", goals, "--planner", "prm", "--save-roadmap", file}, 2, "kept roadmaps are asked for one goal"});
+  check({{"solve", goals, "--planner", "prm", "--save-roadmap", file},
+         2,
+         "g.scene: its line 'goal': kept roadmaps are asked for one goal"});
   const std::string built = path("g.roadmap");
   ASSERT_EQ(run({"build", goals, "--planner", "prm", "--samples", "50", "-o", built}).code, 0);
   check({{"query", built}, 2, "--goal: the world has several"});
