@@ -12,6 +12,7 @@
 
 #include "core/base/error.hpp"
 #include "parallel/sort.hpp"
+#include "scenes/text/scene_text.hpp"
 #include "solve/kept/maze_bits.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/kinds/question_of_pose.hpp"
