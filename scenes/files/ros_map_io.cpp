@@ -346,7 +346,8 @@ Scene read_polygons(const InputFile& file, const Execution& execution) {
 void take_polygons(const PriceMask& mask, const InputFile& file, Prices& prices, const Execution& execution) {
   Scene scene = read_polygons(file, execution);
   check_polygons(scene, execution);
-  if (!scene.prices.masks.empty()) {
+  const auto is_other = [&](const PriceMask& own) { return own.file != mask.file; };
+  if (std::ranges::any_of(scene.prices.masks, is_other)) {
     throw InputError(file.name(), "has a `mask` line, which is not read here; say --keep-out for the mask, too");
   }
   if (mask.factor && !scene.seams.empty()) {

@@ -73,7 +73,7 @@ TEST(Micromouse, TrailingBlanksMayBeMissing) {
 TEST(Micromouse, CellsMayHaveLettersAndNumbers) {
   const TemporaryDirectory directory;
   const Scene scene =
-      read_world(directory.write("m.txt", "o---o---o\n| S  -1 |\no---o---o\n|+o| 12|\no---o---o\n"), {});
+      read_world(directory.write("m.txt", "o---o---o\n| S  -1 |\no---o---o\n|+o |12 |\no---o---o\n"), {});
   EXPECT_EQ(scene.start, (std::vector<double>{1, 2}));
 }
 
