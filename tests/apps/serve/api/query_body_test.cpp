@@ -31,7 +31,7 @@ TEST(QueryBody, TakesPricesAndChoicesByTheNamesOfAnAnswer) {
   const ServedQuestion asked =
       read_query_body(
           R"({"prices": ["clearance-price 3 0.5", "area 4 1 1 2 1 2 2", "keep-out 5 5 6 5 6 6", "unknown 2"],
-      "goals": [[1, 2], [3, 4]], "goal_tolerance": "inf", "goal_heading_rad": 0.5, "visit": [[7, 8]], "return": true,
+      "goals": [[1, 2], [3, 4]], "goal_tolerance": "inf", "goal_heading_rad": 0.5, "visit": [[7, 8]],
       "alternatives": 3, "hole": 0.25, "stretch": 2, "keep_to": [[0, 0], [1, 2]], "unless_gain": 0.1})")
           .question;
   EXPECT_EQ(asked.prices.clearance->price, 3.0);
@@ -44,13 +44,13 @@ TEST(QueryBody, TakesPricesAndChoicesByTheNamesOfAnAnswer) {
   EXPECT_TRUE(std::isinf(*asked.rule.tolerance));
   EXPECT_EQ(asked.rule.heading_rad, 0.5);
   EXPECT_EQ(asked.rule.visit.size(), 1U);
-  EXPECT_TRUE(asked.rule.back);
   EXPECT_EQ(asked.route.alternatives, 3U);
   EXPECT_EQ(asked.route.hole, 0.25);
   EXPECT_EQ(asked.route.stretch, 2.0);
   EXPECT_EQ(asked.route.keep_to.size(), 2U);
   EXPECT_EQ(asked.route.unless_gain, 0.1);
   EXPECT_EQ(read_query_body(R"({"goal_region": 2})").question.rule.region, 2.0);
+  EXPECT_TRUE(read_query_body(R"({"visit": [[7, 8]], "return": true})").question.rule.back);
 }
 
 TEST(QueryBody, AFileIsNotForWhoeverAsksToChoose) {
