@@ -44,7 +44,7 @@ std::string mutated(std::string text, std::uint64_t seed) {
   SequentialRng rng(seed);
   constexpr std::array<std::string_view, 12> words{"-1", "1e999", "nan", "0", "1e60",       "",
                                                    "\"", "<",     ">",   "a", "4294967296", "\xff"};
-  for (std::uint64_t changes = 1 + seed % 3; changes > 0 && !text.empty(); --changes) {
+  for (std::uint64_t changes = 1 + seed % 4; changes > 0 && !text.empty(); --changes) {
     const std::size_t at = rng.next() % text.size();
     const std::size_t length = 1 + rng.next() % std::min<std::size_t>(text.size() - at, 40);
     std::size_t end = at;
@@ -84,7 +84,7 @@ bool taken(const Read& read) {
   return false;
 }
 
-std::vector<std::uint64_t> mutation_seeds() { return test::seeds(1000, 60); }
+std::vector<std::uint64_t> mutation_seeds() { return test::seeds(1200, 60); }
 
 TEST(RobotMutations, ModelsThatAreTakenAreWhole) {
   const TemporaryDirectory directory;
