@@ -21,15 +21,11 @@
 #include <utility>
 #include <vector>
 
+#include "bench/arm_sets.hpp"
 #include "core/base/error.hpp"
 #include "planners/graph/any_world.hpp"
 #include "planners/shorten/shortcut.hpp"
-#include "planners/trees/rrt_connect.hpp"
-#include "scenes/arms/moveit_io.hpp"
-#include "scenes/files/read_world_io.hpp"
-#include "solve/question/question_of_arm.hpp"
 #include "verify/judges/verify_arm.hpp"
-#include "worlds/arms/arm_world.hpp"
 
 namespace warren {
 namespace {
@@ -62,31 +58,13 @@ struct RecordingWorld : ArmWorld {
   }
 };
 
-/// Looks at 32 states a radian of the way in joint space, and at nothing between.
-struct SampledWorld : ArmWorld {
-  using ArmWorld::ArmWorld;
-  bool is_free_motion(const JointState& a, const JointState& b, Query& query) const {
-    const int count = std::max(1, static_cast<int>(std::ceil(32.0 * distance(a, b))));
-    for (int i = count; i > 0; --i) {
-      if (!is_free(interpolate(a, b, static_cast<double>(i) / count), query)) return false;
-    }
-    return true;
-  }
-  bool is_free_step(const JointState& a, const JointState& b, Query& query) const {
-    return is_free_motion(a, b, query);
-  }
-};
-
 struct Settings {
   std::string robot;
   std::vector<std::string> folders;
-  double step = 1.0;               // as solve/kinds/solve_arm.cpp has it
-  std::string sampler = "random";  // the same
-  double domain = 5.0;             // the same; 0: none
-  double moving = 6.0;             // the same
+  RrtOptions options = options_of_sets();
+  std::string sampler = "random";
+  double domain = *options.domain;  // 0: none
   double worth = 0.2;
-  std::uint64_t nodes = 100'000;
-  std::uint64_t seed = 1;
   int repeats = 3;
   bool proved_alone = false;
   std::string json;
@@ -122,34 +100,22 @@ struct Planned {
   double shorten_s = 0.0;
 };
 
-RrtOptions options_of(const Settings& settings) {
-  RrtOptions options;
-  options.seed = settings.seed;
-  options.nodes = settings.nodes;
-  options.step = settings.step;
-  if (settings.domain > 0.0) options.domain = settings.domain;
-  options.moving = settings.moving;
-  options.sampler = enum_named<SamplerKind>(settings.sampler);
-  return options;
-}
-
 template <class World>
 Planned<World> plan(const World& world, const ArmProblem& problem, const Settings& settings) {
   const WorldView view(world);
-  const RrtOptions options = options_of(settings);
   const Execution execution = alone();
   const JointState goal = problem.goal_state();
   Planned<World> planned;
   double begun = thread_seconds();
-  planned.solution = rrt_connect(view, problem.start, std::span(&goal, 1), options, execution);
+  planned.solution = rrt_connect(view, problem.start, std::span(&goal, 1), settings.options, execution);
   planned.plan_s = thread_seconds() - begun;
   if (planned.solution.outcome != Outcome::solved) return planned;
   begun = thread_seconds();
   const auto length = [&](const JointState& a, const JointState& b) { return world.distance(a, b); };
   Counters counters;
   planned.shortened =
-      improve_path(view, planned.solution.path, length, {.seed = settings.seed, .worth = settings.worth, .patience = 1},
-                   execution, counters);
+      improve_path(view, planned.solution.path, length,
+                   {.seed = settings.options.seed, .worth = settings.worth, .patience = 1}, execution, counters);
   planned.shorten_s = thread_seconds() - begun;
   return planned;
 }
@@ -174,17 +140,11 @@ void time_edges(Row& row, const ArmWorld& world, const std::vector<std::pair<Joi
 }
 
 Row run(const std::string& set, const fs::path& scene_file, const RobotSpec& robot, const Settings& settings) {
-  std::string number = scene_file.stem().string().substr(5);
   Row row;
   row.set = set;
-  row.name = number;
+  row.name = number_of(scene_file);
   double begun = thread_seconds();
-  Scene asked = read_world(scene_file.string(), alone());
-  const InputFile request((scene_file.parent_path() / ("request" + number + ".yaml")).string(), alone());
-  take_moveit_request(asked, request, alone());
-  Question question;
-  question.robot = robot;
-  const ArmProblem problem = arm_problem(asked, question, alone());
+  const auto [asked, problem] = read_set_problem(scene_file, robot, alone());
   row.read_s = thread_seconds() - begun;
   begun = thread_seconds();
   const ArmOptions options;
@@ -198,7 +158,7 @@ Row run(const std::string& set, const fs::path& scene_file, const RobotSpec& rob
   row.outcome = name_of(best->solution.outcome);
   row.plan_s = best->plan_s;
   row.shorten_s = best->shorten_s;
-  const auto length = [&](const JointState& a, const JointState& b) { return world.distance(a, b); };
+  const auto length = [&world](const JointState& a, const JointState& b) { return world.distance(a, b); };
   if (best->solution.outcome == Outcome::solved) {
     row.first_cost = path_length(best->solution.path, length);
     row.cost = path_length(best->shortened, length);
@@ -208,21 +168,15 @@ Row run(const std::string& set, const fs::path& scene_file, const RobotSpec& rob
   RecordingWorld recording(asked, problem.model, options);
   recording.asked = &motions;
   const JointState goal = problem.goal_state();
-  rrt_connect(WorldView(recording), problem.start, std::span(&goal, 1), options_of(settings), alone());
+  rrt_connect(WorldView(recording), problem.start, std::span(&goal, 1), settings.options, alone());
   time_edges(row, world, motions);
   if (settings.proved_alone) return row;
-  const SampledWorld sampled(asked, problem.model, options);
-  const Planned<SampledWorld> seen = plan(sampled, problem, settings);
+  const SampledArmWorld sampled(asked, problem.model, options);
+  const Planned<SampledArmWorld> seen = plan(sampled, problem, settings);
   row.sampled_solved = seen.solution.outcome == Outcome::solved;
   row.sampled_first_refuted = row.sampled_solved && !judged(asked, problem, seen.solution.path);
   row.sampled_refuted = row.sampled_solved && !judged(asked, problem, seen.shortened);
   return row;
-}
-
-double at_share(std::vector<double> values, double share) {
-  if (values.empty()) return std::nan("");
-  std::sort(values.begin(), values.end());
-  return values[std::min(values.size() - 1, static_cast<std::size_t>(share * static_cast<double>(values.size())))];
 }
 
 nlohmann::ordered_json summary(const std::string& name, const std::vector<const Row*>& rows) {
@@ -313,18 +267,20 @@ int run_all(int argc, char** argv) {
   CLI::App app("An arm and folders of MoveIt problems");
   app.add_option("ROBOT", settings.robot, "its words, \"urdf FILE srdf FILE\"")->required();
   app.add_option("SET", settings.folders, "folders of sceneNNNN.yaml and requestNNNN.yaml")->required();
-  app.add_option("--step", settings.step, "longest motion of a tree (default: the planner's)");
+  app.add_option("--step", settings.options.step, "longest motion of a tree (default: the planner's)");
   app.add_option("--domain", settings.domain, "of vertices that failed, in steps; 0: none");
-  app.add_option("--moving", settings.moving, "joints that a motion moves on average");
+  app.add_option("--moving", settings.options.moving, "joints that a motion moves on average");
   app.add_option("--sampler", settings.sampler, "of the trees (default: the planner's)");
   app.add_option("--worth", settings.worth, "a round of shortening that takes off a smaller share is the last");
-  app.add_option("--nodes", settings.nodes, "of both trees");
-  app.add_option("--seed", settings.seed);
+  app.add_option("--nodes", settings.options.nodes, "of both trees");
+  app.add_option("--seed", settings.options.seed);
   app.add_option("--repeats", settings.repeats, "the least of so many is told");
   app.add_flag("--proved-alone", settings.proved_alone, "no paths by samples");
   app.add_option("--json", settings.json, "write the summaries here");
   app.add_option("--csv", settings.csv, "write a row a problem here");
   CLI11_PARSE(app, argc, argv);
+  settings.options.sampler = enum_named<SamplerKind>(settings.sampler);
+  settings.options.domain = settings.domain > 0.0 ? std::optional(settings.domain) : std::nullopt;
   const RobotSpec robot = robot_value("ROBOT", settings.robot);
   fmt::print(
       "{:<42} {:>4} {:>4} {:>4} {:>4} {:>8} {:>9} {:>9} {:>10} {:>8} {:>7} {:>7} {:>8} {:>6} {:>6} {:>9} {:>3}\n",
@@ -337,15 +293,9 @@ int run_all(int argc, char** argv) {
     print(told.back());
   };
   for (const std::string& folder : settings.folders) {
-    std::vector<fs::path> scenes;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-      const std::string name = entry.path().filename().string();
-      if (name.starts_with("scene") && entry.path().extension() == ".yaml") scenes.push_back(entry.path());
-    }
-    std::sort(scenes.begin(), scenes.end());
     const std::string set = fs::path(folder).filename().string();
     const std::size_t first = rows.size();
-    for (const fs::path& scene : scenes) rows.push_back(run(set, scene, robot, settings));
+    for (const fs::path& scene : scenes_of(folder)) rows.push_back(run(set, scene, robot, settings));
     std::vector<const Row*> some;
     for (std::size_t i = first; i < rows.size(); ++i) some.push_back(&rows[i]);
     tell(set, some);

@@ -2,21 +2,25 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Does the lattice solve what is public? car_lattice_sets.py PROGRAM FOLDER [--worlds N] [--steering WORD]
 
-FOLDER holds tpcap/Case*.csv and barn/cylinders.csv, which are not part of this project. Each TPCAP case is moved to its
-start and solved by `--planner grid`, each BARN world with the body of a Jackal and a turning radius of 0.4 m. Answers
-are verified again. Prints a row each: outcome, length, ended by, gap of the lattice, states expanded, seconds of
-stamps and search. Exit code 1 where an answer is not verified."""
+FOLDER holds tpcap/Case*.csv, bench-mr/parking*.svg and barn/cylinders.csv, which are not part of this project. Each TPCAP
+case is moved to its start and solved by `--planner grid`, the car parks of Bench-MR with its car and a turning radius of
+4 m, each BARN world with the body of a Jackal and a turning radius of 0.4 m. Answers are verified again. Prints a row
+each: outcome, length, ended by, gap of the lattice, states expanded, seconds of stamps and search. Exit code 1 where an
+answer is not verified."""
 
 import argparse
 import csv
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 import tempfile
 
 CAR = "car polygon -0.929 -0.971 3.76 -0.971 3.76 0.971 -0.929 0.971 turning 3.0"
+# Of the scenarios of Bench-MR in their pictures, by where their goals lie between parked cars: the file doesn't say it.
+ORIGIN = (1.28, -4.88)
 JACKAL = "car polygon -0.254 -0.215 0.254 -0.215 0.254 0.215 -0.254 0.215 turning 0.4"
 
 
@@ -42,6 +46,50 @@ def tpcap(folder):
         lines.append(f"start 0 0 {math.remainder(t0, 2 * math.pi)!r}")
         lines.append(f"goal {xf - x0!r} {yf - y0!r} {math.remainder(tf, 2 * math.pi)!r}")
         yield f"tpcap {number}", CAR, lines
+
+
+def outlines(path):
+    """Of an SVG file's paths, in its units, y upwards; relative commands alone: m, l, h, v, z."""
+    text = open(path, encoding="utf-8").read()
+    moved = [float(x) for x in re.search(r'translate\(([^,]+),([^)]+)\)', text).groups()]
+    for path_words in re.findall(r'\sd="([^"]*)"', text):
+        at, points, command = [moved[0], moved[1]], [], "m"
+        words = re.findall(r'[-+.0-9][-+.0-9e]*|[A-Za-z]', path_words)
+        while words:
+            if words[0].isalpha():
+                command = words.pop(0)
+            if command not in "mlhv":
+                if command != "z" or words:
+                    raise ValueError(f"{path}: a path has the command {command}")
+                continue
+            if command in "mlh":
+                at[0] += float(words.pop(0))
+            if command in "mlv":
+                at[1] += float(words.pop(0))
+            points.append((at[0], -at[1]))
+        while math.dist(points[0], points[-1]) < 1e-3:  # closed by hand
+            points.pop()
+        yield points
+
+
+def bench_mr(folder):
+    folder = os.path.join(folder, "bench-mr")
+    if not os.path.isdir(folder):
+        return
+    body = next(outlines(os.path.join(folder, "car.svg")))
+    middle = [(min(p[i] for p in body) + max(p[i] for p in body)) / 2 for i in (0, 1)]
+    robot = "car polygon " + " ".join(f"{x - middle[0]!r} {y - middle[1]!r}" for x, y in body) + " turning 4.0"
+    with open(os.path.join(folder, "scenarios.json"), encoding="utf-8") as file:
+        scenarios = json.load(file)["scenarios"]
+    for park, ends in scenarios.items():
+        polygons = list(outlines(os.path.join(folder, park + ".svg")))
+        low, high = ([pick(p[i] for points in polygons for p in points) for i in (0, 1)] for pick in (min, max))
+        lines = ["polygon " + " ".join(f"{x!r} {y!r}" for x, y in points) for points in polygons]
+        lines.append(f"bounds {low[0] - 15} {low[1] - 15} {high[0] + 15} {high[1] + 15}")
+        for number, end in enumerate(ends, 1):
+            said = [f"{word} {end[word][0] + ORIGIN[0]!r} {end[word][1] + ORIGIN[1]!r} {end[word][2]!r}"
+                    for word in ("start", "goal")]
+            yield f"{park} {number}", robot, lines + said
 
 
 def barn(folder):
@@ -70,7 +118,7 @@ def main():
     parser.add_argument("--words", default="", help="further words of solve")
     asked = parser.parse_args()
     wrong = 0
-    worlds = list(tpcap(asked.folder)) + list(barn(asked.folder))[:asked.worlds]
+    worlds = list(tpcap(asked.folder)) + list(bench_mr(asked.folder)) + list(barn(asked.folder))[:asked.worlds]
     worlds = [world for world in worlds if asked.only in world[0]]
     with tempfile.TemporaryDirectory() as folder:
         for name, robot, lines in worlds:

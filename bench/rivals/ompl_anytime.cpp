@@ -148,7 +148,10 @@ struct PoseTask {
       return verify_se2(scene, robot.outline, path, verify_options(problem), one_thread());
     } else {
       const bool reverses = robot.steering == SteeringKind::reeds_shepp;
-      const VerifiedCar car{robot.turning_radius, reverses, robot.radius, robot.outline};
+      const VerifiedCar car{.turning_radius = robot.turning_radius,
+                            .reverses = reverses,
+                            .radius = robot.radius,
+                            .outline = robot.outline};
       std::vector<Se2> legs = {path.front()};
       for (std::size_t i = 1; i < path.size(); ++i) append_joints(legs, world.curve(path[i - 1], path[i]));
       return verify_car(scene, car, legs, verify_options(problem), one_thread());

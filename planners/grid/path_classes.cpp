@@ -15,7 +15,7 @@
 namespace warren {
 namespace {
 
-constexpr std::uint32_t none = ~std::uint32_t{0};
+constexpr std::uint32_t none = 0;  // the first of the states is no cell's
 
 /// All cells that hang together with one, by sides or corners, taken out of `left`; whether they reach the border.
 class Flood {
@@ -176,20 +176,21 @@ class ClassSearch {
  public:
   ClassSearch(StepWeights& weights, PriceField& field, const HoleCuts& cuts, const ClassChoice& choice,
               const Execution& execution)
-      : weights_(weights), field_(field), cuts_(cuts), choice_(choice), execution_(execution) {
-    execution.reserve((sizeof(std::uint32_t) + sizeof(std::uint8_t)) * weights.cells().number_end());
-    first_.assign(weights.cells().number_end(), none);
-    settled_.assign(weights.cells().number_end(), 0);
-  }
+      : weights_(weights),
+        field_(field),
+        cuts_(cuts),
+        choice_(choice),
+        execution_(execution),
+        first_(zeros<std::uint32_t>(weights.cells().number_end(), execution)),
+        settled_(zeros<std::uint8_t>(weights.cells().number_end(), execution)) {}
 
-  std::vector<ClassPath> find(Cell start, PriceField::Goal goal) {
+  std::vector<ClassPath> find(Cell start, Cell goal) {
     std::vector<ClassPath> found;
-    beyond_ = goal.cost;
     const VertexId begin = weights_.cells().number(start);
-    const auto least = left(begin);
+    const auto least = field_.cost(begin, execution_);
     if (!least) return found;
     limit_ = static_cast<double>(*least) * choice_.stretch;
-    const VertexId end = weights_.cells().number(goal.cell);
+    const VertexId end = weights_.cells().number(goal);
     reach(begin, 0, none, 0, *least);
     for (std::uint64_t turns = 1; !open_.empty(); ++turns) {
       if (turns % expansions_per_poll == 0) execution_.check();
@@ -220,18 +221,13 @@ class ClassSearch {
   State& state_at(std::uint32_t at) { return pieces_[at / piece][at % piece]; }
   const State& state_at(std::uint32_t at) const { return pieces_[at / piece][at % piece]; }
 
-  /// From a cell to the goal's.
-  std::optional<std::uint64_t> left(VertexId from) {
-    const auto cost = field_.cost(from, execution_);
-    return cost ? std::optional(*cost - beyond_) : std::nullopt;
-  }
-  double key_of(const State& state) { return static_cast<double>(state.cost + *left(state.cell)); }
+  double key_of(const State& state) { return static_cast<double>(state.cost + *field_.cost(state.cell, execution_)); }
   void reach(VertexId cell, std::uint32_t word, std::uint32_t before, std::uint64_t cost, std::uint64_t rest) {
     std::uint32_t at = first_[cell];
     while (at != none && state_at(at).word != word) at = state_at(at).next;
     if (at == none) {
       at = count_++;
-      if (at % piece == 0) {
+      if (at / piece == pieces_.size()) {
         execution_.reserve(sizeof(State) * piece);
         pieces_.push_back(std::make_unique_for_overwrite<State[]>(piece));
       }
@@ -252,7 +248,7 @@ class ClassSearch {
       const auto step = as_whole<unsigned>(std::countr_zero(rest));
       const VertexId to = from.cell + weights_.offset(step);
       if (settled_[to] >= choice_.count) continue;
-      const auto onward = left(to);
+      const auto onward = field_.cost(to, execution_);
       if (!onward) continue;
       const std::uint64_t cost = from.cost + weights_.weight(from.cell, step);
       if (static_cast<double>(cost + *onward) > limit_) continue;
@@ -271,20 +267,19 @@ class ClassSearch {
   const HoleCuts& cuts_;
   const ClassChoice& choice_;
   const Execution& execution_;
-  std::uint64_t beyond_ = 0;  // of the goal
   double limit_ = 0.0;
   Words words_;
   std::vector<std::unique_ptr<State[]>> pieces_;
-  std::uint32_t count_ = 0;            // of states
-  std::vector<std::uint32_t> first_;   // state of each cell
-  std::vector<std::uint8_t> settled_;  // states of each cell, as many as there are classes
+  std::uint32_t count_ = none + 1;   // of states
+  ZeroPages<std::uint32_t> first_;   // state of each cell
+  ZeroPages<std::uint8_t> settled_;  // states of each cell, as many as there are classes
   BucketQueue open_{static_cast<double>(units_a_cell) / 64.0};
 };
 
 }  // namespace
 
 std::vector<ClassPath> cheapest_classes(StepWeights& weights, PriceField& field, const HoleCuts& cuts, Cell start,
-                                        PriceField::Goal goal, const ClassChoice& choice, const Execution& execution) {
+                                        Cell goal, const ClassChoice& choice, const Execution& execution) {
   return ClassSearch(weights, field, cuts, choice, execution).find(start, goal);
 }
 

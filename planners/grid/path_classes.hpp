@@ -71,9 +71,8 @@ struct ClassPath {
   std::vector<std::int32_t> passed;  ///< its class
 };
 
-/// The cheapest first; none: there is no way. `field` is of the goal alone, over the same weights; what the goal costs
-/// beyond its cell is no part of a path's cost. Throws Stopped.
+/// The cheapest first; none: there is no way. `field` is of the goal alone, over the same weights. Throws Stopped.
 std::vector<ClassPath> cheapest_classes(StepWeights& weights, PriceField& field, const HoleCuts& cuts, Cell start,
-                                        PriceField::Goal goal, const ClassChoice& choice, const Execution& execution);
+                                        Cell goal, const ClassChoice& choice, const Execution& execution);
 
 }  // namespace warren

@@ -4,24 +4,12 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
-#include <new>
 #include <stdexcept>
 #include <utility>
 
 #include "core/base/whole.hpp"
 
 namespace warren {
-namespace {
-
-template <class Number>
-Number* zeros(std::size_t count, const Execution& execution) {
-  execution.reserve(count * sizeof(Number));
-  auto* block = static_cast<Number*>(std::calloc(count, sizeof(Number)));
-  if (block == nullptr) throw std::bad_alloc();
-  return block;
-}
-
-}  // namespace
 
 StepWeights::StepWeights(const Bitmap& blocked, Diagonal diagonal, const Execution& execution)
     : StepWeights(blocked, rule_of(diagonal), execution) {
@@ -44,7 +32,7 @@ StepWeights::StepWeights(const Bitmap& blocked, StepRule rule, const Execution& 
 StepWeights::StepWeights(const Bitmap& blocked, Weigh weigh, const Execution& execution)
     : StepWeights(blocked, StepRule::eight, execution) {
   weigh_ = std::move(weigh);
-  known_.reset(zeros<std::uint32_t>(std::size_t{back_steps} * cells_.number_end(), execution));
+  known_ = zeros<std::uint32_t>(std::size_t{back_steps} * cells_.number_end(), execution);
 }
 
 std::uint64_t StepWeights::first_weight(VertexId from, unsigned step) {

@@ -17,6 +17,7 @@
 #include <cstdlib>
 #include <functional>
 #include <memory>
+#include <new>
 #include <optional>
 #include <span>
 #include <vector>
@@ -40,6 +41,14 @@ struct FreePages {
 /// Numbers of the system's pages of zeros, which it gives where they are touched.
 template <class Number>
 using ZeroPages = std::unique_ptr<Number[], FreePages>;
+/// Asks for the memory first. Throws Stopped.
+template <class Number>
+ZeroPages<Number> zeros(std::size_t count, const Execution& execution) {
+  execution.reserve(count * sizeof(Number));
+  auto* block = static_cast<Number*>(std::calloc(count, sizeof(Number)));
+  if (block == nullptr) throw std::bad_alloc();
+  return ZeroPages<Number>(block);
+}
 
 /// What steps weigh, looked up once each. Not for several threads at once: it remembers.
 class StepWeights {

@@ -260,11 +260,6 @@ WaysOverCells::WaysOverCells(const OccupancyMap& map, const WallProblem& problem
                : prices_.step  ? own_weights_.emplace(wide, prices_.step, execution)
                                : own_weights_.emplace(wide, diagonal, execution)) {}
 
-void WaysOverCells::drop_field() {
-  own_field_.reset();
-  field_ = nullptr;
-}
-
 bool WaysOverCells::stands_free(Vec2 place) const { return stands_free_on_map(map_, problem_, place, execution_); }
 
 std::uint64_t WaysOverCells::leg_cost(Vec2 a, Vec2 b) const {
@@ -315,10 +310,9 @@ std::optional<WaysOverCells::Way> WaysOverCells::cheapest(Vec2 from, std::span<c
   std::vector<Cell> towards;
   for (const Entry& begin : begins) towards.push_back(begin.cell);
   if (goals.empty() || begins.empty()) return std::nullopt;
-  drop_field();
-  PriceField& field = kept_ != nullptr ? kept_->field(goals, towards, execution_)
-                                       : own_field_.emplace(weights_, goals, towards, execution_);
-  field_ = &field;
+  std::optional<PriceField> own;
+  PriceField& field =
+      kept_ != nullptr ? kept_->field(goals, towards, execution_) : own.emplace(weights_, goals, towards, execution_);
   const std::uint64_t before = field.expanded();
   std::optional<Way> best;
   Cell first;
@@ -355,7 +349,6 @@ std::vector<std::optional<std::uint64_t>> WaysOverCells::costs(std::span<const V
 }
 
 Bitmap WaysOverCells::cells_from_start(StepWeights& weights, std::span<const PriceField::Goal> from) {
-  drop_field();
   PriceField field(weights, from, {}, execution_);
   field.settle_all(execution_);
   expanded_ += field.expanded();

@@ -80,10 +80,6 @@ class WaysOverCells {
   std::uint64_t expanded() const { return expanded_; }
   /// Of the steps, known so far.
   StepWeights& weights() { return weights_; }
-  /// Of the last cheapest way; nullptr: there was none, or it was dropped.
-  PriceField* field() { return field_; }
-  /// Gives its memory back, unless it is kept for solves to come.
-  void drop_field();
 
  private:
   std::uint64_t leg_cost(Vec2 a, Vec2 b) const;
@@ -99,8 +95,6 @@ class WaysOverCells {
   KeptWays* kept_;
   std::optional<StepWeights> own_weights_;  // where none are kept
   StepWeights& weights_;
-  std::optional<PriceField> own_field_;
-  PriceField* field_ = nullptr;
   std::optional<Bitmap> joined_;  // cells that steps join to the start
   std::uint64_t expanded_ = 0;
 };

@@ -41,8 +41,10 @@ class Routes {
         cuts_(asked.wide, hole_ / asked.map.cell * (1.0 - 1e-12), execution),
         closed_(with_cells(asked.map, asked.closed)),
         world_(asked.distances != nullptr ? GridWorld(closed_, asked.problem.reach(), *asked.distances)
-                                          : GridWorld(closed_, asked.problem.reach(), execution)) {
-    if (asked.problem.reach() > 0.0) holes_.emplace(with_cells(asked.map, cuts_.cells()), 0.0, execution);
+                                          : GridWorld(closed_, asked.problem.reach(), execution, MapMilestones::none)) {
+    if (asked.problem.reach() > 0.0) {
+      holes_.emplace(with_cells(asked.map, cuts_.cells()), 0.0, execution, MapMilestones::none);
+    }
   }
 
   /// The cheapest first. plain: found where no other ways are asked; it stands for its class where it is as cheap.
@@ -90,18 +92,13 @@ class Routes {
     // Over cells a way is longer than pulled taut, by up to 1 / cos(pi / 8): so much more may be within the stretch.
     constexpr double longer = 1.0824;
     const ClassChoice choice{count, stretch_ * longer};
-    for (const Cell cell : joined(asked_.problem.goal, *own_goal)) {
-      const PriceField::Goal goals[] = {{cell, asked_.ways.entry(asked_.problem.goal, cell, 0).cost}};
+    for (const Cell goal : joined(asked_.problem.goal, *own_goal)) {
+      const PriceField::Goal goals[] = {{goal}};
       for (const Cell start : joined(asked_.problem.start, *own_start)) {
         const Cell towards[] = {start};
-        std::optional<PriceField> own;
-        PriceField* const known = asked_.ways.field();
-        const bool is_known = known != nullptr && known->is_of(goals, towards);
-        if (!is_known) asked_.ways.drop_field();
-        PriceField& field = is_known ? *known : own.emplace(asked_.ways.weights(), goals, towards, execution_);
-        const std::uint64_t before = field.expanded();
-        auto found = cheapest_classes(asked_.ways.weights(), field, cuts_, start, goals[0], choice, execution_);
-        expanded_ += field.expanded() - before;
+        PriceField field(asked_.weights, goals, towards, execution_);
+        auto found = cheapest_classes(asked_.weights, field, cuts_, start, goal, choice, execution_);
+        expanded_ += field.expanded();
         if (!found.empty()) return found;
       }
     }

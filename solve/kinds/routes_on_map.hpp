@@ -19,7 +19,7 @@ struct RoutesAsked {
   const WallProblem& problem;                   ///< its goal is the one that is reached
   const Bitmap& closed;                         ///< cells that the body may not touch
   const Bitmap& wide;                           ///< cells where its middle may not be
-  WaysOverCells& ways;                          ///< between the others
+  StepWeights& weights;                         ///< of steps between the others
   const DistanceField* distances;               ///< of the closed cells; nullptr: not made
   LegPrices prices;                             ///< empty: ways cost their length
   std::function<PriceParts(Vec2, Vec2)> parts;  ///< of a leg, where there are prices

@@ -149,8 +149,8 @@ class CellSolve {
     reached.goal = answer_.path.back();
     std::function<PriceParts(Vec2, Vec2)> parts;
     if (prices_) parts = [this](Vec2 a, Vec2 b) { return prices_->parts(a, b, scratch()); };
-    const RoutesAsked asked{map_, reached, closed_, blocked(), ways(), distances(), leg_prices(prices_, scratch()),
-                            parts};
+    const RoutesAsked asked{
+        map_, reached, closed_, blocked(), ways().weights(), distances(), leg_prices(prices_, scratch()), parts};
     take_alternatives(answer_, route, asked, request_.execution);
   }
   Answer& answer() { return answer_; }
@@ -188,7 +188,6 @@ class CellSolve {
     answer_.search = "field";
     GoalChoice choice = choose_goal(ways(), map_, problem_, way_points(request_), has_open_end(request_));
     answer_.counters.expanded += ways().expanded();
-    if (!request_.question.route.alternatives) ways().drop_field();
     return choice;
   }
   WaysOverCells& ways() {

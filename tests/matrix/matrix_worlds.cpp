@@ -112,6 +112,14 @@ MatrixWorld space_world(const std::string& name, const SpaceObstacles& solids) {
   return world;
 }
 
+/// The file is MoveIt's.
+MatrixWorld moveit_world() {
+  MatrixWorld world =
+      space_world("moveit", {.spheres = {{0.55, 0.0, 0.1, 0.12}}, .boxes = {{-0.6, -0.6, -0.6, -0.5, 0.6, 0.4}}});
+  world.files = {{"moveit.yaml", moveit_of(world)}};
+  return world;
+}
+
 MatrixWorld mixed_world() {
   MatrixWorld world = polygons_world();
   world.name = "boxes_and_polygons";
@@ -144,6 +152,7 @@ std::vector<MatrixWorld> matrix_worlds() {
       ros_world("map_with_yaw", rooms, turned),
       space_world("spheres", {.spheres = {{0.55, 0.0, 0.1, 0.12}, {0.0, 0.5, -0.3, 0.1}}}),
       space_world("boxes", {.boxes = {{0.45, -0.1, -0.2, 0.6, 0.1, 0.25}, {-0.6, -0.6, -0.6, -0.5, 0.6, 0.4}}}),
+      moveit_world(),
       mixed_world(),
       empty_world()};
   const char* seeds = std::getenv("WARREN_MATRIX_SEEDS");

@@ -54,6 +54,27 @@ std::string scene_of(const MatrixWorld& world) {
   return text.str();
 }
 
+std::string moveit_of(const MatrixWorld& world) {
+  std::ostringstream text;
+  text << "name: matrix\nworld:\n  collision_objects:\n";
+  const auto add = [&](const std::string& primitive, double x, double y, double z) {
+    text << "    - id: solid " << x << ' ' << y << "\n      primitives: [{" << primitive
+         << "}]\n      primitive_poses: [{position: [" << x << ", " << y << ", " << z
+         << "], orientation: [0, 0, 0, 1]}]\n";
+  };
+  for (const auto& [x, y, z, r] : world.space.spheres) {
+    std::ostringstream sphere;
+    sphere << "type: sphere, dimensions: [" << r << ']';
+    add(sphere.str(), x, y, z);
+  }
+  for (const auto& [x, y, z, to_x, to_y, to_z] : world.space.boxes) {
+    std::ostringstream box;
+    box << "type: box, dimensions: [" << to_x - x << ", " << to_y - y << ", " << to_z - z << ']';
+    add(box.str(), 0.5 * (x + to_x), 0.5 * (y + to_y), 0.5 * (z + to_z));
+  }
+  return text.str();
+}
+
 std::string geojson_of(const MatrixWorld& world) {
   std::string text = R"({"type": "FeatureCollection", "features": [)";
   for (std::size_t i = 0; i < world.plane.regions.size(); ++i) {

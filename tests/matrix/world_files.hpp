@@ -15,6 +15,8 @@ std::string polygon_text(const Ring& ring);
 std::string scene_of(const MatrixWorld& world);
 /// Its regions and bounds as GeoJSON, which can say holes.
 std::string geojson_of(const MatrixWorld& world);
+/// Its spheres and boxes as a scene of MoveIt.
+std::string moveit_of(const MatrixWorld& world);
 
 /// Rows from the top: `.` is free, all else is blocked; `?` unknown.
 using MapRows = std::vector<std::string>;

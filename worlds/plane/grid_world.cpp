@@ -55,6 +55,7 @@ GridWorld::GridWorld(const OccupancyMap& map, double radius, const Execution& ex
                                        : cell_milestones(blocked_for_disc(map_.blocked, reach_, execution), execution);
     if (fits_every_cell) return;
   }
+  if (milestones == MapMilestones::none) return;
   field_.emplace(map_.blocked, CellDistance::squares, true, execution);
   if (milestones == MapMilestones::corridors) corridors_.emplace(map_, *field_, reach_, execution);
 }

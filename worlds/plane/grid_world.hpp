@@ -18,8 +18,9 @@
 
 namespace warren {
 
-/// Which milestones a roadmap of the world will ask for: corridor_state(), or milestone_cells(), cost memory.
-enum class MapMilestones : std::uint8_t { anywhere, corridors, cell_centres };
+/// Which milestones a roadmap of the world will ask for: corridor_state(), or milestone_cells(), cost memory. none: few
+/// motions will be asked, so that the distance transform would cost more than it saves.
+enum class MapMilestones : std::uint8_t { anywhere, corridors, cell_centres, none };
 
 /// Immutable after construction; one Query a thread. A motion costs the cells of the strip around it, 64 at a time.
 class GridWorld {

@@ -15,6 +15,7 @@
 #include "scenes/files/read_world_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "tests/apps/distributed/solved_by_ranks.hpp"
+#include "tests/refusals.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
 #include "tests/seeds.hpp"
 #include "tests/solve/answer_bytes.hpp"
@@ -213,12 +214,7 @@ std::string damaged(std::string bytes, std::size_t row, std::size_t cols) {
 }
 
 std::string error_of(const std::vector<BandTask>& tasks, const Asked& asked) {
-  try {
-    solved_by(tasks, asked, {.threads = 1}, much_memory, test::all_keys);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
+  return test::refusal<InputError>([&] { solved_by(tasks, asked, {.threads = 1}, much_memory, test::all_keys); });
 }
 
 TEST(SharedFile, DamagedRowsAreToldByTheRankThatReadsThem) {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/base/error.hpp"
+#include "tests/refusals.hpp"
 
 namespace warren {
 namespace {
@@ -65,13 +66,8 @@ TEST(HeadingLayer, OnATurnedMapTheHeadingIsTheWorlds) {
 }
 
 TEST(HeadingLayer, BodiesWithoutAHeadingAreRefusedWithAReason) {
-  const auto refusal = [](const RobotSpec& robot) -> std::string {
-    try {
-      check_has_headings(robot);
-    } catch (const UsageError& error) {
-      return error.what();
-    }
-    return {};
+  const auto refusal = [](const RobotSpec& robot) {
+    return test::refusal<UsageError>([&] { check_has_headings(robot); });
   };
   EXPECT_NE(refusal({.kind = RobotKind::disc, .radius = 1.0}).find("a point and a disc take the same room"),
             std::string::npos);

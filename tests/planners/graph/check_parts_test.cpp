@@ -8,6 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "tests/planners/graph/owned_parts.hpp"
+#include "tests/refusals.hpp"
 #include "tests/seeds.hpp"
 
 namespace warren {
@@ -18,12 +19,7 @@ using test::parts_of;
 
 /// "" where all is sound.
 std::string refusal(const RoadmapParts& parts, unsigned threads = 1) {
-  try {
-    check_parts(parts, "a.roadmap", {.threads = threads});
-    return "";
-  } catch (const InputError& error) {
-    return error.what();
-  }
+  return test::refusal<InputError>([&] { check_parts(parts, "a.roadmap", {.threads = threads}); });
 }
 
 /// Vertices 0 to 5; rows 0: 1 2, 1: 0 2, 2: 0 1 3, 3: 2 4, 4: 3. Free are 0-1, 1-3 and 3-4 by the sum of their numbers.

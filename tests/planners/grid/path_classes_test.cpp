@@ -69,7 +69,7 @@ TEST(PathClasses, OneHoleHasTwoSidesAndTurnsAroundIt) {
   const PriceField::Goal goals[] = {{goal}};
   PriceField field(weights, goals, {}, execution);
   const HoleCuts cuts(blocked, 0.0, execution);
-  const auto found = cheapest_classes(weights, field, cuts, start, {goal}, {.count = 3, .stretch = 10.0}, execution);
+  const auto found = cheapest_classes(weights, field, cuts, start, goal, {.count = 3, .stretch = 10.0}, execution);
   ASSERT_EQ(found.size(), 3U);
   EXPECT_EQ(found[0].cost, found[1].cost);  // above and below
   EXPECT_LT(found[1].cost, found[2].cost);  // once around
@@ -77,7 +77,7 @@ TEST(PathClasses, OneHoleHasTwoSidesAndTurnsAroundIt) {
   EXPECT_EQ(words.size(), 3U);
   EXPECT_TRUE(words.contains({}));
   EXPECT_TRUE(words.contains({1}));
-  EXPECT_EQ(cheapest_classes(weights, field, cuts, start, {goal}, {.count = 3, .stretch = 1.2}, execution).size(), 2U);
+  EXPECT_EQ(cheapest_classes(weights, field, cuts, start, goal, {.count = 3, .stretch = 1.2}, execution).size(), 2U);
 }
 
 void expect_path(const Bitmap& blocked, const class_oracle::Weigh& weigh, const HoleCuts& cuts, const ClassPath& path) {
@@ -134,7 +134,7 @@ void expect_classes(std::uint64_t seed, bool is_weighed) {
   PriceField field(weights, goals, towards, execution);
   const HoleCuts cuts(blocked, least, execution);
   const auto found =
-      cheapest_classes(weights, field, cuts, start, {goal}, {.count = count, .stretch = stretch}, execution);
+      cheapest_classes(weights, field, cuts, start, goal, {.count = count, .stretch = stretch}, execution);
   const std::vector<Cell> rays = class_oracle::ray_starts(blocked, least);
   ASSERT_EQ(cuts.holes().size(), rays.size());
   const auto expected = class_oracle::cheapest(blocked, rays, weigh, start, goal, count, stretch);

@@ -10,17 +10,13 @@
 #include "core/base/error.hpp"
 #include "planners/lengths/cell_marks.hpp"
 #include "tests/planners/lengths/lattice_mazes.hpp"
+#include "tests/refusals.hpp"
 
 namespace warren {
 namespace {
 
 std::string message_of(LatticeSize size, PassageWords words) {
-  try {
-    const LatticePassages passages(size, std::move(words));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return test::refusal<InputError>([&] { const LatticePassages passages(size, std::move(words)); });
 }
 
 TEST(LatticePassages, NeighboursAreThoseOfTheMazeInBothDirections) {

@@ -11,6 +11,7 @@
 #include "core/base/error.hpp"
 #include "scenes/files/read_world_io.hpp"
 #include "scenes/files/scene_io.hpp"
+#include "tests/refusals.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
 #include "tests/seeds.hpp"
 
@@ -120,7 +121,8 @@ TEST(MaskFile, KeepOutTakesForbiddenAreasOfScenes) {
   EXPECT_EQ(prices.keep_out[2].corners[0], (Vec2{5, 5}));
   prices.masks = {
       {.kind = MaskKind::keep_out, .file = directory.write("c.scene", "polygon 0 0 1 0 1 1\nmask m.yaml keep-out\n")}};
-  EXPECT_THROW(read_masks(prices, {}), InputError);
+  EXPECT_NE(test::refusal<InputError>([&] { read_masks(prices, {}); }).find("c.scene: has a `mask` line"),
+            std::string::npos);
 }
 
 /// Along the cuts of a polygon with a hole nothing would be paid.
@@ -131,7 +133,8 @@ TEST(MaskFile, AFactorTakesNoPolygonWithHoles) {
       R"({"type": "Polygon", "coordinates": [[[0,0],[9,0],[9,9],[0,9],[0,0]],[[3,3],[3,6],[6,6],[6,3],[3,3]]]})");
   Prices prices;
   prices.masks = {{.kind = MaskKind::keep_out, .file = ring, .factor = 4.0}};
-  EXPECT_THROW(read_masks(prices, {}), InputError);
+  EXPECT_NE(test::refusal<InputError>([&] { read_masks(prices, {}); }).find("ring.geojson: has polygons with holes"),
+            std::string::npos);
   prices = {};
   prices.masks = {{.kind = MaskKind::keep_out, .file = ring}};
   read_masks(prices, {});
@@ -141,13 +144,17 @@ TEST(MaskFile, AFactorTakesNoPolygonWithHoles) {
 TEST(MaskFile, WhatIsNoMaskIsRefused) {
   const TemporaryDirectory directory;
   const std::string scene = directory.write("zones.scene", "polygon 0 0 1 0 1 1\n");
-  Prices prices;
-  prices.masks = {{.kind = MaskKind::speed, .file = scene}};
-  EXPECT_THROW(read_masks(prices, {}), InputError);
-  prices.masks = {{.kind = MaskKind::keep_out, .file = directory.write("walls.scene", "0 0 1 1\n")}};
-  EXPECT_THROW(read_masks(prices, {}), InputError);
-  prices.masks = {{.kind = MaskKind::areas, .file = directory.file("none.yaml"), .factor = 2.0}};
-  EXPECT_THROW(read_masks(prices, {}), ReadError);
+  const auto expect_refusal = [](const PriceMask& mask, const std::string& words) {
+    Prices prices;
+    prices.masks = {mask};
+    const std::string said = test::refusal<Error>([&] { read_masks(prices, {}); });
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+  };
+  expect_refusal({.kind = MaskKind::speed, .file = scene}, "zones.scene: a mask is the YAML of a map server");
+  expect_refusal({.kind = MaskKind::keep_out, .file = directory.write("walls.scene", "0 0 1 1\n")},
+                 "walls.scene: has no polygons to keep out of");
+  expect_refusal({.kind = MaskKind::areas, .file = directory.file("none.yaml"), .factor = 2.0},
+                 "none.yaml: can't be read");
 }
 
 /// A scene that names itself as its own zones ends, too.

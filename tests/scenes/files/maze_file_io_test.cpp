@@ -12,6 +12,7 @@
 #include "scenes/files/read_world_io.hpp"
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/mazes/spanning_maze.hpp"
+#include "tests/refusals.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
 
 namespace warren {
@@ -25,12 +26,7 @@ std::string written(const TemporaryDirectory& directory, const MazeOptions& maze
 Scene read_bytes(std::string_view bytes) { return read_maze_file(InputFile::of_bytes("a.maze", bytes), {}); }
 
 std::string said_of(std::string_view bytes) {
-  try {
-    read_bytes(bytes);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return {};
+  return test::refusal<InputError>([&] { read_bytes(bytes); });
 }
 
 std::uint32_t crc32(std::string_view bytes) {

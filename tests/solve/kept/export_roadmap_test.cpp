@@ -13,6 +13,7 @@
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
 #include "scenes/files/npy_io.hpp"
+#include "tests/refusals.hpp"
 #include "tests/scenes/files/temporary_directory.hpp"
 #include "tests/seeds.hpp"
 #include "tests/solve/kept/listed_roadmap.hpp"
@@ -178,12 +179,7 @@ TEST(ExportRoadmap, ArchivesHoldTheMatrixOfLengthsAndTheStates) {
 }
 
 std::string usage_error(const ListedRoadmap& roadmap, const std::string& ending) {
-  try {
-    exported(roadmap, ending);
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "no error";
+  return test::refusal<UsageError>([&] { exported(roadmap, ending); });
 }
 
 TEST(ExportRoadmap, WhatNav2WouldNotLoadIsRefused) {

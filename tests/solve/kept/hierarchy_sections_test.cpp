@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "tests/refusals.hpp"
 #include "tests/solve/kept/small_roadmap_file.hpp"
 
 namespace warren {
@@ -42,12 +43,7 @@ class HierarchyFile : public testing::Test {
   std::string refusal(const std::function<void(Arrays&)>& forge) const {
     Arrays arrays;
     forge(arrays);
-    try {
-      read_back(arrays);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "accepted";
+    return test::refusal<InputError>([&] { read_back(arrays); });
   }
 
  private:

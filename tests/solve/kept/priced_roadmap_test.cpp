@@ -14,6 +14,7 @@
 #include "solve/kept/roadmap_query.hpp"
 #include "solve/solve.hpp"
 #include "tests/paths.hpp"
+#include "tests/refusals.hpp"
 #include "tests/seeds.hpp"
 #include "tests/solve/kept/same_answers.hpp"
 
@@ -134,34 +135,32 @@ TEST(PricedRoadmap, AWorldOfOtherPricesIsRefused) {
   closed.prices.keep_out.push_back({{{2, 0}, {3, 0}, {3, 2}}, 0});
   const Roadmap lengths = build(rooms(false), plain, options);
   const Roadmap prices = build(rooms(false), question, options);
-  EXPECT_THROW(update(lengths, priced, {}), UsageError);
-  EXPECT_THROW(update(lengths, closed, {}), UsageError);
-  EXPECT_THROW(update(prices, closed, {}), UsageError);
+  const auto expect_refusal = [](const std::string& said) {
+    EXPECT_NE(said.find("has prices or forbidden areas that the roadmap was built without"), std::string::npos) << said;
+  };
+  expect_refusal(test::refusal<UsageError>([&] { update(lengths, priced, {}); }));
+  expect_refusal(test::refusal<UsageError>([&] { update(lengths, closed, {}); }));
+  expect_refusal(test::refusal<UsageError>([&] { update(prices, closed, {}); }));
   EXPECT_EQ(update(prices, priced, {}).prices.areas.size(), 1U);
   const std::string file =
       (std::filesystem::temp_directory_path() / ("warren_plain_" + std::to_string(::getpid()) + ".roadmap")).string();
   write_roadmap(lengths, file);
-  EXPECT_THROW(read_roadmap(file, {}, closed), UsageError);
+  expect_refusal(test::refusal<UsageError>([&] { read_roadmap(file, {}, closed); }));
   EXPECT_TRUE(read_roadmap(file, {}, rooms(false)).prices.empty());
   std::filesystem::remove(file);
 }
 
 TEST(PricedRoadmap, WhatItCantKeepIsRefused) {
-  const auto refusal = [](const Question& question, PlannerKind planner) -> std::string {
-    try {
-      build(rooms(true), question, {.planner = planner});
-    } catch (const UsageError& error) {
-      return error.what();
-    }
-    return "nothing";
+  const auto refused = [](const Question& question, PlannerKind planner) {
+    return test::refusal<UsageError>([&] { build(rooms(true), question, {.planner = planner}); });
   };
   Question question = priced_question(rooms_bodies().front());
   question.prices.keep_out.push_back({{{2, 0}, {3, 0}, {3, 2}}, 0});
-  EXPECT_NE(refusal(question, PlannerKind::prm).find("keep_out"), std::string::npos);
+  EXPECT_NE(refused(question, PlannerKind::prm).find("keep_out"), std::string::npos);
   question = priced_question(rooms_bodies().front());
   question.prices.unknown = 2.0;
-  EXPECT_NE(refusal(question, PlannerKind::prm).find("unknown"), std::string::npos);
-  EXPECT_NE(refusal(priced_question(rooms_bodies().front()), PlannerKind::voronoi).find("clearance_price"),
+  EXPECT_NE(refused(question, PlannerKind::prm).find("unknown"), std::string::npos);
+  EXPECT_NE(refused(priced_question(rooms_bodies().front()), PlannerKind::voronoi).find("clearance_price"),
             std::string::npos);
 }
 

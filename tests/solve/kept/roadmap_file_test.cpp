@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "core/base/error.hpp"
+#include "tests/refusals.hpp"
 #include "tests/seeds.hpp"
 #include "tests/solve/kept/mend_checksums.hpp"
 #include "tests/solve/kept/small_roadmap_file.hpp"
@@ -24,12 +25,7 @@ const Execution one_thread{.threads = 1};
 
 /// What is said of bytes that no file may have; "" where they are taken.
 std::string refusal(std::string_view bytes) {
-  try {
-    const auto file = RoadmapFile::of_bytes("a.roadmap", bytes, one_thread);
-    return "";
-  } catch (const InputError& error) {
-    return error.what();
-  }
+  return test::refusal<InputError>([&] { const auto file = RoadmapFile::of_bytes("a.roadmap", bytes, one_thread); });
 }
 
 bool says(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
@@ -66,18 +62,11 @@ TEST(RoadmapFile, TakesAFileWithoutSections) {
 
 TEST(RoadmapFile, RefusesToGiveASectionThatIsMissingOrOfAnotherType) {
   const auto file = RoadmapFile::of_bytes("a.roadmap", SmallRoadmapFile{}.written(), {});
-  const auto said = [](const auto& ask) -> std::string {
-    try {
-      ask();
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
-  };
-  EXPECT_EQ(said([&] { file.section<double>("nowhere", {}); }), "a.roadmap: section `nowhere` is missing");
-  EXPECT_EQ(said([&] { file.section<float>("states", {}); }),
+  EXPECT_EQ(test::refusal<InputError>([&] { file.section<double>("nowhere", {}); }),
+            "a.roadmap: section `nowhere` is missing");
+  EXPECT_EQ(test::refusal<InputError>([&] { file.section<float>("states", {}); }),
             "a.roadmap: section `states` must have elements of type <f4 (found: <f8)");
-  EXPECT_EQ(said([&] { file.optional_section<float>("states", {}); }),
+  EXPECT_EQ(test::refusal<InputError>([&] { file.optional_section<float>("states", {}); }),
             "a.roadmap: section `states` must have elements of type <f4 (found: <f8)");
 }
 
@@ -269,14 +258,6 @@ class LargeRoadmapFile : public ::testing::Test {
     file.seekp(static_cast<std::streamoff>(at));
     file.put(byte);
   }
-  static std::string said(const auto& ask) {
-    try {
-      ask();
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
-  }
 
   TemporaryDirectory directory_;
   std::string path_ = directory_.file("large.roadmap");
@@ -315,12 +296,12 @@ TEST_F(LargeRoadmapFile, IsCheckedWhereSomebodyLooks) {
   EXPECT_EQ(numbers[at - 1], (at - 1) * 0x9e3779b97f4a7c15U);
   EXPECT_EQ(numbers[at + in_block], (at + in_block) * 0x9e3779b97f4a7c15U);
   for (int twice = 0; twice < 2; ++twice) {
-    EXPECT_TRUE(says(said([&] { numbers[at]; }), expected));
-    EXPECT_TRUE(says(said([&] { numbers[at + in_block - 1]; }), expected));
-    EXPECT_TRUE(says(said([&] { numbers.part(at - 1, 2); }), expected));
-    EXPECT_TRUE(says(said([&] { numbers.part(at - 1, 3 * in_block); }), expected));
-    EXPECT_TRUE(says(said([&] { file.section<std::uint64_t>("numbers", {}); }), expected));
-    EXPECT_TRUE(says(said([&] { file.check_all({}); }), expected));
+    EXPECT_TRUE(says(test::refusal<InputError>([&] { numbers[at]; }), expected));
+    EXPECT_TRUE(says(test::refusal<InputError>([&] { numbers[at + in_block - 1]; }), expected));
+    EXPECT_TRUE(says(test::refusal<InputError>([&] { numbers.part(at - 1, 2); }), expected));
+    EXPECT_TRUE(says(test::refusal<InputError>([&] { numbers.part(at - 1, 3 * in_block); }), expected));
+    EXPECT_TRUE(says(test::refusal<InputError>([&] { file.section<std::uint64_t>("numbers", {}); }), expected));
+    EXPECT_TRUE(says(test::refusal<InputError>([&] { file.check_all({}); }), expected));
   }
   EXPECT_EQ(numbers.part(at - 2, 2).size(), 2U);
   EXPECT_TRUE(numbers.part(at, 0).empty());
@@ -332,17 +313,18 @@ TEST_F(LargeRoadmapFile, NamesItsFirstDamagedBlockForAnyNumberOfThreads) {
   const std::string first = "bytes " + std::to_string(offset_ + damaged * checked_block) + " to";
   for (const unsigned threads : {1U, 2U, 3U, 8U}) {
     const RoadmapFile file(path_, {.threads = threads});
-    EXPECT_TRUE(says(said([&] { file.check_all({.threads = threads}); }), first)) << threads;
+    EXPECT_TRUE(says(test::refusal<InputError>([&] { file.check_all({.threads = threads}); }), first)) << threads;
   }
 }
 
 TEST_F(LargeRoadmapFile, HasItsSmallSectionsAndZerosCheckedWhenItIsOpened) {
   const std::size_t text = offset_ + blocks * checked_block;
   flip(text + 999);
-  EXPECT_TRUE(says(said([&] { RoadmapFile(path_, {}); }), "section `text` is damaged"));
+  EXPECT_TRUE(says(test::refusal<InputError>([&] { RoadmapFile(path_, {}); }), "section `text` is damaged"));
   flip(text + 999);
   flip(text + 1001);
-  EXPECT_TRUE(says(said([&] { RoadmapFile(path_, {}); }), "the bytes behind section `text` must be zeros"));
+  EXPECT_TRUE(says(test::refusal<InputError>([&] { RoadmapFile(path_, {}); }),
+                   "the bytes behind section `text` must be zeros"));
 }
 
 TEST_F(LargeRoadmapFile, IsLookedAtByManyThreads) {

@@ -6,6 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "solve/question/solve_options.hpp"
+#include "tests/refusals.hpp"
 #include "tests/tools/process.hpp"
 #include "tools/words/command.hpp"
 #include "tools/words/help.hpp"
@@ -25,16 +26,6 @@ std::vector<std::string> names_of(const OtherName& row) {
     names.push_back(name);
   }
   return names;
-}
-
-template <class Call>
-std::string refusal_of(const Call& call) {
-  try {
-    call();
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return {};
 }
 
 bool contains(const std::string& text, const std::string& part) {
@@ -62,9 +53,11 @@ TEST(OtherNames, EachIsAnsweredByHelpAsAnOptionAsAVerbAndAsAPlanner) {
       std::replace(option.begin(), option.end(), ' ', '-');
       EXPECT_EQ(tools::other_name(option), here);
       const std::vector<std::string> words{"maze:5x5", option};
-      EXPECT_TRUE(contains(refusal_of([&] { tools::Arguments(tools::command_named("solve"), words); }), here));
-      EXPECT_TRUE(contains(refusal_of([&] { tools::choice_value<PlannerKind>("--planner", name); }), here));
-      EXPECT_TRUE(contains(refusal_of([&] { tools::command_named(name); }), here));
+      EXPECT_TRUE(
+          contains(test::refusal<UsageError>([&] { tools::Arguments(tools::command_named("solve"), words); }), here));
+      EXPECT_TRUE(
+          contains(test::refusal<UsageError>([&] { tools::choice_value<PlannerKind>("--planner", name); }), here));
+      EXPECT_TRUE(contains(test::refusal<UsageError>([&] { tools::command_named(name); }), here));
     }
   }
   EXPECT_GT(seen.size(), 150U);

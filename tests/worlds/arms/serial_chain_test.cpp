@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
+#include "tests/refusals.hpp"
 #include "tests/worlds/arms/arm_oracle.hpp"
 #include "worlds/arms/puma560.hpp"
 
@@ -70,13 +71,8 @@ TEST(SerialChain, FramesAreThoseOfPlainMatricesAndWithinReach) {
 }
 
 TEST(SerialChain, RefusesBadTables) {
-  const auto refusal = [](const DhTable& table) -> std::string {
-    try {
-      const SerialChain chain(table);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "taken";
+  const auto refusal = [](const DhTable& table) {
+    return test::refusal<InputError>([&] { const SerialChain chain(table); });
   };
   EXPECT_NE(refusal({}).find("from 1 to 6 joints"), std::string::npos);
   DhTable table = puma560_table();
