@@ -13,6 +13,7 @@
 #include "core/base/error.hpp"
 #include "scenes/files/read_world_io.hpp"
 #include "tests/paths.hpp"
+#include "tests/refusals.hpp"
 #include "tests/seeds.hpp"
 
 namespace warren {
@@ -25,13 +26,9 @@ Scene example(const std::string& name) { return read_world(test::source_dir() + 
 /// The line of the error that a call ends with.
 template <class Wrong, class Call>
 std::string line_of(const Call& call) {
-  try {
-    call();
-  } catch (const Wrong& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return {};
+  const std::string said = test::refusal<Wrong>(call);
+  EXPECT_NE(said, "") << "nothing was thrown";
+  return said;
 }
 
 TEST(Solve, TheShortestCallAnswersAsTheFileSays) {

@@ -34,6 +34,7 @@ TEST(GridWorld, AgreesWithTheVerificationOnRandomMotions) {
     const OccupancyMap map = sparse_map(seed);
     const double radius = map.cell * std::array{0.0, 0.3, 0.5, 1.7}[seed / 2 % 4];
     const GridWorld world(map, radius, {});
+    const GridWorld without_distances(map, radius, {}, MapMilestones::none);
     auto query = world.make_query();
     int free = 0;
     for (std::uint64_t i = 0; i < 300; ++i) {
@@ -50,6 +51,7 @@ TEST(GridWorld, AgreesWithTheVerificationOnRandomMotions) {
       } else {
         ASSERT_LT(clearance, radius + slack) << i;
       }
+      ASSERT_EQ(without_distances.is_free_motion(a, b, query), is_free) << i;
       ASSERT_EQ(world.is_free(a, query), world.is_free_motion(a, a, query));
     }
     EXPECT_GT(free, 10);
