@@ -120,7 +120,7 @@ TEST(SidePrices, PlannerAndJudgeAgreeWithBruteForce) {
         const double gap = brute_distance(sides, a + t * (b - a)) - radius;
         return gap < reach ? world.prices.clearance->price * (1.0 - gap / reach) * (1.0 - gap / reach) : 0.0;
       };
-      const double brute = distance(a, b) * integral(near, 0.0, 1.0, static_cast<int>(40.0 * (1.0 + distance(a, b))));
+      const double brute = distance(a, b) * integral(near, 0.0, 1.0, static_cast<int>(160.0 * (1.0 + distance(a, b))));
       const PriceParts found = priced.parts(a, b, scratch);
       EXPECT_NEAR(found.clearance, brute, 1e-9 * (1.0 + brute));
       const std::array legs{a, b};
