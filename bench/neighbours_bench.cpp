@@ -51,9 +51,9 @@ const std::vector<Vec2>& points_of(std::int64_t kind_number, std::int64_t side_n
   points.resize(side * side);
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = point_of(kind, side, i);
   if (kind == uniform_random) return points;
-  const TileOrder order = tile_order(points, {});
+  const RawVector<std::uint32_t> order = tile_order(points, {});
   std::vector<Vec2> sorted;
-  for (const std::uint32_t i : order.sample_of) sorted.push_back(points[i]);
+  for (const std::uint32_t i : order) sorted.push_back(points[i]);
   points.swap(sorted);
   return points;
 }
@@ -209,8 +209,8 @@ void check_tile_order(const std::vector<Vec2>& points, const Execution& executio
   std::stable_sort(plain.begin(), plain.end(), [&](std::uint32_t i, std::uint32_t j) {
     return frame.cell_of(points[i]) < frame.cell_of(points[j]);
   });
-  const TileOrder order = tile_order(points, execution);
-  check(std::equal(plain.begin(), plain.end(), order.sample_of.begin(), order.sample_of.end()), "tile_order");
+  const RawVector<std::uint32_t> order = tile_order(points, execution);
+  check(std::equal(plain.begin(), plain.end(), order.begin(), order.end()), "tile_order");
 }
 
 void bm_tile_order(benchmark::State& state) {
@@ -226,8 +226,8 @@ void check_counting_sort(const std::vector<std::uint32_t>& key, std::size_t keys
   std::vector<std::uint32_t> plain(key.size());
   std::iota(plain.begin(), plain.end(), 0U);
   std::stable_sort(plain.begin(), plain.end(), [&](std::uint32_t i, std::uint32_t j) { return key[i] < key[j]; });
-  const KeyOrder order = counting_sort(key.size(), keys, execution, [&](std::size_t i) { return key[i]; });
-  check(std::equal(plain.begin(), plain.end(), order.item.begin(), order.item.end()), "counting_sort");
+  const ItemsByKey order = counting_sort(key.size(), keys, execution, [&](std::size_t i) { return key[i]; });
+  check(std::equal(plain.begin(), plain.end(), order.items.begin(), order.items.end()), "counting_sort");
 }
 
 void bm_counting_sort(benchmark::State& state) {

@@ -70,11 +70,18 @@ void for_each_index(std::size_t n, std::size_t grain, const Execution& execution
   });
 }
 
+/// What part_of(Range) makes of each chunk, in their order.
+template <class PartOf>
+auto parts_of_chunks(std::size_t n, std::size_t grain, const Execution& execution, const PartOf& part_of) {
+  std::vector<decltype(part_of(Range{}))> parts(chunk_count(n, grain));
+  for_chunks(n, grain, execution, [&](Range r) { parts[r.first / grain] = part_of(r); });
+  return parts;
+}
+
 /// The sum of what count(Range) says of each chunk.
 template <class Count>
 auto sum_of_chunks(std::size_t n, std::size_t grain, const Execution& execution, const Count& count) {
-  std::vector<decltype(count(Range{}))> parts(chunk_count(n, grain));
-  for_chunks(n, grain, execution, [&](Range r) { parts[r.first / grain] = count(r); });
+  const auto parts = parts_of_chunks(n, grain, execution, count);
   return std::accumulate(parts.begin(), parts.end(), decltype(count(Range{})){0});
 }
 

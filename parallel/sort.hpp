@@ -15,18 +15,13 @@
 #include <functional>
 #include <vector>
 
+#include "core/base/items_by_key.hpp"
 #include "core/base/raw_vector.hpp"
 #include "core/run/execution.hpp"
 #include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
 
 namespace warren {
-
-/// item[first[k]] .. item[first[k + 1] - 1] are the items with key k, ascending; first has keys + 1 elements.
-struct KeyOrder {
-  RawVector<std::uint32_t> first;
-  RawVector<std::uint32_t> item;
-};
 
 namespace detail {
 
@@ -74,7 +69,7 @@ std::vector<std::uint32_t> scatter_to_buckets(std::size_t n, std::size_t buckets
 
 /// Sorts the (key, item) pairs of the keys first_key .. last_key - 1, which lie at places begin .. end - 1.
 inline void sort_bucket(const RawVector<std::uint64_t>& pairs, Range places, Range keys,
-                        std::vector<std::uint32_t>& scratch, KeyOrder& order) {
+                        std::vector<std::uint32_t>& scratch, ItemsByKey& order) {
   scratch.assign(keys.size(), 0);
   for (std::size_t i = places.first; i < places.last; ++i) ++scratch[(pairs[i] >> 32) - keys.first];
   auto place = static_cast<std::uint32_t>(places.first);
@@ -84,30 +79,31 @@ inline void sort_bucket(const RawVector<std::uint64_t>& pairs, Range places, Ran
     scratch[key - keys.first] = order.first[key];
   }
   for (std::size_t i = places.first; i < places.last; ++i) {
-    order.item[scratch[(pairs[i] >> 32) - keys.first]++] = static_cast<std::uint32_t>(pairs[i]);
+    order.items[scratch[(pairs[i] >> 32) - keys.first]++] = static_cast<std::uint32_t>(pairs[i]);
   }
 }
 
 }  // namespace detail
 
 /// Sorts items 0 .. n - 1 by key_of(i) < keys; key_of is called twice for each item, from several threads, and must
-/// give the same both times. n and keys below 2^32, keys >= 1. Throws Stopped at the deadline.
+/// give the same both times. The items of each key ascend. n and keys below 2^32, keys >= 1. Throws Stopped at the
+/// deadline.
 template <class KeyOf>
-KeyOrder counting_sort(std::size_t n, std::size_t keys, const Execution& execution, const KeyOf& key_of) {
+ItemsByKey counting_sort(std::size_t n, std::size_t keys, const Execution& execution, const KeyOf& key_of) {
   assert(keys >= 1 && n < (std::uint64_t{1} << 32) && keys < (std::uint64_t{1} << 32));
   const Execution quiet = execution.quiet();
   unsigned shift = 0;
   while (((keys - 1) >> shift) >= detail::sort_buckets) ++shift;
   const std::size_t buckets = ((keys - 1) >> shift) + 1;
   quiet.reserve((n + keys) * sizeof(std::uint32_t) + (shift == 0 ? 0 : n * sizeof(std::uint64_t)));
-  KeyOrder order;
+  ItemsByKey order;
   order.first.resize(keys + 1);
-  order.item.resize(n);
-  touch_first(order.item, quiet);
+  order.items.resize(n);
+  touch_first(order.items, quiet);
   order.first[keys] = static_cast<std::uint32_t>(n);
   if (shift == 0) {
     const auto begin = detail::scatter_to_buckets(n, buckets, quiet, key_of, [&](std::size_t place, std::size_t i) {
-      order.item[place] = static_cast<std::uint32_t>(i);
+      order.items[place] = static_cast<std::uint32_t>(i);
     });
     std::copy(begin.begin(), begin.end(), order.first.begin());
     return order;

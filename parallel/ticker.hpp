@@ -7,48 +7,39 @@
 #include <condition_variable>
 #include <functional>
 #include <mutex>
+#include <stop_token>
 #include <system_error>
 #include <thread>
 
 namespace warren {
 
+/// Its end waits for a running tick; none follows. Neither copied nor moved.
 class Ticker {
  public:
   /// tick must not throw; it is first called after `first`, then every `period`.
   Ticker(std::chrono::milliseconds first, std::chrono::milliseconds period, std::function<void()> tick)
       : tick_(std::move(tick)) {
     try {
-      thread_ = std::thread([this, first, period] { run(first, period); });
+      thread_ = std::jthread([this, first, period](const std::stop_token& stop) { run(first, period, stop); });
     } catch (const std::system_error&) {  // no thread is to be had
     }
   }
-  /// Waits for a running tick; none follows.
-  ~Ticker() {
-    {
-      const std::lock_guard lock(mutex_);
-      ended_ = true;
-    }
-    wake_.notify_one();
-    if (thread_.joinable()) thread_.join();
-  }
-  Ticker(const Ticker&) = delete;
-  Ticker& operator=(const Ticker&) = delete;
 
  private:
-  void run(std::chrono::milliseconds first, std::chrono::milliseconds period) {
-    std::unique_lock lock(mutex_);
-    for (auto wait = first; !wake_.wait_for(lock, wait, [this] { return ended_; }); wait = period) {
-      lock.unlock();
+  void run(std::chrono::milliseconds first, std::chrono::milliseconds period, const std::stop_token& stop) {
+    std::mutex own;  // guards nothing: waits are made with one
+    std::unique_lock lock(own);
+    const auto is_over = [&] { return stop.stop_requested(); };
+    wake_.wait_for(lock, stop, first, is_over);
+    while (!is_over()) {
       tick_();
-      lock.lock();
+      wake_.wait_for(lock, stop, period, is_over);
     }
   }
 
   std::function<void()> tick_;
-  std::mutex mutex_;  // guards ended_
-  std::condition_variable wake_;
-  bool ended_ = false;
-  std::thread thread_;
+  std::condition_variable_any wake_;
+  std::jthread thread_;  // ended first
 };
 
 }  // namespace warren

@@ -7,12 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string>
 #include <vector>
 
 #include "core/base/printable.hpp"
 #include "scenes/scene/scene.hpp"
-#include "scenes/text/human_units.hpp"
 #include "solve/answer/stage_lines.hpp"
 #include "solve/explain_answer.hpp"
 #include "solve/question/question_of_arm.hpp"

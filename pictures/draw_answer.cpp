@@ -15,7 +15,6 @@
 #include "pictures/layers/draw_arm.hpp"
 #include "pictures/layers/draw_bodies.hpp"
 #include "pictures/layers/draw_cells.hpp"
-#include "scenes/scene/scene.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/question/question_of_arm.hpp"
@@ -78,9 +77,7 @@ void add_bodies(Drawing& drawing, const RobotSpec& robot, const StateList& state
     for (const Vec2 p : drawing.path) poses.push_back({p.x, p.y, 0.0});
   }
   if (drives) drawing.path_turns = leg_turns(poses);
-  for (PictureLayer& layer : bodies_along(poses, robot, drives ? BodyMotion::driving : BodyMotion::straight)) {
-    drawing.layers.push_back(std::move(layer));
-  }
+  for (PictureLayer& layer : bodies_along(poses, robot)) drawing.layers.push_back(std::move(layer));
   take_lengths(drawing);
 }
 

@@ -9,13 +9,11 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "pictures/draw_answer.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/layers/draw_arm.hpp"
 #include "pictures/layers/draw_bodies.hpp"
 #include "pictures/layers/draw_cells.hpp"
 #include "scenes/text/human_units.hpp"
-#include "solve/answer/world_account.hpp"
 #include "solve/kept/export_roadmap.hpp"
 #include "solve/question/question_of_arm.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
@@ -74,7 +72,12 @@ class RoadmapDrawing {
     if (heading_rad) {
       add_heading(drawing, scene_, roadmap_.robot, roadmap_.clearance, poses(), *heading_rad, execution_);
     }
-    roadmap_.robot.kind == RobotKind::car ? add_curves(drawing) : add_lines(drawing);
+    const bool drives = roadmap_.robot.kind == RobotKind::car;
+    drives ? add_curves(drawing) : add_lines(drawing);
+    drawing.roadmap.emplace();
+    drawing.roadmap->states = positions();
+    drawing.roadmap->graph =
+        drives ? Graph::from_edges(vertex_count(), {}) : edges_in(EdgeState::free, arrays_, execution_);
     if (!heading_rad && arrays_.dimension == 3 && vertex_count() <= most_arrows) drawing.layers.push_back(arrows());
     return drawing;
   }
@@ -114,9 +117,6 @@ class RoadmapDrawing {
       }
       if (layer.lines.size() > 0) drawing.layers.push_back(std::move(layer));
     }
-    drawing.roadmap.emplace();
-    drawing.roadmap->states = positions();
-    drawing.roadmap->graph = edges_in(EdgeState::free, arrays_, execution_);
   }
 
   void add_curves(Drawing& drawing) const {
@@ -131,15 +131,11 @@ class RoadmapDrawing {
       if (style.state != EdgeState::free) layer.width = thin;
       if (layer.lines.size() > 0) drawing.layers.push_back(std::move(layer));
     }
-    drawing.roadmap.emplace();
-    drawing.roadmap->states = positions();
-    drawing.roadmap->graph = Graph::from_edges(vertex_count(), {});
   }
 
   /// Where the states look, in strokes that keep apart from each other.
   PictureLayer arrows() const {
-    Box box;
-    for (VertexId v = 0; v < vertex_count(); ++v) box.include(position(v));
+    const Box box = box_around(positions());
     if (box.empty()) return heading_arrows({}, 0.0);
     const double extent = std::max(box.width(), box.height());
     const double length = std::min(extent / 50.0, 0.4 * extent / std::sqrt(static_cast<double>(vertex_count())));

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <new>
 #include <string>
 #include <utility>
 
@@ -69,12 +68,9 @@ class PathParts {
   /// From now on obstacles that are far from the states first .. last are left out.
   void look_at(std::size_t first, std::size_t last) { look_at(near_, first, last); }
 
-  std::size_t size() const { return answer_.states.empty() ? answer_.path.size() : answer_.states.size(); }
+  std::size_t size() const { return answer_.state_count(); }
   bool in_plane() const { return answer_.states.empty(); }
-  std::vector<double> state(std::size_t i) const {
-    if (in_plane()) return {answer_.path[i].x, answer_.path[i].y};
-    return {answer_.states[i].begin(), answer_.states[i].end()};
-  }
+  std::vector<double> state(std::size_t i) const { return answer_.state(i); }
   /// Least room between the states first and last.
   double clearance(std::size_t first, std::size_t last) const {
     std::vector<std::vector<double>> states;
@@ -153,9 +149,8 @@ std::optional<double> one_sample_in(const Scene& scene, const Answer& answer, co
   return std::max(1.0, box.width() * box.height() / (free * free));
 }
 
-constexpr std::uint64_t most_milestones = std::uint64_t{1} << 31;  // as samples and nodes may be
-
-std::uint64_t four_times(std::uint64_t n) { return n > most_milestones / 4 ? most_milestones : 4 * n; }
+/// As samples and nodes may be.
+std::uint64_t four_times(std::uint64_t n) { return n > most_samples / 4 ? most_samples : 4 * n; }
 
 class Hints {
  public:
@@ -372,17 +367,10 @@ void explain_stop(Answer& answer) {
 }
 
 void explain_in_time(Answer& answer, const std::function<void()>& explain) {
-  const auto stop = [&](StopReason reason) {
-    if (!answer.explained) answer.explained.emplace();
-    answer.explained->stopped = reason;
-  };
-  try {
-    explain();
-  } catch (const Stopped& stopped) {
-    stop(stopped.reason);
-  } catch (const std::bad_alloc&) {
-    stop(StopReason::memory);
-  }
+  const auto reason = stopped_by(explain);
+  if (!reason) return;
+  if (!answer.explained) answer.explained.emplace();
+  answer.explained->stopped = reason;
 }
 
 std::vector<Hint> hints_for(const Scene& scene, const AskedWith& asked, const Answer& answer) {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -50,19 +49,11 @@ Question merged(Question question, const Question& answer) {
   return question;
 }
 
-/// The scene as it is planned in where prices close and open places of it; else itself. Refers to it.
-class RestrictedScene {
- public:
-  RestrictedScene(const Scene& scene, const Question& question, const Execution& execution) : scene_(scene) {
-    const Prices prices = prices_of(scene, question);
-    if (restricts(prices)) copy_ = restricted_scene(scene, prices, execution);
-  }
-  const Scene& get() const { return copy_ ? *copy_ : scene_; }
-
- private:
-  const Scene& scene_;
-  std::optional<Scene> copy_;
-};
+/// The scene as it is planned in where prices close and open places of it; none: as it is.
+std::optional<Scene> restricted_copy(const Scene& scene, const Question& question, const Execution& execution) {
+  const Prices prices = prices_of(scene, question);
+  return restricts(prices) ? std::optional(restricted_scene(scene, prices, execution)) : std::nullopt;
+}
 
 Violation untrue(std::string what) {
   return {.leg = 0, .distance = 0.0, .obstacle = std::move(what), .kind = ViolationKind::claim};
@@ -110,11 +101,12 @@ using PathPlace = std::pair<std::size_t, double>;
 
 /// Where a leg of the path passes there, from a place on. With a heading, or of an arm or a car, whose legs may be
 /// arcs, a state of it has to be that one; an arm's may have been moved onto a limit.
-std::optional<PathPlace> passed(const RobotSpec& robot, std::span<const Vec2> path, const StateList& states,
-                                const std::vector<double>& place, PathPlace from = {}) {
+std::optional<PathPlace> passed(const RobotSpec& robot, const ClaimedPath& claimed, const std::vector<double>& place,
+                                PathPlace from = {}) {
   const double rounding = is_arm(robot) ? 2e-5 : 1e-9;
   if (place.size() == 2 && !is_arm(robot) && robot.kind != RobotKind::car) {
     const Vec2 at{place[0], place[1]};
+    const Path<Vec2>& path = claimed.path;
     for (std::size_t k = from.first; k < path.size(); ++k) {
       const Segment leg{path[k], path[std::min(k + 1, path.size() - 1)]};
       if (!(distance(at, leg) <= rounding * (1.0 + norm(at)))) continue;
@@ -132,41 +124,35 @@ std::optional<PathPlace> passed(const RobotSpec& robot, std::span<const Vec2> pa
     }
     return true;
   };
-  const bool is_read = states.empty();  // from a file, whose states of two numbers are points
-  const std::size_t count = is_read ? path.size() : states.size();
-  for (std::size_t k = from.first + (from.second > rounding ? 1 : 0); k < count; ++k) {
-    const std::array two{is_read ? path[k].x : 0.0, is_read ? path[k].y : 0.0};
-    const std::span<const double> state = is_read ? std::span<const double>(two) : states[k];
-    if (state.size() >= place.size() && is_there(state)) return PathPlace{k, 0.0};
+  if (claimed.state_width() < place.size()) return std::nullopt;
+  for (std::size_t k = from.first + (from.second > rounding ? 1 : 0); k < claimed.state_count(); ++k) {
+    if (is_there(claimed.state(k))) return PathPlace{k, 0.0};
   }
   return std::nullopt;
 }
 
 /// What of the rule, and of the way-points in their order, the path does not do; empty: it does.
 std::string left_undone(const RobotSpec& robot, const GoalRule& rule, std::span<const std::vector<double>> via,
-                        std::span<const Vec2> path, const StateList& states) {
+                        const ClaimedPath& claimed) {
   for (std::size_t i = 0; i < rule.visit.size(); ++i) {
-    if (!passed(robot, path, states, rule.visit[i])) return fmt::format("visit: the path passes place {} by", i + 1);
+    if (!passed(robot, claimed, rule.visit[i])) return fmt::format("visit: the path passes place {} by", i + 1);
   }
   PathPlace place;
   for (std::size_t i = 0; i < via.size(); ++i) {
-    const std::optional<PathPlace> next = passed(robot, path, states, via[i], place);
+    const std::optional<PathPlace> next = passed(robot, claimed, via[i], place);
     if (!next) return fmt::format("via: the path passes place {} by, or out of its turn", i + 1);
     place = *next;
   }
   if (!rule.back) return {};
-  std::vector<double> first = {path.empty() ? 0.0 : path.front().x, path.empty() ? 0.0 : path.front().y};
-  if (!states.empty()) first.assign(states[0].begin(), states[0].end());
-  StateList last{states.width, {}};
-  if (!states.empty()) last.add(states[states.size() - 1]);
-  const std::span<const Vec2> end = path.empty() ? path : path.last(1);
-  return passed(robot, end, last, first) ? "" : "return: the path does not end where it starts";
+  const std::size_t count = claimed.state_count();
+  const bool returns = count > 0 && passed(robot, claimed, claimed.state(0), {count - 1, 0.0});
+  return returns ? "" : "return: the path does not end where it starts";
 }
 
 /// So are the places to visit and the way-points.
 void check_stops_passed(Verdict& verdict, const GoalRule& rule, const RecordedAnswer& answer) {
   if (!verdict.verified) return;
-  std::string undone = left_undone(verdict.problem.robot, rule, answer.via, answer.path, answer.states);
+  std::string undone = left_undone(verdict.problem.robot, rule, answer.via, answer);
   if (!undone.empty()) refute(verdict, std::move(undone));
 }
 
@@ -214,8 +200,8 @@ void check_classes(Verdict& verdict, const OccupancyMap& judged, const RecordedA
 void check_alternatives(Verdict& verdict, const Scene& judged, const Question& asked, const Prices& prices,
                         const RecordedAnswer& answer, const Execution& execution) {
   if (!verdict.verified || (answer.alternatives.empty() && answer.passed.empty())) return;
-  const bool is_plain = verdict.problem.robot.kind == RobotKind::point || verdict.problem.robot.kind == RobotKind::disc;
-  if (!judged.map || !is_plain) return refute(verdict, "alternatives: classes are of points and discs on maps");
+  if (!judged.map || !is_round(verdict.problem.robot))
+    return refute(verdict, "alternatives: classes are of points and discs on maps");
   const auto same = [](double said, double found) {
     return said == found || std::abs(said - found) <= 1e-9 * (1.0 + std::abs(found));
   };
@@ -253,8 +239,8 @@ void check_alternatives(Verdict& verdict, const Scene& judged, const Question& a
 /// A bound of all paths on a map, with its proof.
 void check_certificate(Verdict& verdict, const Scene& scene, const RecordedAnswer& answer, const Execution& execution) {
   const Problem& problem = verdict.problem;
-  const bool is_plain = problem.robot.kind == RobotKind::point || problem.robot.kind == RobotKind::disc;
-  if (!scene.map || !is_plain) throw UsageError("@certificate: proves bounds of points and discs on maps");
+  if (!scene.map || !is_round(problem.robot))
+    throw UsageError("@certificate: proves bounds of points and discs on maps");
   if (!problem.rule.others.empty() || problem.rule.region) {  // of one goal
     verdict.bound = BoundVerdict::unchecked;
     return;
@@ -294,9 +280,7 @@ std::string take_end(Question& asked, const Question& question, const Scene& sce
   const GoalRule rule = rule_of(scene, asked);
   const bool takes_others = rule.region || rule.tolerance;
   if ((!is_said && !takes_others) || rule.back) return {};
-  std::vector<double> end{answer.path.back().x, answer.path.back().y};
-  if (const std::size_t count = answer.states.size(); count > 0)
-    end.assign(answer.states[count - 1].begin(), answer.states[count - 1].end());
+  std::vector<double> end = answer.state(answer.state_count() - 1);
   const RecordedAnswer none;
   auto goals = asked_goals(is_said ? none : answer, asked.goal.empty() ? scene.goal : asked.goal, rule);
   const bool of_arm = is_arm(robot_of(scene, asked));
@@ -304,7 +288,7 @@ std::string take_end(Question& asked, const Question& question, const Scene& sce
   const auto is_state = [&](const std::vector<double>& goal) {
     return of_arm ? goal.size() == end.size() : std::min(goal.size(), end.size()) >= 2;
   };
-  if (!std::all_of(goals.begin(), goals.end(), is_state)) return {};  // the kind's judge says so
+  if (!std::ranges::all_of(goals, is_state)) return {};  // the kind's judge says so
   const auto reached = reached_goal(end, goals, rule);
   if (takes_others) {
     asked.goal = std::move(end);
@@ -350,7 +334,7 @@ void check_goal_told(Verdict& verdict, const RecordedAnswer& answer) {
   for (std::size_t i = 0; is_whole && i < sorted.size(); ++i) is_whole = sorted[i] == i;
   PathPlace place;
   for (std::size_t i = 0; is_whole && i < answer.order.size(); ++i) {
-    const auto next = passed(verdict.problem.robot, answer.path, answer.states, rule.visit[answer.order[i]], place);
+    const auto next = passed(verdict.problem.robot, answer, rule.visit[answer.order[i]], place);
     is_whole = next.has_value();
     place = next.value_or(place);
   }
@@ -451,11 +435,6 @@ void take_samples(const Answer& answer, SolveOptions& options) {
   if (answer.roadmap.samples > 0 && !all_places) options.roadmap.samples = answer.roadmap.samples;
 }
 
-void add_account(const BuildAccount& built, Answer& answer) {
-  answer.counters += built.counters;
-  answer.seconds += built.seconds;
-}
-
 Answer kept_and_solved(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,
                        Roadmap& roadmap, ByProducts* keep) {
   SolveOptions built_by = options_of_roadmap(options, choose_solver(options, scene, question).planner);
@@ -489,7 +468,8 @@ Answer kept_and_solved(Scene scene, const Question& question, const SolveOptions
   if (answer.outcome == Outcome::stopped) return answer;
   learn(roadmap, query, execution);
   if (by_question) return solved;
-  add_account(account, answer);
+  answer.counters += account.counters;
+  answer.seconds += account.seconds;
   return answer;
 }
 
@@ -505,33 +485,31 @@ Answer solve_within(const Scene& scene, const Question& question, const SolveOpt
   accounted.account = &account;
   Answer answer;
   answer.world.source = scene.source;
-  try {
-    const RestrictedScene restricted(scene, question, execution);
-    const ChosenSolver solver = choose_solver(options, restricted.get(), question);
+  const auto reason = stopped_by([&] {
+    const std::optional<Scene> copy = restricted_copy(scene, question, execution);
+    const Scene& restricted = copy ? *copy : scene;
+    const ChosenSolver solver = choose_solver(options, restricted, question);
     WorldAccount world = account_of(scene, execution);
-    const PlannedScene planned(restricted.get(), question, solver.planner, execution);
-    SolveRequest request{options, planned.get(), question, solver.planner, accounted, keep};
+    const std::optional<Scene> walled = planned_copy(restricted, question, solver.planner, execution);
+    const Scene& planned = walled ? *walled : restricted;
+    SolveRequest request{options, planned, question, solver.planner, accounted, keep};
     request.taker = taker;
     request.kept = kept;
     answer = solve_to_goal(*solver.kind, request);
     answer.problem.prices = prices_of(scene, question);
     answer.problem.via = options.trees.via;
-    keep_to_route(answer, restricted.get(), question, options, accounted);
+    keep_to_route(answer, restricted, question, options, accounted);
     const bool has_stops = !options.trees.via.empty() || !question.rule.visit.empty();
     if (answer.world.kind.empty()) answer.world = std::move(world);
     judge_prices(answer, scene, question, has_stops, accounted);
     if (answer.verified) {
-      std::string undone =
-          left_undone(answer.problem.robot, question.rule, options.trees.via, answer.path, answer.states);
+      std::string undone = left_undone(answer.problem.robot, question.rule, options.trees.via, answer);
       if (!undone.empty()) fail_verification(answer, untrue(std::move(undone)));
     }
-    tell_bound(answer, planned.get(), options, accounted);
-    prove_on_map(answer, planned.get(), options, keep, accounted);
-  } catch (const Stopped& stopped) {
-    answer.stop_reason = stopped.reason;
-  } catch (const std::bad_alloc&) {
-    answer.stop_reason = StopReason::memory;
-  }
+    tell_bound(answer, planned, options, accounted);
+    prove_on_map(answer, planned, options, keep, accounted);
+  });
+  if (reason) answer.stop_reason = reason;
   answer.costs = account.costs();
   answer.threads = thread_count(execution.threads);
   tell_memory(answer, execution);
@@ -584,10 +562,11 @@ Answer solve_explained(const Scene& scene, const Question& question, const Solve
 
 void make_by_products(const Scene& scene, const Question& question, const SolveOptions& options,
                       const Execution& execution, ByProducts& keep) {
-  const RestrictedScene restricted(scene, question, execution);
-  const ChosenSolver solver = choose_solver(options, restricted.get(), question);
+  const std::optional<Scene> copy = restricted_copy(scene, question, execution);
+  const Scene& restricted = copy ? *copy : scene;
+  const ChosenSolver solver = choose_solver(options, restricted, question);
   if (solver.kind->make_by_products == nullptr) return;
-  solver.kind->make_by_products({options, restricted.get(), question, solver.planner, execution, &keep});
+  solver.kind->make_by_products({options, restricted, question, solver.planner, execution, &keep});
 }
 
 Answer solve_and_keep(Scene scene, const Question& question, const SolveOptions& options, const Execution& execution,

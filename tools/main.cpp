@@ -57,10 +57,6 @@ std::string usage_hint(std::span<const std::string> words) {
   return is_verb ? fmt::format(" (see 'warren {} --help')", words[0]) : " (see 'warren --help')";
 }
 
-int run_program(std::span<const std::string> words) {
-  return run_with_errors_told("warren", usage_hint(words), [&] { return dispatch(words); });
-}
-
 // The first pages of heap and stack, asked of the kernel at once: one call instead of some fifty interruptions, half a
 // microsecond each on a good day, ten on a bad one. A small question touches no more than these.
 
@@ -98,7 +94,8 @@ int main(int argc, char** argv) {
   warren::tools::install_signal_handlers();
   try {
     const std::vector<std::string> words(argv + (argc > 0 ? 1 : 0), argv + argc);
-    return warren::tools::run_program(words);
+    return warren::tools::run_with_errors_told("warren", warren::tools::usage_hint(words),
+                                               [&] { return warren::tools::dispatch(words); });
   } catch (const std::bad_alloc&) {  // also of those who told of another error
     return warren::tools::say_memory_is_out();
   }

@@ -35,15 +35,9 @@ std::span<const std::uint8_t> steps_in(const TileSummary& tile, const TileChain&
 
 }  // namespace
 
-BandTask BandTask::of(const Scene& unmade, const WallProblem& problem) {
-  return {*unmade.maze,
-          unmade.formula.value_or(MazeFormula{}),
-          unmade.packed,
-          problem.reach(),
-          {.radius = problem.robot.radius, .clearance = problem.clearance}};
+TileGrid BandTask::grid() const {
+  return TileGrid::of({unmade.maze->rows, unmade.maze->cols}, CellBits::usual_side_log2);
 }
-
-TileGrid BandTask::grid() const { return TileGrid::of({size.rows, size.cols}, CellBits::usual_side_log2); }
 
 KnownWalls KnownWalls::of(const StreamedWalls& read) {
   return {read.hash().value_or(std::string{}), read.wall_count().value_or(0)};
@@ -100,16 +94,13 @@ Band::Band(const BandTask& task, TileRows own) : task_(task), grid_(task.grid())
 
 std::optional<maze::RimPart> Band::make(const Execution& execution) {
   if (is_empty()) return std::nullopt;
-  if (task_.packed) {
-    Scene unmade;
-    unmade.maze = task_.size;
-    unmade.packed = task_.packed;
-    read_ = streamed_walls(unmade, own_, execution);
+  if (task_.unmade.packed) {
+    read_ = streamed_walls(task_.unmade, own_, execution);
     return std::nullopt;
   }
   maze::RimPart rim;
-  const auto [seed, loops] = task_.formula;
-  maze_.emplace(task_.size.rows, task_.size.cols, seed, loops, own_, rim, execution, grid_.side_log2);
+  const auto [seed, loops] = *task_.unmade.formula;
+  maze_.emplace(grid_.rows, grid_.cols, seed, loops, own_, rim, execution, grid_.side_log2);
   return rim;
 }
 
@@ -124,7 +115,7 @@ std::vector<TileSummary> Band::reduce(const OverlayEnds& ends, BandPeeling peeli
   const auto source = cell_tiles(walls(WallsFor::planner), grid_);
   execution.reserve(tiles().size() * sizeof(TileSummary));
   std::vector<TileSummary> summaries(tiles().size());
-  LatticeTiles(grid_, *source, source->box(), task_.clearance * (1 + 1e-9), ends_, grain)
+  LatticeTiles({grid_, *source, source->box(), task_.problem.reach() * (1 + 1e-9)}, ends_, grain)
       .reduce(tiles(), false, summaries, nullptr, execution);
   if (peeling == BandPeeling::band) peel_band(grid_, own_.first, own_.last, ends_, summaries, execution);
   return summaries;
@@ -142,7 +133,8 @@ std::vector<std::vector<std::uint8_t>> Band::steps_of(std::span<const TileChain>
   own.erase(std::unique(own.begin(), own.end()), own.end());
   const auto source = cell_tiles(walls(WallsFor::planner), grid_);
   std::vector<TileSummary> made(own.size());
-  LatticeTiles(grid_, *source, source->box(), task_.clearance * (1 + 1e-9), ends_, grain).reduce(own, made, execution);
+  LatticeTiles({grid_, *source, source->box(), task_.problem.reach() * (1 + 1e-9)}, ends_, grain)
+      .reduce(own, made, execution);
   for (std::size_t i = 0; i < chains.size(); ++i) {
     const auto at = std::lower_bound(own.begin(), own.end(), chains[i].tile);
     if (at == own.end() || *at != chains[i].tile) continue;
@@ -156,7 +148,7 @@ NearestWalls Band::judge(std::span<const NearLegs> legs, double reach, const Exe
   NearestWalls nearest{std::numeric_limits<double>::infinity(), std::numeric_limits<std::uint64_t>::max(), 0};
   for (const NearLegs& run : legs) {
     NearestWalls found =
-        nearest_among_cells(walls(WallsFor::judge), tiles(), run.points, task_.judged, reach, execution);
+        nearest_among_cells(walls(WallsFor::judge), tiles(), run.points, task_.judged(), reach, execution);
     nearest.least = std::min(nearest.least, found.least);
     if (found.leg == std::numeric_limits<std::uint64_t>::max()) continue;
     found.leg += run.first;

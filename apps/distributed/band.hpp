@@ -27,14 +27,12 @@ namespace warren::distributed {
 
 /// What all ranks know before the first message: they are given the same words.
 struct BandTask {
-  MazeHint size;
-  MazeFormula formula;               ///< of the walls
-  std::optional<PackedMaze> packed;  ///< instead: the file that has them, as this rank sees it
-  double clearance;                  ///< of body and question
-  VerifyOptions judged;              ///< of the judge
+  Scene unmade;  ///< the maze without its walls; a file that has them as this rank sees it
+  WallProblem problem;
 
-  static BandTask of(const Scene& unmade, const WallProblem& problem);
   TileGrid grid() const;
+  /// Of the judge.
+  VerifyOptions judged() const { return {.radius = problem.robot.radius, .clearance = problem.clearance}; }
 };
 
 /// What is known of a file's walls by reading them; the same at all ranks that have read all of it.

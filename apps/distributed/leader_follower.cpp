@@ -7,7 +7,6 @@
 #include <chrono>
 #include <csignal>
 #include <limits>
-#include <new>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -84,17 +83,15 @@ class Follower {
     const auto request = from.take<Request>();
     if (request == Request::end) return false;
     if (execution_.progress != nullptr) execution_.progress->begin(name_of(request).data(), 0);
-    const bool is_short = request == Request::rounds && rounds_ && rounds_->is_short(from);
-    const Bytes answer = answered(is_short, [&](ValuePacker& to) { work(request, from, to); });
-    transport_.send(0, answer, {.deadline = &waiting_});
+    transport_.send(0, answered(request, from), {.deadline = &waiting_});
     return true;
   }
 
   /// The answer, or why there is none. A message that comes meanwhile is the end; of what is short that is found
   /// afterwards.
-  template <class Work>
-  Bytes answered(bool is_short, const Work& work) {
+  Bytes answered(Request request, ValueUnpacker& from) {
     using std::chrono::milliseconds;
+    const bool is_short = request == Request::rounds && rounds_ && rounds_->is_short(from);
     std::optional<Ticker> ticker;
     if (!is_short) {
       ticker.emplace(milliseconds(50), milliseconds(50), [this] {
@@ -104,13 +101,11 @@ class Follower {
     }
     ValuePacker packer;
     try {
-      packer.add(Reply::done);
-      work(packer);
-      return packer.take();
-    } catch (const Stopped& stopped) {
-      return said(Reply::stopped, [&](ValuePacker& to) { to.add(stopped.reason); });
-    } catch (const std::bad_alloc&) {
-      return said(Reply::stopped, [&](ValuePacker& to) { to.add(StopReason::memory); });
+      const auto stopped = stopped_by([&] {
+        packer.add(Reply::done);
+        work(request, from, packer);
+      });
+      return stopped ? said(Reply::stopped, [&](ValuePacker& to) { to.add(*stopped); }) : packer.take();
     } catch (const Error& error) {
       return said(Reply::refused, [&](ValuePacker& to) { to.add_text(error.what()); });
     }
@@ -241,13 +236,13 @@ std::unique_ptr<StreamedWalls> Leader::make(const Execution& execution) {
   for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
     ValueUnpacker from(others[rank], fmt::format("rank {}", rank));
     if (from.is_done()) continue;
-    if (task_.packed) {
+    if (task_.unmade.packed) {
       learn(KnownWalls::unpack(from), rank);
     } else {
       rims.push_back(maze::RimPart::unpack(from));
     }
   }
-  if (!task_.packed) join_trees(std::move(rims), execution);
+  if (!task_.unmade.packed) join_trees(std::move(rims), execution);
   return std::make_unique<Walls>(*this);
 }
 
@@ -271,7 +266,7 @@ void Leader::join_trees(std::vector<maze::RimPart> rims, const Execution& execut
                      fmt::format("has 2^32 cells or more on the sides of {} bands; take fewer ranks", rims.size()));
   }
   execution.reserve(edges * 64 + on_sides * 2 * sizeof(std::uint32_t));
-  const maze::JoinedParts joined = join_parts(task_.formula.seed, rims, 1, band_.grid().side_log2, execution);
+  const maze::JoinedParts joined = join_parts(task_.unmade.formula->seed, rims, 1, band_.grid().side_log2, execution);
   for (unsigned rank = 0; rank < requests_.ranks(); ++rank) {
     const TileRows rows = band_rows(tile_rows(), rank, requests_.ranks());
     const std::vector<std::uint64_t> near = edges_near(joined.turned, rows, band_.grid().side_log2);
@@ -282,12 +277,6 @@ void Leader::join_trees(std::vector<maze::RimPart> rims, const Execution& execut
     requests_.ask_one(rank, Request::turn, packer.bytes());
   }
   requests_.answers();
-}
-
-/// Of a key the overlay has a row, a count, two labels and a parent.
-bool Leader::can_hold(std::size_t bytes, std::uint64_t keys, const Execution& execution) const {
-  const auto reserve = [&] { execution.reserve(bytes + keys * (32 + 1 + 2 * sizeof(double) + sizeof(VertexId))); };
-  return keys <= most_keys_ && memory_holds(reserve);
 }
 
 /// Each reduces its tiles, and keeps them. own: those of this rank.
@@ -314,7 +303,8 @@ Leader::Reduced Leader::reduce_bands(const OverlayEnds& ends, BandPeeling peelin
 /// Room for all is asked for before the first comes.
 std::vector<TileSummary> Leader::reduce_all(const OverlayEnds& ends, const Execution& execution) {
   Reduced reduced = reduce_bands(ends, BandPeeling::band, execution);
-  if (can_hold(reduced.bytes_to_come, reduced.all.keys, execution)) return hand_over(std::move(reduced.own), execution);
+  const auto reserve = [&] { execution.reserve(reduced.bytes_to_come + reduced.all.keys * bytes_of_key); };
+  if (reduced.all.keys <= most_keys_ && memory_holds(reserve)) return hand_over(std::move(reduced.own), execution);
   ends_ = ends;
   if (!reduced.own.empty()) {
     rounds_.emplace(band_.grid(), band_rows(tile_rows(), 0, requests_.ranks()), ends_, std::move(reduced.own),

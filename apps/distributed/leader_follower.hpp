@@ -92,7 +92,6 @@ class Leader : public StreamedTeam, private OtherTiles, private JudgesElsewhere 
   void learn(const KnownWalls& theirs, unsigned rank);
   void join_trees(std::vector<maze::RimPart> rims, const Execution& execution);
   Reduced reduce_bands(const OverlayEnds& ends, BandPeeling peeling, const Execution& execution);
-  bool can_hold(std::size_t bytes, std::uint64_t keys, const Execution& execution) const;
   std::vector<TileSummary> hand_over(std::vector<TileSummary> own, const Execution& execution);
   std::size_t tile_rows() const { return band_.grid().tile_rows; }
 

@@ -33,10 +33,7 @@ std::string this_program() {
 }
 
 bool has(const std::vector<std::string>& words, std::string_view option) {
-  for (const std::string& word : words) {
-    if (word == option || word.starts_with(std::string(option) + "=")) return true;
-  }
-  return false;
+  return std::ranges::any_of(words, [&](const std::string& word) { return word.substr(0, word.find('=')) == option; });
 }
 
 /// Cores and memory of a machine are shared by the ranks on it, unless the words say how many each takes.

@@ -73,11 +73,6 @@ std::vector<Bytes> Requests::answers() {
 
 namespace {
 
-struct Difference {
-  unsigned rank;
-  std::string facts;
-};
-
 constexpr double patience_s = 4.0;
 
 bool is(const Bytes& message, Reply reply) {
@@ -113,18 +108,18 @@ bool agree(Transport& transport, std::string_view facts, const Execution& execut
     const Bytes answer = transport.receive(0, execution);
     return answer == Bytes{std::byte{1}};
   }
-  std::optional<Difference> first;
+  std::optional<std::pair<unsigned, std::string>> first;  // rank that differs, and its facts
   for (unsigned rank = 1; rank < transport.ranks(); ++rank) {
     const Bytes theirs = transport.receive(rank, execution);
     std::string text;
     for (const std::byte byte : theirs) text += static_cast<char>(byte);
-    if (text != facts && !first) first = Difference{rank, std::move(text)};
+    if (text != facts && !first) first = std::pair(rank, std::move(text));
   }
   const Bytes answer{first ? std::byte{0} : std::byte{1}};
   for (unsigned rank = 1; rank < transport.ranks(); ++rank) transport.send(rank, answer, execution);
   if (!first) return true;
-  throw InputError(fmt::format("rank {}", first->rank),
-                   fmt::format("{}: '{}', not '{}'", difference, first->facts, facts));
+  const auto& [rank, its] = *first;
+  throw InputError(fmt::format("rank {}", rank), fmt::format("{}: '{}', not '{}'", difference, its, facts));
 }
 
 EndOfFollowers::~EndOfFollowers() { end_others(transport_, Reply::ended); }

@@ -169,7 +169,7 @@ struct Mazes {
   }
   BandTask task(const NextRun& run) const {
     const Scene unmade = scene(run);
-    return BandTask::of(unmade, keeping_off(unmade, {}, ""));
+    return {unmade, keeping_off(unmade, {}, "")};
   }
   std::uint32_t side;
   MazeOptions made;  // but for its size
@@ -226,14 +226,11 @@ int lead(const tools::Arguments& arguments, Transport& transport) {
   const Mazes mazes(arguments);
   const std::vector<unsigned> ranks = ranks_asked(arguments, transport.ranks());
   tools::Run run(arguments);
-  Progress unseen;
-  Execution execution = run.execution();
-  if (execution.progress == nullptr) execution.progress = &unseen;
   std::vector<RanksRun> runs;
   for (const bool is_strong : {true, false}) {
     for (const unsigned count : ranks) {
       const NextRun next{count, is_strong ? mazes.side : mazes.side * count, mazes.side};
-      runs.push_back(measured(transport, mazes, is_strong, next, execution));
+      runs.push_back(measured(transport, mazes, is_strong, next, run.execution()));
     }
   }
   run.end();

@@ -60,9 +60,6 @@ constexpr unsigned tile_side(Border border) { return border == Border::above ? 1
 
 constexpr double nothing_open = std::numeric_limits<double>::infinity();
 
-/// Row, count, parent, two labels.
-constexpr std::size_t bytes_of_key = 32 + 1 + sizeof(VertexId) + 2 * sizeof(double);
-
 }  // namespace
 
 SharedSearch::SharedSearch(Requests& requests, BandRounds* rounds, const TileGrid& grid)
@@ -88,14 +85,12 @@ Bytes SharedSearch::one(std::size_t band, const Bytes& message) {
 template <class Body>
 std::vector<Bytes> SharedSearch::all(RoundStep step, const Body& body) {
   std::vector<Bytes> messages;
+  std::vector<unsigned> awaited;
   for (std::size_t band = 0; band < ranks_.size(); ++band) {
     ValuePacker to;
     to.add(step);
     body(band, to);
     messages.push_back(to.take());
-  }
-  std::vector<unsigned> awaited;
-  for (std::size_t band = 0; band < ranks_.size(); ++band) {
     if (ranks_[band] == 0) continue;
     requests_.ask_one(ranks_[band], Request::rounds, messages[band]);
     awaited.push_back(ranks_[band]);
@@ -185,7 +180,8 @@ void SharedSearch::tell(const std::vector<ToldLabels>& told) {
   }
 }
 
-void SharedSearch::take_states(const std::vector<Bytes>& answers) {
+template <class Take>
+void SharedSearch::take_states(const std::vector<Bytes>& answers, const Take& take) {
   for (Side& side : sides_) {
     side.least = nothing_open;
     side.settled = 0;
@@ -197,6 +193,7 @@ void SharedSearch::take_states(const std::vector<Bytes>& answers) {
       side.least = std::min(side.least, state.least);
       side.settled += state.settled;
     }
+    take(from);
   }
 }
 
@@ -205,13 +202,8 @@ void SharedSearch::settle_buckets(std::array<double, side_count> bucket) {
     on_way_[band].pack(to);
     for (const double steps : bucket) to.add(steps);
   });
-  take_states(answers);
   std::vector<ToldLabels> told;
-  for (const Bytes& answer : answers) {
-    ValueUnpacker from(answer, "ranks");
-    for (std::size_t side = 0; side < side_count; ++side) from.take<SideState>();
-    told.push_back(ToldLabels::unpack(from));
-  }
+  take_states(answers, [&](ValueUnpacker& from) { told.push_back(ToldLabels::unpack(from)); });
   tell(told);
 }
 
@@ -236,18 +228,15 @@ void SharedSearch::exchange() {
   const std::vector<Bytes> answers =
       all(RoundStep::exchange, [&](std::size_t band, ValuePacker& to) { on_way_[band].pack(to); });
   on_way_.assign(ranks_.size(), {});
-  take_states(answers);
-  for (const Bytes& answer : answers) {
-    ValueUnpacker from(answer, "ranks");
-    for (std::size_t side = 0; side < side_count; ++side) from.take<SideState>();
+  take_states(answers, [&](ValueUnpacker& from) {
     const auto met = from.take<Meeting>();
     if (std::tie(met.length, met.tile, met.place) < std::tie(best_.length, best_.tile, best_.place)) best_ = met;
-  }
+  });
   for (Side& side : sides_) side.told = side.least;
 }
 
 void SharedSearch::search() {
-  take_states(all(RoundStep::begin, [](std::size_t, ValuePacker&) {}));
+  take_states(all(RoundStep::begin, [](std::size_t, ValuePacker&) {}), [](ValueUnpacker&) {});
   for (std::uint64_t round = 0; sides_[0].told + sides_[1].told < best_.length; ++round) {
     execution_.check();
     settle_round(round_size(round));

@@ -40,6 +40,9 @@ enum class Border : std::uint32_t { below, above };
 inline constexpr std::size_t border_count = 2;
 inline constexpr std::size_t side_count = 2;
 
+/// What an overlay that is searched holds of a key: row, count, parent, two labels.
+inline constexpr std::size_t bytes_of_key = 32 + 1 + sizeof(VertexId) + 2 * sizeof(double);
+
 /// A label over a border, by the crossing's number along it.
 struct CrossingLabel {
   std::uint64_t crossing;
@@ -196,7 +199,9 @@ class SharedSearch {
   template <class Body>
   std::vector<Bytes> all(RoundStep step, const Body& body);
   Bytes one(std::size_t band, const Bytes& message);
-  void take_states(const std::vector<Bytes>& answers);
+  /// take(from) takes what follows the states in an answer.
+  template <class Take>
+  void take_states(const std::vector<Bytes>& answers, const Take& take);
   void tell(const std::vector<ToldLabels>& told);
 
   Requests& requests_;

@@ -66,7 +66,7 @@ struct SharedQuestion {
     return is_same && !wrong;
   }
   const Scene& scene() const { return world.scene; }
-  BandTask task() const { return BandTask::of(scene(), problem); }
+  BandTask task() const { return {scene(), problem}; }
 
   std::string source;
   Question question;
@@ -93,9 +93,7 @@ class SharedSolve : public tools::AnswerCommand {
 
  private:
   Answer find(const tools::Run& run, StageTimes& before, ByProducts*) override {
-    Progress unseen;
-    Execution execution = run.execution();
-    if (execution.progress == nullptr) execution.progress = &unseen;
+    const Execution& execution = run.execution();
     return telling_where_stopped(transport_, *execution.progress, [&] { return found(execution, before); });
   }
   Answer found(const Execution& execution, StageTimes& before) {

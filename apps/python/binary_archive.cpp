@@ -72,13 +72,11 @@ void put(Ar& ar, T& value) { ar.block(&value, sizeof value); }
 
 template <class Ar, class T, class Allocator>
 void put(Ar& ar, std::vector<T, Allocator>& list) {
+  const std::size_t n = ar.count(list.size());
+  if constexpr (Ar::reads) list.resize(n);
   if constexpr (std::is_trivially_copyable_v<T>) {
-    std::size_t n = ar.count(list.size());
-    if constexpr (Ar::reads) list.resize(n);
     ar.block(list.data(), n * sizeof(T));
   } else {
-    const std::size_t n = ar.count(list.size());
-    if constexpr (Ar::reads) list.resize(n);
     for (T& item : list) put(ar, item);
   }
 }
@@ -100,24 +98,15 @@ requires(!std::is_trivially_copyable_v<T>) void put(Ar& ar, std::optional<T>& va
   if (has) put(ar, *value);
 }
 
-template <std::size_t I = 0, class... Ts>
-void emplace_alternative(std::variant<Ts...>& value, std::size_t index) {
-  if constexpr (I < sizeof...(Ts)) {
-    if (index == I) {
-      value.template emplace<I>();
-    } else {
-      emplace_alternative<I + 1>(value, index);
-    }
-  } else {
-    throw InputError("pickle", "is damaged");
-  }
-}
-
 template <class Ar, class... Ts>
 requires(!std::is_trivially_copyable_v<std::variant<Ts...>>) void put(Ar& ar, std::variant<Ts...>& value) {
   std::size_t index = value.index();
   put(ar, index);
-  if constexpr (Ar::reads) emplace_alternative(value, index);
+  if constexpr (Ar::reads) {
+    std::size_t i = 0;
+    const bool is_known = ((index == i++ && (value.template emplace<Ts>(), true)) || ...);
+    if (!is_known) throw InputError("pickle", "is damaged");
+  }
   std::visit([&](auto& held) { put(ar, held); }, value);
 }
 
@@ -223,12 +212,29 @@ WARREN_ARCHIVED(HandedPath, points, hash)
 WARREN_ARCHIVED(Improvement, iterations, seconds, cost, length, by, lower_bound)
 WARREN_ARCHIVED(MapHole, id, box)
 WARREN_ARCHIVED(KeptRoute, kept, kept_cost, new_cost)
-WARREN_ARCHIVED(Answer, outcome, stop_reason, verified, blocked, explained, refuted, length, min_clearance, raw_length,
-                optimal, lower_bound, improvements, iterations, ended_by, cost, price, bound_of, goal_index,
-                goal_reached, order, alternatives, passed, holes, hole_size, keeping, turn_rad, problem, world, planner,
-                pipeline, sampler, search, seed, threads, options, roadmap, cells, figures, path_figures, separation,
-                counters, seconds, costs, solve_s, wanted_memory_bytes, peak_memory_bytes, path, handed, states,
-                tells_path)
+WARREN_ARCHIVED(ClaimedPath, optimal, lower_bound, cost, price, bound_of, goal_index, goal_reached, order, alternatives,
+                passed, holes, hole_size, keeping, path, states)
+
+struct Anything {
+  template <class T>
+  operator T&() const;
+};
+template <class T, std::size_t... I>
+constexpr bool is_made_of(std::index_sequence<I...>) {
+  return requires { T{((void)I, Anything{})...}; };
+}
+template <class Ar>
+void put(Ar& ar, Answer& a) {  // no binding takes a struct apart whose base has members, too
+  constexpr std::size_t parts = 36;
+  static_assert(is_made_of<Answer>(std::make_index_sequence<parts>{}) &&
+                    !is_made_of<Answer>(std::make_index_sequence<parts + 1>{}),
+                "all members of Answer are listed here, and its base");
+  put(ar, static_cast<ClaimedPath&>(a));
+  all(ar, a.outcome, a.stop_reason, a.verified, a.blocked, a.explained, a.refuted, a.length, a.min_clearance,
+      a.raw_length, a.improvements, a.iterations, a.ended_by, a.turn_rad, a.problem, a.world, a.planner, a.pipeline,
+      a.sampler, a.search, a.seed, a.threads, a.options, a.roadmap, a.cells, a.figures, a.path_figures, a.separation,
+      a.counters, a.seconds, a.costs, a.solve_s, a.wanted_memory_bytes, a.peak_memory_bytes, a.handed, a.tells_path);
+}
 #undef WARREN_ARCHIVED
 
 }  // namespace

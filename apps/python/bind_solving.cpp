@@ -168,7 +168,9 @@ py::dict judge_states(const Scene& scene, const py::object& states, const py::di
   return judge(scene, answer, keywords);
 }
 
-RecordedAnswer recorded(const InputFile& file) {
+/// file: opened, or its name.
+template <class File>
+RecordedAnswer read_recorded(const File& file) {
   return CallLimits().run([&](const Execution& execution) { return read_answer(file, execution); });
 }
 
@@ -243,12 +245,10 @@ void bind_solving(py::module_& module) {
   module.def("solve", &solve_scene);
   module.def("verify_states", &judge_states);
   module.def("verify_json", [](const Scene& scene, const std::string& json, const py::dict& keywords) {
-    return judge(scene, recorded(InputFile::of_bytes("answer", json)), keywords);
+    return judge(scene, read_recorded(InputFile::of_bytes("answer", json)), keywords);
   });
   module.def("verify_file", [](const Scene& scene, const std::string& file, const py::dict& keywords) {
-    CallLimits limits;
-    const RecordedAnswer answer = limits.run([&](const Execution& execution) { return read_answer(file, execution); });
-    return judge(scene, answer, keywords);
+    return judge(scene, read_recorded(file), keywords);
   });
   py::class_<Replanner>(module, "Replanner")
       .def(py::init(&replanner_of))

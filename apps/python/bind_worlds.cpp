@@ -51,10 +51,6 @@ double coordinate(double x, const char* name, std::size_t row) {
   return std::abs(x) < smallest_coordinate ? 0.0 : x;
 }
 
-Vec2 point(const NumberRows& rows, std::size_t i, const char* name) {
-  return {coordinate(rows.numbers[2 * i], name, i), coordinate(rows.numbers[2 * i + 1], name, i)};
-}
-
 /// In 8 bytes each where all fit.
 WallSet narrowed(RawVector<FloatWall> walls) {
   const auto fits = [](const FloatWall& w) { return PackedWall::fits(w.x1, w.y1, w.x2, w.y2); };
@@ -102,7 +98,10 @@ void add_polygons(Scene& scene, py::handle value) {
   for (const py::handle ring : value) {
     const NumberRows rows = rows_of(ring, fmt::format("polygons[{}]", scene.polygons.size()), {2});
     ScenePolygon polygon;
-    for (std::size_t i = 0; i < rows.rows; ++i) polygon.corners.push_back(point(rows, i, "polygons"));
+    for (std::size_t i = 0; i < rows.rows; ++i) {
+      const auto at = [&](std::size_t k) { return coordinate(rows.numbers[2 * i + k], "polygons", i); };
+      polygon.corners.push_back({at(0), at(1)});
+    }
     scene.polygons.push_back(std::move(polygon));
   }
 }

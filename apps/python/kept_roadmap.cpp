@@ -88,9 +88,8 @@ void ask_lengths(const KeptRoadmap& kept, const NumberRows& starts, const Number
                  const RoadmapSearchFields& how, const Execution& execution, double* lengths) {
   const RoadmapQuery& query = kept.query(execution);
   const std::size_t n = each_to_each ? starts.rows * goals.rows : std::max(starts.rows, goals.rows);
-  Execution one_thread = execution;
+  Execution one_thread = execution.quiet();
   one_thread.threads = 1;
-  one_thread.progress = nullptr;
   const auto ask = [&](std::size_t i, QuestionScratch& scratch) {
     const std::size_t start = each_to_each ? i / goals.rows : starts.rows == 1 ? 0 : i;
     const std::size_t goal = each_to_each ? i % goals.rows : goals.rows == 1 ? 0 : i;
@@ -102,8 +101,8 @@ void ask_lengths(const KeptRoadmap& kept, const NumberRows& starts, const Number
     }
   };
   // A chunk a thread: each has a scratch as large as the roadmap.
-  const std::size_t share =
-      std::max<std::size_t>(1, (n + thread_count(execution.threads) - 1) / thread_count(execution.threads));
+  const std::size_t threads = thread_count(execution.threads);
+  const std::size_t share = std::max<std::size_t>(1, (n + threads - 1) / threads);
   for_chunks(n, share, execution, [&](Range r) {
     QuestionScratch scratch;
     for (std::size_t i = r.first; i < r.last; ++i) {

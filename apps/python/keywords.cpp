@@ -62,11 +62,6 @@ std::string keyword_of(std::string_view option) { return with_keywords(std::stri
                                    with_keywords(tools::suggestion(keyword, names))));
 }
 
-std::string number_word(double number) { return fmt::format("{}", number); }
-
-/// Numbers that are no float or int of Python: numpy's.
-bool is_number(py::handle value) { return PyNumber_Check(value.ptr()) != 0 && PySequence_Check(value.ptr()) == 0; }
-
 void add_flag(const tools::OptionSpec& spec, const std::string& keyword, py::handle value,
               std::vector<std::string>& words) {
   if (value.is(py::bool_(true))) {
@@ -108,7 +103,7 @@ std::string word_of(py::handle value, const std::string& keyword) {
     throw py::value_error(keyword + ": a lone surrogate is in it, which is no character");
   }
   if (py::isinstance<py::bool_>(value)) refuse_type(keyword, "a word, a number or numbers", value);
-  if (PyFloat_Check(value.ptr()) != 0) return number_word(value.cast<double>());
+  if (PyFloat_Check(value.ptr()) != 0) return fmt::format("{}", value.cast<double>());
   if (PyIndex_Check(value.ptr()) != 0 && PySequence_Check(value.ptr()) == 0) {
     return py::str(py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()))).cast<std::string>();
   }
@@ -125,9 +120,9 @@ std::string word_of(py::handle value, const std::string& keyword) {
     }
     return words;
   }
-  if (is_number(value)) {
+  if (PyNumber_Check(value.ptr()) != 0) {  // no float or int of Python: numpy's
     const auto number = py::reinterpret_steal<py::object>(PyNumber_Float(value.ptr()));
-    if (number) return number_word(number.cast<double>());
+    if (number) return fmt::format("{}", number.cast<double>());
     PyErr_Clear();
   }
   refuse_type(keyword, "a word, a number or numbers", value);

@@ -62,14 +62,11 @@ void set(const char* name, std::string_view where, std::string_view what, std::s
 
 void set(const char* name, const PlacedError& error) { set(name, error.where(), error.wrong(), error.value()); }
 
-bool is_keyword(std::string_view text) {
-  return text.find_first_not_of("abcdefghijklmnopqrstuvwxyz_") == std::string_view::npos;
-}
-
 /// A line of the program's words: "goal_bias: expected a number from 0 to 1 (found: '2')".
 void set_usage(std::string_view line) {
   const std::size_t colon = line.find(": ");
-  const bool has_place = colon != std::string_view::npos && is_keyword(line.substr(0, colon));
+  const std::size_t keyword_end = line.find_first_not_of("abcdefghijklmnopqrstuvwxyz_");
+  const bool has_place = colon != std::string_view::npos && keyword_end == colon;
   const std::string_view where = has_place ? line.substr(0, colon) : "";
   std::string_view what = has_place ? line.substr(colon + 2) : line;
   std::string_view value;
@@ -79,12 +76,6 @@ void set_usage(std::string_view line) {
     what = what.substr(0, found);
   }
   set("UsageError", where, what, value);
-}
-
-void set_stopped(StopReason reason, std::size_t wanted_bytes) {
-  const py::object type = error_class("Stopped");
-  const std::string_view name = name_of(reason);
-  PyErr_SetObject(type.ptr(), type(std::string(name), stop_text(reason, wanted_bytes), py::none()).ptr());
 }
 
 }  // namespace
@@ -215,7 +206,9 @@ void translate_errors() {
     } catch (const WriteError& error) {
       set("WriteError", error);
     } catch (const Stopped& stopped) {
-      set_stopped(stopped.reason, stopped.wanted_bytes);
+      const py::object type = error_class("Stopped");
+      const std::string name(name_of(stopped.reason));
+      PyErr_SetObject(type.ptr(), type(name, stop_text(stopped.reason, stopped.wanted_bytes), py::none()).ptr());
     }
   });
 }

@@ -41,20 +41,15 @@ struct Reached {};  // thrown at the goal
 struct TimeIsUp {};
 
 /// What ends a search: counts the vertices that are settled, looks at the clock like our own searches.
-class Watch {
- public:
-  Watch(BoostVertex goal, const Execution& execution, std::uint64_t& settled)
-      : goal_(goal), execution_(&execution), settled_(&settled) {}
+struct Watch {
+  BoostVertex goal;
+  const Execution* execution;
+  std::uint64_t* settled;
   void settle(BoostVertex v) const {
-    ++*settled_;
-    if (v == goal_) throw Reached();
-    if (*settled_ % expansions_per_poll == 0 && execution_->should_stop()) throw TimeIsUp();
+    ++*settled;
+    if (v == goal) throw Reached();
+    if (*settled % expansions_per_poll == 0 && execution->should_stop()) throw TimeIsUp();
   }
-
- private:
-  BoostVertex goal_;
-  const Execution* execution_;
-  std::uint64_t* settled_;
 };
 
 template <class Base>
@@ -82,16 +77,6 @@ struct DepthVisitor : NotingParents<boost::default_dfs_visitor> {
   void discover_vertex(BoostVertex v, const BoostGraph&) const { watch.settle(v); }
 };
 
-class StraightDistance : public boost::astar_heuristic<BoostGraph, double> {
- public:
-  StraightDistance(const std::vector<Vec2>& at, Vec2 goal) : at_(&at), goal_(goal) {}
-  double operator()(BoostVertex v) const { return distance((*at_)[v], goal_); }
-
- private:
-  const std::vector<Vec2>* at_;
-  Vec2 goal_;
-};
-
 class BoostSearch {
  public:
   BoostSearch(const SearchGraph& from, SearchKind search)
@@ -106,7 +91,7 @@ class BoostSearch {
   SearchResult operator()(const Execution& execution) {
     SearchResult result;
     try {
-      search(Watch(from_.goal, execution, result.expanded));
+      search({from_.goal, &execution, &result.expanded});
     } catch (const Reached&) {
       result.status = SearchStatus::found;
       result.path = path();
@@ -125,6 +110,7 @@ class BoostSearch {
 
   void search(const Watch& watch) {
     const auto lengths = get(&Weight::length, graph_);
+    const auto to_goal = [&at = from_.at, goal = from_.at[from_.goal]](BoostVertex v) { return distance(at[v], goal); };
     switch (search_) {
       case SearchKind::bfs:
         return boost::breadth_first_search(graph_, from_.start,
@@ -140,7 +126,7 @@ class BoostSearch {
                                                   .color_map(map(color_))
                                                   .visitor(DijkstraVisitor(watch)));
       case SearchKind::astar:
-        return boost::astar_search(graph_, from_.start, StraightDistance(from_.at, from_.at[from_.goal]),
+        return boost::astar_search(graph_, from_.start, to_goal,
                                    boost::weight_map(lengths)
                                        .distance_map(map(g_))
                                        .rank_map(map(f_))

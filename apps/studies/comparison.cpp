@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -111,11 +110,7 @@ std::vector<Vec2> ratios_of(const SweepCurve& array, const SweepCurve& heap) {
 }
 
 QueueCrossing crossing_of(const SweepCurve& array, const SweepCurve& heap) {
-  QueueCrossing c;
-  c.search = array.search;
-  c.array = array.queue;
-  c.heap = heap.queue;
-  c.ratios = ratios_of(array, heap);
+  QueueCrossing c{.search = array.search, .array = array.queue, .heap = heap.queue, .ratios = ratios_of(array, heap)};
   const auto last_not_slower = std::find_if(c.ratios.rbegin(), c.ratios.rend(), [](Vec2 r) { return r.y <= 1.0; });
   if (last_not_slower != c.ratios.rend()) c.not_slower_at = last_not_slower->x;
   if (last_not_slower != c.ratios.rbegin()) c.slower_from = std::prev(last_not_slower)->x;

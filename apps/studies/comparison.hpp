@@ -139,11 +139,11 @@ struct QueueCrossing {
   std::string search;
   std::string array;
   std::string heap;
-  std::vector<Vec2> ratios;             ///< vertices, time with the array over time with the heap
-  std::optional<double> not_slower_at;  ///< the largest size at which the array is no slower; none: slower everywhere
-  std::optional<double> slower_from;    ///< the least size from which on it is always slower; none: not at the largest
-  std::optional<double> crossing;       ///< between those two, by the line through log ratio against log size
-  std::optional<double> fitted;         ///< the same by the line of least squares through all sizes, if it rises
+  std::vector<Vec2> ratios;                  ///< vertices, time with the array over time with the heap
+  std::optional<double> not_slower_at = {};  ///< the largest size where the array is no slower; none: slower everywhere
+  std::optional<double> slower_from = {};    ///< the least from which on it is always slower; none: not at the largest
+  std::optional<double> crossing = {};       ///< between those two, by the line through log ratio against log size
+  std::optional<double> fitted = {};         ///< the same by the line of least squares through all sizes, if it rises
 };
 
 /// Every array against every heap, search by search; our own library's. Sizes at which either is missing don't count.

@@ -10,11 +10,9 @@
 #include <cmath>
 #include <iterator>
 
-#include "apps/studies/comparison.hpp"
 #include "apps/studies/comparison_report.hpp"
 #include "apps/studies/machine.hpp"
 #include "core/base/printable.hpp"
-#include "scenes/text/human_units.hpp"
 #include "solve/answer/write_answer_io.hpp"
 
 namespace warren::studies {
@@ -64,13 +62,6 @@ Json problem_json(const ComparedProblem& problem) {
 
 Json word_or_null(const std::string& word) { return word.empty() ? Json(nullptr) : Json(word); }
 
-/// Of options that were dealt out, the names: "options" has their values.
-Json names_of(const std::vector<std::pair<std::string, std::string>>& dealt) {
-  Json names = Json::array();
-  for (const auto& [name, word] : dealt) names.push_back(name);
-  return names;
-}
-
 Json row_json(const Comparison& comparison, const Contender& c) {
   const ComparisonRow row = row_of(c);
   Json options = Json::object();
@@ -89,7 +80,7 @@ Json row_json(const Comparison& comparison, const Contender& c) {
             {"expanded", count_json(row.expanded)},
             {"time_s", seconds_json(row.time_s)}};
   if (comparison.problems[c.problem].kind.empty()) json["deterministic"] = c.deterministic;
-  if (!c.dealt.empty()) json["dealt"] = names_of(c.dealt);
+  for (const auto& [name, word] : c.dealt) json["dealt"].push_back(name);  // "options" has their values
   if (row.priced_cost) json["cost"] = quartiles_json(row.priced_cost);
   if (row.cells) json["cells"] = quartiles_json(row.cells);
   if (row.turn_rad) json["turn_rad"] = quartiles_json(row.turn_rad);

@@ -11,12 +11,9 @@
 #include <map>
 #include <utility>
 
-#include "apps/studies/comparison.hpp"
 #include "apps/studies/comparison_report.hpp"
 #include "apps/studies/statistics.hpp"
-#include "pictures/plots/plot.hpp"
 #include "scenes/scene/scene.hpp"
-#include "scenes/text/human_units.hpp"
 
 namespace warren::studies {
 namespace {
@@ -100,12 +97,7 @@ std::vector<Plot> share_plots(const Comparison& comparison) {
   std::vector<Plot> plots;
   for (std::size_t problem = 0; problem < comparison.problems.size(); ++problem) {
     const bool planners = comparison.problems[problem].kind.empty();
-    Plot plot{.title = comparison.problems[problem].source + ": solved",
-              .x_label = "seconds",
-              .y_label = "per cent of the runs solved within",
-              .log_x = true,
-              .from_zero = true,
-              .series = {}};
+    Plot plot = solved_plot(comparison.problems[problem]);
     const std::vector<const Contender*> contenders = contenders_of(comparison, problem);
     const std::vector<std::string> names = plot_names_of(contenders, planners);
     for (std::size_t i = 0; i < contenders.size(); ++i) {
@@ -380,6 +372,15 @@ std::vector<PlotSheet> line_panels(const std::vector<Family>& families) {
 }
 
 }  // namespace
+
+Plot solved_plot(const ComparedProblem& problem) {
+  return {.title = problem.source + ": solved",
+          .x_label = "seconds",
+          .y_label = "per cent of the runs solved within",
+          .log_x = true,
+          .from_zero = true,
+          .series = {}};
+}
 
 std::vector<PlotSheet> comparison_panels(const Comparison& comparison) {
   const bool get_better = std::ranges::any_of(comparison.contenders, has_curve);

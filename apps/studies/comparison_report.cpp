@@ -8,12 +8,9 @@
 #include <numbers>
 #include <set>
 
-#include "apps/studies/comparison.hpp"
 #include "apps/studies/machine.hpp"
-#include "apps/studies/study_report.hpp"
 #include "core/base/printable.hpp"
 #include "scenes/scene/scene.hpp"
-#include "scenes/text/human_units.hpp"
 
 namespace warren::studies {
 namespace {
@@ -47,10 +44,13 @@ std::string of_lengths(const Comparison& comparison, std::size_t problem, std::s
 
 /// Searches of one graph: the figures of a path are the same in every run.
 TextTable search_table(const Comparison& comparison, std::size_t problem) {
-  TextTable table{{"search", "queue", "library", of_lengths(comparison, problem, "length"), "hops", "settled", "trials",
-                   "median", "95 % for the median", "mean"},
-                  3,
-                  {}};
+  const ComparedProblem& p = comparison.problems[problem];
+  TextTable table{
+      {"search", "queue", "library", of_lengths(comparison, problem, "length"), "hops", "settled", "trials", "median",
+       "95 % for the median", "mean"},
+      3,
+      {},
+      fmt::format("{}: graph of {}, {} vertices, {} edges", printable(p.source), p.kind, p.vertices, p.edges)};
   const bool with_library =
       std::ranges::any_of(comparison.contenders, [](const Contender& c) { return c.library != "warren"; });
   for (const Contender& c : comparison.contenders) {
@@ -157,19 +157,17 @@ std::string crossing_text(const QueueCrossing& c) {
 }
 
 /// The tables of the summary.
-std::vector<ReportTable> comparison_tables(const Comparison& comparison) {
-  std::vector<ReportTable> tables;
+std::vector<TextTable> comparison_tables(const Comparison& comparison) {
+  std::vector<TextTable> tables;
   for (std::size_t problem = 0; problem < comparison.problems.size(); ++problem) {
     const ComparedProblem& p = comparison.problems[problem];
     if (p.kind.empty()) {
-      tables.push_back({"", planner_table(comparison, problem)});
+      tables.push_back(planner_table(comparison, problem));
     } else if (!is_sweep(comparison, problem)) {
-      tables.push_back(
-          {fmt::format("{}: graph of {}, {} vertices, {} edges", printable(p.source), p.kind, p.vertices, p.edges),
-           search_table(comparison, problem)});
+      tables.push_back(search_table(comparison, problem));
     }
   }
-  for (ReportTable& table : sweep_tables(comparison)) tables.push_back(std::move(table));
+  for (TextTable& table : sweep_tables(comparison)) tables.push_back(std::move(table));
   return tables;
 }
 
@@ -178,20 +176,20 @@ std::vector<ReportTable> comparison_tables(const Comparison& comparison) {
 std::string comparison_document(const Comparison& comparison, std::string_view ending) {
   const bool is_latex = ending == ".tex";
   std::string text;
-  for (const ReportTable& table : comparison_tables(comparison)) {
+  for (const TextTable& table : comparison_tables(comparison)) {
     text += text.empty() ? "" : "\n";
     if (!table.title.empty()) text += fmt::format("{}{}\n{}", is_latex ? "% " : "", table.title, is_latex ? "" : "\n");
-    text += is_latex ? table.table.latex() : table.table.markdown();
+    text += is_latex ? table.latex() : table.markdown();
   }
   return text;
 }
 
 std::string comparison_summary(const Comparison& comparison, const Palette& palette) {
   std::string text;
-  for (const ReportTable& table : comparison_tables(comparison)) {
+  for (const TextTable& table : comparison_tables(comparison)) {
     if (!text.empty()) text += '\n';
     if (!table.title.empty()) text += table.title + '\n';
-    text += table.table.text(palette);
+    text += table.text(palette);
   }
   const auto line = [&](std::string_view name, const std::string& what) {
     text += fmt::format("{}{}\n", palette.faint(fmt::format("{:<11}", name)), what);
@@ -203,17 +201,17 @@ std::string comparison_summary(const Comparison& comparison, const Palette& pale
   return text;
 }
 
-std::vector<ReportTable> sweep_tables(const Comparison& comparison) {
+std::vector<TextTable> sweep_tables(const Comparison& comparison) {
   const std::vector<SweepCurve> curves = sweep_curves(comparison);
-  std::vector<ReportTable> tables;
+  std::vector<TextTable> tables;
   std::vector<std::string> searches;
   for (const SweepCurve& curve : curves) add_once(searches, curve.search);
-  for (const std::string& search : searches) tables.push_back({"", table_of(curves, search)});
+  for (const std::string& search : searches) tables.push_back(table_of(curves, search));
   TextTable crossings{{"search", "array", "against", "from which size on the array is slower"}, 4, {}};
   for (const QueueCrossing& c : queue_crossings(curves)) {
     crossings.rows.push_back({c.search, c.array, c.heap, crossing_text(c)});
   }
-  if (!crossings.rows.empty()) tables.push_back({"", std::move(crossings)});
+  if (!crossings.rows.empty()) tables.push_back(std::move(crossings));
   return tables;
 }
 

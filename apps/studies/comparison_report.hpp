@@ -28,11 +28,13 @@ std::string comparison_csv(const Comparison& comparison);
 std::string comparison_runs(const Comparison& comparison);
 
 /// Median times against size, a line a size, and where arrays and heaps cross; none without random graphs.
-std::vector<ReportTable> sweep_tables(const Comparison& comparison);
+std::vector<TextTable> sweep_tables(const Comparison& comparison);
 
 /// A line a path that was the best so far in its run, and one without cost for each run that found none.
 std::string comparison_curves(const Comparison& comparison);
 
+/// Of the share of runs that are solved against time, without series yet.
+Plot solved_plot(const ComparedProblem& problem);
 /// Does it get better until it is stopped?
 bool has_curve(const Contender& contender);
 /// What a planner's runs had at moments, ascending, from the first path of all contenders to the end of the longest

@@ -2,7 +2,6 @@
 #include "apps/studies/contest_pictures.hpp"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,26 +9,22 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
 #include <set>
-#include <string>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include "core/base/error.hpp"
-#include "core/base/types.hpp"
 #include "core/plane/geometry.hpp"
-#include "core/run/execution.hpp"
 #include "pictures/draw_answer.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/layers/draw_cells.hpp"
 #include "pictures/model/picture.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
-#include "scenes/scene/scene.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/answer/world_account.hpp"
 #include "worlds/rasters/lattice_polygons.hpp"
@@ -412,13 +407,10 @@ std::string file_name(std::string_view text, char between) {
 }
 
 void make_folder(const std::string& folder) {
-  constexpr mode_t all_that_the_mask_leaves = 0777;
-  const bool made = ::mkdir(folder.c_str(), all_that_the_mask_leaves) == 0;
-  const int error = errno;
-  struct stat status {};
-  const bool is_folder = ::stat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode);
-  if (!is_folder) throw WriteError(folder, std::generic_category().message(made ? ENOTDIR : error));
-  if (::access(folder.c_str(), W_OK | X_OK) != 0) throw WriteError(folder, std::generic_category().message(errno));
+  std::error_code error;
+  std::filesystem::create_directory(folder, error);
+  if (!error && ::access(folder.c_str(), W_OK | X_OK) != 0) error.assign(errno, std::generic_category());
+  if (error) throw WriteError(folder, error.message());
 }
 
 std::vector<std::string> draw_searches(const Scene& world, const SearchGraph& graph,

@@ -11,10 +11,7 @@
 #include <limits>
 #include <utility>
 
-#include "apps/studies/comparison.hpp"
 #include "apps/studies/comparison_report.hpp"
-#include "pictures/plots/plot.hpp"
-#include "scenes/text/human_units.hpp"
 #include "solve/question/solve_options.hpp"
 
 namespace warren::studies {
@@ -169,12 +166,7 @@ std::vector<PlotSheet> curve_panels(const Comparison& comparison) {
     const CurveTimes times = times_of(contenders);
     const CostUnit unit = unit_of_costs(contenders);
     Plot costs = cost_plot(comparison.problems[problem], unit);
-    Plot solved{.title = comparison.problems[problem].source + ": solved",
-                .x_label = "seconds",
-                .y_label = "per cent of the runs solved within",
-                .log_x = true,
-                .from_zero = true,
-                .series = {}};
+    Plot solved = solved_plot(comparison.problems[problem]);
     for (std::size_t i = 0; i < contenders.size(); ++i) {
       CostCurve curve = cost_curve(*contenders[i], times.begin_s, times.end_s);
       for (Vec2& p : curve.median) p.y /= unit.cost;

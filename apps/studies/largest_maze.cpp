@@ -8,14 +8,11 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
 
 #include "core/base/error.hpp"
 #include "parallel/asked_memory.hpp"
-#include "pictures/plots/plot.hpp"
 #include "scenes/mazes/maze_generator.hpp"
-#include "scenes/text/human_units.hpp"
 #include "solve/answer/answer.hpp"
 
 namespace warren::studies {
@@ -294,41 +291,13 @@ class LargestSearch {
   double bytes_a_cell_ = 0.0;  // of the last run that came to its end
 };
 
-/// A side that fits and a larger one that doesn't; 0: not found.
-struct Bracket {
-  std::uint32_t fits = 0;
-  std::uint32_t too_large = 0;
-};
-
 std::uint32_t doubled(std::uint32_t side, std::uint32_t most) {
   const double next = std::ceil(side * std::numbers::sqrt2);
   return next < most ? static_cast<std::uint32_t>(next) : most;
 }
 
-Bracket shrink(const SizeSearch& search, const std::function<bool(std::uint32_t)>& fits) {
-  Bracket bracket{0, search.start};
-  while (bracket.too_large > search.least) {
-    const auto side = std::max(search.least, static_cast<std::uint32_t>(bracket.too_large / std::numbers::sqrt2));
-    if (fits(side)) {
-      bracket.fits = side;
-      break;
-    }
-    bracket.too_large = side;
-  }
-  return bracket;
-}
-
-Bracket grow(const SizeSearch& search, const std::function<bool(std::uint32_t)>& fits) {
-  Bracket bracket{search.start, 0};
-  while (bracket.fits < search.most) {
-    const std::uint32_t side = doubled(bracket.fits, search.most);
-    if (!fits(side)) {
-      bracket.too_large = side;
-      break;
-    }
-    bracket.fits = side;
-  }
-  return bracket;
+std::uint32_t halved(std::uint32_t side, std::uint32_t least) {
+  return std::max(least, static_cast<std::uint32_t>(side / std::numbers::sqrt2));
 }
 
 using Json = nlohmann::ordered_json;
@@ -491,13 +460,18 @@ LargestResult find_largest(const LargestOptions& options, const Execution& execu
 }
 
 std::uint32_t largest_side(const SizeSearch& search, const std::function<bool(std::uint32_t)>& fits) {
-  Bracket bracket = fits(search.start) ? grow(search, fits) : shrink(search, fits);
-  if (bracket.fits == 0 || bracket.too_large == 0) return bracket.fits;
-  while (bracket.too_large - bracket.fits > std::max(1.0, search.step * bracket.fits)) {
-    const std::uint32_t side = bracket.fits + (bracket.too_large - bracket.fits) / 2;
-    (fits(side) ? bracket.fits : bracket.too_large) = side;
+  std::uint32_t fitting = 0;
+  std::uint32_t too_large = 0;  // 0: not found, both
+  const auto ask = [&](std::uint32_t side) { (fits(side) ? fitting : too_large) = side; };
+  ask(search.start);
+  if (fitting > 0) {
+    while (fitting < search.most && too_large == 0) ask(doubled(fitting, search.most));
+  } else {
+    while (too_large > search.least && fitting == 0) ask(halved(too_large, search.least));
   }
-  return bracket.fits;
+  if (fitting == 0 || too_large == 0) return fitting;
+  while (too_large - fitting > std::max(1.0, search.step * fitting)) ask(fitting + (too_large - fitting) / 2);
+  return fitting;
 }
 
 std::uint32_t side_below(const SizeSearch& search, std::uint32_t side) {
@@ -523,10 +497,9 @@ std::string largest_json(const LargestOptions& options, const LargestResult& res
   json.update(best_json(result));
   const MazeTrial* shown =
       !result.best.empty() ? &median_trial(result) : (result.trials.empty() ? nullptr : &result.trials.back());
-  json["planner"] = shown == nullptr ? Json(nullptr) : Json(shown->planner);
-  json["sampler"] = shown == nullptr ? Json(nullptr) : Json(shown->sampler);
-  json["threads"] = shown == nullptr ? Json(nullptr) : Json(shown->threads);
-  json["peak_memory_bytes"] = shown == nullptr ? Json(nullptr) : Json(shown->peak_memory_bytes);
+  for (const char* key : {"planner", "sampler", "threads", "peak_memory_bytes"}) {
+    json[key] = shown == nullptr ? Json(nullptr) : trial_json(*shown)[key];
+  }
   json["bfs_funnel_s"] = result.bar ? Json(result.bar->seconds) : Json(nullptr);
   json["bfs_funnel_length"] = result.bar ? Json(result.bar->length) : Json(nullptr);
   json["algorithm"] = name_of(options.maze.algorithm);

@@ -11,10 +11,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <cstdint>
 #include <fstream>
 #include <system_error>
-#include <vector>
 
 #include "core/base/page_pool.hpp"
 #include "core/base/raw_vector.hpp"

@@ -7,7 +7,6 @@
 #include "core/run/trace.hpp"
 #include "solve/answer/stage_lines.hpp"
 #include "solve/question/planner_choice.hpp"
-#include "solve/question/question.hpp"
 #include "solve/streamed/solve_streamed.hpp"
 
 namespace warren::studies {

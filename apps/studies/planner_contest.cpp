@@ -7,12 +7,9 @@
 #include <cmath>
 #include <optional>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
-#include "scenes/scene/scene.hpp"
 #include "solve/answer/write_answer_io.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/question/planner_choice.hpp"

@@ -6,26 +6,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <optional>
 #include <set>
 
-#include "apps/studies/machine.hpp"
 #include "apps/studies/scaling_study.hpp"
 #include "apps/studies/study_report.hpp"
 #include "pictures/plots/plot.hpp"
-#include "scenes/text/human_units.hpp"
 
 namespace warren::studies {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json exponents_json(std::span<const ScalingRow> rows) {
-  Json json = Json::object();
-  for (const auto& [stage, exponent] : stage_exponents(rows)) json[stage] = exponent;
-  return json;
-}
 
 Json gain_json(const ThreadGain& gain) {
   const MazeTrial& t = gain.first;
@@ -119,8 +109,8 @@ Plot stage_plot(std::span<const ScalingRow> rows, const Way& way, const std::vec
             .log_x = true,
             .log_y = true,
             .series = {}};
-  std::map<std::string, double> exponents;
-  for (const auto& [stage, exponent] : stage_exponents(wide)) exponents[stage] = exponent;
+  const auto fitted = stage_exponents(wide);
+  const std::map<std::string, double> exponents(fitted.begin(), fitted.end());
   for (std::size_t i = 0; i < stages.size(); ++i) {
     const std::string& stage = stages[i];
     PlotSeries series{.name = stage, .points = {}, .color = i};
@@ -128,42 +118,27 @@ Plot stage_plot(std::span<const ScalingRow> rows, const Way& way, const std::vec
       const double seconds = seconds_of(row.fastest, stage);
       if (seconds >= least_shown_s) series.points.push_back({row.fastest.cells(), seconds});
     }
-    if (const auto fitted = exponents.find(stage); fitted != exponents.end()) {
-      series.name += fmt::format(": cells^{:.2f}", fitted->second);
-    }
+    if (exponents.contains(stage)) series.name += fmt::format(": cells^{:.2f}", exponents.at(stage));
     if (!series.points.empty()) plot.series.push_back(std::move(series));
   }
   return plot;
 }
 
-/// One series a way and thread count, of any figure of a row.
+/// One series a way and thread count against cells, or a way and size against threads: of any figure of a row.
 template <class Figure>
-std::vector<PlotSeries> series_by_cells(std::span<const ScalingRow> rows, const Figure& figure) {
+std::vector<PlotSeries> series_by_way(std::span<const ScalingRow> rows, bool over_threads, const Figure& figure) {
   const std::set<Way> ways = ways_of(rows);
-  std::map<std::pair<Way, unsigned>, PlotSeries> by_way;
+  std::map<std::tuple<Way, double, std::uint32_t>, PlotSeries> by_way;
   for (const ScalingRow& row : rows) {
-    PlotSeries& series = by_way[{way_of(row), row.fastest.threads}];
-    series.name = prefix_of(way_of(row), ways) + threads_text(row.fastest.threads);
-    series.points.push_back({row.fastest.cells(), figure(row)});
+    const MazeTrial& t = row.fastest;
+    const double threads = t.threads;
+    PlotSeries& series = by_way[over_threads ? std::tuple(way_of(row), t.cells(), t.rows)  // sorted by it
+                                             : std::tuple(way_of(row), threads, 0U)];
+    series.name = prefix_of(way_of(row), ways) + (over_threads ? side_text(t) : threads_text(t.threads));
+    series.points.push_back({over_threads ? threads : t.cells(), figure(row)});
   }
   std::vector<PlotSeries> all;
   for (auto& [way, series] : by_way) all.push_back(std::move(series));
-  return all;
-}
-
-/// One series a way and size, over threads.
-template <class Figure>
-std::vector<PlotSeries> series_by_threads(std::span<const ScalingRow> rows, const Figure& figure) {
-  const std::set<Way> ways = ways_of(rows);
-  std::map<std::tuple<Way, double, std::uint32_t>, PlotSeries> by_size;
-  for (const ScalingRow& row : rows) {
-    const MazeTrial& t = row.fastest;
-    PlotSeries& series = by_size[{way_of(row), t.cells(), t.rows}];
-    series.name = fmt::format("{}{} x {}", prefix_of(way_of(row), ways), t.rows, t.cols);
-    series.points.push_back({static_cast<double>(t.threads), figure(row)});
-  }
-  std::vector<PlotSeries> all;
-  for (auto& [size, series] : by_size) all.push_back(std::move(series));
   return all;
 }
 
@@ -177,7 +152,7 @@ std::vector<Plot> thread_plots(std::span<const ScalingRow> rows) {
                 .from_zero = true,
                 .whole_x = true,
                 .series = {}};
-  speed_up.series = series_by_threads(rows, [](const ScalingRow& row) { return row.speed_up; });
+  speed_up.series = series_by_way(rows, true, [](const ScalingRow& row) { return row.speed_up; });
   PlotSeries ideal{.name = "ideal", .points = {}, .dashed = true};
   for (const unsigned n : threads) ideal.points.push_back({static_cast<double>(n), static_cast<double>(n)});
   speed_up.series.push_back(std::move(ideal));
@@ -189,7 +164,8 @@ std::vector<Plot> thread_plots(std::span<const ScalingRow> rows) {
                   .series = {},
                   .level = 1.0,
                   .level_name = "ideal"};
-  efficiency.series = series_by_threads(rows, [](const ScalingRow& row) { return row.speed_up / row.fastest.threads; });
+  efficiency.series =
+      series_by_way(rows, true, [](const ScalingRow& row) { return row.speed_up / row.fastest.threads; });
   return {speed_up, efficiency};
 }
 
@@ -202,21 +178,22 @@ std::vector<Plot> plots_of(std::span<const ScalingRow> rows) {
                    .y_label = "seconds (least)",
                    .log_x = true,
                    .log_y = true,
-                   .series = series_by_cells(rows, [](const auto& row) { return row.fastest.solve_s; })});
+                   .series = series_by_way(rows, false, [](const auto& row) { return row.fastest.solve_s; })});
   plots.push_back({.title = "Time a cell",
                    .x_label = "cells",
                    .y_label = "nanoseconds a cell",
                    .log_x = true,
                    .from_zero = true,
-                   .series = series_by_cells(
-                       rows, [](const ScalingRow& row) { return row.fastest.solve_s * 1e9 / row.fastest.cells(); })});
+                   .series = series_by_way(rows, false, [](const ScalingRow& row) {
+                     return row.fastest.solve_s * 1e9 / row.fastest.cells();
+                   })});
   for (Plot& plot : thread_plots(rows)) plots.push_back(std::move(plot));
   plots.push_back({.title = "Memory at the peak, walls included",
                    .x_label = "cells",
                    .y_label = "MiB",
                    .log_x = true,
                    .log_y = true,
-                   .series = series_by_cells(rows, [](const ScalingRow& row) {
+                   .series = series_by_way(rows, false, [](const ScalingRow& row) {
                      return static_cast<double>(row.peak_memory_bytes) / (1024.0 * 1024.0);
                    })});
   return plots;
@@ -237,7 +214,8 @@ TextTable table_of(std::span<const ScalingRow> rows) {
   TextTable table{{"planner", "size", "threads", "runs", "minimum", "median", "spread", "ns a cell", "speed-up",
                    "efficiency", "memory", "bytes a cell"},
                   1,
-                  {}};
+                  {},
+                  "Runs"};
   for (const ScalingRow& row : rows) {
     const MazeTrial& t = row.fastest;
     const auto bytes = static_cast<double>(row.peak_memory_bytes);
@@ -253,7 +231,10 @@ TextTable table_of(std::span<const ScalingRow> rows) {
 
 /// A line each, for they are many.
 TextTable gains_of(const ScalingResult& result) {
-  TextTable table{{"planner", "size", "threads", "pairs", "gain", "arithmetic", "quiet pairs", "quiet gain"}, 1, {}};
+  TextTable table{{"planner", "size", "threads", "pairs", "gain", "arithmetic", "quiet pairs", "quiet gain"},
+                  1,
+                  {},
+                  "What threads gain, and what arithmetic alone gained in the same moments"};
   for (const ThreadGain& gain : thread_gains(result, this_machine().cores)) {
     table.rows.push_back({planner_text(gain.first), side_text(gain.first), std::to_string(gain.first.threads),
                           std::to_string(gain.pairs), fmt::format("{:.2f}", gain.gain),
@@ -265,7 +246,8 @@ TextTable gains_of(const ScalingResult& result) {
 
 /// What the fastest run of each row cost beside its time.
 TextTable counts_of(const ScalingResult& result, std::span<const ScalingRow> rows) {
-  TextTable table{{"planner", "size", "threads", "CPU", "page faults", "switched away"}, 1, {}};
+  TextTable table{
+      {"planner", "size", "threads", "CPU", "page faults", "switched away"}, 1, {}, "Counts of the fastest runs"};
   const bool counted = result.no_hardware_counts.empty();
   if (counted) {
     for (const char* head :
@@ -285,25 +267,19 @@ TextTable counts_of(const ScalingResult& result, std::span<const ScalingRow> row
 
 /// A line a contender and number of threads, a column a stage: exponents of its least times against cells.
 TextTable exponent_table(std::span<const ScalingRow> rows) {
-  std::vector<std::pair<std::string, std::vector<ScalingRow>>> contenders;
-  for (const ScalingRow& row : rows) {
-    const MazeTrial& t = row.fastest;
-    const std::string name = fmt::format("{}, {}", planner_text(t), counted(t.threads, "thread", "threads"));
-    auto at = std::find_if(contenders.begin(), contenders.end(), [&](const auto& own) { return own.first == name; });
-    if (at == contenders.end()) at = contenders.insert(at, {name, {}});
-    at->second.push_back(row);
-  }
-  TextTable table{{"contender"}, 1, {}};
+  const auto name_of_row = [](const ScalingRow& row) {
+    return fmt::format("{}, {}", planner_text(row.fastest), counted(row.fastest.threads, "thread", "threads"));
+  };
+  TextTable table{{"contender"}, 1, {}, "Exponents of time against cells"};
   const std::vector<std::string> stages = all_stages();
   table.head.insert(table.head.end(), stages.begin(), stages.end());
-  for (const auto& [name, own] : contenders) {
-    std::map<std::string, double> exponents;
-    for (const auto& [stage, exponent] : stage_exponents(own)) exponents[stage] = exponent;
+  for (const std::vector<ScalingRow>& own : in_groups(rows, name_of_row)) {
+    const auto fitted = stage_exponents(own);
+    const std::map<std::string, double> exponents(fitted.begin(), fitted.end());
     if (exponents.empty()) continue;
-    table.rows.push_back({name});
+    table.rows.push_back({name_of_row(own.front())});
     for (const std::string& stage : stages) {
-      const auto found = exponents.find(stage);
-      table.rows.back().push_back(found == exponents.end() ? "" : fmt::format("{:.2f}", found->second));
+      table.rows.back().push_back(exponents.contains(stage) ? fmt::format("{:.2f}", exponents.at(stage)) : "");
     }
   }
   return table;
@@ -383,7 +359,8 @@ std::string scaling_json(const ScalingOptions& options, const ScalingResult& res
   json["thread_gains"] = Json::array();
   for (const ThreadGain& gain : thread_gains(result, this_machine().cores))
     json["thread_gains"].push_back(gain_json(gain));
-  json["exponents"] = exponents_json(rows);
+  json["exponents"] = Json::object();
+  for (const auto& [stage, exponent] : stage_exponents(rows)) json["exponents"][stage] = exponent;
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -424,10 +401,7 @@ std::string scaling_page(const ScalingResult& result, const std::string& command
     return page.html();
   }
   for (const Plot& plot : plots_of(rows)) page.plots.push_back(sheet_of(plot).svg());
-  page.tables = {{"Runs", table_of(rows)},
-                 {"Exponents of time against cells", exponent_table(rows)},
-                 {"What threads gain, and what arithmetic alone gained in the same moments", gains_of(result)},
-                 {"Counts of the fastest runs", counts_of(result, rows)}};
+  page.tables = {table_of(rows), exponent_table(rows), gains_of(result), counts_of(result, rows)};
   if (!result.no_hardware_counts.empty()) {
     page.remarks.push_back(fmt::format("The processor's own counters are not to be had here (perf_event_open: {}).",
                                        result.no_hardware_counts));

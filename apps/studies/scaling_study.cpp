@@ -5,12 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <tuple>
 
-#include "apps/studies/machine.hpp"
 #include "apps/studies/statistics.hpp"
-#include "scenes/text/human_units.hpp"
 #include "solve/answer/answer.hpp"
 
 namespace warren::studies {
@@ -86,10 +83,6 @@ class ScalingStudy {
   const RunCounters counters_;  // made before any thread that works
   ScalingResult result_;
 };
-
-/// What a row has in common.
-using RowKey = std::tuple<std::string, std::string, std::uint32_t, std::uint32_t, unsigned>;
-RowKey key_of(const MazeTrial& t) { return {t.planner, t.sampler, t.rows, t.cols, t.threads}; }
 
 /// Each stage's least.
 void take_least(StageTimes& least, const StageTimes& other) {
@@ -219,16 +212,16 @@ ScalingResult run_scaling_study(const ScalingOptions& options, const Execution& 
 }
 
 std::vector<ScalingRow> scaling_rows(const ScalingResult& result) {
-  std::map<RowKey, std::size_t> place;
-  std::vector<std::vector<const ScalingRun*>> runs;
+  std::vector<const ScalingRun*> solved;
   for (const ScalingRun& run : result.runs) {
-    if (!run.trial.verified) continue;
-    const auto [at, is_new] = place.try_emplace(key_of(run.trial), runs.size());
-    if (is_new) runs.emplace_back();
-    runs[at->second].push_back(&run);
+    if (run.trial.verified) solved.push_back(&run);
   }
+  const auto in_common = [](const ScalingRun* run) {
+    const MazeTrial& t = run->trial;
+    return std::tuple(t.planner, t.sampler, t.rows, t.cols, t.threads);
+  };
   std::vector<ScalingRow> rows;
-  for (const auto& group : runs) rows.push_back(row_of(group));
+  for (const auto& group : in_groups(solved, in_common)) rows.push_back(row_of(group));
   std::stable_sort(rows.begin(), rows.end(), [](const ScalingRow& a, const ScalingRow& b) {
     return std::tie(a.fastest.planner, a.fastest.sampler) < std::tie(b.fastest.planner, b.fastest.sampler);
   });
@@ -304,21 +297,18 @@ std::vector<ThreadGain> thread_gains(const ScalingResult& result, unsigned cores
     const ScalingRun*& least = fewest.try_emplace(repeat_of(run), &run).first->second;
     if (run.trial.threads < least->trial.threads) least = &run;
   }
-  using Key = std::tuple<std::string, std::string, std::string, std::uint32_t, std::uint32_t, unsigned>;
-  std::map<Key, std::size_t> place;
-  std::vector<std::vector<Pair>> groups;
+  std::vector<Pair> pairs;
   for (const ScalingRun& run : result.runs) {
     if (!counts(run)) continue;
     const ScalingRun* const base = fewest.at(repeat_of(run));
-    const MazeTrial& t = run.trial;
-    if (base->trial.threads == t.threads) continue;
-    const Key key{t.planner, t.sampler, t.pipeline, t.rows, t.cols, t.threads};
-    const auto [at, is_new] = place.try_emplace(key, groups.size());
-    if (is_new) groups.emplace_back();
-    groups[at->second].push_back({base, &run});
+    if (base->trial.threads != run.trial.threads) pairs.push_back({base, &run});
   }
+  const auto in_common = [](const Pair& pair) {
+    const MazeTrial& t = pair.more->trial;
+    return std::tuple(t.planner, t.sampler, t.pipeline, t.rows, t.cols, t.threads);
+  };
   std::vector<ThreadGain> gains;
-  for (const std::vector<Pair>& pairs : groups) gains.push_back(gain_of(pairs, cores));
+  for (const std::vector<Pair>& group : in_groups(pairs, in_common)) gains.push_back(gain_of(group, cores));
   return gains;
 }
 

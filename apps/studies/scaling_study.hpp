@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -53,6 +54,20 @@ struct ScalingResult {
 /// ends the study with what there is. Never throws Stopped; throws UsageError for what can't be asked of mazes.
 ScalingResult run_scaling_study(const ScalingOptions& options, const Execution& execution,
                                 const std::function<void(std::string_view)>& note);
+
+/// The items in groups of one key each; groups and their items are in the order in which they are met.
+template <class Items, class KeyOf>
+auto in_groups(const Items& items, const KeyOf& key_of) {
+  using Item = typename Items::value_type;
+  std::map<decltype(key_of(items.front())), std::size_t> places;
+  std::vector<std::vector<Item>> groups;
+  for (const Item& item : items) {
+    const auto [at, is_new] = places.try_emplace(key_of(item), groups.size());
+    if (is_new) groups.emplace_back();
+    groups[at->second].push_back(item);
+  }
+  return groups;
+}
 
 /// All runs of one size, planner and thread count that were solved.
 struct ScalingRow {

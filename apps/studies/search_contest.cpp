@@ -9,12 +9,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "apps/studies/comparison.hpp"
 #include "core/base/error.hpp"
 #include "pictures/layers/draw_bodies.hpp"
 #include "planners/graph/assemble_graph.hpp"
 #include "planners/graph/roadmap_options.hpp"
-#include "scenes/scene/scene.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 
 namespace warren::studies {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <type_traits>
@@ -28,9 +27,9 @@ std::vector<Vec2> drawn_points(std::uint32_t size, std::uint64_t seed, const Exe
     if (i % vertices_per_poll == 0) execution.check();
     drawn[i] = {side * uniform(seed, i, 0), side * uniform(seed, i, 1)};
   }
-  const TileOrder order = tile_order(drawn, execution);
+  const RawVector<std::uint32_t> order = tile_order(drawn, execution);
   std::vector<Vec2> at(size);
-  for (std::uint32_t i = 0; i < size; ++i) at[i] = drawn[order.sample_of[i]];
+  for (std::uint32_t i = 0; i < size; ++i) at[i] = drawn[order[i]];
   return at;
 }
 
@@ -68,48 +67,36 @@ VertexId nearest_in(const std::vector<Vec2>& at, const Components& components, V
 /// A* (with the straight distance as heuristic) or Dijkstra. An array that is sorted at each push can take a second for
 /// the expansions between two looks at the deadline, so there it is looked at more often.
 template <class Queue, bool Informed>
-class BestFirst {
- public:
-  explicit BestFirst(const SearchGraph& graph) : graph_(graph) {
-    queue_.resize(graph.graph.vertex_count());
-    state_.resize(graph.graph.vertex_count());
-  }
-
-  SearchResult operator()(const Execution& execution) {
-    queue_.clear();
-    state_.clear();
+GraphSearch best_first_on(const SearchGraph& from) {
+  Queue empty;
+  SearchState fresh;
+  empty.resize(from.graph.vertex_count());
+  fresh.resize(from.graph.vertex_count());
+  return [&from, queue = std::move(empty), state = std::move(fresh)](const Execution& execution) mutable {
+    constexpr std::uint64_t expansions_per_look = 64;
+    [[maybe_unused]] std::uint64_t expansions = 0;
+    const auto neighbours = [&](VertexId v, const auto& visit) {
+      if constexpr (std::is_same_v<Queue, ResortedArray>) {
+        if (++expansions % expansions_per_look == 0) execution.check();
+      }
+      const std::span<const VertexId> row = from.graph.neighbours(v);
+      const std::span<const double> lengths = from.graph.lengths(v);
+      for (std::size_t i = 0; i < row.size(); ++i) visit(row[i], lengths[i]);
+    };
+    const Vec2 goal = from.at[from.goal];
+    const auto to_goal = [&](VertexId v) { return Informed ? distance(from.at[v], goal) : 0.0; };
+    queue.clear();
+    state.clear();
     try {
-      return search(execution);
+      return best_first(from.start, from.goal, neighbours, to_goal, queue, state,
+                        [&] { return execution.should_stop(); });
     } catch (const Stopped&) {
       SearchResult stopped;
       stopped.status = SearchStatus::stopped;
       return stopped;
     }
-  }
-
- private:
-  SearchResult search(const Execution& execution) {
-    constexpr std::uint64_t expansions_per_look = 64;
-    [[maybe_unused]] std::uint64_t expansions = 0;
-    const Graph& graph = graph_.graph;
-    const auto neighbours = [&](VertexId v, const auto& visit) {
-      if constexpr (std::is_same_v<Queue, ResortedArray>) {
-        if (++expansions % expansions_per_look == 0) execution.check();
-      }
-      const std::span<const VertexId> row = graph.neighbours(v);
-      const std::span<const double> lengths = graph.lengths(v);
-      for (std::size_t i = 0; i < row.size(); ++i) visit(row[i], lengths[i]);
-    };
-    const Vec2 goal = graph_.at[graph_.goal];
-    const auto to_goal = [&](VertexId v) { return Informed ? distance(graph_.at[v], goal) : 0.0; };
-    return best_first(graph_.start, graph_.goal, neighbours, to_goal, queue_, state_,
-                      [&] { return execution.should_stop(); });
-  }
-
-  const SearchGraph& graph_;
-  Queue queue_;
-  SearchState state_;
-};
+  };
+}
 
 /// Breadth-first or depth-first.
 GraphSearch queueless_search(const SearchGraph& graph, bool is_deep) {
@@ -125,8 +112,7 @@ GraphSearch queueless_search(const SearchGraph& graph, bool is_deep) {
 
 template <class Queue>
 GraphSearch best_first_with(const SearchGraph& graph, SearchKind search) {
-  if (search == SearchKind::astar) return BestFirst<Queue, true>(graph);
-  return BestFirst<Queue, false>(graph);
+  return search == SearchKind::astar ? best_first_on<Queue, true>(graph) : best_first_on<Queue, false>(graph);
 }
 
 GraphSearch best_first_search(const SearchGraph& graph, SearchKind search, QueuePolicy queue) {

@@ -24,9 +24,9 @@ std::string cells_of(const TextTable& table, const std::vector<std::string>& cel
   return text + "</tr>\n";
 }
 
-std::string html_of(const ReportTable& report) {
-  const TextTable table = report.table.without_empty_columns();
-  std::string text = report.title.empty() ? "" : "<h2>" + xml_text(report.title) + "</h2>\n";
+std::string html_of(const TextTable& whole) {
+  const TextTable table = whole.without_empty_columns();
+  std::string text = table.title.empty() ? "" : "<h2>" + xml_text(table.title) + "</h2>\n";
   text += "<div class=\"wide\"><table><thead>" + cells_of(table, table.head, true) + "</thead><tbody>\n";
   for (const std::vector<std::string>& row : table.rows) text += cells_of(table, row, false);
   return text + "</tbody></table></div>\n";
@@ -98,7 +98,7 @@ std::string ReportPage::html() const {
   if (!plots.empty()) page += "<div class=\"plots\">\n";
   for (const std::string& plot : plots) page += plot + "\n";
   if (!plots.empty()) page += "</div>\n";
-  for (const ReportTable& table : tables) page += html_of(table);
+  for (const TextTable& table : tables) page += html_of(table);
   page += paragraphs(remarks);
   return page + script_element(script) + "</body>\n</html>\n";
 }
@@ -144,7 +144,7 @@ TextTable TextTable::without_empty_columns() const {
     return left;
   };
   const auto empty_words = std::count(widths.begin(), widths.begin() + static_cast<std::ptrdiff_t>(words), 0U);
-  TextTable table{kept(head), words - static_cast<std::size_t>(empty_words), {}};
+  TextTable table{kept(head), words - static_cast<std::size_t>(empty_words), {}, title};
   for (const auto& row : rows) table.rows.push_back(kept(row));
   return table;
 }

@@ -16,6 +16,7 @@ struct TextTable {
   std::vector<std::string> head;
   std::size_t words = 0;  ///< so many columns from the left stand to the left, the others to the right
   std::vector<std::vector<std::string>> rows;
+  std::string title = {};  ///< of pages and documents; "": none
 
   /// The head strong, each line with an end; columns that are empty in all rows are left out.
   std::string text(const Palette& palette) const;
@@ -27,18 +28,13 @@ struct TextTable {
   std::string latex() const;
 };
 
-struct ReportTable {
-  std::string title;  ///< "": none
-  TextTable table;
-};
-
 /// All words are plain text.
 struct ReportPage {
   std::string title;
   std::string command_line = {};
   std::vector<std::string> notes = {};  ///< a paragraph each, above the plots
   std::vector<std::string> plots = {};  ///< SVG elements; what has data-tip tells it
-  std::vector<ReportTable> tables = {};
+  std::vector<TextTable> tables = {};
   std::vector<std::string> remarks = {};  ///< a paragraph each, at the end
 
   std::string html() const;

@@ -55,8 +55,8 @@ std::vector<Vec2> points_of(Kind kind, std::size_t count) {
   }
   if (kind == Kind::random) return points;
   std::vector<Vec2> sorted;
-  const TileOrder order = tile_order(points, one_thread);
-  for (const std::uint32_t i : order.sample_of) sorted.push_back(points[i]);
+  const RawVector<std::uint32_t> order = tile_order(points, one_thread);
+  for (const std::uint32_t i : order) sorted.push_back(points[i]);
   return sorted;
 }
 

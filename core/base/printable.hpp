@@ -20,6 +20,17 @@ std::string printable(std::string_view text, std::size_t longest = std::string_v
 /// Bytes of the UTF-8 character that the text, which is not empty, begins with; 0 where it begins with none.
 std::size_t utf8_bytes(std::string_view text);
 
+/// What stands between the marks: one piece more than there are marks; pieces may be empty.
+inline std::vector<std::string_view> split(std::string_view text, std::string_view mark) {
+  std::vector<std::string_view> pieces;
+  for (;;) {
+    const std::size_t end = text.find(mark);
+    pieces.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return pieces;
+    text.remove_prefix(end + mark.size());
+  }
+}
+
 /// How far two words are from each other: the optimal string alignment distance. O(length a × length b). How many
 /// characters make b of a, inserted, deleted, replaced, or swapped with the next.
 inline std::size_t edit_distance(std::string_view a, std::string_view b) {

@@ -29,6 +29,13 @@ bool contains(std::span<const Vec2> polygon, Vec2 p) noexcept { return place_of(
 
 bool strictly_inside(std::span<const Vec2> polygon, Vec2 p) noexcept { return place_of(polygon, p) == Place::inside; }
 
+bool strictly_inside(const PolygonSet& polygons, Vec2 p) noexcept {
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    if (strictly_inside(polygons[i], p)) return true;
+  }
+  return false;
+}
+
 double distance(std::span<const Vec2> polygon, const Segment& s) noexcept {
   if (contains(polygon, s.a)) return 0.0;
   double least = std::numeric_limits<double>::infinity();

@@ -81,6 +81,8 @@ void for_each_side(std::span<const Vec2> polygon, const Visit& visit) {
 bool contains(std::span<const Vec2> polygon, Vec2 p) noexcept;
 /// Is p in the polygon and on no side of it? Exact.
 bool strictly_inside(std::span<const Vec2> polygon, Vec2 p) noexcept;
+/// The same of one of the polygons.
+bool strictly_inside(const PolygonSet& polygons, Vec2 p) noexcept;
 
 /// Of a closed polygon from a segment; 0 where they meet.
 double distance(std::span<const Vec2> polygon, const Segment& s) noexcept;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <variant>
 
@@ -106,6 +107,12 @@ class PackedWall {
   std::uint64_t word_;
 };
 
+/// Is the number finite and exact as a float?
+template <class T>
+bool exact_as_float(T x) {
+  return std::abs(x) <= std::numeric_limits<float>::max() && static_cast<T>(static_cast<float>(x)) == x;
+}
+
 /// One wall as files hold it: four numbers.
 template <class T>
 struct WallOf {
@@ -114,6 +121,10 @@ struct WallOf {
   T y1;              ///< of one end
   T x2;              ///< of the other
   T y2;              ///< of the other
+  /// With each coordinate as a T.
+  static WallOf of(double x1, double y1, double x2, double y2) {
+    return {static_cast<T>(x1), static_cast<T>(y1), static_cast<T>(x2), static_cast<T>(y2)};
+  }
   /// As doubles; exact.
   Segment segment() const {
     return {{static_cast<double>(x1), static_cast<double>(y1)}, {static_cast<double>(x2), static_cast<double>(y2)}};

@@ -39,6 +39,19 @@ bool memory_holds(const Work& work) {
   return false;
 }
 
+/// Why `work` ended early, by a limit, a signal or for want of memory; none: it is done.
+template <class Work>
+std::optional<StopReason> stopped_by(const Work& work) {
+  try {
+    work();
+  } catch (const Stopped& stopped) {
+    return stopped.reason;
+  } catch (const std::bad_alloc&) {
+    return StopReason::memory;
+  }
+  return std::nullopt;
+}
+
 /// Set by a signal handler, read by all threads: 0, or the signal's number.
 using SignalFlag = std::atomic<int>;
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Records when each stage and each chunk ran and on which thread, for the Chrome trace format. Each thread has a list
 // of its own; one mutex guards them all and is held for each append, once a stage or chunk. What takes turns inside of
-// a stage (checks in queries, queries in expansion; core/run/trace.hpp) is a part of its event and has none of
-// its own.
+// a stage (checks in queries, queries in expansion: PartClock) is a part of its event and has none of its own.
 #pragma once
 
 #include <array>

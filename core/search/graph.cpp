@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/error.hpp"
+#include "core/base/items_by_key.hpp"
 #include "core/search/union_find.hpp"
 
 namespace warren {

@@ -2,23 +2,14 @@
 // Lines are as wide as the page says (Page::thickness), so they stay in proportion to a maze's cells; walls, paths and
 // marks keep a least width. Many lines are drawn thinner and fainter: their ink covers a part of the page, not all.
 
-#include "pictures/formats/painter.hpp"
+#include "pictures/formats/surface.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
-#include <span>
-#include <string_view>
-#include <vector>
 
-#include "core/base/types.hpp"
-#include "core/run/execution.hpp"
-#include "pictures/formats/solid_raster.hpp"
-#include "pictures/formats/surface.hpp"
-#include "pictures/model/page.hpp"
 #include "pictures/model/picture.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 
@@ -356,17 +347,15 @@ class Painter {
     surface_.chain(outline, {}, true);
     surface_.end_group();
   }
+  void segments(std::string_view id, const std::vector<Segment>& all, const Pen& pen) {
+    if (all.empty()) return;
+    surface_.begin_group(id, "", pen);
+    for (const Segment& s : all) surface_.segment(s.a, s.b);
+    surface_.end_group();
+  }
   void frame() {
-    if (!page_.frame.empty()) {
-      surface_.begin_group("axes", "", {.stroke = colors::frame, .width = 1.0});
-      for (const Segment& s : page_.frame) surface_.segment(s.a, s.b);
-      surface_.end_group();
-    }
-    if (!page_.ink.empty()) {
-      surface_.begin_group("scale", "", {.stroke = colors::text, .width = 1.4});
-      for (const Segment& s : page_.ink) surface_.segment(s.a, s.b);
-      surface_.end_group();
-    }
+    segments("axes", page_.frame, {.stroke = colors::frame, .width = 1.0});
+    segments("scale", page_.ink, {.stroke = colors::text, .width = 1.4});
     if (!page_.legend.empty()) {
       surface_.begin_group("legend", "", {});
       for (const PlacedLegend& placed : page_.legend) swatch(placed);

@@ -6,16 +6,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <cstdlib>
-#include <functional>
 #include <map>
 #include <memory>
 #include <new>
-#include <vector>
 
 #include "core/base/error.hpp"
-#include "pictures/formats/painter.hpp"
 #include "pictures/formats/surface.hpp"
 #include "pictures/model/letters.hpp"
 

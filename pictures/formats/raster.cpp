@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
 
-#include "pictures/formats/painter.hpp"
 #include "pictures/formats/surface.hpp"
 #include "pictures/model/letters.hpp"
 #include "scenes/files/png_io.hpp"
@@ -193,34 +191,31 @@ std::size_t box_of_pixel(const std::uint8_t* p) {
 
 using Color = std::array<std::uint8_t, 3>;
 
-/// Means of the boxes and how often they occur.
-class ColorCount {
- public:
-  ColorCount(const Image& image, const Execution& execution) : sums_(box_count), counts_(box_count, 0) {
-    for (std::size_t y = 0; y < image.height(); ++y) {
-      if (y % 64 == 0) execution.check();
-      const std::uint8_t* row = image.row(y);
-      for (std::size_t x = 0; x < image.width(); ++x) {
-        const std::uint8_t* pixel = row + 3 * x;
-        const std::size_t box = box_of_pixel(pixel);
-        ++counts_[box];
-        for (std::size_t c = 0; c < 3; ++c) sums_[box][c] += pixel[c];
-      }
-    }
-  }
-  std::uint64_t count(std::size_t box) const { return counts_[box]; }
-  Color mean(std::size_t box) const {
+/// How often the colours of a box occur, and their sums.
+struct ColorBox {
+  std::uint64_t count = 0;
+  std::array<std::uint64_t, 3> sums = {};
+  Color mean() const {
     Color color;
-    for (std::size_t c = 0; c < 3; ++c) {
-      color[c] = static_cast<std::uint8_t>((sums_[box][c] + counts_[box] / 2) / counts_[box]);
-    }
+    for (std::size_t c = 0; c < 3; ++c) color[c] = static_cast<std::uint8_t>((sums[c] + count / 2) / count);
     return color;
   }
-
- private:
-  std::vector<std::array<std::uint64_t, 3>> sums_;
-  std::vector<std::uint64_t> counts_;
 };
+
+std::vector<ColorBox> boxes_of(const Image& image, const Execution& execution) {
+  std::vector<ColorBox> boxes(box_count);
+  for (std::size_t y = 0; y < image.height(); ++y) {
+    if (y % 64 == 0) execution.check();
+    const std::uint8_t* row = image.row(y);
+    for (std::size_t x = 0; x < image.width(); ++x) {
+      const std::uint8_t* pixel = row + 3 * x;
+      ColorBox& box = boxes[box_of_pixel(pixel)];
+      ++box.count;
+      for (std::size_t c = 0; c < 3; ++c) box.sums[c] += pixel[c];
+    }
+  }
+  return boxes;
+}
 
 std::uint8_t nearest(const Color& color, const std::vector<Color>& palette) {
   std::size_t best = 0;
@@ -243,21 +238,21 @@ struct ImagePalette {
 };
 
 ImagePalette palette_of(const Image& image, const Execution& execution) {
-  const ColorCount count(image, execution);
+  const std::vector<ColorBox> all = boxes_of(image, execution);
   std::vector<std::size_t> boxes;
   for (std::size_t box = 0; box < box_count; ++box) {
-    if (count.count(box) > 0) boxes.push_back(box);
+    if (all[box].count > 0) boxes.push_back(box);
   }
   std::stable_sort(boxes.begin(), boxes.end(),
-                   [&](std::size_t a, std::size_t b) { return count.count(a) > count.count(b); });
+                   [&](std::size_t a, std::size_t b) { return all[a].count > all[b].count; });
   constexpr Color white{255, 255, 255};
   ImagePalette palette{{white}, std::vector<std::uint8_t>(box_count, 0)};
   for (const std::size_t box : boxes) {
     if (box == box_count - 1) continue;  // white's
     const bool has_room = palette.colors.size() < most_colors;
-    if (has_room) palette.colors.push_back(count.mean(box));
+    if (has_room) palette.colors.push_back(all[box].mean());
     palette.of_box[box] =
-        has_room ? static_cast<std::uint8_t>(palette.colors.size() - 1) : nearest(count.mean(box), palette.colors);
+        has_room ? static_cast<std::uint8_t>(palette.colors.size() - 1) : nearest(all[box].mean(), palette.colors);
   }
   return palette;
 }
@@ -365,8 +360,6 @@ class PngSurface : public Surface {
     }
   }
 
-  bool takes_as_mask(std::size_t) const override { return false; }
-  void mask(const Mask&, Rgb) override {}
   double image_density() const override { return density_; }
   /// Each pixel takes the nearest one.
   void image(const Image& image, const Box& at) override {

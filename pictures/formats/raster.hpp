@@ -19,6 +19,7 @@
 #include "core/run/execution.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/model/colors.hpp"
+#include "pictures/model/picture.hpp"
 
 namespace warren {
 
@@ -63,6 +64,19 @@ class Mask {
   std::size_t height_;
   RawVector<std::uint8_t> pixels_;
 };
+
+// Solids in perspective (solid_raster.cpp): whatever is nearest to the eye is seen, however the solids lie among each
+// other.
+
+/// Those of the parts that are shown. O(solids + pixels that each may cover). Throws Stopped.
+Image draw_solids(const SolidView& view, Parts parts, std::size_t width, std::size_t height,
+                  const Execution& execution);
+
+/// How far from the eye a ray of length 1 enters the solid; infinite where it passes by; < 0 where it is behind.
+double enter_solid(const Vec3& eye, const Vec3& ray, const SeenSolid& s);
+
+/// Outwards, of length 1, at a place on its surface.
+Vec3 normal_at(const Vec3& p, const SeenSolid& s);
 
 // Pixels as PNG with a palette: the most frequent colours of an image; a mask in sixteen shades of one colour.
 

@@ -4,17 +4,15 @@
 // world and of all else apart, so that what an obstacle hides is seen through it. All lengths are in reaches of the
 // view, so tiny and huge worlds look alike.
 
-#include "pictures/formats/solid_raster.hpp"
-
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 
 #include "core/base/trigonometry.hpp"
+#include "pictures/formats/raster.hpp"
 
 namespace warren {
 namespace {
@@ -174,12 +172,7 @@ class SolidRaster {
     const auto middle = [](const Box& box) { return 0.5 * (box.min + box.max); };
     if (s.radius < 0.0) {
       Box box;
-      for (const Vec3& p : {s.a, s.b, s.c.value_or(s.a)}) box.include(box_around(p, 0.0));
-      for (int corner = 0; corner < 8 && !s.c; ++corner) {
-        box.include(box_around({(corner & 1) != 0 ? s.a.x() : s.b.x(), (corner & 2) != 0 ? s.a.y() : s.b.y(),
-                                (corner & 4) != 0 ? s.a.z() : s.b.z()},
-                               0.0));
-      }
+      for_each_point(s, [&](const Vec3& p, double) { box.include(box_around(p, 0.0)); });
       return {middle(box), middle(box), 0.5 * (box.max - box.min)};
     }
     const Box a = box_around(s.a, s.radius);

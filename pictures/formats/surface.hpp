@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What pictures are drawn on, whatever the format: lines, areas and words in groups. painter.cpp draws; each format has
-// a surface that writes it down.
+// What pictures are drawn on, whatever the format: lines, areas and words in groups. paint() draws; each format has a
+// surface that writes it down.
 #pragma once
 
 #include <cstddef>
@@ -53,8 +53,8 @@ class Surface {
   virtual void chain(std::span<const Vec2> points, std::span<const double> turns, bool closed) = 0;
   virtual void text(const PlacedText& text) = 0;
   /// Lines and areas of so many points as one Mask over the data's part of the page; false: they are to be drawn.
-  virtual bool takes_as_mask(std::size_t points) const = 0;
-  virtual void mask(const Mask& mask, Rgb color) = 0;
+  virtual bool takes_as_mask(std::size_t /*points*/) const { return false; }
+  virtual void mask(const Mask&, Rgb /*color*/) {}
   /// Pixels of an image a pixel of the page, where it is to look as sharp as the page can.
   virtual double image_density() const = 0;
   /// Over that part of the page, in a group outside of the world; it may be of any size.
@@ -64,6 +64,12 @@ class Surface {
   /// The same of an arm.
   virtual void moving_arm(const MovingArm&, double /*line_width*/) {}
 };
+
+/// Draws a picture part by part from back to front (painter.cpp). Groups polygons, walls, edges, search_tree,
+/// milestones, path, start, goal and those of the layers, in the world; frame, legend and title around it. Returns what
+/// was drawn otherwise than usual, a line each: the picture says it, too, where it has a legend. Throws Stopped.
+std::vector<std::string> paint(const Picture& picture, Parts parts, const Page& page, Surface& surface,
+                               const Execution& execution);
 
 // Pages as files of pixels or of PDF, whatever draws on them: pictures of worlds and plots.
 

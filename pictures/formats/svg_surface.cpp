@@ -13,10 +13,8 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
-#include <numeric>
 
 #include "pictures/formats/markup.hpp"
-#include "pictures/formats/painter.hpp"
 #include "pictures/formats/raster.hpp"
 #include "pictures/formats/surface.hpp"
 #include "pictures/formats/write_picture.hpp"

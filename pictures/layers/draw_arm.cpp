@@ -13,16 +13,12 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "core/base/types.hpp"
-#include "core/run/execution.hpp"
 #include "parallel/asked_memory.hpp"
 #include "pictures/model/axis.hpp"
-#include "scenes/scene/scene.hpp"
 #include "worlds/arms/arm_kinematics.hpp"
 #include "worlds/rasters/convex_pieces.hpp"
 
@@ -32,21 +28,6 @@ namespace {
 constexpr int round_corners = 24;  // of a cylinder
 
 Vec3 corner(const std::array<double, 3>& c) { return {c[0], c[1], c[2]}; }
-
-/// A ball where it is small, or the corners of anything else: the hull of these is the hull of the solid.
-template <class Take>
-void for_each_point(const SeenSolid& s, const Take& take) {
-  if (s.radius >= 0.0) {
-    take(s.a, s.radius);
-    if (s.a != s.b) take(s.b, s.radius);
-  } else if (s.c) {
-    for (const Vec3& p : {s.a, s.b, *s.c}) take(p, 0.0);
-  } else {
-    for (int k = 0; k < 8; ++k) {
-      take(Vec3{((k & 1) != 0 ? s.a : s.b).x(), ((k & 2) != 0 ? s.a : s.b).y(), ((k & 4) != 0 ? s.a : s.b).z()}, 0.0);
-    }
-  }
-}
 
 using Shapes = std::vector<SeenSolid>;
 
@@ -139,7 +120,7 @@ class ArmPath {
  public:
   ArmPath(const ArmModel& model, std::span<const JointState> states) : kinematics_(model), states_(states) {
     for (const ArmLink& link : model.links) {
-      for (const Solid& solid : link.solids) solids_.push_back({link.frame, moved(shapes_of(solid), solid.pose)});
+      for (const Solid& solid : link.solids) solids_.push_back({link.frame + 1, moved(shapes_of(solid), solid.pose)});
     }
     std::size_t used = 0;
     walk(model, base_frame, line_, used);
@@ -149,12 +130,8 @@ class ArmPath {
     }
   }
 
-  /// A solid of a link, in the frame of a joint.
-  struct Fixed {
-    int frame;
-    Shapes shapes;
-  };
-  const std::vector<Fixed>& solids() const { return solids_; }
+  /// A frame is as frames() has it.
+  const std::vector<MovingArm::Link>& solids() const { return solids_; }
   std::span<const JointState> states() const { return states_; }
   /// In joint space.
   double length() const { return shares_.back(); }
@@ -175,8 +152,9 @@ class ArmPath {
   std::vector<Shapes> bodies(const JointState& q) const {
     const std::vector<Eigen::Isometry3d> at = frames(q);
     std::vector<Shapes> all;
-    for (const Fixed& solid : solids_)
-      all.push_back(moved(solid.shapes, at[static_cast<std::size_t>(solid.frame + 1)]));
+    for (const MovingArm::Link& solid : solids_) {
+      all.push_back(moved(solid.shapes, at[static_cast<std::size_t>(solid.frame)]));
+    }
     return all;
   }
   /// A line through the origins of the frames, and to the tool.
@@ -241,7 +219,7 @@ class ArmPath {
   }
 
   ArmKinematics kinematics_;
-  std::vector<Fixed> solids_;
+  std::vector<MovingArm::Link> solids_;
   std::vector<int> line_;
   std::span<const JointState> states_;
   std::vector<double> shares_{0.0};  // of each state: the length up to it
@@ -327,12 +305,6 @@ std::vector<Vec2> outline_of(const Projection& view, const Shapes& shapes) {
   return convex_hull(std::move(points));
 }
 
-std::vector<Vec2> seen_from(const Projection& view, std::span<const Vec3> points) {
-  std::vector<Vec2> seen;
-  for (const Vec3& p : points) seen.push_back(view.at(p));
-  return seen;
-}
-
 class ArmDrawing {
  public:
   /// seen: all states that the views have room for.
@@ -363,7 +335,7 @@ class ArmDrawing {
       views.arm.tools.push_back(path.tool(at.q));
       views.arm.frames.push_back(path.frames(at.q));
     }
-    for (const ArmPath::Fixed& solid : path.solids()) views.arm.links.push_back({solid.frame + 1, solid.shapes});
+    views.arm.links = path.solids();
     return views;
   }
 
@@ -406,8 +378,8 @@ class ArmDrawing {
       for (const SeenSolid& s : shapes) for_each_point(s, take);
     }
     // Of links with many corners the boxes around them, in their frames.
-    std::vector<ArmPath::Fixed> rough;
-    for (const ArmPath::Fixed& solid : seen.solids()) {
+    std::vector<MovingArm::Link> rough;
+    for (const MovingArm::Link& solid : seen.solids()) {
       if (solid.shapes.empty()) continue;
       const bool is_ball = solid.shapes.front().radius >= 0.0;
       if (is_ball) radius_ = std::max(radius_, solid.shapes.front().radius);
@@ -425,8 +397,8 @@ class ArmDrawing {
     constexpr double places = 60.0;
     for (const ArmPath::Place& at : seen.places(places, execution_)) {
       const std::vector<Eigen::Isometry3d> frames = seen.frames(at.q);
-      for (const ArmPath::Fixed& solid : rough) {
-        const Eigen::Isometry3d& frame = frames[static_cast<std::size_t>(solid.frame + 1)];
+      for (const MovingArm::Link& solid : rough) {
+        const Eigen::Isometry3d& frame = frames[static_cast<std::size_t>(solid.frame)];
         for_each_point(solid.shapes.front(), [&](const Vec3& p, double radius) { include(frame * p, radius); });
       }
       include(seen.tool(at.q), 0.0);
@@ -512,7 +484,11 @@ class ArmDrawing {
                        .width = 0.6 * widths::path};
     std::vector<Vec3> way;
     for (const ArmPath::Place& at : path.places(pieces, execution_)) way.push_back(path.tool(at.q));
-    for (const Projection& view : views_) layer.lines.add(seen_from(view, way));
+    for (const Projection& view : views_) {
+      std::vector<Vec2> seen;
+      for (const Vec3& p : way) seen.push_back(view.at(p));
+      layer.lines.add(seen);
+    }
     return layer;
   }
 
@@ -535,56 +511,45 @@ double thinned(double ink) {
 }
 
 /// The same in the perspective: edges as threads, states as beads.
-class Places {
- public:
-  Places(SolidView& view, std::span<const Vec3> tools, const Execution& execution)
-      : view_(view), tools_(tools), execution_(execution) {}
-
-  void add(std::span<const ToolLines> lines) {
-    std::size_t count = tools_.size();
-    for (const ToolLines& some : lines) count += some.edges.size();
-    execution_.reserve(2 * (view_.solids.size() + count) * sizeof(SeenSolid));  // two arrays while the solids move
-    view_.solids.reserve(view_.solids.size() + count);
-    for (const ToolLines& some : lines) add_threads(some);
-    constexpr double bead = 0.008;
-    constexpr double least_bead = 0.002;
-    const double share = thinned(std::numbers::pi * bead * bead * static_cast<double>(tools_.size()));
-    for (std::size_t i = 0; i < tools_.size(); ++i) {
-      if (i % edges_a_poll == 0) execution_.check();
-      const Vec3& p = tools_[i];
-      add_solid(p, p, std::max(share * bead, least_bead), colors::outline, share);
-    }
-  }
-
- private:
-  void add_threads(const ToolLines& some) {
+void add_places(SolidView& view, std::span<const Vec3> tools, std::span<const ToolLines> lines,
+                const Execution& execution) {
+  std::size_t count = tools.size();
+  for (const ToolLines& some : lines) count += some.edges.size();
+  execution.reserve(2 * (view.solids.size() + count) * sizeof(SeenSolid));  // two arrays while the solids move
+  view.solids.reserve(view.solids.size() + count);
+  const auto poll = [&](std::size_t i) {
+    constexpr std::size_t solids_a_poll = 1 << 12;
+    if (i % solids_a_poll == 0) execution.check();
+  };
+  const auto add = [&](const Vec3& a, const Vec3& b, double radius, Rgb color, double share) {
+    constexpr double least_share = 0.6;  // paler ones would be grey in their own shade
+    const auto percent = static_cast<unsigned>(100.0 * std::max(share, least_share));
+    view.solids.push_back({a, b, radius * view.reach, mixed(color, colors::paper, percent), Part::roadmap});
+  };
+  for (const ToolLines& some : lines) {
     constexpr double thread = 0.002;
     constexpr double least_thread = 0.0008;  // some pixels still see it
     double ink = 0.0;
     for (std::size_t i = 0; i < some.edges.size(); ++i) {
-      if (i % edges_a_poll == 0) execution_.check();
-      ink += 2.0 * thread * (tools_[some.edges[i].to] - tools_[some.edges[i].from]).norm() / view_.reach;
+      poll(i);
+      ink += 2.0 * thread * (tools[some.edges[i].to] - tools[some.edges[i].from]).norm() / view.reach;
     }
     const double share = thinned(ink);
-    view_.is_thinned = view_.is_thinned || share < 1.0;
+    view.is_thinned = view.is_thinned || share < 1.0;
     for (std::size_t i = 0; i < some.edges.size(); ++i) {
-      if (i % edges_a_poll == 0) execution_.check();
-      add_solid(tools_[some.edges[i].from], tools_[some.edges[i].to], std::max(share * thread, least_thread),
-                some.color, share);
+      poll(i);
+      add(tools[some.edges[i].from], tools[some.edges[i].to], std::max(share * thread, least_thread), some.color,
+          share);
     }
   }
-
-  void add_solid(const Vec3& a, const Vec3& b, double radius, Rgb color, double share) {
-    constexpr double least_share = 0.6;  // paler ones would be grey in their own shade
-    const auto percent = static_cast<unsigned>(100.0 * std::max(share, least_share));
-    view_.solids.push_back({a, b, radius * view_.reach, mixed(color, colors::paper, percent), Part::roadmap});
+  constexpr double bead = 0.008;
+  constexpr double least_bead = 0.002;
+  const double share = thinned(std::numbers::pi * bead * bead * static_cast<double>(tools.size()));
+  for (std::size_t i = 0; i < tools.size(); ++i) {
+    poll(i);
+    add(tools[i], tools[i], std::max(share * bead, least_bead), colors::outline, share);
   }
-
-  static constexpr std::size_t edges_a_poll = 1 << 12;
-  SolidView& view_;
-  std::span<const Vec3> tools_;
-  const Execution& execution_;
-};
+}
 
 }  // namespace
 
@@ -605,7 +570,7 @@ ArmViews arm_roadmap_views(const Scene& scene, const ArmModel& model, const Join
   }
   const std::vector<PictureLayer> places = drawing.places(tools, lines);
   views.layers.insert(views.layers.begin(), places.begin(), places.end());
-  Places(views.solids, tools, execution).add(lines);
+  add_places(views.solids, tools, lines, execution);
   return views;
 }
 

@@ -40,22 +40,24 @@ std::vector<Vec2> moved_to(const Se2& pose, std::span<const Vec2> points) {
 
 class BodyDrawing {
  public:
-  BodyDrawing(std::span<const Se2> poses, const RobotSpec& robot, BodyMotion motion)
-      : poses_(poses), motion_(motion), outline_(outline_of(robot)), size_(outline_reach(outline_)) {
-    has_heading_ = motion == BodyMotion::driving || !robot.outline.empty();
+  BodyDrawing(std::span<const Se2> poses, const RobotSpec& robot)
+      : poses_(poses),
+        drives_(robot.kind == RobotKind::car),
+        has_heading_(drives_ || !robot.outline.empty()),
+        outline_(outline_of(robot)),
+        size_(outline_reach(outline_)) {
     const std::vector<double> lengths =
-        leg_lengths(poses, motion == BodyMotion::driving ? leg_turns(poses) : std::vector<double>(poses.size(), 0.0));
+        leg_lengths(poses, drives_ ? leg_turns(poses) : std::vector<double>(poses.size(), 0.0));
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const double turn = i == 0 ? 0.0 : std::abs(turn_between(poses[i - 1].theta, poses[i].theta));
-      travels_.push_back((i == 0 ? 0.0 : travels_.back()) + lengths[i] +
-                         (motion == BodyMotion::straight ? size_ * turn : 0.0));
+      travels_.push_back((i == 0 ? 0.0 : travels_.back()) + lengths[i] + (drives_ ? 0.0 : size_ * turn));
     }
   }
 
   std::vector<PictureLayer> layers() {
     const std::vector<Se2> bends = bends_of();
     std::vector<PictureLayer> layers{sweep()};
-    const std::string at_bends = motion_ == BodyMotion::driving ? "body where it turns back" : "body at a bend";
+    const std::string at_bends = drives_ ? "body where it turns back" : "body at a bend";
     layers.push_back(filled("bodies", at_bends, colors::body, bends));
     layers.push_back(filled("body_start", "body at the start", colors::start, {&poses_.front(), 1}));
     layers.push_back(filled("body_goal", "body at the goal", colors::goal, {&poses_.back(), 1}));
@@ -84,8 +86,7 @@ class BodyDrawing {
         std::clamp<std::size_t>(static_cast<std::size_t>(after - travels_.begin()), 1, poses_.size() - 1);
     const double leg = travels_[i] - travels_[i - 1];
     const double share = leg > 0.0 ? std::clamp((travel - travels_[i - 1]) / leg, 0.0, 1.0) : 0.0;
-    return motion_ == BodyMotion::driving ? pose_on_leg(poses_[i - 1], poses_[i], share)
-                                          : interpolate(poses_[i - 1], poses_[i], share);
+    return drives_ ? pose_on_leg(poses_[i - 1], poses_[i], share) : interpolate(poses_[i - 1], poses_[i], share);
   }
   void add_body(PictureLayer& layer, const Se2& pose) const { layer.lines.add(moved_to(pose, outline_)); }
   /// A triangle inside, at the end that goes ahead.
@@ -107,7 +108,7 @@ class BodyDrawing {
       return dot(way, Rotation(middle.theta)({1.0, 0.0})) >= 0.0;
     };
     for (std::size_t i = 1; i + 1 < poses_.size(); ++i) {
-      if (motion_ == BodyMotion::straight || direction(i) != direction(i + 1)) bends.push_back(i);
+      if (!drives_ || direction(i) != direction(i + 1)) bends.push_back(i);
     }
     std::vector<Se2> kept;
     const std::size_t apart = bends.size() / most_bends + 1;
@@ -115,7 +116,7 @@ class BodyDrawing {
     for (std::size_t k = 0; k < bends.size(); k += apart) {
       const double at = travels_[bends[k]];
       const bool is_apart = at - last >= 0.8 * size_ && travels_.back() - at >= 0.8 * size_;
-      if (motion_ == BodyMotion::straight && !is_apart) continue;
+      if (!drives_ && !is_apart) continue;
       last = at;
       kept.push_back(poses_[bends[k]]);
     }
@@ -147,18 +148,18 @@ class BodyDrawing {
   }
 
   std::span<const Se2> poses_;
-  BodyMotion motion_;
+  bool drives_;  // as a car on straights and arcs; else straight on and turning evenly
+  bool has_heading_;
   std::vector<Vec2> outline_;
-  double size_;  // of the farthest point
-  bool has_heading_ = false;
+  double size_;                  // of the farthest point
   std::vector<double> travels_;  // way of the farthest point, at most, until each pose
 };
 
 }  // namespace
 
-std::vector<PictureLayer> bodies_along(std::span<const Se2> poses, const RobotSpec& robot, BodyMotion motion) {
+std::vector<PictureLayer> bodies_along(std::span<const Se2> poses, const RobotSpec& robot) {
   if (poses.empty() || (robot.outline.empty() && !(robot.radius > 0.0))) return {};
-  return BodyDrawing(poses, robot, motion).layers();
+  return BodyDrawing(poses, robot).layers();
 }
 
 PictureLayer heading_arrows(std::span<const Se2> poses, double length) {
@@ -232,6 +233,9 @@ CarCurves car_curves(std::span<const PlannedRoadmap<Se2>> roadmaps, const RobotS
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
+
+Vec2 position_of(const Se2& state) { return state.position(); }
+Vec2 position_of(Vec2 state) { return state; }
 
 /// From cells into the world.
 std::function<Vec2(Vec2)> placed(const HeadingCells& heading) {
@@ -346,13 +350,6 @@ std::vector<PictureLayer> state_arrows(std::span<const Se2> states, double headi
   layers[1].width = 1.6 * widths::edge;
   return layers;
 }
-
-namespace {
-
-Vec2 position_of(const Se2& state) { return state.position(); }
-Vec2 position_of(Vec2 state) { return state; }
-
-}  // namespace
 
 template <class State>
 PlannedRoadmap<Vec2> in_the_plane(const std::vector<PlannedRoadmap<State>>& roadmaps, const Execution& execution) {

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <string>
 #include <tuple>
 #include <utility>
 
@@ -119,95 +118,82 @@ double strength(double factor, double dearest) {
   return dearest > 1.0 ? std::lerp(weakest, strongest, std::log(factor) / std::log(dearest)) : weakest;
 }
 
-class PriceLayers {
- public:
-  PriceLayers(const Prices& prices, const Execution& execution) : prices_(prices), execution_(execution) {}
+constexpr double forbidden_opacity = 0.5;
 
-  std::vector<PictureLayer> take() {
-    for (const PricedArea& area : prices_.areas) dearest_ = std::max(dearest_, area.factor);
-    for (const PriceMask& mask : prices_.masks) {
-      for (int value = 1; value <= 100; ++value) dearest_ = std::max(dearest_, factor_of(mask, value));
-    }
-    add_areas();
-    for (const PriceMask& mask : prices_.masks) {
-      if (mask.read) add_mask(mask, *mask.read);
-    }
-    add_keep_out();
-    return std::move(layers_);
+void add_areas(std::vector<PictureLayer>& layers, const Prices& prices, double dearest) {
+  std::map<double, PolygonSet> by_factor;
+  for (const PricedArea& area : prices.areas) by_factor[area.factor].add(area.corners);
+  for (auto& [factor, outlines] : by_factor) {
+    layers.push_back(layer_of_areas(fmt::format("area_{}", layers.size()),
+                                    fmt::format("area, {} times as dear", human_number(factor)),
+                                    strength(factor, dearest)));
+    layers.back().lines = std::move(outlines);
   }
+}
 
- private:
-  void add_areas() {
-    std::map<double, PolygonSet> by_factor;
-    for (const PricedArea& area : prices_.areas) by_factor[area.factor].add(area.corners);
-    for (auto& [factor, outlines] : by_factor) {
-      PictureLayer layer =
-          layer_of_areas(fmt::format("area_{}", layers_.size()),
-                         fmt::format("area, {} times as dear", human_number(factor)), strength(factor, dearest_));
-      layer.lines = std::move(outlines);
-      layers_.push_back(std::move(layer));
-    }
-  }
-
-  /// In four steps of price, so that a mask of a hundred values has a legend that is read.
-  void add_mask(const PriceMask& mask, const MaskCells& cells) {
-    constexpr std::size_t steps = 4;
-    std::array<double, 101> factors{};
-    double most = 1.0;
-    for (int value = 0; value <= 100; ++value)
-      most = std::max(most, factors[static_cast<std::size_t>(value)] = factor_of(mask, value));
-    execution_.reserve((steps + 1) * (std::size_t{cells.width} / 8 + 8) * cells.height);
-    std::vector<Bitmap> bits(steps + 1);
-    for (Bitmap& bitmap : bits) bitmap = Bitmap(cells.width, cells.height);
-    std::array<double, steps + 1> dearest{};
-    for (std::uint32_t y = 0; y < cells.height; ++y) {
-      execution_.check();
-      for (std::uint32_t x = 0; x < cells.width; ++x) {
-        const int value = cells.values[std::size_t{y} * cells.width + x];
-        const double factor = value < 0 ? 1.0 : factors[static_cast<std::size_t>(value)];
-        if (factor == 1.0) continue;
-        const double share = most > 1.0 ? std::log(factor) / std::log(most) : 1.0;
-        const std::size_t step = factor == 0.0 ? steps : std::min(steps - 1, static_cast<std::size_t>(share * steps));
-        bits[step].set(x, y);
-        dearest[step] = std::max(dearest[step], factor);
-      }
-    }
-    const double c = std::cos(cells.yaw_rad);
-    const double s = std::sin(cells.yaw_rad);
-    const auto at = [&](Vec2 p) {
-      const Vec2 q = cells.cell * p;
-      return cells.origin + Vec2{c * q.x - s * q.y, s * q.x + c * q.y};
-    };
-    for (std::size_t step = 0; step <= steps; ++step) {
-      if (bits[step].count() == 0) continue;
-      const bool is_forbidden = step == steps;
-      PictureLayer layer =
-          cells_layer(fmt::format("mask_{}", layers_.size()),
-                      is_forbidden ? "keep out" : fmt::format("up to {} times as dear", human_number(dearest[step])),
-                      bits[step], at, execution_);
-      layer.fill = is_forbidden ? colors::wrong : colors::search_tree;
-      layer.opacity = is_forbidden ? forbidden_opacity : strength(dearest[step], dearest_);
-      layer.blocks = false;
-      layers_.push_back(std::move(layer));
+/// In four steps of price, so that a mask of a hundred values has a legend that is read.
+void add_mask(std::vector<PictureLayer>& layers, const PriceMask& mask, double dearest_of_all,
+              const Execution& execution) {
+  constexpr std::size_t steps = 4;
+  const MaskCells& cells = *mask.read;
+  std::array<double, 101> factors{};
+  double most = 1.0;
+  for (int value = 0; value <= 100; ++value)
+    most = std::max(most, factors[static_cast<std::size_t>(value)] = factor_of(mask, value));
+  execution.reserve((steps + 1) * (std::size_t{cells.width} / 8 + 8) * cells.height);
+  std::vector<Bitmap> bits(steps + 1);
+  for (Bitmap& bitmap : bits) bitmap = Bitmap(cells.width, cells.height);
+  std::array<double, steps + 1> dearest{};
+  for (std::uint32_t y = 0; y < cells.height; ++y) {
+    execution.check();
+    for (std::uint32_t x = 0; x < cells.width; ++x) {
+      const int value = cells.values[std::size_t{y} * cells.width + x];
+      const double factor = value < 0 ? 1.0 : factors[static_cast<std::size_t>(value)];
+      if (factor == 1.0) continue;
+      const double share = most > 1.0 ? std::log(factor) / std::log(most) : 1.0;
+      const std::size_t step = factor == 0.0 ? steps : std::min(steps - 1, static_cast<std::size_t>(share * steps));
+      bits[step].set(x, y);
+      dearest[step] = std::max(dearest[step], factor);
     }
   }
-
-  void add_keep_out() {
-    if (prices_.keep_out.empty()) return;
-    PictureLayer layer = layer_of_areas("keep_out", "keep out", forbidden_opacity);
-    layer.color = colors::wrong;
-    layer.fill = colors::wrong;
-    for (const KeepOut& area : prices_.keep_out) layer.lines.add(area.corners);
-    layers_.push_back(std::move(layer));
+  const double c = std::cos(cells.yaw_rad);
+  const double s = std::sin(cells.yaw_rad);
+  const auto at = [&](Vec2 p) {
+    const Vec2 q = cells.cell * p;
+    return cells.origin + Vec2{c * q.x - s * q.y, s * q.x + c * q.y};
+  };
+  for (std::size_t step = 0; step <= steps; ++step) {
+    if (bits[step].count() == 0) continue;
+    const bool is_forbidden = step == steps;
+    PictureLayer& layer = layers.emplace_back(
+        cells_layer(fmt::format("mask_{}", layers.size()),
+                    is_forbidden ? "keep out" : fmt::format("up to {} times as dear", human_number(dearest[step])),
+                    bits[step], at, execution));
+    layer.fill = is_forbidden ? colors::wrong : colors::search_tree;
+    layer.opacity = is_forbidden ? forbidden_opacity : strength(dearest[step], dearest_of_all);
+    layer.blocks = false;
   }
+}
 
-  static constexpr double forbidden_opacity = 0.5;
-
-  const Prices& prices_;
-  const Execution& execution_;
-  double dearest_ = 1.0;
-  std::vector<PictureLayer> layers_;
-};
+/// All but what nearness costs.
+std::vector<PictureLayer> layers_of_places(const Prices& prices, const Execution& execution) {
+  double dearest = 1.0;
+  for (const PricedArea& area : prices.areas) dearest = std::max(dearest, area.factor);
+  for (const PriceMask& mask : prices.masks) {
+    for (int value = 1; value <= 100; ++value) dearest = std::max(dearest, factor_of(mask, value));
+  }
+  std::vector<PictureLayer> layers;
+  add_areas(layers, prices, dearest);
+  for (const PriceMask& mask : prices.masks) {
+    if (mask.read) add_mask(layers, mask, dearest, execution);
+  }
+  if (prices.keep_out.empty()) return layers;
+  PictureLayer& layer = layers.emplace_back(layer_of_areas("keep_out", "keep out", forbidden_opacity));
+  layer.color = colors::wrong;
+  layer.fill = colors::wrong;
+  for (const KeepOut& area : prices.keep_out) layer.lines.add(area.corners);
+  return layers;
+}
 
 /// Free cells whose middle is nearer than that to a blocked one. Layers of several reaches lie upon each other: the
 /// nearer the dearer.
@@ -236,7 +222,7 @@ std::vector<PictureLayer> price_layers(const Prices& prices, const std::optional
         layers.push_back(std::move(*near));
     }
   }
-  for (PictureLayer& layer : PriceLayers(prices, execution).take()) layers.push_back(std::move(layer));
+  for (PictureLayer& layer : layers_of_places(prices, execution)) layers.push_back(std::move(layer));
   return layers;
 }
 

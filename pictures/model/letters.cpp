@@ -2,7 +2,6 @@
 #include "pictures/model/letters.hpp"
 
 #include <array>
-#include <string_view>
 #include <utility>
 
 #include "core/base/printable.hpp"

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -22,9 +21,9 @@ namespace {
 
 // Axes around a part of a page, and the scale bar.
 
-inline constexpr double page_text_size = 12.5;  ///< of all but the title
-inline constexpr double tick_length = 4.0;
-inline constexpr double swatch_gap = 8.0;  ///< between a swatch and its words
+constexpr double text_size = 12.5;  ///< of all but the title
+constexpr double tick_length = 4.0;
+constexpr double swatch_gap = 8.0;  ///< between a swatch and its words
 
 void add_text(Page& page, Vec2 at, std::string words, double size, Anchor anchor, bool bold = false,
               bool upright = false) {
@@ -42,8 +41,8 @@ void add_axes(Page& page, const AxesPanel& panel, Box at, std::optional<double> 
   line(high, {low.x, high.y});
   line({low.x, high.y}, low);
   const auto names_inside = [&] {
-    add_text(page, {high.x - 6.0, high.y - 7.0}, panel.x_label, page_text_size, Anchor::end);
-    add_text(page, {low.x + 6.0, low.y + page_text_size + 5.0}, panel.y_label, page_text_size, Anchor::start);
+    add_text(page, {high.x - 6.0, high.y - 7.0}, panel.x_label, text_size, Anchor::end);
+    add_text(page, {low.x + 6.0, low.y + text_size + 5.0}, panel.y_label, text_size, Anchor::start);
   };
   if (!panel.has_ticks) return names_inside();
   const View& view = page.view;
@@ -57,23 +56,22 @@ void add_axes(Page& page, const AxesPanel& panel, Box at, std::optional<double> 
     const double x = zero.x + view.scale * tick;
     line({x, high.y}, {x, high.y + tick_length});
     const std::string words = tick_text(tick, step);
-    const double half = 0.5 * text_width(words, page_text_size);
+    const double half = 0.5 * text_width(words, text_size);
     if (x - half < next) continue;
     next = x + half + 6.0;
-    add_text(page, {x, high.y + tick_length + 3.0 + page_text_size}, words, page_text_size, Anchor::middle);
+    add_text(page, {x, high.y + tick_length + 3.0 + text_size}, words, text_size, Anchor::middle);
   }
   for (const double tick : ticks(zero.y - high.y, zero.y - low.y)) {
     const double y = zero.y - view.scale * tick;
     line({low.x - tick_length, y}, {low.x, y});
-    add_text(page, {low.x - tick_length - 4.0, y + 0.35 * page_text_size}, tick_text(tick, step), page_text_size,
-             Anchor::end);
+    add_text(page, {low.x - tick_length - 4.0, y + 0.35 * text_size}, tick_text(tick, step), text_size, Anchor::end);
   }
-  const double below = tick_length + 3.0 + 2.3 * page_text_size;
+  const double below = tick_length + 3.0 + 2.3 * text_size;
   if (!name_at) {
     names_inside();
   } else {
-    add_text(page, {0.5 * (low.x + high.x), high.y + below}, panel.x_label, page_text_size, Anchor::middle);
-    add_text(page, {*name_at, 0.5 * (low.y + high.y)}, panel.y_label, page_text_size, Anchor::middle, false, true);
+    add_text(page, {0.5 * (low.x + high.x), high.y + below}, panel.x_label, text_size, Anchor::middle);
+    add_text(page, {*name_at, 0.5 * (low.y + high.y)}, panel.y_label, text_size, Anchor::middle, false, true);
   }
 }
 /// A round length with its ends marked, from `at` to the right.
@@ -85,8 +83,8 @@ void add_scale_bar(Page& page, Vec2 at, std::string_view unit) {
   page.ink.push_back({at, end});
   for (const Vec2 p : {at, end}) page.ink.push_back({{p.x, p.y - 3.5}, {p.x, p.y + 3.5}});
   const bool one = step == 1.0 && unit == "cells";
-  add_text(page, {end.x + swatch_gap, at.y + 0.35 * page_text_size},
-           fmt::format("{}{}{}", tick_text(step, step), unit.empty() ? "" : " ", one ? "cell" : unit), page_text_size,
+  add_text(page, {end.x + swatch_gap, at.y + 0.35 * text_size},
+           fmt::format("{}{}{}", tick_text(step, step), unit.empty() ? "" : " ", one ? "cell" : unit), text_size,
            Anchor::start);
 }
 
@@ -95,7 +93,6 @@ constexpr double least_side = 36.0;   // of the shorter one
 constexpr double rim = 12.0;          // around the world, so that no mark is cut off
 constexpr double margin = 12.0;       // around all
 constexpr double title_size = 16.0;
-constexpr double text_size = page_text_size;
 constexpr double line_height = 1.45;
 constexpr double legend_row = 21.0;
 constexpr double legend_gap = 18.0;  // between world and legend
@@ -262,7 +259,7 @@ class PageMaker {
       add_axes(page_,
                {.x_label = fits(x, data.width()) ? x : axis_name('x', std::nullopt),
                 .y_label = fits(y, data.height()) ? y : axis_name('y', std::nullopt)},
-               data, margin + page_text_size);
+               data, margin + text_size);
       return;
     }
     for (const AxesPanel& panel : picture_.panels) {
@@ -363,97 +360,84 @@ Page page_of(const Picture& picture, const PictureOptions& options, bool in_pixe
 
 namespace {
 
-class LegendMaker {
- public:
-  LegendMaker(const Picture& picture, Parts parts, const Execution& execution)
-      : picture_(picture), parts_(parts), execution_(execution) {}
-
-  std::vector<LegendEntry> entries() {
-    if (parts_.has(Part::world)) world();
-    for (const PictureLayer& layer : picture_.layers) {
-      if (layer.part == Part::world) add(layer);
-    }
-    if (picture_.roadmap != nullptr) roadmap();
-    for (const PictureLayer& layer : picture_.layers) {
-      if (layer.part != Part::world) add(layer);
-    }
-    if (parts_.has(Part::path)) path();
-    return std::move(entries_);
+void add_world_entries(std::vector<LegendEntry>& entries, const Picture& picture) {
+  const Scene& scene = picture.scene;
+  if (!scene.polygons.empty()) {
+    entries.push_back({.label = scene.polygons.size() == 1 ? "obstacle" : "obstacles",
+                       .lines = {colors::outline},
+                       .width = widths::outline,
+                       .fill = colors::polygon});
   }
-
- private:
-  void world() {
-    const Scene& scene = picture_.scene;
-    if (!scene.polygons.empty()) {
-      entries_.push_back({.label = scene.polygons.size() == 1 ? "obstacle" : "obstacles",
-                          .lines = {colors::outline},
-                          .width = widths::outline,
-                          .fill = colors::polygon});
-    }
-    // A map's walls are the borders of its cells.
-    if (scene.walls.size() > 0) {
-      const bool borders = scene.map.has_value();
-      entries_.push_back(
-          {.label = borders ? "border of blocked cells" : "wall", .lines = {colors::wall}, .width = widths::wall});
-    } else if (scene.bounds && picture_.panels.empty()) {
-      entries_.push_back({.label = "bounds", .lines = {colors::wall}, .width = widths::wall});
-    }
+  // A map's walls are the borders of its cells.
+  if (scene.walls.size() > 0) {
+    const bool borders = scene.map.has_value();
+    entries.push_back(
+        {.label = borders ? "border of blocked cells" : "wall", .lines = {colors::wall}, .width = widths::wall});
+  } else if (scene.bounds && picture.panels.empty()) {
+    entries.push_back({.label = "bounds", .lines = {colors::wall}, .width = widths::wall});
   }
+}
 
-  void roadmap() {
-    const PlannedRoadmap<Vec2>& roadmap = *picture_.roadmap;
-    if (parts_.has(Part::roadmap) && !roadmap.states.empty()) {
-      const std::size_t edges = roadmap.graph.edge_count();
-      LegendEntry entry{.label = edges > 0 ? "roadmap edge, milestone" : "milestone", .dot = colors::components[0]};
-      if (edges > 0) {
-        const std::vector<std::uint8_t> color = component_colors(roadmap.graph, execution_);
-        // The last colour is for single milestones, too.
-        std::size_t used = 1;
-        for (std::size_t c = 1; c + 1 < colors::components.size(); ++c) {
-          used += std::find(color.begin(), color.end(), c) != color.end() ? 1 : 0;
-        }
-        constexpr std::size_t most_pieces = 4;
-        used = std::min(used, most_pieces);
-        entry.lines.assign(colors::components.begin(), colors::components.begin() + static_cast<std::ptrdiff_t>(used));
-        if (used > 1) entry.label = "roadmap, a colour a component";
-        entry.width = 1.5;
+void add_roadmap_entries(std::vector<LegendEntry>& entries, const PlannedRoadmap<Vec2>& roadmap, Parts parts,
+                         const Execution& execution) {
+  if (parts.has(Part::roadmap) && !roadmap.states.empty()) {
+    const std::size_t edges = roadmap.graph.edge_count();
+    LegendEntry entry{.label = edges > 0 ? "roadmap edge, milestone" : "milestone", .dot = colors::components[0]};
+    if (edges > 0) {
+      const std::vector<std::uint8_t> color = component_colors(roadmap.graph, execution);
+      // The last colour is for single milestones, too.
+      std::size_t used = 1;
+      for (std::size_t c = 1; c + 1 < colors::components.size(); ++c) {
+        used += std::find(color.begin(), color.end(), c) != color.end() ? 1 : 0;
       }
-      entries_.push_back(std::move(entry));
+      constexpr std::size_t most_pieces = 4;
+      used = std::min(used, most_pieces);
+      entry.lines.assign(colors::components.begin(), colors::components.begin() + static_cast<std::ptrdiff_t>(used));
+      if (used > 1) entry.label = "roadmap, a colour a component";
+      entry.width = 1.5;
     }
-    if (parts_.has(Part::search) && !roadmap.search_tree.empty()) {
-      entries_.push_back({.label = "search tree", .lines = {colors::search_tree}, .width = widths::search_tree});
-    }
+    entries.push_back(std::move(entry));
   }
+  if (parts.has(Part::search) && !roadmap.search_tree.empty()) {
+    entries.push_back({.label = "search tree", .lines = {colors::search_tree}, .width = widths::search_tree});
+  }
+}
 
-  void path() {
-    if (!picture_.path.empty()) {
-      entries_.push_back({.label = picture_.path_label, .lines = {colors::path}, .width = widths::path});
-    }
-    if (picture_.start) entries_.push_back({.label = "start", .fill = colors::start, .mark = MarkShape::disc});
-    if (picture_.goal) entries_.push_back({.label = "goal", .fill = colors::goal, .mark = MarkShape::star});
+void add_path_entries(std::vector<LegendEntry>& entries, const Picture& picture) {
+  if (!picture.path.empty()) {
+    entries.push_back({.label = picture.path_label, .lines = {colors::path}, .width = widths::path});
   }
-  void add(const PictureLayer& layer) {
-    if (!parts_.has(layer.part) || layer.label.empty() || layer.lines.empty()) return;
-    for (const LegendEntry& there : entries_) {
-      if (there.label == layer.label) return;
-    }
-    LegendEntry entry{.label = layer.label, .width = layer.width, .fill = layer.fill, .mark = layer.swatch};
-    if (layer.swatch && !layer.fill) entry.fill = layer.color;
-    if (layer.fill && layer.part == Part::world) entry.opacity = layer.opacity;
-    if (layer.width > 0.0) entry.lines = {layer.color};
-    entries_.push_back(std::move(entry));
-  }
+  if (picture.start) entries.push_back({.label = "start", .fill = colors::start, .mark = MarkShape::disc});
+  if (picture.goal) entries.push_back({.label = "goal", .fill = colors::goal, .mark = MarkShape::star});
+}
 
-  const Picture& picture_;
-  Parts parts_;
-  const Execution& execution_;
-  std::vector<LegendEntry> entries_;
-};
+void add_layer_entry(std::vector<LegendEntry>& entries, const PictureLayer& layer) {
+  if (layer.label.empty() || layer.lines.empty()) return;
+  for (const LegendEntry& there : entries) {
+    if (there.label == layer.label) return;
+  }
+  LegendEntry entry{.label = layer.label, .width = layer.width, .fill = layer.fill, .mark = layer.swatch};
+  if (layer.swatch && !layer.fill) entry.fill = layer.color;
+  if (layer.fill && layer.part == Part::world) entry.opacity = layer.opacity;
+  if (layer.width > 0.0) entry.lines = {layer.color};
+  entries.push_back(std::move(entry));
+}
 
 }  // namespace
 
 std::vector<LegendEntry> legend_of(const Picture& picture, Parts parts, const Execution& execution) {
-  return LegendMaker(picture, parts, execution).entries();
+  std::vector<LegendEntry> entries;
+  const auto add_layers = [&](bool of_world) {
+    for (const PictureLayer& layer : picture.layers) {
+      if ((layer.part == Part::world) == of_world && parts.has(layer.part)) add_layer_entry(entries, layer);
+    }
+  };
+  if (parts.has(Part::world)) add_world_entries(entries, picture);
+  add_layers(true);
+  if (picture.roadmap != nullptr) add_roadmap_entries(entries, *picture.roadmap, parts, execution);
+  add_layers(false);
+  if (parts.has(Part::path)) add_path_entries(entries, picture);
+  return entries;
 }
 
 }  // namespace warren

@@ -1,20 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pictures/model/picture.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
+#include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
-#include "core/plane/se2.hpp"
 #include "planners/graph/components.hpp"
 
 namespace warren {
+
+void PictureOptions::validate() const {
+  struct Range {
+    double low, high;
+    bool holds(double value) const { return value >= low && value <= high; }
+  };
+  constexpr Range dpis{10.0, 2400.0};
+  if (dpi && !dpis.holds(*dpi)) {
+    throw UsageError(fmt::format("@dpi: from {} to {} (found: {})", dpis.low, dpis.high, *dpi));
+  }
+  if (!size) return;
+  const Range sides = size->unit == LengthUnit::mm ? Range{10.0, 5000.0} : Range{40.0, 20'000.0};
+  for (const double side : {size->width, size->height}) {
+    if (sides.holds(side)) continue;
+    throw UsageError(
+        fmt::format("@size: a side is from {} to {} {} (found: {})", sides.low, sides.high, name_of(size->unit), side));
+  }
+}
 
 Canvas canvas_of(const Picture& picture, const Execution& execution) {
   Canvas canvas;

@@ -44,6 +44,22 @@ struct SeenSolid {
   std::optional<Vec3> c = {};  ///< of a face, the third corner
 };
 
+/// Calls take(point, radius) for a ball at either end of its way, or with radius 0 for the corners of anything else.
+/// The hull of these is that of the solid.
+template <class Take>
+void for_each_point(const SeenSolid& s, const Take& take) {
+  if (s.radius >= 0.0) {
+    take(s.a, s.radius);
+    if (s.a != s.b) take(s.b, s.radius);
+  } else if (s.c) {
+    for (const Vec3& p : {s.a, s.b, *s.c}) take(p, 0.0);
+  } else {
+    for (int k = 0; k < 8; ++k) {
+      take(Vec3{((k & 1) != 0 ? s.a : s.b).x(), ((k & 2) != 0 ? s.a : s.b).y(), ((k & 4) != 0 ? s.a : s.b).z()}, 0.0);
+    }
+  }
+}
+
 // An arm that moves: where its joints are at moments of its path.
 
 /// From space into a picture's world: which axes run right and up, and where the space's zero stands.

@@ -19,7 +19,6 @@
 #include "core/run/execution.hpp"
 #include "pictures/formats/markup.hpp"
 #include "pictures/formats/raster.hpp"
-#include "pictures/formats/solid_raster.hpp"
 #include "pictures/formats/svg_surface.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/model/picture.hpp"

@@ -9,9 +9,7 @@
 #include <iterator>
 #include <limits>
 
-#include "core/base/types.hpp"
 #include "pictures/formats/markup.hpp"
-#include "pictures/formats/surface.hpp"
 #include "pictures/model/axis.hpp"
 #include "pictures/model/letters.hpp"
 #include "scenes/text/output_file_io.hpp"
@@ -128,20 +126,6 @@ void PlotSheet::draw(Surface& surface, Vec2 at, const Execution& execution) cons
   surface.end_group();
 }
 
-namespace {
-
-Page page_for(Vec2 size) {
-  constexpr double most_pixels = 8192.0;
-  constexpr double density = 2.0;
-  Page page;
-  page.width = size.x;
-  page.height = size.y;
-  page.dpi = 96.0 * std::min(density, most_pixels / std::max(size.x, size.y));
-  return page;
-}
-
-}  // namespace
-
 Vec2 PlotsPage::size() const {
   const std::size_t count = std::max<std::size_t>(sheets.size(), 1);
   const std::size_t rows = (count + columns - 1) / columns;
@@ -167,6 +151,12 @@ std::string PlotsPage::svg() const {
 void PlotsPage::write(const std::string& file, const std::string& title, const Execution& execution) const {
   const std::string ending = ending_of(file);
   if (ending != ".png" && ending != ".pdf") return write_file(file, svg(), execution);
+  constexpr double most_pixels = 8192.0;
+  constexpr double density = 2.0;
+  Page page;
+  page.width = size().x;
+  page.height = size().y;
+  page.dpi = 96.0 * std::min(density, most_pixels / std::max(size().x, size().y));
   const DrawOn draw = [&](Surface& surface) {
     for (std::size_t i = 0; i < sheets.size(); ++i) sheets[i].draw(surface, place_of(i), execution);
     return std::vector<std::string>{};
@@ -174,9 +164,9 @@ void PlotsPage::write(const std::string& file, const std::string& title, const E
   OutputFile output(file, execution);
   const Write put = [&](std::string_view bytes) { output.write(bytes); };
   if (ending == ".png") {
-    draw_png(page_for(size()), draw, execution, put);
+    draw_png(page, draw, execution, put);
   } else {
-    draw_pdf(page_for(size()), {title, {}}, draw, execution, put);
+    draw_pdf(page, {title, {}}, draw, execution, put);
   }
   output.commit();
 }
@@ -352,12 +342,6 @@ class PlotDrawing {
   PlotSheet sheet_;
 };
 
-}  // namespace
-
-PlotSheet sheet_of(const Plot& plot) { return PlotDrawing(plot).sheet(); }
-
-namespace {
-
 constexpr double most_name = 300.0;      // pixels
 constexpr double room_of_remark = 96.0;  // beside the frame
 
@@ -455,12 +439,6 @@ class BoxDrawing {
   PlotSheet sheet_;
 };
 
-}  // namespace
-
-PlotSheet sheet_of(const BoxPlot& plot) { return BoxDrawing(plot).sheet(); }
-
-namespace {
-
 constexpr Box frame{{150.0, 48.0}, {724.0, 350.0}};  // of the cells, y down
 
 /// Red, green, blue, 0 to 255.
@@ -539,6 +517,8 @@ class HeatMapDrawing {
 
 }  // namespace
 
+PlotSheet sheet_of(const Plot& plot) { return PlotDrawing(plot).sheet(); }
+PlotSheet sheet_of(const BoxPlot& plot) { return BoxDrawing(plot).sheet(); }
 PlotSheet sheet_of(const HeatMap& map) { return HeatMapDrawing(map).sheet(); }
 
 }  // namespace warren

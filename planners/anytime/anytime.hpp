@@ -87,6 +87,19 @@ struct AnytimeSolution : Solution<State> {
 
 namespace detail {
 
+inline std::uint64_t work_of(const Counters& counters) {
+  return counters.samples + counters.neighbour_queries + 4 * counters.edges_checked;
+}
+/// What was counted since `before`, of what only grows.
+inline Counters counted_since(const Counters& before, const Counters& now) {
+  Counters since;
+  for (const auto count : {&Counters::samples, &Counters::kept, &Counters::neighbour_queries, &Counters::edges_checked,
+                           &Counters::edges_free, &Counters::refused}) {
+    since.*count = now.*count - before.*count;
+  }
+  return since;
+}
+
 template <SteerableWorld W>
 class AnytimeSearch {
  public:
@@ -197,18 +210,202 @@ class AnytimeSearch {
     return options_.iterations && solution_.iterations >= *options_.iterations && end("iterations");
   }
 
-  void take_turn(const Execution& execution);
-  bool try_straight();
-  std::vector<Found> grown(const Execution& execution);
-  void take(Found& found);
-  void tell(std::string_view by);
-  void adapt(bool had_path);
+  void take_turn(const Execution& execution) {
+    execution.check();
+    if (solution_.iterations == 0 && try_straight()) return;
+    Execution inner = execution.quiet();  // stages of parts are no stages of the whole, and tasks are what runs at once
+    inner.trace = nullptr;
+    inner.account = nullptr;
+    std::vector<Found> found = grown(inner);
+    execution.check();
+    ++solution_.iterations;  // from here on nothing stops
+    rough_.clear();
+    const bool had_path = has_path();
+    was_lucky_ = {};
+    was_replaced_ = false;
+    for (Found& each : found) take(each);
+    adapt(had_path);
+  }
 
-  Found grow_tree(const Execution& execution);
-  Found grow_restart(Restart& restart, const Execution& execution);
-  Found draw_roadmap(const Execution& execution);
+  /// The straight motion to the nearest goal, where it is free, is the best there is, unless there are more goals. It
+  /// is a turn by itself.
+  bool try_straight() {
+    const auto nearest = std::min_element(goals_.begin(), goals_.end(), [&](const State& a, const State& b) {
+      return world_.distance(start_, a) < world_.distance(start_, b);
+    });
+    auto query = world_.make_query();
+    ++solution_.counters.edges_checked;
+    if (!world_.is_free_motion(start_, *nearest, query)) return false;
+    ++solution_.counters.edges_free;
+    is_straight_ = options_.all_goals;
+    solution_.path = {start_, *nearest};
+    solution_.cost = world_.distance(start_, *nearest);
+    ++solution_.iterations;
+    tell("straight");
+    return true;
+  }
+
+  /// What the parts find in this turn, in the order of their tasks: what takes longest comes first.
+  std::vector<Found> grown(const Execution& execution) {
+    std::vector<std::function<Found(const Execution&)>> tasks;
+    const AnytimeParts& parts = options_.parts;
+    if (parts.roadmap) tasks.push_back([this](const Execution& on) { return draw_roadmap(on); });
+    if (parts.tree) tasks.push_back([this](const Execution& on) { return grow_tree(on); });
+    if (parts.restarts) {
+      for (Restart& restart : restarts_) {
+        tasks.push_back([this, &restart](const Execution& on) { return grow_restart(restart, on); });
+      }
+    }
+    if (parts.shorten && has_path() && dull_ < most_dull)
+      tasks.push_back([this](const Execution& on) {
+        return shortened(Part::shorten, solution_.path, std::numeric_limits<double>::infinity(), 7, on);
+      });
+    for (std::size_t i = 0; i < rough_.size(); ++i) {
+      tasks.push_back([this, i](const Execution& on) {
+        return shortened(rough_[i].by, rough_[i].path, near * solution_.cost, 8 + i, on);
+      });
+    }
+    std::vector<Found> found(tasks.size());
+    Execution alone = execution;
+    alone.threads = 1;
+    for_chunks(tasks.size(), 1, execution, [&](Range r) { found[r.first] = tasks[r.first](alone); });
+    return found;
+  }
+
+  /// The best path of a turn is shortened as the best path that there is; others that come near it, as rough ones.
+  void take(Found& found) {
+    constexpr double worth = 1e-4;
+    solution_.counters += found.counters;
+    if (found.path.empty() || is_enough_) return;
+    const double before = solution_.cost;
+    const bool is_better = found.cost < before * (1.0 - 1e-12) || !has_path();
+    if (found.by == Part::shorten) {
+      const bool goes_on = body_.draws && found.cost < before * (1.0 - worth);
+      dull_ = goes_on ? 0 : body_.draws ? dull_ + 1 : most_dull;
+    }
+    if (tree_ && options_.informed && found.by != Part::tree && found.cost < near * before)
+      to_join_.push_back(found.path);
+    const bool is_rough = options_.parts.shorten && !found.is_shortened;
+    if (!is_better) {
+      if (is_rough && found.cost < hopeless * before) rough_.push_back(std::move(found));
+      return;
+    }
+    if (was_replaced_ && !is_shortened_) {  // by another one in this turn: nobody has shortened it yet
+      Found earlier;
+      earlier.path = std::move(solution_.path);
+      earlier.cost = before;
+      if (options_.parts.shorten) rough_.push_back(std::move(earlier));
+    }
+    was_replaced_ = true;
+    was_lucky_[index_of(found.by)] = true;
+    if (found.by != Part::shorten) dull_ = found.is_shortened && !body_.draws ? most_dull : 0;
+    is_shortened_ = found.is_shortened;
+    solution_.cost = found.cost;
+    solution_.path = std::move(found.path);
+    constexpr std::array<std::string_view, 4> names{"tree", "restarts", "roadmap", "shorten"};
+    tell(names[index_of(found.by)]);
+  }
+
+  void tell(std::string_view by) {
+    const std::chrono::duration<double> since = std::chrono::steady_clock::now() - begin_;
+    solution_.improvements.push_back({std::max<std::uint64_t>(1, solution_.iterations), since.count(), solution_.cost,
+                                      body_.length(solution_.path), std::string(by), solution_.lower_bound});
+    if (body_.kept) body_.kept(solution_.path);
+    if (execution_.on_improvement != nullptr && !(*execution_.on_improvement)(solution_.improvements.back()))
+      is_enough_ = true;
+  }
+
+  void adapt(bool had_path) {
+    for (std::size_t part = 0; part < idle_.size(); ++part) idle_[part] = was_lucky_[part] ? 0 : idle_[part] + 1;
+    if (has_path() && !had_path) {  // from first path to better ones
+      share_ = better_share;
+      idle_ = {};
+    } else {
+      share_ = std::min(largest_share, share_ + share_ / (has_path() ? 4 : is_alone() ? 1 : 2));
+    }
+  }
+
+  Found grow_tree(const Execution& execution) {
+    Found found(Part::tree);
+    if (options_.informed) {
+      for (const Path<State>& path : to_join_) tree_->take(path, execution);
+    }
+    to_join_.clear();
+    tree_->advance(share_of(Part::tree), options_.informed ? solution_.cost : std::numeric_limits<double>::infinity(),
+                   solution_.path, execution);
+    found.counters = counted_since(tree_counted_, tree_->counters());
+    tree_counted_ = tree_->counters();
+    if (!(tree_->cost() < solution_.cost)) return found;
+    found.path = tree_->path();
+    found.cost = cost_of(found.path);
+    return found;
+  }
+
+  /// One pair of trees, from turn to turn, until it arrives or has grown too large. Each has a whole share until there
+  /// is a path, since they are most often the first to arrive, then its part of one.
+  Found grow_restart(Restart& restart, const Execution& execution) {
+    Found found(Part::restarts);
+    const auto slot = static_cast<std::uint64_t>(&restart - restarts_.data());
+    if (!restart.trees) {
+      const std::uint64_t index = restart_count * restart.index++ + slot;
+      restart.looseness = 0.05 + 0.95 * uniform(options_.trees.seed, index, 15);
+      restart.counted = {};
+      restart.trees = std::make_unique<RrtConnectSearch<W>>(world_, start_, std::span<const State>(goals_),
+                                                            restart_options_, step_, index);
+      if (has_path()) restart.trees->bound(solution_.cost * (1.0 + restart.looseness));
+    }
+    RrtConnectSearch<W>& trees = *restart.trees;
+    trees.advance_by_work(share_of(Part::restarts) / (has_path() ? restart_count : 1), execution);
+    found.counters = counted_since(restart.counted, trees.counters());
+    restart.counted = trees.counters();
+    if (trees.arrived()) {
+      found.path = trees.path();
+      found.cost = cost_of(found.path);
+    }
+    if (trees.arrived() || trees.gave_up()) restart.trees.reset();
+    return found;
+  }
+
+  /// A whole lazy roadmap, once enough is saved up for one of double the size.
+  Found draw_roadmap(const Execution& execution) {
+    constexpr std::uint64_t first_samples = 50;
+    constexpr std::uint64_t most_doublings = 20;
+    constexpr std::uint64_t least_credit = 1'000;  // what the first may well take: trees often arrive before
+    Found found(Part::roadmap);
+    credit_ += share_of(Part::roadmap);
+    if (credit_ < std::max(least_credit, 2 * roadmap_work_)) return found;
+    RoadmapOptions options = options_.roadmap;
+    options.samples = first_samples << std::min(roadmaps_, most_doublings);
+    options.seed = random_bits(options_.trees.seed, roadmaps_, 14);
+    options.tells_separation = false;
+    const State& goal = goals_[roadmaps_ % goals_.size()];
+    const Solution<State> solution = [&] {
+      if constexpr (W::one_way) {
+        return one_way_prm(world_, start_, goal, options, true, execution);
+      } else {
+        return lazy_prm(world_, start_, goal, options, execution);
+      }
+    }();
+    if (solution.outcome == Outcome::stopped) throw Stopped(solution.stop_reason);
+    ++roadmaps_;
+    credit_ = 0;
+    roadmap_work_ = work_of(solution.counters);
+    found.counters = solution.counters;
+    found.path = solution.path;
+    if (!found.path.empty()) found.cost = cost_of(found.path);
+    return found;
+  }
+
   Found shortened(Part by, const Path<State>& path, double too_dear, std::uint64_t draw,
-                  const Execution& execution) const;
+                  const Execution& execution) const {
+    Found found(by);
+    found.is_shortened = true;
+    const std::uint64_t seed = random_bits(options_.trees.seed, solution_.iterations, draw);
+    found.path = body_.shortened(path, too_dear, seed, execution, found.counters);
+    found.cost = cost_of(found.path);
+    return found;
+  }
+
   std::uint64_t share_of(Part part) const {
     return (is_alone() ? 4 : 1) * share_ / (idle_[index_of(part)] >= patience ? 2 : 1);
   }
@@ -245,227 +442,6 @@ class AnytimeSearch {
   std::uint64_t roadmap_work_ = 0;  // of the last one
   int dull_ = 0;                    // polishings without gain, since the best path came
 };
-
-inline std::uint64_t work_of(const Counters& counters) {
-  return counters.samples + counters.neighbour_queries + 4 * counters.edges_checked;
-}
-/// What was counted since `before`, of what only grows.
-inline Counters counted_since(const Counters& before, const Counters& now) {
-  Counters since;
-  since.samples = now.samples - before.samples;
-  since.kept = now.kept - before.kept;
-  since.neighbour_queries = now.neighbour_queries - before.neighbour_queries;
-  since.edges_checked = now.edges_checked - before.edges_checked;
-  since.edges_free = now.edges_free - before.edges_free;
-  since.refused = now.refused - before.refused;
-  return since;
-}
-
-template <SteerableWorld W>
-void AnytimeSearch<W>::take_turn(const Execution& execution) {
-  execution.check();
-  if (solution_.iterations == 0 && try_straight()) return;
-  Execution inner = execution.quiet();  // stages of parts are no stages of the whole, and tasks are what runs at once
-  inner.trace = nullptr;
-  inner.account = nullptr;
-  std::vector<Found> found = grown(inner);
-  execution.check();
-  ++solution_.iterations;  // from here on nothing stops
-  rough_.clear();
-  const bool had_path = has_path();
-  was_lucky_ = {};
-  was_replaced_ = false;
-  for (Found& each : found) take(each);
-  adapt(had_path);
-}
-
-/// The straight motion to the nearest goal, where it is free, is the best there is, unless there are more goals. It is
-/// a turn by itself.
-template <SteerableWorld W>
-bool AnytimeSearch<W>::try_straight() {
-  const auto nearest = std::min_element(goals_.begin(), goals_.end(), [&](const State& a, const State& b) {
-    return world_.distance(start_, a) < world_.distance(start_, b);
-  });
-  auto query = world_.make_query();
-  ++solution_.counters.edges_checked;
-  if (!world_.is_free_motion(start_, *nearest, query)) return false;
-  ++solution_.counters.edges_free;
-  is_straight_ = options_.all_goals;
-  solution_.path = {start_, *nearest};
-  solution_.cost = world_.distance(start_, *nearest);
-  ++solution_.iterations;
-  tell("straight");
-  return true;
-}
-
-/// What the parts find in this turn, in the order of their tasks: what takes longest comes first.
-template <SteerableWorld W>
-auto AnytimeSearch<W>::grown(const Execution& execution) -> std::vector<Found> {
-  std::vector<std::function<Found(const Execution&)>> tasks;
-  const AnytimeParts& parts = options_.parts;
-  if (parts.roadmap) tasks.push_back([this](const Execution& on) { return draw_roadmap(on); });
-  if (parts.tree) tasks.push_back([this](const Execution& on) { return grow_tree(on); });
-  if (parts.restarts) {
-    for (Restart& restart : restarts_) {
-      tasks.push_back([this, &restart](const Execution& on) { return grow_restart(restart, on); });
-    }
-  }
-  if (parts.shorten && has_path() && dull_ < most_dull)
-    tasks.push_back([this](const Execution& on) {
-      return shortened(Part::shorten, solution_.path, std::numeric_limits<double>::infinity(), 7, on);
-    });
-  for (std::size_t i = 0; i < rough_.size(); ++i) {
-    tasks.push_back([this, i](const Execution& on) {
-      return shortened(rough_[i].by, rough_[i].path, near * solution_.cost, 8 + i, on);
-    });
-  }
-  std::vector<Found> found(tasks.size());
-  Execution alone = execution;
-  alone.threads = 1;
-  for_chunks(tasks.size(), 1, execution, [&](Range r) { found[r.first] = tasks[r.first](alone); });
-  return found;
-}
-
-/// The best path of a turn is shortened as the best path that there is; others that come near it, as rough ones.
-template <SteerableWorld W>
-void AnytimeSearch<W>::take(Found& found) {
-  constexpr double worth = 1e-4;
-  solution_.counters += found.counters;
-  if (found.path.empty() || is_enough_) return;
-  const double before = solution_.cost;
-  const bool is_better = found.cost < before * (1.0 - 1e-12) || !has_path();
-  if (found.by == Part::shorten) {
-    const bool goes_on = body_.draws && found.cost < before * (1.0 - worth);
-    dull_ = goes_on ? 0 : body_.draws ? dull_ + 1 : most_dull;
-  }
-  if (tree_ && options_.informed && found.by != Part::tree && found.cost < near * before)
-    to_join_.push_back(found.path);
-  const bool is_rough = options_.parts.shorten && !found.is_shortened;
-  if (!is_better) {
-    if (is_rough && found.cost < hopeless * before) rough_.push_back(std::move(found));
-    return;
-  }
-  if (was_replaced_ && !is_shortened_) {  // by another one in this turn: nobody has shortened it yet
-    Found earlier;
-    earlier.path = std::move(solution_.path);
-    earlier.cost = before;
-    if (options_.parts.shorten) rough_.push_back(std::move(earlier));
-  }
-  was_replaced_ = true;
-  was_lucky_[index_of(found.by)] = true;
-  if (found.by != Part::shorten) dull_ = found.is_shortened && !body_.draws ? most_dull : 0;
-  is_shortened_ = found.is_shortened;
-  solution_.cost = found.cost;
-  solution_.path = std::move(found.path);
-  constexpr std::array<std::string_view, 4> names{"tree", "restarts", "roadmap", "shorten"};
-  tell(names[index_of(found.by)]);
-}
-
-template <SteerableWorld W>
-void AnytimeSearch<W>::tell(std::string_view by) {
-  const std::chrono::duration<double> since = std::chrono::steady_clock::now() - begin_;
-  solution_.improvements.push_back({std::max<std::uint64_t>(1, solution_.iterations), since.count(), solution_.cost,
-                                    body_.length(solution_.path), std::string(by), solution_.lower_bound});
-  if (body_.kept) body_.kept(solution_.path);
-  if (execution_.on_improvement != nullptr && !(*execution_.on_improvement)(solution_.improvements.back()))
-    is_enough_ = true;
-}
-
-template <SteerableWorld W>
-void AnytimeSearch<W>::adapt(bool had_path) {
-  for (std::size_t part = 0; part < idle_.size(); ++part) idle_[part] = was_lucky_[part] ? 0 : idle_[part] + 1;
-  if (has_path() && !had_path) {  // from first path to better ones
-    share_ = better_share;
-    idle_ = {};
-  } else {
-    share_ = std::min(largest_share, share_ + share_ / (has_path() ? 4 : is_alone() ? 1 : 2));
-  }
-}
-
-template <SteerableWorld W>
-auto AnytimeSearch<W>::grow_tree(const Execution& execution) -> Found {
-  Found found(Part::tree);
-  if (options_.informed) {
-    for (const Path<State>& path : to_join_) tree_->take(path, execution);
-  }
-  to_join_.clear();
-  tree_->advance(share_of(Part::tree), options_.informed ? solution_.cost : std::numeric_limits<double>::infinity(),
-                 solution_.path, execution);
-  found.counters = counted_since(tree_counted_, tree_->counters());
-  tree_counted_ = tree_->counters();
-  if (!(tree_->cost() < solution_.cost)) return found;
-  found.path = tree_->path();
-  found.cost = cost_of(found.path);
-  return found;
-}
-
-/// One pair of trees, from turn to turn, until it arrives or has grown too large. Each has a whole share until there is
-/// a path, since they are most often the first to arrive, then its part of one.
-template <SteerableWorld W>
-auto AnytimeSearch<W>::grow_restart(Restart& restart, const Execution& execution) -> Found {
-  Found found(Part::restarts);
-  const auto slot = static_cast<std::uint64_t>(&restart - restarts_.data());
-  if (!restart.trees) {
-    const std::uint64_t index = restart_count * restart.index++ + slot;
-    restart.looseness = 0.05 + 0.95 * uniform(options_.trees.seed, index, 15);
-    restart.counted = {};
-    restart.trees = std::make_unique<RrtConnectSearch<W>>(world_, start_, std::span<const State>(goals_),
-                                                          restart_options_, step_, index);
-    if (has_path()) restart.trees->bound(solution_.cost * (1.0 + restart.looseness));
-  }
-  RrtConnectSearch<W>& trees = *restart.trees;
-  trees.advance_by_work(share_of(Part::restarts) / (has_path() ? restart_count : 1), execution);
-  found.counters = counted_since(restart.counted, trees.counters());
-  restart.counted = trees.counters();
-  if (trees.arrived()) {
-    found.path = trees.path();
-    found.cost = cost_of(found.path);
-  }
-  if (trees.arrived() || trees.gave_up()) restart.trees.reset();
-  return found;
-}
-
-/// A whole lazy roadmap, once enough is saved up for one of double the size.
-template <SteerableWorld W>
-auto AnytimeSearch<W>::draw_roadmap(const Execution& execution) -> Found {
-  constexpr std::uint64_t first_samples = 50;
-  constexpr std::uint64_t most_doublings = 20;
-  constexpr std::uint64_t least_credit = 1'000;  // what the first may well take: trees often arrive before
-  Found found(Part::roadmap);
-  credit_ += share_of(Part::roadmap);
-  if (credit_ < std::max(least_credit, 2 * roadmap_work_)) return found;
-  RoadmapOptions options = options_.roadmap;
-  options.samples = first_samples << std::min(roadmaps_, most_doublings);
-  options.seed = random_bits(options_.trees.seed, roadmaps_, 14);
-  options.tells_separation = false;
-  const State& goal = goals_[roadmaps_ % goals_.size()];
-  const Solution<State> solution = [&] {
-    if constexpr (W::one_way) {
-      return one_way_prm(world_, start_, goal, options, true, execution);
-    } else {
-      return lazy_prm(world_, start_, goal, options, execution);
-    }
-  }();
-  if (solution.outcome == Outcome::stopped) throw Stopped(solution.stop_reason);
-  ++roadmaps_;
-  credit_ = 0;
-  roadmap_work_ = work_of(solution.counters);
-  found.counters = solution.counters;
-  found.path = solution.path;
-  if (!found.path.empty()) found.cost = cost_of(found.path);
-  return found;
-}
-
-template <SteerableWorld W>
-auto AnytimeSearch<W>::shortened(Part by, const Path<State>& path, double too_dear, std::uint64_t draw,
-                                 const Execution& execution) const -> Found {
-  Found found(by);
-  found.is_shortened = true;
-  const std::uint64_t seed = random_bits(options_.trees.seed, solution_.iterations, draw);
-  found.path = body_.shortened(path, too_dear, seed, execution, found.counters);
-  found.cost = cost_of(found.path);
-  return found;
-}
 
 }  // namespace detail
 

@@ -5,7 +5,6 @@
 #include <boost/polygon/voronoi_diagram.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 
@@ -85,16 +84,10 @@ using Diagram = boost_polygon::voronoi_diagram<double, PolledDiagramTraits>;
 using Builder = boost_polygon::voronoi_builder<std::int32_t, boost_polygon::detail::voronoi_ctype_traits<std::int32_t>,
                                                PolledPredicates>;
 
-/// Between two vertices, and between two sites that share no point (or are two segments that share an end).
-struct VoronoiEdge {
-  std::uint32_t from, to;
-  std::uint32_t site, other;
-};
-
 struct VoronoiDiagram {
   std::vector<Vec2> vertices;  ///< in grid units
   std::vector<VoronoiSite> sites;
-  std::vector<VoronoiEdge> edges;
+  std::vector<AxisEdge> edges;  ///< unmeasured; their sites share no point, or are two segments that share an end
 };
 
 VoronoiSite site_of(const Diagram::cell_type& cell, std::span<const SnappedSegment> segments) {
@@ -152,7 +145,7 @@ VoronoiDiagram voronoi_diagram(std::span<const SnappedSegment> segments, const E
     poll();
     if (&edge > edge.twin() || edge.is_secondary() || edge.is_infinite()) continue;
     result.edges.push_back({vertex_number(edge.vertex0()), vertex_number(edge.vertex1()), site_number(edge.cell()),
-                            site_number(edge.twin()->cell())});
+                            site_number(edge.twin()->cell()), 0.0, 0.0});
   }
   return result;
 }
@@ -191,17 +184,10 @@ Vec2 AxisCurve::at(double parameter) const {
   return foot + (0.5 * (parameter / focal_ * parameter + focal_)) * upwards_;
 }
 
-AxisCurve AxisCurve::part(double from, double to) const {
+AxisCurve AxisCurve::part(double first, double last, Vec2 from, Vec2 to) const {
   AxisCurve result = *this;
-  result.first_ = from;
-  result.last_ = to;
-  result.from_ = from == first_ ? from_ : from == last_ ? to_ : at(from);
-  result.to_ = to == first_ ? from_ : to == last_ ? to_ : at(to);
-  return result;
-}
-
-AxisCurve AxisCurve::between(Vec2 from, Vec2 to) const {
-  AxisCurve result = *this;
+  result.first_ = first;
+  result.last_ = last;
   result.from_ = from;
   result.to_ = to;
   return result;
@@ -290,11 +276,10 @@ void MedialAxis::build(const PlaneObstacles& obstacles, const Execution& executi
   edges_.reserve(diagram.edges.size());
   for (std::size_t i = 0; i < diagram.edges.size(); ++i) {
     if (i % 4096 == 0) execution.check();
-    const VoronoiEdge& e = diagram.edges[i];
-    AxisEdge edge{e.from, e.to, e.site, e.other, 0.0, 0.0};
+    AxisEdge& edge = diagram.edges[i];
     // The end with more room tells for sure on which side of the obstacles the whole edge lies.
-    const auto room = [&](VertexId v) { return distance(vertices_[v], obstacles_[sites_[e.site].segment]); };
-    const VertexId wide = room(e.from) >= room(e.to) ? e.from : e.to;
+    const auto room = [&](VertexId v) { return distance(vertices_[v], obstacles_[sites_[edge.site].segment]); };
+    const VertexId wide = room(edge.from) >= room(edge.to) ? edge.from : edge.to;
     if (is_free[wide] == 0 || room(wide) <= resolution_) continue;
     const AxisCurve bare = curve(edge);
     edge.length = bare.length();

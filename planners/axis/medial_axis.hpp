@@ -49,10 +49,9 @@ class AxisCurve {
   double parameter_beside(Vec2 p) const { return dot(p - origin_, along_); }
   /// The parameter at which the curve, continued at both ends, is nearest to its sites; `first` where there is no such.
   double waist() const { return waist_; }
-  /// From one parameter to another, in this order. Both within [first, last], or the reverse.
-  AxisCurve part(double from, double to) const;
-  /// The same curve between points that are its ends but for rounding.
-  AxisCurve between(Vec2 from, Vec2 to) const;
+  /// From one parameter to another, in this order, both between this curve's. `from` and `to`: its points there, but
+  /// for rounding.
+  AxisCurve part(double first, double last, Vec2 from, Vec2 to) const;
   double length() const;
   /// Appends the points after `from` up to `to` of a polyline along the curve. An arc's polyline is made of tangents,
   /// so it lies on the directrix's side, where the distance to the directrix is that to the nearest site: it comes no

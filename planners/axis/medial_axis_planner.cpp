@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
@@ -209,7 +210,7 @@ AxisGraph::AxisGraph(const MedialAxis& axis, const AxisPlace& start, const AxisP
 
 void AxisGraph::add(VertexId from, VertexId to, std::uint32_t edge, double first, double last, double clearance) {
   const AxisEdge& e = axis_.edges()[edge];
-  const AxisCurve part = axis_.curve(e).part(first, last).between(place(from), place(to));
+  const AxisCurve part = axis_.curve(e).part(first, last, place(from), place(to));
   const double room = axis_.least_clearance(e, part);
   if (room >= clearance) links_.push_back({from, to, edge, first, last, part.length(), room});
 }
@@ -300,9 +301,9 @@ std::vector<Vec2> AxisGraph::polyline(std::span<const VertexId> path) const {
   for (std::size_t i = 1; i < path.size(); ++i) {
     const AxisLink& l = link_between(path[i - 1], path[i]);
     const bool forward = l.from == path[i - 1];
+    const auto [first, last] = forward ? std::pair(l.first, l.last) : std::pair(l.last, l.first);
     const AxisCurve curve = axis_.curve(axis_.edges()[l.edge]);
-    const AxisCurve part = curve.part(forward ? l.first : l.last, forward ? l.last : l.first);
-    part.between(place(path[i - 1]), place(path[i])).append_polyline(points);
+    curve.part(first, last, place(path[i - 1]), place(path[i])).append_polyline(points);
   }
   return points;
 }
@@ -389,13 +390,9 @@ bool AxisPlanning::ends_are_blocked(const PolygonSet& polygons) {
     }
     return is_clear({p, p});
   };
-  if (!fits(start_)) {
-    solution_.outcome = Outcome::start_blocked;
-  } else if (!fits(goal_)) {
-    solution_.outcome = Outcome::goal_blocked;
-  } else {
-    return false;
-  }
+  const bool start_fits = fits(start_);
+  if (start_fits && fits(goal_)) return false;
+  solution_.outcome = start_fits ? Outcome::goal_blocked : Outcome::start_blocked;
   return true;
 }
 
@@ -511,11 +508,8 @@ class LinesOfAxis {
       : roadmap_(roadmap), clearance_(clearance), point_of_(roadmap.axis.vertices().size(), no_vertex) {}
 
   void add(const AxisEdge& edge) {
-    const AxisCurve curve = roadmap_.axis.curve(edge);
-    const Vec2 from = roadmap_.axis.vertices()[edge.from];
-    const Vec2 to = roadmap_.axis.vertices()[edge.to];
-    corners_.assign(1, from);
-    curve.between(from, to).append_polyline(corners_);
+    corners_.assign(1, roadmap_.axis.vertices()[edge.from]);
+    roadmap_.axis.curve(edge).append_polyline(corners_);
     corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
     for (std::size_t i = 1; i < corners_.size(); ++i) {
       if (!certainly_keeps_clearance(roadmap_.index, {corners_[i - 1], corners_[i]}, clearance_)) return;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "planners/graph/components.hpp"
 
-#include <algorithm>
-
 #include "core/search/union_find.hpp"
 #include "parallel/chunks.hpp"
 
@@ -49,15 +47,6 @@ Components components(const Graph& graph, const Execution& execution) {
     return count;
   });
   return result;
-}
-
-std::size_t component_size(const Components& components, VertexId v, const Execution& execution) {
-  const VertexId label = components.label[v];
-  return sum_of_chunks(components.label.size(), component_grain, execution, [&](Range r) {
-    const auto begin = components.label.begin();
-    return static_cast<std::size_t>(
-        std::count(begin + static_cast<std::ptrdiff_t>(r.first), begin + static_cast<std::ptrdiff_t>(r.last), label));
-  });
 }
 
 }  // namespace warren

@@ -21,9 +21,6 @@ namespace warren {
 /// label[v] is the smallest vertex of v's component: the same as the serial components(graph).
 Components components(const Graph& graph, const Execution& execution);
 
-/// Vertices in v's component.
-std::size_t component_size(const Components& components, VertexId v, const Execution& execution);
-
 /// Union-find that many threads work on at once without a lock: the larger root is hung under the smaller one with
 /// compare-and-swap, and whoever looks for a root halves the path to it. Invariants: parent[v] <= v, and a vertex that
 /// is no root never becomes one again. So the root of a tree is its smallest vertex at all times, whatever the order of

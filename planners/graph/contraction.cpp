@@ -29,7 +29,7 @@ constexpr std::size_t shrinking_grain = std::size_t{1} << 12;
 /// The arcs of each row that shortcuts bring, by their ends; each shortcut twice.
 struct NewArcs {
   RawVector<Shortcut> arc;  // from, to: of the graph before
-  KeyOrder by_row;
+  ItemsByKey by_row;
 };
 
 NewArcs both_ways(std::size_t vertex_count, const std::vector<RawVector<Shortcut>>& shortcuts,
@@ -57,18 +57,18 @@ class RowMaker {
       : before_(before), taken_(taken), added_(added) {}
 
   /// Arcs to vertices of the graph before, ascending, one a vertex.
-  std::span<const ShrinkingArc> row(VertexId v) {
+  std::span<const HierarchyArc> row(VertexId v) {
     fresh_.clear();
-    for (std::size_t i = added_.by_row.first[v]; i < added_.by_row.first[v + 1]; ++i) {
-      const Shortcut& s = added_.arc[added_.by_row.item[i]];
+    for (const std::uint32_t i : added_.by_row.of(v)) {
+      const Shortcut& s = added_.arc[i];
       fresh_.push_back({s.to, s.middle, s.length});
     }
-    std::sort(fresh_.begin(), fresh_.end(), [](const ShrinkingArc& a, const ShrinkingArc& b) {
+    std::sort(fresh_.begin(), fresh_.end(), [](const HierarchyArc& a, const HierarchyArc& b) {
       return std::tie(a.to, a.length, a.middle) < std::tie(b.to, b.length, b.middle);
     });
     row_.clear();
     auto next = fresh_.cbegin();
-    for (const ShrinkingArc& old : before_.row(v)) {
+    for (const HierarchyArc& old : before_.row(v)) {
       if (taken_[old.to] != 0) continue;
       while (next != fresh_.cend() && next->to < old.to) add(*next++);
       add(old);
@@ -78,7 +78,7 @@ class RowMaker {
   }
 
  private:
-  void add(const ShrinkingArc& arc) {
+  void add(const HierarchyArc& arc) {
     if (row_.empty() || row_.back().to != arc.to) {
       row_.push_back(arc);
     } else if (arc.length < row_.back().length) {
@@ -88,8 +88,8 @@ class RowMaker {
   const ShrinkingGraph& before_;
   std::span<const std::uint8_t> taken_;
   const NewArcs& added_;
-  std::vector<ShrinkingArc> fresh_;
-  std::vector<ShrinkingArc> row_;
+  std::vector<HierarchyArc> fresh_;
+  std::vector<HierarchyArc> row_;
 };
 
 /// Turns how many arcs each row has, and a zero behind the last, into where the rows begin; returns their sum. Throws
@@ -105,7 +105,7 @@ std::size_t scan_rows(RawVector<EdgeEnd>& counts, const Execution& execution) {
 /// The graph, which has lengths, before the first round. Throws Stopped.
 ShrinkingGraph shrinking_graph(const Graph& graph, const Execution& execution) {
   const std::size_t n = graph.vertex_count();
-  execution.reserve(graph.targets().size() * sizeof(ShrinkingArc) + n * (sizeof(VertexId) + sizeof(EdgeEnd)));
+  execution.reserve(graph.targets().size() * sizeof(HierarchyArc) + n * (sizeof(VertexId) + sizeof(EdgeEnd)));
   ShrinkingGraph whole;
   whole.vertex.resize(n);
   whole.first.assign(graph.offsets().begin(), graph.offsets().end());
@@ -114,7 +114,7 @@ ShrinkingGraph shrinking_graph(const Graph& graph, const Execution& execution) {
     whole.vertex[v] = v;
     const auto row = graph.neighbours(v);
     const auto lengths = graph.lengths(v);
-    ShrinkingArc* next = whole.arc.data() + whole.first[v];
+    HierarchyArc* next = whole.arc.data() + whole.first[v];
     for (std::size_t k = 0; k < row.size(); ++k) *next++ = {row[k], no_vertex, lengths[k]};
   });
   return whole;
@@ -129,28 +129,28 @@ ShrinkingGraph shrunk(ShrinkingGraph before, std::span<const std::uint8_t> taken
   execution.reserve(n * 3 * sizeof(VertexId));
   RawVector<VertexId> number(n);  // in the graph after
   for_each_index(n, shrinking_grain, execution, [&](std::size_t v) { number[v] = taken[v] == 0 ? 1 : 0; });
-  execution.reserve((before.arc.size() + added.arc.size()) * 2 * sizeof(ShrinkingArc));
+  execution.reserve((before.arc.size() + added.arc.size()) * 2 * sizeof(HierarchyArc));
   ShrinkingGraph after;
   after.vertex.resize(exclusive_scan(number, execution));
   after.first.resize(after.size() + 1);
   after.first.back() = 0;
-  std::vector<RawVector<ShrinkingArc>> rows(chunk_count(n, shrinking_grain));
+  std::vector<RawVector<HierarchyArc>> rows(chunk_count(n, shrinking_grain));
   for_chunks(n, shrinking_grain, execution, [&](Range r) {
     RowMaker maker(before, taken, added);
-    RawVector<ShrinkingArc>& arcs = rows[r.first / shrinking_grain];
+    RawVector<HierarchyArc>& arcs = rows[r.first / shrinking_grain];
     for (std::size_t i = r.first; i < r.last; ++i) {
       const auto v = static_cast<VertexId>(i);
       if (taken[v] != 0) continue;
       after.vertex[number[v]] = before.vertex[v];
       const auto row = maker.row(v);
       after.first[number[v]] = static_cast<EdgeEnd>(row.size());
-      for (const ShrinkingArc& arc : row) arcs.push_back({number[arc.to], arc.middle, arc.length});
+      for (const HierarchyArc& arc : row) arcs.push_back({number[arc.to], arc.middle, arc.length});
     }
   });
   before = {};
   after.arc.resize(scan_rows(after.first, execution));
   for_chunks(n, shrinking_grain, execution, [&](Range r) {
-    const RawVector<ShrinkingArc>& arcs = rows[r.first / shrinking_grain];
+    const RawVector<HierarchyArc>& arcs = rows[r.first / shrinking_grain];
     if (!arcs.empty()) std::copy(arcs.begin(), arcs.end(), after.arc.begin() + after.first[number[r.first]]);
   });
   return after;
@@ -181,7 +181,7 @@ class WitnessSearch {
     double wanted = 0.0;  // a way of at most this length is a witness; none is looked for: less than any
   };
   Slot& slot_of(VertexId v);
-  void begin(std::span<const ShrinkingArc> targets, double before);
+  void begin(std::span<const HierarchyArc> targets, double before);
   void search(VertexId from, double longest);
   void reach(VertexId v, double length);
 
@@ -206,14 +206,14 @@ WitnessSearch::Slot& WitnessSearch::slot_of(VertexId v) {
 }
 
 /// A new search for the targets, over what is `before` them.
-void WitnessSearch::begin(std::span<const ShrinkingArc> targets, double before) {
+void WitnessSearch::begin(std::span<const HierarchyArc> targets, double before) {
   const std::size_t size = std::bit_ceil(2 * (targets.size() + most_reached + 1));
   if (slots_.size() < size || ++search_ == 0) {
     slots_.assign(std::max(size, slots_.size()), {});
     search_ = 1;
   }
   queue_.clear();
-  for (const ShrinkingArc& target : targets) slot_of(target.to) = {search_, target.to, nowhere, before + target.length};
+  for (const HierarchyArc& target : targets) slot_of(target.to) = {search_, target.to, nowhere, before + target.length};
   used_ = targets.size();
   missing_ = targets.size();
 }
@@ -241,7 +241,7 @@ void WitnessSearch::search(VertexId from, double longest) {
     const QueueEntry next = queue_.pop();
     if (next.key > slot_of(next.vertex).length) continue;
     ++settled;
-    for (const ShrinkingArc& arc : graph_.row(next.vertex)) {
+    for (const HierarchyArc& arc : graph_.row(next.vertex)) {
       const double length = next.key + arc.length;
       if (length <= longest && taken_[arc.to] == 0) reach(arc.to, length);
     }
@@ -255,9 +255,9 @@ void WitnessSearch::append_shortcuts(VertexId v, RawVector<Shortcut>& shortcuts)
     if (i % 16 == 0) execution_.check();
     begin(others, row[i].length);
     double longest = 0.0;
-    for (const ShrinkingArc& arc : others) longest = std::max(longest, row[i].length + arc.length);
+    for (const HierarchyArc& arc : others) longest = std::max(longest, row[i].length + arc.length);
     search(row[i].to, longest);
-    for (const ShrinkingArc& arc : others) {
+    for (const HierarchyArc& arc : others) {
       const double length = slot_of(arc.to).wanted;
       if (length != unwanted) shortcuts.push_back({row[i].to, arc.to, graph_.vertex[v], length});
     }
@@ -332,8 +332,7 @@ std::uint64_t looks_of_questions(const Hierarchy& hierarchy, const Execution& ex
 ContractionRounds::ContractionRounds(const Graph& graph, const Execution& execution)
     : execution_(execution), left_(shrinking_graph(graph, execution)) {
   execution.reserve(graph.vertex_count() * sizeof(level_[0]));
-  level_.resize(graph.vertex_count());
-  std::fill(level_.begin(), level_.end(), 0);
+  level_.assign(graph.vertex_count(), 0);
 }
 
 double ContractionRounds::density() const {
@@ -356,7 +355,7 @@ RawVector<std::uint8_t> ContractionRounds::choose() const {
   RawVector<std::uint8_t> taken(left_.size());
   for_each_index<VertexId>(left_.size(), key_grain, execution_, [&](VertexId v) {
     const auto row = left_.row(v);
-    const auto is_later = [&](const ShrinkingArc& arc) { return key[v] < key[arc.to]; };
+    const auto is_later = [&](const HierarchyArc& arc) { return key[v] < key[arc.to]; };
     taken[v] = std::all_of(row.begin(), row.end(), is_later) ? 1 : 0;
   });
   return taken;
@@ -375,7 +374,7 @@ void ContractionRounds::next_round() {
       const auto v = static_cast<VertexId>(i);
       out.vertex.push_back(left_.vertex[v]);
       out.arcs.push_back(static_cast<EdgeEnd>(left_.row(v).size()));
-      for (const ShrinkingArc& a : left_.row(v)) out.arc.push_back({left_.vertex[a.to], a.middle, a.length});
+      for (const HierarchyArc& a : left_.row(v)) out.arc.push_back({left_.vertex[a.to], a.middle, a.length});
       witness.append_shortcuts(v, shortcuts[r.first / witness_grain]);
     }
   });
@@ -383,7 +382,7 @@ void ContractionRounds::next_round() {
   left_ = shrunk(std::move(left_), taken, shortcuts, execution_);
   for (TakenOut& part : gone) {
     if (part.vertex.empty()) continue;
-    execution_.reserve(part.arc.size() * sizeof(ShrinkingArc));
+    execution_.reserve(part.arc.size() * sizeof(HierarchyArc));
     gone_.push_back(std::move(part));
   }
 }
@@ -401,10 +400,8 @@ void ContractionRounds::raise_levels(const std::vector<TakenOut>& gone) {
 void ContractionRounds::write_rows(const TakenOut& gone, Hierarchy& all) {
   auto arc = gone.arc.begin();
   for (std::size_t i = 0; i < gone.vertex.size(); ++i) {
-    std::size_t at = all.first[gone.vertex[i]];
-    for (const auto end = arc + gone.arcs[i]; arc != end; ++arc) {
-      all.arcs[at++] = {arc->to, arc->middle, arc->length};
-    }
+    const auto end = arc + gone.arcs[i];
+    std::copy(std::exchange(arc, end), end, all.arcs.begin() + all.first[gone.vertex[i]]);
   }
 }
 

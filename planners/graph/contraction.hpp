@@ -27,13 +27,6 @@ namespace warren {
 /// The graph has lengths >= 0. Nothing where it doesn't pay. Throws Stopped.
 std::optional<Hierarchy> contract(const Graph& graph, const Execution& execution);
 
-/// An arc of a row; an edge stands in the rows of both its ends.
-struct ShrinkingArc {
-  VertexId to;      ///< of the graph that is left
-  VertexId middle;  ///< of the whole graph; no_vertex: an edge of it
-  double length;
-};
-
 /// What is left of a graph while its vertices are taken out: rows like those of Graph, whose arcs know their lengths
 /// and, where they are shortcuts, the vertex that they lead over. A round makes the next graph of this one in a few
 /// passes over its arcs, on all threads; vertices keep their order, so that neighbours in the plane stay neighbours in
@@ -41,10 +34,11 @@ struct ShrinkingArc {
 struct ShrinkingGraph {
   RawVector<VertexId> vertex;  ///< of the whole graph, ascending
   RawVector<EdgeEnd> first;    ///< one more than vertices
-  RawVector<ShrinkingArc> arc;
+  /// to: of this graph; middle: of the whole one. An edge stands in the rows of both ends.
+  RawVector<HierarchyArc> arc;
 
   std::size_t size() const { return vertex.size(); }
-  std::span<const ShrinkingArc> row(VertexId v) const { return {arc.data() + first[v], arc.data() + first[v + 1]}; }
+  std::span<const HierarchyArc> row(VertexId v) const { return {arc.data() + first[v], arc.data() + first[v + 1]}; }
 };
 
 /// The rounds of a contraction, one at a time. Refers to the execution.
@@ -66,7 +60,7 @@ class ContractionRounds {
   struct TakenOut {
     RawVector<VertexId> vertex;
     RawVector<EdgeEnd> arcs;      // of each
-    RawVector<ShrinkingArc> arc;  // to: of the whole graph, ascending in each row
+    RawVector<HierarchyArc> arc;  // to: of the whole graph, ascending in each row
   };
   RawVector<std::uint64_t> keys() const;
   RawVector<std::uint8_t> choose() const;

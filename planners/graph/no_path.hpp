@@ -35,14 +35,14 @@ Separation separation_between(std::vector<PointOf<D>> start, std::vector<PointOf
     std::size_t small = 0;
     std::size_t large = 0;
   };
-  std::vector<Gap> gaps(chunk_count(small.size(), grain));
-  for_chunks(small.size(), grain, execution, [&](Range r) {
+  const std::vector<Gap> gaps = parts_of_chunks(small.size(), grain, execution, [&](Range r) {
     std::vector<Neighbour> near;
+    Gap least;
     for (std::size_t i = r.first; i < r.last; ++i) {
       index.nearest(small[i], 1, no_vertex, near);
-      Gap& least = gaps[r.first / grain];
       if (near.front().distance < least.distance) least = {near.front().distance, i, near.front().id};
     }
+    return least;
   });
   const Gap least =
       *std::min_element(gaps.begin(), gaps.end(), [](const Gap& a, const Gap& b) { return a.distance < b.distance; });

@@ -53,8 +53,8 @@ KeyCoverView::KeyCoverView(const Graph& graph, std::span<const VertexId> keep, P
     if (v >= n) throw InputError("reduce_graph", "a vertex to keep is not in the graph", std::to_string(v));
     left_[v] = 2;
   }
-  std::vector<Peeled> peeled(chunk_count(n, detail::reduce_grain));
-  for_chunks(n, detail::reduce_grain, quiet, [&](Range r) { peeled[r.first / detail::reduce_grain] = peel_block(r); });
+  const std::vector<Peeled> peeled =
+      parts_of_chunks(n, detail::reduce_grain, quiet, [&](Range r) { return peel_block(r); });
   for (const Peeled& block : peeled) peeled_trees_ += block.trees;
   for_chunks(peeling == Peeling::everywhere ? peeled.size() : 0, 1, quiet, [&](Range r) {
     for (const VertexId v : peeled[r.first].seeds) peel_across(v, execution);
@@ -177,23 +177,15 @@ RawVector<VertexId> ReducedGraphView::expand(std::span<const VertexId> keys, con
   if (keys.empty()) return {};
   constexpr std::size_t keys_a_part = 1024;
   const Execution quiet = execution.quiet();
-  std::vector<RawVector<VertexId>> parts(chunk_count(keys.size() - 1, keys_a_part));
-  for_chunks(keys.size() - 1, keys_a_part, quiet, [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; ++i) {
-      expand_step(keys[i], keys[i + 1], parts[r.first / keys_a_part], execution);
+  const auto parts = parts_of_chunks(keys.size(), keys_a_part, quiet, [&](Range r) {
+    RawVector<VertexId> part;
+    if (r.first == 0) part.push_back(vertex_of(keys.front()));
+    for (std::size_t i = std::max<std::size_t>(r.first, 1); i < r.last; ++i) {
+      expand_step(keys[i - 1], keys[i], part, execution);
     }
+    return part;
   });
-  std::vector<std::size_t> begins(parts.size() + 1, 1);
-  for (std::size_t p = 0; p < parts.size(); ++p) begins[p + 1] = begins[p] + parts[p].size();
-  RawVector<VertexId> path;
-  reserve_touched(path, begins.back(), quiet);
-  path.push_back(vertex_of(keys.front()));
-  path.resize(begins.back());
-  for_chunks(parts.size(), 1, quiet, [&](Range r) {
-    std::copy(parts[r.first].begin(), parts[r.first].end(),
-              path.begin() + static_cast<std::ptrdiff_t>(begins[r.first]));
-  });
-  return path;
+  return joined_parts(parts, quiet);
 }
 
 }  // namespace warren

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/raw_vector.hpp"
@@ -62,6 +63,29 @@ struct RoadmapArrays {
     return {dimension, directed, states, candidates.offsets(), candidates.targets(), edge_states, component};
   }
 };
+
+/// Points of the plane, at(v), and these edges, all of them free; no components yet. Throws Stopped.
+template <class At>
+RoadmapArrays free_arrays(const At& at, Graph graph, const Execution& execution) {
+  constexpr std::size_t polled = std::size_t{1} << 14;
+  const std::size_t n = graph.vertex_count();
+  const std::size_t ends = graph.targets().size();
+  execution.reserve(2 * n * sizeof(double) + ends / 4);
+  RoadmapArrays arrays;
+  arrays.states.reserve(2 * n);
+  for (VertexId v = 0; v < n; ++v) {
+    if (v % polled == 0) execution.check();
+    const Vec2 p = at(v);
+    arrays.states.insert(arrays.states.end(), {p.x, p.y});
+  }
+  arrays.edge_states.assign(edge_state_words(ends), 0);
+  for (std::size_t end = 0; end < ends; ++end) {
+    if (end % polled == 0) execution.check();
+    set_edge_state(arrays.edge_states, end, EdgeState::free);
+  }
+  arrays.candidates = std::move(graph);
+  return arrays;
+}
 
 /// What searches in several threads learn of the edges of one roadmap. The world gives each of them the same answer for
 /// an edge, and an answer only sets bits of an edge that has none: so the order of the threads does not matter.

@@ -16,50 +16,6 @@ namespace warren {
 
 StepRule rule_of(Diagonal diagonal) { return diagonal == Diagonal::none ? StepRule::four : StepRule::eight; }
 
-/// Jump point search (Harabor, Grastien 2011) for octile maps on which a diagonal step needs both cells beside it free:
-/// the successors of a cell are the next cells where a shortest path may have to turn. Rows and columns are scanned 64
-/// cells at a time (block-based scanning, Harabor, Grastien 2014), columns in a transposed copy of the map.
-///
-/// With this rule only straight moves have forced neighbours: moving along +x, the cell beside is a turn where it is
-/// free and the cell behind it is not; a diagonal move goes on until a straight scan from it finds a turn or the goal.
-/// Refers to the cells, which must outlive it. Immutable; any number of threads may read.
-class JumpPoints {
- public:
-  /// O(cells). Throws Stopped.
-  JumpPoints(const FreeCells& cells, const Execution& execution);
-
-  /// Calls visit(w, length) for the jump points after v, which was reached from `parent` (no_vertex: it is the start).
-  template <class Visit>
-  void visit(VertexId v, VertexId parent, VertexId goal, const Visit& visit) const {
-    for (unsigned rest = directions(v, parent); rest != 0; rest &= rest - 1) {
-      const auto s = static_cast<unsigned>(std::countr_zero(rest));
-      const auto [dx, dy] = cell_steps[s];
-      const VertexId w = jump(v, dx, dy, goal);
-      if (w != no_vertex) visit(w, distance(v, w));
-    }
-  }
-
-  /// Jump points with the cells between them.
-  RawVector<VertexId> with_steps(std::span<const VertexId> jump_points) const;
-
- private:
-  /// A bit for each of cell_steps that a shortest path may take from v.
-  unsigned directions(VertexId v, VertexId parent) const;
-  VertexId jump(VertexId v, int dx, int dy, VertexId goal) const;
-  VertexId jump_straight(VertexId v, int dx, int dy, VertexId goal) const;
-  VertexId jump_diagonal(VertexId v, int dx, int dy, VertexId goal) const;
-  double distance(VertexId v, VertexId w) const {
-    const Cell a = rows_.cell(v);
-    const Cell b = rows_.cell(w);
-    const double dx = std::abs(static_cast<double>(a.x) - b.x);
-    const double dy = std::abs(static_cast<double>(a.y) - b.y);
-    return dx == dy ? std::numbers::sqrt2 * dx : dx + dy;  // along a row, a column or a diagonal
-  }
-
-  const FreeCells& rows_;
-  FreeCells columns_;  // the same map, x and y exchanged
-};
-
 namespace {
 
 Bitmap blocked_transposed(const FreeCells& cells, const Execution& execution) {
@@ -214,73 +170,109 @@ class BreadthFirst {
 
 }  // namespace
 
-JumpPoints::JumpPoints(const FreeCells& cells, const Execution& execution)
-    : rows_(cells), columns_(blocked_transposed(cells, execution)) {}
+/// Jump point search (Harabor, Grastien 2011) for octile maps on which a diagonal step needs both cells beside it free:
+/// the successors of a cell are the next cells where a shortest path may have to turn. Rows and columns are scanned 64
+/// cells at a time (block-based scanning, Harabor, Grastien 2014), columns in a transposed copy of the map.
+///
+/// With this rule only straight moves have forced neighbours: moving along +x, the cell beside is a turn where it is
+/// free and the cell behind it is not; a diagonal move goes on until a straight scan from it finds a turn or the goal.
+/// Refers to the cells, which must outlive it. Immutable; any number of threads may read.
+class JumpPoints {
+ public:
+  /// O(cells). Throws Stopped.
+  JumpPoints(const FreeCells& cells, const Execution& execution)
+      : rows_(cells), columns_(blocked_transposed(cells, execution)) {}
 
-unsigned JumpPoints::directions(VertexId v, VertexId parent) const {
-  const unsigned around = rows_.around(v);
-  const unsigned allowed = allowed_steps(StepRule::eight)[around];
-  if (parent == no_vertex) return allowed;
-  const Cell c = rows_.cell(v);
-  const Cell p = rows_.cell(parent);
-  const int dx = sign(std::int64_t{c.x} - p.x);
-  const int dy = sign(std::int64_t{c.y} - p.y);
-  unsigned kept = 1U << step_of(dx, dy);
-  if (dx != 0 && dy != 0) return allowed & (kept | 1U << step_of(dx, 0) | 1U << step_of(0, dy));
-  for (const int side : {-1, 1}) {
-    const int behind_x = dx != 0 ? -dx : side;
-    const int behind_y = dy != 0 ? -dy : side;
-    const bool behind_is_free = (around >> (3 * (behind_y + 1) + behind_x + 1) & 1U) != 0;
-    if (behind_is_free) continue;
-    kept |= 1U << (dx != 0 ? step_of(0, side) : step_of(side, 0));
-    kept |= 1U << (dx != 0 ? step_of(dx, side) : step_of(side, dy));
-  }
-  return allowed & kept;
-}
-
-VertexId JumpPoints::jump(VertexId v, int dx, int dy, VertexId goal) const {
-  return dx != 0 && dy != 0 ? jump_diagonal(v, dx, dy, goal) : jump_straight(v, dx, dy, goal);
-}
-
-VertexId JumpPoints::jump_straight(VertexId v, int dx, int dy, VertexId goal) const {
-  if (dy == 0) return dx > 0 ? scan_up(rows_, v, goal) : scan_down(rows_, v, goal);
-  const auto column_number = [&](VertexId number) {
-    const Cell c = rows_.cell(number);
-    return columns_.number({c.y, c.x});
-  };
-  const VertexId from = column_number(v);
-  const VertexId to = column_number(goal);
-  const VertexId found = dy > 0 ? scan_up(columns_, from, to) : scan_down(columns_, from, to);
-  if (found == no_vertex) return no_vertex;
-  const Cell c = columns_.cell(found);
-  return rows_.number({c.y, c.x});
-}
-
-VertexId JumpPoints::jump_diagonal(VertexId v, int dx, int dy, VertexId goal) const {
-  const auto offset = static_cast<VertexId>(dy * static_cast<std::int64_t>(rows_.stride()) + dx);
-  const unsigned step = 1U << step_of(dx, dy);
-  for (VertexId at = v; (allowed_steps(StepRule::eight)[rows_.around(at)] & step) != 0;) {
-    at += offset;
-    if (at == goal) return at;
-    if (jump_straight(at, dx, 0, goal) != no_vertex || jump_straight(at, 0, dy, goal) != no_vertex) return at;
-  }
-  return no_vertex;
-}
-
-RawVector<VertexId> JumpPoints::with_steps(std::span<const VertexId> jump_points) const {
-  RawVector<VertexId> path;
-  for (const VertexId to : jump_points) {
-    if (!path.empty()) {
-      const Cell a = rows_.cell(path.back());
-      const Cell b = rows_.cell(to);
-      const auto offset = static_cast<VertexId>(
-          sign(std::int64_t{b.y} - a.y) * static_cast<std::int64_t>(rows_.stride()) + sign(std::int64_t{b.x} - a.x));
-      while (path.back() + offset != to) path.push_back(path.back() + offset);
+  /// Calls visit(w, length) for the jump points after v, which was reached from `parent` (no_vertex: it is the start).
+  template <class Visit>
+  void visit(VertexId v, VertexId parent, VertexId goal, const Visit& visit) const {
+    for (unsigned rest = directions(v, parent); rest != 0; rest &= rest - 1) {
+      const auto s = static_cast<unsigned>(std::countr_zero(rest));
+      const auto [dx, dy] = cell_steps[s];
+      const VertexId w = jump(v, dx, dy, goal);
+      if (w != no_vertex) visit(w, distance(v, w));
     }
-    path.push_back(to);
   }
-  return path;
-}
+
+  /// Jump points with the cells between them.
+  RawVector<VertexId> with_steps(std::span<const VertexId> jump_points) const {
+    RawVector<VertexId> path;
+    for (const VertexId to : jump_points) {
+      if (!path.empty()) {
+        const Cell a = rows_.cell(path.back());
+        const Cell b = rows_.cell(to);
+        const auto offset = static_cast<VertexId>(
+            sign(std::int64_t{b.y} - a.y) * static_cast<std::int64_t>(rows_.stride()) + sign(std::int64_t{b.x} - a.x));
+        while (path.back() + offset != to) path.push_back(path.back() + offset);
+      }
+      path.push_back(to);
+    }
+    return path;
+  }
+
+ private:
+  /// A bit for each of cell_steps that a shortest path may take from v.
+  unsigned directions(VertexId v, VertexId parent) const {
+    const unsigned around = rows_.around(v);
+    const unsigned allowed = allowed_steps(StepRule::eight)[around];
+    if (parent == no_vertex) return allowed;
+    const Cell c = rows_.cell(v);
+    const Cell p = rows_.cell(parent);
+    const int dx = sign(std::int64_t{c.x} - p.x);
+    const int dy = sign(std::int64_t{c.y} - p.y);
+    unsigned kept = 1U << step_of(dx, dy);
+    if (dx != 0 && dy != 0) return allowed & (kept | 1U << step_of(dx, 0) | 1U << step_of(0, dy));
+    for (const int side : {-1, 1}) {
+      const int behind_x = dx != 0 ? -dx : side;
+      const int behind_y = dy != 0 ? -dy : side;
+      const bool behind_is_free = (around >> (3 * (behind_y + 1) + behind_x + 1) & 1U) != 0;
+      if (behind_is_free) continue;
+      kept |= 1U << (dx != 0 ? step_of(0, side) : step_of(side, 0));
+      kept |= 1U << (dx != 0 ? step_of(dx, side) : step_of(side, dy));
+    }
+    return allowed & kept;
+  }
+
+  VertexId jump(VertexId v, int dx, int dy, VertexId goal) const {
+    return dx != 0 && dy != 0 ? jump_diagonal(v, dx, dy, goal) : jump_straight(v, dx, dy, goal);
+  }
+
+  VertexId jump_straight(VertexId v, int dx, int dy, VertexId goal) const {
+    if (dy == 0) return dx > 0 ? scan_up(rows_, v, goal) : scan_down(rows_, v, goal);
+    const auto column_number = [&](VertexId number) {
+      const Cell c = rows_.cell(number);
+      return columns_.number({c.y, c.x});
+    };
+    const VertexId from = column_number(v);
+    const VertexId to = column_number(goal);
+    const VertexId found = dy > 0 ? scan_up(columns_, from, to) : scan_down(columns_, from, to);
+    if (found == no_vertex) return no_vertex;
+    const Cell c = columns_.cell(found);
+    return rows_.number({c.y, c.x});
+  }
+
+  VertexId jump_diagonal(VertexId v, int dx, int dy, VertexId goal) const {
+    const auto offset = static_cast<VertexId>(dy * static_cast<std::int64_t>(rows_.stride()) + dx);
+    const unsigned step = 1U << step_of(dx, dy);
+    for (VertexId at = v; (allowed_steps(StepRule::eight)[rows_.around(at)] & step) != 0;) {
+      at += offset;
+      if (at == goal) return at;
+      if (jump_straight(at, dx, 0, goal) != no_vertex || jump_straight(at, 0, dy, goal) != no_vertex) return at;
+    }
+    return no_vertex;
+  }
+
+  double distance(VertexId v, VertexId w) const {
+    const Cell a = rows_.cell(v);
+    const Cell b = rows_.cell(w);
+    const double dx = std::abs(static_cast<double>(a.x) - b.x);
+    const double dy = std::abs(static_cast<double>(a.y) - b.y);
+    return dx == dy ? std::numbers::sqrt2 * dx : dx + dy;  // along a row, a column or a diagonal
+  }
+
+  const FreeCells& rows_;
+  FreeCells columns_;  // the same map, x and y exchanged
+};
 
 bool has_diagonal_steps(const Bitmap& blocked) {
   const FreeCells cells(blocked);
@@ -319,45 +311,40 @@ struct GridSearch::Scratch {
   explicit Scratch(const Bitmap& blocked) : cells(blocked) {}
 
   SearchResult best_first_search(VertexId start, VertexId goal, const GridSearchOptions& options,
-                                 const Execution& execution);
-  SearchResult jump_point_search(VertexId start, VertexId goal, const Execution& execution);
-  void prepare(const Execution& execution);
+                                 const Execution& execution) {
+    const auto should_stop = [&] { return execution.should_stop(); };
+    const Steps steps(cells, options.diagonal);
+    if (options.method == GridMethod::bfs) return BreadthFirst(cells, steps, execution).find(start, goal);
+    prepare(execution);
+    if (options.method == GridMethod::dijkstra) {
+      return best_first(
+          start, goal, steps, [](VertexId) { return 0.0; }, queue, state, should_stop);
+    }
+    return best_first(start, goal, steps, FreeDistance(cells, goal, options.diagonal), queue, state, should_stop);
+  }
+
+  SearchResult jump_point_search(VertexId start, VertexId goal, const Execution& execution) {
+    if (!jumps) jumps.emplace(cells, execution);
+    prepare(execution);
+    const auto successors = [&](VertexId v, const auto& visit) { jumps->visit(v, state.parent(v), goal, visit); };
+    SearchResult result = best_first(start, goal, successors, FreeDistance(cells, goal, Diagonal::sqrt2), queue, state,
+                                     [&] { return execution.should_stop(); });
+    result.path = jumps->with_steps(result.path);
+    return result;
+  }
+
+  void prepare(const Execution& execution) {
+    constexpr std::size_t bytes_a_cell = 12;
+    if (state.vertex_count() < cells.number_end()) execution.reserve(cells.number_end() * bytes_a_cell);
+    state.resize(cells.number_end(), [&] { execution.check(); });
+    queue.clear();
+  }
 
   FreeCells cells;
   SearchState state;
   BucketQueue queue;
   std::optional<JumpPoints> jumps;  // made where it is first asked for
 };
-
-void GridSearch::Scratch::prepare(const Execution& execution) {
-  constexpr std::size_t bytes_a_cell = 12;
-  if (state.vertex_count() < cells.number_end()) execution.reserve(cells.number_end() * bytes_a_cell);
-  state.resize(cells.number_end(), [&] { execution.check(); });
-  queue.clear();
-}
-
-SearchResult GridSearch::Scratch::best_first_search(VertexId start, VertexId goal, const GridSearchOptions& options,
-                                                    const Execution& execution) {
-  const auto should_stop = [&] { return execution.should_stop(); };
-  const Steps steps(cells, options.diagonal);
-  if (options.method == GridMethod::bfs) return BreadthFirst(cells, steps, execution).find(start, goal);
-  prepare(execution);
-  if (options.method == GridMethod::dijkstra) {
-    return best_first(
-        start, goal, steps, [](VertexId) { return 0.0; }, queue, state, should_stop);
-  }
-  return best_first(start, goal, steps, FreeDistance(cells, goal, options.diagonal), queue, state, should_stop);
-}
-
-SearchResult GridSearch::Scratch::jump_point_search(VertexId start, VertexId goal, const Execution& execution) {
-  if (!jumps) jumps.emplace(cells, execution);
-  prepare(execution);
-  const auto successors = [&](VertexId v, const auto& visit) { jumps->visit(v, state.parent(v), goal, visit); };
-  SearchResult result = best_first(start, goal, successors, FreeDistance(cells, goal, Diagonal::sqrt2), queue, state,
-                                   [&] { return execution.should_stop(); });
-  result.path = jumps->with_steps(result.path);
-  return result;
-}
 
 GridSearch::GridSearch(const Bitmap& blocked) : scratch_(std::make_unique<Scratch>(blocked)) {}
 GridSearch::~GridSearch() = default;

@@ -230,15 +230,13 @@ class LayerAStar {
   std::vector<Goal> goals_;         // by number
 };
 
-bool is_inside(const HeadingLayers& layers, const LayerState& s) {
-  return s.i < layers.width && s.j < layers.height && s.k < layers.angles;
-}
-
 void check(const HeadingLayers& layers, std::span<const LayerEnd> starts, std::span<const LayerEnd> goals,
            const LayerSearchOptions& options) {
   const auto check_ends = [&](const char* name, std::span<const LayerEnd> ends) {
     for (const LayerEnd& end : ends) {
-      if (!is_inside(layers, end.state)) throw InputError(name, "lies outside of the grid");
+      const auto& [i, j, k] = end.state;
+      const bool is_inside = i < layers.width && j < layers.height && k < layers.angles;
+      if (!is_inside) throw InputError(name, "lies outside of the grid");
       if (!(end.cost >= 0.0) || !std::isfinite(end.cost)) {
         throw InputError(name, "must cost a number from 0", std::to_string(end.cost));
       }

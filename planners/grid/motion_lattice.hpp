@@ -120,12 +120,11 @@ struct LatticeSolution {
 };
 
 /// Space: width(), height(), headings(); motions_from(heading): a span of what has dx, dy, to, gear and cost;
-/// is_free(cell, motion); extra(cell, heading, motion): what a free motion costs beyond its cost, where a space has
-/// such prices; at_least(cell, heading): a consistent estimate, `no_way` where none leads to a goal;
-/// starts(), is_free_start(i); joins(cell): is a goal so near that all states there are joined to it?
-/// shot(cell, heading, gear, most, gear_change): the cheapest free one for less than `most`, changes of gear included,
-/// also before it; direct_shot(gear_change): from the start itself. shot_pause(at_least): how many states are expanded
-/// between two shots from states that are not joined.
+/// is_free(cell, motion); extra(cell, heading, motion): what a free motion costs beyond its cost; at_least(cell,
+/// heading): a consistent estimate, `no_way` where none leads to a goal; starts(), is_free_start(i); joins(cell): is a
+/// goal so near that all states there are joined to it? shot(cell, heading, gear, most, gear_change): the cheapest free
+/// one for less than `most`, changes of gear included, also before it; direct_shot(gear_change): from the start itself.
+/// shot_pause(at_least): how many states are expanded between two shots from states that are not joined.
 template <class Space>
 class LatticeSearch {
  public:
@@ -215,14 +214,6 @@ class LatticeSearch {
     friend bool operator<(const Entry& a, const Entry& b) { return a.key != b.key ? a.key > b.key : a.node < b.node; }
   };
 
-  template <class Motion>
-  std::uint64_t extra(Cell cell, std::uint32_t heading, const Motion& motion) {
-    if constexpr (requires { space_.extra(cell, heading, motion); }) {
-      return space_.extra(cell, heading, motion);
-    } else {
-      return 0;
-    }
-  }
   Cell cell_of(std::uint32_t node) const { return cells_[node / per_cell_]; }
   std::uint32_t heading_of(std::uint32_t node) const { return node % per_cell_ / gears_; }
   /// Of the last motion; 0 where gears cost nothing.
@@ -348,7 +339,7 @@ class LatticeSearch {
       if (there >= node.cost || node.at_least == no_way || there + node.at_least >= goal_cost_) continue;
       ++solution_.checked;
       if (!space_.is_free(cell, motion)) continue;
-      arrive(next, there + extra(cell, heading, motion), number, static_cast<std::uint16_t>(m));
+      arrive(next, there + space_.extra(cell, heading, motion), number, static_cast<std::uint16_t>(m));
     }
   }
   void shoot(std::uint32_t number, Cell cell, std::uint32_t heading, std::int8_t gear) {
@@ -391,8 +382,8 @@ class LatticeSearch {
       const std::int8_t gear = gear_of(parent);
       const auto& motion = space_.motions_from(heading_of(parent))[nodes_[node].via];
       const bool changes = gear != 0 && motion.gear != 0 && motion.gear != gear;
-      path.cost +=
-          motion.cost + extra(cell_of(parent), heading_of(parent), motion) + (changes ? options_.gear_change : 0);
+      path.cost += motion.cost + space_.extra(cell_of(parent), heading_of(parent), motion) +
+                   (changes ? options_.gear_change : 0);
       path.steps.push_back({cell_of(parent), heading_of(parent), nodes_[node].via});
     }
     std::reverse(path.steps.begin(), path.steps.end());
@@ -403,14 +394,10 @@ class LatticeSearch {
   }
   bool tell(LatticePath path, std::chrono::steady_clock::time_point begin) {
     solution_.path = std::move(path);
-    Improvement better;
-    better.iterations = solution_.rounds;
-    better.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    better.cost = better.length = options_.unit * static_cast<double>(goal_cost_);
-    better.by = "lattice";
-    better.lower_bound = 0.0;
-    solution_.improvements.push_back(better);
-    return execution_.on_improvement == nullptr || (*execution_.on_improvement)(better);
+    const std::chrono::duration<double> since = std::chrono::steady_clock::now() - begin;
+    const double cost = options_.unit * static_cast<double>(goal_cost_);
+    solution_.improvements.push_back({solution_.rounds, since.count(), cost, cost, "lattice", 0.0});
+    return execution_.on_improvement == nullptr || (*execution_.on_improvement)(solution_.improvements.back());
   }
 
   Space& space_;

@@ -219,7 +219,6 @@ class ClassSearch {
   };
   static constexpr std::uint32_t piece = 1 << 14;  // states, which stay where they are
   State& state_at(std::uint32_t at) { return pieces_[at / piece][at % piece]; }
-  const State& state_at(std::uint32_t at) const { return pieces_[at / piece][at % piece]; }
 
   double key_of(const State& state) { return static_cast<double>(state.cost + *field_.cost(state.cell, execution_)); }
   void reach(VertexId cell, std::uint32_t word, std::uint32_t before, std::uint64_t cost, std::uint64_t rest) {
@@ -255,7 +254,7 @@ class ClassSearch {
       reach(to, words_.followed(from.word, cuts_.letter(here, step)), at, cost, *onward);
     }
   }
-  std::vector<Cell> cells_to(std::uint32_t at) const {
+  std::vector<Cell> cells_to(std::uint32_t at) {
     std::vector<Cell> cells;
     for (; at != none; at = state_at(at).before) cells.push_back(weights_.cells().cell(state_at(at).cell));
     std::reverse(cells.begin(), cells.end());

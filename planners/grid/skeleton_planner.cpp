@@ -103,12 +103,7 @@ class Thinning {
     }
     return bits;
   }
-  bool is_kept(Cell cell) const {
-    for (const Cell k : kept_) {
-      if (k == cell) return true;
-    }
-    return false;
-  }
+  bool is_kept(Cell cell) const { return std::find(kept_.begin(), kept_.end(), cell) != kept_.end(); }
   /// The cell has one neighbour over a side, and the distance is nearly as large here as around it.
   bool stays_as_end(Cell cell, unsigned near) const {
     constexpr unsigned sides = 0x55U;
@@ -211,8 +206,6 @@ class NumberedCells {
   std::vector<Cell> cells_;
 };
 
-constexpr double sqrt2 = 1.4142135623730951;
-
 /// One plan: the steps share the question and fill in the answer.
 class SkeletonPlan {
  public:
@@ -248,18 +241,126 @@ class SkeletonPlan {
   double length(VertexId v, VertexId w) const {
     const Cell a = cells_->cell(v);
     const Cell b = cells_->cell(w);
-    return a.x != b.x && a.y != b.y ? sqrt2 : 1.0;
+    return a.x != b.x && a.y != b.y ? std::numbers::sqrt2 : 1.0;
   }
-  void thin();
-  void link();
-  bool joined();
-  std::vector<std::uint32_t> widths() const;
-  void join_end_to_axis(VertexId end, std::vector<std::uint32_t>& widths) const;
+  void thin() {
+    const StageTimer timer(execution_, "skeleton", plan_.seconds.graph, blocked_.size());
+    const std::array<Cell, 2> kept{start_, goal_};
+    cells_.emplace(map_skeleton(blocked_, field_, kept, execution_));
+  }
+
+  void link() {
+    const StageTimer timer(execution_, "connect", plan_.seconds.connect, cells_->size());
+    for (VertexId v = 0; v < cells_->size(); ++v) {
+      if (v % 4096 == 0) execution_.check();
+      const Cell c = cells_->cell(v);
+      for (const auto& [dx, dy] : cell_steps) {
+        const std::int64_t x = std::int64_t{c.x} + dx;
+        const std::int64_t y = std::int64_t{c.y} + dy;
+        if (dy < 0 || (dy == 0 && dx < 0) || !cells_->holds(x, y)) continue;  // each step once
+        if (dx != 0 && dy != 0 && (blocked_.holds(x, c.y) || blocked_.holds(c.x, y))) continue;
+        edges_.push_back({v, cells_->number(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y))});
+      }
+    }
+  }
+
+  bool joined() {
+    const Graph graph = assemble_graph(cells_->size(), edges_, execution_);
+    const Components parts = components(graph, execution_);
+    plan_.roadmap = {cells_->size(), edges_.size(), parts.count};
+    if (parts.connected(start(), goal())) return true;
+    plan_.separation = separation_of_parts<2>(parts, start(), goal(), execution_, [&](VertexId v) {
+      return Vec2{cells_->cell(v).x + 0.5, cells_->cell(v).y + 0.5};
+    });
+    return false;
+  }
+
+  /// How wide the skeleton is at each cell: its squared distance; without limit on the ways from start and goal to the
+  /// first fork, which every path takes.
+  std::vector<std::uint32_t> widths() const {
+    std::vector<std::uint32_t> widths;
+    widths.reserve(cells_->size());
+    for (VertexId v = 0; v < cells_->size(); ++v) widths.push_back(squared(v));
+    join_end_to_axis(start(), widths);
+    join_end_to_axis(goal(), widths);
+    return widths;
+  }
+
+  void join_end_to_axis(VertexId end, std::vector<std::uint32_t>& widths) const {
+    VertexId before = no_vertex;
+    for (VertexId v = end; v != no_vertex;) {
+      widths[v] = DistanceField::far;
+      VertexId next = no_vertex;
+      int ways = 0;
+      for (const VertexId w : cells_->neighbours(v)) {
+        if (w == before) continue;
+        next = w;
+        ++ways;
+      }
+      const bool goes_on = ways == 1 && widths[next] != DistanceField::far;
+      before = v;
+      v = goes_on ? next : no_vertex;
+    }
+  }
+
   static std::vector<Edge> at_least(std::span<const Edge> edges, std::span<const std::uint32_t> widths,
-                                    std::uint32_t least);
-  std::uint32_t widest(std::span<const std::uint32_t> widths) const;
-  void search();
-  SearchResult found(const Graph& graph) const;
+                                    std::uint32_t least) {
+    std::vector<Edge> wide;
+    for (const Edge& e : edges) {
+      if (widths[e.from] >= least && widths[e.to] >= least) wide.push_back(e);
+    }
+    return wide;
+  }
+
+  /// The largest width at which start and goal are joined; they are at the least one.
+  std::uint32_t widest(std::span<const std::uint32_t> widths) const {
+    std::vector<std::uint32_t> levels(widths.begin(), widths.end());
+    polled_sort(levels.begin(), levels.end(), execution_);
+    levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
+    std::size_t low = 0;  // joins; from `high` on nothing does
+    for (std::size_t high = levels.size(); high - low > 1;) {
+      const std::size_t middle = low + (high - low) / 2;
+      const Graph wide = assemble_graph(cells_->size(), at_least(edges_, widths, levels[middle]), execution_);
+      (components(wide, execution_).connected(start(), goal()) ? low : high) = middle;
+    }
+    return levels[low];
+  }
+
+  void search() {
+    const StageTimer timer(execution_, "search", plan_.seconds.search, cells_->size());
+    if (options_.objective == AxisObjective::clearance) {
+      const std::vector<std::uint32_t> wide = widths();
+      edges_ = at_least(edges_, wide, widest(wide));
+    }
+    const SearchResult result = found(assemble_graph(cells_->size(), edges_, execution_));
+    if (result.status == SearchStatus::stopped) execution_.check();
+    plan_.expanded = result.expanded;
+    if (result.status != SearchStatus::found) return;
+    plan_.outcome = Outcome::solved;
+    std::uint32_t least = DistanceField::far;
+    for (const VertexId v : result.path) {
+      plan_.cells.push_back(cells_->cell(v));
+      least = std::min(least, squared(v));
+    }
+    plan_.clearance = 0.5 * std::sqrt(least);
+  }
+
+  SearchResult found(const Graph& graph) const {
+    SearchState state;
+    if (!has_queue(options_.search)) {
+      return search_blindly(options_.search, graph, start(), goal(), state, execution_);
+    }
+    const auto neighbours = [&](VertexId v, const auto& visit) {
+      for (const VertexId w : graph.neighbours(v)) visit(w, length(v, w));
+    };
+    const bool informed = options_.search == SearchKind::astar;
+    const auto estimate = [&](VertexId v) {
+      const Cell c = cells_->cell(v);
+      return informed ? portable::hypot(static_cast<double>(c.x) - goal_.x, static_cast<double>(c.y) - goal_.y) : 0.0;
+    };
+    return search_best_first(options_.queue, graph.vertex_count(), start(), goal(), neighbours, estimate, state,
+                             execution_);
+  }
 
   Cell start_, goal_;
   const SkeletonOptions& options_;
@@ -270,125 +371,6 @@ class SkeletonPlan {
   std::vector<Edge> edges_;
   SkeletonPath plan_;
 };
-
-void SkeletonPlan::thin() {
-  const StageTimer timer(execution_, "skeleton", plan_.seconds.graph, blocked_.size());
-  const std::array<Cell, 2> kept{start_, goal_};
-  cells_.emplace(map_skeleton(blocked_, field_, kept, execution_));
-}
-
-void SkeletonPlan::link() {
-  const StageTimer timer(execution_, "connect", plan_.seconds.connect, cells_->size());
-  for (VertexId v = 0; v < cells_->size(); ++v) {
-    if (v % 4096 == 0) execution_.check();
-    const Cell c = cells_->cell(v);
-    for (const auto& [dx, dy] : cell_steps) {
-      const std::int64_t x = std::int64_t{c.x} + dx;
-      const std::int64_t y = std::int64_t{c.y} + dy;
-      if (dy < 0 || (dy == 0 && dx < 0) || !cells_->holds(x, y)) continue;  // each step once
-      if (dx != 0 && dy != 0 && (blocked_.holds(x, c.y) || blocked_.holds(c.x, y))) continue;
-      edges_.push_back({v, cells_->number(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y))});
-    }
-  }
-}
-
-bool SkeletonPlan::joined() {
-  const Graph graph = assemble_graph(cells_->size(), edges_, execution_);
-  const Components parts = components(graph, execution_);
-  plan_.roadmap = {cells_->size(), edges_.size(), parts.count};
-  if (parts.connected(start(), goal())) return true;
-  plan_.separation = separation_of_parts<2>(parts, start(), goal(), execution_, [&](VertexId v) {
-    return Vec2{cells_->cell(v).x + 0.5, cells_->cell(v).y + 0.5};
-  });
-  return false;
-}
-
-/// How wide the skeleton is at each cell: its squared distance; without limit on the ways from start and goal to the
-/// first fork, which every path takes.
-std::vector<std::uint32_t> SkeletonPlan::widths() const {
-  std::vector<std::uint32_t> widths;
-  widths.reserve(cells_->size());
-  for (VertexId v = 0; v < cells_->size(); ++v) widths.push_back(squared(v));
-  join_end_to_axis(start(), widths);
-  join_end_to_axis(goal(), widths);
-  return widths;
-}
-
-void SkeletonPlan::join_end_to_axis(VertexId end, std::vector<std::uint32_t>& widths) const {
-  VertexId before = no_vertex;
-  for (VertexId v = end; v != no_vertex;) {
-    widths[v] = DistanceField::far;
-    VertexId next = no_vertex;
-    int ways = 0;
-    for (const VertexId w : cells_->neighbours(v)) {
-      if (w == before) continue;
-      next = w;
-      ++ways;
-    }
-    const bool goes_on = ways == 1 && widths[next] != DistanceField::far;
-    before = v;
-    v = goes_on ? next : no_vertex;
-  }
-}
-
-std::vector<Edge> SkeletonPlan::at_least(std::span<const Edge> edges, std::span<const std::uint32_t> widths,
-                                         std::uint32_t least) {
-  std::vector<Edge> wide;
-  for (const Edge& e : edges) {
-    if (widths[e.from] >= least && widths[e.to] >= least) wide.push_back(e);
-  }
-  return wide;
-}
-
-/// The largest width at which start and goal are joined; they are at the least one.
-std::uint32_t SkeletonPlan::widest(std::span<const std::uint32_t> widths) const {
-  std::vector<std::uint32_t> levels(widths.begin(), widths.end());
-  polled_sort(levels.begin(), levels.end(), execution_);
-  levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
-  std::size_t low = 0;  // joins; from `high` on nothing does
-  for (std::size_t high = levels.size(); high - low > 1;) {
-    const std::size_t middle = low + (high - low) / 2;
-    const Graph wide = assemble_graph(cells_->size(), at_least(edges_, widths, levels[middle]), execution_);
-    (components(wide, execution_).connected(start(), goal()) ? low : high) = middle;
-  }
-  return levels[low];
-}
-
-SearchResult SkeletonPlan::found(const Graph& graph) const {
-  SearchState state;
-  if (!has_queue(options_.search)) {
-    return search_blindly(options_.search, graph, start(), goal(), state, execution_);
-  }
-  const auto neighbours = [&](VertexId v, const auto& visit) {
-    for (const VertexId w : graph.neighbours(v)) visit(w, length(v, w));
-  };
-  const bool informed = options_.search == SearchKind::astar;
-  const auto estimate = [&](VertexId v) {
-    const Cell c = cells_->cell(v);
-    return informed ? portable::hypot(static_cast<double>(c.x) - goal_.x, static_cast<double>(c.y) - goal_.y) : 0.0;
-  };
-  return search_best_first(options_.queue, graph.vertex_count(), start(), goal(), neighbours, estimate, state,
-                           execution_);
-}
-
-void SkeletonPlan::search() {
-  const StageTimer timer(execution_, "search", plan_.seconds.search, cells_->size());
-  if (options_.objective == AxisObjective::clearance) {
-    const std::vector<std::uint32_t> wide = widths();
-    edges_ = at_least(edges_, wide, widest(wide));
-  }
-  const SearchResult result = found(assemble_graph(cells_->size(), edges_, execution_));
-  if (result.status == SearchStatus::stopped) execution_.check();
-  plan_.expanded = result.expanded;
-  if (result.status != SearchStatus::found) return;
-  plan_.outcome = Outcome::solved;
-  std::uint32_t least = DistanceField::far;
-  for (const VertexId v : result.path) {
-    plan_.cells.push_back(cells_->cell(v));
-    least = std::min(least, squared(v));
-  }
-  plan_.clearance = 0.5 * std::sqrt(least);
-}
 
 constexpr std::size_t cells_per_poll = 4096;
 

@@ -24,14 +24,9 @@ class ArrayOrView {
   explicit ArrayOrView(RawVector<T> elements) : own_(std::move(elements)), all_(own_) {}
   explicit ArrayOrView(std::span<const T> elements, FirstLook first_look = {})
       : all_(elements), first_look_(first_look) {}
-  ArrayOrView(ArrayOrView&& other) noexcept
-      : own_(std::exchange(other.own_, {})), all_(std::exchange(other.all_, {})), first_look_(other.first_look_) {}
-  ArrayOrView& operator=(ArrayOrView&& other) noexcept {
-    own_ = std::exchange(other.own_, {});
-    all_ = std::exchange(other.all_, {});
-    first_look_ = other.first_look_;
-    return *this;
-  }
+  /// What was moved from may be assigned to or destroyed, nothing else.
+  ArrayOrView(ArrayOrView&&) noexcept = default;
+  ArrayOrView& operator=(ArrayOrView&&) noexcept = default;
   ~ArrayOrView() = default;
 
   std::size_t size() const { return all_.size(); }

@@ -83,6 +83,11 @@ inline constexpr std::size_t low = 0;   ///< lower bit of the direction; in the 
 inline constexpr std::size_t high = 1;  ///< upper bit of the direction; in the core: a chain goes on upwards
 inline constexpr std::size_t core = 2;
 inline constexpr std::size_t count = 3;
+
+/// Both bits that a cell has beside `core`, of its row's words.
+inline unsigned low_and_high(const std::uint64_t* row, unsigned col) {
+  return static_cast<unsigned>(row[low] >> col & 1U) | static_cast<unsigned>(row[high] >> col & 1U) << 1;
+}
 }  // namespace mark_word
 
 /// Looks at the words; any number of threads may.
@@ -90,14 +95,9 @@ class CellMarks {
  public:
   explicit CellMarks(const std::uint64_t* words) : words_(words) {}
 
-  bool is_core(LatticePlace p) const { return bit(p, mark_word::core); }
+  bool is_core(LatticePlace p) const { return (row_of(p)[mark_word::core] >> p % 64 & 1U) != 0; }
   /// Of a cell outside the core.
-  unsigned direction(LatticePlace p) const {
-    const std::uint64_t* const row = row_of(p);
-    const unsigned at = p % 64;
-    return static_cast<unsigned>(row[mark_word::low] >> at & 1U) |
-           static_cast<unsigned>(row[mark_word::high] >> at & 1U) << 1;
-  }
+  unsigned direction(LatticePlace p) const { return mark_word::low_and_high(row_of(p), p % 64); }
 
   /// The words of a tile, row by row.
   const std::uint64_t* tile(std::uint32_t number) const {
@@ -111,19 +111,33 @@ class CellMarks {
 
  private:
   const std::uint64_t* row_of(LatticePlace p) const { return words_ + std::size_t{p / 64} * mark_word::count; }
-  bool bit(LatticePlace p, std::size_t word) const { return (row_of(p)[word] >> p % 64 & 1U) != 0; }
 
   const std::uint64_t* words_;
 };
 
+/// Cells of a tile as walks hold them: column in bits 0 to 5, row in bits 7 to 12. So a motion over the border sets a
+/// bit between or above.
+struct WalkedCells {
+  static constexpr std::uint32_t col_bits = 63;
+  static constexpr unsigned row_shift = 7;
+  static constexpr std::uint32_t guards = ~(col_bits | col_bits << row_shift);
+  static_assert(LatticePlaces::side == col_bits + 1);
+
+  static std::uint32_t at(LatticePlace p) {
+    const std::uint32_t in_tile = p % LatticePlaces::tile_places;
+    return in_tile >> 6U << row_shift | (in_tile & col_bits);
+  }
+  static LatticePlace in_tile(std::uint32_t at) { return (at >> row_shift) << 6U | (at & col_bits); }
+};
+
 /// A climb towards the core, step by step, within one tile. A step waits for the marks that the one before it led to,
 /// some fifteen cycles, and for nothing else: no branch depends on where the way turns. Looks at the marks of one tile.
-class TileClimb {
+class TileClimb : WalkedCells {
  public:
   TileClimb(CellMarks marks, LatticePlace from)
       : first_(from - from % LatticePlaces::tile_places),
         words_(marks.tile(LatticePlaces::tile_of(from))),
-        at_(spread(from % LatticePlaces::tile_places)) {}
+        at_(at(from)) {}
 
   /// False where the way ends: at the core, or where it would leave the tile.
   bool step() {
@@ -134,19 +148,12 @@ class TileClimb {
     at_ = next;
     return true;
   }
-  LatticePlace place() const { return first_ + ((at_ >> row_shift) << 6U | (at_ & col_bits)); }
+  LatticePlace place() const { return first_ + in_tile(at_); }
   bool at_core() const {
     return (words_[std::size_t{at_ >> row_shift} * mark_word::count + mark_word::core] >> (at_ & col_bits) & 1U) != 0;
   }
 
  private:
-  // Column in bits 0 to 5, row in bits 7 to 12: a motion over the border sets a bit between or above.
-  static constexpr std::uint32_t col_bits = 63;
-  static constexpr unsigned row_shift = 7;
-  static constexpr std::uint32_t guards = ~(col_bits | col_bits << row_shift);
-  static_assert(LatticePlaces::side == col_bits + 1);
-
-  static std::uint32_t spread(std::uint32_t in_tile) { return in_tile >> 6U << row_shift | (in_tile & col_bits); }
   /// Right 1, up 128, left -1, down -128.
   std::uint32_t motion(const std::uint64_t* row) const {
     const auto low = static_cast<std::uint32_t>(row[mark_word::low] >> (at_ & col_bits)) & 1U;

@@ -50,115 +50,99 @@ class TreePeeling {
   static constexpr std::uint32_t growth = 8;
 
   std::uint32_t most_tiles() const { return std::max(places_.tile_cols(), places_.tile_rows()); }
-  void load(std::uint32_t tile);
-  void load_row(std::uint8_t* at, std::uint32_t col, std::uint32_t row) const;
-  void peel_tile(LatticePlace first);
-  void peel_squares(std::uint32_t side);
-  void peel_border(std::uint32_t tile, unsigned direction, const TileSquare& square);
-  void follow(LatticePlace at, const TileSquare& square);
-  bool leaves(std::uint32_t tile, unsigned direction, const TileSquare& square) const;
+  void load(std::uint32_t tile) {
+    std::uint8_t* at = bytes_.data() + std::size_t{tile} * LatticePlaces::tile_places;
+    const std::uint32_t col = tile % places_.tile_cols() * LatticePlaces::side;
+    const std::uint32_t row = tile / places_.tile_cols() * LatticePlaces::side;
+    for (std::uint32_t i = 0; i < LatticePlaces::side; ++i) load_row(at + i * LatticePlaces::side, col, row + i);
+  }
+
+  void load_row(std::uint8_t* at, std::uint32_t col, std::uint32_t row) const {
+    std::memset(at, 0, LatticePlaces::side);  // what fills up the lattice is no tree
+    if (row >= places_.size().rows) return;
+    const std::array<std::uint64_t, 4> open = passages_.open_words(col, row);
+    const std::uint32_t width = std::min(LatticePlaces::side, places_.size().cols - col);
+    std::array<std::uint8_t, LatticePlaces::side> line;
+    for (unsigned i = 0; i < LatticePlaces::side; i += 8) {
+      std::uint64_t eight = 0;
+      for (unsigned d = 0; d < 4; ++d) eight |= bits_as_bytes[open[d] >> i & 255U] << d;
+      std::memcpy(line.data() + i, &eight, 8);
+    }
+    std::memcpy(at, line.data(), width);
+  }
+
+  /// Dead ends of a tile whose way goes on in it.
+  void peel_tile(LatticePlace first) {
+    std::uint8_t* const tile = bytes_.data() + first;
+    for (LatticePlace start = 0; start < LatticePlaces::tile_places; ++start) {
+      LatticePlace at = start;
+      for (unsigned open = tile[at]; std::has_single_bit(open); open = tile[at]) {
+        const auto direction = static_cast<unsigned>(std::countr_zero(open));
+        if (direction > 3 || LatticePlaces::leaves_tile(at, direction)) break;
+        tile[at] = static_cast<std::uint8_t>(peel_bit::peeled | direction << peel_bit::direction_shift);
+        at = places_.step_inside(at, direction);
+        tile[at] = static_cast<std::uint8_t>(tile[at] & ~(1U << (direction ^ 2U)));
+      }
+    }
+  }
+
+  /// Squares of side x side tiles: the dead ends at the borders of the smaller squares in them.
+  void peel_squares(std::uint32_t side) {
+    const std::uint32_t cols = (places_.tile_cols() - 1) / side + 1;
+    const std::uint32_t rows = (places_.tile_rows() - 1) / side + 1;
+    const std::uint32_t inner = side / growth;
+    for_chunks(std::size_t{cols} * rows, 1, execution_, [&](Range r) {
+      const auto number = static_cast<std::uint32_t>(r.first);
+      TileSquare square{number % cols * side, number / cols * side, 0, 0};
+      square.end_col = std::min(square.first_col + side, places_.tile_cols());
+      square.end_row = std::min(square.first_row + side, places_.tile_rows());
+      for (std::uint32_t row = square.first_row; row < square.end_row; ++row) {
+        execution_.check();
+        for (std::uint32_t col = square.first_col; col < square.end_col; ++col) {
+          const std::uint32_t tile = row * places_.tile_cols() + col;
+          if (col % inner == inner - 1) peel_border(tile, 0, square);
+          if (row % inner == inner - 1) peel_border(tile, 1, square);
+          if (col % inner == 0) peel_border(tile, 2, square);
+          if (row % inner == 0) peel_border(tile, 3, square);
+        }
+      }
+    });
+  }
+
+  void peel_border(std::uint32_t tile, unsigned direction, const TileSquare& square) {
+    for (unsigned along = 0; along < LatticePlaces::side; ++along) {
+      const LatticePlace at = LatticePlaces::on_side(tile, direction, along);
+      if (bytes_[at] == 1U << direction) follow(at, square);
+    }
+  }
+
+  void follow(LatticePlace at, const TileSquare& square) {
+    constexpr unsigned borders_a_poll = 1024;
+    unsigned borders = 0;
+    for (unsigned open = bytes_[at]; std::has_single_bit(open) && open <= peel_bit::edges; open = bytes_[at]) {
+      const auto direction = static_cast<unsigned>(std::countr_zero(open));
+      if (LatticePlaces::leaves_tile(at, direction)) {
+        if (leaves(LatticePlaces::tile_of(at), direction, square)) return;
+        if (++borders % borders_a_poll == 0) execution_.check();
+      }
+      bytes_[at] = static_cast<std::uint8_t>(peel_bit::peeled | direction << peel_bit::direction_shift);
+      at = places_.step(at, direction);
+      bytes_[at] = static_cast<std::uint8_t>(bytes_[at] & ~(1U << (direction ^ 2U)));
+    }
+  }
+
+  bool leaves(std::uint32_t tile, unsigned direction, const TileSquare& square) const {
+    const std::uint32_t col = tile % places_.tile_cols();
+    const std::uint32_t row = tile / places_.tile_cols();
+    if ((direction & 1U) == 0) return direction == 0 ? col + 1 == square.end_col : col == square.first_col;
+    return direction == 1 ? row + 1 == square.end_row : row == square.first_row;
+  }
 
   const LatticePassages& passages_;
   const LatticePlaces& places_;
   const Execution& execution_;
   RawVector<std::uint8_t> bytes_;
 };
-
-void TreePeeling::load(std::uint32_t tile) {
-  std::uint8_t* at = bytes_.data() + std::size_t{tile} * LatticePlaces::tile_places;
-  const std::uint32_t col = tile % places_.tile_cols() * LatticePlaces::side;
-  const std::uint32_t row = tile / places_.tile_cols() * LatticePlaces::side;
-  for (std::uint32_t i = 0; i < LatticePlaces::side; ++i) load_row(at + i * LatticePlaces::side, col, row + i);
-}
-
-void TreePeeling::load_row(std::uint8_t* at, std::uint32_t col, std::uint32_t row) const {
-  std::memset(at, 0, LatticePlaces::side);  // what fills up the lattice is no tree
-  if (row >= places_.size().rows) return;
-  const std::array<std::uint64_t, 4> open = passages_.open_words(col, row);
-  const std::uint32_t width = std::min(LatticePlaces::side, places_.size().cols - col);
-  std::array<std::uint8_t, LatticePlaces::side> line;
-  for (unsigned i = 0; i < LatticePlaces::side; i += 8) {
-    std::uint64_t eight = 0;
-    for (unsigned d = 0; d < 4; ++d) eight |= bits_as_bytes[open[d] >> i & 255U] << d;
-    std::memcpy(line.data() + i, &eight, 8);
-  }
-  std::memcpy(at, line.data(), width);
-}
-
-/// Dead ends of a tile whose way goes on in it.
-void TreePeeling::peel_tile(LatticePlace first) {
-  std::uint8_t* const tile = bytes_.data() + first;
-  for (LatticePlace start = 0; start < LatticePlaces::tile_places; ++start) {
-    LatticePlace at = start;
-    for (unsigned open = tile[at]; std::has_single_bit(open); open = tile[at]) {
-      const auto direction = static_cast<unsigned>(std::countr_zero(open));
-      if (direction > 3 || LatticePlaces::leaves_tile(at, direction)) break;
-      tile[at] = static_cast<std::uint8_t>(peel_bit::peeled | direction << peel_bit::direction_shift);
-      at = places_.step_inside(at, direction);
-      tile[at] = static_cast<std::uint8_t>(tile[at] & ~(1U << (direction ^ 2U)));
-    }
-  }
-}
-
-/// Squares of side x side tiles: the dead ends at the borders of the smaller squares in them.
-void TreePeeling::peel_squares(std::uint32_t side) {
-  const std::uint32_t cols = (places_.tile_cols() - 1) / side + 1;
-  const std::uint32_t rows = (places_.tile_rows() - 1) / side + 1;
-  const std::uint32_t inner = side / growth;
-  for_chunks(std::size_t{cols} * rows, 1, execution_, [&](Range r) {
-    const auto number = static_cast<std::uint32_t>(r.first);
-    TileSquare square{number % cols * side, number / cols * side, 0, 0};
-    square.end_col = std::min(square.first_col + side, places_.tile_cols());
-    square.end_row = std::min(square.first_row + side, places_.tile_rows());
-    for (std::uint32_t row = square.first_row; row < square.end_row; ++row) {
-      execution_.check();
-      for (std::uint32_t col = square.first_col; col < square.end_col; ++col) {
-        const std::uint32_t tile = row * places_.tile_cols() + col;
-        if (col % inner == inner - 1) peel_border(tile, 0, square);
-        if (row % inner == inner - 1) peel_border(tile, 1, square);
-        if (col % inner == 0) peel_border(tile, 2, square);
-        if (row % inner == 0) peel_border(tile, 3, square);
-      }
-    }
-  });
-}
-
-void TreePeeling::peel_border(std::uint32_t tile, unsigned direction, const TileSquare& square) {
-  for (unsigned along = 0; along < LatticePlaces::side; ++along) {
-    const LatticePlace at = LatticePlaces::on_side(tile, direction, along);
-    if (bytes_[at] == 1U << direction) follow(at, square);
-  }
-}
-
-bool TreePeeling::leaves(std::uint32_t tile, unsigned direction, const TileSquare& square) const {
-  const std::uint32_t col = tile % places_.tile_cols();
-  const std::uint32_t row = tile / places_.tile_cols();
-  switch (direction) {
-    case 0:
-      return col + 1 == square.end_col;
-    case 1:
-      return row + 1 == square.end_row;
-    case 2:
-      return col == square.first_col;
-    default:
-      return row == square.first_row;
-  }
-}
-
-void TreePeeling::follow(LatticePlace at, const TileSquare& square) {
-  constexpr unsigned borders_a_poll = 1024;
-  unsigned borders = 0;
-  for (unsigned open = bytes_[at]; std::has_single_bit(open) && open <= peel_bit::edges; open = bytes_[at]) {
-    const auto direction = static_cast<unsigned>(std::countr_zero(open));
-    if (LatticePlaces::leaves_tile(at, direction)) {
-      if (leaves(LatticePlaces::tile_of(at), direction, square)) return;
-      if (++borders % borders_a_poll == 0) execution_.check();
-    }
-    bytes_[at] = static_cast<std::uint8_t>(peel_bit::peeled | direction << peel_bit::direction_shift);
-    at = places_.step(at, direction);
-    bytes_[at] = static_cast<std::uint8_t>(bytes_[at] & ~(1U << (direction ^ 2U)));
-  }
-}
 
 /// Junctions are found row by row of the tiles, 64 cells each.
 constexpr std::size_t core_row_grain = 1024;
@@ -192,11 +176,96 @@ class CoreWalk {
   }
 
  private:
-  void find_junctions();
-  void walk_chains();
-  void walk(JunctionId from, unsigned direction);
-  void drop_useless();
-  bool is_useless(JunctionId v, unsigned slot) const;
+  void find_junctions() {
+    const std::size_t rows = places_.place_count() / 64;
+    execution_.reserve(rows * 12);
+    bits_.resize(rows);
+    first_.resize(rows);
+    graph_.core_cells = sum_of_chunks(rows, core_row_grain, execution_, [&](Range r) {
+      std::uint64_t cells = 0;
+      for (std::size_t row = r.first; row < r.last; ++row) {
+        std::uint64_t bits = 0;
+        for (std::size_t i = 0; i < 64; ++i) {
+          const std::size_t p = row * 64 + i;
+          bits |= std::uint64_t{is_junction(static_cast<LatticePlace>(p), peeled_[p])} << i;
+          cells += (peeled_[p] & peel_bit::edges) != 0 ? 1U : 0U;
+        }
+        bits_[row] = bits;
+        first_[row] = static_cast<std::uint32_t>(std::popcount(bits));
+      }
+      return cells;
+    });
+    const std::uint64_t count = exclusive_scan(first_, execution_);
+    if (count >= (std::uint64_t{1} << 30) || graph_.core_cells >= (std::uint64_t{1} << 30)) {
+      throw InputError("route index", "takes less than 2^30 cells that lie on loops");
+    }
+    execution_.reserve(count * 36);
+    graph_.place.resize(count);
+    graph_.twin.resize(4 * count);
+    graph_.length.resize(4 * count);
+  }
+
+  void walk_chains() {
+    for_each_index(bits_.size(), core_row_grain, execution_, [&](std::size_t row) {
+      JunctionId v = first_[row];
+      for (std::uint64_t left = bits_[row]; left != 0; left &= left - 1, ++v) {
+        graph_.place[v] = static_cast<LatticePlace>(row * 64 + static_cast<std::size_t>(std::countr_zero(left)));
+        for (unsigned d = 0; d < 4; ++d) walk(v, d);
+      }
+    });
+  }
+
+  /// To the next junction. An edge of a core cell that isn't in the nibble leads to a tree.
+  void walk(JunctionId from, unsigned direction) {
+    const HalfEdge slot = 4 * from + direction;
+    LatticePlace at = graph_.place[from];
+    graph_.twin[slot] = no_half_edge;
+    if ((peeled_[at] >> direction & 1U) == 0) return;
+    std::uint32_t length = 0;
+    for (;;) {
+      at = places_.step(at, direction);
+      ++length;
+      const unsigned back = direction ^ 2U;
+      if ((bits_[at / 64] >> at % 64 & 1U) != 0) {
+        graph_.twin[slot] = 4 * junction_at(at) + back;
+        graph_.length[slot] = length;
+        return;
+      }
+      direction = static_cast<unsigned>(std::countr_zero(peeled_[at] & peel_bit::edges & ~(1U << back)));
+    }
+  }
+
+  void drop_useless() {
+    const std::size_t count = graph_.size();
+    RawVector<std::uint8_t> useless(count);
+    for_each_index<JunctionId>(count, junction_grain, execution_, [&](JunctionId v) {
+      unsigned slots = 0;
+      for (unsigned s = 0; s < 4; ++s) slots |= is_useless(v, s) ? 1U << s : 0;
+      useless[v] = static_cast<std::uint8_t>(slots);
+    });
+    for_chunks(count, junction_grain, execution_, [&](Range r) {
+      for (std::size_t h = 4 * r.first; h < 4 * r.last; ++h) {
+        if ((useless[h / 4] >> h % 4 & 1U) != 0) graph_.twin[h] = no_half_edge;
+      }
+    });
+  }
+
+  /// Both ends of a chain come to the same answer.
+  bool is_useless(JunctionId v, unsigned slot) const {
+    const HalfEdge h = 4 * v + slot;
+    const HalfEdge twin = graph_.twin[h];
+    if (twin == no_half_edge) return false;
+    if (twin / 4 == v) return true;
+    for (unsigned other = 0; other < 4; ++other) {
+      const HalfEdge rival = graph_.twin[4 * v + other];
+      if (other == slot || rival == no_half_edge || rival / 4 != twin / 4) continue;
+      const std::uint32_t its = graph_.length[4 * v + other];
+      const std::uint32_t own = graph_.length[h];
+      if (its < own || (its == own && std::min(rival, 4 * v + other) < std::min(twin, h))) return true;
+    }
+    return false;
+  }
+
   JunctionId junction_at(LatticePlace p) const {
     const std::uint64_t below = (std::uint64_t{1} << p % 64) - 1;
     return first_[p / 64] + static_cast<JunctionId>(std::popcount(bits_[p / 64] & below));
@@ -209,96 +278,6 @@ class CoreWalk {
   RawVector<std::uint32_t> first_;  // junction of a row
   CoreGraph graph_;
 };
-
-void CoreWalk::find_junctions() {
-  const std::size_t rows = places_.place_count() / 64;
-  execution_.reserve(rows * 12);
-  bits_.resize(rows);
-  first_.resize(rows);
-  std::vector<std::uint64_t> cells(chunk_count(rows, core_row_grain));
-  for_chunks(rows, core_row_grain, execution_, [&](Range r) {
-    for (std::size_t row = r.first; row < r.last; ++row) {
-      std::uint64_t bits = 0;
-      for (std::size_t i = 0; i < 64; ++i) {
-        const std::size_t p = row * 64 + i;
-        bits |= std::uint64_t{is_junction(static_cast<LatticePlace>(p), peeled_[p])} << i;
-        cells[r.first / core_row_grain] += (peeled_[p] & peel_bit::edges) != 0 ? 1U : 0U;
-      }
-      bits_[row] = bits;
-      first_[row] = static_cast<std::uint32_t>(std::popcount(bits));
-    }
-  });
-  for (const std::uint64_t part : cells) graph_.core_cells += part;
-  const std::uint64_t count = exclusive_scan(first_, execution_);
-  if (count >= (std::uint64_t{1} << 30) || graph_.core_cells >= (std::uint64_t{1} << 30)) {
-    throw InputError("route index", "takes less than 2^30 cells that lie on loops");
-  }
-  execution_.reserve(count * 36);
-  graph_.place.resize(count);
-  graph_.twin.resize(4 * count);
-  graph_.length.resize(4 * count);
-}
-
-void CoreWalk::walk_chains() {
-  for_each_index(bits_.size(), core_row_grain, execution_, [&](std::size_t row) {
-    JunctionId v = first_[row];
-    for (std::uint64_t left = bits_[row]; left != 0; left &= left - 1, ++v) {
-      graph_.place[v] = static_cast<LatticePlace>(row * 64 + static_cast<std::size_t>(std::countr_zero(left)));
-      for (unsigned d = 0; d < 4; ++d) walk(v, d);
-    }
-  });
-}
-
-/// To the next junction. An edge of a core cell that isn't in the nibble leads to a tree.
-void CoreWalk::walk(JunctionId from, unsigned direction) {
-  const HalfEdge slot = 4 * from + direction;
-  LatticePlace at = graph_.place[from];
-  graph_.twin[slot] = no_half_edge;
-  if ((peeled_[at] >> direction & 1U) == 0) return;
-  std::uint32_t length = 0;
-  for (;;) {
-    at = places_.step(at, direction);
-    ++length;
-    const unsigned back = direction ^ 2U;
-    if ((bits_[at / 64] >> at % 64 & 1U) != 0) {
-      graph_.twin[slot] = 4 * junction_at(at) + back;
-      graph_.length[slot] = length;
-      return;
-    }
-    direction = static_cast<unsigned>(std::countr_zero(peeled_[at] & peel_bit::edges & ~(1U << back)));
-  }
-}
-
-/// Both ends of a chain come to the same answer.
-bool CoreWalk::is_useless(JunctionId v, unsigned slot) const {
-  const HalfEdge h = 4 * v + slot;
-  const HalfEdge twin = graph_.twin[h];
-  if (twin == no_half_edge) return false;
-  if (twin / 4 == v) return true;
-  for (unsigned other = 0; other < 4; ++other) {
-    const HalfEdge rival = graph_.twin[4 * v + other];
-    if (other == slot || rival == no_half_edge || rival / 4 != twin / 4) continue;
-    const std::uint32_t its = graph_.length[4 * v + other];
-    const std::uint32_t own = graph_.length[h];
-    if (its < own || (its == own && std::min(rival, 4 * v + other) < std::min(twin, h))) return true;
-  }
-  return false;
-}
-
-void CoreWalk::drop_useless() {
-  const std::size_t count = graph_.size();
-  RawVector<std::uint8_t> useless(count);
-  for_each_index<JunctionId>(count, junction_grain, execution_, [&](JunctionId v) {
-    unsigned slots = 0;
-    for (unsigned s = 0; s < 4; ++s) slots |= is_useless(v, s) ? 1U << s : 0;
-    useless[v] = static_cast<std::uint8_t>(slots);
-  });
-  for_chunks(count, junction_grain, execution_, [&](Range r) {
-    for (std::size_t h = 4 * r.first; h < 4 * r.last; ++h) {
-      if ((useless[h / 4] >> h % 4 & 1U) != 0) graph_.twin[h] = no_half_edge;
-    }
-  });
-}
 
 class CoreReduction {
  public:
@@ -323,11 +302,89 @@ class CoreReduction {
   }
 
  private:
-  void visit(JunctionId v);
-  void join(HalfEdge a, HalfEdge b, std::uint32_t length);
-  void drop(HalfEdge h);
-  void renumber();
-  void mark_chains(JunctionId v);
+  /// Of at most two chains: takes the junction out.
+  void visit(JunctionId v) {
+    if (gone_[v] != 0 || is_post(graph_.place[v])) return;
+    std::array<HalfEdge, 2> chain{};
+    std::size_t count = 0;
+    for (HalfEdge h = 4 * v; h < 4 * v + 4; ++h) {
+      if (graph_.twin[h] == no_half_edge) continue;
+      if (count == 2) return;
+      chain[count++] = h;
+    }
+    gone_[v] = 1;
+    if (count == 1) drop(chain[0]);
+    if (count < 2) return;
+    std::uint8_t& byte = peeled_[graph_.place[v]];
+    byte = static_cast<std::uint8_t>((byte & ~peel_bit::edges) | 1U << chain[0] % 4 | 1U << chain[1] % 4);
+    const HalfEdge a = graph_.twin[chain[0]];
+    const HalfEdge b = graph_.twin[chain[1]];
+    const std::uint32_t length = graph_.length[chain[0]] + graph_.length[chain[1]];
+    graph_.twin[chain[0]] = graph_.twin[chain[1]] = no_half_edge;
+    join(a, b, length);
+  }
+
+  /// A chain between two slots, unless it leads back to its junction or is no shorter than one that is there.
+  void join(HalfEdge a, HalfEdge b, std::uint32_t length) {
+    graph_.twin[a] = b;
+    graph_.twin[b] = a;
+    graph_.length[a] = graph_.length[b] = length;
+    if (a / 4 == b / 4) return drop(a);
+    for (HalfEdge h = a & ~HalfEdge{3}; h < (a & ~HalfEdge{3}) + 4; ++h) {
+      if (h == a || graph_.twin[h] == no_half_edge || graph_.twin[h] / 4 != b / 4) continue;
+      return drop(graph_.length[h] <= length ? a : h);
+    }
+  }
+
+  void drop(HalfEdge h) {
+    const HalfEdge twin = graph_.twin[h];
+    graph_.twin[h] = graph_.twin[twin] = no_half_edge;
+    todo_.push_back(h / 4);
+    todo_.push_back(twin / 4);
+  }
+
+  void renumber() {
+    RawVector<JunctionId> number(graph_.size());
+    JunctionId next = 0;
+    for (JunctionId v = 0; v < graph_.size(); ++v) {
+      number[v] = next;
+      next += gone_[v] == 0 ? 1 : 0;
+    }
+    for (JunctionId v = 0; v < graph_.size(); ++v) {
+      if (v % (1U << 16) == 0) execution_.check();
+      if (gone_[v] != 0) continue;
+      graph_.place[number[v]] = graph_.place[v];
+      for (HalfEdge slot = 0; slot < 4; ++slot) {
+        const HalfEdge twin = graph_.twin[4 * v + slot];
+        graph_.twin[4 * number[v] + slot] = twin == no_half_edge ? no_half_edge : 4 * number[twin / 4] + twin % 4;
+        graph_.length[4 * number[v] + slot] = graph_.length[4 * v + slot];
+      }
+    }
+    graph_.place.resize(next);
+    graph_.twin.resize(4 * std::size_t{next});
+    graph_.length.resize(4 * std::size_t{next});
+  }
+
+  /// A junction, and the cells of its chains to junctions with larger numbers: each cell is written to once.
+  void mark_chains(JunctionId v) {
+    constexpr unsigned right_and_up = 3;
+    const auto mark = [&](LatticePlace p, unsigned edges) {
+      peeled_[p] = static_cast<std::uint8_t>(peeled_[p] | (edges & right_and_up) << peel_bit::direction_shift);
+    };
+    mark(graph_.place[v], slots_of(graph_, v));
+    for (unsigned slot = 0; slot < 4; ++slot) {
+      const HalfEdge twin = graph_.twin[4 * v + slot];
+      if (twin == no_half_edge || twin / 4 < v) continue;
+      unsigned direction = slot;
+      LatticePlace at = graph_.place[v];
+      for (std::uint32_t left = graph_.length[4 * v + slot]; left > 1; --left) {
+        at = places_.step(at, direction);
+        const unsigned edges = peeled_[at] & peel_bit::edges;
+        mark(at, edges);
+        direction = static_cast<unsigned>(std::countr_zero(edges & ~(1U << (direction ^ 2U))));
+      }
+    }
+  }
 
   CoreGraph& graph_;
   const LatticePlaces& places_;
@@ -336,90 +393,6 @@ class CoreReduction {
   RawVector<std::uint8_t> gone_;
   RawVector<JunctionId> todo_;  // whoever has lost a chain
 };
-
-/// Of at most two chains: takes the junction out.
-void CoreReduction::visit(JunctionId v) {
-  if (gone_[v] != 0 || is_post(graph_.place[v])) return;
-  std::array<HalfEdge, 2> chain{};
-  std::size_t count = 0;
-  for (HalfEdge h = 4 * v; h < 4 * v + 4; ++h) {
-    if (graph_.twin[h] == no_half_edge) continue;
-    if (count == 2) return;
-    chain[count++] = h;
-  }
-  gone_[v] = 1;
-  if (count == 1) drop(chain[0]);
-  if (count < 2) return;
-  std::uint8_t& byte = peeled_[graph_.place[v]];
-  byte = static_cast<std::uint8_t>((byte & ~peel_bit::edges) | 1U << chain[0] % 4 | 1U << chain[1] % 4);
-  const HalfEdge a = graph_.twin[chain[0]];
-  const HalfEdge b = graph_.twin[chain[1]];
-  const std::uint32_t length = graph_.length[chain[0]] + graph_.length[chain[1]];
-  graph_.twin[chain[0]] = graph_.twin[chain[1]] = no_half_edge;
-  join(a, b, length);
-}
-
-/// A chain between two slots, unless it leads back to its junction or is no shorter than one that is there.
-void CoreReduction::join(HalfEdge a, HalfEdge b, std::uint32_t length) {
-  graph_.twin[a] = b;
-  graph_.twin[b] = a;
-  graph_.length[a] = graph_.length[b] = length;
-  if (a / 4 == b / 4) return drop(a);
-  for (HalfEdge h = a & ~HalfEdge{3}; h < (a & ~HalfEdge{3}) + 4; ++h) {
-    if (h == a || graph_.twin[h] == no_half_edge || graph_.twin[h] / 4 != b / 4) continue;
-    return drop(graph_.length[h] <= length ? a : h);
-  }
-}
-
-void CoreReduction::drop(HalfEdge h) {
-  const HalfEdge twin = graph_.twin[h];
-  graph_.twin[h] = graph_.twin[twin] = no_half_edge;
-  todo_.push_back(h / 4);
-  todo_.push_back(twin / 4);
-}
-
-void CoreReduction::renumber() {
-  RawVector<JunctionId> number(graph_.size());
-  JunctionId next = 0;
-  for (JunctionId v = 0; v < graph_.size(); ++v) {
-    number[v] = next;
-    next += gone_[v] == 0 ? 1 : 0;
-  }
-  for (JunctionId v = 0; v < graph_.size(); ++v) {
-    if (v % (1U << 16) == 0) execution_.check();
-    if (gone_[v] != 0) continue;
-    graph_.place[number[v]] = graph_.place[v];
-    for (HalfEdge slot = 0; slot < 4; ++slot) {
-      const HalfEdge twin = graph_.twin[4 * v + slot];
-      graph_.twin[4 * number[v] + slot] = twin == no_half_edge ? no_half_edge : 4 * number[twin / 4] + twin % 4;
-      graph_.length[4 * number[v] + slot] = graph_.length[4 * v + slot];
-    }
-  }
-  graph_.place.resize(next);
-  graph_.twin.resize(4 * std::size_t{next});
-  graph_.length.resize(4 * std::size_t{next});
-}
-
-/// A junction, and the cells of its chains to junctions with larger numbers: each cell is written to once.
-void CoreReduction::mark_chains(JunctionId v) {
-  constexpr unsigned right_and_up = 3;
-  const auto mark = [&](LatticePlace p, unsigned edges) {
-    peeled_[p] = static_cast<std::uint8_t>(peeled_[p] | (edges & right_and_up) << peel_bit::direction_shift);
-  };
-  mark(graph_.place[v], slots_of(graph_, v));
-  for (unsigned slot = 0; slot < 4; ++slot) {
-    const HalfEdge twin = graph_.twin[4 * v + slot];
-    if (twin == no_half_edge || twin / 4 < v) continue;
-    unsigned direction = slot;
-    LatticePlace at = graph_.place[v];
-    for (std::uint32_t left = graph_.length[4 * v + slot]; left > 1; --left) {
-      at = places_.step(at, direction);
-      const unsigned edges = peeled_[at] & peel_bit::edges;
-      mark(at, edges);
-      direction = static_cast<unsigned>(std::countr_zero(edges & ~(1U << (direction ^ 2U))));
-    }
-  }
-}
 
 }  // namespace
 

@@ -26,6 +26,19 @@ struct PlanarRegion {
 /// Which side of a cut a junction is on.
 enum class CutSide : std::uint8_t { inside, outside, cut };
 
+/// [slots][slot]: the first slot that isn't empty before `slot`, going round to the right; `slot` itself comes last.
+constexpr std::array<std::array<std::uint8_t, 4>, 16> slot_before = [] {
+  std::array<std::array<std::uint8_t, 4>, 16> table{};
+  for (unsigned slots = 0; slots < 16; ++slots) {
+    for (unsigned slot = 0; slot < 4; ++slot) {
+      unsigned turn = 3;
+      while (turn > 0 && (slots >> ((slot + turn) & 3U) & 1U) == 0) --turn;
+      table[slots][slot] = static_cast<std::uint8_t>((slot + turn) & 3U);
+    }
+  }
+  return table;
+}();
+
 /// How a balanced set of junctions that cuts a region in two is found. Between the chains lie faces; a closed curve
 /// through faces that crosses k chains cuts the map with k junctions or fewer. Shortest curves are shortest paths in
 /// the dual graph, whose vertices are the faces (Reif 1983): a breadth-first search from the longest face, which is
@@ -41,20 +54,164 @@ class RegionCut {
   explicit RegionCut(const Execution& execution) : execution_(execution) {}
 
   /// The side of each junction; the region has at least two. Throws Stopped.
-  const RawVector<CutSide>& cut(const PlanarRegion& region);
+  const RawVector<CutSide>& cut(const PlanarRegion& region) {
+    region_ = &region;
+    search_faces(trace_faces());
+    grow_tree();
+    const HalfEdge crossing = best_crossing();
+    mark_inside(crossing);
+    list_crossed(crossing);
+    cover_crossed();
+    return side_;
+  }
 
  private:
   using Face = std::uint32_t;
 
-  HalfEdge next_around(HalfEdge back) const;
+  /// The next half-edge along the face on the left, from the one that leads back.
+  HalfEdge next_around(HalfEdge back) const {
+    return (back & ~HalfEdge{3}) + slot_before[region_->slots[back / 4]][back & 3U];
+  }
   /// Returns the longest one.
-  Face trace_faces();
-  void search_faces(Face first);
-  void grow_tree();
-  HalfEdge best_crossing() const;
-  void mark_inside(HalfEdge crossing);
-  void list_crossed(HalfEdge crossing);
-  void cover_crossed();
+  Face trace_faces() {
+    face_.assign(region_->twin.size(), no_half_edge);
+    first_.clear();
+    Face longest = 0;
+    std::size_t most = 0;
+    for (JunctionId v = 0; v < region_->size(); ++v) {
+      poll(v);
+      for (unsigned left = region_->slots[v]; left != 0; left &= left - 1) {
+        const HalfEdge h = 4 * v + static_cast<HalfEdge>(std::countr_zero(left));
+        if (face_[h] != no_half_edge) continue;
+        const auto face = static_cast<Face>(first_.size());
+        first_.push_back(h);
+        std::size_t length = 0;
+        for (HalfEdge at = h; face_[at] == no_half_edge; at = next_around(region_->twin[at]), ++length)
+          face_[at] = face;
+        if (length <= most) continue;
+        most = length;
+        longest = face;
+      }
+    }
+    return longest;
+  }
+
+  void search_faces(Face first) {
+    constexpr std::uint32_t unseen = ~std::uint32_t{0};
+    distance_.assign(first_.size(), unseen);
+    entered_.resize(first_.size());
+    in_search_.assign(region_->size(), 0);
+    queue_.resize(first_.size());
+    std::size_t end = 0;
+    queue_[end++] = first;
+    distance_[first] = 0;
+    for (std::size_t i = 0; i < end; ++i) {
+      poll(i);
+      const Face face = queue_[i];
+      const std::uint32_t next_distance = distance_[face] + 1;
+      HalfEdge h = first_[face];
+      do {
+        const HalfEdge twin = region_->twin[h];
+        const Face other = face_[twin];
+        if (distance_[other] == unseen) {
+          distance_[other] = next_distance;
+          entered_[other] = h;
+          in_search_[h / 4] = static_cast<std::uint8_t>(in_search_[h / 4] | 1U << h % 4);
+          in_search_[twin / 4] = static_cast<std::uint8_t>(in_search_[twin / 4] | 1U << twin % 4);
+          queue_[end++] = other;
+        }
+        h = next_around(twin);
+      } while (h != first_[face]);
+    }
+  }
+
+  /// The chains that the search didn't take are a tree of all junctions.
+  void grow_tree() {
+    const std::size_t count = region_->size();
+    above_.resize(count);
+    above_[0] = no_half_edge;
+    order_.resize(count);
+    std::size_t end = 0;
+    order_[end++] = 0;
+    for (std::size_t i = 0; i < end; ++i) {
+      poll(i);
+      const JunctionId v = order_[i];
+      const unsigned up = i == 0 ? 0 : 1U << region_->twin[above_[v]] % 4;
+      for (unsigned left = region_->slots[v] & ~in_search_[v] & ~up; left != 0; left &= left - 1) {
+        const HalfEdge h = 4 * v + static_cast<HalfEdge>(std::countr_zero(left));
+        const JunctionId below = region_->twin[h] / 4;
+        above_[below] = h;
+        order_[end++] = below;
+      }
+    }
+    assert(end == count);
+    weight_.assign(count, 1);
+    for (std::size_t i = count; i-- > 1;) weight_[above_[order_[i]] / 4] += weight_[order_[i]];
+  }
+
+  /// The least length for its smaller side, where a third of the junctions is as good as a half; then the better
+  /// balance.
+  HalfEdge best_crossing() const {
+    const std::size_t count = region_->size();
+    const std::uint64_t enough = std::max<std::uint64_t>(1, count / 3);
+    HalfEdge best = no_half_edge;
+    std::uint64_t best_length = 0;
+    std::uint64_t best_inside = 1;
+    for (std::size_t i = 1; i < count; ++i) {
+      const JunctionId v = order_[i];
+      const Face left = face_[above_[v]];
+      const Face right = face_[region_->twin[above_[v]]];
+      const std::uint64_t length = left == right ? 1 : std::uint64_t{distance_[left]} + distance_[right] + 1;
+      const std::uint64_t inside = std::min<std::uint64_t>(weight_[v], count - weight_[v]);
+      const std::uint64_t ours = length * std::min(best_inside, enough);
+      const std::uint64_t theirs = best_length * std::min(inside, enough);
+      if (best != no_half_edge && (ours > theirs || (ours == theirs && inside <= best_inside))) continue;
+      best = above_[v];
+      best_length = length;
+      best_inside = inside;
+    }
+    return best;
+  }
+
+  void mark_inside(HalfEdge crossing) {
+    side_.assign(region_->size(), CutSide::outside);
+    for (std::size_t i = 1; i < order_.size(); ++i) {
+      const JunctionId v = order_[i];
+      if (above_[v] == crossing || side_[above_[v] / 4] == CutSide::inside) side_[v] = CutSide::inside;
+    }
+  }
+
+  /// The chains from both faces back to the first one; what both ways share is not crossed.
+  void list_crossed(HalfEdge crossing) {
+    crossed_.clear();
+    crossed_.push_back(crossing);
+    Face left = face_[crossing];
+    Face right = face_[region_->twin[crossing]];
+    while (left != right) {
+      Face& deeper = distance_[left] >= distance_[right] ? left : right;
+      crossed_.push_back(entered_[deeper]);
+      deeper = face_[entered_[deeper]];
+    }
+  }
+
+  /// One end of each crossed chain: all on the side where there are fewer.
+  void cover_crossed() {
+    const auto ends_on = [&](CutSide side) {
+      std::vector<JunctionId> ends;
+      for (const HalfEdge h : crossed_) {
+        const JunctionId one = h / 4;
+        ends.push_back(side_[one] == side ? one : region_->twin[h] / 4);
+        assert(side_[ends.back()] == side && side_[one] != side_[region_->twin[h] / 4]);
+      }
+      std::sort(ends.begin(), ends.end());
+      ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+      return ends;
+    };
+    const std::vector<JunctionId> inside = ends_on(CutSide::inside);
+    const std::vector<JunctionId> outside = ends_on(CutSide::outside);
+    for (const JunctionId v : inside.size() <= outside.size() ? inside : outside) side_[v] = CutSide::cut;
+  }
+
   void poll(std::size_t i) const {
     if (i % (1U << 16) == 0) execution_.check();
   }
@@ -73,172 +230,6 @@ class RegionCut {
   RawVector<HalfEdge> crossed_;      // by the curve
   RawVector<CutSide> side_;
 };
-
-/// [slots][slot]: the first slot that isn't empty before `slot`, going round to the right; `slot` itself comes last.
-constexpr std::array<std::array<std::uint8_t, 4>, 16> slot_before = [] {
-  std::array<std::array<std::uint8_t, 4>, 16> table{};
-  for (unsigned slots = 0; slots < 16; ++slots) {
-    for (unsigned slot = 0; slot < 4; ++slot) {
-      unsigned turn = 3;
-      while (turn > 0 && (slots >> ((slot + turn) & 3U) & 1U) == 0) --turn;
-      table[slots][slot] = static_cast<std::uint8_t>((slot + turn) & 3U);
-    }
-  }
-  return table;
-}();
-
-/// The next half-edge along the face on the left, from the one that leads back.
-HalfEdge RegionCut::next_around(HalfEdge back) const {
-  return (back & ~HalfEdge{3}) + slot_before[region_->slots[back / 4]][back & 3U];
-}
-
-const RawVector<CutSide>& RegionCut::cut(const PlanarRegion& region) {
-  region_ = &region;
-  search_faces(trace_faces());
-  grow_tree();
-  const HalfEdge crossing = best_crossing();
-  mark_inside(crossing);
-  list_crossed(crossing);
-  cover_crossed();
-  return side_;
-}
-
-RegionCut::Face RegionCut::trace_faces() {
-  face_.assign(region_->twin.size(), no_half_edge);
-  first_.clear();
-  Face longest = 0;
-  std::size_t most = 0;
-  for (JunctionId v = 0; v < region_->size(); ++v) {
-    poll(v);
-    for (unsigned left = region_->slots[v]; left != 0; left &= left - 1) {
-      const HalfEdge h = 4 * v + static_cast<HalfEdge>(std::countr_zero(left));
-      if (face_[h] != no_half_edge) continue;
-      const auto face = static_cast<Face>(first_.size());
-      first_.push_back(h);
-      std::size_t length = 0;
-      for (HalfEdge at = h; face_[at] == no_half_edge; at = next_around(region_->twin[at]), ++length) face_[at] = face;
-      if (length <= most) continue;
-      most = length;
-      longest = face;
-    }
-  }
-  return longest;
-}
-
-void RegionCut::search_faces(Face first) {
-  constexpr std::uint32_t unseen = ~std::uint32_t{0};
-  distance_.assign(first_.size(), unseen);
-  entered_.resize(first_.size());
-  in_search_.assign(region_->size(), 0);
-  queue_.resize(first_.size());
-  std::size_t end = 0;
-  queue_[end++] = first;
-  distance_[first] = 0;
-  for (std::size_t i = 0; i < end; ++i) {
-    poll(i);
-    const Face face = queue_[i];
-    const std::uint32_t next_distance = distance_[face] + 1;
-    HalfEdge h = first_[face];
-    do {
-      const HalfEdge twin = region_->twin[h];
-      const Face other = face_[twin];
-      if (distance_[other] == unseen) {
-        distance_[other] = next_distance;
-        entered_[other] = h;
-        in_search_[h / 4] = static_cast<std::uint8_t>(in_search_[h / 4] | 1U << h % 4);
-        in_search_[twin / 4] = static_cast<std::uint8_t>(in_search_[twin / 4] | 1U << twin % 4);
-        queue_[end++] = other;
-      }
-      h = next_around(twin);
-    } while (h != first_[face]);
-  }
-}
-
-/// The chains that the search didn't take are a tree of all junctions.
-void RegionCut::grow_tree() {
-  const std::size_t count = region_->size();
-  above_.resize(count);
-  above_[0] = no_half_edge;
-  order_.resize(count);
-  std::size_t end = 0;
-  order_[end++] = 0;
-  for (std::size_t i = 0; i < end; ++i) {
-    poll(i);
-    const JunctionId v = order_[i];
-    const unsigned up = i == 0 ? 0 : 1U << region_->twin[above_[v]] % 4;
-    for (unsigned left = region_->slots[v] & ~in_search_[v] & ~up; left != 0; left &= left - 1) {
-      const HalfEdge h = 4 * v + static_cast<HalfEdge>(std::countr_zero(left));
-      const JunctionId below = region_->twin[h] / 4;
-      above_[below] = h;
-      order_[end++] = below;
-    }
-  }
-  assert(end == count);
-  weight_.assign(count, 1);
-  for (std::size_t i = count; i-- > 1;) weight_[above_[order_[i]] / 4] += weight_[order_[i]];
-}
-
-/// The least length for its smaller side, where a third of the junctions is as good as a half; then the better balance.
-HalfEdge RegionCut::best_crossing() const {
-  const std::size_t count = region_->size();
-  const std::uint64_t enough = std::max<std::uint64_t>(1, count / 3);
-  HalfEdge best = no_half_edge;
-  std::uint64_t best_length = 0;
-  std::uint64_t best_inside = 1;
-  for (std::size_t i = 1; i < count; ++i) {
-    const JunctionId v = order_[i];
-    const Face left = face_[above_[v]];
-    const Face right = face_[region_->twin[above_[v]]];
-    const std::uint64_t length = left == right ? 1 : std::uint64_t{distance_[left]} + distance_[right] + 1;
-    const std::uint64_t inside = std::min<std::uint64_t>(weight_[v], count - weight_[v]);
-    const std::uint64_t ours = length * std::min(best_inside, enough);
-    const std::uint64_t theirs = best_length * std::min(inside, enough);
-    if (best != no_half_edge && (ours > theirs || (ours == theirs && inside <= best_inside))) continue;
-    best = above_[v];
-    best_length = length;
-    best_inside = inside;
-  }
-  return best;
-}
-
-void RegionCut::mark_inside(HalfEdge crossing) {
-  side_.assign(region_->size(), CutSide::outside);
-  for (std::size_t i = 1; i < order_.size(); ++i) {
-    const JunctionId v = order_[i];
-    if (above_[v] == crossing || side_[above_[v] / 4] == CutSide::inside) side_[v] = CutSide::inside;
-  }
-}
-
-/// The chains from both faces back to the first one; what both ways share is not crossed.
-void RegionCut::list_crossed(HalfEdge crossing) {
-  crossed_.clear();
-  crossed_.push_back(crossing);
-  Face left = face_[crossing];
-  Face right = face_[region_->twin[crossing]];
-  while (left != right) {
-    Face& deeper = distance_[left] >= distance_[right] ? left : right;
-    crossed_.push_back(entered_[deeper]);
-    deeper = face_[entered_[deeper]];
-  }
-}
-
-/// One end of each crossed chain: all on the side where there are fewer.
-void RegionCut::cover_crossed() {
-  const auto ends_on = [&](CutSide side) {
-    std::vector<JunctionId> ends;
-    for (const HalfEdge h : crossed_) {
-      const JunctionId one = h / 4;
-      ends.push_back(side_[one] == side ? one : region_->twin[h] / 4);
-      assert(side_[ends.back()] == side && side_[one] != side_[region_->twin[h] / 4]);
-    }
-    std::sort(ends.begin(), ends.end());
-    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-    return ends;
-  };
-  const std::vector<JunctionId> inside = ends_on(CutSide::inside);
-  const std::vector<JunctionId> outside = ends_on(CutSide::outside);
-  for (const JunctionId v : inside.size() <= outside.size() ? inside : outside) side_[v] = CutSide::cut;
-}
 
 /// A region of the upper levels, and what became of it.
 struct LargeRegion {
@@ -275,9 +266,52 @@ class RegionParts {
  private:
   static constexpr std::uint32_t none = ~std::uint32_t{0};
 
-  void number_parts(const PlanarRegion& region, const RawVector<CutSide>& side);
-  void number_junctions(const PlanarRegion& region);
-  void copy(JunctionId v, const PlanarRegion& region, PlanarRegion& part) const;
+  void number_parts(const PlanarRegion& region, const RawVector<CutSide>& side) {
+    part_.assign(region.size(), none);
+    stack_.resize(region.size());
+    sizes_.clear();
+    for (JunctionId first = 0; first < region.size(); ++first) {
+      if (first % (1U << 16) == 0) execution_.check();
+      if (part_[first] != none || side[first] == CutSide::cut) continue;
+      const auto number = static_cast<std::uint32_t>(sizes_.size());
+      std::uint32_t size = 0;
+      std::size_t open = 0;
+      part_[first] = number;
+      stack_[open++] = first;
+      while (open > 0) {
+        const JunctionId v = stack_[--open];
+        if (++size % (1U << 16) == 0) execution_.check();
+        for (unsigned left = region.slots[v]; left != 0; left &= left - 1) {
+          const JunctionId near = region.twin[4 * v + static_cast<HalfEdge>(std::countr_zero(left))] / 4;
+          if (part_[near] != none || side[near] == CutSide::cut) continue;
+          part_[near] = number;
+          stack_[open++] = near;
+        }
+      }
+      sizes_.push_back(size);
+    }
+  }
+
+  void number_junctions(const PlanarRegion& region) {
+    number_.resize(region.size());
+    for (JunctionId v = 0; v < region.size(); ++v) {
+      if (part_[v] != none) number_[v] = sizes_[part_[v]]++;
+    }
+  }
+
+  void copy(JunctionId v, const PlanarRegion& region, PlanarRegion& part) const {
+    const JunctionId own = number_[v];
+    unsigned slots = 0;
+    for (unsigned left = region.slots[v]; left != 0; left &= left - 1) {
+      const auto slot = static_cast<HalfEdge>(std::countr_zero(left));
+      const HalfEdge twin = region.twin[4 * v + slot];
+      if (part_[twin / 4] != part_[v]) continue;
+      part.twin[4 * own + slot] = 4 * number_[twin / 4] + twin % 4;
+      slots |= 1U << slot;
+    }
+    part.junction[own] = region.junction[v];
+    part.slots[own] = static_cast<std::uint8_t>(slots);
+  }
 
   const Execution& execution_;
   RawVector<std::uint32_t> part_;  // of a junction
@@ -286,58 +320,23 @@ class RegionParts {
   std::vector<std::uint32_t> sizes_;
 };
 
-void RegionParts::number_parts(const PlanarRegion& region, const RawVector<CutSide>& side) {
-  part_.assign(region.size(), none);
-  stack_.resize(region.size());
-  sizes_.clear();
-  for (JunctionId first = 0; first < region.size(); ++first) {
-    if (first % (1U << 16) == 0) execution_.check();
-    if (part_[first] != none || side[first] == CutSide::cut) continue;
-    const auto number = static_cast<std::uint32_t>(sizes_.size());
-    std::uint32_t size = 0;
-    std::size_t open = 0;
-    part_[first] = number;
-    stack_[open++] = first;
-    while (open > 0) {
-      const JunctionId v = stack_[--open];
-      if (++size % (1U << 16) == 0) execution_.check();
-      for (unsigned left = region.slots[v]; left != 0; left &= left - 1) {
-        const JunctionId near = region.twin[4 * v + static_cast<HalfEdge>(std::countr_zero(left))] / 4;
-        if (part_[near] != none || side[near] == CutSide::cut) continue;
-        part_[near] = number;
-        stack_[open++] = near;
-      }
+/// Cuts regions, and splits what is left. Scratch of one thread.
+class RegionDivision {
+ public:
+  explicit RegionDivision(const Execution& execution) : cut_(execution), parts_(execution) {}
+
+  /// The region's parts; the junctions of its cut become `members`.
+  std::vector<PlanarRegion> divide(PlanarRegion region, RawVector<JunctionId>& members) {
+    const RawVector<CutSide>& side = cut_.cut(region);
+    for (std::size_t v = 0; v < region.size(); ++v) {
+      if (side[v] == CutSide::cut) members.push_back(region.junction[v]);
     }
-    sizes_.push_back(size);
+    return parts_.split(region, side);
   }
-}
 
-void RegionParts::number_junctions(const PlanarRegion& region) {
-  number_.resize(region.size());
-  for (JunctionId v = 0; v < region.size(); ++v) {
-    if (part_[v] != none) number_[v] = sizes_[part_[v]]++;
-  }
-}
-
-void RegionParts::copy(JunctionId v, const PlanarRegion& region, PlanarRegion& part) const {
-  const JunctionId own = number_[v];
-  unsigned slots = 0;
-  for (unsigned left = region.slots[v]; left != 0; left &= left - 1) {
-    const auto slot = static_cast<HalfEdge>(std::countr_zero(left));
-    const HalfEdge twin = region.twin[4 * v + slot];
-    if (part_[twin / 4] != part_[v]) continue;
-    part.twin[4 * own + slot] = 4 * number_[twin / 4] + twin % 4;
-    slots |= 1U << slot;
-  }
-  part.junction[own] = region.junction[v];
-  part.slots[own] = static_cast<std::uint8_t>(slots);
-}
-
-/// What cuts and splits regions: scratch of one thread.
-struct RegionTools {
-  explicit RegionTools(const Execution& execution) : cut(execution), parts(execution) {}
-  RegionCut cut;
-  RegionParts parts;
+ private:
+  RegionCut cut_;
+  RegionParts parts_;
 };
 
 class Dissector {
@@ -358,12 +357,65 @@ class Dissector {
   }
 
  private:
-  void open_whole();
-  void divide(LargeRegion& large) const;
-  void number_parts(std::size_t large);
-  void cut_down(PlanarRegion region, RegionTools& tools, Dissection& into) const;
-  static RawVector<JunctionId> cut_members(const PlanarRegion& region, const RawVector<CutSide>& side);
-  void list(std::size_t large);
+  void open_whole() {
+    PlanarRegion whole;
+    whole.junction.resize(graph_.size());
+    for (JunctionId v = 0; v < graph_.size(); ++v) whole.junction[v] = v;
+    whole.twin = graph_.twin;
+    whole.slots.resize(graph_.size());
+    for (JunctionId v = 0; v < graph_.size(); ++v) whole.slots[v] = slots_of(graph_, v);
+    RawVector<CutSide> nothing_cut;
+    nothing_cut.assign(graph_.size(), CutSide::outside);
+    for (PlanarRegion& part : RegionParts(execution_).split(whole, nothing_cut)) {
+      roots_.push_back(large_.size());
+      large_.emplace_back().region = std::move(part);
+    }
+  }
+
+  void divide(LargeRegion& large) const {
+    const PagePool pages;  // what is cut leaves room for its parts
+    RegionDivision division(execution_);
+    if (large.region.size() <= task_) return cut_down(std::move(large.region), division, large.whole);
+    large.parts = division.divide(std::move(large.region), large.members);
+  }
+
+  void number_parts(std::size_t large) {
+    std::vector<PlanarRegion> parts = std::move(large_[large].parts);
+    for (PlanarRegion& part : parts) {
+      large_[large].children.push_back(large_.size());
+      large_.emplace_back().region = std::move(part);
+    }
+  }
+
+  void cut_down(PlanarRegion region, RegionDivision& division, Dissection& into) const {  // NOLINT(misc-no-recursion)
+    const bool is_leaf = region.size() <= leaf_;
+    RawVector<JunctionId> members;
+    std::uint32_t children = 0;
+    if (is_leaf) {
+      members = std::move(region.junction);
+    } else {
+      std::vector<PlanarRegion> parts = division.divide(std::move(region), members);
+      children = static_cast<std::uint32_t>(parts.size());
+      for (PlanarRegion& part : parts) cut_down(std::move(part), division, into);
+    }
+    into.member.insert(into.member.end(), members.begin(), members.end());
+    into.node.push_back({static_cast<std::uint32_t>(members.size()), children, is_leaf ? 1U : 0U});
+  }
+
+  /// Children first. Regions of the upper levels are cut a few dozen deep at most.
+  void list(std::size_t number) {  // NOLINT(misc-no-recursion)
+    for (const std::size_t child : large_[number].children) list(child);
+    LargeRegion& large = large_[number];
+    const Dissection& whole = large.whole;
+    result_.node.insert(result_.node.end(), whole.node.begin(), whole.node.end());
+    result_.member.insert(result_.member.end(), whole.member.begin(), whole.member.end());
+    if (whole.node.empty()) {
+      result_.member.insert(result_.member.end(), large.members.begin(), large.members.end());
+      result_.node.push_back(
+          {static_cast<std::uint32_t>(large.members.size()), static_cast<std::uint32_t>(large.children.size()), 0});
+    }
+    large = {};
+  }
 
   const CoreGraph& graph_;
   const std::size_t leaf_;
@@ -373,81 +425,6 @@ class Dissector {
   std::vector<std::size_t> roots_;
   Dissection result_;
 };
-
-void Dissector::open_whole() {
-  PlanarRegion whole;
-  whole.junction.resize(graph_.size());
-  for (JunctionId v = 0; v < graph_.size(); ++v) whole.junction[v] = v;
-  whole.twin = graph_.twin;
-  whole.slots.resize(graph_.size());
-  for (JunctionId v = 0; v < graph_.size(); ++v) whole.slots[v] = slots_of(graph_, v);
-  RawVector<CutSide> nothing_cut;
-  nothing_cut.assign(graph_.size(), CutSide::outside);
-  for (PlanarRegion& part : RegionParts(execution_).split(whole, nothing_cut)) {
-    roots_.push_back(large_.size());
-    large_.emplace_back().region = std::move(part);
-  }
-}
-
-void Dissector::divide(LargeRegion& large) const {
-  const PagePool pages;  // what is cut leaves room for its parts
-  RegionTools tools(execution_);
-  if (large.region.size() <= task_) return cut_down(std::move(large.region), tools, large.whole);
-  const RawVector<CutSide>& side = tools.cut.cut(large.region);
-  large.members = cut_members(large.region, side);
-  large.parts = tools.parts.split(large.region, side);
-  large.region = {};
-}
-
-void Dissector::number_parts(std::size_t large) {
-  std::vector<PlanarRegion> parts = std::move(large_[large].parts);
-  for (PlanarRegion& part : parts) {
-    large_[large].children.push_back(large_.size());
-    large_.emplace_back().region = std::move(part);
-  }
-}
-
-RawVector<JunctionId> Dissector::cut_members(const PlanarRegion& region, const RawVector<CutSide>& side) {
-  RawVector<JunctionId> members;
-  for (std::size_t v = 0; v < region.size(); ++v) {
-    if (side[v] == CutSide::cut) members.push_back(region.junction[v]);
-  }
-  return members;
-}
-
-void Dissector::cut_down(PlanarRegion region, RegionTools& tools,
-                         Dissection& into) const {  // NOLINT(misc-no-recursion)
-  const bool is_leaf = region.size() <= leaf_;
-  RawVector<JunctionId> members;
-  std::uint32_t children = 0;
-  if (is_leaf) {
-    members = std::move(region.junction);
-  } else {
-    const RawVector<CutSide>& side = tools.cut.cut(region);
-    members = cut_members(region, side);
-    std::vector<PlanarRegion> parts = tools.parts.split(region, side);
-    region = {};
-    children = static_cast<std::uint32_t>(parts.size());
-    for (PlanarRegion& part : parts) cut_down(std::move(part), tools, into);
-  }
-  into.member.insert(into.member.end(), members.begin(), members.end());
-  into.node.push_back({static_cast<std::uint32_t>(members.size()), children, is_leaf ? 1U : 0U});
-}
-
-/// Children first. Regions of the upper levels are cut a few dozen deep at most.
-void Dissector::list(std::size_t number) {  // NOLINT(misc-no-recursion)
-  for (const std::size_t child : large_[number].children) list(child);
-  LargeRegion& large = large_[number];
-  const Dissection& whole = large.whole;
-  result_.node.insert(result_.node.end(), whole.node.begin(), whole.node.end());
-  result_.member.insert(result_.member.end(), whole.member.begin(), whole.member.end());
-  if (whole.node.empty()) {
-    result_.member.insert(result_.member.end(), large.members.begin(), large.members.end());
-    result_.node.push_back(
-        {static_cast<std::uint32_t>(large.members.size()), static_cast<std::uint32_t>(large.children.size()), 0});
-  }
-  large = {};
-}
 
 }  // namespace
 

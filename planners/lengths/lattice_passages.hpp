@@ -46,7 +46,6 @@ class LatticePassages {
 
   LatticeSize size() const { return size_; }
   std::uint64_t cell_count() const { return std::uint64_t{size_.rows} * size_.cols; }
-  std::size_t bytes() const { return (right_.size() + up_.size()) * sizeof(std::uint64_t); }
   std::span<const std::uint64_t> right_words() const { return right_.span(); }
   std::span<const std::uint64_t> up_words() const { return up_.span(); }
 

@@ -18,6 +18,16 @@ namespace {
 
 constexpr std::size_t tile_grain = 64;
 
+/// Which cells along a side of a tile point over it.
+std::uint64_t exits_of(CellMarks marks, std::uint32_t tile, unsigned direction) {
+  std::uint64_t exits = 0;
+  for (unsigned along = 0; along < LatticePlaces::side; ++along) {
+    const LatticePlace at = LatticePlaces::on_side(tile, direction, along);
+    exits |= std::uint64_t{!marks.is_core(at) && marks.direction(at) == direction} << along;
+  }
+  return exits;
+}
+
 class PieceBuilder {
  public:
   PieceBuilder(const LatticePlaces& places, CellMarks marks, const Execution& execution)
@@ -49,12 +59,117 @@ class PieceBuilder {
       visit(i);
     }
   }
-  void find_exits();
-  void follow_exits(std::size_t count);
-  void sort_children_first();
-  void choose_heavy();
-  void number_paths();
-  PieceArrays renumbered();
+
+  void find_exits() {
+    const std::size_t tiles = places_.tile_count();
+    RawVector<std::uint64_t> exits(4 * tiles);
+    RawVector<std::uint32_t> first(tiles + 1);
+    first[tiles] = 0;
+    for_each_index(tiles, tile_grain, execution_, [&](std::size_t tile) {
+      first[tile] = 0;
+      for (unsigned d = 0; d < 4; ++d) {
+        const std::uint64_t word = exits_of(marks_, static_cast<std::uint32_t>(tile), d);
+        exits[4 * tile + d] = word;
+        first[tile] += static_cast<std::uint32_t>(std::popcount(word));
+      }
+    });
+    exclusive_scan(first, execution_);
+    arrays_.exits = ArrayOrView<std::uint64_t>(std::move(exits));
+    arrays_.first_exit = ArrayOrView<std::uint32_t>(std::move(first));
+  }
+
+  void follow_exits(std::size_t count) {
+    exits_.resize(count);
+    RawVector<PieceId> same(count);
+    for (std::size_t i = 0; i < count; ++i) same[i] = static_cast<PieceId>(i);
+    arrays_.piece = ArrayOrView<PieceId>(std::move(same));
+    const PieceForest forest(places_, marks_, arrays_);
+    for_chunks(places_.tile_count(), tile_grain, execution_, [&](Range r) {
+      std::uint32_t exit = arrays_.first_exit[r.first];
+      for (std::size_t side = 4 * r.first; side < 4 * r.last; ++side) {
+        for (std::uint64_t left = arrays_.exits[side]; left != 0; left &= left - 1) {
+          const auto along = static_cast<unsigned>(std::countr_zero(left));
+          const auto direction = static_cast<unsigned>(side % 4);
+          const LatticePlace at = LatticePlaces::on_side(static_cast<std::uint32_t>(side / 4), direction, along);
+          const LatticePlace door = places_.step(at, direction);
+          const Climb up = forest.climb(door);
+          exits_[exit++] = {up.at_core ? no_piece : forest.piece_at(up.last), 1 + up.steps, door};
+        }
+      }
+    });
+  }
+
+  void sort_children_first() {
+    const std::size_t count = exits_.size();
+    RawVector<std::uint32_t> children(count);
+    for_each_poll(count, [&](std::size_t i) { children[i] = 0; });
+    for_each_poll(count, [&](std::size_t i) {
+      if (exits_[i].parent != no_piece) ++children[exits_[i].parent];
+    });
+    order_.resize(count);
+    std::size_t last = 0;
+    for_each_poll(count, [&](std::size_t i) {
+      if (children[i] == 0) order_[last++] = static_cast<std::uint32_t>(i);
+    });
+    for_each_poll(count, [&](std::size_t i) {
+      const PieceId parent = exits_[order_[i]].parent;
+      if (parent != no_piece && --children[parent] == 0) order_[last++] = parent;
+    });
+  }
+
+  void choose_heavy() {
+    const std::size_t count = exits_.size();
+    RawVector<std::uint32_t> size(count);
+    RawVector<std::uint32_t> largest(count);
+    heavy_.resize(count);
+    for_each_poll(count, [&](std::size_t i) {
+      size[i] = 1;
+      largest[i] = 0;
+      heavy_[i] = no_piece;
+    });
+    for_each_poll(count, [&](std::size_t i) {
+      const PieceId child = order_[i];
+      const PieceId parent = exits_[child].parent;
+      if (parent == no_piece) return;
+      size[parent] += size[child];
+      if (size[child] < largest[parent] || (size[child] == largest[parent] && child > heavy_[parent])) return;
+      largest[parent] = size[child];
+      heavy_[parent] = child;
+    });
+  }
+
+  /// From the roots down: whoever is no heavy child heads a path, numbered as a whole.
+  void number_paths() {
+    const std::size_t count = exits_.size();
+    number_.resize(count);
+    head_.resize(count);
+    PieceId next = 0;
+    for_each_poll(count, [&](std::size_t i) {
+      const PieceId top = order_[count - 1 - i];
+      const PieceId parent = exits_[top].parent;
+      if (parent != no_piece && heavy_[parent] == top) return;
+      const PieceId head = next;
+      for (PieceId p = top; p != no_piece; p = heavy_[p]) {
+        head_[next] = head;
+        number_[p] = next++;
+      }
+    });
+  }
+
+  PieceArrays renumbered() {
+    const std::size_t count = exits_.size();
+    RawVector<TreePiece> pieces(count);
+    for_each_poll(count, [&](std::size_t i) {  // from the roots down
+      const Exit& exit = exits_[order_[count - 1 - i]];
+      const PieceId here = number_[order_[count - 1 - i]];
+      const PieceId parent = exit.parent == no_piece ? no_piece : number_[exit.parent];
+      const std::uint32_t depth = exit.length + (parent == no_piece ? 0 : pieces[parent].depth);
+      pieces[here] = {head_[here], head_[here] == here ? parent : pieces[parent].up, depth, exit.door};
+    });
+    arrays_.piece = ArrayOrView<PieceId>(std::move(number_));
+    arrays_.pieces = ArrayOrView<TreePiece>(std::move(pieces));
+    return std::move(arrays_);
+  }
 
   const LatticePlaces& places_;
   const CellMarks marks_;
@@ -67,132 +182,12 @@ class PieceBuilder {
   RawVector<PieceId> head_;  // by number
 };
 
-void PieceBuilder::find_exits() {
-  const std::size_t tiles = places_.tile_count();
-  RawVector<std::uint64_t> exits(4 * tiles);
-  RawVector<std::uint32_t> first(tiles + 1);
-  first[tiles] = 0;
-  for_each_index(tiles, tile_grain, execution_, [&](std::size_t tile) {
-    first[tile] = 0;
-    for (unsigned d = 0; d < 4; ++d) {
-      const std::uint64_t word = exits_of(marks_, static_cast<std::uint32_t>(tile), d);
-      exits[4 * tile + d] = word;
-      first[tile] += static_cast<std::uint32_t>(std::popcount(word));
-    }
-  });
-  exclusive_scan(first, execution_);
-  arrays_.exits = ArrayOrView<std::uint64_t>(std::move(exits));
-  arrays_.first_exit = ArrayOrView<std::uint32_t>(std::move(first));
-}
-
-void PieceBuilder::follow_exits(std::size_t count) {
-  exits_.resize(count);
-  RawVector<PieceId> same(count);
-  for (std::size_t i = 0; i < count; ++i) same[i] = static_cast<PieceId>(i);
-  arrays_.piece = ArrayOrView<PieceId>(std::move(same));
-  const PieceForest forest(places_, marks_, arrays_);
-  for_chunks(places_.tile_count(), tile_grain, execution_, [&](Range r) {
-    std::uint32_t exit = arrays_.first_exit[r.first];
-    for (std::size_t side = 4 * r.first; side < 4 * r.last; ++side) {
-      for (std::uint64_t left = arrays_.exits[side]; left != 0; left &= left - 1) {
-        const auto along = static_cast<unsigned>(std::countr_zero(left));
-        const auto direction = static_cast<unsigned>(side % 4);
-        const LatticePlace at = LatticePlaces::on_side(static_cast<std::uint32_t>(side / 4), direction, along);
-        const LatticePlace door = places_.step(at, direction);
-        const Climb up = forest.climb(door);
-        exits_[exit++] = {up.at_core ? no_piece : forest.piece_at(up.last), 1 + up.steps, door};
-      }
-    }
-  });
-}
-
-void PieceBuilder::sort_children_first() {
-  const std::size_t count = exits_.size();
-  RawVector<std::uint32_t> children(count);
-  for_each_poll(count, [&](std::size_t i) { children[i] = 0; });
-  for_each_poll(count, [&](std::size_t i) {
-    if (exits_[i].parent != no_piece) ++children[exits_[i].parent];
-  });
-  order_.resize(count);
-  std::size_t last = 0;
-  for_each_poll(count, [&](std::size_t i) {
-    if (children[i] == 0) order_[last++] = static_cast<std::uint32_t>(i);
-  });
-  for_each_poll(count, [&](std::size_t i) {
-    const PieceId parent = exits_[order_[i]].parent;
-    if (parent != no_piece && --children[parent] == 0) order_[last++] = parent;
-  });
-}
-
-void PieceBuilder::choose_heavy() {
-  const std::size_t count = exits_.size();
-  RawVector<std::uint32_t> size(count);
-  RawVector<std::uint32_t> largest(count);
-  heavy_.resize(count);
-  for_each_poll(count, [&](std::size_t i) {
-    size[i] = 1;
-    largest[i] = 0;
-    heavy_[i] = no_piece;
-  });
-  for_each_poll(count, [&](std::size_t i) {
-    const PieceId child = order_[i];
-    const PieceId parent = exits_[child].parent;
-    if (parent == no_piece) return;
-    size[parent] += size[child];
-    if (size[child] < largest[parent] || (size[child] == largest[parent] && child > heavy_[parent])) return;
-    largest[parent] = size[child];
-    heavy_[parent] = child;
-  });
-}
-
-/// From the roots down: whoever is no heavy child heads a path, numbered as a whole.
-void PieceBuilder::number_paths() {
-  const std::size_t count = exits_.size();
-  number_.resize(count);
-  head_.resize(count);
-  PieceId next = 0;
-  for_each_poll(count, [&](std::size_t i) {
-    const PieceId top = order_[count - 1 - i];
-    const PieceId parent = exits_[top].parent;
-    if (parent != no_piece && heavy_[parent] == top) return;
-    const PieceId head = next;
-    for (PieceId p = top; p != no_piece; p = heavy_[p]) {
-      head_[next] = head;
-      number_[p] = next++;
-    }
-  });
-}
-
-PieceArrays PieceBuilder::renumbered() {
-  const std::size_t count = exits_.size();
-  RawVector<TreePiece> pieces(count);
-  for_each_poll(count, [&](std::size_t i) {  // from the roots down
-    const Exit& exit = exits_[order_[count - 1 - i]];
-    const PieceId here = number_[order_[count - 1 - i]];
-    const PieceId parent = exit.parent == no_piece ? no_piece : number_[exit.parent];
-    const std::uint32_t depth = exit.length + (parent == no_piece ? 0 : pieces[parent].depth);
-    pieces[here] = {head_[here], head_[here] == here ? parent : pieces[parent].up, depth, exit.door};
-  });
-  arrays_.piece = ArrayOrView<PieceId>(std::move(number_));
-  arrays_.pieces = ArrayOrView<TreePiece>(std::move(pieces));
-  return std::move(arrays_);
-}
-
 /// A way that turned in a circle is said to have come to the core.
 Climb result_of(const TileClimb& climb, std::uint32_t steps) {
   return {climb.place(), steps, climb.at_core() || steps == LatticePlaces::tile_places};
 }
 
 }  // namespace
-
-std::uint64_t exits_of(CellMarks marks, std::uint32_t tile, unsigned direction) {
-  std::uint64_t exits = 0;
-  for (unsigned along = 0; along < LatticePlaces::side; ++along) {
-    const LatticePlace at = LatticePlaces::on_side(tile, direction, along);
-    exits |= std::uint64_t{!marks.is_core(at) && marks.direction(at) == direction} << along;
-  }
-  return exits;
-}
 
 Climb PieceForest::climb(LatticePlace from) const {
   TileClimb climb(marks_, from);
@@ -299,8 +294,8 @@ void require(bool holds, std::string_view what) {
 }
 
 template <class T, class Test>
-bool every(const ArrayOrView<T>& array, const Test& test) {
-  return std::all_of(array.span().begin(), array.span().end(), test);
+bool every(std::span<const T> list, const Test& test) {
+  return std::all_of(list.begin(), list.end(), test);
 }
 
 /// Exits are those that the marks say, and none leaves the lattice.
@@ -356,6 +351,44 @@ void check_fronts(const FrontArrays& arrays) {
   }
   require(first == gates && bound == arrays.bounds.size() && wide == arrays.lengths.size(), "fronts");
   require(narrow == arrays.short_lengths.size() && way == arrays.ways.size(), "fronts");
+}
+
+/// What an index of views relies on: arrays have the sizes that the lattice and the others ask for, and fronts lie in
+/// theirs. O(fronts).
+void check_route_sizes(const LatticePlaces& places, const RouteArrays& arrays) {
+  const std::size_t rows = places.place_count() / 64;
+  const PieceArrays& pieces = arrays.pieces;
+  const std::size_t gates = arrays.fronts.gate_place.size();
+  require(arrays.marks.size() == rows * mark_word::count, "marks");
+  require(pieces.exits.size() == 4 * places.tile_count(), "exits");
+  require(pieces.first_exit.size() == places.tile_count() + 1 && pieces.first_exit[0] == 0, "exit.first");
+  require(pieces.first_exit[places.tile_count()] == pieces.pieces.size(), "exit.first");
+  require(pieces.piece.size() == pieces.pieces.size(), "exit.piece");
+  require(arrays.gates.size() == (gates == 0 ? 0 : rows), "gates");
+  require(arrays.gates_before.size() == arrays.gates.size() && arrays.gate_rank.size() == gates, "gates.before");
+  check_fronts(arrays.fronts);
+}
+
+/// The bounds and lengths of a front whose place in the arrays is right, each in its range.
+void check_front_arrays(const FrontArrays& arrays, const Front& f) {
+  const std::uint64_t count = row_offset(f.gates, f.gates, f.bounds);
+  arrays.bounds.look(f.first_bound, f.bounds);
+  GateRank least = f.first + f.gates;
+  for (const GateRank bound : arrays.bounds.span().subspan(f.first_bound, f.bounds)) {
+    require(bound >= least && bound < arrays.gate_place.size(), "front.bounds");
+    least = bound + 1;
+  }
+  if (f.is_short()) {
+    arrays.short_lengths.look(f.first_length(), count);
+    require(every(arrays.short_lengths.span().subspan(f.first_length(), count),
+                  [](std::uint16_t length) { return length >= 1; }),
+            "front.shorts");
+  } else {
+    arrays.lengths.look(f.first_length(), count);
+    require(every(arrays.lengths.span().subspan(f.first_length(), count),
+                  [](std::uint32_t length) { return length >= 1 && length <= no_way; }),
+            "front.lengths");
+  }
 }
 
 /// The gates that ways go over have lower ranks.
@@ -506,41 +539,6 @@ bool is_read_in_parts(std::string_view section) {
   return std::find(parts.begin(), parts.end(), section) != parts.end();
 }
 
-void check_route_sizes(const LatticePlaces& places, const RouteArrays& arrays) {
-  const std::size_t rows = places.place_count() / 64;
-  const PieceArrays& pieces = arrays.pieces;
-  const std::size_t gates = arrays.fronts.gate_place.size();
-  require(arrays.marks.size() == rows * mark_word::count, "marks");
-  require(pieces.exits.size() == 4 * places.tile_count(), "exits");
-  require(pieces.first_exit.size() == places.tile_count() + 1 && pieces.first_exit[0] == 0, "exit.first");
-  require(pieces.first_exit[places.tile_count()] == pieces.pieces.size(), "exit.first");
-  require(pieces.piece.size() == pieces.pieces.size(), "exit.piece");
-  require(arrays.gates.size() == (gates == 0 ? 0 : rows), "gates");
-  require(arrays.gates_before.size() == arrays.gates.size() && arrays.gate_rank.size() == gates, "gates.before");
-  check_fronts(arrays.fronts);
-}
-
-void check_front_arrays(const FrontArrays& arrays, const Front& f) {
-  const std::uint64_t count = row_offset(f.gates, f.gates, f.bounds);
-  arrays.bounds.look(f.first_bound, f.bounds);
-  GateRank least = f.first + f.gates;
-  for (const GateRank bound : arrays.bounds.span().subspan(f.first_bound, f.bounds)) {
-    require(bound >= least && bound < arrays.gate_place.size(), "front.bounds");
-    least = bound + 1;
-  }
-  if (f.is_short()) {
-    arrays.short_lengths.look(f.first_length(), count);
-    const auto lengths = arrays.short_lengths.span().subspan(f.first_length(), count);
-    require(std::all_of(lengths.begin(), lengths.end(), [](std::uint16_t length) { return length >= 1; }),
-            "front.shorts");
-  } else {
-    arrays.lengths.look(f.first_length(), count);
-    const auto lengths = arrays.lengths.span().subspan(f.first_length(), count);
-    const auto is_length = [](std::uint32_t length) { return length >= 1 && length <= no_way; };
-    require(std::all_of(lengths.begin(), lengths.end(), is_length), "front.lengths");
-  }
-}
-
 void check_route_arrays(const LatticePlaces& places, const RouteArrays& arrays) {
   const std::size_t gates = arrays.fronts.gate_place.size();
   check_route_sizes(places, arrays);
@@ -550,8 +548,9 @@ void check_route_arrays(const LatticePlaces& places, const RouteArrays& arrays) 
     check_front_arrays(arrays.fronts, front);
     check_ways(arrays.fronts, front);
   }
-  require(every(arrays.fronts.gate_place, [&](LatticePlace p) { return p < places.place_count(); }), "gate.place");
-  require(every(arrays.gate_rank, [&](GateRank rank) { return rank < gates; }), "gate.rank");
+  require(every(arrays.fronts.gate_place.span(), [&](LatticePlace p) { return p < places.place_count(); }),
+          "gate.place");
+  require(every(arrays.gate_rank.span(), [&](GateRank rank) { return rank < gates; }), "gate.rank");
   std::uint32_t before = 0;
   for (std::size_t row = 0; row < arrays.gates.size(); ++row) {
     require(arrays.gates_before[row] == before, "gates.before");

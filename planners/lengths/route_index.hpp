@@ -69,9 +69,6 @@ struct PieceArrays {
   ArrayOrView<TreePiece> pieces;
 };
 
-/// Which cells along a side of a tile point over it.
-std::uint64_t exits_of(CellMarks marks, std::uint32_t tile, unsigned direction);
-
 /// Where a climb in a tile ended.
 struct Climb {
   LatticePlace last;    ///< in the tile
@@ -214,13 +211,6 @@ RouteIndex route_index_of(LatticeSize size, std::span<const RouteSection> sectio
 
 /// May its bytes be looked at one by one, when they are needed? Else whoever makes an index of it looks at all of them.
 bool is_read_in_parts(std::string_view section);
-
-/// What an index of views relies on: throws InputError unless arrays have the sizes that the lattice and the others ask
-/// for, and fronts lie in theirs. O(fronts).
-void check_route_sizes(const LatticePlaces& places, const RouteArrays& arrays);
-
-/// The bounds and lengths of a front whose place in the arrays is right, each in its range.
-void check_front_arrays(const FrontArrays& arrays, const Front& front);
 
 /// Throws InputError unless every number in the arrays is in its range; what is wrong nevertheless gives wrong answers
 /// and nothing worse. O(bytes).

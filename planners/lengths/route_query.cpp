@@ -52,10 +52,10 @@ class HopWalk : public MarkWalk {
   using MarkWalk::MarkWalk;
 
   void begin(const Hop& hop) {
-    hop_ = hop;
+    turns_ = hop.turns;
     came_from_ = 0;
-    MarkWalk::begin(hop.from, hop.length, hop.first, hop.direction);
-    if (hop.direction > 0) write();
+    MarkWalk::begin(hop);
+    if (direction() > 0) write();
   }
   void step() {
     unsigned onwards = exits() & ~came_from_;
@@ -65,8 +65,8 @@ class HopWalk : public MarkWalk {
     came_from_ = 1U << (way ^ 2U);
     if (!go(way)) [[unlikely]]
       refuse_hop();
-    if (hop_.direction < 0 || left() > 0) write();
-    if (left() == 0 && place() != hop_.to) refuse_hop();
+    if (direction() < 0 || left() > 0) write();
+    if (is_astray()) refuse_hop();
   }
 
  private:
@@ -75,8 +75,7 @@ class HopWalk : public MarkWalk {
   /// Chains that leave the cell: its own marks, and those of the neighbours to the left and below.
   unsigned exits() const {
     const std::uint64_t* const here = row();
-    const unsigned own = static_cast<unsigned>(here[mark_word::low] >> col() & 1U) |
-                         static_cast<unsigned>(here[mark_word::high] >> col() & 1U) << 1;
+    const unsigned own = mark_word::low_and_high(here, col());
     if (col() == 0 || is_lowest_row()) [[unlikely]]
       return own | exits_over_the_rim();
     const std::uint64_t* const below = here - mark_word::count;
@@ -96,10 +95,10 @@ class HopWalk : public MarkWalk {
   }
   unsigned choice(unsigned onwards) {
     if (onwards == 0) refuse_hop();
-    return next_turn(onwards, hop_.turns);
+    return next_turn(onwards, turns_);
   }
 
-  Hop hop_{};
+  HopTurns turns_ = 0;      // those that are left
   unsigned came_from_ = 0;  // the motion that leads back, as a bit
 };
 
@@ -117,8 +116,7 @@ void write_hops(const RouteIndex& index, std::span<const Hop> hops, const Execut
 
 }  // namespace
 
-FrontQuery::FrontQuery(const RouteIndex& index)
-    : index_(index), fronts_(index.arrays().fronts), lessen_(lessen_row()), lessen_short_(lessen_row_short()) {
+FrontQuery::FrontQuery(const RouteIndex& index) : index_(index), fronts_(index.arrays().fronts) {
   forward_.distance.assign(fronts_.gate_place.size(), no_way);
   backward_.distance.assign(fronts_.gate_place.size(), no_way);
 }
@@ -145,74 +143,60 @@ std::uint32_t FrontQuery::length(std::span<const SeenGate> starts, std::span<con
 void FrontQuery::climb(std::span<const SeenGate> starts, std::span<const SeenGate> goals) {
   FrontId up = seed(forward_, starts);
   FrontId down = seed(backward_, goals);
+  Half* const halves[] = {&forward_, &backward_};
+  const std::span<Half* const> both(halves);
   while (up != no_front && down != no_front) {
     const FrontId front = std::min(up, down);
-    if (up == down) {
-      settle_both(front);
-      up = down = fronts_.fronts[front].parent;
-    } else if (front == up) {
-      settle(front, forward_);
-      up = fronts_.fronts[front].parent;
-    } else {
-      settle(front, backward_);
-      down = fronts_.fronts[front].parent;
-    }
+    settle(front, up == down ? both : up < down ? both.first(1) : both.last(1));
+    const FrontId parent = fronts_.fronts[front].parent;
+    if (up == front) up = parent;
+    if (down == front) down = parent;
   }
 }
 
-void FrontQuery::settle(FrontId front, Half& half) {
+/// For those of both climbs that have come to it.
+void FrontQuery::settle(FrontId front, std::span<Half* const> halves) {
   const Front& f = index_.front(front);
-  half.climbed.push_back(front);
-  load_bounds(f, half, bounds_);
-  for (std::uint32_t i = 0; i < f.gates; ++i) lessen_by(f, i, half, bounds_);
-  store_bounds(f, half, bounds_);
-}
-
-void FrontQuery::settle_both(FrontId front) {
-  const Front& f = index_.front(front);
-  forward_.climbed.push_back(front);
-  backward_.climbed.push_back(front);
-  load_bounds(f, forward_, bounds_);
-  load_bounds(f, backward_, other_bounds_);
+  for (Half* const half : halves) {
+    half->climbed.push_back(front);
+    load_bounds(f, *half);
+  }
   for (std::uint32_t i = 0; i < f.gates; ++i) {
-    const std::uint32_t sum = forward_.distance[f.first + i] + backward_.distance[f.first + i];
-    if (sum < best_) {
-      best_ = sum;
-      meeting_ = f.first + i;
+    const GateRank gate = f.first + i;
+    if (halves.size() == 2 && forward_.distance[gate] + backward_.distance[gate] < best_) {
+      best_ = forward_.distance[gate] + backward_.distance[gate];
+      meeting_ = gate;
     }
-    lessen_by(f, i, forward_, bounds_);
-    lessen_by(f, i, backward_, other_bounds_);
+    for (Half* const half : halves) lessen_by(f, i, *half);
   }
-  store_bounds(f, forward_, bounds_);
-  store_bounds(f, backward_, other_bounds_);
+  for (Half* const half : halves) store_bounds(f, *half);
 }
 
-void FrontQuery::lessen_by(const Front& f, std::uint32_t gate, Half& half, RawVector<std::uint32_t>& bounds) const {
+void FrontQuery::lessen_by(const Front& f, std::uint32_t gate, Half& half) const {
   const std::uint32_t distance = half.distance[f.first + gate];
   if (distance >= best_) return;
   const std::uint64_t row = f.first_length() + row_offset(gate, f.gates, f.bounds);
-  std::uint32_t* const later = half.distance.data() + f.first + gate + 1;
-  const std::uint32_t count = f.gates - gate - 1;
+  const auto lessen = [&](const auto* lengths, const auto lessen_all) {
+    const std::uint32_t later = f.gates - gate - 1;
+    lessen_all(half.distance.data() + f.first + gate + 1, lengths, distance, later);
+    lessen_all(half.bounds.data(), lengths + later, distance, f.bounds);
+  };
   if (f.is_short()) {
-    const std::uint16_t* const lengths = fronts_.short_lengths.data() + row;
-    lessen_short_(later, lengths, distance, count);
-    lessen_short_(bounds.data(), lengths + count, distance, f.bounds);
+    lessen(fronts_.short_lengths.data() + row, lessen_short_);
   } else {
-    const std::uint32_t* const lengths = fronts_.lengths.data() + row;
-    lessen_(later, lengths, distance, count);
-    lessen_(bounds.data(), lengths + count, distance, f.bounds);
+    lessen(fronts_.lengths.data() + row, lessen_);
   }
 }
 
-void FrontQuery::load_bounds(const Front& f, const Half& half, RawVector<std::uint32_t>& bounds) const {
-  bounds.resize(std::max<std::size_t>(bounds.size(), f.bounds));
+void FrontQuery::load_bounds(const Front& f, Half& half) const {
+  half.bounds.resize(std::max<std::size_t>(half.bounds.size(), f.bounds));
   const GateRank* const rank = fronts_.bounds.data() + f.first_bound;
-  for (std::uint32_t i = 0; i < f.bounds; ++i) bounds[i] = half.distance[rank[i]];
+  for (std::uint32_t i = 0; i < f.bounds; ++i) half.bounds[i] = half.distance[rank[i]];
 }
 
-void FrontQuery::store_bounds(const Front& f, Half& half, const RawVector<std::uint32_t>& bounds) const {
+void FrontQuery::store_bounds(const Front& f, Half& half) const {
   const GateRank* const rank = fronts_.bounds.data() + f.first_bound;
-  for (std::uint32_t i = 0; i < f.bounds; ++i) half.distance[rank[i]] = bounds[i];
+  for (std::uint32_t i = 0; i < f.bounds; ++i) half.distance[rank[i]] = half.bounds[i];
 }
 
 /// Bounds of a front are gates of fronts above it, which may not all have been climbed.
@@ -298,8 +282,9 @@ void FrontUnpacking::read_ways() {
     if (entry.length == 0) refuse_front();  // a hop without steps would write beside its cells
     const std::uint64_t way = front_way(fronts_, *entry.front, entry.place);
     if ((way & 1U) != 0) {
-      hops_.push_back({index_.gate_place(entry.low), index_.gate_place(entry.high), entry.length,
-                       entry.downwards ? -1 : 1, way / 2, entry.downwards ? entry.cells + entry.length : entry.cells});
+      hops_.push_back({{index_.gate_place(entry.low), index_.gate_place(entry.high), entry.length,
+                        entry.downwards ? -1 : 1, entry.downwards ? entry.cells + entry.length : entry.cells},
+                       way / 2});
       continue;
     }
     const std::uint64_t below = way / 2;
@@ -351,17 +336,6 @@ std::uint64_t FrontUnpacking::place_in(const Front& front, GateRank gate, GateRa
   return front_place(front, gate - front.first, column);
 }
 
-void CoreSearch::begin(LatticePlace start) {
-  if (++search_ == 0) {  // after 2^32 searches
-    std::fill(slots_.begin(), slots_.end(), Slot{});
-    search_ = 1;
-  }
-  seen_.clear();
-  gates_.clear();
-  seen_.push_back(first_cell(start));
-  enter(start, 0);
-}
-
 SeenCell CoreSearch::first_cell(LatticePlace start) const {
   const SeenCell first{start, index_.places().col(start), index_.places().row(start), 0, 0};
   const LatticeSize size = index_.places().size();
@@ -373,7 +347,13 @@ SeenCell CoreSearch::first_cell(LatticePlace start) const {
 }
 
 void CoreSearch::search(LatticePlace start) {
-  begin(start);
+  if (++search_ == 0) {  // after 2^32 searches
+    std::fill(slots_.begin(), slots_.end(), Slot{});
+    search_ = 1;
+  }
+  seen_.assign(1, first_cell(start));
+  gates_.clear();
+  enter(start, 0);
   for (std::uint32_t i = 0; i < seen_.size(); ++i) {
     if (index_.is_gate(seen_[i].place)) {
       gates_.push_back({index_.gate_at(seen_[i].place), seen_[i].steps, i});
@@ -404,28 +384,20 @@ void CoreSearch::expand(std::uint32_t number) {
 
 bool CoreSearch::enter(LatticePlace p, std::uint32_t number) {
   if (2 * seen_.size() > slots_.size()) grow();
-  std::size_t slot = slot_of(p);
-  for (; slots_[slot].search == search_; slot = (slot + 1) & (slots_.size() - 1)) {
-    if (seen_[slots_[slot].number].place == p) return false;
-  }
-  slots_[slot] = {search_, number};
+  Slot& slot = slots_[slot_of(p)];
+  if (slot.search == search_) return false;
+  slot = {search_, number};
   return true;
 }
 
 std::uint32_t CoreSearch::number_of(LatticePlace p) const {
-  for (std::size_t slot = slot_of(p); slots_[slot].search == search_; slot = (slot + 1) & (slots_.size() - 1)) {
-    if (seen_[slots_[slot].number].place == p) return slots_[slot].number;
-  }
-  return none;
+  const Slot& slot = slots_[slot_of(p)];
+  return slot.search == search_ ? slot.number : none;
 }
 
 void CoreSearch::grow() {
   slots_.assign(2 * slots_.size(), Slot{});
-  for (std::uint32_t i = 0; i < seen_.size(); ++i) {
-    std::size_t slot = slot_of(seen_[i].place);
-    while (slots_[slot].search == search_) slot = (slot + 1) & (slots_.size() - 1);
-    slots_[slot] = {search_, i};
-  }
+  for (std::uint32_t i = 0; i < seen_.size(); ++i) slots_[slot_of(seen_[i].place)] = {search_, i};
 }
 
 void CoreSearch::write_way(std::uint32_t to, CellId* start, int direction) const {
@@ -475,7 +447,7 @@ RawVector<CellId> RouteQuery::path(CellId start, CellId goal, const Execution& e
   CellId* const core = cells.data() + join.start_steps;
   *core = index_.places().cell_of(join.start_core);
   if (!join.in_tree()) write_core_way(between, join.goal_core, core, execution);
-  std::vector<ClimbLeg> legs;
+  std::vector<MarkedWay> legs;
   trees_.cut({a, join.start_core, join.start_steps, 1, cells.data()}, legs);
   trees_.cut({b, join.goal_core, join.goal_steps, -1, &cells.back()}, legs);
   write_climbs(index_, legs, execution);

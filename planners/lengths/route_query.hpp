@@ -54,12 +54,15 @@ class CoreSearch {
 
  private:
   SeenCell first_cell(LatticePlace start) const;
-  void begin(LatticePlace start);
   void expand(std::uint32_t number);
   bool is_core(LatticePlace next, LatticePlace from) const;
   bool enter(LatticePlace p, std::uint32_t number);
+  /// Where the cell stands, or where it may: a slot of an earlier search.
   std::size_t slot_of(LatticePlace p) const {
-    return (p * std::uint64_t{0x9e3779b97f4a7c15U} >> 32) & (slots_.size() - 1);
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t slot = (p * std::uint64_t{0x9e3779b97f4a7c15U} >> 32) & mask;
+    while (slots_[slot].search == search_ && seen_[slots_[slot].number].place != p) slot = (slot + 1) & mask;
+    return slot;
   }
   void grow();
 
@@ -110,16 +113,16 @@ class FrontQuery {
   /// What one of both climbs knows.
   struct Half {
     RawVector<std::uint32_t> distance;  // of a gate, no_way where it wasn't reached
+    RawVector<std::uint32_t> bounds;    // those of the bounds of the front that is settled
     std::vector<FrontId> climbed;
   };
 
   FrontId seed(Half& half, std::span<const SeenGate> seeds) const;
   void climb(std::span<const SeenGate> starts, std::span<const SeenGate> goals);
-  void settle(FrontId front, Half& half);
-  void settle_both(FrontId front);
-  void lessen_by(const Front& f, std::uint32_t gate, Half& half, RawVector<std::uint32_t>& bounds) const;
-  void load_bounds(const Front& f, const Half& half, RawVector<std::uint32_t>& bounds) const;
-  void store_bounds(const Front& f, Half& half, const RawVector<std::uint32_t>& bounds) const;
+  void settle(FrontId front, std::span<Half* const> halves);
+  void lessen_by(const Front& f, std::uint32_t gate, Half& half) const;
+  void load_bounds(const Front& f, Half& half) const;
+  void store_bounds(const Front& f, Half& half) const;
   void clear(Half& half, std::span<const SeenGate> seeds) const;
   std::size_t trace(const Half& half, std::span<const SeenGate> seeds, GateRank from,
                     std::vector<FrontStep>& steps) const;
@@ -127,25 +130,17 @@ class FrontQuery {
 
   const RouteIndex& index_;
   const FrontArrays& fronts_;
-  const LessenRow lessen_;
-  const LessenRowShort lessen_short_;
+  const LessenRow<std::uint32_t> lessen_ = lessen_row<std::uint32_t>();
+  const LessenRow<std::uint16_t> lessen_short_ = lessen_row<std::uint16_t>();
   Half forward_;
   Half backward_;
-  RawVector<std::uint32_t> bounds_;
-  RawVector<std::uint32_t> other_bounds_;
   std::uint32_t best_ = no_way;
   GateRank meeting_ = 0;
 };
 
-/// A hop, and where its cells go: from `from` to `to` = `length` steps on, the first one to `first`, each further one
-/// `direction`, 1 or -1, beside the one before it.
-struct Hop {
-  LatticePlace from;
-  LatticePlace to;
-  std::uint32_t length;
-  int direction;
+/// Along a hop.
+struct Hop : MarkedWay {
   HopTurns turns;
-  CellId* first;
 };
 
 /// The cells behind entries of fronts. Beside an entry stands the gate of lower rank that its way goes over, whose row

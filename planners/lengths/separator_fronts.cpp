@@ -7,6 +7,7 @@
 #include <cassert>
 #include <iterator>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 #include "parallel/chunks.hpp"
@@ -16,19 +17,13 @@ namespace {
 
 // Compilers turn the loop into vector code of the instruction set of the function that it is inlined in.
 
-[[gnu::always_inline]] inline void lessen(std::uint32_t* __restrict least, const std::uint32_t* __restrict rest,
+template <class Length>
+[[gnu::always_inline]] inline void lessen(std::uint32_t* __restrict least, const Length* __restrict rest,
                                           std::uint32_t first, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t sum = first + rest[i];
-    least[i] = sum < least[i] ? sum : least[i];
-  }
-}
-
-[[gnu::always_inline]] inline void lessen_short(std::uint32_t* __restrict least, const std::uint16_t* __restrict rest,
-                                                std::uint32_t first, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t length = rest[i];
-    const std::uint32_t sum = length == no_short_way ? no_way : first + length;
+    const bool is_none = std::is_same_v<Length, std::uint16_t> && length == no_short_way;
+    const std::uint32_t sum = is_none ? no_way : first + length;
     least[i] = sum < least[i] ? sum : least[i];
   }
 }
@@ -48,30 +43,24 @@ namespace {
                                                 std::uint32_t first, std::uint32_t gate, std::size_t count) {
   lessen_by(least, by, rest, first, gate, count);
 }
-[[gnu::target("avx2")]] void lessen_row_short_avx2(std::uint32_t* least, const std::uint16_t* rest, std::uint32_t first,
-                                                   std::size_t count) {
-  lessen_short(least, rest, first, count);
-}
-[[gnu::target("avx2")]] void lessen_row_avx2(std::uint32_t* least, const std::uint32_t* rest, std::uint32_t first,
+template <class Length>
+[[gnu::target("avx2")]] void lessen_row_avx2(std::uint32_t* least, const Length* rest, std::uint32_t first,
                                              std::size_t count) {
   lessen(least, rest, first, count);
 }
 bool has_avx2() { return __builtin_cpu_supports("avx2") != 0; }
 #else
 constexpr auto lessen_row_by_avx2 = lessen_row_by_plain;
-constexpr auto lessen_row_short_avx2 = lessen_row_short_plain;
-constexpr auto lessen_row_avx2 = lessen_row_plain;
+template <class Length>
+constexpr LessenRow<Length> lessen_row_avx2 = lessen_row_plain<Length>;
 constexpr bool has_avx2() { return false; }
 #endif
 
 }  // namespace
 
-void lessen_row_plain(std::uint32_t* least, const std::uint32_t* rest, std::uint32_t first, std::size_t count) {
+template <class Length>
+void lessen_row_plain(std::uint32_t* least, const Length* rest, std::uint32_t first, std::size_t count) {
   lessen(least, rest, first, count);
-}
-
-void lessen_row_short_plain(std::uint32_t* least, const std::uint16_t* rest, std::uint32_t first, std::size_t count) {
-  lessen_short(least, rest, first, count);
 }
 
 void lessen_row_by_plain(std::uint32_t* least, std::uint32_t* by, const std::uint32_t* rest, std::uint32_t first,
@@ -80,8 +69,16 @@ void lessen_row_by_plain(std::uint32_t* least, std::uint32_t* by, const std::uin
 }
 
 LessenRowBy lessen_row_by() { return has_avx2() ? lessen_row_by_avx2 : lessen_row_by_plain; }
-LessenRowShort lessen_row_short() { return has_avx2() ? lessen_row_short_avx2 : lessen_row_short_plain; }
-LessenRow lessen_row() { return has_avx2() ? lessen_row_avx2 : lessen_row_plain; }
+
+template <class Length>
+LessenRow<Length> lessen_row() {
+  if (has_avx2()) return lessen_row_avx2<Length>;
+  return lessen_row_plain<Length>;
+}
+template LessenRow<std::uint32_t> lessen_row<std::uint32_t>();
+template LessenRow<std::uint16_t> lessen_row<std::uint16_t>();
+template void lessen_row_plain(std::uint32_t*, const std::uint32_t*, std::uint32_t, std::size_t);
+template void lessen_row_plain(std::uint32_t*, const std::uint16_t*, std::uint32_t, std::size_t);
 
 namespace {
 
@@ -101,7 +98,13 @@ constexpr WayBy hop_bit = WayBy{1} << 31;
 class FrontMatrix {
  public:
   /// size x size, no ways at all. Asks `execution` for the memory.
-  FrontMatrix(std::size_t size, const Execution& execution);
+  FrontMatrix(std::size_t size, const Execution& execution) : size_(size) {
+    const std::size_t entries = size * (size + 1) / 2;
+    execution.reserve(entries * (sizeof(std::uint32_t) + sizeof(WayBy)));
+    const auto poll = [&] { execution.check(); };
+    assign_polled(lengths_, entries, no_way, poll);
+    assign_polled(by_, entries, WayBy{0}, poll);
+  }
 
   std::size_t size() const { return size_; }
   /// Entries i .. size - 1 of row i.
@@ -111,75 +114,59 @@ class FrontMatrix {
   const WayBy* by(std::size_t i) const { return by_.data() + i * size_ - (i > 0 ? i * (i - 1) / 2 : 0); }
   HopTurns hop(WayBy by) const { return hops_[by & ~hop_bit]; }
   /// A hop from i to j > i.
-  void lessen_by_hop(std::size_t i, std::size_t j, std::uint32_t length, HopTurns turns);
+  void lessen_by_hop(std::size_t i, std::size_t j, std::uint32_t length, HopTurns turns) {
+    if (length >= row(i)[j - i]) return;
+    row(i)[j - i] = length;
+    by(i)[j - i] = hop_bit | static_cast<WayBy>(hops_.size());
+    hops_.push_back(turns);
+  }
   /// The way from `from` to `to` > `from` of another matrix, here i and j > i.
   void lessen_as(std::size_t i, std::size_t j, const FrontMatrix& other, std::size_t from, std::size_t to) {
     const std::uint32_t length = other.row(from)[to - from];
     if (length < row(i)[j - i]) take(i, j, length, other, other.by(from)[to - from]);
   }
   /// The first `gates` of all, whose ranks begin at `first`.
-  void eliminate(std::size_t gates, GateRank first, const Execution& execution);
+  void eliminate(std::size_t gates, GateRank first, const Execution& execution) {
+    for (std::size_t begin = 0; begin < gates; begin += block) {
+      eliminate_block(begin, std::min(begin + block, gates), first, execution);
+    }
+  }
 
  private:
   WayBy* by(std::size_t i) { return by_.data() + i * size_ - (i > 0 ? i * (i - 1) / 2 : 0); }
-  void take(std::size_t i, std::size_t j, std::uint32_t length, const FrontMatrix& other, WayBy by_what);
-  void eliminate_block(std::size_t first, std::size_t last, GateRank rank, const Execution& execution);
-  void pass_by(std::size_t row, std::size_t first, std::size_t last, GateRank rank);
+  void take(std::size_t i, std::size_t j, std::uint32_t length, const FrontMatrix& other, WayBy by_what) {
+    if ((by_what & hop_bit) != 0) return lessen_by_hop(i, j, length, other.hop(by_what));
+    row(i)[j - i] = length;
+    by(i)[j - i] = by_what;
+  }
+
+  void eliminate_block(std::size_t first, std::size_t last, GateRank rank, const Execution& execution) {
+    for (std::size_t i = first + 1; i < last; ++i) pass_by(i, first, i, rank);
+    if (size_ - last < many_rows) {
+      execution.check();
+      for (std::size_t i = last; i < size_; ++i) pass_by(i, first, last, rank);
+      return;
+    }
+    for_chunks(size_ - last, front_row_grain, execution.quiet(), [&](Range r) {
+      for (std::size_t i = last + r.first; i < last + r.last; ++i) pass_by(i, first, last, rank);
+    });
+  }
+
+  /// The ways from `i` by gates first .. last - 1, whose rows are done; `rank` is that of gate 0.
+  void pass_by(std::size_t i, std::size_t first, std::size_t last, GateRank rank) {
+    const LessenRowBy lessen_all = lessen_row_by();
+    std::uint32_t* const own = row(i);
+    for (std::size_t gate = first; gate < last; ++gate) {
+      const std::uint32_t* const from_i = row(gate) + (i - gate);
+      if (*from_i < no_way) lessen_all(own, by(i), from_i, *from_i, rank + static_cast<GateRank>(gate), size_ - i);
+    }
+  }
 
   std::size_t size_;
   RawVector<std::uint32_t> lengths_;
   RawVector<WayBy> by_;
   RawVector<HopTurns> hops_;
 };
-
-FrontMatrix::FrontMatrix(std::size_t size, const Execution& execution) : size_(size) {
-  const std::size_t entries = size * (size + 1) / 2;
-  execution.reserve(entries * (sizeof(std::uint32_t) + sizeof(WayBy)));
-  const auto poll = [&] { execution.check(); };
-  assign_polled(lengths_, entries, no_way, poll);
-  assign_polled(by_, entries, WayBy{0}, poll);
-}
-
-void FrontMatrix::lessen_by_hop(std::size_t i, std::size_t j, std::uint32_t length, HopTurns turns) {
-  if (length >= row(i)[j - i]) return;
-  row(i)[j - i] = length;
-  by(i)[j - i] = hop_bit | static_cast<WayBy>(hops_.size());
-  hops_.push_back(turns);
-}
-
-void FrontMatrix::take(std::size_t i, std::size_t j, std::uint32_t length, const FrontMatrix& other, WayBy by_what) {
-  if ((by_what & hop_bit) != 0) return lessen_by_hop(i, j, length, other.hop(by_what));
-  row(i)[j - i] = length;
-  by(i)[j - i] = by_what;
-}
-
-void FrontMatrix::eliminate(std::size_t gates, GateRank first, const Execution& execution) {
-  for (std::size_t begin = 0; begin < gates; begin += block) {
-    eliminate_block(begin, std::min(begin + block, gates), first, execution);
-  }
-}
-
-void FrontMatrix::eliminate_block(std::size_t first, std::size_t last, GateRank rank, const Execution& execution) {
-  for (std::size_t i = first + 1; i < last; ++i) pass_by(i, first, i, rank);
-  if (size_ - last < many_rows) {
-    execution.check();
-    for (std::size_t i = last; i < size_; ++i) pass_by(i, first, last, rank);
-    return;
-  }
-  for_chunks(size_ - last, front_row_grain, execution.quiet(), [&](Range r) {
-    for (std::size_t i = last + r.first; i < last + r.last; ++i) pass_by(i, first, last, rank);
-  });
-}
-
-/// The ways from `i` by gates first .. last - 1, whose rows are done; `rank` is that of gate 0.
-void FrontMatrix::pass_by(std::size_t i, std::size_t first, std::size_t last, GateRank rank) {
-  const LessenRowBy lessen_all = lessen_row_by();
-  std::uint32_t* const own = row(i);
-  for (std::size_t gate = first; gate < last; ++gate) {
-    const std::uint32_t* const from_i = row(gate) + (i - gate);
-    if (*from_i < no_way) lessen_all(own, by(i), from_i, *from_i, rank + static_cast<GateRank>(gate), size_ - i);
-  }
-}
 
 std::size_t place_in(std::span<const std::uint32_t> ascending, std::uint32_t value) {
   return static_cast<std::size_t>(std::lower_bound(ascending.begin(), ascending.end(), value) - ascending.begin());
@@ -200,15 +187,69 @@ class LeafElimination {
   /// rank: of each junction, none of those in leaves.
   LeafElimination(const CoreGraph& graph, const RawVector<GateRank>& rank) : graph_(graph), rank_(rank) {}
 
-  BoundLengths eliminate(std::span<const JunctionId> leaf, const Execution& execution);
+  BoundLengths eliminate(std::span<const JunctionId> leaf, const Execution& execution) {
+    find_bounds(leaf);
+    load(leaf);
+    std::uint64_t left = (std::uint64_t{1} << leaf.size()) - 1;
+    while (left != 0) {
+      std::size_t least = most;
+      int fewest = most + 1;
+      for (std::uint64_t rest = left; rest != 0; rest &= rest - 1) {
+        const auto junction = static_cast<std::size_t>(std::countr_zero(rest));
+        const int degree = std::popcount(neighbours_[junction][0]) + std::popcount(neighbours_[junction][1]);
+        if (degree >= fewest) continue;
+        fewest = degree;
+        least = junction;
+      }
+      take_out(least);
+      left &= ~(std::uint64_t{1} << least);
+    }
+    BoundLengths result{bounds_, FrontMatrix(bounds_.size(), execution)};
+    for (std::size_t i = 0; i < bounds_.size(); ++i) {
+      for (std::size_t j = i + 1; j < bounds_.size(); ++j) {
+        const std::size_t to = leaf.size() + j;
+        const bool joined = (neighbours_[leaf.size() + i][to / 64] >> to % 64 & 1U) != 0;
+        if (!joined) continue;
+        result.lengths.lessen_by_hop(i, j, length_[leaf.size() + i][to], turns(leaf.size() + i, to));
+      }
+    }
+    return result;
+  }
 
  private:
   static constexpr std::size_t most = 128;
   static_assert(3 * most_leaf_junctions + 2 <= most, "a connected leaf of n junctions has at most 2 n + 2 bounds");
   using Neighbours = std::array<std::uint64_t, 2>;
 
-  void find_bounds(std::span<const JunctionId> leaf);
-  void load(std::span<const JunctionId> leaf);
+  void find_bounds(std::span<const JunctionId> leaf) {
+    bounds_.clear();
+    for (const JunctionId v : leaf) {
+      for (HalfEdge h = 4 * v; h < 4 * v + 4; ++h) {
+        const HalfEdge twin = graph_.twin[h];
+        if (twin != no_half_edge && rank_[twin / 4] != no_rank) bounds_.push_back(rank_[twin / 4]);
+      }
+    }
+    std::sort(bounds_.begin(), bounds_.end());
+    bounds_.erase(std::unique(bounds_.begin(), bounds_.end()), bounds_.end());
+  }
+
+  void load(std::span<const JunctionId> leaf) {
+    assert(leaf.size() + bounds_.size() <= most);
+    std::fill_n(neighbours_.begin(), leaf.size() + bounds_.size(), Neighbours{});
+    std::fill_n(slots_.begin(), leaf.size() + bounds_.size(), std::uint8_t{0});
+    for (std::size_t v = 0; v < leaf.size(); ++v) {
+      for (HalfEdge h = 4 * leaf[v]; h < 4 * leaf[v] + 4; ++h) {
+        const HalfEdge twin = graph_.twin[h];
+        if (twin == no_half_edge) continue;
+        const GateRank rank = rank_[twin / 4];
+        const std::size_t end = rank == no_rank ? place_in(leaf, twin / 4) : leaf.size() + place_in(bounds_, rank);
+        slots_[v] = static_cast<std::uint8_t>(slots_[v] | 1U << h % 4);
+        if (rank != no_rank) slots_[end] = slots_of(graph_, twin / 4);
+        join(v, end, graph_.length[h], {chain, static_cast<std::uint8_t>(h % 4), static_cast<std::uint8_t>(twin % 4)});
+      }
+    }
+  }
+
   /// By a junction, or `chain`, which leaves a and b by these slots.
   struct Join {
     std::uint8_t by;
@@ -216,9 +257,54 @@ class LeafElimination {
     std::uint8_t to_slot;
   };
   static constexpr std::uint8_t chain = most;
-  void join(std::size_t a, std::size_t b, std::uint32_t length, Join how);
-  void take_out(std::size_t junction);
-  HopTurns turns(std::size_t from, std::size_t to);
+
+  void join(std::size_t a, std::size_t b, std::uint32_t length, Join how) {
+    const bool joined = (neighbours_[a][b / 64] >> b % 64 & 1U) != 0;
+    if (joined && length_[a][b] <= length) return;
+    neighbours_[a][b / 64] |= std::uint64_t{1} << b % 64;
+    neighbours_[b][a / 64] |= std::uint64_t{1} << a % 64;
+    length_[a][b] = length_[b][a] = length;
+    join_[a][b] = how;
+    join_[b][a] = {how.by, how.to_slot, how.from_slot};
+  }
+
+  void take_out(std::size_t junction) {
+    std::array<std::uint8_t, most> near;
+    std::size_t count = 0;
+    for (std::size_t word = 0; word < 2; ++word) {
+      for (std::uint64_t rest = neighbours_[junction][word]; rest != 0; rest &= rest - 1) {
+        near[count++] = static_cast<std::uint8_t>(64 * word + static_cast<std::size_t>(std::countr_zero(rest)));
+      }
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      neighbours_[near[i]][junction / 64] &= ~(std::uint64_t{1} << junction % 64);
+      for (std::size_t j = i + 1; j < count; ++j) {
+        join(near[i], near[j], length_[junction][near[i]] + length_[junction][near[j]],
+             {static_cast<std::uint8_t>(junction), 0, 0});
+      }
+    }
+  }
+
+  /// What was joined by a junction is that way in two parts, however either was joined: both were never joined anew
+  /// since the junction was taken out.
+  HopTurns turns(std::size_t from, std::size_t to) {
+    TurnWriter writer;
+    unsigned exits = slots_[from];
+    todo_.assign(1, {static_cast<std::uint8_t>(from), static_cast<std::uint8_t>(to)});
+    while (!todo_.empty()) {
+      const auto [a, b] = todo_.back();
+      todo_.pop_back();
+      const Join& how = join_[a][b];
+      if (how.by != chain) {
+        todo_.emplace_back(how.by, b);
+        todo_.emplace_back(a, how.by);
+        continue;
+      }
+      writer.take(exits, how.from_slot);
+      exits = slots_[b] & ~(1U << how.to_slot);
+    }
+    return writer.turns();
+  }
 
   const CoreGraph& graph_;
   const RawVector<GateRank>& rank_;
@@ -230,129 +316,108 @@ class LeafElimination {
   std::vector<std::pair<std::uint8_t, std::uint8_t>> todo_;  // parts of a way, the first one last
 };
 
-BoundLengths LeafElimination::eliminate(std::span<const JunctionId> leaf, const Execution& execution) {
-  find_bounds(leaf);
-  load(leaf);
-  std::uint64_t left = (std::uint64_t{1} << leaf.size()) - 1;
-  while (left != 0) {
-    std::size_t least = most;
-    int fewest = most + 1;
-    for (std::uint64_t rest = left; rest != 0; rest &= rest - 1) {
-      const auto junction = static_cast<std::size_t>(std::countr_zero(rest));
-      const int degree = std::popcount(neighbours_[junction][0]) + std::popcount(neighbours_[junction][1]);
-      if (degree >= fewest) continue;
-      fewest = degree;
-      least = junction;
-    }
-    take_out(least);
-    left &= ~(std::uint64_t{1} << least);
-  }
-  BoundLengths result{bounds_, FrontMatrix(bounds_.size(), execution)};
-  for (std::size_t i = 0; i < bounds_.size(); ++i) {
-    for (std::size_t j = i + 1; j < bounds_.size(); ++j) {
-      const std::size_t to = leaf.size() + j;
-      const bool joined = (neighbours_[leaf.size() + i][to / 64] >> to % 64 & 1U) != 0;
-      if (!joined) continue;
-      result.lengths.lessen_by_hop(i, j, length_[leaf.size() + i][to], turns(leaf.size() + i, to));
-    }
-  }
-  return result;
-}
-
-void LeafElimination::find_bounds(std::span<const JunctionId> leaf) {
-  bounds_.clear();
-  for (const JunctionId v : leaf) {
-    for (HalfEdge h = 4 * v; h < 4 * v + 4; ++h) {
-      const HalfEdge twin = graph_.twin[h];
-      if (twin != no_half_edge && rank_[twin / 4] != no_rank) bounds_.push_back(rank_[twin / 4]);
-    }
-  }
-  std::sort(bounds_.begin(), bounds_.end());
-  bounds_.erase(std::unique(bounds_.begin(), bounds_.end()), bounds_.end());
-}
-
-void LeafElimination::load(std::span<const JunctionId> leaf) {
-  assert(leaf.size() + bounds_.size() <= most);
-  std::fill_n(neighbours_.begin(), leaf.size() + bounds_.size(), Neighbours{});
-  std::fill_n(slots_.begin(), leaf.size() + bounds_.size(), std::uint8_t{0});
-  for (std::size_t v = 0; v < leaf.size(); ++v) {
-    for (HalfEdge h = 4 * leaf[v]; h < 4 * leaf[v] + 4; ++h) {
-      const HalfEdge twin = graph_.twin[h];
-      if (twin == no_half_edge) continue;
-      const GateRank rank = rank_[twin / 4];
-      const std::size_t end = rank == no_rank ? place_in(leaf, twin / 4) : leaf.size() + place_in(bounds_, rank);
-      slots_[v] = static_cast<std::uint8_t>(slots_[v] | 1U << h % 4);
-      if (rank != no_rank) slots_[end] = slots_of(graph_, twin / 4);
-      join(v, end, graph_.length[h], {chain, static_cast<std::uint8_t>(h % 4), static_cast<std::uint8_t>(twin % 4)});
-    }
-  }
-}
-
-void LeafElimination::join(std::size_t a, std::size_t b, std::uint32_t length, Join how) {
-  const bool joined = (neighbours_[a][b / 64] >> b % 64 & 1U) != 0;
-  if (joined && length_[a][b] <= length) return;
-  neighbours_[a][b / 64] |= std::uint64_t{1} << b % 64;
-  neighbours_[b][a / 64] |= std::uint64_t{1} << a % 64;
-  length_[a][b] = length_[b][a] = length;
-  join_[a][b] = how;
-  join_[b][a] = {how.by, how.to_slot, how.from_slot};
-}
-
-/// What was joined by a junction is that way in two parts, however either was joined: both were never joined anew since
-/// the junction was taken out.
-HopTurns LeafElimination::turns(std::size_t from, std::size_t to) {
-  TurnWriter writer;
-  unsigned exits = slots_[from];
-  todo_.assign(1, {static_cast<std::uint8_t>(from), static_cast<std::uint8_t>(to)});
-  while (!todo_.empty()) {
-    const auto [a, b] = todo_.back();
-    todo_.pop_back();
-    const Join& how = join_[a][b];
-    if (how.by != chain) {
-      todo_.emplace_back(how.by, b);
-      todo_.emplace_back(a, how.by);
-      continue;
-    }
-    writer.take(exits, how.from_slot);
-    exits = slots_[b] & ~(1U << how.to_slot);
-  }
-  return writer.turns();
-}
-
-void LeafElimination::take_out(std::size_t junction) {
-  std::array<std::uint8_t, most> near;
-  std::size_t count = 0;
-  for (std::size_t word = 0; word < 2; ++word) {
-    for (std::uint64_t rest = neighbours_[junction][word]; rest != 0; rest &= rest - 1) {
-      near[count++] = static_cast<std::uint8_t>(64 * word + static_cast<std::size_t>(std::countr_zero(rest)));
-    }
-  }
-  for (std::size_t i = 0; i < count; ++i) {
-    neighbours_[near[i]][junction / 64] &= ~(std::uint64_t{1} << junction % 64);
-    for (std::size_t j = i + 1; j < count; ++j) {
-      join(near[i], near[j], length_[junction][near[i]] + length_[junction][near[j]],
-           {static_cast<std::uint8_t>(junction), 0, 0});
-    }
-  }
-}
-
 /// Fronts of consecutive nodes as they are made: offsets from their own beginning, until parts are put one behind the
 /// other.
 class FrontPart {
  public:
   /// The front of gates first .. first + gates - 1: the rows that these have in the matrix, eliminated.
-  void add(GateRank first, std::uint32_t gates, std::span<const GateRank> bounds, const FrontMatrix& matrix);
+  void add(GateRank first, std::uint32_t gates, std::span<const GateRank> bounds, const FrontMatrix& matrix) {
+    fronts_.push_back({bounds_.size(), add_lengths(gates, matrix), add_ways(first, gates, matrix), first, gates,
+                       static_cast<std::uint32_t>(bounds.size()), no_front});
+    bounds_.insert(bounds_.end(), bounds.begin(), bounds.end());
+  }
   /// Room for all of them and what may be above. Asks `execution` for it.
-  void reserve_for(std::span<const FrontPart> parts, const Execution& execution);
-  void append(const FrontPart& next);
+  void reserve_for(std::span<const FrontPart> parts, const Execution& execution) {
+    std::size_t shorts = 0;
+    std::size_t ways = 0;
+    for (const FrontPart& part : parts) {
+      shorts += part.short_lengths_.size();
+      ways += part.ways_.size();
+    }
+    execution.reserve((shorts + ways) * sizeof(std::uint16_t) * 3 / 2);
+    short_lengths_.reserve(shorts * 3 / 2);
+    ways_.reserve(ways * 3 / 2);
+  }
+
+  void append(const FrontPart& next) {
+    for (Front front : next.fronts_) {
+      front.first_bound += bounds_.size();
+      front.rows += 2 * (front.is_short() ? short_lengths_.size() : lengths_.size());
+      front.ways += 4 * ways_.size();
+      fronts_.push_back(front);
+    }
+    bounds_.insert(bounds_.end(), next.bounds_.begin(), next.bounds_.end());
+    lengths_.insert(lengths_.end(), next.lengths_.begin(), next.lengths_.end());
+    short_lengths_.insert(short_lengths_.end(), next.short_lengths_.begin(), next.short_lengths_.end());
+    ways_.insert(ways_.end(), next.ways_.begin(), next.ways_.end());
+  }
+
   /// Once all fronts are there: their parents.
-  void link();
+  void link() {
+    for (Front& front : fronts_) {
+      if (front.bounds == 0) continue;
+      const GateRank lowest = bounds_[front.first_bound];
+      const auto after = std::upper_bound(fronts_.begin(), fronts_.end(), lowest,
+                                          [](GateRank rank, const Front& f) { return rank < f.first; });
+      front.parent = static_cast<FrontId>(after - fronts_.begin() - 1);
+    }
+  }
+
   /// Leaves nothing here.
-  FrontArrays arrays(RawVector<LatticePlace> gate_place);
+  FrontArrays arrays(RawVector<LatticePlace> gate_place) {
+    return {ArrayOrView<Front>(std::move(fronts_)),          ArrayOrView<GateRank>(std::move(bounds_)),
+            ArrayOrView<std::uint32_t>(std::move(lengths_)), ArrayOrView<std::uint16_t>(std::move(short_lengths_)),
+            ArrayOrView<std::uint16_t>(std::move(ways_)),    ArrayOrView<LatticePlace>(std::move(gate_place))};
+  }
 
  private:
-  std::uint64_t add_lengths(std::uint32_t gates, const FrontMatrix& matrix);
-  std::uint64_t add_ways(GateRank first, std::uint32_t gates, const FrontMatrix& matrix);
+  /// In two bytes each where all fit; returns Front::rows.
+  std::uint64_t add_lengths(std::uint32_t gates, const FrontMatrix& matrix) {
+    bool fits = true;
+    for (std::size_t i = 0; i < gates; ++i) {
+      fits = fits && std::all_of(matrix.row(i) + 1, matrix.row(i) + (matrix.size() - i),
+                                 [](std::uint32_t length) { return length < no_short_way || length == no_way; });
+    }
+    const std::uint64_t rows = fits ? 2 * short_lengths_.size() + 1 : 2 * lengths_.size();
+    for (std::size_t i = 0; i < gates; ++i) {
+      const std::uint32_t* const first = matrix.row(i) + 1;
+      const std::uint32_t* const last = matrix.row(i) + (matrix.size() - i);
+      if (fits) {
+        std::transform(first, last, std::back_inserter(short_lengths_), [](std::uint32_t length) {
+          return length == no_way ? no_short_way : static_cast<std::uint16_t>(length);
+        });
+      } else {
+        lengths_.insert(lengths_.end(), first, last);
+      }
+    }
+    return rows;
+  }
+
+  /// In as few bits as the largest one needs; returns Front::ways.
+  std::uint64_t add_ways(GateRank first, std::uint32_t gates, const FrontMatrix& matrix) {
+    const auto for_each_way = [&](const auto& visit) {
+      for (std::uint32_t i = 0; i < gates; ++i) {
+        const WayBy* const by = matrix.by(i);
+        for (std::size_t j = 1; j < matrix.size() - i; ++j) {
+          if (matrix.row(i)[j] >= no_way) {
+            visit(0);
+          } else {
+            visit((by[j] & hop_bit) != 0 ? 2 * matrix.hop(by[j]) + 1 : 2 * std::uint64_t{first + i - by[j]});
+          }
+        }
+      }
+    };
+    std::uint64_t all = 0;
+    for_each_way([&](std::uint64_t way) { all |= way; });
+    const unsigned width = unsigned{all >> 16U != 0} + unsigned{all >> 32U != 0};
+    const std::uint64_t ways = 4 * ways_.size() + width;
+    for_each_way([&](std::uint64_t way) {
+      for (unsigned left = 1U << width; left > 0; --left, way >>= 16U) {
+        ways_.push_back(static_cast<std::uint16_t>(way & 0xffffU));
+      }
+    });
+    return ways;
+  }
 
   RawVector<Front> fronts_;
   RawVector<GateRank> bounds_;
@@ -360,101 +425,6 @@ class FrontPart {
   RawVector<std::uint16_t> short_lengths_;
   RawVector<std::uint16_t> ways_;
 };
-
-void FrontPart::add(GateRank first, std::uint32_t gates, std::span<const GateRank> bounds, const FrontMatrix& matrix) {
-  fronts_.push_back({bounds_.size(), add_lengths(gates, matrix), add_ways(first, gates, matrix), first, gates,
-                     static_cast<std::uint32_t>(bounds.size()), no_front});
-  bounds_.insert(bounds_.end(), bounds.begin(), bounds.end());
-}
-
-/// In two bytes each where all fit; returns Front::rows.
-std::uint64_t FrontPart::add_lengths(std::uint32_t gates, const FrontMatrix& matrix) {
-  bool fits = true;
-  for (std::size_t i = 0; i < gates; ++i) {
-    fits = fits && std::all_of(matrix.row(i) + 1, matrix.row(i) + (matrix.size() - i),
-                               [](std::uint32_t length) { return length < no_short_way || length == no_way; });
-  }
-  const std::uint64_t rows = fits ? 2 * short_lengths_.size() + 1 : 2 * lengths_.size();
-  for (std::size_t i = 0; i < gates; ++i) {
-    const std::uint32_t* const first = matrix.row(i) + 1;
-    const std::uint32_t* const last = matrix.row(i) + (matrix.size() - i);
-    if (fits) {
-      std::transform(first, last, std::back_inserter(short_lengths_), [](std::uint32_t length) {
-        return length == no_way ? no_short_way : static_cast<std::uint16_t>(length);
-      });
-    } else {
-      lengths_.insert(lengths_.end(), first, last);
-    }
-  }
-  return rows;
-}
-
-/// In as few bits as the largest one needs; returns Front::ways.
-std::uint64_t FrontPart::add_ways(GateRank first, std::uint32_t gates, const FrontMatrix& matrix) {
-  const auto for_each_way = [&](const auto& visit) {
-    for (std::uint32_t i = 0; i < gates; ++i) {
-      const WayBy* const by = matrix.by(i);
-      for (std::size_t j = 1; j < matrix.size() - i; ++j) {
-        if (matrix.row(i)[j] >= no_way) {
-          visit(0);
-        } else {
-          visit((by[j] & hop_bit) != 0 ? 2 * matrix.hop(by[j]) + 1 : 2 * std::uint64_t{first + i - by[j]});
-        }
-      }
-    }
-  };
-  std::uint64_t all = 0;
-  for_each_way([&](std::uint64_t way) { all |= way; });
-  const unsigned width = unsigned{all >> 16U != 0} + unsigned{all >> 32U != 0};
-  const std::uint64_t ways = 4 * ways_.size() + width;
-  for_each_way([&](std::uint64_t way) {
-    for (unsigned left = 1U << width; left > 0; --left, way >>= 16U) {
-      ways_.push_back(static_cast<std::uint16_t>(way & 0xffffU));
-    }
-  });
-  return ways;
-}
-
-void FrontPart::reserve_for(std::span<const FrontPart> parts, const Execution& execution) {
-  std::size_t shorts = 0;
-  std::size_t ways = 0;
-  for (const FrontPart& part : parts) {
-    shorts += part.short_lengths_.size();
-    ways += part.ways_.size();
-  }
-  execution.reserve((shorts + ways) * sizeof(std::uint16_t) * 3 / 2);
-  short_lengths_.reserve(shorts * 3 / 2);
-  ways_.reserve(ways * 3 / 2);
-}
-
-void FrontPart::append(const FrontPart& next) {
-  for (Front front : next.fronts_) {
-    front.first_bound += bounds_.size();
-    front.rows += 2 * (front.is_short() ? short_lengths_.size() : lengths_.size());
-    front.ways += 4 * ways_.size();
-    fronts_.push_back(front);
-  }
-  bounds_.insert(bounds_.end(), next.bounds_.begin(), next.bounds_.end());
-  lengths_.insert(lengths_.end(), next.lengths_.begin(), next.lengths_.end());
-  short_lengths_.insert(short_lengths_.end(), next.short_lengths_.begin(), next.short_lengths_.end());
-  ways_.insert(ways_.end(), next.ways_.begin(), next.ways_.end());
-}
-
-void FrontPart::link() {
-  for (Front& front : fronts_) {
-    if (front.bounds == 0) continue;
-    const GateRank lowest = bounds_[front.first_bound];
-    const auto after = std::upper_bound(fronts_.begin(), fronts_.end(), lowest,
-                                        [](GateRank rank, const Front& f) { return rank < f.first; });
-    front.parent = static_cast<FrontId>(after - fronts_.begin() - 1);
-  }
-}
-
-FrontArrays FrontPart::arrays(RawVector<LatticePlace> gate_place) {
-  return {ArrayOrView<Front>(std::move(fronts_)),          ArrayOrView<GateRank>(std::move(bounds_)),
-          ArrayOrView<std::uint32_t>(std::move(lengths_)), ArrayOrView<std::uint16_t>(std::move(short_lengths_)),
-          ArrayOrView<std::uint16_t>(std::move(ways_)),    ArrayOrView<LatticePlace>(std::move(gate_place))};
-}
 
 /// A node's place in the arrays of the dissection.
 struct NodePlace {
@@ -488,15 +458,131 @@ class FrontBuilder {
   std::span<const JunctionId> members(std::size_t node) const {
     return std::span(dissection_.member).subspan(place_[node].first_member, dissection_.node[node].members);
   }
-  void rank_gates();
-  void choose_tasks();
-  void do_node(std::size_t node, LeafElimination& leaves, std::vector<BoundLengths>& open, FrontPart& part) const;
-  std::vector<GateRank> bounds_of(std::size_t node, std::span<const BoundLengths> children) const;
-  void add_chains(std::size_t node, std::span<const GateRank> bounds, FrontMatrix& matrix) const;
+
+  void rank_gates() {
+    rank_.assign(graph_.size(), no_rank);
+    place_.reserve(dissection_.node.size());
+    std::vector<std::size_t> open;
+    std::uint64_t member = 0;
+    GateRank next = 0;
+    for (std::size_t node = 0; node < dissection_.node.size(); ++node) {
+      const DissectionNode& n = dissection_.node[node];
+      NodePlace place{member, n.members, next, static_cast<std::uint32_t>(node)};
+      for (std::uint32_t i = 0; i < n.children; ++i, open.pop_back()) {
+        place.junctions += place_[open.back()].junctions;
+        place.first_node = place_[open.back()].first_node;
+      }
+      open.push_back(node);
+      place_.push_back(place);
+      if (n.is_leaf == 0) {
+        for (const JunctionId v : members(node)) {
+          rank_[v] = next++;
+          gate_place_.push_back(graph_.place[v]);
+        }
+      }
+      member += n.members;
+    }
+  }
+
+  void choose_tasks() {
+    const std::uint64_t enough = std::max<std::uint64_t>(1024, graph_.size() / 128);
+    for (std::size_t node = place_.size(); node > 0;) {
+      --node;
+      if (place_[node].junctions > enough) continue;
+      tasks_.push_back(node);
+      node = place_[node].first_node;
+    }
+    std::reverse(tasks_.begin(), tasks_.end());
+  }
+
+  /// The children's lengths are the last ones of `open`; the node's take their place.
+  void do_node(std::size_t node, LeafElimination& leaves, std::vector<BoundLengths>& open, FrontPart& part) const {
+    const DissectionNode& n = dissection_.node[node];
+    if (n.is_leaf != 0) return open.push_back(leaves.eliminate(members(node), execution_));
+    const std::span<const BoundLengths> children(open.data() + (open.size() - n.children), n.children);
+    const std::vector<GateRank> bounds = bounds_of(node, children);
+    FrontMatrix matrix(n.members + bounds.size(), execution_);
+    for (const BoundLengths& child : children) add_child(child, node, bounds, matrix);
+    add_chains(node, bounds, matrix);
+    matrix.eliminate(n.members, place_[node].first_rank, execution_);
+    part.add(place_[node].first_rank, n.members, bounds, matrix);
+    open.erase(open.end() - static_cast<std::ptrdiff_t>(n.children), open.end());
+    FrontMatrix rest(bounds.size(), execution_);
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+      for (std::size_t j = i + 1; j < bounds.size(); ++j) rest.lessen_as(i, j, matrix, n.members + i, n.members + j);
+    }
+    open.push_back({bounds, std::move(rest)});
+  }
+
+  std::vector<GateRank> bounds_of(std::size_t node, std::span<const BoundLengths> children) const {
+    const GateRank end = place_[node].first_rank + dissection_.node[node].members;
+    std::vector<GateRank> bounds;
+    for (const BoundLengths& child : children) {
+      bounds.insert(bounds.end(), std::lower_bound(child.bounds.begin(), child.bounds.end(), end), child.bounds.end());
+    }
+    for (const JunctionId v : members(node)) {
+      for (HalfEdge h = 4 * v; h < 4 * v + 4; ++h) {
+        const HalfEdge twin = graph_.twin[h];
+        if (twin == no_half_edge || rank_[twin / 4] == no_rank || rank_[twin / 4] < end) continue;
+        bounds.push_back(rank_[twin / 4]);
+      }
+    }
+    std::sort(bounds.begin(), bounds.end());
+    bounds.erase(std::unique(bounds.begin(), bounds.end()), bounds.end());
+    return bounds;
+  }
+
+  void add_chains(std::size_t node, std::span<const GateRank> bounds, FrontMatrix& matrix) const {
+    for (const JunctionId v : members(node)) {
+      for (HalfEdge h = 4 * v; h < 4 * v + 4; ++h) {
+        const HalfEdge twin = graph_.twin[h];
+        if (twin == no_half_edge || rank_[twin / 4] == no_rank || rank_[twin / 4] < rank_[v]) continue;
+        TurnWriter turns;
+        turns.take(slots_of(graph_, v), h % 4);
+        matrix.lessen_by_hop(index_of(rank_[v], node, bounds), index_of(rank_[twin / 4], node, bounds),
+                             graph_.length[h], turns.turns());
+      }
+    }
+  }
+
   void add_child(const BoundLengths& child, std::size_t node, std::span<const GateRank> bounds,
-                 FrontMatrix& matrix) const;
-  std::size_t index_of(GateRank rank, std::size_t node, std::span<const GateRank> bounds) const;
-  FrontArrays join(std::vector<FrontPart>& parts, std::vector<std::vector<BoundLengths>>& left);
+                 FrontMatrix& matrix) const {
+    std::vector<std::size_t> index(child.bounds.size());
+    for (std::size_t i = 0; i < index.size(); ++i) index[i] = index_of(child.bounds[i], node, bounds);
+    for (std::size_t i = 0; i < index.size(); ++i) {
+      for (std::size_t j = i + 1; j < index.size(); ++j) matrix.lessen_as(index[i], index[j], child.lengths, i, j);
+    }
+  }
+
+  /// Row of a gate of the node or of one of its bounds.
+  std::size_t index_of(GateRank rank, std::size_t node, std::span<const GateRank> bounds) const {
+    const GateRank end = place_[node].first_rank + dissection_.node[node].members;
+    if (rank < end) return rank - place_[node].first_rank;
+    return dissection_.node[node].members + place_in(bounds, rank);
+  }
+
+  /// Does what is left, the nodes above the tasks, in order, and puts all parts one behind the other.
+  FrontArrays join(std::vector<FrontPart>& parts, std::vector<std::vector<BoundLengths>>& left) {
+    FrontPart all;
+    all.reserve_for(parts, execution_);
+    LeafElimination leaves(graph_, rank_);
+    std::vector<BoundLengths> open;
+    std::size_t task = 0;
+    for (std::size_t node = 0; node < place_.size(); ++node) {
+      if (task < tasks_.size() && place_[tasks_[task]].first_node == node) {
+        node = tasks_[task];
+        all.append(std::exchange(parts[task], {}));
+        for (BoundLengths& lengths : left[task]) open.push_back(std::move(lengths));
+        left[task++].clear();
+        continue;
+      }
+      FrontPart one;
+      do_node(node, leaves, open, one);
+      all.append(one);
+    }
+    all.link();
+    return all.arrays(std::move(gate_place_));
+  }
 
   const CoreGraph& graph_;
   const Dissection& dissection_;
@@ -506,133 +592,6 @@ class FrontBuilder {
   std::vector<NodePlace> place_;
   std::vector<std::size_t> tasks_;  // nodes whose whole region one thread does, ascending
 };
-
-void FrontBuilder::rank_gates() {
-  rank_.assign(graph_.size(), no_rank);
-  place_.reserve(dissection_.node.size());
-  std::vector<std::size_t> open;
-  std::uint64_t member = 0;
-  GateRank next = 0;
-  for (std::size_t node = 0; node < dissection_.node.size(); ++node) {
-    const DissectionNode& n = dissection_.node[node];
-    NodePlace place{member, n.members, next, static_cast<std::uint32_t>(node)};
-    for (std::uint32_t i = 0; i < n.children; ++i, open.pop_back()) {
-      place.junctions += place_[open.back()].junctions;
-      place.first_node = place_[open.back()].first_node;
-    }
-    open.push_back(node);
-    place_.push_back(place);
-    if (n.is_leaf == 0) {
-      for (const JunctionId v : members(node)) {
-        rank_[v] = next++;
-        gate_place_.push_back(graph_.place[v]);
-      }
-    }
-    member += n.members;
-  }
-}
-
-void FrontBuilder::choose_tasks() {
-  const std::uint64_t enough = std::max<std::uint64_t>(1024, graph_.size() / 128);
-  for (std::size_t node = place_.size(); node > 0;) {
-    --node;
-    if (place_[node].junctions > enough) continue;
-    tasks_.push_back(node);
-    node = place_[node].first_node;
-  }
-  std::reverse(tasks_.begin(), tasks_.end());
-}
-
-/// The children's lengths are the last ones of `open`; the node's take their place.
-void FrontBuilder::do_node(std::size_t node, LeafElimination& leaves, std::vector<BoundLengths>& open,
-                           FrontPart& part) const {
-  const DissectionNode& n = dissection_.node[node];
-  if (n.is_leaf != 0) return open.push_back(leaves.eliminate(members(node), execution_));
-  const std::span<const BoundLengths> children(open.data() + (open.size() - n.children), n.children);
-  const std::vector<GateRank> bounds = bounds_of(node, children);
-  FrontMatrix matrix(n.members + bounds.size(), execution_);
-  for (const BoundLengths& child : children) add_child(child, node, bounds, matrix);
-  add_chains(node, bounds, matrix);
-  matrix.eliminate(n.members, place_[node].first_rank, execution_);
-  part.add(place_[node].first_rank, n.members, bounds, matrix);
-  open.erase(open.end() - static_cast<std::ptrdiff_t>(n.children), open.end());
-  FrontMatrix rest(bounds.size(), execution_);
-  for (std::size_t i = 0; i < bounds.size(); ++i) {
-    for (std::size_t j = i + 1; j < bounds.size(); ++j) rest.lessen_as(i, j, matrix, n.members + i, n.members + j);
-  }
-  open.push_back({bounds, std::move(rest)});
-}
-
-std::vector<GateRank> FrontBuilder::bounds_of(std::size_t node, std::span<const BoundLengths> children) const {
-  const GateRank end = place_[node].first_rank + dissection_.node[node].members;
-  std::vector<GateRank> bounds;
-  for (const BoundLengths& child : children) {
-    bounds.insert(bounds.end(), std::lower_bound(child.bounds.begin(), child.bounds.end(), end), child.bounds.end());
-  }
-  for (const JunctionId v : members(node)) {
-    for (HalfEdge h = 4 * v; h < 4 * v + 4; ++h) {
-      const HalfEdge twin = graph_.twin[h];
-      if (twin == no_half_edge || rank_[twin / 4] == no_rank || rank_[twin / 4] < end) continue;
-      bounds.push_back(rank_[twin / 4]);
-    }
-  }
-  std::sort(bounds.begin(), bounds.end());
-  bounds.erase(std::unique(bounds.begin(), bounds.end()), bounds.end());
-  return bounds;
-}
-
-/// Row of a gate of the node or of one of its bounds.
-std::size_t FrontBuilder::index_of(GateRank rank, std::size_t node, std::span<const GateRank> bounds) const {
-  const GateRank end = place_[node].first_rank + dissection_.node[node].members;
-  if (rank < end) return rank - place_[node].first_rank;
-  const auto* at = &*std::lower_bound(bounds.begin(), bounds.end(), rank);
-  return dissection_.node[node].members + static_cast<std::size_t>(at - bounds.data());
-}
-
-void FrontBuilder::add_chains(std::size_t node, std::span<const GateRank> bounds, FrontMatrix& matrix) const {
-  for (const JunctionId v : members(node)) {
-    for (HalfEdge h = 4 * v; h < 4 * v + 4; ++h) {
-      const HalfEdge twin = graph_.twin[h];
-      if (twin == no_half_edge || rank_[twin / 4] == no_rank || rank_[twin / 4] < rank_[v]) continue;
-      TurnWriter turns;
-      turns.take(slots_of(graph_, v), h % 4);
-      matrix.lessen_by_hop(index_of(rank_[v], node, bounds), index_of(rank_[twin / 4], node, bounds), graph_.length[h],
-                           turns.turns());
-    }
-  }
-}
-
-void FrontBuilder::add_child(const BoundLengths& child, std::size_t node, std::span<const GateRank> bounds,
-                             FrontMatrix& matrix) const {
-  std::vector<std::size_t> index(child.bounds.size());
-  for (std::size_t i = 0; i < index.size(); ++i) index[i] = index_of(child.bounds[i], node, bounds);
-  for (std::size_t i = 0; i < index.size(); ++i) {
-    for (std::size_t j = i + 1; j < index.size(); ++j) matrix.lessen_as(index[i], index[j], child.lengths, i, j);
-  }
-}
-
-/// Does what is left, the nodes above the tasks, in order, and puts all parts one behind the other.
-FrontArrays FrontBuilder::join(std::vector<FrontPart>& parts, std::vector<std::vector<BoundLengths>>& left) {
-  FrontPart all;
-  all.reserve_for(parts, execution_);
-  LeafElimination leaves(graph_, rank_);
-  std::vector<BoundLengths> open;
-  std::size_t task = 0;
-  for (std::size_t node = 0; node < place_.size(); ++node) {
-    if (task < tasks_.size() && place_[tasks_[task]].first_node == node) {
-      node = tasks_[task];
-      all.append(std::exchange(parts[task], {}));
-      for (BoundLengths& lengths : left[task]) open.push_back(std::move(lengths));
-      left[task++].clear();
-      continue;
-    }
-    FrontPart one;
-    do_node(node, leaves, open, one);
-    all.append(one);
-  }
-  all.link();
-  return all.arrays(std::move(gate_place_));
-}
 
 }  // namespace
 

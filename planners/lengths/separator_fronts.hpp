@@ -37,24 +37,23 @@ inline constexpr std::uint32_t no_way = std::uint32_t{1} << 30;
 /// No way among short lengths.
 inline constexpr std::uint16_t no_short_way = 0xffff;
 
-/// least[i] becomes the smaller of itself and first + rest[i], for i < count. The arrays don't overlap.
-using LessenRow = void (*)(std::uint32_t* least, const std::uint32_t* rest, std::uint32_t first, std::size_t count);
+/// least[i] becomes the smaller of itself and first + rest[i], for i < count. The arrays don't overlap. Length:
+/// std::uint32_t, or std::uint16_t of short lengths, whose no_short_way lessens nothing that is at most no_way.
+template <class Length>
+using LessenRow = void (*)(std::uint32_t* least, const Length* rest, std::uint32_t first, std::size_t count);
 
 /// The fastest of this processor.
-LessenRow lessen_row();
-/// The same of short lengths; no_short_way lessens nothing that is at most no_way.
-using LessenRowShort = void (*)(std::uint32_t* least, const std::uint16_t* rest, std::uint32_t first,
-                                std::size_t count);
-LessenRowShort lessen_row_short();
+template <class Length>
+LessenRow<Length> lessen_row();
 
-/// lessen_row() where it is told by what: by[i] becomes `gate` where least[i] became smaller. `by` overlaps neither.
+/// The same where it is told by what: by[i] becomes `gate` where least[i] became smaller. `by` overlaps neither.
 using LessenRowBy = void (*)(std::uint32_t* least, std::uint32_t* by, const std::uint32_t* rest, std::uint32_t first,
                              std::uint32_t gate, std::size_t count);
 LessenRowBy lessen_row_by();
 
 /// What needs nothing special.
-void lessen_row_short_plain(std::uint32_t* least, const std::uint16_t* rest, std::uint32_t first, std::size_t count);
-void lessen_row_plain(std::uint32_t* least, const std::uint32_t* rest, std::uint32_t first, std::size_t count);
+template <class Length>
+void lessen_row_plain(std::uint32_t* least, const Length* rest, std::uint32_t first, std::size_t count);
 void lessen_row_by_plain(std::uint32_t* least, std::uint32_t* by, const std::uint32_t* rest, std::uint32_t first,
                          std::uint32_t gate, std::size_t count);
 

@@ -14,25 +14,18 @@ namespace {
 
 class ClimbWalk : public MarkWalk {
  public:
+  using MarkWalk::begin;
   using MarkWalk::MarkWalk;
 
-  void begin(const ClimbLeg& leg) {
-    to_ = leg.to;
-    MarkWalk::begin(leg.from, leg.steps, leg.first, leg.direction);
-  }
   void step() {
     const std::uint64_t* const here = row();
     if ((here[mark_word::core] >> col() & 1U) != 0) [[unlikely]]
       refuse_climb();
     write();
-    const bool is_inside = go(static_cast<unsigned>(here[mark_word::low] >> col() & 1U) |
-                              static_cast<unsigned>(here[mark_word::high] >> col() & 1U) << 1);
-    if (!is_inside || (left() == 0 && place() != to_)) [[unlikely]]
+    const bool is_inside = go(mark_word::low_and_high(here, col()));
+    if (!is_inside || is_astray()) [[unlikely]]
       refuse_climb();
   }
-
- private:
-  LatticePlace to_ = 0;
 };
 
 /// A bit a cell.
@@ -74,7 +67,7 @@ class TileWalk {
 
 }  // namespace
 
-void write_climbs(const RouteIndex& index, std::span<const ClimbLeg> legs, const Execution& execution) {
+void write_climbs(const RouteIndex& index, std::span<const MarkedWay> legs, const Execution& execution) {
   constexpr std::size_t grain = 16;
   for_chunks(legs.size(), grain, execution,
              [&](Range r) { walk_side_by_side<ClimbWalk>(index, legs.subspan(r.first, r.size())); });
@@ -179,7 +172,7 @@ TreeJoin TreeRoutes::meet_at_core(Climber& start, Climber& goal) const {
 }
 
 /// Pieces become less on the way, and their depths say how far on it their doors are.
-void TreeRoutes::cut(ClimbLeg climb, std::vector<ClimbLeg>& legs) const {
+void TreeRoutes::cut(MarkedWay climb, std::vector<MarkedWay>& legs) const {
   constexpr std::uint32_t fewest_steps = 1024;  // of a leg that is cut off
   if (climb.steps > 2 * fewest_steps) {
     const Climber climber = this->climber(climb.from, pieces_.climb(climb.from));

@@ -17,8 +17,18 @@
 
 namespace warren {
 
+/// A way that a walk makes, and where its cells go: from `from` to `to` = `steps` steps on, the first one to `first`,
+/// each further one `direction`, 1 or -1, beside the one before it.
+struct MarkedWay {
+  LatticePlace from;
+  LatticePlace to;
+  std::uint32_t steps;
+  int direction;
+  CellId* first;
+};
+
 /// Where a walk stands, and where its cells go.
-class MarkWalk {
+class MarkWalk : protected WalkedCells {
  public:
   explicit MarkWalk(const RouteIndex& index)
       : index_(index),
@@ -30,44 +40,40 @@ class MarkWalk {
   void prefetch(LatticePlace p) const { marks_.prefetch_tile(LatticePlaces::tile_of(p)); }
 
  protected:
-  // Column in bits 0 to 5, row in bits 7 to 12, as in cell_marks.hpp.
-  static constexpr std::uint32_t col_bits = 63;
-  static constexpr unsigned row_shift = 7;
-
-  /// Its cells go to `to`, `to` + direction, ...
-  void begin(LatticePlace from, std::uint32_t steps, CellId* to, int direction) {
-    left_ = steps;
-    cell_ = index_.places().cell_of(from);
-    to_ = to;
-    direction_ = direction;
-    stand_at(from);
+  void begin(const MarkedWay& way) {
+    left_ = way.steps;
+    cell_ = index_.places().cell_of(way.from);
+    out_ = way.first;
+    direction_ = way.direction;
+    to_ = way.to;
+    stand_at(way.from);
   }
-  void write() const { *to_ = cell_; }
+  void write() const { *out_ = cell_; }
   /// False where that leaves the lattice.
   bool go(unsigned way) {
     --left_;
     cell_ += next_[way];
-    to_ += direction_;
+    out_ += direction_;
     const std::uint32_t next = at_ + motion[way];
     if ((next & guards) != 0) [[unlikely]]
       return cross(way);
     at_ = next;
     return true;
   }
-  LatticePlace place() const {
-    return tile_ * LatticePlaces::tile_places + ((at_ >> row_shift) << 6U | (at_ & col_bits));
-  }
+  LatticePlace place() const { return tile_ * LatticePlaces::tile_places + in_tile(at_); }
   std::uint32_t col() const { return at_ & col_bits; }
   bool is_lowest_row() const { return at_ <= col_bits; }
   /// Its marks.
   const std::uint64_t* row() const { return words_ + std::size_t{at_ >> row_shift} * mark_word::count; }
   std::uint32_t left() const { return left_; }
+  int direction() const { return direction_; }
+  /// Has it ended beside where it leads to?
+  bool is_astray() const { return left_ == 0 && place() != to_; }
 
   const RouteIndex& index_;
   const CellMarks marks_;
 
  private:
-  static constexpr std::uint32_t guards = ~(col_bits | col_bits << row_shift);
   static constexpr std::array<std::uint32_t, 4> motion{1, 1U << row_shift, ~std::uint32_t{0}, ~(1U << row_shift) + 1};
 
   bool cross(unsigned way) {
@@ -81,21 +87,21 @@ class MarkWalk {
     tile_ = LatticePlaces::tile_of(p);
     index_.look_at_tile(p);
     words_ = marks_.tile(tile_);
-    const std::uint32_t in_tile = p % LatticePlaces::tile_places;
-    at_ = in_tile >> 6U << row_shift | (in_tile & col_bits);
+    at_ = at(p);
   }
 
   const std::array<CellId, 4> next_;  // what a motion adds to a cell, modulo 2^32
   std::uint32_t left_ = 0;
   CellId cell_ = 0;
-  CellId* to_ = nullptr;
+  CellId* out_ = nullptr;
   int direction_ = 1;
+  LatticePlace to_ = 0;
   std::uint32_t tile_ = 0;
   std::uint32_t at_ = 0;  // in it
   const std::uint64_t* words_ = nullptr;
 };
 
-/// Makes walks of all ways, four side by side. Walk: a MarkWalk with begin(way) and step(); ways have `from`.
+/// Makes walks of all ways, four side by side. Walk: a MarkWalk with begin(way) and step(); ways are MarkedWays.
 template <class Walk, class Way>
 void walk_side_by_side(const RouteIndex& index, std::span<const Way> ways) {
   constexpr std::size_t ahead = 4;  // ways whose first tile is asked for before their turn
@@ -117,19 +123,10 @@ void walk_side_by_side(const RouteIndex& index, std::span<const Way> ways) {
   }
 }
 
-/// Part of a way to the core, and where its cells go: from `from` to `to` = `steps` steps on, the first one to `first`,
-/// each further one `direction`, 1 or -1, beside the one before it.
-struct ClimbLeg {
-  LatticePlace from;
-  LatticePlace to;
-  std::uint32_t steps;
-  int direction;
-  CellId* first;
-};
-
-/// Writes the cells of all legs but for the one that each leads to, from marks alone: some ns a cell, on all threads.
-/// Throws InputError where marks lead elsewhere, after as many steps as the legs have; Stopped.
-void write_climbs(const RouteIndex& index, std::span<const ClimbLeg> legs, const Execution& execution);
+/// Writes the cells of all legs, parts of ways to the core, but for the one that each leads to, from marks alone: some
+/// ns a cell, on all threads. Throws InputError where marks lead elsewhere, after as many steps as the legs have;
+/// Stopped.
+void write_climbs(const RouteIndex& index, std::span<const MarkedWay> legs, const Execution& execution);
 
 /// How two cells get to each other, as far as trees go.
 struct TreeJoin {
@@ -149,7 +146,7 @@ class TreeRoutes {
 
   TreeJoin join(LatticePlace start, LatticePlace goal) const;
   /// Adds the legs of a climb to its end, cut at doors, so that many threads may write them. Throws InputError.
-  void cut(ClimbLeg climb, std::vector<ClimbLeg>& legs) const;
+  void cut(MarkedWay climb, std::vector<MarkedWay>& legs) const;
 
  private:
   /// A cell on its way to the core: it stands in a piece, or in none where the core is in its tile.

@@ -8,6 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/search/graph.hpp"
+#include "core/search/union_find.hpp"
 #include "planners/mazes/tile_plane.hpp"
 
 namespace warren {
@@ -348,21 +349,9 @@ VertexId Overlay::peel_from(VertexId v, VertexId first, VertexId last, std::uint
 }
 
 VertexId OverlayComponents::root(VertexId v) const {
-  while (parent_[v - first_] != v) v = parent_[v - first_];
-  return v;
-}
-
-/// Were they two components until now?
-bool OverlayComponents::join(VertexId v, VertexId w) {
-  const auto halved = [this](VertexId u) {
-    const auto parent = [this](VertexId of) -> VertexId& { return parent_[of - first_]; };
-    while (parent(u) != u) u = parent(u) = parent(parent(u));
-    return u;
-  };
-  const VertexId a = halved(v);
-  const VertexId b = halved(w);
-  parent_[std::max(a, b) - first_] = std::min(a, b);
-  return a != b;
+  VertexId place = v - first_;
+  while (parent_[place] != place) place = parent_[place];
+  return first_ + place;
 }
 
 OverlayComponents::OverlayComponents(const Overlay& overlay, Range vertices, const Execution& execution)
@@ -371,24 +360,25 @@ OverlayComponents::OverlayComponents(const Overlay& overlay, Range vertices, con
   struct Part {
     std::size_t members = 0;
     std::size_t joins = 0;
-    std::vector<Edge> across;  // to vertices before the chunk
+    std::vector<Edge> across;  // to places before the chunk
   };
   execution.reserve(vertices.size() * sizeof(VertexId));
   parent_.resize(vertices.size());
   std::vector<Part> parts(chunk_count(vertices.size(), grain));
   for_chunks(vertices.size(), grain, execution, [&](Range r) {
     Part part;
-    const auto first = static_cast<VertexId>(vertices.first + r.first);
-    for (VertexId v = first; v < vertices.first + r.last; ++v) {
-      parent_[v - first_] = v;
+    for (auto place = static_cast<VertexId>(r.first); place < r.last; ++place) {
+      const VertexId v = first_ + place;
+      parent_[place] = place;
       if (overlay.is_peeled(v)) continue;
       ++part.members;
       for (const OverlayEnd& end : overlay.ends(v)) {
         if (end.target > v || end.target < first_ || overlay.is_peeled(end.target)) continue;  // each edge once
-        if (end.target < first) {
-          part.across.push_back({v, end.target});
+        const VertexId other = end.target - first_;
+        if (other < r.first) {
+          part.across.push_back({place, other});
         } else {
-          part.joins += join(v, end.target) ? 1 : 0;
+          part.joins += unite(parent_, place, other) ? 1 : 0;
         }
       }
     }
@@ -397,13 +387,8 @@ OverlayComponents::OverlayComponents(const Overlay& overlay, Range vertices, con
   for (const Part& part : parts) {
     execution.check();
     count_ += part.members - part.joins;
-    for (const Edge& edge : part.across) count_ -= join(edge.from, edge.to) ? 1 : 0;
+    for (const Edge& edge : part.across) count_ -= unite(parent_, edge.from, edge.to) ? 1 : 0;
   }
-}
-
-CoreComponents core_components(const Overlay& overlay, const Execution& execution) {
-  const OverlayComponents components(overlay, {0, overlay.vertex_count()}, execution);
-  return {components.count(), components.root(overlay.start()) == components.root(overlay.goal())};
 }
 
 void peel_band(const TileGrid& grid, std::size_t first_row, std::size_t last_row, const OverlayEnds& ends,

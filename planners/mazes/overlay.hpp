@@ -42,7 +42,7 @@ struct EndLinks {
   std::uint64_t checked = 0;  ///< edges put to the walls
 };
 
-/// What the look-up needs to know of the world.
+/// What the look-up and the tiles need to know of the world.
 struct LatticeWorld {
   const TileGrid& grid;
   const TileSource& tiles;
@@ -133,18 +133,10 @@ class OverlayComponents {
   VertexId root(VertexId v) const;
 
  private:
-  bool join(VertexId v, VertexId w);
-
   const VertexId first_;
-  RawVector<VertexId> parent_;  // by place in the range
+  RawVector<VertexId> parent_;  // places in the range
   std::uint64_t count_ = 0;
 };
-
-struct CoreComponents {
-  std::uint64_t count = 0;
-  bool joined = false;  ///< start and goal are in one
-};
-CoreComponents core_components(const Overlay& overlay, const Execution& execution);
 
 /// The overlay of some rows of tiles, peeled by itself before it meets the others': what has an edge out of the band
 /// stays, dead ends that end within it go. What is left is said as summaries again, keys and edges in their order, so

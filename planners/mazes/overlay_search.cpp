@@ -269,54 +269,28 @@ void sort_once(std::vector<std::uint16_t>& keys) {
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
 }
 
-class RouteTiles {
- public:
-  RouteTiles(const TileGrid& grid, std::vector<TileSummary>& tiles) : grid_(grid), tiles_(tiles) {}
+/// The side of a tile that a neighbour lies at.
+unsigned side_to(const TileGrid& grid, std::uint64_t tile, std::uint64_t other) {
+  if (other == tile + 1) return 0;
+  if (other == tile + grid.tile_cols) return 1;
+  if (tile == other + 1) return 2;
+  if (tile == other + grid.tile_cols) return 3;
+  throw InputError("path", "leaps between tiles");
+}
 
-  void add_key(std::size_t tile, std::uint32_t place) {
-    if (tile >= tiles_.size() || place >= grid_.side() * grid_.side()) throw InputError("path", "leaves the tiles");
-    tiles_[tile].keys.push_back(static_cast<std::uint16_t>(place));
+/// Between keys that the tiles have.
+void add_leg(const RouteKey& from, const RouteKey& to, const TileGrid& grid, std::vector<TileSummary>& tiles) {
+  TileSummary& tile = tiles[from.tile];
+  const std::uint16_t a = number_of(tile, from.place);
+  const std::uint16_t b = number_of(tiles[to.tile], to.place);
+  if (from.tile == to.tile) {
+    tile.chains.push_back({std::min(a, b), std::max(a, b), 0, from.steps});
+    return;
   }
-  void add_link(const EndLink& link) {
-    const std::uint32_t in_tile = grid_.side() - 1;
-    add_key(grid_.tile_at(link.col, link.row), (link.row & in_tile) * grid_.side() + (link.col & in_tile));
-  }
-  /// After all keys, which are sorted then.
-  void add_leg(const RouteKey& from, const RouteKey& to) {
-    TileSummary& tile = tiles_[from.tile];
-    const std::uint16_t a = number_of(tile, from.place);
-    const std::uint16_t b = number_of(tiles_[to.tile], to.place);
-    if (from.tile == to.tile) {
-      tile.chains.push_back({std::min(a, b), std::max(a, b), 0, from.steps});
-      return;
-    }
-    const unsigned side = side_to(from.tile, to.tile);
-    tile.crossings[side].push_back(a);
-    tiles_[to.tile].crossings[side ^ 2U].push_back(b);
-  }
-  void sort_keys() {
-    for (TileSummary& tile : tiles_) sort_once(tile.keys);
-  }
-  void sort_edges() {
-    for (TileSummary& tile : tiles_) {
-      for (auto& crossing : tile.crossings) sort_once(crossing);
-      std::stable_sort(tile.chains.begin(), tile.chains.end(),
-                       [](const Chain& a, const Chain& b) { return a.from < b.from; });
-    }
-  }
-
- private:
-  unsigned side_to(std::uint64_t tile, std::uint64_t other) const {
-    if (other == tile + 1) return 0;
-    if (other == tile + grid_.tile_cols) return 1;
-    if (tile == other + 1) return 2;
-    if (tile == other + grid_.tile_cols) return 3;
-    throw InputError("path", "leaps between tiles");
-  }
-
-  const TileGrid& grid_;
-  std::vector<TileSummary>& tiles_;
-};
+  const unsigned side = side_to(grid, from.tile, to.tile);
+  tile.crossings[side].push_back(a);
+  tiles[to.tile].crossings[side ^ 2U].push_back(b);
+}
 
 }  // namespace
 
@@ -413,20 +387,30 @@ std::vector<TileSummary> tiles_of(const ToldRoute& route, const TileGrid& grid, 
   constexpr std::size_t between_looks = 65536;
   execution.reserve(grid.count() * sizeof(TileSummary) + route.keys.size() * 2 * sizeof(Chain));
   std::vector<TileSummary> tiles(grid.count());
-  RouteTiles made(grid, tiles);
+  const std::uint32_t side = grid.side();
+  const auto add_key = [&](std::size_t tile, std::uint32_t place) {
+    if (tile >= tiles.size() || place >= side * side) throw InputError("path", "leaves the tiles");
+    tiles[tile].keys.push_back(static_cast<std::uint16_t>(place));
+  };
   for (const EndLinks* end : {&ends.start, &ends.goal}) {
-    for (const EndLink& link : end->links) made.add_link(link);
+    for (const EndLink& link : end->links) {
+      add_key(grid.tile_at(link.col, link.row), link.row % side * side + link.col % side);
+    }
   }
   for (std::size_t i = 0; i < route.keys.size(); ++i) {
     if (i % between_looks == 0) execution.check();
-    made.add_key(route.keys[i].tile, route.keys[i].place);
+    add_key(route.keys[i].tile, route.keys[i].place);
   }
-  made.sort_keys();
+  for (TileSummary& tile : tiles) sort_once(tile.keys);
   for (std::size_t i = 0; i + 1 < route.keys.size(); ++i) {
     if (i % between_looks == 0) execution.check();
-    made.add_leg(route.keys[i], route.keys[i + 1]);
+    add_leg(route.keys[i], route.keys[i + 1], grid, tiles);
   }
-  made.sort_edges();
+  for (TileSummary& tile : tiles) {
+    for (auto& crossing : tile.crossings) sort_once(crossing);
+    std::stable_sort(tile.chains.begin(), tile.chains.end(),
+                     [](const Chain& a, const Chain& b) { return a.from < b.from; });
+  }
   return tiles;
 }
 

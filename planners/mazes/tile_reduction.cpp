@@ -70,6 +70,42 @@ void for_each_with(const std::uint8_t* bytes, int count, std::uint8_t mask, cons
   }
 }
 
+/// Sums of single bits fit a byte for 255 points at a time, so that compilers add 16 or more points at once.
+void count_points(const TilePlane& plane, TileSummary& summary) {
+  constexpr int batch = 64;
+  for (int row = 0; row < plane.height(); ++row) {
+    for (int first = 0; first < plane.width(); first += batch) {
+      const std::uint8_t* at = plane.at(first, row);
+      const std::uint8_t* above = plane.at(first, row + 1);
+      const int n = std::min(batch, plane.width() - first);
+      std::uint8_t stand = 0;
+      std::uint8_t pairs = 0;
+      std::uint8_t open = 0;
+      for (int i = 0; i < n; ++i) {
+        stand = static_cast<std::uint8_t>(stand + ((at[i] >> 4) & 1));
+        pairs = static_cast<std::uint8_t>(pairs + (((at[i] & at[i + 1]) >> 4) & 1) + (((at[i] & above[i]) >> 4) & 1));
+        open = static_cast<std::uint8_t>(open + (at[i] & 1) + ((at[i] >> 1) & 1));
+      }
+      summary.milestones += stand;
+      summary.candidate_edges += pairs;
+      summary.free_edges += open;
+    }
+  }
+}
+
+/// Calls visit(point, direction) for each point at a border and the direction that leads over it, along each border.
+template <class Visit>
+void for_each_at_border(TilePlane& plane, const Visit& visit) {
+  for (int row = 0; row < plane.height(); ++row) {
+    visit(plane.at(plane.width() - 1, row), 0U);
+    visit(plane.at(0, row), 2U);
+  }
+  for (int col = 0; col < plane.width(); ++col) {
+    visit(plane.at(col, plane.height() - 1), 1U);
+    visit(plane.at(col, 0), 3U);
+  }
+}
+
 PlaneRow row_of(TilePlane& plane, int row, std::vector<std::uint8_t>& found) {
   return {plane.at(0, row), plane.at(0, row + 1), plane.at(0, row - 1), found.data() + 1, plane.width()};
 }
@@ -127,8 +163,10 @@ TileReduction::TileReduction(const TilePlane& plane)
 
 TileSummary TileReduction::reduce(TilePlane& plane) {
   TileSummary summary;
-  count(plane, summary);
-  keep_crossings(plane);
+  count_points(plane, summary);
+  for_each_at_border(plane, [](std::uint8_t* at, unsigned direction) {
+    if ((*at & (1U << direction)) != 0) *at |= kept;
+  });
   peel(plane);
   number_keys(plane, summary);
   cut_crossings(plane, summary);
@@ -138,43 +176,6 @@ TileSummary TileReduction::reduce(TilePlane& plane) {
   summary.chains = chains_;
   summary.steps.assign(steps_.begin(), steps_.begin() + step_count_);
   return summary;
-}
-
-/// Sums of single bits fit a byte for 255 points at a time, so that compilers add 16 or more points at once.
-void TileReduction::count(const TilePlane& plane, TileSummary& summary) const {
-  constexpr int batch = 64;
-  for (int row = 0; row < plane.height(); ++row) {
-    for (int first = 0; first < plane.width(); first += batch) {
-      const std::uint8_t* at = plane.at(first, row);
-      const std::uint8_t* above = plane.at(first, row + 1);
-      const int n = std::min(batch, plane.width() - first);
-      std::uint8_t stand = 0;
-      std::uint8_t pairs = 0;
-      std::uint8_t open = 0;
-      for (int i = 0; i < n; ++i) {
-        stand = static_cast<std::uint8_t>(stand + ((at[i] >> 4) & 1));
-        pairs = static_cast<std::uint8_t>(pairs + (((at[i] & at[i + 1]) >> 4) & 1) + (((at[i] & above[i]) >> 4) & 1));
-        open = static_cast<std::uint8_t>(open + (at[i] & 1) + ((at[i] >> 1) & 1));
-      }
-      summary.milestones += stand;
-      summary.candidate_edges += pairs;
-      summary.free_edges += open;
-    }
-  }
-}
-
-void TileReduction::keep_crossings(TilePlane& plane) const {
-  const auto keep = [](std::uint8_t* at, unsigned edge) {
-    if ((*at & edge) != 0) *at |= kept;
-  };
-  for (int row = 0; row < plane.height(); ++row) {
-    keep(plane.at(0, row), plane_bit::left);
-    keep(plane.at(plane.width() - 1, row), plane_bit::right);
-  }
-  for (int col = 0; col < plane.width(); ++col) {
-    keep(plane.at(col, 0), plane_bit::down);
-    keep(plane.at(col, plane.height() - 1), plane_bit::up);
-  }
 }
 
 /// Passes over all rows, upwards and downwards in turn: most dead ends are short, and many points are looked at per
@@ -227,19 +228,11 @@ void TileReduction::number_keys(TilePlane& plane, TileSummary& summary) {
 /// Edges over the border are the neighbours' as well: they leave the plane and are listed side by side.
 void TileReduction::cut_crossings(TilePlane& plane, TileSummary& summary) {
   const std::uint8_t* const base = plane.at(-plane.margin(), -plane.margin());
-  const auto cut = [&](std::uint8_t* at, unsigned direction) {
+  for_each_at_border(plane, [&](std::uint8_t* at, unsigned direction) {
     if ((*at & (1U << direction)) == 0) return;
     *at &= static_cast<std::uint8_t>(~(1U << direction));
     summary.crossings[direction].push_back(number_[static_cast<std::size_t>(at - base)]);
-  };
-  for (int row = 0; row < plane.height(); ++row) {
-    cut(plane.at(plane.width() - 1, row), 0);
-    cut(plane.at(0, row), 2);
-  }
-  for (int col = 0; col < plane.width(); ++col) {
-    cut(plane.at(col, plane.height() - 1), 1);
-    cut(plane.at(col, 0), 3);
-  }
+  });
 }
 
 void TileReduction::chain_keys(TilePlane& plane) {

@@ -57,8 +57,6 @@ class TileReduction {
   TileSummary reduce(TilePlane& plane);
 
  private:
-  void count(const TilePlane& plane, TileSummary& summary) const;
-  void keep_crossings(TilePlane& plane) const;
   void peel(TilePlane& plane);
   void follow_dead_end(std::uint8_t* at) const;
   void number_keys(TilePlane& plane, TileSummary& summary);

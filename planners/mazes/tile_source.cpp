@@ -149,12 +149,7 @@ TileBands choose_bands(const WallCounts& counts, const TileGrid& grid, const Exe
 }
 
 WallPartition::WallPartition(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid, double halo,
-                             const Execution& execution)
-    : WallPartition(
-          walls, more, grid, halo, [](const WallCounts&) { return TileBands(); }, execution) {}
-
-WallPartition::WallPartition(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid, double halo,
-                             const Choose& choose, const Execution& execution)
+                             const Execution& execution, const Choose& choose)
     : walls_(walls),
       more_(more),
       execution_(execution),
@@ -186,23 +181,19 @@ std::vector<std::size_t> WallPartition::begin_band(std::uint32_t band, const Exe
   std::vector<std::size_t> tiles = bands_.tiles(grid_, band);
   if (filed_ == band) return tiles;
   filed_ = nothing;
-  place(tiles);
+  std::fill(first_narrow_.begin(), first_narrow_.end(), nothing);
+  std::fill(first_wide_.begin(), first_wide_.end(), nothing);
+  const std::size_t narrow = add_up(counts_.narrow(), tiles, first_narrow_);
+  const std::size_t wide = add_up(counts_.wide(), tiles, first_wide_);
   std::vector<std::size_t> chunks;
   for (std::size_t chunk = 0; chunk < counts_.chunks(); ++chunk) {
     const auto has = [&](std::size_t tile) { return counts_.has(chunk, tile); };
     if (std::any_of(tiles.begin(), tiles.end(), has)) chunks.push_back(chunk);
   }
-  make_room(narrow_count_, wide_count_, execution);
+  make_room(narrow, wide, execution);
   walls_.visit([&](auto walls) { scatter(walls, chunks, execution); });
   filed_ = band;
   return tiles;
-}
-
-void WallPartition::place(std::span<const std::size_t> tiles) {
-  std::fill(first_narrow_.begin(), first_narrow_.end(), nothing);
-  std::fill(first_wide_.begin(), first_wide_.end(), nothing);
-  narrow_count_ = add_up(counts_.narrow(), tiles, first_narrow_);
-  wide_count_ = add_up(counts_.wide(), tiles, first_wide_);
 }
 
 /// All that the loop reads is its own: what it writes might be any of the members.
@@ -434,7 +425,7 @@ std::unique_ptr<TileSource> held_tiles(const WallSet& walls, std::span<const Seg
   const auto choose = [&](const WallCounts& counts) {
     return bands > 0 ? TileBands{std::min(bands, grid.tile_cols)} : choose_bands(counts, grid, execution);
   };
-  return std::make_unique<WallPartition>(walls, more, grid, halo, choose, execution);
+  return std::make_unique<WallPartition>(walls, more, grid, halo, execution, choose);
 }
 
 std::unique_ptr<TileSource> cell_tiles(const CellWallSource& cells, const TileGrid& grid) {

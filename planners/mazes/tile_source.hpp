@@ -310,15 +310,14 @@ class TileSource {
 /// Walls that are held, filed by tile. Any number of threads may read, but while a band is filed.
 class WallPartition : public TileSource {
  public:
-  /// Files all tiles. `more` are a few walls beside the set (bounds), kept by reference, as are the walls, which
-  /// begin_band() and look_up() read. halo >= 0, in the world's unit. Throws Stopped at the deadline or before memory
-  /// would pass its limit, InputError where walls and tiles make 2^32 entries or more.
-  WallPartition(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid, double halo,
-                const Execution& execution);
-  /// Where there is one band it is filed; else none is, yet.
   using Choose = std::function<TileBands(const WallCounts&)>;
-  WallPartition(const WallSet& walls, std::span<const Segment> more, const TileGrid& grid, double halo,
-                const Choose& choose, const Execution& execution);
+  /// `more` are a few walls beside the set (bounds), kept by reference, as are the walls, which begin_band() and
+  /// look_up() read. halo >= 0, in the world's unit. Where there is one band it is filed; else none is, yet. Throws
+  /// Stopped at the deadline or before memory would pass its limit, InputError where walls and tiles make 2^32 entries
+  /// or more.
+  WallPartition(
+      const WallSet& walls, std::span<const Segment> more, const TileGrid& grid, double halo,
+      const Execution& execution, const Choose& choose = [](const WallCounts&) { return TileBands(); });
 
   std::uint32_t band_count() const override { return bands_.count; }
   /// Files the walls of a band's tiles in the place of those before, and returns the tiles, ascending. Throws as above.
@@ -336,7 +335,6 @@ class WallPartition : public TileSource {
   static constexpr std::uint32_t nothing = ~std::uint32_t{0};
 
   void make_room(std::size_t narrow, std::size_t wide, const Execution& execution);
-  void place(std::span<const std::size_t> tiles);
   static std::vector<std::uint32_t> places(const ChunkCounts& counts, const RawVector<std::uint32_t>& first,
                                            std::size_t chunk);
   template <class Wall>
@@ -350,8 +348,6 @@ class WallPartition : public TileSource {
   const WallCounts counts_;
   TileBands bands_;
   std::uint32_t filed_ = nothing;
-  std::size_t narrow_count_ = 0;  // of the tiles that are filed
-  std::size_t wide_count_ = 0;
   RawVector<std::uint32_t> first_narrow_;  // where the tile's walls begin; `nothing`: it is not filed
   RawVector<std::uint32_t> first_wide_;
   RawVector<NarrowWall> narrow_;

@@ -2,7 +2,6 @@
 #include "planners/mazes/tiled_prm_lattice.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <memory>
 #include <utility>
 
@@ -19,19 +18,9 @@ namespace {
 // path. Cost: as much again as these tiles, one nearest-neighbour query a milestone of the smaller component, and 16 to
 // 40 bytes a milestone of the two.
 
-/// Called from several threads, each with a plane of its own of that margin.
-struct TileMaker {
-  int margin;
-  std::uint32_t bands;  ///< of tiles, which are made one after the other
-  /// Returns the band's tiles; called by no thread but the first, while no tile is made.
-  std::function<std::vector<std::size_t>(std::uint32_t band)> begin;
-  /// The tile's keys as its reduction gave them; may use the plane up.
-  std::function<std::vector<std::uint16_t>(std::size_t tile, TilePlane& plane)> keys;
-  /// Makes the tile's roadmap in the plane, as before its reduction.
-  std::function<void(std::size_t tile, TilePlane& plane)> remake;
-};
-
 using Points = std::vector<Vec2>;
+/// Milestones that the start reaches, and those that the goal does.
+using PointsOfBoth = std::pair<Points, Points>;
 
 /// Marks the overlay vertices that `from` reaches, peeled ones included.
 void flood(const Overlay& overlay, VertexId from, std::uint8_t mark, RawVector<std::uint8_t>& marks,
@@ -69,8 +58,8 @@ void flood_plane(TilePlane& plane, int first_col, int first_row, Points& points)
   }
 }
 
-Points joined(const std::vector<std::pair<Points, Points>>& parts, Points std::pair<Points, Points>::*side, Vec2 end,
-              const Execution& execution) {
+Points joined_points(const std::vector<PointsOfBoth>& parts, Points PointsOfBoth::*side, Vec2 end,
+                     const Execution& execution) {
   std::size_t total = 1;
   for (const auto& part : parts) total += (part.*side).size();
   execution.reserve(2 * total * sizeof(Vec2));
@@ -78,46 +67,6 @@ Points joined(const std::vector<std::pair<Points, Points>>& parts, Points std::p
   all.reserve(total);
   for (const auto& part : parts) all.insert(all.end(), (part.*side).begin(), (part.*side).end());
   return all;
-}
-
-/// Throws Stopped, also where the memory limit does not allow for the milestones of both.
-Separation tile_separation(const Overlay& overlay, const TileGrid& grid, const OverlayEnds& ends,
-                           const TileMaker& maker, const Execution& execution) {
-  constexpr std::uint8_t of_start = 1;
-  constexpr std::uint8_t of_goal = 2;
-  execution.reserve(overlay.vertex_count());
-  RawVector<std::uint8_t> marks(overlay.vertex_count());
-  std::fill(marks.begin(), marks.end(), std::uint8_t{0});
-  flood(overlay, overlay.start(), of_start, marks, execution);
-  flood(overlay, overlay.goal(), of_goal, marks, execution);
-  const auto is_met = [&](std::size_t tile) {
-    const auto mark_of = [&](VertexId v) { return marks.data() + v; };
-    return std::any_of(mark_of(overlay.first_key(tile)), mark_of(overlay.first_key(tile + 1)),
-                       [](std::uint8_t mark) { return mark != 0; });
-  };
-  execution.reserve(grid.count() * sizeof(std::pair<Points, Points>));
-  std::vector<std::pair<Points, Points>> parts(grid.count());
-  const auto find_points = [&](std::size_t tile) {
-    TilePlane plane(grid, maker.margin);
-    execution.reserve(std::size_t{grid.side()} * grid.side() * sizeof(Vec2));
-    const std::vector<std::uint16_t> keys = maker.keys(tile, plane);
-    maker.remake(tile, plane);
-    for (std::size_t k = 0; k < keys.size(); ++k) {
-      const std::uint8_t mark = marks[overlay.first_key(tile) + k];
-      if (mark == 0) continue;
-      const int side = static_cast<int>(grid.side());
-      flood_plane(plane, keys[k] % side, keys[k] / side, mark == of_start ? parts[tile].first : parts[tile].second);
-    }
-  };
-  for (std::uint32_t band = 0; band < maker.bands; ++band) {
-    const std::vector<std::size_t> tiles = maker.begin(band);
-    for_chunks(tiles.size(), 1, execution, [&](Range r) {
-      if (is_met(tiles[r.first])) find_points(tiles[r.first]);
-    });
-  }
-  using Part = std::pair<Points, Points>;
-  return separation_between<2>(joined(parts, &Part::first, ends.start.at, execution),
-                               joined(parts, &Part::second, ends.goal.at, execution), execution);
 }
 
 /// One plan: what its stages share.
@@ -147,24 +96,280 @@ class TiledPlan {
   Solution<Vec2>& solution() { return solution_; }
 
  private:
-  void partition();
-  bool join_ends();
-  LatticeTiles tiles_made() const;
-  void reduce_bands();
-  std::vector<std::size_t> begin_band(std::uint32_t band);
-  void reduce_tiles();
-  void expand(const PathExpansion& path, const PathPiece& piece);
-  void forget(TileSummary& tile) const;
-  void give_pieces(const PathExpansion& path, PathTaker& taker);
-  void build_overlay();
-  bool joined();
-  void search();
-  bool search_is_elsewhere() const { return problem_.others != nullptr && problem_.others->searches(); }
-  void search_elsewhere();
-  void expand_path(const PathExpansion& path);
-  void measure_gap();
-  Separation gap();
+  void partition() {
+    if (problem_.cells != nullptr) {
+      source_ = cell_tiles(*problem_.cells, grid_);
+    } else {
+      const StageTimer timer(execution_, "index", solution_.seconds.index, 2 * problem_.walls.size());
+      const double halo = 1.0 + clearance_ * (1 + 1e-9) + 0.01;  // an edge's length, its clearance, and rounding
+      source_ = held_tiles(problem_.walls, problem_.more_walls, grid_, halo, problem_.bands, execution_);
+    }
+    box_ = problem_.box.value_or(source_->box());
+  }
 
+  LatticeWorld world() const { return {grid_, *source_, box_, clearance_}; }
+
+  /// Start and goal: false if one of them is blocked.
+  bool join_ends() {
+    const LatticeWorld world = this->world();
+    constexpr std::size_t many_walls = 100'000;  // as many as make a search by two threads worth it
+    Execution own = execution_.quiet();
+    if (problem_.walls.size() < many_walls) own.threads = 1;
+    for_chunks(2, 1, own, [&](Range r) {
+      (r.first == 0 ? ends_.start : ends_.goal) = end_links(world, r.first == 0 ? problem_.start : problem_.goal);
+    });
+    ends_.direct =
+        is_direct_candidate(problem_.start, problem_.goal) && is_direct_edge_free(world, problem_.start, problem_.goal);
+    if (!ends_.start.free) solution_.outcome = Outcome::start_blocked;
+    if (ends_.start.free && !ends_.goal.free) solution_.outcome = Outcome::goal_blocked;
+    return ends_.start.free && ends_.goal.free;
+  }
+
+  LatticeTiles tiles_made() const {
+    const std::size_t grain = problem_.cells != nullptr ? 8 : 1;  // a reader's scratch is large
+    return {world(), ends_, grain};
+  }
+  /// Fills in the summaries of these tiles, with steps.
+  void make(std::span<const std::size_t> tiles) {
+    std::vector<TileSummary> made(tiles.size());
+    tiles_made().reduce(tiles, made, execution_);
+    for (std::size_t i = 0; i < made.size(); ++i) tiles_[tiles[i]] = std::move(made[i]);
+  }
+
+  /// Walls that are held, a band after the other.
+  void reduce_bands() {
+    tiles_.resize(grid_.count());
+    for (std::uint32_t band = 0; band < source_->band_count(); ++band) {
+      std::vector<std::size_t> tiles;
+      {
+        const StageTimer timer(execution_, "index", solution_.seconds.index);
+        tiles = source_->begin_band(band, execution_);
+      }
+      const StageTimer timer(execution_, "connect", solution_.seconds.connect, tiles.size());
+      make(tiles);
+    }
+  }
+
+  void reduce_tiles() {
+    execution_.reserve(grid_.count() * sizeof(TileSummary));
+    if (source_->band_count() > 1) {
+      reduce_bands();
+    } else {
+      const StageTimer timer(execution_, "connect", solution_.seconds.connect, grid_.count());
+      if (problem_.others != nullptr) {
+        tiles_ = problem_.others->reduce_all(ends_, execution_);
+      } else {
+        tiles_.resize(grid_.count());
+        tiles_made().reduce({0, grid_.count()}, !problem_.forget, tiles_, problem_.kept, execution_);
+      }
+    }
+    const bool come_from_elsewhere = problem_.others != nullptr || problem_.kept != nullptr;
+    if (come_from_elsewhere && !search_is_elsewhere()) check_borders(grid_, tiles_, execution_);
+    if (!problem_.forget) source_.reset();
+    for (const TileSummary& tile : tiles_) {
+      solution_.roadmap.milestones += tile.milestones;
+      solution_.roadmap.edges += tile.free_edges;
+      solution_.roadmap.components += tile.closed_components;
+      solution_.counters.edges_checked += tile.candidate_edges;
+      solution_.counters.edges_free += tile.free_edges;
+    }
+    const std::uint64_t links = ends_.start.links.size() + ends_.goal.links.size() + (ends_.direct ? 1 : 0);
+    solution_.counters.kept = solution_.roadmap.milestones;
+    solution_.counters.edges_free += links;
+    solution_.counters.neighbour_queries = solution_.roadmap.milestones + ends_.start.queries + ends_.goal.queries;
+    solution_.counters.edges_checked +=
+        ends_.start.checked + ends_.goal.checked + (is_direct_candidate(problem_.start, problem_.goal) ? 1 : 0);
+    solution_.roadmap.milestones += 2;
+    solution_.roadmap.edges += links;
+    solution_.roadmap.end_edges = links;
+  }
+
+  /// Makes the tiles of a piece again. Where others make them the keys are here, and those hand the chains' steps back.
+  void expand(const PathExpansion& path, const PathPiece& piece) {
+    if (problem_.others == nullptr) {
+      if (tiles_.empty()) execution_.reserve(grid_.count() * sizeof(TileSummary));
+      tiles_.resize(grid_.count());
+      return make(piece.tiles);
+    }
+    const std::vector<PathChain> chains = path.chains_of(piece.legs);
+    std::vector<TileChain> asked;
+    for (const PathChain& chain : chains) {
+      const auto& keys = tiles_[chain.tile].keys;
+      asked.push_back({chain.tile, keys[chain.from], keys[chain.to], chain.length});
+    }
+    const std::vector<std::vector<std::uint8_t>> steps = problem_.others->steps_of(asked, execution_);
+    for (std::size_t i = 0; i < chains.size(); ++i) {
+      TileSummary& tile = tiles_[chains[i].tile];
+      tile.chains.push_back(
+          {chains[i].from, chains[i].to, static_cast<std::uint32_t>(tile.steps.size()), chains[i].length});
+      tile.steps.insert(tile.steps.end(), steps[i].begin(), steps[i].end());
+    }
+    for (const std::size_t t : piece.tiles) {
+      std::stable_sort(tiles_[t].chains.begin(), tiles_[t].chains.end(),
+                       [](const Chain& a, const Chain& b) { return a.from < b.from; });
+    }
+  }
+
+  void forget(TileSummary& tile) const {
+    if (problem_.others == nullptr) let_go(tile.keys);
+    let_go(tile.chains, tile.steps);
+    tile.crossings = {};
+  }
+
+  /// The keys of a path say which tiles it passes: what the search needs no more of the others stays forgotten.
+  void give_pieces(const PathExpansion& path, PathTaker& taker) {
+    taker.begin(path.point_count());
+    RawVector<Vec2> points;
+    for (std::size_t leg = 0; leg < path.leg_count();) {
+      const PathPiece piece = path.piece_from(leg, most_points, most_tiles);
+      {
+        const StageTimer timer(execution_, "search", solution_.seconds.search, piece.tiles.size());
+        expand(path, piece);
+        const std::size_t count = path.point_count(piece.legs);
+        if (count > points.capacity()) execution_.reserve(count * sizeof(Vec2));
+        points.resize(count);
+        path.write(piece.legs, tiles_, points.data());
+        for (const std::size_t tile : piece.tiles) forget(tiles_[tile]);
+      }
+      taker.add(points);
+      leg = piece.legs.last;
+    }
+  }
+
+  void build_overlay() {
+    {
+      const StageTimer timer(execution_, "graph", solution_.seconds.graph, grid_.count());
+      overlay_.emplace(grid_, tiles_, ends_, execution_);
+      if (problem_.forget && problem_.others == nullptr) let_go(tiles_);
+      for (TileSummary& tile : tiles_) {
+        if (problem_.forget) forget(tile);
+      }
+    }
+    const StageTimer timer(execution_, "reduce", solution_.seconds.reduce, grid_.count());
+    solution_.roadmap.components += overlay_->peel(execution_);
+  }
+
+  bool joined() {
+    const StageTimer timer(execution_, "reduce", solution_.seconds.reduce, overlay_->vertex_count());
+    const OverlayComponents components(*overlay_, {0, overlay_->vertex_count()}, execution_);
+    solution_.roadmap.components += components.count();
+    const bool joined = components.root(overlay_->start()) == components.root(overlay_->goal());
+    if (!joined) solution_.outcome = Outcome::not_connected;
+    return joined;
+  }
+
+  void search() {
+    std::optional<PathExpansion> path;
+    SearchResult found;
+    {
+      const StageTimer timer(execution_, "search", solution_.seconds.search, overlay_->vertex_count());
+      found = search_steps(*overlay_, ends_, execution_);
+      solution_.counters.expanded = found.expanded;
+      path.emplace(*overlay_, grid_, ends_, found.path, execution_);
+      if (!problem_.forget) solution_.path = path->points(tiles_);
+    }
+    expand_path(*path);
+  }
+
+  bool search_is_elsewhere() const { return problem_.others != nullptr && problem_.others->searches(); }
+
+  /// The overlay is then that of the path alone.
+  void search_elsewhere() {
+    std::optional<PathExpansion> path;
+    RawVector<VertexId> vertices;
+    {
+      const StageTimer timer(execution_, "search", solution_.seconds.search);
+      const ToldRoute route = problem_.others->search(ends_, execution_);
+      solution_.roadmap.components += route.components;
+      solution_.counters.expanded = route.expanded;
+      if (route.joined) {
+        tiles_ = tiles_of(route, grid_, ends_, execution_);
+        overlay_.emplace(grid_, tiles_, ends_, execution_);
+        for (TileSummary& tile : tiles_) forget(tile);
+        vertices = vertices_of(route, *overlay_, tiles_, execution_);
+        path.emplace(*overlay_, grid_, ends_, vertices, execution_);
+      }
+    }
+    if (path) return expand_path(*path);
+    solution_.outcome = Outcome::not_connected;
+    measure_gap();
+  }
+
+  void expand_path(const PathExpansion& path) {
+    PathKeeper keeper(solution_.path, execution_);
+    if (problem_.forget) give_pieces(path, problem_.taker != nullptr ? *problem_.taker : keeper);
+    solution_.outcome = Outcome::solved;
+  }
+
+  /// That there is no way is known by now: a budget that does not suffice for the gap leaves it unknown.
+  void measure_gap() {
+    try {
+      solution_.separation = gap();
+    } catch (const Stopped& stopped) {
+      if (is_signal(stopped.reason)) throw;
+    }
+  }
+
+  /// The tiles have been let go of, so those that are met are made again: an answer without a path is not hurried. What
+  /// others have handed on lacks dead ends, and where they search it is nothing.
+  Separation gap() {
+    if (source_ == nullptr) partition();
+    if (problem_.others != nullptr) {
+      overlay_.reset();
+      let_go(tiles_);  // before the next ones come
+      tiles_ = problem_.others->reduce_whole(ends_, execution_);
+      check_borders(grid_, tiles_, execution_);
+      overlay_.emplace(grid_, tiles_, ends_, execution_);
+    }
+    execution_.reserve(overlay_->vertex_count());
+    RawVector<std::uint8_t> marks(overlay_->vertex_count());
+    std::fill(marks.begin(), marks.end(), std::uint8_t{0});
+    flood(*overlay_, overlay_->start(), of_start, marks, execution_);
+    flood(*overlay_, overlay_->goal(), of_goal, marks, execution_);
+    execution_.reserve(grid_.count() * sizeof(PointsOfBoth));
+    std::vector<PointsOfBoth> parts(grid_.count());
+    for (std::uint32_t band = 0; band < source_->band_count(); ++band) {
+      const std::vector<std::size_t> tiles = source_->begin_band(band, execution_);
+      for_chunks(tiles.size(), 1, execution_,
+                 [&](Range r) { parts[tiles[r.first]] = reached_points(tiles[r.first], marks); });
+    }
+    return separation_between<2>(joined_points(parts, &PointsOfBoth::first, ends_.start.at, execution_),
+                                 joined_points(parts, &PointsOfBoth::second, ends_.goal.at, execution_), execution_);
+  }
+
+  /// The tile's roadmap, as before its reduction.
+  void make_plane(std::size_t tile, TilePlane& plane) const {
+    WallMarker marker(clearance_);
+    tiles_made().make_plane(tile, *source_->reader(), marker, plane);
+  }
+
+  /// The milestones that the tile's marked keys reach inside it.
+  PointsOfBoth reached_points(std::size_t tile, const RawVector<std::uint8_t>& marks) const {
+    const std::span<const std::uint8_t> own(marks.data() + overlay_->first_key(tile),
+                                            marks.data() + overlay_->first_key(tile + 1));
+    if (std::all_of(own.begin(), own.end(), [](std::uint8_t mark) { return mark == 0; })) return {};
+    TilePlane plane(grid_, WallMarker(clearance_).margin());
+    execution_.reserve(std::size_t{grid_.side()} * grid_.side() * sizeof(Vec2));
+    std::vector<std::uint16_t> keys;
+    if (tiles_.empty()) {
+      make_plane(tile, plane);
+      tiles_made().keep_linked(plane);
+      keys = TileReduction(plane).reduce(plane).keys;
+    } else {
+      keys = tiles_[tile].keys;
+    }
+    make_plane(tile, plane);
+    PointsOfBoth points;
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+      if (own[k] == 0) continue;
+      const int side = static_cast<int>(grid_.side());
+      flood_plane(plane, keys[k] % side, keys[k] / side, own[k] == of_start ? points.first : points.second);
+    }
+    return points;
+  }
+
+  static constexpr std::uint8_t of_start = 1;  // marks of keys
+  static constexpr std::uint8_t of_goal = 2;
   static constexpr std::size_t most_points = std::size_t{1} << 20;  // of a piece of the path
   static constexpr std::size_t most_tiles = 1024;
 
@@ -179,242 +384,6 @@ class TiledPlan {
   std::optional<Overlay> overlay_;
   Solution<Vec2> solution_;
 };
-
-void TiledPlan::partition() {
-  if (problem_.cells != nullptr) {
-    source_ = cell_tiles(*problem_.cells, grid_);
-  } else {
-    const StageTimer timer(execution_, "index", solution_.seconds.index, 2 * problem_.walls.size());
-    const double halo = 1.0 + clearance_ * (1 + 1e-9) + 0.01;  // an edge's length, its clearance, and rounding
-    source_ = held_tiles(problem_.walls, problem_.more_walls, grid_, halo, problem_.bands, execution_);
-  }
-  box_ = problem_.box.value_or(source_->box());
-}
-
-/// Start and goal: false if one of them is blocked.
-bool TiledPlan::join_ends() {
-  const LatticeWorld world{grid_, *source_, box_, clearance_};
-  constexpr std::size_t many_walls = 100'000;  // as many as make a search by two threads worth it
-  Execution own = execution_.quiet();
-  if (problem_.walls.size() < many_walls) own.threads = 1;
-  for_chunks(2, 1, own, [&](Range r) {
-    (r.first == 0 ? ends_.start : ends_.goal) = end_links(world, r.first == 0 ? problem_.start : problem_.goal);
-  });
-  ends_.direct =
-      is_direct_candidate(problem_.start, problem_.goal) && is_direct_edge_free(world, problem_.start, problem_.goal);
-  if (!ends_.start.free) solution_.outcome = Outcome::start_blocked;
-  if (ends_.start.free && !ends_.goal.free) solution_.outcome = Outcome::goal_blocked;
-  return ends_.start.free && ends_.goal.free;
-}
-
-LatticeTiles TiledPlan::tiles_made() const {
-  const std::size_t grain = problem_.cells != nullptr ? 8 : 1;  // a reader's scratch is large
-  return {grid_, *source_, box_, clearance_, ends_, grain};
-}
-
-/// Walls that are held, a band after the other.
-void TiledPlan::reduce_bands() {
-  tiles_.resize(grid_.count());
-  for (std::uint32_t band = 0; band < source_->band_count(); ++band) {
-    const std::vector<std::size_t> tiles = begin_band(band);
-    const StageTimer timer(execution_, "connect", solution_.seconds.connect, tiles.size());
-    std::vector<TileSummary> made(tiles.size());
-    tiles_made().reduce(tiles, made, execution_);
-    for (std::size_t i = 0; i < made.size(); ++i) tiles_[tiles[i]] = std::move(made[i]);
-  }
-}
-
-std::vector<std::size_t> TiledPlan::begin_band(std::uint32_t band) {
-  const StageTimer timer(execution_, "index", solution_.seconds.index);
-  return source_->begin_band(band, execution_);
-}
-
-void TiledPlan::reduce_tiles() {
-  execution_.reserve(grid_.count() * sizeof(TileSummary));
-  if (source_->band_count() > 1) {
-    reduce_bands();
-  } else {
-    const StageTimer timer(execution_, "connect", solution_.seconds.connect, grid_.count());
-    if (problem_.others != nullptr) {
-      tiles_ = problem_.others->reduce_all(ends_, execution_);
-    } else {
-      tiles_.resize(grid_.count());
-      tiles_made().reduce({0, grid_.count()}, !problem_.forget, tiles_, problem_.kept, execution_);
-    }
-  }
-  const bool come_from_elsewhere = problem_.others != nullptr || problem_.kept != nullptr;
-  if (come_from_elsewhere && !search_is_elsewhere()) check_borders(grid_, tiles_, execution_);
-  if (!problem_.forget) source_.reset();
-  for (const TileSummary& tile : tiles_) {
-    solution_.roadmap.milestones += tile.milestones;
-    solution_.roadmap.edges += tile.free_edges;
-    solution_.roadmap.components += tile.closed_components;
-    solution_.counters.edges_checked += tile.candidate_edges;
-    solution_.counters.edges_free += tile.free_edges;
-  }
-  const std::uint64_t links = ends_.start.links.size() + ends_.goal.links.size() + (ends_.direct ? 1 : 0);
-  solution_.counters.kept = solution_.roadmap.milestones;
-  solution_.counters.edges_free += links;
-  solution_.counters.neighbour_queries = solution_.roadmap.milestones + ends_.start.queries + ends_.goal.queries;
-  solution_.counters.edges_checked +=
-      ends_.start.checked + ends_.goal.checked + (is_direct_candidate(problem_.start, problem_.goal) ? 1 : 0);
-  solution_.roadmap.milestones += 2;
-  solution_.roadmap.edges += links;
-  solution_.roadmap.end_edges = links;
-}
-
-void TiledPlan::build_overlay() {
-  {
-    const StageTimer timer(execution_, "graph", solution_.seconds.graph, grid_.count());
-    overlay_.emplace(grid_, tiles_, ends_, execution_);
-    if (problem_.forget && problem_.others == nullptr) let_go(tiles_);
-    for (TileSummary& tile : tiles_) {
-      if (problem_.forget) forget(tile);
-    }
-  }
-  const StageTimer timer(execution_, "reduce", solution_.seconds.reduce, grid_.count());
-  solution_.roadmap.components += overlay_->peel(execution_);
-}
-
-bool TiledPlan::joined() {
-  const StageTimer timer(execution_, "reduce", solution_.seconds.reduce, overlay_->vertex_count());
-  const CoreComponents components = core_components(*overlay_, execution_);
-  solution_.roadmap.components += components.count;
-  if (!components.joined) solution_.outcome = Outcome::not_connected;
-  return components.joined;
-}
-
-/// That there is no way is known by now: a budget that does not suffice for the gap leaves it unknown.
-void TiledPlan::measure_gap() {
-  try {
-    solution_.separation = gap();
-  } catch (const Stopped& stopped) {
-    if (is_signal(stopped.reason)) throw;
-  }
-}
-
-/// The tiles have been let go of, so those that are met are made again: an answer without a path is not hurried. What
-/// others have handed on lacks dead ends, and where they search it is nothing.
-Separation TiledPlan::gap() {
-  if (source_ == nullptr) partition();
-  if (problem_.others != nullptr) {
-    overlay_.reset();
-    let_go(tiles_);  // before the next ones come
-    tiles_ = problem_.others->reduce_whole(ends_, execution_);
-    check_borders(grid_, tiles_, execution_);
-    overlay_.emplace(grid_, tiles_, ends_, execution_);
-  }
-  const auto remake = [&](std::size_t tile, TilePlane& plane) {
-    WallMarker marker(clearance_);
-    tiles_made().make_plane(tile, *source_->reader(), marker, plane);
-  };
-  const auto keys = [&](std::size_t tile, TilePlane& plane) {
-    if (!tiles_.empty()) return tiles_[tile].keys;
-    remake(tile, plane);
-    tiles_made().keep_linked(plane);
-    return TileReduction(plane).reduce(plane).keys;
-  };
-  const int margin = WallMarker(clearance_).margin();
-  const auto begin = [&](std::uint32_t band) { return source_->begin_band(band, execution_); };
-  const TileMaker maker{margin, source_->band_count(), begin, keys, remake};
-  return tile_separation(*overlay_, grid_, ends_, maker, execution_);
-}
-
-/// Makes the tiles of a piece again. Where others make them the keys are here, and those hand the chains' steps back.
-void TiledPlan::expand(const PathExpansion& path, const PathPiece& piece) {
-  if (problem_.others == nullptr) {
-    if (tiles_.empty()) execution_.reserve(grid_.count() * sizeof(TileSummary));
-    tiles_.resize(grid_.count());
-    std::vector<TileSummary> made(piece.tiles.size());
-    tiles_made().reduce(piece.tiles, made, execution_);
-    for (std::size_t i = 0; i < made.size(); ++i) tiles_[piece.tiles[i]] = std::move(made[i]);
-    return;
-  }
-  const std::vector<PathChain> chains = path.chains_of(piece.legs);
-  std::vector<TileChain> asked;
-  for (const PathChain& chain : chains) {
-    const auto& keys = tiles_[chain.tile].keys;
-    asked.push_back({chain.tile, keys[chain.from], keys[chain.to], chain.length});
-  }
-  const std::vector<std::vector<std::uint8_t>> steps = problem_.others->steps_of(asked, execution_);
-  for (std::size_t i = 0; i < chains.size(); ++i) {
-    TileSummary& tile = tiles_[chains[i].tile];
-    tile.chains.push_back(
-        {chains[i].from, chains[i].to, static_cast<std::uint32_t>(tile.steps.size()), chains[i].length});
-    tile.steps.insert(tile.steps.end(), steps[i].begin(), steps[i].end());
-  }
-  for (const std::size_t t : piece.tiles) {
-    std::stable_sort(tiles_[t].chains.begin(), tiles_[t].chains.end(),
-                     [](const Chain& a, const Chain& b) { return a.from < b.from; });
-  }
-}
-
-void TiledPlan::forget(TileSummary& tile) const {
-  if (problem_.others == nullptr) let_go(tile.keys);
-  let_go(tile.chains, tile.steps);
-  tile.crossings = {};
-}
-
-/// The keys of a path say which tiles it passes: what the search needs no more of the others stays forgotten.
-void TiledPlan::give_pieces(const PathExpansion& path, PathTaker& taker) {
-  taker.begin(path.point_count());
-  RawVector<Vec2> points;
-  for (std::size_t leg = 0; leg < path.leg_count();) {
-    const PathPiece piece = path.piece_from(leg, most_points, most_tiles);
-    {
-      const StageTimer timer(execution_, "search", solution_.seconds.search, piece.tiles.size());
-      expand(path, piece);
-      const std::size_t count = path.point_count(piece.legs);
-      if (count > points.capacity()) execution_.reserve(count * sizeof(Vec2));
-      points.resize(count);
-      path.write(piece.legs, tiles_, points.data());
-      for (const std::size_t tile : piece.tiles) forget(tiles_[tile]);
-    }
-    taker.add(points);
-    leg = piece.legs.last;
-  }
-}
-
-void TiledPlan::expand_path(const PathExpansion& path) {
-  PathKeeper keeper(solution_.path, execution_);
-  if (problem_.forget) give_pieces(path, problem_.taker != nullptr ? *problem_.taker : keeper);
-  solution_.outcome = Outcome::solved;
-}
-
-void TiledPlan::search() {
-  std::optional<PathExpansion> path;
-  SearchResult found;
-  {
-    const StageTimer timer(execution_, "search", solution_.seconds.search, overlay_->vertex_count());
-    found = search_steps(*overlay_, ends_, execution_);
-    solution_.counters.expanded = found.expanded;
-    path.emplace(*overlay_, grid_, ends_, found.path, execution_);
-    if (!problem_.forget) solution_.path = path->points(tiles_);
-  }
-  expand_path(*path);
-}
-
-/// The overlay is then that of the path alone.
-void TiledPlan::search_elsewhere() {
-  std::optional<PathExpansion> path;
-  RawVector<VertexId> vertices;
-  {
-    const StageTimer timer(execution_, "search", solution_.seconds.search);
-    const ToldRoute route = problem_.others->search(ends_, execution_);
-    solution_.roadmap.components += route.components;
-    solution_.counters.expanded = route.expanded;
-    if (route.joined) {
-      tiles_ = tiles_of(route, grid_, ends_, execution_);
-      overlay_.emplace(grid_, tiles_, ends_, execution_);
-      for (TileSummary& tile : tiles_) forget(tile);
-      vertices = vertices_of(route, *overlay_, tiles_, execution_);
-      path.emplace(*overlay_, grid_, ends_, vertices, execution_);
-    }
-  }
-  if (path) return expand_path(*path);
-  solution_.outcome = Outcome::not_connected;
-  measure_gap();
-}
 
 /// The parts of a run are the same for any number of threads: of so many tiles each.
 bool take_kept(KeptParts& kept, std::size_t first, std::uint32_t side, std::span<TileSummary> summaries) {
@@ -459,11 +428,11 @@ class LatticeTiles::Maker {
  public:
   explicit Maker(const LatticeTiles& tiles)
       : tiles_(tiles),
-        reader_(tiles.source_.reader()),
-        marker_(tiles.clearance_),
-        plane_(tiles.grid_, marker_.margin()),
+        reader_(tiles.world_.tiles.reader()),
+        marker_(tiles.world_.clearance),
+        plane_(tiles.world_.grid, marker_.margin()),
         reduction_(plane_),
-        bytes_(std::size_t{tiles.grid_.side()} * tiles.grid_.side() / 4) {}
+        bytes_(std::size_t{tiles.world_.grid.side()} * tiles.world_.grid.side() / 4) {}
 
   TileSummary make(std::size_t tile, const Execution& execution) {
     execution.reserve(bytes_);
@@ -484,16 +453,16 @@ class LatticeTiles::Maker {
 };
 
 void LatticeTiles::make_plane(std::size_t tile, TileReader& reader, WallMarker& marker, TilePlane& plane) const {
-  plane.reset(tile, box_);
+  plane.reset(tile, world_.box);
   marker.mark(reader.read(tile), plane);
 }
 
 void LatticeTiles::keep_linked(TilePlane& plane) const {
   for (const EndLinks* end : {&ends_.start, &ends_.goal}) {
     for (const EndLink& link : end->links) {
-      if (grid_.tile_at(link.col, link.row) != plane.tile()) continue;
-      *plane.at(static_cast<int>(link.col - grid_.first_col(plane.tile())),
-                static_cast<int>(link.row - grid_.first_row(plane.tile()))) |= plane_bit::kept;
+      if (world_.grid.tile_at(link.col, link.row) != plane.tile()) continue;
+      *plane.at(static_cast<int>(link.col - world_.grid.first_col(plane.tile())),
+                static_cast<int>(link.row - world_.grid.first_row(plane.tile()))) |= plane_bit::kept;
     }
   }
 }
@@ -502,7 +471,7 @@ void LatticeTiles::reduce(Range tiles, bool with_steps, std::span<TileSummary> s
                           const Execution& execution) const {
   for_chunks(tiles.size(), grain_, execution, [&](Range r) {
     const std::span<TileSummary> part = summaries.subspan(r.first, r.size());
-    if (kept != nullptr && take_kept(*kept, tiles.first + r.first, grid_.side(), part)) return;
+    if (kept != nullptr && take_kept(*kept, tiles.first + r.first, world_.grid.side(), part)) return;
     Maker maker(*this);
     for (std::size_t i = 0; i < part.size(); ++i) {
       part[i] = maker.make(tiles.first + r.first + i, execution);

@@ -98,14 +98,13 @@ bool tiled_prm_applies(const RoadmapOptions& options, double clearance);
 Solution<Vec2> tiled_prm(const TiledProblem& problem, const RoadmapOptions& options, const Execution& execution);
 
 /// The first stages of the tiled lattice roadmap: each tile's milestones and edges, and its reduction, by all threads.
-/// Tiles share nothing: any of them may be made here, in an earlier run, or by another process. Refers to grid, source
-/// and ends.
+/// Tiles share nothing: any of them may be made here, in an earlier run, or by another process. Refers to what the
+/// world refers to, and to ends.
 class LatticeTiles {
  public:
-  /// clearance: of planning. box: the reference point stays in it. grain: tiles that a thread makes at once.
-  LatticeTiles(const TileGrid& grid, const TileSource& source, Box box, double clearance, const OverlayEnds& ends,
-               std::size_t grain)
-      : grid_(grid), source_(source), box_(box), clearance_(clearance), ends_(ends), grain_(grain) {}
+  /// grain: tiles that a thread makes at once.
+  LatticeTiles(const LatticeWorld& world, const OverlayEnds& ends, std::size_t grain)
+      : world_(world), ends_(ends), grain_(grain) {}
 
   /// The tile's roadmap before its reduction; what start and goal join is marked by keep_linked().
   void make_plane(std::size_t tile, TileReader& reader, WallMarker& marker, TilePlane& plane) const;
@@ -120,10 +119,7 @@ class LatticeTiles {
  private:
   class Maker;
 
-  const TileGrid& grid_;
-  const TileSource& source_;
-  const Box box_;
-  const double clearance_;
+  const LatticeWorld world_;
   const OverlayEnds& ends_;
   const std::size_t grain_;
 };

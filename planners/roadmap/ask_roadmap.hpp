@@ -216,7 +216,7 @@ class Ask {
       attach_ends();
       search();
       if (solution_.outcome == Outcome::not_connected && tells_separation()) tell_separation();
-      if (keep != nullptr) *keep = kept();
+      if (keep != nullptr) *keep = {all_states(), free_graph(), tree_};
     } catch (const Stopped& stopped) {
       mark_stopped(solution_, stopped);
     }
@@ -242,8 +242,39 @@ class Ask {
     };
   }
 
-  void attach_ends();
-  void attach_one_way(std::size_t end, Heading heading);
+  void attach_ends() {
+    const StageTimer timer(execution_, "connect", solution_.seconds.connect);
+    if constexpr (one_way) {
+      attach_one_way(0, Heading::out);
+      attach_one_way(1, Heading::in);
+      auto query = world_.make_query();
+      if (world_.distance(ends_[0], ends_[1]) <= direct_reach(roadmap_.rule()) &&
+          may_be_free(ends_[0], ends_[1], query)) {
+        end_edges_.push_back({start_vertex(), goal_vertex()});
+      }
+      solution_.counters.refused += refused_motions(query);
+    } else {
+      end_edges_ = attach_start_and_goal(world_, roadmap_.states(), roadmap_.index(), roadmap_.rule(), ends_[0],
+                                         ends_[1], solution_.counters);
+    }
+    const std::uint64_t known = one_way && roadmap_.is_lazy() ? 0 : end_edges_.size();
+    solution_.roadmap = {vertex_count(), roadmap_.free_edges() + known, 0};
+  }
+  void attach_one_way(std::size_t end, Heading heading) {
+    auto query = world_.make_query();
+    std::vector<Neighbour> near;
+    const State& here = ends_[end];
+    const auto vertex = static_cast<VertexId>(start_vertex() + end);
+    ++solution_.counters.neighbour_queries;
+    for (const Neighbour& c : one_way_candidates<W>(world_, roadmap_.states(), roadmap_.index(), roadmap_.rule(), here,
+                                                    no_vertex, heading, near)) {
+      const State& there = roadmap_.states()[c.id];
+      const bool out = heading == Heading::out;
+      if (!(out ? may_be_free(here, there, query) : may_be_free(there, here, query))) continue;
+      end_edges_.push_back(out ? Edge{vertex, c.id} : Edge{c.id, vertex});
+    }
+    solution_.counters.refused += refused_motions(query);
+  }
   /// Is the motion free? A lazy roadmap leaves that to the search.
   bool may_be_free(const State& from, const State& to, typename W::Query& query) {
     if (roadmap_.is_lazy()) return true;
@@ -252,22 +283,166 @@ class Ask {
     solution_.counters.edges_free += free ? 1 : 0;
     return free;
   }
-  void search();
-  SearchResult search_plainly(VertexId from, VertexId to, SearchState& state);
-  SearchResult search_both_ends();
-  SearchResult search_copy();
-  SearchResult search_hierarchy();
-  std::optional<bool> known_to_be_joined();
-  void learn_around_ends();
-  void tell_separation();
+  void search() {
+    solution_.outcome = Outcome::not_connected;
+    if (known_to_be_joined() == false) return;
+    const StageTimer timer(execution_, "search", solution_.seconds.search);
+    const bool fits = never_overestimates(options_.heuristic);
+    const bool large = !one_way && fits && vertex_count() >= fewest_for_both_ends;
+    SearchResult found;
+    if (roadmap_.hierarchy() != nullptr && scratch_.by_hierarchy) {
+      found = search_hierarchy();
+    } else if (!has_queue(options_.search) || (large && roadmap_.is_stringy())) {
+      found = search_copy();
+    } else if (large) {
+      found = search_both_ends();
+    } else {
+      found = search_plainly(start_vertex(), goal_vertex(), scratch_.states[0]);
+      if (keep_) tree_ = search_tree(scratch_.states[0]);
+    }
+    solution_.counters.expanded += found.expanded;
+    if (found.path.empty()) return;
+    solution_.outcome = Outcome::solved;
+    const AskedNeighbours<W> places = neighbours(nullptr);
+    for (const VertexId v : found.path) solution_.path.push_back(places.state(v));
+  }
+  SearchResult search_plainly(VertexId from, VertexId to, SearchState& state) {
+    AskedNeighbours<W> seen = neighbours(keep_ ? &used_ : nullptr);
+    const auto estimate = this->estimate();
+    const SearchResult found = search_implicit(AnyNeighbours(seen), from, to, asked(VertexDistance(estimate)), state);
+    if (found.status == SearchStatus::stopped) execution_.check();
+    count(seen);
+    return found;
+  }
+  SearchResult search_both_ends() {
+    std::array<std::vector<Edge>, 2> used;
+    std::array<AskedNeighbours<W>, 2> seen{neighbours(keep_ ? &used[0] : nullptr),
+                                           neighbours(keep_ ? &used[1] : nullptr)};
+    const auto estimate = this->estimate();
+    const SearchResult found = search_implicit_from_both_ends(
+        {AnyNeighbours(seen[0]), AnyNeighbours(seen[1])}, {start_vertex(), goal_vertex()},
+        asked(VertexDistance(estimate)), {&scratch_.states[0], &scratch_.states[1]});
+    for (std::size_t side = 0; side < seen.size(); ++side) {
+      count(seen[side]);
+      used_.insert(used_.end(), used[side].begin(), used[side].end());
+    }
+    if (keep_) tree_ = search_trees(scratch_.states[0], scratch_.states[1]);
+    return found;
+  }
+  /// On a copy of what is free, as the planner searches it.
+  SearchResult search_copy() {
+    const Graph graph = free_graph();
+    const AskedNeighbours<W> places = neighbours(nullptr);
+    const auto cost = [&](VertexId v, VertexId w) { return places.cost(v, w); };
+    const auto estimate = this->estimate();
+    const RoadmapSearch asked{.start = start_vertex(),
+                              .goal = goal_vertex(),
+                              .length = VertexDistance(cost),
+                              .estimate = VertexDistance(estimate),
+                              .search = options_.search,
+                              .queue = options_.queue,
+                              .execution = execution_,
+                              .tree = keep_ ? &tree_ : nullptr};
+    if (const auto reduced = reduced_for_search(graph, asked)) return search_roadmap(*reduced, asked);
+    return search_roadmap(graph, asked);
+  }
+  SearchResult search_hierarchy() {
+    const AskedNeighbours<W> places = neighbours(nullptr);
+    std::vector<double> lengths;
+    for (const Edge& e : end_edges_) lengths.push_back(places.distance(e.from, e.to));
+    return route_by_hierarchy(*roadmap_.hierarchy(), end_edges_, lengths, scratch_.hierarchy, execution_);
+  }
+  /// Are start and goal joined? Nothing where that is not known before the search. Counts the components, start and
+  /// goal among them.
+  std::optional<bool> known_to_be_joined() {
+    if (roadmap_.is_lazy() || one_way) return std::nullopt;
+    std::array<std::vector<VertexId>, 2> joined_to;
+    bool direct = false;
+    for (const Edge& e : end_edges_) {
+      if (e.from == start_vertex()) {
+        direct = true;
+      } else {
+        joined_to[e.to - start_vertex()].push_back(roadmap_.component_labels().label[e.from]);
+      }
+    }
+    for (auto& labels : joined_to) {
+      std::sort(labels.begin(), labels.end());
+      labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
+    }
+    std::vector<VertexId> shared;
+    std::set_intersection(joined_to[0].begin(), joined_to[0].end(), joined_to[1].begin(), joined_to[1].end(),
+                          std::back_inserter(shared));
+    const bool joined = direct || !shared.empty();
+    solution_.roadmap.components = roadmap_.component_labels().count + (joined ? 1 : 2) + shared.size() -
+                                   joined_to[0].size() - joined_to[1].size();
+    return joined;
+  }
+  /// Asks the world about all edges that start or the goal can reach; about all that there are where they lead one way.
+  void learn_around_ends() {
+    if constexpr (one_way) {
+      const auto states = check_edges(world_, roadmap_.states(), roadmap_.candidates(), execution_, solution_.counters);
+      for (std::size_t end = 0; end < roadmap_.candidates().targets().size(); ++end) {
+        roadmap_.known().learn(end, edge_state(states, end));
+      }
+    } else {
+      for (std::size_t end = 0; end < 2; ++end) {
+        const auto from = static_cast<VertexId>(start_vertex() + end);
+        solution_.counters.expanded += search_plainly(from, no_vertex, scratch_.states[end]).expanded;
+      }
+    }
+  }
+  /// Between the components of start and goal. Where edges lead one way: between what start reaches and what reaches
+  /// the goal.
+  void tell_separation() {
+    if (roadmap_.is_lazy()) learn_around_ends();
+    const Graph graph = free_graph();
+    const Components parts = one_way ? reached_and_reaching(graph, start_vertex(), goal_vertex(), execution_)
+                                     : components(graph, execution_);
+    const RawVector<State> states = all_states();
+    solution_.separation =
+        separation_of(world_, std::span<const State>(states), parts, start_vertex(), goal_vertex(), execution_);
+  }
   void count(const AskedNeighbours<W>& seen) {
     solution_.counters += seen.counters();
     if (roadmap_.is_lazy()) solution_.roadmap.edges += seen.free_edges();
   }
-  Graph free_graph() const;
-  RawVector<State> all_states() const;
-  PlannedRoadmap<State> kept() const;
-
+  /// The free edges, those of start and goal among them; all of them are asked about first where they lead one way.
+  Graph free_graph() const {
+    const Graph& all = roadmap_.candidates();
+    RawVector<EdgeEnd> offsets(vertex_count() + 1);
+    RawVector<VertexId> targets;
+    execution_.reserve((all.targets().size() + 2 * end_edges_.size()) * sizeof(VertexId));
+    targets.reserve(all.targets().size() + 2 * end_edges_.size());
+    std::vector<Edge> sorted;
+    const AskedNeighbours<W> places = neighbours(nullptr);
+    auto query = world_.make_query();
+    for (const Edge& e : end_edges_) {
+      if (one_way && roadmap_.is_lazy() && !world_.is_free_motion(places.state(e.from), places.state(e.to), query))
+        continue;
+      sorted.push_back(e);
+      if (!one_way) sorted.push_back({e.to, e.from});
+    }
+    std::sort(sorted.begin(), sorted.end());
+    auto next = sorted.begin();
+    for (VertexId v = 0; v < vertex_count(); ++v) {
+      if (v % (1U << 14) == 0) execution_.check();
+      offsets[v] = static_cast<EdgeEnd>(targets.size());
+      std::size_t end = v < start_vertex() ? all.first_end(v) : 0;
+      if (v < start_vertex()) {
+        for (const VertexId w : all.neighbours(v)) {
+          if (roadmap_.known()[end++] == EdgeState::free) targets.push_back(w);
+        }
+      }
+      for (; next != sorted.end() && next->from == v; ++next) targets.push_back(next->to);
+    }
+    offsets[vertex_count()] = static_cast<EdgeEnd>(targets.size());
+    return {std::move(offsets), std::move(targets)};
+  }
+  RawVector<State> all_states() const {
+    RawVector<State> states(roadmap_.states().begin(), roadmap_.states().end());
+    states.insert(states.end(), ends_.begin(), ends_.end());
+    return states;
+  }
   const AskedRoadmap<W>& roadmap_;
   const W& world_;
   const std::array<State, 2> ends_;
@@ -280,229 +455,6 @@ class Ask {
   std::vector<Edge> tree_;
   Solution<State> solution_;
 };
-
-template <World W>
-void Ask<W>::attach_ends() {
-  const StageTimer timer(execution_, "connect", solution_.seconds.connect);
-  if constexpr (one_way) {
-    attach_one_way(0, Heading::out);
-    attach_one_way(1, Heading::in);
-    auto query = world_.make_query();
-    if (world_.distance(ends_[0], ends_[1]) <= direct_reach(roadmap_.rule()) &&
-        may_be_free(ends_[0], ends_[1], query)) {
-      end_edges_.push_back({start_vertex(), goal_vertex()});
-    }
-    solution_.counters.refused += refused_motions(query);
-  } else {
-    end_edges_ = attach_start_and_goal(world_, roadmap_.states(), roadmap_.index(), roadmap_.rule(), ends_[0], ends_[1],
-                                       solution_.counters);
-  }
-  const std::uint64_t known = one_way && roadmap_.is_lazy() ? 0 : end_edges_.size();
-  solution_.roadmap = {vertex_count(), roadmap_.free_edges() + known, 0};
-}
-
-template <World W>
-void Ask<W>::attach_one_way(std::size_t end, Heading heading) {
-  auto query = world_.make_query();
-  std::vector<Neighbour> near;
-  const State& here = ends_[end];
-  const auto vertex = static_cast<VertexId>(start_vertex() + end);
-  ++solution_.counters.neighbour_queries;
-  for (const OneWayCandidate& c : one_way_candidates<W>(world_, roadmap_.states(), roadmap_.index(), roadmap_.rule(),
-                                                        here, no_vertex, heading, near)) {
-    const State& there = roadmap_.states()[c.to];
-    const bool out = heading == Heading::out;
-    if (!(out ? may_be_free(here, there, query) : may_be_free(there, here, query))) continue;
-    end_edges_.push_back(out ? Edge{vertex, c.to} : Edge{c.to, vertex});
-  }
-  solution_.counters.refused += refused_motions(query);
-}
-
-/// Are start and goal joined? Nothing where that is not known before the search. Counts the components, start and goal
-/// among them.
-template <World W>
-std::optional<bool> Ask<W>::known_to_be_joined() {
-  if (roadmap_.is_lazy() || one_way) return std::nullopt;
-  std::array<std::vector<VertexId>, 2> joined_to;
-  bool direct = false;
-  for (const Edge& e : end_edges_) {
-    if (e.from == start_vertex()) {
-      direct = true;
-    } else {
-      joined_to[e.to - start_vertex()].push_back(roadmap_.component_labels().label[e.from]);
-    }
-  }
-  for (auto& labels : joined_to) {
-    std::sort(labels.begin(), labels.end());
-    labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
-  }
-  std::vector<VertexId> shared;
-  std::set_intersection(joined_to[0].begin(), joined_to[0].end(), joined_to[1].begin(), joined_to[1].end(),
-                        std::back_inserter(shared));
-  const bool joined = direct || !shared.empty();
-  solution_.roadmap.components =
-      roadmap_.component_labels().count + (joined ? 1 : 2) + shared.size() - joined_to[0].size() - joined_to[1].size();
-  return joined;
-}
-
-template <World W>
-void Ask<W>::search() {
-  solution_.outcome = Outcome::not_connected;
-  if (known_to_be_joined() == false) return;
-  const StageTimer timer(execution_, "search", solution_.seconds.search);
-  const bool fits = never_overestimates(options_.heuristic);
-  const bool large = !one_way && fits && vertex_count() >= fewest_for_both_ends;
-  SearchResult found;
-  if (roadmap_.hierarchy() != nullptr && scratch_.by_hierarchy) {
-    found = search_hierarchy();
-  } else if (!has_queue(options_.search) || (large && roadmap_.is_stringy())) {
-    found = search_copy();
-  } else if (large) {
-    found = search_both_ends();
-  } else {
-    found = search_plainly(start_vertex(), goal_vertex(), scratch_.states[0]);
-    if (keep_) tree_ = search_tree(scratch_.states[0]);
-  }
-  solution_.counters.expanded += found.expanded;
-  if (found.path.empty()) return;
-  solution_.outcome = Outcome::solved;
-  const AskedNeighbours<W> places = neighbours(nullptr);
-  for (const VertexId v : found.path) solution_.path.push_back(places.state(v));
-}
-
-template <World W>
-SearchResult Ask<W>::search_plainly(VertexId from, VertexId to, SearchState& state) {
-  AskedNeighbours<W> seen = neighbours(keep_ ? &used_ : nullptr);
-  const auto estimate = this->estimate();
-  const SearchResult found = search_implicit(AnyNeighbours(seen), from, to, asked(VertexDistance(estimate)), state);
-  if (found.status == SearchStatus::stopped) execution_.check();
-  count(seen);
-  return found;
-}
-
-template <World W>
-SearchResult Ask<W>::search_both_ends() {
-  std::array<std::vector<Edge>, 2> used;
-  std::array<AskedNeighbours<W>, 2> seen{neighbours(keep_ ? &used[0] : nullptr),
-                                         neighbours(keep_ ? &used[1] : nullptr)};
-  const auto estimate = this->estimate();
-  const SearchResult found =
-      search_implicit_from_both_ends({AnyNeighbours(seen[0]), AnyNeighbours(seen[1])}, {start_vertex(), goal_vertex()},
-                                     asked(VertexDistance(estimate)), {&scratch_.states[0], &scratch_.states[1]});
-  for (std::size_t side = 0; side < seen.size(); ++side) {
-    count(seen[side]);
-    used_.insert(used_.end(), used[side].begin(), used[side].end());
-  }
-  if (keep_) tree_ = search_trees(scratch_.states[0], scratch_.states[1]);
-  return found;
-}
-
-/// On a copy of what is free, as the planner searches it.
-template <World W>
-SearchResult Ask<W>::search_copy() {
-  const Graph graph = free_graph();
-  const AskedNeighbours<W> places = neighbours(nullptr);
-  const auto cost = [&](VertexId v, VertexId w) { return places.cost(v, w); };
-  const auto estimate = this->estimate();
-  const RoadmapSearch asked{.start = start_vertex(),
-                            .goal = goal_vertex(),
-                            .length = VertexDistance(cost),
-                            .estimate = VertexDistance(estimate),
-                            .search = options_.search,
-                            .queue = options_.queue,
-                            .execution = execution_,
-                            .tree = keep_ ? &tree_ : nullptr};
-  if (const auto reduced = reduced_for_search(graph, asked)) return search_roadmap(*reduced, asked);
-  return search_roadmap(graph, asked);
-}
-
-template <World W>
-SearchResult Ask<W>::search_hierarchy() {
-  const AskedNeighbours<W> places = neighbours(nullptr);
-  std::vector<double> lengths;
-  for (const Edge& e : end_edges_) lengths.push_back(places.distance(e.from, e.to));
-  return route_by_hierarchy(*roadmap_.hierarchy(), end_edges_, lengths, scratch_.hierarchy, execution_);
-}
-
-/// The free edges, those of start and goal among them; all of them are asked about first where they lead one way.
-template <World W>
-Graph Ask<W>::free_graph() const {
-  const Graph& all = roadmap_.candidates();
-  RawVector<EdgeEnd> offsets(vertex_count() + 1);
-  RawVector<VertexId> targets;
-  execution_.reserve((all.targets().size() + 2 * end_edges_.size()) * sizeof(VertexId));
-  targets.reserve(all.targets().size() + 2 * end_edges_.size());
-  std::vector<Edge> sorted;
-  const AskedNeighbours<W> places = neighbours(nullptr);
-  auto query = world_.make_query();
-  for (const Edge& e : end_edges_) {
-    if (one_way && roadmap_.is_lazy() && !world_.is_free_motion(places.state(e.from), places.state(e.to), query))
-      continue;
-    sorted.push_back(e);
-    if (!one_way) sorted.push_back({e.to, e.from});
-  }
-  std::sort(sorted.begin(), sorted.end());
-  auto next = sorted.begin();
-  for (VertexId v = 0; v < vertex_count(); ++v) {
-    if (v % (1U << 14) == 0) execution_.check();
-    offsets[v] = static_cast<EdgeEnd>(targets.size());
-    std::size_t end = v < start_vertex() ? all.first_end(v) : 0;
-    if (v < start_vertex()) {
-      for (const VertexId w : all.neighbours(v)) {
-        if (roadmap_.known()[end++] == EdgeState::free) targets.push_back(w);
-      }
-    }
-    for (; next != sorted.end() && next->from == v; ++next) targets.push_back(next->to);
-  }
-  offsets[vertex_count()] = static_cast<EdgeEnd>(targets.size());
-  return {std::move(offsets), std::move(targets)};
-}
-
-template <World W>
-RawVector<typename W::State> Ask<W>::all_states() const {
-  RawVector<State> states(roadmap_.states().begin(), roadmap_.states().end());
-  states.insert(states.end(), ends_.begin(), ends_.end());
-  return states;
-}
-
-/// Asks the world about all edges that start or the goal can reach; about all that there are where they lead one way.
-template <World W>
-void Ask<W>::learn_around_ends() {
-  if constexpr (one_way) {
-    const auto states = check_edges(world_, roadmap_.states(), roadmap_.candidates(), EdgeDirections::one, execution_,
-                                    solution_.counters);
-    for (std::size_t end = 0; end < roadmap_.candidates().targets().size(); ++end) {
-      roadmap_.known().learn(end, edge_state(states, end));
-    }
-  } else {
-    for (std::size_t end = 0; end < 2; ++end) {
-      const auto from = static_cast<VertexId>(start_vertex() + end);
-      solution_.counters.expanded += search_plainly(from, no_vertex, scratch_.states[end]).expanded;
-    }
-  }
-}
-
-/// Between the components of start and goal. Where edges lead one way: between what start reaches and what reaches the
-/// goal.
-template <World W>
-void Ask<W>::tell_separation() {
-  if (roadmap_.is_lazy()) learn_around_ends();
-  const Graph graph = free_graph();
-  const Components parts =
-      one_way ? reached_and_reaching(graph, start_vertex(), goal_vertex(), execution_) : components(graph, execution_);
-  const RawVector<State> states = all_states();
-  solution_.separation =
-      separation_of(world_, std::span<const State>(states), parts, start_vertex(), goal_vertex(), execution_);
-}
-
-template <World W>
-PlannedRoadmap<typename W::State> Ask<W>::kept() const {
-  PlannedRoadmap<State> kept;
-  kept.states = all_states();
-  kept.graph = free_graph();
-  kept.search_tree = tree_;
-  return kept;
-}
 
 }  // namespace detail
 

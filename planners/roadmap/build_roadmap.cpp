@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/base/error.hpp"
+#include "core/base/items_by_key.hpp"
 #include "core/search/search.hpp"
 
 namespace warren {
@@ -44,12 +45,6 @@ Components reached_and_reaching(const Graph& graph, VertexId from, VertexId to, 
   mark(graph, from);
   mark(reversed(graph, execution), to);
   return parts;
-}
-
-RawVector<std::uint64_t> unchecked_edges(const Graph& candidates) {
-  RawVector<std::uint64_t> words(edge_state_words(candidates.targets().size()));
-  std::fill(words.begin(), words.end(), std::uint64_t{0});
-  return words;
 }
 
 Graph one_way_graph(std::size_t vertex_count, const EdgeParts& edges, const Execution& execution) {

@@ -30,8 +30,6 @@
 
 namespace warren {
 
-enum class EdgeDirections : std::uint8_t { both, one };
-
 /// What is known of a motion without asking the world; nothing: it must be asked. Called by several threads at once.
 template <class State>
 using KnownMotions = std::function<std::optional<bool>(const State& from, const State& to)>;
@@ -47,9 +45,8 @@ inline std::size_t end_of_edge(const Graph& graph, VertexId v, VertexId w) {
 /// Asks about the edges of one row that are not known; `answers` are those of the row's ends.
 template <World W>
 void check_row(const W& world, std::span<const typename W::State> states, const Graph& graph, VertexId v,
-               EdgeDirections directions, const KnownMotions<typename W::State>& known,
-               std::span<const std::uint64_t> before, std::span<std::uint8_t> answers, typename W::Query& query,
-               std::uint64_t& checked) {
+               const KnownMotions<typename W::State>& known, std::span<const std::uint64_t> before,
+               std::span<std::uint8_t> answers, typename W::Query& query, std::uint64_t& checked) {
   std::array<Motion<typename W::State>, bunch_size> motions;
   std::array<std::size_t, bunch_size> ends;
   std::size_t count = 0;
@@ -63,7 +60,7 @@ void check_row(const W& world, std::span<const typename W::State> states, const 
   };
   const auto row = graph.neighbours(v);
   for (std::size_t i = 0; i < row.size(); ++i) {
-    if (directions == EdgeDirections::both && row[i] < v) continue;
+    if (!W::one_way && row[i] < v) continue;
     if (!before.empty()) {
       answers[i] = static_cast<std::uint8_t>(edge_state(before, graph.first_end(v) + i));
       if (answers[i] != static_cast<std::uint8_t>(EdgeState::unchecked)) continue;
@@ -111,7 +108,7 @@ inline RawVector<std::uint64_t> packed(std::span<const std::uint8_t> states, con
 /// and what `before` says where it is given, is not asked. Throws Stopped.
 template <World W>
 RawVector<std::uint64_t> check_edges(const W& world, std::span<const typename W::State> states, const Graph& graph,
-                                     EdgeDirections directions, const Execution& execution, Counters& counters,
+                                     const Execution& execution, Counters& counters,
                                      const KnownMotions<typename W::State>& known = {},
                                      std::span<const std::uint64_t> before = {}) {
   constexpr std::size_t grain = detail::connection_grain<W>;
@@ -128,12 +125,12 @@ RawVector<std::uint64_t> check_edges(const W& world, std::span<const typename W:
       const auto vertex = static_cast<VertexId>(v);
       const std::span<std::uint8_t> row(answers.data() + graph.first_end(vertex), graph.degree(vertex));
       if (v % rows_per_poll == 0) execution.check();
-      detail::check_row(world, states, graph, vertex, directions, known, before, row, query, counts.edges_checked);
+      detail::check_row(world, states, graph, vertex, known, before, row, query, counts.edges_checked);
     }
     counts.refused = refused_motions(query);
   });
   for (const Counters& part : done) counters += part;
-  if (directions == EdgeDirections::both) detail::copy_to_other_ends(graph, answers, execution);
+  if (!W::one_way) detail::copy_to_other_ends(graph, answers, execution);
   return detail::packed(answers, execution);
 }
 
@@ -148,7 +145,6 @@ struct BuiltRoadmap {
   StageTimes seconds;
 };
 
-RawVector<std::uint64_t> unchecked_edges(const Graph& candidates);
 /// The graph of edges that lead one way: each stands in the row of its begin alone, in any order.
 Graph one_way_graph(std::size_t vertex_count, const EdgeParts& edges, const Execution& execution);
 /// The edges of a graph that are free.
@@ -165,19 +161,19 @@ template <World W>
 EdgeParts one_way_edges(const W& world, std::span<const typename W::State> states, std::size_t begins,
                         const StateIndex<W>& index, const ConnectionRule& rule, const Execution& execution) {
   constexpr std::size_t grain = 64;
-  EdgeParts parts(chunk_count(begins, grain));
-  for_chunks(begins, grain, execution, [&](Range r) {
+  return parts_of_chunks(begins, grain, execution, [&](Range r) {
+    RawVector<Edge> edges;
     std::vector<Neighbour> near;
     for (std::size_t i = r.first; i < r.last; ++i) {
       const auto v = static_cast<VertexId>(i);
       const VertexId except = v < index.size() ? v : no_vertex;
-      for (const OneWayCandidate& c :
+      for (const Neighbour& c :
            one_way_candidates<W>(world, states, index, rule, states[v], except, Heading::out, near)) {
-        push_asked(parts[r.first / grain], {v, c.to}, execution);
+        push_asked(edges, {v, c.id}, execution);
       }
     }
+    return edges;
   });
-  return parts;
 }
 
 template <World W>
@@ -205,10 +201,86 @@ class RoadmapBuild {
  private:
   static constexpr std::size_t probes = 100;
 
-  void round(std::uint64_t samples, bool check);
-  void find_candidates(const StateIndex<W>& index);
-  RawVector<Edge> attached(const State& state, VertexId vertex) const;
-  std::vector<VertexId> joined_probes();
+  void round(std::uint64_t samples, bool check) {
+    ++built_.counters.rounds;
+    built_.samples = samples;
+    {
+      const StageTimer timer(execution_, "sample", built_.seconds.sample, samples);
+      index_ = {};
+      built_.states = draw_milestones(world_, options_, samples, execution_);
+      built_.counters.samples += samples;
+      built_.counters.kept += built_.states.size();
+    }
+    {
+      const StageTimer timer(execution_, "neighbours", built_.seconds.neighbours, built_.states.size());
+      index_ = index_of_states(world_, std::span<const State>(built_.states), execution_);
+    }
+    const StageTimer timer(execution_, "connect", built_.seconds.connect, built_.states.size());
+    built_.rule = connection_rule_for(world_, options_, samples);
+    find_candidates(index_);
+    const std::span<const State> states(built_.states);
+    if (check) {
+      built_.edge_states = check_edges(world_, states, built_.candidates, execution_, built_.counters, known_);
+    } else {
+      built_.edge_states.assign(edge_state_words(built_.candidates.targets().size()), 0);
+    }
+  }
+  void find_candidates(const StateIndex<W>& index) {
+    const std::span<const State> states(built_.states);
+    if constexpr (W::one_way) {
+      const EdgeParts parts = one_way_edges(world_, states, states.size(), index, built_.rule, execution_);
+      built_.candidates = one_way_graph(states.size(), parts, execution_);
+      built_.counters.neighbour_queries += states.size();
+    } else {
+      const EdgeParts parts = candidate_edges(world_, states, index, built_.rule, execution_, built_.counters);
+      built_.candidates = assemble_graph(states.size(), parts, execution_);
+    }
+  }
+  RawVector<Edge> attached(const State& state, VertexId vertex) const {
+    Counters counters;
+    const std::span<const State> states(built_.states);
+    if constexpr (!W::one_way) {
+      return attach(world_, states, index_, built_.rule, state, vertex, counters);
+    } else {
+      auto query = world_.make_query();
+      std::vector<Neighbour> near;
+      RawVector<Edge> edges;
+      for (const Neighbour& c :
+           one_way_candidates<W>(world_, states, index_, built_.rule, state, no_vertex, Heading::out, near)) {
+        if (world_.is_free_motion(state, states[c.id], query)) edges.push_back({c.id, vertex});
+      }
+      return edges;
+    }
+  }
+  /// For each probe the first one that it is joined with, whatever the direction: the same partition as before says
+  /// that the last round has joined nothing more.
+  std::vector<VertexId> joined_probes() {
+    constexpr std::uint64_t probe_stream = 0x70726f6265;  // apart from the seeds that people choose
+    const StageTimer timer(execution_, "probe", built_.seconds.search, probes);
+    const Graph free = free_part(built_.candidates, built_.edge_states, execution_);
+    const auto n = static_cast<VertexId>(built_.states.size());
+    std::vector<RawVector<Edge>> edges(probes + 1);
+    execution_.reserve(free.targets().size() * sizeof(Edge));
+    edges[0].reserve(free.targets().size());
+    for (VertexId v = 0; v < n; ++v) {
+      if (v % (1U << 14) == 0) execution_.check();
+      for (const VertexId w : free.neighbours(v)) edges[0].push_back({v, w});
+    }
+    for_chunks(probes, 1, execution_, [&](Range r) {
+      const State state = uniform_state(world_, options_.seed ^ probe_stream, r.first);
+      auto own = world_.make_query();
+      if (world_.is_free(state, own)) edges[r.first + 1] = attached(state, n + static_cast<VertexId>(r.first));
+    });
+    const Components parts = components(assemble_graph(n + probes, edges, execution_), execution_);
+    std::vector<VertexId> first_with(n + probes, no_vertex);
+    std::vector<VertexId> joined;
+    for (std::size_t i = 0; i < probes; ++i) {
+      VertexId& first = first_with[parts.label[n + i]];
+      if (first == no_vertex) first = static_cast<VertexId>(i);
+      joined.push_back(edges[i + 1].empty() ? no_vertex : first);
+    }
+    return joined;
+  }
 
   const W& world_;
   const RoadmapOptions& options_;
@@ -218,96 +290,6 @@ class RoadmapBuild {
   BuiltRoadmap<State> built_;
   StateIndex<W> index_;
 };
-
-template <World W>
-void RoadmapBuild<W>::round(std::uint64_t samples, bool check) {
-  ++built_.counters.rounds;
-  built_.samples = samples;
-  {
-    const StageTimer timer(execution_, "sample", built_.seconds.sample, samples);
-    index_ = {};
-    built_.states = draw_milestones(world_, options_, samples, execution_);
-    built_.counters.samples += samples;
-    built_.counters.kept += built_.states.size();
-  }
-  {
-    const StageTimer timer(execution_, "neighbours", built_.seconds.neighbours, built_.states.size());
-    index_ = index_of_states(world_, std::span<const State>(built_.states), execution_);
-  }
-  const StageTimer timer(execution_, "connect", built_.seconds.connect, built_.states.size());
-  built_.rule = connection_rule_for(world_, options_, samples);
-  find_candidates(index_);
-  const std::span<const State> states(built_.states);
-  if (check) {
-    const EdgeDirections directions = W::one_way ? EdgeDirections::one : EdgeDirections::both;
-    built_.edge_states =
-        check_edges(world_, states, built_.candidates, directions, execution_, built_.counters, known_);
-  } else {
-    built_.edge_states = unchecked_edges(built_.candidates);
-  }
-}
-
-template <World W>
-void RoadmapBuild<W>::find_candidates(const StateIndex<W>& index) {
-  const std::span<const State> states(built_.states);
-  if constexpr (W::one_way) {
-    const EdgeParts parts = one_way_edges(world_, states, states.size(), index, built_.rule, execution_);
-    built_.candidates = one_way_graph(states.size(), parts, execution_);
-    built_.counters.neighbour_queries += states.size();
-  } else {
-    const EdgeParts parts = candidate_edges(world_, states, index, built_.rule, execution_, built_.counters);
-    built_.candidates = assemble_graph(states.size(), parts, execution_);
-  }
-}
-
-template <World W>
-RawVector<Edge> RoadmapBuild<W>::attached(const State& state, VertexId vertex) const {
-  Counters counters;
-  const std::span<const State> states(built_.states);
-  if constexpr (!W::one_way) {
-    return attach(world_, states, index_, built_.rule, state, vertex, counters);
-  } else {
-    auto query = world_.make_query();
-    std::vector<Neighbour> near;
-    RawVector<Edge> edges;
-    for (const OneWayCandidate& c :
-         one_way_candidates<W>(world_, states, index_, built_.rule, state, no_vertex, Heading::out, near)) {
-      if (world_.is_free_motion(state, states[c.to], query)) edges.push_back({c.to, vertex});
-    }
-    return edges;
-  }
-}
-
-/// For each probe the first one that it is joined with, whatever the direction: the same partition as before says that
-/// the last round has joined nothing more.
-template <World W>
-std::vector<VertexId> RoadmapBuild<W>::joined_probes() {
-  constexpr std::uint64_t probe_stream = 0x70726f6265;  // apart from the seeds that people choose
-  const StageTimer timer(execution_, "probe", built_.seconds.search, probes);
-  const Graph free = free_part(built_.candidates, built_.edge_states, execution_);
-  const auto n = static_cast<VertexId>(built_.states.size());
-  std::vector<RawVector<Edge>> edges(probes + 1);
-  execution_.reserve(free.targets().size() * sizeof(Edge));
-  edges[0].reserve(free.targets().size());
-  for (VertexId v = 0; v < n; ++v) {
-    if (v % (1U << 14) == 0) execution_.check();
-    for (const VertexId w : free.neighbours(v)) edges[0].push_back({v, w});
-  }
-  for_chunks(probes, 1, execution_, [&](Range r) {
-    const State state = uniform_state(world_, options_.seed ^ probe_stream, r.first);
-    auto own = world_.make_query();
-    if (world_.is_free(state, own)) edges[r.first + 1] = attached(state, n + static_cast<VertexId>(r.first));
-  });
-  const Components parts = components(assemble_graph(n + probes, edges, execution_), execution_);
-  std::vector<VertexId> first_with(n + probes, no_vertex);
-  std::vector<VertexId> joined;
-  for (std::size_t i = 0; i < probes; ++i) {
-    VertexId& first = first_with[parts.label[n + i]];
-    if (first == no_vertex) first = static_cast<VertexId>(i);
-    joined.push_back(edges[i + 1].empty() ? no_vertex : first);
-  }
-  return joined;
-}
 
 }  // namespace detail
 

@@ -118,13 +118,11 @@ class Bunch {
 template <World W, class Keep>
 EdgeParts edges_that(const W& world, std::span<const typename W::State> milestones, const StateIndex<W>& index,
                      const ConnectionRule& rule, const Execution& execution, const Keep& keep) {
-  const std::size_t n = milestones.size();
   NearestLists lists;
   if (rule.neighbours > 0) lists = nearest_lists<W>(milestones, index, rule.neighbours, execution);
   const SearchRadius radius(rule.radius);
   constexpr std::uint64_t bunches_per_poll = 16;  // a milestone may have all others within its radius
-  EdgeParts parts(chunk_count(n, connection_grain<W>));
-  for_chunks(n, connection_grain<W>, execution, [&](Range r) {
+  return parts_of_chunks(milestones.size(), connection_grain<W>, execution, [&](Range r) {
     auto query = world.make_query();
     RawVector<Edge> edges;
     edges.reserve(r.size() + r.size() / 4);
@@ -145,9 +143,8 @@ EdgeParts edges_that(const W& world, std::span<const typename W::State> mileston
       if (bunch.full()) flush();
     });
     if (!bunch.edges().empty()) flush();
-    parts[r.first / connection_grain<W>] = std::move(edges);
+    return edges;
   });
-  return parts;
 }
 
 }  // namespace detail
@@ -282,22 +279,16 @@ RawVector<Edge> attach_start_and_goal(const W& world, std::span<const typename W
 
 enum class Heading : std::uint8_t { out, in };
 
-/// The other end of a candidate edge, and the edge's length.
-struct OneWayCandidate {
-  double length;
-  VertexId to;
-};
-
 /// The candidate edges of a roadmap whose motions have a direction: from a state to its k nearest, or from the k
 /// nearest to it; nearest by the world's metric, in the edge's direction. The metric may be far above the distance of
 /// the embedding (a car gets sideways by a loop), so the k are chosen among the 4 k nearest of the embedding. Radius
-/// rule: what is within the radius by the metric. Nearest first; of two as near, the smaller vertex. `except`: the
-/// state's own vertex, or no_vertex; `near` is scratch.
+/// rule: what is within the radius by the metric. Nearest first; of two as near, the smaller vertex. Their distances:
+/// the edges' lengths. `except`: the state's own vertex, or no_vertex; `near` is scratch.
 template <World W>
-std::vector<OneWayCandidate> one_way_candidates(const W& world, std::span<const typename W::State> states,
-                                                const StateIndex<W>& index, const ConnectionRule& rule,
-                                                const typename W::State& state, VertexId except, Heading heading,
-                                                std::vector<Neighbour>& near) {
+std::vector<Neighbour> one_way_candidates(const W& world, std::span<const typename W::State> states,
+                                          const StateIndex<W>& index, const ConnectionRule& rule,
+                                          const typename W::State& state, VertexId except, Heading heading,
+                                          std::vector<Neighbour>& near) {
   constexpr std::size_t wider = 4;
   const auto at = embedded(world, state);
   if (rule.neighbours > 0) {
@@ -305,15 +296,13 @@ std::vector<OneWayCandidate> one_way_candidates(const W& world, std::span<const 
   } else {
     index.within(at, SearchRadius(rule.radius), except, near);
   }
-  std::vector<OneWayCandidate> found;
+  std::vector<Neighbour> found;
   for (const Neighbour& n : near) {
     const double length =
         heading == Heading::in ? world.distance(states[n.id], state) : world.distance(state, states[n.id]);
-    if (rule.neighbours > 0 || length <= rule.radius) found.push_back({length, n.id});
+    if (rule.neighbours > 0 || length <= rule.radius) found.push_back({n.id, length});
   }
-  std::sort(found.begin(), found.end(), [](const OneWayCandidate& a, const OneWayCandidate& b) {
-    return a.length != b.length ? a.length < b.length : a.to < b.to;
-  });
+  std::sort(found.begin(), found.end());
   if (rule.neighbours > 0 && found.size() > rule.neighbours) found.resize(rule.neighbours);
   return found;
 }

@@ -6,13 +6,12 @@
 // far, as they have it, for most candidate edges of mazes lead through walls, and each of them cost a repair.
 // From 50,000 milestones on it searches from both ends (NBA*), each end with a graph and a thread of its
 // own; below that, two threads do not repay their start. The number of threads changes neither path nor counters. There
-// it also leaves out the dead ends of a maze (lazy_prm.hpp).
+// it also leaves out the dead ends of a maze (DeadEnds).
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -241,15 +240,102 @@ class LazyPlan final : public Rounds<W> {
     join();
     return this->take(search_expanding());
   }
-  void finish() override;
-  void join();
-  RawVector<VertexId> search_expanding();
-  RawVector<VertexId> search_from_start();
-  RawVector<VertexId> search_from_both_ends();
-  DeadEnds find_dead_ends() const;
-  SearchResult expand_from(VertexId from, VertexId to, SearchState& state, std::vector<Edge>* record);
+  void finish() override {
+    if (this->is_to_separate()) {  // explores all that start and goal can reach
+      SearchState from_start;
+      SearchState from_goal;
+      expand_from(start_vertex(), no_vertex, from_start, nullptr);
+      expand_from(goal_vertex(), no_vertex, from_goal, nullptr);
+      this->tell_separation(from_start, from_goal);
+    }
+    if (keep_ == nullptr) return;
+    polled_sort(free_edges_.begin(), free_edges_.end(), execution_);
+    free_edges_.erase(std::unique(free_edges_.begin(), free_edges_.end()), free_edges_.end());
+    *keep_ = {std::move(states_), Graph(), std::move(tree_)};
+    keep_->graph = assemble_graph(keep_->states.size(), free_edges_, execution_);
+  }
+  void join() {
+    candidates_ = Graph();
+    end_edges_ = this->attach_ends(index_, rule_);
+    solution_.roadmap.edges = end_edges_.size();
+    if (rule_.neighbours == 0) return;
+    EdgeParts parts;
+    {
+      const StageTimer timer(execution_, "queries", solution_.seconds.connect, milestones().size());
+      parts = candidate_edges(world_, milestones(), index_, rule_, execution_, solution_.counters);
+    }
+    const StageTimer timer(execution_, "rows", solution_.seconds.connect, states_.size());
+    candidates_ = assemble_graph(states_.size(), parts, execution_);
+    solution_.counters.row_bytes += candidates_.bytes();
+  }
+  RawVector<VertexId> search_expanding() {
+    StageTimer timer(execution_, "expansion", solution_.seconds.search);
+    const std::uint64_t before = solution_.counters.expanded;
+    free_edges_.assign(end_edges_.begin(), end_edges_.end());
+    const bool fits = never_overestimates(options_.heuristic);
+    const bool from_both = states_.size() >= fewest_for_both_ends && fits;
+    RawVector<VertexId> path = from_both ? search_from_both_ends() : search_from_start();
+    timer.set_items(solution_.counters.expanded - before);
+    return path;
+  }
+  RawVector<VertexId> search_from_start() {
+    SearchState state;
+    SearchResult found = expand_from(start_vertex(), goal_vertex(), state, keep_ != nullptr ? &free_edges_ : nullptr);
+    if (keep_ != nullptr) tree_ = search_tree(state);
+    return std::move(found.path);
+  }
+  RawVector<VertexId> search_from_both_ends() {
+    const DeadEnds dead_ends = find_dead_ends();
+    std::array<LazyEnd<W>, 2> ends{LazyEnd<W>{lazy_graph(), {}, {}}, LazyEnd<W>{lazy_graph(), {}, {}}};
+    for (LazyEnd<W>& end : ends) {
+      if (!dead_ends.empty()) end.graph.leave_out(dead_ends);
+      if (keep_ != nullptr) end.graph.record(&end.edges);
+    }
+    const auto estimate = this->estimate();
+    const SearchResult found = search_implicit_from_both_ends(
+        {AnyNeighbours(ends[0].graph), AnyNeighbours(ends[1].graph)}, {start_vertex(), goal_vertex()},
+        asked(VertexDistance(estimate)), {&ends[0].state, &ends[1].state});
+    Rounds<W>::count(found);
+    for (const LazyEnd<W>& end : ends) {
+      count(end.graph);
+      free_edges_.insert(free_edges_.end(), end.edges.begin(), end.edges.end());
+    }
+    if (keep_ != nullptr) tree_ = search_trees(ends[0].state, ends[1].state);
+    return found.path;
+  }
+  /// None where the cells are more than half of the milestones, or where motions are longer than two cells. What start
+  /// and goal are joined to has its cells kept, too: it may lie farther than the radius, and the ends themselves are no
+  /// milestones, so that before a dead end nobody would wait for them.
+  DeadEnds find_dead_ends() const {
+    constexpr double longest_motion = 2.0;
+    if constexpr (W::in_plane) {
+      if (rule_.neighbours != 0 || !(rule_.radius <= longest_motion) || world_.motion_cost) return {};
+      CellSides cells = world_.cell_sides(states_.size() / 2, execution_);
+      if (cells.open.empty()) return {};
+      std::vector<std::size_t> kept{cells.cell_of(this->start_), cells.cell_of(this->goal_)};
+      for (const Edge& e : end_edges_) {
+        kept.push_back(cells.cell_of(states_[e.from]));
+        kept.push_back(cells.cell_of(states_[e.to]));
+      }
+      return DeadEnds(std::move(cells), kept, execution_);
+    }
+    return {};
+  }
+  SearchResult expand_from(VertexId from, VertexId to, SearchState& state, std::vector<Edge>* record) {
+    LazyGraph<W> graph = lazy_graph();
+    graph.record(record);
+    const auto estimate = this->estimate();
+    SearchResult found = search_implicit(AnyNeighbours(graph), from, to, asked(VertexDistance(estimate)), state);
+    if (found.status == SearchStatus::stopped) execution_.check();
+    Rounds<W>::count(found);
+    count(graph);
+    return found;
+  }
   LazyGraph<W> lazy_graph() const { return {world_, states_, index_, rule_, candidates_, end_edges_, execution_}; }
-  void count(const LazyGraph<W>& graph);
+  void count(const LazyGraph<W>& graph) {
+    solution_.counters += graph.counters();
+    solution_.roadmap.edges += graph.free_edges();
+  }
   ImplicitSearch asked(const VertexDistance& estimate) const {
     return {estimate, options_.search == SearchKind::astar, options_.queue, states_.size(), execution_};
   }
@@ -259,119 +345,6 @@ class LazyPlan final : public Rounds<W> {
   Graph candidates_;  ///< unchecked; only where the rule needs them
   std::vector<Edge> free_edges_;
 };
-
-template <World W>
-void LazyPlan<W>::join() {
-  candidates_ = Graph();
-  end_edges_ = this->attach_ends(index_, rule_);
-  solution_.roadmap.edges = end_edges_.size();
-  if (rule_.neighbours == 0) return;
-  EdgeParts parts;
-  {
-    const StageTimer timer(execution_, "queries", solution_.seconds.connect, milestones().size());
-    parts = candidate_edges(world_, milestones(), index_, rule_, execution_, solution_.counters);
-  }
-  const StageTimer timer(execution_, "rows", solution_.seconds.connect, states_.size());
-  candidates_ = assemble_graph(states_.size(), parts, execution_);
-  solution_.counters.row_bytes += candidates_.bytes();
-}
-
-template <World W>
-SearchResult LazyPlan<W>::expand_from(VertexId from, VertexId to, SearchState& state, std::vector<Edge>* record) {
-  LazyGraph<W> graph = lazy_graph();
-  graph.record(record);
-  const auto estimate = this->estimate();
-  SearchResult found = search_implicit(AnyNeighbours(graph), from, to, asked(VertexDistance(estimate)), state);
-  if (found.status == SearchStatus::stopped) execution_.check();
-  Rounds<W>::count(found);
-  count(graph);
-  return found;
-}
-
-template <World W>
-void LazyPlan<W>::count(const LazyGraph<W>& graph) {
-  solution_.counters += graph.counters();
-  solution_.roadmap.edges += graph.free_edges();
-}
-
-template <World W>
-RawVector<VertexId> LazyPlan<W>::search_expanding() {
-  StageTimer timer(execution_, "expansion", solution_.seconds.search);
-  const std::uint64_t before = solution_.counters.expanded;
-  free_edges_.assign(end_edges_.begin(), end_edges_.end());
-  const bool fits = never_overestimates(options_.heuristic);
-  const bool from_both = states_.size() >= fewest_for_both_ends && fits;
-  RawVector<VertexId> path = from_both ? search_from_both_ends() : search_from_start();
-  timer.set_items(solution_.counters.expanded - before);
-  return path;
-}
-
-template <World W>
-RawVector<VertexId> LazyPlan<W>::search_from_start() {
-  SearchState state;
-  SearchResult found = expand_from(start_vertex(), goal_vertex(), state, keep_ != nullptr ? &free_edges_ : nullptr);
-  if (keep_ != nullptr) tree_ = search_tree(state);
-  return std::move(found.path);
-}
-
-template <World W>
-RawVector<VertexId> LazyPlan<W>::search_from_both_ends() {
-  const DeadEnds dead_ends = find_dead_ends();
-  std::array<LazyEnd<W>, 2> ends{LazyEnd<W>{lazy_graph(), {}, {}}, LazyEnd<W>{lazy_graph(), {}, {}}};
-  for (LazyEnd<W>& end : ends) {
-    if (!dead_ends.empty()) end.graph.leave_out(dead_ends);
-  }
-  if (keep_ != nullptr) {
-    for (LazyEnd<W>& end : ends) end.graph.record(&end.edges);
-  }
-  const auto estimate = this->estimate();
-  const SearchResult found = search_implicit_from_both_ends(
-      {AnyNeighbours(ends[0].graph), AnyNeighbours(ends[1].graph)}, {start_vertex(), goal_vertex()},
-      asked(VertexDistance(estimate)), {&ends[0].state, &ends[1].state});
-  Rounds<W>::count(found);
-  for (const LazyEnd<W>& end : ends) {
-    count(end.graph);
-    free_edges_.insert(free_edges_.end(), end.edges.begin(), end.edges.end());
-  }
-  if (keep_ != nullptr) tree_ = search_trees(ends[0].state, ends[1].state);
-  return found.path;
-}
-
-/// None where the cells are more than half of the milestones, or where motions are longer than two cells. What start
-/// and goal are joined to has its cells kept, too: it may lie farther than the radius, and the ends themselves are no
-/// milestones, so that before a dead end nobody would wait for them.
-template <World W>
-DeadEnds LazyPlan<W>::find_dead_ends() const {
-  constexpr double longest_motion = 2.0;
-  if constexpr (W::in_plane) {
-    if (rule_.neighbours != 0 || !(rule_.radius <= longest_motion) || world_.motion_cost) return {};
-    CellSides cells = world_.cell_sides(states_.size() / 2, execution_);
-    if (cells.open.empty()) return {};
-    std::vector<std::size_t> kept{cells.cell_of(this->start_), cells.cell_of(this->goal_)};
-    for (const Edge& e : end_edges_) {
-      kept.push_back(cells.cell_of(states_[e.from]));
-      kept.push_back(cells.cell_of(states_[e.to]));
-    }
-    return DeadEnds(std::move(cells), kept, execution_);
-  }
-  return {};
-}
-
-template <World W>
-void LazyPlan<W>::finish() {
-  if (this->is_to_separate()) {  // explores all that start and goal can reach
-    SearchState from_start;
-    SearchState from_goal;
-    expand_from(start_vertex(), no_vertex, from_start, nullptr);
-    expand_from(goal_vertex(), no_vertex, from_goal, nullptr);
-    this->tell_separation(from_start, from_goal);
-  }
-  if (keep_ == nullptr) return;
-  polled_sort(free_edges_.begin(), free_edges_.end(), execution_);
-  free_edges_.erase(std::unique(free_edges_.begin(), free_edges_.end()), free_edges_.end());
-  *keep_ = {std::move(states_), Graph(), std::move(tree_)};
-  keep_->graph = assemble_graph(keep_->states.size(), free_edges_, execution_);
-}
 
 }  // namespace detail
 

@@ -15,6 +15,7 @@
 #include "core/base/error.hpp"
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
+#include "parallel/asked_memory.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/graph/any_world.hpp"
 #include "planners/graph/roadmap_options.hpp"
@@ -58,30 +59,6 @@ class Strata {
   std::uint64_t rows_;
 };
 
-/// The index-th of `count` strata of the unit square, and a random point in it.
-inline std::array<double, 2> stratified_point(std::uint64_t seed, std::uint64_t index, std::uint64_t count,
-                                              double height_over_width) {
-  const Strata strata(count, height_over_width);
-  return strata.point(seed, index, strata.row_of(index));
-}
-
-inline double height_over_width(const Box& box) { return box.width() > 0.0 ? box.height() / box.width() : 1.0; }
-
-/// The index-th of `count` samples: a pure function of the arguments.
-template <World W>
-typename W::State sample_state(const W& world, const RoadmapOptions& options, std::uint64_t index,
-                               std::uint64_t count) {
-  if constexpr (std::same_as<typename W::State, Vec2>) {
-    if (options.sampler == SamplerKind::lattice) return lattice_point(options.lattice, index);
-    if (options.sampler == SamplerKind::uniform) {
-      return world.at_unit(stratified_point(options.seed, index, count, height_over_width(world.box())));
-    }
-  }
-  if (options.sampler == SamplerKind::halton) return world.at_unit(halton_point_of(world, options.seed, index));
-  if (options.sampler == SamplerKind::corridor) return world.corridor_state(options.seed, index);
-  return uniform_state(world, options.seed, index);
-}
-
 namespace detail {
 
 /// A wall near the border of two chunks is looked at by both, so a chunk has some rows at least.
@@ -96,13 +73,32 @@ class LatticeBits {
  public:
   /// The free ones of the first `count` points, row by row.
   template <World W>
-  LatticeBits(const W& world, LatticeSize size, std::uint64_t count, const Execution& execution);
+  LatticeBits(const W& world, LatticeSize size, std::uint64_t count, const Execution& execution)
+      : size_(size), words_a_row_((std::size_t{size.cols} + 63) / 64), words_(words_a_row_ * size.rows) {
+    const std::size_t grain = lattice_rows_a_chunk(size);
+    struct Part {
+      std::uint64_t count = 0;
+      Box box;
+    };
+    const std::vector<Part> parts = parts_of_chunks(size.rows, grain, execution, [&](Range r) {
+      fill_rows(world, r, count);
+      Part part;
+      for (std::size_t row = r.first; row < r.last; ++row) {
+        part.count += count_in_row(static_cast<std::uint32_t>(row), 0, size.cols);
+        part.box.include(box_of_row(row));
+      }
+      return part;
+    });
+    for (const Part& part : parts) {
+      count_ += part.count;
+      box_.include(part.box);
+    }
+  }
 
   LatticeSize size() const { return size_; }
   std::uint64_t count() const { return count_; }
   const Box& box() const { return box_; }  ///< of the free points; empty if there are none
 
-  bool operator()(std::uint32_t row, std::uint32_t col) const { return (word(row, col / 64) >> (col % 64) & 1) != 0; }
   /// Calls visit(col) for the free points of a row in the columns first .. last - 1, ascending.
   template <class Visit>
   void for_each_in_row(std::uint32_t row, std::uint32_t first, std::uint32_t last, const Visit& visit) const {
@@ -128,9 +124,35 @@ class LatticeBits {
   }
   /// Sets the bits of the free ones of the first `count` points in some rows.
   template <World W>
-  void fill_rows(const W& world, Range rows, std::uint64_t count);
+  void fill_rows(const W& world, Range rows, std::uint64_t count) {
+    const std::span<std::uint64_t> words(&words_[rows.first * words_a_row_], rows.size() * words_a_row_);
+    std::fill(words.begin(), words.end(), std::uint64_t{0});
+    auto query = world.make_query();
+    std::array<Vec2, bunch_size> bunch;
+    for (std::size_t row = rows.first; row < rows.last; ++row) {
+      const std::uint64_t cols = cols_of(row, count);
+      std::uint64_t* const its_words = &words_[row * words_a_row_];
+      for (std::uint64_t col = 0; col < cols; col += bunch_size) {
+        const auto held = static_cast<std::size_t>(std::min<std::uint64_t>(bunch_size, cols - col));
+        for (std::size_t i = 0; i < held; ++i) {
+          bunch[i] = {static_cast<double>(col + i + 1), static_cast<double>(row) + 1.0};
+        }
+        its_words[col / 64] |= std::uint64_t{world.free_states({bunch.data(), held}, query)} << (col % 64);
+      }
+    }
+  }
   /// The box of a row's free points; empty where there are none.
-  Box box_of_row(std::size_t row) const;
+  Box box_of_row(std::size_t row) const {
+    const std::span<const std::uint64_t> words(&words_[row * words_a_row_], words_a_row_);
+    const auto is_set = [](std::uint64_t word) { return word != 0; };
+    const auto first = std::find_if(words.begin(), words.end(), is_set);
+    if (first == words.end()) return {};
+    const auto last = std::find_if(words.rbegin(), words.rend(), is_set);
+    const auto low = (first - words.begin()) * 64 + std::countr_zero(*first);
+    const auto high = (words.rend() - last) * 64 - 1 - std::countl_zero(*last);
+    const double y = static_cast<double>(row) + 1.0;
+    return {{static_cast<double>(low) + 1.0, y}, {static_cast<double>(high) + 1.0, y}};
+  }
   /// The bits of word w that stand for columns first .. last - 1.
   static std::uint64_t columns_mask(std::uint32_t w, std::uint32_t first, std::uint32_t last) {
     std::uint64_t mask = ~std::uint64_t{0};
@@ -147,61 +169,6 @@ class LatticeBits {
   Box box_;
 };
 
-template <World W>
-LatticeBits::LatticeBits(const W& world, LatticeSize size, std::uint64_t count, const Execution& execution)
-    : size_(size), words_a_row_((std::size_t{size.cols} + 63) / 64), words_(words_a_row_ * size.rows) {
-  const std::size_t grain = lattice_rows_a_chunk(size);
-  struct Part {
-    std::uint64_t count = 0;
-    Box box;
-  };
-  std::vector<Part> parts(chunk_count(size.rows, grain));
-  for_chunks(size.rows, grain, execution, [&](Range r) {
-    fill_rows(world, r, count);
-    Part part;
-    for (std::size_t row = r.first; row < r.last; ++row) {
-      part.count += count_in_row(static_cast<std::uint32_t>(row), 0, size.cols);
-      part.box.include(box_of_row(row));
-    }
-    parts[r.first / grain] = part;
-  });
-  for (const Part& part : parts) {
-    count_ += part.count;
-    box_.include(part.box);
-  }
-}
-
-inline Box LatticeBits::box_of_row(std::size_t row) const {
-  const std::span<const std::uint64_t> words(&words_[row * words_a_row_], words_a_row_);
-  const auto is_set = [](std::uint64_t word) { return word != 0; };
-  const auto first = std::find_if(words.begin(), words.end(), is_set);
-  if (first == words.end()) return {};
-  const auto last = std::find_if(words.rbegin(), words.rend(), is_set);
-  const auto low = (first - words.begin()) * 64 + std::countr_zero(*first);
-  const auto high = (words.rend() - last) * 64 - 1 - std::countl_zero(*last);
-  const double y = static_cast<double>(row) + 1.0;
-  return {{static_cast<double>(low) + 1.0, y}, {static_cast<double>(high) + 1.0, y}};
-}
-
-template <World W>
-void LatticeBits::fill_rows(const W& world, Range rows, std::uint64_t count) {
-  const std::span<std::uint64_t> words(&words_[rows.first * words_a_row_], rows.size() * words_a_row_);
-  std::fill(words.begin(), words.end(), std::uint64_t{0});
-  auto query = world.make_query();
-  std::array<Vec2, bunch_size> bunch;
-  for (std::size_t row = rows.first; row < rows.last; ++row) {
-    const std::uint64_t cols = cols_of(row, count);
-    std::uint64_t* const its_words = &words_[row * words_a_row_];
-    for (std::uint64_t col = 0; col < cols; col += bunch_size) {
-      const auto held = static_cast<std::size_t>(std::min<std::uint64_t>(bunch_size, cols - col));
-      for (std::size_t i = 0; i < held; ++i) {
-        bunch[i] = {static_cast<double>(col + i + 1), static_cast<double>(row) + 1.0};
-      }
-      its_words[col / 64] |= std::uint64_t{world.free_states({bunch.data(), held}, query)} << (col % 64);
-    }
-  }
-}
-
 /// The free points in tile order: strips of the frame's columns, in a strip rows of cells, in a row cells, in a cell
 /// the points row by row.
 class LatticeInTileOrder {
@@ -215,80 +182,68 @@ class LatticeInTileOrder {
     strip_begin_.push_back(free.size().cols);
   }
 
-  RawVector<Vec2> points(std::size_t spare) const;
+  RawVector<Vec2> points(std::size_t spare) const {
+    const std::vector<std::size_t> first = places();
+    execution_.reserve((first.back() + spare) * sizeof(Vec2));
+    RawVector<Vec2> points;
+    points.reserve(first.back() + spare);
+    points.resize(first.back());
+    for_chunks(strips(), 1, execution_,
+               [&](Range r) { write_strip(static_cast<std::uint32_t>(r.first), points.data() + first[r.first]); });
+    return points;
+  }
 
  private:
   std::size_t strips() const { return strip_begin_.size() - 1; }
   std::uint32_t cell_column(std::uint32_t col) const { return frame_.column(static_cast<double>(col) + 1.0); }
   std::uint32_t cell_row(std::uint32_t row) const { return frame_.row(static_cast<double>(row) + 1.0); }
-  std::vector<std::size_t> places() const;
-  Vec2* write_strip(std::uint32_t strip, Vec2* out) const;
-  Vec2* write_cells(std::uint32_t strip, std::uint32_t first_row, std::uint32_t last_row, Vec2* out) const;
-  Vec2* write_row(std::uint32_t row, std::uint32_t first, std::uint32_t last, Vec2* out) const;
+  /// Where each strip's points begin, and how many there are.
+  std::vector<std::size_t> places() const {
+    std::vector<std::size_t> first(strips() + 1, 0);
+    for_chunks(strips(), 1, execution_, [&](Range r) {
+      std::uint64_t sum = 0;
+      for (std::uint32_t row = 0; row < free_.size().rows; ++row) {
+        sum += free_.count_in_row(row, strip_begin_[r.first], strip_begin_[r.first + 1]);
+      }
+      first[r.first + 1] = sum;
+    });
+    for (std::size_t strip = 0; strip < strips(); ++strip) first[strip + 1] += first[strip];
+    return first;
+  }
+  Vec2* write_strip(std::uint32_t strip, Vec2* out) const {
+    const std::uint32_t rows = free_.size().rows;
+    for (std::uint32_t row = 0; row < rows;) {
+      std::uint32_t last = row + 1;
+      while (last < rows && cell_row(last) == cell_row(row)) ++last;
+      out = last == row + 1 ? write_row(row, strip_begin_[strip], strip_begin_[strip + 1], out)
+                            : write_cells(strip, row, last, out);
+      row = last;
+    }
+    return out;
+  }
+  /// Rows that share their cells: cell by cell.
+  Vec2* write_cells(std::uint32_t strip, std::uint32_t first_row, std::uint32_t last_row, Vec2* out) const {
+    const std::uint32_t end = strip_begin_[strip + 1];
+    for (std::uint32_t col = strip_begin_[strip]; col < end;) {
+      std::uint32_t last = col + 1;
+      while (last < end && cell_column(last) == cell_column(col)) ++last;
+      for (std::uint32_t row = first_row; row < last_row; ++row) out = write_row(row, col, last, out);
+      col = last;
+    }
+    return out;
+  }
+  Vec2* write_row(std::uint32_t row, std::uint32_t first, std::uint32_t last, Vec2* out) const {
+    free_.for_each_in_row(row, first, last, [&](std::uint32_t col) {
+      *out++ = {static_cast<double>(col) + 1.0, static_cast<double>(row) + 1.0};
+    });
+    return out;
+  }
 
   const LatticeBits& free_;
   const Execution& execution_;
   CellFrame frame_;
   std::vector<std::uint32_t> strip_begin_;  // first column of each strip, and the number of columns
 };
-
-/// Where each strip's points begin, and how many there are.
-inline std::vector<std::size_t> LatticeInTileOrder::places() const {
-  std::vector<std::size_t> first(strips() + 1, 0);
-  for_chunks(strips(), 1, execution_, [&](Range r) {
-    std::uint64_t sum = 0;
-    for (std::uint32_t row = 0; row < free_.size().rows; ++row) {
-      sum += free_.count_in_row(row, strip_begin_[r.first], strip_begin_[r.first + 1]);
-    }
-    first[r.first + 1] = sum;
-  });
-  for (std::size_t strip = 0; strip < strips(); ++strip) first[strip + 1] += first[strip];
-  return first;
-}
-
-inline RawVector<Vec2> LatticeInTileOrder::points(std::size_t spare) const {
-  const std::vector<std::size_t> first = places();
-  execution_.reserve((first.back() + spare) * sizeof(Vec2));
-  RawVector<Vec2> points;
-  points.reserve(first.back() + spare);
-  points.resize(first.back());
-  for_chunks(strips(), 1, execution_,
-             [&](Range r) { write_strip(static_cast<std::uint32_t>(r.first), points.data() + first[r.first]); });
-  return points;
-}
-
-inline Vec2* LatticeInTileOrder::write_strip(std::uint32_t strip, Vec2* out) const {
-  const std::uint32_t rows = free_.size().rows;
-  for (std::uint32_t row = 0; row < rows;) {
-    std::uint32_t last = row + 1;
-    while (last < rows && cell_row(last) == cell_row(row)) ++last;
-    out = last == row + 1 ? write_row(row, strip_begin_[strip], strip_begin_[strip + 1], out)
-                          : write_cells(strip, row, last, out);
-    row = last;
-  }
-  return out;
-}
-
-/// Rows that share their cells: cell by cell.
-inline Vec2* LatticeInTileOrder::write_cells(std::uint32_t strip, std::uint32_t first_row, std::uint32_t last_row,
-                                             Vec2* out) const {
-  const std::uint32_t end = strip_begin_[strip + 1];
-  for (std::uint32_t col = strip_begin_[strip]; col < end;) {
-    std::uint32_t last = col + 1;
-    while (last < end && cell_column(last) == cell_column(col)) ++last;
-    for (std::uint32_t row = first_row; row < last_row; ++row) out = write_row(row, col, last, out);
-    col = last;
-  }
-  return out;
-}
-
-inline Vec2* LatticeInTileOrder::write_row(std::uint32_t row, std::uint32_t first, std::uint32_t last,
-                                           Vec2* out) const {
-  free_.for_each_in_row(row, first, last, [&](std::uint32_t col) {
-    *out++ = {static_cast<double>(col) + 1.0, static_cast<double>(row) + 1.0};
-  });
-  return out;
-}
 
 }  // namespace detail
 
@@ -313,13 +268,15 @@ RawVector<Vec2> lattice_milestones(const W& world, LatticeSize size, std::uint64
 
 namespace detail {
 
-/// Calls visit(sample) for the samples of a range: the same as sample_state, but a row of strata is found once.
+/// Calls visit(sample) for the samples of a range, of `count` in all: a pure function of options, index and count. In
+/// the plane uniform ones are stratified; a row of strata is found once. Not for lattices.
 template <World W, class Visit>
 void for_each_sample(const W& world, const RoadmapOptions& options, Range range, std::uint64_t count,
                      const Visit& visit) {
   if constexpr (std::same_as<typename W::State, Vec2>) {
     if (options.sampler == SamplerKind::uniform) {
-      const Strata strata(count, height_over_width(world.box()));
+      const Box box = world.box();
+      const Strata strata(count, box.width() > 0.0 ? box.height() / box.width() : 1.0);
       Strata::Row row;
       std::array<std::array<double, 2>, bunch_size> units;
       std::array<Vec2, bunch_size> states;
@@ -335,7 +292,7 @@ void for_each_sample(const W& world, const RoadmapOptions& options, Range range,
       return;
     }
   }
-  for (std::size_t i = range.first; i < range.last; ++i) visit(sample_state(world, options, i, count));
+  for (std::size_t i = range.first; i < range.last; ++i) visit(plain_sample(world, options.sampler, options.seed, i));
 }
 
 /// The free ones of a range of samples.
@@ -355,21 +312,6 @@ void append_free_samples(const W& world, const RoadmapOptions& options, Range ra
     if (held == bunch_size) flush();
   });
   flush();
-}
-
-/// Joins parts in their order.
-template <class T>
-RawVector<T> joined(const std::vector<RawVector<T>>& parts, const Execution& execution, std::size_t spare = 0) {
-  std::vector<std::size_t> first(parts.size() + 1, 0);
-  for (std::size_t i = 0; i < parts.size(); ++i) first[i + 1] = first[i] + parts[i].size();
-  execution.reserve((first.back() + spare) * sizeof(T));
-  RawVector<T> all;
-  all.reserve(first.back() + spare);
-  all.resize(first.back());
-  for_chunks(parts.size(), 1, execution, [&](Range r) {
-    std::copy(parts[r.first].begin(), parts[r.first].end(), all.begin() + static_cast<std::ptrdiff_t>(first[r.first]));
-  });
-  return all;
 }
 
 /// The first two coordinates of the embeddings; the states themselves where they are points of the plane.
@@ -393,11 +335,11 @@ RawVector<typename W::State> in_tile_order(const W& world, const RawVector<typen
                                            const Execution& execution) {
   constexpr std::size_t grain = std::size_t{1} << 14;
   execution.reserve(states.size() * (sizeof(Vec2) + 16 + sizeof(typename W::State)));
-  const TileOrder order = tile_order(plane_positions(world, states, execution), execution);
+  const RawVector<std::uint32_t> order = tile_order(plane_positions(world, states, execution), execution);
   RawVector<typename W::State> sorted;
   sorted.reserve(states.size() + 2);  // start and goal will follow
   sorted.resize(states.size());
-  for_each_index(states.size(), grain, execution, [&](std::size_t i) { sorted[i] = states[order.sample_of[i]]; });
+  for_each_index(states.size(), grain, execution, [&](std::size_t i) { sorted[i] = states[order[i]]; });
   return sorted;
 }
 
@@ -406,15 +348,15 @@ template <World W>
 RawVector<typename W::State> cell_centre_milestones(const W& world, const Execution& execution, std::size_t spare) {
   constexpr std::size_t rows = 32;
   const Bitmap& cells = *world.milestone_cells();
-  std::vector<RawVector<typename W::State>> parts(chunk_count(cells.height(), rows));
   execution.reserve(cells.count() * sizeof(typename W::State));
-  for_chunks(cells.height(), rows, execution, [&](Range r) {
-    RawVector<typename W::State>& part = parts[r.first / rows];
+  auto parts = parts_of_chunks(cells.height(), rows, execution, [&](Range r) {
+    RawVector<typename W::State> part;
     for (auto y = static_cast<std::uint32_t>(r.first); y < r.last; ++y) {
       cells.for_each_in_row(y, [&](std::uint32_t x) { part.push_back(world.cell_state(x, y)); });
     }
+    return part;
   });
-  const RawVector<typename W::State> states = joined(parts, execution, spare);
+  const RawVector<typename W::State> states = joined_parts(parts, execution, spare);
   parts.clear();
   return in_tile_order(world, states, execution);
 }
@@ -435,20 +377,20 @@ RawVector<typename W::State> draw_milestones(const W& world, const RoadmapOption
   if (options.sampler == SamplerKind::cell_centres && world.milestone_cells() != nullptr)
     return detail::cell_centre_milestones(world, execution, spare);
   execution.reserve(count * sizeof(typename W::State));
-  std::vector<RawVector<typename W::State>> parts(chunk_count(count, grain));
-  for_chunks(count, grain, execution, [&](Range r) {
-    RawVector<typename W::State>& part = parts[r.first / grain];
+  auto parts = parts_of_chunks(count, grain, execution, [&](Range r) {
+    RawVector<typename W::State> part;
     part.reserve(r.size());
-    if (looks_at_obstacles(options.sampler)) {
-      auto query = world.make_query();
-      for (std::size_t i = r.first; i < r.last; ++i) {
-        if (const auto state = obstacle_sample(world, options.sampler, options.seed, i, query)) part.push_back(*state);
-      }
-      return;
+    if (!looks_at_obstacles(options.sampler)) {
+      detail::append_free_samples(world, options, r, count, part);
+      return part;
     }
-    detail::append_free_samples(world, options, r, count, part);
+    auto query = world.make_query();
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      if (const auto state = obstacle_sample(world, options.sampler, options.seed, i, query)) part.push_back(*state);
+    }
+    return part;
   });
-  RawVector<typename W::State> states = detail::joined(parts, execution, spare);
+  RawVector<typename W::State> states = joined_parts(parts, execution, spare);
   parts.clear();
   return detail::in_tile_order(world, states, execution);
 }

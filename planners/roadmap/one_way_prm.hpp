@@ -43,9 +43,42 @@ class OneWayPlan final : public Rounds<W> {
     if (!lazy_) check_all();
     return search();
   }
-  void finish() override;
-  void find_candidates(std::uint64_t samples);
-  RawVector<Edge> edges_to_goal(const StateIndex<W>& index, const ConnectionRule& rule);
+  void finish() override {
+    if (this->is_to_separate()) {
+      check_all();
+      solution_.counters.edges_free += free_count() - solution_.roadmap.edges;
+      const Graph graph = free_part(candidates_, known_, execution_);
+      this->tell_separation(reached_and_reaching(graph, start_vertex(), goal_vertex(), execution_));
+    }
+    if (keep_ == nullptr) return;
+    *keep_ = {RawVector<State>(), free_part(candidates_, known_, execution_), std::move(tree_)};
+    keep_->states = std::move(states_);
+  }
+  void find_candidates(std::uint64_t samples) {
+    const StateIndex<W> index = this->index_milestones();
+    const StageTimer timer(execution_, "queries", solution_.seconds.connect, this->milestones().size());
+    const ConnectionRule rule = this->rule_for(samples);
+    const std::size_t begins = states_.size() - 1;  // nothing leads on from the goal
+    candidates_ = Graph();
+    EdgeParts edges = one_way_edges(world_, states(), begins, index, rule, execution_);
+    edges.push_back(edges_to_goal(index, rule));
+    solution_.counters.neighbour_queries += begins + 1;
+    candidates_ = one_way_graph(states_.size(), edges, execution_);
+    known_.assign(edge_state_words(candidates_.targets().size()), 0);  // unchecked
+  }
+  /// And the edge from start to goal.
+  RawVector<Edge> edges_to_goal(const StateIndex<W>& index, const ConnectionRule& rule) {
+    std::vector<Neighbour> near;
+    RawVector<Edge> edges;
+    for (const Neighbour& c :
+         one_way_candidates<W>(world_, states(), index, rule, this->goal_, no_vertex, Heading::in, near)) {
+      push_asked(edges, {c.id, goal_vertex()}, execution_);
+    }
+    if (world_.distance(this->start_, this->goal_) <= direct_reach(rule)) {
+      edges.push_back({start_vertex(), goal_vertex()});
+    }
+    return edges;
+  }
   std::span<const State> states() const { return {states_.data(), states_.size()}; }
   bool is_free(VertexId from, VertexId to, std::size_t end, typename W::Query& query, Counters& counters) {
     EdgeState known = edge_state(known_, end);
@@ -56,126 +89,70 @@ class OneWayPlan final : public Rounds<W> {
     }
     return known == EdgeState::free;
   }
-  void check_all();
-  bool search();
-  SearchResult search_best();
-  SearchResult search_plainly();
-  std::uint64_t free_count() const;
+  void check_all() {
+    const StageTimer timer(execution_, "checks", solution_.seconds.connect, states_.size());
+    known_ = check_edges(world_, states(), candidates_, execution_, solution_.counters, {}, known_);
+  }
+  bool search() {
+    const bool blind = !has_queue(options_.search);
+    if (blind && lazy_) check_all();
+    StageTimer timer(execution_, "expansion", solution_.seconds.search);
+    const SearchResult found = blind ? search_plainly() : search_best();
+    solution_.roadmap.edges = free_count();
+    solution_.counters.edges_free += solution_.roadmap.edges;  // of a search that was stopped, too
+    if (found.status == SearchStatus::stopped) execution_.check();
+    timer.set_items(found.expanded);
+    this->count(found);
+    return this->take(found.path);
+  }
+  SearchResult search_best() {
+    SearchState state;
+    auto query = world_.make_query();
+    Counters counters;
+    PartClock clock(execution_, bunches_per_clock<W>);
+    auto neighbours = [&](VertexId v, const AnyVisit& visit) {
+      std::size_t end = candidates_.first_end(v);
+      for (const VertexId to : candidates_.neighbours(v)) {
+        const std::size_t its_end = end++;
+        if (edge_state(known_, its_end) == EdgeState::blocked || !visit.wants(to, 0.0)) continue;
+        const double length = world_.distance(states_[v], states_[to]);
+        if (!visit.wants(to, length)) continue;
+        const bool is_checked = edge_state(known_, its_end) == EdgeState::unchecked;
+        if (is_checked) clock.begin();
+        const bool free = is_free(v, to, its_end, query, counters);
+        if (is_checked) clock.lap(StagePart::checks);
+        if (free) visit(to, world_.motion_cost ? world_.cost(states_[v], states_[to]) : length);
+      }
+    };
+    const auto estimate = [&](VertexId v, VertexId to) { return world_.distance(states_[v], states_[to]); };
+    const ImplicitSearch asked{VertexDistance(estimate), options_.search == SearchKind::astar, options_.queue,
+                               states_.size(), execution_};
+    const SearchResult found = search_implicit(AnyNeighbours(neighbours), start_vertex(), goal_vertex(), asked, state);
+    counters.refused = refused_motions(query);
+    solution_.counters += counters;
+    if (keep_ != nullptr) tree_ = search_tree(state);
+    return found;
+  }
+  /// Breadth or depth first, over the free edges.
+  SearchResult search_plainly() {
+    SearchState state;
+    const Graph graph = free_part(candidates_, known_, execution_);
+    const SearchResult found = search_blindly(options_.search, graph, start_vertex(), goal_vertex(), state, execution_);
+    if (keep_ != nullptr) tree_ = search_tree(state);
+    return found;
+  }
+  std::uint64_t free_count() const {
+    constexpr std::uint64_t low = 0x5555555555555555;  // free is 01
+    std::uint64_t count = 0;
+    for (const std::uint64_t word : known_)
+      count += static_cast<std::uint64_t>(std::popcount(word & ~(word >> 1) & low));
+    return count;
+  }
 
   bool lazy_;
   Graph candidates_;
   RawVector<std::uint64_t> known_;  // of each edge: core/search/graph.hpp
 };
-
-template <World W>
-void OneWayPlan<W>::find_candidates(std::uint64_t samples) {
-  const StateIndex<W> index = this->index_milestones();
-  const StageTimer timer(execution_, "queries", solution_.seconds.connect, this->milestones().size());
-  const ConnectionRule rule = this->rule_for(samples);
-  const std::size_t begins = states_.size() - 1;  // nothing leads on from the goal
-  candidates_ = Graph();
-  EdgeParts edges = one_way_edges(world_, states(), begins, index, rule, execution_);
-  edges.push_back(edges_to_goal(index, rule));
-  solution_.counters.neighbour_queries += begins + 1;
-  candidates_ = one_way_graph(states_.size(), edges, execution_);
-  known_ = unchecked_edges(candidates_);
-}
-
-/// And the edge from start to goal.
-template <World W>
-RawVector<Edge> OneWayPlan<W>::edges_to_goal(const StateIndex<W>& index, const ConnectionRule& rule) {
-  std::vector<Neighbour> near;
-  RawVector<Edge> edges;
-  for (const OneWayCandidate& c :
-       one_way_candidates<W>(world_, states(), index, rule, this->goal_, no_vertex, Heading::in, near)) {
-    push_asked(edges, {c.to, goal_vertex()}, execution_);
-  }
-  if (world_.distance(this->start_, this->goal_) <= direct_reach(rule)) {
-    edges.push_back({start_vertex(), goal_vertex()});
-  }
-  return edges;
-}
-
-template <World W>
-void OneWayPlan<W>::check_all() {
-  const StageTimer timer(execution_, "checks", solution_.seconds.connect, states_.size());
-  known_ = check_edges(world_, states(), candidates_, EdgeDirections::one, execution_, solution_.counters, {}, known_);
-}
-
-template <World W>
-bool OneWayPlan<W>::search() {
-  const bool blind = !has_queue(options_.search);
-  if (blind && lazy_) check_all();
-  StageTimer timer(execution_, "expansion", solution_.seconds.search);
-  const SearchResult found = blind ? search_plainly() : search_best();
-  solution_.roadmap.edges = free_count();
-  solution_.counters.edges_free += solution_.roadmap.edges;  // of a search that was stopped, too
-  if (found.status == SearchStatus::stopped) execution_.check();
-  timer.set_items(found.expanded);
-  this->count(found);
-  return this->take(found.path);
-}
-
-template <World W>
-SearchResult OneWayPlan<W>::search_best() {
-  SearchState state;
-  auto query = world_.make_query();
-  Counters counters;
-  PartClock clock(execution_, bunches_per_clock<W>);
-  auto neighbours = [&](VertexId v, const AnyVisit& visit) {
-    std::size_t end = candidates_.first_end(v);
-    for (const VertexId to : candidates_.neighbours(v)) {
-      const std::size_t its_end = end++;
-      if (edge_state(known_, its_end) == EdgeState::blocked || !visit.wants(to, 0.0)) continue;
-      const double length = world_.distance(states_[v], states_[to]);
-      if (!visit.wants(to, length)) continue;
-      const bool is_checked = edge_state(known_, its_end) == EdgeState::unchecked;
-      if (is_checked) clock.begin();
-      const bool free = is_free(v, to, its_end, query, counters);
-      if (is_checked) clock.lap(StagePart::checks);
-      if (free) visit(to, world_.motion_cost ? world_.cost(states_[v], states_[to]) : length);
-    }
-  };
-  const auto estimate = [&](VertexId v, VertexId to) { return world_.distance(states_[v], states_[to]); };
-  const ImplicitSearch asked{VertexDistance(estimate), options_.search == SearchKind::astar, options_.queue,
-                             states_.size(), execution_};
-  const SearchResult found = search_implicit(AnyNeighbours(neighbours), start_vertex(), goal_vertex(), asked, state);
-  counters.refused = refused_motions(query);
-  solution_.counters += counters;
-  if (keep_ != nullptr) tree_ = search_tree(state);
-  return found;
-}
-
-/// Breadth or depth first, over the free edges.
-template <World W>
-SearchResult OneWayPlan<W>::search_plainly() {
-  SearchState state;
-  const Graph graph = free_part(candidates_, known_, execution_);
-  const SearchResult found = search_blindly(options_.search, graph, start_vertex(), goal_vertex(), state, execution_);
-  if (keep_ != nullptr) tree_ = search_tree(state);
-  return found;
-}
-
-template <World W>
-std::uint64_t OneWayPlan<W>::free_count() const {
-  constexpr std::uint64_t low = 0x5555555555555555;  // free is 01
-  std::uint64_t count = 0;
-  for (const std::uint64_t word : known_) count += static_cast<std::uint64_t>(std::popcount(word & ~(word >> 1) & low));
-  return count;
-}
-
-template <World W>
-void OneWayPlan<W>::finish() {
-  if (this->is_to_separate()) {
-    check_all();
-    solution_.counters.edges_free += free_count() - solution_.roadmap.edges;
-    const Graph graph = free_part(candidates_, known_, execution_);
-    this->tell_separation(reached_and_reaching(graph, start_vertex(), goal_vertex(), execution_));
-  }
-  if (keep_ == nullptr) return;
-  *keep_ = {RawVector<State>(), free_part(candidates_, known_, execution_), std::move(tree_)};
-  keep_->states = std::move(states_);
-}
 
 }  // namespace detail
 

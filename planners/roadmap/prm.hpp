@@ -40,10 +40,60 @@ class PrmPlan final : public Rounds<W> {
     assemble(connect(samples));
     return search();
   }
-  void finish() override;
-  EdgeParts connect(std::uint64_t samples);
-  void assemble(const EdgeParts& edges);
-  bool search();
+  void finish() override {
+    if (this->is_to_separate()) {
+      if (reduced_) components_ = components(graph_, execution_);
+      this->tell_separation(components_);
+    }
+    if (keep_ != nullptr) *keep_ = {std::move(states_), std::move(graph_), std::move(tree_)};
+  }
+  EdgeParts connect(std::uint64_t samples) {
+    const StateIndex<W> index = this->index_milestones();
+    const ConnectionRule rule = this->rule_for(samples);
+    EdgeParts edges;
+    {
+      const StageTimer timer(execution_, "queries", solution_.seconds.connect, this->milestones().size());
+      edges = connect_milestones(world_, this->milestones(), index, rule, execution_, solution_.counters);
+    }
+    edges.push_back(this->attach_ends(index, rule));
+    return edges;
+  }
+  void assemble(const EdgeParts& edges) {
+    const StageTimer timer(execution_, "rows", solution_.seconds.graph, states_.size());
+    graph_ = assemble_graph(states_.size(), edges, execution_);
+    solution_.roadmap.edges = graph_.edge_count();
+    solution_.counters.row_bytes += graph_.bytes();
+  }
+  bool search() {
+    const auto distance = [this](VertexId v, VertexId w) { return world_.cost(states_[v], states_[w]); };
+    const auto estimate = this->estimate();
+    const RoadmapSearch asked{.start = start_vertex(),
+                              .goal = goal_vertex(),
+                              .length = VertexDistance(distance),
+                              .estimate = VertexDistance(estimate),
+                              .search = this->options_.search,
+                              .queue = this->options_.queue,
+                              .execution = execution_,
+                              .tree = keep_ != nullptr ? &tree_ : nullptr,
+                              .estimate_fits = never_overestimates(this->options_.heuristic)};
+    {
+      const StageTimer timer(execution_, "reduction", solution_.seconds.search, states_.size());
+      reduced_ = reduced_for_search(graph_, asked);
+    }
+    {
+      const StageTimer timer(execution_, "components", solution_.seconds.graph, states_.size());
+      components_ = reduced_ ? Components() : components(graph_, execution_);
+      solution_.roadmap.components = reduced_ ? reduced_->component_count() : components_.count;
+    }
+    solution_.outcome = Outcome::not_connected;
+    if (!joined()) return false;
+    StageTimer timer(execution_, "expansion", solution_.seconds.search);
+    const SearchResult found = reduced_ ? search_roadmap(*reduced_, asked) : search_roadmap(graph_, asked);
+    timer.set_items(found.expanded);
+    reduced_.reset();
+    this->count(found);
+    return this->take(found.path);
+  }
   bool joined() const {
     return reduced_ ? reduced_->connected(start_vertex(), goal_vertex())
                     : components_.connected(start_vertex(), goal_vertex());
@@ -53,68 +103,6 @@ class PrmPlan final : public Rounds<W> {
   std::optional<TwiceReducedGraphView> reduced_;
   Components components_;  // of the graph; empty if reduced_ knows them
 };
-
-template <World W>
-EdgeParts PrmPlan<W>::connect(std::uint64_t samples) {
-  const StateIndex<W> index = this->index_milestones();
-  const ConnectionRule rule = this->rule_for(samples);
-  EdgeParts edges;
-  {
-    const StageTimer timer(execution_, "queries", solution_.seconds.connect, this->milestones().size());
-    edges = connect_milestones(world_, this->milestones(), index, rule, execution_, solution_.counters);
-  }
-  edges.push_back(this->attach_ends(index, rule));
-  return edges;
-}
-
-template <World W>
-void PrmPlan<W>::assemble(const EdgeParts& edges) {
-  const StageTimer timer(execution_, "rows", solution_.seconds.graph, states_.size());
-  graph_ = assemble_graph(states_.size(), edges, execution_);
-  solution_.roadmap.edges = graph_.edge_count();
-  solution_.counters.row_bytes += graph_.bytes();
-}
-
-template <World W>
-bool PrmPlan<W>::search() {
-  const auto distance = [this](VertexId v, VertexId w) { return world_.cost(states_[v], states_[w]); };
-  const auto estimate = this->estimate();
-  const RoadmapSearch asked{.start = start_vertex(),
-                            .goal = goal_vertex(),
-                            .length = VertexDistance(distance),
-                            .estimate = VertexDistance(estimate),
-                            .search = this->options_.search,
-                            .queue = this->options_.queue,
-                            .execution = execution_,
-                            .tree = keep_ != nullptr ? &tree_ : nullptr,
-                            .estimate_fits = never_overestimates(this->options_.heuristic)};
-  {
-    const StageTimer timer(execution_, "reduction", solution_.seconds.search, states_.size());
-    reduced_ = reduced_for_search(graph_, asked);
-  }
-  {
-    const StageTimer timer(execution_, "components", solution_.seconds.graph, states_.size());
-    components_ = reduced_ ? Components() : components(graph_, execution_);
-    solution_.roadmap.components = reduced_ ? reduced_->component_count() : components_.count;
-  }
-  solution_.outcome = Outcome::not_connected;
-  if (!joined()) return false;
-  StageTimer timer(execution_, "expansion", solution_.seconds.search);
-  const SearchResult found = reduced_ ? search_roadmap(*reduced_, asked) : search_roadmap(graph_, asked);
-  timer.set_items(found.expanded);
-  reduced_.reset();
-  this->count(found);
-  return this->take(found.path);
-}
-
-template <World W>
-void PrmPlan<W>::finish() {
-  if (this->is_to_separate()) {
-    if (reduced_) components_ = components(graph_, execution_);
-    this->tell_separation(components_);
-  }
-  if (keep_ != nullptr) *keep_ = {std::move(states_), std::move(graph_), std::move(tree_)};
-}
 
 }  // namespace detail
 

@@ -171,6 +171,14 @@ std::optional<typename W::State> obstacle_sample(const W& world, SamplerKind kin
   return state;
 }
 
+/// A state that may be blocked: of the kinds that draw one by one and look at no obstacle; uniform for all others.
+template <World W>
+typename W::State plain_sample(const W& world, SamplerKind kind, std::uint64_t seed, std::uint64_t index) {
+  if (kind == SamplerKind::halton) return world.at_unit(halton_point_of(world, seed, index));
+  if (kind == SamplerKind::corridor) return world.corridor_state(seed, index);
+  return uniform_state(world, seed, index);
+}
+
 /// A state to grow towards: free or not.
 template <World W>
 typename W::State target_state(const W& world, SamplerKind kind, std::uint64_t seed, std::uint64_t index,
@@ -178,9 +186,7 @@ typename W::State target_state(const W& world, SamplerKind kind, std::uint64_t s
   if (looks_at_obstacles(kind)) {
     if (const auto state = obstacle_sample(world, kind, seed, index, query)) return *state;
   }
-  if (kind == SamplerKind::halton) return world.at_unit(halton_point_of(world, seed, index));
-  if (kind == SamplerKind::corridor) return world.corridor_state(seed, index);
-  return uniform_state(world, seed, index);
+  return plain_sample(world, kind, seed, index);
 }
 
 }  // namespace warren

@@ -99,10 +99,102 @@ class Redriving {
     const auto distance = [this](const State& a, const State& b) { return driver_.distance(a, b); };
     return driver_.price(path_) > path_length(path_, distance) * (1.0 + 1e-9);
   }
-  double redrive_stretch(std::size_t round);
-  void draw_places(std::size_t round, std::span<const State> stretch);
-  Path<State> cheaper(double most);
-  void expand(std::size_t place, std::size_t arrived, Queue& open);
+
+  /// What the path gets cheaper by.
+  double redrive_stretch(std::size_t round) {
+    const std::size_t size = std::min(path_.size(), stretch_states);
+    const std::size_t room = path_.size() - size;
+    const std::size_t first = room == 0 ? 0 : static_cast<std::size_t>(uniform(options_.seed, round, 8) * (room + 1.0));
+    const std::span<const State> stretch = std::span(path_).subspan(first, size);
+    gear_before_ = first == 0 ? 0 : driver_.gear_at_end(path_[first - 1], path_[first]);
+    gear_after_ = first == room ? 0 : driver_.gear_at_begin(path_[first + size - 1], path_[first + size]);
+    const double before = driver_.price(stretch, gear_before_, gear_after_);
+    draw_places(round, stretch);
+    const Path<State> way = cheaper(before * (1.0 - unsure));
+    if (way.empty()) return 0.0;
+    const double gain = before - driver_.price(way, gear_before_, gear_after_);
+    if (!(gain > 0.0)) return 0.0;
+    Path<State> path(path_.begin(), path_.begin() + static_cast<std::ptrdiff_t>(first));
+    path.insert(path.end(), way.begin(), way.end());
+    path.insert(path.end(), path_.begin() + static_cast<std::ptrdiff_t>(first + size), path_.end());
+    path_ = std::move(path);
+    return gain;
+  }
+
+  /// The stretch's states, and free ones near them or near those drawn before, in the order of the stretch.
+  void draw_places(std::size_t round, std::span<const State> stretch) {
+    constexpr std::array scales{1.0, 0.5, 0.25, 1.5, 0.1};
+    places_.clear();
+    // No two places cost the same: else of two on one curve rounding chose the one to come from, far from the origin
+    // another one than near it.
+    const auto leg = [&](std::uint64_t axis) {
+      return unsure * (1.0 + uniform(options_.seed, round * (drawn_states + stretch_states) + places_.size(), axis));
+    };
+    for (const State& state : stretch) places_.push_back({state, static_cast<double>(places_.size()), 0.0, leg(9)});
+    places_.back().along += 1.0;  // behind all that is drawn
+    for (std::size_t i = 0; i < drawn_states; ++i) {
+      const auto u = [&](std::uint64_t axis) { return uniform(options_.seed, round * drawn_states + i, axis); };
+      const bool of_drawn = places_.size() > stretch.size() && u(0) < 0.5;
+      const std::size_t first = of_drawn ? stretch.size() : 0;
+      const std::size_t last = of_drawn ? places_.size() : stretch.size() - 1;
+      const Place& parent = places_[first + static_cast<std::size_t>(u(1) * static_cast<double>(last - first))];
+      const State state = driver_.drawn_near(parent.state, {u(2), u(3), u(4), u(5)}, scales[round % scales.size()]);
+      const double along = std::clamp(parent.along + u(6) - 0.5, 0.0, static_cast<double>(stretch.size() - 1));
+      if (driver_.is_free(state, query_)) places_.push_back({state, along, 0.0, leg(9)});
+    }
+    std::stable_sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) { return a.along < b.along; });
+    for (Place& place : places_) place.to_goal = driver_.distance(place.state, stretch.back());
+  }
+
+  /// Through the places for less than `most`; empty: there is no such way.
+  Path<State> cheaper(double most) {
+    most_ = most;
+    arrivals_.clear();
+    settled_.assign(places_.size(), {none, none});
+    Queue open(IsLater{&arrivals_});
+    expand(0, none, open);
+    while (!open.empty()) {
+      execution_.check();
+      const std::size_t next = open.top();
+      open.pop();
+      const Arrival arrival = arrivals_[next];
+      if (is_settled(arrival.place, arrival.way.last_gear)) continue;
+      ++counters_.edges_checked;
+      if (!driver_.is_free_way(arrival.way, query_)) continue;
+      ++counters_.edges_free;
+      settled_[arrival.place][slot(arrival.way.last_gear)] = next;
+      if (arrival.place + 1 < places_.size()) {
+        expand(arrival.place, next, open);
+        continue;
+      }
+      std::vector<std::size_t> chain;
+      for (std::size_t a = next; a != none; a = arrivals_[a].before) chain.push_back(a);
+      Path<State> way{places_.front().state};
+      for (auto a = chain.rbegin(); a != chain.rend(); ++a) Driver::append(way, arrivals_[*a].way);
+      return way;
+    }
+    return {};
+  }
+
+  void expand(std::size_t place, std::size_t arrived, Queue& open) {
+    const int gear = arrived == none ? gear_before_ : arrivals_[arrived].way.last_gear;
+    const double price = arrived == none ? 0.0 : arrivals_[arrived].price;
+    const State& from = places_[place].state;
+    for (std::size_t to = place > backwards ? place - backwards : 1; to < places_.size(); ++to) {
+      if (to == place || (is_settled(to, 1) && is_settled(to, -1))) continue;
+      if (price + driver_.distance(from, places_[to].state) + places_[to].to_goal >= most_) continue;
+      const bool is_end = to + 1 == places_.size();
+      for (const Way& way : driver_.ways(from, places_[to].state, most_ - price - places_[to].to_goal)) {
+        const double there = price + change(gear, way.first_gear) + way.price + places_[to].leg * most_ +
+                             (is_end ? change(way.last_gear, gear_after_) : 0.0);
+        const double at_least = there + places_[to].to_goal;
+        if (at_least >= most_ || is_settled(to, way.last_gear)) continue;
+        arrivals_.push_back({there, at_least, arrived, to, way});
+        open.push(arrivals_.size() - 1);
+      }
+    }
+  }
+
   bool is_settled(std::size_t place, int gear) const { return settled_[place][slot(gear)] != none; }
   double change(int from, int to) const {
     return from != 0 && to != 0 && from != to ? driver_.gear_change_price() : 0.0;
@@ -122,105 +214,6 @@ class Redriving {
   std::vector<Arrival> arrivals_;
   std::vector<std::array<std::size_t, 2>> settled_;  // by place and gear: the arrival
 };
-
-/// What the path gets cheaper by.
-template <class Driver>
-double Redriving<Driver>::redrive_stretch(std::size_t round) {
-  const std::size_t size = std::min(path_.size(), stretch_states);
-  const std::size_t room = path_.size() - size;
-  const std::size_t first = room == 0 ? 0 : static_cast<std::size_t>(uniform(options_.seed, round, 8) * (room + 1.0));
-  const std::span<const State> stretch = std::span(path_).subspan(first, size);
-  gear_before_ = first == 0 ? 0 : driver_.gear_at_end(path_[first - 1], path_[first]);
-  gear_after_ = first == room ? 0 : driver_.gear_at_begin(path_[first + size - 1], path_[first + size]);
-  const double before = driver_.price(stretch, gear_before_, gear_after_);
-  draw_places(round, stretch);
-  const Path<State> way = cheaper(before * (1.0 - unsure));
-  if (way.empty()) return 0.0;
-  const double gain = before - driver_.price(way, gear_before_, gear_after_);
-  if (!(gain > 0.0)) return 0.0;
-  Path<State> path(path_.begin(), path_.begin() + static_cast<std::ptrdiff_t>(first));
-  path.insert(path.end(), way.begin(), way.end());
-  path.insert(path.end(), path_.begin() + static_cast<std::ptrdiff_t>(first + size), path_.end());
-  path_ = std::move(path);
-  return gain;
-}
-
-/// The stretch's states, and free ones near them or near those drawn before, in the order of the stretch.
-template <class Driver>
-void Redriving<Driver>::draw_places(std::size_t round, std::span<const State> stretch) {
-  constexpr std::array scales{1.0, 0.5, 0.25, 1.5, 0.1};
-  places_.clear();
-  // No two places cost the same: else of two on one curve rounding chose the one to come from, far from the origin
-  // another one than near it.
-  const auto leg = [&](std::uint64_t axis) {
-    return unsure * (1.0 + uniform(options_.seed, round * (drawn_states + stretch_states) + places_.size(), axis));
-  };
-  for (const State& state : stretch) places_.push_back({state, static_cast<double>(places_.size()), 0.0, leg(9)});
-  places_.back().along += 1.0;  // behind all that is drawn
-  for (std::size_t i = 0; i < drawn_states; ++i) {
-    const auto u = [&](std::uint64_t axis) { return uniform(options_.seed, round * drawn_states + i, axis); };
-    const bool of_drawn = places_.size() > stretch.size() && u(0) < 0.5;
-    const std::size_t first = of_drawn ? stretch.size() : 0;
-    const std::size_t last = of_drawn ? places_.size() : stretch.size() - 1;
-    const Place& parent = places_[first + static_cast<std::size_t>(u(1) * static_cast<double>(last - first))];
-    const State state = driver_.drawn_near(parent.state, {u(2), u(3), u(4), u(5)}, scales[round % scales.size()]);
-    const double along = std::clamp(parent.along + u(6) - 0.5, 0.0, static_cast<double>(stretch.size() - 1));
-    if (driver_.is_free(state, query_)) places_.push_back({state, along, 0.0, leg(9)});
-  }
-  std::stable_sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) { return a.along < b.along; });
-  for (Place& place : places_) place.to_goal = driver_.distance(place.state, stretch.back());
-}
-
-/// Through the places for less than `most`; empty: there is no such way.
-template <class Driver>
-auto Redriving<Driver>::cheaper(double most) -> Path<State> {
-  most_ = most;
-  arrivals_.clear();
-  settled_.assign(places_.size(), {none, none});
-  Queue open(IsLater{&arrivals_});
-  expand(0, none, open);
-  while (!open.empty()) {
-    execution_.check();
-    const std::size_t next = open.top();
-    open.pop();
-    const Arrival arrival = arrivals_[next];
-    if (is_settled(arrival.place, arrival.way.last_gear)) continue;
-    ++counters_.edges_checked;
-    if (!driver_.is_free_way(arrival.way, query_)) continue;
-    ++counters_.edges_free;
-    settled_[arrival.place][slot(arrival.way.last_gear)] = next;
-    if (arrival.place + 1 < places_.size()) {
-      expand(arrival.place, next, open);
-      continue;
-    }
-    std::vector<std::size_t> chain;
-    for (std::size_t a = next; a != none; a = arrivals_[a].before) chain.push_back(a);
-    Path<State> way{places_.front().state};
-    for (auto a = chain.rbegin(); a != chain.rend(); ++a) Driver::append(way, arrivals_[*a].way);
-    return way;
-  }
-  return {};
-}
-
-template <class Driver>
-void Redriving<Driver>::expand(std::size_t place, std::size_t arrived, Queue& open) {
-  const int gear = arrived == none ? gear_before_ : arrivals_[arrived].way.last_gear;
-  const double price = arrived == none ? 0.0 : arrivals_[arrived].price;
-  const State& from = places_[place].state;
-  for (std::size_t to = place > backwards ? place - backwards : 1; to < places_.size(); ++to) {
-    if (to == place || (is_settled(to, 1) && is_settled(to, -1))) continue;
-    if (price + driver_.distance(from, places_[to].state) + places_[to].to_goal >= most_) continue;
-    const bool is_end = to + 1 == places_.size();
-    for (const Way& way : driver_.ways(from, places_[to].state, most_ - price - places_[to].to_goal)) {
-      const double there = price + change(gear, way.first_gear) + way.price + places_[to].leg * most_ +
-                           (is_end ? change(way.last_gear, gear_after_) : 0.0);
-      const double at_least = there + places_[to].to_goal;
-      if (at_least >= most_ || is_settled(to, way.last_gear)) continue;
-      arrivals_.push_back({there, at_least, arrived, to, way});
-      open.push(arrivals_.size() - 1);
-    }
-  }
-}
 
 }  // namespace detail
 

@@ -47,13 +47,45 @@ class RrtSearch {
   bool arrived() const { return last_ != no_vertex; }
   bool gave_up() const { return tree_.size() >= options_->nodes || counters_.samples >= most_steps(); }
   const Counters& counters() const { return counters_; }
-  void finish(Solution<State>& solution, PlannedRoadmap<State>* keep, const Execution& execution) const;
+  void finish(Solution<State>& solution, PlannedRoadmap<State>* keep, const Execution& execution) const {
+    solution.roadmap = {tree_.size(), tree_.size() - 1, 1};
+    if (arrived()) {
+      solution.path = tree_.way_to_root(last_);
+      std::reverse(solution.path.begin(), solution.path.end());
+    } else {
+      std::vector<typename MotionTree<W>::Embedding> goals;
+      for (const State& state : goals_) goals.push_back(embedded(*world_, state));
+      solution.separation =
+          separation_between<embedding_dimension<W>>(tree_.embeddings(execution), std::move(goals), execution);
+    }
+    if (keep != nullptr) keep_trees<W>(std::span(&tree_, 1), *keep, execution);
+  }
 
  private:
   /// A tree that is shut in on all sides never gets its nodes.
   std::uint64_t most_steps() const { return 64 * options_->nodes; }
-  State next_target();
-  void take_step();
+  State next_target() {
+    constexpr std::uint64_t bias_axis = 8;  // below 16: no axis of the samplers
+    const std::uint64_t index = counters_.samples++;
+    if (uniform(seed_, index, bias_axis) >= options_->goal_bias) {
+      return target_state(*world_, options_->sampler_of(index), seed_, index, query_);
+    }
+    return goals_[random_bits(seed_, index, bias_axis + 1) % goals_.size()];
+  }
+  void take_step() {
+    const State target = next_target();
+    const VertexId nearest = tree_.nearest(target, counters_);
+    if (tree_.state(nearest) == target) return;
+    const auto grown = tree_.extend(nearest, target, step_, query_, counters_);
+    if (!grown) return;
+    for (const State& goal : goals_) {
+      if (tree_.state(*grown) == goal) last_ = *grown;
+    }
+    for (const State& goal : goals_) {
+      if (arrived() || world_->distance(tree_.state(*grown), goal) > step_) continue;
+      if (const auto at_goal = tree_.extend(*grown, goal, step_, query_, counters_)) last_ = *at_goal;
+    }
+  }
 
   const W* world_;
   const RrtOptions* options_;
@@ -65,47 +97,6 @@ class RrtSearch {
   VertexId last_ = no_vertex;  // stands at a goal
   Counters counters_;
 };
-
-template <SteerableWorld W>
-typename W::State RrtSearch<W>::next_target() {
-  constexpr std::uint64_t bias_axis = 8;  // below 16: no axis of the samplers
-  const std::uint64_t index = counters_.samples++;
-  if (uniform(seed_, index, bias_axis) >= options_->goal_bias) {
-    return target_state(*world_, options_->sampler_of(index), seed_, index, query_);
-  }
-  return goals_[random_bits(seed_, index, bias_axis + 1) % goals_.size()];
-}
-
-template <SteerableWorld W>
-void RrtSearch<W>::take_step() {
-  const State target = next_target();
-  const VertexId nearest = tree_.nearest(target, counters_);
-  if (tree_.state(nearest) == target) return;
-  const auto grown = tree_.extend(nearest, target, step_, query_, counters_);
-  if (!grown) return;
-  for (const State& goal : goals_) {
-    if (tree_.state(*grown) == goal) last_ = *grown;
-  }
-  for (const State& goal : goals_) {
-    if (arrived() || world_->distance(tree_.state(*grown), goal) > step_) continue;
-    if (const auto at_goal = tree_.extend(*grown, goal, step_, query_, counters_)) last_ = *at_goal;
-  }
-}
-
-template <SteerableWorld W>
-void RrtSearch<W>::finish(Solution<State>& solution, PlannedRoadmap<State>* keep, const Execution& execution) const {
-  solution.roadmap = {tree_.size(), tree_.size() - 1, 1};
-  if (arrived()) {
-    solution.path = tree_.way_to_root(last_);
-    std::reverse(solution.path.begin(), solution.path.end());
-  } else {
-    std::vector<typename MotionTree<W>::Embedding> goals;
-    for (const State& state : goals_) goals.push_back(embedded(*world_, state));
-    solution.separation =
-        separation_between<embedding_dimension<W>>(tree_.embeddings(execution), std::move(goals), execution);
-  }
-  if (keep != nullptr) keep_trees<W>(std::span(&tree_, 1), *keep, execution);
-}
 
 }  // namespace detail
 

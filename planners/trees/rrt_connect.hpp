@@ -90,8 +90,24 @@ class RrtConnectSearch {
   const Counters& counters() const { return counters_; }
   /// In the world's metric; only where arrived().
   double cost() const { return trees_[0].cost(meeting_[0]) + trees_[1].cost(meeting_[1]); }
-  Path<State> path() const;  ///< start to goal; only where arrived()
-  void finish(Solution<State>& solution, PlannedRoadmap<State>* keep, const Execution& execution) const;
+  /// Start to goal; only where arrived().
+  Path<State> path() const {
+    Path<State> whole = trees_[0].way_to_root(meeting_[0]);
+    std::reverse(whole.begin(), whole.end());
+    const Path<State> rest = trees_[1].way_to_root(meeting_[1]);
+    whole.insert(whole.end(), rest.begin() + 1, rest.end());
+    return whole;
+  }
+  void finish(Solution<State>& solution, PlannedRoadmap<State>* keep, const Execution& execution) const {
+    solution.roadmap = {node_count(), node_count() - 1, arrived_ ? 1U : 2U};
+    if (arrived_) {
+      solution.path = path();
+    } else {
+      solution.separation = separation_between<embedding_dimension<W>>(trees_[0].embeddings(execution),
+                                                                       trees_[1].embeddings(execution), execution);
+    }
+    if (keep != nullptr) keep_trees<W>(trees_, *keep, execution);
+  }
 
  private:
   template <class GoesOn>
@@ -108,20 +124,138 @@ class RrtConnectSearch {
   /// Trees that are shut in on all sides never get their nodes.
   std::uint64_t most_steps() const { return 64 * options_->nodes; }
   std::size_t node_count() const { return trees_[0].size() + trees_[1].size(); }
-  std::optional<State> next_target();
-  bool leave_joints(State& target, const State& from) const;
-  void take_step();
-  double least_rest(std::size_t side, const State& state) const;
+  std::optional<State> next_target() {
+    const std::uint64_t index = counters_.samples++;
+    // The first targets are the other tree's roots: in the open that is all.
+    if (index < first_targets) return trees_[1 - turn_].state(0);
+    if (informed_) return informed_->informed(index, most_);
+    return target_state(*world_, options_->sampler_of(index), seed_, index, query_);
+  }
+  /// Some of the target's joints become as they are at the vertex. False: all of them.
+  bool leave_joints(State& target, const State& from) const {
+    constexpr std::uint64_t purpose = 0x6c65617665U;
+    if constexpr (requires { target.size(); }) {
+      static_assert(std::tuple_size_v<State> <= 16);
+      const auto joints = static_cast<double>(world_->unit_dimension());
+      if (!options_->moving || *options_->moving >= joints || counters_.samples <= first_targets) return true;
+      const double left = std::round(16.0 * (1.0 - *options_->moving / joints));
+      const std::uint64_t bits = random_bits(seed_, counters_.samples, purpose);
+      for (std::size_t j = 0; j < target.size(); ++j) {
+        if (static_cast<double>(bits >> (4 * j) & 15U) < left) target[j] = from[j];
+      }
+      return !(target == from);
+    }
+    return true;
+  }
+  void take_step() {
+    const std::size_t side = turn_;
+    MotionTree<W>& mine = trees_[side];
+    std::optional<State> target = next_target();
+    if (!target) {
+      ++idle_samples_;
+      return;
+    }
+    const VertexId from = mine.nearest(*target, counters_);
+    if (other_is_due()) turn_ = 1 - side;
+    if (is_beyond_domain(side, from, *target)) return;
+    if (!leave_joints(*target, mine.state(from))) return;
+    const State next = mine.towards(from, *target, step_);
+    if (!is_worth(side, from, next)) return;
+    if (const auto grown = mine.join(from, next, query_, counters_)) return meet(side, gone_on(side, *grown, *target));
+    if (!options_->domain) return;
+    if (from >= failed_[side].size()) failed_[side].resize(mine.size());
+    failed_[side][from] = true;
+  }
+  /// Where there are domains and the question is no easy one, a step more, if that is free.
+  VertexId gone_on(std::size_t side, VertexId grown, const State& target) {
+    constexpr std::uint64_t easy = 200;  // motions asked for; paths of easy questions are shorter without
+    MotionTree<W>& mine = trees_[side];
+    if (!options_->domain || counters_.edges_checked < easy || mine.state(grown) == target) return grown;
+    const State next = mine.towards(grown, target, step_);
+    return is_worth(side, grown, next) ? mine.join(grown, next, query_, counters_).value_or(grown) : grown;
+  }
+  /// The least that is left from a state of a tree to the other end.
+  double least_rest(std::size_t side, const State& state) const {
+    if (side == 1) return trees_[0].length(0, state);
+    double least = unbounded;
+    for (VertexId goal = 0; goal < goal_count_; ++goal) least = std::min(least, trees_[1].length(goal, state));
+    return least;
+  }
   bool is_worth(std::size_t side, VertexId from, const State& next) const {
     return most_ == unbounded ||
            trees_[side].cost(from) + trees_[side].length(from, next) + least_rest(side, next) < most_;
   }
-  void meet(std::size_t side, VertexId grown);
-  bool is_beyond_domain(std::size_t side, VertexId v, const State& target) const;
-  bool other_is_due() const;
-  std::optional<VertexId> walk(MotionTree<W>& tree, VertexId from, const PlaceWay& way, const Execution& execution);
-  VertexId try_places(std::size_t side, VertexId root, const Execution& execution);
-  void try_places(const Execution& execution);
+  /// Grows the other tree towards a new state of this one.
+  void meet(std::size_t side, VertexId grown) {
+    MotionTree<W>& other = trees_[1 - side];
+    const State& state = trees_[side].state(grown);
+    const VertexId from = other.nearest(state, counters_);
+    const bool bounded = most_ != unbounded;
+    if (bounded && !(trees_[side].cost(grown) + other.cost(from) + other.length(from, state) < most_)) return;
+    meeting_[side] = grown;
+    meeting_[1 - side] = other.connect(from, state, step_, query_, counters_);
+    arrived_ = other.state(meeting_[1 - side]) == state && (!bounded || cost() < most_);
+  }
+  /// Does an obstacle near to the vertex take the most of samples so far away?
+  bool is_beyond_domain(std::size_t side, VertexId v, const State& target) const {
+    if (!options_->domain || v >= failed_[side].size() || !failed_[side][v]) return false;
+    return trees_[side].length(v, target) > *options_->domain * step_;
+  }
+  /// In turns; where there are domains, a tree that is less than half of the other one goes on.
+  bool other_is_due() const { return !options_->domain || trees_[1 - turn_].size() < 2 * trees_[turn_].size(); }
+  /// Grows the tree from a vertex along the way, over more of its places where a corner is cut too close: its last
+  /// vertex.
+  std::optional<VertexId> walk(MotionTree<W>& tree, VertexId from, const PlaceWay& way, const Execution& execution) {
+    constexpr int most_failures = 12;
+    if (way.corners.empty()) return std::nullopt;
+    VertexId last = from;
+    std::uint32_t at = 0;
+    int failures = 0;
+    for (const std::uint32_t corner : way.corners) {
+      for (std::uint32_t stop = corner; at < corner;) {
+        execution.check();
+        if (gave_up()) return std::nullopt;
+        const State next = world_->shifted(tree.state(from), way.places[stop]);
+        if (const auto grown = tree.join(last, next, query_, counters_)) {
+          last = *grown;
+          at = stop;
+          stop = corner;
+        } else {
+          if (stop == at + 1 || ++failures == most_failures) return std::nullopt;
+          stop = at + (stop - at) / 2;
+        }
+      }
+    }
+    return last;
+  }
+  /// From a root of a tree to the nearest vertex of the other tree: straight on, or else with its heading kept to where
+  /// that one is, and then to it. Returns that vertex.
+  VertexId try_places(std::size_t side, VertexId root, const Execution& execution) {
+    MotionTree<W>& mine = trees_[side];
+    const State start = mine.state(root);
+    const VertexId end = trees_[1 - side].nearest(start, counters_);
+    const State goal = trees_[1 - side].state(end);
+    std::optional<VertexId> last = mine.join(root, goal, query_, counters_);
+    if (!last) {
+      const PlaceWay way = way_over_places(world_->free_places(start), world_->place_of(start), world_->place_of(goal));
+      last = walk(mine, root, way, execution);
+      if (last && !(mine.state(*last) == goal)) last = mine.join(*last, goal, query_, counters_);
+    }
+    if (!last) return end;
+    arrived_ = true;
+    meeting_[side] = *last;
+    meeting_[1 - side] = end;
+    return end;
+  }
+  /// Before anything is drawn: first at the heading of the start, then at that of the goal next to it.
+  void try_places(const Execution& execution) {
+    if (!world_->has_places() || !options_->places || options_->sampler || gave_up()) return;
+    const VertexId goal = try_places(0, 0, execution);
+    const State& from = trees_[0].state(0);
+    const State& to = trees_[1].state(goal);
+    const bool is_turned = !(world_->shifted(from, world_->place_of(to)) == to);
+    if (!arrived_ && is_turned) try_places(1, goal, execution);
+  }
 
   static constexpr std::uint64_t first_targets = 2;
   static constexpr double unbounded = std::numeric_limits<double>::infinity();
@@ -143,171 +277,6 @@ class RrtConnectSearch {
   bool begun_;  // the way over places is tried by the first pair of trees alone
   Counters counters_;
 };
-
-/// Grows the tree from a vertex along the way, over more of its places where a corner is cut too close: its last
-/// vertex.
-template <SteerableWorld W>
-std::optional<VertexId> RrtConnectSearch<W>::walk(MotionTree<W>& tree, VertexId from, const PlaceWay& way,
-                                                  const Execution& execution) {
-  constexpr int most_failures = 12;
-  if (way.corners.empty()) return std::nullopt;
-  VertexId last = from;
-  std::uint32_t at = 0;
-  int failures = 0;
-  for (const std::uint32_t corner : way.corners) {
-    for (std::uint32_t stop = corner; at < corner;) {
-      execution.check();
-      if (gave_up()) return std::nullopt;
-      const State next = world_->shifted(tree.state(from), way.places[stop]);
-      if (const auto grown = tree.join(last, next, query_, counters_)) {
-        last = *grown;
-        at = stop;
-        stop = corner;
-      } else {
-        if (stop == at + 1 || ++failures == most_failures) return std::nullopt;
-        stop = at + (stop - at) / 2;
-      }
-    }
-  }
-  return last;
-}
-
-/// From a root of a tree to the nearest vertex of the other tree: straight on, or else with its heading kept to where
-/// that one is, and then to it. Returns that vertex.
-template <SteerableWorld W>
-VertexId RrtConnectSearch<W>::try_places(std::size_t side, VertexId root, const Execution& execution) {
-  MotionTree<W>& mine = trees_[side];
-  const State start = mine.state(root);
-  const VertexId end = trees_[1 - side].nearest(start, counters_);
-  const State goal = trees_[1 - side].state(end);
-  std::optional<VertexId> last = mine.join(root, goal, query_, counters_);
-  if (!last) {
-    const PlaceWay way = way_over_places(world_->free_places(start), world_->place_of(start), world_->place_of(goal));
-    last = walk(mine, root, way, execution);
-    if (last && !(mine.state(*last) == goal)) last = mine.join(*last, goal, query_, counters_);
-  }
-  if (!last) return end;
-  arrived_ = true;
-  meeting_[side] = *last;
-  meeting_[1 - side] = end;
-  return end;
-}
-
-/// Before anything is drawn: first at the heading of the start, then at that of the goal next to it.
-template <SteerableWorld W>
-void RrtConnectSearch<W>::try_places(const Execution& execution) {
-  if (!world_->has_places() || !options_->places || options_->sampler || gave_up()) return;
-  const VertexId goal = try_places(0, 0, execution);
-  const State& from = trees_[0].state(0);
-  const State& to = trees_[1].state(goal);
-  const bool is_turned = !(world_->shifted(from, world_->place_of(to)) == to);
-  if (!arrived_ && is_turned) try_places(1, goal, execution);
-}
-
-/// The least that is left from a state of a tree to the other end.
-template <SteerableWorld W>
-double RrtConnectSearch<W>::least_rest(std::size_t side, const State& state) const {
-  if (side == 1) return trees_[0].length(0, state);
-  double least = unbounded;
-  for (VertexId goal = 0; goal < goal_count_; ++goal) least = std::min(least, trees_[1].length(goal, state));
-  return least;
-}
-
-/// Grows the other tree towards a new state of this one.
-template <SteerableWorld W>
-void RrtConnectSearch<W>::meet(std::size_t side, VertexId grown) {
-  MotionTree<W>& other = trees_[1 - side];
-  const State& state = trees_[side].state(grown);
-  const VertexId from = other.nearest(state, counters_);
-  const bool bounded = most_ != unbounded;
-  if (bounded && !(trees_[side].cost(grown) + other.cost(from) + other.length(from, state) < most_)) return;
-  meeting_[side] = grown;
-  meeting_[1 - side] = other.connect(from, state, step_, query_, counters_);
-  arrived_ = other.state(meeting_[1 - side]) == state && (!bounded || cost() < most_);
-}
-
-template <SteerableWorld W>
-auto RrtConnectSearch<W>::next_target() -> std::optional<State> {
-  const std::uint64_t index = counters_.samples++;
-  // The first targets are the other tree's roots: in the open that is all.
-  if (index < first_targets) return trees_[1 - turn_].state(0);
-  if (informed_) return informed_->informed(index, most_);
-  return target_state(*world_, options_->sampler_of(index), seed_, index, query_);
-}
-
-/// Some of the target's joints become as they are at the vertex. False: all of them.
-template <SteerableWorld W>
-bool RrtConnectSearch<W>::leave_joints(State& target, const State& from) const {
-  constexpr std::uint64_t purpose = 0x6c65617665U;
-  if constexpr (requires { target.size(); }) {
-    static_assert(std::tuple_size_v<State> <= 16);
-    const auto joints = static_cast<double>(world_->unit_dimension());
-    if (!options_->moving || *options_->moving >= joints || counters_.samples <= first_targets) return true;
-    const double left = std::round(16.0 * (1.0 - *options_->moving / joints));
-    const std::uint64_t bits = random_bits(seed_, counters_.samples, purpose);
-    for (std::size_t j = 0; j < target.size(); ++j) {
-      if (static_cast<double>(bits >> (4 * j) & 15U) < left) target[j] = from[j];
-    }
-    return !(target == from);
-  }
-  return true;
-}
-
-/// Does an obstacle near to the vertex take the most of samples so far away?
-template <SteerableWorld W>
-bool RrtConnectSearch<W>::is_beyond_domain(std::size_t side, VertexId v, const State& target) const {
-  if (!options_->domain || v >= failed_[side].size() || !failed_[side][v]) return false;
-  return trees_[side].length(v, target) > *options_->domain * step_;
-}
-
-/// In turns; where there are domains, a tree that is less than half of the other one goes on.
-template <SteerableWorld W>
-bool RrtConnectSearch<W>::other_is_due() const {
-  return !options_->domain || trees_[1 - turn_].size() < 2 * trees_[turn_].size();
-}
-
-template <SteerableWorld W>
-void RrtConnectSearch<W>::take_step() {
-  const std::size_t side = turn_;
-  MotionTree<W>& mine = trees_[side];
-  std::optional<State> target = next_target();
-  if (!target) {
-    ++idle_samples_;
-    return;
-  }
-  const VertexId from = mine.nearest(*target, counters_);
-  if (other_is_due()) turn_ = 1 - side;
-  if (is_beyond_domain(side, from, *target)) return;
-  if (!leave_joints(*target, mine.state(from))) return;
-  const State next = mine.towards(from, *target, step_);
-  if (!is_worth(side, from, next)) return;
-  if (const auto grown = mine.join(from, next, query_, counters_)) return meet(side, *grown);
-  if (!options_->domain) return;
-  if (from >= failed_[side].size()) failed_[side].resize(mine.size());
-  failed_[side][from] = true;
-}
-
-template <SteerableWorld W>
-auto RrtConnectSearch<W>::path() const -> Path<State> {
-  Path<State> whole = trees_[0].way_to_root(meeting_[0]);
-  std::reverse(whole.begin(), whole.end());
-  const Path<State> rest = trees_[1].way_to_root(meeting_[1]);
-  whole.insert(whole.end(), rest.begin() + 1, rest.end());
-  return whole;
-}
-
-template <SteerableWorld W>
-void RrtConnectSearch<W>::finish(Solution<State>& solution, PlannedRoadmap<State>* keep,
-                                 const Execution& execution) const {
-  solution.roadmap = {node_count(), node_count() - 1, arrived_ ? 1U : 2U};
-  if (arrived_) {
-    solution.path = path();
-  } else {
-    solution.separation = separation_between<embedding_dimension<W>>(trees_[0].embeddings(execution),
-                                                                     trees_[1].embeddings(execution), execution);
-  }
-  if (keep != nullptr) keep_trees<W>(trees_, *keep, execution);
-}
 
 }  // namespace detail
 

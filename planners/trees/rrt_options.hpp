@@ -22,7 +22,8 @@ struct RrtOptions {
   std::optional<double> step = {};  ///< longest motion of a tree, in the world's metric, > 0; none: by world
   /// rrt_connect: a vertex that a motion from has failed is grown towards samples within so many steps alone, for of
   /// those farther away obstacles near to it take the most (dynamic domain: Yershova, Jaillet, Simeon, LaValle, ICRA
-  /// 2005); and a tree of less than half the other's states goes on. >= 1; none: towards any sample, in turns.
+  /// 2005); a tree of less than half the other's states goes on; and from the 200th motion on a state is followed by
+  /// one more towards its sample. >= 1; none: towards any sample, in turns, a state at once.
   std::optional<double> domain = {};
   /// rrt_connect of arms: a motion towards a sample moves so many joints on average, others each time, for one of all
   /// joints of a long arm is seldom free. > 0; none: all.

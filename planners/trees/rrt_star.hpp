@@ -17,7 +17,6 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "planners/roadmap/roadmap_growth.hpp"
@@ -56,7 +55,21 @@ class RewiredTree : public MotionTree<W> {
     return v;
   }
   /// The motion from the new parent to v is free and makes v cheaper. Throws Stopped: then costs below v may be old.
-  void change_parent(VertexId v, VertexId parent, const Execution& execution);
+  void change_parent(VertexId v, VertexId parent, const Execution& execution) {
+    constexpr std::uint64_t states_per_poll = 4096;
+    unhang(v);
+    this->parents_[v] = parent;
+    hang(v, parent);
+    open_.assign(1, v);
+    for (std::uint64_t count = 1; !open_.empty(); ++count) {
+      if (count % states_per_poll == 0) execution.check();
+      const VertexId next = open_.back();
+      open_.pop_back();
+      this->costs_[next] = this->costs_[this->parents_[next]] + this->length(this->parents_[next], this->state(next));
+      for (VertexId child = kin_[next].first_child; child != no_vertex; child = kin_[child].next)
+        open_.push_back(child);
+    }
+  }
 
  private:
   struct Kin {
@@ -81,22 +94,6 @@ class RewiredTree : public MotionTree<W> {
   std::vector<VertexId> open_;  // scratch
 };
 
-template <SteerableWorld W>
-void RewiredTree<W>::change_parent(VertexId v, VertexId parent, const Execution& execution) {
-  constexpr std::uint64_t states_per_poll = 4096;
-  unhang(v);
-  this->parents_[v] = parent;
-  hang(v, parent);
-  open_.assign(1, v);
-  for (std::uint64_t count = 1; !open_.empty(); ++count) {
-    if (count % states_per_poll == 0) execution.check();
-    const VertexId next = open_.back();
-    open_.pop_back();
-    this->costs_[next] = this->costs_[this->parents_[next]] + this->length(this->parents_[next], this->state(next));
-    for (VertexId child = kin_[next].first_child; child != no_vertex; child = kin_[child].next) open_.push_back(child);
-  }
-}
-
 /// For one thread. Refers to the world.
 template <SteerableWorld W>
 class RrtStarTree {
@@ -118,10 +115,36 @@ class RrtStarTree {
 
   /// Until so much more work() is done, or the tree is full. Informed: `best`, the cost of the best path known
   /// (infinity: none), and `guide`, that path (empty: none), say where samples and new states may be. Throws Stopped.
-  void advance(std::uint64_t work, double best, const Path<State>& guide, const Execution& execution);
+  void advance(std::uint64_t work, double best, const Path<State>& guide, const Execution& execution) {
+    const std::uint64_t until = this->work() + work;
+    const auto length = [this](const State& a, const State& b) { return world_->distance(a, b); };
+    const Guide along{guide, lengths_along(guide, length)};
+    while (this->work() < until && !is_full()) {
+      execution.check();
+      tree_.ask_room(execution);
+      take_step(best, along, execution);
+    }
+    counters_.refused = refused_motions(query_);
+  }
   /// The states of a free path from the start join the tree with the costs that they have on it, where these are less
   /// than what they cost. Throws Stopped.
-  void take(const Path<State>& path, const Execution& execution);
+  void take(const Path<State>& path, const Execution& execution) {
+    if (path.empty() || !(path.front() == tree_.state(0))) return;
+    VertexId last = 0;
+    for (std::size_t i = 1; i < path.size() && !is_full(); ++i) {
+      execution.check();
+      tree_.ask_room(execution);
+      const VertexId found = tree_.nearest(path[i], counters_);
+      if (!(tree_.state(found) == path[i])) {
+        last = tree_.insert(path[i], last);
+        note_goal(last);
+        continue;
+      }
+      if (is_cheaper(tree_.cost(last) + tree_.length(last, path[i]), found))
+        tree_.change_parent(found, last, execution);
+      last = found;
+    }
+  }
 
   /// Of the best path to a goal; infinity: there is none.
   double cost() const {
@@ -163,16 +186,125 @@ class RrtStarTree {
   };
 
   bool is_cheaper(double cost, VertexId v) const { return cost < tree_.cost(v) * (1.0 - noise); }
-  VertexId best_goal() const;
-  void note_goal(VertexId v);
-  std::optional<State> next_target(double best, const Guide& guide);
-  std::optional<State> next_state(const State& target);
-  bool is_of_use(const State& state, double best);
-  void find_near(const State& state);
-  void take_step(double best, const Guide& guide, const Execution& execution);
-  std::optional<VertexId> cheapest_parent(const State& state, double rest, double best);
-  void rewire(VertexId v, double best, const Execution& execution);
-  void try_goals(VertexId v, double best, const Execution& execution);
+  VertexId best_goal() const {
+    VertexId best = no_vertex;
+    for (const VertexId v : at_goal_) {
+      if (v != no_vertex && (best == no_vertex || tree_.cost(v) < tree_.cost(best))) best = v;
+    }
+    return best;
+  }
+  /// Keeps in mind the goal at which a vertex stands, if it does.
+  void note_goal(VertexId v) {
+    for (std::size_t i = 0; i < at_goal_.size(); ++i) {
+      if (at_goal_[i] == no_vertex && sampler_.goals()[i] == tree_.state(v)) at_goal_[i] = v;
+    }
+  }
+  std::optional<State> next_target(double best, const Guide& guide) {
+    constexpr std::uint64_t choice_axis = 8;  // below 16: no axis of the samplers
+    constexpr double near_share = 0.25;
+    const std::uint64_t index = counters_.samples++;
+    const double choice = uniform(options_.seed, index, choice_axis);
+    if (options_.informed) {
+      const bool guided = guide.path.size() > 1;
+      if (guided && choice < near_share) return sampler_.near(guide.path, guide.along, index);
+      if (best < infinity) {
+        auto state = sampler_.informed(index, best);
+        if (!state && guided) state = sampler_.near(guide.path, guide.along, index);
+        return state;
+      }
+    }
+    if (choice < options_.goal_bias) {
+      const auto& goals = sampler_.goals();
+      return goals[random_bits(options_.seed, index, choice_axis + 1) % goals.size()];
+    }
+    return target_state(*world_, options_.sampler, options_.seed, index, query_);
+  }
+  /// A step from the nearest state towards the target, and what is near there; nothing where the tree has it.
+  std::optional<State> next_state(const State& target) {
+    find_near(target);
+    const auto nearest = std::min_element(near_.begin(), near_.end(), [](const Near& a, const Near& b) {
+      return a.length != b.length ? a.length < b.length : a.vertex < b.vertex;
+    });
+    State state = target;
+    if (nearest->length > options_.step) {
+      state = tree_.towards(nearest->vertex, target, options_.step);
+      find_near(state);
+    }
+    const bool is_known =
+        std::any_of(near_.begin(), near_.end(), [&](const Near& n) { return tree_.state(n.vertex) == state; });
+    if (is_known) return std::nullopt;
+    return state;
+  }
+  /// Free, and may a path through it be cheaper than the best?
+  bool is_of_use(const State& state, double best) {
+    if (sampler_.least_cost(state) < best) return tree_.is_free(state, query_);
+    ++idle_samples_;
+    return false;
+  }
+  /// The neighbours of a state, unordered.
+  void find_near(const State& state) {
+    const std::size_t k = star_rule(StarRule::neighbours, tree_.size(), world_->sampled_dimension(), 0.0).neighbours;
+    tree_.nearest(state, k, found_, counters_);
+    near_.clear();
+    for (const Neighbour& n : found_) {
+      const double length = tree_.length(n.id, state);
+      near_.push_back({tree_.cost(n.id) + length, length, n.id});
+    }
+  }
+  void take_step(double best, const Guide& guide, const Execution& execution) {
+    best = options_.informed ? std::min(best, cost()) : infinity;
+    const std::optional<State> target = next_target(best, guide);
+    if (!target) {
+      ++idle_samples_;
+      return;
+    }
+    // What a query for neighbours costs is spared where the target itself, which most of the new states are, is no use.
+    if (best < infinity && !is_of_use(*target, best)) return;
+    const std::optional<State> state = next_state(*target);
+    if (!state) return;
+    if (best < infinity ? *state != *target && !is_of_use(*state, best) : !tree_.is_free(*state, query_)) return;
+    const double rest = best < infinity ? sampler_.rest(*state) : 0.0;
+    const std::optional<VertexId> parent = cheapest_parent(*state, rest, best);
+    if (!parent) return;
+    const VertexId v = tree_.insert(*state, *parent);
+    note_goal(v);
+    rewire(v, best, execution);
+    try_goals(v, best, execution);
+  }
+  /// Of those near the state; nothing where no motion is free, or none that makes it cheap enough. Puts them in order.
+  std::optional<VertexId> cheapest_parent(const State& state, double rest, double best) {
+    std::sort(near_.begin(), near_.end());
+    for (const Near& n : near_) {
+      if (!(n.cost + rest < best)) return std::nullopt;
+      if (tree_.is_free_motion(n.vertex, state, query_, counters_)) return n.vertex;
+    }
+    return std::nullopt;
+  }
+  /// Those near v get it as their parent where that makes them cheaper and, by the metric, of use.
+  void rewire(VertexId v, double best, const Execution& execution) {
+    for (const Near& n : near_) {
+      const State& state = tree_.state(n.vertex);
+      const double cost = tree_.cost(v) + (one_way ? tree_.length(v, state) : n.length);
+      if (!is_cheaper(cost, n.vertex) || (best < infinity && !(cost + sampler_.rest(state) < best))) continue;
+      if (tree_.is_free_motion(v, state, query_, counters_)) tree_.change_parent(n.vertex, v, execution);
+    }
+  }
+  void try_goals(VertexId v, double best, const Execution& execution) {
+    for (std::size_t i = 0; i < at_goal_.size(); ++i) {
+      if (at_goal_[i] == v) continue;
+      const State& goal = sampler_.goals()[i];
+      const double length = tree_.length(v, goal);
+      const double cost = tree_.cost(v) + length;
+      if (length > options_.step || !(cost < best)) continue;
+      if (at_goal_[i] != no_vertex && !is_cheaper(cost, at_goal_[i])) continue;
+      if (!tree_.is_free_motion(v, goal, query_, counters_)) continue;
+      if (at_goal_[i] != no_vertex) {
+        tree_.change_parent(at_goal_[i], v, execution);
+      } else {
+        note_goal(tree_.insert(goal, v));
+      }
+    }
+  }
 
   Options options_;
   typename W::Query query_;
@@ -185,175 +317,5 @@ class RrtStarTree {
   std::vector<Neighbour> found_;  // scratch
   std::vector<Near> near_;        // scratch
 };
-
-template <SteerableWorld W>
-void RrtStarTree<W>::advance(std::uint64_t work, double best, const Path<State>& guide, const Execution& execution) {
-  const std::uint64_t until = this->work() + work;
-  const auto length = [this](const State& a, const State& b) { return world_->distance(a, b); };
-  const Guide along{guide, lengths_along(guide, length)};
-  while (this->work() < until && !is_full()) {
-    execution.check();
-    tree_.ask_room(execution);
-    take_step(best, along, execution);
-  }
-  counters_.refused = refused_motions(query_);
-}
-
-template <SteerableWorld W>
-VertexId RrtStarTree<W>::best_goal() const {
-  VertexId best = no_vertex;
-  for (const VertexId v : at_goal_) {
-    if (v != no_vertex && (best == no_vertex || tree_.cost(v) < tree_.cost(best))) best = v;
-  }
-  return best;
-}
-
-/// Keeps in mind the goal at which a vertex stands, if it does.
-template <SteerableWorld W>
-void RrtStarTree<W>::note_goal(VertexId v) {
-  for (std::size_t i = 0; i < at_goal_.size(); ++i) {
-    if (at_goal_[i] == no_vertex && sampler_.goals()[i] == tree_.state(v)) at_goal_[i] = v;
-  }
-}
-
-template <SteerableWorld W>
-auto RrtStarTree<W>::next_target(double best, const Guide& guide) -> std::optional<State> {
-  constexpr std::uint64_t choice_axis = 8;  // below 16: no axis of the samplers
-  constexpr double near_share = 0.25;
-  const std::uint64_t index = counters_.samples++;
-  const double choice = uniform(options_.seed, index, choice_axis);
-  if (options_.informed) {
-    const bool guided = guide.path.size() > 1;
-    if (guided && choice < near_share) return sampler_.near(guide.path, guide.along, index);
-    if (best < infinity) {
-      auto state = sampler_.informed(index, best);
-      if (!state && guided) state = sampler_.near(guide.path, guide.along, index);
-      return state;
-    }
-  }
-  if (choice < options_.goal_bias) {
-    const auto& goals = sampler_.goals();
-    return goals[random_bits(options_.seed, index, choice_axis + 1) % goals.size()];
-  }
-  return target_state(*world_, options_.sampler, options_.seed, index, query_);
-}
-
-/// The neighbours of a state, unordered.
-template <SteerableWorld W>
-void RrtStarTree<W>::find_near(const State& state) {
-  const std::size_t k = star_rule(StarRule::neighbours, tree_.size(), world_->sampled_dimension(), 0.0).neighbours;
-  tree_.nearest(state, k, found_, counters_);
-  near_.clear();
-  for (const Neighbour& n : found_) {
-    const double length = tree_.length(n.id, state);
-    near_.push_back({tree_.cost(n.id) + length, length, n.id});
-  }
-}
-
-/// A step from the nearest state towards the target, and what is near there; nothing where the tree has it.
-template <SteerableWorld W>
-auto RrtStarTree<W>::next_state(const State& target) -> std::optional<State> {
-  find_near(target);
-  const auto nearest = std::min_element(near_.begin(), near_.end(), [](const Near& a, const Near& b) {
-    return a.length != b.length ? a.length < b.length : a.vertex < b.vertex;
-  });
-  State state = target;
-  if (nearest->length > options_.step) {
-    state = tree_.towards(nearest->vertex, target, options_.step);
-    find_near(state);
-  }
-  const bool is_known =
-      std::any_of(near_.begin(), near_.end(), [&](const Near& n) { return tree_.state(n.vertex) == state; });
-  if (is_known) return std::nullopt;
-  return state;
-}
-
-/// Free, and may a path through it be cheaper than the best?
-template <SteerableWorld W>
-bool RrtStarTree<W>::is_of_use(const State& state, double best) {
-  if (sampler_.least_cost(state) < best) return tree_.is_free(state, query_);
-  ++idle_samples_;
-  return false;
-}
-
-template <SteerableWorld W>
-void RrtStarTree<W>::take_step(double best, const Guide& guide, const Execution& execution) {
-  best = options_.informed ? std::min(best, cost()) : infinity;
-  const std::optional<State> target = next_target(best, guide);
-  if (!target) {
-    ++idle_samples_;
-    return;
-  }
-  // What a query for neighbours costs is spared where the target itself, which most of the new states are, is no use.
-  if (best < infinity && !is_of_use(*target, best)) return;
-  const std::optional<State> state = next_state(*target);
-  if (!state) return;
-  if (best < infinity ? *state != *target && !is_of_use(*state, best) : !tree_.is_free(*state, query_)) return;
-  const double rest = best < infinity ? sampler_.rest(*state) : 0.0;
-  const std::optional<VertexId> parent = cheapest_parent(*state, rest, best);
-  if (!parent) return;
-  const VertexId v = tree_.insert(*state, *parent);
-  note_goal(v);
-  rewire(v, best, execution);
-  try_goals(v, best, execution);
-}
-
-/// Of those near the state; nothing where no motion is free, or none that makes it cheap enough. Puts them in order.
-template <SteerableWorld W>
-std::optional<VertexId> RrtStarTree<W>::cheapest_parent(const State& state, double rest, double best) {
-  std::sort(near_.begin(), near_.end());
-  for (const Near& n : near_) {
-    if (!(n.cost + rest < best)) return std::nullopt;
-    if (tree_.is_free_motion(n.vertex, state, query_, counters_)) return n.vertex;
-  }
-  return std::nullopt;
-}
-
-/// Those near v get it as their parent where that makes them cheaper and, by the metric, of use.
-template <SteerableWorld W>
-void RrtStarTree<W>::rewire(VertexId v, double best, const Execution& execution) {
-  for (const Near& n : near_) {
-    const State& state = tree_.state(n.vertex);
-    const double cost = tree_.cost(v) + (one_way ? tree_.length(v, state) : n.length);
-    if (!is_cheaper(cost, n.vertex) || (best < infinity && !(cost + sampler_.rest(state) < best))) continue;
-    if (tree_.is_free_motion(v, state, query_, counters_)) tree_.change_parent(n.vertex, v, execution);
-  }
-}
-
-template <SteerableWorld W>
-void RrtStarTree<W>::try_goals(VertexId v, double best, const Execution& execution) {
-  for (std::size_t i = 0; i < at_goal_.size(); ++i) {
-    if (at_goal_[i] == v) continue;
-    const State& goal = sampler_.goals()[i];
-    const double length = tree_.length(v, goal);
-    const double cost = tree_.cost(v) + length;
-    if (length > options_.step || !(cost < best)) continue;
-    if (at_goal_[i] != no_vertex && !is_cheaper(cost, at_goal_[i])) continue;
-    if (!tree_.is_free_motion(v, goal, query_, counters_)) continue;
-    if (at_goal_[i] != no_vertex) {
-      tree_.change_parent(at_goal_[i], v, execution);
-    } else {
-      note_goal(tree_.insert(goal, v));
-    }
-  }
-}
-
-template <SteerableWorld W>
-void RrtStarTree<W>::take(const Path<State>& path, const Execution& execution) {
-  if (path.empty() || !(path.front() == tree_.state(0))) return;
-  VertexId last = 0;
-  for (std::size_t i = 1; i < path.size() && !is_full(); ++i) {
-    execution.check();
-    tree_.ask_room(execution);
-    const VertexId found = tree_.nearest(path[i], counters_);
-    if (!(tree_.state(found) == path[i])) {
-      last = tree_.insert(path[i], last);
-      note_goal(last);
-      continue;
-    }
-    if (is_cheaper(tree_.cost(last) + tree_.length(last, path[i]), found)) tree_.change_parent(found, last, execution);
-    last = found;
-  }
-}
 
 }  // namespace warren

@@ -45,13 +45,6 @@ PolygonSet framed(const PlaneObstacles& obstacles) {
   return polygons;
 }
 
-bool is_blocked(const PolygonSet& polygons, Vec2 p) {
-  for (std::size_t i = 0; i < polygons.size(); ++i) {
-    if (strictly_inside(polygons[i], p)) return true;
-  }
-  return false;
-}
-
 /// The cell is open when the sweep comes to p, or when it leaves it, and p lies between its segments or on them.
 bool holds(const CellDecomposition& cells, const VerticalCell& cell, Vec2 p) {
   if (cell.left != no_number && is_before(p, cells.corners[cell.left])) return false;
@@ -528,7 +521,7 @@ CellDecomposition decompose_united(const PlaneObstacles& obstacles, std::span<co
   PlaneObstacles united{node_polygons(framed(obstacles), execution).polygons, {}, std::nullopt};
   CellDecomposition cells = CellSweep(united, points, Overlaps::united, execution).run();
   for (std::size_t i = 0; i < points.size(); ++i) {
-    cells.places[i].blocked = is_blocked(united.polygons, points[i]) || !cells.box.contains(points[i]);
+    cells.places[i].blocked = strictly_inside(united.polygons, points[i]) || !cells.box.contains(points[i]);
   }
   return cells;
 }
@@ -539,7 +532,7 @@ CellPlace locate(const CellDecomposition& cells, const PlaneObstacles& obstacles
     place.blocked = true;
     return place;
   }
-  place.blocked = is_blocked(obstacles.polygons, p);
+  place.blocked = strictly_inside(obstacles.polygons, p);
   for (std::uint32_t i = 0; i < cells.cells.size(); ++i) {
     if (holds(cells, cells.cells[i], p) && !is_flat(cells, obstacles, cells.cells[i])) place.cells.push_back(i);
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <utility>
 
 #include "core/plane/geometry.hpp"
@@ -19,22 +20,7 @@ namespace warren {
 namespace {
 
 /// The posts on one side of a string, from its last fixed point on: a chain that bends around them.
-class RouteChain {
- public:
-  bool empty() const { return first_ == posts_.size(); }
-  std::span<const Vec2> posts() const { return std::span(posts_).subspan(first_); }
-  void push(Vec2 post) { posts_.push_back(post); }
-  void pop_back() { posts_.pop_back(); }
-  void pop_front() { ++first_; }
-  void clear() {
-    posts_.clear();
-    first_ = 0;
-  }
-
- private:
-  std::vector<Vec2> posts_;
-  std::size_t first_ = 0;
-};
+using RouteChain = std::deque<Vec2>;
 
 /// A string from a point on through gates, each of which has one post: on its left or on its right. Between two calls
 /// of tie() the posts come in the sweep's order or against it, so no chain turns by half a circle.
@@ -47,19 +33,18 @@ class Funnel {
     RouteChain& own = on_left ? left_ : right_;
     const int inwards = on_left ? 1 : -1;  // the sign of a turn that keeps the own chain convex
     while (!own.empty()) {
-      const std::span<const Vec2> posts = own.posts();
-      const Vec2 before = posts.size() == 1 ? apex_ : posts[posts.size() - 2];
-      if (orient2d(before, posts.back(), post) * inwards > 0) break;
+      const Vec2 before = own.size() == 1 ? apex_ : own[own.size() - 2];
+      if (orient2d(before, own.back(), post) * inwards > 0) break;
       own.pop_back();
     }
     if (own.empty()) move_apex(on_left ? right_ : left_, post, inwards);
-    own.push(post);
+    own.push_back(post);
   }
 
   /// Fixes the string to a point that it can't but pass.
   void tie(Vec2 at) {
     pass(at, true);
-    path_.insert(path_.end(), left_.posts().begin(), left_.posts().end());
+    path_.insert(path_.end(), left_.begin(), left_.end());
     if (!(path_.back() == at)) path_.push_back(at);
     left_.clear();
     right_.clear();
@@ -71,8 +56,8 @@ class Funnel {
  private:
   /// Bends the string around the other side's posts that stand in the way to `to`.
   void move_apex(RouteChain& other, Vec2 to, int inwards) {
-    while (!other.empty() && orient2d(apex_, other.posts().front(), to) * inwards < 0) {
-      apex_ = other.posts().front();
+    while (!other.empty() && orient2d(apex_, other.front(), to) * inwards < 0) {
+      apex_ = other.front();
       path_.push_back(apex_);
       other.pop_front();
     }
@@ -136,8 +121,8 @@ Separation cell_separation(const CellDecomposition& cells, const Components& par
     return points;
   };
   Separation result = separation_between<2>(points_of(start_vertex, start), points_of(goal_vertex, goal), execution);
-  result.start_size = component_size(parts, start_vertex, execution) - 1;
-  result.goal_size = component_size(parts, goal_vertex, execution) - 1;
+  result.start_size = parts.size_of(start_vertex) - 1;
+  result.goal_size = parts.size_of(goal_vertex) - 1;
   return result;
 }
 
@@ -369,7 +354,7 @@ void CellPlanning::follow_taut_route() {
   const bool informed = options_.search == SearchKind::astar;
   TautRoute found = shortest_taut_route(*cells_, plan_.cells.places, start_, goal_, informed, execution_);
   solution_.counters.expanded = found.expanded;
-  if (!found.found) {
+  if (found.cells.empty()) {
     compute_points();
     return follow_doors(search_doors());
   }

@@ -285,7 +285,6 @@ class TautSearch {
   }
 
   TautRoute route_to(std::uint32_t number) {
-    route_.found = true;
     for (std::uint32_t n = number; n != no_number; n = nodes_[n].parent) {
       route_.cells.push_back(nodes_[n].cell);
       if (nodes_[n].door != no_number) route_.doors.push_back(nodes_[n].door);

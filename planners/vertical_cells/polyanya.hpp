@@ -23,8 +23,8 @@
 namespace warren {
 
 struct TautRoute {
-  bool found = false;
-  std::vector<std::uint32_t> cells;  ///< from the start's to the goal's; cells[i] and cells[i + 1] share doors[i]
+  /// From the start's to the goal's; cells[i] and cells[i + 1] share doors[i]. Empty: none was found.
+  std::vector<std::uint32_t> cells;
   std::vector<std::uint32_t> doors;
   std::uint64_t expanded = 0;  ///< nodes
 };

@@ -2,7 +2,6 @@
 #include "planners/visibility/disc_ground.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <utility>
 

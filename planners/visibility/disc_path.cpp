@@ -10,6 +10,7 @@
 
 #include "core/base/trigonometry.hpp"
 #include "core/plane/geometry.hpp"
+#include "core/plane/se2.hpp"
 #include "planners/visibility/visibility_path.hpp"
 
 namespace warren {
@@ -186,7 +187,7 @@ class DiscSearch {
 
   /// The ways of a shortest path, start to goal; empty: there is none.
   std::vector<TangentWay> search() {
-    leave_start();
+    draw_from(start_, [&](std::uint32_t number) { offer(number, ways_[number].length, no_tangent); });
     while (!queue_.empty()) {
       const std::uint32_t number = pop();
       if (ways_[number].settled) continue;
@@ -412,11 +413,13 @@ class DiscSearch {
     return !(distance_sq({}, s) < least * least) && !(distance_sq({length, 0.0}, s) < least * least);
   }
 
-  void leave_start() {
-    for (const std::uint32_t c : sight_.candidates(start_)) {
+  /// Calls visit(number) for all tangents that leave a side or the start, which are drawn now.
+  template <class Visit>
+  void draw_from(SideId side, const Visit& visit) {
+    for (const std::uint32_t c : sight_.candidates(side)) {
       const SideId first = c == sight_.ends() ? goal_ : 2 * c;
       for (SideId to = first; to <= (c == sight_.ends() ? goal_ : first + 1); ++to) {
-        if (std::optional<TangentWay> way = draw(start_, to)) offer(add(*way), way->length, no_tangent);
+        if (const std::optional<TangentWay> way = draw(side, to)) visit(add(*way));
       }
     }
   }
@@ -432,15 +435,9 @@ class DiscSearch {
     CircleSide& here = sides_[side];
     if (here.left) return;
     here.left = true;
-    const std::span<const std::uint32_t> next = sight_.candidates(side);
     constexpr std::size_t queued = 16;  // bytes of a way in the queue
-    sight_.execution.reserve(2 * next.size() * (sizeof(TangentWay) + queued));
-    for (const std::uint32_t c : next) {
-      const SideId first = c == sight_.ends() ? goal_ : 2 * c;
-      for (SideId to = first; to <= (c == sight_.ends() ? goal_ : first + 1); ++to) {
-        if (const std::optional<TangentWay> way = draw(side, to)) here.ways.push_back(add(*way));
-      }
-    }
+    sight_.execution.reserve(2 * sight_.candidates(side).size() * (sizeof(TangentWay) + queued));
+    draw_from(side, [&](std::uint32_t number) { here.ways.push_back(number); });
     std::sort(here.ways.begin(), here.ways.end(), [&](std::uint32_t v, std::uint32_t w) {
       return ways_[v].out != ways_[w].out ? ways_[v].out < ways_[w].out : ways_[v].to < ways_[w].to;
     });
@@ -513,10 +510,7 @@ class DiscSearch {
     });
     std::sort(cuts.begin(), cuts.end());
     const Vec2 first = spoke(before.to, before.along);
-    const auto at = [&](double turn) {
-      const auto [sine, cosine] = portable::sin_and_cos(left ? turn : -turn);
-      return c.centre + Vec2{cosine * first.x - sine * first.y, sine * first.x + cosine * first.y};
-    };
+    const auto at = [&](double turn) { return c.centre + Rotation(left ? turn : -turn)(first); };
     for (std::size_t i = 1; i < cuts.size(); ++i) {
       const Vec2 from = i == 1 ? place(before.to, before.along) : pieces.back().to;
       const Vec2 to = i + 1 == cuts.size() ? place(after.from, after.along) : at(cuts[i]);
@@ -676,8 +670,7 @@ Path<Vec2> polyline_of(const DiscPath& path, const Execution& execution) {
     const Vec2 first = longer * (piece.from - *piece.centre);
     for (double part = 0.0; part < parts; ++part) {
       const double turn = (2.0 * part + 1.0) * half;
-      const auto [sine, cosine] = portable::sin_and_cos(piece.anticlockwise ? turn : -turn);
-      line.push_back(*piece.centre + Vec2{cosine * first.x - sine * first.y, sine * first.x + cosine * first.y});
+      line.push_back(*piece.centre + Rotation(piece.anticlockwise ? turn : -turn)(first));
     }
   }
   line.push_back(path.pieces.back().to);

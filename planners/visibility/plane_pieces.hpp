@@ -16,6 +16,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/items_by_key.hpp"
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"

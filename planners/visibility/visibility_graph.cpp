@@ -43,13 +43,10 @@ struct Rows {
 std::size_t grain_for(std::size_t vertices) { return std::clamp<std::size_t>(vertices / 256, 16, 1024); }
 
 std::vector<Rows> rows_above(const VisibleCorners& corners, SightLines which, const Execution& execution) {
-  const std::size_t n = corners.size();
-  const std::size_t grain = grain_for(n);
-  std::vector<Rows> parts(chunk_count(n, grain));
-  for_chunks(n, grain, execution, [&](Range r) {
+  return parts_of_chunks(corners.size(), grain_for(corners.size()), execution, [&](Range r) {
     CornerSight sight(corners, execution);
     std::vector<VertexId> seen;
-    Rows& part = parts[r.first / grain];
+    Rows part;
     for (std::size_t v = r.first; v < r.last; ++v) {
       execution.check();
       sight.above_vertex(static_cast<VertexId>(v), which, seen);
@@ -57,8 +54,8 @@ std::vector<Rows> rows_above(const VisibleCorners& corners, SightLines which, co
       part.degrees.push_back(static_cast<EdgeEnd>(seen.size()));
     }
     execution.reserve(part.targets.size() * sizeof(VertexId));
+    return part;
   });
-  return parts;
 }
 
 /// Calls visit(v, w) for all v, ascending, and the neighbours w above it, ascending.
@@ -128,10 +125,9 @@ VisibleCorners::VisibleCorners(const PlaneObstacles& obstacles, const Execution&
     : polygons_(obstacles.polygons), bounds_(obstacles.bounds), pieces_(obstacles, execution) {
   constexpr std::size_t grain = 4096;
   const std::size_t corners = pieces_.corner_count();
-  std::vector<std::vector<SectorEnds>> parts(chunk_count(corners, grain));
   first_vertex_.assign(pieces_.points().size() + 1, 0);
-  for_chunks(corners, grain, execution, [&](Range r) {
-    std::vector<SectorEnds>& part = parts[r.first / grain];
+  const auto parts = parts_of_chunks(corners, grain, execution, [&](Range r) {
+    std::vector<SectorEnds> part;
     for (std::size_t p = r.first; p < r.last; ++p) {
       if (p % 64 == 0) execution.check();
       const auto at = static_cast<PointId>(p);
@@ -143,6 +139,7 @@ VisibleCorners::VisibleCorners(const PlaneObstacles& obstacles, const Execution&
         part.push_back({s.first, s.last, warren::is_reflex(pieces_.points()[p], {first, last, false})});
       }
     }
+    return part;
   });
   for (std::size_t p = 0; p < pieces_.points().size(); ++p) first_vertex_[p + 1] += first_vertex_[p];
   for (const auto& part : parts) ends_.insert(ends_.end(), part.begin(), part.end());
@@ -161,11 +158,7 @@ VisibleCorners::VisibleCorners(const PlaneObstacles& obstacles, const Execution&
 
 bool VisibleCorners::is_blocked(Vec2 at) const {
   if (bounds_ && !bounds_->contains(at)) return true;
-  if (!free_sectors(pieces_, at).empty()) return false;
-  for (std::size_t p = 0; p < polygons_.size(); ++p) {
-    if (strictly_inside(polygons_[p], at)) return true;
-  }
-  return false;
+  return free_sectors(pieces_, at).empty() && strictly_inside(polygons_, at);
 }
 
 CornerSight::CornerSight(const VisibleCorners& corners, const Execution& execution)

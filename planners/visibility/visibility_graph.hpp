@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The visibility graph (Lozano-Pérez, Wesley 1979) among polygons and walls, contact allowed: the shortest path for a
-// point is the shortest path in it. Vertices and neighbours are those of planners/visibility/visibility_graph, each
-// corner's by a rotational sweep over what can be seen from it; corners are spread over the cores.
+// point is the shortest path in it. Each corner's neighbours are found by a rotational sweep over what can be seen from
+// it; corners are spread over the cores.
 //   reduced   tangent edges at convex corners only (Rohnert 1986; Liu, Arimoto 1992): enough for shortest paths
 //   full      all visible edges, sides of polygons included
 //   discs     those between corners that a disc goes around

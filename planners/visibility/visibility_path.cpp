@@ -2,7 +2,6 @@
 #include "planners/visibility/visibility_path.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <utility>
 
@@ -41,11 +40,6 @@ SearchResult lazy_visibility_search(const VisibleCorners& corners, Vec2 start, V
   const auto n = static_cast<VertexId>(corners.size());
   CornerSight sight(corners, execution);
   SearchState state;
-  const auto poll = [&] { execution.check(); };
-  ask_room(state, n + 2, execution);
-  state.resize(n + 2, poll);
-  IndexedHeap<4> queue;
-  queue.resize(n + 2, poll);
   std::vector<VertexId> seen;
   const auto at = [&](VertexId v) { return v < n ? corners.position(v) : v == n ? start : goal; };
   const auto neighbours = [&](VertexId v, const auto& visit) {
@@ -64,7 +58,7 @@ SearchResult lazy_visibility_search(const VisibleCorners& corners, Vec2 start, V
     }
   };
   const auto estimate = [&](VertexId v) { return distance(at(v), goal); };
-  return best_first(n, n + 1, neighbours, estimate, queue, state, NeverStop());
+  return search_best_first(QueueKind::heap, n + 2, n, n + 1, neighbours, estimate, state, execution);
 }
 
 namespace {
@@ -140,6 +134,7 @@ class VisibilityPlan {
     const StageTimer timer(execution_, "search", solution_.seconds.search);
     std::vector<Edge> edges;
     const SearchResult found = lazy_visibility_search(corners, start_, goal_, execution_, solution_.counters, &edges);
+    if (found.status == SearchStatus::stopped) execution_.check();
     std::vector<Vec2> positions(corners.size());
     for (VertexId v = 0; v < positions.size(); ++v) positions[v] = corners.position(v);
     for (Edge& e : edges) e = {std::min(e.from, e.to), std::max(e.from, e.to)};

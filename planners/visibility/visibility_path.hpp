@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The planner `visibility`: the shortest path for a point among polygons and walls, contact allowed, by the visibility
-// graph (planners/visibility/visibility_graph) or lazily (planners/visibility/visibility_path).
+// graph (planners/visibility/visibility_graph) or lazily.
 #pragma once
 
 #include <vector>
@@ -33,7 +33,7 @@ struct VisibilityOptions {
 Solution<Vec2> visibility_path(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal, const VisibilityOptions& options,
                                const Execution& execution, PlannedRoadmap<Vec2>* keep = nullptr);
 
-/// The same where, without bounds, the obstacles' box confines the point (planners/visibility/visibility_path.hpp).
+/// The same where, without bounds, the obstacles' box confines the point (see confined()).
 Solution<Vec2> confined_visibility_path(const PlaneObstacles& obstacles, Vec2 start, Vec2 goal,
                                         const VisibilityOptions& options, const Execution& execution,
                                         PlannedRoadmap<Vec2>* keep = nullptr);
@@ -62,7 +62,8 @@ Solution<Vec2> visibility_path(const VisibilityRoadmap& roadmap, Vec2 start, Vec
 /// through a vertex is taut at it whichever optimal way led there, so the path is as short as the graph's. One look a
 /// vertex settled, each over what can be seen in that range; memory 150 bytes a corner. Start and goal are not blocked,
 /// and different; start is vertex corners.size(), goal the next. Looks (neighbour_queries) and what they found
-/// (edges_checked) are added to the counters; `found`, where given, receives the edges. Throws Stopped.
+/// (edges_checked) are added to the counters; `found`, where given, receives the edges. Throws Stopped, or says in the
+/// result that it was stopped.
 SearchResult lazy_visibility_search(const VisibleCorners& corners, Vec2 start, Vec2 goal, const Execution& execution,
                                     Counters& counters, std::vector<Edge>* found = nullptr);
 

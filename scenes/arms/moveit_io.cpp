@@ -95,10 +95,8 @@ class MoveItNodes {
     return found;
   }
   double number(const Node& node, std::string_view key) const {
-    const double value = yaml_.number(node, key, "a number of at most 1e60");
-    if (!(std::abs(value) <= largest_coordinate)) {
-      yaml_.fail(node, fmt::format("`{}` must be a number of at most 1e60", key));
-    }
+    const double value =
+        yaml_.number(node, key, "a number of at most 1e60", [](double x) { return std::abs(x) <= largest_coordinate; });
     return std::abs(value) < smallest_coordinate ? 0.0 : value;
   }
   /// A list, or x, y, z and w by these names.

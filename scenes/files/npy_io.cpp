@@ -200,7 +200,7 @@ class Rows {
   }
   bool fit_floats() const {
     return all([](const WallOf<In>& w) {
-      return fits_float(w.x1) && fits_float(w.y1) && fits_float(w.x2) && fits_float(w.y2);
+      return exact_as_float(w.x1) && exact_as_float(w.y1) && exact_as_float(w.x2) && exact_as_float(w.y2);
     });
   }
   /// A word for each row that differs from the file's in nothing but by as().
@@ -229,9 +229,6 @@ class Rows {
       forget(r);
     });
     return std::all_of(passed.begin(), passed.end(), [](std::uint8_t every) { return every == 1; });
-  }
-  static bool fits_float(In x) {
-    return !(std::abs(x) > std::numeric_limits<float>::max()) && static_cast<In>(static_cast<float>(x)) == x;
   }
   template <class Out>
   static Out number(In x) {

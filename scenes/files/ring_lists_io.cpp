@@ -22,11 +22,7 @@ namespace {
 
 using scene_text::Fields;
 
-/// The first bytes without a byte order mark.
-std::string_view head_of(std::string_view bytes) {
-  if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
-  return bytes.substr(0, bytes_that_tell);
-}
+std::string_view head_of(std::string_view bytes) { return without_byte_order_mark(bytes).substr(0, bytes_that_tell); }
 
 bool is_environment(std::string_view bytes) {
   bytes = head_of(bytes);

@@ -87,26 +87,20 @@ class DescriptionReader {
     }
   }
   double positive(const char* key) const {
-    const double value = yaml_.number(needed(key), key, "a number above 0");
-    if (!(value > smallest_coordinate && value < largest_coordinate)) {
-      fail(root_[key], fmt::format("`{}` must be a number above 0", key));
-    }
-    return value;
+    return yaml_.number(needed(key), key, "a number above 0",
+                        [](double x) { return x > smallest_coordinate && x < largest_coordinate; });
   }
   double fraction(const char* key) const {
-    const double value = yaml_.number(needed(key), key, "a number from 0 to 1");
-    if (!(value >= 0.0 && value <= 1.0)) fail(root_[key], fmt::format("`{}` must be a number from 0 to 1", key));
-    return value;
+    return yaml_.number(needed(key), key, "a number from 0 to 1", [](double x) { return x >= 0.0 && x <= 1.0; });
   }
   std::array<double, 3> origin() const {
     constexpr std::string_view expected = "three numbers, [x, y, yaw]";
     const YAML::Node node = needed("origin");
     if (!node.IsSequence() || node.size() != 3) fail(node, fmt::format("`origin` must be {}", expected));
     std::array<double, 3> numbers{};
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-      numbers[i] = yaml_.number(node[i], "origin", expected);
-      if (!(std::abs(numbers[i]) <= largest_coordinate)) fail(node[i], fmt::format("`origin` must be {}", expected));
-    }
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      numbers[i] =
+          yaml_.number(node[i], "origin", expected, [](double x) { return std::abs(x) <= largest_coordinate; });
     return numbers;
   }
   bool negate() const {
@@ -239,6 +233,26 @@ Description read_description(const InputFile& yaml, const Execution& execution) 
   return description;
 }
 
+/// Of a map or a mask: where its cells are, and begin(header) once, then take(values, x, y, value, pixel) for each.
+template <class Cells, class Begin, class Take>
+void read_values(const InputFile& yaml, MapServerRules rules, Cells& to, const Begin& begin, const Take& take,
+                 const Execution& execution) {
+  const Description description = read_description(yaml, execution);
+  to.cell = description.resolution;
+  to.origin = {description.origin[0], description.origin[1]};
+  to.yaw_rad = description.origin[2];
+  PixelValues values(description, rules);
+  const auto take_one = [&](std::uint32_t x, std::uint32_t y, std::int8_t value, const std::uint16_t* pixel) {
+    take(values, x, y, value, pixel);
+  };
+  const ImageSink sink{[&](const ImageHeader& header) {
+                         values.begin(header);
+                         begin(header);
+                       },
+                       [&](const PixelRun& run) { values.row(run, take_one); }};
+  to.image = read_pixels(yaml.name(), description, sink, execution);
+}
+
 /// As it is where nothing in it means anything to YAML, else quoted.
 std::string yaml_text(std::string_view text) {
   constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./";
@@ -260,15 +274,15 @@ std::string yaml_text(std::string_view text) {
 }  // namespace
 
 OccupancyMap read_ros_map(const InputFile& yaml, const Execution& execution, MapServerRules rules) {
-  const Description description = read_description(yaml, execution);
   OccupancyMap map;
   map.format = MapFormat::ros;
   map.source = yaml.name();
-  map.cell = description.resolution;
-  map.origin = {description.origin[0], description.origin[1]};
-  map.yaw_rad = description.origin[2];
-  PixelValues values(description, rules);
-  const auto take = [&](std::uint32_t x, std::uint32_t y, std::int8_t value, const std::uint16_t* pixel) {
+  const auto begin = [&](const ImageHeader& header) {
+    map.blocked = cell_bitmap(header.width, header.height, execution);
+    map.unknown = cell_bitmap(header.width, header.height, execution);
+  };
+  const auto take = [&](const PixelValues& values, std::uint32_t x, std::uint32_t y, std::int8_t value,
+                        const std::uint16_t* pixel) {
     if (value == free_value) {
       ++map.free;
       map.grey_free += values.is_saved_unknown(pixel) ? 1 : 0;
@@ -278,38 +292,23 @@ OccupancyMap read_ros_map(const InputFile& yaml, const Execution& execution, Map
     ++(value == occupied_value ? map.occupied : value == unknown_value ? map.unknown_count : map.between);
     if (value == unknown_value) map.unknown.set(x, y);
   };
-  const ImageSink sink{[&](const ImageHeader& header) {
-                         values.begin(header);
-                         map.blocked = cell_bitmap(header.width, header.height, execution);
-                         map.unknown = cell_bitmap(header.width, header.height, execution);
-                       },
-                       [&](const PixelRun& run) { values.row(run, take); }};
-  map.image = read_pixels(yaml.name(), description, sink, execution);
+  read_values(yaml, rules, map, begin, take, execution);
   if (map.unknown_count == 0) map.unknown = Bitmap();
   return map;
 }
 
 MaskCells read_mask(const InputFile& yaml, const Execution& execution, MapServerRules rules) {
-  const Description description = read_description(yaml, execution);
   MaskCells mask;
-  mask.cell = description.resolution;
-  mask.origin = {description.origin[0], description.origin[1]};
-  mask.yaw_rad = description.origin[2];
-  PixelValues values(description, rules);
-  const ImageSink sink{[&](const ImageHeader& header) {
-                         values.begin(header);
-                         mask.width = header.width;
-                         mask.height = header.height;
-                         execution.reserve(std::size_t{mask.width} * mask.height);
-                         mask.values.resize(std::size_t{mask.width} * mask.height);
-                       },
-                       [&](const PixelRun& run) {
-                         values.row(run,
-                                    [&](std::uint32_t x, std::uint32_t y, std::int8_t value, const std::uint16_t*) {
-                                      mask.values[std::size_t{y} * mask.width + x] = value;
-                                    });
-                       }};
-  mask.image = read_pixels(yaml.name(), description, sink, execution);
+  const auto begin = [&](const ImageHeader& header) {
+    mask.width = header.width;
+    mask.height = header.height;
+    execution.reserve(std::size_t{mask.width} * mask.height);
+    mask.values.resize(std::size_t{mask.width} * mask.height);
+  };
+  const auto take = [&](const PixelValues&, std::uint32_t x, std::uint32_t y, std::int8_t value, const std::uint16_t*) {
+    mask.values[std::size_t{y} * mask.width + x] = value;
+  };
+  read_values(yaml, rules, mask, begin, take, execution);
   return mask;
 }
 

@@ -282,11 +282,80 @@ class SceneReader {
     }
   }
   void read_robot(Fields& fields) { scene_.robot = warren::read_robot(fields, execution_); }
-  void check_whole() const;
-  void check_state(const std::vector<double>& given, ItemNumber item, std::size_t line) const;
-  void check_arm_lines() const;
-  void check_robot_line(const ArmFiles& own) const;
-  void check_maze() const;
+  void check_whole() const {
+    const bool has_lines = std::any_of(first_lines_.begin(), first_lines_.end(), [](std::size_t n) { return n > 0; });
+    if (scene_.walls.size() == 0 && !has_lines) {
+      Place{file_.name(), last_line_}.fail("the file ends without any wall, polygon, sphere, box or bounds");
+    }
+    check_state(scene_.start, start_item, first_lines_[start_item]);
+    check_state(scene_.goal, goal_item, goal_lines_.empty() ? 0 : goal_lines_.front());
+    for (std::size_t i = 0; i < scene_.other_goals.size(); ++i) {
+      check_state(scene_.other_goals[i], goal_item, goal_lines_[i + 1]);
+    }
+    check_arm_lines();
+    if (scene_.maze) check_maze();
+  }
+  void check_state(const std::vector<double>& given, ItemNumber item, std::size_t line) const {
+    if (given.empty() || (scene_.robot && scene_.robot->kind == RobotKind::urdf)) return;
+    if (const std::size_t count = given.size(); count == 1 || count == 4 || count == 5) {
+      Place{file_.name(), line}.fail(fmt::format("expected `{}`", items[item].usage), scene_text::numbers_text(count));
+    }
+    if (!scene_.robot) return;
+    const std::size_t wanted = state_size(*scene_.robot);
+    const bool any_heading = item == goal_item && wanted == 3 && given.size() == 2;
+    const bool place_of_tool = item == goal_item && wanted == 6 && given.size() == 3;
+    if (given.size() == wanted || any_heading || place_of_tool) return;
+    Place{file_.name(), line}.fail(fmt::format("`{}` must be {} numbers for the robot of line {}", items[item].name,
+                                               wanted, first_lines_[robot_item]),
+                                   fmt::format("{} numbers", given.size()));
+  }
+  /// Without a robot's line the question names an arm, or says what is wrong.
+  void check_arm_lines() const {
+    const bool has_plane_robot = !scene_.robot || scene_.robot->kind == RobotKind::point ||
+                                 scene_.robot->kind == RobotKind::disc || state_size(*scene_.robot) == 3;
+    if (!scene_.other_goals.empty() && !has_plane_robot) {
+      place_of(goal_item).fail("an arm's goals are several where all are `goal joints NAME VALUE ...`");
+    }
+    if (scene_.robot && scene_.robot->kind == RobotKind::urdf) return check_robot_line(*scene_.robot->files);
+    if (!scene_.robot) return;
+    for (const ItemNumber item : {attach_item, hold_item, allow_item, tool_item, group_item}) {
+      if (first_lines_[item] > 0) place_of(item).fail(fmt::format("`{}` takes a `robot urdf`", items[item].name));
+    }
+    const bool has_names = scene_.named_start.has_value();
+    if (has_names || !scene_.named_goals.empty() || scene_.goal_pose) {
+      place_of(has_names ? start_item : goal_item).fail("names of joints and poses of the tool take a `robot urdf`");
+    }
+  }
+  /// A line of its own says nothing else than the robot's line says.
+  void check_robot_line(const ArmFiles& own) const {
+    if (!scene_.arm) return;
+    const auto refuse = [&](ItemNumber item) {
+      place_of(item).fail(fmt::format("`{}` says another thing than the robot's line {}; leave one out",
+                                      items[item].name, first_lines_[robot_item]));
+    };
+    const ArmFiles& said = *scene_.arm;
+    if (!own.tool.empty() && !said.tool.empty() && own.tool != said.tool) refuse(tool_item);
+    const bool has_ends = !own.base.empty() || !own.tip.empty();
+    if (!said.group.empty() && (has_ends || (!own.group.empty() && own.group != said.group))) refuse(group_item);
+    for (const auto& held : own.held) {
+      const auto differs = [&](const auto& line) { return line.first == held.first && line.second != held.second; };
+      if (std::ranges::any_of(said.held, differs)) refuse(hold_item);
+    }
+  }
+  void check_maze() const {
+    const auto off = first_wall_off_grid(scene_.walls, *scene_.maze, execution_);
+    if (!off) return;
+    std::size_t walls = 0;
+    TextLines lines(file_, execution_);
+    while (lines.next()) {
+      Fields fields = lines.fields();
+      if (!fields.number_follows() && fields.word() != "wall") continue;
+      if (walls++ < *off) continue;
+      fields.place().fail(fmt::format("this wall is not on the unit grid of the {}x{} maze of line {}",
+                                      scene_.maze->rows, scene_.maze->cols, first_lines_[maze_item]),
+                          lines.line());
+    }
+  }
   Place place_of(ItemNumber item) const { return {file_.name(), first_lines_[item]}; }
 
   const InputFile& file_;
@@ -330,85 +399,6 @@ const std::array<SceneReader::Item, SceneReader::item_count> SceneReader::items 
     {"group", "group NAME", true, &SceneReader::read_group},
 }};
 
-void SceneReader::check_whole() const {
-  const bool has_lines = std::any_of(first_lines_.begin(), first_lines_.end(), [](std::size_t n) { return n > 0; });
-  if (scene_.walls.size() == 0 && !has_lines) {
-    Place{file_.name(), last_line_}.fail("the file ends without any wall, polygon, sphere, box or bounds");
-  }
-  check_state(scene_.start, start_item, first_lines_[start_item]);
-  check_state(scene_.goal, goal_item, goal_lines_.empty() ? 0 : goal_lines_.front());
-  for (std::size_t i = 0; i < scene_.other_goals.size(); ++i) {
-    check_state(scene_.other_goals[i], goal_item, goal_lines_[i + 1]);
-  }
-  check_arm_lines();
-  if (scene_.maze) check_maze();
-}
-
-/// Without a robot's line the question names an arm, or says what is wrong.
-void SceneReader::check_arm_lines() const {
-  const bool has_plane_robot = !scene_.robot || scene_.robot->kind == RobotKind::point ||
-                               scene_.robot->kind == RobotKind::disc || state_size(*scene_.robot) == 3;
-  if (!scene_.other_goals.empty() && !has_plane_robot) {
-    place_of(goal_item).fail("an arm's goals are several where all are `goal joints NAME VALUE ...`");
-  }
-  if (scene_.robot && scene_.robot->kind == RobotKind::urdf) return check_robot_line(*scene_.robot->files);
-  if (!scene_.robot) return;
-  for (const ItemNumber item : {attach_item, hold_item, allow_item, tool_item, group_item}) {
-    if (first_lines_[item] > 0) place_of(item).fail(fmt::format("`{}` takes a `robot urdf`", items[item].name));
-  }
-  const bool has_names = scene_.named_start.has_value();
-  if (has_names || !scene_.named_goals.empty() || scene_.goal_pose) {
-    place_of(has_names ? start_item : goal_item).fail("names of joints and poses of the tool take a `robot urdf`");
-  }
-}
-
-/// A line of its own says nothing else than the robot's line says.
-void SceneReader::check_robot_line(const ArmFiles& own) const {
-  if (!scene_.arm) return;
-  const auto refuse = [&](ItemNumber item) {
-    place_of(item).fail(fmt::format("`{}` says another thing than the robot's line {}; leave one out", items[item].name,
-                                    first_lines_[robot_item]));
-  };
-  const ArmFiles& said = *scene_.arm;
-  if (!own.tool.empty() && !said.tool.empty() && own.tool != said.tool) refuse(tool_item);
-  const bool has_ends = !own.base.empty() || !own.tip.empty();
-  if (!said.group.empty() && (has_ends || (!own.group.empty() && own.group != said.group))) refuse(group_item);
-  for (const auto& held : own.held) {
-    const auto differs = [&](const auto& line) { return line.first == held.first && line.second != held.second; };
-    if (std::ranges::any_of(said.held, differs)) refuse(hold_item);
-  }
-}
-
-void SceneReader::check_state(const std::vector<double>& given, ItemNumber item, std::size_t line) const {
-  if (given.empty() || (scene_.robot && scene_.robot->kind == RobotKind::urdf)) return;
-  if (const std::size_t count = given.size(); count == 1 || count == 4 || count == 5) {
-    Place{file_.name(), line}.fail(fmt::format("expected `{}`", items[item].usage), scene_text::numbers_text(count));
-  }
-  if (!scene_.robot) return;
-  const std::size_t wanted = state_size(*scene_.robot);
-  const bool any_heading = item == goal_item && wanted == 3 && given.size() == 2;
-  const bool place_of_tool = item == goal_item && wanted == 6 && given.size() == 3;
-  if (given.size() == wanted || any_heading || place_of_tool) return;
-  Place{file_.name(), line}.fail(fmt::format("`{}` must be {} numbers for the robot of line {}", items[item].name,
-                                             wanted, first_lines_[robot_item]),
-                                 fmt::format("{} numbers", given.size()));
-}
-
-void SceneReader::check_maze() const {
-  const auto off = first_wall_off_grid(scene_.walls, *scene_.maze, execution_);
-  if (!off) return;
-  std::size_t walls = 0;
-  TextLines lines(file_, execution_);
-  while (lines.next()) {
-    Fields fields = lines.fields();
-    if (!fields.number_follows() && fields.word() != "wall") continue;
-    if (walls++ < *off) continue;
-    fields.place().fail(fmt::format("this wall is not on the unit grid of the {}x{} maze of line {}", scene_.maze->rows,
-                                    scene_.maze->cols, first_lines_[maze_item]),
-                        lines.line());
-  }
-}
-
 constexpr std::size_t line_grain = 8192;
 constexpr std::size_t chunks_a_batch = 64;
 
@@ -440,10 +430,9 @@ void append_line(std::string& text, std::string_view item, Numbers... numbers) {
   append_item(text, item, std::array{static_cast<double>(numbers)...});
 }
 
-void append_points(std::string& text, std::string_view item, const std::vector<Vec2>& points,
-                   const Execution& execution) {
+void append_polygon(std::string& text, const std::vector<Vec2>& points, const Execution& execution) {
   constexpr std::size_t points_per_poll = 4096;
-  text.append(item);
+  text.append("polygon");
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (i % points_per_poll == points_per_poll - 1) execution.check();
     for (const double x : {points[i].x, points[i].y}) {
@@ -462,45 +451,6 @@ std::string number(double x) {
   std::string digits;
   append_number(digits, x);
   return digits;
-}
-
-/// The steering only where it is not the usual one.
-void append_car(std::string& text, const RobotSpec& robot) {
-  if (robot.outline.empty()) {
-    text += fmt::format("robot car radius {}", number(robot.radius));
-  } else {
-    text += "robot car polygon";
-    for (const Vec2 p : robot.outline) text += fmt::format(" {} {}", number(p.x), number(p.y));
-  }
-  text += fmt::format(" turning {}", number(robot.turning_radius));
-  if (robot.steering != SteeringKind::dubins) text += fmt::format(" steering {}", name_of(robot.steering));
-  text += '\n';
-}
-
-void append_robot(std::string& text, const RobotSpec& robot) {
-  switch (robot.kind) {
-    case RobotKind::point:
-      text.append("robot point\n");
-      break;
-    case RobotKind::disc:
-      append_line(text, "robot disc", robot.radius);
-      break;
-    case RobotKind::polygon:
-      append_points(text, "robot polygon", robot.outline, {});
-      break;
-    case RobotKind::car:
-      append_car(text, robot);
-      break;
-    case RobotKind::puma560:
-    case RobotKind::arm:
-      text +=
-          fmt::format("robot {} radius {} tool {}{}\n", robot.kind == RobotKind::arm ? "arm " + robot.table : "puma560",
-                      number(robot.radius), number(robot.tool), arm_words(robot));
-      break;
-    case RobotKind::urdf:
-      text += fmt::format("robot urdf{}\n", urdf_words(*robot.files));
-      break;
-  }
 }
 
 void append_named(std::string& text, std::string_view item, const NamedState& state) {
@@ -539,7 +489,7 @@ std::string head_of(const Scene& scene, const std::string& path) {
     append_line(text, "bounds", b.min.x, b.min.y, b.max.x, b.max.y);
   }
   if (scene.clearance) append_line(text, "clearance", *scene.clearance);
-  if (scene.robot) append_robot(text, *scene.robot);
+  if (scene.robot) text += "robot " + robot_text(*scene.robot) + '\n';
   append_state(text, "start", scene.start);
   append_state(text, "goal", scene.goal);
   for (const std::vector<double>& goal : scene.other_goals) append_state(text, "goal", goal);
@@ -591,9 +541,8 @@ void write_items(std::size_t count, std::size_t chunk, const SceneTextSink& writ
 /// parallel, a batch of chunks at a time, and written in their order. `path`: of the file, beside which masks are.
 void write_text(const Scene& scene, const std::string& path, const SceneTextSink& write, const Execution& execution) {
   write(head_of(scene, path));
-  write_items(scene.polygons.size(), line_grain / 16, write, execution, [&](std::string& text, std::size_t i) {
-    append_points(text, "polygon", scene.polygons[i].corners, execution);
-  });
+  write_items(scene.polygons.size(), line_grain / 16, write, execution,
+              [&](std::string& text, std::size_t i) { append_polygon(text, scene.polygons[i].corners, execution); });
   write(solids_of(scene));
   scene.walls.visit([&](auto walls) {
     write_items(walls.size(), line_grain, write, execution,

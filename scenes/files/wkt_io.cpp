@@ -30,9 +30,7 @@ char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + '
 class Tokens {
  public:
   Tokens(const std::string& name, std::string_view text, const Execution& execution)
-      : name_(name), text_(text), execution_(execution) {
-    if (text_.starts_with("\xef\xbb\xbf")) text_.remove_prefix(3);
-  }
+      : name_(name), text_(without_byte_order_mark(text)), execution_(execution) {}
   std::size_t line() const { return line_; }
   [[noreturn]] void fail(std::string_view expected) const {
     const std::string_view found = text_.substr(0, text_.find_first_of("\r\n"));

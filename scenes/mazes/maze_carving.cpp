@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/search/union_find.hpp"
+#include "parallel/asked_memory.hpp"
 
 namespace warren::maze {
 namespace {
@@ -23,7 +24,10 @@ class Frontier {
     at_[i] |= in_maze;
     const unsigned fresh = at_.neighbours_with(i, in_maze | in_frontier, 0);
     for (unsigned d = 0; d < 4; ++d) {
-      if ((fresh >> d & 1U) != 0) push(at_.neighbour(i, d));
+      if ((fresh >> d & 1U) == 0) continue;
+      const std::size_t to = at_.neighbour(i, d);
+      at_[to] |= in_frontier;
+      push_asked(cells_, to, execution_);
     }
   }
   std::size_t take(SequentialRng& rng) {
@@ -35,12 +39,6 @@ class Frontier {
   }
 
  private:
-  void push(std::size_t i) {
-    at_[i] |= in_frontier;
-    if (cells_.size() == cells_.capacity()) execution_.reserve(2 * cells_.capacity() * sizeof(std::size_t));
-    cells_.push_back(i);
-  }
-
   const Steps& at_;
   const Execution& execution_;
   std::vector<std::size_t> cells_;
@@ -107,9 +105,8 @@ class Walker {
 void mark_gaps(MazeCells& cells, std::uint8_t bits, const Execution& execution) {
   constexpr std::size_t grain = std::size_t{1} << 18;
   const auto bytes = cells.bytes();
-  for_chunks(cells.cols() + std::size_t{1}, grain, {execution.threads, execution.deadline}, [&](Range r) {
-    for (std::size_t gap = r.first; gap < r.last; ++gap) bytes[gap * cells.stride()] |= bits;
-  });
+  for_each_index(cells.cols() + std::size_t{1}, grain, {execution.threads, execution.deadline},
+                 [&](std::size_t gap) { bytes[gap * cells.stride()] |= bits; });
 }
 
 }  // namespace
@@ -299,16 +296,7 @@ class CourseCarver {
   }
 
   bool has_neighbour(Place p, unsigned d) const {
-    switch (d) {
-      case 0:
-        return p.col < cells_.cols();
-      case 1:
-        return p.row < cells_.rows();
-      case 2:
-        return p.col > 1;
-      default:
-        return p.row > 1;
-    }
+    return d == 0 ? p.col < cells_.cols() : d == 1 ? p.row < cells_.rows() : d == 2 ? p.col > 1 : p.row > 1;
   }
 
   const MazeCells& cells_;

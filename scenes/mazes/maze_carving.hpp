@@ -109,9 +109,8 @@ class StepPoll {
 template <class Id>
 RawVector<Id> single_regions(std::size_t count, const Execution& execution) {
   RawVector<Id> parents(count);
-  for_chunks(count, std::size_t{1} << 16, {execution.threads, execution.deadline}, [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; ++i) parents[i] = static_cast<Id>(i);
-  });
+  for_each_index(count, std::size_t{1} << 16, {execution.threads, execution.deadline},
+                 [&](std::size_t i) { parents[i] = static_cast<Id>(i); });
   return parents;
 }
 

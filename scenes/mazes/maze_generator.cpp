@@ -40,9 +40,7 @@ void check_size(std::uint32_t rows, std::uint32_t cols) {
 
 void clear_scratch(MazeCells& cells, const Execution& execution) {
   const std::span<std::uint8_t> bytes = cells.bytes();
-  for_chunks(bytes.size(), generator_grain, execution, [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; ++i) bytes[i] &= MazeCells::all_walls;
-  });
+  for_each_index(bytes.size(), generator_grain, execution, [&](std::size_t i) { bytes[i] &= MazeCells::all_walls; });
 }
 
 /// Takes out exactly `count` of the `standing` interior walls.
@@ -118,14 +116,16 @@ std::optional<Piece> piece_of(const Segment& wall, const Box& outline) {
 
 /// In order of sides and places.
 std::vector<Piece> pieces_of(const WallSet& walls, const Box& outline, const Execution& execution) {
-  std::vector<std::vector<Piece>> parts(chunk_count(walls.size(), outline_grain));
-  for_chunks(walls.size(), outline_grain, execution, [&](Range r) {
+  const auto in_chunk = [&](Range r) {
+    std::vector<Piece> found;
     for (std::size_t i = r.first; i < r.last; ++i) {
-      if (const auto piece = piece_of(walls.segment(i), outline)) parts[r.first / outline_grain].push_back(*piece);
+      if (const auto piece = piece_of(walls.segment(i), outline)) found.push_back(*piece);
     }
-  });
+    return found;
+  };
   std::vector<Piece> pieces;
-  for (const auto& part : parts) pieces.insert(pieces.end(), part.begin(), part.end());
+  for (const auto& part : parts_of_chunks(walls.size(), outline_grain, execution, in_chunk))
+    pieces.insert(pieces.end(), part.begin(), part.end());
   std::sort(pieces.begin(), pieces.end());
   return pieces;
 }
@@ -169,7 +169,6 @@ MazeCells generate_maze(const MazeOptions& options, const Execution& execution) 
   if (!(options.loops >= 0.0 && options.loops <= 1.0)) {
     throw InputError("maze", "loops must be a fraction from 0 to 1", fmt::format("{}", options.loops));
   }
-  check_size(options.rows, options.cols);
   MazeCells cells(options.rows, options.cols, {execution.threads, execution.deadline});
   if (execution.progress != nullptr) execution.progress->begin("generate", cells.cell_count());
   if (options.algorithm == MazeAlgorithm::mst) {

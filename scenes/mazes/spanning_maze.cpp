@@ -39,8 +39,6 @@ void mark_single(const std::array<const std::uint32_t*, 4>& of, std::uint8_t* __
 
 }  // namespace
 
-SpanningTile::SpanningTile(std::uint64_t seed) : weights_(seed) {}
-
 void SpanningTile::make(const GridPiece& piece) {
   assert(piece.width >= 1 && piece.width <= largest_side && piece.height >= 1 && piece.height <= largest_side);
   decide_early(piece);

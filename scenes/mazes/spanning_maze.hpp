@@ -112,7 +112,7 @@ class SpanningTile {
   static constexpr std::uint32_t largest_side = 256;
   static constexpr std::uint8_t right = 1, up = 2;
 
-  explicit SpanningTile(std::uint64_t seed);
+  explicit SpanningTile(std::uint64_t seed) : weights_(seed) {}
   /// width, height: 1 .. largest_side.
   void make(const GridPiece& piece);
   /// How the edges were decided that are neither least nor greatest around a corner: a bit each, 0.6 a cell.

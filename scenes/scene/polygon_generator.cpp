@@ -138,9 +138,8 @@ Scene polygon_scene(const PolygonOptions& options, const Execution& execution) {
   execution.reserve(options.count *
                     (sizeof(ScenePolygon) + 32 + sizeof(Vec2) * options.corners.value_or(most_random_corners)));
   scene.polygons.resize(options.count);
-  for_chunks(scene.polygons.size(), polygon_grain, execution, [&](Range range) {
-    for (std::size_t i = range.first; i < range.last; ++i) scene.polygons[i] = polygon_in(squares, options, i);
-  });
+  for_each_index(scene.polygons.size(), polygon_grain, execution,
+                 [&](std::size_t i) { scene.polygons[i] = polygon_in(squares, options, i); });
   const double margin = 0.25 * squares.side;
   const Vec2 high{squares.side * static_cast<double>(squares.columns),
                   squares.side * static_cast<double>(squares.rows)};

@@ -34,10 +34,8 @@ std::uint64_t folded(std::uint64_t hash, std::span<const std::uint64_t> parts) {
 
 std::uint64_t hash_of(const WallSet& set, const Execution& execution) {
   return set.visit([&](auto walls) {
-    std::vector<std::uint64_t> parts(chunk_count(walls.size(), scene_grain));
-    for_chunks(walls.size(), scene_grain, execution,
-               [&](Range r) { parts[r.first / scene_grain] = hash_of(walls.subspan(r.first, r.size())); });
-    return folded(walls.size(), parts);
+    return folded(walls.size(), parts_of_chunks(walls.size(), scene_grain, execution,
+                                                [&](Range r) { return hash_of(walls.subspan(r.first, r.size())); }));
   });
 }
 
@@ -109,7 +107,63 @@ std::string hash_with(std::uint64_t walls, const Scene& scene) {
   return fmt::format("{:016x}", hasher.value());
 }
 
+std::string outline_words(const RobotSpec& robot) {
+  std::string words = "polygon";
+  for (const Vec2 p : robot.outline) words += fmt::format(" {} {}", p.x + 0.0, p.y + 0.0);
+  return words;
+}
+
+/// The steering only where it is not the usual one.
+std::string car_words(const RobotSpec& robot) {
+  const std::string body = robot.outline.empty() ? fmt::format("radius {}", robot.radius + 0.0) : outline_words(robot);
+  const std::string words = fmt::format("car {} turning {}", body, robot.turning_radius + 0.0);
+  return robot.steering == SteeringKind::dubins ? words : fmt::format("{} steering {}", words, name_of(robot.steering));
+}
+
+std::string arm_words(const RobotSpec& robot) {
+  std::string words = robot.kind == RobotKind::arm ? "arm " + robot.table : "puma560";
+  words += fmt::format(" radius {} tool {}", robot.radius + 0.0, robot.tool + 0.0);
+  if (!robot.limits.empty()) words += " limits " + robot.limits;
+  if (robot.self_collision) words += " self-collision";
+  return words;
+}
+
+std::string urdf_words(const ArmFiles& files) {
+  std::string words = "urdf " + files.urdf;
+  const auto add = [&](std::string_view name, const std::string& value) {
+    if (!value.empty()) words += fmt::format(" {} {}", name, value);
+  };
+  add("srdf", files.srdf);
+  add("group", files.group);
+  add("base", files.base);
+  add("tip", files.tip);
+  add("tool", files.tool);
+  for (const std::string& package : files.packages) add("package-path", package);
+  for (const auto& [joint, value] : files.held) words += fmt::format(" hold {} {}", joint, value + 0.0);
+  for (const auto& [one, other] : files.allowed) words += fmt::format(" allow {} {}", one, other);
+  return words;
+}
+
 }  // namespace
+
+std::string robot_text(const RobotSpec& robot) {
+  switch (robot.kind) {
+    case RobotKind::point:
+      return "point";
+    case RobotKind::disc:
+      return fmt::format("disc {}", robot.radius + 0.0);
+    case RobotKind::car:
+      return car_words(robot);
+    case RobotKind::puma560:
+    case RobotKind::arm:
+      return arm_words(robot);
+    case RobotKind::urdf:
+      return urdf_words(*robot.files);
+    case RobotKind::polygon:
+      break;
+  }
+  return outline_words(robot);
+}
 
 std::size_t state_size(const RobotSpec& robot) {
   switch (robot.kind) {
@@ -207,18 +261,17 @@ Scene without_arrays(const Scene& scene) {
 
 Box box_of_walls(const WallSet& set, const Execution& execution) {
   return set.visit([&](auto walls) {
-    std::vector<Box> parts(chunk_count(walls.size(), scene_grain));
-    for_chunks(walls.size(), scene_grain, execution, [&](Range r) {
+    const auto box_of_chunk = [&](Range r) {
       Box box;
       for (const auto& wall : walls.subspan(r.first, r.size())) {
         const Segment s = wall.segment();
         box.include(s.a);
         box.include(s.b);
       }
-      parts[r.first / scene_grain] = box;
-    });
+      return box;
+    };
     Box all;
-    for (const Box& part : parts) all.include(part);
+    for (const Box& part : parts_of_chunks(walls.size(), scene_grain, execution, box_of_chunk)) all.include(part);
     return all;
   });
 }

@@ -160,6 +160,10 @@ struct Scene {
   std::string source;  ///< file name or maze:... as given
 };
 
+/// "point", "disc 0.2", …: what a scene's line says behind `robot`, and answers say; no negative zeros. Attached solids
+/// have lines of their own.
+std::string robot_text(const RobotSpec& robot);
+
 /// "polygon" and "car" turn, so their states have an angle; 2, 3 or 6 numbers.
 std::size_t state_size(const RobotSpec& robot);
 

@@ -20,6 +20,11 @@ namespace warren {
 /// Of what kind a file is, its first so many bytes tell: blanks that go on for longer are nobody's.
 inline constexpr std::size_t bytes_that_tell = std::size_t{1} << 16;
 
+/// Without the byte order mark of UTF-8 that it may begin with.
+inline std::string_view without_byte_order_mark(std::string_view text) {
+  return text.substr(text.starts_with("\xef\xbb\xbf") ? 3 : 0);
+}
+
 class InputFile {
  public:
   /// Opens and maps or reads; "-" is standard input. Throws ReadError (also for directories), Stopped.

@@ -83,8 +83,7 @@ void append_json_list(std::string& text, std::span<const double> values) {
 }
 
 JsonBytes::JsonBytes(const InputFile& file, const Execution& execution)
-    : file_(file), execution_(execution), text_(file.bytes()) {
-  if (text_.starts_with("\xef\xbb\xbf")) text_.remove_prefix(3);
+    : file_(file), execution_(execution), text_(without_byte_order_mark(file.bytes())) {
   next_look_ = text_.data() + std::min(json_bytes_a_look, text_.size());
 }
 

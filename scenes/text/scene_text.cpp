@@ -291,29 +291,6 @@ constexpr std::size_t bytes_a_look = std::size_t{1} << 18;
 
 }  // namespace
 
-std::string arm_words(const RobotSpec& robot) {
-  std::string words;
-  if (!robot.limits.empty()) words += " limits " + robot.limits;
-  if (robot.self_collision) words += " self-collision";
-  return words;
-}
-
-std::string urdf_words(const ArmFiles& files) {
-  std::string words = " " + files.urdf;
-  const auto add = [&](std::string_view name, const std::string& value) {
-    if (!value.empty()) words += fmt::format(" {} {}", name, value);
-  };
-  add("srdf", files.srdf);
-  add("group", files.group);
-  add("base", files.base);
-  add("tip", files.tip);
-  add("tool", files.tool);
-  for (const std::string& package : files.packages) add("package-path", package);
-  for (const auto& [joint, value] : files.held) words += fmt::format(" hold {} {}", joint, value + 0.0);
-  for (const auto& [one, other] : files.allowed) words += fmt::format(" allow {} {}", one, other);
-  return words;
-}
-
 void read_hold(Fields& fields, ArmFiles& files) {
   std::string joint(fields.word());
   if (fields.done()) fields.place().fail("expected `hold JOINT VALUE`", joint.empty() ? "too few words" : "0 numbers");
@@ -340,9 +317,8 @@ void read_allow(Fields& fields, ArmFiles& files) {
 RobotSpec read_robot(Fields& fields, const Execution& execution) { return RobotReader(fields, execution).read(); }
 
 TextLines::TextLines(const InputFile& file, const Execution& execution) : file_(file), execution_(execution) {
-  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
   if (execution.progress != nullptr) execution.progress->begin("read", file.bytes().size());
-  if (file.bytes().starts_with(byte_order_mark)) at_ = byte_order_mark.size();
+  at_ = file.bytes().size() - without_byte_order_mark(file.bytes()).size();
 }
 
 bool TextLines::next() {
@@ -518,10 +494,6 @@ std::vector<std::string> price_lines(const Prices& prices,
   for (const KeepOut& area : prices.keep_out) lines.push_back("keep-out" + corners_text(area.corners));
   if (prices.unknown) lines.push_back("unknown " + digits_of(*prices.unknown));
   return lines;
-}
-
-std::vector<std::string> price_lines(const Prices& prices) {
-  return price_lines(prices, [](const std::string& file) { return file; });
 }
 
 }  // namespace warren

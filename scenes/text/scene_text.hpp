@@ -8,11 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <iterator>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -121,11 +119,6 @@ inline constexpr std::string_view robot_option =
     "car polygon X Y X Y X Y ... turning RHO, puma560 radius R, arm FILE radius R or "
     "urdf FILE [srdf FILE] [group NAME]";
 
-/// What a puma560's or arm's line says behind its tool: empty for the defaults, else with a blank before each word.
-std::string arm_words(const RobotSpec& robot);
-/// All that a urdf's line says behind `urdf`, with a blank before each word; attached solids have lines of their own.
-std::string urdf_words(const ArmFiles& files);
-
 /// Reads what follows `hold` or `allow`, one of them, to the end of these words. Throws InputError.
 void read_hold(scene_text::Fields& fields, ArmFiles& files);
 void read_allow(scene_text::Fields& fields, ArmFiles& files);
@@ -177,7 +170,8 @@ class WallCollector {
       widen<float>(*packed);
     }
     if (auto* floats = std::get_if<RawVector<FloatWall>>(&walls_)) {
-      if (fit_floats(x1, y1, x2, y2)) return push(*floats, wall<float>(x1, y1, x2, y2));
+      if (exact_as_float(x1) && exact_as_float(y1) && exact_as_float(x2) && exact_as_float(y2))
+        return push(*floats, FloatWall::of(x1, y1, x2, y2));
       widen<double>(*floats);
     }
     push(std::get<RawVector<DoubleWall>>(walls_), {x1, y1, x2, y2});
@@ -193,17 +187,6 @@ class WallCollector {
   }
 
  private:
-  template <class... Numbers>
-  static bool fit_floats(Numbers... xs) {
-    const auto fits = [](double x) {
-      return std::abs(x) <= std::numeric_limits<float>::max() && static_cast<double>(static_cast<float>(x)) == x;
-    };
-    return (fits(xs) && ...);
-  }
-  template <class T, class... Numbers>
-  static WallOf<T> wall(Numbers... xs) {
-    return {static_cast<T>(xs)...};
-  }
   template <class Wall>
   void push(RawVector<Wall>& walls, const Wall& wall) {
     if (walls.size() == walls.capacity()) execution_.reserve(2 * walls.capacity() * sizeof(Wall));
@@ -217,7 +200,7 @@ class WallCollector {
     wide.reserve(narrow.size());
     std::transform(narrow.begin(), narrow.end(), std::back_inserter(wide), [](const Wall& packed) {
       const auto [x1, y1, x2, y2] = unpacked(packed);
-      return wall<T>(x1, y1, x2, y2);
+      return WallOf<T>::of(x1, y1, x2, y2);
     });
     walls_ = std::move(wide);
   }
@@ -247,9 +230,7 @@ void read_price(const PriceWord& word, scene_text::Fields& fields, Prices& price
 void read_price_line(std::string_view line, const std::string& where, Prices& prices, const Execution& execution);
 
 /// A line each, which read_price reads back the same; name_of_file(file): what a mask's file is to be called.
-std::vector<std::string> price_lines(const Prices& prices,
-                                     const std::function<std::string(const std::string&)>& name_of_file);
-/// The same by the files' own names.
-std::vector<std::string> price_lines(const Prices& prices);
+std::vector<std::string> price_lines(
+    const Prices& prices, const std::function<std::string(const std::string&)>& name_of_file = std::identity());
 
 }  // namespace warren

@@ -44,8 +44,7 @@ class PolledText : public std::stringbuf {
 std::size_t line_of_second_document(std::string_view text, const Execution& execution) {
   bool has_content = false;
   bool is_second = false;
-  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  text = without_byte_order_mark(text);
   for (std::size_t number = 1; !text.empty(); ++number) {
     if (number % 4096 == 0) execution.check();
     const std::size_t end = std::min(text.find('\n'), text.size());
@@ -91,10 +90,11 @@ void YamlFile::fail(const YAML::Node& node, std::string_view what) const {
 }
 
 /// yaml-cpp's own conversion takes memory that has run out for a wrong number.
-double YamlFile::number(const YAML::Node& node, std::string_view key, std::string_view expected) const {
+double YamlFile::number(const YAML::Node& node, std::string_view key, std::string_view expected,
+                        bool (*is_right)(double)) const {
   const std::string_view text = node.IsScalar() ? std::string_view(node.Scalar()) : std::string_view();
   const auto value = scene_text::number_in_full<double>(text.substr(text.starts_with('+') ? 1 : 0));
-  if (!value) fail(node, fmt::format("`{}` must be {}", key, expected));
+  if (!value || !is_right(*value)) fail(node, fmt::format("`{}` must be {}", key, expected));
   return *value;
 }
 

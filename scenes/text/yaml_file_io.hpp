@@ -25,8 +25,10 @@ class YamlFile {
   scene_text::Place place(const YAML::Node& node) const { return place(node.Mark()); }
   /// Throws InputError naming the line, and the value where the node is one.
   [[noreturn]] void fail(const YAML::Node& node, std::string_view what) const;
-  /// `key` and `expected` are for the error: "`key` must be EXPECTED". Infinities and what is no number are numbers.
-  double number(const YAML::Node& node, std::string_view key, std::string_view expected) const;
+  /// A number of which is_right holds; infinities and what is no number are asked, too. `key` and `expected` are for
+  /// the error: "`key` must be EXPECTED".
+  double number(const YAML::Node& node, std::string_view key, std::string_view expected,
+                bool (*is_right)(double)) const;
 
  private:
   scene_text::Place place(const YAML::Mark& mark) const {

@@ -151,8 +151,37 @@ struct HandedPath {
   std::string hash;          ///< solve/answer/path_hash.hpp
 };
 
+/// A path and what is said of it that can be verified: an answer's own, or one that a file holds.
+struct ClaimedPath {
+  bool optimal = false;               ///< proved: no shorter path exists but for 1e-9; of a disc: than with its arcs
+  std::optional<double> lower_bound;  ///< proved: no path has less cost or, where that is not told, length
+  std::optional<double> cost;         ///< in the planner's own units, where that is not the length
+  std::optional<PriceParts> price;    ///< where prices were asked: then cost is length and all its parts
+  std::string bound_of;               ///< of a priced lower bound: "all" paths, or those over the "lattice"; else empty
+  std::optional<std::uint64_t> goal_index;    ///< of several goals, from 0: the one that is reached
+  std::optional<GoalReached> goal_reached;    ///< where the question left a choice of places
+  std::vector<std::uint64_t> order;           ///< of places to visit, from 0, as they are visited
+  std::vector<AlternativePath> alternatives;  ///< the cheapest first; the path itself is none of them
+  std::vector<std::int32_t> passed;           ///< where alternatives were asked: the class of the path itself
+  std::vector<MapHole> holes;                 ///< those that the classes name
+  std::optional<double> hole_size;   ///< where alternatives are told: the longer side of a hole's box, at least
+  std::optional<KeptRoute> keeping;  ///< where an older path was to be kept
+  Path<Vec2> path;   ///< of the reference point in the plane, as pictures show it; a point's or disc's states
+  StateList states;  ///< start to goal, where a state is more than a point of the plane; else empty
+
+  /// States of the path.
+  std::size_t state_count() const { return states.empty() ? path.size() : states.size(); }
+  /// Numbers a state.
+  std::size_t state_width() const { return states.empty() ? 2 : states.width; }
+  /// The numbers of state i.
+  std::vector<double> state(std::size_t i) const {
+    if (states.empty()) return {path[i].x, path[i].y};
+    return {states[i].begin(), states[i].end()};
+  }
+};
+
 /// What solve() found: an outcome, a verified path where there is one, and the account of the work.
-struct Answer {
+struct Answer : ClaimedPath {
   Outcome outcome = Outcome::stopped;     ///< how it ended
   std::optional<StopReason> stop_reason;  ///< of stopped, and of planners that get better until they are stopped
   bool verified = false;                  ///< has it a path that a judge found free, with all its clearance?
@@ -162,24 +191,11 @@ struct Answer {
   double length = 0.0;                    ///< only where verified, as all that is said of the path
   double min_clearance = 0.0;             ///< room around the body along the path
   std::optional<double> raw_length;       ///< before it was pulled taut
-  bool optimal = false;               ///< proved: no shorter path exists but for 1e-9; of a disc: than with its arcs
-  std::optional<double> lower_bound;  ///< proved: no path has less cost or, where that is not told, length
   std::vector<Improvement> improvements;  ///< of planners that get better with time: each path that was the best so far
   std::optional<std::uint64_t> iterations;  ///< the turns that these have done: as many give the same answer
   /// Of these: optimum, goal, lattice, gap, goal_gap, lattice_gap, iterations, nodes, caller, or as stop_reason; empty:
   /// others.
   std::string ended_by;
-  std::optional<double> cost;       ///< in the planner's own units, where that is not the length
-  std::optional<PriceParts> price;  ///< where prices were asked: then cost is length and all its parts
-  std::string bound_of;             ///< of a priced lower bound: "all" paths, or those over the "lattice"; else empty
-  std::optional<std::uint64_t> goal_index;    ///< of several goals, from 0: the one that is reached
-  std::optional<GoalReached> goal_reached;    ///< where the question left a choice of places
-  std::vector<std::uint64_t> order;           ///< of places to visit, from 0, as they are visited
-  std::vector<AlternativePath> alternatives;  ///< the cheapest first; the answer's own path is none of them
-  std::vector<std::int32_t> passed;           ///< where alternatives were asked: the class of the answer's own path
-  std::vector<MapHole> holes;                 ///< those that the classes name
-  std::optional<double> hole_size;   ///< where alternatives are told: the longer side of a hole's box, at least
-  std::optional<KeptRoute> keeping;  ///< where an older path was to be kept
   std::optional<double> turn_rad;    ///< all turning along the path, of bodies that turn
   Problem problem;                   ///< what was asked, with what the world's file and the defaults add
   WorldAccount world;                ///< of which world
@@ -201,10 +217,8 @@ struct Answer {
   double solve_s = 0.0;                   ///< of the whole call, wall-clock
   std::size_t wanted_memory_bytes = 0;    ///< stopped by memory: the least that it needs, as far as known; else 0
   std::size_t peak_memory_bytes = 0;      ///< the most that the process has held so far
-  Path<Vec2> path;  ///< of the reference point in the plane, as pictures show it; a point's or disc's states
-  std::optional<HandedPath> handed;  ///< instead of `path`, where solve_within() was given a taker and used it
-  StateList states;                  ///< start to goal, where a state is more than a point of the plane; else empty
-  bool tells_path = true;            ///< does JSON list the path's states, or only their number and hash?
+  std::optional<HandedPath> handed;       ///< instead of `path`, where solve_within() was given a taker and used it
+  bool tells_path = true;                 ///< does JSON list the path's states, or only their number and hash?
 };
 
 /// How much more than the lower bound the path costs, as a share of that; none where either is not known.
@@ -217,8 +231,7 @@ inline std::optional<double> gap_of(const Answer& answer) {
 
 /// The number of the path's states, wherever they are.
 inline std::uint64_t path_points(const Answer& answer) {
-  if (answer.handed) return answer.handed->points;
-  return answer.states.empty() ? answer.path.size() : answer.states.size();
+  return answer.handed ? answer.handed->points : answer.state_count();
 }
 
 /// What the process has held, and what was refused it. Called where an answer is complete.

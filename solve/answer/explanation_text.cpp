@@ -127,7 +127,7 @@ void add_narrowest(Lines& lines, const Answer& answer) {
 /// The stages that took most, until they make nine tenths.
 void add_times(Lines& lines, const Answer& answer) {
   auto stages = named_stages(answer.seconds);
-  std::stable_sort(stages.begin(), stages.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::ranges::stable_sort(stages, [](const auto& a, const auto& b) { return a.second > b.second; });
   double whole = 0.0;
   for (const auto& [name, seconds] : stages) whole += seconds;
   std::string text;
@@ -168,15 +168,8 @@ std::string hint_json(const Hint& hint) {
 }
 
 std::string_view option_word(const Answer& answer, std::string_view name) {
-  const Figure* figure = figure_named(answer.options, name);
-  const auto* word = figure == nullptr ? nullptr : std::get_if<std::string>(figure);
+  const auto* word = std::get_if<std::string>(figure_named(answer.options, name));
   return word == nullptr ? std::string_view{} : std::string_view{*word};
-}
-
-template <class T>
-const T* path_figure(const Answer& answer, std::string_view name) {
-  const Figure* figure = figure_named(answer.path_figures, name);
-  return figure == nullptr ? nullptr : std::get_if<T>(figure);
 }
 
 /// The lattice and the middles of cells drop nothing that is worth a word.
@@ -210,9 +203,9 @@ std::string doors_note(const Answer& answer) {
 }
 
 std::string heuristic_note(const Answer& answer) {
-  const auto* searched = path_figure<double>(answer, "searched_length");
-  const auto* shortest = path_figure<double>(answer, "shortest_length");
-  const auto* expanded = path_figure<std::uint64_t>(answer, "shortest_expanded");
+  const auto* searched = std::get_if<double>(figure_named(answer.path_figures, "searched_length"));
+  const auto* shortest = std::get_if<double>(figure_named(answer.path_figures, "shortest_length"));
+  const auto* expanded = std::get_if<std::uint64_t>(figure_named(answer.path_figures, "shortest_expanded"));
   if (searched == nullptr || shortest == nullptr || expanded == nullptr) return {};
   const double percent = 100.0 * (*searched / *shortest - 1.0);
   const std::string longer =

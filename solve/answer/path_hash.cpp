@@ -38,8 +38,7 @@ std::string PathHash::text() const { return fmt::format("{:016x}", last_ * facto
 std::string path_hash(const Answer& answer, const Execution& execution) {
   constexpr std::size_t states_a_poll = 1U << 16U;
   PathHash hash;
-  const std::size_t count = answer.states.empty() ? answer.path.size() : answer.states.size();
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < answer.state_count(); ++i) {
     if (i % states_a_poll == 0) execution.check();
     if (answer.states.empty()) {
       hash.add(answer.path[i].x);

@@ -291,33 +291,18 @@ class AnswerReader {
 
 RecordedAnswer recorded(const Answer& answer) {
   RecordedAnswer record;
+  static_cast<ClaimedPath&>(record) = answer;
   record.problem = answer.problem.question();
   record.via = answer.problem.via;
   record.world_hash = answer.world.hash;
   record.length = answer.length;
-  record.lower_bound = answer.lower_bound;
-  record.optimal = answer.optimal;
-  record.cost = answer.cost;
-  record.price = answer.price;
   const auto number = [&](std::string_view name) -> std::optional<double> {
-    const Figure* figure = figure_named(answer.options, name);
-    const double* value = figure != nullptr ? std::get_if<double>(figure) : nullptr;
+    const double* value = std::get_if<double>(figure_named(answer.options, name));
     return value != nullptr ? std::optional(*value) : std::nullopt;
   };
   record.driving = {number("turn_cost"), number("cusp_cost"), number("reverse_cost"),
                     figure_named(answer.options, "optimise") != nullptr};
-  record.goal_index = answer.goal_index;
-  record.bound_of = answer.bound_of;
-  record.goal_reached = answer.goal_reached;
-  record.order = answer.order;
-  record.alternatives = answer.alternatives;
-  record.passed = answer.passed;
-  record.holes = answer.holes;
-  record.hole_size = answer.hole_size;
-  record.keeping = answer.keeping;
   record.file = "answer";
-  record.path = answer.path;
-  record.states = answer.states;
   return record;
 }
 
@@ -346,10 +331,7 @@ RecordedAnswer read_answer(const InputFile& input, const Execution& execution) {
 
 std::vector<std::vector<double>> states_of(const RecordedAnswer& answer) {
   std::vector<std::vector<double>> states;
-  for (std::size_t i = 0; i < answer.states.size(); ++i)
-    states.emplace_back(answer.states[i].begin(), answer.states[i].end());
-  if (!states.empty()) return states;
-  for (const Vec2 p : answer.path) states.push_back({p.x, p.y});
+  for (std::size_t i = 0; i < answer.state_count(); ++i) states.push_back(answer.state(i));
   return states;
 }
 

@@ -3,7 +3,6 @@
 // a path of millions of points takes its own memory only.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -30,34 +29,16 @@ struct AskedDriving {
 };
 
 /// A path that a file holds, and what it says of its problem: the program's own answers, or a path of anybody.
-struct RecordedAnswer {
-  Question problem;                           ///< what the answer says of the problem
-  std::vector<std::string> joints;            ///< of an arm, in the order of its states; empty: not told
-  std::vector<std::vector<double>> via;       ///< way-points that its path passes, in their order
-  std::optional<std::string> world_hash;      ///< of the world that it is for; none: the file doesn't say
-  std::optional<double> length;               ///< that it claims
-  std::optional<double> lower_bound;          ///< the same
-  bool optimal = false;                       ///< the same
-  std::optional<double> gap;                  ///< the same
-  std::optional<double> cost;                 ///< the same; with a lower bound, which is of it then
-  std::optional<PriceParts> price;            ///< the same
-  AskedDriving driving;                       ///< behind the parts of that price
-  std::optional<std::uint64_t> goal_index;    ///< of several goals, the one that it says is reached
-  std::string bound_of;                       ///< as Answer::bound_of, and so all until the certificate
-  std::optional<GoalReached> goal_reached;    ///< as Answer::goal_reached
-  std::vector<std::uint64_t> order;           ///< as Answer::order
-  std::vector<AlternativePath> alternatives;  ///< as Answer::alternatives
-  std::vector<std::int32_t> passed;           ///< as Answer::passed
-  std::vector<MapHole> holes;                 ///< as Answer::holes
-  std::optional<double> hole_size;            ///< as Answer::hole_size
-  std::optional<KeptRoute> keeping;           ///< as Answer::keeping
-  std::optional<CellPotential> certificate;   ///< of the lower bound of all paths, from a file beside the answer
-  std::string file;                           ///< where it stands, for messages
-  Path<Vec2> path;                            ///< where a state has two numbers
-  StateList states;                           ///< where a state has more than two; then `path` is their first two
-
-  /// Numbers a state.
-  std::size_t state_width() const { return states.empty() ? 2 : states.width; }
+struct RecordedAnswer : ClaimedPath {
+  Question problem;                          ///< what the answer says of the problem
+  std::vector<std::string> joints;           ///< of an arm, in the order of its states; empty: not told
+  std::vector<std::vector<double>> via;      ///< way-points that its path passes, in their order
+  std::optional<std::string> world_hash;     ///< of the world that it is for; none: the file doesn't say
+  std::optional<double> length;              ///< that it claims
+  std::optional<double> gap;                 ///< the same
+  AskedDriving driving;                      ///< behind the parts of that price
+  std::optional<CellPotential> certificate;  ///< of the lower bound of all paths, from a file beside the answer
+  std::string file;                          ///< where it stands, for messages
 };
 
 /// What a file "answer" would hold: an answer, or a path of these states alone.

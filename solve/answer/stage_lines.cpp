@@ -49,14 +49,14 @@ constexpr std::array links{
 constexpr std::size_t first_of_the_end = links.size() - 3;
 
 std::size_t place_of(std::string_view key) {
-  const auto at = std::find_if(links.begin(), links.end(), [&](const Link& link) { return link.key == key; });
+  const auto at = std::ranges::find_if(links, [&](const Link& link) { return link.key == key; });
   return static_cast<std::size_t>(at - links.begin());
 }
 
 bool is_sum(std::string_view key) {
   constexpr std::array<std::string_view, 11> sums{"read",  "generate", "index",  "sample",   "neighbours", "connect",
                                                   "graph", "reduce",   "search", "optimise", "verify"};
-  return std::find(sums.begin(), sums.end(), key) != sums.end();
+  return std::ranges::find(sums, key) != sums.end();
 }
 
 /// In the order of the work, without what was counted.
@@ -64,14 +64,13 @@ std::vector<StageLine> plain_lines(const std::vector<StageCost>& costs) {
   std::vector<StageLine> lines;
   for (const StageCost& cost : costs) {
     lines.push_back({.key = cost.name, .label = cost.name, .wall_s = cost.wall_s, .cpu_s = cost.cpu_s, .counted = {}});
-    std::replace(lines.back().key.begin(), lines.back().key.end(), ' ', '_');
+    std::ranges::replace(lines.back().key, ' ', '_');
   }
   const auto rank = [](const StageLine& line) {
     const std::size_t place = place_of(line.key);
     return place == links.size() ? 2 * first_of_the_end - 1 : 2 * place;
   };
-  std::stable_sort(lines.begin(), lines.end(),
-                   [&](const StageLine& a, const StageLine& b) { return rank(a) < rank(b); });
+  std::ranges::stable_sort(lines, [&](const StageLine& a, const StageLine& b) { return rank(a) < rank(b); });
   return lines;
 }
 

@@ -33,12 +33,6 @@ WorldAccount account_of(const Scene& scene, std::string hash) {
           scene.solids.size()};
 }
 
-WorldAccount account_of(const Scene& scene, std::string hash, std::size_t walls) {
-  WorldAccount account = account_of(scene, std::move(hash));
-  account.walls = walls;
-  return account;
-}
-
 std::string description_of(const Scene& scene) {
   if (scene.map) {
     return fmt::format("map of {} x {} cells, {} free", scene.map->width(), scene.map->height(),

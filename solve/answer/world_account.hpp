@@ -33,8 +33,6 @@ WorldAccount account_of(const Scene& scene, std::string hash);
 inline WorldAccount account_of(const Scene& scene, const Execution& execution) {
   return account_of(scene, scene_hash(scene, execution));
 }
-/// Of a scene whose walls are left out and are so many.
-WorldAccount account_of(const Scene& scene, std::string hash, std::size_t walls);
 
 /// "41 x 41 maze, 1,604 walls": what a person wants to know first.
 std::string description_of(const Scene& scene);

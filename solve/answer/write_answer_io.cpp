@@ -296,25 +296,6 @@ void add_work(JsonObject& json, const Answer& answer) {
   json.add("peak_memory_bytes", std::uint64_t{answer.peak_memory_bytes});
 }
 
-/// state(i, text) appends the numbers of the i-th of `count` states. Writes the list alone.
-template <class State>
-void write_path(std::size_t count, const State& state, const Execution& execution,
-                const std::function<void(std::string_view)>& write) {
-  constexpr std::size_t piece = 1 << 14;
-  std::string text = "[";
-  for (std::size_t i = 0; i < count; ++i) {
-    text.append(i == 0 ? "[" : ", [");
-    state(i, text);
-    text.append("]");
-    if (i % piece == piece - 1) {
-      execution.check();
-      write(text);
-      text.clear();
-    }
-  }
-  write(text + "]");
-}
-
 /// All but the path.
 std::string json_head(const Answer& answer, const Execution& execution) {
   JsonObject json(",\n ", ": ");
@@ -328,21 +309,25 @@ std::string json_head(const Answer& answer, const Execution& execution) {
   return json.open() + ",\n ";
 }
 
-/// The states, or the points where a state is no more.
+/// The list of the states, or of the points where a state is no more.
 void write_states(const Path<Vec2>& path, const StateList& states, const Execution& execution,
                   const std::function<void(std::string_view)>& write) {
-  const auto append_point = [&](std::size_t i, std::string& text) {
-    append_json_number(text, path[i].x);
-    append_json_number(text += ", ", path[i].y);
-  };
-  const auto append_state = [&](std::size_t i, std::string& text) {
-    for (std::size_t k = 0; k < states.width; ++k) append_json_number(text += k == 0 ? "" : ", ", states[i][k]);
-  };
-  if (states.empty()) {
-    write_path(path.size(), append_point, execution, write);
-  } else {
-    write_path(states.size(), append_state, execution, write);
+  constexpr std::size_t piece = 1 << 14;
+  const std::size_t count = states.empty() ? path.size() : states.size();
+  std::string text = "[";
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::array<double, 2> place = states.empty() ? std::array{path[i].x, path[i].y} : std::array<double, 2>{};
+    const std::span<const double> state = states.empty() ? std::span<const double>(place) : states[i];
+    text.append(i == 0 ? "[" : ", [");
+    for (std::size_t k = 0; k < state.size(); ++k) append_json_number(text += k == 0 ? "" : ", ", state[k]);
+    text.append("]");
+    if (i % piece == piece - 1) {
+      execution.check();
+      write(text);
+      text.clear();
+    }
   }
+  write(text + "]");
 }
 
 void append_alternative(std::string& text, const AlternativePath& other) {

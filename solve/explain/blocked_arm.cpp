@@ -152,7 +152,7 @@ class BlockedArm {
     static const std::vector<Numbers<3>> directions = directions_around<3>(60);
     const auto is_free = [this](const Numbers<3>& p, double spare) {
       const std::vector<JointState> states = postures({p[0], p[1], p[2]});
-      return std::any_of(states.begin(), states.end(), [&](const JointState& q) { return !met(q, margin_ + spare); });
+      return std::ranges::any_of(states, [&](const JointState& q) { return !met(q, margin_ + spare); });
     };
     const FreeSearchRange range{1e-3 * reach_, reach_};
     return nearest_free_in_few_digits<3>({place.x(), place.y(), place.z()}, directions, range, 0.1 * reach_, is_free);
@@ -202,16 +202,16 @@ void explain_reach(Answer& answer, const Vec3& place, const ArmProblem& problem)
 /// Angles that no joint has: degrees are meant.
 std::string degrees_hint(std::span<const double> angles) {
   constexpr double a_turn_and_a_bit = 6.3;
-  const auto large =
-      std::find_if(angles.begin(), angles.end(), [](double a) { return std::abs(a) > a_turn_and_a_bit; });
+  const auto large = std::ranges::find_if(angles, [](double a) { return std::abs(a) > a_turn_and_a_bit; });
   return large == angles.end() ? "" : fmt::format("angles are in radians: {0} degrees are {0}deg", *large);
 }
 
 void tell(Answer& answer, bool is_start, const Violation& met, const BlockedArm& arm, const JointState& q) {
-  answer.blocked = BlockedEnd{.is_start = is_start, .by = met.obstacle};
-  answer.blocked->room = met.distance;
-  answer.blocked->needed = answer.problem.clearance;
-  answer.blocked->depth = arm.depth_in(met, q);
+  answer.blocked = BlockedEnd{.is_start = is_start,
+                              .by = met.obstacle,
+                              .room = met.distance,
+                              .needed = answer.problem.clearance,
+                              .depth = arm.depth_in(met, q)};
 }
 
 template <std::size_t n>

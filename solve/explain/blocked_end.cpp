@@ -17,6 +17,7 @@
 #include "core/base/error.hpp"
 #include "core/base/trigonometry.hpp"
 #include "core/plane/geometry.hpp"
+#include "core/plane/polygon.hpp"
 #include "core/plane/se2.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/explain/nearest_free.hpp"
@@ -97,9 +98,7 @@ std::optional<Scene> obstacle_alone(const Scene& scene, std::string_view name, d
     box = box_of(segment);
   } else if (const auto polygon = number_after(name, "polygon "); polygon && *polygon < scene.polygons.size()) {
     alone.polygons = PiecesOfOne(scene, execution).with(*polygon);
-    for (const ScenePolygon& piece : alone.polygons) {
-      for (const Vec2 corner : piece.corners) box.include(corner);
-    }
+    for (const ScenePolygon& piece : alone.polygons) box.include(box_around(piece.corners));
   } else {
     return std::nullopt;
   }
@@ -231,7 +230,7 @@ class BlockedEndSearch {
   std::optional<Vec2> free_somewhere(const Box& box) {
     const double spare = margin_ + least_spare * size();
     const auto first_free = [&](const std::vector<Vec2>& places) {
-      const auto found = std::find_if(places.begin(), places.end(), [&](Vec2 p) { return is_free(p, spare); });
+      const auto found = std::ranges::find_if(places, [&](Vec2 p) { return is_free(p, spare); });
       return found != places.end() ? std::optional(*found) : std::nullopt;
     };
     if (scene_.map) {
@@ -291,8 +290,7 @@ class BlockedEndSearch {
                                         : box.min + Vec2{share.x * box.width(), share.y * box.height()});
       }
     }
-    std::stable_sort(places.begin(), places.end(),
-                     [this](Vec2 a, Vec2 b) { return norm(a - middle_) < norm(b - middle_); });
+    std::ranges::stable_sort(places, [this](Vec2 a, Vec2 b) { return norm(a - middle_) < norm(b - middle_); });
     return places;
   }
   std::optional<double> way_out() {
@@ -476,9 +474,7 @@ Scene obstacles_near(const Scene& scene, std::span<const Vec2> path, double reac
   near.walls = WallSet::narrowest(walls);
   std::erase_if(near.polygons, [&](const ScenePolygon& polygon) {
     execution.check();
-    Box box;
-    for (const Vec2 corner : polygon.corners) box.include(corner);
-    return !places.keeps(box);
+    return !places.keeps(box_around(polygon.corners));
   });
   return near;
 }

@@ -74,9 +74,9 @@ std::optional<double> number_of(std::string_view field) {
 /// Only a goal's heading may be missing, or all of a state: then the world's own stands.
 bool take_state(std::vector<double>& state, bool is_goal) {
   const auto is_missing = [](double x) { return std::isnan(x); };
-  if (std::all_of(state.begin(), state.end(), is_missing)) state.clear();
+  if (std::ranges::all_of(state, is_missing)) state.clear();
   if (is_goal && state.size() == plane_axes.size() && is_missing(state.back())) state.pop_back();
-  return std::none_of(state.begin(), state.end(), is_missing);
+  return std::ranges::none_of(state, is_missing);
 }
 
 std::vector<double> numbers_of(const Json& json, const char* key) {
@@ -166,13 +166,13 @@ class BatchQuestions {
       const std::string_view name = take_field(line);
       const bool is_goal = kind_ == BatchLines::goals || (kind_ == BatchLines::questions && name.starts_with("goal_"));
       const std::string_view head = prefix(is_goal);
-      const auto axis = std::find(axes_.begin(), axes_.end(), name.substr(std::min(head.size(), name.size())));
+      const auto axis = std::ranges::find(axes_, name.substr(std::min(head.size(), name.size())));
       if (!name.starts_with(head) || axis == axes_.end()) {
         throw InputError(where, fmt::format("expected the header {} of a CSV, or JSON lines", whole_header()),
                          name.substr(0, 40));
       }
       const Column column{is_goal, static_cast<std::size_t>(axis - axes_.begin())};
-      if (std::find(columns_.begin(), columns_.end(), column) != columns_.end()) {
+      if (std::ranges::find(columns_, column) != columns_.end()) {
         throw InputError(where, "expected each column once", name);
       }
       columns_.push_back(column);
@@ -182,12 +182,12 @@ class BatchQuestions {
   /// All columns of a state or none: then the world has a state of its own.
   void check_columns(const std::string& where) const {
     for (const bool is_goal : {false, true}) {
-      const bool any = std::any_of(columns_.begin(), columns_.end(), [&](Column c) { return c.is_goal == is_goal; });
+      const bool any = std::ranges::any_of(columns_, [&](Column c) { return c.is_goal == is_goal; });
       const bool has_own = !(is_goal ? scene_.goal : scene_.start).empty();
       if (!any && (kind_ != BatchLines::questions || has_own)) continue;
       for (std::size_t i = 0; i < axes_.size(); ++i) {
         const bool may_lack = is_goal && axes_[i] == plane_axes.back();
-        if (may_lack || std::find(columns_.begin(), columns_.end(), Column{is_goal, i}) != columns_.end()) continue;
+        if (may_lack || std::ranges::find(columns_, Column{is_goal, i}) != columns_.end()) continue;
         const std::string_view why = any       ? ""
                                      : is_goal ? ", for the world has no goal"
                                                : ", for the world has no start";
@@ -213,7 +213,7 @@ class BatchQuestions {
     return question;
   }
   void read_csv(std::string_view line, BatchQuestion& question) const {
-    if (static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1 != columns_.size()) {
+    if (static_cast<std::size_t>(std::ranges::count(line, ',')) + 1 != columns_.size()) {
       question.error = fmt::format("expected {} fields", columns_.size());
       return;
     }
@@ -352,8 +352,8 @@ class Batch {
   Execution one_thread_;
 };
 
-constexpr std::size_t pairs_at_once = std::size_t{1}
-                                      << 14;  // pairs whose lengths are held at once, where a line has fewer
+// Pairs whose lengths are held at once, where a line has fewer.
+constexpr std::size_t pairs_at_once = std::size_t{1} << 14;
 constexpr std::size_t most_starts = 1024;
 constexpr std::size_t bytes_of_place = sizeof(BatchQuestion) + 64;
 constexpr std::size_t bytes_of_entry = 128;  // a length as a number and as text

@@ -83,7 +83,15 @@ ExportedEdgesView::ExportedEdgesView(const ExportedRoadmapView& roadmap, EdgeWay
   execution.reserve(blocks * (sizeof(Tally) + sizeof(std::uint64_t)));
   std::vector<Tally> tallies(blocks);
   for_chunks(ends(), grain, execution, [&](Range range) { tallies[range.first / grain] = tally(range); });
-  add(tallies);
+  numbers_.assign(1, 0);
+  numbers_.reserve(blocks + 1);
+  for (const Tally& tally : tallies) {
+    numbers_.push_back(numbers_.back() + tally.written);
+    account_.unchecked_left_out += tally.unchecked;
+    account_.blocked_left_out += tally.blocked;
+  }
+  account_.vertices = parts_.vertex_count();
+  account_.edges = every_end_ && !parts_.directed ? count() / 2 : count();
 }
 
 ExportedEdgesView::Tally ExportedEdgesView::tally(Range ends) const {
@@ -95,18 +103,6 @@ ExportedEdgesView::Tally ExportedEdgesView::tally(Range ends) const {
     if (state == EdgeState::unchecked && !with_unchecked_) ++tally.unchecked;
   });
   return tally;
-}
-
-void ExportedEdgesView::add(const std::vector<Tally>& tallies) {
-  numbers_.assign(1, 0);
-  numbers_.reserve(tallies.size() + 1);
-  for (const Tally& tally : tallies) {
-    numbers_.push_back(numbers_.back() + tally.written);
-    account_.unchecked_left_out += tally.unchecked;
-    account_.blocked_left_out += tally.blocked;
-  }
-  account_.vertices = parts_.vertex_count();
-  account_.edges = every_end_ && !parts_.directed ? count() / 2 : count();
 }
 
 double ExportedEdgesView::length_or_infinity(const ExportedEdge& edge) const {
@@ -142,27 +138,19 @@ RoadmapArrays arrays_of(const LatticePassages& passages, const Execution& execut
   constexpr std::size_t polled = std::size_t{1} << 16;
   constexpr std::size_t most_ends = 4;
   const std::uint64_t cells = passages.cell_count();
-  execution.reserve(cells * (2 * sizeof(double) + sizeof(EdgeEnd) + (most_ends + 1) * sizeof(VertexId)));
-  RoadmapArrays arrays;
-  arrays.states.reserve(2 * cells);
+  execution.reserve(cells * (sizeof(EdgeEnd) + (most_ends + 1) * sizeof(VertexId)));
   RawVector<EdgeEnd> offsets;
   offsets.reserve(cells + 1);
   RawVector<VertexId> targets;
   for (std::uint64_t i = 0; i < cells; ++i) {
     if (i % polled == 0) execution.check();
-    const Vec2 p = lattice_point(passages.size(), i);
-    arrays.states.insert(arrays.states.end(), {p.x, p.y});
     offsets.push_back(static_cast<EdgeEnd>(targets.size()));
     passages.for_each_neighbour(static_cast<CellId>(i), [&](CellId to) { targets.push_back(to); });
     std::sort(targets.begin() + offsets.back(), targets.end());
   }
   offsets.push_back(static_cast<EdgeEnd>(targets.size()));
-  arrays.edge_states.assign(edge_state_words(targets.size()), 0);
-  for (std::size_t end = 0; end < targets.size(); ++end) {
-    if (end % polled == 0) execution.check();
-    set_edge_state(arrays.edge_states, end, EdgeState::free);
-  }
-  arrays.candidates = Graph(std::move(offsets), std::move(targets));
+  const auto at = [&](VertexId v) { return lattice_point(passages.size(), v); };
+  RoadmapArrays arrays = free_arrays(at, Graph(std::move(offsets), std::move(targets)), execution);
   arrays.component = free_components(arrays.parts(), execution);
   return arrays;
 }

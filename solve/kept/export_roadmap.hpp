@@ -122,7 +122,6 @@ class ExportedEdgesView {
     return static_cast<VertexId>(std::upper_bound(after, parts_.first.end(), end) - parts_.first.begin() - 1);
   }
   Tally tally(Range ends) const;
-  void add(const std::vector<Tally>& tallies);
 
   RoadmapParts parts_;
   VertexDistance length_;

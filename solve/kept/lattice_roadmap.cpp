@@ -39,12 +39,6 @@ LatticePassages passages_of(const Scene& scene, double reach, const Execution& e
 
 }  // namespace
 
-std::unique_ptr<KeptCells> cells_of_file(const RoadmapFile& file, MazeHint maze, const std::string& hash,
-                                         const Execution& execution) {
-  return cells_of_words(file.name(), maze, file.section<std::uint64_t>("passages.right", execution),
-                        file.section<std::uint64_t>("passages.up", execution), hash, execution);
-}
-
 std::unique_ptr<KeptCells> cells_of_words(const std::string& where, MazeHint maze, std::span<const std::uint64_t> right,
                                           std::span<const std::uint64_t> up, const std::string& hash,
                                           const Execution& execution) {
@@ -100,11 +94,7 @@ Scene KeptCells::walls_in(const Box& box) const {
 const WallsNearEnds::Indexed* WallsNearEnds::index(const Execution& execution) const {
   return indexed_.get_after(most_passes, execution, [&] {
     auto indexed = std::make_unique<Indexed>();
-    try {
-      indexed->world.emplace(world_.whole(execution), reach_, execution);
-    } catch (const Stopped& stopped) {
-      if (stopped.reason != StopReason::memory) throw;
-    }
+    memory_holds([&] { indexed->world.emplace(world_.whole(execution), reach_, execution); });
     return indexed;
   });
 }

@@ -58,10 +58,8 @@ inline bool is_nothing_but_maze(const Scene& scene) {
 inline bool walls_are_passages(const RoadmapFile& file, const Scene& outline) {
   return is_nothing_but_maze(outline) && file.find("maze.walls") == nullptr && file.find("world.walls") == nullptr;
 }
-/// Of such a file, which must outlive it. Throws InputError for a world of another hash, Stopped.
-std::unique_ptr<KeptCells> cells_of_file(const RoadmapFile& file, MazeHint maze, const std::string& hash,
-                                         const Execution& execution);
-/// Of the words of a lattice, which must outlive it; `where` names them. Throws as above.
+/// Of the words of a lattice, of such a file or in memory, which must outlive it; `where` names them. Throws InputError
+/// for a world of another hash, Stopped.
 std::unique_ptr<KeptCells> cells_of_words(const std::string& where, MazeHint maze, std::span<const std::uint64_t> right,
                                           std::span<const std::uint64_t> up, const std::string& hash,
                                           const Execution& execution);

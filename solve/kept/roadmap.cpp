@@ -203,8 +203,8 @@ Roadmap build_within(Scene scene, const Question& question, const SolveOptions& 
     roadmap.rule = {1.0, 0};
     return roadmap;
   }
-  const PlannedScene planned(world, asked, solver.planner, execution);
-  SolveRequest request{roadmap.options, planned.get(), asked, solver.planner, execution, nullptr, {}, old};
+  const std::optional<Scene> copy = planned_copy(world, asked, solver.planner, execution);
+  SolveRequest request{roadmap.options, copy ? *copy : world, asked, solver.planner, execution, nullptr, {}, old};
   request.index = indexed;
   BuiltArrays built = solver.kind->build(request);
   roadmap.samples = built.samples;

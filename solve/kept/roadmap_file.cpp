@@ -12,7 +12,7 @@ namespace warren {
 namespace {
 
 bool all_zero(std::span<const std::byte> bytes) {
-  return std::all_of(bytes.begin(), bytes.end(), [](std::byte b) { return b == std::byte{0}; });
+  return std::ranges::all_of(bytes, [](std::byte b) { return b == std::byte{0}; });
 }
 
 /// Reads the header of a .roadmap file and holds all of it against the bytes that there are: afterwards each section
@@ -107,7 +107,7 @@ class HeaderReader {
     if (!is_section_name(s.name)) fail("a section's name must be 1 to 16 of a-z, 0-9, dot and underscore", s.name);
     check_text(entry.name, "the name of section `" + s.name + "`");
     const auto has_name = [&](const SectionPlace& other) { return other.name == s.name; };
-    if (std::any_of(result_.sections.begin(), result_.sections.end(), has_name)) fail_in(s, "stands twice", {});
+    if (std::ranges::any_of(result_.sections, has_name)) fail_in(s, "stands twice", {});
     if (!s.type.is_legal()) fail_in(s, "must have elements of a type like <u4 or <f8", text_of(entry.type.code));
     if (entry.flags > optional_flag) fail_in(s, "has flags that are not known", number(entry.flags));
     if (!all_zero(std::as_bytes(std::span(entry.reserved)))) fail_in(s, "must have zeros in its reserved bytes", {});
@@ -269,14 +269,14 @@ FirstLook RoadmapFile::first_look(const SectionPlace& place) const {
 }
 
 const SectionPlace* RoadmapFile::find(std::string_view name) const {
-  const auto found = std::find_if(head_.sections.begin(), head_.sections.end(),
-                                  [name](const SectionPlace& place) { return place.name == name; });
+  const auto found =
+      std::ranges::find_if(head_.sections, [name](const SectionPlace& place) { return place.name == name; });
   return found == head_.sections.end() ? nullptr : &*found;
 }
 
 void RoadmapFile::refuse_unknown(std::span<const std::string_view> known) const {
   for (const SectionPlace& place : head_.sections) {
-    if (place.optional || std::find(known.begin(), known.end(), place.name) != known.end()) continue;
+    if (place.optional || std::ranges::find(known, place.name) != known.end()) continue;
     throw InputError(name(),
                      "this program doesn't know section `" + place.name + "`, without which the others can't " +
                          "be read: use the program that wrote it",

@@ -120,7 +120,8 @@ KeptWorld world_inside(const RoadmapFile& file, const Roadmap& roadmap, const Ex
   KeptWorld::LookUp look_up;
   if (walls_are_passages(file, outline)) {
     look_up = [&file, maze = *outline.maze, hash = roadmap.world_hash](const Execution& on) {
-      return cells_of_file(file, maze, hash, on);
+      return cells_of_words(file.name(), maze, file.section<std::uint64_t>("passages.right", on),
+                            file.section<std::uint64_t>("passages.up", on), hash, on);
     };
   }
   return {std::move(outline), std::move(make), std::move(look_up)};
@@ -132,19 +133,6 @@ void append_graph(const RoadmapParts& parts, std::vector<RoadmapSection>& sectio
   sections.push_back(roadmap_section("edge.to", parts.to));
   sections.push_back(roadmap_section("edge.state", parts.edge_states));
   sections.push_back(roadmap_section("component", parts.component));
-}
-
-LatticeSize lattice_of(const RoadmapFile& file, const Execution& execution) {
-  return lattice_in_meta(fmt::format("{}: section meta", file.name()), roadmap_meta(file, execution));
-}
-
-/// All that meta says.
-Roadmap described(const RoadmapFile& file, const Execution& execution) {
-  refuse_unknown_sections(file);
-  Roadmap roadmap;
-  read_meta(fmt::format("{}: section meta", file.name()), roadmap_meta(file, execution), roadmap, execution);
-  if (hash_number(roadmap.world_hash) == file.header().world_hash) return roadmap;
-  throw InputError(file.name(), "header and meta name different worlds");
 }
 
 /// The lattice is that of the maze, of prm, and of a body that plans on it.
@@ -369,6 +357,103 @@ Json parsed(const std::string& where, std::string_view text) {
   throw InputError(where, "expected one JSON object");
 }
 
+/// What shapes a roadmap beside its world: body, options and seed. A part of meta, of which the header keeps a hash.
+std::string recipe_json(const Roadmap& roadmap, const Execution& execution) {
+  JsonObject object(",\n ", ": ");
+  add_recipe(object, roadmap, execution);
+  return object.closed();
+}
+
+/// What a roadmap is, as one JSON object with its keys in their documented order. Numbers read back as the same
+/// doubles.
+std::string meta_json(const Roadmap& roadmap, const Execution& execution) {
+  const EdgeCounts edges = count_edges(roadmap, execution);
+  JsonObject counts(", ", ": ");
+  counts.add("unchecked", edges.unchecked);
+  counts.add("free", edges.free);
+  counts.add("blocked", edges.blocked);
+  JsonObject object(",\n ", ": ");
+  object.add("schema", schema);
+  object.add("source", std::string_view(roadmap.world.outline().source));
+  object.add("world_hash", std::string_view(roadmap.world_hash));
+  add_recipe(object, roadmap, execution);
+  if (roadmap.index == IndexChoice::none) object.add("asked_index", name_of(roadmap.index));
+  object.add_json("rule", rule_json(roadmap.rule));
+  object.add("drawn", roadmap.samples);
+  object.add("dimension", roadmap.arrays.dimension);
+  object.add("directed", roadmap.arrays.directed);
+  object.add("states", count_states(roadmap));
+  object.add_json("edges", counts.closed());
+  object.add("index", roadmap.lattice != nullptr         ? std::string_view("route")
+                      : roadmap.arrays.hierarchy.empty() ? std::string_view("none")
+                                                         : std::string_view("contraction"));
+  if (roadmap.lattice != nullptr) {
+    const LatticeSize size = roadmap.lattice->passages().size();
+    object.add_json("lattice", json_list(std::span<const std::uint32_t>(std::array{size.rows, size.cols})));
+  } else {
+    object.add("components", component_count(roadmap.arrays));
+  }
+  return object.closed() + "\n";
+}
+
+/// The lattice that meta names; 0 x 0 where it names none.
+LatticeSize lattice_of(const RoadmapFile& file, const Execution& execution) {
+  const std::string where = fmt::format("{}: section meta", file.name());
+  const Json json = parsed(where, roadmap_meta(file, execution));
+  const auto found = json.find("lattice");
+  if (found == json.end()) return {};
+  const bool two =
+      found->is_array() && found->size() == 2 && (*found)[0].is_number_unsigned() && (*found)[1].is_number_unsigned();
+  constexpr std::uint64_t most = 0xffffffff;
+  if (!two || (*found)[0].get<std::uint64_t>() > most || (*found)[1].get<std::uint64_t>() > most) {
+    throw InputError(where + ": key \"lattice\"", "expected rows and columns");
+  }
+  return {(*found)[0].get<std::uint32_t>(), (*found)[1].get<std::uint32_t>()};
+}
+
+/// Fills in all of the roadmap but scene and arrays, which tell their sizes. Throws InputError that names `where`.
+void read_meta(const std::string& where, std::string_view text, Roadmap& roadmap, const Execution& execution) {
+  const Json json = parsed(where, text);
+  const MetaReader meta(where, json);
+  if (meta.text("schema") != schema) meta.fail("schema", schema);
+  Scene named;
+  named.source = meta.text("source");
+  roadmap.world = KeptWorld(std::move(named));
+  roadmap.world_hash = meta.text("world_hash");
+  roadmap.robot = robot_value(fmt::format("{}: key \"robot\"", where), meta.text("robot"));
+  if (roadmap.robot.files) roadmap.robot.files->said.clear();  // what MoveIt says, the robot may lack
+  if (is_of_file(roadmap.robot) && table_hash(roadmap.robot, execution) != meta.text("table_hash")) {
+    throw InputError(where, fmt::format("was made for another arm than {} has now; build it anew",
+                                        roadmap.robot.files ? roadmap.robot.files->urdf : roadmap.robot.table));
+  }
+  roadmap.clearance = meta.number("clearance");
+  if (!(roadmap.clearance >= 0.0 && roadmap.clearance <= largest_coordinate)) {
+    meta.fail("clearance", "a number from 0 to 1e60");
+  }
+  if (meta.has("prices")) roadmap.prices = read_prices(where, json["prices"], execution);
+  read_options(meta, roadmap.options);
+  try {
+    roadmap.options.validate();
+    check_prices(roadmap.prices);
+  } catch (const UsageError& error) {
+    throw InputError(where, error.what());
+  }
+  if (meta.has("asked_index")) roadmap.index = meta.named<IndexChoice>("asked_index");
+  roadmap.rule = read_rule(meta.object("rule"));
+  roadmap.samples = meta.whole("drawn");
+  roadmap.arrays.dimension = meta.small("dimension");
+  roadmap.arrays.directed = json.value("directed", Json(false)) == Json(true);
+}
+
+/// All that meta says.
+Roadmap described(const RoadmapFile& file, const Execution& execution) {
+  refuse_unknown_sections(file);
+  Roadmap roadmap;
+  read_meta(fmt::format("{}: section meta", file.name()), roadmap_meta(file, execution), roadmap, execution);
+  if (hash_number(roadmap.world_hash) == file.header().world_hash) return roadmap;
+  throw InputError(file.name(), "header and meta name different worlds");
+}
+
 }  // namespace
 
 std::string roadmap_meta(const RoadmapFile& file, const Execution& execution) {
@@ -435,88 +520,6 @@ Roadmap read_roadmap(std::unique_ptr<RoadmapFile> opened, const Execution& execu
     roadmap.file = std::move(opened);
   }
   return roadmap;
-}
-
-std::string recipe_json(const Roadmap& roadmap, const Execution& execution) {
-  JsonObject object(",\n ", ": ");
-  add_recipe(object, roadmap, execution);
-  return object.closed();
-}
-
-std::string meta_json(const Roadmap& roadmap, const Execution& execution) {
-  const EdgeCounts edges = count_edges(roadmap, execution);
-  JsonObject counts(", ", ": ");
-  counts.add("unchecked", edges.unchecked);
-  counts.add("free", edges.free);
-  counts.add("blocked", edges.blocked);
-  JsonObject object(",\n ", ": ");
-  object.add("schema", schema);
-  object.add("source", std::string_view(roadmap.world.outline().source));
-  object.add("world_hash", std::string_view(roadmap.world_hash));
-  add_recipe(object, roadmap, execution);
-  if (roadmap.index == IndexChoice::none) object.add("asked_index", name_of(roadmap.index));
-  object.add_json("rule", rule_json(roadmap.rule));
-  object.add("drawn", roadmap.samples);
-  object.add("dimension", roadmap.arrays.dimension);
-  object.add("directed", roadmap.arrays.directed);
-  object.add("states", count_states(roadmap));
-  object.add_json("edges", counts.closed());
-  object.add("index", roadmap.lattice != nullptr         ? std::string_view("route")
-                      : roadmap.arrays.hierarchy.empty() ? std::string_view("none")
-                                                         : std::string_view("contraction"));
-  if (roadmap.lattice != nullptr) {
-    const LatticeSize size = roadmap.lattice->passages().size();
-    object.add_json("lattice", json_list(std::span<const std::uint32_t>(std::array{size.rows, size.cols})));
-  } else {
-    object.add("components", component_count(roadmap.arrays));
-  }
-  return object.closed() + "\n";
-}
-
-LatticeSize lattice_in_meta(const std::string& where, std::string_view text) {
-  const Json json = parsed(where, text);
-  const auto found = json.find("lattice");
-  if (found == json.end()) return {};
-  const bool two =
-      found->is_array() && found->size() == 2 && (*found)[0].is_number_unsigned() && (*found)[1].is_number_unsigned();
-  constexpr std::uint64_t most = 0xffffffff;
-  if (!two || (*found)[0].get<std::uint64_t>() > most || (*found)[1].get<std::uint64_t>() > most) {
-    throw InputError(where + ": key \"lattice\"", "expected rows and columns");
-  }
-  return {(*found)[0].get<std::uint32_t>(), (*found)[1].get<std::uint32_t>()};
-}
-
-void read_meta(const std::string& where, std::string_view text, Roadmap& roadmap, const Execution& execution) {
-  const Json json = parsed(where, text);
-  const MetaReader meta(where, json);
-  if (meta.text("schema") != schema) meta.fail("schema", schema);
-  Scene named;
-  named.source = meta.text("source");
-  roadmap.world = KeptWorld(std::move(named));
-  roadmap.world_hash = meta.text("world_hash");
-  roadmap.robot = robot_value(fmt::format("{}: key \"robot\"", where), meta.text("robot"));
-  if (roadmap.robot.files) roadmap.robot.files->said.clear();  // what MoveIt says, the robot may lack
-  if (is_of_file(roadmap.robot) && table_hash(roadmap.robot, execution) != meta.text("table_hash")) {
-    throw InputError(where, fmt::format("was made for another arm than {} has now; build it anew",
-                                        roadmap.robot.files ? roadmap.robot.files->urdf : roadmap.robot.table));
-  }
-  roadmap.clearance = meta.number("clearance");
-  if (!(roadmap.clearance >= 0.0 && roadmap.clearance <= largest_coordinate)) {
-    meta.fail("clearance", "a number from 0 to 1e60");
-  }
-  if (meta.has("prices")) roadmap.prices = read_prices(where, json["prices"], execution);
-  read_options(meta, roadmap.options);
-  try {
-    roadmap.options.validate();
-    check_prices(roadmap.prices);
-  } catch (const UsageError& error) {
-    throw InputError(where, error.what());
-  }
-  if (meta.has("asked_index")) roadmap.index = meta.named<IndexChoice>("asked_index");
-  roadmap.rule = read_rule(meta.object("rule"));
-  roadmap.samples = meta.whole("drawn");
-  roadmap.arrays.dimension = meta.small("dimension");
-  roadmap.arrays.directed = json.value("directed", Json(false)) == Json(true);
 }
 
 }  // namespace warren

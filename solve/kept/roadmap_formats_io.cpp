@@ -70,7 +70,7 @@ double largest_of_states(const RoadmapParts& parts, const Execution& execution) 
         largest = std::max(largest, std::abs(x));
     }
   });
-  const auto largest = std::max_element(largest_of.begin(), largest_of.end());
+  const auto largest = std::ranges::max_element(largest_of);
   return largest == largest_of.end() ? 0 : *largest;
 }
 
@@ -114,6 +114,26 @@ class NpzWriter {
             const Execution& execution)
       : parts_(roadmap.parts), edges_(edges), zip_(file), execution_(execution) {}
 
+  void write(bool with_edge_states) {
+    const std::uint64_t widest = std::max<std::uint64_t>(parts_.vertex_count(), edges_.count());
+    widest <= std::numeric_limits<std::int32_t>::max() ? write_indices<std::int32_t>() : write_indices<std::int64_t>();
+    small("format", "|S3", {}, "csr");
+    std::string shape;
+    for (int axis = 0; axis < 2; ++axis) append_little_endian(shape, std::int64_t(parts_.vertex_count()));
+    small("shape", "<i8", {2}, shape);
+    of_edges<double>("data", "<f8", [&](const ExportedEdge& edge) { return edges_.length(edge); });
+    begin("states", "<f8", {parts_.vertex_count(), parts_.dimension}, sizeof(double));
+    of_span(parts_.states);
+    begin("component", "<u4", {parts_.vertex_count()}, sizeof(VertexId));
+    of_span(parts_.component);
+    if (with_edge_states) {
+      of_edges<std::uint8_t>("edge_states", "|u1",
+                             [](const ExportedEdge& edge) { return static_cast<std::uint8_t>(edge.state); });
+    }
+    zip_.close();
+  }
+
+ private:
   /// Index is int32, what SciPy calculates with, or int64 where that is too narrow.
   template <class Index>
   void write_indices() {
@@ -126,28 +146,6 @@ class NpzWriter {
     });
     zip_.end();
   }
-  void write_matrix() {
-    const std::uint64_t widest = std::max<std::uint64_t>(parts_.vertex_count(), edges_.count());
-    widest <= std::numeric_limits<std::int32_t>::max() ? write_indices<std::int32_t>() : write_indices<std::int64_t>();
-    small("format", "|S3", {}, "csr");
-    std::string shape;
-    for (int axis = 0; axis < 2; ++axis) append_little_endian(shape, std::int64_t(parts_.vertex_count()));
-    small("shape", "<i8", {2}, shape);
-    of_edges<double>("data", "<f8", [&](const ExportedEdge& edge) { return edges_.length(edge); });
-  }
-  void write_vertices() {
-    begin("states", "<f8", {parts_.vertex_count(), parts_.dimension}, sizeof(double));
-    of_span(parts_.states);
-    begin("component", "<u4", {parts_.vertex_count()}, sizeof(VertexId));
-    of_span(parts_.component);
-  }
-  void write_edge_states() {
-    of_edges<std::uint8_t>("edge_states", "|u1",
-                           [](const ExportedEdge& edge) { return static_cast<std::uint8_t>(edge.state); });
-  }
-  void close() { zip_.close(); }
-
- private:
   void begin(const std::string& name, std::string_view type, const Shape& shape, std::uint64_t bytes_a_number) {
     std::uint64_t bytes = bytes_a_number;
     for (const std::uint64_t extent : shape) bytes *= extent;
@@ -342,11 +340,7 @@ ExportAccount write_roadmap_npz(const ExportedRoadmapView& roadmap, const std::s
                                 const Execution& execution) {
   const ExportedEdgesView edges(roadmap, EdgeWays::both, execution);
   OutputFile file(path, execution);
-  NpzWriter writer(roadmap, edges, file, execution);
-  writer.write_matrix();
-  writer.write_vertices();
-  if (roadmap.options.with_unchecked) writer.write_edge_states();
-  writer.close();
+  NpzWriter(roadmap, edges, file, execution).write(roadmap.options.with_unchecked);
   file.commit();
   return edges.account();
 }

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <new>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -101,27 +100,25 @@ struct RoadmapQuery::Opened {
   Opened(const Roadmap& roadmap, const Execution& execution, Questions questions)
       : any(question_of(roadmap, anywhere(roadmap), anywhere(roadmap))),
         solver(choose_solver(roadmap.options, roadmap.world.whole(execution), any)),
-        planned(roadmap.world.whole(execution), any, solver.planner, execution),
+        copy(planned_copy(roadmap.world.whole(execution), any, solver.planner, execution)),
+        planned(copy ? *copy : roadmap.world.whole(execution)),
         session(solver.kind->open(request_of(roadmap, execution, questions), roadmap.arrays, roadmap.rule)) {}
   SolveRequest request_of(const Roadmap& roadmap, const Execution& execution, Questions questions) const {
-    SolveRequest request{roadmap.options, planned.get(), any, solver.planner, execution};
+    SolveRequest request{roadmap.options, planned, any, solver.planner, execution};
     request.many = questions != Questions::one;
     request.samples = roadmap.samples;
     return request;
   }
   Question any;
   ChosenSolver solver;
-  PlannedScene planned;
+  std::optional<Scene> copy;
+  const Scene& planned;
   std::unique_ptr<RoadmapSession> session;
 };
 
 /// Of a lattice: what looks at its walls, for ends that are no milestones and for the judge of paths.
 struct RoadmapQuery::Walls {
-  explicit Walls(const Roadmap& roadmap)
-      : near_ends(
-            roadmap.world,
-            wall_problem(roadmap.world.outline(), question_of(roadmap, anywhere(roadmap), anywhere(roadmap))).reach()) {
-  }
+  explicit Walls(const Roadmap& roadmap) : near_ends(roadmap.world, roadmap.clearance + roadmap.robot.radius) {}
   WallsNearEnds near_ends;
   MadeOnce<std::unique_ptr<KeptCells>> cells;  // of walls that are held
   MadeOnce<ObstacleIndex> judged;
@@ -180,20 +177,14 @@ Answer RoadmapQuery::ask_within(const std::vector<double>& start, const std::vec
   Answer answer;
   scratch.search.by_hierarchy = !how.search && !how.queue && !how.heuristic;
   try {
-    answer = solver.kind->solve({options,
-                                 opened_->planned.get(),
-                                 question,
-                                 solver.planner,
-                                 execution,
-                                 keep,
-                                 {opened_->session.get(), &scratch.search}});
-    answer.problem.prices = roadmap_.prices;
-    judge_prices(answer, scene, question, false, execution);
-    tell_bound(answer, opened_->planned.get(), options, execution);
-  } catch (const Stopped& stopped) {
-    make_stopped(answer, stopped.reason);
-  } catch (const std::bad_alloc&) {
-    make_stopped(answer, StopReason::memory);
+    const auto reason = stopped_by([&] {
+      answer = solver.kind->solve({options, opened_->planned, question, solver.planner, execution, keep,
+                                   RoadmapAsked{opened_->session.get(), &scratch.search}});
+      answer.problem.prices = roadmap_.prices;
+      judge_prices(answer, scene, question, false, execution);
+      tell_bound(answer, opened_->planned, options, execution);
+    });
+    if (reason) make_stopped(answer, *reason);
   } catch (const RefutedPathError& error) {
     refuse_roadmap(roadmap_, error);
   }
@@ -276,8 +267,8 @@ void RoadmapQuery::settle_and_verify(Answer& answer, const WallProblem& problem,
                                      const Execution& execution, const QuestionScratch& scratch) const {
   const KeptCells* cells = cells_of_lattice(execution);
   const Scene& outline = roadmap_.world.outline();
-  answer.world = cells != nullptr ? account_of(outline, roadmap_.world_hash, cells->wall_count)
-                                  : account_of(roadmap_.world.whole(execution), roadmap_.world_hash);
+  answer.world = account_of(cells != nullptr ? outline : roadmap_.world.whole(execution), roadmap_.world_hash);
+  if (cells != nullptr) answer.world.walls = cells->wall_count;
   if (optimise && answer.outcome == Outcome::solved) {
     shorten(answer, roadmap_.world.whole(execution), problem, execution);
   }
@@ -288,9 +279,7 @@ void RoadmapQuery::settle_and_verify(Answer& answer, const WallProblem& problem,
     return verify_solved(answer, scene, problem, execution, judged);
   }
   const auto stands_free = [&](Vec2 p) {
-    const VerifyOptions options{.radius = problem.robot.radius,
-                                .clearance = problem.clearance + end_margin(problem.reach())};
-    return verify_steps(*cells->walls, std::span(&p, 1), options, execution).verified;
+    return verify_steps(*cells->walls, std::span(&p, 1), end_options(problem), execution).verified;
   };
   answer.outcome = settled_ends(
       answer.outcome, [&] { return stands_free(problem.start); }, [&] { return stands_free(problem.goal); });
@@ -337,12 +326,11 @@ void explain_blocked_end(const Roadmap& roadmap, Answer& answer, const Execution
     const Scene& outline = roadmap.world.outline();
     const KeptCells* cells = roadmap.world.looked_up(execution);
     if (cells == nullptr) return explain_blocked_end(roadmap.world.whole(execution), answer, execution);
-    const double margin = end_margin(roadmap.robot.radius + roadmap.clearance);
-    const VerifyOptions options{.radius = roadmap.robot.radius, .clearance = roadmap.clearance + margin};
+    const WallProblem problem = wall_problem(outline, answer.problem.question());
     const auto met_at = [&](Vec2 p) {
-      return verify_steps(*cells->walls, std::span(&p, 1), options, execution).first_violation;
+      return verify_steps(*cells->walls, std::span(&p, 1), end_options(problem), execution).first_violation;
     };
-    explain_blocked_cell(wall_problem(outline, answer.problem.question()), *outline.maze, answer, met_at);
+    explain_blocked_cell(problem, *outline.maze, answer, met_at);
   } catch (const Stopped&) {  // it stays as it is
   }
 }

@@ -195,7 +195,7 @@ void append_lattice_sections(const RouteIndex& index, std::vector<RoadmapSection
 
 bool is_lattice_section(std::string_view name) {
   const std::vector<RouteSection> kinds = route_section_kinds();
-  return std::any_of(kinds.begin(), kinds.end(), [&](const RouteSection& kind) { return kind.name == name; });
+  return std::ranges::any_of(kinds, [&](const RouteSection& kind) { return kind.name == name; });
 }
 
 std::unique_ptr<RouteIndex> read_lattice(const RoadmapFile& file, LatticeSize size, const Execution& execution) {

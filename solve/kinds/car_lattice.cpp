@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/base/error.hpp"
+#include "core/base/whole.hpp"
 #include "core/plane/geometry.hpp"
 #include "core/plane/polygon.hpp"
 #include "solve/kinds/question_of_pose.hpp"
@@ -68,7 +69,8 @@ CarLattice::CarLattice(const CarBody& body, const Scene& scene, const RobotSpec&
     if (disc > 0.0) no_middle_ = blocked_for_disc(scene.map->blocked, disc / cell_ * (1.0 - 1e-9), execution);
     index_map(*scene.map, robot, options.clearance);
   } else if (disc > 0.0) {
-    index_plane(scene, disc);
+    disc_.emplace(scene, CarOptions{.turning_radius = radius_, .radius = disc * (1.0 - 1e-6)}, execution);
+    disc_query_ = disc_->make_query();
   }
   join_reach_ = 2.0 * motions_.turning_radius() + 2.0;
   for (const Se2& goal : goals_) goal_cells_.push_back(in_cells(goal));
@@ -123,27 +125,16 @@ void CarLattice::index_map(const OccupancyMap& map, const RobotSpec& robot, doub
   stamps_.emplace(motions_, outline, reach / cell_, execution_);
 }
 
-void CarLattice::index_plane(const Scene& scene, double disc) {
-  disc_.emplace(scene, CarOptions{.turning_radius = radius_, .radius = disc * (1.0 - 1e-6)}, execution_);
-  disc_query_ = disc_->make_query();
-}
-
-Vec2 CarLattice::place_of(double x, double y) const {
-  const Vec2 p{cell_ * x, cell_ * y};
-  return origin_ + (yaw_rad_ == 0.0 ? p : Rotation(yaw_rad_)(p));
-}
-
 Se2 CarLattice::pose_of(Cell cell, std::uint32_t heading) const {
-  const Vec2 p = place_of(cell.x, cell.y);
+  const Vec2 in_frame{cell_ * cell.x, cell_ * cell.y};
+  const Vec2 p = origin_ + (yaw_rad_ == 0.0 ? in_frame : Rotation(yaw_rad_)(in_frame));
   return {p.x, p.y, wrapped_angle(motions_.heading_rad(heading) + yaw_rad_)};
 }
 
 /// From these cells a goal is joined: by a way no shorter than straight on.
 void CarLattice::seed_field() {
   for (const Vec2 goal : goal_cells_) {
-    const auto within = [](double x, std::uint32_t end) {
-      return static_cast<std::uint32_t>(std::clamp(x, 0.0, static_cast<double>(end)));
-    };
+    const auto within = [](double x, std::uint32_t end) { return bounded_whole<std::uint32_t>(x, 0.0, end); };
     const std::uint32_t top = within(goal.y + join_reach_ + 1.0, height_);
     const std::uint32_t right = within(goal.x + join_reach_ + 1.0, width_);
     for (std::uint32_t y = within(goal.y - join_reach_, height_); y < top; ++y) {
@@ -256,7 +247,7 @@ bool CarLattice::is_free_start(std::size_t number) {
 }
 
 bool CarLattice::joins(Cell cell) const {
-  return std::any_of(goal_cells_.begin(), goal_cells_.end(), [&](Vec2 goal) {
+  return std::ranges::any_of(goal_cells_, [&](Vec2 goal) {
     return distance(Vec2{1.0 * cell.x, 1.0 * cell.y}, goal) <= join_reach_;
   });
 }

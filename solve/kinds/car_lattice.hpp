@@ -78,13 +78,11 @@ class CarLattice {
   std::uint64_t refused() const { return query_.refused; }
 
  private:
-  Vec2 place_of(double x, double y) const;  // of cells, in the world
   /// The middle of cell (0, 0) is (0, 0).
   Vec2 in_cells(const Se2& pose) const { return (1.0 / cell_) * Rotation(-yaw_rad_)(pose.position() - origin_); }
   SteeringCurve curve(const Se2& a, const Se2& b) const { return {a, b, shortest_(a, b, radius_), radius_}; }
   void lay_out(const Scene& scene, const Se2& start);
   void index_map(const OccupancyMap& map, const RobotSpec& robot, double clearance);
-  void index_plane(const Scene& scene, double disc);
   void join_start(const Se2& start);
   void seed_field();
   std::optional<LatticeShot> shot_from(const Se2& pose, std::int8_t gear, std::uint64_t most,

@@ -20,40 +20,12 @@ namespace {
 constexpr std::size_t polled = std::size_t{1} << 14;
 constexpr std::size_t most_corners_made_anew = 1000;
 
-/// States at(v) and these edges, all of them free.
-template <class At>
-RoadmapArrays free_arrays(const At& at, Graph graph, const Execution& execution) {
-  RoadmapArrays arrays;
-  const std::size_t n = graph.vertex_count();
-  execution.reserve(2 * n * sizeof(double) + graph.targets().size() / 4);
-  arrays.states.reserve(2 * n);
-  for (VertexId v = 0; v < n; ++v) {
-    if (v % polled == 0) execution.check();
-    const Vec2 p = at(v);
-    arrays.states.insert(arrays.states.end(), {p.x, p.y});
-  }
-  arrays.edge_states.assign(edge_state_words(graph.targets().size()), 0);
-  for (std::size_t end = 0; end < graph.targets().size(); ++end) {
-    if (end % polled == 0) execution.check();
-    set_edge_state(arrays.edge_states, end, EdgeState::free);
-  }
-  arrays.candidates = std::move(graph);
-  return arrays;
-}
-
 /// Known: VisibilityRoadmap or DiscRoadmap.
 template <class Known>
-RoadmapArrays arrays_of_sight(const Known& known, const SolveRequest& request) {
+RoadmapArrays arrays_of(const Known& known, const SolveRequest& request) {
   request.execution.reserve(known.graph.graph().targets().size() * sizeof(VertexId));
   const auto at = [&](VertexId v) { return known.graph.positions()[v]; };
   return free_arrays(at, known.graph.graph(), request.execution);
-}
-
-RoadmapArrays arrays_of(const VisibilityRoadmap& known, const SolveRequest& request) {
-  return arrays_of_sight(known, request);
-}
-RoadmapArrays arrays_of(const DiscRoadmap& known, const SolveRequest& request) {
-  return arrays_of_sight(known, request);
 }
 
 /// Doors, of which those of one cell are joined, but for the shut ones.

@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "core/base/error.hpp"
-#include "core/base/whole.hpp"
 #include "planners/grid/visiting_order.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "spatial/maps/distance_field.hpp"
@@ -23,15 +22,8 @@ Vec2 middle(Cell c) { return {c.x + 0.5, c.y + 0.5}; }
 /// Calls visit(cell) for all cells that are set, by rows.
 template <class Visit>
 void for_each_set(const Bitmap& set, const Execution& execution, const Visit& visit) {
-  for (std::uint32_t y = 0; y < set.height(); ++y) {
-    if (y % 16 == 0) execution.check();
-    const auto words = set.row(y);
-    for (std::uint32_t w = 0; w < words.size(); ++w) {
-      for (std::uint64_t rest = words[w]; rest != 0; rest &= rest - 1) {
-        visit(Cell{64 * w + as_whole<std::uint32_t>(std::countr_zero(rest)), y});
-      }
-    }
-  }
+  for_each_differing(
+      set, {}, [&] { execution.check(); }, visit);
 }
 
 /// The point of a cell that is nearest to another, off its sides; map coordinates.
@@ -126,11 +118,10 @@ class Choosing {
 
   /// What is said where nothing that was asked can be reached: the whole is looked at before it is called so.
   bool fail() {
-    const bool blocked = std::none_of(goals_.begin(), goals_.end(), [&](Vec2 goal) { return is_free(goal); });
+    const bool blocked = std::ranges::none_of(goals_, [&](Vec2 goal) { return is_free(goal); });
     if (!rule_.tolerance && !rule_.region) {
       if (blocked) choice_.outcome = Outcome::goal_blocked;
-      std::copy_if(goals_.begin(), goals_.end(), std::back_inserter(choice_.unreached),
-                   [&](Vec2 goal) { return is_free(goal); });
+      std::ranges::copy_if(goals_, std::back_inserter(choice_.unreached), [&](Vec2 goal) { return is_free(goal); });
       return false;
     }
     double bound = std::numeric_limits<double>::infinity();
@@ -302,7 +293,7 @@ std::vector<WaysOverCells::Entry> WaysOverCells::region(Vec2 place, double radiu
 }
 
 std::optional<WaysOverCells::Way> WaysOverCells::cheapest(Vec2 from, std::span<const Entry> ends) {
-  const auto there = std::find_if(ends.begin(), ends.end(), [&](const Entry& end) { return end.place == from; });
+  const auto there = std::ranges::find_if(ends, [&](const Entry& end) { return end.place == from; });
   if (there != ends.end()) return Way{{}, 0, from, *there};
   const std::vector<Entry> begins = entries(from);
   std::vector<PriceField::Goal> goals;
@@ -342,7 +333,7 @@ std::vector<std::optional<std::uint64_t>> WaysOverCells::costs(std::span<const V
       const auto cost = field.cost(begin.cell, execution_);
       if (cost && (!best || *cost + begin.cost < *best)) best = *cost + begin.cost;
     }
-    if (std::any_of(ends.begin(), ends.end(), [&](const Entry& end) { return end.place == place; })) best = 0;
+    if (std::ranges::any_of(ends, [&](const Entry& end) { return end.place == place; })) best = 0;
   }
   expanded_ += field.expanded();
   return least;
@@ -382,8 +373,7 @@ std::optional<WaysOverCells::Nearest> WaysOverCells::nearest_place(Vec2 to) {
   for_each_set(*joined_, execution_, [&](Cell c) {
     if (const double d = distance_of(c); d <= near) candidates.emplace_back(d, c);
   });
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::ranges::stable_sort(candidates, [](const auto& a, const auto& b) { return a.first < b.first; });
   constexpr std::size_t most = 16;
   if (candidates.size() > most) candidates.resize(most);
   std::optional<Nearest> best;

@@ -117,7 +117,7 @@ std::optional<PathEnd> check_route(const std::vector<State>& route, const Answer
   if (problem.goal_pose) return std::nullopt;
   const std::vector<State> goals = asked_goals(answer);
   const auto is_of_tool = [&](const State& goal) { return goal.size() != route.back().size(); };
-  if (is_arm(problem.robot) && std::any_of(goals.begin(), goals.end(), is_of_tool)) return std::nullopt;
+  if (is_arm(problem.robot) && std::ranges::any_of(goals, is_of_tool)) return std::nullopt;
   const std::optional<PathEnd> end = reached_goal(route.back(), goals, problem.rule);
   if (!end) throw UsageError("@keep_to: the path ends at another place than the goal");
   return end;

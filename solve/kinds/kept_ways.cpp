@@ -40,7 +40,7 @@ std::vector<CellRange> ranges_of(std::span<const Cell> cells, std::uint32_t by) 
   if (cells.size() > few_cells) return {whole};
   std::vector<CellRange> ranges;
   for (const Cell c : cells) {
-    const auto near = std::find_if(ranges.begin(), ranges.end(), [&](const CellRange& r) { return r.is_near(c, by); });
+    const auto near = std::ranges::find_if(ranges, [&](const CellRange& r) { return r.is_near(c, by); });
     near != ranges.end() ? near->include(c) : ranges.push_back({c, c});
   }
   double count = 0.0;
@@ -171,8 +171,7 @@ void KeptWays::forget_legs(const std::vector<Cell>& changed, double reach) {
     Box box;
     box.include(map_point(map_, known.first.a));
     box.include(map_point(map_, known.first.b));
-    return is_near(box, all) &&
-           std::any_of(changed.begin(), changed.end(), [&](Cell c) { return is_near(box, square(c)); });
+    return is_near(box, all) && std::ranges::any_of(changed, [&](Cell c) { return is_near(box, square(c)); });
   });
 }
 

@@ -12,8 +12,8 @@ namespace warren {
 namespace {
 
 const PlannerChoice* choice_in(const SolveKind& kind, PlannerKind planner) {
-  const auto found = std::find_if(kind.planners.begin(), kind.planners.end(),
-                                  [&](const PlannerChoice& choice) { return choice.planner == planner; });
+  const auto found =
+      std::ranges::find_if(kind.planners, [&](const PlannerChoice& choice) { return choice.planner == planner; });
   return found == kind.planners.end() ? nullptr : &*found;
 }
 
@@ -30,9 +30,9 @@ bool takes(const SolveKind& kind, const PlannerChoice& choice, AskedWord word) {
 bool takes_all(const SolveKind& kind, const PlannerChoice& choice, AskedWords words, const SolveOptions& options) {
   const std::vector<AskedWord> asked = words.members();
   const std::vector<Option> wanted = given(options).members();
-  return std::all_of(asked.begin(), asked.end(),
-                     [&](AskedWord word) { return takes(kind, choice, word) || word == AskedWord::keep_to; }) &&
-         std::all_of(wanted.begin(), wanted.end(), [&](Option option) { return takes(kind, choice, option); });
+  return std::ranges::all_of(asked,
+                             [&](AskedWord word) { return takes(kind, choice, word) || word == AskedWord::keep_to; }) &&
+         std::ranges::all_of(wanted, [&](Option option) { return takes(kind, choice, option); });
 }
 
 /// "a", "a and b", "a, b and c": of words or planners.
@@ -69,8 +69,7 @@ std::vector<PlannerKind> planners_of(const std::vector<const SolveKind*>& kinds)
   std::vector<PlannerKind> planners;
   for (const SolveKind* kind : kinds) {
     for (const PlannerChoice& choice : kind->planners) {
-      if (std::find(planners.begin(), planners.end(), choice.planner) == planners.end())
-        planners.push_back(choice.planner);
+      if (std::ranges::find(planners, choice.planner) == planners.end()) planners.push_back(choice.planner);
     }
   }
   return planners;
@@ -107,8 +106,7 @@ std::string takers_text(Word word, const std::vector<const SolveKind*>& fitting,
   if (all.empty()) return "no planner of this version takes it";
   std::vector<std::string_view> problems;
   for (const SolveKind& kind : solve_kinds()) {
-    if (std::any_of(kind.planners.begin(), kind.planners.end(),
-                    [&](const PlannerChoice& choice) { return takes(kind, choice, word); }))
+    if (std::ranges::any_of(kind.planners, [&](const PlannerChoice& choice) { return takes(kind, choice, word); }))
       problems.push_back(kind.problem);
   }
   return fmt::format("{} for {}", takers_text(all), listed(problems));
@@ -119,8 +117,8 @@ std::string takers_text(Word word, const std::vector<const SolveKind*>& fitting,
 void refuse_ignored(const SolveOptions& options, PlannerKind planner, const std::vector<const SolveKind*>& kinds,
                     const std::vector<const SolveKind*>& fitting = {}, const AskedWords& words = {}) {
   for (const Option option : given(options).members()) {
-    if (std::any_of(kinds.begin(), kinds.end(),
-                    [&](const SolveKind* kind) { return takes(*kind, *choice_in(*kind, planner), option); }))
+    if (std::ranges::any_of(kinds,
+                            [&](const SolveKind* kind) { return takes(*kind, *choice_in(*kind, planner), option); }))
       continue;
     if (fitting.empty()) {
       throw UsageError(fmt::format("@{}: {} would ignore it; {}", name_of(option), name_of(planner),
@@ -158,11 +156,11 @@ std::vector<const SolveKind*> fitting_kinds(const Scene& scene, const RobotSpec&
   return fitting;
 }
 
-/// Every body has planners in every world that check_plannable takes.
-const SolveKind& first_kind(const std::vector<const SolveKind*>& fitting) {
-  const auto found =
-      std::find_if(fitting.begin(), fitting.end(), [](const SolveKind* kind) { return !kind->planners.empty(); });
-  if (found == fitting.end()) throw std::logic_error("no planner fits a world that is planned in");
+/// The first that has what is asked for: every body has planners and a judge in every world that check_plannable takes.
+template <class Has>
+const SolveKind& first_kind(const std::vector<const SolveKind*>& fitting, std::string_view what, const Has& has) {
+  const auto found = std::ranges::find_if(fitting, has);
+  if (found == fitting.end()) throw std::logic_error(fmt::format("no {} fits a world that is planned in", what));
   return **found;
 }
 
@@ -229,7 +227,8 @@ void check_solver_options(const SolveOptions& options) {
 ChosenSolver choose_solver(const SolveOptions& options, const Scene& scene, const Question& question) {
   check_plannable(scene, question);
   const std::vector<const SolveKind*> fitting = fitting_kinds(scene, robot_of(scene, question));
-  const SolveKind& first = first_kind(fitting);
+  const SolveKind& first =
+      first_kind(fitting, "planner", [](const SolveKind* kind) { return !kind->planners.empty(); });
   check_asked(scene, question);
   const AskedWords words = words_in(scene, question);
   std::optional<PlannerKind> asked = options.planner;
@@ -240,8 +239,8 @@ ChosenSolver choose_solver(const SolveOptions& options, const Scene& scene, cons
   const auto takes_it = [&](const SolveKind* kind) {
     return has_it(kind) && takes_all(*kind, *choice_in(*kind, chosen.planner), words, options);
   };
-  auto found = std::find_if(fitting.begin(), fitting.end(), takes_it);
-  if (found == fitting.end()) found = std::find_if(fitting.begin(), fitting.end(), has_it);
+  auto found = std::ranges::find_if(fitting, takes_it);
+  if (found == fitting.end()) found = std::ranges::find_if(fitting, has_it);
   if (found == fitting.end()) refuse_planner(chosen.planner, fitting);
   chosen.kind = *found;
   refuse_ignored(options, chosen.planner, {chosen.kind}, fitting, words);
@@ -255,24 +254,21 @@ std::string place_of_word(AskedWord word, const Scene& scene, const Question& qu
   if (words_in(question).has(word)) return fmt::format("@{}", name_of(word));
   std::string line{name_of(word)};
   if (word == AskedWord::areas || word == AskedWord::speed_zones || word == AskedWord::keep_out_factor) line = "mask";
-  std::replace(line.begin(), line.end(), '_', '-');
+  std::ranges::replace(line, '_', '-');
   return fmt::format("{}: its line '{}'", scene.source, line);
 }
 
 const SolveKind& verifying_kind(const Scene& scene, const Question& question) {
   check_plannable(scene, question);
-  const std::vector<const SolveKind*> fitting = fitting_kinds(scene, robot_of(scene, question));
-  const auto found =
-      std::find_if(fitting.begin(), fitting.end(), [](const SolveKind* kind) { return kind->verify != nullptr; });
-  if (found == fitting.end()) throw std::logic_error("no judge fits a world that is planned in");
-  return **found;
+  return first_kind(fitting_kinds(scene, robot_of(scene, question)), "judge",
+                    [](const SolveKind* kind) { return kind->verify != nullptr; });
 }
 
 bool planner_takes(PlannerKind planner, Option option) { return std::ranges::count(takers_of(option), planner) > 0; }
 
 bool planner_takes(PlannerKind planner, Option option, const Scene& scene, const Question& question) {
   const std::vector<const SolveKind*> fitting = fitting_kinds(scene, robot_of(scene, question));
-  return std::any_of(fitting.begin(), fitting.end(), [&](const SolveKind* kind) {
+  return std::ranges::any_of(fitting, [&](const SolveKind* kind) {
     const PlannerChoice* choice = choice_in(*kind, planner);
     return choice != nullptr && takes(*kind, *choice, option);
   });

@@ -119,18 +119,18 @@ struct SolveKind {
   /// Solves from the world in memory to the path verified. Throws UsageError, InputError for what can't be asked; a
   /// stop is an answer. Fills in all of Answer but world, threads and peak memory.
   Answer (*solve)(const SolveRequest& request);
-  /// Makes the by-products that solve() leaves out because they cost; nullptr: there are none such. Throws Stopped.
-  void (*make_by_products)(const SolveRequest& request);
   /// Re-checks an answer; nullptr: another kind that fits does. Throws InputError where its states are none of this
   /// kind.
   Verdict (*verify)(const Scene& scene, const Question& question, const RecordedAnswer& answer,
-                    const Execution& execution);
+                    const Execution& execution) = nullptr;
   /// Builds a roadmap without a question, for planners that keep one: start and goal of the request are any. nullptr:
   /// no planner of this kind makes one. Throws as solve(), and Stopped.
   BuiltArrays (*build)(const SolveRequest& request) = nullptr;
   /// Makes such a roadmap ready to be asked; solve() takes it as request.asked.
   std::unique_ptr<RoadmapSession> (*open)(const SolveRequest& request, const RoadmapArrays& arrays,
                                           const ConnectionRule& rule) = nullptr;
+  /// Makes the by-products that solve() leaves out because they cost; nullptr: there are none such. Throws Stopped.
+  void (*make_by_products)(const SolveRequest& request) = nullptr;
   bool unmade = false;        ///< takes worlds whose walls are left out, and no others
   bool chooses_goal = false;  ///< solve() heeds the words that leave a choice of goals; else solve_to_goal() does
 };

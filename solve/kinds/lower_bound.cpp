@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 #include <optional>
 #include <utility>
 
@@ -78,17 +77,15 @@ double least_way(const Scene& scene, const Problem& problem, BoundEffort effort,
   if (effort == BoundEffort::simple || !radius || straight == 0.0 || is_unmade(scene)) return straight;
   Execution quiet = execution.quiet();
   quiet.account = nullptr;  // its stages are none of the answer's
-  try {
+  double least = straight;
+  stopped_by([&] {
     const std::optional<PlaneObstacles> obstacles = bounding_obstacles(scene, start, quiet);
-    if (!obstacles) return straight;
+    if (!obstacles) return;
     // A disc may go around a map's outermost cells, as far from them as the map is wide: there its middle counts alone.
     const double kept = scene.map ? 0.0 : *radius + problem.clearance;
-    return std::max(straight, shortest_way(*obstacles, start, goal, kept, quiet).value_or(0.0));
-  } catch (const Stopped&) {
-    return straight;
-  } catch (const std::bad_alloc&) {
-    return straight;
-  }
+    least = std::max(straight, shortest_way(*obstacles, start, goal, kept, quiet).value_or(0.0));
+  });
+  return least;
 }
 
 bool names_heading(const Problem& problem) { return problem.start.size() == 3 && problem.goal.size() == 3; }
@@ -148,11 +145,6 @@ double least_turns(const Problem& problem, const Execution& execution) {
   return least;
 }
 
-bool is_told(const Answer& answer, std::string_view option) {
-  return std::any_of(answer.options.begin(), answer.options.end(),
-                     [&](const NamedFigure& figure) { return figure.name == option; });
-}
-
 /// Beyond, cells are not cut any smaller.
 constexpr std::uint64_t most_parts_of_cells = std::uint64_t{1} << 26U;
 
@@ -194,21 +186,18 @@ Proved proved_by_potential(const Answer& answer, const OccupancyMap& map, std::o
   const double lost =
       misplaced * (norm(start) + norm(goal) + 2.0 * norm(map.origin) + 2.0 * map.cell) * (1.0 + question.price);
   Proved best;
-  for (std::uint32_t parts = 1; parts <= most_parts && closed.size() * parts * parts <= most_parts_of_cells; ++parts) {
-    try {
+  stopped_by([&] {
+    for (std::uint32_t parts = 1; parts <= most_parts && closed.size() * parts * parts <= most_parts_of_cells;
+         ++parts) {
       auto found = price_potential(question, {.parts = parts, .sweeps = 12, .enough = enough}, execution);
-      if (!found) break;
+      if (!found) return;
       const double bound = found->bound * map.cell * (1.0 - 1e-10) - lost;
       if (!(bound > best.bound)) continue;
       for (double& value : found->values.values) value *= map.cell;
       best = {bound, std::move(found->values)};
-    } catch (const Stopped&) {
-      break;
-    } catch (const std::bad_alloc&) {
-      break;
+      if (gap && best.bound >= enough * map.cell) return;
     }
-    if (gap && best.bound >= enough * map.cell) break;
-  }
+  });
   return best;
 }
 
@@ -223,7 +212,7 @@ double proved_bound(const Scene& scene, const Problem& problem, BoundOf of, Boun
 }
 
 void tell_bound(Answer& answer, const Scene& scene, const SolveOptions& options, const Execution& execution) {
-  if (options.bound && !is_told(answer, name_of(Option::bound))) answer.options.push_back({"bound", true});
+  if (options.bound && figure_named(answer.options, "bound") == nullptr) answer.options.push_back({"bound", true});
   if (!answer.verified || !options.trees.via.empty()) return;
   const GoalRule& rule = answer.problem.rule;
   const bool is_open = rule.region || ends_near(answer) || (!rule.others.empty() && !is_arm(answer.problem.robot));

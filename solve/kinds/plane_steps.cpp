@@ -142,9 +142,13 @@ bool starts_on_water(const OccupancyMap& map, Vec2 start) {
 
 Outcome settled_on_map(Outcome outcome, const OccupancyMap& map, const WallProblem& problem,
                        const Execution& execution) {
+  const auto is_free = [&](Vec2 p) { return cell_at(map, p) && stands_free_on_map(map, problem, p, execution); };
   return settled_ends(
-      outcome, [&] { return stands_free_on_map(map, problem, problem.start, execution); },
-      [&] { return starts_on_water(map, problem.start) || stands_free_on_map(map, problem, problem.goal, execution); });
+      outcome, [&] { return is_free(problem.start); },
+      [&] {
+        const bool stays_on_water = starts_on_water(map, problem.start) && cell_at(map, problem.goal);
+        return stays_on_water || is_free(problem.goal);
+      });
 }
 
 bool provably_apart(const OccupancyMap& map, const Bitmap& closed, const WallProblem& problem,
@@ -187,14 +191,14 @@ std::vector<Cell> cells_joined_to(const OccupancyMap& map, const Bitmap& wide, d
       if (is_joined(map, reach, p, cell, execution)) free.emplace_back(distance(p, cell_centre(map, cell)), cell);
     }
   }
-  std::stable_sort(free.begin(), free.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::ranges::stable_sort(free, [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Cell> cells;
   const auto beside = [](Cell a, Cell b) {
     return (a.x == b.x || a.y == b.y) && a.x - b.x + 1 < 3 && a.y - b.y + 1 < 3;
   };
   for (const auto& candidate : free) {
     const Cell cell = candidate.second;
-    const bool is_known = std::any_of(cells.begin(), cells.end(), [&](Cell known) { return beside(known, cell); });
+    const bool is_known = std::ranges::any_of(cells, [&](Cell known) { return beside(known, cell); });
     if (!is_known && cells.size() < most) cells.push_back(cell);
   }
   return cells;
@@ -218,9 +222,7 @@ Path<Vec2> path_over_cells(const OccupancyMap& map, Vec2 start, std::span<const 
 
 Verification verify_map_path(const OccupancyMap& map, const WallProblem& problem, std::span<const Vec2> path,
                              const Execution& execution) {
-  const VerifyOptions options{
-      .radius = problem.robot.radius, .clearance = problem.clearance, .start = problem.start, .goal = problem.goal};
-  return verify_on_map(map, path, options, execution);
+  return verify_on_map(map, path, verify_options(problem), execution);
 }
 
 void verify_solved_on_map(Answer& answer, const OccupancyMap& map, const WallProblem& problem, bool over_cells,

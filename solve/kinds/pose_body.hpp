@@ -34,7 +34,7 @@ class PoseBody : public UsualBody {
                                            [&](const Se2& pose) { return world.is_free(pose, query); });
     if (!problem_.any_heading()) return poses;
     const Se2 as_started{problem_.goal[0], problem_.goal[1], wrapped_angle(problem_.start.theta)};
-    if (std::find(poses.begin(), poses.end(), as_started) == poses.end()) poses.insert(poses.begin(), as_started);
+    if (std::ranges::find(poses, as_started) == poses.end()) poses.insert(poses.begin(), as_started);
     return poses;
   }
   static SamplerKind choose_sampler(const SolveOptions& options, const RoadmapOptions& roadmap) {
@@ -51,9 +51,9 @@ class PoseBody : public UsualBody {
     auto query = world.make_query();
     std::vector<std::pair<double, Se2>> by_room;
     for (const Se2& goal : goals) by_room.emplace_back(world.clearance(goal, largest_coordinate, query), goal);
-    std::stable_sort(by_room.begin(), by_room.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::ranges::stable_sort(by_room, [](const auto& a, const auto& b) { return a.first > b.first; });
     const auto is_roomy = [enough = 0.5 * by_room.front().first](const auto& goal) { return goal.first >= enough; };
-    const auto roomy = std::partition_point(by_room.begin(), by_room.end(), is_roomy);
+    const auto roomy = std::ranges::partition_point(by_room, is_roomy);
     std::stable_sort(by_room.begin(), roomy, [&](const auto& a, const auto& b) {
       return world.distance(problem_.start, a.second) < world.distance(problem_.start, b.second);
     });
@@ -63,7 +63,7 @@ class PoseBody : public UsualBody {
   }
   template <class World>
   bool provably_apart(const World&, const std::vector<Se2>& goals) const {
-    return std::all_of(goals.begin(), goals.end(), [&](const Se2& goal) {
+    return std::ranges::all_of(goals, [&](const Se2& goal) {
       return warren::provably_apart(*scene_.map, problem_.robot, problem_.start, goal, execution_);
     });
   }

@@ -44,12 +44,12 @@ Path<Se2> without_half_turns(const Path<Se2>& path) {
 
 }  // namespace
 
-PlannedScene::PlannedScene(const Scene& scene, const Question& question, PlannerKind planner,
-                           const Execution& execution)
-    : scene_(scene) {
-  if (!wants_borders(scene, question, planner)) return;
-  copy_ = scene;
-  add_map_walls(*copy_, execution);
+std::optional<Scene> planned_copy(const Scene& scene, const Question& question, PlannerKind planner,
+                                  const Execution& execution) {
+  if (!wants_borders(scene, question, planner)) return std::nullopt;
+  std::optional<Scene> copy(scene);
+  add_map_walls(*copy, execution);
+  return copy;
 }
 
 PoseProblem pose_problem(const Scene& scene, const Question& options, std::string_view body) {
@@ -98,11 +98,7 @@ std::optional<double> held_radius(const RobotSpec& robot) {
   return inside * (1.0 - rounding);
 }
 
-double extent_of(const RobotSpec& robot) {
-  double extent = robot.radius;
-  for (const Vec2 corner : robot.outline) extent = std::max(extent, norm(corner));
-  return extent;
-}
+double extent_of(const RobotSpec& robot) { return std::max(robot.radius, outline_reach(robot.outline)); }
 
 std::vector<Se2> recorded_poses(const RecordedAnswer& answer, std::string_view body) {
   check_state_width(answer, 3, body);

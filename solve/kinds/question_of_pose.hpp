@@ -26,17 +26,10 @@
 
 namespace warren {
 
-/// The scene as it is planned in: itself, or a copy with a map's borders as walls. Bodies that are planned among walls
-/// see a map so; the others look at the cells. Refers to the scene.
-class PlannedScene {
- public:
-  PlannedScene(const Scene& scene, const Question& question, PlannerKind planner, const Execution& execution);
-  const Scene& get() const { return copy_ ? *copy_ : scene_; }
-
- private:
-  const Scene& scene_;
-  std::optional<Scene> copy_;
-};
+/// The scene as it is planned in, with a map's borders as walls; none: as it is. Bodies that are planned among walls
+/// see a map so; the others look at the cells. Throws Stopped.
+std::optional<Scene> planned_copy(const Scene& scene, const Question& question, PlannerKind planner,
+                                  const Execution& execution);
 
 inline constexpr std::string_view turning_body = "a turning body";
 
@@ -48,6 +41,10 @@ struct PoseProblem {
 
   bool any_heading() const { return goal.size() == 2; }
   Se2 goal_pose() const { return {goal[0], goal[1], any_heading() ? 0.0 : goal[2]}; }
+  /// Is there nothing to do?
+  bool is_at_goal() const {
+    return start.position() == goal_pose().position() && (any_heading() || start.theta == goal[2]);
+  }
   Problem general() const { return {robot, {start.x, start.y, start.theta}, goal, clearance, Contact::blocked}; }
 };
 
@@ -67,7 +64,7 @@ template <class IsFree>
 std::vector<Se2> poses_to_meet(const Scene& scene, const PoseProblem& problem, const std::vector<double>& state,
                                const Execution& execution, const IsFree& is_free) {
   std::vector<Se2> poses = poses_of(state);
-  if (state.size() == 3 || std::any_of(poses.begin(), poses.end(), is_free)) return poses;
+  if (state.size() == 3 || std::ranges::any_of(poses, is_free)) return poses;
   const std::vector<Se2> more = poses_of_intervals(scene, problem, {state[0], state[1]}, execution);
   poses.insert(poses.end(), more.begin(), more.end());
   return poses;
@@ -98,7 +95,7 @@ void settle_blocked_poses(Answer& answer, const Scene& scene, const PoseProblem&
       answer.outcome, [&] { return stands_free(problem.start); },
       [&] {
         const std::vector<Se2> goals = poses_to_meet(scene, problem, problem.goal, execution, stands_free);
-        return std::any_of(goals.begin(), goals.end(), stands_free);
+        return std::ranges::any_of(goals, stands_free);
       });
 }
 

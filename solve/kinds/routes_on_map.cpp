@@ -57,8 +57,7 @@ class Routes {
         paths.push_back(std::move(*path));
       }
     }
-    std::stable_sort(paths.begin(), paths.end(),
-                     [](const AlternativePath& a, const AlternativePath& b) { return a.cost < b.cost; });
+    std::ranges::stable_sort(paths, [](const AlternativePath& a, const AlternativePath& b) { return a.cost < b.cost; });
     while (!paths.empty() && paths.back().cost > stretch_ * paths.front().cost) paths.pop_back();
     keep_one_a_class(paths);
     if (paths.size() > count) paths.resize(count);

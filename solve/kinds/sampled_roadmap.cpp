@@ -94,7 +94,7 @@ std::optional<std::vector<Box>> changed_places(const Scene& before, const Scene&
 
 bool comes_near(const std::vector<Box>& places, const Box& box, double reach) {
   const Box wide = box.grown(reach);
-  return std::any_of(places.begin(), places.end(), [&](const Box& place) { return wide.meets(place); });
+  return std::ranges::any_of(places, [&](const Box& place) { return wide.meets(place); });
 }
 
 }  // namespace warren

@@ -208,7 +208,7 @@ class OldMotions {
       const std::array<Vec2, 4> directions{{{1.0, 0.0}, {0.0, 1.0}, along, {-along.y, along.x}}};
       std::array<Extent, 4> swept;
       for (std::size_t i = 0; i < swept.size(); ++i) swept[i] = extent_of(directions[i], from, to);
-      return std::any_of(old_.places.begin(), old_.places.end(), [&](const Box& place) {
+      return std::ranges::any_of(old_.places, [&](const Box& place) {
         for (std::size_t i = 0; i < swept.size(); ++i) {
           Extent its;
           for (const double x : {place.min.x, place.max.x}) {
@@ -305,9 +305,7 @@ BuiltArrays build_sampled(const SolveRequest& request) {
   all.samples = built.samples;
   all.rule = built.rule;
   all.account.counters = built.counters;
-  const double index_s = all.account.seconds.index;
-  all.account.seconds = built.seconds;
-  all.account.seconds.index = index_s;
+  all.account.seconds += built.seconds;
   RoadmapArrays& arrays = all.arrays;
   if (request.index && !lazy) {
     const StageTimer timer(execution, "contract", all.account.seconds.index, built.states.size());

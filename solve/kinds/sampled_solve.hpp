@@ -51,6 +51,7 @@
 #include "solve/kinds/lower_bound.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/planned_worlds.hpp"
+#include "solve/kinds/sampled_roadmap.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "solve/question/solve_options.hpp"
@@ -134,14 +135,11 @@ class SampledSolve {
   void plan() {
     if (gets_better(request_.planner)) return plan_better();
     if (on_lattice()) return plan_on_lattice();
-    by_roadmap() ? plan_roadmaps() : plan_trees();
+    by_roadmap() ? plan_roadmaps() : take(grow_trees());
   }
   bool by_roadmap() const { return is_roadmap_planner(request_.planner); }
   void describe_roadmap() {
-    const PlannerOptions options = planner_options(request_.options, request_.scene, WallProblem{});
-    roadmap_options_ = options.roadmap;
-    roadmap_options_.sampler = body_.choose_sampler(request_.options, roadmap_options_);
-    roadmap_options_.attach = body_.attach(request_.options);
+    roadmap_options_ = detail::roadmap_options_of(request_, body_);
     if (body_.names_pipeline && request_.planner == PlannerKind::prm) answer_.pipeline = name_of(PipelineKind::plain);
     answer_.sampler = name_of(roadmap_options_.sampler);
     answer_.search = name_of(roadmap_options_.search);
@@ -236,7 +234,7 @@ class SampledSolve {
     options.roadmap = roadmap_options_;
     options.informed = request_.planner != PlannerKind::rrt_star;
     const auto has = [&](AnytimePart part) {
-      return asked.parts.empty() || std::find(asked.parts.begin(), asked.parts.end(), part) != asked.parts.end();
+      return asked.parts.empty() || std::ranges::find(asked.parts, part) != asked.parts.end();
     };
     const bool whole = request_.planner == PlannerKind::anytime;
     options.parts = {.tree = !whole || has(AnytimePart::tree),
@@ -258,11 +256,7 @@ class SampledSolve {
       execution_.trace = nullptr;
       execution_.account = nullptr;
     }
-    ~BesideTheStages() {
-      execution_.progress = whole_.progress;
-      execution_.trace = whole_.trace;
-      execution_.account = whole_.account;
-    }
+    ~BesideTheStages() { execution_ = whole_; }
     BesideTheStages(const BesideTheStages&) = delete;
     BesideTheStages& operator=(const BesideTheStages&) = delete;
 
@@ -403,7 +397,6 @@ class SampledSolve {
   double length_of(const Path<State>& path) const {
     return path_length(path, [this](const State& a, const State& b) { return body_.length(*world_, a, b); });
   }
-  void plan_trees() { take(grow_trees()); }
   Solution<State> grow_trees() {
     constexpr bool one_way = is_one_way<World>;
     const auto planner = request_.planner == PlannerKind::rrt ? rrt<State, one_way> : rrt_connect<State, one_way>;
@@ -431,8 +424,7 @@ class SampledSolve {
     answer_.outcome = settled_ends(
         answer_.outcome, [this] { return body_.start_stands_free(); },
         [this] {
-          return std::any_of(goals_.begin(), goals_.end(),
-                             [this](const State& goal) { return body_.goal_stands_free(goal); });
+          return std::ranges::any_of(goals_, [this](const State& goal) { return body_.goal_stands_free(goal); });
         });
   }
   /// A world of poses takes ends with less to spare than others do, from which then nothing leads. Of a roadmap that is

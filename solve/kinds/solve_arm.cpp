@@ -36,7 +36,7 @@ class Arm : public UsualBody {
   /// A place of the tool is met in any posture within the limits; the nearest to the start come first.
   std::vector<JointState> goals(const World& world) {
     std::vector<JointState> goals = postures(world);
-    std::stable_sort(goals.begin(), goals.end(), [&](const JointState& a, const JointState& b) {
+    std::ranges::stable_sort(goals, [&](const JointState& a, const JointState& b) {
       return world.distance(problem_.start, a) < world.distance(problem_.start, b);
     });
     return goals;
@@ -71,12 +71,8 @@ class Arm : public UsualBody {
   static bool provably_apart(const World&, const std::vector<JointState>&) { return false; }
   bool start_stands_free() const { return goal_stands_free(problem_.start); }
   bool goal_stands_free(const JointState& q) const {
-    ArmVerifyOptions options = problem_.verify_options();
-    options.start.reset();
-    options.goal.reset();
-    options.goal_place.reset();
-    options.goal_pose.reset();
-    options.clearance += end_margin(scene_, problem_.robot, problem_.clearance, reach_of(problem_), execution_);
+    const double margin = end_margin(scene_, problem_.robot, problem_.clearance, reach_of(problem_), execution_);
+    const ArmVerifyOptions options{.clearance = problem_.clearance + margin};
     return verify_arm(scene_, problem_.model, std::span(&q, 1), options, execution_).verified;
   }
   static double length(const World& world, const JointState& a, const JointState& b) { return world.distance(a, b); }
@@ -110,7 +106,7 @@ class Arm : public UsualBody {
       return is_outside(problem_.start) ? "start_outside_limits" : "start_in_collision";
     }
     if (goals.empty()) return tip_is_blocked(scene_, problem_) ? "goal_in_collision" : "goal_out_of_reach";
-    return std::all_of(goals.begin(), goals.end(), is_outside) ? "goal_outside_limits" : "goal_in_collision";
+    return std::ranges::all_of(goals, is_outside) ? "goal_outside_limits" : "goal_in_collision";
   }
 
  private:
@@ -193,10 +189,7 @@ Verdict recheck_arm(const Scene& scene, const Question& question, const Recorded
     throw InputError(answer.file, "key \"joints\": the robot has other joints, or in another order");
   }
   Path<JointState> path;
-  for (std::size_t i = 0; i < answer.states.size(); ++i) path.push_back(joint_state(answer.states[i]));
-  if (answer.states.empty()) {  // two joints
-    for (const Vec2 p : answer.path) path.push_back(joint_state(std::array{p.x, p.y}));
-  }
+  for (const std::vector<double>& state : states_of(answer)) path.push_back(joint_state(state));
   take_reached_goal(problem, path.back());
   Verdict verdict{verify_arm(scene, problem.model, path, problem.verify_options(), execution), problem.general()};
   if (!question.rule.empty()) verdict.problem.rule = question.rule;
@@ -206,9 +199,8 @@ Verdict recheck_arm(const Scene& scene, const Question& question, const Recorded
 }  // namespace
 
 SolveKind arm_kind() {
-  return {"an arm",           fits_arm, arm_planners, usually<PlannerKind::rrt_connect>,
-          solve_sampled<Arm>, nullptr,  recheck_arm,  build_sampled<Arm>,
-          open_sampled<Arm>};
+  return {"an arm",           fits_arm,    arm_planners,       usually<PlannerKind::rrt_connect>,
+          solve_sampled<Arm>, recheck_arm, build_sampled<Arm>, open_sampled<Arm>};
 }
 
 }  // namespace warren

@@ -12,6 +12,7 @@
 #include <span>
 
 #include "core/base/error.hpp"
+#include "core/plane/polygon.hpp"
 #include "planners/visibility/visibility_path.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/question_of_pose.hpp"
@@ -24,8 +25,7 @@ namespace {
 double size_of(const Scene& scene, std::span<const Vec2> outline) {
   Box box = obstacle_box(scene);
   if (scene.bounds) box.include(*scene.bounds);
-  double largest = 0.0;
-  for (const Vec2 p : outline) largest = std::max(largest, norm(p));
+  double largest = outline_reach(outline);
   if (box.empty()) return largest;
   for (const double c : {box.min.x, box.min.y, box.max.x, box.max.y}) largest = std::max(largest, std::abs(c));
   return largest;
@@ -128,13 +128,8 @@ Answer solve_fixed_angle(const SolveRequest& request) {
 }  // namespace
 
 SolveKind fixed_angle_kind() {
-  return {"a polygon at a fixed angle",
-          fits_fixed_angle,
-          fixed_angle_planners,
-          usually<PlannerKind::visibility>,
-          solve_fixed_angle,
-          nullptr,
-          nullptr};
+  return {"a polygon at a fixed angle", fits_fixed_angle, fixed_angle_planners, usually<PlannerKind::visibility>,
+          solve_fixed_angle};
 }
 
 }  // namespace warren

@@ -285,7 +285,7 @@ class Car : public PoseBody {
       for (const Se2& goal : goals) {
         for (Path<Se2>& way : ways_out(world.body(), goal, most_ends, execution())) {
           ends.push_back(way.back());
-          std::reverse(way.begin(), way.end());
+          std::ranges::reverse(way);
           ways_in.push_back(std::move(way));
         }
       }
@@ -344,15 +344,9 @@ bool fits_car(const Scene&, const RobotSpec& robot) { return robot.kind == Robot
 /// Which of three is for the way it steers.
 template <class Function>
 Function by_steering(const SolveRequest& request, Function dubins, Function reeds_shepp, Function differential) {
-  switch (car_problem(request.scene, request.question, request.options.car).robot.steering) {
-    case SteeringKind::dubins:
-      return dubins;
-    case SteeringKind::reeds_shepp:
-      return reeds_shepp;
-    case SteeringKind::differential:
-      return differential;
-  }
-  return dubins;
+  const SteeringKind steering = car_problem(request.scene, request.question, request.options.car).robot.steering;
+  if (steering == SteeringKind::dubins) return dubins;
+  return steering == SteeringKind::reeds_shepp ? reeds_shepp : differential;
 }
 
 Answer solve_car(const SolveRequest& request) {
@@ -394,8 +388,8 @@ std::vector<GoalPlace> places_of_car(const SolveRequest& request) {
 }
 
 SolveKind car_kind() {
-  return {body_words,  fits_car,      car_planners, usually<PlannerKind::rrt_connect>, solve_car, nullptr,
-          recheck_car, build_for_car, open_for_car};
+  return {body_words, fits_car,    car_planners,  usually<PlannerKind::rrt_connect>,
+          solve_car,  recheck_car, build_for_car, open_for_car};
 }
 
 }  // namespace warren

@@ -15,7 +15,9 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/whole.hpp"
 #include "core/plane/heading_layers.hpp"
+#include "core/plane/polygon.hpp"
 #include "core/plane/se2.hpp"
 #include "core/run/execution.hpp"
 #include "parallel/asked_memory.hpp"
@@ -90,9 +92,7 @@ std::vector<std::uint32_t> headings_around(const HeadingLayers& layers, const La
 /// The cells around a pose that a body can reach on its way to the lattice, in the lattice's coordinates.
 OccupancyMap cut_out(const OccupancyMap& map, const Se2& pose, double reach) {
   const double room = std::min(std::ceil(reach / map.cell) + widest_join + 2, 4294967295.0);
-  const auto clamped = [](double x, std::uint32_t end) {
-    return static_cast<std::uint32_t>(std::clamp(x, 0.0, static_cast<double>(end)));
-  };
+  const auto clamped = [](double x, std::uint32_t end) { return bounded_whole<std::uint32_t>(x, 0.0, end); };
   const std::uint32_t left = clamped(std::floor(pose.x / map.cell) - room, map.width() - 1);
   const std::uint32_t low = clamped(std::floor(pose.y / map.cell) - room, map.height() - 1);
   const std::uint32_t right = clamped(std::floor(pose.x / map.cell) + room + 1, map.width());
@@ -113,10 +113,8 @@ OccupancyMap cut_out(const OccupancyMap& map, const Se2& pose, double reach) {
 Se2World turning_world(const Scene& scene, const Problem& problem, const Se2& pose, const Execution& execution) {
   const Se2Options options{.clearance = problem.clearance};
   if (!scene.map) return {scene, problem.robot.outline, options, execution};
-  double reach = problem.clearance;
-  for (const Vec2 p : problem.robot.outline) reach = std::max(reach, problem.clearance + norm(p));
   Scene around;
-  around.map = cut_out(*scene.map, pose, reach);
+  around.map = cut_out(*scene.map, pose, problem.clearance + outline_reach(problem.robot.outline));
   add_map_walls(around, execution);
   return {around, problem.robot.outline, options, execution};
 }
@@ -295,7 +293,14 @@ LayerOptions layer_options(const SolveRequest& request, const Problem& problem) 
 class LatticeSolve {
  public:
   LatticeSolve(const SolveRequest& request, const Problem& problem)
-      : request_(request), problem_(problem), layer_options_(layer_options(request, problem)), frame_(request.scene) {
+      : request_(request),
+        problem_(problem),
+        poses_asked_{problem.robot,
+                     {problem.start[0], problem.start[1], turns() ? problem.start[2] : 0.0},
+                     problem.goal,
+                     problem.clearance},
+        layer_options_(layer_options(request, problem)),
+        frame_(request.scene) {
     search_.diagonal = request.options.grid.diagonal.value_or(Diagonal::sqrt2);
     search_.face_motion = request.options.grid.face_motion;
     search_.step_cost = request.options.grid.step_cost.value_or(1.0);
@@ -397,11 +402,9 @@ class LatticeSolve {
                       request_.execution);
   }
 
-  Se2 start_pose() const { return {problem_.start[0], problem_.start[1], turns() ? problem_.start[2] : 0.0}; }
-  bool any_heading() const { return turns() && problem_.goal.size() == 2; }
-  Se2 goal_pose() const {
-    return {problem_.goal[0], problem_.goal[1], turns() && !any_heading() ? problem_.goal[2] : 0.0};
-  }
+  const Se2& start_pose() const { return poses_asked_.start; }
+  Se2 goal_pose() const { return poses_asked_.goal_pose(); }
+  bool any_heading() const { return turns() && poses_asked_.any_heading(); }
 
   /// The states of the lattice by which a path may begin or end.
   std::vector<LayerEnd> ends_at(std::string_view option, const Se2& pose, bool any_heading) const {
@@ -415,22 +418,20 @@ class LatticeSolve {
                       option, pose.x, pose.y, pose.theta, layers_.origin.x, layers_.cell, layers_.origin.y,
                       layers_.cell, layers_.angles));
     }
-    const bool any_free = std::any_of(states.begin(), states.end(), [&](const LayerEnd& e) {
-      return layers_.is_free(e.state.i, e.state.j, e.state.k);
-    });
+    const bool any_free = std::ranges::any_of(
+        states, [&](const LayerEnd& e) { return layers_.is_free(e.state.i, e.state.j, e.state.k); });
     if (any_free || is_report) return states;
     return EndWorld(request_.scene, problem_, layers_, end, request_.execution).joined(search_);
   }
 
   /// Does the body fit at an end, in some heading where any will do, as the verification sees it?
   bool stands_free(const Se2& pose, bool any_heading) const {
-    const double margin =
-        end_margin(request_.scene, problem_.robot, problem_.clearance, extent_of(problem_.robot), request_.execution);
+    const double margin = end_margin(request_.scene, poses_asked_, request_.execution);
     const auto is_free = [&](const Se2& turned) { return judged(std::span(&turned, 1), false, margin).verified; };
     if (!any_heading) return is_free(pose);
-    const PoseProblem asked{problem_.robot, start_pose(), problem_.goal, problem_.clearance};
-    const std::vector<Se2> poses = poses_to_meet(request_.scene, asked, problem_.goal, request_.execution, is_free);
-    return std::any_of(poses.begin(), poses.end(), is_free);
+    const std::vector<Se2> poses =
+        poses_to_meet(request_.scene, poses_asked_, problem_.goal, request_.execution, is_free);
+    return std::ranges::any_of(poses, is_free);
   }
 
   Outcome settled_ends() const {
@@ -444,7 +445,7 @@ class LatticeSolve {
     const bool is_report = layer_options_.kind == LayerKind::report004;  // its discs say what is blocked
     if (!is_report) answer_.outcome = settled_ends();
     if (is_blocked(answer_.outcome)) return;
-    if (!is_report && stays()) {
+    if (!is_report && poses_asked_.is_at_goal()) {
       answer_.outcome = Outcome::solved;
       return take({});  // without a move, whatever the states around it would say
     }
@@ -475,11 +476,6 @@ class LatticeSolve {
     }
   }
 
-  bool stays() const {
-    const Se2 start = start_pose();
-    const Se2 goal = goal_pose();
-    return start.position() == goal.position() && (any_heading() || start.theta == goal.theta);
-  }
   bool is_there(const Se2& end, const Se2& state, bool any_heading) const {
     constexpr double rounding = 1e-9;  // of a cell, and of a radian
     return distance(end.position(), state.position()) <= rounding * layers_.cell &&
@@ -503,12 +499,9 @@ class LatticeSolve {
 
   Verification judged(std::span<const Se2> poses, bool ends_too, double margin = 0.0) const {
     if (turns()) {
-      PoseVerifyOptions options{.clearance = problem_.clearance + margin};
-      if (ends_too) {
-        options.start = start_pose();
-        options.goal = goal_pose();
-        options.any_heading = any_heading();
-      }
+      PoseVerifyOptions options;
+      if (ends_too) options = verify_options(poses_asked_);
+      options.clearance = problem_.clearance + margin;
       return verify_se2(request_.scene, problem_.robot.outline, poses, options, request_.execution);
     }
     std::vector<Vec2> path;
@@ -544,6 +537,7 @@ class LatticeSolve {
 
   const SolveRequest& request_;
   Problem problem_;
+  PoseProblem poses_asked_;  // the same; of what does not turn all headings are 0
   LayerOptions layer_options_;
   LayerSearchOptions search_;
   LatticeFrame frame_;
@@ -565,13 +559,7 @@ std::vector<GoalPlace> places_on_layers(const SolveRequest& request) {
 }
 
 SolveKind lattice_kind() {
-  return {"a body on a grid in a scene",
-          fits_lattice,
-          lattice_planners,
-          usually<PlannerKind::grid>,
-          solve_lattice,
-          nullptr,
-          nullptr};
+  return {"a body on a grid in a scene", fits_lattice, lattice_planners, usually<PlannerKind::grid>, solve_lattice};
 }
 
 }  // namespace warren

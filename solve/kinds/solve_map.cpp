@@ -77,7 +77,7 @@ void prove_apart(Answer& answer, const OccupancyMap& map, const Bitmap& closed, 
                  const GoalChoice& choice, const Execution& execution) {
   if (answer.outcome != Outcome::not_connected || choice.unreached.empty()) return;
   const StageTimer timer(execution, "proof", answer.seconds.search);
-  const bool apart = std::all_of(choice.unreached.begin(), choice.unreached.end(), [&](Vec2 place) {
+  const bool apart = std::ranges::all_of(choice.unreached, [&](Vec2 place) {
     WallProblem to_place = problem;
     to_place.goal = place;
     return provably_apart(map, closed, to_place, execution);
@@ -127,7 +127,7 @@ class CellSolve {
     if (chooses_ || prices_) return run_chosen();
     const auto start = cell_at(map_, problem_.start);
     const auto goal = cell_at(map_, problem_.goal);
-    answer_.outcome = blocked_end(start, goal);
+    answer_.outcome = settled_on_map(Outcome::start_blocked, map_, problem_, request_.execution);
     if (answer_.outcome != Outcome::not_connected) return;
     index();
     choose_method();
@@ -227,12 +227,6 @@ class CellSolve {
   MapPrices::Scratch& scratch() { return kept_ != nullptr ? kept_->scratch() : scratch_; }
   bool wants_taut() const { return prices_ || request_.options.optimise || request_.options.anytime.gap; }
   bool stands_free(Vec2 p) const { return stands_free_on_map(map_, problem_, p, request_.execution); }
-  Outcome blocked_end(const std::optional<Cell>& start, const std::optional<Cell>& goal) const {
-    if (!start || !stands_free(problem_.start)) return Outcome::start_blocked;
-    const bool on_water = !map_.water.empty() && map_.water.test(start->x, start->y);
-    if (!goal || (!on_water && !stands_free(problem_.goal))) return Outcome::goal_blocked;
-    return Outcome::not_connected;
-  }
 
   void index() {
     const StageTimer timer(request_.execution, "index", answer_.seconds.index, map_.blocked.size());
@@ -474,68 +468,48 @@ NamedLines lines_of(const OccupancyMap& map, const std::vector<std::pair<Cell, C
   return lines;
 }
 
-/// One solve by voronoi, as far from what is blocked as a path can be. min_clearance of the answer is measured on the
-/// path by the verification.
-class SkeletonSolve {
- public:
-  SkeletonSolve(const SolveRequest& request, const WallProblem& problem)
-      : request_(request), map_(*request.scene.map), problem_(problem) {
-    const SearchChoice search = search_choice(request.options);
-    options_.radius = problem.reach() / map_.cell;
-    options_.objective = request.options.axis.objective.value_or(AxisObjective::length);
-    options_.search = search.search;
-    options_.queue = search.queue;
-    describe_plane_planner(answer_, request, problem, search);
-    answer_.options.push_back({"objective", std::string(name_of(options_.objective))});
+/// What was found along the skeleton, in the world's coordinates.
+void take_skeleton_path(Answer& answer, const SkeletonPath& plan, const OccupancyMap& map, const WallProblem& problem) {
+  Solution<Vec2> solution;
+  solution.outcome = plan.outcome;
+  solution.separation = plan.separation;
+  solution.roadmap = plan.roadmap;
+  solution.counters.expanded = plan.expanded;
+  solution.separation.nearest_gap *= map.cell;
+  for (std::array<double, 2>* place : {&solution.separation.near_start, &solution.separation.near_goal}) {
+    const Vec2 in_world = world_point(map, {(*place)[0], (*place)[1]});
+    *place = {in_world.x, in_world.y};
   }
-
-  void run() {
-    const auto start = cell_at(map_, problem_.start);
-    const auto goal = cell_at(map_, problem_.goal);
-    answer_.outcome = settled_on_map(Outcome::start_blocked, map_, problem_, request_.execution);
-    if (!goal && answer_.outcome != Outcome::start_blocked) answer_.outcome = Outcome::goal_blocked;
-    if (is_blocked(answer_.outcome)) return;  // what lies outside of the map is
-    std::vector<std::pair<Cell, Cell>> steps;
-    auto* kept_steps = request_.keep != nullptr ? &steps : nullptr;
-    const SkeletonRoadmap* known = asked_roadmap<SkeletonRoadmap>(request_);
-    take(known != nullptr ? plan_on_skeleton(*known, *start, *goal, options_, request_.execution, kept_steps)
-                          : plan_on_skeleton(closed_cells(map_, problem_.start), *start, *goal, options_,
-                                             request_.execution, kept_steps));
-    // The skeleton was asked about the middles of the cells.
-    if (is_blocked(answer_.outcome)) answer_.outcome = Outcome::not_connected;
-    if (problem_.start == problem_.goal) stay(answer_, problem_);
-    if (request_.keep != nullptr) request_.keep->lines.push_back(lines_of(map_, steps));
-    verify_solved_on_map(answer_, map_, problem_, true, request_.execution);
+  solution.seconds = plan.seconds;
+  if (plan.outcome == Outcome::solved) {
+    solution.path = path_over_cells(map, problem.start, plan.cells, problem.goal);
+    answer.path_figures.push_back({"cells", std::uint64_t{plan.cells.size()}});
+    answer.path_figures.push_back({"axis_clearance", plan.clearance * map.cell});
   }
-  Answer& answer() { return answer_; }
+  take_solution(answer, std::move(solution));
+}
 
- private:
-  void take(const SkeletonPath& plan) {
-    Solution<Vec2> solution;
-    solution.outcome = plan.outcome;
-    solution.separation = plan.separation;
-    solution.roadmap = plan.roadmap;
-    solution.counters.expanded = plan.expanded;
-    solution.separation.nearest_gap *= map_.cell;
-    for (std::array<double, 2>* place : {&solution.separation.near_start, &solution.separation.near_goal}) {
-      const Vec2 in_world = world_point(map_, {(*place)[0], (*place)[1]});
-      *place = {in_world.x, in_world.y};
-    }
-    solution.seconds = plan.seconds;
-    if (plan.outcome == Outcome::solved) {
-      solution.path = path_over_cells(map_, problem_.start, plan.cells, problem_.goal);
-      answer_.path_figures.push_back({"cells", std::uint64_t{plan.cells.size()}});
-      answer_.path_figures.push_back({"axis_clearance", plan.clearance * map_.cell});
-    }
-    take_solution(answer_, std::move(solution));
-  }
-
-  const SolveRequest& request_;
-  const OccupancyMap& map_;
-  WallProblem problem_;
-  SkeletonOptions options_;
-  Answer answer_;
-};
+void find_on_skeleton(const SolveRequest& request, const WallProblem& problem, const SkeletonOptions& options,
+                      Answer& answer) {
+  const OccupancyMap& map = *request.scene.map;
+  const Execution& execution = request.execution;
+  const auto start = cell_at(map, problem.start);
+  const auto goal = cell_at(map, problem.goal);
+  answer.outcome = settled_on_map(Outcome::start_blocked, map, problem, execution);
+  if (is_blocked(answer.outcome)) return;  // what lies outside of the map is
+  std::vector<std::pair<Cell, Cell>> steps;
+  auto* kept = request.keep != nullptr ? &steps : nullptr;
+  const SkeletonRoadmap* known = asked_roadmap<SkeletonRoadmap>(request);
+  const SkeletonPath plan =
+      known != nullptr ? plan_on_skeleton(*known, *start, *goal, options, execution, kept)
+                       : plan_on_skeleton(closed_cells(map, problem.start), *start, *goal, options, execution, kept);
+  take_skeleton_path(answer, plan, map, problem);
+  // The skeleton was asked about the middles of the cells.
+  if (is_blocked(answer.outcome)) answer.outcome = Outcome::not_connected;
+  if (problem.start == problem.goal) stay(answer, problem);
+  if (request.keep != nullptr) request.keep->lines.push_back(lines_of(map, steps));
+  verify_solved_on_map(answer, map, problem, true, execution);
+}
 
 constexpr PlannerChoice occupancy_planners[] = {
     {PlannerKind::grid, OptionSet{Option::search, Option::diagonal, Option::optimise, Option::bound, Option::gap},
@@ -568,24 +542,33 @@ Verdict recheck_occupancy(const Scene& scene, const Question& question, const Re
 
 }  // namespace
 
+/// As far from what is blocked as a path can be. min_clearance of the answer is measured on the path by the
+/// verification.
 Answer solve_on_skeleton(const SolveRequest& request) {
-  SkeletonSolve solve(request, map_problem(request.scene, request.question));
-  answer_within_limits(solve.answer(), [&] { solve.run(); });
-  return std::move(solve.answer());
+  const WallProblem problem = map_problem(request.scene, request.question);
+  const SearchChoice search = search_choice(request.options);
+  const SkeletonOptions options{.radius = problem.reach() / request.scene.map->cell,
+                                .objective = request.options.axis.objective.value_or(AxisObjective::length),
+                                .search = search.search,
+                                .queue = search.queue};
+  Answer answer;
+  describe_plane_planner(answer, request, problem, search);
+  answer.options.push_back({"objective", std::string(name_of(options.objective))});
+  answer_within_limits(answer, [&] { find_on_skeleton(request, problem, options, answer); });
+  return answer;
 }
 
 SolveKind occupancy_kind() {
-  return {"a point or disc on an occupancy map",
-          fits_occupancy,
-          occupancy_planners,
-          usually<PlannerKind::grid>,
-          solve_occupancy,
-          nullptr,
-          recheck_occupancy,
-          build_sampled_or_geometric<BodyOnMap>,
-          open_sampled_or_geometric<BodyOnMap>,
-          false,
-          true};
+  SolveKind kind{"a point or disc on an occupancy map",
+                 fits_occupancy,
+                 occupancy_planners,
+                 usually<PlannerKind::grid>,
+                 solve_occupancy,
+                 recheck_occupancy,
+                 build_sampled_or_geometric<BodyOnMap>,
+                 open_sampled_or_geometric<BodyOnMap>};
+  kind.chooses_goal = true;
+  return kind;
 }
 
 }  // namespace warren

@@ -57,15 +57,6 @@ Answer solve_by_cells(const SolveRequest& request) {
   return answer;
 }
 
-MedialAxisOptions options_of(const SolveRequest& request, const WallProblem& problem, const SearchChoice& search) {
-  MedialAxisOptions options;
-  options.clearance = axis_clearance(problem);
-  options.search = search.search;
-  options.queue = search.queue;
-  options.objective = request.options.axis.objective.value_or(AxisObjective::length);
-  return options;
-}
-
 Solution<Vec2> plan_from_nothing(const SolveRequest& request, const WallProblem& problem,
                                  const MedialAxisOptions& options, Answer& answer, MedialAxisPlan& plan) {
   check_axis_box(request.scene);
@@ -176,16 +167,10 @@ class PointAmongPolygons : public UsualBody {
 };
 
 Answer solve_plane(const SolveRequest& request) {
-  switch (request.planner) {
-    case PlannerKind::visibility:
-      return solve_by_visibility(request);
-    case PlannerKind::cells:
-      return solve_by_cells(request);
-    case PlannerKind::voronoi:
-      return solve_on_medial_axis(request);
-    default:
-      return solve_sampled<PointAmongPolygons>(request);
-  }
+  if (request.planner == PlannerKind::visibility) return solve_by_visibility(request);
+  if (request.planner == PlannerKind::cells) return solve_by_cells(request);
+  if (request.planner == PlannerKind::voronoi) return solve_on_medial_axis(request);
+  return solve_sampled<PointAmongPolygons>(request);
 }
 
 Verdict recheck_plane(const Scene& scene, const Question& question, const RecordedAnswer& answer,
@@ -235,7 +220,10 @@ void check_axis_box(const Scene& scene) {
 Answer solve_on_medial_axis(const SolveRequest& request) {
   const WallProblem problem = voronoi_problem(request.scene, request.question);
   const SearchChoice search = search_choice(request.options);
-  const MedialAxisOptions options = options_of(request, problem, search);
+  const MedialAxisOptions options{.clearance = axis_clearance(problem),
+                                  .objective = request.options.axis.objective.value_or(AxisObjective::length),
+                                  .search = search.search,
+                                  .queue = search.queue};
   Answer answer;
   describe_plane_planner(answer, request, problem, search);
   answer.options.push_back({"objective", std::string(name_of(options.objective))});
@@ -265,7 +253,6 @@ SolveKind plane_kind() {
           plane_planners,
           usual_plane_planner,
           solve_plane,
-          nullptr,
           recheck_plane,
           build_sampled_or_geometric<PointAmongPolygons>,
           open_sampled_or_geometric<PointAmongPolygons>};

@@ -18,7 +18,7 @@ namespace {
 bool asks_price(const Prices& prices) {
   const AskedWords asked = words_in(prices);
   const std::vector<AskedWord> words = price_words.members();
-  return std::any_of(words.begin(), words.end(), [&](AskedWord word) { return asked.has(word); });
+  return std::ranges::any_of(words, [&](AskedWord word) { return asked.has(word); });
 }
 
 double largest_coordinate_of(const Scene& scene, const Execution& execution) {
@@ -75,12 +75,15 @@ void take_solution(Answer& answer, Solution<Vec2> solution) {
   take_account(answer, solution);
 }
 
+VerifyOptions end_options(const WallProblem& problem) {
+  return {.radius = problem.robot.radius,
+          .clearance = problem.clearance + end_margin(problem.reach()),
+          .contact = problem.contact};
+}
+
 bool stands_free(const Scene& scene, const WallProblem& problem, Vec2 p, const Execution& execution,
                  const ObstacleIndex* judged) {
-  const VerifyOptions options{.radius = problem.robot.radius,
-                              .clearance = problem.clearance + end_margin(problem.reach()),
-                              .contact = problem.contact};
-  return verify_path(scene, std::span(&p, 1), options, execution, judged).verified;
+  return verify_path(scene, std::span(&p, 1), end_options(problem), execution, judged).verified;
 }
 
 void settle_blocked_ends(Answer& answer, const Scene& scene, const WallProblem& problem, const Execution& execution,

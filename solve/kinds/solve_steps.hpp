@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
-#include <new>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
@@ -42,6 +41,8 @@ void take_account(Answer& answer, const Solution<State>& s) {
   take_account(answer, s.outcome, s.stop_reason, s.roadmap, s.separation, s.counters, s.seconds);
 }
 
+/// What the judge of points is asked for a place of the problem as an end.
+VerifyOptions end_options(const WallProblem& problem);
 /// Does the body fit there as an end, as the verification sees it? `judged`, here and below: of the scene, or nullptr.
 bool stands_free(const Scene& scene, const WallProblem& problem, Vec2 p, const Execution& execution,
                  const ObstacleIndex* judged = nullptr);
@@ -98,13 +99,7 @@ Verdict verify_plane_answer(const Scene& scene, const WallProblem& problem, cons
 template <class Solve>
 void answer_within_limits(Answer& answer, const Solve& solve) {
   const auto begin = std::chrono::steady_clock::now();
-  try {
-    solve();
-  } catch (const Stopped& stopped) {
-    make_stopped(answer, stopped.reason);
-  } catch (const std::bad_alloc&) {
-    make_stopped(answer, StopReason::memory);
-  }
+  if (const auto reason = stopped_by(solve)) make_stopped(answer, *reason);
   if (!answer.verified) claim_nothing(answer);
   answer.solve_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }

@@ -27,11 +27,7 @@ std::vector<double> start_of(const SolveRequest& request) {
   return request.question.start.empty() ? request.scene.start : request.question.start;
 }
 
-std::vector<double> end_of(const Answer& answer) {
-  if (answer.states.empty()) return {answer.path.back().x, answer.path.back().y};
-  const auto last = answer.states[answer.states.size() - 1];
-  return {last.begin(), last.end()};
-}
+std::vector<double> end_of(const Answer& answer) { return answer.state(answer.state_count() - 1); }
 
 /// Sums, and of what is a distance kept all along the least.
 void add_figures(std::vector<NamedFigure>& figures, const std::vector<NamedFigure>& before) {
@@ -98,7 +94,7 @@ void add_by_products(ByProducts& whole, ByProducts made) {
   put_before(whole.pose_roadmaps, made.pose_roadmaps);
   for (NamedLines& lines : made.lines) {
     const auto is_same = [&](const NamedLines& other) { return other.name == lines.name; };
-    if (std::none_of(whole.lines.begin(), whole.lines.end(), is_same)) whole.lines.push_back(std::move(lines));
+    if (std::ranges::none_of(whole.lines, is_same)) whole.lines.push_back(std::move(lines));
   }
   put_before(whole.arcs.points, made.arcs.points);
   put_before(whole.arcs.turns, made.arcs.turns);

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <new>
 
 #include "core/base/error.hpp"
 #include "solve/kinds/goals_on_map.hpp"
@@ -93,7 +92,7 @@ class ToGoal {
     const auto openness = [](Outcome outcome) {
       constexpr std::array order{Outcome::goal_blocked, Outcome::infeasible, Outcome::not_connected, Outcome::stopped,
                                  Outcome::start_blocked};
-      return std::find(order.begin(), order.end(), outcome) - order.begin();
+      return std::ranges::find(order, outcome) - order.begin();
     };
     return openness(answer.outcome) > openness(best_->outcome);
   }
@@ -233,15 +232,9 @@ class ToGoal {
   /// On a map: of all places that the disc reaches which the body holds around its reference point. None where time or
   /// memory end meanwhile.
   std::optional<double> distance_bound(std::size_t goal) const {
-    const Scene& scene = request_.scene;
-    if (!scene.map) return std::nullopt;
-    try {
-      return bound_on_map(*scene.map, goal);
-    } catch (const Stopped&) {
-      return std::nullopt;
-    } catch (const std::bad_alloc&) {
-      return std::nullopt;
-    }
+    std::optional<double> bound;
+    if (request_.scene.map) stopped_by([&] { bound = bound_on_map(*request_.scene.map, goal); });
+    return bound;
   }
   std::optional<double> bound_on_map(const OccupancyMap& map, std::size_t goal) const {
     const Problem& problem = best_->problem;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Joins Se2World with the planners that take it: a polygon that turns among walls, polygons and bounds, or on a map.
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -76,12 +75,18 @@ constexpr PlannerChoice turning_axis_planners[] = {
 /// The same question for the disc that holds the body.
 Question question_of_disc(const PoseProblem& problem) {
   Question options;
-  options.robot = RobotSpec{.kind = RobotKind::disc, .outline = {}};
-  for (const Vec2 p : problem.robot.outline) options.robot->radius = std::max(options.robot->radius, norm(p));
+  options.robot = RobotSpec{.kind = RobotKind::disc, .radius = extent_of(problem.robot), .outline = {}};
   options.start = {problem.start.x, problem.start.y};
   options.goal = {problem.goal[0], problem.goal[1]};
   options.clearance = problem.clearance;
   return options;
+}
+
+SolveRequest request_of_disc(const SolveRequest& request, const Question& disc) {
+  SolveRequest of_disc{request.options,   request.scene, disc,         request.planner,
+                       request.execution, request.keep,  request.asked};
+  of_disc.many = request.many;
+  return of_disc;
 }
 
 class AxisSolve {
@@ -91,8 +96,7 @@ class AxisSolve {
 
   Answer run() {
     const Question disc = question_of_disc(problem_);
-    const SolveRequest of_disc{request_.options,   request_.scene, disc,          request_.planner,
-                               request_.execution, request_.keep,  request_.asked};
+    const SolveRequest of_disc = request_of_disc(request_, disc);
     answer_ = request_.scene.map ? solve_on_skeleton(of_disc) : solve_on_medial_axis(of_disc);
     answer_.problem = problem_.general();
     const double seconds = answer_.solve_s;
@@ -144,18 +148,12 @@ class AxisSolve {
     settle_blocked_poses(answer_, request_.scene, problem_, request_.execution,
                          [this](const Se2& pose) { return stands_free(pose); });
     if (is_settled || is_blocked(answer_.outcome)) return;
-    if (is_there()) return stay();
+    if (problem_.is_at_goal()) {
+      answer_.outcome = Outcome::solved;
+      answer_.path = {problem_.start.position(), problem_.goal_pose().position()};
+      return;
+    }
     answer_.figures.push_back({"cause", std::string(at_start ? "disc_blocked_at_start" : "disc_blocked_at_goal")});
-  }
-
-  bool is_there() const {
-    const Se2 goal = problem_.goal_pose();
-    return problem_.start.position() == goal.position() &&
-           (problem_.any_heading() || problem_.start.theta == goal.theta);
-  }
-  void stay() {
-    answer_.outcome = Outcome::solved;
-    answer_.path = {problem_.start.position(), problem_.goal_pose().position()};
   }
 
   const SolveRequest& request_;
@@ -165,13 +163,6 @@ class AxisSolve {
 };
 
 Answer solve_turning_axis(const SolveRequest& request) { return AxisSolve(request).run(); }
-
-/// The disc's roadmap.
-SolveRequest request_of_disc(const SolveRequest& request, const Question& disc) {
-  SolveRequest of_disc{request.options, request.scene, disc, request.planner, request.execution};
-  of_disc.many = request.many;
-  return of_disc;
-}
 
 BuiltArrays build_turning_axis(const SolveRequest& request) {
   const Question disc = question_of_disc(pose_problem(request.scene, request.question, turning_body));
@@ -187,8 +178,13 @@ std::unique_ptr<RoadmapSession> open_turning_axis(const SolveRequest& request, c
 }  // namespace
 
 SolveKind turning_kind() {
-  return {"a polygon that turns",        fits_turning, turning_planners, usually<PlannerKind::rrt_connect>,
-          solve_sampled<TurningPolygon>, nullptr,      recheck_turning,  build_sampled<TurningPolygon>,
+  return {"a polygon that turns",
+          fits_turning,
+          turning_planners,
+          usually<PlannerKind::rrt_connect>,
+          solve_sampled<TurningPolygon>,
+          recheck_turning,
+          build_sampled<TurningPolygon>,
           open_sampled<TurningPolygon>};
 }
 
@@ -198,7 +194,6 @@ SolveKind turning_axis_kind() {
           turning_axis_planners,
           usually<PlannerKind::voronoi>,
           solve_turning_axis,
-          nullptr,
           nullptr,
           build_turning_axis,
           open_turning_axis};

@@ -43,16 +43,11 @@ VisibilityRequest options_of(const SolveRequest& request, const SearchChoice& se
   const bool plain = asked.options.edges == VisibilityEdges::reduced && search.search == SearchKind::astar &&
                      search.queue == QueueKind::heap && !asked.sample_step;
   if (request.options.roadmap.lazy) throw UsageError("@lazy: takes no value with visibility");
-  if (fields.lazy) {
-    if (!plain) {
-      throw UsageError(
-          "@lazy: finds edges as A* needs them; @full, @sampled_edges, @search and @queue need all of them");
-    }
-    asked.options.lazy = true;
-  } else {
-    const bool is_kept = request.asked.session != nullptr;
-    asked.options.lazy = plain && !is_kept && corner_count(request.scene) > most_corners_at_once;
+  if (fields.lazy && !plain) {
+    throw UsageError("@lazy: finds edges as A* needs them; @full, @sampled_edges, @search and @queue need all of them");
   }
+  const bool is_kept = request.asked.session != nullptr;
+  asked.options.lazy = fields.lazy || (plain && !is_kept && corner_count(request.scene) > most_corners_at_once);
   return asked;
 }
 
@@ -96,19 +91,15 @@ class SampledVisibilitySolve {
  private:
   SearchResult search(const Graph& graph, VertexId start, VertexId goal) const {
     SearchState state;
-    const Execution& execution = request_.execution;
-    const auto should_stop = [&] { return execution.should_stop(); };
-    state.resize(graph.vertex_count(), [&] { execution.check(); });
-    if (asked_.options.search == SearchKind::bfs) return breadth_first(graph, start, goal, state, should_stop);
-    if (asked_.options.search == SearchKind::dfs) return depth_first(graph, start, goal, state, should_stop);
+    const VisibilityOptions& how = asked_.options;
+    if (!has_queue(how.search)) return search_blindly(how.search, graph, start, goal, state, request_.execution);
     const auto neighbours = [&](VertexId v, const auto& visit) {
       for (const VertexId w : graph.neighbours(v)) visit(w, distance(points_[v], points_[w]));
     };
-    const bool informed = asked_.options.search == SearchKind::astar;
+    const bool informed = how.search == SearchKind::astar;
     const auto remaining = [&](VertexId v) { return informed ? distance(points_[v], points_[goal]) : 0.0; };
-    return with_queue(asked_.options.queue, graph.vertex_count(), execution, [&](auto& queue) {
-      return best_first(start, goal, neighbours, remaining, queue, state, should_stop);
-    });
+    return search_best_first(how.queue, graph.vertex_count(), start, goal, neighbours, remaining, state,
+                             request_.execution);
   }
 
   void search(Answer& answer) {

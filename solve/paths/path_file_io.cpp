@@ -15,6 +15,7 @@
 #include "scenes/files/npy_io.hpp"
 #include "scenes/scene/arm_model.hpp"
 #include "scenes/text/json_text.hpp"
+#include "solve/question/question_of_arm.hpp"
 
 namespace warren {
 namespace {
@@ -264,22 +265,23 @@ PathFormat path_format(const std::string& file) {
 }
 
 void check_path_file(const RobotSpec& robot, const std::string& file, const PathFileOptions& options) {
-  const bool is_arm = robot.kind == RobotKind::puma560 || robot.kind == RobotKind::arm || robot.kind == RobotKind::urdf;
+  const bool has_joints = is_arm(robot);
   const PathFormat format = path_format(file);
-  if (is_arm && format != PathFormat::csv && format != PathFormat::npy) {
+  if (has_joints && format != PathFormat::csv && format != PathFormat::npy) {
     throw UsageError("@path: the joints of an arm are written as .csv or .npy");
   }
   if (format == PathFormat::npy && options.limits) {
     throw UsageError(fmt::format("@path: .npy holds places alone; {}",
-                                 is_arm ? ".csv says when" : ".csv, .yaml and .geojson say when"));
+                                 has_joints ? ".csv says when" : ".csv, .yaml and .geojson say when"));
   }
   if (options.every_s && !options.limits) {
-    throw UsageError(fmt::format("@every: moments need {}", is_arm ? "@joint_speed" : "@speed"));
+    throw UsageError(fmt::format("@every: moments need {}", has_joints ? "@joint_speed" : "@speed"));
   }
   if (!options.limits) return;
   const TravelLimits& limits = *options.limits;
-  if (is_arm && limits.joint_speed.empty()) throw UsageError("@speed: of an arm it is @joint_speed that is limited");
-  if (!is_arm && !limits.joint_speed.empty()) throw UsageError("@joint_speed: this body has no joints; say @speed");
+  if (has_joints && limits.joint_speed.empty())
+    throw UsageError("@speed: of an arm it is @joint_speed that is limited");
+  if (!has_joints && !limits.joint_speed.empty()) throw UsageError("@joint_speed: this body has no joints; say @speed");
   if (robot.kind != RobotKind::car && std::isfinite(limits.lateral_acceleration)) {
     throw UsageError("@lateral_acceleration: is for cars; other bodies stop at corners and drive no arcs");
   }
@@ -300,22 +302,12 @@ PathFileAccount write_path(const Answer& answer, const std::string& file, const 
   const PathLegs legs(answer);
   const PathFileOptions resolved = with_own_speeds(answer, legs, options);
   Rows rows(legs, resolved, execution);
-  PathFileAccount account{0, rows.duration_s()};
-  switch (path_format(file)) {
-    case PathFormat::csv:
-      account.places = write_csv(rows, legs, out);
-      break;
-    case PathFormat::yaml:
-      account.places = write_yaml(rows, legs, options.frame, out);
-      break;
-    case PathFormat::geojson:
-      account.places = write_geojson_line(rows, legs, answer, options.frame, out);
-      break;
-    case PathFormat::npy:
-      account.places = write_array(rows, legs, out);
-      break;
-  }
-  return account;
+  const PathFormat format = path_format(file);
+  const std::uint64_t places = format == PathFormat::csv    ? write_csv(rows, legs, out)
+                               : format == PathFormat::yaml ? write_yaml(rows, legs, options.frame, out)
+                               : format == PathFormat::npy  ? write_array(rows, legs, out)
+                                                           : write_geojson_line(rows, legs, answer, options.frame, out);
+  return {places, rows.duration_s()};
 }
 
 }  // namespace warren

@@ -8,6 +8,7 @@
 #include "core/base/trigonometry.hpp"
 #include "core/plane/se2.hpp"
 #include "scenes/scene/arm_model.hpp"
+#include "solve/question/question_of_arm.hpp"
 #include "worlds/poses/steering_curve.hpp"
 
 namespace warren {
@@ -23,20 +24,10 @@ double of_joint(const std::vector<double>& limits, std::size_t k) {
 
 /// A differential drive goes straight and turns on the spot: legs as those of a polygon that turns.
 LegShape shape_of(const RobotSpec& robot) {
-  switch (robot.kind) {
-    case RobotKind::point:
-    case RobotKind::disc:
-      return LegShape::straight;
-    case RobotKind::polygon:
-      return LegShape::turning;
-    case RobotKind::car:
-      return robot.steering == SteeringKind::differential ? LegShape::turning : LegShape::driven;
-    case RobotKind::puma560:
-    case RobotKind::arm:
-    case RobotKind::urdf:
-      return LegShape::joints;
-  }
-  return LegShape::straight;
+  if (is_round(robot)) return LegShape::straight;
+  if (is_arm(robot)) return LegShape::joints;
+  const bool drives = robot.kind == RobotKind::car && robot.steering != SteeringKind::differential;
+  return drives ? LegShape::driven : LegShape::turning;
 }
 
 }  // namespace
@@ -167,8 +158,8 @@ PathMoment TimedPath::at_share(std::size_t leg, double share, double& time_s) co
 PathLegs::PathLegs(const Answer& answer)
     : answer_(&answer),
       shape_(answer.states.empty() ? LegShape::straight : shape_of(answer.problem.robot)),
-      width_(answer.states.empty() ? 2 : answer.states.width),
-      state_count_(answer.states.empty() ? answer.path.size() : answer.states.size()) {
+      width_(answer.state_width()),
+      state_count_(answer.state_count()) {
   if (answer.problem.robot.kind == RobotKind::car) reach_ = answer.problem.robot.radius;
   for (const Vec2 corner : answer.problem.robot.outline) reach_ = std::max(reach_, norm(corner));
 }

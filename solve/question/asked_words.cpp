@@ -35,7 +35,7 @@ void check_area(std::string_view option, const std::vector<Vec2>& corners) {
   const auto is_coordinate = [](Vec2 p) {
     return std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate;
   };
-  if (std::all_of(corners.begin(), corners.end(), is_coordinate)) return;
+  if (std::ranges::all_of(corners, is_coordinate)) return;
   throw UsageError(fmt::format("@{}: coordinates are numbers of at most 1e60", option));
 }
 
@@ -56,7 +56,7 @@ void check_places(std::string_view option, const std::vector<std::vector<double>
   for (const std::vector<double>& place : places) {
     const auto is_coordinate = [](double x) { return std::abs(x) <= largest_coordinate; };
     const bool known = place.size() >= least && place.size() <= most_joints;
-    if (known && std::all_of(place.begin(), place.end(), is_coordinate)) continue;
+    if (known && std::ranges::all_of(place, is_coordinate)) continue;
     throw UsageError(fmt::format("@{}: a place is X,Y or X,Y,THETA, each at most 1e60", option));
   }
 }

@@ -27,15 +27,6 @@ unsigned threads_of(const Limits& limits) {
 
 }  // namespace
 
-struct LimitedExecution::Reporter {
-  Reporter(const Progress& progress, const std::function<void(const ProgressReport&)>& report)
-      : ticker(std::chrono::milliseconds(100), std::chrono::milliseconds(100), [&progress, report] {
-          const char* stage = progress.stage();
-          if (stage != nullptr) report({stage, progress.done(), progress.total()});
-        }) {}
-  Ticker ticker;
-};
-
 LimitedExecution::LimitedExecution(const Limits& limits)
     : deadline_(seconds_of(limits), limits.memory.value_or(available_bytes()), limits.cancel) {
   execution_.threads = threads_of(limits);
@@ -44,7 +35,11 @@ LimitedExecution::LimitedExecution(const Limits& limits)
   if (on_improvement_) execution_.on_improvement = &on_improvement_;
   if (!limits.progress) return;
   execution_.progress = &progress_;
-  reporter_ = std::make_unique<Reporter>(progress_, limits.progress);
+  constexpr std::chrono::milliseconds pause(100);
+  reporter_ = std::make_unique<Ticker>(pause, pause, [this, report = limits.progress] {
+    const char* stage = progress_.stage();
+    if (stage != nullptr) report({stage, progress_.done(), progress_.total()});
+  });
 }
 
 LimitedExecution::~LimitedExecution() = default;

@@ -16,6 +16,8 @@
 
 namespace warren {
 
+class Ticker;  // parallel/ticker.hpp
+
 /// How far a call is.
 struct ProgressReport {
   std::string_view stage;   ///< "sample", "connect", "search", …
@@ -57,8 +59,7 @@ class LimitedExecution {
   Progress progress_;
   std::function<bool(const Improvement&)> on_improvement_;
   Execution execution_;
-  struct Reporter;
-  std::unique_ptr<Reporter> reporter_;  // last: it ends before what it looks at
+  std::unique_ptr<Ticker> reporter_;  // last: it ends before what it looks at
 };
 
 }  // namespace warren

@@ -45,10 +45,8 @@ void check_queue(const SolveOptions& asked, SearchKind search) {
 }
 
 void check_heuristic(const SolveOptions& asked, SearchKind search) {
-  if (!asked.heuristic) return;
-  if (search != SearchKind::astar) {
-    throw UsageError(fmt::format("@heuristic: {} estimates nothing; astar takes one", name_of(search)));
-  }
+  if (!asked.heuristic || search == SearchKind::astar) return;
+  throw UsageError(fmt::format("@heuristic: {} estimates nothing; astar takes one", name_of(search)));
 }
 
 void check_planner(const SolveOptions& asked, PlannerKind planner, SearchKind search) {

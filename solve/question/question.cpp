@@ -30,20 +30,6 @@ Vec2 plane_state(std::string_view option, const std::vector<double>& given, cons
   return {state[0], state[1]};
 }
 
-std::string outline_text(std::span<const Vec2> outline) {
-  std::string text = "polygon";
-  for (const Vec2 corner : outline) text += fmt::format(" {} {}", corner.x, corner.y);
-  return text;
-}
-
-/// The steering only where it is not the usual one.
-std::string car_text(const RobotSpec& robot) {
-  const std::string body = robot.outline.empty() ? fmt::format("radius {}", robot.radius) : outline_text(robot.outline);
-  const std::string turning = fmt::format("car {} turning {}", body, robot.turning_radius);
-  return robot.steering == SteeringKind::dubins ? turning
-                                                : fmt::format("{} steering {}", turning, name_of(robot.steering));
-}
-
 /// A footprint as Nav2 has it, [[x, y], [x, y], ...], in the words of a polygon; nothing else is changed.
 std::string without_brackets(std::string_view text) {
   const std::size_t first = text.find('[');
@@ -76,26 +62,6 @@ RobotSpec robot_value(const std::string& where, std::string_view text) {
   return read_robot(fields, {});
 }
 
-std::string robot_text(const RobotSpec& robot) {
-  switch (robot.kind) {
-    case RobotKind::point:
-      return "point";
-    case RobotKind::disc:
-      return fmt::format("disc {}", robot.radius);
-    case RobotKind::car:
-      return car_text(robot);
-    case RobotKind::puma560:
-      return fmt::format("puma560 radius {} tool {}{}", robot.radius, robot.tool, arm_words(robot));
-    case RobotKind::arm:
-      return fmt::format("arm {} radius {} tool {}{}", robot.table, robot.radius, robot.tool, arm_words(robot));
-    case RobotKind::urdf:
-      return "urdf" + urdf_words(*robot.files);
-    case RobotKind::polygon:
-      break;
-  }
-  return outline_text(robot.outline);
-}
-
 RobotSpec robot_of(const Scene& scene, const Question& options) {
   return with_what_is_said(options.robot ? *options.robot : scene.robot.value_or(RobotSpec{}), scene);
 }
@@ -124,7 +90,7 @@ double least_width(const RobotSpec& robot) {
 void add_prices(Prices& prices, const Prices& asked) {
   const auto add = [](auto& to, const auto& more, const auto& is_same) {
     for (const auto& one : more) {
-      if (std::none_of(to.begin(), to.end(), [&](const auto& there) { return is_same(there, one); })) to.push_back(one);
+      if (std::ranges::none_of(to, [&](const auto& there) { return is_same(there, one); })) to.push_back(one);
     }
   };
   add(prices.areas, asked.areas,
@@ -193,7 +159,7 @@ std::optional<PathEnd> reached_goal(std::span<const double> end, const std::vect
 void Question::validate() const {
   const auto is_coordinate = [](double x) { return std::abs(x) <= largest_coordinate; };
   for (const auto& [name, state] : {std::pair{"start", &start}, std::pair{"goal", &goal}}) {
-    if (std::all_of(state->begin(), state->end(), is_coordinate)) continue;
+    if (std::ranges::all_of(*state, is_coordinate)) continue;
     throw UsageError(fmt::format("@{}: coordinates are numbers of at most 1e60", name));
   }
   if (clearance && !(*clearance >= 0.0 && *clearance <= largest_coordinate)) {

@@ -156,9 +156,7 @@ std::vector<double> state_or_heading(std::string_view option, const std::vector<
 /// Throws UsageError where X,Y,THETA has a heading beyond largest_heading; other states have none.
 void check_heading(std::string_view option, const std::vector<double>& state);
 
-/// "point", "disc 0.2", …: as the scene format writes it.
-std::string robot_text(const RobotSpec& robot);
-/// Reads what robot_text writes; throws InputError for others, naming `where`.
+/// Reads what robot_text() writes; throws InputError for others, naming `where`.
 RobotSpec robot_value(const std::string& where, std::string_view text);
 
 /// Where a state stands in the plane; none where there is no state.

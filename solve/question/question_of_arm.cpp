@@ -58,7 +58,7 @@ std::vector<double> state_named(ArmProblem& problem, const Scene& scene, const N
   const std::string end = fmt::format("{}: the {}", scene.source, is_goal ? "goal" : "start");
   std::vector<double> state;
   for (const ArmVariable& variable : model.variables) {
-    const auto found = std::find(named.names.begin(), named.names.end(), variable.name);
+    const auto found = std::ranges::find(named.names, variable.name);
     if (found == named.names.end()) {
       throw UsageError(fmt::format("{} says nothing of joint '{}', which moves", end, variable.name));
     }
@@ -258,7 +258,7 @@ std::vector<JointState> goal_states(const ArmProblem& problem, const Execution& 
   std::vector<JointState> states;
   for (const auto& wrist : wrists_to_try(problem, *chain)) {
     for (const JointState& q : puma560_inverse_place(*chain, problem.goal_place(), wrist)) {
-      if (std::find(states.begin(), states.end(), q) == states.end()) states.push_back(q);
+      if (std::ranges::find(states, q) == states.end()) states.push_back(q);
     }
   }
   return states;

@@ -40,7 +40,7 @@ struct OptionCheck {
     const auto is_coordinate = [](double x) { return std::abs(x) <= largest_coordinate; };
     for (const std::vector<double>& state : via) {
       const bool known = !state.empty() && state.size() <= most_joints;
-      if (known && std::all_of(state.begin(), state.end(), is_coordinate)) continue;
+      if (known && std::ranges::all_of(state, is_coordinate)) continue;
       throw UsageError("@via: a way-point is 2 or 3 numbers, of an arm one a joint, of at most 1e60");
     }
   }

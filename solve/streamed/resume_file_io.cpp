@@ -46,6 +46,12 @@ std::span<const std::byte> bytes_of(const T& value) {
   return std::as_bytes(std::span(&value, 1));
 }
 std::uint64_t sum_of(const PartHeader& header) { return checksum(bytes_of(header).first(32)); }
+/// How the file of this work begins.
+std::string beginning_of(std::string_view work) {
+  const FileHeader header{magic, version, static_cast<std::uint32_t>(work.size()),
+                          checksum(std::as_bytes(std::span(work)))};
+  return std::string(reinterpret_cast<const char*>(&header), sizeof header).append(work);  // NOLINT: its bytes
+}
 std::string reason(int error) { return std::generic_category().message(error); }
 
 }  // namespace
@@ -93,27 +99,20 @@ void ResumeFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
 }
 
 void ResumeFile::begin(std::string_view work) {
-  // Half a header is what a run left that was killed at once.
-  if (size() < sizeof(FileHeader) + work.size()) {
+  const std::string whole = beginning_of(work);
+  if (size() < whole.size()) {  // half a header is what a run left that was killed at once
     check_work(work);
-    ValuePacker packer;
-    packer.add(
-        FileHeader{magic, version, static_cast<std::uint32_t>(work.size()), checksum(std::as_bytes(std::span(work)))});
-    for (const char c : work) packer.add(c);
-    write(0, packer.bytes());
+    write(0, std::as_bytes(std::span(whole)));
   }
   find_places(check_work(work));
 }
 
 /// Where the parts begin. Of a file that is too short for that, only that it may have begun so.
 std::uint64_t ResumeFile::check_work(std::string_view work) const {
-  const FileHeader expected{magic, version, static_cast<std::uint32_t>(work.size()),
-                            checksum(std::as_bytes(std::span(work)))};
-  const std::uint64_t length = std::min<std::uint64_t>(size(), sizeof expected + work.size());
+  const std::string whole = beginning_of(work);
+  const std::uint64_t length = std::min<std::uint64_t>(size(), whole.size());
   std::string found(static_cast<std::size_t>(length), '\0');
   read(0, found.data(), found.size());
-  std::string whole(reinterpret_cast<const char*>(&expected), sizeof expected);  // NOLINT: the header's bytes
-  whole += work;
   if (whole.starts_with(found)) return length;
   if (!found.starts_with(std::string_view(magic.data(), std::min(magic.size(), found.size())))) {
     throw InputError(path_, "is no file of --resume, and would be lost");

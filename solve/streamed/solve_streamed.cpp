@@ -182,18 +182,12 @@ class StreamedSolve {
                                       help_.team != nullptr ? &help_.team->tiles() : nullptr},
                                      options_.roadmap, execution_));
     if (answer_.outcome != Outcome::solved) return;
-    const Verification found = judged.verdict();
-    if (!found.verified) fail_verification(answer_, found.first_violation);
+    take_verdict(answer_, judged.verdict());
     answer_.path = std::move(kept);
     if (help_.taker != nullptr) answer_.handed = judged.handed();
-    answer_.verified = true;
-    answer_.length = found.length;
-    answer_.min_clearance = found.min_clearance;
   }
   std::optional<Violation> met_at(Vec2 p) const {
-    const VerifyOptions options{.radius = problem_.robot.radius,
-                                .clearance = problem_.clearance + end_margin(problem_.reach())};
-    return verify_among_cells(walls_->judged(), std::span(&p, 1), options, execution_).first_violation;
+    return verify_among_cells(walls_->judged(), std::span(&p, 1), end_options(problem_), execution_).first_violation;
   }
   bool stands_free(Vec2 p) const { return !met_at(p); }
   /// Below half a cell nothing but a wall between two cells blocks a step, so the steps that are free say how many
@@ -282,7 +276,6 @@ SolveKind streamed_kind() {
                  streamed_planners,
                  usually<PlannerKind::prm>,
                  solve_request,
-                 nullptr,
                  recheck_streamed};
   kind.unmade = true;
   return kind;

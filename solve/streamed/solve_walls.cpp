@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Joins the worlds of walls with the roadmap planners: scene and options in, verified answer out.
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "core/base/whole.hpp"
 #include "planners/mazes/tiled_prm_lattice.hpp"
 #include "planners/shorten/taut_path.hpp"
 #include "scenes/mazes/maze_generator.hpp"
@@ -30,7 +30,7 @@ namespace {
 /// either will do: p is free, so the side is open.
 std::pair<std::uint32_t, std::uint32_t> cell_of(Vec2 p, MazeHint maze) {
   const auto at = [](double x, std::uint32_t count) {
-    return static_cast<std::uint32_t>(std::clamp(std::floor(x - 0.5), 0.0, static_cast<double>(count - 1)));
+    return bounded_whole<std::uint32_t>(std::floor(x - 0.5), 0.0, count - 1.0);
   };
   return {at(p.x, maze.cols), at(p.y, maze.rows)};
 }
@@ -211,10 +211,10 @@ SolveKind walls_kind() {
           walls_planners,
           usual_walls_planner,
           solve_walls,
-          make_roadmap,
           recheck_walls,
           build_sampled<PointAmongWalls>,
-          open_sampled<PointAmongWalls>};
+          open_sampled<PointAmongWalls>,
+          make_roadmap};
 }
 
 }  // namespace warren

@@ -33,42 +33,31 @@ constexpr std::array<std::uint8_t, 512> steps_of(StepRule rule) {
 constexpr std::uint32_t tile = 64;
 constexpr double least_drop = 0.6;
 
-class Ridges {
- public:
-  Ridges(const DistanceField& field, double least) : field_(field), least_(least) {}
-
-  bool is_ridge(std::uint32_t x, std::uint32_t y) const {
-    const double here = field_.distance(x, y);
-    if (!(here > 0.0 && here >= least_)) return false;
-    constexpr std::array<std::array<int, 2>, 4> axes{{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};
-    return std::any_of(axes.begin(), axes.end(), [&](const std::array<int, 2>& axis) {
-      const double way = axis[1] == 0 || axis[0] == 0 ? 1.0 : std::sqrt(2.0);
-      const double before = here - at(x - axis[0], y - axis[1]);
-      const double after = here - at(x + axis[0], y + axis[1]);
-      return before >= 0.0 && after >= 0.0 && before + after >= least_drop * way;
-    });
-  }
-
- private:
-  /// What lies outside of the map is blocked.
-  double at(std::int64_t x, std::int64_t y) const {
-    if (x < 0 || y < 0 || x >= field_.width() || y >= field_.height()) return 0.0;
-    return field_.distance(as_whole<std::uint32_t>(x), as_whole<std::uint32_t>(y));
-  }
-
-  const DistanceField& field_;
-  double least_;
-};
+bool is_ridge(const DistanceField& field, double least, std::uint32_t x, std::uint32_t y) {
+  const double here = field.distance(x, y);
+  if (!(here > 0.0 && here >= least)) return false;
+  const auto drop_to = [&](std::int64_t col, std::int64_t row) {  // what lies outside of the map is blocked
+    if (col < 0 || row < 0 || col >= field.width() || row >= field.height()) return here;
+    return here - field.distance(as_whole<std::uint32_t>(col), as_whole<std::uint32_t>(row));
+  };
+  constexpr std::array<std::array<int, 2>, 4> axes{{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};
+  return std::any_of(axes.begin(), axes.end(), [&](const std::array<int, 2>& axis) {
+    const double way = axis[1] == 0 || axis[0] == 0 ? 1.0 : std::sqrt(2.0);
+    const double before = drop_to(std::int64_t{x} - axis[0], std::int64_t{y} - axis[1]);
+    const double after = drop_to(std::int64_t{x} + axis[0], std::int64_t{y} + axis[1]);
+    return before >= 0.0 && after >= 0.0 && before + after >= least_drop * way;
+  });
+}
 
 /// The ridge cells of a band of rows, tile by tile.
-std::vector<std::uint32_t> places_of(const DistanceField& field, const Ridges& ridges, std::uint32_t first_row) {
+std::vector<std::uint32_t> places_of(const DistanceField& field, double least, std::uint32_t first_row) {
   std::vector<std::uint32_t> places;
   const std::uint32_t last_row = std::min(first_row + tile, field.height());
   for (std::uint32_t first = 0; first < field.width(); first += tile) {
     const std::uint32_t last = std::min(first + tile, field.width());
     for (std::uint32_t y = first_row; y < last_row; ++y) {
       for (std::uint32_t x = first; x < last; ++x) {
-        if (ridges.is_ridge(x, y)) places.push_back(y * field.width() + x);
+        if (is_ridge(field, least, x, y)) places.push_back(y * field.width() + x);
       }
     }
   }
@@ -112,10 +101,9 @@ const std::array<std::uint8_t, 512>& allowed_steps(StepRule rule) {
 
 CorridorCells::CorridorCells(const DistanceField& field, double least, const Execution& execution)
     : width_(field.width()), ridge_(field.width(), field.height()) {
-  const Ridges ridges(field, least);
   std::vector<std::vector<std::uint32_t>> bands((field.height() + tile - 1) / tile);
   for_chunks(bands.size(), 1, execution,
-             [&](Range r) { bands[r.first] = places_of(field, ridges, as_whole<std::uint32_t>(r.first) * tile); });
+             [&](Range r) { bands[r.first] = places_of(field, least, as_whole<std::uint32_t>(r.first) * tile); });
   std::size_t count = 0;
   for (const auto& band : bands) count += band.size();
   execution.reserve(count * (sizeof(std::uint32_t) + sizeof(double)));

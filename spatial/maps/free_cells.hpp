@@ -34,7 +34,6 @@ class FreeCells {
   std::uint32_t stride() const { return stride_; }
   /// One more than the largest number of a cell.
   std::size_t number_end() const { return number_end_; }
-  std::size_t bytes() const { return words_.size() * sizeof(std::uint64_t); }
 
   VertexId number(Cell c) const { return (c.y + 1) * stride_ + c.x + margin; }
   Cell cell(VertexId v) const {
@@ -123,7 +122,6 @@ class CorridorCells {
 
   bool empty() const { return places_.empty(); }
   std::size_t size() const { return places_.size(); }
-  std::size_t bytes() const { return ridge_.bytes() + places_.size() * 12; }
   /// The sum of 1 / distance: how many stretches as long as half their width there are.
   double weight() const { return weight_sums_.empty() ? 0.0 : weight_sums_.back(); }
   /// The cell at this share, 0 to 1, of all weights; not empty().

@@ -47,7 +47,7 @@ PolygonIndex::PolygonIndex(PolygonSet polygons, const Execution& execution) : po
   }
 }
 
-std::size_t PolygonIndex::level_of(Run run) noexcept {
+std::size_t PolygonIndex::level_of(Range run) noexcept {
   std::size_t level = 0;
   while (((run.last - 1) >> (fan_bits * level)) - (run.first >> (fan_bits * level)) >= 8) ++level;
   return level;
@@ -55,7 +55,7 @@ std::size_t PolygonIndex::level_of(Run run) noexcept {
 
 /// Half-open in y, so that a corner at the height of p counts once: a side crosses if one end lies above p's height
 /// and the other at it or below.
-void PolygonIndex::count(std::size_t level, std::size_t block, Run run, Crossings& crossings) const noexcept {
+void PolygonIndex::count(std::size_t level, std::size_t block, Range run, Crossings& crossings) const noexcept {
   const Vec2 p = crossings.p;
   const Box box = level == 0 ? box_of(side(block)) : levels_[level - 1][block];
   if (box.max.y < p.y || box.min.y > p.y || box.max.x < p.x) return;
@@ -79,7 +79,7 @@ void PolygonIndex::count(std::size_t level, std::size_t block, Run run, Crossing
 }
 
 PolygonSide PolygonIndex::side_of(std::size_t polygon, Vec2 p) const noexcept {
-  const Run run = sides_of(polygon);
+  const Range run = sides_of(polygon);
   const std::size_t level = level_of(run);
   const std::size_t shift = fan_bits * level;
   Crossings crossings{p};

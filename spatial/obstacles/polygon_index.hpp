@@ -14,6 +14,7 @@
 #include "core/base/types.hpp"
 #include "core/plane/polygon.hpp"
 #include "core/run/execution.hpp"
+#include "parallel/chunks.hpp"
 #include "spatial/obstacles/box_tree.hpp"
 
 namespace warren {
@@ -47,22 +48,38 @@ class PolygonIndex {
   }
   /// Calls visit(side) -> bool for each side of a polygon whose box meets `box`, in order, until it returns false.
   template <class Visit>
-  bool for_each_side_near(std::size_t polygon, const Box& box, const Visit& visit) const;
+  bool for_each_side_near(std::size_t polygon, const Box& box, const Visit& visit) const {
+    const Range run = sides_of(polygon);
+    const std::size_t level = level_of(run);
+    const std::size_t shift = fan_bits * level;
+    for (std::size_t block = run.first >> shift; block <= (run.last - 1) >> shift; ++block) {
+      if (!visit_block(level, block, run, box, visit)) return false;
+    }
+    return true;
+  }
 
  private:
   struct Crossings;
 
-  /// Sides first .. last - 1 of one polygon.
-  struct Run {
-    std::size_t first;
-    std::size_t last;
-  };
-  Run sides_of(std::size_t polygon) const noexcept { return {polygons_.first[polygon], polygons_.first[polygon + 1]}; }
+  Range sides_of(std::size_t polygon) const noexcept {
+    return {polygons_.first[polygon], polygons_.first[polygon + 1]};
+  }
   /// The lowest level on which a run touches few blocks.
-  static std::size_t level_of(Run run) noexcept;
-  void count(std::size_t level, std::size_t block, Run run, Crossings& crossings) const noexcept;
+  static std::size_t level_of(Range run) noexcept;
+  void count(std::size_t level, std::size_t block, Range run, Crossings& crossings) const noexcept;
+  /// Level 0: a side; level k: block of 8^k sides.
   template <class Visit>
-  bool visit_block(std::size_t level, std::size_t block, Run run, const Box& box, const Visit& visit) const;
+  bool visit_block(std::size_t level, std::size_t block, Range run, const Box& box, const Visit& visit) const {
+    if (level == 0) return !box_of(side(block)).meets(box) || visit(block);
+    if (!levels_[level - 1][block].meets(box)) return true;
+    const std::size_t shift = fan_bits * (level - 1);
+    const std::size_t first = std::max(run.first >> shift, block << fan_bits);
+    const std::size_t last = std::min((run.last - 1) >> shift, (block << fan_bits) + (std::size_t{1} << fan_bits) - 1);
+    for (std::size_t part = first; part <= last; ++part) {
+      if (!visit_block(level - 1, part, run, box, visit)) return false;
+    }
+    return true;
+  }
 
   static constexpr std::size_t fan_bits = 3;
 
@@ -72,31 +89,5 @@ class PolygonIndex {
   BoxTree<2> tree_;                       ///< over the polygons' boxes
   Box box_;
 };
-
-template <class Visit>
-bool PolygonIndex::for_each_side_near(std::size_t polygon, const Box& box, const Visit& visit) const {
-  const Run run = sides_of(polygon);
-  const std::size_t level = level_of(run);
-  const std::size_t shift = fan_bits * level;
-  for (std::size_t block = run.first >> shift; block <= (run.last - 1) >> shift; ++block) {
-    if (!visit_block(level, block, run, box, visit)) return false;
-  }
-  return true;
-}
-
-/// Level 0: a side; level k: block of 8^k sides.
-template <class Visit>
-bool PolygonIndex::visit_block(std::size_t level, std::size_t block, Run run, const Box& box,
-                               const Visit& visit) const {
-  if (level == 0) return !box_of(side(block)).meets(box) || visit(block);
-  if (!levels_[level - 1][block].meets(box)) return true;
-  const std::size_t shift = fan_bits * (level - 1);
-  const std::size_t first = std::max(run.first >> shift, block << fan_bits);
-  const std::size_t last = std::min((run.last - 1) >> shift, (block << fan_bits) + (std::size_t{1} << fan_bits) - 1);
-  for (std::size_t part = first; part <= last; ++part) {
-    if (!visit_block(level - 1, part, run, box, visit)) return false;
-  }
-  return true;
-}
 
 }  // namespace warren

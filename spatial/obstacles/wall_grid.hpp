@@ -27,18 +27,10 @@ namespace detail {
 /// Four coordinates as one vector of the compiler's own kind (g++ and clang++ have them for every machine), what its
 /// comparisons give, and the same bits as words of 64.
 template <class T>
-struct FourOf;
-template <>
-struct FourOf<float> {
-  using Ends = float __attribute__((vector_size(16)));
-  using Flags = int __attribute__((vector_size(16)));
-  using Words = long long __attribute__((vector_size(16)));
-};
-template <>
-struct FourOf<double> {
-  using Ends = double __attribute__((vector_size(32)));
-  using Flags = long long __attribute__((vector_size(32)));
-  using Words = Flags;
+struct FourOf {
+  using Ends [[gnu::vector_size(4 * sizeof(T))]] = T;
+  using Flags [[gnu::vector_size(4 * sizeof(T))]] = std::conditional_t<std::is_same_v<T, float>, int, long long>;
+  using Words [[gnu::vector_size(4 * sizeof(T))]] = long long;
 };
 }  // namespace detail
 
@@ -158,7 +150,12 @@ class WallGrid {
   /// Walls in cell order, long ones once a piece.
   std::size_t filed_count() const { return walls_.size(); }
   Segment filed(std::size_t i) const { return walls_[i].segment(); }
-  std::size_t bytes() const;
+  std::size_t bytes() const {
+    std::size_t total = offsets_.size() * sizeof(std::uint32_t) + walls_.size() * sizeof(WallOf<T>) +
+                        child_of_.size() * sizeof(std::uint32_t);
+    for (const WallGrid& child : children_) total += child.bytes();
+    return total;
+  }
 
  private:
   template <class U>
@@ -220,13 +217,5 @@ class WallGrid {
   RawVector<std::uint32_t> child_of_;  ///< a cell's finer grid, or no_child; empty if no cell has one
   std::vector<WallGrid> children_;
 };
-
-template <class T>
-std::size_t WallGrid<T>::bytes() const {
-  std::size_t total = offsets_.size() * sizeof(std::uint32_t) + walls_.size() * sizeof(WallOf<T>) +
-                      child_of_.size() * sizeof(std::uint32_t);
-  for (const WallGrid& child : children_) total += child.bytes();
-  return total;
-}
 
 }  // namespace warren

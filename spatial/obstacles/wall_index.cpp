@@ -21,26 +21,9 @@ namespace {
 
 /// Vectors of numbers, and of what comparing them gives, for machines with registers of so many bytes.
 template <class T, std::size_t bytes>
-struct LanesOf;
-template <>
-struct LanesOf<float, 16> {
-  using Numbers = float __attribute__((vector_size(16)));
-  using Indices = std::int32_t __attribute__((vector_size(16)));
-};
-template <>
-struct LanesOf<float, 32> {
-  using Numbers = float __attribute__((vector_size(32)));
-  using Indices = std::int32_t __attribute__((vector_size(32)));
-};
-template <>
-struct LanesOf<double, 16> {
-  using Numbers = double __attribute__((vector_size(16)));
-  using Indices = std::int64_t __attribute__((vector_size(16)));
-};
-template <>
-struct LanesOf<double, 32> {
-  using Numbers = double __attribute__((vector_size(32)));
-  using Indices = std::int64_t __attribute__((vector_size(32)));
+struct LanesOf {
+  using Numbers [[gnu::vector_size(bytes)]] = T;
+  using Indices [[gnu::vector_size(bytes)]] = typename MotionBunch<T>::Index;
 };
 
 /// A wall's box.
@@ -198,46 +181,6 @@ struct FiledWall {
   Segment part;
 };
 
-template <class T>
-class WallGridBuilder {
- public:
-  WallGridBuilder(const WallStatistics& statistics, std::size_t slack, unsigned depth, const Execution& execution)
-      : slack_(slack), depth_(depth), execution_(execution) {
-    choose_cell(statistics);
-  }
-
-  /// filed(i) gives the i-th of n walls as FiledWall<T>.
-  template <class Filed>
-  WallGrid<T> build(std::size_t n, const Filed& filed);
-
-  double cell() const { return grid_.cell_; }
-
- private:
-  struct Staged {
-    std::uint32_t cell;
-    WallOf<T> wall;
-  };
-  static constexpr std::size_t grain = std::size_t{1} << 16;
-  static constexpr unsigned deepest = 16;
-  static constexpr std::uint32_t crowded = 64;
-
-  void choose_cell(const WallStatistics& s);
-  template <class F>
-  void for_each_piece(const Segment& part, const F& f) const;
-  std::uint32_t band_of(std::uint32_t cell) const { return cell / band_cells_; }
-  void sort_band(std::span<const Staged> staged, std::uint32_t band, std::size_t first);
-  void refine_crowded_cells();
-  void refine_cell(std::uint32_t cell);
-
-  WallGrid<T> grid_;
-  std::size_t slack_;
-  unsigned depth_;
-  const Execution& execution_;
-  std::uint32_t band_cells_ = 1;
-  std::uint32_t bands_ = 1;
-  double rounding_ = 0.0;  ///< pieces may lie beside their wall by so much: some units in the last place
-};
-
 /// One pass over the parts of n filed walls.
 template <class T, class Filed>
 WallStatistics statistics_of(std::size_t n, const Filed& filed, const Execution& execution) {
@@ -247,15 +190,14 @@ WallStatistics statistics_of(std::size_t n, const Filed& filed, const Execution&
     double length = 0.0;
   };
   const auto length_of = [](const Segment& s) { return std::max(std::abs(s.b.x - s.a.x), std::abs(s.b.y - s.a.y)); };
-  std::vector<Part> parts(chunk_count(n, grain));
-  for_chunks(n, grain, execution, [&](Range r) {
+  const std::vector<Part> parts = parts_of_chunks(n, grain, execution, [&](Range r) {
     Part part;
     for (std::size_t i = r.first; i < r.last; ++i) {
       const Segment s = filed(i).part;
       part.box.include(box_of(s));
       part.length += length_of(s);
     }
-    parts[r.first / grain] = part;
+    return part;
   });
   WallStatistics result;
   result.walls = n;
@@ -294,156 +236,172 @@ inline Segment clipped(const Segment& s, const Box& box) {
 }
 
 template <class T>
-void WallGridBuilder<T>::choose_cell(const WallStatistics& s) {
-  const double width = s.box.empty() ? 0.0 : s.box.width();
-  const double height = s.box.empty() ? 0.0 : s.box.height();
-  const double longest = std::max({width, height, 1e-90});
-  const double area = std::max(width, 1e-6 * longest) * std::max(height, 1e-6 * longest);
-  const auto n = static_cast<double>(std::max<std::size_t>(s.walls, 1));
-  const auto slack = static_cast<double>(slack_);
-  double h = std::sqrt(area / n);
-  if (s.total_length > 0.0) h = std::min(h, area / s.total_length);
-  h = std::max({h, std::sqrt(area / (2 * n + slack)), s.total_length / (4 * n + slack), longest * 1e-9});
-  if (s.median_length >= h && s.median_length <= 2 * h) h = s.median_length * (1 + 1e-9);
-  if (!s.box.empty()) {
-    rounding_ =
-        1e-15 * std::max({std::abs(s.box.min.x), std::abs(s.box.min.y), std::abs(s.box.max.x), std::abs(s.box.max.y)});
+class WallGridBuilder {
+ public:
+  WallGridBuilder(const WallStatistics& statistics, std::size_t slack, unsigned depth, const Execution& execution)
+      : slack_(slack), depth_(depth), execution_(execution) {
+    choose_cell(statistics);
   }
-  grid_.cell_ = h;
-  grid_.inverse_cell_ = 1.0 / h;
-  // Off the lines that walls lie on, so that equal walls fall into equal cells.
-  grid_.origin_ = s.box.empty() ? Vec2{} : Vec2{s.box.min.x - 0.43 * h, s.box.min.y - 0.43 * h};
-  grid_.cols_ = bounded_whole<std::uint32_t>(width / h + 0.43) + 1;
-  grid_.rows_ = bounded_whole<std::uint32_t>(height / h + 0.43) + 1;
-  const std::size_t cells = std::size_t{grid_.cols_} * grid_.rows_;
-  band_cells_ = as_whole<std::uint32_t>(std::max<std::size_t>(cells / 512 + 1, std::size_t{1} << 14));
-  bands_ = as_whole<std::uint32_t>((cells + band_cells_ - 1) / band_cells_);
-}
 
-template <class T>
-template <class F>
-void WallGridBuilder<T>::for_each_piece(const Segment& part, const F& f) const {
-  const Vec2 along = part.b - part.a;
-  const double longest = std::max(std::abs(along.x), std::abs(along.y));
-  if (longest <= grid_.cell_) {
-    f(0.5 * (part.a + part.b), part);
-    return;
+  /// filed(i) gives the i-th of n walls as FiledWall<T>.
+  template <class Filed>
+  WallGrid<T> build(std::size_t n, const Filed& filed) {
+    const auto cell_at = [this](Vec2 p) { return grid_.row_of(p.y) * grid_.cols_ + grid_.col_of(p.x); };
+    const std::size_t chunks = chunk_count(n, grain);
+    std::vector<std::uint32_t> counts(chunks * bands_ + 1, 0);  // [band][chunk], then where each begins
+    std::vector<Vec2> reaches(chunks);
+    for_chunks(n, grain, execution_, [&](Range r) {
+      const std::size_t chunk = r.first / grain;
+      Vec2 reach;
+      for (std::size_t i = r.first; i < r.last; ++i) {
+        for_each_piece(filed(i).part, [&](Vec2 middle, const Segment& piece) {
+          ++counts[std::size_t{band_of(cell_at(middle))} * chunks + chunk];
+          const Box box = box_of(piece);
+          reach = {std::max({reach.x, middle.x - box.min.x, box.max.x - middle.x}),
+                   std::max({reach.y, middle.y - box.min.y, box.max.y - middle.y})};
+        });
+      }
+      reaches[chunk] = reach;
+    });
+    for (const Vec2 reach : reaches)
+      grid_.reach_ = {std::max(grid_.reach_.x, reach.x), std::max(grid_.reach_.y, reach.y)};
+    grid_.reach_ = (1 + 1e-9) * grid_.reach_ + Vec2{rounding_, rounding_};
+    std::uint32_t total = 0;
+    for (std::uint32_t& count : counts) total += std::exchange(count, total);
+    execution_.reserve(std::size_t{total} * (sizeof(Staged) + sizeof(WallOf<T>)) +
+                       std::size_t{bands_} * band_cells_ * 4);
+    RawVector<Staged> staged(total);
+    touch_first(staged, execution_);
+    std::vector<std::uint32_t> next(counts);
+    for_chunks(n, grain, execution_, [&](Range r) {
+      for (std::size_t i = r.first; i < r.last; ++i) {
+        const FiledWall<T> wall = filed(i);
+        for_each_piece(wall.part, [&](Vec2 middle, const Segment&) {
+          const std::uint32_t cell = cell_at(middle);
+          staged[next[std::size_t{band_of(cell)} * chunks + r.first / grain]++] = {cell, wall.wall};
+        });
+      }
+    });
+    grid_.offsets_.resize(std::size_t{grid_.cols_} * grid_.rows_ + 1);
+    grid_.offsets_.back() = total;
+    grid_.walls_.resize(total);
+    for_chunks(bands_, 1, execution_, [&](Range r) {
+      const std::size_t first = counts[r.first * chunks];
+      const std::size_t last = counts[(r.first + 1) * chunks];
+      sort_band({staged.data() + first, last - first}, as_whole<std::uint32_t>(r.first), first);
+    });
+    refine_crowded_cells();
+    return std::move(grid_);
   }
-  const auto pieces = bounded_whole<std::uint32_t>(std::ceil(longest * grid_.inverse_cell_));
-  Vec2 from = part.a;
-  for (std::uint32_t i = 1; i <= pieces; ++i) {
-    const Vec2 to = i == pieces ? part.b : part.a + (static_cast<double>(i) / pieces) * along;
-    f(0.5 * (from + to), Segment{from, to});
-    from = to;
-  }
-}
 
-template <class T>
-template <class Filed>
-WallGrid<T> WallGridBuilder<T>::build(std::size_t n, const Filed& filed) {
-  const auto cell_at = [this](Vec2 p) { return grid_.row_of(p.y) * grid_.cols_ + grid_.col_of(p.x); };
-  const std::size_t chunks = chunk_count(n, grain);
-  std::vector<std::uint32_t> counts(chunks * bands_ + 1, 0);  // [band][chunk], then where each begins
-  std::vector<Vec2> reaches(chunks);
-  for_chunks(n, grain, execution_, [&](Range r) {
-    const std::size_t chunk = r.first / grain;
-    Vec2 reach;
-    for (std::size_t i = r.first; i < r.last; ++i) {
-      for_each_piece(filed(i).part, [&](Vec2 middle, const Segment& piece) {
-        ++counts[std::size_t{band_of(cell_at(middle))} * chunks + chunk];
-        const Box box = box_of(piece);
-        reach = {std::max({reach.x, middle.x - box.min.x, box.max.x - middle.x}),
-                 std::max({reach.y, middle.y - box.min.y, box.max.y - middle.y})};
-      });
+  double cell() const { return grid_.cell_; }
+
+ private:
+  struct Staged {
+    std::uint32_t cell;
+    WallOf<T> wall;
+  };
+  static constexpr std::size_t grain = std::size_t{1} << 16;
+  static constexpr unsigned deepest = 16;
+  static constexpr std::uint32_t crowded = 64;
+
+  void choose_cell(const WallStatistics& s) {
+    const double width = s.box.empty() ? 0.0 : s.box.width();
+    const double height = s.box.empty() ? 0.0 : s.box.height();
+    const double longest = std::max({width, height, 1e-90});
+    const double area = std::max(width, 1e-6 * longest) * std::max(height, 1e-6 * longest);
+    const auto n = static_cast<double>(std::max<std::size_t>(s.walls, 1));
+    const auto slack = static_cast<double>(slack_);
+    double h = std::sqrt(area / n);
+    if (s.total_length > 0.0) h = std::min(h, area / s.total_length);
+    h = std::max({h, std::sqrt(area / (2 * n + slack)), s.total_length / (4 * n + slack), longest * 1e-9});
+    if (s.median_length >= h && s.median_length <= 2 * h) h = s.median_length * (1 + 1e-9);
+    if (!s.box.empty()) {
+      rounding_ = 1e-15 * std::max({std::abs(s.box.min.x), std::abs(s.box.min.y), std::abs(s.box.max.x),
+                                    std::abs(s.box.max.y)});
     }
-    reaches[chunk] = reach;
-  });
-  for (const Vec2 reach : reaches)
-    grid_.reach_ = {std::max(grid_.reach_.x, reach.x), std::max(grid_.reach_.y, reach.y)};
-  grid_.reach_ = (1 + 1e-9) * grid_.reach_ + Vec2{rounding_, rounding_};
-  std::uint32_t total = 0;
-  for (std::uint32_t& count : counts) total += std::exchange(count, total);
-  execution_.reserve(std::size_t{total} * (sizeof(Staged) + sizeof(WallOf<T>)) + std::size_t{bands_} * band_cells_ * 4);
-  RawVector<Staged> staged(total);
-  touch_first(staged, execution_);
-  std::vector<std::uint32_t> next(counts);
-  for_chunks(n, grain, execution_, [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; ++i) {
-      const FiledWall<T> wall = filed(i);
-      for_each_piece(wall.part, [&](Vec2 middle, const Segment&) {
-        const std::uint32_t cell = cell_at(middle);
-        staged[next[std::size_t{band_of(cell)} * chunks + r.first / grain]++] = {cell, wall.wall};
-      });
-    }
-  });
-  grid_.offsets_.resize(std::size_t{grid_.cols_} * grid_.rows_ + 1);
-  grid_.offsets_.back() = total;
-  grid_.walls_.resize(total);
-  for_chunks(bands_, 1, execution_, [&](Range r) {
-    const std::size_t first = counts[r.first * chunks];
-    const std::size_t last = counts[(r.first + 1) * chunks];
-    sort_band({staged.data() + first, last - first}, as_whole<std::uint32_t>(r.first), first);
-  });
-  refine_crowded_cells();
-  return std::move(grid_);
-}
-
-template <class T>
-void WallGridBuilder<T>::sort_band(std::span<const Staged> staged, std::uint32_t band, std::size_t first) {
-  const std::size_t first_cell = std::size_t{band} * band_cells_;
-  const std::size_t cells = std::min<std::size_t>(band_cells_, grid_.offsets_.size() - 1 - first_cell);
-  std::uint32_t* offsets = grid_.offsets_.data() + first_cell;
-  std::fill(offsets, offsets + cells, 0U);
-  for (const Staged& s : staged) ++offsets[s.cell - first_cell];
-  auto at = as_whole<std::uint32_t>(first);
-  for (std::size_t c = 0; c < cells; ++c) at += std::exchange(offsets[c], at);
-  for (const Staged& s : staged) grid_.walls_[offsets[s.cell - first_cell]++] = s.wall;
-  for (std::size_t c = cells; c-- > 1;) offsets[c] = offsets[c - 1];  // each offset has moved to its cell's end
-  if (cells > 0) offsets[0] = as_whole<std::uint32_t>(first);
-}
-
-template <class T>
-void WallGridBuilder<T>::refine_crowded_cells() {
-  if (depth_ >= deepest) return;
-  const std::size_t cells = grid_.offsets_.size() - 1;
-  std::vector<std::vector<std::uint32_t>> found(chunk_count(cells, grain));
-  for_chunks(cells, grain, execution_, [&](Range r) {
-    for (std::size_t c = r.first; c < r.last; ++c) {
-      if (grid_.offsets_[c + 1] - grid_.offsets_[c] > crowded)
-        found[r.first / grain].push_back(as_whole<std::uint32_t>(c));
-    }
-  });
-  for (const auto& part : found) {
-    for (const std::uint32_t cell : part) refine_cell(cell);
+    grid_.cell_ = h;
+    grid_.inverse_cell_ = 1.0 / h;
+    // Off the lines that walls lie on, so that equal walls fall into equal cells.
+    grid_.origin_ = s.box.empty() ? Vec2{} : Vec2{s.box.min.x - 0.43 * h, s.box.min.y - 0.43 * h};
+    grid_.cols_ = bounded_whole<std::uint32_t>(width / h + 0.43) + 1;
+    grid_.rows_ = bounded_whole<std::uint32_t>(height / h + 0.43) + 1;
+    const std::size_t cells = std::size_t{grid_.cols_} * grid_.rows_;
+    band_cells_ = as_whole<std::uint32_t>(std::max<std::size_t>(cells / 512 + 1, std::size_t{1} << 14));
+    bands_ = as_whole<std::uint32_t>((cells + band_cells_ - 1) / band_cells_);
   }
-}
+  template <class F>
+  void for_each_piece(const Segment& part, const F& f) const {
+    const Vec2 along = part.b - part.a;
+    const double longest = std::max(std::abs(along.x), std::abs(along.y));
+    if (longest <= grid_.cell_) {
+      f(0.5 * (part.a + part.b), part);
+      return;
+    }
+    const auto pieces = bounded_whole<std::uint32_t>(std::ceil(longest * grid_.inverse_cell_));
+    Vec2 from = part.a;
+    for (std::uint32_t i = 1; i <= pieces; ++i) {
+      const Vec2 to = i == pieces ? part.b : part.a + (static_cast<double>(i) / pieces) * along;
+      f(0.5 * (from + to), Segment{from, to});
+      from = to;
+    }
+  }
+  std::uint32_t band_of(std::uint32_t cell) const { return cell / band_cells_; }
+  void sort_band(std::span<const Staged> staged, std::uint32_t band, std::size_t first) {
+    const std::size_t first_cell = std::size_t{band} * band_cells_;
+    const std::size_t cells = std::min<std::size_t>(band_cells_, grid_.offsets_.size() - 1 - first_cell);
+    std::uint32_t* offsets = grid_.offsets_.data() + first_cell;
+    std::fill(offsets, offsets + cells, 0U);
+    for (const Staged& s : staged) ++offsets[s.cell - first_cell];
+    auto at = as_whole<std::uint32_t>(first);
+    for (std::size_t c = 0; c < cells; ++c) at += std::exchange(offsets[c], at);
+    for (const Staged& s : staged) grid_.walls_[offsets[s.cell - first_cell]++] = s.wall;
+    for (std::size_t c = cells; c-- > 1;) offsets[c] = offsets[c - 1];  // each offset has moved to its cell's end
+    if (cells > 0) offsets[0] = as_whole<std::uint32_t>(first);
+  }
+  void refine_crowded_cells() {
+    if (depth_ >= deepest) return;
+    const std::size_t cells = grid_.offsets_.size() - 1;
+    std::vector<std::vector<std::uint32_t>> found(chunk_count(cells, grain));
+    for_chunks(cells, grain, execution_, [&](Range r) {
+      for (std::size_t c = r.first; c < r.last; ++c) {
+        if (grid_.offsets_[c + 1] - grid_.offsets_[c] > crowded)
+          found[r.first / grain].push_back(as_whole<std::uint32_t>(c));
+      }
+    });
+    for (const auto& part : found) {
+      for (const std::uint32_t cell : part) refine_cell(cell);
+    }
+  }
+  void refine_cell(std::uint32_t cell) {
+    const std::size_t first = grid_.offsets_[cell];
+    const std::size_t n = grid_.offsets_[cell + 1] - first;
+    const Vec2 low = grid_.origin_ + Vec2{(cell % grid_.cols_) * grid_.cell_, (cell / grid_.cols_) * grid_.cell_};
+    const Vec2 reach = grid_.reach_ + Vec2{rounding_, rounding_};
+    const Box region{low - reach, low + Vec2{grid_.cell_, grid_.cell_} + reach};
+    const RawVector<WallOf<T>> walls(grid_.walls_.begin() + first, grid_.walls_.begin() + first + n);
+    const auto filed = [&](std::size_t i) { return FiledWall<T>{walls[i], clipped(walls[i].segment(), region)}; };
+    WallGridBuilder finer(statistics_of<T>(n, filed, execution_), 64, depth_ + 1, execution_);
+    if (finer.cell() > grid_.cell_ / 4) return;  // long or equal walls: a finer grid would hold them all again
+    if (grid_.child_of_.empty()) grid_.child_of_.assign(grid_.offsets_.size() - 1, WallGrid<T>::no_child);
+    grid_.child_of_[cell] = as_whole<std::uint32_t>(grid_.children_.size());
+    grid_.children_.push_back(finer.build(n, filed));
+  }
 
-template <class T>
-void WallGridBuilder<T>::refine_cell(std::uint32_t cell) {
-  const std::size_t first = grid_.offsets_[cell];
-  const std::size_t n = grid_.offsets_[cell + 1] - first;
-  const Vec2 low = grid_.origin_ + Vec2{(cell % grid_.cols_) * grid_.cell_, (cell / grid_.cols_) * grid_.cell_};
-  const Vec2 reach = grid_.reach_ + Vec2{rounding_, rounding_};
-  const Box region{low - reach, low + Vec2{grid_.cell_, grid_.cell_} + reach};
-  const RawVector<WallOf<T>> walls(grid_.walls_.begin() + first, grid_.walls_.begin() + first + n);
-  const auto filed = [&](std::size_t i) { return FiledWall<T>{walls[i], clipped(walls[i].segment(), region)}; };
-  WallGridBuilder finer(statistics_of<T>(n, filed, execution_), 64, depth_ + 1, execution_);
-  if (finer.cell() > grid_.cell_ / 4) return;  // long or equal walls: a finer grid would hold them all again
-  if (grid_.child_of_.empty()) grid_.child_of_.assign(grid_.offsets_.size() - 1, WallGrid<T>::no_child);
-  grid_.child_of_[cell] = as_whole<std::uint32_t>(grid_.children_.size());
-  grid_.children_.push_back(finer.build(n, filed));
-}
+  WallGrid<T> grid_;
+  std::size_t slack_;
+  unsigned depth_;
+  const Execution& execution_;
+  std::uint32_t band_cells_ = 1;
+  std::uint32_t bands_ = 1;
+  double rounding_ = 0.0;  ///< pieces may lie beside their wall by so much: some units in the last place
+};
 
 namespace {
 
 bool fits_float(std::span<const Segment> segments) {
   return WallSet::narrowest(segments).visit(
       []<class Wall>(std::span<const Wall>) { return std::is_same_v<typename Wall::Number, float>; });
-}
-
-template <class T>
-WallOf<T> wall_of(const Segment& s) {
-  return {static_cast<T>(s.a.x), static_cast<T>(s.a.y), static_cast<T>(s.b.x), static_cast<T>(s.b.y)};
 }
 
 /// Are all points of s farther than r from p, or just r? Squared and without a division.
@@ -522,9 +480,8 @@ WallIndex::WallIndex(const WallSet& walls, std::span<const Segment> more, const 
     using T = typename Span::element_type::Number;
     const auto build = [&]<class U>(U) {
       const auto filed = [&](std::size_t i) {
-        if (i >= given.size()) return FiledWall<U>{wall_of<U>(more[i - given.size()]), more[i - given.size()]};
-        const Segment s = given[i].segment();
-        return FiledWall<U>{wall_of<U>(s), s};
+        const Segment s = i < given.size() ? given[i].segment() : more[i - given.size()];
+        return FiledWall<U>{WallOf<U>::of(s.a.x, s.a.y, s.b.x, s.b.y), s};
       };
       const WallStatistics statistics = statistics_of<U>(wall_count_, filed, execution);
       box_ = statistics.box;

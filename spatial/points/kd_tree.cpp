@@ -9,7 +9,6 @@
 #include <nanoflann.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -182,41 +181,52 @@ using Lanes8 = float __attribute__((vector_size(32)));
 template <int D>
 using Blocks = std::span<const std::array<std::array<float, 8>, D>>;
 
+constexpr std::size_t blocks_of_group = 8;
+
 /// The squared distances of points, eight a block, from one whose coordinates are these on the first axes, and whose
-/// square on the others is `beyond`; the least of them.
+/// square on the others is `beyond`. For each group of blocks, the least of the first of each block, of the second ...
+/// Gives the least of all.
 template <class Lanes, int D>
 [[gnu::always_inline]] inline float measure_by_lanes(Blocks<D> blocks, std::span<const float> from, float beyond,
-                                                     float* squares) {
+                                                     float* squares, float* least_of_group) {
   constexpr std::size_t width = sizeof(Lanes) / sizeof(float);
-  Lanes least = Lanes{} + std::numeric_limits<float>::infinity();
-  for (const auto& block : blocks) {
-    for (std::size_t part = 0; part < 8; part += width) {
-      Lanes sum = Lanes{} + beyond;
-      for (std::size_t axis = 0; axis < from.size(); ++axis) {
-        Lanes d;
-        std::memcpy(&d, &block[axis][part], sizeof d);
-        d -= from[axis];
-        sum += d * d;
+  Lanes least_of_all = Lanes{} + std::numeric_limits<float>::infinity();
+  for (; !blocks.empty(); least_of_group += 8) {
+    const auto group = blocks.first(std::min(blocks.size(), blocks_of_group));
+    blocks = blocks.subspan(group.size());
+    std::array<Lanes, 8 / width> least;
+    least.fill(Lanes{} + std::numeric_limits<float>::infinity());
+    for (const auto& block : group) {
+      for (std::size_t part = 0; part < least.size(); ++part) {
+        Lanes sum = Lanes{} + beyond;
+        for (std::size_t axis = 0; axis < from.size(); ++axis) {
+          Lanes d;
+          std::memcpy(&d, &block[axis][part * width], sizeof d);
+          d -= from[axis];
+          sum += d * d;
+        }
+        std::memcpy(squares + part * width, &sum, sizeof sum);
+        least[part] = sum < least[part] ? sum : least[part];
       }
-      std::memcpy(squares + part, &sum, sizeof sum);
-      least = sum < least ? sum : least;
+      squares += 8;
     }
-    squares += 8;
+    std::memcpy(least_of_group, least.data(), sizeof least);
+    for (const Lanes& part : least) least_of_all = part < least_of_all ? part : least_of_all;
   }
   std::array<float, width> all;
-  std::memcpy(all.data(), &least, sizeof least);
+  std::memcpy(all.data(), &least_of_all, sizeof least_of_all);
   return *std::min_element(all.begin(), all.end());
 }
 
 template <int D>
-float measure_baseline(Blocks<D> blocks, std::span<const float> from, float beyond, float* squares) {
-  return measure_by_lanes<Lanes4, D>(blocks, from, beyond, squares);
+float measure_baseline(Blocks<D> blocks, std::span<const float> from, float beyond, float* squares, float* least) {
+  return measure_by_lanes<Lanes4, D>(blocks, from, beyond, squares, least);
 }
 #if defined(__x86_64__) && !defined(WARREN_PLAIN)
 template <int D>
-[[gnu::target("avx2")]] float measure_avx2(Blocks<D> blocks, std::span<const float> from, float beyond,
-                                           float* squares) {
-  return measure_by_lanes<Lanes8, D>(blocks, from, beyond, squares);
+[[gnu::target("avx2")]] float measure_avx2(Blocks<D> blocks, std::span<const float> from, float beyond, float* squares,
+                                           float* least) {
+  return measure_by_lanes<Lanes8, D>(blocks, from, beyond, squares, least);
 }
 #else
 template <int D>
@@ -237,10 +247,10 @@ struct KdTree<D>::Forest {
   Forest(std::span<const Point> input, const Execution& execution) : top(input) {
     const Execution quiet = execution.quiet();
     quiet.reserve(input.size() * (sizeof(Point) + 16 + 12));
-    KeyOrder order =
+    ItemsByKey order =
         counting_sort(input.size(), top.leaves, quiet, [&](std::size_t i) { return top.leaf_of(input[i]); });
     first = std::move(order.first);
-    ids = std::move(order.item);
+    ids = std::move(order.items);
     points.resize(input.size());
     place_of.resize(input.size());
     trees.resize(top.leaves);
@@ -439,7 +449,9 @@ void GrowingTree<D>::look_at_newest(const Point& p, double most, bool only_neare
       if (axis >= axes_) beyond += p[axis] * p[axis];
     }
     squares_.resize(8 * newest_.size());
-    const float least = measure(newest_, {from.data(), axes_}, static_cast<float>(beyond), squares_.data());
+    leasts_.resize(8 * ((newest_.size() + blocks_of_group - 1) / blocks_of_group));
+    const float least =
+        measure(newest_, {from.data(), axes_}, static_cast<float>(beyond), squares_.data(), leasts_.data());
     // A difference is wrong by two roundings of its numbers and one of its own, their squares' sum by one a term, and
     // squares of the least numbers are lost.
     const double wrong = 0x1p-22 * D * largest + 1e-18;
@@ -447,10 +459,13 @@ void GrowingTree<D>::look_at_newest(const Point& p, double most, bool only_neare
     if (only_nearest) most = std::min(most, farther(std::sqrt(double{least})));
     const double far = std::min(farther(most), 16.0 * largest_in_floats);
     const auto limit = static_cast<float>(far * far);
-    for (std::size_t first = 0; first < squares_.size(); first += 8) {
-      unsigned near = 0;
-      for (std::size_t i = 0; i < 8; ++i) near |= squares_[first + i] <= limit ? 1U << i : 0U;
-      for (; near != 0; near &= near - 1) look_at(filed_ + first + as_whole<std::size_t>(std::countr_zero(near)));
+    for (std::size_t i = 0; i < leasts_.size(); ++i) {
+      if (!(leasts_[i] <= limit)) continue;
+      const std::size_t group = i / 8 * 8 * blocks_of_group;
+      const std::size_t end = std::min(group + 8 * blocks_of_group, squares_.size());
+      for (std::size_t k = group + i % 8; k < end; k += 8) {
+        if (squares_[k] <= limit) look_at(filed_ + k);
+      }
     }
   }
 }

@@ -103,6 +103,7 @@ class GrowingTree {
   std::size_t axes_ = 0;          // of these, all others are 0
   double largest_ = 0.0;          // coordinate of these, in size
   std::vector<float> squares_;    // scratch
+  std::vector<float> leasts_;     // scratch: of eight times eight of these
   std::vector<Neighbour> found_;  // scratch
 };
 

@@ -45,17 +45,16 @@ std::size_t PointGrid::bytes() const {
 
 /// Are the points in tile order? A pass of its own: filed out of order, two chunks would write the same cell.
 bool PointGrid::in_order(std::span<const Vec2> points, const Execution& execution) const {
-  std::vector<std::uint8_t> sorted(chunk_count(points.size(), grid_grain), 0);
-  for_chunks(points.size(), grid_grain, execution.quiet(), [&](Range range) {
+  const std::size_t first_too_late = first_in_chunks(points.size(), grid_grain, execution.quiet(), [&](Range range) {
     std::size_t before = frame_.cell_of(points[range.first == 0 ? 0 : range.first - 1]);
     for (std::size_t i = range.first; i < range.last; ++i) {
       const std::size_t cell = frame_.cell_of(points[i]);
-      if (cell < before) return;
+      if (cell < before) return i;
       before = cell;
     }
-    sorted[range.first / grid_grain] = 1;
+    return range.last;
   });
-  return std::find(sorted.begin(), sorted.end(), 0) == sorted.end();
+  return first_too_late == points.size();
 }
 
 /// Files points that are in tile order.
@@ -75,10 +74,10 @@ void PointGrid::file_points(const Execution& execution) {
 
 void PointGrid::sort_points(std::span<const Vec2> points, const Execution& execution) {
   execution.reserve(points.size() * 24);
-  KeyOrder order = counting_sort(points.size(), frame_.cell_count(), execution,
-                                 [&](std::size_t i) { return frame_.cell_of(points[i]); });
+  ItemsByKey order = counting_sort(points.size(), frame_.cell_count(), execution,
+                                   [&](std::size_t i) { return frame_.cell_of(points[i]); });
   begin_ = std::move(order.first);
-  id_ = std::move(order.item);
+  id_ = std::move(order.items);
   place_of_.resize(points.size());
   sorted_.resize(points.size());
   for_each_index(points.size(), grid_grain, execution.quiet(), [&](std::size_t place) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/plane/polygon.hpp"
 #include "parallel/sort.hpp"
 
 namespace warren {
@@ -11,11 +12,11 @@ namespace {
 constexpr std::size_t order_grain = std::size_t{1} << 15;
 }  // namespace
 
-CellFrame::CellFrame(const Box& box, std::size_t count, double load) {
+CellFrame::CellFrame(const Box& box, std::size_t count) {
   if (count == 0 || box.empty()) return;
   const double width = box.width();
   const double height = box.height();
-  const double share = load / static_cast<double>(count);  // of the box, for one cell
+  const double share = usual_load / static_cast<double>(count);  // of the box, for one cell
   // The second term keeps a thin box from being cut into more columns than there are points.
   const double size =
       std::max(std::sqrt(width) * std::sqrt(height) * std::sqrt(share), std::max(width, height) * share);
@@ -27,22 +28,19 @@ CellFrame::CellFrame(const Box& box, std::size_t count, double load) {
 }
 
 Box bounding_box(std::span<const Vec2> positions, const Execution& execution) {
-  std::vector<Box> boxes(chunk_count(positions.size(), order_grain));
-  for_chunks(positions.size(), order_grain, execution.quiet(), [&](Range range) {
-    Box box;
-    for (std::size_t i = range.first; i < range.last; ++i) box.include(positions[i]);
-    boxes[range.first / order_grain] = box;
+  const std::vector<Box> boxes = parts_of_chunks(positions.size(), order_grain, execution.quiet(), [&](Range range) {
+    return box_around(positions.subspan(range.first, range.size()));
   });
   Box all;
   for (const Box& box : boxes) all.include(box);
   return all;
 }
 
-TileOrder tile_order(std::span<const Vec2> positions, const Execution& execution) {
+RawVector<std::uint32_t> tile_order(std::span<const Vec2> positions, const Execution& execution) {
   const CellFrame frame(bounding_box(positions, execution), positions.size());
-  KeyOrder order = counting_sort(positions.size(), frame.cell_count(), execution,
-                                 [&](std::size_t i) { return frame.cell_of(positions[i]); });
-  return {std::move(order.item)};
+  return counting_sort(positions.size(), frame.cell_count(), execution,
+                       [&](std::size_t i) { return frame.cell_of(positions[i]); })
+      .items;
 }
 
 }  // namespace warren

@@ -17,12 +17,9 @@
 
 namespace warren {
 
-struct TileOrder {
-  RawVector<std::uint32_t> sample_of;  ///< milestone i is sample sample_of[i]
-};
-
-/// The order of points in the plane. Coordinates within +-largest_coordinate; below 2^32 points. Throws Stopped.
-TileOrder tile_order(std::span<const Vec2> positions, const Execution& execution);
+/// The order of points in the plane: the numbers of the first, the second and so on. Coordinates within
+/// +-largest_coordinate; below 2^32 points. Throws Stopped.
+RawVector<std::uint32_t> tile_order(std::span<const Vec2> positions, const Execution& execution);
 
 /// The cells over a set of points: a pure function of their box and number. Which cell a coordinate falls in never
 /// decreases with the coordinate, rounding included; that is all that exact queries need.
@@ -33,8 +30,9 @@ class CellFrame {
   static constexpr double usual_load = 2.0;
 
   CellFrame() = default;  ///< one cell
-  /// About `load` points a cell if they were spread evenly; at most 3 count / load + 1 cells whatever the box's shape.
-  CellFrame(const Box& box, std::size_t count, double load = usual_load);
+  /// About `usual_load` points a cell if they were spread evenly; at most 3 count / usual_load + 1 cells whatever the
+  /// box's shape.
+  CellFrame(const Box& box, std::size_t count);
 
   std::uint32_t columns() const { return columns_; }
   std::uint32_t rows() const { return rows_; }

@@ -21,8 +21,8 @@ void expect_sorted(const std::vector<std::uint32_t>& key, std::size_t keys, unsi
   std::vector<std::uint32_t> expected(key.size());
   std::iota(expected.begin(), expected.end(), 0U);
   std::stable_sort(expected.begin(), expected.end(), [&](auto a, auto b) { return key[a] < key[b]; });
-  const KeyOrder order = counting_sort(key.size(), keys, {.threads = threads}, [&](std::size_t i) { return key[i]; });
-  ASSERT_TRUE(std::equal(expected.begin(), expected.end(), order.item.begin(), order.item.end()));
+  const ItemsByKey order = counting_sort(key.size(), keys, {.threads = threads}, [&](std::size_t i) { return key[i]; });
+  ASSERT_TRUE(std::equal(expected.begin(), expected.end(), order.items.begin(), order.items.end()));
   ASSERT_EQ(order.first.size(), keys + 1);
   for (std::size_t k = 0; k <= keys; ++k) {
     const auto less = [&](std::uint32_t i, std::size_t bound) { return key[i] < bound; };

@@ -45,15 +45,11 @@ void report_lost_page(int number, siginfo_t* info, void*) {
   ::_exit(exit_code::unreadable);
 }
 
-std::int64_t now_ms() {
-  timespec now{};
-  ::clock_gettime(CLOCK_MONOTONIC, &now);
-  return std::int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1'000'000;
-}
-
 void remember(int number) {
   constexpr std::int64_t patience_ms = 1000;
-  const std::int64_t now = now_ms();
+  timespec clock{};
+  ::clock_gettime(CLOCK_MONOTONIC, &clock);
+  const std::int64_t now = std::int64_t{clock.tv_sec} * 1000 + clock.tv_nsec / 1'000'000;
   std::int64_t first = first_ms.load(std::memory_order_relaxed);
   if (now - first < patience_ms) return;
   if (!first_ms.compare_exchange_strong(first, now, std::memory_order_relaxed)) return;  // another thread's, right now

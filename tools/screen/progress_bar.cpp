@@ -33,8 +33,9 @@ std::string progress_line(const RunMoment& moment, double items_per_s, std::stri
                           std::size_t width) {
   std::string line = fmt::format("{:<10}", moment.stage);
   std::string figures;
+  double fraction = 0.0;
   if (moment.total > 0) {
-    const double fraction = std::min(1.0, static_cast<double>(moment.done) / static_cast<double>(moment.total));
+    fraction = std::min(1.0, static_cast<double>(moment.done) / static_cast<double>(moment.total));
     figures += fmt::format(" {:3.0f} %", 100.0 * fraction);
     if (items_per_s > 0.0 && moment.done < moment.total) {
       const auto left = static_cast<double>(moment.total - moment.done);
@@ -46,10 +47,7 @@ std::string progress_line(const RunMoment& moment, double items_per_s, std::stri
   if (!of_whole_run.empty()) figures += fmt::format("{}{}", figures.empty() ? " " : ", ", of_whole_run);
   constexpr std::size_t widest_bar = 40;
   const std::size_t used = line.size() + figures.size() + 3;
-  if (moment.total > 0 && used + 8 < width) {
-    line += bar(static_cast<double>(std::min(moment.done, moment.total)) / static_cast<double>(moment.total),
-                std::min(widest_bar, width - used));
-  }
+  if (moment.total > 0 && used + 8 < width) line += bar(fraction, std::min(widest_bar, width - used));
   line += figures;
   if (line.size() >= width) line.resize(width - 1);
   return line;

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -107,16 +106,10 @@ void Run::end() {
 }
 
 int exit_code_of(StopReason reason) {
-  switch (reason) {
-    case StopReason::interrupt:
-      return exit_code::interrupted;
-    case StopReason::terminate:
-      return exit_code::terminated;
-    case StopReason::hang_up:
-      return exit_code::hung_up;
-    default:
-      return exit_code::budget;
-  }
+  return reason == StopReason::interrupt   ? exit_code::interrupted
+         : reason == StopReason::terminate ? exit_code::terminated
+         : reason == StopReason::hang_up   ? exit_code::hung_up
+                                           : exit_code::budget;
 }
 
 std::string trace_json(const Trace& trace) {

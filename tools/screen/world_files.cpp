@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -149,11 +148,11 @@ Scene load_world(const InputFile& file, const Arguments& arguments, const Execut
 }
 
 void check_world_file(const std::string& file) {
-  constexpr std::array<std::string_view, 7> endings{".walls", ".scene", ".txt", ".npy", ".maze", ".geojson", ".wkt"};
   const std::string ending = ending_of(file);
+  const bool is_world = is_among(ending, ".walls .scene .txt .npy .maze .geojson .wkt");
   const bool device = file == "-" || file.starts_with("/dev/");
   if (is_picture(ending)) check_picture("--output", file);
-  if (!device && !is_picture(ending) && std::find(endings.begin(), endings.end(), ending) == endings.end()) {
+  if (!device && !is_picture(ending) && !is_world) {
     throw UsageError(
         "--output: a world ends in .walls, .scene, .txt, .npy, .maze, .geojson, .wkt, .svg, .png, .pdf or .html "
         "(found: '" +

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <new>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -55,17 +54,17 @@ int AnswerCommand::run() {
   write_outputs(run);
   run.end();
   say_of_picture(arguments_, svg_, drawn_otherwise_);
+  // One that gets better until it is interrupted answers, and says that it was.
   const bool is_told = answer_.outcome == Outcome::stopped || (answer_.stop_reason && is_signal(*answer_.stop_reason));
-  const auto stopped = is_told ? std::optional(stop_reason()) : std::nullopt;
-  run.conclude(takes_standard_output(), stopped, [&] {
+  const auto stopped = is_told ? std::optional(answer_.stop_reason.value_or(StopReason::time)) : std::nullopt;
+  const bool standard_output_taken =
+      json_ == "-" || svg_ == "-" || arguments_.value("--trace") == "-" || roadmap_ == "-" || path_ == "-";
+  run.conclude(standard_output_taken, stopped, [&] {
     return summary_of(answer_, run.palette(), written_) + notes_text(answer_, run.palette()) +
            explanation_text(answer_, run.palette());
   });
-  return exit_code();
-}
-
-bool AnswerCommand::takes_standard_output() const {
-  return json_ == "-" || svg_ == "-" || arguments_.value("--trace") == "-" || roadmap_ == "-" || path_ == "-";
+  if (stopped) return exit_code_of(*stopped);
+  return answer_.verified ? exit_code::success : exit_code::no_path;
 }
 
 /// Only a file that is put into its place when all is verified may be begun before.
@@ -79,15 +78,12 @@ bool AnswerCommand::hands_path_on() const {
 void AnswerCommand::answer(const Run& run) {
   StageTimes before;
   if (hands_path_on()) handed_on_.emplace(path_, run.execution());
-  try {
+  const auto stopped = stopped_by([&] {
     by_products_.wants_certificate = !certificate_.empty();
     const bool keeps = !svg_.empty() || explains_ || by_products_.wants_certificate;
     answer_ = find(run, before, keeps ? &by_products_ : nullptr);
-  } catch (const Stopped& stopped) {
-    answer_.stop_reason = stopped.reason;
-  } catch (const std::bad_alloc&) {
-    answer_.stop_reason = StopReason::memory;
-  }
+  });
+  if (stopped) answer_.stop_reason = stopped;
   if (answer_.world.source.empty()) answer_.world.source = arguments_.operand(0);
   answer_.seconds.read = before.read;
   answer_.seconds.generate += before.generate;
@@ -105,17 +101,19 @@ void AnswerCommand::write_outputs(Run& run) {
       explain(run.execution(), answer_, by_products_);
     });
   }
-  try {
-    if (answer_.outcome != Outcome::stopped) {
-      const bool got_better = answer_.iterations.has_value();  // until its time was over
-      return write_finished(run.execution_for_what_is_left(got_better));
-    }
-  } catch (const Stopped& stopped) {
-    make_stopped(answer_, stopped.reason);
-  } catch (const std::bad_alloc&) {
-    make_stopped(answer_, StopReason::memory);
+  if (answer_.outcome != Outcome::stopped) {
+    const bool got_better = answer_.iterations.has_value();  // until its time was over
+    const auto stopped = stopped_by([&] { write_finished(run.execution_for_what_is_left(got_better)); });
+    if (!stopped) return;
+    make_stopped(answer_, *stopped);
   }
-  write_stopped(run.execution());
+  if (json_.empty() || json_said_) return;
+  Execution unhurried = run.execution();
+  unhurried.deadline = nullptr;  // what is left to say is short, and must be said
+  std::optional<OutputFile> json;
+  write_json(json, unhurried);
+  json->commit();
+  written_.push_back(json_);
 }
 
 /// All files are complete before the picture is drawn, and none is in its place before the picture is in its own: from
@@ -176,16 +174,6 @@ void AnswerCommand::write_kept(std::optional<OutputFile>& file, const Execution&
   file->complete();
 }
 
-void AnswerCommand::write_stopped(const Execution& execution) {
-  if (json_.empty() || json_said_) return;
-  Execution unhurried = execution;
-  unhurried.deadline = nullptr;  // what is left to say is short, and must be said
-  std::optional<OutputFile> json;
-  write_json(json, unhurried);
-  json->commit();
-  written_.push_back(json_);
-}
-
 /// Opens the file with the first word: nlohmann ends the program where memory is out.
 void AnswerCommand::write_json(std::optional<OutputFile>& file, const Execution& execution) const {
   if (execution.progress != nullptr) execution.progress->begin("write", 0);
@@ -205,13 +193,6 @@ void AnswerCommand::draw(const Execution& execution) {
   Picture picture = picture_of(scene, drawing);
   picture.description = fmt::format("{}\n{}", drawing.subtitle, arguments_.command_line());
   drawn_otherwise_ = write_picture(svg_, picture, picture_options_, execution);
-}
-
-int AnswerCommand::exit_code() const {
-  if (answer_.outcome == Outcome::stopped) return exit_code_of(stop_reason());
-  // One that gets better until it is interrupted answers, and says that it was.
-  if (answer_.stop_reason && is_signal(*answer_.stop_reason)) return exit_code_of(*answer_.stop_reason);
-  return answer_.verified ? exit_code::success : exit_code::no_path;
 }
 
 }  // namespace warren::tools

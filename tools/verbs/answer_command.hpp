@@ -55,17 +55,13 @@ class AnswerCommand {
   Roadmap made_roadmap_;  ///< what goes to the file of `keep`: find() makes it
 
  private:
-  bool takes_standard_output() const;
   void answer(const Run& run);
   bool hands_path_on() const;
   void write_outputs(Run& run);
   void write_finished(const Execution& execution);
-  void write_stopped(const Execution& execution);
   void write_json(std::optional<OutputFile>& file, const Execution& execution) const;
   void write_kept(std::optional<OutputFile>& file, const Execution& execution) const;
   void draw(const Execution& execution);
-  StopReason stop_reason() const { return answer_.stop_reason.value_or(StopReason::time); }
-  int exit_code() const;
 
   bool explains_;
   std::string json_;

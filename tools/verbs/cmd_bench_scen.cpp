@@ -57,17 +57,6 @@ struct CheckedScenario {
   }
 };
 
-struct ScenarioCheck {
-  std::string file;  ///< that names the scenarios
-  std::string map;   ///< that they are on
-  std::vector<CheckedScenario> scenarios;
-
-  std::size_t differing() const {
-    return static_cast<std::size_t>(
-        std::count_if(scenarios.begin(), scenarios.end(), [](const CheckedScenario& s) { return !s.agrees(); }));
-  }
-};
-
 /// Independent of the search: may one go from cell to cell, and what does it cost?
 bool is_walk(const Bitmap& blocked, const GridPath& path, Cell start, Cell goal) {
   if (path.cells.empty() || !(path.cells.front() == start) || !(path.cells.back() == goal)) return false;
@@ -120,6 +109,7 @@ void search_range(const OccupancyMap& map, const std::string& file, Range range,
 }
 
 struct ScenarioTotals {
+  std::size_t differing = 0;
   double astar_s = 0.0;
   double jumps_s = 0.0;
   std::uint64_t astar_expanded = 0;
@@ -131,6 +121,7 @@ ScenarioTotals totals_of(const std::vector<CheckedScenario>& scenarios) {
   ScenarioTotals totals;
   std::vector<double> speedups;
   for (const CheckedScenario& s : scenarios) {
+    totals.differing += s.agrees() ? 0 : 1;
     totals.astar_s += s.astar.seconds;
     totals.jumps_s += s.jumps.seconds;
     totals.astar_expanded += s.astar.expanded;
@@ -148,60 +139,58 @@ ScenarioTotals totals_of(const std::vector<CheckedScenario>& scenarios) {
 /// `file`: what errors name. Lengths grow along the file, so parts are small enough that no thread is left alone with
 /// the long ones. Their size depends on the count of scenarios alone; progress counts parts. Throws InputError for
 /// scenarios that are not on the map, Stopped.
-ScenarioCheck check_scenarios(const OccupancyMap& map, const std::vector<Scenario>& scenarios, const std::string& file,
-                              const Execution& execution) {
+std::vector<CheckedScenario> check_scenarios(const OccupancyMap& map, const std::vector<Scenario>& scenarios,
+                                             const std::string& file, const Execution& execution) {
   constexpr std::size_t parts = 128;
   constexpr std::size_t least_part = 4;
-  ScenarioCheck check{file, map.source, {}};
-  for (const Scenario& scenario : scenarios) check.scenarios.push_back({scenario});
+  std::vector<CheckedScenario> checked;
+  for (const Scenario& scenario : scenarios) checked.push_back({scenario});
   const std::size_t part = std::max(least_part, chunk_count(scenarios.size(), parts));
   double unused = 0.0;
   const StageTimer timer(execution, "scenarios", unused, scenarios.size());
   for_chunks(scenarios.size(), part, execution,
-             [&](Range range) { search_range(map, file, range, check.scenarios, execution); });
-  return check;
+             [&](Range range) { search_range(map, file, range, checked, execution); });
+  return checked;
 }
 
-/// The scenarios that differ, at most 50 of them, and a line of totals.
-std::string scenario_summary(const ScenarioCheck& check, const Palette& palette) {
+/// The scenarios of the file that differ, at most 50 of them, and a line of totals.
+std::string scenario_summary(const std::string& file, const std::vector<CheckedScenario>& scenarios,
+                             const Palette& palette) {
   constexpr std::size_t most_lines = 50;
   std::string text;
   std::size_t shown = 0;
-  for (const CheckedScenario& s : check.scenarios) {
+  for (const CheckedScenario& s : scenarios) {
     if (s.agrees() || shown == most_lines) continue;
-    text += fmt::format("{}:{}: published {}, A* {}, jump points {}\n", printable(check.file), s.scenario.line,
+    text += fmt::format("{}:{}: published {}, A* {}, jump points {}\n", printable(file), s.scenario.line,
                         s.scenario.length, s.astar.length, s.jumps.length);
     ++shown;
   }
-  const ScenarioTotals t = totals_of(check.scenarios);
-  const std::string all = grouped(check.scenarios.size());
-  const std::string verdict = check.differing() == 0
-                                  ? palette.good(fmt::format("all {} optimal", all))
-                                  : palette.bad(fmt::format("{} of {} differ", grouped(check.differing()), all));
+  const ScenarioTotals t = totals_of(scenarios);
+  const std::string all = grouped(scenarios.size());
+  const std::string verdict = t.differing == 0 ? palette.good(fmt::format("all {} optimal", all))
+                                               : palette.bad(fmt::format("{} of {} differ", grouped(t.differing), all));
   return text + fmt::format(
                     "{}: {}; A* {:.3f} s, {} cells; jump points {:.3f} s, {} cells: {:.1f} times as fast, "
                     "median {:.1f}\n",
-                    printable(check.file), verdict, t.astar_s, grouped(t.astar_expanded), t.jumps_s,
+                    printable(file), verdict, t.astar_s, grouped(t.astar_expanded), t.jumps_s,
                     grouped(t.jumps_expanded), t.jumps_s > 0.0 ? t.astar_s / t.jumps_s : 0.0, t.median_speedup);
 }
 
 /// warren.bench-scen/1
-std::string scenario_json(const ScenarioCheck& check) {
-  const ScenarioTotals t = totals_of(check.scenarios);
+std::string scenario_json(const std::string& file, const std::string& map,
+                          const std::vector<CheckedScenario>& scenarios) {
+  const ScenarioTotals t = totals_of(scenarios);
   std::string text = fmt::format(
       "{{\"schema\": \"warren.bench-scen/1\",\n \"file\": {},\n \"map\": {},\n \"scenarios\": {},\n \"differing\": "
       "{},\n \"astar_s\": {},\n \"jump_points_s\": {},\n \"astar_expanded\": {},\n \"jump_points_expanded\": {},\n "
       "\"median_speedup\": {},\n \"differences\": [",
-      json_string(check.file), json_string(check.map), check.scenarios.size(), check.differing(),
-      json_number(t.astar_s), json_number(t.jumps_s), t.astar_expanded, t.jumps_expanded,
-      json_number(t.median_speedup));
-  bool first = true;
-  for (const CheckedScenario& s : check.scenarios) {
+      json_string(file), json_string(map), scenarios.size(), t.differing, json_number(t.astar_s),
+      json_number(t.jumps_s), t.astar_expanded, t.jumps_expanded, json_number(t.median_speedup));
+  for (const CheckedScenario& s : scenarios) {
     if (s.agrees()) continue;
-    text += fmt::format("{}{{\"line\": {}, \"published\": {}, \"astar\": {}, \"jump_points\": {}}}", first ? "" : ", ",
-                        s.scenario.line, json_number(s.scenario.length), json_number(s.astar.length),
-                        json_number(s.jumps.length));
-    first = false;
+    text += fmt::format("{}{{\"line\": {}, \"published\": {}, \"astar\": {}, \"jump_points\": {}}}",
+                        text.ends_with('[') ? "" : ", ", s.scenario.line, json_number(s.scenario.length),
+                        json_number(s.astar.length), json_number(s.jumps.length));
   }
   return text + "]}\n";
 }
@@ -246,11 +235,11 @@ int bench_scen(const Arguments& arguments) {
   const auto given = arguments.value("--map");
   const OccupancyMap map = given ? read_moving_ai_map(InputFile(*given, run.execution()), run.execution())
                                  : read_its_map(arguments, scenarios.front().map, run.execution());
-  const ScenarioCheck check = check_scenarios(map, scenarios, file, run.execution());
+  const std::vector<CheckedScenario> checked = check_scenarios(map, scenarios, file, run.execution());
   run.end();
-  if (json) write_file(*json, scenario_json(check), run.execution());
-  if (!run.quiet() && json != "-") print_text(scenario_summary(check, run.palette()));
-  return check.differing() == 0 ? exit_code::success : exit_code::no_path;
+  if (json) write_file(*json, scenario_json(file, map.source, checked), run.execution());
+  if (!run.quiet() && json != "-") print_text(scenario_summary(file, checked, run.palette()));
+  return totals_of(checked).differing == 0 ? exit_code::success : exit_code::no_path;
 }
 
 }  // namespace

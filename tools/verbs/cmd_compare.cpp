@@ -73,115 +73,98 @@ bool check_outputs_of_compare(const Arguments& arguments) {
   return taken;
 }
 
-/// One `warren compare`.
-class CompareCommand {
- public:
-  explicit CompareCommand(const Arguments& arguments)
-      : arguments_(arguments),
-        options_(compare_options(arguments)),
-        standard_output_taken_(check_outputs_of_compare(arguments)),
-        begin_(std::chrono::system_clock::now()) {}
-
-  int run() {
-    Run run(arguments_, RunScope::each_run, expected_stages());
-    execution_ = run.execution();
-    compare(run);
-    run.end();
-    if (arguments_.has("--picture") || arguments_.has("--figures") || arguments_.has("--html")) {
-      for (std::string note : {studies::note_on_heat_maps(comparison_), studies::note_on_box_plots(comparison_)}) {
-        if (!note.empty()) comparison_.notes.push_back(std::move(note));
+/// Reads what the options name, and compares. Why the world has no graph to search, if it has none.
+std::optional<Outcome> compare_within(const Arguments& arguments, CompareOptions& options, const Run& run,
+                                      studies::Comparison& comparison) {
+  std::optional<Scene> scene;
+  try {
+    if (options.world) scene = load_world(*options.world, arguments, run.execution());
+    if (options.planners) {
+      for (studies::PlannerContender& asked : options.planners->contenders) {
+        read_masks(asked.question.prices, run.execution());
+        check_not_written(arguments, asked.question.prices);
       }
     }
-    write_outputs();
-    run.conclude(standard_output_taken_, comparison_.stopped,
-                 [&] { return studies::comparison_summary(comparison_, run.palette()); });
-    return exit_code();
+  } catch (const Stopped& stopped) {
+    comparison.stopped = stopped.reason;
+    return std::nullopt;
   }
+  return run_comparison(options, scene ? &*scene : nullptr, run.execution(), comparison,
+                        [&](std::string_view line) { run.note(line); });
+}
 
- private:
-  /// The runs are counted, and those of all take turns; of graphs of several sizes, and of pictures, nobody knows.
-  ExpectedStages expected_stages() const {
-    static constexpr ExpectedStage runs[] = {{"compare", 1.0}};
-    const bool more_follows = arguments_.has("--sizes") || arguments_.has("--pictures");
-    return more_follows ? ExpectedStages{} : ExpectedStages(runs);
-  }
-  void compare(const Run& run) {
-    std::optional<Scene> scene;
-    try {
-      if (options_.world) scene = load_world(*options_.world, arguments_, execution_);
-      if (options_.planners) read_asked_masks(options_.planners->contenders);
-    } catch (const Stopped& stopped) {
-      comparison_.stopped = stopped.reason;
-      return;
-    }
-    no_graph_ = run_comparison(options_, scene ? &*scene : nullptr, execution_, comparison_,
-                               [&](std::string_view line) { run.note(line); });
-  }
-  void read_asked_masks(std::vector<studies::PlannerContender>& contenders) {
-    for (studies::PlannerContender& asked : contenders) {
-      read_masks(asked.question.prices, execution_);
-      check_not_written(arguments_, asked.question.prices);
-    }
-  }
-  void write_outputs() const {
-    write_report(arguments_, "--json", [&] { return studies::comparison_json(comparison_); });
-    write_report(arguments_, "--csv", [&] { return studies::comparison_csv(comparison_); });
-    write_report(arguments_, "--runs", [&] { return studies::comparison_runs(comparison_); });
-    write_plots(arguments_, execution_, comparison_.stopped.has_value(),
-                [&] { return studies::comparison_plots(comparison_); });
-    if (arguments_.value("--curves").value_or("").ends_with(".csv")) {
-      write_report(arguments_, "--curves", [&] { return studies::comparison_curves(comparison_); });
-    } else {
-      write_plots(
-          arguments_, execution_, comparison_.stopped.has_value(),
-          [&] {
-            return PlotsPage{studies::curve_panels(comparison_), 2};
-          },
-          "--curves");
-    }
-    write_report(arguments_, "--html",
-                 [&] { return studies::comparison_page(comparison_, arguments_.command_line()); });
-    write_report(arguments_, "--table",
-                 [&] { return studies::comparison_document(comparison_, ending_of(*arguments_.value("--table"))); });
-    write_report(arguments_, "--log", [&] { return studies::ompl_log(comparison_, experiment()); });
-  }
-  studies::OmplExperiment experiment() const {
-    std::array<char, 256> host{};
-    if (::gethostname(host.data(), host.size() - 1) != 0) host.fill('\0');
-    studies::OmplExperiment e;
-    e.name = "compare_" + options_.world.value_or("");
-    for (char& c : e.name) c = c == ' ' || c == '\t' ? '_' : c;
-    e.hostname = host[0] == '\0' ? "unknown" : std::string(host.data());
-    e.date = fmt::format("{:%Y-%b-%d %H:%M:%S}", fmt::localtime(std::chrono::system_clock::to_time_t(begin_)));
-    e.setup = arguments_.command_line();
-    e.seed = options_.planners ? options_.planners->first_seed : 1;
-    e.budget_s = std::isfinite(options_.budget_s) ? options_.budget_s : 0.0;
-    e.memory_mb = execution_.deadline->memory_bytes() >> 20;
-    e.total_s = std::chrono::duration<double>(std::chrono::system_clock::now() - begin_).count();
-    return e;
-  }
-  /// A comparison in which nobody found a path has no answer; one whose planners succeed now and then is what was
-  /// asked.
-  int exit_code() const {
-    if (comparison_.stopped) return exit_code_of(*comparison_.stopped);
-    bool any_solved = false;
-    for (const studies::Contender& contender : comparison_.contenders) {
-      for (const studies::ComparedRun& run : contender.runs) {
-        if (run.outcome == Outcome::stopped) return exit_code::budget;
-        any_solved = any_solved || run.solved();
-      }
-    }
-    return any_solved && !no_graph_ ? exit_code::success : exit_code::no_path;
-  }
+studies::OmplExperiment experiment_of(const Arguments& arguments, const CompareOptions& options,
+                                      const Execution& execution, std::chrono::system_clock::time_point begin) {
+  std::array<char, 256> host{};
+  if (::gethostname(host.data(), host.size() - 1) != 0) host.fill('\0');
+  studies::OmplExperiment e;
+  e.name = "compare_" + options.world.value_or("");
+  for (char& c : e.name) c = c == ' ' || c == '\t' ? '_' : c;
+  e.hostname = host[0] == '\0' ? "unknown" : std::string(host.data());
+  e.date = fmt::format("{:%Y-%b-%d %H:%M:%S}", fmt::localtime(std::chrono::system_clock::to_time_t(begin)));
+  e.setup = arguments.command_line();
+  e.seed = options.planners ? options.planners->first_seed : 1;
+  e.budget_s = std::isfinite(options.budget_s) ? options.budget_s : 0.0;
+  e.memory_mb = execution.deadline->memory_bytes() >> 20;
+  e.total_s = std::chrono::duration<double>(std::chrono::system_clock::now() - begin).count();
+  return e;
+}
 
-  const Arguments& arguments_;
-  CompareOptions options_;
-  bool standard_output_taken_;
-  std::chrono::system_clock::time_point begin_;
-  Execution execution_;
-  studies::Comparison comparison_;
-  std::optional<Outcome> no_graph_;  // why the world gave none
-};
+void write_outputs_of_compare(const Arguments& arguments, const studies::Comparison& comparison,
+                              const Execution& execution) {
+  const bool was_stopped = comparison.stopped.has_value();
+  write_report(arguments, "--json", [&] { return studies::comparison_json(comparison); });
+  write_report(arguments, "--csv", [&] { return studies::comparison_csv(comparison); });
+  write_report(arguments, "--runs", [&] { return studies::comparison_runs(comparison); });
+  write_plots(arguments, execution, was_stopped, [&] { return studies::comparison_plots(comparison); });
+  if (arguments.value("--curves").value_or("").ends_with(".csv")) {
+    write_report(arguments, "--curves", [&] { return studies::comparison_curves(comparison); });
+  } else {
+    const auto curves = [&] { return PlotsPage{studies::curve_panels(comparison), 2}; };
+    write_plots(arguments, execution, was_stopped, curves, "--curves");
+  }
+  write_report(arguments, "--html", [&] { return studies::comparison_page(comparison, arguments.command_line()); });
+  write_report(arguments, "--table",
+               [&] { return studies::comparison_document(comparison, ending_of(*arguments.value("--table"))); });
+}
+
+/// A comparison in which nobody found a path has no answer; one whose planners succeed now and then is what was asked.
+int exit_code(const studies::Comparison& comparison, bool has_graph) {
+  if (comparison.stopped) return exit_code_of(*comparison.stopped);
+  bool any_solved = false;
+  for (const studies::Contender& contender : comparison.contenders) {
+    for (const studies::ComparedRun& run : contender.runs) {
+      if (run.outcome == Outcome::stopped) return exit_code::budget;
+      any_solved = any_solved || run.solved();
+    }
+  }
+  return any_solved && has_graph ? exit_code::success : exit_code::no_path;
+}
+
+int compare(const Arguments& arguments) {
+  CompareOptions options = compare_options(arguments);
+  const bool standard_output_taken = check_outputs_of_compare(arguments);
+  const auto begin = std::chrono::system_clock::now();
+  // The runs are counted, and those of all take turns; of graphs of several sizes, and of pictures, nobody knows.
+  static constexpr ExpectedStage runs[] = {{"compare", 1.0}};
+  const bool more_follows = arguments.has("--sizes") || arguments.has("--pictures");
+  Run run(arguments, RunScope::each_run, more_follows ? ExpectedStages{} : ExpectedStages(runs));
+  studies::Comparison comparison;
+  const auto no_graph = compare_within(arguments, options, run, comparison);
+  run.end();
+  if (arguments.has("--picture") || arguments.has("--figures") || arguments.has("--html")) {
+    for (std::string note : {studies::note_on_heat_maps(comparison), studies::note_on_box_plots(comparison)}) {
+      if (!note.empty()) comparison.notes.push_back(std::move(note));
+    }
+  }
+  write_outputs_of_compare(arguments, comparison, run.execution());
+  write_report(arguments, "--log", [&] {
+    return studies::ompl_log(comparison, experiment_of(arguments, options, run.execution(), begin));
+  });
+  run.conclude(standard_output_taken, comparison.stopped,
+               [&] { return studies::comparison_summary(comparison, run.palette()); });
+  return exit_code(comparison, !no_graph);
+}
 
 // Which options of `solve` take lists in `warren compare`, and the contenders' deal that words make with them.
 
@@ -502,7 +485,7 @@ Command compare_command() {
   return {"compare", "[WORLD]", "measure planners, or searches and their queues, side by side",
           joined_options({compare_option_specs(), world_option_specs(), compare_output_specs,
                           options_but(run_option_specs(), {"--budget"})}),
-          [](const Arguments& arguments) { return CompareCommand(arguments).run(); }};
+          compare};
 }
 
 std::vector<OptionSpec> compare_option_specs() {

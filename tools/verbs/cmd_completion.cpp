@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/printable.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/terminal.hpp"
 #include "tools/verbs/example_files.hpp"
@@ -191,12 +192,9 @@ void add_value(Candidates& to, const OptionSpec& option, std::size_t k, const st
   to.files = name == "FILE" || name == "STARTS" || name == "GOALS";
   to.folders = name == "FOLDER";
   to.before_file = before;
-  for (std::size_t at = 0; at < name.size();) {  // of "K|auto|star" auto and star
-    const std::size_t end = std::min(name.find('|', at), name.size());
-    const std::string word = name.substr(at, end - at);
-    if (std::all_of(word.begin(), word.end(), [](unsigned char c) { return std::islower(c) != 0; }))
-      to.add(before + word);
-    at = end + 1;
+  for (const std::string_view word : split(name, "|")) {  // of "K|auto|star" auto and star
+    if (std::ranges::all_of(word, [](unsigned char c) { return std::islower(c) != 0; }))
+      to.add(before + std::string(word));
   }
 }
 

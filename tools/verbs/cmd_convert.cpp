@@ -83,15 +83,11 @@ OccupancyMap map_for(const Scene& scene, const std::optional<double>& cell, cons
   return map_of_scene(scene, *cell, execution);
 }
 
-/// A picture of walls in pixels can't be read back, so a map's is an image of its cells.
-bool becomes_map(const Scene& scene, std::string_view file, const Arguments& arguments) {
-  return is_map_ending(file) || (file.ends_with(".png") && (scene.map || arguments.has("--cell")));
-}
-
 /// What there is to note, once all is done.
 std::string write_any(Scene& scene, const std::string& file, const Arguments& arguments, const PictureOptions& options,
                       const Execution& execution) {
-  if (becomes_map(scene, file, arguments)) {
+  // A picture of walls in pixels can't be read back, so a map's is an image of its cells.
+  if (is_map_ending(file) || (file.ends_with(".png") && (scene.map || arguments.has("--cell")))) {
     arguments.refuse(picture_option_specs(), "is for a picture; an image of a map has a pixel a cell");
     const auto cell = given_value(arguments, "--cell", positive_value);
     if (cell) check_cell(*cell, scene);

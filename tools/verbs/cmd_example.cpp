@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/base/printable.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "tools/screen/exit_code.hpp"
@@ -39,19 +40,10 @@ std::string_view bytes_of(std::string_view name) {
 
 /// What stands between backquotes.
 std::vector<std::string_view> quoted(std::string_view text) {
-  std::vector<std::string_view> parts;
-  for (std::size_t begin = text.find('`'); begin != text.npos; begin = text.find('`')) {
-    const std::size_t end = text.find('`', begin + 1);
-    parts.push_back(text.substr(begin + 1, end - begin - 1));
-    text.remove_prefix(end + 1);
-  }
-  return parts;
-}
-
-std::string list_of(const std::vector<Example>& all) {
-  std::string text;
-  for (const Example& example : all) text += fmt::format("{:<12} {}\n", example.name, example.sight);
-  return text + "'warren example NAME' writes one of them where you are.\n";
+  const std::vector<std::string_view> pieces = split(text, "`");
+  std::vector<std::string_view> inside;
+  for (std::size_t i = 1; i < pieces.size(); i += 2) inside.push_back(pieces[i]);
+  return inside;
 }
 
 /// Is the file there as it shall be? Throws UsageError where another stands in its place.
@@ -62,29 +54,25 @@ bool is_there(const std::string& file, std::string_view bytes) {
   throw UsageError(fmt::format("{}: is there already, and is another file; -o FOLDER writes elsewhere", file));
 }
 
-int write_example(const Example& example, const std::string& folder) {
-  write_example_files(example, folder);
-  print_text(fmt::format("{}: {}\ntry{}: {}\n", fmt::join(example.files, ", "), example.sight,
-                         folder.empty() ? "" : " in " + folder, example.command));
-  return exit_code::success;
-}
-
 int example(const Arguments& arguments) {
   if (arguments.operand_count() == 0) {
-    print_text(list_of(examples()));
+    for (const Example& each : examples()) print_text(fmt::format("{:<12} {}\n", each.name, each.sight));
+    print_text("'warren example NAME' writes one of them where you are.\n");
     return exit_code::success;
   }
-  return write_example(example_named(arguments.operand(0)), arguments.value("--output").value_or(""));
+  const Example chosen = example_named(arguments.operand(0));
+  const std::string folder = arguments.value("--output").value_or("");
+  write_example_files(chosen, folder);
+  print_text(fmt::format("{}: {}\ntry{}: {}\n", fmt::join(chosen.files, ", "), chosen.sight,
+                         folder.empty() ? "" : " in " + folder, chosen.command));
+  return exit_code::success;
 }
 
 }  // namespace
 
 std::vector<Example> examples() {
   std::vector<Example> all;
-  std::string_view table = bytes_of("README.md");
-  while (!table.empty()) {
-    const std::string_view row = table.substr(0, table.find('\n'));
-    table.remove_prefix(row.size() + 1);
+  for (const std::string_view row : split(bytes_of("README.md"), "\n")) {
     if (!row.starts_with("| `")) continue;
     const std::size_t bar = row.find(" | ");
     const std::string_view says = row.substr(bar + 3);

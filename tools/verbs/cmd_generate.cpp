@@ -76,17 +76,11 @@ void generate_maze_file(const MazeOptions& options, bool merged, const std::stri
   write_maze_file(HeldCells(generate_maze(options, execution), CellBits::usual_side_log2), file, execution);
 }
 
-int generate_packed(const Arguments& arguments, const std::string& file) {
-  const MazeOptions options = maze_options(arguments);
-  const bool is_merged = !arguments.has("--unit-walls");
-  if (!is_merged && ending_of(file) == ".maze") throw UsageError("--unit-walls: a .maze file holds cells");
-  check_world_file(file);
-  picture_words(arguments, false, "-o FILE.svg or another picture", file);
-  Run run(arguments);
+int generate_packed(const MazeOptions& options, bool merged, const std::string& file, Run& run) {
   double seconds = 0.0;
   {
     const StageTimer timer(run.execution(), "generate", seconds);
-    generate_maze_file(options, is_merged, file, run.execution());
+    generate_maze_file(options, merged, file, run.execution());
   }
   run.end();
   if (!run.quiet()) {
@@ -96,15 +90,8 @@ int generate_packed(const Arguments& arguments, const std::string& file) {
   return exit_code::success;
 }
 
-bool is_written_while_made(const Arguments& arguments, const std::string& file) {
-  if (arguments.operand(0) != "maze") return false;
-  if (ending_of(file) == ".maze") return true;
-  return ending_of(file) == ".npy" && maze_options(arguments).algorithm == MazeAlgorithm::mst;
-}
-
 int generate(const Arguments& arguments) {
   const auto file = arguments.value("--output");
-  if (file && is_written_while_made(arguments, *file)) return generate_packed(arguments, *file);
   const std::string& what = arguments.operand(0);
   if (what != "maze" && what != "polygons") {
     throw UsageError("'" + what + "' is nothing that can be generated; did you mean maze or polygons?");
@@ -112,26 +99,29 @@ int generate(const Arguments& arguments) {
   const auto maze = what == "maze" ? std::optional(maze_options(arguments)) : std::nullopt;
   const PolygonOptions polygons = maze ? PolygonOptions{} : polygon_options(arguments);
   if (!file) throw UsageError("-o FILE is missing");
+  const std::string ending = ending_of(*file);
+  const bool merged = !arguments.has("--unit-walls");
+  if (!merged && ending == ".maze") throw UsageError("--unit-walls: a .maze file holds cells");
   check_world_file(*file);
-  const PictureOptions options =
-      picture_words(arguments, is_picture(ending_of(*file)), "-o FILE.svg or another picture", *file);
+  const PictureOptions options = picture_words(arguments, is_picture(ending), "-o FILE.svg or another picture", *file);
   Run run(arguments);
+  const bool is_mst = maze && maze->algorithm == MazeAlgorithm::mst;
+  if (maze && (ending == ".maze" || (ending == ".npy" && is_mst))) return generate_packed(*maze, merged, *file, run);
   double seconds = 0.0;
   Scene scene;
   {
     const StageTimer timer(run.execution(), "generate", seconds);
-    scene = maze ? maze_scene(*maze, !arguments.has("--unit-walls"), run.execution())
-                 : polygon_scene(polygons, run.execution());
+    scene = maze ? maze_scene(*maze, merged, run.execution()) : polygon_scene(polygons, run.execution());
   }
   double write_seconds = 0.0;
   std::string note;
   {
     const StageTimer timer(run.execution(), "write", write_seconds);
     const auto bounds = scene.bounds;
-    if (ending_of(*file) == ".wkt") scene.bounds.reset();  // or no polygons could be written there
+    if (ending == ".wkt") scene.bounds.reset();  // or no polygons could be written there
     say_of_picture(arguments, *file, write_world(scene, *file, options, arguments.command_line(), run.execution()));
     scene.bounds = bounds;
-    if (!is_picture(ending_of(*file))) note = note_of_left_out(scene, *file);
+    if (!is_picture(ending)) note = note_of_left_out(scene, *file);
   }
   run.end();
   if (!run.quiet() && *file != "-") {

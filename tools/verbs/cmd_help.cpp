@@ -20,17 +20,15 @@
 namespace warren::tools {
 namespace {
 
-std::string help_of_all() {
-  std::string text = program_help();
-  for (const Command& command : command_table()) text += "\n\n" + command_help(command, terminal_width(), true);
-  return text;
-}
-
 std::string help_text(const Arguments& arguments) {
   if (arguments.operand_count() == 0) return program_help();
   const std::string& word = arguments.operand(0);
   const bool is_more = arguments.operand_count() > 1;
-  if (!is_more && (word == "all" || word == "--all")) return help_of_all();
+  if (!is_more && (word == "all" || word == "--all")) {
+    std::string text = program_help();
+    for (const Command& command : command_table()) text += "\n\n" + command_help(command, terminal_width(), true);
+    return text;
+  }
   const bool is_all = is_more && (arguments.operand(1) == "all" || arguments.operand(1) == "--all");
   if (is_more && !is_all && find_command(word) == nullptr) {  // a word of two, such as potential field
     return word_help(word + ' ' + arguments.operand(1), command_table(), terminal_width());

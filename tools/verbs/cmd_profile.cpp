@@ -65,20 +65,17 @@ struct Timed {
 
   void take(const Answer& answer, double solve_cpu_s) {
     lines = stage_lines(answer);
-    double told_s = 0.0;
-    double cpu_told_s = 0.0;
-    for (const StageLine& line : lines) {
-      told_s += line.wall_s;
-      cpu_told_s += line.cpu_s;
-    }
-    const double rest_s = std::max(0.0, answer.solve_s - told_s);
-    const double rest_cpu_s = std::max(0.0, solve_cpu_s - cpu_told_s);
-    lines.push_back({.key = "rest", .label = "the rest", .wall_s = rest_s, .cpu_s = rest_cpu_s, .counted = {}});
-    lines.push_back({.key = "solve",
-                     .label = "in all",
-                     .wall_s = told_s + rest_s,
-                     .cpu_s = cpu_told_s + rest_cpu_s,
-                     .counted = {}});
+    StageLine whole{.key = "solve", .label = "in all", .counted = {}};
+    const auto add = [&whole](const StageLine& line) {
+      whole.wall_s += line.wall_s;
+      whole.cpu_s += line.cpu_s;
+    };
+    std::ranges::for_each(lines, add);
+    StageLine rest{.key = "rest", .label = "the rest", .counted = {}};
+    rest.wall_s = std::max(0.0, answer.solve_s - whole.wall_s);
+    rest.cpu_s = std::max(0.0, solve_cpu_s - whole.cpu_s);
+    add(rest);
+    lines.insert(lines.end(), {rest, whole});
     for (const StageLine& line : lines) {
       wall_s[line.key].push_back(line.wall_s);
       cpu_s[line.key].push_back(line.cpu_s);

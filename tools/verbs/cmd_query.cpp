@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -64,43 +63,32 @@ class QueryCommand : public AnswerCommand {
   RoadmapSearchFields how_;
 };
 
-/// A roadmap and the answers to many questions, in lines.
-class ManyQuestions {
- public:
-  ManyQuestions(const Arguments& arguments, std::string_view of)
-      : arguments_(arguments),
-        options_{search_words(arguments), arguments.has("--lengths-only"), arguments.has("--csv")},
-        keep_file_(output_file(arguments, "--keep")) {
-    const std::string why = fmt::format("is for one question; {} has many", of);
-    arguments.refuse({"--start", "--goal", "--json", "--picture", "--explain"}, why);
-    arguments.refuse(picture_option_specs(), why);
-    arguments.refuse(path_option_specs(), why);
+/// Answers many questions, which the option `of` names, in lines. ask(query, options, execution) says what it did and
+/// how much was wrong.
+template <class Ask>
+int ask_many(const Arguments& arguments, std::string_view of, Questions questions, const Ask& ask) {
+  const BatchOptions options{search_words(arguments), arguments.has("--lengths-only"), arguments.has("--csv")};
+  const auto keep_file = output_file(arguments, "--keep");
+  const std::string why = fmt::format("is for one question; {} has many", of);
+  arguments.refuse({"--start", "--goal", "--json", "--picture", "--explain"}, why);
+  arguments.refuse(picture_option_specs(), why);
+  arguments.refuse(path_option_specs(), why);
+  Run run(arguments);
+  Roadmap roadmap = load_roadmap(arguments, run.execution());
+  const auto query = std::make_unique<RoadmapQuery>(roadmap, run.execution(), questions);
+  const auto [said, wrong] = ask(*query, options, run.execution());
+  if (keep_file) {
+    learn(roadmap, *query, run.execution());
+    write_roadmap(roadmap, *keep_file, run.execution());
   }
-  /// ask(query, options, execution) says what it did and how much was wrong.
-  template <class Ask>
-  int run(Questions questions, const Ask& ask) const {
-    Run run(arguments_);
-    Roadmap roadmap = load_roadmap(arguments_, run.execution());
-    const auto query = std::make_unique<RoadmapQuery>(roadmap, run.execution(), questions);
-    const auto [said, wrong] = ask(*query, options_, run.execution());
-    if (keep_file_) {
-      learn(roadmap, *query, run.execution());
-      write_roadmap(roadmap, *keep_file_, run.execution());
-    }
-    run.end();
-    run.note(said);
-    return wrong == 0 ? exit_code::success : exit_code::bad_data;
-  }
-
- private:
-  const Arguments& arguments_;
-  BatchOptions options_;
-  std::optional<std::string> keep_file_;
-};
+  run.end();
+  run.note(said);
+  return wrong == 0 ? exit_code::success : exit_code::bad_data;
+}
 
 int ask_lines(const Arguments& arguments) {
   const auto questions = arguments.has("--lengths-only") ? Questions::lengths : Questions::many;
-  return ManyQuestions(arguments, "--batch").run(questions, [&](const auto& query, const auto& how, const auto& on) {
+  return ask_many(arguments, "--batch", questions, [&](const auto& query, const auto& how, const auto& on) {
     const InputFile file(*arguments.value("--batch"), on);
     const BatchAccount account = ask_batch(query, file, how, on, print_text);
     return std::pair(fmt::format("{}, {} solved, {} wrong", counted(account.questions, "question", "questions"),
@@ -110,17 +98,16 @@ int ask_lines(const Arguments& arguments) {
 }
 
 int ask_table(const Arguments& arguments) {
-  return ManyQuestions(arguments, "--matrix")
-      .run(Questions::lengths, [&](const auto& query, const auto& how, const auto& on) {
-        const std::vector<std::string> names = arguments.values("--matrix");
-        const InputFile starts(names[0], on);
-        const InputFile goals(names[1], on);
-        const MatrixAccount account = ask_matrix(query, starts, goals, how, on, print_text);
-        return std::pair(
-            fmt::format("{}, {}, {} solved, {} wrong", counted(account.starts, "start", "starts"),
-                        counted(account.goals, "goal", "goals"), grouped(account.solved), grouped(account.wrong)),
-            account.wrong);
-      });
+  return ask_many(arguments, "--matrix", Questions::lengths, [&](const auto& query, const auto& how, const auto& on) {
+    const std::vector<std::string> names = arguments.values("--matrix");
+    const InputFile starts(names[0], on);
+    const InputFile goals(names[1], on);
+    const MatrixAccount account = ask_matrix(query, starts, goals, how, on, print_text);
+    return std::pair(
+        fmt::format("{}, {}, {} solved, {} wrong", counted(account.starts, "start", "starts"),
+                    counted(account.goals, "goal", "goals"), grouped(account.solved), grouped(account.wrong)),
+        account.wrong);
+  });
 }
 
 int query_roadmap(const Arguments& arguments) {

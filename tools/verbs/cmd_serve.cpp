@@ -74,11 +74,6 @@ serve::HttpPlace place_of(const Arguments& arguments) {
   return place;
 }
 
-void say_where(const serve::HttpServer& server) {
-  print_text(fmt::format("listening on {}\n", server.address()));
-  if (std::fflush(stdout) != 0) throw WriteError("standard output", "it did not take all");
-}
-
 /// It goes into a field of a request and into the address of the page.
 std::string token_of(const Arguments& arguments, const Execution& execution) {
   constexpr std::size_t shortest = 16;
@@ -109,11 +104,7 @@ int serve(const Arguments& arguments) {
   if (budget_s) limits.budget_s = *budget_s;
   limits.writable = arguments.has("--writable");
   limits.wants_token = !token.empty();
-  for (const OptionSpec& option : command_named("serve").options) {
-    const auto priced = price_option_specs();
-    const bool is_price =
-        std::any_of(priced.begin(), priced.end(), [&](const auto& p) { return p.name == option.name; });
-    if (!is_price && option.name != "--map-rules") continue;
+  for (const OptionSpec& option : joined_options({price_option_specs(), world_option_specs()})) {
     for (const std::string& value : arguments.values(option.name)) {
       limits.options.insert(limits.options.end(), {std::string(option.name), value});
     }
@@ -127,7 +118,8 @@ int serve(const Arguments& arguments) {
   if (!server.is_loopback()) {
     say_on_standard_error("warren: warning: whoever reaches this address may ask, and see the world\n");
   }
-  say_where(server);
+  print_text(fmt::format("listening on {}\n", server.address()));
+  if (std::fflush(stdout) != 0) throw WriteError("standard output", "it did not take all");
   server.run(signal_flag());
   if (signal_flag() != SIGHUP) return exit_code::success;
   say_on_standard_error(fmt::format("warren: stopped: {}; nohup keeps it\n", text_of(StopReason::hang_up)));

@@ -2,7 +2,6 @@
 // warren verify: is the path of an answer free, all along and with all its clearance? Decided by verify/ alone.
 #include <fmt/format.h>
 
-#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -70,14 +69,12 @@ void print_verdict(const Verdict& v, std::string_view metres, const Palette& pal
 /// What stops it leaves the verdict as it is.
 std::optional<NarrowPlace> narrowest_in_time(const Scene& scene, const Verdict& verdict, const RecordedAnswer& answer,
                                              const Run& run) {
-  try {
-    return narrowest_place(scene, verdict.problem.question(), answer, verdict.min_clearance, run.execution());
-  } catch (const Stopped& stopped) {
-    run.note(fmt::format("--explain ended early, {}; the verdict stands", text_of(stopped.reason)));
-  } catch (const std::bad_alloc&) {
-    run.note(fmt::format("--explain ended early, {}; the verdict stands", text_of(StopReason::memory)));
-  }
-  return std::nullopt;
+  std::optional<NarrowPlace> narrow;
+  const auto stopped = stopped_by([&] {
+    narrow = narrowest_place(scene, verdict.problem.question(), answer, verdict.min_clearance, run.execution());
+  });
+  if (stopped) run.note(fmt::format("--explain ended early, {}; the verdict stands", text_of(*stopped)));
+  return narrow;
 }
 
 int verify_answer(const Arguments& arguments) {

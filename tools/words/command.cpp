@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/base/error.hpp"
+#include "core/base/printable.hpp"
 #include "tools/words/unknown_words.hpp"
 
 namespace warren::tools {
@@ -32,12 +33,9 @@ const OptionSpec* option_named(const Command& command, std::string_view name) {
 }
 
 std::vector<std::string> words_of(std::string_view text) {
-  std::vector<std::string> words;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find(' ', at), text.size());
-    words.emplace_back(text.substr(at, end - at));
-    at = end + 1;
-  }
+  const std::vector<std::string_view> pieces = split(text, " ");
+  std::vector<std::string> words(pieces.begin(), pieces.end());
+  if (words.back().empty()) words.pop_back();
   return words;
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/printable.hpp"
 #include "tools/words/unknown_words.hpp"
 
 namespace warren::tools {
@@ -41,31 +42,10 @@ std::string entry(std::string_view left, std::string_view right, std::size_t wid
   return text + wrapped(right, left_width, width);
 }
 
-std::string option_text(const OptionSpec& option) {
+std::string option_entry(const OptionSpec& option, std::size_t width) {
   std::string text{option.help};
   if (!option.choices.empty()) text.append(option.is_list ? "; of: " : "; one of: ").append(option.choices);
-  return text;
-}
-
-std::string option_entry(const OptionSpec& option, std::size_t width) {
-  return entry(option_usage(option), option_text(option), width);
-}
-
-/// A command of warren-mpi may lack some of them.
-std::string most_used_text(const Command& command, std::string_view names, std::size_t width) {
-  std::string text = fmt::format("\nMost used, of {} options:\n", command.options.size());
-  for (const std::string& name : words_of(names)) {
-    if (const OptionSpec* option = option_named(command, name)) text += option_entry(*option, width);
-  }
-  return text;
-}
-
-std::string examples_text(const Command& command) {
-  std::string text = "\nExamples:\n";
-  for (const HelpExample& example : help_examples(command.name)) {
-    text += fmt::format("  {}\n      {}\n", example.command, example.does);
-  }
-  return text;
+  return entry(option_usage(option), text, width);
 }
 
 /// The options that are wanted, a text each with the verbs that have it so.
@@ -307,9 +287,16 @@ std::string command_help(const Command& command, std::size_t width, bool all) {
     text += fmt::format("\n{}:\n", title);
     for (const OptionSpec* option : options) text += option_entry(*option, width);
   }
-  if (!used.empty()) text += most_used_text(command, used, width);
+  if (!used.empty()) text += fmt::format("\nMost used, of {} options:\n", command.options.size());
+  for (const std::string& name : words_of(used)) {  // a command of warren-mpi may lack some of them
+    if (const OptionSpec* option = option_named(command, name)) text += option_entry(*option, width);
+  }
   text += '\n' + entry("--help [all]", used.empty() ? "this text" : "this text, or all options", width);
-  return text + examples_text(command);
+  text += "\nExamples:\n";
+  for (const HelpExample& example : help_examples(command.name)) {
+    text += fmt::format("  {}\n      {}\n", example.command, example.does);
+  }
+  return text;
 }
 
 std::string word_help(std::string_view word, std::span<const Command> commands, std::size_t width) {
@@ -367,9 +354,7 @@ std::vector<std::pair<std::string_view, std::vector<const Command*>>> grouped_co
 std::vector<HelpExample> help_examples(std::string_view verb) {
   const std::string begins = verb.empty() ? "warren " : fmt::format("warren {} ", verb);
   std::vector<HelpExample> some;
-  for (std::string_view left = example_lines; !left.empty();) {
-    const std::string_view line = left.substr(0, left.find('\n'));
-    left.remove_prefix(line.size() + 1);
+  for (const std::string_view line : split(example_lines, "\n")) {
     const std::size_t mark = line.find(" # ");
     if (line.starts_with(begins)) some.push_back({line.substr(0, mark), line.substr(mark + 3)});
   }

@@ -10,6 +10,7 @@
 
 #include "apps/studies/comparison.hpp"
 #include "core/base/error.hpp"
+#include "core/base/printable.hpp"
 #include "scenes/scene/arm_model.hpp"
 #include "tools/words/unknown_words.hpp"
 
@@ -133,25 +134,18 @@ std::vector<double> state_value(std::string_view option, std::string_view text) 
 
 std::vector<std::vector<double>> states_value(std::string_view option, std::string_view text) {
   std::vector<std::vector<double>> states;
-  for (;;) {
-    const std::size_t end = text.find(';');
-    states.push_back(state_value(option, text.substr(0, end)));
-    if (end == std::string_view::npos) return states;
-    text.remove_prefix(end + 1);
-  }
+  for (const std::string_view state : split(text, ";")) states.push_back(state_value(option, state));
+  return states;
 }
 
 std::vector<std::string> list_value(std::string_view option, std::string_view text) {
   std::vector<std::string> words;
-  for (std::size_t at = 0; at <= text.size();) {
-    const std::size_t end = std::min(text.find(',', at), text.size());
-    std::string word{text.substr(at, end - at)};
+  for (const std::string_view word : split(text, ",")) {
     if (word.empty()) refuse(option, "words separated by commas", text);
     if (std::find(words.begin(), words.end(), word) != words.end()) {
       throw UsageError(fmt::format("{}: {} is there twice", option, word));
     }
-    words.push_back(std::move(word));
-    at = end + 1;
+    words.emplace_back(word);
   }
   return words;
 }

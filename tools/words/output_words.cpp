@@ -62,9 +62,7 @@ std::vector<double> joint_values(std::string_view option, std::string_view text)
   if (option == "--joint-speed" && text == "file") return {speed_of_file};
   if (number_in(text)) return {positive_value(option, text)};
   std::vector<double> values = state_value(option, text);
-  if (!values.empty() && values.size() <= most_joints &&
-      std::all_of(values.begin(), values.end(), [](double x) { return x > 0.0; }))
-    return values;
+  if (std::ranges::all_of(values, [](double x) { return x > 0.0; })) return values;
   throw UsageError(
       fmt::format("{}: expected one number above 0, or one a joint, separated by commas (found: '{}')", option, text));
 }

@@ -22,9 +22,7 @@ constexpr std::pair<std::string_view, std::string_view> spellings[] = {
 /// "| NAMES | HERE. |" a row, below the head.
 std::vector<OtherName> rows_of(std::string_view page) {
   std::vector<OtherName> rows;
-  while (!page.empty()) {
-    const std::string_view row = page.substr(0, page.find('\n'));
-    page.remove_prefix(row.size() + 1);
+  for (const std::string_view row : split(page, "\n")) {
     const std::size_t bar = row.find(" | ");
     if (row.starts_with("| "))
       rows.push_back({row.substr(2, bar - 2), row.substr(bar + 3, row.rfind(". |") - bar - 3)});
@@ -56,9 +54,7 @@ NearRow row_near(std::string_view word, std::size_t most) {
   const std::string letters = letters_of(word);
   NearRow near;
   for (const OtherName& row : other_names()) {
-    for (std::string_view list = row.names; !list.empty();) {
-      const std::string_view name = list.substr(0, list.find(", "));
-      list.remove_prefix(std::min(name.size() + 2, list.size()));
+    for (const std::string_view name : split(row.names, ", ")) {
       const std::string its = letters_of(name);
       const std::size_t distance = most == 0 ? its != letters : edit_distance(letters, its);
       if (distance > most || (near.row != nullptr && distance == most)) continue;

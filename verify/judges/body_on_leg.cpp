@@ -98,7 +98,7 @@ std::vector<Vec2> BodyVerifier::corners_at(const Leg& leg, double t) const {
 }
 
 double BodyVerifier::distance_to(const std::vector<Vec2>& corners, const Segment& s) const {
-  if (body_holds(corners, s.a)) return 0.0;
+  if (outline_holds(corners, s.a, true)) return 0.0;  // exact signs, but the corners are rounded
   double least = infinity;
   Vec2 a = corners.back();
   for (const Vec2 b : corners) {

@@ -99,8 +99,6 @@ class BodyVerifier {
   double distance_to_sweep(const std::vector<Vec2>& corners, Vec2 way, const Segment& s) const;
   double distance_to_arcs(const std::vector<Vec2>& corners, const Arc& way, const Segment& s) const;
   std::vector<Vec2> corners_at(const Leg& leg, double t) const;
-  /// Is p in the closed body? By exact signs, but the corners are rounded.
-  static bool body_holds(const std::vector<Vec2>& corners, Vec2 p) { return outline_holds(corners, p, true); }
   double distance_to(const std::vector<Vec2>& corners, const Segment& s) const;
   /// The sides of `among` that may be the nearest to the body within `way` of the place t.
   std::vector<Near> nearest_at(const Leg& leg, double t, double way, const Sides& sides,

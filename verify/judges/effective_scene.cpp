@@ -122,14 +122,7 @@ class ClosedCells {
 };
 
 void restrict_map(OccupancyMap& map, const Prices& prices, const Execution& execution) {
-  if (prices.unknown && !map.unknown.empty()) {
-    for (std::uint32_t y = 0; y < map.height(); ++y) {
-      execution.check();
-      for (std::uint32_t x = 0; x < map.width(); ++x) {
-        if (map.unknown.test(x, y)) map.blocked.clear(x, y);
-      }
-    }
-  }
+  if (prices.unknown) map.blocked.remove(map.unknown, [&] { execution.check(); });
   ClosedCells closed(map, execution);
   std::vector<Vec2> corners;
   for (const KeepOut& area : prices.keep_out) {

@@ -110,9 +110,6 @@ class JudgedArm {
   /// Those of link l against joint j's frame at [l * (joints + 1) + j + 1], where j is behind it. turns: how far each
   /// joint goes; values: the largest size of each one's value.
   std::vector<Sway> sways(std::span<const double> turns, std::span<const double> values) const;
-  double value_of(std::size_t joint, const JointState& q) const {
-    return model_.joints[joint].multiplier * q[model_.joints[joint].variable] + model_.joints[joint].offset;
-  }
   SolidFrame tool_at(const JointState& q) const;
 
  private:

@@ -24,12 +24,10 @@ namespace {
 
 constexpr double bound_rounding = 1e-9;
 
-double straight(Vec2 a, Vec2 b) { return std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y)); }
-
 /// The weight of a radian of a body that turns: how far it reaches.
 double turn_weight(const RobotSpec& robot) {
   double farthest = 0.0;
-  for (const Vec2 p : robot.outline) farthest = std::max(farthest, straight({0.0, 0.0}, p));
+  for (const Vec2 p : robot.outline) farthest = std::max(farthest, norm(p));
   return farthest;
 }
 
@@ -81,7 +79,7 @@ class ShorterWay {
       const Segment s = obstacles.segment(i);
       for (const Vec2 p : {s.a, s.b}) {
         if (p == start || p == goal) continue;
-        if (straight(start, p) + straight(p, goal) < limit) places_.push_back(p);
+        if (distance(start, p) + distance(p, goal) < limit) places_.push_back(p);
       }
     }
     std::sort(places_.begin() + 2, places_.end(),
@@ -193,8 +191,8 @@ class ShorterWay {
     for (std::size_t to = 1; to < places_.size(); ++to) {
       const bool is_back = leg.before != none && to == arrivals_[leg.before].to;
       if (to == leg.to || (is_back && !(leg.along && tips_[leg.to]))) continue;
-      const double there = leg.way + straight(places_[leg.to], places_[to]);
-      const double promise = there + straight(places_[to], places_[1]);
+      const double there = leg.way + distance(places_[leg.to], places_[to]);
+      const double promise = there + distance(places_[to], places_[1]);
       if (promise < limit_) open_.push({promise, there, arrival, to, false, false});
     }
   }
@@ -239,7 +237,7 @@ JudgedBound judge_by_search(const Scene& scene, const BoundQuestion& asked, doub
   const bool is_point = asked.robot.kind == RobotKind::point || asked.robot.radius == 0.0;
   if (!is_point || asked.clearance > 0.0 || !search.is_free(way)) return {};
   double length = 0.0;
-  for (std::size_t i = 1; i < way.size(); ++i) length += straight(way[i - 1], way[i]);
+  for (std::size_t i = 1; i < way.size(); ++i) length += distance(way[i - 1], way[i]);
   return {BoundVerdict::refuted, fmt::format("the answer says {}, and a free way has {}", bound, length)};
 }
 

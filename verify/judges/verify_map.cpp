@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/base/error.hpp"
@@ -42,9 +43,9 @@ struct JudgedLeg {
   double distance_to_cell(Vec2 low) const {
     const Box square{low, low + Vec2{1.0, 1.0}};
     if (square.contains(segment.a) || square.contains(segment.b)) return 0.0;
-    const Vec2 corners[] = {low, {square.max.x, low.y}, square.max, {low.x, square.max.y}};
+    const std::array<Vec2, 4> corners = square.corners();
     double least = std::numeric_limits<double>::infinity();
-    for (int side = 0; side < 4; ++side) {
+    for (std::size_t side = 0; side < 4; ++side) {
       least = std::min(least, distance_to(Segment{corners[side], corners[(side + 1) % 4]}));
     }
     return least;

@@ -22,88 +22,58 @@
 namespace warren {
 namespace {
 
-/// One verification in progress: the path's legs among the scene's obstacles.
-class Verifier {
- public:
-  Verifier(const Scene& scene, const ObstacleIndex* index, std::span<const Vec2> path, const VerifyOptions& options,
-           const Execution& execution)
-      : scene_(scene),
-        index_(index),
-        path_(path),
-        options_(options),
-        execution_(execution),
-        legs_(path, execution),
-        own_obstacles_(index == nullptr ? std::optional<Obstacles>(scene) : std::nullopt),
-        obstacles_(index == nullptr ? *own_obstacles_ : index->obstacles()) {}
+/// Of contacts on legs before the first violation: may the path pass there?
+void check_contacts(std::span<const Vec2> path, const Box& frame, const Obstacles& obstacles, Tally& tally,
+                    const Execution& execution) {
+  if (tally.contacts.empty()) return;
+  std::sort(tally.contacts.begin(), tally.contacts.end());
+  tally.contacts.erase(std::unique(tally.contacts.begin(), tally.contacts.end()), tally.contacts.end());
+  const std::size_t leg_end = std::min(tally.violation.leg, legs_of(path.size()));
+  const auto forbidden = first_forbidden_contact(path, leg_end, frame, obstacles, tally.contacts, execution);
+  if (forbidden) tally.violation = *forbidden;
+}
 
-  Verification run() {
-    Tally tally = index_ == nullptr ? compare_obstacles(scene_, obstacles_, legs_, options_, execution_)
-                                    : compare_indexed(*index_, legs_, options_, execution_);
-    check_contacts(tally);
-    check_insides(tally);
-    box_ = frame(tally);
-    check_box(box_, legs_, tally);
-    LegReport legs{.least = tally.least};
-    if (tally.violation != no_violation) legs.violation = describe(tally);
-    Verification result = verdict_on(legs, wrong_start(path_, options_), wrong_goal(path_, options_));
-    result.length = legs_.length();
-    return result;
+Violation describe(const Tally& tally, std::span<const Vec2> path, const Obstacles& obstacles, const Box& box) {
+  const auto [leg, number] = tally.violation;
+  if (number == box_number) {
+    const auto unsigned_zero = [](double x) { return x + 0.0; };  // which zero is the least, depends on the order
+    return {leg, 0.0,
+            fmt::format("box: {} {} {} {}", unsigned_zero(box.min.x), unsigned_zero(box.min.y),
+                        unsigned_zero(box.max.x), unsigned_zero(box.max.y))};
   }
+  const auto is_inside = [&, number = number] {  // is the number a polygon's, and does the path begin inside?
+    if (number < obstacles.wall_count()) return false;
+    const Ring& ring = obstacles.rings()[obstacles.sides()[number - obstacles.wall_count()].ring];
+    return ring.polygon != Ring::none && strictly_inside(ring, path.front());
+  };
+  const double d = tally.least == 0.0 && leg == 0 && is_inside()
+                       ? 0.0
+                       : exact::distance({path[leg], path[leg + 1]}, obstacles.segment(number));
+  return {leg, d, obstacles.name(number)};
+}
 
- private:
-  std::size_t leg_count() const { return legs_.leg_count(); }
-
-  Box frame(const Tally& tally) const { return scene_.bounds ? *scene_.bounds : tally.box; }
-
-  void check_contacts(Tally& tally) const {
-    if (tally.contacts.empty()) return;
-    std::sort(tally.contacts.begin(), tally.contacts.end());
-    tally.contacts.erase(std::unique(tally.contacts.begin(), tally.contacts.end()), tally.contacts.end());
-    const std::size_t leg_end = std::min(tally.violation.leg, leg_count());
-    const auto forbidden =
-        first_forbidden_contact(path_, leg_end, frame(tally), obstacles_, tally.contacts, execution_);
-    if (forbidden) tally.violation = *forbidden;
-  }
-
-  /// Who starts outside a polygon and never passes its sides stays outside.
-  void check_insides(Tally& tally) const {
-    const std::optional<std::size_t> ring = ring_around(obstacles_, index_, path_.front(), execution_);
-    if (!ring) return;
+/// The path's legs, one at least, among the scene's obstacles.
+Verification judged_legs(const Scene& scene, const ObstacleIndex* index, std::span<const Vec2> path,
+                         const VerifyOptions& options, const Execution& execution) {
+  const LegBoxes legs(path, execution);
+  const auto own = index == nullptr ? std::optional<Obstacles>(scene) : std::nullopt;
+  const Obstacles& obstacles = index == nullptr ? *own : index->obstacles();
+  Tally tally = index == nullptr ? compare_obstacles(scene, obstacles, legs, options, execution)
+                                 : compare_indexed(*index, legs, options, execution);
+  const Box box = scene.bounds ? *scene.bounds : tally.box;
+  check_contacts(path, box, obstacles, tally, execution);
+  // Who starts outside a polygon and never passes its sides stays outside.
+  if (const auto ring = ring_around(obstacles, index, path.front(), execution)) {
     tally.least = 0.0;
-    tally.violation = std::min(tally.violation, LegContact{0, obstacles_.first_side(*ring)});
+    tally.violation = std::min(tally.violation, LegContact{0, obstacles.first_side(*ring)});
   }
-
-  Violation describe(const Tally& tally) const {
-    const auto [leg, number] = tally.violation;
-    if (number == box_number) {
-      const auto unsigned_zero = [](double x) { return x + 0.0; };  // which zero is the least, depends on the order
-      return {leg, 0.0,
-              fmt::format("box: {} {} {} {}", unsigned_zero(box_.min.x), unsigned_zero(box_.min.y),
-                          unsigned_zero(box_.max.x), unsigned_zero(box_.max.y))};
-    }
-    const double d = tally.least == 0.0 && leg == 0 && is_inside(number)
-                         ? 0.0
-                         : exact::distance({path_[leg], path_[leg + 1]}, obstacles_.segment(number));
-    return {leg, d, obstacles_.name(number)};
-  }
-
-  /// Is the number a polygon's, and does the path begin inside?
-  bool is_inside(std::size_t number) const {
-    if (number < obstacles_.wall_count()) return false;
-    const Ring& ring = obstacles_.rings()[obstacles_.sides()[number - obstacles_.wall_count()].ring];
-    return ring.polygon != Ring::none && strictly_inside(ring, path_.front());
-  }
-
-  const Scene& scene_;
-  const ObstacleIndex* index_;
-  std::span<const Vec2> path_;
-  const VerifyOptions& options_;
-  const Execution& execution_;
-  const LegBoxes legs_;
-  const std::optional<Obstacles> own_obstacles_;
-  const Obstacles& obstacles_;
-  Box box_;
-};
+  check_box(box, legs, tally);
+  LegReport report{.least = tally.least};
+  if (tally.violation != no_violation) report.violation = describe(tally, path, obstacles, box);
+  Verification result = verdict_on(report, wrong_start(path, options), wrong_goal(path, options));
+  result.length = legs.length();
+  return result;
+}
 
 /// The first point whose coordinates are not numbers or too large; the path's size, if there is none.
 std::size_t first_misfit(std::span<const Vec2> path, const Execution& execution) {
@@ -145,7 +115,7 @@ Verification verify_path(const Scene& scene, std::span<const Vec2> path, const V
   if (scene.map) return verify_on_map(*scene.map, path, options, execution);
   const Vec2 twice[] = {path.front(), path.front()};
   const std::span<const Vec2> legs = path.size() > 1 ? path : std::span<const Vec2>(twice);
-  Verification verdict = Verifier(scene, index, legs, options, execution).run();
+  Verification verdict = judged_legs(scene, index, legs, options, execution);
   verdict.min_clearance -= options.radius;
   return verdict;
 }

@@ -15,7 +15,7 @@ bool is_skew(Vec2 way) {
 
 }  // namespace
 
-BoxLevels::BoxLevels(RawVector<Box> blocks) {
+void BoxLevels::build_on(RawVector<Box> blocks) {
   levels_.push_back(std::move(blocks));
   while (levels_.back().size() > 1) {
     const RawVector<Box>& parts = levels_.back();
@@ -52,7 +52,7 @@ LegBoxes::LegBoxes(std::span<const Vec2> path, const Execution& execution) : pat
   });
   for (const double length : lengths) length_ += length;
   has_skew_ = std::find(skews.begin(), skews.end(), 1) != skews.end();
-  levels_ = BoxLevels(std::move(blocks));
+  build_on(std::move(blocks));
 }
 
 }  // namespace warren

@@ -21,18 +21,17 @@ namespace warren {
 /// Boxes in blocks of eight in a row, eight of these in one above, and so on up to one around all.
 class BoxLevels {
  public:
-  BoxLevels() = default;
-  explicit BoxLevels(RawVector<Box> blocks);
-
-  bool empty() const { return levels_.empty(); }
-  std::size_t count() const { return levels_.size(); }
-  const RawVector<Box>& operator[](std::size_t level) const { return levels_[level]; }
-
   /// Calls visit(block) for blocks of the lowest level, leaving out those in blocks for whose box skip(box) is true.
   template <class Skip, class Visit>
   void for_each_block(const Skip& skip, const Visit& visit) const {
     if (!levels_.empty()) visit_block(levels_.size() - 1, 0, skip, visit);
   }
+  const Box& block_box(std::size_t block) const { return levels_[0][block]; }
+
+ protected:
+  void build_on(RawVector<Box> blocks);
+
+  std::vector<RawVector<Box>> levels_;  ///< the blocks, and what is above them; none where there are no boxes
 
  private:
   template <class Skip, class Visit>
@@ -42,12 +41,10 @@ class BoxLevels {
     const std::size_t end = std::min(8 * (block + 1), levels_[level - 1].size());
     for (std::size_t part = 8 * block; part < end; ++part) visit_block(level - 1, part, skip, visit);
   }
-
-  std::vector<RawVector<Box>> levels_;
 };
 
 /// Refers to the path, which must outlive it. Immutable: any number of threads may ask.
-class LegBoxes {
+class LegBoxes : public BoxLevels {
  public:
   static constexpr std::size_t legs_a_sum = 8192;  ///< of length()
   /// path: at least two points.
@@ -56,8 +53,8 @@ class LegBoxes {
   std::span<const Vec2> path() const { return path_; }
   std::size_t leg_count() const { return path_.size() - 1; }
   Segment leg(std::size_t i) const { return {path_[i], path_[i + 1]}; }
-  Box box() const { return levels_[levels_.count() - 1].front(); }  ///< of the whole path
-  double length() const { return length_; }  ///< of the path: sums of legs_a_sum legs in a row, added up
+  Box box() const { return levels_.back().front(); }  ///< of the whole path
+  double length() const { return length_; }           ///< of the path: sums of legs_a_sum legs in a row, added up
   /// Does some leg run along an axis but for a millionth of its length?
   bool has_skew() const { return has_skew_; }
 
@@ -67,12 +64,7 @@ class LegBoxes {
     for_each_block(skip, [&](std::size_t block) { for_each_in(block, visit); });
   }
 
-  /// The same in two steps, for who asks several questions of one neighbourhood.
-  template <class Skip, class Visit>
-  void for_each_block(const Skip& skip, const Visit& visit) const {
-    levels_.for_each_block(skip, visit);
-  }
-  const Box& block_box(std::size_t block) const { return levels_[0][block]; }
+  /// The second step after for_each_block(), for who asks several questions of one neighbourhood.
   template <class Visit>
   void for_each_in(std::size_t block, const Visit& visit) const {
     const std::size_t end = std::min(8 * (block + 1), leg_count());
@@ -83,7 +75,6 @@ class LegBoxes {
   std::span<const Vec2> path_;
   double length_ = 0.0;
   bool has_skew_ = false;
-  BoxLevels levels_;
 };
 
 }  // namespace warren

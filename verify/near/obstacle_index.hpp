@@ -34,7 +34,7 @@ namespace warren {
 // Building: two sorts, 28 bytes a box while it lasts; 9 bytes a box stay.
 
 /// Holds nothing of what the boxes are around. Immutable: any number of threads may ask.
-class BoxBlocks {
+class BoxBlocks : public BoxLevels {
  public:
   /// Boxes 0 .. count - 1, fewer than 2^32; box_of(i) may be called by any thread. Throws Stopped.
   template <class BoxOf>
@@ -57,7 +57,7 @@ class BoxBlocks {
         blocks[i / block_size] = box;
       }
     });
-    levels_ = BoxLevels(std::move(blocks));
+    build_on(std::move(blocks));
   }
 
   std::size_t size() const { return order_.size(); }
@@ -68,13 +68,8 @@ class BoxBlocks {
     for_each_block(skip, [&](std::size_t block) { for_each_in(block, visit); });
   }
 
-  /// The same in two steps, for who asks several questions of one neighbourhood: visit(block) for blocks of eight boxes
-  /// that skip() doesn't leave out, and visit(number) for the boxes of one of them.
-  template <class Skip, class Visit>
-  void for_each_block(const Skip& skip, const Visit& visit) const {
-    levels_.for_each_block(skip, visit);
-  }
-  const Box& block_box(std::size_t block) const { return levels_[0][block]; }
+  /// The second step after for_each_block(), for who asks several questions of one neighbourhood: visit(number) for the
+  /// boxes of a block.
   template <class Visit>
   void for_each_in(std::size_t block, const Visit& visit) const {
     const std::size_t end = std::min(block_size * (block + 1), order_.size());
@@ -86,7 +81,7 @@ class BoxBlocks {
   void for_some_near(const Box& place, const Visit& visit) const {
     if (levels_.empty()) return;
     std::size_t block = 0;
-    for (std::size_t level = levels_.count() - 1; level-- > 0;) {
+    for (std::size_t level = levels_.size() - 1; level-- > 0;) {
       const std::size_t first = block_size * block;
       block = nearest_part(level, first, std::min(first + block_size, levels_[level].size()), place);
     }
@@ -105,7 +100,6 @@ class BoxBlocks {
   std::size_t nearest_part(std::size_t level, std::size_t first, std::size_t last, const Box& place) const;
 
   RawVector<std::uint32_t> order_;  ///< numbers of the boxes, block by block
-  BoxLevels levels_;
 };
 
 /// What obstacles take of the plane.

@@ -17,9 +17,10 @@ namespace {
 constexpr std::size_t surroundings_grain = std::size_t{1} << 14;
 constexpr std::uint64_t most_cells_a_side = 64;
 
-void sort_once_each(std::vector<std::uint32_t>& numbers) {
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+template <class T>
+void sort_once_each(std::vector<T>& some) {
+  std::sort(some.begin(), some.end());
+  some.erase(std::unique(some.begin(), some.end()), some.end());
 }
 
 }  // namespace
@@ -102,8 +103,7 @@ std::optional<std::vector<std::size_t>> PathSurroundings::may_be_marked(std::spa
   execution.reserve(boxes.size() * sizeof(Range));
   std::vector<Range> ranges;
   for (const Box& box : boxes) ranges.push_back(range_of(box));
-  std::sort(ranges.begin(), ranges.end());
-  ranges.erase(std::unique(ranges.begin(), ranges.end()), ranges.end());
+  sort_once_each(ranges);
   std::vector<std::size_t> numbers;
   for (const Range& range : ranges) {
     execution.check();
@@ -117,8 +117,7 @@ std::optional<std::vector<std::size_t>> PathSurroundings::may_be_marked(std::spa
     });
   }
   if (numbers.size() >= obstacles_.size()) return std::nullopt;
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  sort_once_each(numbers);
   return numbers;
 }
 
@@ -224,9 +223,7 @@ std::uint64_t PathSurroundings::number_of(std::int64_t x, std::int64_t y) const 
 void PathSurroundings::gather_from_map(const Box& box, std::vector<NearSide>& sides, const Execution& execution) const {
   const OccupancyMap& map = *scene_.map;
   Box in_cells;
-  for (const Vec2 corner : {box.min, Vec2{box.max.x, box.min.y}, box.max, Vec2{box.min.x, box.max.y}}) {
-    in_cells.include(map_point(map, corner));
-  }
+  for (const Vec2 corner : box.corners()) in_cells.include(map_point(map, corner));
   const auto clamped = [](double x, double most) { return bounded_whole<std::int64_t>(x, 0.0, most); };
   constexpr double rounding = 1e-6;  // cells
   constexpr std::size_t words_a_poll = 4096;

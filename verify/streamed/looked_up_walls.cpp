@@ -57,16 +57,11 @@ std::uint32_t side_at(const std::string& name, std::string_view bytes, std::size
   return as_whole<std::uint32_t>(side);
 }
 
-constexpr unsigned npy_side_log2 = 8;
-
 /// Where the numbers begin: behind a header whose length stands at byte 8, in 2 bytes in version 1, in 4 in others.
 std::size_t begin_of_numbers(const std::string& name, std::string_view bytes) {
-  const auto byte = [&](std::size_t at) { return std::size_t{as_whole<unsigned char>(bytes[at])}; };
   if (bytes.size() < 12 || !bytes.starts_with("\x93NUMPY"))
     throw InputError(name, "is no .npy file that can be judged");
-  const std::size_t begin = byte(6) == 1
-                                ? 10 + byte(8) + 256 * byte(9)
-                                : 12 + byte(8) + 256 * byte(9) + 65536 * byte(10) + std::size_t{16777216} * byte(11);
+  const std::size_t begin = bytes[6] == 1 ? 10 + number_at(bytes, 8, 2) : 12 + number_at(bytes, 8, 4);
   if (begin > bytes.size()) throw InputError(name, "is no .npy file that can be judged");
   return begin;
 }
@@ -209,7 +204,7 @@ std::unique_ptr<CellWallReader> JudgedMazeFile::reader() const { return std::mak
 
 JudgedNpyMaze::JudgedNpyMaze(const std::string& name, std::string_view bytes, std::uint32_t rows, std::uint32_t cols,
                              Range held, const Forget& forget, const Execution& execution)
-    : JudgedGridLines(rows, cols, npy_side_log2, held, execution) {
+    : JudgedGridLines(rows, cols, tile_side_log2, held, execution) {
   constexpr std::size_t window = std::size_t{1} << 23;  // bytes
   const std::size_t begin = begin_of_numbers(name, bytes);
   const bool is_float = bytes.substr(0, begin).find("<f4") != std::string_view::npos;

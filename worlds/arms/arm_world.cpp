@@ -57,12 +57,6 @@ bool ArmWorld::is_free(const State& a, Query&) const {
   return kinematics_.variable_outside_limits(a) == most_joints && certificate_.is_free(a);
 }
 
-std::array<double, most_joints> ArmWorld::ways_between(const State& a, const State& b) const {
-  std::array<double, most_joints> way{};
-  for (std::size_t j = 0; j < ways_.size(); ++j) way[j] = variable_way(ways_[j], a[j], b[j]);
-  return way;
-}
-
 double ArmWorld::distance(const State& a, const State& b) const {
   double sum = 0.0;
   for (std::size_t j = 0; j < ways_.size(); ++j) {
@@ -100,7 +94,9 @@ ArmWorld::Embedding ArmWorld::embed(const State& a) const {
 }
 
 MotionVerdict ArmWorld::judge_motion(const State& a, const State& b) const {
-  return certificate_.motion(a, ways_between(a, b));
+  JointState way{};
+  for (std::size_t j = 0; j < ways_.size(); ++j) way[j] = variable_way(ways_[j], a[j], b[j]);
+  return certificate_.motion(a, way);
 }
 
 bool ArmWorld::is_free_motion(const State& a, const State& b, Query& query) const {

@@ -69,8 +69,6 @@ class ArmWorld {
   double resolution() const { return resolution_; }
 
  private:
-  std::array<double, most_joints> ways_between(const State& a, const State& b) const;
-
   ArmKinematics kinematics_;
   std::vector<ArmVariable> ways_;  // the model's variables
   double resolution_;

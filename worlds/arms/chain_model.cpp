@@ -41,17 +41,6 @@ Isometry3d frame_between(const Vec3& a, const Vec3& b) {
   return frame;
 }
 
-/// Nothing is added between points that are no farther apart than `shortest`.
-void add_capsule(ArmModel& model, int frame, const Vec3& from, const Vec3& to, double radius, double shortest) {
-  const double length = (to - from).norm();
-  if (length <= shortest) return;
-  Solid capsule;
-  capsule.kind = SolidKind::capsule;
-  capsule.pose = frame_between(from, to);
-  capsule.half = Vec3(radius, radius, 0.5 * length);
-  model.links.push_back({"link " + std::to_string(model.links.size()), frame, {capsule}});
-}
-
 /// Links that what is between them keeps so near that they always touch are no use to keep apart.
 void add_pairs(ArmModel& model, double touch) {
   for (std::size_t near = 0; near < model.links.size(); ++near) {
@@ -82,7 +71,13 @@ ArmModel model_of(const DhTable& table, double radius, bool self_collision, doub
     model.variables.push_back(variable);
   }
   const auto add_link = [&](int frame, const Vec3& from, const Vec3& to) {
-    add_capsule(model, frame, from, to, radius, 1e-12 * chain.reach());
+    const double length = (to - from).norm();
+    if (length <= 1e-12 * chain.reach()) return;
+    Solid capsule;
+    capsule.kind = SolidKind::capsule;
+    capsule.pose = frame_between(from, to);
+    capsule.half = Vec3(radius, radius, 0.5 * length);
+    model.links.push_back({"link " + std::to_string(model.links.size()), frame, {capsule}});
   };
   const bool modified = table.convention == DhConvention::modified;
   Isometry3d tail = Isometry3d::Identity();

@@ -118,6 +118,10 @@ void add_turns(const SerialChain& chain, const JointState& angles, std::vector<J
   all.insert(all.end(), states.begin(), states.end());
 }
 
+Vec3 tip_in_frame_3(const SerialChain& chain, const JointState& q) {
+  return chain.frame(q, 3).inverse() * chain.tool_pose(q).translation();
+}
+
 }  // namespace
 
 DhTable puma560_table(double tool, PumaLimits limits) {
@@ -151,9 +155,8 @@ std::vector<JointState> puma560_inverse_place(const SerialChain& chain, const Ve
     throw InputError("arm", "only arms of the Puma 560's shape have inverse kinematics in closed form here");
   }
   const JointState bent{0.0, 0.0, 0.0, wrist[0], wrist[1], wrist[2]};
-  const Vec3 tip = chain.frame(bent, 3).inverse() * chain.tool_pose(bent).translation();
   std::vector<JointState> all;
-  for (const Angles& first : ShoulderAndElbow(chain.table(), tip).solve(place)) {
+  for (const Angles& first : ShoulderAndElbow(chain.table(), tip_in_frame_3(chain, bent)).solve(place)) {
     add_turns(chain, {first[0], first[1], first[2], wrist[0], wrist[1], wrist[2]}, all);
   }
   return all;
@@ -248,9 +251,8 @@ class FirstJoints {
   }
   bool is_within(std::size_t joint, const Interval& angles) const {
     constexpr double rounding = 1e-9;
-    constexpr double turn = 2.0 * std::numbers::pi;
-    const double turns = std::ceil((chain_.low(joint) - rounding - angles.high) / turn);
-    return angles.low + turns * turn <= chain_.high(joint) + rounding;
+    const double turns = std::ceil((chain_.low(joint) - rounding - angles.high) / whole_turn);
+    return angles.low + turns * whole_turn <= chain_.high(joint) + rounding;
   }
 
   const SerialChain& chain_;
@@ -264,10 +266,6 @@ struct Piece {
   Interval fourth;
   Interval fifth;
 };
-
-Vec3 tip_in_frame_3(const SerialChain& chain, const JointState& q) {
-  return chain.frame(q, 3).inverse() * chain.tool_pose(q).translation();
-}
 
 }  // namespace
 

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "worlds/plane/corridor_width.hpp"
 
-namespace warren {
+#include <algorithm>
+#include <cmath>
+#include <vector>
 
+#include "core/base/whole.hpp"
+
+namespace warren {
 namespace {
 
 /// From `from`, a step off the wall, along the unit vector `normal`.
@@ -23,8 +28,8 @@ double look(const WallIndex& index, const Box& box, Vec2 from, Vec2 normal, doub
   return far;
 }
 
-}  // namespace
-
+/// How far one sees from the middle of a wall (or beside it, where another wall ends there), square to it (side = 1: to
+/// its left, -1: right), before the next wall, to a percent; 0 where nothing is in the way within the box.
 double free_width(const WallIndex& index, const Box& box, const Segment& wall, double side,
                   const Execution& execution) {
   const Vec2 along = wall.b - wall.a;
@@ -39,6 +44,8 @@ double free_width(const WallIndex& index, const Box& box, const Segment& wall, d
   return look(index, box, wall.a + aside * along, normal, step, execution);
 }
 
+}  // namespace
+
 double samples_for_width(double width, double area, double clearance) {
   constexpr double samples_a_square = 4.5;
   const double free = std::max(width - 2.0 * clearance, 0.1 * width);
@@ -51,6 +58,25 @@ double most_samples_for(const Box& box, double width, double clearance, std::siz
   const double breadth = std::min(box.width(), box.height());
   return std::max(samples_for_width(width, breadth * breadth, clearance),
                   least + samples_a_wall * static_cast<double>(walls));
+}
+
+double typical_width(const WallIndex& index, const Box& box, const PolygonIndex* polygons, const Execution& execution) {
+  constexpr std::size_t probes = 64;
+  std::vector<double> widths;
+  for (const Segment& wall : index.some_walls(probes)) {
+    const Vec2 along = wall.b - wall.a;
+    for (const double side : {-1.0, 1.0}) {
+      const Vec2 beside = 0.5 * (wall.a + wall.b) + (side * 1e-3) * Vec2{-along.y, along.x};
+      if (polygons != nullptr && polygons->polygon_around(beside)) continue;
+      const double width = free_width(index, box, wall, side, execution);
+      if (width > 0.0) widths.push_back(width);
+    }
+  }
+  const double whole = std::sqrt(box.width() * box.height());
+  if (widths.empty()) return whole;
+  const auto quartile = widths.begin() + as_whole<std::ptrdiff_t>(widths.size() / 4);
+  std::nth_element(widths.begin(), quartile, widths.end());
+  return std::min(whole, *quartile);
 }
 
 }  // namespace warren

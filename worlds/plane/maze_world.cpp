@@ -141,24 +141,18 @@ std::uint32_t MazeWorld::free_states(std::span<const State> states, Query& query
   return in_box & index_.keep_clearance({query.motions.data(), states.size()}, planning_clearance_);
 }
 
-CellSides MazeWorld::cell_sides(std::size_t most_cells, const Execution& execution) const {
-  return open_sides(index_, box_, clearance_, most_cells, execution);
-}
-
 double MazeWorld::suggested_samples(const Execution& execution) const {
-  const auto is_outside = [](Vec2) { return true; };
-  const double width = typical_width(index_, box_, is_outside, execution);
+  const double width = typical_width(index_, box_, nullptr, execution);
   return std::min(samples_for_width(width, sampled_area(), clearance_),
                   most_samples_for(box_, width, clearance_, index_.wall_count()));
 }
 
-CellSides open_sides(const WallIndex& walls, const Box& box, double clearance, std::size_t most_cells,
-                     const Execution& execution) {
-  const double largest = std::max(std::max(-box.min.x, -box.min.y), std::max(box.max.x, box.max.y));
-  if (box.empty() || !(clearance >= least_clearance) || !(largest <= largest_place)) return {};
-  const Vec2 first{std::floor(box.min.x + 0.5), std::floor(box.min.y + 0.5)};
-  const double cols = std::max(std::ceil(box.max.x - 0.5) - first.x, 0.0) + 1.0;
-  const double rows = std::max(std::ceil(box.max.y - 0.5) - first.y, 0.0) + 1.0;
+CellSides MazeWorld::cell_sides(std::size_t most_cells, const Execution& execution) const {
+  const double largest = std::max(std::max(-box_.min.x, -box_.min.y), std::max(box_.max.x, box_.max.y));
+  if (box_.empty() || !(clearance_ >= least_clearance) || !(largest <= largest_place)) return {};
+  const Vec2 first{std::floor(box_.min.x + 0.5), std::floor(box_.min.y + 0.5)};
+  const double cols = std::max(std::ceil(box_.max.x - 0.5) - first.x, 0.0) + 1.0;
+  const double rows = std::max(std::ceil(box_.max.y - 0.5) - first.y, 0.0) + 1.0;
   if (cols * rows > static_cast<double>(most_cells)) return {};
   CellSides cells{first - Vec2{0.5, 0.5}, bounded_whole<std::uint32_t>(cols), bounded_whole<std::uint32_t>(rows), {}};
   execution.reserve(std::size_t{cells.cols} * cells.rows);
@@ -171,7 +165,7 @@ CellSides open_sides(const WallIndex& walls, const Box& box, double clearance, s
         execution.check();
         const Block block{{row, std::min(row + Block::side, range.last)},
                           {col, std::min<std::size_t>(col + Block::side, cells.cols)}};
-        close_sides(walls, block, clearance, cells);
+        close_sides(index_, block, clearance_, cells);
       }
     }
   });

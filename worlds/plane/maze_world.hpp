@@ -41,7 +41,11 @@ class MazeWorld {
   }
   std::uint32_t free_motions(std::span<const Motion<State>> motions, Query& query) const noexcept;
   std::uint32_t free_states(std::span<const State> states, Query& query) const noexcept;
-  /// See open_sides().
+  /// Which sides of unit cells the body can cross, asked wall by wall: a side is closed where both of its ends are
+  /// nearer than the clearance to one wall, for then all of it is. Walls that do not run along the cells close nothing.
+  /// O(walls + cells), a byte a cell; a long wall takes some tens of steps in each cell that it passes. Of the cells
+  /// that meet the box. Nothing where they are more than most_cells, where the clearance is below a thousandth of a
+  /// cell, or coordinates are beyond 10^9: then a point's cell may not be told for sure. Throws Stopped.
   CellSides cell_sides(std::size_t most_cells, const Execution& execution) const;
   static double distance(const State& a, const State& b) { return warren::distance(a, b); }
   State interpolate(const State& a, const State& b, double t) const {
@@ -57,7 +61,6 @@ class MazeWorld {
   double suggested_samples(const Execution& execution) const;
 
   const Box& box() const { return box_; }
-  double clearance() const { return clearance_; }
   double planning_clearance() const { return planning_clearance_; }  ///< what motions keep: clearance (1 + 1e-9)
   const WallIndex& walls() const { return index_; }
 
@@ -69,13 +72,5 @@ class MazeWorld {
 };
 
 static_assert(SteerableWorld<MazeWorld>);
-
-/// Which sides of unit cells a body with clearance can cross, asked wall by wall: a side is closed where both of its
-/// ends are nearer than the clearance to one wall, for then all of it is. Walls that do not run along the cells close
-/// nothing. O(walls + cells), a byte a cell; a long wall takes some tens of steps in each cell that it passes. Of the
-/// cells that meet the box. Nothing where they are more than most_cells, where the clearance is below a thousandth of a
-/// cell, or coordinates are beyond 10^9: then a point's cell may not be told for sure. Throws Stopped.
-CellSides open_sides(const WallIndex& walls, const Box& box, double clearance, std::size_t most_cells,
-                     const Execution& execution);
 
 }  // namespace warren

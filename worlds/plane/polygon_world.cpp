@@ -37,10 +37,8 @@ PolygonWorld::PolygonWorld(const Scene& scene, double clearance, const Execution
 double PolygonWorld::suggested_samples(const Execution& execution) const {
   constexpr double least = 500.0;
   constexpr double samples_a_side = 8.0;
-  const double asked =
-      samples_for_width(typical_width(
-                            sides_, box_, [&](Vec2 p) { return !polygons_.polygon_around(p); }, execution),
-                        sampled_area(), clearance_);
+  const double width = typical_width(sides_, box_, &polygons_, execution);
+  const double asked = samples_for_width(width, sampled_area(), clearance_);
   return std::clamp(asked, least, least + samples_a_side * static_cast<double>(sides_.wall_count()));
 }
 

@@ -54,7 +54,6 @@ class PolygonWorld {
   double suggested_samples(const Execution& execution) const;
 
   const Box& box() const { return box_; }
-  double clearance() const { return clearance_; }
   double planning_clearance() const { return planning_clearance_; }  ///< what motions keep: clearance (1 + 1e-9)
   const WallIndex& sides() const { return sides_; }                  ///< walls, outlines and bounds
   const PolygonIndex& polygons() const { return polygons_; }

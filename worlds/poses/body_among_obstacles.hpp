@@ -68,7 +68,7 @@ class BodyAmongObstacles {
   /// Lower bound of the distance to the nearest obstacle less the reach; <= 0: not free. More than `enough` counts as
   /// any number above it.
   double clearance(const Se2& a, double enough, Query& query) const {
-    const std::span<Vec2> corners = query.footprint.corners();
+    const std::span<Vec2> corners = query.footprint.corners;
     if (corners.size() == 1) {
       corners.front() = a.position();
     } else {

@@ -41,14 +41,8 @@ CarBody::CarBody(const Scene& scene, const CarOptions& options, const Execution&
       resolution_(checked_length("resolution", options.resolution.value_or(usual_resolution(options)), false)),
       body_(scene, options.outline.empty() ? std::vector{Vec2{}} : options.outline, planning_reach(options),
             turning_radius_, "car", execution) {
-  for (const int side : {-1, 1}) {
-    const Vec2 center{0.0, side * turning_radius_};
-    for (const Vec2 p : options.outline) {
-      double& pace = pace_[as_whole<std::size_t>(side + 2)];
-      pace = std::max(pace, norm(p - center) / turning_radius_);
-      double& on_spot = pace_[as_whole<std::size_t>(2 * side + 2)];
-      on_spot = std::max(on_spot, norm(p) / turning_radius_);
-    }
+  for (int steer = -2; steer <= 2; ++steer) {
+    pace_[as_whole<std::size_t>(steer + 2)] = pace_of(static_cast<Steer>(steer), options.outline, turning_radius_);
   }
 }
 

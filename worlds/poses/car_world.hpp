@@ -63,14 +63,14 @@ class CarBody {
   double turning_radius() const { return turning_radius_; }
   double resolution() const { return resolution_; }
   const Box& box() const { return body_.box(); }  ///< the bounds, else the box of the obstacles
-  /// How far any point of the body goes while the reference point goes 1 with this steering.
+  /// As pace_of(), computed once.
   double pace(Steer steer) const { return pace_[as_whole<std::size_t>(as_whole<int>(steer) + 2)]; }
 
  private:
   bool confines(const Box& way) const;
 
   double turning_radius_;
-  std::array<double, 5> pace_{0.0, 1.0, 1.0, 1.0, 0.0};  // by Steer
+  std::array<double, 5> pace_{};  // by Steer
   double resolution_;
   BodyAmongObstacles body_;  // its reach: the clearance, of discs their radius too, and rounding
 };
@@ -106,12 +106,8 @@ class CarWorld {
     return t < 1.0 ? way.at(t * way.length()) : b;
   }
   std::array<double, 4> embed(const State& a) const {
-    if constexpr (Curve::turns_on_spot) {
-      const auto [sine, cosine] = portable::sin_and_cos(a.theta);
-      return {a.x, a.y, body_.turning_radius() * cosine, body_.turning_radius() * sine};
-    }
-    const double turn = body_.turning_radius() * std::numbers::sqrt2 * 0.5;
-    const double shrink = std::numbers::sqrt2 * 0.5;
+    constexpr double shrink = Curve::turns_on_spot ? 1.0 : std::numbers::sqrt2 * 0.5;
+    const double turn = body_.turning_radius() * shrink;
     const auto [sine, cosine] = portable::sin_and_cos(a.theta);
     return {shrink * a.x, shrink * a.y, turn * cosine, turn * sine};
   }

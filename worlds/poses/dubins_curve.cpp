@@ -36,14 +36,9 @@ struct Candidate {
 
   double length() const { return first + middle + last; }
   /// The heading at the goal is first - last for lsr, first - middle + last for lrl, first + last for lsl.
-  double last_for(double arc) const {
-    if (shape == Shape::lsr) return positive_angle(arc - phi);
-    return positive_angle(shape == Shape::lsl ? phi - arc : phi - arc + middle);
-  }
-  double first_for(double arc) const {
-    if (shape == Shape::lsr) return positive_angle(phi + arc);
-    return positive_angle(shape == Shape::lsl ? phi - arc : phi - arc + middle);
-  }
+  double last_for(double arc) const { return shape == Shape::lsr ? positive_angle(arc - phi) : beside(arc); }
+  double first_for(double arc) const { return shape == Shape::lsr ? positive_angle(phi + arc) : beside(arc); }
+  double beside(double arc) const { return positive_angle(shape == Shape::lsl ? phi - arc : phi - arc + middle); }
   SteeringWord word() const {
     const Steer left = mirrored ? Steer::right : Steer::left;
     const Steer right = mirrored ? Steer::left : Steer::right;

@@ -235,12 +235,11 @@ class ShapeSweep {
   ShapeSweep(const MotionSet& motions, const MotionShape& shape, std::span<const Vec2> outline, double reach)
       : outline_(outline),
         reach_(reach),
-        from_rad_(motions.heading_rad(shape.from)),
-        curve_({0.0, 0.0, from_rad_}, {1.0 * shape.dx, 1.0 * shape.dy, motions.heading_rad(shape.to)}, shape.word,
-               motions.turning_radius()),
+        curve_({0.0, 0.0, motions.heading_rad(shape.from)},
+               {1.0 * shape.dx, 1.0 * shape.dy, motions.heading_rad(shape.to)}, shape.word, motions.turning_radius()),
         radius_(outline_reach(outline)),
         box_(box_around(outline)),
-        travelled_(curve_, [this](Steer steer) { return pace(steer); }) {}
+        travelled_(curve_, [this](Steer steer) { return pace_of(steer, outline_, curve_.turning_radius()); }) {}
 
   /// Those that may be touched, row by row.
   std::vector<CellAt> cells(const Execution& execution) const {
@@ -258,15 +257,6 @@ class ShapeSweep {
   }
 
  private:
-  double pace(Steer steer) const {
-    if (steer == Steer::straight) return 1.0;
-    const double rho = curve_.turning_radius();
-    if (is_on_spot(steer)) return radius_ / rho;
-    const Vec2 center{0.0, steer == Steer::left ? rho : -rho};
-    double most = 1.0;
-    for (const Vec2 p : outline_) most = std::max(most, norm(p - center) / rho);
-    return most;
-  }
   Se2 pose(double t) const { return curve_.at(t * curve_.length()); }
   /// A lower bound of the distance between body and square, less the reach; exact where it is small.
   double clearance(const Se2& pose, Vec2 middle, double enough) const {
@@ -291,7 +281,6 @@ class ShapeSweep {
 
   std::span<const Vec2> outline_;
   double reach_;
-  double from_rad_;
   SteeringCurve curve_;
   double radius_;
   Box box_;  // of the outline

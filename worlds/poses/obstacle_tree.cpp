@@ -20,6 +20,8 @@ constexpr double spare = 1e-5;
 constexpr std::size_t most_sides = 16;  ///< of a convex polygon
 
 BoxOf<2> box_of_body(const Box& box) { return {{box.min.x, box.min.y}, {box.max.x, box.max.y}}; }
+BoxOf<2> box_of_body(const Segment& s) { return box_of_body(box_of(s)); }
+BoxOf<2> box_of_body(std::span<const Vec2> polygon) { return box_of_body(box_around(polygon)); }
 
 double inverse_square(Vec2 v) {
   const double square = dot(v, v);
@@ -83,9 +85,9 @@ Turning turning_of(std::span<const Vec2> corners) {
 
 /// Does the whole body stay more than `reach` before the line through p, whose normal is `outward`, for so long?
 bool stays_before(const Footprint& body, double time, Vec2 p, Vec2 outward, double reach) {
-  const std::span<const Vec2> corners = body.corners();
+  const std::span<const Vec2> corners = body.corners;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const double way = time * std::abs(dot(outward, body.velocities()[i])) + time * time * body.bends()[i];
+    const double way = time * std::abs(dot(outward, body.velocities[i])) + time * time * body.bends[i];
     if (!(dot(outward, corners[i] - p) - way > reach)) return false;
   }
   return true;
@@ -96,13 +98,21 @@ double largest_coordinate_of(const Box& box) {
   return std::max({std::abs(box.min.x), std::abs(box.max.x), std::abs(box.min.y), std::abs(box.max.y)});
 }
 
+/// Thing: a segment or a polygon's corners.
+template <class Thing>
+BoxTree<2> tree_around(const std::vector<Thing>& things, const Execution& execution) {
+  std::vector<BoxOf<2>> boxes;
+  for (const Thing& thing : things) boxes.push_back(box_of_body(thing));
+  return BoxTree<2>(boxes, execution);
+}
+
 }  // namespace
 
 void Footprint::finish() {
-  box_ = box_around(corners_);
-  for (std::size_t i = 0; i + 1 < corners_.size(); ++i) sides_[i] = corners_[i + 1] - corners_[i];
-  sides_.back() = corners_.front() - corners_.back();
-  for (std::size_t i = 0; i < sides_.size(); ++i) inverse_squares_[i] = inverse_square(sides_[i]);
+  box = box_around(corners);
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) sides[i] = corners[i + 1] - corners[i];
+  sides.back() = corners.front() - corners.back();
+  for (std::size_t i = 0; i < sides.size(); ++i) inverse_squares[i] = inverse_square(sides[i]);
 }
 
 ObstacleTree::ObstacleTree(const Scene& scene, double reach, const Execution& execution)
@@ -131,31 +141,17 @@ ObstacleTree::ObstacleTree(const Scene& scene, double reach, const Execution& ex
     others.emplace_back(polygon.corners);
     for_each_side(polygon.corners, [&](Vec2 a, Vec2 b) { sides.push_back({a, b}); });
   }
-  file_sides(sides, execution);
-  file_polygons(others, execution);
+  side_tree_ = tree_around(sides, execution);
+  for (const std::uint32_t id : side_tree_.order()) sides_.push_back(side_between(sides[id].a, sides[id].b));
+  polygon_tree_ = tree_around(others, execution);
+  for (const std::uint32_t id : polygon_tree_.order()) polygons_.emplace_back(others[id].begin(), others[id].end());
   file_convex(convex, execution);
 }
 
 ObstacleTree::Side ObstacleTree::side_between(Vec2 a, Vec2 b) { return {a, b - a, inverse_square(b - a)}; }
 
-void ObstacleTree::file_sides(const std::vector<Segment>& sides, const Execution& execution) {
-  std::vector<BoxOf<2>> boxes;
-  for (const Segment& s : sides) boxes.push_back(box_of_body(box_of(s)));
-  side_tree_ = BoxTree<2>(boxes, execution);
-  for (const std::uint32_t id : side_tree_.order()) sides_.push_back(side_between(sides[id].a, sides[id].b));
-}
-
-void ObstacleTree::file_polygons(const std::vector<std::span<const Vec2>>& polygons, const Execution& execution) {
-  std::vector<BoxOf<2>> boxes;
-  for (const auto corners : polygons) boxes.push_back(box_of_body(box_around(corners)));
-  polygon_tree_ = BoxTree<2>(boxes, execution);
-  for (const std::uint32_t id : polygon_tree_.order()) polygons_.emplace_back(polygons[id].begin(), polygons[id].end());
-}
-
 void ObstacleTree::file_convex(const std::vector<std::span<const Vec2>>& polygons, const Execution& execution) {
-  std::vector<BoxOf<2>> boxes;
-  for (const auto corners : polygons) boxes.push_back(box_of_body(box_around(corners)));
-  convex_tree_ = BoxTree<2>(boxes, execution);
+  convex_tree_ = tree_around(polygons, execution);
   for (const std::uint32_t id : convex_tree_.order()) {
     const std::span<const Vec2> corners = polygons[id];
     const auto first = as_whole<std::uint32_t>(convex_sides_.size());
@@ -171,9 +167,9 @@ void ObstacleTree::file_convex(const std::vector<std::span<const Vec2>>& polygon
 
 /// Square of the distance of boundaries; 0 where they cross.
 double ObstacleTree::distance_sq(const Footprint& body, const Side& side) {
-  const std::span<const Vec2> corners = body.corners();
-  const std::span<const Vec2> sides = body.sides();
-  const std::span<const double> inverse_squares = body.inverse_squares();
+  const std::span<const Vec2> corners = body.corners;
+  const std::span<const Vec2> sides = body.sides;
+  const std::span<const double> inverse_squares = body.inverse_squares;
   double least = std::numeric_limits<double>::infinity();
   Vec2 to_corner = corners.back() - side.a;
   double corner_side = cross(side.along, to_corner);
@@ -199,7 +195,7 @@ double ObstacleTree::distance_sq(const Footprint& body, const Side& side) {
 /// From a convex polygon, 0 where they meet; anything above `enough` where it is more.
 double ObstacleTree::distance_to(const Footprint& body, const ConvexPolygon& polygon, double enough) const {
   const std::span<const ConvexSide> sides(convex_sides_.data() + polygon.first, polygon.last - polygon.first);
-  const std::span<const Vec2> corners = body.corners();
+  const std::span<const Vec2> corners = body.corners;
   bool holds_first = true;
   for (const ConvexSide& s : sides) {
     const double first = dot(s.outward, corners.front() - s.side.a);
@@ -209,7 +205,7 @@ double ObstacleTree::distance_to(const Footprint& body, const ConvexPolygon& pol
     holds_first = holds_first && first <= 0.0;
   }
   if (holds_first) return 0.0;
-  if (within(polygon.box, body.box()) && encloses(corners, sides.front().side.a)) return 0.0;
+  if (within(polygon.box, body.box) && encloses(corners, sides.front().side.a)) return 0.0;
   double square = std::numeric_limits<double>::infinity();
   for (const ConvexSide& s : sides) {
     // What is behind a side is nearer to another one, or inside, which is settled.
@@ -221,7 +217,7 @@ double ObstacleTree::distance_to(const Footprint& body, const ConvexPolygon& pol
 
 /// Does a polygon hold the body, whose boundary meets none?
 bool ObstacleTree::swallows(const Footprint& body) const {
-  const Vec2 p = body.corners().front();
+  const Vec2 p = body.corners.front();
   bool found = false;
   polygon_tree_.search({{p.x, p.y}, {p.x, p.y}}, 0.0, [&](std::uint32_t place) {
     found = encloses(polygons_[place], p);
@@ -234,20 +230,19 @@ double ObstacleTree::clearance(const Footprint& body, double enough) const {
   double least = enough + 2.0 * rounding_;
   least = std::nextafter(least, std::numeric_limits<double>::infinity());
   if (bounds_) {
-    least = std::min(least, room_in(*bounds_, body.box()));
+    least = std::min(least, room_in(*bounds_, body.box));
     if (least <= rounding_) return std::min(least - rounding_, 0.0);
   }
   double boundary = least;
-  convex_tree_.search(box_of_body(body.box()), least, [&](std::uint32_t place) {
+  convex_tree_.search(box_of_body(body.box), least, [&](std::uint32_t place) {
     boundary = std::min(boundary, distance_to(body, convex_[place], boundary));
     return boundary > rounding_ ? boundary : -1.0;
   });
   if (boundary <= rounding_) return 0.0;
-  side_tree_.search(box_of_body(body.box()), boundary, [&](std::uint32_t place) {
+  side_tree_.search(box_of_body(body.box), boundary, [&](std::uint32_t place) {
     const Side& side = sides_[place];
     boundary = std::min(boundary, std::sqrt(distance_sq(body, side)));
-    const bool swallowed =
-        within(box_of({side.a, side.a + side.along}), body.box()) && encloses(body.corners(), side.a);
+    const bool swallowed = within(box_of({side.a, side.a + side.along}), body.box) && encloses(body.corners, side.a);
     if (boundary <= rounding_ || swallowed) boundary = -1.0;
     return boundary;
   });
@@ -257,10 +252,10 @@ double ObstacleTree::clearance(const Footprint& body, double enough) const {
 
 Room ObstacleTree::room_in_bounds(const Footprint& body, const Move& move, double reach) const {
   if (!bounds_) return Room::clear;
-  const double room = room_in(*bounds_, body.box());
+  const double room = room_in(*bounds_, body.box);
   if (room <= reach) return Room::blocked;
   if (room > reach + move.travel) return Room::clear;
-  const double before = reach + spare * (body.box().width() + body.box().height());
+  const double before = reach + spare * (body.box.width() + body.box.height());
   const bool stays = stays_before(body, move.time, bounds_->min, {1.0, 0.0}, before) &&
                      stays_before(body, move.time, bounds_->min, {0.0, 1.0}, before) &&
                      stays_before(body, move.time, bounds_->max, {-1.0, 0.0}, before) &&
@@ -277,14 +272,14 @@ bool ObstacleTree::passes(const Footprint& body, const Move& move, const ConvexP
 Room ObstacleTree::room(const Footprint& body, const Move& move, double reach) const {
   const double touch = reach + rounding_;
   const double enough = touch + move.travel;
-  const double before = touch + spare * (body.box().width() + body.box().height());
+  const double before = touch + spare * (body.box.width() + body.box.height());
   Room room = room_in_bounds(body, move, touch);
   if (room == Room::blocked) return room;
   const auto end_at = [&](double distance) {
     if (distance <= enough) room = distance <= touch ? Room::blocked : Room::narrow;
     return room == Room::blocked ? -1.0 : enough;
   };
-  const BoxOf<2> box = box_of_body(body.box());
+  const BoxOf<2> box = box_of_body(body.box);
   convex_tree_.search(box, enough, [&](std::uint32_t place) {
     const ConvexPolygon& polygon = convex_[place];
     if (room == Room::clear && passes(body, move, polygon, before)) return enough;
@@ -300,7 +295,7 @@ Room ObstacleTree::room(const Footprint& body, const Move& move, double reach) c
       return enough;
     }
     const Box here = box_of(Segment{side.a, side.a + side.along});
-    const bool swallowed = within(here, body.box()) && encloses(body.corners(), side.a);
+    const bool swallowed = within(here, body.box) && encloses(body.corners, side.a);
     return end_at(swallowed ? 0.0 : std::sqrt(distance_sq(body, side)));
   });
   return room != Room::blocked && swallows(body) ? Room::blocked : room;

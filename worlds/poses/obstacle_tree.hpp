@@ -20,33 +20,21 @@
 
 namespace warren {
 
-/// A polygon body where it stands: corners, the vectors to the next ones with their inverse squares, and the box.
-class Footprint {
- public:
-  explicit Footprint(std::size_t corners)
-      : corners_(corners), sides_(corners), inverse_squares_(corners), velocities_(corners), bends_(corners) {}
-
-  std::span<Vec2> corners() { return corners_; }
-  std::span<const Vec2> corners() const { return corners_; }
-  std::span<const Vec2> sides() const { return sides_; }
-  std::span<const double> inverse_squares() const { return inverse_squares_; }  ///< of the sides' lengths; 0 for 0
-  const Box& box() const { return box_; }
+/// A polygon body where it stands: its corners, and what finish() makes of them.
+struct Footprint {
+  explicit Footprint(std::size_t count)
+      : corners(count), sides(count), inverse_squares(count), velocities(count), bends(count) {}
   /// To be called when all corners are set.
   void finish();
+
+  std::vector<Vec2> corners;
+  std::vector<Vec2> sides;              ///< the vectors to the next corners
+  std::vector<double> inverse_squares;  ///< of the sides' lengths; 0 for 0
+  Box box;
   /// For ObstacleTree::room: where each corner would be after a unit of time if it went straight on, and how far from
   /// there it is at most, at the time t times t^2.
-  std::span<Vec2> velocities() { return velocities_; }
-  std::span<const Vec2> velocities() const { return velocities_; }
-  std::span<double> bends() { return bends_; }
-  std::span<const double> bends() const { return bends_; }
-
- private:
-  std::vector<Vec2> corners_;
-  std::vector<Vec2> sides_;
-  std::vector<double> inverse_squares_;
-  std::vector<Vec2> velocities_;
-  std::vector<double> bends_;
-  Box box_;
+  std::vector<Vec2> velocities;
+  std::vector<double> bends;  ///< see velocities
 };
 
 /// How much room a body has to move.
@@ -108,8 +96,6 @@ class ObstacleTree {
   bool swallows(const Footprint& body) const;
   Room room_in_bounds(const Footprint& body, const Move& move, double reach) const;
   bool passes(const Footprint& body, const Move& move, const ConvexPolygon& polygon, double reach) const;
-  void file_sides(const std::vector<Segment>& sides, const Execution& execution);
-  void file_polygons(const std::vector<std::span<const Vec2>>& polygons, const Execution& execution);
   void file_convex(const std::vector<std::span<const Vec2>>& polygons, const Execution& execution);
 
   std::optional<Box> bounds_;

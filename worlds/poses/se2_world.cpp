@@ -54,15 +54,15 @@ MotionVerdict Se2World::judge_motion(const State& a, const State& b, Query& quer
   const double whole = norm(way) + radius_ * std::abs(turn);
   Footprint& body = query.footprint;
   const std::span<const Vec2> outline = body_.outline();
-  for (std::size_t i = 0; i < outline.size(); ++i) body.bends()[i] = 0.5 * turn * turn * norm(outline[i]);
+  for (std::size_t i = 0; i < outline.size(); ++i) body.bends[i] = 0.5 * turn * turn * norm(outline[i]);
   const double finest = std::max(whole > 0.0 ? resolution_ / whole : 1.0, OpenPiece::finest);
   const auto look = [&](const OpenPiece& piece, bool& split) {
     const Vec2 position = a.position() + piece.middle * way;
     const Rotation turned(a.theta + piece.middle * turn);
     for (std::size_t i = 0; i < outline.size(); ++i) {
       const Vec2 arm = turned(outline[i]);
-      body.corners()[i] = position + arm;
-      body.velocities()[i] = way + turn * Vec2{-arm.y, arm.x};
+      body.corners[i] = position + arm;
+      body.velocities[i] = way + turn * Vec2{-arm.y, arm.x};
     }
     body.finish();
     const Room room = body_.obstacles().room(body, {piece.half, piece.half * whole}, body_.reach());

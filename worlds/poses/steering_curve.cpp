@@ -132,6 +132,16 @@ Box SteeringCurve::box() const noexcept {
   return box;
 }
 
+double pace_of(Steer steer, std::span<const Vec2> outline, double turning_radius) {
+  if (steer == Steer::straight) return 1.0;
+  const bool on_spot = is_on_spot(steer);
+  const double side = side_of(steer);
+  const Vec2 center{0.0, on_spot ? 0.0 : side * turning_radius};
+  double pace = on_spot ? 0.0 : 1.0;
+  for (const Vec2 p : outline) pace = std::max(pace, norm(p - center) / turning_radius);
+  return pace;
+}
+
 void append_joints(std::vector<Se2>& poses, const SteeringCurve& curve) {
   constexpr double most_rad = 0.5 * std::numbers::pi * (1.0 + 1e-9);
   double begin = 0.0;

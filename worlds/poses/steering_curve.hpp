@@ -99,10 +99,15 @@ class SteeringCurve {
   double length_ = 0.0;
 };
 
+/// How far any point of a body goes while its reference point goes 1 with this steering; on the spot, while it turns as
+/// much as counts as 1. outline: around the reference point; of a disc, which looks the same however it is turned,
+/// none.
+double pace_of(Steer steer, std::span<const Vec2> outline, double turning_radius);
+
 /// How far a body has gone along a curve, at most.
 class CurveTravel {
  public:
-  /// pace(steer): how far any of its points goes while the reference point goes 1 with this steering.
+  /// pace(steer): as pace_of().
   template <class Pace>
   CurveTravel(const SteeringCurve& curve, const Pace& pace) : count_(curve.piece_count()) {
     for (std::size_t i = 0; i < count_; ++i) {

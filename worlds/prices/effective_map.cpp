@@ -43,6 +43,19 @@ bool holds(std::span<const Vec2> corners, Vec2 p) {
   return inside;
 }
 
+/// In the polygon, and not on the border.
+bool is_inside(std::span<const Vec2> corners, Vec2 p) {
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (distance(p, polygon_side(corners, i)) <= AreaFactors::on_border) return false;
+  }
+  return holds(corners, p);
+}
+
+std::array<Vec2, 4> mask_square_in_world(const MaskCells& mask, std::uint32_t x, std::uint32_t y) {
+  return {mask_corner(mask, x, y), mask_corner(mask, x + 1.0, y), mask_corner(mask, x + 1.0, y + 1.0),
+          mask_corner(mask, x, y + 1.0)};
+}
+
 }  // namespace
 
 bool restricts(const Prices& prices) {
@@ -70,15 +83,6 @@ std::optional<double> mask_factor(const PriceMask& mask, int value) {
   }
   return 1.0;
 }
-
-namespace {
-
-std::array<Vec2, 4> mask_square_in_world(const MaskCells& mask, std::uint32_t x, std::uint32_t y) {
-  return {mask_corner(mask, x, y), mask_corner(mask, x + 1.0, y), mask_corner(mask, x + 1.0, y + 1.0),
-          mask_corner(mask, x, y + 1.0)};
-}
-
-}  // namespace
 
 Vec2 corner_in_cells(const OccupancyMap& map, Vec2 in_world) {
   constexpr double near = 1e-9;
@@ -155,17 +159,6 @@ Scene restricted_scene(const Scene& scene, const Prices& prices, const Execution
   });
   return restricted;
 }
-
-namespace {
-
-bool is_inside(std::span<const Vec2> corners, Vec2 p) {
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    if (distance(p, polygon_side(corners, i)) <= AreaFactors::on_border) return false;
-  }
-  return holds(corners, p);
-}
-
-}  // namespace
 
 Vec2 mask_corner(const MaskCells& mask, double column, double row) {
   const Vec2 p{mask.cell * column, mask.cell * row};

@@ -25,11 +25,14 @@ Cell cell_of(const OccupancyMap& map, Vec2 p) {
           bounded_whole<std::uint32_t>(p.y, 0.0, map.height() - 1.0)};
 }
 
-/// The pieces of a leg, cell by cell: calls piece(cell, from, to), which says how far beyond `to` nothing is to be
-/// seen. A piece begins where the leg enters its cell, also behind what was left out: sums are the same however far is
-/// seen.
+/// The pieces of a leg, cell by cell: calls piece(cell, u, from, to), u being the leg's direction, of length 1, which
+/// says how far beyond `to` nothing is to be seen. Nothing of a leg without length. A piece begins where the leg enters
+/// its cell, also behind what was left out: sums are the same however far is seen.
 template <class Piece>
-void walk_cells(const OccupancyMap& map, Vec2 a, Vec2 u, double length, const Piece& piece) {
+void walk_cells(const OccupancyMap& map, Vec2 a, Vec2 b, const Piece& piece) {
+  const double length = distance(a, b);
+  if (!(length > 0.0)) return;
+  const Vec2 u = (1.0 / length) * (b - a);
   struct Lines {
     double at;     // where the leg begins
     double slope;  // by arc length
@@ -52,7 +55,7 @@ void walk_cells(const OccupancyMap& map, Vec2 a, Vec2 u, double length, const Pi
     const double to = std::min({columns.next(), rows.next(), length});
     double seen = 0.0;
     if (to > t) {
-      seen = piece(cell_of(map, a + 0.5 * (t + to) * u), t, to);
+      seen = piece(cell_of(map, a + 0.5 * (t + to) * u), u, t, to);
     }
     t = to;
     if (seen > 0.0) {
@@ -221,11 +224,8 @@ double MapPrices::nearness_in(Cell cell, Vec2 p, Vec2 u, double length, Scratch&
 }
 
 double MapPrices::nearness(Vec2 a, Vec2 b, Scratch& scratch) const {
-  const double length = distance(a, b);
-  if (!(length > 0.0)) return 0.0;
-  const Vec2 u = (1.0 / length) * (b - a);
   double sum = 0.0;
-  walk_cells(map_, a, u, length, [&](Cell cell, double from, double to) {
+  walk_cells(map_, a, b, [&](Cell cell, Vec2 u, double from, double to) {
     sum += nearness_in(cell, a + from * u, u, to - from, scratch);
     const Vec2 end = a + to * u;
     const double room = field_->distance(cell.x, cell.y) - distance(end, Vec2{cell.x + 0.5, cell.y + 0.5}) - reach_;
@@ -248,11 +248,8 @@ double MapPrices::areas_in(Vec2 p, Vec2 u, double length, Scratch& scratch) cons
 }
 
 double MapPrices::areas(Vec2 a, Vec2 b, Scratch& scratch) const {
-  const double length = distance(a, b);
-  if (!(length > 0.0)) return 0.0;
-  const Vec2 u = (1.0 / length) * (b - a);
   double sum = 0.0;
-  walk_cells(map_, a, u, length, [&](Cell cell, double from, double to) {
+  walk_cells(map_, a, b, [&](Cell cell, Vec2 u, double from, double to) {
     if (is_near_area(cell)) sum += areas_in(a + from * u, u, to - from, scratch);
     return 0.0;
   });

@@ -80,6 +80,7 @@ ConvexPiece swept_triangle(Vec2 a, Vec2 b, double angle_rad) {
   return convex_hull(std::move(corners));
 }
 
+/// Where rounding has made a corner concave, a place that a polygon's own test would hold to be inside may not be.
 bool holds_origin(const ConvexPiece& piece) {
   if (piece.size() < 3) return false;
   for (std::size_t i = 0; i < piece.size(); ++i) {

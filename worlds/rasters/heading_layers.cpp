@@ -53,59 +53,41 @@ LayerJob turn_job(const std::vector<ConvexPiece>& pieces, std::uint32_t angles) 
   return job;
 }
 
-class JobList {
- public:
-  explicit JobList(HeadingLayers& layers) : layers_(layers) {}
-
-  void add_heading(const std::vector<ConvexPiece>& pieces) {
-    layers_.standing.push_back(add({pieces, true}));
-    std::array<std::uint32_t, 4> moving{};
-    for (std::size_t s = 0; s < moving.size(); ++s) {
-      const auto [dx, dy] = HeadingLayers::steps[s];
-      LayerJob job;
-      for (const ConvexPiece& piece : pieces) {
-        job.pieces.push_back(swept_by_step(piece, {dx * layers_.cell, dy * layers_.cell}));
-      }
-      moving[s] = add(std::move(job));
-    }
-    layers_.moving.push_back(moving);
-    if (layers_.angles > 1) layers_.turning.push_back(add(turn_job(pieces, layers_.angles)));
-  }
-  void repeat_heading(std::size_t same) {
-    layers_.standing.push_back(layers_.standing[same]);
-    layers_.moving.push_back(layers_.moving[same]);
-    if (layers_.angles > 1) layers_.turning.push_back(layers_.turning[same]);
-  }
-  std::vector<LayerJob> take() { return std::move(jobs_); }
-
- private:
-  std::uint32_t add(LayerJob job) {
-    jobs_.push_back(std::move(job));
-    return as_whole<std::uint32_t>(jobs_.size() - 1);
-  }
-
-  HeadingLayers& layers_;
-  std::vector<LayerJob> jobs_;
-};
-
 /// Which bitmaps the layers of a turning body need, whatever it turns among: for each heading what the body covers
 /// where it stands, on each of the four steps and on the turn to the next heading, as convex pieces around the
 /// reference point. Headings at which the body covers the same set share their jobs. O(headings squared) comparisons.
 /// Job i makes bitmap i; fills in standing, moving and turning. outline: a polygon around the reference point, or that
 /// alone.
 std::vector<LayerJob> list_layer_jobs(std::span<const Vec2> outline, HeadingLayers& layers) {
-  JobList jobs(layers);
+  std::vector<LayerJob> jobs;
+  const auto add = [&](LayerJob job) {
+    jobs.push_back(std::move(job));
+    return as_whole<std::uint32_t>(jobs.size() - 1);
+  };
   std::vector<ConvexPiece> keys;
   for (std::uint32_t k = 0; k < layers.angles; ++k) {
     keys.push_back(key_of(turned(outline, k, layers.angles)));
     const auto same = as_whole<std::size_t>(std::find(keys.begin(), keys.end(), keys.back()) - keys.begin());
     if (same < k) {
-      jobs.repeat_heading(same);
-    } else {
-      jobs.add_heading(outline_pieces(turned(outline, k, layers.angles)));
+      layers.standing.push_back(layers.standing[same]);
+      layers.moving.push_back(layers.moving[same]);
+      if (layers.angles > 1) layers.turning.push_back(layers.turning[same]);
+      continue;
     }
+    const std::vector<ConvexPiece> pieces = outline_pieces(turned(outline, k, layers.angles));
+    layers.standing.push_back(add({pieces, true}));
+    std::array<std::uint32_t, 4>& moving = layers.moving.emplace_back();
+    for (std::size_t s = 0; s < moving.size(); ++s) {
+      const auto [dx, dy] = HeadingLayers::steps[s];
+      LayerJob job;
+      for (const ConvexPiece& piece : pieces) {
+        job.pieces.push_back(swept_by_step(piece, {dx * layers.cell, dy * layers.cell}));
+      }
+      moving[s] = add(std::move(job));
+    }
+    if (layers.angles > 1) layers.turning.push_back(add(turn_job(pieces, layers.angles)));
   }
-  return jobs.take();
+  return jobs;
 }
 
 /// Where positions lie, without any layer.
@@ -137,62 +119,46 @@ HeadingLayers empty_lattice(const Scene& scene, const RobotSpec& robot, const La
   return layers;
 }
 
-/// The exact layers: a list of jobs, then all of them at once.
-class ExactLayers {
- public:
-  ExactLayers(const Scene& scene, const RobotSpec& robot, const LayerOptions& options, const Execution& execution)
-      : scene_(scene),
-        execution_(execution),
-        outline_(robot.kind == RobotKind::polygon ? robot.outline : std::vector<Vec2>{{0.0, 0.0}}),
-        radius_((robot.kind == RobotKind::disc ? robot.radius : 0.0) + options.clearance),
-        layers_(empty_lattice(scene, robot, options, execution)) {
-    for (const ScenePolygon& polygon : scene.polygons) {
-      for_each_side(polygon.corners, [&](Vec2 a, Vec2 b) { sides_.push_back({a, b}); });
+/// Where a piece of the job, widened by the radius, touches a wall or a side, or leaves the bounds.
+Bitmap touching_bitmap(const LayerJob& job, const Scene& scene, std::span<const Segment> sides, double radius,
+                       const HeadingLayers& lattice, const Execution& execution) {
+  constexpr std::size_t walls_per_poll = 64;  // each may meet all rows
+  const std::size_t walls = scene.walls.size();
+  LatticeMarking marking(lattice.origin, lattice.cell, lattice.width, lattice.height);
+  for (const ConvexPiece& piece : job.pieces) {
+    if (scene.bounds) marking.mark_outside(piece, radius, *scene.bounds);
+    for (std::size_t i = 0; i < walls + sides.size(); ++i) {
+      if (i % walls_per_poll == 0) execution.check();
+      const Segment wall = i < walls ? scene.walls.segment(i) : sides[i - walls];
+      marking.mark_near(touching_positions(piece, wall), radius);
     }
   }
-
-  HeadingLayers make() {
-    const std::vector<LayerJob> jobs = list_layer_jobs(outline_, layers_);
-    execution_.reserve(jobs.size() * (layers_.width / 8 + 8) * std::size_t{layers_.height});
-    layers_.bitmaps.resize(jobs.size());
-    for_chunks(jobs.size(), 1, execution_, [&](Range r) { layers_.bitmaps[r.first] = made(jobs[r.first]); });
-    return std::move(layers_);
+  if (!job.is_standing) return marking.take();
+  for (std::size_t i = 0; i < scene.polygons.size(); ++i) {
+    if (i % walls_per_poll == 0) execution.check();
+    marking.mark_inside(scene.polygons[i].corners, job.pieces.front().front(), execution);
   }
+  return marking.take();
+}
 
- private:
-  Bitmap made(const LayerJob& job) const {
-    constexpr std::size_t walls_per_poll = 64;  // each may meet all rows
-    LatticeMarking marking(layers_.origin, layers_.cell, layers_.width, layers_.height);
-    for (const ConvexPiece& piece : job.pieces) {
-      if (scene_.bounds) marking.mark_outside(piece, radius_, *scene_.bounds);
-      for (std::size_t i = 0; i < scene_.walls.size(); ++i) {
-        if (i % walls_per_poll == 0) execution_.check();
-        mark(piece, scene_.walls.segment(i), marking);
-      }
-      for (std::size_t i = 0; i < sides_.size(); ++i) {
-        if (i % walls_per_poll == 0) execution_.check();
-        mark(piece, sides_[i], marking);
-      }
-    }
-    if (job.is_standing) {
-      for (std::size_t i = 0; i < scene_.polygons.size(); ++i) {
-        if (i % walls_per_poll == 0) execution_.check();
-        marking.mark_inside(scene_.polygons[i].corners, job.pieces.front().front(), execution_);
-      }
-    }
-    return marking.take();
+/// A list of jobs, then all of them at once.
+HeadingLayers exact_layers(const Scene& scene, const RobotSpec& robot, const LayerOptions& options,
+                           const Execution& execution) {
+  HeadingLayers layers = empty_lattice(scene, robot, options, execution);
+  const double radius = (robot.kind == RobotKind::disc ? robot.radius : 0.0) + options.clearance;
+  std::vector<Segment> sides;  // of polygons
+  for (const ScenePolygon& polygon : scene.polygons) {
+    for_each_side(polygon.corners, [&](Vec2 a, Vec2 b) { sides.push_back({a, b}); });
   }
-  void mark(const ConvexPiece& piece, const Segment& wall, LatticeMarking& marking) const {
-    marking.mark_near(touching_positions(piece, wall), radius_);
-  }
-
-  const Scene& scene_;
-  const Execution& execution_;
-  std::vector<Vec2> outline_;
-  double radius_;
-  std::vector<Segment> sides_;  // of polygons
-  HeadingLayers layers_;
-};
+  const std::vector<Vec2> middle{{0.0, 0.0}};
+  const auto jobs = list_layer_jobs(robot.kind == RobotKind::polygon ? robot.outline : middle, layers);
+  execution.reserve(jobs.size() * (layers.width / 8 + 8) * std::size_t{layers.height});
+  layers.bitmaps.resize(jobs.size());
+  for_chunks(jobs.size(), 1, execution, [&](Range r) {
+    layers.bitmaps[r.first] = touching_bitmap(jobs[r.first], scene, sides, radius, layers, execution);
+  });
+  return layers;
+}
 
 /// The drawing of the course's report 004, found from its figures: a wall covers the cells on both sides of it, a level
 /// one also the cell before its first; an upright one begins and ends with the cells of its ends.
@@ -386,62 +352,35 @@ class Widening {
   std::vector<std::vector<std::uint64_t>> doubled_;
 };
 
-class MapLayers {
- public:
-  MapLayers(const OccupancyMap& map, double clearance, const Execution& execution)
-      : map_(map), execution_(execution), room_(clearance) {
-    // The world's coordinates are rounded: what is free here shall be free there.
-    constexpr double rounding = 1e-13;
-    const double size = map.cell * (double{1} * map.width() + map.height());
-    room_ += rounding * (std::abs(map.origin.x) + std::abs(map.origin.y) + size);
+/// The stamp of a job on a map whose cells are so wide, with some room around the body. A position touches the square
+/// around a point exactly if the point is in the sum of body and square.
+Stamp stamp_of(const LayerJob& job, double cell, double room, const Execution& execution) {
+  constexpr double most_reach = 1 << 29;  // cells: wider than all that memory holds
+  const double half = cell / 2;
+  const std::vector<Vec2> square{{-half, -half}, {half, -half}, {half, half}, {-half, half}};
+  double reach = 0.0;
+  for (const ConvexPiece& piece : job.pieces) {
+    for (const Vec2 p : piece) reach = std::max({reach, std::abs(p.x), std::abs(p.y)});
   }
-
-  void make(const std::vector<LayerJob>& jobs, std::vector<Bitmap>& bitmaps) const {
-    execution_.reserve(jobs.size() * map_.blocked.bytes());
-    bitmaps.resize(jobs.size());
-    for_chunks(jobs.size(), 1, execution_, [&](Range r) {
-      const Stamp stamp = stamp_of(jobs[r.first]);
-      bitmaps[r.first] = Widening(map_.blocked, stamp).run(execution_);
-    });
-  }
-
- private:
-  /// A position touches the square around a point exactly if the point is in the sum of body and square.
-  Stamp stamp_of(const LayerJob& job) const {
-    constexpr double most_reach = 1 << 29;  // cells: wider than all that memory holds
-    const double half = map_.cell / 2;
-    const std::vector<Vec2> square{{-half, -half}, {half, -half}, {half, half}, {-half, half}};
-    double reach = 0.0;
-    for (const ConvexPiece& piece : job.pieces) {
-      for (const Vec2 p : piece) reach = std::max({reach, std::abs(p.x), std::abs(p.y)});
+  const auto most = bounded_whole<int>(std::ceil((reach + room + half) / cell), 0.0, most_reach) + 1;
+  const double corner = -most * cell;
+  const int side = 2 * most + 1;
+  const auto points = as_whole<std::uint32_t>(side);
+  execution.reserve(Bitmap::bytes_for(points, points));
+  LatticeMarking marking({corner, corner}, cell, points, points);
+  for (const ConvexPiece& piece : job.pieces) marking.mark_near(minkowski_sum(piece, square), room);
+  const Bitmap marked = marking.take();
+  Stamp stamp;
+  for (int j = 0; j < side; ++j) {
+    for (int i = 0; i < side; ++i) {
+      if (!marked.holds(i, j)) continue;
+      const int first = i;
+      while (marked.holds(i + 1, j)) ++i;
+      stamp.add({j - most, first - most, i - most});
     }
-    const auto most = bounded_whole<int>(std::ceil((reach + room_ + half) / map_.cell), 0.0, most_reach) + 1;
-    const double corner = -most * map_.cell;
-    const auto side = as_whole<std::uint32_t>(2 * most + 1);
-    execution_.reserve(Bitmap::bytes_for(side, side));
-    LatticeMarking marking({corner, corner}, map_.cell, side, side);
-    for (const ConvexPiece& piece : job.pieces) marking.mark_near(minkowski_sum(piece, square), room_);
-    return runs_of(marking.take(), most);
   }
-
-  static Stamp runs_of(const Bitmap& marked, int most) {
-    Stamp stamp;
-    const auto side = as_whole<int>(marked.width());
-    for (int j = 0; j < side; ++j) {
-      for (int i = 0; i < side; ++i) {
-        if (!marked.holds(i, j)) continue;
-        const int first = i;
-        while (marked.holds(i + 1, j)) ++i;
-        stamp.add({j - most, first - most, i - most});
-      }
-    }
-    return stamp;
-  }
-
-  const OccupancyMap& map_;
-  const Execution& execution_;
-  double room_;
-};
+  return stamp;
+}
 
 }  // namespace
 
@@ -454,7 +393,7 @@ HeadingLayers orientation_layers(const Scene& scene, const RobotSpec& robot, con
     throw InputError("grid", "needs a cell above 0 and at least one heading");
   }
   if (options.kind == LayerKind::report004) return report_layers(scene, robot, options, execution);
-  return ExactLayers(scene, robot, options, execution).make();
+  return exact_layers(scene, robot, options, execution);
 }
 
 HeadingLayers map_layers(const OccupancyMap& map, std::span<const Vec2> outline, std::uint32_t angles, double clearance,
@@ -468,17 +407,25 @@ HeadingLayers map_layers(const OccupancyMap& map, std::span<const Vec2> outline,
   layers.height = map.height();
   layers.angles = angles;
   if (angles < 1 || map.blocked.size() > HeadingLayers::most_states / angles) {
-    throw InputError(
-        "grid", "must have from 1 to 2^32 - 4 states: the map's cells times headings",
-        std::to_string(map.width()) + " x " + std::to_string(map.height()) + " x " + std::to_string(angles));
+    throw InputError("grid", "must have from 1 to 2^32 - 4 states: the map's cells times headings",
+                     fmt::format("{} x {} x {}", map.width(), map.height(), angles));
   }
   constexpr double widest = 4096.0;  // cells: half a stamp, which has 8 MB then
   const double reach = clearance + outline_reach(outline);
   if (!(reach / map.cell < widest)) {
     throw InputError("robot", "reaches over more than 4096 cells of the map", std::to_string(reach));
   }
+  // The world's coordinates are rounded: what is free here shall be free there.
+  constexpr double rounding = 1e-13;
+  const double size = map.cell * (double{1} * map.width() + map.height());
+  const double room = clearance + rounding * (std::abs(map.origin.x) + std::abs(map.origin.y) + size);
   const std::vector<LayerJob> jobs = list_layer_jobs(outline, layers);
-  MapLayers(map, clearance, execution).make(jobs, layers.bitmaps);
+  execution.reserve(jobs.size() * map.blocked.bytes());
+  layers.bitmaps.resize(jobs.size());
+  for_chunks(jobs.size(), 1, execution, [&](Range r) {
+    const Stamp stamp = stamp_of(jobs[r.first], map.cell, room, execution);
+    layers.bitmaps[r.first] = Widening(map.blocked, stamp).run(execution);
+  });
   return layers;
 }
 

@@ -213,8 +213,7 @@ class Answer(Pictured):
         >>> warren.solve("maze:5x5").to_dict()["counters"]["samples"]
         25
         """
-        parsed = json.loads(self._core.json)
-        return parsed
+        return json.loads(self._core.json)
 
     def sample(self, every=None, **limits):
         """Places along the path as the curve that it is: straight ways, even turns, a car's arcs.

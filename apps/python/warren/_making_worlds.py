@@ -276,11 +276,10 @@ def from_geo(geometry, *, bounds=None, start=None, goal=None, robot=None,
         ring = [[x0, y0], [x1, y0], [x1, y1], [x0, y1], [x0, y0]]
         features.append({"type": "Feature", "properties": {"role": "bounds"},
                          "geometry": {"type": "Polygon", "coordinates": [ring]}})
-    plain = [{"type": "Feature", "properties": {"role": (feature.get("properties") or {}).get("role")},
-              "geometry": feature.get("geometry")} for feature in features]
-    for feature in plain:
-        if feature["properties"]["role"] is None:
-            feature["properties"] = {}
+    plain = []
+    for feature in features:
+        role = (feature.get("properties") or {}).get("role")
+        plain.append({"type": "Feature", "properties": {} if role is None else {"role": role}, "geometry": feature.get("geometry")})
     text = json.dumps({"type": "FeatureCollection", "features": plain})
     said = {"start": start, "goal": goal, "robot": robot, "clearance": clearance}
     return World(_core.read_text("geometry", text, said))

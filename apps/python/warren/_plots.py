@@ -196,16 +196,14 @@ def animate(answer, *, ax=None, frames=200, interval=40.0, speed=None,
     outlines = _outlines(answer, states)
     if outlines is None:
         body, = axes.plot([], [], "o", color=BODY, markersize=8)
-        shapes = states[:, None, :2]
     else:
         body, = axes.fill(outlines[0, :, 0], outlines[0, :, 1], facecolor=BODY, alpha=0.6)
-        shapes = outlines
 
     def show(i):
         if outlines is None:
-            body.set_data(shapes[i, :, 0], shapes[i, :, 1])
+            body.set_data(states[i:i + 1, 0], states[i:i + 1, 1])
         else:
-            body.set_xy(shapes[i])
+            body.set_xy(outlines[i])
         return (body,)
 
     return FuncAnimation(axes.figure, show, frames=len(states), interval=interval, blit=True)

@@ -23,10 +23,13 @@ def finished(core, world):
     return answer
 
 
-def _takes_old_answer(options):
-    """keep_to may be an Answer."""
+def _take_ends(options, start, goal):
+    """Puts them among the options; and keep_to may be an Answer."""
     if isinstance(options.get("keep_to"), Answer):
         options["keep_to"] = options["keep_to"]._core
+    options["start"] = start
+    if goal is not None or "goals" not in options:
+        options["goal"] = goal
 
 
 @documented(_core.solve_keywords())
@@ -85,10 +88,7 @@ def solve(world, start=None, goal=None, *, keep=False, explain=False, on_improve
     'goal_blocked'
     """
     there = as_world(world)
-    _takes_old_answer(options)
-    options["start"] = start
-    if goal is not None or "goals" not in options:
-        options["goal"] = goal
+    _take_ends(options, start, goal)
     if on_improvement is not None and not callable(on_improvement):
         raise TypeError(f"on_improvement: expected a function (found: {type(on_improvement).__name__})")
     tell = None if on_improvement is None else lambda *figures: on_improvement(Improvement(*figures))
@@ -126,10 +126,7 @@ class Replanner:
     __slots__ = ("_core",)
 
     def __init__(self, world, start=None, goal=None, **options):
-        _takes_old_answer(options)
-        options["start"] = start
-        if goal is not None or "goals" not in options:
-            options["goal"] = goal
+        _take_ends(options, start, goal)
         self._core = _core.Replanner(as_world(world)._core, options)
 
     def update(self, cells=None, *, box=None, blocked=True):

@@ -92,8 +92,7 @@ class World(Pictured):
         >>> warren.maze(5, 5).facts()["walls"]
         20
         """
-        facts = json.loads(self._core.facts())
-        return facts
+        return json.loads(self._core.facts())
 
     def without_walls(self, rows):
         """The world without these walls. Its source says that it was changed.

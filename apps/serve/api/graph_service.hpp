@@ -7,7 +7,6 @@
 
 #include "apps/serve/api/route.hpp"
 #include "apps/serve/api/served_world.hpp"
-#include "apps/serve/graphs/route_graph.hpp"
 #include "apps/serve/http/http_message.hpp"
 #include "core/run/execution.hpp"
 

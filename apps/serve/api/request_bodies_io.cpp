@@ -38,54 +38,46 @@ std::array<double, count> numbers_of(const OrderedJson& json, const std::string&
   return numbers;
 }
 
-template <class Take>
-void for_each_in(const OrderedJson& json, const std::string& where, std::size_t most, const Take& take) {
-  std::size_t number = 0;
-  for (const OrderedJson& item : list_of(json, where, most)) take(item, fmt::format("{}[{}]", where, number++));
+Vec2 corner_of(const OrderedJson& json, const std::string& where) {
+  const auto [x, y] = numbers_of<2>(json, where);
+  return {x, y};
+}
+
+Segment wall_of(const OrderedJson& json, const std::string& where) {
+  const auto [ax, ay, bx, by] = numbers_of<4>(json, where);
+  return {{ax, ay}, {bx, by}};
 }
 
 DrawnShapes shapes_of(const OrderedJson& json, const std::string& where) {
   if (!json.is_object()) refuse_json(where, "an object with walls and polygons");
   DrawnShapes shapes;
-  const auto take_wall = [&](const OrderedJson& item, const std::string& place) {
-    const auto [ax, ay, bx, by] = numbers_of<4>(item, place);
-    shapes.walls.push_back({{ax, ay}, {bx, by}});
-  };
-  const auto take_ring = [&](const OrderedJson& ring, const std::string& place) {
-    std::vector<Vec2>& corners = shapes.polygons.emplace_back();
-    for_each_in(ring, place, most_corners, [&](const OrderedJson& corner, const std::string& at) {
-      const auto [x, y] = numbers_of<2>(corner, at);
-      corners.push_back({x, y});
-    });
+  const auto ring_of = [](const OrderedJson& ring, const std::string& place) {
+    std::vector<Vec2> corners = items_of(ring, place, most_corners, corner_of);
     if (corners.size() < 3) refuse_json(place, "three corners or more");
+    return corners;
   };
-  const auto each = [&](const auto& take) {
+  const auto each = [&](const auto& read) {
     return [&](const OrderedJson& list, const std::string& key) {
-      for_each_in(list, where + "." + key, most_changed_shapes, take);
+      return items_of(list, where + "." + key, most_changed_shapes, read);
     };
   };
-  take_keys(json, where, {{"walls", each(take_wall)}, {"polygons", each(take_ring)}});
+  take_keys(json, where,
+            {{"walls", into(shapes.walls, each(wall_of))}, {"polygons", into(shapes.polygons, each(ring_of))}});
   return shapes;
 }
 
 std::vector<Box> boxes_of(const OrderedJson& json, const std::string& where) {
-  std::vector<Box> boxes;
-  for_each_in(json, where, most_changed_shapes, [&](const OrderedJson& item, const std::string& place) {
-    const auto [ax, ay, bx, by] = numbers_of<4>(item, place);
-    boxes.push_back(box_of(Segment{{ax, ay}, {bx, by}}));
-  });
-  return boxes;
+  return items_of(json, where, most_changed_shapes,
+                  [](const OrderedJson& item, const std::string& place) { return box_of(wall_of(item, place)); });
 }
 
 std::vector<CellChange> cells_of(const OrderedJson& json, const std::string& where) {
   constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
-  std::vector<CellChange> cells;
-  for_each_in(json, where, most_changed_shapes, [&](const OrderedJson& item, const std::string& place) {
+  return items_of(json, where, most_changed_shapes, [](const OrderedJson& item, const std::string& place) {
     if (!item.is_array() || item.size() != 3 || !item[2].is_boolean()) refuse_json(place, "column, row, true or false");
     const auto number = [&](std::size_t i) { return static_cast<std::uint32_t>(whole_number(item[i], place, most)); };
-    cells.push_back({{number(0), number(1)}, item[2].get<bool>()});
+    return CellChange{{number(0), number(1)}, item[2].get<bool>()};
   });
-  return cells;
 }
 
 // Polygons are few beside walls and are looked through; of walls, those to remove are sorted, so a change costs
@@ -96,9 +88,7 @@ constexpr std::size_t a_poll = 4096;
 double distance_to(const std::vector<Vec2>& polygon, Vec2 p) {
   if (contains(polygon, p)) return 0.0;
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    least = std::min(least, distance(p, Segment{polygon[i], polygon[(i + 1) % polygon.size()]}));
-  }
+  for_each_side(polygon, [&](Vec2 a, Vec2 b) { least = std::min(least, distance(p, {a, b})); });
   return least;
 }
 
@@ -272,19 +262,18 @@ double number_of(const OrderedJson& json, std::string_view key) {
 }
 
 std::vector<std::vector<double>> states_of(const OrderedJson& json, const std::string& key) {
-  std::vector<std::vector<double>> states;
-  for_each_in(json, key, most_corners,
-              [&](const OrderedJson& state, const std::string& place) { states.push_back(state_of(state, place)); });
-  return states;
+  return items_of(json, key, most_corners, state_of);
 }
 
 /// Lines as answers have them. Files are not for whoever asks to choose.
 Prices prices_of(const OrderedJson& json, const std::string& key) {
   Prices prices;
-  for_each_in(json, key, most_corners, [&](const OrderedJson& line, const std::string& place) {
+  std::size_t number = 0;
+  for (const OrderedJson& line : list_of(json, key, most_corners)) {
+    const std::string place = fmt::format("{}[{}]", key, number++);
     if (!line.is_string()) refuse_word(place, "a line, such as 'clearance-price 3 0.5'");
     read_price_line(line.get<std::string>(), place, prices, Execution());
-  });
+  }
   if (!prices.masks.empty()) refuse_word(key, "no masks: --areas, --speed-zones, --keep-out give the service's own");
   return prices;
 }
@@ -328,13 +317,11 @@ std::string watch_of(const OrderedJson& json, std::string_view key) {
 }
 
 std::vector<ErasedPlace> erased_of(const OrderedJson& json, const std::string& key) {
-  std::vector<ErasedPlace> places;
-  for_each_in(json, key, most_changed_shapes, [&](const OrderedJson& item, const std::string& place) {
+  return items_of(json, key, most_changed_shapes, [](const OrderedJson& item, const std::string& place) {
     const auto [x, y, reach] = numbers_of<3>(item, place);
     if (reach < 0.0) refuse_json(place, "x, y and a reach of 0 or more");
-    places.push_back({{x, y}, reach});
+    return ErasedPlace{{x, y}, reach};
   });
-  return places;
 }
 
 }  // namespace

@@ -7,22 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/printable.hpp"
 #include "scenes/text/scene_text.hpp"
 
 namespace warren::serve {
 namespace {
 
 [[noreturn]] void refuse_path() { throw HttpError(404, "not_found", "path", "there is nothing at this address"); }
-
-std::vector<std::string_view> split(std::string_view text, char mark) {
-  std::vector<std::string_view> pieces;
-  while (true) {
-    const std::size_t end = text.find(mark);
-    pieces.push_back(text.substr(0, end));
-    if (end == std::string_view::npos) return pieces;
-    text = text.substr(end + 1);
-  }
-}
 
 /// zoom, column, row.png
 Route tile_route(std::string_view z, std::string_view x, std::string_view y, const TileGrid& grid) {
@@ -62,7 +53,7 @@ Route api_route(const std::vector<std::string_view>& words) {
 }
 
 Route place_of(std::string_view path, const TileGrid& grid, std::string_view hash) {
-  const std::vector<std::string_view> words = split(path, '/');  // the first one is empty
+  const std::vector<std::string_view> words = split(path, "/");  // the first one is empty
   if (words.size() == 2) return {.place = Place::file, .name = std::string(words[1].empty() ? "index.html" : words[1])};
   if (words[1] == "api") return api_route(words);
   if (words.size() == 5 && words[1] == "tiles") return tile_route(words[2], words[3], words[4], grid);
@@ -84,11 +75,6 @@ Route place_of(std::string_view path, const TileGrid& grid, std::string_view has
   refuse_path();
 }
 
-/// Is it asked by POST?
-bool is_posted(Place place) {
-  return place == Place::query || place == Place::batch || place == Place::update || is_of_graphs(place);
-}
-
 }  // namespace
 
 bool is_of_graphs(Place place) { return place >= Place::graph; }
@@ -96,7 +82,9 @@ bool is_of_graphs(Place place) { return place >= Place::graph; }
 Route route_of(const HttpRequest& request, const TileGrid& grid, std::string_view hash) {
   Route route = place_of(request.path, grid, hash);
   const bool is_post = request.method == "POST";
-  if (is_post != is_posted(route.place)) {
+  const bool wants_post = route.place == Place::query || route.place == Place::batch || route.place == Place::update ||
+                          is_of_graphs(route.place);
+  if (is_post != wants_post) {
     throw HttpError(405, "method_not_allowed", "method", is_post ? "GET is expected" : "POST is expected");
   }
   return route;
@@ -117,11 +105,12 @@ std::optional<std::vector<double>> numbers_parameter(const HttpRequest& request,
   const auto text = parameter(request, name);
   if (!text) return std::nullopt;
   std::vector<double> numbers;
-  for (const std::string_view word : split(*text, ',')) {
+  const std::vector<std::string_view> words = split(*text, ",");
+  for (const std::string_view word : words) {
     const auto number = scene_text::number_in_full<double>(word);
     if (number && std::isfinite(*number)) numbers.push_back(*number);
   }
-  if (numbers.size() == count && split(*text, ',').size() == count) return numbers;
+  if (numbers.size() == count && words.size() == count) return numbers;
   throw HttpError(400, "bad_request", "query",
                   fmt::format("{}: expected {} number{}", name, count, count == 1 ? "" : "s"));
 }

@@ -25,25 +25,15 @@ void refuse_arms(const RobotSpec& robot) {
   throw UsageError("arms move in space, and this shows a plane; 'warren solve' plans them, 'warren render' draws them");
 }
 
-bool is_large_maze(const Scene& scene) {
-  return scene.maze && std::uint64_t{scene.maze->rows} * scene.maze->cols >= fewest_indexed_cells;
-}
-
 /// Where a roadmap's answers are as long as those of solve(): of a maze's lattice.
 bool is_asked_by_roadmap(const Scene& scene, const Question& body, const SolveOptions& options) {
-  if (!is_large_maze(scene)) return false;
+  if (!scene.maze || std::uint64_t{scene.maze->rows} * scene.maze->cols < fewest_indexed_cells) return false;
   try {
     check_buildable(scene, body, options);
     return true;
   } catch (const UsageError&) {
     return false;
   }
-}
-
-/// Where walls stand wherever the lattice has no passage: it says where they are, and nobody makes them.
-std::unique_ptr<WorldTiles> tiles_of_lattice(const LatticePassages& lattice, const Execution& execution) {
-  return maze_tiles({lattice.size(), lattice.right_words(), lattice.up_words()}, MazeOutline::of_course(lattice.size()),
-                    execution);
 }
 
 /// Is it answered over the priced cells of a map, and are these few enough to be kept?
@@ -102,7 +92,10 @@ void ServedWorld::describe(const Execution& execution) {
     query_ = std::make_unique<RoadmapQuery>(*roadmap_, execution, Questions::many);
   }
   if (roadmap_ && roadmap_->lattice != nullptr && roadmap_->world.is_looked_up()) {
-    tiles_ = tiles_of_lattice(*passages(execution), execution);
+    // Walls stand wherever the lattice has no passage: it says where they are, and nobody makes them.
+    const LatticePassages& lattice = *passages(execution);
+    tiles_ = maze_tiles({lattice.size(), lattice.right_words(), lattice.up_words()},
+                        MazeOutline::of_course(lattice.size()), execution);
     const MazeHint maze = *roadmap_->world.outline().maze;
     box_ = {{0.5, 0.5}, {maze.cols + 0.5, maze.rows + 0.5}};
     return;

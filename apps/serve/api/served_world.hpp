@@ -12,7 +12,6 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "apps/serve/graphs/edge_judge.hpp"
 #include "apps/serve/tiles/world_tiles.hpp"

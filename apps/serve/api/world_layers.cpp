@@ -175,11 +175,6 @@ std::string why_no_clearance(const Scene& outline) {
   return fmt::format("at most {} walls and sides are measured", grouped(most_shapes));
 }
 
-/// Distance that the middle of a round body must have; 0 of others, whose place alone doesn't say whether they fit.
-double needed_around(const ServedWorld& world) {
-  return world.robot().outline.empty() ? world.robot().radius + world.clearance() : 0.0;
-}
-
 std::string why_no_axis(const ServedWorld& world) {
   if (has_lattice(world)) return "the axis of a maze is its passages; see 'roadmap'";
   try {
@@ -237,18 +232,14 @@ std::string json_of_account(const LayerAccount& account, const std::string& hash
   return json.closed();
 }
 
-/// Two at least, however large: tiles are asked for one by one, and none of them may search anew.
-std::size_t most_bytes_of_starts(std::size_t bytes_a_start) {
-  return std::max(std::size_t{64} << 20U, 2 * bytes_a_start);
-}
-
 }  // namespace
 
+/// Two starts are kept at least, however large: tiles are asked for one by one, and none of them may search anew.
 WorldLayers::WorldLayers(const ServedWorld& world)
     : world_(world),
       accounts_(accounts_of(world)),
       bytes_a_start_(sizeof(StartDistances) + (world.query() == nullptr ? 0 : count_states(world.query()->roadmap()))),
-      starts_(most_bytes_of_starts(bytes_a_start_)) {}
+      starts_(std::max(std::size_t{64} << 20U, 2 * bytes_a_start_)) {}
 
 std::string WorldLayers::json(const RobotSpec& robot) const {
   return json_list_of(accounts_, ",", [&](LayerAccount account) {
@@ -257,21 +248,16 @@ std::string WorldLayers::json(const RobotSpec& robot) const {
   });
 }
 
-bool WorldLayers::knows(std::string_view name) const {
-  return std::ranges::any_of(accounts_, [&](const LayerAccount& account) { return account.name == name; });
-}
-
-bool WorldLayers::is_of_start(std::string_view name) const {
-  return std::ranges::any_of(accounts_,
-                             [&](const LayerAccount& account) { return account.name == name && account.is_of_start; });
+const LayerAccount* WorldLayers::account_of(std::string_view name) const {
+  const auto found = std::ranges::find(accounts_, name, &LayerAccount::name);
+  return found == accounts_.end() ? nullptr : &*found;
 }
 
 void WorldLayers::refuse_missing(std::string_view name) const {
-  for (const LayerAccount& account : accounts_) {
-    if (account.name != name) continue;
-    if (!account.why.empty()) throw UsageError(fmt::format("there is no layer '{}': {}", name, account.why));
-    if (account.is_of_path) throw UsageError(fmt::format("'{0}' is no tiles; ask /api/path/ID/{0}", name));
-  }
+  const LayerAccount* account = account_of(name);
+  if (account == nullptr) return;
+  if (!account->why.empty()) throw UsageError(fmt::format("there is no layer '{}': {}", name, account->why));
+  if (account->is_of_path) throw UsageError(fmt::format("'{0}' is no tiles; ask /api/path/ID/{0}", name));
 }
 
 const RoadmapLayer& WorldLayers::roadmap(const Execution& execution) const {
@@ -287,7 +273,9 @@ std::uint64_t WorldLayers::passages(const Execution& execution) const {
 
 const ClearanceLayer& WorldLayers::clearance(const Execution& execution) const {
   return clearance_.get(execution, [&] {
-    return std::make_unique<ClearanceLayer>(world_.tiles(), world_.box(), needed_around(world_), execution);
+    const bool is_round = world_.robot().outline.empty();  // the place of others doesn't say whether they fit
+    const double needed = is_round ? world_.robot().radius + world_.clearance() : 0.0;
+    return std::make_unique<ClearanceLayer>(world_.tiles(), world_.box(), needed, execution);
   });
 }
 

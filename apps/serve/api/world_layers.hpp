@@ -36,8 +36,8 @@ class WorldLayers {
 
   /// All of them as JSON, for questions of this body.
   std::string json(const RobotSpec& robot) const;
-  bool knows(std::string_view name) const;
-  bool is_of_start(std::string_view name) const;
+  /// nullptr: there is none of that name.
+  const LayerAccount* account_of(std::string_view name) const;
   /// Colours and what they mean, with figures, as JSON. Throws as draw().
   /// from: the start, of layers that want one.
   std::string legend(std::string_view name, const std::optional<std::vector<double>>& from,

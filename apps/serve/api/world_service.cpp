@@ -108,10 +108,6 @@ void add_outline(JsonObject& json, const RobotSpec& robot) {
 
 // What a service says of its world and of itself.
 
-std::string box_json(const Box& box) {
-  return json_list(std::span<const double>(std::array{box.min.x, box.min.y, box.max.x, box.max.y}));
-}
-
 std::string tiles_json(const TileGrid& grid, const std::string& hash) {
   JsonObject json;
   json.add("url", "v/" + hash + "/tiles/{z}/{x}/{y}.png");
@@ -150,7 +146,6 @@ void add_line(std::string& text, std::string_view name, std::string_view kind, s
                  kind, name, value);
 }
 
-/// warren.service/1: what a page needs to show the world and to ask of this body.
 /// Prices and forbidden areas of file and service, as areas to be drawn; of finer ones than a page draws the words
 /// alone.
 std::string ground_json(const ServedWorld& world, const Question& body, const Execution& execution) {
@@ -173,6 +168,7 @@ std::string ground_json(const ServedWorld& world, const Question& body, const Ex
   return json_list_of(price_layers(prices_of(outline, body), outline.map, radius, execution), ",", layer_json);
 }
 
+/// warren.service/1: what a page needs to show the world and to ask of this body.
 std::string description_json(const ServedWorld& world, const Question& body, const WorldLayers& layers,
                              const ServiceLimits& limits, const Execution& execution) {
   const Scene& outline = world.outline();
@@ -184,7 +180,8 @@ std::string description_json(const ServedWorld& world, const Question& body, con
   json.add("description", words_of_world(outline));
   json.add("hash", world.hash());
   json.add("unit", unit_of(outline));
-  json.add_json("box", box_json(world.box()));
+  const Box& box = world.box();
+  json.add_json("box", json_list(std::span<const double>(std::array{box.min.x, box.min.y, box.max.x, box.max.y})));
   json.add("robot", robot_text(*body.robot));
   json.add("state_size", std::uint64_t{state_size(*body.robot)});
   json.add("clearance", *body.clearance);
@@ -370,7 +367,7 @@ Route WorldService::route(const HttpRequest& request) const {
 std::size_t WorldService::most_body(const HttpRequest& head) const {
   const Route asked = route(head);
   if (asked.place == Place::file) file(head, asked.name);  // or there is none
-  if ((asked.place == Place::layer || asked.place == Place::legend) && !layers_.knows(asked.name)) {
+  if ((asked.place == Place::layer || asked.place == Place::legend) && layers_.account_of(asked.name) == nullptr) {
     throw HttpError(404, "not_found", "path", "there is no layer of this name; /api/world lists them");
   }
   if (asked.place == Place::update) {
@@ -451,7 +448,8 @@ HttpResponse WorldService::file(const HttpRequest& request, const std::string& n
 
 std::string WorldService::layer_name(const HttpRequest& request, const Route& route) const {
   const std::string name = route.name + "/" + tile_name(route.tile);
-  if (!layers_.is_of_start(route.name)) return name;
+  const LayerAccount* const layer = layers_.account_of(route.name);
+  if (layer == nullptr || !layer->is_of_start) return name;
   return fmt::format("{}?{}", name,
                      fmt::join(numbers_parameter(request, "from", 2).value_or(std::vector<double>()), ","));
 }

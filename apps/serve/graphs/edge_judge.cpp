@@ -16,12 +16,6 @@
 namespace warren::serve {
 namespace {
 
-/// All round from a heading and back to it, in legs that can be read one way only.
-void turn_all_round(Vec2 at, double theta, std::vector<Se2>& path) {
-  constexpr int parts = 3;
-  for (int i = 0; i <= parts; ++i) path.push_back({at.x, at.y, theta + i * 2.0 * std::numbers::pi / parts});
-}
-
 std::vector<Se2> poses_along(const DrawnEdge& edge) {
   const Vec2 way = edge.to.at - edge.from.at;
   const double along = portable::atan2(way.y, way.x);
@@ -29,8 +23,11 @@ std::vector<Se2> poses_along(const DrawnEdge& edge) {
   for (const EdgePlace& end : {edge.from, edge.to}) {
     if (end.theta) {
       path.push_back({end.at.x, end.at.y, *end.theta});
-    } else {
-      turn_all_round(end.at, along, path);
+    } else {  // all round and back, in legs that can be read one way only
+      constexpr int parts = 3;
+      for (int i = 0; i <= parts; ++i) {
+        path.push_back({end.at.x, end.at.y, along + i * 2.0 * std::numbers::pi / parts});
+      }
     }
   }
   return path;

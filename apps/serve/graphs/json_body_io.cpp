@@ -73,6 +73,11 @@ const OrderedJson& list_of(const OrderedJson& json, const std::string& where, st
   return json;
 }
 
+std::string text_in(const OrderedJson& json, const std::string& where) {
+  if (!json.is_string()) refuse_json(where, "a text");
+  return json.get<std::string>();
+}
+
 void take_keys(const OrderedJson& json, const std::string& where, std::initializer_list<JsonKey> keys,
                std::string names) {
   for (const auto& [key, value] : json.items()) {

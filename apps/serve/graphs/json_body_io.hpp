@@ -2,12 +2,15 @@
 // JSON of strangers, taken value by value: what is not as it should be is refused with its place.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/run/execution.hpp"
 
@@ -25,6 +28,16 @@ OrderedJson json_object_of(std::string_view text, std::size_t deepest, const Exe
 double finite_number(const OrderedJson& json, const std::string& where);
 std::uint64_t whole_number(const OrderedJson& json, const std::string& where, std::uint64_t most);
 const OrderedJson& list_of(const OrderedJson& json, const std::string& where, std::size_t most);
+std::string text_in(const OrderedJson& json, const std::string& where);
+/// What read(item, its place) makes of the items of a list.
+template <class Read>
+auto items_of(const OrderedJson& json, const std::string& where, std::size_t most, const Read& read) {
+  std::vector<decltype(read(json, where))> items;
+  for (const OrderedJson& item : list_of(json, where, most)) {
+    items.push_back(read(item, fmt::format("{}[{}]", where, items.size())));
+  }
+  return items;
+}
 
 /// A key that an object may have, and what takes its value.
 struct JsonKey {

@@ -100,10 +100,14 @@ void check_properties(const OrderedJson& properties, const std::string& where) {
   }
 }
 
+std::uint32_t route_id(const OrderedJson& json, const std::string& where) {
+  return static_cast<std::uint32_t>(whole_number(json, where, largest_route_id));
+}
+
 std::uint32_t id_of(const OrderedJson& json, const char* key, const std::string& where) {
   const OrderedJson* id = member(json, key);
   if (id == nullptr) refuse_json(where + ": " + key, "a whole number");
-  return static_cast<std::uint32_t>(whole_number(*id, where + ": " + key, largest_route_id));
+  return route_id(*id, where + ": " + key);
 }
 
 /// JSON in a text, as it was told but for what is told beside it; nobody is trusted to have left it so.
@@ -111,9 +115,8 @@ std::string more_of(const OrderedJson& json, const std::string& where, std::init
                     const Execution& execution) {
   const OrderedJson* more = member(json, "more");
   if (more == nullptr) return "{}";
-  if (!more->is_string()) refuse_json(where + ": more", "a text");
   constexpr std::size_t deepest_more = 16;
-  OrderedJson kept = json_object_of(more->get<std::string>(), deepest_more, execution);
+  OrderedJson kept = json_object_of(text_in(*more, where + ": more"), deepest_more, execution);
   for (const char* key : told) kept.erase(key);
   check_properties(kept, where);
   return kept.dump();
@@ -149,23 +152,17 @@ class Properties {
     json_ = *properties;
   }
   std::uint32_t id(const char* key) {
-    if (!json_.contains(key)) refuse_json(where_ + ": " + key, "a whole number, the id of a node or edge");
-    const auto number = static_cast<std::uint32_t>(whole_number(json_[key], where_ + ": " + key, largest_route_id));
-    json_.erase(key);
-    return number;
+    const auto id = take(key, route_id);
+    if (!id) refuse_json(where_ + ": " + key, "a whole number, the id of a node or edge");
+    return *id;
   }
-  std::optional<std::string> text(const char* key) {
+  /// What read(value, place) makes of it, if it is there.
+  template <class Read>
+  auto take(const char* key, const Read& read) -> std::optional<decltype(read(OrderedJson(), key))> {
     if (!json_.contains(key)) return std::nullopt;
-    if (!json_[key].is_string()) refuse_json(where_ + ": " + key, "a text");
-    const std::string text = json_[key];
+    std::optional taken(read(json_[key], where_ + ": " + key));
     json_.erase(key);
-    return text;
-  }
-  std::optional<double> number(const char* key) {
-    if (!json_.contains(key)) return std::nullopt;
-    const double number = finite_number(json_[key], where_ + ": " + key);
-    json_.erase(key);
-    return number;
+    return taken;
   }
   std::optional<double> heading() {
     if (!json_.contains("metadata") || !json_["metadata"].is_object()) return std::nullopt;
@@ -210,7 +207,7 @@ class Reader {
     const OrderedJson* at = member(geometry, "coordinates");
     if (at == nullptr || !at->is_array() || at->size() < 2) refuse_json(where, "coordinates x, y");
     node.at = {finite_number((*at)[0], where + ": x"), finite_number((*at)[1], where + ": y")};
-    const std::string frame = properties.text("frame").value_or("map");
+    const std::string frame = properties.take("frame", text_in).value_or("map");
     if (graph.nodes.empty()) graph.frame = frame;
     if (frame != graph.frame) refuse_json(where + ": frame", fmt::format("{}, as nodes before have it", graph.frame));
     node.theta = properties.heading();
@@ -228,7 +225,7 @@ class Reader {
     RouteEdge edge{.id = properties.id("id")};
     edge.from = properties.id("startid");
     edge.to = properties.id("endid");
-    edge.cost = properties.number("cost");
+    edge.cost = properties.take("cost", finite_number);
     edge.more = properties.rest();
     graph.edges.push_back(std::move(edge));
   }
@@ -277,10 +274,7 @@ GraphOptions read_graph_options(std::string_view text) {
 std::vector<DrawnEdge> read_drawn_edges(std::string_view text, const Execution& execution) {
   const OrderedJson json = json_object_of(text, deepest_json, execution);
   if (json.size() != 1 || !json.contains("edges")) refuse_json("body", "the key edges");
-  const OrderedJson& list = list_of(json["edges"], "edges", most_route_edges);
-  std::vector<DrawnEdge> edges;
-  for (std::size_t i = 0; i < list.size(); ++i) edges.push_back(drawn_edge(list[i], fmt::format("edges[{}]", i)));
-  return edges;
+  return items_of(json["edges"], "edges", most_route_edges, drawn_edge);
 }
 
 std::string verdicts_json(const std::vector<EdgeVerdict>& verdicts) {
@@ -310,21 +304,16 @@ RouteGraph read_graph_json(std::string_view text, const Execution& execution) {
   const OrderedJson* edges = member(json, "edges");
   if (nodes == nullptr || edges == nullptr) refuse_json("body", "the keys nodes and edges, as warren.graph/1 has them");
   RouteGraph graph;
-  if (const OrderedJson* frame = member(json, "frame")) {
-    if (!frame->is_string()) refuse_json("frame", "a text");
-    graph.frame = *frame;
-  }
+  if (const OrderedJson* frame = member(json, "frame")) graph.frame = text_in(*frame, "frame");
   graph.more = more_of(json, "body", {"type", "features"}, execution);
-  std::size_t number = 0;
-  for (const OrderedJson& node : list_of(*nodes, "nodes", most_route_nodes)) {
+  graph.nodes = items_of(*nodes, "nodes", most_route_nodes, [&](const OrderedJson& node, const std::string& where) {
     execution.check();
-    graph.nodes.push_back(node_of(node, fmt::format("nodes[{}]", number++), execution));
-  }
-  number = 0;
-  for (const OrderedJson& edge : list_of(*edges, "edges", most_route_edges)) {
+    return node_of(node, where, execution);
+  });
+  graph.edges = items_of(*edges, "edges", most_route_edges, [&](const OrderedJson& edge, const std::string& where) {
     execution.check();
-    graph.edges.push_back(edge_of(edge, fmt::format("edges[{}]", number++), execution));
-  }
+    return edge_of(edge, where, execution);
+  });
   return graph;
 }
 

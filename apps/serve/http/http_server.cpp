@@ -186,31 +186,6 @@ bool has_gone(Tcp::socket& socket) {
          info.tcpi_state != TCP_ESTABLISHED;
 }
 
-HttpResponse said_of(const Stopped& stopped) {
-  if (stopped.reason == StopReason::memory) {
-    return error_response(503, "memory", "", stop_text(stopped.reason, stopped.wanted_bytes));
-  }
-  return error_response(504, "budget", "budget_ms", "this takes longer than it may");
-}
-
-HttpResponse said_of_what_is_thrown() {
-  try {
-    throw;
-  } catch (const HttpError& error) {
-    return error_response(error);
-  } catch (const UsageError& error) {
-    return error_response(400, "usage", "", error.what());
-  } catch (const InputError& error) {
-    return error_response(400, "bad_data", error.where(), error.what());
-  } catch (const Stopped& stopped) {
-    return said_of(stopped);
-  } catch (const std::bad_alloc&) {
-    return error_response(503, "memory", "", "memory is out");
-  } catch (const std::exception& error) {
-    return error_response(500, "internal", "", error.what());
-  }
-}
-
 }  // namespace
 
 TaskCrew::TaskCrew(unsigned threads, std::size_t most_waiting) : most_waiting_(most_waiting) {
@@ -524,7 +499,10 @@ class HttpServer::Connections {
       connections_.each([this](Connection& c) { close(c); });
     }
     if (ending_ != never && connections_.size() == 0 && jobs_.empty()) return io_.stop();
-    end_stages();
+    const auto now = Clock::now();
+    connections_.each([this, now](Connection& c) {
+      if (!c.closed && now >= c.end) end_stage(c);
+    });
     connections_.each([this](Connection& c) { leave(c); });
     if (ending_ == never) {
       for (Tcp::acceptor* acceptor : std::exchange(idle_acceptors_, {})) accept(*acceptor);
@@ -539,12 +517,6 @@ class HttpServer::Connections {
     for (Tcp::acceptor& acceptor : acceptors_) acceptor.close(ignored);
     connections_.each([this](Connection& c) {
       if (c.stage <= Stage::body) close(c);
-    });
-  }
-  void end_stages() {
-    const auto now = Clock::now();
-    connections_.each([this, now](Connection& c) {
-      if (!c.closed && now >= c.end) end_stage(c);
     });
   }
   void end_stage(Connection& c) {
@@ -584,8 +556,20 @@ void HttpServer::run(const SignalFlag& stop) { connections_->run(stop); }
 HttpResponse answer_of(HttpService& service, const HttpRequest& request, const SignalFlag& gone) noexcept {
   try {
     return service.work(request, gone);
-  } catch (...) {
-    return said_of_what_is_thrown();
+  } catch (const HttpError& error) {
+    return error_response(error);
+  } catch (const UsageError& error) {
+    return error_response(400, "usage", "", error.what());
+  } catch (const InputError& error) {
+    return error_response(400, "bad_data", error.where(), error.what());
+  } catch (const Stopped& stopped) {
+    const bool is_memory = stopped.reason == StopReason::memory;
+    return is_memory ? error_response(503, "memory", "", stop_text(stopped.reason, stopped.wanted_bytes))
+                     : error_response(504, "budget", "budget_ms", "this takes longer than it may");
+  } catch (const std::bad_alloc&) {
+    return error_response(503, "memory", "", "memory is out");
+  } catch (const std::exception& error) {
+    return error_response(500, "internal", "", error.what());
   }
 }
 

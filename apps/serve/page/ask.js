@@ -147,6 +147,17 @@ function looked(reply, json) {
   return asksAnew;
 }
 
+/// What the service tells of the path of an answer, as JSON; of one that it does not tell, an error.
+async function toldOfPath(address, of) {
+  try {
+    const reply = await fetch(address);
+    looked(reply, of);
+    return await reply.json();
+  } catch (error) {
+    return {error: {message: "The service does not answer any more."}};
+  }
+}
+
 /// As the program writes numbers: six significant digits, and all before the point.
 const written = number => String(Math.abs(number) >= 1e6 && Math.abs(number) < 1e15 ? Math.round(number) : Number(number.toPrecision(6)));
 /// What is before the point in groups of three, as the program groups counts; no line ends between them.

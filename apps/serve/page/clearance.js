@@ -6,15 +6,8 @@ const chart = {width: 280, height: 90, samples: 200};
 
 async function showClearance() {
   if (!byId("clearance").open || !answer.id || profile.id === answer.id) return;
-  const id = profile.id = answer.id, of = answer.json;
-  let json;
-  try {
-    const reply = await fetch("api/path/" + id + "/clearance?samples=" + chart.samples);
-    looked(reply, of);
-    json = await reply.json();
-  } catch (error) {
-    json = {error: {message: "The service does not answer any more."}};
-  }
+  const id = profile.id = answer.id;
+  const json = await toldOfPath("api/path/" + id + "/clearance?samples=" + chart.samples, answer.json);
   if (id !== answer.id) return;  // another path came meanwhile
   if (json.error) return void (byId("clearance-text").textContent = json.error.message);
   const free = json.places.filter(place => place.clearance !== null);

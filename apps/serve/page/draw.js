@@ -39,7 +39,11 @@ const takeWorld = () => taken = taken.then(fetchWorld);
 const noticeWorld = () => noticing ||= takeWorld().finally(() => { noticing = null; });
 async function fetchWorld() {
   try {
-    const now = await (await fetch("api/world" + withBody("?"))).json();
+    const reply = await fetch("api/world" + withBody("?")), now = await reply.json();
+    if (reply.status === 400) {  // the answer that is drawn was another body's
+      forgetAnswer();
+      showAnswer(null, []);
+    }
     if (now.error) showBody({robot: "", radius: 0, outline: []});
     if (now.error) say(now.error.message);
     if (now.error || (now.hash === world.hash && now.robot === world.robot && now.clearance === world.clearance)) return false;
@@ -175,10 +179,6 @@ function wireDrawing() {
   byId("draw-redo").addEventListener("click", () => stepDrawing(drawing.redo, drawing.undo));
   byId("draw-save").addEventListener("click", saveScene);
   byId("draw-shape").addEventListener("change", readShape);
-  map.getContainer().addEventListener("keydown", event => {
-    if (!world.writable || !drawsKey(event)) return;
-    event.preventDefault();
-    event.stopPropagation();
-  }, true);
+  onMapKeys(event => world.writable && drawsKey(event));
   showDrawing();
 }

@@ -193,11 +193,7 @@ function wireGraph() {
   window.addEventListener("pointermove", goOnDragging);
   window.addEventListener("pointerup", endDrag);
   window.addEventListener("pointercancel", endDrag);
-  container.addEventListener("keydown", event => {
-    if (!editor.on || !takesKey(event)) return;
-    event.preventDefault();
-    event.stopPropagation();
-  }, true);
+  onMapKeys(event => editor.on && takesKey(event));
   byId("graph-build").addEventListener("click", buildGraph);
   byId("graph-file").addEventListener("change", event => { openGraphFile(event.target.files[0]); event.target.value = ""; });
   byId("graph-edit").addEventListener("click", () => setEditing(!editor.on));

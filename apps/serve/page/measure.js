@@ -60,9 +60,5 @@ function wireMeasuring() {
   byId("measure").addEventListener("click", () => setMeasuring(!measuring.on));
   map.on("dblclick", () => { if (measuring.on) setMeasuring(false); });
   for (const mark of [...Object.values(marks), ...Object.values(handles)]) mark.on("click", measures);
-  map.getContainer().addEventListener("keydown", event => {
-    if (!measuresKey(event)) return;
-    event.preventDefault();
-    event.stopPropagation();
-  }, true);
+  onMapKeys(measuresKey);
 }

@@ -27,16 +27,8 @@ async function showSweep() {
   const layer = layers.get("sweep");
   if (!layer || !layer.box.checked) return forgetSweep();
   if (!answer.id) return fillLegend(layer, [{words: answer.json && answer.json.verified ? pathUnnamed : "Shown where there is a path."}]);
-  const mine = ++sweep.asked, of = answer.json, seen = map.getBounds().pad(0.25);
-  const box = [seen.getWest(), seen.getSouth(), seen.getEast(), seen.getNorth()].join(",");
-  let json;
-  try {
-    const reply = await fetch(layer.account.of_path.replace("{id}", answer.id) + "?z=" + map.getZoom() + "&bbox=" + box);
-    looked(reply, of);
-    json = await reply.json();
-  } catch (error) {
-    json = {error: {message: "The service does not answer any more."}};
-  }
+  const mine = ++sweep.asked, view = viewWords(0.25, map.getZoom());
+  const json = await toldOfPath(layer.account.of_path.replace("{id}", answer.id) + view, answer.json);
   if (mine !== sweep.asked) return;  // another path or place came meanwhile
   forgetSweep();
   if (json.error) return fillLegend(layer, [{words: json.error.message}]);

@@ -123,6 +123,14 @@ function openMap() {
   new ResizeObserver(() => map.invalidateSize({pan: false})).observe(map.getContainer());  // windows are not all that resizes it
 }
 
+/// Keys on the map that are taken are nobody else's.
+function onMapKeys(takes) {
+  map.getContainer().addEventListener("keydown", event => {
+    if (!takes(event)) return;
+    event.preventDefault();
+    event.stopPropagation();
+  }, true);
+}
 /// A mark of that name; moved(place, is_over) is called while it is dragged, and at the end.
 function makeMark(name, moved) {
   const icon = L.divIcon({className: "mark " + name, iconSize: [22, 22]});
@@ -188,13 +196,16 @@ function showPath(points, id) {
   if (pathLine.whole) return drawChains([points]);
   showSeenPath();
 }
+/// Of a request for what is seen, and so much of it around.
+function viewWords(around, zoom) {
+  const seen = map.getBounds().pad(around);
+  return "?z=" + zoom + "&bbox=" + [seen.getWest(), seen.getSouth(), seen.getEast(), seen.getNorth()].join(",");
+}
 async function showSeenPath() {
   if (pathLine.whole || !pathLine.id) return;
-  const mine = ++pathLine.asked, of = answer.json, seen = map.getBounds().pad(0.5);
-  const box = [seen.getWest(), seen.getSouth(), seen.getEast(), seen.getNorth()].join(",");
-  const z = map.getZoom() - 1;  // the line is wider than two pixels
+  const mine = ++pathLine.asked, of = answer.json;
   try {
-    const reply = await fetch("api/path/" + pathLine.id + "?z=" + z + "&bbox=" + box);
+    const reply = await fetch("api/path/" + pathLine.id + viewWords(0.5, map.getZoom() - 1));  // the line is wider than two pixels
     looked(reply, of);
     const told = reply.ok ? await reply.json() : null;
     if (told && mine === pathLine.asked) drawChains(told.chains);  // else another path or view came meanwhile

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "core/base/error.hpp"
-#include "core/search/indexed_heap.hpp"
 #include "core/search/search.hpp"
 #include "parallel/chunks.hpp"
+#include "planners/graph/queue_choice.hpp"
 
 namespace warren::serve {
 namespace {
@@ -56,18 +56,13 @@ PlannedRoadmap<Vec2> linked(const RoadmapQuery& query, const std::vector<double>
 
 SearchState searched(const PlannedRoadmap<Vec2>& roadmap, const Execution& execution) {
   const std::size_t count = roadmap.states.size();
-  const auto poll = [&] { execution.check(); };
-  execution.reserve(count * (sizeof(double) + 2 * sizeof(VertexId) + sizeof(QueueEntry)));
-  SearchState state;
-  state.resize(count, poll);
-  IndexedHeap<4> queue;
-  queue.resize(count, poll);
   const auto next = [&](VertexId v, const auto& visit) {
     for (const VertexId w : roadmap.graph.neighbours(v)) visit(w, distance(roadmap.states[v], roadmap.states[w]));
   };
-  best_first(
-      static_cast<VertexId>(count - 2), no_vertex, next, [](VertexId) { return 0.0; }, queue, state,
-      [&] { return execution.should_stop(); });
+  const auto no_estimate = [](VertexId) { return 0.0; };
+  SearchState state;
+  search_best_first(QueueKind::heap, count, static_cast<VertexId>(count - 2), no_vertex, next, no_estimate, state,
+                    execution);
   execution.check();
   return state;
 }

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "parallel/sort.hpp"
 #include "pictures/formats/raster.hpp"
 
 namespace warren::serve {
@@ -185,30 +186,17 @@ double PlacedRoadmap::length(Edge edge) const {
 void PlacedRoadmap::file_milestones(const Execution& execution) {
   constexpr std::size_t milestones_a_cell = 8;
   constexpr std::size_t most_side = 1024;
-  const auto count = static_cast<VertexId>(parts_.vertex_count());
-  const auto poll = [&](VertexId v) {
-    if (v % items_a_poll == 0) execution.check();
-  };
+  const std::size_t count = parts_.vertex_count();
   const double cells = static_cast<double>(count) / milestones_a_cell;
   side_ = std::clamp<std::size_t>(static_cast<std::size_t>(std::sqrt(cells)), 1, most_side);
-  execution.reserve(count * sizeof(VertexId) + (side_ * side_ + 1) * sizeof(std::uint32_t));
   for (VertexId v = 0; v < count; ++v) {
-    poll(v);
+    if (v % items_a_poll == 0) execution.check();
     box_.include(at(v));
   }
-  first_.assign(side_ * side_ + 1, 0);
-  const auto cell_of = [&](VertexId v) { return row(at(v).y) * side_ + column(at(v).x); };
-  for (VertexId v = 0; v < count; ++v) {
-    poll(v);
-    ++first_[cell_of(v)];
-  }
-  std::uint32_t sum = 0;
-  for (std::uint32_t& first : first_) first = sum += first;  // the end of each cell, from which it is filled
-  order_.resize(count);
-  for (VertexId v = count; v-- > 0;) {
-    poll(v);
-    order_[--first_[cell_of(v)]] = v;
-  }
+  by_cell_ = counting_sort(count, side_ * side_, execution, [&](std::size_t v) {
+    const Vec2 p = at(static_cast<VertexId>(v));
+    return row(p.y) * side_ + column(p.x);
+  });
 }
 
 template <class Visit>

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/serve/tiles/web_tile.hpp"
+#include "core/base/items_by_key.hpp"
 #include "core/run/execution.hpp"
 #include "pictures/model/colors.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
@@ -24,11 +25,12 @@ class PlacedRoadmap {
   struct Edge {
     VertexId from, to;
   };
-  /// Refers to the arrays. Four bytes a milestone, and eight for one free edge in 256. Throws Stopped.
+  /// Refers to the arrays. Four bytes a milestone, eight more meanwhile, and eight for one free edge in 256. Throws
+  /// Stopped.
   PlacedRoadmap(const RoadmapParts& parts, const Execution& execution);
 
   Vec2 at(VertexId v) const { return {parts_.state(v)[0], parts_.state(v)[1]}; }
-  std::uint64_t milestones() const { return order_.size(); }
+  std::uint64_t milestones() const { return by_cell_.items.size(); }
   std::uint64_t free_edges() const { return free_edges_; }
   /// Visits milestones in the box until visit says false. Throws Stopped.
   template <class Visit>
@@ -39,9 +41,9 @@ class PlacedRoadmap {
     for (std::size_t y = row(box.min.y); y <= top; ++y) {
       for (std::size_t x = column(box.min.x); x <= right; ++x) {
         if (seen++ % 256 == 0) execution.check();
-        for (std::uint32_t i = first_[y * side_ + x]; i < first_[y * side_ + x + 1]; ++i) {
+        for (const VertexId v : by_cell_.of(y * side_ + x)) {
           if (seen++ % 1024 == 0) execution.check();
-          if (box.contains(at(order_[i])) && !visit(order_[i])) return;
+          if (box.contains(at(v)) && !visit(v)) return;
         }
       }
     }
@@ -77,10 +79,9 @@ class PlacedRoadmap {
   void part_long_edges(const Execution& execution);
 
   RoadmapParts parts_;
-  Box box_;                           // of all milestones
-  std::size_t side_ = 1;              // of the grid, in cells
-  std::vector<std::uint32_t> first_;  // of each cell, in order_
-  std::vector<VertexId> order_;
+  Box box_;               // of all milestones
+  std::size_t side_ = 1;  // of the grid, in cells
+  ItemsByKey by_cell_;    // milestones
   std::uint64_t free_edges_ = 0;
   double reach_ = 0.0;  // the length of the longest edge that is not in long_edges_
   std::vector<Edge> long_edges_;

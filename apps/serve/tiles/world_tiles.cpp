@@ -355,18 +355,28 @@ class ShapeTiles : public WorldTiles {
   std::string draw(const TilePlace& place, const Execution& execution) const override {
     Image image(TileGrid::pixels, TileGrid::pixels, colors::paper, execution);
     const OnTile on_tile{grid().box_of(place), grid().pixel(place.zoom)};
-    const Brush brush{image, on_tile, execution};
+    const auto draw_side = [&](Vec2 a, Vec2 b) {
+      image.draw_line(on_tile(a), on_tile(b), outline_pixels, colors::outline);
+    };
+    const auto draw_wall = [&](const Segment& s) {
+      image.draw_line(on_tile(s.a), on_tile(s.b), wall_pixels, colors::wall);
+    };
     const std::vector<std::uint32_t> shapes =
         shapes_in(on_tile.box.grown(2.0 * wall_pixels * on_tile.pixel), execution);
     const auto walls = static_cast<std::uint32_t>(scene_.walls.size());
     const auto polygons = std::lower_bound(shapes.begin(), shapes.end(), walls);
-    std::for_each(polygons, shapes.end(), [&](std::uint32_t i) { fill(brush, scene_.polygons[i - walls]); });
-    std::for_each(polygons, shapes.end(), [&](std::uint32_t i) { outline(brush, scene_.polygons[i - walls]); });
+    std::for_each(polygons, shapes.end(), [&](std::uint32_t i) {
+      image.fill(outline_on(on_tile, scene_.polygons[i - walls]), colors::polygon, 1.0, execution);
+    });
+    std::for_each(polygons, shapes.end(), [&](std::uint32_t i) {
+      execution.check();
+      seams_.for_each_other_side(scene_.polygons[i - walls], draw_side);
+    });
     std::for_each(shapes.begin(), polygons, [&](std::uint32_t i) {
       if (i % 256 == 0) execution.check();
-      brush.line(scene_.walls.segment(i), wall_pixels);
+      draw_wall(scene_.walls.segment(i));
     });
-    for (const Segment& s : bounds_walls(scene_)) brush.line(s, wall_pixels);
+    for (const Segment& s : bounds_walls(scene_)) draw_wall(s);
     std::string bytes;
     write_png_file(image, 0.0, execution, [&](std::string_view piece) { bytes += piece; });
     return bytes;
@@ -386,16 +396,6 @@ class ShapeTiles : public WorldTiles {
   }
 
  private:
-  struct Brush {
-    Image& image;
-    OnTile on_tile;
-    const Execution& execution;
-
-    void line(const Segment& s, double width) const {
-      image.draw_line(on_tile(s.a), on_tile(s.b), width, width == wall_pixels ? colors::wall : colors::outline);
-    }
-  };
-
   /// Walls and then polygons, each in the order of the world.
   std::vector<std::uint32_t> shapes_in(const Box& box, const Execution& execution) const {
     std::vector<std::uint32_t> shapes;
@@ -406,13 +406,6 @@ class ShapeTiles : public WorldTiles {
     });
     polled_sort(shapes.begin(), shapes.end(), execution);
     return shapes;
-  }
-  static void fill(const Brush& brush, const ScenePolygon& polygon) {
-    brush.image.fill(outline_on(brush.on_tile, polygon), colors::polygon, 1.0, brush.execution);
-  }
-  void outline(const Brush& brush, const ScenePolygon& polygon) const {
-    brush.execution.check();
-    seams_.for_each_other_side(polygon, [&](Vec2 a, Vec2 b) { brush.line({a, b}, outline_pixels); });
   }
 
   const Scene& scene_;

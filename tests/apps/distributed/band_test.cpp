@@ -13,7 +13,7 @@ namespace {
 
 TEST(Band, KeepsNoRoomForStepsThatNobodyAsksFor) {
   const Scene scene = unmade_maze_scene({.rows = 300, .cols = 700, .algorithm = MazeAlgorithm::mst, .loops = 0.1});
-  const BandTask task = BandTask::of(scene, keeping_off(scene, {}, ""));
+  const BandTask task{scene, keeping_off(scene, {}, "")};
   Band band(task, {0, task.grid().tile_rows});
   const Execution execution{.threads = 1};
   band.make(execution);

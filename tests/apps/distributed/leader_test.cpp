@@ -166,7 +166,7 @@ TEST(Leader, JudgesOfAllRanksSayWhatOneSays) {
     const Asked asked{mst(760, 300, 2, loops)};
     const BandTask task = task_of(asked);
     const SpanningMaze maze(760, 300, 2, loops, {.threads = 1});
-    VerifyOptions options = task.judged;
+    VerifyOptions options = task.judged();
     options.start = Vec2{0.5, 1.0};
     options.goal = Vec2{300.5, 760.0};
     for (const Path<Vec2>& path : bad_paths()) {

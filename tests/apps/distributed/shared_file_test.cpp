@@ -237,9 +237,9 @@ TEST(SharedFile, DamageBelowTheRowsOfARankIsToldByItWhereTheCopyIsItsOwn) {
   write_scene(made(walls, false), directory.file("a.maze"));
   const Asked asked{unmade(directory.file("a.maze"))};
   std::vector<BandTask> tasks(3, task_of(asked));
-  tasks[1].packed->file = directory.write("b.maze", damaged(directory.read("a.maze"), 511, 300));
+  tasks[1].unmade.packed->file = directory.write("b.maze", damaged(directory.read("a.maze"), 511, 300));
   const std::string found = error_of(tasks, asked);
-  EXPECT_NE(found.find(fmt::format("rank 1: {}: rows 256 to 511: are damaged", tasks[1].packed->file)),
+  EXPECT_NE(found.find(fmt::format("rank 1: {}: rows 256 to 511: are damaged", tasks[1].unmade.packed->file)),
             std::string::npos)
       << found;
 }
@@ -258,7 +258,7 @@ TEST(SharedFile, ARankThatReadsOtherWallsIsRefused) {
     if (kind == "npy") {
       tasks[2] = task_of(asked[1]);  // of as many rows
     } else {
-      tasks[2].packed->file = asked[1].scene.packed->file;  // changed since all looked at it
+      tasks[2].unmade.packed->file = asked[1].scene.packed->file;  // changed since all looked at it
     }
     const std::string found = error_of(tasks, asked[0]);
     EXPECT_TRUE(found.starts_with("rank 2: ")) << found;

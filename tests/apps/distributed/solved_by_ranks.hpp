@@ -29,7 +29,7 @@ struct Asked {
 };
 
 inline distributed::BandTask task_of(const Asked& asked) {
-  return distributed::BandTask::of(asked.scene, keeping_off(asked.scene, asked.question, ""));
+  return distributed::BandTask{asked.scene, keeping_off(asked.scene, asked.question, "")};
 }
 
 inline Answer solved(const Asked& asked, const Execution& execution = {.threads = 1}, StreamedTeam* team = nullptr) {

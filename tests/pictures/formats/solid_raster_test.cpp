@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pictures/formats/solid_raster.hpp"
+#include "pictures/formats/raster.hpp"
 
 #include <gtest/gtest.h>
 

@@ -76,9 +76,11 @@ TEST(AxisCurve, ArcBetweenPointAndLineIsTheParabola) {
   EXPECT_EQ(least, 1.0);  // exactly: the tangent at the narrowest point
   EXPECT_GE(length, arc.length());
   EXPECT_LE(length, arc.length() * 1.0001);
-  const AxisCurve back = arc.part(arc.last(), arc.first());
+  const AxisCurve back = arc.part(arc.last(), arc.first(), arc.to(), arc.from());
   EXPECT_DOUBLE_EQ(back.length(), arc.length());
-  EXPECT_NEAR(arc.part(arc.first(), 0.0).length() + arc.part(0.0, arc.last()).length(), arc.length(), 1e-12);
+  const AxisCurve before = arc.part(arc.first(), 0.0, arc.from(), arc.at(0.0));
+  const AxisCurve behind = arc.part(0.0, arc.last(), arc.at(0.0), arc.to());
+  EXPECT_NEAR(before.length() + behind.length(), arc.length(), 1e-12);
 }
 
 TEST(MedialAxis, OfASquareIsItsDiagonals) {

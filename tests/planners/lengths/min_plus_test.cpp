@@ -27,7 +27,7 @@ TEST(MinPlus, RowsOfAllLengthsAndInstructionSets) {
       rest[i] = below(5, count, i, 2) == 0 ? no_way : below(70000, count, i, 3);
       expected[i] = std::min(least[i], first + rest[i]);
     }
-    for (const LessenRow lessen : {lessen_row(), &lessen_row_plain}) {
+    for (const LessenRow<std::uint32_t> lessen : {lessen_row<std::uint32_t>(), &lessen_row_plain<std::uint32_t>}) {
       std::vector<std::uint32_t> found = least;
       lessen(found.data(), rest.data(), first, count);
       EXPECT_EQ(found, expected) << count;
@@ -71,7 +71,7 @@ TEST(MinPlus, ShortRowsHaveNoWaysOfTheirOwn) {
       rest[i] = static_cast<std::uint16_t>(0xffff - below(3, count, i, 2));
       expected[i] = rest[i] == no_short_way ? least[i] : std::min(least[i], first + rest[i]);
     }
-    for (const LessenRowShort lessen : {lessen_row_short(), &lessen_row_short_plain}) {
+    for (const LessenRow<std::uint16_t> lessen : {lessen_row<std::uint16_t>(), &lessen_row_plain<std::uint16_t>}) {
       std::vector<std::uint32_t> found = least;
       lessen(found.data(), rest.data(), first, count);
       EXPECT_EQ(found, expected) << count;

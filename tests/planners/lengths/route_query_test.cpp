@@ -158,7 +158,7 @@ std::size_t legs_of(const RouteIndex& index, CellId start, CellId goal) {
   const LatticePlace b = index.places().place_of(goal);
   const TreeJoin join = trees.join(a, b);
   RawVector<CellId> cells(std::size_t{join.start_steps} + join.goal_steps + 1);  // that nobody writes
-  std::vector<ClimbLeg> legs;
+  std::vector<MarkedWay> legs;
   trees.cut({a, join.start_core, join.start_steps, 1, cells.data()}, legs);
   trees.cut({b, join.goal_core, join.goal_steps, -1, &cells.back()}, legs);
   return legs.size();

@@ -199,7 +199,7 @@ TEST(AskRoadmap, LearnsWhatItHasAskedTheWorld) {
   EXPECT_EQ(first.outcome, Outcome::solved);
   EXPECT_GT(first.counters.edges_checked, second.counters.edges_checked + 100);
   Counters counters;
-  const auto checked = check_edges(world, roadmap.states(), roadmap.candidates(), EdgeDirections::both, {}, counters);
+  const auto checked = check_edges(world, roadmap.states(), roadmap.candidates(), {}, counters);
   for (std::size_t end = 0; end < roadmap.candidates().targets().size(); ++end) {
     const EdgeState known = edge_state(roadmap.edge_states(), end);
     if (known == EdgeState::unchecked) continue;

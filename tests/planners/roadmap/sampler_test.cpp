@@ -23,21 +23,21 @@ constexpr double clearance = 0.1;
 
 Scene small_maze() { return maze_scene({6, 9, 1, MazeAlgorithm::backtracker, 0.0}, false, {}); }
 
-RoadmapOptions lattice_options() {
-  RoadmapOptions options;
-  options.sampler = SamplerKind::lattice;
-  options.lattice = {6, 9};
-  return options;
+/// By itself: the others of its range are not drawn.
+Vec2 sample_of(const AnyWorld<Vec2>& world, const RoadmapOptions& options, std::size_t index, std::uint64_t count) {
+  Vec2 drawn;
+  detail::for_each_sample(world, options, {index, index + 1}, count, [&](const Vec2& sample) { drawn = sample; });
+  return drawn;
 }
 
 TEST(Sampler, SamplesArePureFunctionsInsideTheWorld) {
   const Scene scene = small_maze();
   const MazeWorld maze(scene, clearance, {});
   const WorldView world(maze);
-  RoadmapOptions options = lattice_options();
+  RoadmapOptions options;
   std::set<std::pair<double, double>> cells;
   for (std::uint64_t i = 0; i < 54; ++i) {
-    const Vec2 p = sample_state(world, options, i, 1000);
+    const Vec2 p = lattice_point({6, 9}, i);
     cells.insert({p.x, p.y});
     EXPECT_TRUE(p.x >= 1 && p.x <= 9 && p.y >= 1 && p.y <= 6);
   }
@@ -45,8 +45,8 @@ TEST(Sampler, SamplesArePureFunctionsInsideTheWorld) {
   for (const SamplerKind sampler : {SamplerKind::uniform, SamplerKind::halton, SamplerKind::random}) {
     options.sampler = sampler;
     for (std::uint64_t i = 0; i < 1000; ++i) {
-      EXPECT_TRUE(world.box().contains(sample_state(world, options, i, 1000)));
-      EXPECT_EQ(sample_state(world, options, i, 1000), sample_state(world, options, i, 1000));
+      EXPECT_TRUE(world.box().contains(sample_of(world, options, i, 1000)));
+      EXPECT_EQ(sample_of(world, options, i, 1000), sample_of(world, options, i, 1000));
     }
   }
 }
@@ -60,9 +60,8 @@ TEST(Sampler, SamplesOfARangeAreThoseOfTheirIndices) {
     options.sampler = sampler;
     for (const Range range : {Range{0, 1}, Range{0, 777}, Range{5, 5}, Range{63, 400}, Range{776, 777}}) {
       std::size_t index = range.first;
-      detail::for_each_sample(world, options, range, 777, [&](const Vec2& sample) {
-        ASSERT_EQ(sample, sample_state(world, options, index++, 777));
-      });
+      detail::for_each_sample(world, options, range, 777,
+                              [&](const Vec2& sample) { ASSERT_EQ(sample, sample_of(world, options, index++, 777)); });
       EXPECT_EQ(index, range.last);
     }
   }
@@ -74,8 +73,9 @@ TEST(Sampler, StrataHoldOneSampleEach) {
       const auto n = static_cast<double>(count);
       const double rows = std::clamp(std::round(std::sqrt(n * shape)), 1.0, n);
       std::vector<int> in_row(static_cast<std::size_t>(rows), 0);
+      const Strata strata(count, shape);
       for (std::uint64_t i = 0; i < count; ++i) {
-        const auto [x, y] = stratified_point(3, i, count, shape);
+        const auto [x, y] = strata.point(3, i, strata.row_of(i));
         ASSERT_TRUE(x >= 0.0 && x < 1.0 && y >= 0.0 && y < 1.0) << x << " " << y;
         ++in_row[static_cast<std::size_t>(y * rows)];
       }

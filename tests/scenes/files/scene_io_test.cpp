@@ -99,9 +99,10 @@ TEST(SceneText, ReadsAnArmThatFilesDescribe) {
   EXPECT_EQ(files.allowed, (std::vector<std::array<std::string, 2>>{{"u", "v"}, {"x", "y"}}));
   write_scene_text(scene, directory.file("again.scene"), {});
   const Scene again = read_scene_text(InputFile(directory.file("again.scene"), {}), {});
-  EXPECT_EQ(urdf_words(*with_what_is_said(*again.robot, again).files), urdf_words(files));
-  EXPECT_EQ(urdf_words(files),
-            " a/b.urdf srdf c.srdf group g package-path p package-path q hold k 2 hold j -0.5 allow u v allow x y");
+  const std::string words = robot_text(with_what_is_said(*scene.robot, scene));
+  EXPECT_EQ(robot_text(with_what_is_said(*again.robot, again)), words);
+  EXPECT_EQ(words,
+            "urdf a/b.urdf srdf c.srdf group g package-path p package-path q hold k 2 hold j -0.5 allow u v allow x y");
   EXPECT_EQ(read(directory, "robot urdf a.urdf base x tip y\n0 0 1 1\n").robot->files->tip, "y");
 }
 

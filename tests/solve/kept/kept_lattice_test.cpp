@@ -142,7 +142,11 @@ TEST(KeptLattice, ABlockedEndIsExplainedWithoutMakingAllWalls) {
   const Scene outline = read.world.outline();
   read.world = KeptWorld(
       outline, [](const Execution&) -> Scene { throw std::logic_error("all walls are made"); },
-      [&](const Execution& execution) { return cells_of_file(*read.file, *outline.maze, read.world_hash, execution); });
+      [&](const Execution& execution) {
+        return cells_of_words(read.file->name(), *outline.maze,
+                              read.file->section<std::uint64_t>("passages.right", execution),
+                              read.file->section<std::uint64_t>("passages.up", execution), read.world_hash, execution);
+      });
   const RoadmapQuery by_walls(held);
   const RoadmapQuery by_bits(read, Execution{}, Questions::many);
   const std::vector<std::vector<double>> places{{7.3, 8.45},  {0.6, 100.2}, {20.5, 30.5}, {99.55, 3.1}, {-4, 7},

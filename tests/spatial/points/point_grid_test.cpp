@@ -15,7 +15,7 @@ using test::PointSet;
 
 std::vector<Vec2> in_tile_order(const std::vector<Vec2>& points) {
   std::vector<Vec2> sorted;
-  for (const std::uint32_t i : tile_order(points, {}).sample_of) sorted.push_back(points[i]);
+  for (const std::uint32_t i : tile_order(points, {})) sorted.push_back(points[i]);
   return sorted;
 }
 

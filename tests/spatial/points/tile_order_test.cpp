@@ -13,17 +13,17 @@ TEST(TileOrder, IsAPermutationThatIsSortedByCellAndStable) {
     for (const auto& set : test::point_sets<2>(seed, 3000)) {
       SCOPED_TRACE(set.name);
       const std::vector<Vec2>& points = set.points;
-      const TileOrder order = tile_order(points, {});
+      const RawVector<std::uint32_t> order = tile_order(points, {});
       Box box;
       for (const Vec2 p : points) box.include(p);
       const CellFrame frame(box, points.size());
-      ASSERT_EQ(order.sample_of.size(), points.size());
+      ASSERT_EQ(order.size(), points.size());
       std::vector<bool> seen(points.size(), false);
-      for (const std::uint32_t i : order.sample_of) seen.at(i) = true;
+      for (const std::uint32_t i : order) seen.at(i) = true;
       EXPECT_EQ(std::count(seen.begin(), seen.end(), false), 0);
       for (std::size_t m = 1; m < points.size(); ++m) {
         const auto key = [&](std::uint32_t i) { return std::pair(frame.cell_of(points[i]), i); };
-        ASSERT_LT(key(order.sample_of[m - 1]), key(order.sample_of[m]));
+        ASSERT_LT(key(order[m - 1]), key(order[m]));
       }
     }
   }
@@ -32,19 +32,19 @@ TEST(TileOrder, IsAPermutationThatIsSortedByCellAndStable) {
 TEST(TileOrder, IsTheSameForAnyThreadCount) {
   std::vector<Vec2> points(200'000);
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = {uniform(3, i, 0), 2.0 * uniform(3, i, 1)};
-  const TileOrder one = tile_order(points, {.threads = 1});
+  const RawVector<std::uint32_t> one = tile_order(points, {.threads = 1});
   for (const unsigned threads : {2U, 3U, 8U}) {
-    EXPECT_EQ(one.sample_of, tile_order(points, {.threads = threads}).sample_of) << threads;
+    EXPECT_EQ(one, tile_order(points, {.threads = threads})) << threads;
   }
 }
 
 TEST(TileOrder, NumbersNeighboursNear) {
   std::vector<Vec2> points(40'000);
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = {uniform(4, i, 0), uniform(4, i, 1)};
-  const TileOrder order = tile_order(points, {});
+  const RawVector<std::uint32_t> order = tile_order(points, {});
   double steps = 0.0;
   for (std::size_t m = 1; m < points.size(); ++m) {
-    steps += distance(points[order.sample_of[m - 1]], points[order.sample_of[m]]);
+    steps += distance(points[order[m - 1]], points[order[m]]);
   }
   EXPECT_LT(steps / 40'000.0, 4.0 / 200.0);  // a step is a few cells; unsorted it is half the square
 }
