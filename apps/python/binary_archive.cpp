@@ -217,7 +217,7 @@ WARREN_ARCHIVED(ClaimedPath, optimal, lower_bound, cost, price, bound_of, goal_i
 
 struct Anything {
   template <class T>
-  operator T&() const;
+  operator T&() const;  // NOLINT(google-explicit-constructor): what a member is initialised with
 };
 template <class T, std::size_t... I>
 constexpr bool is_made_of(std::index_sequence<I...>) {
