@@ -8,9 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <queue>
-#include <tuple>
 
 #include "core/base/rng.hpp"
 #include "tests/seeds.hpp"
@@ -90,58 +88,75 @@ Task task(std::uint64_t seed, bool on_states) {
 }
 
 /// What is left to pay from each state (x, y, heading, last gear: 0 of none): backwards by the definition, over edges
-/// that are listed first. With shots from everywhere, or from where they are joins.
+/// that are listed first.
 class Oracle {
  public:
-  using State = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, int>;
-
-  Oracle(CarLattice& lattice, std::uint64_t gear_change, bool all_shots) {
+  Oracle(CarLattice& lattice, std::uint64_t gear_change)
+      : width_(lattice.width()),
+        headings_(lattice.headings()),
+        count_(std::size_t{3} * width_ * lattice.height() * headings_) {
+    into_.resize(count_);
+    shots_.resize(count_, never);
+    joins_.resize(count_);
     for (std::uint32_t y = 0; y < lattice.height(); ++y) {
-      for (std::uint32_t x = 0; x < lattice.width(); ++x) {
-        for (std::uint32_t k = 0; k < lattice.headings(); ++k) {
-          for (const int gear : {-1, 0, 1}) add({x, y, k, gear}, lattice, gear_change, all_shots);
-        }
+      for (std::uint32_t x = 0; x < width_; ++x) {
+        for (std::uint32_t k = 0; k < headings_; ++k) add({x, y}, k, lattice, gear_change);
       }
     }
-    while (!open_.empty()) {
-      const auto [cost, state] = open_.top();
-      open_.pop();
-      if (cost > left_[state]) continue;
+  }
+  std::size_t number(Cell cell, std::uint32_t heading, int gear) const {
+    return ((std::size_t{cell.y} * width_ + cell.x) * headings_ + heading) * 3 + static_cast<std::size_t>(gear + 1);
+  }
+  /// By number; with shots from everywhere, or from where they are joins.
+  std::vector<std::uint64_t> left(bool all_shots) const {
+    using Open = std::pair<std::uint64_t, std::size_t>;
+    std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
+    std::vector<std::uint64_t> left(count_, never);
+    const auto reach = [&](std::size_t state, std::uint64_t cost) {
+      if (cost >= left[state]) return;
+      left[state] = cost;
+      open.emplace(cost, state);
+    };
+    for (std::size_t state = 0; state < count_; ++state) {
+      if (all_shots || joins_[state]) reach(state, shots_[state]);
+    }
+    while (!open.empty()) {
+      const auto [cost, state] = open.top();
+      open.pop();
+      if (cost > left[state]) continue;
       for (const auto& [before, step] : into_[state]) reach(before, cost + step);
     }
-  }
-  std::uint64_t left(const State& state) const {
-    const auto found = left_.find(state);
-    return found == left_.end() ? never : found->second;
+    return left;
   }
 
  private:
-  void add(const State& state, CarLattice& lattice, std::uint64_t gear_change, bool all_shots) {
-    const auto [x, y, k, gear] = state;
-    for (const LatticeMotion& motion : lattice.motions_from(k)) {
-      const std::int64_t to_x = std::int64_t{x} + motion.dx;
-      const std::int64_t to_y = std::int64_t{y} + motion.dy;
+  void add(Cell cell, std::uint32_t heading, CarLattice& lattice, std::uint64_t gear_change) {
+    for (const LatticeMotion& motion : lattice.motions_from(heading)) {
+      const std::int64_t to_x = std::int64_t{cell.x} + motion.dx;
+      const std::int64_t to_y = std::int64_t{cell.y} + motion.dy;
       if (to_x < 0 || to_y < 0 || to_x >= lattice.width() || to_y >= lattice.height()) continue;
-      if (!lattice.is_free({x, y}, motion)) continue;
-      const int next = motion.gear == 0 ? gear : motion.gear;
-      const std::uint64_t change = gear != 0 && next != gear ? gear_change : 0;
-      into_[{static_cast<std::uint32_t>(to_x), static_cast<std::uint32_t>(to_y), motion.to, next}].push_back(
-          {state, motion.cost + change});
+      if (!lattice.is_free(cell, motion)) continue;
+      const Cell to{static_cast<std::uint32_t>(to_x), static_cast<std::uint32_t>(to_y)};
+      for (const int gear : {-1, 0, 1}) {
+        const int next = motion.gear == 0 ? gear : motion.gear;
+        const std::uint64_t change = gear != 0 && next != gear ? gear_change : 0;
+        into_[number(to, motion.to, next)].emplace_back(number(cell, heading, gear), motion.cost + change);
+      }
     }
-    if (!all_shots && !lattice.joins({x, y})) return;
-    const auto shot = lattice.shot({x, y}, k, static_cast<std::int8_t>(gear), never, gear_change);
-    if (shot) reach(state, shot->cost);
-  }
-  void reach(const State& state, std::uint64_t cost) {
-    if (cost >= left(state)) return;
-    left_[state] = cost;
-    open_.push({cost, state});
+    for (const int gear : {-1, 0, 1}) {
+      const std::size_t state = number(cell, heading, gear);
+      joins_[state] = lattice.joins(cell);
+      const auto shot = lattice.shot(cell, heading, static_cast<std::int8_t>(gear), never, gear_change);
+      if (shot) shots_[state] = shot->cost;
+    }
   }
 
-  std::map<State, std::vector<std::pair<State, std::uint64_t>>> into_;
-  std::map<State, std::uint64_t> left_;
-  std::priority_queue<std::pair<std::uint64_t, State>, std::vector<std::pair<std::uint64_t, State>>, std::greater<>>
-      open_;
+  std::size_t width_;
+  std::size_t headings_;
+  std::size_t count_;
+  std::vector<std::vector<std::pair<std::size_t, std::uint64_t>>> into_;
+  std::vector<std::uint64_t> shots_;
+  std::vector<bool> joins_;
 };
 
 LatticeSolution searched(Task& task, double gap) {
@@ -161,28 +176,28 @@ TEST(CarLattice, FindsWhatAPlainDijkstraFindsAndItsEstimateNeverExceedsIt) {
     asked.make(execution);
     CarLattice& lattice = *asked.lattice;
     const std::uint64_t change = lattice.units_of(asked.options.price.cusp);
-    const Oracle joins(lattice, change, false);
-    const Oracle shots(lattice, change, true);
-    const Oracle::State start{lattice.starts().front().cell.x, lattice.starts().front().cell.y,
-                              lattice.starts().front().heading, 0};
+    const Oracle oracle(lattice, change);
+    const std::vector<std::uint64_t> joins = oracle.left(false);
+    const std::vector<std::uint64_t> shots = oracle.left(true);
+    const std::size_t start = oracle.number(lattice.starts().front().cell, lattice.starts().front().heading, 0);
     const LatticeSolution solution = searched(asked, 0.0);
-    ASSERT_EQ(solution.found(), shots.left(start) != never);
+    ASSERT_EQ(solution.found(), shots[start] != never);
     for (std::uint32_t y = 0; y < lattice.height(); ++y) {
       for (std::uint32_t x = 0; x < lattice.width(); ++x) {
         for (std::uint32_t k = 0; k < lattice.headings(); ++k)
-          ASSERT_LE(lattice.at_least({x, y}, k), joins.left({x, y, k, 0})) << x << " " << y << " " << k;
+          ASSERT_LE(lattice.at_least({x, y}, k), joins[oracle.number({x, y}, k, 0)]) << x << " " << y << " " << k;
       }
     }
     if (!solution.found()) continue;
     ++found;
     EXPECT_EQ(solution.ended_by, "optimum");
-    EXPECT_LE(solution.path.cost, joins.left(start));
-    EXPECT_GE(solution.path.cost, shots.left(start));
-    EXPECT_EQ(solution.bound, std::min(solution.path.cost, joins.left(start)));
+    EXPECT_LE(solution.path.cost, joins[start]);
+    EXPECT_GE(solution.path.cost, shots[start]);
+    EXPECT_EQ(solution.bound, std::min(solution.path.cost, joins[start]));
     // Rounds before the last keep what they prove.
     const LatticeSolution early = searched(asked, 0.5);
-    EXPECT_LE(early.bound, joins.left(start));
-    EXPECT_LE(static_cast<double>(early.path.cost), 1.5 * static_cast<double>(joins.left(start)));
+    EXPECT_LE(early.bound, joins[start]);
+    EXPECT_LE(static_cast<double>(early.path.cost), 1.5 * static_cast<double>(joins[start]));
     EXPECT_GE(early.path.cost, solution.path.cost);
   }
   if (test::asks_all()) EXPECT_GE(found, 250U);

@@ -96,7 +96,9 @@ std::vector<SolveOptions> ways_to_solve(const RobotSpec& body) {
     options.bound = true;
     ways.push_back(std::move(options));
   };
+  // One round where bodies turn: what can't be reached lets roadmaps grow to 64 times the usual, for many minutes.
   add({.planner = PlannerKind::lazy_prm, .optimise = true});
+  if (turns) ways.back().roadmap.samples = 3000;
   add({.planner = PlannerKind::prm, .optimise = true, .roadmap = {.samples = 300}});
   if (turns) add({.planner = PlannerKind::rrt_connect, .optimise = true, .trees = {.nodes = 5000}});
   add({.planner = PlannerKind::anytime, .anytime = {.iterations = 5}});
