@@ -117,8 +117,10 @@ std::string takers_text(Word word, const std::vector<const SolveKind*>& fitting,
 void refuse_ignored(const SolveOptions& options, PlannerKind planner, const std::vector<const SolveKind*>& kinds,
                     const std::vector<const SolveKind*>& fitting = {}, const AskedWords& words = {}) {
   for (const Option option : given(options).members()) {
-    if (std::ranges::any_of(kinds,
-                            [&](const SolveKind* kind) { return takes(*kind, *choice_in(*kind, planner), option); }))
+    if (std::ranges::any_of(kinds, [&](const SolveKind* kind) {
+          const PlannerChoice* choice = choice_in(*kind, planner);
+          return choice != nullptr && takes(*kind, *choice, option);
+        }))
       continue;
     if (fitting.empty()) {
       throw UsageError(fmt::format("@{}: {} would ignore it; {}", name_of(option), name_of(planner),
