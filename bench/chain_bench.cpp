@@ -21,6 +21,7 @@
 #include "bench/plain_flann.hpp"
 #include "bench/report.hpp"
 #include "core/base/rng.hpp"
+#include "core/search/search_queues.hpp"
 #include "planners/roadmap/lazy_prm.hpp"
 #include "planners/roadmap/prm.hpp"
 #include "scenes/mazes/maze_generator.hpp"

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "bench/plain_graph.hpp"
 #include "bench/report.hpp"
 #include "bench/test_graphs.hpp"
 #include "planners/graph/assemble_graph.hpp"
@@ -31,8 +32,8 @@ const PlaneGraph& graph_of(int kind, int side) {
 
 void bm_from_edges(benchmark::State& state) {
   const PlaneGraph& graph = graph_of(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
-  for (auto _ : state) benchmark::DoNotOptimize(Graph::from_edges(graph.at.size(), graph.edges));
-  report(state, graph.at.size(), Graph::from_edges(graph.at.size(), graph.edges).bytes());
+  for (auto _ : state) benchmark::DoNotOptimize(plain_graph(graph.at.size(), graph.edges));
+  report(state, graph.at.size(), plain_graph(graph.at.size(), graph.edges).bytes());
 }
 
 void bm_assemble(benchmark::State& state) {
@@ -42,7 +43,7 @@ void bm_assemble(benchmark::State& state) {
   execution.threads = static_cast<unsigned>(state.range(2));
   const Graph built = assemble_graph(graph.at.size(), parts, execution);
   if (should_check(state)) {
-    const Graph plain = Graph::from_edges(graph.at.size(), graph.edges);
+    const Graph plain = plain_graph(graph.at.size(), graph.edges);
     for (VertexId v = 0; v < graph.at.size(); ++v)
       check(std::ranges::equal(plain.neighbours(v), built.neighbours(v)), "assemble_graph");
   }
@@ -52,17 +53,17 @@ void bm_assemble(benchmark::State& state) {
 
 void bm_components_serial(benchmark::State& state) {
   const PlaneGraph& graph = graph_of(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
-  const Graph rows = Graph::from_edges(graph.at.size(), graph.edges);
-  for (auto _ : state) benchmark::DoNotOptimize(components(rows));
+  const Graph rows = plain_graph(graph.at.size(), graph.edges);
+  for (auto _ : state) benchmark::DoNotOptimize(plain_components(rows));
   report(state, graph.at.size(), graph.at.size() * sizeof(VertexId));
 }
 
 void bm_components(benchmark::State& state) {
   const PlaneGraph& graph = graph_of(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
-  const Graph rows = Graph::from_edges(graph.at.size(), graph.edges);
+  const Graph rows = plain_graph(graph.at.size(), graph.edges);
   Execution execution;
   execution.threads = static_cast<unsigned>(state.range(2));
-  if (should_check(state)) check(components(rows, execution).label == components(rows).label, "components");
+  if (should_check(state)) check(components(rows, execution).label == plain_components(rows).label, "components");
   for (auto _ : state) benchmark::DoNotOptimize(components(rows, execution));
   report(state, graph.at.size(), graph.at.size() * sizeof(VertexId));
 }
@@ -106,7 +107,7 @@ void check_keys(const Graph& graph, const std::vector<VertexId>& keep, const Red
 /// Items are vertices; start and goal are opposite corners.
 void bm_reduce(benchmark::State& state) {
   const PlaneGraph& maze = maze_of(state.range(0) == shuffled_grid, state.range(1), state.range(2));
-  const Graph rows = Graph::from_edges(maze.at.size(), maze.edges);
+  const Graph rows = plain_graph(maze.at.size(), maze.edges);
   Execution execution;
   execution.threads = static_cast<unsigned>(state.range(3));
   const std::vector<VertexId> keep{maze.start, maze.goal};

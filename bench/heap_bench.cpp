@@ -4,6 +4,7 @@
 // All queues pop in the same order, which is checked against the unordered array, and by the path.
 #include <benchmark/benchmark.h>
 
+#include "bench/plain_graph.hpp"
 #include "bench/report.hpp"
 #include "bench/test_graphs.hpp"
 #include "core/search/search.hpp"
@@ -82,7 +83,7 @@ SearchResult astar(const PlaneGraph& plane, const Graph& graph, Queue& queue, Se
 template <class Queue>
 void bm_astar(benchmark::State& state) {
   const PlaneGraph& plane = graph_of(state.range(0) != 0);
-  const Graph graph = Graph::from_edges(plane.at.size(), plane.edges);
+  const Graph graph = plain_graph(plane.at.size(), plane.edges);
   auto queue = make_queue<Queue>();
   IndexedHeap<2> plain;
   SearchState search_state;

@@ -10,6 +10,7 @@
 #include <map>
 #include <tuple>
 
+#include "bench/plain_graph.hpp"
 #include "bench/report.hpp"
 #include "bench/test_graphs.hpp"
 #include "core/search/search.hpp"
@@ -34,7 +35,7 @@ const Case& case_of(std::int64_t kind, std::int64_t size, bool random_numbers) {
     const auto side = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(size)));
     built.plane = kind == geometric ? random_geometric(static_cast<std::size_t>(size), 20.0, random_numbers)
                                     : lattice(side, true, kind == maze ? 0.0 : 0.1, random_numbers);
-    built.graph = Graph::from_edges(built.plane.at.size(), built.plane.edges);
+    built.graph = plain_graph(built.plane.at.size(), built.plane.edges);
     built.plane.edges = {};
   }
   return built;

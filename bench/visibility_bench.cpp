@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/plane/geometry.hpp"
+#include "core/search/search_queues.hpp"
 #include "planners/visibility/visibility_graph.hpp"
 #include "planners/visibility/visibility_path.hpp"
 #include "scenes/files/scene_io.hpp"

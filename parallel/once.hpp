@@ -139,4 +139,11 @@ struct FirstLook {
   }
 };
 
+/// A number, from 1, that this process has given nobody before, to know a remembered value by: an address may be
+/// another value's later. Any thread.
+inline std::uint64_t fresh_number() noexcept {
+  static std::atomic<std::uint64_t> latest{0};
+  return latest.fetch_add(1, std::memory_order_relaxed) + 1;
+}
+
 }  // namespace warren

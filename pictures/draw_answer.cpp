@@ -98,7 +98,7 @@ void add_roadmap(Drawing& drawing, const Answer& answer, ByProducts& made, const
     CarCurves curves = car_curves(made.pose_roadmaps, robot, execution);
     drawing.layers.push_back(std::move(curves.edges));
     drawing.layers.push_back(std::move(curves.trees));
-    roadmap.graph = Graph::from_edges(curves.milestones.size(), {});
+    roadmap.graph = Graph(RawVector<EdgeEnd>(curves.milestones.size() + 1, 0), {});
     roadmap.states = std::move(curves.milestones);
   } else if (!made.pose_roadmaps.empty()) {
     roadmap = in_the_plane(made.pose_roadmaps, execution);
@@ -244,6 +244,36 @@ const std::vector<double>& first_given(const std::vector<double>& state, const s
   return state.empty() ? otherwise : state;
 }
 
+std::string body_text(const RobotSpec& robot, std::string_view metres) {
+  switch (robot.kind) {
+    case RobotKind::point:
+      return "a point";
+    case RobotKind::polygon:
+      return fmt::format("a body of {} corners", robot.outline.size());
+    case RobotKind::car:
+      if (robot.steering == SteeringKind::differential) return "a differential drive";
+      return fmt::format("a car, turning radius {}{}", human_number(robot.turning_radius), metres);
+    case RobotKind::disc:
+      return fmt::format("a disc of radius {}{}", human_number(robot.radius), metres);
+    case RobotKind::urdf: {
+      const ArmFiles& files = robot.files.value();
+      const std::string name = files.urdf.substr(files.urdf.find_last_of('/') + 1);
+      return files.group.empty() ? name : fmt::format("{}, group {}", name, files.group);
+    }
+    default:
+      return fmt::format("{}, links of radius {}", name_of(robot.kind), human_number(robot.radius));
+  }
+}
+
+std::string outcome_text(const Answer& answer, std::string_view metres) {
+  if (answer.refuted) return fmt::format("refuted, length {}{}", human_number(answer.refuted->length), metres);
+  if (!answer.verified) return std::string(name_of(answer.outcome));
+  const std::string cost =
+      answer.price && answer.cost ? fmt::format("cost {}{}, ", human_number(*answer.cost), metres) : "";
+  return fmt::format("{}length {}{}{}, clearance {}{}", cost, human_number(answer.length), metres,
+                     answer.optimal ? " (the shortest)" : "", human_number(answer.min_clearance), metres);
+}
+
 }  // namespace
 
 void add_heading(Drawing& drawing, const Scene& scene, const RobotSpec& robot, double clearance,
@@ -363,40 +393,6 @@ std::vector<std::string> write_picture(const std::string& file, const Scene& sce
   const Drawing drawing = drawing_of(shown, answer, std::move(made), execution, options.heading);
   return write_picture(file, picture_of(shown, drawing), options, execution);
 }
-
-namespace {
-
-std::string body_text(const RobotSpec& robot, std::string_view metres) {
-  switch (robot.kind) {
-    case RobotKind::point:
-      return "a point";
-    case RobotKind::polygon:
-      return fmt::format("a body of {} corners", robot.outline.size());
-    case RobotKind::car:
-      if (robot.steering == SteeringKind::differential) return "a differential drive";
-      return fmt::format("a car, turning radius {}{}", human_number(robot.turning_radius), metres);
-    case RobotKind::disc:
-      return fmt::format("a disc of radius {}{}", human_number(robot.radius), metres);
-    case RobotKind::urdf: {
-      const ArmFiles& files = robot.files.value();
-      const std::string name = files.urdf.substr(files.urdf.find_last_of('/') + 1);
-      return files.group.empty() ? name : fmt::format("{}, group {}", name, files.group);
-    }
-    default:
-      return fmt::format("{}, links of radius {}", name_of(robot.kind), human_number(robot.radius));
-  }
-}
-
-std::string outcome_text(const Answer& answer, std::string_view metres) {
-  if (answer.refuted) return fmt::format("refuted, length {}{}", human_number(answer.refuted->length), metres);
-  if (!answer.verified) return std::string(name_of(answer.outcome));
-  const std::string cost =
-      answer.price && answer.cost ? fmt::format("cost {}{}, ", human_number(*answer.cost), metres) : "";
-  return fmt::format("{}length {}{}{}, clearance {}{}", cost, human_number(answer.length), metres,
-                     answer.optimal ? " (the shortest)" : "", human_number(answer.min_clearance), metres);
-}
-
-}  // namespace
 
 std::string title_of(const Scene& scene) { return scene.source.substr(scene.source.rfind('/') + 1); }
 

@@ -77,7 +77,7 @@ class RoadmapDrawing {
     drawing.roadmap.emplace();
     drawing.roadmap->states = positions();
     drawing.roadmap->graph =
-        drives ? Graph::from_edges(vertex_count(), {}) : edges_in(EdgeState::free, arrays_, execution_);
+        drives ? Graph(RawVector<EdgeEnd>(vertex_count() + 1, 0), {}) : edges_in(EdgeState::free, arrays_, execution_);
     if (!heading_rad && arrays_.dimension == 3 && vertex_count() <= most_arrows) drawing.layers.push_back(arrows());
     return drawing;
   }

@@ -96,23 +96,21 @@ void check_price(Verdict& verdict, const Scene& judged, const Prices& prices, co
   if (answer.cost) check("cost", *answer.cost, verdict.length + price.sum());
 }
 
-/// A place on a path: its leg, and the share of it; of states the leg that begins there.
-using PathPlace = std::pair<std::size_t, double>;
-
 /// Where a leg of the path passes there, from a place on. With a heading, or of an arm or a car, whose legs may be
-/// arcs, a state of it has to be that one; an arm's may have been moved onto a limit.
-std::optional<PathPlace> passed(const RobotSpec& robot, const ClaimedPath& claimed, const std::vector<double>& place,
-                                PathPlace from = {}) {
+/// arcs, a state of it has to be that one; an arm's may have been moved onto a limit. Of the last state: the leg that
+/// would begin there.
+std::optional<PlaceOnPath> passed(const RobotSpec& robot, const ClaimedPath& claimed, const std::vector<double>& place,
+                                  PlaceOnPath from = {}) {
   const double rounding = is_arm(robot) ? 2e-5 : 1e-9;
   if (place.size() == 2 && !is_arm(robot) && robot.kind != RobotKind::car) {
     const Vec2 at{place[0], place[1]};
     const Path<Vec2>& path = claimed.path;
-    for (std::size_t k = from.first; k < path.size(); ++k) {
+    for (std::size_t k = from.leg; k < path.size(); ++k) {
       const Segment leg{path[k], path[std::min(k + 1, path.size() - 1)]};
       if (!(distance(at, leg) <= rounding * (1.0 + norm(at)))) continue;
       const double length = norm(leg.b - leg.a);
       const double share = length > 0.0 ? norm(at - leg.a) / length : 0.0;
-      if (k > from.first || share >= from.second - rounding) return PathPlace{k, share};
+      if (k > from.leg || share >= from.share - rounding) return PlaceOnPath{k, share};
     }
     return std::nullopt;
   }
@@ -125,8 +123,8 @@ std::optional<PathPlace> passed(const RobotSpec& robot, const ClaimedPath& claim
     return true;
   };
   if (claimed.state_width() < place.size()) return std::nullopt;
-  for (std::size_t k = from.first + (from.second > rounding ? 1 : 0); k < claimed.state_count(); ++k) {
-    if (is_there(claimed.state(k))) return PathPlace{k, 0.0};
+  for (std::size_t k = from.leg + (from.share > rounding ? 1 : 0); k < claimed.state_count(); ++k) {
+    if (is_there(claimed.state(k))) return PlaceOnPath{k, 0.0};
   }
   return std::nullopt;
 }
@@ -137,9 +135,9 @@ std::string left_undone(const RobotSpec& robot, const GoalRule& rule, std::span<
   for (std::size_t i = 0; i < rule.visit.size(); ++i) {
     if (!passed(robot, claimed, rule.visit[i])) return fmt::format("visit: the path passes place {} by", i + 1);
   }
-  PathPlace place;
+  PlaceOnPath place;
   for (std::size_t i = 0; i < via.size(); ++i) {
-    const std::optional<PathPlace> next = passed(robot, claimed, via[i], place);
+    const std::optional<PlaceOnPath> next = passed(robot, claimed, via[i], place);
     if (!next) return fmt::format("via: the path passes place {} by, or out of its turn", i + 1);
     place = *next;
   }
@@ -332,7 +330,7 @@ void check_goal_told(Verdict& verdict, const RecordedAnswer& answer) {
   std::sort(sorted.begin(), sorted.end());
   bool is_whole = sorted.size() == rule.visit.size();
   for (std::size_t i = 0; is_whole && i < sorted.size(); ++i) is_whole = sorted[i] == i;
-  PathPlace place;
+  PlaceOnPath place;
   for (std::size_t i = 0; is_whole && i < answer.order.size(); ++i) {
     const auto next = passed(verdict.problem.robot, answer, rule.visit[answer.order[i]], place);
     is_whole = next.has_value();

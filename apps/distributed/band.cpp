@@ -4,12 +4,9 @@
 #include <algorithm>
 #include <limits>
 #include <tuple>
-#include <utility>
 
 #include "core/base/error.hpp"
-#include "planners/mazes/overlay.hpp"
 #include "planners/mazes/tile_source.hpp"
-#include "planners/mazes/tiled_prm_lattice.hpp"
 #include "scenes/mazes/cell_bits.hpp"
 
 namespace warren::distributed {
@@ -39,20 +36,6 @@ TileGrid BandTask::grid() const {
   return TileGrid::of({unmade.maze->rows, unmade.maze->cols}, CellBits::usual_side_log2);
 }
 
-KnownWalls KnownWalls::of(const StreamedWalls& read) {
-  return {read.hash().value_or(std::string{}), read.wall_count().value_or(0)};
-}
-
-void KnownWalls::pack(ValuePacker& to) const {
-  to.add_text(hash);
-  to.add(count);
-}
-
-KnownWalls KnownWalls::unpack(ValueUnpacker& from) {
-  std::string hash = from.take_text();
-  return {std::move(hash), from.take<std::uint64_t>()};
-}
-
 TileRows band_rows(std::size_t tile_rows, unsigned rank, unsigned ranks) {
   return {tile_rows * rank / ranks, tile_rows * (rank + std::size_t{1}) / ranks};
 }
@@ -61,33 +44,6 @@ unsigned rank_of_row(std::size_t row, std::size_t tile_rows, unsigned ranks) {
   auto rank = static_cast<unsigned>(row * ranks / tile_rows);
   while (band_rows(tile_rows, rank, ranks).last <= row) ++rank;
   return rank;
-}
-
-ReducedBand ReducedBand::of(std::span<const TileSummary> tiles) {
-  ReducedBand sum;
-  for (const TileSummary& tile : tiles) {
-    sum.add({tile.bytes(), tile.keys.size(), tile.milestones, tile.candidate_edges, tile.free_edges,
-             tile.closed_components});
-  }
-  return sum;
-}
-
-void ReducedBand::add(const ReducedBand& other) {
-  bytes += other.bytes;
-  keys += other.keys;
-  milestones += other.milestones;
-  candidate_edges += other.candidate_edges;
-  free_edges += other.free_edges;
-  closed_components += other.closed_components;
-}
-
-TileSummary ReducedBand::counts() const {
-  TileSummary tile;
-  tile.milestones = milestones;
-  tile.candidate_edges = candidate_edges;
-  tile.free_edges = free_edges;
-  tile.closed_components = closed_components;
-  return tile;
 }
 
 Band::Band(const BandTask& task, TileRows own) : task_(task), grid_(task.grid()), own_(own) {}
@@ -158,25 +114,6 @@ NearestWalls Band::judge(std::span<const NearLegs> legs, double reach, const Exe
     }
   }
   return nearest;
-}
-
-std::vector<NearLegs> legs_near(std::span<const Vec2> path, TileRows rows, const TileGrid& grid, double reach) {
-  std::vector<NearLegs> runs;
-  if (rows.first == rows.last) return runs;
-  constexpr double far = std::numeric_limits<double>::infinity();
-  const double margin = reach + 1.0;  // a cell more than is asked for
-  const auto y = [&](std::size_t row) { return static_cast<double>(row << grid.side_log2) + 0.5; };
-  const double low = rows.first == 0 ? -far : y(rows.first) - margin;
-  const double high = rows.last == grid.tile_rows ? far : y(rows.last) + margin;
-  bool goes_on = false;
-  for (std::size_t leg = 0; leg + 1 < path.size(); ++leg) {
-    const auto [least, most] = std::minmax({path[leg].y, path[leg + 1].y});
-    const bool is_near = most >= low && least <= high;
-    if (is_near && !goes_on) runs.push_back({leg, {path[leg]}});
-    if (is_near) runs.back().points.push_back(path[leg + 1]);
-    goes_on = is_near;
-  }
-  return runs;
 }
 
 }  // namespace warren::distributed

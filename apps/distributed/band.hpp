@@ -7,10 +7,8 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
-#include "core/base/packed_values.hpp"
 #include "core/plane/cell_walls.hpp"
 #include "core/run/execution.hpp"
 #include "parallel/chunks.hpp"
@@ -35,17 +33,6 @@ struct BandTask {
   VerifyOptions judged() const { return {.radius = problem.robot.radius, .clearance = problem.clearance}; }
 };
 
-/// What is known of a file's walls by reading them; the same at all ranks that have read all of it.
-struct KnownWalls {
-  std::string hash;  ///< empty: not known
-  std::uint64_t count = 0;
-
-  static KnownWalls of(const StreamedWalls& read);
-  void pack(ValuePacker& to) const;
-  static KnownWalls unpack(ValueUnpacker& from);
-  bool operator==(const KnownWalls&) const = default;
-};
-
 /// Rows of tiles first .. last - 1 of rank r: R r / p to R (r + 1) / p.
 TileRows band_rows(std::size_t tile_rows, unsigned rank, unsigned ranks);
 /// The rank that has a tile row.
@@ -55,21 +42,6 @@ unsigned rank_of_row(std::size_t row, std::size_t tile_rows, unsigned ranks);
 struct NearLegs {
   std::uint64_t first;  ///< leg of the path
   std::vector<Vec2> points;
-};
-
-/// Those of a path that come within `reach` of rows of tiles; whatever leaves the maze is near its outermost rows.
-std::vector<NearLegs> legs_near(std::span<const Vec2> path, TileRows rows, const TileGrid& grid, double reach);
-
-/// A band's tiles, reduced, in sum.
-struct ReducedBand {
-  std::uint64_t bytes = 0;  ///< of their summaries
-  std::uint64_t keys = 0;
-  std::uint64_t milestones = 0, candidate_edges = 0, free_edges = 0, closed_components = 0;
-
-  static ReducedBand of(std::span<const TileSummary> tiles);
-  void add(const ReducedBand& other);
-  /// As a tile that has nothing else.
-  TileSummary counts() const;
 };
 
 /// How much of its tiles a rank hands on: dead ends that end within its band say nothing of the way between the ends.

@@ -6,48 +6,95 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
-#include <limits>
-#include <optional>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
-#include "apps/distributed/rank_protocol.hpp"
-#include "apps/distributed/shared_search.hpp"
-#include "apps/distributed/transport.hpp"
 #include "core/base/enum_names.hpp"
 #include "core/base/error.hpp"
+#include "core/base/packed_values.hpp"
 #include "core/base/raw_vector.hpp"
+#include "core/plane/cell_walls.hpp"
+#include "parallel/once.hpp"
 #include "parallel/ticker.hpp"
 #include "planners/mazes/tile_reduction.hpp"
 #include "scenes/mazes/spanning_maze.hpp"
 
 namespace warren::distributed {
+namespace {
 
-class RemoteCells::Reader : public CellWallReader {
- public:
-  explicit Reader(const RemoteCells& cells) : cells_(cells) {
-    if (!cells.band_.is_empty()) own_ = cells.band_.walls(cells.who_).reader();
-  }
-  void read(std::size_t number, CellTile& tile) override {
-    const Range own = cells_.band_.tiles();
-    if (number >= own.first && number < own.last) return own_->read(number, tile);
-    tile = cells_.leader_.tile(number, cells_.who_);
-  }
+/// What is known of a file's walls by reading them; the same at all ranks that have read all of it.
+struct KnownWalls {
+  std::string hash;  ///< empty: not known
+  std::uint64_t count = 0;
 
- private:
-  const RemoteCells& cells_;
-  std::unique_ptr<CellWallReader> own_;
+  static KnownWalls of(const StreamedWalls& read) {
+    return {read.hash().value_or(std::string{}), read.wall_count().value_or(0)};
+  }
+  void pack(ValuePacker& to) const {
+    to.add_text(hash);
+    to.add(count);
+  }
+  static KnownWalls unpack(ValueUnpacker& from) {
+    std::string hash = from.take_text();
+    return {std::move(hash), from.take<std::uint64_t>()};
+  }
+  bool operator==(const KnownWalls&) const = default;
 };
 
-RemoteCells::RemoteCells(const Band& band, Leader& leader, WallsFor who)
-    : CellWallSource(band.grid().rows, band.grid().cols, band.grid().side_log2),
-      band_(band),
-      leader_(leader),
-      who_(who) {}
+/// A band's tiles, reduced, in sum.
+struct ReducedBand {
+  std::uint64_t bytes = 0;  ///< of their summaries
+  std::uint64_t keys = 0;
+  std::uint64_t milestones = 0, candidate_edges = 0, free_edges = 0, closed_components = 0;
 
-std::unique_ptr<CellWallReader> RemoteCells::reader() const { return std::make_unique<Reader>(*this); }
+  static ReducedBand of(std::span<const TileSummary> tiles) {
+    ReducedBand sum;
+    for (const TileSummary& tile : tiles) {
+      sum.add({tile.bytes(), tile.keys.size(), tile.milestones, tile.candidate_edges, tile.free_edges,
+               tile.closed_components});
+    }
+    return sum;
+  }
+  void add(const ReducedBand& other) {
+    bytes += other.bytes;
+    keys += other.keys;
+    milestones += other.milestones;
+    candidate_edges += other.candidate_edges;
+    free_edges += other.free_edges;
+    closed_components += other.closed_components;
+  }
+  /// As a tile that has nothing else.
+  TileSummary counts() const {
+    TileSummary tile;
+    tile.milestones = milestones;
+    tile.candidate_edges = candidate_edges;
+    tile.free_edges = free_edges;
+    tile.closed_components = closed_components;
+    return tile;
+  }
+};
 
-namespace {
+/// Those of a path that come within `reach` of rows of tiles; whatever leaves the maze is near its outermost rows.
+std::vector<NearLegs> legs_near(std::span<const Vec2> path, TileRows rows, const TileGrid& grid, double reach) {
+  std::vector<NearLegs> runs;
+  if (rows.first == rows.last) return runs;
+  constexpr double far = std::numeric_limits<double>::infinity();
+  const double margin = reach + 1.0;  // a cell more than is asked for
+  const auto y = [&](std::size_t row) { return static_cast<double>(row << grid.side_log2) + 0.5; };
+  const double low = rows.first == 0 ? -far : y(rows.first) - margin;
+  const double high = rows.last == grid.tile_rows ? far : y(rows.last) + margin;
+  bool goes_on = false;
+  for (std::size_t leg = 0; leg + 1 < path.size(); ++leg) {
+    const auto [least, most] = std::minmax({path[leg].y, path[leg + 1].y});
+    const bool is_near = most >= low && least <= high;
+    if (is_near && !goes_on) runs.push_back({leg, {path[leg]}});
+    if (is_near) runs.back().points.push_back(path[leg + 1]);
+    goes_on = is_near;
+  }
+  return runs;
+}
 
 /// Edges that a rank's tiles and the row of tiles below them have to know.
 std::vector<std::uint64_t> edges_near(std::span<const std::uint64_t> edges, TileRows rows, unsigned side_log2) {
@@ -91,7 +138,7 @@ class Follower {
   /// afterwards.
   Bytes answered(Request request, ValueUnpacker& from) {
     using std::chrono::milliseconds;
-    const bool is_short = request == Request::rounds && rounds_ && rounds_->is_short(from);
+    const bool is_short = request == Request::rounds && rounds_ && BandRounds::is_short(from);
     std::optional<Ticker> ticker;
     if (!is_short) {
       ticker.emplace(milliseconds(50), milliseconds(50), [this] {
@@ -174,8 +221,8 @@ class Follower {
   void rounds(ValueUnpacker& from, ValuePacker& to) {
     if (!rounds_) {
       const TileGrid& grid = band_.grid();
-      rounds_.emplace(grid, band_rows(grid.tile_rows, transport_.rank(), transport_.ranks()), ends_, std::move(tiles_),
-                      execution_);
+      rounds_ = band_rounds(grid, band_rows(grid.tile_rows, transport_.rank(), transport_.ranks()), ends_,
+                            std::move(tiles_), execution_);
     }
     rounds_->serve(from, to);
   }
@@ -197,212 +244,276 @@ class Follower {
   Execution execution_;
   OverlayEnds ends_;
   std::vector<TileSummary> tiles_;  // until they are handed over, or searched here
-  std::optional<BandRounds> rounds_;
+  std::unique_ptr<BandRounds> rounds_;
+};
+
+/// The whole maze as rank 0 sees it: its own tiles are made here, others by their ranks, when they are asked for. For
+/// the few tiles that no rank's share is about: those around start and goal; and for those of two components that are
+/// apart. Refers to all that it is given, which must outlive it.
+class RemoteCells : public CellWallSource {
+ public:
+  RemoteCells(const Band& band, Requests& requests, const OneAtATime& asking, WallsFor who)
+      : CellWallSource(band.grid().rows, band.grid().cols, band.grid().side_log2),
+        band_(band),
+        requests_(requests),
+        asking_(asking),
+        who_(who) {}
+  std::unique_ptr<CellWallReader> reader() const override { return std::make_unique<Reader>(*this); }
+
+ private:
+  class Reader : public CellWallReader {
+   public:
+    explicit Reader(const RemoteCells& cells) : cells_(cells) {
+      if (!cells.band_.is_empty()) own_ = cells.band_.walls(cells.who_).reader();
+    }
+    void read(std::size_t number, CellTile& tile) override {
+      const Range own = cells_.band_.tiles();
+      if (number >= own.first && number < own.last) return own_->read(number, tile);
+      tile = cells_.asked(number);
+    }
+
+   private:
+    const RemoteCells& cells_;
+    std::unique_ptr<CellWallReader> own_;
+  };
+  /// A tile of another rank. Any thread.
+  CellTile asked(std::size_t number) const {
+    const unsigned rank = rank_of_row(number / band_.grid().tile_cols, band_.grid().tile_rows, requests_.ranks());
+    return asking_([&] {
+      ValuePacker packer;
+      packer.add(number);
+      packer.add(who_);
+      requests_.ask_one(rank, Request::read, packer.bytes());
+      const Bytes bytes = requests_.answer(rank);
+      ValueUnpacker from(bytes, fmt::format("rank {}", rank));
+      CellTile tile;
+      tile.first_col = from.take<std::uint32_t>();
+      tile.first_row = from.take<std::uint32_t>();
+      tile.width = from.take<std::uint32_t>();
+      tile.height = from.take<std::uint32_t>();
+      tile.walls = from.take_list<std::uint8_t>();
+      if (tile.walls.size() != (std::size_t{tile.width} + 1) * (std::size_t{tile.height} + 1)) from.refuse();
+      return tile;
+    });
+  }
+
+  const Band& band_;
+  Requests& requests_;
+  const OneAtATime& asking_;
+  const WallsFor who_;
+};
+
+class LeaderOfRanks : public Leader, private OtherTiles, private JudgesElsewhere {
+ public:
+  LeaderOfRanks(Transport& transport, const BandTask& task, const Execution& execution, std::uint64_t most_keys)
+      : requests_(transport, execution),
+        task_(task),
+        most_keys_(most_keys),
+        band_(task, band_rows(task.grid().tile_rows, 0, transport.ranks())),
+        planned_(band_, requests_, asking_, WallsFor::planner),
+        judged_(band_, requests_, asking_, WallsFor::judge) {}
+
+  std::unique_ptr<StreamedWalls> make(const Execution& execution) override {
+    requests_.wait_as(execution);
+    requests_.ask(Request::make, {});
+    std::vector<maze::RimPart> rims;
+    if (auto own = band_.make(execution)) rims.push_back(std::move(*own));
+    if (band_.read() != nullptr) known_ = KnownWalls::of(*band_.read());
+    const std::vector<Bytes> others = requests_.answers();
+    for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
+      ValueUnpacker from(others[rank], fmt::format("rank {}", rank));
+      if (from.is_done()) continue;
+      if (task_.unmade.packed) {
+        learn(KnownWalls::unpack(from), rank);
+      } else {
+        rims.push_back(maze::RimPart::unpack(from));
+      }
+    }
+    if (!task_.unmade.packed) join_trees(std::move(rims), execution);
+    return std::make_unique<Walls>(*this);
+  }
+  OtherTiles& tiles() override { return *this; }
+  JudgesElsewhere& judges() override { return *this; }
+  std::optional<SearchLack> lack() const override { return lack_; }
+  const std::array<std::uint64_t, request_count>& traffic() const override { return requests_.traffic(); }
+
+ private:
+  class Walls : public StreamedWalls {
+   public:
+    explicit Walls(const LeaderOfRanks& leader) : leader_(leader) {}
+    const CellWallSource& planned() const override { return leader_.planned_; }
+    const CellWallSource& judged() const override { return leader_.judged_; }
+    std::optional<std::size_t> wall_count() const override {
+      return leader_.known_.hash.empty() ? std::nullopt : std::optional<std::size_t>(leader_.known_.count);
+    }
+    std::optional<std::string> hash() const override {
+      return leader_.known_.hash.empty() ? std::nullopt : std::optional(leader_.known_.hash);
+    }
+
+   private:
+    const LeaderOfRanks& leader_;
+  };
+  /// All bands' tiles: those of this rank, what they are in sum, and what handing them over takes.
+  struct Reduced {
+    std::vector<TileSummary> own;
+    ReducedBand all;
+    std::size_t bytes_to_come;
+  };
+
+  void learn(const KnownWalls& theirs, unsigned rank) {
+    if (known_.hash.empty()) known_ = theirs;
+    if (known_ == theirs) return;
+    throw InputError(fmt::format("rank {}", rank), "sees another file than a lower rank: its walls have another hash",
+                     fmt::format("{}, not {}", theirs.hash, known_.hash));
+  }
+  void join_trees(std::vector<maze::RimPart> rims, const Execution& execution) {
+    constexpr std::size_t most_on_sides = std::numeric_limits<std::uint32_t>::max();
+    std::size_t edges = 0;
+    std::size_t on_sides = 0;  // cells
+    for (const maze::RimPart& rim : rims) {
+      edges += rim.edges.size() + rim.at.width;
+      on_sides += 2 * (std::size_t{rim.at.width} + rim.at.height);
+    }
+    if (on_sides >= most_on_sides) {
+      throw InputError("maze",
+                       fmt::format("has 2^32 cells or more on the sides of {} bands; take fewer ranks", rims.size()));
+    }
+    execution.reserve(edges * 64 + on_sides * 2 * sizeof(std::uint32_t));
+    const maze::JoinedParts joined = join_parts(task_.unmade.formula->seed, rims, 1, band_.grid().side_log2, execution);
+    for (unsigned rank = 0; rank < requests_.ranks(); ++rank) {
+      const TileRows rows = band_rows(tile_rows(), rank, requests_.ranks());
+      const std::vector<std::uint64_t> near = edges_near(joined.turned, rows, band_.grid().side_log2);
+      if (rank == 0 && !band_.is_empty()) band_.turn(near);
+      if (rank == 0) continue;
+      ValuePacker packer;
+      packer.add_list(near);
+      requests_.ask_one(rank, Request::turn, packer.bytes());
+    }
+    requests_.answers();
+  }
+  /// Each reduces its tiles, and keeps them. own: those of this rank.
+  Reduced reduce_bands(const OverlayEnds& ends, BandPeeling peeling, const Execution& execution) {
+    ValuePacker packer;
+    packer.add_list(ends.start.links);
+    packer.add_list(ends.goal.links);
+    packer.add(peeling);
+    requests_.ask(Request::reduce, packer.bytes());
+    Reduced reduced{band_.reduce(ends, peeling, execution), {}, 0};
+    reduced.all = ReducedBand::of(reduced.own);
+    std::size_t largest = 0;
+    const std::vector<Bytes> others = requests_.answers();
+    for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
+      const auto band = ValueUnpacker(others[rank], fmt::format("rank {}", rank)).take<ReducedBand>();
+      largest = std::max<std::size_t>(largest, band.bytes);
+      reduced.bytes_to_come += band.bytes;
+      reduced.all.add(band);
+    }
+    reduced.bytes_to_come += 2 * largest;
+    return reduced;
+  }
+  /// Room for all is asked for before the first comes.
+  std::vector<TileSummary> reduce_all(const OverlayEnds& ends, const Execution& execution) override {
+    Reduced reduced = reduce_bands(ends, BandPeeling::band, execution);
+    const auto reserve = [&] { execution.reserve(reduced.bytes_to_come + reduced.all.keys * bytes_of_key); };
+    if (reduced.all.keys <= most_keys_ && memory_holds(reserve)) return hand_over(std::move(reduced.own), execution);
+    ends_ = ends;
+    if (!reduced.own.empty()) {
+      rounds_ = band_rounds(band_.grid(), band_rows(tile_rows(), 0, requests_.ranks()), ends_, std::move(reduced.own),
+                            execution);
+    }
+    searches_ = true;
+    return {reduced.all.counts()};
+  }
+  std::vector<TileSummary> reduce_whole(const OverlayEnds& ends, const Execution& execution) override {
+    Reduced reduced = reduce_bands(ends, BandPeeling::none, execution);
+    execution.reserve(reduced.bytes_to_come);
+    return hand_over(std::move(reduced.own), execution);
+  }
+  std::vector<TileSummary> hand_over(std::vector<TileSummary> own, const Execution& execution) {
+    std::vector<TileSummary> tiles = std::move(own);
+    tiles.reserve(band_.grid().count());
+    for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
+      execution.check();
+      requests_.ask_one(rank, Request::hand_over, {});
+      const Bytes bytes = requests_.answer(rank);
+      ValueUnpacker from(bytes, fmt::format("rank {}", rank));
+      while (!from.is_done()) tiles.push_back(unpack_summary(from, band_.grid().side()));
+    }
+    if (tiles.size() != band_.grid().count()) throw InputError("ranks", "do not have all tiles between them");
+    return tiles;
+  }
+  bool searches() const override { return searches_; }
+  ToldRoute search(const OverlayEnds& ends, const Execution& execution) override {
+    ToldRoute route = search_over_ranks(requests_, rounds_.get(), band_.grid(), ends, execution, lack_);
+    rounds_.reset();
+    return route;
+  }
+  std::vector<std::vector<std::uint8_t>> steps_of(std::span<const TileChain> chains,
+                                                  const Execution& execution) override {
+    std::vector<std::vector<std::size_t>> of_rank(requests_.ranks());
+    for (std::size_t i = 0; i < chains.size(); ++i) {
+      of_rank[rank_of_row(chains[i].tile / band_.grid().tile_cols, tile_rows(), requests_.ranks())].push_back(i);
+    }
+    for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
+      std::vector<TileChain> own;
+      for (const std::size_t i : of_rank[rank]) own.push_back(chains[i]);
+      ValuePacker packer;
+      packer.add_list(own);
+      requests_.ask_one(rank, Request::steps, packer.bytes());
+    }
+    std::vector<std::vector<std::uint8_t>> steps = band_.steps_of(chains, execution);
+    const std::vector<Bytes> others = requests_.answers();
+    for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
+      ValueUnpacker from(others[rank], fmt::format("rank {}", rank));
+      for (const std::size_t i : of_rank[rank]) {
+        steps[i] = from.take_list<std::uint8_t>();
+        if (steps[i].size() != chains[i].length) from.refuse();
+      }
+    }
+    return steps;
+  }
+  Range own_tiles() const override { return band_.tiles(); }
+  void begin(std::span<const Vec2> path, double reach) override {
+    for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
+      ValuePacker packer;
+      packer.add(reach);
+      for (const NearLegs& run :
+           legs_near(path, band_rows(tile_rows(), rank, requests_.ranks()), band_.grid(), reach)) {
+        packer.add(run.first);
+        packer.add_list(run.points);
+      }
+      requests_.ask_one(rank, Request::judge, packer.bytes());
+    }
+  }
+  std::vector<NearestWalls> take() override {
+    std::vector<NearestWalls> found;
+    const std::vector<Bytes> others = requests_.answers();
+    for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
+      found.push_back(ValueUnpacker(others[rank], fmt::format("rank {}", rank)).take<NearestWalls>());
+    }
+    return found;
+  }
+  std::size_t tile_rows() const { return band_.grid().tile_rows; }
+
+  Requests requests_;
+  const BandTask task_;
+  const std::uint64_t most_keys_;
+  Band band_;
+  OneAtATime asking_;
+  const RemoteCells planned_;
+  const RemoteCells judged_;
+  KnownWalls known_;  // of a file
+  OverlayEnds ends_;  // where the others search, too
+  std::unique_ptr<BandRounds> rounds_;
+  bool searches_ = false;  // all ranks do
+  std::optional<SearchLack> lack_;
 };
 
 }  // namespace
 
-class Leader::Walls : public StreamedWalls {
- public:
-  explicit Walls(const Leader& leader) : leader_(leader) {}
-  const CellWallSource& planned() const override { return leader_.planned_; }
-  const CellWallSource& judged() const override { return leader_.judged_; }
-  std::optional<std::size_t> wall_count() const override {
-    return leader_.known_.hash.empty() ? std::nullopt : std::optional<std::size_t>(leader_.known_.count);
-  }
-  std::optional<std::string> hash() const override {
-    return leader_.known_.hash.empty() ? std::nullopt : std::optional(leader_.known_.hash);
-  }
-
- private:
-  const Leader& leader_;
-};
-
-Leader::Leader(Transport& transport, const BandTask& task, const Execution& execution, std::uint64_t most_keys)
-    : requests_(transport, execution),
-      task_(task),
-      most_keys_(most_keys),
-      band_(task, band_rows(task.grid().tile_rows, 0, transport.ranks())),
-      planned_(band_, *this, WallsFor::planner),
-      judged_(band_, *this, WallsFor::judge) {}
-
-std::unique_ptr<StreamedWalls> Leader::make(const Execution& execution) {
-  requests_.wait_as(execution);
-  requests_.ask(Request::make, {});
-  std::vector<maze::RimPart> rims;
-  if (auto own = band_.make(execution)) rims.push_back(std::move(*own));
-  if (band_.read() != nullptr) known_ = KnownWalls::of(*band_.read());
-  const std::vector<Bytes> others = requests_.answers();
-  for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
-    ValueUnpacker from(others[rank], fmt::format("rank {}", rank));
-    if (from.is_done()) continue;
-    if (task_.unmade.packed) {
-      learn(KnownWalls::unpack(from), rank);
-    } else {
-      rims.push_back(maze::RimPart::unpack(from));
-    }
-  }
-  if (!task_.unmade.packed) join_trees(std::move(rims), execution);
-  return std::make_unique<Walls>(*this);
-}
-
-void Leader::learn(const KnownWalls& theirs, unsigned rank) {
-  if (known_.hash.empty()) known_ = theirs;
-  if (known_ == theirs) return;
-  throw InputError(fmt::format("rank {}", rank), "sees another file than a lower rank: its walls have another hash",
-                   fmt::format("{}, not {}", theirs.hash, known_.hash));
-}
-
-void Leader::join_trees(std::vector<maze::RimPart> rims, const Execution& execution) {
-  constexpr std::size_t most_on_sides = std::numeric_limits<std::uint32_t>::max();
-  std::size_t edges = 0;
-  std::size_t on_sides = 0;  // cells
-  for (const maze::RimPart& rim : rims) {
-    edges += rim.edges.size() + rim.at.width;
-    on_sides += 2 * (std::size_t{rim.at.width} + rim.at.height);
-  }
-  if (on_sides >= most_on_sides) {
-    throw InputError("maze",
-                     fmt::format("has 2^32 cells or more on the sides of {} bands; take fewer ranks", rims.size()));
-  }
-  execution.reserve(edges * 64 + on_sides * 2 * sizeof(std::uint32_t));
-  const maze::JoinedParts joined = join_parts(task_.unmade.formula->seed, rims, 1, band_.grid().side_log2, execution);
-  for (unsigned rank = 0; rank < requests_.ranks(); ++rank) {
-    const TileRows rows = band_rows(tile_rows(), rank, requests_.ranks());
-    const std::vector<std::uint64_t> near = edges_near(joined.turned, rows, band_.grid().side_log2);
-    if (rank == 0 && !band_.is_empty()) band_.turn(near);
-    if (rank == 0) continue;
-    ValuePacker packer;
-    packer.add_list(near);
-    requests_.ask_one(rank, Request::turn, packer.bytes());
-  }
-  requests_.answers();
-}
-
-/// Each reduces its tiles, and keeps them. own: those of this rank.
-Leader::Reduced Leader::reduce_bands(const OverlayEnds& ends, BandPeeling peeling, const Execution& execution) {
-  ValuePacker packer;
-  packer.add_list(ends.start.links);
-  packer.add_list(ends.goal.links);
-  packer.add(peeling);
-  requests_.ask(Request::reduce, packer.bytes());
-  Reduced reduced{band_.reduce(ends, peeling, execution), {}, 0};
-  reduced.all = ReducedBand::of(reduced.own);
-  std::size_t largest = 0;
-  const std::vector<Bytes> others = requests_.answers();
-  for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
-    const auto band = ValueUnpacker(others[rank], fmt::format("rank {}", rank)).take<ReducedBand>();
-    largest = std::max<std::size_t>(largest, band.bytes);
-    reduced.bytes_to_come += band.bytes;
-    reduced.all.add(band);
-  }
-  reduced.bytes_to_come += 2 * largest;
-  return reduced;
-}
-
-/// Room for all is asked for before the first comes.
-std::vector<TileSummary> Leader::reduce_all(const OverlayEnds& ends, const Execution& execution) {
-  Reduced reduced = reduce_bands(ends, BandPeeling::band, execution);
-  const auto reserve = [&] { execution.reserve(reduced.bytes_to_come + reduced.all.keys * bytes_of_key); };
-  if (reduced.all.keys <= most_keys_ && memory_holds(reserve)) return hand_over(std::move(reduced.own), execution);
-  ends_ = ends;
-  if (!reduced.own.empty()) {
-    rounds_.emplace(band_.grid(), band_rows(tile_rows(), 0, requests_.ranks()), ends_, std::move(reduced.own),
-                    execution);
-  }
-  search_.emplace(requests_, rounds_ ? &*rounds_ : nullptr, band_.grid());
-  return {reduced.all.counts()};
-}
-
-std::vector<TileSummary> Leader::reduce_whole(const OverlayEnds& ends, const Execution& execution) {
-  Reduced reduced = reduce_bands(ends, BandPeeling::none, execution);
-  execution.reserve(reduced.bytes_to_come);
-  return hand_over(std::move(reduced.own), execution);
-}
-
-std::vector<TileSummary> Leader::hand_over(std::vector<TileSummary> own, const Execution& execution) {
-  std::vector<TileSummary> tiles = std::move(own);
-  tiles.reserve(band_.grid().count());
-  for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
-    execution.check();
-    requests_.ask_one(rank, Request::hand_over, {});
-    const Bytes bytes = requests_.answer(rank);
-    ValueUnpacker from(bytes, fmt::format("rank {}", rank));
-    while (!from.is_done()) tiles.push_back(unpack_summary(from, band_.grid().side()));
-  }
-  if (tiles.size() != band_.grid().count()) throw InputError("ranks", "do not have all tiles between them");
-  return tiles;
-}
-
-ToldRoute Leader::search(const OverlayEnds& ends, const Execution& execution) {
-  ToldRoute route = search_->run(ends, execution);
-  rounds_.reset();
-  return route;
-}
-
-std::vector<std::vector<std::uint8_t>> Leader::steps_of(std::span<const TileChain> chains, const Execution& execution) {
-  std::vector<std::vector<std::size_t>> of_rank(requests_.ranks());
-  for (std::size_t i = 0; i < chains.size(); ++i) {
-    of_rank[rank_of_row(chains[i].tile / band_.grid().tile_cols, tile_rows(), requests_.ranks())].push_back(i);
-  }
-  for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
-    std::vector<TileChain> own;
-    for (const std::size_t i : of_rank[rank]) own.push_back(chains[i]);
-    ValuePacker packer;
-    packer.add_list(own);
-    requests_.ask_one(rank, Request::steps, packer.bytes());
-  }
-  std::vector<std::vector<std::uint8_t>> steps = band_.steps_of(chains, execution);
-  const std::vector<Bytes> others = requests_.answers();
-  for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
-    ValueUnpacker from(others[rank], fmt::format("rank {}", rank));
-    for (const std::size_t i : of_rank[rank]) {
-      steps[i] = from.take_list<std::uint8_t>();
-      if (steps[i].size() != chains[i].length) from.refuse();
-    }
-  }
-  return steps;
-}
-
-void Leader::begin(std::span<const Vec2> path, double reach) {
-  for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
-    ValuePacker packer;
-    packer.add(reach);
-    for (const NearLegs& run : legs_near(path, band_rows(tile_rows(), rank, requests_.ranks()), band_.grid(), reach)) {
-      packer.add(run.first);
-      packer.add_list(run.points);
-    }
-    requests_.ask_one(rank, Request::judge, packer.bytes());
-  }
-}
-
-std::vector<NearestWalls> Leader::take() {
-  std::vector<NearestWalls> found;
-  const std::vector<Bytes> others = requests_.answers();
-  for (unsigned rank = 1; rank < requests_.ranks(); ++rank) {
-    found.push_back(ValueUnpacker(others[rank], fmt::format("rank {}", rank)).take<NearestWalls>());
-  }
-  return found;
-}
-
-CellTile Leader::tile(std::size_t number, WallsFor who) {
-  const unsigned rank = rank_of_row(number / band_.grid().tile_cols, tile_rows(), requests_.ranks());
-  return asking_([&] {
-    ValuePacker packer;
-    packer.add(number);
-    packer.add(who);
-    requests_.ask_one(rank, Request::read, packer.bytes());
-    const Bytes bytes = requests_.answer(rank);
-    ValueUnpacker from(bytes, fmt::format("rank {}", rank));
-    CellTile tile;
-    tile.first_col = from.take<std::uint32_t>();
-    tile.first_row = from.take<std::uint32_t>();
-    tile.width = from.take<std::uint32_t>();
-    tile.height = from.take<std::uint32_t>();
-    tile.walls = from.take_list<std::uint8_t>();
-    if (tile.walls.size() != (std::size_t{tile.width} + 1) * (std::size_t{tile.height} + 1)) from.refuse();
-    return tile;
-  });
+std::unique_ptr<Leader> leader_of(Transport& transport, const BandTask& task, const Execution& execution,
+                                  std::uint64_t most_keys) {
+  return std::make_unique<LeaderOfRanks>(transport, task, execution, most_keys);
 }
 
 void follow(Transport& transport, const BandTask& task, const FollowerLimits& limits) {

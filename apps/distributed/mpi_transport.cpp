@@ -7,8 +7,6 @@
 #include <exception>
 #include <stdexcept>
 
-#include "apps/distributed/transport.hpp"
-
 namespace warren::distributed {
 namespace {
 

@@ -9,7 +9,6 @@
 #include <string>
 #include <utility>
 
-#include "apps/distributed/transport.hpp"
 #include "core/base/error.hpp"
 #include "tools/screen/exit_code.hpp"
 

@@ -191,15 +191,15 @@ RanksRun measured(Transport& transport, const Mazes& mazes, bool is_strong, cons
     FirstRanks first(transport, next.ranks);
     const EndOfFollowers end(first);
     told([&] {
-      Leader leader(first, mazes.task(next), execution);
+      const auto leader = leader_of(first, mazes.task(next), execution);
       NobodysPath nobody;
       SolveOptions options;
       options.roadmap.pipeline = PipelineKind::streamed;
       const Answer answer =
-          solve_streamed_within(mazes.scene(next), {}, options, execution, {.taker = &nobody, .team = &leader});
+          solve_streamed_within(mazes.scene(next), {}, options, execution, {.taker = &nobody, .team = leader.get()});
       if (answer.stop_reason) throw Stopped(*answer.stop_reason);
       found.length = answer.length;
-      found.traffic = leader.traffic();
+      found.traffic = leader->traffic();
     });
   }
   found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -6,12 +6,11 @@
 #include <exception>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <optional>
-#include <string>
 #include <system_error>
 #include <utility>
 
-#include "apps/distributed/leader_follower.hpp"
 #include "apps/distributed/rank_protocol.hpp"
 #include "core/base/error.hpp"
 #include "scenes/files/maze_file_io.hpp"
@@ -53,7 +52,9 @@ struct SharedQuestion {
     std::string seen;
     const StageTimer timer(execution, "read", seconds);
     try {
-      look(execution);
+      world = shared_world(source, execution);
+      choose_solver(options, scene(), question);
+      problem = keeping_off(scene(), question, "prm keeps off the walls");
       seen = world.facts;
     } catch (const Stopped&) {
       throw;
@@ -73,13 +74,6 @@ struct SharedQuestion {
   SolveOptions options;
   SharedWorld world;
   WallProblem problem;
-
- private:
-  void look(const Execution& execution) {
-    world = shared_world(source, execution);
-    choose_solver(options, scene(), question);
-    problem = keeping_off(scene(), question, "prm keeps off the walls");
-  }
 };
 
 class SharedSolve : public tools::AnswerCommand {
@@ -100,12 +94,12 @@ class SharedSolve : public tools::AnswerCommand {
     asked_.open(transport_, execution, before.read);
     check_outputs_of(robot_of(asked_.scene(), asked_.question));
     const EndOfFollowers end(transport_);
-    Leader leader(transport_, asked_.task(), execution);
+    const std::unique_ptr<Leader> leader = leader_of(transport_, asked_.task(), execution);
     Answer answer = solve_streamed_within(asked_.scene(), asked_.question, asked_.options, execution,
-                                          {.taker = path_taker(), .team = &leader});
+                                          {.taker = path_taker(), .team = leader.get()});
     answer.figures.push_back({"ranks", std::uint64_t{transport_.ranks()}});
     if (answer.stop_reason) say_where_stopped(transport_, *execution.progress, *answer.stop_reason);
-    if (const auto lack = leader.lack()) {
+    if (const auto lack = leader->lack()) {
       tools::say_on_standard_error(fmt::format("warren-mpi: rank {} would need {} more for its share of the search\n",
                                                lack->rank, human_bytes(static_cast<double>(lack->bytes))));
     }

@@ -17,6 +17,12 @@ namespace warren::python {
 
 using Shape = std::vector<pybind11::ssize_t>;
 
+/// Of these sizes.
+template <class... Sizes>
+Shape shape_of(Sizes... sizes) {
+  return {static_cast<pybind11::ssize_t>(sizes)...};
+}
+
 inline pybind11::array read_only(pybind11::array array) {
   pybind11::detail::array_proxy(array.ptr())->flags &= ~pybind11::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;
@@ -28,13 +34,17 @@ pybind11::array view_of(const T* numbers, Shape shape, pybind11::handle owner) {
   return read_only(pybind11::array(pybind11::dtype::of<T>(), std::move(shape), {}, numbers, owner));
 }
 
-/// Takes a block of numbers: a vector of them, or of structs of them.
+/// Takes a block of numbers: a vector of them, or of structs of them. row: the shape of each row, of which there are as
+/// many as the block has numbers for.
 template <class T, class Block>
-pybind11::array array_of(Block block, Shape shape) {
+pybind11::array array_of(Block block, Shape row = {}) {
+  std::size_t rows = block.size() * sizeof(block[0]) / sizeof(T);
+  for (const pybind11::ssize_t size : row) rows /= static_cast<std::size_t>(size);
+  row.insert(row.begin(), static_cast<pybind11::ssize_t>(rows));
   auto held = std::make_unique<Block>(std::move(block));
   const auto* numbers = reinterpret_cast<const T*>(held->data());  // NOLINT: structs of T alone
   const pybind11::capsule owner(held.release(), [](void* p) { delete static_cast<Block*>(p); });
-  return read_only(pybind11::array(pybind11::dtype::of<T>(), std::move(shape), {}, numbers, owner));
+  return read_only(pybind11::array(pybind11::dtype::of<T>(), std::move(row), {}, numbers, owner));
 }
 
 /// Rows of numbers, float64 in C order. Keeps the array that holds them.

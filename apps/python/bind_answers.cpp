@@ -38,12 +38,9 @@ tools::Command sampling() { return with_every(command_of("sample", {tools::path_
 py::array path_of(const py::object& self) {
   const Answer& answer = self.cast<const KeptAnswer&>().answer;
   const StateList& states = answer.states;
-  if (!states.empty()) {
-    return view_of(states.numbers.data(),
-                   {static_cast<py::ssize_t>(states.size()), static_cast<py::ssize_t>(states.width)}, self);
-  }
+  if (!states.empty()) return view_of(states.numbers.data(), shape_of(states.size(), states.width), self);
   if (answer.path.empty()) return read_only(py::array_t<double>(Shape{0, 2}));
-  return view_of(&answer.path.data()->x, {static_cast<py::ssize_t>(answer.path.size()), 2}, self);
+  return view_of(&answer.path.data()->x, shape_of(answer.path.size(), 2), self);
 }
 
 std::string json_of(const Answer& answer) {
@@ -102,11 +99,8 @@ py::object reached_of(const Answer& answer) {
 py::list alternatives_of(const Answer& answer) {
   py::list all;
   for (const AlternativePath& other : answer.alternatives) {
-    RawVector<double> numbers;
-    for (const Vec2 p : other.path) numbers.insert(numbers.end(), {p.x, p.y});
     all.append(py::make_tuple(other.cost, other.length, price_of(other.price), other.min_clearance,
-                              py::tuple(py::cast(other.passed)),
-                              array_of<double>(std::move(numbers), {static_cast<py::ssize_t>(other.path.size()), 2})));
+                              py::tuple(py::cast(other.passed)), array_of<double>(other.path, {2})));
   }
   return all;
 }
@@ -178,9 +172,7 @@ py::tuple sample(const Answer& answer, const py::dict& keywords) {
     if (options.every_s) return places_in_time(legs, *options.limits, *options.every_s, execution);
     return places_along(legs, options.every.value_or(std::numeric_limits<double>::infinity()), execution);
   });
-  const auto n = static_cast<py::ssize_t>(at.size());
-  return py::make_tuple(array_of<double>(std::move(states), {n, static_cast<py::ssize_t>(legs.width())}),
-                        array_of<double>(std::move(at), {n}));
+  return py::make_tuple(array_of<double>(std::move(states), shape_of(legs.width())), array_of<double>(std::move(at)));
 }
 
 py::dict save_path(const Answer& answer, const std::string& file, const py::dict& keywords) {

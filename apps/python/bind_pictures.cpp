@@ -94,8 +94,7 @@ py::array segments_of(const KeptAnswer& kept, bool tree) {
   add_segments(kept.made.roadmap, tree, segments);
   for (const auto& made : kept.made.trees) add_segments(made, tree, segments);
   for (const auto& made : kept.made.pose_roadmaps) add_segments(made, tree, segments);
-  const auto n = static_cast<py::ssize_t>(segments.size() / 4);
-  return array_of<double>(std::move(segments), {n, 2, 2});
+  return array_of<double>(std::move(segments), {2, 2});
 }
 
 /// name: chains of points.
@@ -107,8 +106,7 @@ py::dict lines_of(const KeptAnswer& kept) {
       const std::span<const Vec2> chain = named.lines[i];
       std::vector<Vec2> points(chain.begin(), chain.end());
       if (named.closed && !points.empty()) points.push_back(points.front());
-      const auto n = static_cast<py::ssize_t>(points.size());
-      chains.append(array_of<double>(std::move(points), {n, 2}));
+      chains.append(array_of<double>(std::move(points), {2}));
     }
     all[py::str(named.name)] = chains;
   }
@@ -118,9 +116,7 @@ py::dict lines_of(const KeptAnswer& kept) {
 /// The body's outline around its reference point, (n, 2), and its radius.
 py::tuple body_of(const Answer& answer) {
   const RobotSpec& robot = answer.problem.robot;
-  std::vector<Vec2> outline = robot.outline;
-  const auto n = static_cast<py::ssize_t>(outline.size());
-  return py::make_tuple(array_of<double>(std::move(outline), {n, 2}), robot.radius);
+  return py::make_tuple(array_of<double>(robot.outline, {2}), robot.radius);
 }
 
 }  // namespace

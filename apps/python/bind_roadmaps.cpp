@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Roadmaps: built, asked, updated, in files, as arrays.
 
+#include <fmt/format.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 
+#include "apps/python/arrays.hpp"
 #include "apps/python/bind.hpp"
 #include "apps/python/kept_roadmap.hpp"
 #include "apps/python/keywords.hpp"
 #include "apps/python/library_calls.hpp"
+#include "core/base/error.hpp"
 #include "core/run/execution.hpp"
 #include "core/search/graph.hpp"
+#include "parallel/chunks.hpp"
 #include "solve/explain_answer.hpp"
 #include "solve/kept/export_roadmap.hpp"
 #include "solve/kept/roadmap_file_io.hpp"
@@ -24,9 +29,33 @@ namespace warren::python {
 namespace py = pybind11;
 namespace {
 
-template <class List>
-Shape size_of(const List& list) {
-  return {static_cast<py::ssize_t>(list.size())};
+/// Rows of edges as RoadmapParts has them, with their lengths.
+struct EdgeRows {
+  RawVector<EdgeEnd> first;
+  RawVector<VertexId> to;
+  RawVector<double> lengths;
+};
+
+/// The edges that are known to be free. Throws Stopped.
+EdgeRows free_rows(const KeptRoadmap& kept, const Execution& execution) {
+  constexpr std::size_t polled = 4096;
+  const RoadmapArrays& arrays = kept.arrays(execution);
+  const RoadmapParts parts = arrays.parts();
+  const RoadmapQuery* asked = kept.roadmap().lattice == nullptr ? &kept.query(execution) : nullptr;
+  execution.reserve(parts.first.size_bytes() + parts.to.size() * (sizeof(VertexId) + sizeof(double)));
+  EdgeRows rows;
+  rows.first.reserve(parts.first.size());
+  rows.first.push_back(0);
+  for (std::size_t v = 0; v < parts.vertex_count(); ++v) {
+    if (v % polled == 0) execution.check();
+    for (std::size_t end = parts.first[v]; end < parts.first[v + 1]; ++end) {
+      if (parts.state_of_end(end) != EdgeState::free) continue;
+      rows.to.push_back(parts.to[end]);
+      rows.lengths.push_back(kept.length(static_cast<VertexId>(v), parts.to[end], asked));
+    }
+    rows.first.push_back(static_cast<EdgeEnd>(rows.to.size()));
+  }
+  return rows;
 }
 
 /// indptr, indices and lengths of all edges: views that keep the roadmap, `self`, alive.
@@ -41,21 +70,18 @@ py::tuple all_rows(const py::object& self) {
   });
   // Below 2^31 unsigned numbers are the same bits as numbers with a sign, which SciPy has.
   const auto signed_view = [&](const auto& list) {
-    return view_of(reinterpret_cast<const std::int32_t*>(list.data()), size_of(list), self);  // NOLINT
+    return view_of(reinterpret_cast<const std::int32_t*>(list.data()), shape_of(list.size()), self);  // NOLINT
   };
   return py::make_tuple(signed_view(arrays->candidates.offsets()), signed_view(arrays->candidates.targets()),
-                        view_of(lengths->data(), size_of(*lengths), self));
+                        view_of(lengths->data(), shape_of(lengths->size()), self));
 }
 
 /// The same of the free edges, in arrays of their own.
 py::tuple free_rows_of(KeptRoadmap& kept) {
   const Asking asking(kept);
   EdgeRows rows = CallLimits().run([&](const Execution& execution) { return free_rows(kept, execution); });
-  const Shape first = size_of(rows.first);
-  const Shape ends = size_of(rows.to);
-  return py::make_tuple(array_of<std::int32_t>(std::move(rows.first), first),
-                        array_of<std::int32_t>(std::move(rows.to), ends),
-                        array_of<double>(std::move(rows.lengths), ends));
+  return py::make_tuple(array_of<std::int32_t>(std::move(rows.first)), array_of<std::int32_t>(std::move(rows.to)),
+                        array_of<double>(std::move(rows.lengths)));
 }
 
 /// 0 unchecked, 1 free, 2 blocked: of each edge end.
@@ -75,17 +101,15 @@ py::array states_of(const py::object& self) {
   auto& kept = self.cast<KeptRoadmap&>();
   const Asking asking(kept);
   const RoadmapArrays* arrays = CallLimits().run([&](const Execution& execution) { return &kept.arrays(execution); });
-  const auto width = static_cast<py::ssize_t>(arrays->dimension);
-  return view_of(arrays->states.data(), {static_cast<py::ssize_t>(arrays->states.size()) / width, width}, self);
+  const std::size_t width = arrays->dimension;
+  return view_of(arrays->states.data(), shape_of(arrays->states.size() / width, width), self);
 }
 
 /// A copy: what is learnt changes it.
 py::array components_of(KeptRoadmap& kept) {
   const Asking asking(kept);
-  RawVector<VertexId> component =
-      CallLimits().run([&](const Execution& execution) { return kept.arrays(execution).component; });
-  const Shape size = size_of(component);
-  return array_of<VertexId>(std::move(component), size);
+  return array_of<VertexId>(
+      CallLimits().run([&](const Execution& execution) { return kept.arrays(execution).component; }));
 }
 
 using Kept = std::unique_ptr<KeptRoadmap>;
@@ -184,6 +208,46 @@ KeptAnswer ask(KeptRoadmap& kept, py::dict keywords, bool keep, bool explain) {
   return finished(std::move(said), keep, limits);
 }
 
+/// Of what is wrong with a start or a goal its row; an option that is wrong has none.
+[[noreturn]] void refuse_row(const UsageError& error, std::size_t start, std::size_t goal) {
+  constexpr std::string_view of_start = "start: ";
+  constexpr std::string_view of_goal = "goal: ";
+  const std::string_view said = error.what();
+  if (said.starts_with(of_start)) throw InputError(fmt::format("starts[{}]", start), said.substr(of_start.size()));
+  if (said.starts_with(of_goal)) throw InputError(fmt::format("goals[{}]", goal), said.substr(of_goal.size()));
+  throw error;
+}
+
+/// Lengths of the shortest ways between places, infinite where there is none: of pairs, row by row, or from each start
+/// to each goal. The same for any number of threads. Throws InputError, which names the rows, Stopped.
+void ask_lengths(const KeptRoadmap& kept, const NumberRows& starts, const NumberRows& goals, bool each_to_each,
+                 const RoadmapSearchFields& how, const Execution& execution, double* lengths) {
+  const RoadmapQuery& query = kept.query(execution);
+  const std::size_t n = each_to_each ? starts.rows * goals.rows : std::max(starts.rows, goals.rows);
+  Execution one_thread = execution.quiet();
+  one_thread.threads = 1;
+  const auto ask = [&](std::size_t i, QuestionScratch& scratch) {
+    const std::size_t start = each_to_each ? i / goals.rows : starts.rows == 1 ? 0 : i;
+    const std::size_t goal = each_to_each ? i % goals.rows : goals.rows == 1 ? 0 : i;
+    try {
+      const LengthAnswer answer = query.length_within(starts.row(start), goals.row(goal), how, one_thread, scratch);
+      lengths[i] = answer.outcome == Outcome::solved ? answer.length : std::numeric_limits<double>::infinity();
+    } catch (const UsageError& error) {
+      refuse_row(error, start, goal);
+    }
+  };
+  // A chunk a thread: each has a scratch as large as the roadmap.
+  const std::size_t threads = thread_count(execution.threads);
+  const std::size_t share = std::max<std::size_t>(1, (n + threads - 1) / threads);
+  for_chunks(n, share, execution, [&](Range r) {
+    QuestionScratch scratch;
+    for (std::size_t i = r.first; i < r.last; ++i) {
+      one_thread.check();
+      ask(i, scratch);
+    }
+  });
+}
+
 py::array lengths(KeptRoadmap& kept, const py::object& from, const py::object& to, bool each_to_each,
                   py::dict keywords) {
   CallLimits limits = take_limits(keywords);
@@ -198,10 +262,9 @@ py::array lengths(KeptRoadmap& kept, const py::object& from, const py::object& t
     throw py::value_error("starts and goals: expected as many of both, or one of either (found: " +
                           std::to_string(starts.rows) + " and " + std::to_string(goals.rows) + ")");
   }
-  const auto size = [](std::size_t n) { return static_cast<py::ssize_t>(n); };
   const bool none = starts.rows == 0 || goals.rows == 0;
-  py::array_t<double> told(each_to_each ? Shape{size(starts.rows), size(goals.rows)}
-                                        : Shape{none ? 0 : size(std::max(starts.rows, goals.rows))});
+  py::array_t<double> told(each_to_each ? shape_of(starts.rows, goals.rows)
+                                        : shape_of(none ? 0 : std::max(starts.rows, goals.rows)));
   if (none) return told;
   double* numbers = told.mutable_data();
   const Asking asking(kept);

@@ -286,14 +286,14 @@ Scene made_of_cells(const py::array& cells, double cell, std::array<double, 2> o
 /// As numbers: of packed walls a copy, of others where they lie.
 py::array walls_of(const py::object& self) {
   return self.cast<const Scene&>().walls.visit([&]<class Wall>(std::span<const Wall> walls) -> py::array {
-    const auto n = static_cast<py::ssize_t>(walls.size());
+    const Shape shape = shape_of(walls.size(), 4);
     if constexpr (std::is_same_v<Wall, PackedWall>) {
-      py::array_t<float> rows(Shape{n, 4});
+      py::array_t<float> rows(shape);
       auto* const out = reinterpret_cast<FloatWall*>(rows.mutable_data());  // NOLINT: four floats a wall
       std::transform(walls.begin(), walls.end(), out, [](const PackedWall& wall) { return unpacked(wall); });
       return read_only(std::move(rows));
     } else {
-      return view_of(&walls.data()->x1, {n, 4}, self);
+      return view_of(&walls.data()->x1, shape, self);
     }
   });
 }
@@ -301,7 +301,7 @@ py::array walls_of(const py::object& self) {
 py::list polygons_of(const py::object& self) {
   py::list rings;
   for (const ScenePolygon& polygon : self.cast<const Scene&>().polygons) {
-    rings.append(view_of(&polygon.corners.data()->x, {static_cast<py::ssize_t>(polygon.corners.size()), 2}, self));
+    rings.append(view_of(&polygon.corners.data()->x, shape_of(polygon.corners.size(), 2), self));
   }
   return rings;
 }
@@ -325,9 +325,9 @@ py::object box_of(const Box& box) {
 
 template <class T>
 py::array solids_of(const std::vector<T>& solids, py::ssize_t columns, const py::object& self) {
-  const auto n = static_cast<py::ssize_t>(solids.size());
-  if (n == 0) return read_only(py::array_t<double>(Shape{0, columns}));
-  return view_of(reinterpret_cast<const double*>(solids.data()), {n, columns}, self);  // NOLINT: doubles alone
+  if (solids.empty()) return read_only(py::array_t<double>(Shape{0, columns}));
+  const Shape shape = shape_of(solids.size(), columns);
+  return view_of(reinterpret_cast<const double*>(solids.data()), shape, self);  // NOLINT: doubles alone
 }
 
 /// The scene with walls taken out, by their rows, and others put at the end.

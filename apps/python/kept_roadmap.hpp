@@ -2,7 +2,8 @@
 // A roadmap that Python holds, with what its questions need: made when they are first asked, kept for the next ones.
 #pragma once
 
-#include "apps/python/arrays.hpp"
+#include <pybind11/pybind11.h>
+
 #include "parallel/once.hpp"
 #include "solve/kept/roadmap_query.hpp"
 
@@ -52,20 +53,5 @@ class Asking {
  private:
   KeptRoadmap& kept_;
 };
-
-/// Rows of edges as RoadmapParts has them, with their lengths.
-struct EdgeRows {
-  RawVector<EdgeEnd> first;
-  RawVector<VertexId> to;
-  RawVector<double> lengths;
-};
-
-/// The edges that are known to be free. Throws Stopped.
-EdgeRows free_rows(const KeptRoadmap& kept, const Execution& execution);
-
-/// Lengths of the shortest ways between places, infinite where there is none: of pairs, row by row, or from each start
-/// to each goal. The same for any number of threads. Throws InputError, which names the rows, Stopped.
-void ask_lengths(const KeptRoadmap& kept, const NumberRows& starts, const NumberRows& goals, bool each_to_each,
-                 const RoadmapSearchFields& how, const Execution& execution, double* lengths);
 
 }  // namespace warren::python

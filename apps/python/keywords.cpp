@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string_view>
 
-#include "apps/python/library_calls.hpp"
 #include "core/base/error.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/words/option_values.hpp"

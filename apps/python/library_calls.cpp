@@ -8,11 +8,9 @@
 #include <array>
 #include <cctype>
 #include <exception>
-#include <string>
 #include <string_view>
 
 #include "core/base/error.hpp"
-#include "core/run/execution.hpp"
 #include "scenes/text/human_units.hpp"
 
 namespace warren::python {

@@ -235,11 +235,7 @@ std::string planner_name(const Contender& contender) {
   for (const char c : name) {
     const bool kept =
         (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '-';
-    if (kept) {
-      word += c;
-    } else if (!word.ends_with('_')) {
-      word += '_';
-    }
+    if (kept || !word.ends_with('_')) word += kept ? c : '_';
   }
   return word;
 }

@@ -124,9 +124,12 @@ Plot stage_plot(std::span<const ScalingRow> rows, const Way& way, const std::vec
   return plot;
 }
 
+enum class Against : std::uint8_t { cells, threads };
+
 /// One series a way and thread count against cells, or a way and size against threads: of any figure of a row.
 template <class Figure>
-std::vector<PlotSeries> series_by_way(std::span<const ScalingRow> rows, bool over_threads, const Figure& figure) {
+std::vector<PlotSeries> series_by_way(std::span<const ScalingRow> rows, Against what, const Figure& figure) {
+  const bool over_threads = what == Against::threads;
   const std::set<Way> ways = ways_of(rows);
   std::map<std::tuple<Way, double, std::uint32_t>, PlotSeries> by_way;
   for (const ScalingRow& row : rows) {
@@ -151,8 +154,7 @@ std::vector<Plot> thread_plots(std::span<const ScalingRow> rows) {
                 .y_label = "times as fast",
                 .from_zero = true,
                 .whole_x = true,
-                .series = {}};
-  speed_up.series = series_by_way(rows, true, [](const ScalingRow& row) { return row.speed_up; });
+                .series = series_by_way(rows, Against::threads, [](const auto& row) { return row.speed_up; })};
   PlotSeries ideal{.name = "ideal", .points = {}, .dashed = true};
   for (const unsigned n : threads) ideal.points.push_back({static_cast<double>(n), static_cast<double>(n)});
   speed_up.series.push_back(std::move(ideal));
@@ -161,11 +163,10 @@ std::vector<Plot> thread_plots(std::span<const ScalingRow> rows) {
                   .y_label = "speed-up a thread",
                   .from_zero = true,
                   .whole_x = true,
-                  .series = {},
+                  .series = series_by_way(rows, Against::threads,
+                                          [](const auto& row) { return row.speed_up / row.fastest.threads; }),
                   .level = 1.0,
                   .level_name = "ideal"};
-  efficiency.series =
-      series_by_way(rows, true, [](const ScalingRow& row) { return row.speed_up / row.fastest.threads; });
   return {speed_up, efficiency};
 }
 
@@ -178,13 +179,13 @@ std::vector<Plot> plots_of(std::span<const ScalingRow> rows) {
                    .y_label = "seconds (least)",
                    .log_x = true,
                    .log_y = true,
-                   .series = series_by_way(rows, false, [](const auto& row) { return row.fastest.solve_s; })});
+                   .series = series_by_way(rows, Against::cells, [](const auto& row) { return row.fastest.solve_s; })});
   plots.push_back({.title = "Time a cell",
                    .x_label = "cells",
                    .y_label = "nanoseconds a cell",
                    .log_x = true,
                    .from_zero = true,
-                   .series = series_by_way(rows, false, [](const ScalingRow& row) {
+                   .series = series_by_way(rows, Against::cells, [](const ScalingRow& row) {
                      return row.fastest.solve_s * 1e9 / row.fastest.cells();
                    })});
   for (Plot& plot : thread_plots(rows)) plots.push_back(std::move(plot));
@@ -193,7 +194,7 @@ std::vector<Plot> plots_of(std::span<const ScalingRow> rows) {
                    .y_label = "MiB",
                    .log_x = true,
                    .log_y = true,
-                   .series = series_by_way(rows, false, [](const ScalingRow& row) {
+                   .series = series_by_way(rows, Against::cells, [](const ScalingRow& row) {
                      return static_cast<double>(row.peak_memory_bytes) / (1024.0 * 1024.0);
                    })});
   return plots;

@@ -116,18 +116,10 @@ GraphSearch best_first_with(const SearchGraph& graph, SearchKind search) {
 }
 
 GraphSearch best_first_search(const SearchGraph& graph, SearchKind search, QueuePolicy queue) {
-  switch (queue) {
-    case QueuePolicy::lazy_heap:
-      return best_first_with<LazyHeap>(graph, search);
-    case QueuePolicy::sorted_array:
-      return best_first_with<SortedArray>(graph, search);
-    case QueuePolicy::resorted_array:
-      return best_first_with<ResortedArray>(graph, search);
-    case QueuePolicy::linear_scan:
-      return best_first_with<LinearScan>(graph, search);
-    case QueuePolicy::heap:
-      break;
-  }
+  if (queue == QueuePolicy::lazy_heap) return best_first_with<LazyHeap>(graph, search);
+  if (queue == QueuePolicy::sorted_array) return best_first_with<SortedArray>(graph, search);
+  if (queue == QueuePolicy::resorted_array) return best_first_with<ResortedArray>(graph, search);
+  if (queue == QueuePolicy::linear_scan) return best_first_with<LinearScan>(graph, search);
   return best_first_with<IndexedHeap<4>>(graph, search);
 }
 

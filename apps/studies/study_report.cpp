@@ -13,6 +13,33 @@
 namespace warren::studies {
 namespace {
 
+/// Of each column the width of its widest cell, the head included; 0 where no row says anything.
+std::vector<std::size_t> widths_of(const TextTable& table) {
+  std::vector<std::size_t> widths(table.head.size(), 0);
+  for (const auto& row : table.rows) {
+    for (std::size_t i = 0; i < widths.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  for (std::size_t i = 0; i < widths.size(); ++i) {
+    if (widths[i] > 0) widths[i] = std::max(widths[i], table.head[i].size());
+  }
+  return widths;
+}
+
+TextTable without_empty_columns(const TextTable& whole) {
+  const std::vector<std::size_t> widths = widths_of(whole);
+  const auto kept = [&](const std::vector<std::string>& cells) {
+    std::vector<std::string> left;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (widths[i] > 0) left.push_back(cells[i]);
+    }
+    return left;
+  };
+  const auto empty_words = std::count(widths.begin(), widths.begin() + static_cast<std::ptrdiff_t>(whole.words), 0U);
+  TextTable table{kept(whole.head), whole.words - static_cast<std::size_t>(empty_words), {}, whole.title};
+  for (const auto& row : whole.rows) table.rows.push_back(kept(row));
+  return table;
+}
+
 std::string cells_of(const TextTable& table, const std::vector<std::string>& cells, bool is_head) {
   std::string text = "<tr>";
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -25,7 +52,7 @@ std::string cells_of(const TextTable& table, const std::vector<std::string>& cel
 }
 
 std::string html_of(const TextTable& whole) {
-  const TextTable table = whole.without_empty_columns();
+  const TextTable table = without_empty_columns(whole);
   std::string text = table.title.empty() ? "" : "<h2>" + xml_text(table.title) + "</h2>\n";
   text += "<div class=\"wide\"><table><thead>" + cells_of(table, table.head, true) + "</thead><tbody>\n";
   for (const std::vector<std::string>& row : table.rows) text += cells_of(table, row, false);
@@ -36,18 +63,6 @@ std::string paragraphs(const std::vector<std::string>& all) {
   std::string text;
   for (const std::string& one : all) text += "<p>" + xml_text(one) + "</p>\n";
   return text;
-}
-
-/// Of each column the width of its widest cell, the head included; 0 where no row says anything.
-std::vector<std::size_t> widths_of(const TextTable& table) {
-  std::vector<std::size_t> widths(table.head.size(), 0);
-  for (const auto& row : table.rows) {
-    for (std::size_t i = 0; i < widths.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  }
-  for (std::size_t i = 0; i < widths.size(); ++i) {
-    if (widths[i] > 0) widths[i] = std::max(widths[i], table.head[i].size());
-  }
-  return widths;
 }
 
 std::string line_of(const std::vector<std::string>& cells, const std::vector<std::size_t>& widths, std::size_t words) {
@@ -95,16 +110,14 @@ std::string ReportPage::html() const {
   std::string page = head_of_page(title, page_file("report.css"), std::span(&script, 1));
   page += "<body>\n<h1>" + xml_text(title) + "</h1>\n<p><code>" + xml_text(command_line) + "</code></p>\n";
   page += paragraphs(notes);
-  if (!plots.empty()) page += "<div class=\"plots\">\n";
-  for (const std::string& plot : plots) page += plot + "\n";
-  if (!plots.empty()) page += "</div>\n";
+  if (!plots.empty()) page += fmt::format("<div class=\"plots\">\n{}\n</div>\n", fmt::join(plots, "\n"));
   for (const TextTable& table : tables) page += html_of(table);
   page += paragraphs(remarks);
   return page + script_element(script) + "</body>\n</html>\n";
 }
 
 std::string TextTable::markdown() const {
-  const TextTable table = without_empty_columns();
+  const TextTable table = without_empty_columns(*this);
   const auto row = [](const std::vector<std::string>& cells) {
     return "| " + joined_cells(cells, " | ", [](const auto& cell) { return escaped(cell, "|*_<\\"); }) + " |\n";
   };
@@ -116,7 +129,7 @@ std::string TextTable::markdown() const {
 }
 
 std::string TextTable::latex() const {
-  const TextTable table = without_empty_columns();
+  const TextTable table = without_empty_columns(*this);
   const auto row = [](const std::vector<std::string>& cells) {
     return joined_cells(cells, " & ", latex_text) + " \\\\\n";
   };
@@ -132,21 +145,6 @@ std::string TextTable::text(const Palette& palette) const {
   std::string text = palette.strong(line_of(head, widths, words)) + '\n';
   for (const auto& row : rows) text += line_of(row, widths, words) + '\n';
   return text;
-}
-
-TextTable TextTable::without_empty_columns() const {
-  const std::vector<std::size_t> widths = widths_of(*this);
-  const auto kept = [&](const std::vector<std::string>& cells) {
-    std::vector<std::string> left;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (widths[i] > 0) left.push_back(cells[i]);
-    }
-    return left;
-  };
-  const auto empty_words = std::count(widths.begin(), widths.begin() + static_cast<std::ptrdiff_t>(words), 0U);
-  TextTable table{kept(head), words - static_cast<std::size_t>(empty_words), {}, title};
-  for (const auto& row : rows) table.rows.push_back(kept(row));
-  return table;
 }
 
 }  // namespace warren::studies

@@ -20,9 +20,6 @@ struct TextTable {
 
   /// The head strong, each line with an end; columns that are empty in all rows are left out.
   std::string text(const Palette& palette) const;
-
-  TextTable without_empty_columns() const;
-
   /// As Markdown has tables, or as LaTeX's tabular, with the package booktabs; without columns that are empty.
   std::string markdown() const;
   std::string latex() const;

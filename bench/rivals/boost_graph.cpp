@@ -15,9 +15,11 @@
 #include <string>
 #include <vector>
 
+#include "bench/plain_graph.hpp"
 #include "bench/rivals/stopwatch.hpp"
 #include "bench/test_graphs.hpp"
 #include "core/search/search.hpp"
+#include "core/search/search_queues.hpp"
 
 namespace warren::bench {
 namespace {
@@ -100,7 +102,7 @@ class BoostContestant {
 class WarrenContestant {
  public:
   explicit WarrenContestant(const PlaneGraph& plane) : plane_(plane) {
-    const Graph rows = Graph::from_edges(plane.at.size(), plane.edges);
+    const Graph rows = plain_graph(plane.at.size(), plane.edges);
     RawVector<EdgeEnd> offsets(1, 0);
     RawVector<VertexId> targets;
     RawVector<double> lengths;

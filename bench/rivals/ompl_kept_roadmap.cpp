@@ -131,11 +131,10 @@ class GivenPrm : public ompl::geometric::PRM {
  public:
   GivenPrm(const ompl::base::SpaceInformationPtr& space, const Roadmap& roadmap)
       : ompl::geometric::PRM(space), roadmap_(roadmap) {
-    const ompl_prm::ob::SpaceInformationPtr any = space;
-    setProblemDefinition(ompl_prm::make_problem(any, place(roadmap, 0), place(roadmap, 0)));
+    setProblemDefinition(ompl_prm::make_problem(space, place(roadmap, 0), place(roadmap, 0)));
     setConnectionStrategy([this](Vertex v) -> const std::vector<Vertex>& { return neighbours(v); });
     setup();
-    for (VertexId v = 0; v < count_states(roadmap); ++v) addMilestone(ompl_prm::make_state(any, place(roadmap, v)));
+    for (VertexId v = 0; v < count_states(roadmap); ++v) addMilestone(ompl_prm::make_state(space, place(roadmap, v)));
   }
   double solve_after_clear(const Asked& asked) {
     clearQuery();

@@ -74,7 +74,8 @@ void bm_route_build(benchmark::State& state) {
   if (should_check(state)) check_against_flood(index);
   for (auto _ : state) {
     state.PauseTiming();
-    LatticePassages passages(route_lattice, index.passages().right_words(), index.passages().up_words());
+    LatticePassages passages(route_lattice, ArrayOrView<std::uint64_t>(index.passages().right_words()),
+                             ArrayOrView<std::uint64_t>(index.passages().up_words()));
     state.ResumeTiming();
     benchmark::DoNotOptimize(RouteIndex(std::move(passages), {}, {}));
   }

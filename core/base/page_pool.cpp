@@ -10,9 +10,12 @@
 #include <new>
 #include <vector>
 
+#include "core/base/raw_vector.hpp"
+
 namespace warren {
 namespace {
 
+constexpr std::size_t large_block = std::size_t{512} << 10;
 constexpr std::size_t huge_page = std::size_t{2} << 20;
 
 std::size_t whole_pages(std::size_t bytes) { return (bytes + huge_page - 1) / huge_page * huge_page; }
@@ -145,9 +148,8 @@ void PagePool::watch_idle_bytes() noexcept {
   if (thread_pages != nullptr) thread_pages->least_idle = thread_pages->idle;
 }
 
-namespace detail {
-
-void* take_pages(std::size_t bytes) {
+void* allocate_raw(std::size_t bytes) {
+  if (bytes < large_block) return ::operator new(bytes);
   const std::size_t whole = whole_pages(bytes);
   if (whole < bytes) throw std::bad_alloc();
   if (thread_pages != nullptr) {
@@ -159,7 +161,8 @@ void* take_pages(std::size_t bytes) {
   return block;
 }
 
-void return_pages(void* block, std::size_t bytes) noexcept {
+void release_raw(void* block, std::size_t bytes) noexcept {
+  if (bytes < large_block) return ::operator delete(block);
   const std::size_t whole = whole_pages(bytes);
   try {
     if (thread_pages != nullptr) return thread_pages->keep(static_cast<char*>(block), whole);
@@ -168,7 +171,7 @@ void return_pages(void* block, std::size_t bytes) noexcept {
   ::munmap(block, whole);
 }
 
-bool populate_pages([[maybe_unused]] void* block, [[maybe_unused]] std::size_t bytes) noexcept {
+bool detail::populate_pages([[maybe_unused]] void* block, [[maybe_unused]] std::size_t bytes) noexcept {
 #ifdef MADV_POPULATE_WRITE
   constexpr std::size_t page = 4096;
   const auto begin = reinterpret_cast<std::uintptr_t>(block);
@@ -181,5 +184,4 @@ bool populate_pages([[maybe_unused]] void* block, [[maybe_unused]] std::size_t b
 #endif
 }
 
-}  // namespace detail
 }  // namespace warren

@@ -28,9 +28,6 @@ class PagePool {
 };
 
 namespace detail {
-/// Blocks of whole huge pages, from the thread's pool as far as it goes. Throws std::bad_alloc.
-void* take_pages(std::size_t bytes);
-void return_pages(void* block, std::size_t bytes) noexcept;
 /// Makes the system find the whole pages within a block now, without a trap for each; contents stay. False where it
 /// can't do that.
 bool populate_pages(void* block, std::size_t bytes) noexcept;

@@ -13,7 +13,7 @@
 namespace warren {
 
 /// Blocks of 512 KiB and more are aligned to 2 MiB, advised to use huge pages, and made of the pages of earlier ones
-/// where the thread keeps them (core/base/page_pool.hpp). Throws std::bad_alloc.
+/// where the thread keeps them. Both functions stand in core/base/page_pool.cpp. Throws std::bad_alloc.
 void* allocate_raw(std::size_t bytes);
 /// Gives back what allocate_raw() gave for so many bytes.
 void release_raw(void* block, std::size_t bytes) noexcept;

@@ -97,15 +97,14 @@ double NearnessSum::integral(std::span<const StretchDistance> things, double fro
   }
   if (near_.size() == 1 && is_all(near_[0])) return integral_of_one(near_[0], from, to, reach);
   cuts_.assign(1, from);
-  for (std::size_t i = 0; i < near_.size(); ++i) {
-    const auto at = ends_of_reach(near_[i], reach);
-    cut(at.first, from, to);
-    cut(at.second, from, to);
-    for (std::size_t j = 0; j < i; ++j) {
-      const auto met = meetings(near_[i], near_[j]);
-      cut(met.first, from, to);
-      cut(met.second, from, to);
+  const auto cut_at = [&](const std::pair<double, double>& both) {
+    for (const double t : {both.first, both.second}) {
+      if (t > from && t < to) cuts_.push_back(t);
     }
+  };
+  for (std::size_t i = 0; i < near_.size(); ++i) {
+    cut_at(ends_of_reach(near_[i], reach));
+    for (std::size_t j = 0; j < i; ++j) cut_at(meetings(near_[i], near_[j]));
   }
   cuts_.push_back(to);
   std::sort(cuts_.begin(), cuts_.end());

@@ -42,10 +42,6 @@ class NearnessSum {
   double integral(std::span<const StretchDistance> things, double from, double to, double reach);
 
  private:
-  void cut(double t, double from, double to) {
-    if (t > from && t < to) cuts_.push_back(t);
-  }
-
   std::vector<StretchDistance> near_;
   std::vector<double> cuts_;
 };

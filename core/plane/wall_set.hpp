@@ -3,11 +3,13 @@
 // grid maze in 8 bytes each, others in floats (16) or doubles (32).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <variant>
 
 #include "core/base/raw_vector.hpp"
@@ -156,7 +158,15 @@ class WallSet {
   explicit WallSet(RawVector<Wall> walls) : walls_(std::move(walls)) {}
 
   /// Packs them where all fit, keeps floats where all coordinates are exact as float, doubles otherwise.
-  static WallSet narrowest(std::span<const Segment> segments);
+  static WallSet narrowest(std::span<const Segment> segments) {
+    const auto all = [&](const auto& fits) {
+      return std::all_of(segments.begin(), segments.end(),
+                         [&](const Segment& s) { return fits(s.a.x, s.a.y, s.b.x, s.b.y); });
+    };
+    if (all(PackedWall::fits<double>)) return held_as<PackedWall>(segments);
+    const bool floats = all([](auto... x) { return (exact_as_float(x) && ...); });
+    return floats ? held_as<FloatWall>(segments) : held_as<DoubleWall>(segments);
+  }
 
   /// Calls f with a span of PackedWall, FloatWall or DoubleWall, all of them const.
   template <class F>
@@ -184,6 +194,14 @@ class WallSet {
   }
 
  private:
+  template <class Wall>
+  static WallSet held_as(std::span<const Segment> segments) {
+    RawVector<Wall> walls(segments.size());
+    std::transform(segments.begin(), segments.end(), walls.begin(),
+                   [](const Segment& s) { return Wall::of(s.a.x, s.a.y, s.b.x, s.b.y); });
+    return WallSet(std::move(walls));
+  }
+
   std::variant<RawVector<PackedWall>, RawVector<FloatWall>, RawVector<DoubleWall>> walls_;
 };
 

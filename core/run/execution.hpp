@@ -26,19 +26,6 @@ struct Stopped : Error {
   std::size_t wanted_bytes;  ///< of memory: the least that the process would have held; 0: of others, and not known
 };
 
-/// Does `work` find the memory that it takes? Throws its other stops.
-template <class Work>
-bool memory_holds(const Work& work) {
-  try {
-    work();
-    return true;
-  } catch (const Stopped& stopped) {
-    if (stopped.reason != StopReason::memory) throw;
-  } catch (const std::bad_alloc&) {
-  }
-  return false;
-}
-
 /// Why `work` ended early, by a limit, a signal or for want of memory; none: it is done.
 template <class Work>
 std::optional<StopReason> stopped_by(const Work& work) {
@@ -50,6 +37,14 @@ std::optional<StopReason> stopped_by(const Work& work) {
     return StopReason::memory;
   }
   return std::nullopt;
+}
+
+/// Does `work` find the memory that it takes? Throws its other stops.
+template <class Work>
+bool memory_holds(const Work& work) {
+  const auto stop = stopped_by(work);
+  if (stop && *stop != StopReason::memory) throw Stopped{*stop};
+  return !stop;
 }
 
 /// Set by a signal handler, read by all threads: 0, or the signal's number.

@@ -46,6 +46,13 @@ struct SearchBorder {
   double best = std::numeric_limits<double>::infinity();  ///< length of the best path that it has seen
   VertexId meeting = no_vertex;                           ///< where that path changes sides
   bool stop = false;                                      ///< it was asked to stop, or failed
+  /// A path of this length, which changes sides there, has been seen.
+  void offer(double length, VertexId at) {
+    if (length < best || (length == best && at < meeting)) {
+      best = length;
+      meeting = at;
+    }
+  }
 };
 
 /// What a side writes all the time may not share a cache line with what the other reads all the time.
@@ -96,12 +103,7 @@ class SearchSide {
   template <class Other>
   void exchange(const Other& other, bool stop) {
     for (const VertexId v : labelled_) {
-      if (!other.state().reached(v)) continue;
-      const double length = state_.g(v) + other.state().g(v);
-      if (length < border_.best || (length == border_.best && v < border_.meeting)) {
-        border_.best = length;
-        border_.meeting = v;
-      }
+      if (other.state().reached(v)) border_.offer(state_.g(v) + other.state().g(v), v);
     }
     for (const VertexId v : newly_closed_) closed_[v] = 1;
     labelled_.clear();
@@ -171,9 +173,8 @@ class SearchSide {
 
 /// What both sides know after an exchange; a pure function of what they published.
 inline SearchBorder agree(const SearchBorder& forward, const SearchBorder& backward) {
-  const bool first =
-      forward.best < backward.best || (forward.best == backward.best && forward.meeting <= backward.meeting);
-  SearchBorder agreed = first ? forward : backward;
+  SearchBorder agreed = forward;
+  agreed.offer(backward.best, backward.meeting);
   agreed.least_key = std::max(forward.least_key, backward.least_key);
   agreed.stop = forward.stop || backward.stop;
   return agreed;

@@ -4,6 +4,7 @@
 // where they can't be computed from the states at once.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -39,9 +40,6 @@ class Graph {
     return Graph(std::move(offsets_), std::move(targets_), std::move(lengths));
   }
 
-  /// Serial reference builder. Edges may come in any order; duplicates are kept as they are. O(V + E log degree).
-  static Graph from_edges(std::size_t vertex_count, std::span<const Edge> edges);
-
   std::size_t vertex_count() const { return offsets_.size() - 1; }
   std::size_t edge_count() const { return targets_.size() / 2; }
   std::span<const VertexId> neighbours(VertexId v) const {
@@ -76,14 +74,16 @@ class Graph {
   RawVector<double> lengths_;
 };
 
-/// Connected components: label[v] is the smallest vertex of v's component. Union-find with path halving, O(E α(V)).
+/// Connected components: label[v] is the smallest vertex of v's component.
 struct Components {
   RawVector<VertexId> label;
   std::size_t count = 0;
   bool connected(VertexId a, VertexId b) const { return label[a] == label[b]; }
-  std::size_t size_of(VertexId v) const;  ///< vertices in v's component; O(V)
+  /// Vertices in v's component; O(V).
+  std::size_t size_of(VertexId v) const {
+    return static_cast<std::size_t>(std::count(label.begin(), label.end(), label[v]));
+  }
 };
-Components components(const Graph& graph);
 
 /// What is known of each edge of a roadmap, two bits an edge end: the states of an edge's two ends are the same, so
 /// that a search looks its edge up where it finds it. unchecked: a candidate that nobody has asked about. free,

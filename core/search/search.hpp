@@ -10,6 +10,7 @@
 // and the queue.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -18,7 +19,6 @@
 
 #include "core/base/raw_vector.hpp"
 #include "core/search/graph.hpp"
-#include "core/search/indexed_heap.hpp"
 
 namespace warren {
 
@@ -51,7 +51,15 @@ class SearchState {
     }
     vertex_count_ = vertex_count;
   }
-  void clear();
+  void clear() {
+    for (const VertexId block : touched_blocks_) {
+      is_touched_[block] = 0;
+      const std::size_t first = block * block_size;
+      std::fill(g_.begin() + static_cast<std::ptrdiff_t>(first),
+                g_.begin() + static_cast<std::ptrdiff_t>(std::min(first + block_size, g_.size())), unreached);
+    }
+    touched_blocks_.clear();
+  }
   double g(VertexId v) const { return std::abs(g_[v]); }
   bool reached(VertexId v) const { return g_[v] != unreached; }
   bool closed(VertexId v) const { return std::signbit(g_[v]); }
@@ -77,9 +85,25 @@ class SearchState {
   void close(VertexId v) { g_[v] = -g(v); }  // -0.0 for the start: closed() reads the sign bit
 
   /// The vertices from start to v along the parents.
-  RawVector<VertexId> path_to(VertexId v) const;
+  RawVector<VertexId> path_to(VertexId v) const {
+    RawVector<VertexId> path;
+    for (; v != no_vertex; v = parent_[v]) path.push_back(v);
+    std::reverse(path.begin(), path.end());
+    return path;
+  }
   /// Vertices that the search has reached, ascending: the search tree, for pictures. O(touched blocks log).
-  std::vector<VertexId> touched() const;
+  std::vector<VertexId> touched() const {
+    std::vector<VertexId> blocks = touched_blocks_;
+    std::sort(blocks.begin(), blocks.end());
+    std::vector<VertexId> vertices;
+    for (const VertexId block : blocks) {
+      const auto first = static_cast<VertexId>(block * block_size);
+      for (VertexId v = first; v < vertex_count_ && v < first + block_size; ++v) {
+        if (reached(v)) vertices.push_back(v);
+      }
+    }
+    return vertices;
+  }
   std::size_t bytes() const {
     return g_.size() * (sizeof(double) + sizeof(VertexId)) + is_touched_.size() +
            touched_blocks_.capacity() * sizeof(VertexId);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The queues that users compare with the indexed heap. All pop in the order (key, vertex), so that the search takes the
-// same steps with each; those without decrease-key keep stale entries, which the search skips because their vertex is
-// settled already.
+// The queues of a search: an indexed heap, and what users compare with it. All pop in the order (key, vertex), so that
+// the search takes the same steps with each; those without decrease-key keep stale entries, which the search skips
+// because their vertex is settled already.
+//   IndexedHeap     d-ary heap with decrease-key: push and pop O(log n)
 //   LazyHeap        binary heap, duplicates allowed: push and pop O(log n)
 //   BucketQueue     circular buckets of keys, the first one in order: push O(1), pop O(log of a bucket)
 //   SortedArray     kept sorted by insertion: push O(n) moves, pop O(1)
@@ -13,13 +14,100 @@
 #include <array>
 #include <bit>
 #include <cassert>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
-#include "core/search/indexed_heap.hpp"
+#include "core/base/raw_vector.hpp"
+#include "core/base/types.hpp"
 
 namespace warren {
+
+struct QueueEntry {
+  double key;
+  VertexId vertex;
+  friend constexpr bool operator<(const QueueEntry& a, const QueueEntry& b) {
+    return a.key < b.key || (a.key == b.key && a.vertex < b.vertex);
+  }
+};
+
+/// A d-ary heap of vertices with decrease-key: each vertex stands at most once, its place is kept in an array. Keys are
+/// kept beside the vertices so that sifting touches one cache line a level. push, decrease and pop are O(Arity
+/// log_Arity n). 16 bytes a vertex in the heap, 4 a vertex of the graph.
+template <unsigned Arity = 4>
+class IndexedHeap {
+ public:
+  /// Ready for vertices 0 .. vertex_count - 1. The heap must be empty. O(vertex_count) only where it grows.
+  template <class Poll = NoPoll>
+  void resize(std::size_t vertex_count, const Poll& poll = {}) {
+    assert(empty());
+    if (vertex_count > place_.size()) assign_polled(place_, vertex_count, VertexId{0}, poll);
+  }
+  /// Asks for what push(v) reads first, ahead of time.
+  void fetch(VertexId v) const { __builtin_prefetch(place_.data() + v); }
+  bool empty() const { return entries_.empty(); }
+  std::size_t size() const { return entries_.size(); }
+  void clear() { entries_.clear(); }
+
+  /// Is v in the heap? Places are checked against the entries, so they need no clearing.
+  bool contains(VertexId v) const { return place_[v] < entries_.size() && entries_[place_[v]].vertex == v; }
+
+  /// Inserts v, or lowers its key; a key that is not lower changes nothing.
+  void push(VertexId v, double key) {
+    if (contains(v)) {
+      if (key < entries_[place_[v]].key) sift_up(place_[v], {key, v});
+      return;
+    }
+    entries_.push_back({key, v});
+    sift_up(static_cast<VertexId>(entries_.size() - 1), {key, v});
+  }
+
+  const QueueEntry& top() const { return entries_.front(); }
+
+  QueueEntry pop() {
+    const QueueEntry top = entries_.front();
+    const QueueEntry last = entries_.back();
+    entries_.pop_back();
+    if (!entries_.empty()) sift_down(last);
+    return top;
+  }
+
+ private:
+  void put(std::size_t at, const QueueEntry& e) {
+    entries_[at] = e;
+    place_[e.vertex] = static_cast<VertexId>(at);
+  }
+  void sift_up(std::size_t at, const QueueEntry e) {
+    while (at > 0) {
+      const std::size_t parent = (at - 1) / Arity;
+      if (!(e < entries_[parent])) break;
+      put(at, entries_[parent]);
+      at = parent;
+    }
+    put(at, e);
+  }
+  void sift_down(const QueueEntry e) {
+    std::size_t at = 0;
+    const std::size_t n = entries_.size();
+    for (;;) {
+      const std::size_t first = Arity * at + 1;
+      if (first >= n) break;
+      const std::size_t end = first + Arity < n ? first + Arity : n;
+      std::size_t least = first;
+      for (std::size_t child = first + 1; child < end; ++child) {
+        if (entries_[child] < entries_[least]) least = child;
+      }
+      if (!(entries_[least] < e)) break;
+      put(at, entries_[least]);
+      at = least;
+    }
+    put(at, e);
+  }
+
+  std::vector<QueueEntry> entries_;
+  RawVector<VertexId> place_;
+};
 
 inline constexpr auto later = [](const QueueEntry& a, const QueueEntry& b) { return b < a; };
 

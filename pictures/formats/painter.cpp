@@ -383,9 +383,8 @@ class Painter {
       Pen pen{.width = std::clamp(entry.width, 0.8, 2.0), .fill = entry.fill, .opacity = entry.opacity};
       if (!entry.lines.empty()) pen.stroke = entry.lines.front();
       surface_.take_pen(pen);
-      return surface_.chain(std::array{Vec2{at.x + 2.0, at.y - half}, Vec2{at.x + swatch_width - 2.0, at.y - half},
-                                       Vec2{at.x + swatch_width - 2.0, at.y + half}, Vec2{at.x + 2.0, at.y + half}},
-                            {}, true);
+      const Box box{{at.x + 2.0, at.y - half}, {at.x + swatch_width - 2.0, at.y + half}};
+      return surface_.chain(box.corners(), {}, true);
     }
     const double part = swatch_width / static_cast<double>(std::max<std::size_t>(entry.lines.size(), 1));
     for (std::size_t i = 0; i < entry.lines.size(); ++i) {

@@ -2,8 +2,6 @@
 // The picture as one page of PDF, by libharu: lines stay lines, words are Helvetica, which every reader has, so the
 // bytes depend on no machine. The whole document is in memory before it is written; more lines than a page can show are
 // an image.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -17,8 +15,10 @@
 
 #ifdef WARREN_PDF
 #include <hpdf.h>
+#endif
 
 namespace warren {
+#ifdef WARREN_PDF
 namespace {
 
 constexpr double points_a_pixel = 0.75;
@@ -26,16 +26,15 @@ constexpr double largest_side = 14'400.0;  // a side of a page
 
 /// libharu goes on with what an allocation that failed gave it. So small ones get a last bit of memory, and who draws
 /// asks whether one failed. Of a thread that makes one document after the other.
-class DocumentMemory {
- public:
-  static void begin() {
-    used = 0;
-    failed = false;
-  }
-  static bool has_failed() { return failed; }
+struct DocumentMemory {
+  static constexpr std::size_t alignment = alignof(std::max_align_t);
+  alignas(std::max_align_t) static inline thread_local std::array<std::byte, std::size_t{1} << 16U> last;
+  static inline thread_local std::size_t used = 0;
+  static inline thread_local bool has_failed = false;
+
   static void* take(HPDF_UINT bytes) {
     if (void* const block = std::malloc(bytes)) return block;
-    failed = true;
+    has_failed = true;
     const std::size_t whole = (std::size_t{bytes} + alignment - 1) / alignment * alignment;
     if (whole > last.size() - used) return nullptr;
     used += whole;
@@ -45,22 +44,13 @@ class DocumentMemory {
     const std::less<const void*> lies_before;
     if (lies_before(block, last.data()) || !lies_before(block, last.data() + last.size())) std::free(block);
   }
-
- private:
-  static constexpr std::size_t alignment = alignof(std::max_align_t);
-  alignas(std::max_align_t) static inline thread_local std::array<std::byte, std::size_t{1} << 16U> last;
-  static inline thread_local std::size_t used = 0;
-  static inline thread_local bool failed = false;
-};
-
-struct FreeDocument {
-  void operator()(HPDF_Doc document) const { HPDF_Free(document); }
 };
 
 class PdfSurface : public Surface {
  public:
   PdfSurface(const Page& page, const Execution& execution) : page_(page), execution_(execution) {
-    DocumentMemory::begin();
+    DocumentMemory::used = 0;
+    DocumentMemory::has_failed = false;
     document_.reset(HPDF_NewEx(nullptr, DocumentMemory::take, DocumentMemory::give_back, 0, nullptr));
     if (!document_) throw std::bad_alloc();
     HPDF_SetCompressionMode(document_.get(), HPDF_COMP_ALL);
@@ -93,8 +83,6 @@ class PdfSurface : public Surface {
     }
   }
 
-  void enter_world() override { in_world_ = true; }
-  void leave_world() override { in_world_ = false; }
   void begin_group(std::string_view, std::string_view, const Pen& pen) override {
     pen_ = pen;
     HPDF_Page_GSave(sheet_);
@@ -226,18 +214,17 @@ class PdfSurface : public Surface {
   }
   void check() const {
     const bool failed = HPDF_GetError(document_.get()) != HPDF_OK;  // all that is asked of it is right
-    if (failed || DocumentMemory::has_failed()) throw std::bad_alloc();
+    if (failed || DocumentMemory::has_failed) throw std::bad_alloc();
   }
 
   const Page& page_;
   const Execution& execution_;
-  std::unique_ptr<std::remove_pointer_t<HPDF_Doc>, FreeDocument> document_;
+  std::unique_ptr<std::remove_pointer_t<HPDF_Doc>, decltype(&HPDF_Free)> document_{nullptr, HPDF_Free};
   HPDF_Page sheet_ = nullptr;
   HPDF_Font regular_ = nullptr;
   HPDF_Font bold_ = nullptr;
   std::map<double, HPDF_ExtGState> opacities_;
   Pen pen_;
-  bool in_world_ = false;
   std::size_t path_steps_ = 0;
 };
 
@@ -257,11 +244,7 @@ std::vector<std::string> draw_pdf(const Page& page, const DocumentWords& words, 
   return notes;
 }
 
-}  // namespace warren
-
 #else
-
-namespace warren {
 
 bool can_write_pdf() { return false; }
 
@@ -269,10 +252,7 @@ std::vector<std::string> draw_pdf(const Page&, const DocumentWords&, const DrawO
   throw UsageError("this warren was built without libharu and writes no .pdf; say .svg, or build it with libhpdf-dev");
 }
 
-}  // namespace warren
 #endif
-
-namespace warren {
 
 std::vector<std::string> write_pdf(const Picture& picture, const PictureOptions& options, const Execution& execution,
                                    const Write& write) {

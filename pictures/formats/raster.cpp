@@ -13,20 +13,6 @@
 #include "scenes/files/png_io.hpp"
 
 namespace warren {
-
-Image::Image(std::size_t width, std::size_t height, Rgb paper, const Execution& execution)
-    : width_(width), height_(height) {
-  execution.reserve(3 * width * height);
-  pixels_.resize(3 * width * height);
-  constexpr std::size_t pixels_per_poll = std::size_t{1} << 18;
-  for (std::size_t i = 0; i < width * height; ++i) {
-    if (i % pixels_per_poll == 0) execution.check();
-    pixels_[3 * i] = paper.red;
-    pixels_[3 * i + 1] = paper.green;
-    pixels_[3 * i + 2] = paper.blue;
-  }
-}
-
 namespace {
 
 struct PixelRun {
@@ -54,15 +40,12 @@ void cover_line(Vec2 a, Vec2 b, double width, std::size_t columns, std::size_t r
   const double length_sq = dot(along, along);
   const double share_a_pixel = length_sq > 0.0 ? 1.0 / length_sq : 0.0;
   const double reach_sq = (radius + 0.5) * (radius + 0.5);
-  const auto clamped = [](double v, std::size_t size) {
-    return static_cast<std::size_t>(std::clamp(v, 0.0, static_cast<double>(size)));
-  };
-  const std::size_t right = clamped(std::ceil(reach.max.x), columns);
-  const std::size_t bottom = clamped(std::ceil(reach.max.y), rows);
-  for (std::size_t y = clamped(std::floor(reach.min.y), rows); y < bottom; ++y) {
+  const std::size_t right = pixel_at(std::ceil(reach.max.x), columns);
+  const std::size_t bottom = pixel_at(std::ceil(reach.max.y), rows);
+  for (std::size_t y = pixel_at(std::floor(reach.min.y), rows); y < bottom; ++y) {
     const auto [low, high] = reach_in_row(a, b, static_cast<double>(y) + 0.5, radius + 0.5);
-    const std::size_t end = std::min(right, clamped(std::ceil(high), columns));
-    for (std::size_t x = clamped(std::floor(std::max(reach.min.x, low)), columns); x < end; ++x) {
+    const std::size_t end = std::min(right, pixel_at(std::ceil(high), columns));
+    for (std::size_t x = pixel_at(std::floor(std::max(reach.min.x, low)), columns); x < end; ++x) {
       const Vec2 from_a = Vec2{static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5} - a;
       const Vec2 off = from_a - std::clamp(dot(from_a, along) * share_a_pixel, 0.0, 1.0) * along;
       const double distance_sq = dot(off, off);
@@ -141,46 +124,8 @@ void cover_inside(const PolygonSet& outlines, std::size_t columns, std::size_t a
   }
 }
 
-}  // namespace
-
-void Image::fill(const PolygonSet& outlines, Rgb color, double opacity, const Execution& execution) {
-  cover_inside(outlines, width_, height_, execution,
-               [&](std::size_t x, std::size_t y, double share) { blend(row(y) + 3 * x, opacity * share, color); });
-}
-
-void Image::draw_line(Vec2 a, Vec2 b, double width, Rgb color, double opacity) {
-  cover_line(a, b, width, width_, height_,
-             [&](std::size_t x, std::size_t y, double share) { blend(row(y) + 3 * x, opacity * share, color); });
-}
-
-Mask::Mask(std::size_t width, std::size_t height, const Execution& execution) : width_(width), height_(height) {
-  execution.reserve(width * height);
-  pixels_.resize(width * height);
-  for (std::size_t y = 0; y < height; ++y) {
-    if (y % 64 == 0) execution.check();
-    std::fill_n(pixels_.data() + width * y, width, std::uint8_t{0});
-  }
-}
-
-void Mask::cover(std::size_t x, std::size_t y, double share) {
-  std::uint8_t& pixel = pixels_[width_ * y + x];
-  pixel = static_cast<std::uint8_t>(pixel + std::lround((255 - pixel) * share));
-}
-
-void Mask::draw_line(Vec2 a, Vec2 b, double width, double opacity) {
-  cover_line(a, b, width, width_, height_,
-             [&](std::size_t x, std::size_t y, double share) { cover(x, y, opacity * share); });
-}
-
-void Mask::fill(const PolygonSet& outlines, double opacity, const Execution& execution) {
-  cover_inside(outlines, width_, height_, execution,
-               [&](std::size_t x, std::size_t y, double share) { cover(x, y, opacity * share); });
-}
-
 // Colours are counted in boxes of 8 x 8 x 8 values; a box's colour is its mean, white stays white. The 255 boxes with
 // most pixels make the palette, each other box takes the nearest of them.
-
-namespace {
 
 constexpr std::size_t most_colors = 256;
 constexpr std::size_t box_count = std::size_t{1} << 15U;
@@ -257,46 +202,7 @@ ImagePalette palette_of(const Image& image, const Execution& execution) {
   return palette;
 }
 
-}  // namespace
-
-void write_png_file(const Image& image, double dpi, const Execution& execution, const Write& write) {
-  const ImagePalette palette = palette_of(image, execution);
-  std::vector<std::uint8_t> row(image.width());
-  write_png({.width = static_cast<std::uint32_t>(image.width()),
-             .height = static_cast<std::uint32_t>(image.height()),
-             .palette = palette.colors,
-             .dpi = dpi,
-             .row =
-                 [&](std::size_t y) {
-                   const std::uint8_t* pixels = image.row(y);
-                   for (std::size_t x = 0; x < row.size(); ++x) row[x] = palette.of_box[box_of_pixel(pixels + 3 * x)];
-                   return static_cast<const std::uint8_t*>(row.data());
-                 }},
-            execution, write);
-}
-
-void write_png_file(const Mask& mask, Rgb color, const Execution& execution, const Write& write) {
-  constexpr std::size_t shades = 16;
-  std::vector<std::uint8_t> alphas(shades);
-  for (std::size_t i = 0; i < shades; ++i) alphas[i] = static_cast<std::uint8_t>(17 * i);
-  std::vector<std::uint8_t> row(mask.width());
-  write_png({.width = static_cast<std::uint32_t>(mask.width()),
-             .height = static_cast<std::uint32_t>(mask.height()),
-             .palette = std::vector<Color>(shades, Color{color.red, color.green, color.blue}),
-             .alphas = alphas,
-             .row =
-                 [&](std::size_t y) {
-                   const std::uint8_t* pixels = mask.pixels().data() + y * mask.width();
-                   for (std::size_t x = 0; x < row.size(); ++x)
-                     row[x] = static_cast<std::uint8_t>((pixels[x] + 8) / 17);
-                   return static_cast<const std::uint8_t*>(row.data());
-                 }},
-            execution, write);
-}
-
 // The picture in pixels, drawn by our own rasteriser; its words are outlines, filled.
-
-namespace {
 
 class PngSurface : public Surface {
  public:
@@ -308,8 +214,6 @@ class PngSurface : public Surface {
 
   const Image& image() const { return image_; }
 
-  void enter_world() override { in_world_ = true; }
-  void leave_world() override { in_world_ = false; }
   void begin_group(std::string_view, std::string_view, const Pen& pen) override { pen_ = pen; }
   void end_group() override {}
   void take_pen(const Pen& pen) override { pen_ = pen; }
@@ -365,17 +269,14 @@ class PngSurface : public Surface {
   void image(const Image& image, const Box& at) override {
     const Vec2 low = density_ * at.min;
     const Vec2 size = density_ * (at.max - at.min);
-    const auto place = [](double v, std::size_t most) {
-      return static_cast<std::size_t>(std::clamp(v, 0.0, static_cast<double>(most)));
-    };
-    const std::size_t right = place(std::round(low.x + size.x), image_.width());
-    const std::size_t bottom = place(std::round(low.y + size.y), image_.height());
-    for (std::size_t y = place(std::round(low.y), image_.height()); y < bottom; ++y) {
+    const std::size_t right = pixel_at(std::round(low.x + size.x), image_.width());
+    const std::size_t bottom = pixel_at(std::round(low.y + size.y), image_.height());
+    for (std::size_t y = pixel_at(std::round(low.y), image_.height()); y < bottom; ++y) {
       execution_.check();
       const double v = (static_cast<double>(y) + 0.5 - low.y) / size.y * static_cast<double>(image.height());
-      for (std::size_t x = place(std::round(low.x), image_.width()); x < right; ++x) {
+      for (std::size_t x = pixel_at(std::round(low.x), image_.width()); x < right; ++x) {
         const double u = (static_cast<double>(x) + 0.5 - low.x) / size.x * static_cast<double>(image.width());
-        std::copy_n(image.row(place(v, image.height() - 1)) + 3 * place(u, image.width() - 1), 3,
+        std::copy_n(image.row(pixel_at(v, image.height() - 1)) + 3 * pixel_at(u, image.width() - 1), 3,
                     image_.row(y) + 3 * x);
       }
     }
@@ -393,10 +294,91 @@ class PngSurface : public Surface {
   double density_;  // pixels a pixel of the page
   Image image_;
   Pen pen_;
-  bool in_world_ = false;
 };
 
 }  // namespace
+
+Image::Image(std::size_t width, std::size_t height, Rgb paper, const Execution& execution)
+    : width_(width), height_(height) {
+  execution.reserve(3 * width * height);
+  pixels_.resize(3 * width * height);
+  constexpr std::size_t pixels_per_poll = std::size_t{1} << 18;
+  for (std::size_t i = 0; i < width * height; ++i) {
+    if (i % pixels_per_poll == 0) execution.check();
+    pixels_[3 * i] = paper.red;
+    pixels_[3 * i + 1] = paper.green;
+    pixels_[3 * i + 2] = paper.blue;
+  }
+}
+
+void Image::fill(const PolygonSet& outlines, Rgb color, double opacity, const Execution& execution) {
+  cover_inside(outlines, width_, height_, execution,
+               [&](std::size_t x, std::size_t y, double share) { blend(row(y) + 3 * x, opacity * share, color); });
+}
+
+void Image::draw_line(Vec2 a, Vec2 b, double width, Rgb color, double opacity) {
+  cover_line(a, b, width, width_, height_,
+             [&](std::size_t x, std::size_t y, double share) { blend(row(y) + 3 * x, opacity * share, color); });
+}
+
+Mask::Mask(std::size_t width, std::size_t height, const Execution& execution) : width_(width), height_(height) {
+  execution.reserve(width * height);
+  pixels_.resize(width * height);
+  for (std::size_t y = 0; y < height; ++y) {
+    if (y % 64 == 0) execution.check();
+    std::fill_n(pixels_.data() + width * y, width, std::uint8_t{0});
+  }
+}
+
+void Mask::cover(std::size_t x, std::size_t y, double share) {
+  std::uint8_t& pixel = pixels_[width_ * y + x];
+  pixel = static_cast<std::uint8_t>(pixel + std::lround((255 - pixel) * share));
+}
+
+void Mask::draw_line(Vec2 a, Vec2 b, double width, double opacity) {
+  cover_line(a, b, width, width_, height_,
+             [&](std::size_t x, std::size_t y, double share) { cover(x, y, opacity * share); });
+}
+
+void Mask::fill(const PolygonSet& outlines, double opacity, const Execution& execution) {
+  cover_inside(outlines, width_, height_, execution,
+               [&](std::size_t x, std::size_t y, double share) { cover(x, y, opacity * share); });
+}
+
+void write_png_file(const Image& image, double dpi, const Execution& execution, const Write& write) {
+  const ImagePalette palette = palette_of(image, execution);
+  std::vector<std::uint8_t> row(image.width());
+  write_png({.width = static_cast<std::uint32_t>(image.width()),
+             .height = static_cast<std::uint32_t>(image.height()),
+             .palette = palette.colors,
+             .dpi = dpi,
+             .row =
+                 [&](std::size_t y) {
+                   const std::uint8_t* pixels = image.row(y);
+                   for (std::size_t x = 0; x < row.size(); ++x) row[x] = palette.of_box[box_of_pixel(pixels + 3 * x)];
+                   return static_cast<const std::uint8_t*>(row.data());
+                 }},
+            execution, write);
+}
+
+void write_png_file(const Mask& mask, Rgb color, const Execution& execution, const Write& write) {
+  constexpr std::size_t shades = 16;
+  std::vector<std::uint8_t> alphas(shades);
+  for (std::size_t i = 0; i < shades; ++i) alphas[i] = static_cast<std::uint8_t>(17 * i);
+  std::vector<std::uint8_t> row(mask.width());
+  write_png({.width = static_cast<std::uint32_t>(mask.width()),
+             .height = static_cast<std::uint32_t>(mask.height()),
+             .palette = std::vector<Color>(shades, Color{color.red, color.green, color.blue}),
+             .alphas = alphas,
+             .row =
+                 [&](std::size_t y) {
+                   const std::uint8_t* pixels = mask.pixels().data() + y * mask.width();
+                   for (std::size_t x = 0; x < row.size(); ++x)
+                     row[x] = static_cast<std::uint8_t>((pixels[x] + 8) / 17);
+                   return static_cast<const std::uint8_t*>(row.data());
+                 }},
+            execution, write);
+}
 
 std::vector<std::string> draw_png(const Page& page, const DrawOn& draw, const Execution& execution,
                                   const Write& write) {

@@ -9,6 +9,7 @@
 // same on x86-64 and arm64, 333 million of them, and so were the bytes of a PDF whose date is given.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -22,6 +23,11 @@
 #include "pictures/model/picture.hpp"
 
 namespace warren {
+
+/// Of a place along an axis, the pixel there, at most `most`.
+inline std::size_t pixel_at(double place, std::size_t most) {
+  return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(most)));
+}
 
 /// Row 0 is the top row; 3 bytes a pixel.
 class Image {

@@ -52,11 +52,7 @@ struct Nearest {
 class SolidRaster {
  public:
   SolidRaster(const SolidView& view, Parts parts, std::size_t width, std::size_t height, const Execution& execution)
-      : execution_(execution),
-        width_(width),
-        height_(height),
-        columns_(samples_a_side * width),
-        rows_(samples_a_side * height) {
+      : execution_(execution), columns_(samples_a_side * width), rows_(samples_a_side * height) {
     const std::size_t count = columns_ * rows_;
     execution.reserve(2 * count * (sizeof(float) + sizeof(std::uint32_t)));
     take_camera(view);
@@ -77,10 +73,10 @@ class SolidRaster {
       if (i % solids_a_poll == 0) execution_.check();
       mark(i);
     }
-    Image image(width_, height_, colors::paper, execution_);
-    for (std::size_t y = 0; y < height_; ++y) {
+    Image image(columns_ / samples_a_side, rows_ / samples_a_side, colors::paper, execution_);
+    for (std::size_t y = 0; y < image.height(); ++y) {
       execution_.check();
-      for (std::size_t x = 0; x < width_; ++x) resolve(x, y, image.row(y) + 3 * x);
+      for (std::size_t x = 0; x < image.width(); ++x) resolve(x, y, image.row(y) + 3 * x);
     }
     return image;
   }
@@ -121,11 +117,7 @@ class SolidRaster {
     const Vec2 b = shadow_place(s.b);
     if (s.radius < 0.0) {
       PolygonSet outline;
-      if (s.c) {
-        outline.add(std::array{a, b, shadow_place(*s.c)});
-        return shadows_.fill(outline, 1.0, execution_);
-      }
-      outline.add(std::array{a, Vec2{b.x, a.y}, b, Vec2{a.x, b.y}});
+      s.c ? outline.add(std::array{a, b, shadow_place(*s.c)}) : outline.add(Box{a, b}.corners());
       return shadows_.fill(outline, 1.0, execution_);
     }
     shadows_.draw_line(a, b, 2.0 * s.radius / floor_side_ * static_cast<double>(shadow_side), 1.0);
@@ -135,16 +127,13 @@ class SolidRaster {
     const SeenSolid& s = solids_[i];
     Nearest& nearest = nearest_[s.part == Part::world ? 0 : 1];
     const Reach reach = reach_of(s);
-    const auto clamped = [](double v, std::size_t size) {
-      return static_cast<std::size_t>(std::clamp(v, 0.0, static_cast<double>(size)));
-    };
-    const std::size_t end = clamped(std::ceil(std::max(reach.a.y, reach.b.y) + reach.half.y), rows_);
-    for (std::size_t row = clamped(std::floor(std::min(reach.a.y, reach.b.y) - reach.half.y), rows_); row < end;
+    const std::size_t end = pixel_at(std::ceil(std::max(reach.a.y, reach.b.y) + reach.half.y), rows_);
+    for (std::size_t row = pixel_at(std::floor(std::min(reach.a.y, reach.b.y) - reach.half.y), rows_); row < end;
          ++row) {
       if (row % 32 == 0) execution_.check();
       const Vec2 columns = reach.in_row(static_cast<double>(row) + 0.5);
-      const std::size_t last = clamped(std::ceil(columns.y), columns_);
-      for (std::size_t column = clamped(std::floor(columns.x), columns_); column < last; ++column) {
+      const std::size_t last = pixel_at(std::ceil(columns.y), columns_);
+      for (std::size_t column = pixel_at(std::floor(columns.x), columns_); column < last; ++column) {
         const Vec3 way = ray(row, column);
         const double t = enter_solid(eye_, way, s);
         const std::size_t sample = row * columns_ + column;
@@ -254,8 +243,6 @@ class SolidRaster {
   }
 
   const Execution& execution_;
-  std::size_t width_;
-  std::size_t height_;
   std::size_t columns_;
   std::size_t rows_;
   Vec3 eye_;
@@ -270,15 +257,6 @@ class SolidRaster {
   Mask shadows_{1, 1, {}};
   std::array<Nearest, 2> nearest_;  // of the world, of all else
 };
-
-}  // namespace
-
-Image draw_solids(const SolidView& view, Parts parts, std::size_t width, std::size_t height,
-                  const Execution& execution) {
-  return SolidRaster(view, parts, width, height, execution).draw();
-}
-
-namespace {
 
 constexpr double no_hit = std::numeric_limits<double>::infinity();
 
@@ -336,6 +314,11 @@ double enter_face(const Vec3& eye, const Vec3& ray, const SeenSolid& s) {
 }
 }  // namespace
 
+Image draw_solids(const SolidView& view, Parts parts, std::size_t width, std::size_t height,
+                  const Execution& execution) {
+  return SolidRaster(view, parts, width, height, execution).draw();
+}
+
 double enter_solid(const Vec3& eye, const Vec3& ray, const SeenSolid& s) {
   if (s.c) return enter_face(eye, ray, s);
   return s.radius < 0.0 ? enter_box(eye, ray, s) : enter_swept_ball(eye, ray, s);
@@ -359,7 +342,6 @@ Vec3 normal_at(const Vec3& p, const SeenSolid& s) {
     normal[face] = off[face] < 0.0 ? -1.0 : 1.0;
     return normal;
   }
-
   const Vec3 along = s.b - s.a;
   const double along_sq = along.squaredNorm();
   const double place = along_sq > 0.0 ? std::clamp(along.dot(p - s.a) / along_sq, 0.0, 1.0) : 0.0;

@@ -39,8 +39,8 @@ class Surface {
   Surface(const Surface&) = delete;
   Surface& operator=(const Surface&) = delete;
 
-  virtual void enter_world() = 0;
-  virtual void leave_world() = 0;
+  virtual void enter_world() { in_world_ = true; }
+  virtual void leave_world() { in_world_ = false; }
   /// label: what the legend calls it; may be empty.
   virtual void begin_group(std::string_view id, std::string_view label, const Pen& pen) = 0;
   virtual void end_group() = 0;
@@ -63,6 +63,9 @@ class Surface {
   virtual void moving_body(const MovingBody&, double /*line_width*/) {}
   /// The same of an arm.
   virtual void moving_arm(const MovingArm&, double /*line_width*/) {}
+
+ protected:
+  bool in_world_ = false;  ///< between enter_world() and leave_world()
 };
 
 /// Draws a picture part by part from back to front (painter.cpp). Groups polygons, walls, edges, search_tree,
@@ -87,5 +90,25 @@ std::vector<std::string> draw_png(const Page& page, const DrawOn& draw, const Ex
 /// Throws UsageError where can_write_pdf() is false, and for pages too large.
 std::vector<std::string> draw_pdf(const Page& page, const DocumentWords& words, const DrawOn& draw,
                                   const Execution& execution, const Write& write);
+
+// A body that moves along the path of an SVG picture: SMIL, no script, nothing from elsewhere. It follows the path's
+// own line (arcs stay arcs) and turns as its poses say; where it turns on the spot, time goes on. A renderer without
+// animation shows none.
+
+/// The moment, in 0 .. 1, at which each pose is reached, and the share of the way that is behind then. Time goes with
+/// the way of the body's farthest point.
+struct Timetable {
+  std::vector<double> moments;
+  std::vector<double> shares;
+};
+Timetable timetable_of(const MovingBody& body);
+
+/// The group "body". path_id: of the line that it follows; scale: picture units a world unit. Empty where the body
+/// stands still.
+std::string svg_moving_body(const MovingBody& body, std::string_view path_id, double scale, double line_width);
+
+/// The group "arm": in each of its projections a line of that width. `at`: from the picture's world to where it is
+/// written. Empty where it stands still.
+std::string svg_moving_arm(const MovingArm& arm, double width, const std::function<Vec2(Vec2)>& at);
 
 }  // namespace warren

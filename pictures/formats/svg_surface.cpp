@@ -3,21 +3,16 @@
 // group "world" coordinates are the world's, with at most three decimals; worlds that are tiny, huge or far from the
 // origin are moved into a frame where that is enough. No attribute is longer than a megabyte, which some readers ask
 // for; more lines than a screen can show are an image inside. Written in pieces: memory stays small whatever the world.
-#include "pictures/formats/svg_surface.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <iterator>
 #include <numbers>
 
 #include "pictures/formats/markup.hpp"
-#include "pictures/formats/raster.hpp"
 #include "pictures/formats/surface.hpp"
-#include "pictures/formats/write_picture.hpp"
 
 namespace warren {
 namespace {
@@ -63,8 +58,7 @@ class SvgSurface : public Surface {
       width = fmt::format("{:.6g}{}", unit.empty() ? page_.width : page_.asked->width, unit);
       height = fmt::format("{:.6g}{}", unit.empty() ? page_.height : page_.asked->height, unit);
     }
-    fmt::format_to(
-        std::back_inserter(text_),
+    text_ += fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" "
         "viewBox=\"0 0 {:.2f} {:.2f}\" width=\"{}\" height=\"{}\" role=\"img\" "
         "xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
@@ -84,9 +78,8 @@ class SvgSurface : public Surface {
     in_world_ = true;
     const double scale = page_.view.scale / frame_.scale;
     const Vec2 zero = page_.view.at(frame_.origin);
-    fmt::format_to(std::back_inserter(text_),
-                   "<g id=\"world\" transform=\"matrix({0:.9g} 0 0 {1:.9g} {2:.9g} {3:.9g})\">\n", scale, -scale,
-                   zero.x, zero.y);
+    text_ += fmt::format("<g id=\"world\" transform=\"matrix({0:.9g} 0 0 {1:.9g} {2:.9g} {3:.9g})\">\n", scale, -scale,
+                         zero.x, zero.y);
   }
   void leave_world() override {
     text_ += "</g>\n";
@@ -95,8 +88,8 @@ class SvgSurface : public Surface {
   void begin_group(std::string_view id, std::string_view label, const Pen& pen) override {
     group_pen_ = pen_ = pen;
     is_way_ = id == "path";
-    fmt::format_to(std::back_inserter(text_), "<g id=\"{}\"{}", xml_text(id), style(pen));
-    if (!label.empty()) fmt::format_to(std::back_inserter(text_), " data-label=\"{}\"", xml_text(label));
+    text_ += fmt::format("<g id=\"{}\"{}", xml_text(id), style(pen));
+    if (!label.empty()) text_ += fmt::format(" data-label=\"{}\"", xml_text(label));
     text_ += '>';
   }
   void end_group() override {
@@ -151,8 +144,8 @@ class SvgSurface : public Surface {
     }
     if (text.bold) more += " font-weight=\"bold\"";
     if (text.upright) more += fmt::format(" transform=\"rotate(-90 {:.1f} {:.1f})\"", text.at.x, text.at.y);
-    fmt::format_to(std::back_inserter(text_), "\n<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:.4g}\"{}>{}</text>",
-                   text.at.x, text.at.y, text.size, more, xml_text(text.text));
+    text_ += fmt::format("\n<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{:.4g}\"{}>{}</text>", text.at.x, text.at.y,
+                         text.size, more, xml_text(text.text));
   }
   /// Some readers (librsvg, and so GNOME) open no more than ten megabytes.
   bool takes_as_mask(std::size_t points) const override {
@@ -166,8 +159,7 @@ class SvgSurface : public Surface {
     const double size = length(1.0);
     const Vec2 corner = at({(page_.data.min.x - page_.view.origin.x) / page_.view.scale,
                             (page_.view.origin.y - page_.data.min.y) / page_.view.scale});
-    fmt::format_to(
-        std::back_inserter(text_),
+    text_ += fmt::format(
         "\n<image transform=\"matrix({0:.9g} 0 0 {1:.9g} {2:.9g} {3:.9g})\" width=\"{4:.9g}\" height=\"{5:.9g}\" "
         "preserveAspectRatio=\"none\" xlink:href=\"data:image/png;base64,",
         size, -size, corner.x, corner.y, page_.data.width(), page_.data.height());
@@ -175,10 +167,10 @@ class SvgSurface : public Surface {
   }
   double image_density() const override { return density_of_images; }
   void image(const Image& image, const Box& at) override {
-    fmt::format_to(std::back_inserter(text_),
-                   "\n<image x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" preserveAspectRatio=\"none\" "
-                   "xlink:href=\"data:image/png;base64,",
-                   at.min.x, at.min.y, at.width(), at.height());
+    text_ += fmt::format(
+        "\n<image x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" preserveAspectRatio=\"none\" "
+        "xlink:href=\"data:image/png;base64,",
+        at.min.x, at.min.y, at.width(), at.height());
     constexpr double points_an_inch = 96.0;
     png([&](const Write& write) { write_png_file(image, density_of_images * points_an_inch, execution_, write); });
   }
@@ -198,11 +190,10 @@ class SvgSurface : public Surface {
   std::string style(const Pen& pen) const {
     std::string style = fmt::format(" fill=\"{}\"", pen.fill ? css_color(*pen.fill) : "none");
     if (pen.stroke) {
-      fmt::format_to(std::back_inserter(style),
-                     " stroke=\"{}\" stroke-width=\"{:.5g}\" stroke-linecap=\"round\" stroke-linejoin=\"round\"",
-                     css_color(*pen.stroke), length(pen.width));
+      style += fmt::format(" stroke=\"{}\" stroke-width=\"{:.5g}\" stroke-linecap=\"round\" stroke-linejoin=\"round\"",
+                           css_color(*pen.stroke), length(pen.width));
     }
-    if (pen.opacity < 1.0) fmt::format_to(std::back_inserter(style), " opacity=\"{:.3g}\"", pen.opacity);
+    if (pen.opacity < 1.0) style += fmt::format(" opacity=\"{:.3g}\"", pen.opacity);
     if (pen.crisp) style += " shape-rendering=\"crispEdges\"";
     return style;
   }
@@ -266,7 +257,6 @@ class SvgSurface : public Surface {
   const Execution& execution_;
   const Write& write_;
   WorldFrame frame_;
-  bool in_world_ = false;
   Pen group_pen_;
   Pen pen_;
   bool path_is_open_ = false;
@@ -275,20 +265,6 @@ class SvgSurface : public Surface {
   std::size_t written_ = 0;  // bytes
   std::string text_;
 };
-
-}  // namespace
-
-std::vector<std::string> write_svg(const Picture& picture, const PictureOptions& options, const Execution& execution,
-                                   const Write& write) {
-  const Page page = page_of(picture, options, false, execution);
-  SvgSurface surface(page, execution, write);
-  surface.open(picture, options.title.value_or(picture.title));
-  std::vector<std::string> notes = paint(picture, options.parts, page, surface, execution);
-  surface.close();
-  return notes;
-}
-
-namespace {
 
 constexpr std::string_view duration = "dur=\"8s\" repeatCount=\"indefinite\"";
 
@@ -318,12 +294,22 @@ std::string shape_of(const MovingBody& body, double scale, double line_width) {
   }
   std::string d;
   for (const Vec2 p : body.outline) {
-    fmt::format_to(std::back_inserter(d), "{}{:.3f} {:.3f}", d.empty() ? 'M' : 'L', scale * p.x, scale * p.y);
+    d += fmt::format("{}{:.3f} {:.3f}", d.empty() ? 'M' : 'L', scale * p.x, scale * p.y);
   }
   return fmt::format(R"(<path d="{}Z" {}/>)", d, style);
 }
 
 }  // namespace
+
+std::vector<std::string> write_svg(const Picture& picture, const PictureOptions& options, const Execution& execution,
+                                   const Write& write) {
+  const Page page = page_of(picture, options, false, execution);
+  SvgSurface surface(page, execution, write);
+  surface.open(picture, options.title.value_or(picture.title));
+  std::vector<std::string> notes = paint(picture, options.parts, page, surface, execution);
+  surface.close();
+  return notes;
+}
 
 Timetable timetable_of(const MovingBody& body) {
   const double size = body.outline.empty() ? body.radius : outline_reach(body.outline);
@@ -370,16 +356,16 @@ std::string svg_moving_arm(const MovingArm& arm, double width, const std::functi
       std::string points;
       for (const Vec3& end : spine) {
         const Vec2 p = at(view.at(end));
-        fmt::format_to(std::back_inserter(points), "{}{:.3f},{:.3f}", points.empty() ? "" : " ", p.x, p.y);
+        points += fmt::format("{}{:.3f},{:.3f}", points.empty() ? "" : " ", p.x, p.y);
       }
       places += (places.empty() ? "" : ";") + points;
       if (first.empty()) first = points;
     }
-    fmt::format_to(std::back_inserter(group),
-                   "<polyline points=\"{}\" fill=\"none\" stroke=\"#e11d48\" stroke-opacity=\"0.55\" "
-                   "stroke-width=\"{:.3f}\" stroke-linecap=\"round\" stroke-linejoin=\"round\"><animate "
-                   "attributeName=\"points\" {} calcMode=\"linear\" keyTimes=\"{}\" values=\"{}\"/></polyline>\n",
-                   first, width, duration, moments, places);
+    group += fmt::format(
+        "<polyline points=\"{}\" fill=\"none\" stroke=\"#e11d48\" stroke-opacity=\"0.55\" "
+        "stroke-width=\"{:.3f}\" stroke-linecap=\"round\" stroke-linejoin=\"round\"><animate "
+        "attributeName=\"points\" {} calcMode=\"linear\" keyTimes=\"{}\" values=\"{}\"/></polyline>\n",
+        first, width, duration, moments, places);
   }
   return group + "</g>\n";
 }

@@ -16,6 +16,7 @@
 #include <string>
 #include <utility>
 
+#include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "parallel/asked_memory.hpp"
 #include "pictures/model/axis.hpp"
@@ -125,9 +126,7 @@ class ArmPath {
     std::size_t used = 0;
     walk(model, base_frame, line_, used);
     line_.resize(used);
-    for (std::size_t i = 1; i < states.size(); ++i) {
-      shares_.push_back(shares_.back() + distance(states[i - 1], states[i]));
-    }
+    shares_ = lengths_along(states, [this](const JointState& a, const JointState& b) { return distance(a, b); });
   }
 
   /// A frame is as frames() has it.
@@ -222,7 +221,7 @@ class ArmPath {
   std::vector<MovingArm::Link> solids_;
   std::vector<int> line_;
   std::span<const JointState> states_;
-  std::vector<double> shares_{0.0};  // of each state: the length up to it
+  std::vector<double> shares_;  // of each state: the length up to it
 };
 
 // An arm and its obstacles as solids, seen in perspective.

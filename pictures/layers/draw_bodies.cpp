@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/solution.hpp"
 #include "pictures/layers/draw_cells.hpp"
 #include "planners/graph/assemble_graph.hpp"
 #include "worlds/poses/dubins_curve.hpp"
@@ -46,11 +47,11 @@ class BodyDrawing {
         has_heading_(drives_ || !robot.outline.empty()),
         outline_(outline_of(robot)),
         size_(outline_reach(outline_)) {
-    const std::vector<double> lengths =
-        leg_lengths(poses, drives_ ? leg_turns(poses) : std::vector<double>(poses.size(), 0.0));
+    const std::vector<double> turns = leg_turns(poses);
+    const std::vector<double> lengths = leg_lengths(poses, drives_ ? turns : std::vector<double>(poses.size(), 0.0));
     for (std::size_t i = 0; i < poses.size(); ++i) {
-      const double turn = i == 0 ? 0.0 : std::abs(turn_between(poses[i - 1].theta, poses[i].theta));
-      travels_.push_back((i == 0 ? 0.0 : travels_.back()) + lengths[i] + (drives_ ? 0.0 : size_ * turn));
+      const double turned = drives_ ? 0.0 : size_ * std::abs(turns[i]);
+      travels_.push_back((i == 0 ? 0.0 : travels_.back()) + lengths[i] + turned);
     }
   }
 
@@ -81,12 +82,10 @@ class BodyDrawing {
 
  private:
   Se2 pose_at(double travel) const {
-    const auto after = std::upper_bound(travels_.begin(), travels_.end(), travel);
-    const std::size_t i =
-        std::clamp<std::size_t>(static_cast<std::size_t>(after - travels_.begin()), 1, poses_.size() - 1);
-    const double leg = travels_[i] - travels_[i - 1];
-    const double share = leg > 0.0 ? std::clamp((travel - travels_[i - 1]) / leg, 0.0, 1.0) : 0.0;
-    return drives_ ? pose_on_leg(poses_[i - 1], poses_[i], share) : interpolate(poses_[i - 1], poses_[i], share);
+    const PlaceOnPath at = place_on_path(travels_, travel);
+    const Se2& from = poses_[at.leg];
+    const Se2& to = poses_[at.leg + 1];
+    return drives_ ? pose_on_leg(from, to, at.share) : interpolate(from, to, at.share);
   }
   void add_body(PictureLayer& layer, const Se2& pose) const { layer.lines.add(moved_to(pose, outline_)); }
   /// A triangle inside, at the end that goes ahead.
@@ -155,25 +154,6 @@ class BodyDrawing {
   std::vector<double> travels_;  // way of the farthest point, at most, until each pose
 };
 
-}  // namespace
-
-std::vector<PictureLayer> bodies_along(std::span<const Se2> poses, const RobotSpec& robot) {
-  if (poses.empty() || (robot.outline.empty() && !(robot.radius > 0.0))) return {};
-  return BodyDrawing(poses, robot).layers();
-}
-
-PictureLayer heading_arrows(std::span<const Se2> poses, double length) {
-  PictureLayer layer{.id = "headings", .label = "heading", .color = colors::outline};
-  for (const Se2& pose : poses) {
-    const Rotation turned(pose.theta);
-    const auto at = [&](double x, double y) { return pose.position() + turned(Vec2{x * length, y * length}); };
-    layer.lines.add(std::array{pose.position(), at(1.0, 0.0), at(0.7, 0.2), at(1.0, 0.0), at(0.7, -0.2)});
-  }
-  return layer;
-}
-
-namespace {
-
 SteeringCurve curve_between(const Se2& a, const Se2& b, const RobotSpec& car) {
   const auto shortest = car.steering == SteeringKind::dubins        ? DubinsCurve::shortest
                         : car.steering == SteeringKind::reeds_shepp ? ReedsSheppCurve::shortest
@@ -203,34 +183,6 @@ std::vector<Edge> motions_of(const PlannedRoadmap<Se2>& roadmap, const RobotSpec
   }
   return motions;
 }
-
-}  // namespace
-
-CarCurves car_curves(std::span<const PlannedRoadmap<Se2>> roadmaps, const RobotSpec& car, const Execution& execution) {
-  CarCurves curves{.edges = {.id = "edges", .label = "motion of the roadmap or tree", .color = colors::components[0]},
-                   .trees = {.id = "search_tree",
-                             .label = "search tree",
-                             .part = Part::search,
-                             .color = colors::search_tree,
-                             .width = widths::search_tree},
-                   .milestones = {}};
-  std::size_t drawn = 0;
-  const auto add = [&](PictureLayer& layer, const Se2& a, const Se2& b) {
-    if (++drawn % 256 == 0) execution.check();
-    add_curve(layer, curve_between(a, b, car));
-  };
-  for (const PlannedRoadmap<Se2>& roadmap : roadmaps) {
-    const RawVector<Se2>& states = roadmap.states;
-    for (const Edge& motion : motions_of(roadmap, car)) add(curves.edges, states[motion.from], states[motion.to]);
-    for (const Edge& edge : roadmap.search_tree) {
-      if (edge.to != no_vertex) add(curves.trees, states[edge.to], states[edge.from]);
-    }
-    for (const Se2& state : states) curves.milestones.push_back(state.position());
-  }
-  return curves;
-}
-
-namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
 
@@ -274,6 +226,45 @@ PictureLayer arrows_of(const std::vector<Se2>& states, std::string id, const std
 }
 
 }  // namespace
+
+std::vector<PictureLayer> bodies_along(std::span<const Se2> poses, const RobotSpec& robot) {
+  if (poses.empty() || (robot.outline.empty() && !(robot.radius > 0.0))) return {};
+  return BodyDrawing(poses, robot).layers();
+}
+
+PictureLayer heading_arrows(std::span<const Se2> poses, double length) {
+  PictureLayer layer{.id = "headings", .label = "heading", .color = colors::outline};
+  for (const Se2& pose : poses) {
+    const Rotation turned(pose.theta);
+    const auto at = [&](double x, double y) { return pose.position() + turned(Vec2{x * length, y * length}); };
+    layer.lines.add(std::array{pose.position(), at(1.0, 0.0), at(0.7, 0.2), at(1.0, 0.0), at(0.7, -0.2)});
+  }
+  return layer;
+}
+
+CarCurves car_curves(std::span<const PlannedRoadmap<Se2>> roadmaps, const RobotSpec& car, const Execution& execution) {
+  CarCurves curves{.edges = {.id = "edges", .label = "motion of the roadmap or tree", .color = colors::components[0]},
+                   .trees = {.id = "search_tree",
+                             .label = "search tree",
+                             .part = Part::search,
+                             .color = colors::search_tree,
+                             .width = widths::search_tree},
+                   .milestones = {}};
+  std::size_t drawn = 0;
+  const auto add = [&](PictureLayer& layer, const Se2& a, const Se2& b) {
+    if (++drawn % 256 == 0) execution.check();
+    add_curve(layer, curve_between(a, b, car));
+  };
+  for (const PlannedRoadmap<Se2>& roadmap : roadmaps) {
+    const RawVector<Se2>& states = roadmap.states;
+    for (const Edge& motion : motions_of(roadmap, car)) add(curves.edges, states[motion.from], states[motion.to]);
+    for (const Edge& edge : roadmap.search_tree) {
+      if (edge.to != no_vertex) add(curves.trees, states[edge.to], states[edge.from]);
+    }
+    for (const Se2& state : states) curves.milestones.push_back(state.position());
+  }
+  return curves;
+}
 
 void check_has_headings(const RobotSpec& robot) {
   if (!robot.outline.empty()) return;

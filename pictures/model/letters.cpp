@@ -150,24 +150,20 @@ namespace {
 constexpr double units = 1024.0;
 
 /// Reads the numbers of a glyph.
-class GlyphReader {
- public:
-  explicit GlyphReader(std::string_view digits) : digits_(digits) {}
-  bool ended() const { return digits_.empty(); }
+struct GlyphReader {
+  std::string_view digits;
+  bool ended() const { return digits.empty(); }
   int number() {
     constexpr int small = 40;
     const int first = digit();
     return first < small ? first : small + 91 * (first - small) + digit();
   }
   static int step(int number) { return number % 2 == 0 ? number / 2 : -(number / 2) - 1; }
-
- private:
   int digit() {
-    const char c = digits_.front();
-    digits_.remove_prefix(1);
+    const char c = digits.front();
+    digits.remove_prefix(1);
     return c - (c > '\\' ? '$' : '#');
   }
-  std::string_view digits_;
 };
 
 constexpr std::size_t glyph_count = 95 + 96;
@@ -184,7 +180,7 @@ std::array<std::string_view, glyph_count> all_glyphs() {
 
 GlyphReader glyph(std::size_t number) {
   static const std::array<std::string_view, glyph_count> glyphs = all_glyphs();
-  return GlyphReader(glyphs[number]);
+  return {glyphs[number]};
 }
 
 std::size_t glyph_of(char latin1) {
@@ -222,7 +218,6 @@ std::vector<CurveContour> contours_of(std::size_t number) {
     }
     contours.push_back(std::move(contour));
   }
-
   return contours;
 }
 
@@ -247,7 +242,6 @@ std::vector<Vec2> contour_of(const CurveContour& points) {
       contour.push_back((1 - t) * (1 - t) * a + 2 * t * (1 - t) * here.at + t * t * b);
     }
   }
-
   return contour;
 }
 

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/base/printable.hpp"
 #include "pictures/model/axis.hpp"
 #include "pictures/model/letters.hpp"
 #include "scenes/scene/scene.hpp"
@@ -36,10 +37,7 @@ void add_axes(Page& page, const AxesPanel& panel, Box at, std::optional<double> 
   const Vec2 low = at.min;
   const Vec2 high = at.max;
   const auto line = [&](Vec2 a, Vec2 b) { page.frame.push_back({a, b}); };
-  line(low, {high.x, low.y});
-  line({high.x, low.y}, high);
-  line(high, {low.x, high.y});
-  line({low.x, high.y}, low);
+  for_each_side(at.corners(), line);
   const auto names_inside = [&] {
     add_text(page, {high.x - 6.0, high.y - 7.0}, panel.x_label, text_size, Anchor::end);
     add_text(page, {low.x + 6.0, low.y + text_size + 5.0}, panel.y_label, text_size, Anchor::start);
@@ -118,7 +116,7 @@ class PageMaker {
   Page make() {
     take_size();
     lay_out(best_side());
-    if (!fixed_) fit_page();
+    if (!fixed()) fit_page();
     place_world();
     title();
     if (has_axes()) axes();
@@ -130,6 +128,8 @@ class PageMaker {
   /// Places in the legend; the scale bar has the last.
   std::size_t slots() const { return entries_.empty() ? 0 : entries_.size() + (has_axes() ? 1 : 0); }
   bool has_axes() const { return options_.parts.has(Part::axes); }
+  /// Was the page's size asked for?
+  bool fixed() const { return options_.size.has_value(); }
   double world_width() const { return page_.canvas.box.width(); }
   double world_height() const { return page_.canvas.box.height(); }
   void take_size() {
@@ -142,8 +142,7 @@ class PageMaker {
     const double wanted = std::clamp(pixels_a_unit * longer / page_.canvas.unit, least_pixels, most_pixels);
     const bool free_size = !options_.size && in_pixels_;
     page_.dpi = options_.dpi.value_or(free_size ? 96.0 * wanted / usual_side : 96.0);
-    if (!options_.size) return;
-    fixed_ = true;
+    if (!fixed()) return;
     page_.asked = options_.size;
     constexpr double mm_an_inch = 25.4;
     const double to_page = 96.0 / (options_.size->unit == LengthUnit::mm ? mm_an_inch : page_.dpi);
@@ -155,7 +154,7 @@ class PageMaker {
   bool best_side() {
     if (entries_.empty()) return true;
     const double aspect = world_width() / world_height();
-    if (!fixed_) return aspect < 1.4;
+    if (!fixed()) return aspect < 1.4;
     const auto scale = [&](bool beside) {
       beside_ = beside;
       page_.data = {};
@@ -179,7 +178,7 @@ class PageMaker {
     double data_width = 0.0;
     double data_height = 0.0;
     for (int round = 0; round < 2; ++round) {  // the title is wrapped to the width that the first round gives
-      if (fixed_) {
+      if (fixed()) {
         wrap_title();
         Margins all = around_;
         all.top += title_height();
@@ -226,7 +225,7 @@ class PageMaker {
   void place_world() {
     const Vec2 size{world_width() * page_.view.scale, world_height() * page_.view.scale};
     Box& data = page_.data;
-    if (fixed_) {  // what is left over goes to the right and below
+    if (fixed()) {  // what is left over goes to the right and below
       data.max.x = std::min(data.max.x, data.min.x + std::max(size.x + 2.0 * rim, least_side));
       data.max.y = std::min(data.max.y, data.min.y + std::max(size.y + 2.0 * rim, least_side));
     }
@@ -297,13 +296,9 @@ class PageMaker {
     subtitle_.clear();
     if (options_.title && options_.title->empty()) return;
     constexpr double least_width = 420.0;
-    const double room = (fixed_ ? page_.width : std::max(page_.width, least_width)) - 2.0 * margin;
-    for (std::size_t at = 0; at < picture_.subtitle.size();) {
-      const std::size_t end = std::min(picture_.subtitle.find('\n', at), picture_.subtitle.size());
-      for (std::string& line : wrapped_text(picture_.subtitle.substr(at, end - at), text_size, room)) {
-        subtitle_.push_back(std::move(line));
-      }
-      at = end + 1;
+    const double room = (fixed() ? page_.width : std::max(page_.width, least_width)) - 2.0 * margin;
+    for (const std::string_view part : split(picture_.subtitle, "\n")) {
+      for (std::string& line : wrapped_text(std::string(part), text_size, room)) subtitle_.push_back(std::move(line));
     }
   }
   double title_height() const {
@@ -331,7 +326,6 @@ class PageMaker {
   const Picture& picture_;
   const PictureOptions& options_;
   bool in_pixels_;
-  bool fixed_ = false;  // the page's size was asked for
   Page page_;
   std::vector<LegendEntry> entries_;
   double entry_width_ = 0.0;
@@ -340,25 +334,6 @@ class PageMaker {
   bool beside_ = true;  // the legend
   Margins around_{};
 };
-
-}  // namespace
-
-double Page::thickness() const {
-  constexpr double usual_unit = 20.0;
-  constexpr double most = 1.25;
-  return std::min(view.scale * canvas.unit / usual_unit, most);
-}
-
-PlacedText foot_of(const Page& page, const std::string& words) {
-  constexpr double size = 9.0;
-  return {{margin, page.height - 0.3 * size}, fitting_text(words, size, page.width - 2.0 * margin), size};
-}
-
-Page page_of(const Picture& picture, const PictureOptions& options, bool in_pixels, const Execution& execution) {
-  return PageMaker(picture, options, in_pixels, execution).make();
-}
-
-namespace {
 
 void add_world_entries(std::vector<LegendEntry>& entries, const Picture& picture) {
   const Scene& scene = picture.scene;
@@ -424,6 +399,21 @@ void add_layer_entry(std::vector<LegendEntry>& entries, const PictureLayer& laye
 }
 
 }  // namespace
+
+double Page::thickness() const {
+  constexpr double usual_unit = 20.0;
+  constexpr double most = 1.25;
+  return std::min(view.scale * canvas.unit / usual_unit, most);
+}
+
+PlacedText foot_of(const Page& page, const std::string& words) {
+  constexpr double size = 9.0;
+  return {{margin, page.height - 0.3 * size}, fitting_text(words, size, page.width - 2.0 * margin), size};
+}
+
+Page page_of(const Picture& picture, const PictureOptions& options, bool in_pixels, const Execution& execution) {
+  return PageMaker(picture, options, in_pixels, execution).make();
+}
 
 std::vector<LegendEntry> legend_of(const Picture& picture, Parts parts, const Execution& execution) {
   std::vector<LegendEntry> entries;

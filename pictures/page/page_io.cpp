@@ -19,7 +19,7 @@
 #include "core/run/execution.hpp"
 #include "pictures/formats/markup.hpp"
 #include "pictures/formats/raster.hpp"
-#include "pictures/formats/svg_surface.hpp"
+#include "pictures/formats/surface.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/model/picture.hpp"
 #include "pictures/page/page_files.hpp"

@@ -47,42 +47,35 @@ void poll_sometimes() {
   if (++questions % questions_per_poll == 0) construction->check();
 }
 
-/// Boost's own predicates; the order of events is asked for while they are sorted, queued and taken.
-struct PolledPredicates
-    : boost_polygon::detail::voronoi_predicates<boost_polygon::detail::voronoi_ctype_traits<std::int32_t>> {
-  template <class Site, class Circle>
-  class event_comparison_predicate {  // NOLINT(readability-identifier-naming): Boost's name
-   public:
-    template <class A, class B>
-    bool operator()(const A& a, const B& b) const {
-      poll_sometimes();
-      return plain_(a, b);
-    }
-
-   private:
-    using Plain = boost_polygon::detail::voronoi_predicates<
-        boost_polygon::detail::voronoi_ctype_traits<std::int32_t>>::event_comparison_predicate<Site, Circle>;
-    Plain plain_;
-  };
+/// One of Boost's own predicates, which looks at the deadline before it answers.
+template <class Plain>
+struct Polled {
+  template <class A, class B>
+  bool operator()(const A& a, const B& b) const {
+    poll_sometimes();
+    return plain(a, b);
+  }
+  Plain plain;
 };
 
-/// And the one that asks which vertices are the same, edge by edge, at the end.
-struct PolledDiagramTraits : boost_polygon::voronoi_diagram_traits<double> {
-  class vertex_equality_predicate_type {  // NOLINT(readability-identifier-naming): Boost's name
-   public:
-    bool operator()(const vertex_type& v, const vertex_type& w) const {
-      poll_sometimes();
-      return plain_(v, w);
-    }
+using IntegerTraits = boost_polygon::detail::voronoi_ctype_traits<std::int32_t>;
+using PlainPredicates = boost_polygon::detail::voronoi_predicates<IntegerTraits>;
+using PlainDiagramTraits = boost_polygon::voronoi_diagram_traits<double>;
 
-   private:
-    boost_polygon::voronoi_diagram_traits<double>::vertex_equality_predicate_type plain_;
-  };
+/// The order of events is asked for while they are sorted, queued and taken.
+struct PolledPredicates : PlainPredicates {
+  template <class Site, class Circle>  // NOLINTNEXTLINE(readability-identifier-naming): Boost's name
+  using event_comparison_predicate = Polled<PlainPredicates::event_comparison_predicate<Site, Circle>>;
+};
+
+/// Which vertices are the same is asked edge by edge, at the end.
+struct PolledDiagramTraits : PlainDiagramTraits {
+  // NOLINTNEXTLINE(readability-identifier-naming): Boost's name
+  using vertex_equality_predicate_type = Polled<PlainDiagramTraits::vertex_equality_predicate_type>;
 };
 
 using Diagram = boost_polygon::voronoi_diagram<double, PolledDiagramTraits>;
-using Builder = boost_polygon::voronoi_builder<std::int32_t, boost_polygon::detail::voronoi_ctype_traits<std::int32_t>,
-                                               PolledPredicates>;
+using Builder = boost_polygon::voronoi_builder<std::int32_t, IntegerTraits, PolledPredicates>;
 
 struct VoronoiDiagram {
   std::vector<Vec2> vertices;  ///< in grid units
@@ -224,16 +217,7 @@ void AxisCurve::append_polyline(std::vector<Vec2>& path) const {
   path.push_back(to_);
 }
 
-MedialAxis::MedialAxis(const PlaneObstacles& obstacles, const Execution& execution) {
-  collect(obstacles);
-  if (!(frame_.width() > 0.0) || !(frame_.height() > 0.0)) {
-    throw InputError("medial axis", "expected bounds, or obstacles that span an area");
-  }
-  build(obstacles, execution);
-}
-
-void MedialAxis::collect(const PlaneObstacles& obstacles) {
-  obstacles_ = obstacles.walls;
+MedialAxis::MedialAxis(const PlaneObstacles& obstacles, const Execution& execution) : obstacles_(obstacles.walls) {
   for (std::size_t p = 0; p < obstacles.polygons.size(); ++p) {
     for_each_side(obstacles.polygons[p], [&](Vec2 a, Vec2 b) { obstacles_.push_back({a, b}); });
   }
@@ -242,6 +226,10 @@ void MedialAxis::collect(const PlaneObstacles& obstacles) {
   true_obstacle_count_ = obstacles_.size();
   for_each_side(frame_.corners(), [&](Vec2 a, Vec2 b) { obstacles_.push_back({a, b}); });
   if (obstacles.bounds) true_obstacle_count_ = obstacles_.size();
+  if (!(frame_.width() > 0.0) || !(frame_.height() > 0.0)) {
+    throw InputError("medial axis", "expected bounds, or obstacles that span an area");
+  }
+  build(obstacles, execution);
 }
 
 std::vector<char> MedialAxis::free_points(const PlaneObstacles& obstacles, const std::vector<Vec2>& points,

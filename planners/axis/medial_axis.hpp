@@ -111,7 +111,6 @@ class MedialAxis {
   double snap_error() const { return snap_error_; }
 
  private:
-  void collect(const PlaneObstacles& obstacles);
   void build(const PlaneObstacles& obstacles, const Execution& execution);
 
   Box frame_;

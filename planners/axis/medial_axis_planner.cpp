@@ -149,6 +149,8 @@ struct AxisLink {
   double clearance;
 };
 
+constexpr std::size_t links_per_poll = 1 << 14;
+
 /// What of a medial axis may be travelled with a clearance, as a graph between two places on it: the edges that are
 /// wide enough, and the wide enough parts of the edges on which the two places lie. O(edges) to build, O(edges log
 /// edges) to find the widest way. The axis' vertices, behind them the start and the goal. Refers to the axis and the
@@ -157,30 +159,126 @@ class AxisGraph {
  public:
   /// Keeps what has at least this clearance and more than the axis' resolution.
   AxisGraph(const MedialAxis& axis, const AxisPlace& start, const AxisPlace& goal, double clearance,
-            const Execution& execution);
+            const Execution& execution)
+      : axis_(axis), execution_(execution), ends_{start, goal} {
+    const double least = std::max(clearance, axis.resolution());
+    for (std::uint32_t i = 0; i < axis.edges().size(); ++i) {
+      if (i % links_per_poll == 0) execution_.check();
+      const AxisEdge& e = axis.edges()[i];
+      if (e.clearance < least) continue;
+      const AxisCurve curve = axis.curve(e);
+      links_.push_back({e.from, e.to, i, curve.first(), curve.last(), e.length, e.clearance});
+    }
+    join(this->start(), least);
+    join(this->goal(), least);
+    if (start.edge == goal.edge) add(this->start(), this->goal(), start.edge, start.parameter, goal.parameter, least);
+    index_links();
+  }
 
   std::size_t vertex_count() const { return axis_.vertices().size() + 2; }
   VertexId start() const { return static_cast<VertexId>(axis_.vertices().size()); }
   VertexId goal() const { return start() + 1; }
   Vec2 place(VertexId v) const { return v < start() ? axis_.vertices()[v] : ends_[v - start()].at; }
   const std::vector<AxisLink>& links() const { return links_; }
-  Graph graph() const;
+  Graph graph() const {
+    std::vector<Edge> edges;
+    edges.reserve(links_.size());
+    for (const AxisLink& l : links_) {
+      if (l.from != l.to) edges.push_back({l.from, l.to});
+    }
+    return assemble_graph(vertex_count(), edges, execution_);
+  }
 
   /// The largest clearance with which start and goal are joined; negative where they aren't at all.
-  double widest() const;
+  double widest() const {
+    std::vector<std::uint32_t> order(links_.size());
+    std::iota(order.begin(), order.end(), 0U);
+    polled_sort(order.begin(), order.end(), execution_, [&](std::uint32_t i, std::uint32_t j) {
+      return links_[i].clearance != links_[j].clearance ? links_[i].clearance > links_[j].clearance : i < j;
+    });
+    std::vector<VertexId> parent(vertex_count());
+    std::iota(parent.begin(), parent.end(), 0U);
+    for (std::size_t n = 0; n < order.size(); ++n) {
+      if (n % links_per_poll == 0) execution_.check();
+      const std::uint32_t i = order[n];
+      unite(parent, links_[i].from, links_[i].to);
+      if (root_of(parent, start()) == root_of(parent, goal())) return links_[i].clearance;
+    }
+    return -1.0;
+  }
   /// Drops links with less clearance.
-  void narrow_to(double clearance);
+  void narrow_to(double clearance) {
+    std::erase_if(links_, [&](const AxisLink& l) { return l.clearance < clearance; });
+    index_links();
+  }
   /// Start to goal; lengths are the curves' for A* and Dijkstra, numbers of links else.
-  SearchResult search(SearchKind search, QueueKind queue) const;
+  SearchResult search(SearchKind search, QueueKind queue_kind) const {
+    SearchState state;
+    SearchResult found;
+    if (!has_queue(search)) {
+      found = search_blindly(search, graph(), start(), goal(), state, execution_);
+    } else {
+      const auto neighbours = [&](VertexId v, const auto& visit) {
+        for (const std::uint32_t i : links_at_.of(v)) {
+          const AxisLink& l = links_[i];
+          visit(l.from == v ? l.to : l.from, l.length);
+        }
+      };
+      const bool informed = search == SearchKind::astar;
+      const auto estimate = [&](VertexId v) { return informed ? distance(place(v), place(goal())) : 0.0; };
+      found = search_best_first(queue_kind, vertex_count(), start(), goal(), neighbours, estimate, state, execution_);
+    }
+    if (found.status == SearchStatus::stopped) execution_.check();
+    return found;
+  }
   /// The link between two vertices that follow each other in a path: the shortest one, where several do.
-  const AxisLink& link_between(VertexId v, VertexId w) const;
+  const AxisLink& link_between(VertexId v, VertexId w) const {
+    const AxisLink* best = nullptr;
+    for (const std::uint32_t i : links_at_.of(v)) {
+      const AxisLink& l = links_[i];
+      if ((l.from == v ? l.to : l.from) != w) continue;
+      if (best == nullptr || l.length < best->length) best = &l;
+    }
+    assert(best != nullptr);
+    return *best;
+  }
   /// The polyline along a search's path, both ends included.
-  std::vector<Vec2> polyline(std::span<const VertexId> path) const;
+  std::vector<Vec2> polyline(std::span<const VertexId> path) const {
+    std::vector<Vec2> points{place(path.front())};
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      const AxisLink& l = link_between(path[i - 1], path[i]);
+      const bool forward = l.from == path[i - 1];
+      const auto [first, last] = forward ? std::pair(l.first, l.last) : std::pair(l.last, l.first);
+      const AxisCurve curve = axis_.curve(axis_.edges()[l.edge]);
+      curve.part(first, last, place(path[i - 1]), place(path[i])).append_polyline(points);
+    }
+    return points;
+  }
 
  private:
-  void add(VertexId from, VertexId to, std::uint32_t edge, double first, double last, double clearance);
-  void join(VertexId v, double clearance);
-  void index_links();
+  void add(VertexId from, VertexId to, std::uint32_t edge, double first, double last, double clearance) {
+    const AxisEdge& e = axis_.edges()[edge];
+    const AxisCurve part = axis_.curve(e).part(first, last, place(from), place(to));
+    const double room = axis_.least_clearance(e, part);
+    if (room >= clearance) links_.push_back({from, to, edge, first, last, part.length(), room});
+  }
+  /// Links one of the ends with both vertices of its edge.
+  void join(VertexId v, double clearance) {
+    const AxisPlace& place = ends_[v - start()];
+    const AxisEdge& e = axis_.edges()[place.edge];
+    const AxisCurve curve = axis_.curve(e);
+    add(v, e.from, place.edge, place.parameter, curve.first(), clearance);
+    add(v, e.to, place.edge, place.parameter, curve.last(), clearance);
+  }
+  void index_links() {
+    links_at_ = items_by_key(vertex_count(), [&](const auto& visit) {
+      for (std::uint32_t i = 0; i < links_.size(); ++i) {
+        if (i % links_per_poll == 0) execution_.check();
+        visit(links_[i].from, i);
+        visit(links_[i].to, i);
+      }
+    });
+  }
 
   const MedialAxis& axis_;
   const Execution& execution_;
@@ -188,125 +286,6 @@ class AxisGraph {
   std::vector<AxisLink> links_;
   ItemsByKey links_at_;  // each vertex, by number
 };
-
-constexpr std::size_t links_per_poll = 1 << 14;
-
-AxisGraph::AxisGraph(const MedialAxis& axis, const AxisPlace& start, const AxisPlace& goal, double clearance,
-                     const Execution& execution)
-    : axis_(axis), execution_(execution), ends_{start, goal} {
-  const double least = std::max(clearance, axis.resolution());
-  for (std::uint32_t i = 0; i < axis.edges().size(); ++i) {
-    if (i % links_per_poll == 0) execution_.check();
-    const AxisEdge& e = axis.edges()[i];
-    if (e.clearance < least) continue;
-    const AxisCurve curve = axis.curve(e);
-    links_.push_back({e.from, e.to, i, curve.first(), curve.last(), e.length, e.clearance});
-  }
-  join(this->start(), least);
-  join(this->goal(), least);
-  if (start.edge == goal.edge) add(this->start(), this->goal(), start.edge, start.parameter, goal.parameter, least);
-  index_links();
-}
-
-void AxisGraph::add(VertexId from, VertexId to, std::uint32_t edge, double first, double last, double clearance) {
-  const AxisEdge& e = axis_.edges()[edge];
-  const AxisCurve part = axis_.curve(e).part(first, last, place(from), place(to));
-  const double room = axis_.least_clearance(e, part);
-  if (room >= clearance) links_.push_back({from, to, edge, first, last, part.length(), room});
-}
-
-/// Links one of the ends with both vertices of its edge.
-void AxisGraph::join(VertexId v, double clearance) {
-  const AxisPlace& place = ends_[v - start()];
-  const AxisEdge& e = axis_.edges()[place.edge];
-  const AxisCurve curve = axis_.curve(e);
-  add(v, e.from, place.edge, place.parameter, curve.first(), clearance);
-  add(v, e.to, place.edge, place.parameter, curve.last(), clearance);
-}
-
-void AxisGraph::index_links() {
-  links_at_ = items_by_key(vertex_count(), [&](const auto& visit) {
-    for (std::uint32_t i = 0; i < links_.size(); ++i) {
-      if (i % links_per_poll == 0) execution_.check();
-      visit(links_[i].from, i);
-      visit(links_[i].to, i);
-    }
-  });
-}
-
-Graph AxisGraph::graph() const {
-  std::vector<Edge> edges;
-  edges.reserve(links_.size());
-  for (const AxisLink& l : links_) {
-    if (l.from != l.to) edges.push_back({l.from, l.to});
-  }
-  return assemble_graph(vertex_count(), edges, execution_);
-}
-
-double AxisGraph::widest() const {
-  std::vector<std::uint32_t> order(links_.size());
-  std::iota(order.begin(), order.end(), 0U);
-  polled_sort(order.begin(), order.end(), execution_, [&](std::uint32_t i, std::uint32_t j) {
-    return links_[i].clearance != links_[j].clearance ? links_[i].clearance > links_[j].clearance : i < j;
-  });
-  std::vector<VertexId> parent(vertex_count());
-  std::iota(parent.begin(), parent.end(), 0U);
-  for (std::size_t n = 0; n < order.size(); ++n) {
-    if (n % links_per_poll == 0) execution_.check();
-    const std::uint32_t i = order[n];
-    unite(parent, links_[i].from, links_[i].to);
-    if (root_of(parent, start()) == root_of(parent, goal())) return links_[i].clearance;
-  }
-  return -1.0;
-}
-
-void AxisGraph::narrow_to(double clearance) {
-  std::erase_if(links_, [&](const AxisLink& l) { return l.clearance < clearance; });
-  index_links();
-}
-
-SearchResult AxisGraph::search(SearchKind search, QueueKind queue_kind) const {
-  SearchState state;
-  SearchResult found;
-  if (!has_queue(search)) {
-    found = search_blindly(search, graph(), start(), goal(), state, execution_);
-  } else {
-    const auto neighbours = [&](VertexId v, const auto& visit) {
-      for (const std::uint32_t i : links_at_.of(v)) {
-        const AxisLink& l = links_[i];
-        visit(l.from == v ? l.to : l.from, l.length);
-      }
-    };
-    const bool informed = search == SearchKind::astar;
-    const auto estimate = [&](VertexId v) { return informed ? distance(place(v), place(goal())) : 0.0; };
-    found = search_best_first(queue_kind, vertex_count(), start(), goal(), neighbours, estimate, state, execution_);
-  }
-  if (found.status == SearchStatus::stopped) execution_.check();
-  return found;
-}
-
-const AxisLink& AxisGraph::link_between(VertexId v, VertexId w) const {
-  const AxisLink* best = nullptr;
-  for (const std::uint32_t i : links_at_.of(v)) {
-    const AxisLink& l = links_[i];
-    if ((l.from == v ? l.to : l.from) != w) continue;
-    if (best == nullptr || l.length < best->length) best = &l;
-  }
-  assert(best != nullptr);
-  return *best;
-}
-
-std::vector<Vec2> AxisGraph::polyline(std::span<const VertexId> path) const {
-  std::vector<Vec2> points{place(path.front())};
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const AxisLink& l = link_between(path[i - 1], path[i]);
-    const bool forward = l.from == path[i - 1];
-    const auto [first, last] = forward ? std::pair(l.first, l.last) : std::pair(l.last, l.first);
-    const AxisCurve curve = axis_.curve(axis_.edges()[l.edge]);
-    curve.part(first, last, place(path[i - 1]), place(path[i])).append_polyline(points);
-  }
-  return points;
-}
 
 constexpr double planning_factor = 1.0 + 1e-9;  // the clearance that is asked for where rounding costs the exact one
 constexpr std::size_t most_candidates = 64;
@@ -348,16 +327,112 @@ class AxisPlanning {
     }
   }
   const MedialAxis& axis() const { return *axis_; }
-  void go_straight();
-  void build_axis(const PlaneObstacles& obstacles);
-  bool ends_are_blocked(const PolygonSet& polygons);
-  bool join_ends();
-  std::optional<AxisPlace> join(Vec2 p) const;
-  std::optional<AxisPlace> nearest_clear(Vec2 p) const;
-  bool is_clear(const Segment& leg) const;
-  bool plan(double clearance);
-  bool ends_are_joined(const AxisGraph& graph);
-  bool keeps_clearance();
+  void go_straight() {
+    solution_.outcome = Outcome::solved;
+    solution_.path = {start_, goal_};
+    plan_.axis_clearance = infinity;
+  }
+  void build_axis(const PlaneObstacles& obstacles) {
+    const StageTimer timer(execution_, "medial axis", solution_.seconds.graph);
+    axis_ = &plan_.axis.emplace(obstacles, execution_);
+  }
+  bool ends_are_blocked(const PolygonSet& polygons) {
+    const auto fits = [&](Vec2 p) {
+      if (!axis().frame().contains(p)) return false;
+      for (std::size_t i = 0; i < polygons.size(); ++i) {
+        if (i % 4096 == 0) execution_.check();
+        if (strictly_inside(polygons[i], p)) return false;
+      }
+      return is_clear({p, p});
+    };
+    const bool start_fits = fits(start_);
+    if (start_fits && fits(goal_)) return false;
+    solution_.outcome = start_fits ? Outcome::goal_blocked : Outcome::start_blocked;
+    return true;
+  }
+  bool is_clear(const Segment& leg) const {
+    const double room = clearance_of_leg(axis(), leg);
+    return room >= options_.clearance && room > 0.0;
+  }
+  bool join_ends() {
+    const StageTimer timer(execution_, "join", solution_.seconds.connect);
+    const std::optional<AxisPlace> start = join(start_);
+    const std::optional<AxisPlace> goal = join(goal_);
+    solution_.outcome = Outcome::not_connected;
+    if (!start || !goal) return false;
+    start_place_ = *start;
+    goal_place_ = *goal;
+    return true;
+  }
+  std::optional<AxisPlace> join(Vec2 p) const {
+    const std::optional<AxisPlace> place = retract(axis(), p);
+    if (place && is_clear({p, place->at})) return place;
+    return nearest_clear(p);
+  }
+  /// Where rounding hides the retraction: the nearest vertex in sight.
+  std::optional<AxisPlace> nearest_clear(Vec2 p) const {
+    std::vector<std::pair<double, std::uint32_t>> near;
+    const std::vector<AxisEdge>& edges = axis().edges();
+    for (std::uint32_t i = 0; i < edges.size(); ++i) near.push_back({distance(p, axis().vertices()[edges[i].from]), i});
+    const std::size_t count = std::min(most_candidates, near.size());
+    std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count), near.end());
+    for (std::size_t i = 0; i < count; ++i) {
+      execution_.check();
+      const AxisEdge& edge = edges[near[i].second];
+      const Vec2 at = axis().vertices()[edge.from];
+      if (is_clear({p, at})) return AxisPlace{near[i].second, axis().curve(edge).first(), at};
+    }
+    return std::nullopt;
+  }
+  /// Searches with this clearance; true if there is a path.
+  bool plan(double clearance) {
+    const StageTimer timer(execution_, "search", solution_.seconds.search);
+    AxisGraph graph(axis(), start_place_, goal_place_, clearance, execution_);
+    solution_.outcome = Outcome::not_connected;
+    if (!ends_are_joined(graph)) return false;
+    if (options_.objective == AxisObjective::clearance) graph.narrow_to(graph.widest());
+    const SearchResult found = graph.search(options_.search, options_.queue);
+    solution_.counters.expanded += found.expanded;
+    if (found.status != SearchStatus::found) return false;
+    plan_.axis_length = 0.0;
+    plan_.axis_clearance = infinity;
+    for (std::size_t i = 1; i < found.path.size(); ++i) {
+      const AxisLink& link = graph.link_between(found.path[i - 1], found.path[i]);
+      plan_.axis_length += link.length;
+      plan_.axis_clearance = std::min(plan_.axis_clearance, link.clearance);
+    }
+    Path<Vec2>& path = solution_.path;
+    path.assign(1, start_);
+    const std::vector<Vec2> line = graph.polyline(found.path);
+    path.insert(path.end(), line.begin(), line.end());
+    path.push_back(goal_);
+    path.erase(std::unique(path.begin(), path.end()), path.end());
+    if (path.size() == 1) path.push_back(path.front());
+    solution_.outcome = Outcome::solved;
+    return true;
+  }
+  bool ends_are_joined(const AxisGraph& axis_graph) {
+    const Graph graph = axis_graph.graph();
+    const Components parts = components(graph, execution_);
+    std::uint64_t lonely = 0;  // vertices that only narrow curves reach
+    for (VertexId v = 0; v < axis_graph.start(); ++v) lonely += graph.degree(v) == 0 ? 1U : 0U;
+    solution_.roadmap = {axis_graph.vertex_count() - lonely, axis_graph.links().size(), parts.count - lonely};
+    if (parts.connected(axis_graph.start(), axis_graph.goal())) return true;
+    solution_.separation = separation_of_parts<2>(parts, axis_graph.start(), axis_graph.goal(), execution_,
+                                                  [&](VertexId v) { return axis_graph.place(v); });
+    return false;
+  }
+  /// Does the polyline keep the clearance for sure, as an exact verification will ask?
+  bool keeps_clearance() {
+    const StageTimer timer(execution_, "check", solution_.seconds.connect);
+    if (obstacles_ == nullptr) obstacles_ = &own_obstacles_.emplace(true_obstacles(axis()), execution_);
+    for (std::size_t i = 1; i < solution_.path.size(); ++i) {
+      if (i % 1024 == 0) execution_.check();
+      const Segment leg{solution_.path[i - 1], solution_.path[i]};
+      if (!certainly_keeps_clearance(*obstacles_, leg, options_.clearance)) return false;
+    }
+    return true;
+  }
 
   const Vec2 start_, goal_;
   const MedialAxisOptions& options_;
@@ -369,122 +444,6 @@ class AxisPlanning {
   AxisPlace start_place_{}, goal_place_{};
   Solution<Vec2> solution_;
 };
-
-void AxisPlanning::go_straight() {
-  solution_.outcome = Outcome::solved;
-  solution_.path = {start_, goal_};
-  plan_.axis_clearance = std::numeric_limits<double>::infinity();
-}
-
-void AxisPlanning::build_axis(const PlaneObstacles& obstacles) {
-  const StageTimer timer(execution_, "medial axis", solution_.seconds.graph);
-  axis_ = &plan_.axis.emplace(obstacles, execution_);
-}
-
-bool AxisPlanning::ends_are_blocked(const PolygonSet& polygons) {
-  const auto fits = [&](Vec2 p) {
-    if (!axis().frame().contains(p)) return false;
-    for (std::size_t i = 0; i < polygons.size(); ++i) {
-      if (i % 4096 == 0) execution_.check();
-      if (strictly_inside(polygons[i], p)) return false;
-    }
-    return is_clear({p, p});
-  };
-  const bool start_fits = fits(start_);
-  if (start_fits && fits(goal_)) return false;
-  solution_.outcome = start_fits ? Outcome::goal_blocked : Outcome::start_blocked;
-  return true;
-}
-
-bool AxisPlanning::is_clear(const Segment& leg) const {
-  const double room = clearance_of_leg(axis(), leg);
-  return room >= options_.clearance && room > 0.0;
-}
-
-bool AxisPlanning::join_ends() {
-  const StageTimer timer(execution_, "join", solution_.seconds.connect);
-  const std::optional<AxisPlace> start = join(start_);
-  const std::optional<AxisPlace> goal = join(goal_);
-  solution_.outcome = Outcome::not_connected;
-  if (!start || !goal) return false;
-  start_place_ = *start;
-  goal_place_ = *goal;
-  return true;
-}
-
-std::optional<AxisPlace> AxisPlanning::join(Vec2 p) const {
-  const std::optional<AxisPlace> place = retract(axis(), p);
-  if (place && is_clear({p, place->at})) return place;
-  return nearest_clear(p);
-}
-
-/// Where rounding hides the retraction: the nearest vertex in sight.
-std::optional<AxisPlace> AxisPlanning::nearest_clear(Vec2 p) const {
-  std::vector<std::pair<double, std::uint32_t>> near;
-  const std::vector<AxisEdge>& edges = axis().edges();
-  for (std::uint32_t i = 0; i < edges.size(); ++i) near.push_back({distance(p, axis().vertices()[edges[i].from]), i});
-  const std::size_t count = std::min(most_candidates, near.size());
-  std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count), near.end());
-  for (std::size_t i = 0; i < count; ++i) {
-    execution_.check();
-    const AxisEdge& edge = edges[near[i].second];
-    const Vec2 at = axis().vertices()[edge.from];
-    if (is_clear({p, at})) return AxisPlace{near[i].second, axis().curve(edge).first(), at};
-  }
-  return std::nullopt;
-}
-
-/// Searches with this clearance; true if there is a path.
-bool AxisPlanning::plan(double clearance) {
-  const StageTimer timer(execution_, "search", solution_.seconds.search);
-  AxisGraph graph(axis(), start_place_, goal_place_, clearance, execution_);
-  solution_.outcome = Outcome::not_connected;
-  if (!ends_are_joined(graph)) return false;
-  if (options_.objective == AxisObjective::clearance) graph.narrow_to(graph.widest());
-  const SearchResult found = graph.search(options_.search, options_.queue);
-  solution_.counters.expanded += found.expanded;
-  if (found.status != SearchStatus::found) return false;
-  plan_.axis_length = 0.0;
-  plan_.axis_clearance = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < found.path.size(); ++i) {
-    const AxisLink& link = graph.link_between(found.path[i - 1], found.path[i]);
-    plan_.axis_length += link.length;
-    plan_.axis_clearance = std::min(plan_.axis_clearance, link.clearance);
-  }
-  Path<Vec2>& path = solution_.path;
-  path.assign(1, start_);
-  const std::vector<Vec2> line = graph.polyline(found.path);
-  path.insert(path.end(), line.begin(), line.end());
-  path.push_back(goal_);
-  path.erase(std::unique(path.begin(), path.end()), path.end());
-  if (path.size() == 1) path.push_back(path.front());
-  solution_.outcome = Outcome::solved;
-  return true;
-}
-
-bool AxisPlanning::ends_are_joined(const AxisGraph& axis_graph) {
-  const Graph graph = axis_graph.graph();
-  const Components parts = components(graph, execution_);
-  std::uint64_t lonely = 0;  // vertices that only narrow curves reach
-  for (VertexId v = 0; v < axis_graph.start(); ++v) lonely += graph.degree(v) == 0 ? 1U : 0U;
-  solution_.roadmap = {axis_graph.vertex_count() - lonely, axis_graph.links().size(), parts.count - lonely};
-  if (parts.connected(axis_graph.start(), axis_graph.goal())) return true;
-  solution_.separation = separation_of_parts<2>(parts, axis_graph.start(), axis_graph.goal(), execution_,
-                                                [&](VertexId v) { return axis_graph.place(v); });
-  return false;
-}
-
-/// Does the polyline keep the clearance for sure, as an exact verification will ask?
-bool AxisPlanning::keeps_clearance() {
-  const StageTimer timer(execution_, "check", solution_.seconds.connect);
-  if (obstacles_ == nullptr) obstacles_ = &own_obstacles_.emplace(true_obstacles(axis()), execution_);
-  for (std::size_t i = 1; i < solution_.path.size(); ++i) {
-    if (i % 1024 == 0) execution_.check();
-    const Segment leg{solution_.path[i - 1], solution_.path[i]};
-    if (!certainly_keeps_clearance(*obstacles_, leg, options_.clearance)) return false;
-  }
-  return true;
-}
 
 /// Ground: the obstacles, or a roadmap.
 template <class Ground>

@@ -92,7 +92,8 @@ class Assembly {
     if (vertex_count_ > no_vertex) throw InputError("graph", "too many vertices", std::to_string(vertex_count_));
     edge_count_ = edges;
     std::vector<PartShape> shapes(parts_.size());
-    for_each_index(parts_.size(), part_grain(), execution_.quiet(),
+    const std::size_t grain = std::max<std::size_t>(1, parts_.size() / 1024);
+    for_each_index(parts_.size(), grain, execution_.quiet(),
                    [&](std::size_t p) { shapes[p] = check_part(vertex_count_, parts_[p]); });
     VertexId last = 0;
     for (ordered_ = 0; ordered_ < parts_.size(); ++ordered_) {
@@ -101,7 +102,6 @@ class Assembly {
       last = shapes[ordered_].last;
     }
   }
-  std::size_t part_grain() const { return std::max<std::size_t>(1, parts_.size() / 1024); }
 
   void cut_ordered_parts() {
     cuts_.resize(blocks_ + 1, {ordered_, 0});

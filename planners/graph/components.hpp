@@ -4,8 +4,8 @@
 // one with compare-and-swap, then every vertex is pointed at its root. A root is the smallest vertex of its tree at all
 // times, so the labels are the smallest vertices of the components whatever the order of the unions.
 //
-// O(E α(V)), reads each row once and the rows that leave their block twice; memory: the labels. core's serial
-// components() is the oracle.
+// O(E α(V)), reads each row once and the rows that leave their block twice; memory: the labels.
+// bench/plain_graph.hpp has the serial oracle.
 #pragma once
 
 #include <atomic>
@@ -18,7 +18,7 @@
 
 namespace warren {
 
-/// label[v] is the smallest vertex of v's component: the same as the serial components(graph).
+/// label[v] is the smallest vertex of v's component: the same as by bench/plain_graph.hpp.
 Components components(const Graph& graph, const Execution& execution);
 
 /// Union-find that many threads work on at once without a lock: the larger root is hung under the smaller one with

@@ -167,11 +167,27 @@ class WitnessSearch {
       : graph_(graph), taken_(taken), execution_(execution) {}
 
   /// Appends the shortcuts that v needs. Throws Stopped.
-  void append_shortcuts(VertexId v, RawVector<Shortcut>& shortcuts);
+  void append_shortcuts(VertexId v, RawVector<Shortcut>& shortcuts) {
+    const auto row = graph_.row(v);
+    for (std::size_t i = 0; i + 1 < row.size(); ++i) {
+      const auto others = row.subspan(i + 1);
+      if (i % 16 == 0) execution_.check();
+      begin(others, row[i].length);
+      double longest = 0.0;
+      for (const HierarchyArc& arc : others) longest = std::max(longest, row[i].length + arc.length);
+      search(row[i].to, longest);
+      for (const HierarchyArc& arc : others) {
+        const double length = slot_of(arc.to).wanted;
+        if (length != unwanted) shortcuts.push_back({row[i].to, arc.to, graph_.vertex[v], length});
+      }
+    }
+  }
 
  private:
   static constexpr std::size_t most_reached = 1024;
   static constexpr std::size_t most_settled = 120;
+  static constexpr double nowhere = std::numeric_limits<double>::infinity();
+  static constexpr double unwanted = -1.0;
 
   /// A vertex that the search has reached, or that it looks for.
   struct Slot {
@@ -180,10 +196,53 @@ class WitnessSearch {
     double length = 0.0;  // of the way to it
     double wanted = 0.0;  // a way of at most this length is a witness; none is looked for: less than any
   };
-  Slot& slot_of(VertexId v);
-  void begin(std::span<const HierarchyArc> targets, double before);
-  void search(VertexId from, double longest);
-  void reach(VertexId v, double length);
+  /// Where v stands; an empty slot where it doesn't.
+  Slot& slot_of(VertexId v) {
+    std::size_t slot = v * std::uint64_t{0x9e3779b97f4a7c15U} >> 32 & (slots_.size() - 1);
+    while (slots_[slot].search == search_ && slots_[slot].vertex != v) slot = (slot + 1) & (slots_.size() - 1);
+    return slots_[slot];
+  }
+  /// A new search for the targets, over what is `before` them.
+  void begin(std::span<const HierarchyArc> targets, double before) {
+    const std::size_t size = std::bit_ceil(2 * (targets.size() + most_reached + 1));
+    if (slots_.size() < size || ++search_ == 0) {
+      slots_.assign(std::max(size, slots_.size()), {});
+      search_ = 1;
+    }
+    queue_.clear();
+    for (const HierarchyArc& target : targets)
+      slot_of(target.to) = {search_, target.to, nowhere, before + target.length};
+    used_ = targets.size();
+    missing_ = targets.size();
+  }
+  /// Until all targets have their witnesses.
+  void search(VertexId from, double longest) {
+    reach(from, 0.0);
+    for (std::size_t settled = 0; missing_ > 0 && !queue_.empty() && settled < most_settled;) {
+      const QueueEntry next = queue_.pop();
+      if (next.key > slot_of(next.vertex).length) continue;
+      ++settled;
+      for (const HierarchyArc& arc : graph_.row(next.vertex)) {
+        const double length = next.key + arc.length;
+        if (length <= longest && taken_[arc.to] == 0) reach(arc.to, length);
+      }
+    }
+  }
+  void reach(VertexId v, double length) {
+    Slot& slot = slot_of(v);
+    if (slot.search != search_) {
+      if (used_ == slots_.size() / 2) return;
+      ++used_;
+      slot = {search_, v, nowhere, unwanted};
+    }
+    if (slot.length <= length) return;
+    slot.length = length;
+    if (length <= slot.wanted) {
+      slot.wanted = unwanted;
+      --missing_;
+    }
+    queue_.push(v, length);
+  }
 
   const ShrinkingGraph& graph_;
   std::span<const std::uint8_t> taken_;
@@ -194,75 +253,6 @@ class WitnessSearch {
   std::size_t used_ = 0;     // slots
   std::size_t missing_ = 0;  // targets without a witness
 };
-
-constexpr double nowhere = std::numeric_limits<double>::infinity();
-constexpr double unwanted = -1.0;
-
-/// Where v stands; an empty slot where it doesn't.
-WitnessSearch::Slot& WitnessSearch::slot_of(VertexId v) {
-  std::size_t slot = v * std::uint64_t{0x9e3779b97f4a7c15U} >> 32 & (slots_.size() - 1);
-  while (slots_[slot].search == search_ && slots_[slot].vertex != v) slot = (slot + 1) & (slots_.size() - 1);
-  return slots_[slot];
-}
-
-/// A new search for the targets, over what is `before` them.
-void WitnessSearch::begin(std::span<const HierarchyArc> targets, double before) {
-  const std::size_t size = std::bit_ceil(2 * (targets.size() + most_reached + 1));
-  if (slots_.size() < size || ++search_ == 0) {
-    slots_.assign(std::max(size, slots_.size()), {});
-    search_ = 1;
-  }
-  queue_.clear();
-  for (const HierarchyArc& target : targets) slot_of(target.to) = {search_, target.to, nowhere, before + target.length};
-  used_ = targets.size();
-  missing_ = targets.size();
-}
-
-void WitnessSearch::reach(VertexId v, double length) {
-  Slot& slot = slot_of(v);
-  if (slot.search != search_) {
-    if (used_ == slots_.size() / 2) return;
-    ++used_;
-    slot = {search_, v, nowhere, unwanted};
-  }
-  if (slot.length <= length) return;
-  slot.length = length;
-  if (length <= slot.wanted) {
-    slot.wanted = unwanted;
-    --missing_;
-  }
-  queue_.push(v, length);
-}
-
-/// Until all targets have their witnesses.
-void WitnessSearch::search(VertexId from, double longest) {
-  reach(from, 0.0);
-  for (std::size_t settled = 0; missing_ > 0 && !queue_.empty() && settled < most_settled;) {
-    const QueueEntry next = queue_.pop();
-    if (next.key > slot_of(next.vertex).length) continue;
-    ++settled;
-    for (const HierarchyArc& arc : graph_.row(next.vertex)) {
-      const double length = next.key + arc.length;
-      if (length <= longest && taken_[arc.to] == 0) reach(arc.to, length);
-    }
-  }
-}
-
-void WitnessSearch::append_shortcuts(VertexId v, RawVector<Shortcut>& shortcuts) {
-  const auto row = graph_.row(v);
-  for (std::size_t i = 0; i + 1 < row.size(); ++i) {
-    const auto others = row.subspan(i + 1);
-    if (i % 16 == 0) execution_.check();
-    begin(others, row[i].length);
-    double longest = 0.0;
-    for (const HierarchyArc& arc : others) longest = std::max(longest, row[i].length + arc.length);
-    search(row[i].to, longest);
-    for (const HierarchyArc& arc : others) {
-      const double length = slot_of(arc.to).wanted;
-      if (length != unwanted) shortcuts.push_back({row[i].to, arc.to, graph_.vertex[v], length});
-    }
-  }
-}
 
 constexpr std::size_t key_grain = std::size_t{1} << 13;
 constexpr std::size_t witness_grain = 1024;  // each chunk makes its scratch
@@ -339,19 +329,13 @@ double ContractionRounds::density() const {
   return left_.size() == 0 ? 0.0 : static_cast<double>(left_.arc.size()) / static_cast<double>(left_.size());
 }
 
-/// No two are the same, for the scattered numbers aren't.
-RawVector<std::uint64_t> ContractionRounds::keys() const {
-  RawVector<std::uint64_t> key(left_.size());
+RawVector<std::uint8_t> ContractionRounds::choose() const {
+  execution_.reserve(left_.size() * (sizeof(std::uint64_t) + 1));
+  RawVector<std::uint64_t> key(left_.size());  // no two are the same, for the scattered numbers aren't
   for_each_index(left_.size(), key_grain, execution_, [&](std::size_t v) {
     const VertexId whole = left_.vertex[v];
     key[v] = std::uint64_t{left_.first[v + 1] - left_.first[v] + level_[whole]} << 32 | scattered(whole);
   });
-  return key;
-}
-
-RawVector<std::uint8_t> ContractionRounds::choose() const {
-  execution_.reserve(left_.size() * (sizeof(std::uint64_t) + 1));
-  const RawVector<std::uint64_t> key = keys();
   RawVector<std::uint8_t> taken(left_.size());
   for_each_index<VertexId>(left_.size(), key_grain, execution_, [&](VertexId v) {
     const auto row = left_.row(v);
@@ -378,7 +362,12 @@ void ContractionRounds::next_round() {
       witness.append_shortcuts(v, shortcuts[r.first / witness_grain]);
     }
   });
-  raise_levels(gone);
+  for (const TakenOut& part : gone) {
+    part.for_each_row([&](VertexId v, std::span<const HierarchyArc> row) {
+      const std::uint32_t next = level_[v] + 1;
+      for (const HierarchyArc& arc : row) level_[arc.to] = std::max(level_[arc.to], next);
+    });
+  }
   left_ = shrunk(std::move(left_), taken, shortcuts, execution_);
   for (TakenOut& part : gone) {
     if (part.vertex.empty()) continue;
@@ -387,37 +376,23 @@ void ContractionRounds::next_round() {
   }
 }
 
-void ContractionRounds::raise_levels(const std::vector<TakenOut>& gone) {
-  for (const TakenOut& part : gone) {
-    auto arc = part.arc.begin();
-    for (std::size_t i = 0; i < part.vertex.size(); ++i) {
-      const std::uint32_t next = level_[part.vertex[i]] + 1;
-      for (const auto end = arc + part.arcs[i]; arc != end; ++arc) level_[arc->to] = std::max(level_[arc->to], next);
-    }
-  }
-}
-
-void ContractionRounds::write_rows(const TakenOut& gone, Hierarchy& all) {
-  auto arc = gone.arc.begin();
-  for (std::size_t i = 0; i < gone.vertex.size(); ++i) {
-    const auto end = arc + gone.arcs[i];
-    std::copy(std::exchange(arc, end), end, all.arcs.begin() + all.first[gone.vertex[i]]);
-  }
-}
-
 Hierarchy ContractionRounds::hierarchy() {
   Hierarchy all;
   execution_.reserve((level_.size() + 1) * sizeof(EdgeEnd));
   all.first.resize(level_.size() + 1);
   all.first.back() = 0;
-  for_each_index(gone_.size(), 64, execution_, [&](std::size_t part) {
-    const TakenOut& gone = gone_[part];
-    for (std::size_t i = 0; i < gone.vertex.size(); ++i) all.first[gone.vertex[i]] = gone.arcs[i];
+  for_each_index(gone_.size(), 64, execution_, [&](std::size_t i) {
+    gone_[i].for_each_row(
+        [&](VertexId v, std::span<const HierarchyArc> row) { all.first[v] = static_cast<EdgeEnd>(row.size()); });
   });
   const std::size_t arcs = scan_rows(all.first, execution_);
   execution_.reserve(arcs * sizeof(HierarchyArc));
   all.arcs.resize(arcs);
-  for_each_index(gone_.size(), 64, execution_, [&](std::size_t i) { write_rows(gone_[i], all); });
+  for_each_index(gone_.size(), 64, execution_, [&](std::size_t i) {
+    gone_[i].for_each_row([&](VertexId v, std::span<const HierarchyArc> row) {
+      std::copy(row.begin(), row.end(), all.arcs.begin() + all.first[v]);
+    });
+  });
   return all;
 }
 

@@ -61,11 +61,18 @@ class ContractionRounds {
     RawVector<VertexId> vertex;
     RawVector<EdgeEnd> arcs;      // of each
     RawVector<HierarchyArc> arc;  // to: of the whole graph, ascending in each row
+
+    /// Calls visit(vertex, its arcs) for each.
+    template <class Visit>
+    void for_each_row(const Visit& visit) const {
+      const HierarchyArc* next = arc.data();
+      for (std::size_t i = 0; i < vertex.size(); ++i) {
+        visit(vertex[i], std::span(next, arcs[i]));
+        next += arcs[i];
+      }
+    }
   };
-  RawVector<std::uint64_t> keys() const;
   RawVector<std::uint8_t> choose() const;
-  void raise_levels(const std::vector<TakenOut>& gone);
-  static void write_rows(const TakenOut& gone, Hierarchy& all);
 
   const Execution& execution_;
   ShrinkingGraph left_;

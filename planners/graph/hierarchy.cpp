@@ -10,44 +10,6 @@
 #include "parallel/chunks.hpp"
 
 namespace warren {
-namespace {
-
-class HierarchyCheck {
- public:
-  HierarchyCheck(const Hierarchy& hierarchy, const std::string& where) : all_(hierarchy), where_(where) {}
-
-  void sizes(std::size_t vertex_count) const {
-    require(all_.first.size() == vertex_count + 1 && all_.first[0] == 0, "up.first");
-    require(all_.first.back() == all_.arcs.size() && std::is_sorted(all_.first.begin(), all_.first.end()), "up.first");
-  }
-  void heads(VertexId v) const {
-    VertexId least = 0;
-    for (const HierarchyArc& arc : all_.row(v)) {
-      require(arc.to != v && arc.to >= least && arc.to < all_.vertex_count(), "up.to");
-      require(std::isfinite(arc.length) && !std::signbit(arc.length), "up.length");
-      least = arc.to + 1;
-    }
-  }
-  /// After all heads.
-  void shortcuts(VertexId v) const {
-    for (const HierarchyArc& arc : all_.row(v)) {
-      if (arc.middle == no_vertex) continue;
-      require(arc.middle < all_.vertex_count() && has(arc.middle, v) && has(arc.middle, arc.to), "up.middle");
-    }
-  }
-
- private:
-  bool has(VertexId low, VertexId high) const { return all_.arc_to(low, high) < all_.arcs.size(); }
-  void require(bool holds, std::string_view array) const {
-    if (!holds) throw InputError(where_, "its index contradicts itself; build it anew", array);
-  }
-
-  const Hierarchy& all_;
-  const std::string& where_;
-};
-
-}  // namespace
-
 std::size_t Hierarchy::arc_to(VertexId low, VertexId high) const {
   constexpr std::size_t short_row = 16;  // counted without a branch an arc
   const std::span<const HierarchyArc> arcs_up = row(low);
@@ -65,10 +27,27 @@ std::size_t Hierarchy::arc_to(VertexId low, VertexId high) const {
 void check_hierarchy(const Hierarchy& hierarchy, std::size_t vertex_count, const std::string& where,
                      const Execution& execution) {
   constexpr std::size_t grain = std::size_t{1} << 14;
-  const HierarchyCheck check(hierarchy, where);
-  check.sizes(vertex_count);
-  for_each_index<VertexId>(vertex_count, grain, execution, [&](VertexId v) { check.heads(v); });
-  for_each_index<VertexId>(vertex_count, grain, execution, [&](VertexId v) { check.shortcuts(v); });
+  const RawVector<EdgeEnd>& first = hierarchy.first;
+  const auto require = [&](bool holds, std::string_view array) {
+    if (!holds) throw InputError(where, "its index contradicts itself; build it anew", array);
+  };
+  const auto has = [&](VertexId low, VertexId high) { return hierarchy.arc_to(low, high) < hierarchy.arcs.size(); };
+  require(first.size() == vertex_count + 1 && first[0] == 0, "up.first");
+  require(first.back() == hierarchy.arcs.size() && std::is_sorted(first.begin(), first.end()), "up.first");
+  for_each_index<VertexId>(vertex_count, grain, execution, [&](VertexId v) {
+    VertexId least = 0;
+    for (const HierarchyArc& arc : hierarchy.row(v)) {
+      require(arc.to != v && arc.to >= least && arc.to < vertex_count, "up.to");
+      require(std::isfinite(arc.length) && !std::signbit(arc.length), "up.length");
+      least = arc.to + 1;
+    }
+  });
+  for_each_index<VertexId>(vertex_count, grain, execution, [&](VertexId v) {  // after all heads
+    for (const HierarchyArc& arc : hierarchy.row(v)) {
+      if (arc.middle == no_vertex) continue;
+      require(arc.middle < vertex_count && has(arc.middle, v) && has(arc.middle, arc.to), "up.middle");
+    }
+  });
 }
 
 namespace {
@@ -86,11 +65,12 @@ bool is_detour(const std::vector<HierarchyEnd>& ends, VertexId vertex, VertexId 
 
 }  // namespace
 
-void HierarchyClimb::clear() {
+void HierarchyClimb::begin(std::span<const HierarchyEnd> ends) {
   if (slots_.empty()) slots_.resize(std::size_t{1} << first_bits);
   for (const std::uint32_t slot : used_) slots_[slot] = {};
   used_.clear();
   queue_.clear();
+  for (const HierarchyEnd& end : ends) reach(end.vertex, end.length, no_vertex);
 }
 
 void HierarchyClimb::grow() {
@@ -129,14 +109,9 @@ RawVector<VertexId> HierarchyClimb::back_from(VertexId v) const {
   return way;
 }
 
-void HierarchyQuery::begin(HierarchyClimb& side, std::span<const HierarchyEnd> ends) {
-  side.clear();
-  for (const HierarchyEnd& end : ends) side.reach(end.vertex, end.length, no_vertex);
-}
-
 bool HierarchyQuery::search(std::span<const HierarchyEnd> start, std::span<const HierarchyEnd> goal, double limit) {
-  begin(scratch_.sides[0], start);
-  begin(scratch_.sides[1], goal);
+  scratch_.sides[0].begin(start);
+  scratch_.sides[1].begin(goal);
   best_ = limit;
   meeting_ = no_vertex;
   settled_ = 0;

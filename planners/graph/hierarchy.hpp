@@ -53,14 +53,20 @@ struct Hierarchy {
 void check_hierarchy(const Hierarchy& hierarchy, std::size_t vertex_count, const std::string& where,
                      const Execution& execution);
 
+/// A vertex that start or goal is joined to, and how far it is.
+struct HierarchyEnd {
+  VertexId vertex;
+  double length;
+};
+
 /// What one end of a question has reached of a hierarchy: a few thousand vertices of millions. They stand in a table of
 /// their own, by a hash of their numbers, so that a question touches some hundred kilobytes that stay in the nearest
 /// caches, and a thread needs no array as long as the roadmap. One end's distances, parents and queue. Vertices leave
 /// the queue by distance, then by number.
 class HierarchyClimb {
  public:
-  /// Before each question: forgets all. O(vertices that were reached).
-  void clear();
+  /// Before each question: forgets all, O(vertices that were reached), and reaches the ends.
+  void begin(std::span<const HierarchyEnd> ends);
   /// Of the way to v; infinity: not reached.
   double length(VertexId v) const { return slots_[slot_of(v)].length; }
   /// Is this the shortest way to v so far? Then it is kept, and v waits in the queue.
@@ -95,12 +101,6 @@ class HierarchyClimb {
   LazyHeap queue_;                   // with entries of ways that were longer
 };
 
-/// A vertex that start or goal is joined to, and how far it is.
-struct HierarchyEnd {
-  VertexId vertex;
-  double length;
-};
-
 /// An edge of a way, or an arc that stands for two of them.
 struct PartOfWay {
   VertexId from;
@@ -131,7 +131,6 @@ class HierarchyQuery {
   std::uint64_t looks() const { return looks_; }  ///< at arcs, by the last search
 
  private:
-  void begin(HierarchyClimb& side, std::span<const HierarchyEnd> ends);
   bool goes_on(const HierarchyClimb& side) const { return !side.empty() && side.top().key < best_; }
   void settle(std::size_t side);
   void fetch_row(VertexId v) const;

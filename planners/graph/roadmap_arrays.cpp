@@ -57,8 +57,9 @@ class PartsCheck {
       const auto part = states.subspan(r.first, r.size());
       bool all = true;  // without a branch an element: memory speed
       for (const double x : part) all &= std::abs(x) <= largest_coordinate;
+      if (all) return r.last;
       const auto is_bad = [](double x) { return !(std::abs(x) <= largest_coordinate); };
-      return all ? r.last : r.first + index_of(part, is_bad);
+      return r.first + static_cast<std::size_t>(std::find_if(part.begin(), part.end(), is_bad) - part.begin());
     });
     if (bad != states.size()) {
       fail("states[" + number(bad) + "]", "expected a finite number of at most 1e60", std::to_string(states[bad]));
@@ -73,10 +74,6 @@ class PartsCheck {
     if (bad == n) return;
     fail("states[" + number(3 * bad + 2) + "]", "expected a heading of at most 1000 rad",
          std::to_string(parts_.states[3 * bad + 2]));
-  }
-  template <class T, class IsBad>
-  static std::size_t index_of(std::span<const T> part, const IsBad& is_bad) {
-    return static_cast<std::size_t>(std::find_if(part.begin(), part.end(), is_bad) - part.begin());
   }
   void check_first() const {
     const auto first = parts_.first;

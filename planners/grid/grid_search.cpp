@@ -70,25 +70,17 @@ constexpr unsigned step_of(int dx, int dy) {
 
 double diagonal_cost(Diagonal diagonal) { return diagonal == Diagonal::unit ? 1.0 : std::numbers::sqrt2; }
 
-/// Length of a shortest path without obstacles: consistent.
-class FreeDistance {
- public:
-  FreeDistance(const FreeCells& cells, VertexId goal, Diagonal diagonal)
-      : cells_(cells), goal_(cells.cell(goal)), diagonal_(diagonal) {}
-  double operator()(VertexId v) const {
-    const Cell c = cells_.cell(v);
-    const double dx = std::abs(static_cast<double>(c.x) - goal_.x);
-    const double dy = std::abs(static_cast<double>(c.y) - goal_.y);
-    if (diagonal_ == Diagonal::none) return dx + dy;
-    if (diagonal_ == Diagonal::unit) return std::max(dx, dy);
+/// Length of a shortest path from a cell without obstacles: consistent.
+auto free_distance_to(VertexId goal, const FreeCells& cells, Diagonal diagonal) {
+  return [&cells, to = cells.cell(goal), diagonal](VertexId v) {
+    const Cell c = cells.cell(v);
+    const double dx = std::abs(static_cast<double>(c.x) - to.x);
+    const double dy = std::abs(static_cast<double>(c.y) - to.y);
+    if (diagonal == Diagonal::none) return dx + dy;
+    if (diagonal == Diagonal::unit) return std::max(dx, dy);
     return std::max(dx, dy) + (std::numbers::sqrt2 - 1.0) * std::min(dx, dy);
-  }
-
- private:
-  const FreeCells& cells_;
-  Cell goal_;
-  Diagonal diagonal_;
-};
+  };
+}
 
 /// The steps of a cell, as a search asks for them.
 class Steps {
@@ -118,55 +110,43 @@ class Steps {
   std::array<double, 8> costs_{};
 };
 
-/// How each cell was first reached: a step and one, 0 where it was not. A byte a cell, and no graph is made for core's
-/// breadth_first.
-class BreadthFirst {
- public:
-  BreadthFirst(const FreeCells& cells, const Steps& steps, const Execution& execution)
-      : steps_(steps), execution_(execution) {
-    execution.reserve(cells.number_end());
-    assign_polled(arrived_by_, cells.number_end(), std::uint8_t{0}, [&] { execution.check(); });
-  }
-
-  SearchResult find(VertexId start, VertexId goal) {
-    SearchResult result;
-    std::vector<VertexId> level{start};
-    std::vector<VertexId> next;
-    arrived_by_[start] = origin;
-    while (!level.empty() && arrived_by_[goal] == 0) {
-      if (execution_.should_stop()) {
-        result.status = SearchStatus::stopped;
-        return result;
-      }
-      next.clear();
-      for (const VertexId v : level) expand(v, next);
-      result.expanded += level.size();
-      level.swap(next);
-    }
-    if (arrived_by_[goal] == 0) return result;
-    result.status = SearchStatus::found;
-    for (VertexId v = goal; v != start; v -= steps_.offset(arrived_by_[v] - 1U)) result.path.push_back(v);
-    result.path.push_back(start);
-    std::reverse(result.path.begin(), result.path.end());
-    return result;
-  }
-
- private:
-  static constexpr std::uint8_t origin = 9;
-  void expand(VertexId v, std::vector<VertexId>& next) {
-    for (unsigned rest = steps_.allowed(v); rest != 0; rest &= rest - 1) {
+/// Fewest steps. A byte a cell, and no graph is made for core's breadth_first.
+SearchResult breadth_first_over(const FreeCells& cells, const Steps& steps, VertexId start, VertexId goal,
+                                const Execution& execution) {
+  constexpr std::uint8_t origin = 9;
+  RawVector<std::uint8_t> arrived_by;  // how each cell was first reached: a step and one, 0 where it was not
+  execution.reserve(cells.number_end());
+  assign_polled(arrived_by, cells.number_end(), std::uint8_t{0}, [&] { execution.check(); });
+  SearchResult result;
+  std::vector<VertexId> level{start};
+  std::vector<VertexId> next;
+  const auto expand = [&](VertexId v) {
+    for (unsigned rest = steps.allowed(v); rest != 0; rest &= rest - 1) {
       const auto s = static_cast<unsigned>(std::countr_zero(rest));
-      const VertexId w = v + steps_.offset(s);
-      if (arrived_by_[w] != 0) continue;
-      arrived_by_[w] = static_cast<std::uint8_t>(s + 1);
+      const VertexId w = v + steps.offset(s);
+      if (arrived_by[w] != 0) continue;
+      arrived_by[w] = static_cast<std::uint8_t>(s + 1);
       next.push_back(w);
     }
+  };
+  arrived_by[start] = origin;
+  while (!level.empty() && arrived_by[goal] == 0) {
+    if (execution.should_stop()) {
+      result.status = SearchStatus::stopped;
+      return result;
+    }
+    next.clear();
+    for (const VertexId v : level) expand(v);
+    result.expanded += level.size();
+    level.swap(next);
   }
-
-  const Steps& steps_;
-  const Execution& execution_;
-  RawVector<std::uint8_t> arrived_by_;
-};
+  if (arrived_by[goal] == 0) return result;
+  result.status = SearchStatus::found;
+  for (VertexId v = goal; v != start; v -= steps.offset(arrived_by[v] - 1U)) result.path.push_back(v);
+  result.path.push_back(start);
+  std::reverse(result.path.begin(), result.path.end());
+  return result;
+}
 
 }  // namespace
 
@@ -293,7 +273,7 @@ bool cells_connect(const Bitmap& blocked, Cell start, Cell goal, bool squeezing,
   const VertexId from = cells.number(start);
   const VertexId to = cells.number(goal);
   if (!cells.is_free(from) || !cells.is_free(to)) return false;
-  const SearchResult result = BreadthFirst(cells, steps, execution).find(from, to);
+  const SearchResult result = breadth_first_over(cells, steps, from, to, execution);
   if (result.status == SearchStatus::stopped) execution.check();
   return result.status == SearchStatus::found;
 }
@@ -314,21 +294,21 @@ struct GridSearch::Scratch {
                                  const Execution& execution) {
     const auto should_stop = [&] { return execution.should_stop(); };
     const Steps steps(cells, options.diagonal);
-    if (options.method == GridMethod::bfs) return BreadthFirst(cells, steps, execution).find(start, goal);
+    if (options.method == GridMethod::bfs) return breadth_first_over(cells, steps, start, goal, execution);
     prepare(execution);
     if (options.method == GridMethod::dijkstra) {
       return best_first(
           start, goal, steps, [](VertexId) { return 0.0; }, queue, state, should_stop);
     }
-    return best_first(start, goal, steps, FreeDistance(cells, goal, options.diagonal), queue, state, should_stop);
+    return best_first(start, goal, steps, free_distance_to(goal, cells, options.diagonal), queue, state, should_stop);
   }
 
   SearchResult jump_point_search(VertexId start, VertexId goal, const Execution& execution) {
     if (!jumps) jumps.emplace(cells, execution);
     prepare(execution);
     const auto successors = [&](VertexId v, const auto& visit) { jumps->visit(v, state.parent(v), goal, visit); };
-    SearchResult result = best_first(start, goal, successors, FreeDistance(cells, goal, Diagonal::sqrt2), queue, state,
-                                     [&] { return execution.should_stop(); });
+    SearchResult result = best_first(start, goal, successors, free_distance_to(goal, cells, Diagonal::sqrt2), queue,
+                                     state, [&] { return execution.should_stop(); });
     result.path = jumps->with_steps(result.path);
     return result;
   }

@@ -240,10 +240,19 @@ struct LargeRegion {
   Dissection whole;                   // where it was small enough to be done at once
 };
 
-/// Splits regions into their connected parts. Scratch of one thread.
-class RegionParts {
+/// Cuts regions, and splits what is left into its connected parts. Scratch of one thread.
+class RegionDivision {
  public:
-  explicit RegionParts(const Execution& execution) : execution_(execution) {}
+  explicit RegionDivision(const Execution& execution) : execution_(execution), cut_(execution) {}
+
+  /// The region's parts; the junctions of its cut become `members`.
+  std::vector<PlanarRegion> divide(PlanarRegion region, RawVector<JunctionId>& members) {
+    const RawVector<CutSide>& side = cut_.cut(region);
+    for (std::size_t v = 0; v < region.size(); ++v) {
+      if (side[v] == CutSide::cut) members.push_back(region.junction[v]);
+    }
+    return split(region, side);
+  }
 
   /// In the order of their first junctions; cut junctions belong to none.
   std::vector<PlanarRegion> split(const PlanarRegion& region, const RawVector<CutSide>& side) {
@@ -314,29 +323,11 @@ class RegionParts {
   }
 
   const Execution& execution_;
+  RegionCut cut_;
   RawVector<std::uint32_t> part_;  // of a junction
   RawVector<JunctionId> number_;   // in its part
   RawVector<JunctionId> stack_;
   std::vector<std::uint32_t> sizes_;
-};
-
-/// Cuts regions, and splits what is left. Scratch of one thread.
-class RegionDivision {
- public:
-  explicit RegionDivision(const Execution& execution) : cut_(execution), parts_(execution) {}
-
-  /// The region's parts; the junctions of its cut become `members`.
-  std::vector<PlanarRegion> divide(PlanarRegion region, RawVector<JunctionId>& members) {
-    const RawVector<CutSide>& side = cut_.cut(region);
-    for (std::size_t v = 0; v < region.size(); ++v) {
-      if (side[v] == CutSide::cut) members.push_back(region.junction[v]);
-    }
-    return parts_.split(region, side);
-  }
-
- private:
-  RegionCut cut_;
-  RegionParts parts_;
 };
 
 class Dissector {
@@ -364,9 +355,8 @@ class Dissector {
     whole.twin = graph_.twin;
     whole.slots.resize(graph_.size());
     for (JunctionId v = 0; v < graph_.size(); ++v) whole.slots[v] = slots_of(graph_, v);
-    RawVector<CutSide> nothing_cut;
-    nothing_cut.assign(graph_.size(), CutSide::outside);
-    for (PlanarRegion& part : RegionParts(execution_).split(whole, nothing_cut)) {
+    const RawVector<CutSide> nothing_cut(graph_.size(), CutSide::outside);
+    for (PlanarRegion& part : RegionDivision(execution_).split(whole, nothing_cut)) {
       roots_.push_back(large_.size());
       large_.emplace_back().region = std::move(part);
     }

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "core/base/raw_vector.hpp"
 #include "core/base/types.hpp"
@@ -32,10 +33,11 @@ struct PassageWords {
 class LatticePassages {
  public:
   /// Both planes have words_a_row(cols) * rows words. Throws InputError for another number of them, for sizes outside
-  /// check_size(), and for a bit of a motion that leaves the lattice.
-  LatticePassages(LatticeSize size, PassageWords words);
-  /// A view.
-  LatticePassages(LatticeSize size, std::span<const std::uint64_t> right, std::span<const std::uint64_t> up);
+  /// check_size(), and for a bit of a motion that leaves the lattice. Words that are looked at must stay.
+  LatticePassages(LatticeSize size, ArrayOrView<std::uint64_t> right, ArrayOrView<std::uint64_t> up);
+  LatticePassages(LatticeSize size, PassageWords words)
+      : LatticePassages(size, ArrayOrView<std::uint64_t>(std::move(words.right)),
+                        ArrayOrView<std::uint64_t>(std::move(words.up))) {}
 
   /// Throws InputError unless rows, cols >= 1 and the lattice, filled up to whole tiles of 64 x 64, has less than 2^32
   /// cells.
@@ -74,7 +76,6 @@ class LatticePassages {
   static unsigned bit_of(const ArrayOrView<std::uint64_t>& plane, std::size_t word, unsigned bit) {
     return static_cast<unsigned>(plane[word] >> bit) & 1U;
   }
-  void check() const;
 
   LatticeSize size_;
   std::size_t stride_;

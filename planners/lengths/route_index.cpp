@@ -277,6 +277,16 @@ void for_each_array(Arrays& arrays, const Visit& visit) {
   visit("front.ways", arrays.fronts.ways);
 }
 
+std::vector<RouteSection> sections_of(std::span<const std::uint64_t> right, std::span<const std::uint64_t> up,
+                                      const RouteArrays& arrays) {
+  std::vector<RouteSection> sections{{"passages.right", 8, std::as_bytes(right)},
+                                     {"passages.up", 8, std::as_bytes(up)}};
+  for_each_array(arrays, [&]<class T>(std::string_view name, const ArrayOrView<T>& array) {
+    sections.push_back({name, sizeof(T), std::as_bytes(array.span())});
+  });
+  return sections;
+}
+
 template <class T>
 ArrayOrView<T> elements(std::span<const RouteSection> sections, std::string_view name) {
   const auto found =
@@ -378,17 +388,14 @@ void check_front_arrays(const FrontArrays& arrays, const Front& f) {
     require(bound >= least && bound < arrays.gate_place.size(), "front.bounds");
     least = bound + 1;
   }
-  if (f.is_short()) {
-    arrays.short_lengths.look(f.first_length(), count);
-    require(every(arrays.short_lengths.span().subspan(f.first_length(), count),
-                  [](std::uint16_t length) { return length >= 1; }),
-            "front.shorts");
-  } else {
-    arrays.lengths.look(f.first_length(), count);
-    require(every(arrays.lengths.span().subspan(f.first_length(), count),
-                  [](std::uint32_t length) { return length >= 1 && length <= no_way; }),
-            "front.lengths");
-  }
+  const auto check_lengths = [&](const auto& lengths, std::uint32_t most, std::string_view name) {
+    lengths.look(f.first_length(), count);
+    require(every(lengths.span().subspan(f.first_length(), count),
+                  [most](std::uint32_t length) { return length >= 1 && length <= most; }),
+            name);
+  };
+  f.is_short() ? check_lengths(arrays.short_lengths, no_short_way, "front.shorts")
+               : check_lengths(arrays.lengths, no_way, "front.lengths");
 }
 
 /// The gates that ways go over have lower ranks.
@@ -505,31 +512,17 @@ std::size_t RouteIndex::bytes() const {
 }
 
 std::vector<RouteSection> route_sections(const RouteIndex& index) {
-  std::vector<RouteSection> sections{
-      {"passages.right", 8, std::as_bytes(index.passages().right_words())},
-      {"passages.up", 8, std::as_bytes(index.passages().up_words())},
-  };
-  for_each_array(index.arrays(), [&]<class T>(std::string_view name, const ArrayOrView<T>& array) {
-    sections.push_back({name, sizeof(T), std::as_bytes(array.span())});
-  });
-  return sections;
+  return sections_of(index.passages().right_words(), index.passages().up_words(), index.arrays());
 }
 
-std::vector<RouteSection> route_section_kinds() {
-  std::vector<RouteSection> kinds{{"passages.right", 8, {}}, {"passages.up", 8, {}}};
-  const RouteArrays none;
-  for_each_array(none, [&]<class T>(std::string_view name, const ArrayOrView<T>&) {
-    kinds.push_back({name, sizeof(T), {}});
-  });
-  return kinds;
-}
+std::vector<RouteSection> route_section_kinds() { return sections_of({}, {}, RouteArrays()); }
 
 RouteIndex route_index_of(LatticeSize size, std::span<const RouteSection> sections) {
   RouteArrays arrays;
   for_each_array(arrays,
                  [&]<class T>(std::string_view name, ArrayOrView<T>& array) { array = elements<T>(sections, name); });
-  return {LatticePassages(size, elements<std::uint64_t>(sections, "passages.right").span(),
-                          elements<std::uint64_t>(sections, "passages.up").span()),
+  return {LatticePassages(size, elements<std::uint64_t>(sections, "passages.right"),
+                          elements<std::uint64_t>(sections, "passages.up")),
           std::move(arrays)};
 }
 

@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
+#include "planners/lengths/separator_fronts.hpp"
+#include "planners/lengths/tree_routes.hpp"
 
 namespace warren {
 namespace {
@@ -44,6 +48,302 @@ std::uint64_t front_column(const FrontArrays& fronts, const Front& f, GateRank r
 }
 
 [[noreturn]] void refuse_hop() { throw InputError("route index", "its fronts contradict its marks: build it again"); }
+
+// What a motion adds to column and row, modulo 2^32.
+constexpr std::array<std::uint32_t, 4> right{1, 0, ~std::uint32_t{0}, 0};
+constexpr std::array<std::uint32_t, 4> up{0, 1, 0, ~std::uint32_t{0}};
+
+/// A cell that was seen. Steps and the cell it was seen from.
+struct SeenCell {
+  LatticePlace place;
+  std::uint32_t col;
+  std::uint32_t row;
+  std::uint32_t steps;
+  std::uint32_t from;  ///< number of a seen cell, its own for the first
+};
+
+/// A gate that a search came to.
+struct SeenGate {
+  GateRank rank;
+  std::uint32_t steps;
+  std::uint32_t seen;  ///< its number among the seen cells
+};
+
+/// A breadth-first search of the core, cell by cell, that stops at gates: it sees the chain or the leaf that it begins
+/// in and nothing else, some hundred cells. Gates come in the order of their distance. Scratch of one thread.
+class CoreSearch {
+ public:
+  explicit CoreSearch(const RouteIndex& index) : index_(index), slots_(1024) {}
+
+  /// Everything that is reached from `start` without passing a gate. A start that is a gate is only itself.
+  void search(LatticePlace start) {
+    if (++search_ == 0) {  // after 2^32 searches
+      std::fill(slots_.begin(), slots_.end(), Slot{});
+      search_ = 1;
+    }
+    seen_.assign(1, first_cell(start));
+    gates_.clear();
+    enter(start, 0);
+    for (std::uint32_t i = 0; i < seen_.size(); ++i) {
+      if (index_.is_gate(seen_[i].place)) {
+        gates_.push_back({index_.gate_at(seen_[i].place), seen_[i].steps, i});
+      } else {
+        expand(i);
+      }
+    }
+  }
+
+  std::span<const SeenGate> gates() const { return gates_; }
+  /// Number of a seen cell, or none.
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+  std::uint32_t number_of(LatticePlace p) const {
+    const Slot& slot = slots_[slot_of(p)];
+    return slot.search == search_ ? slot.number : none;
+  }
+  const SeenCell& seen(std::uint32_t number) const { return seen_[number]; }
+  /// Writes the cells on the way from the start, not included, to a seen cell, included: each as many places from
+  /// `start` as it is steps from the start, in `direction`, 1 or -1.
+  void write_way(std::uint32_t to, CellId* start, int direction) const {
+    const std::uint32_t cols = index_.places().size().cols;
+    for (; to != 0; to = seen_[to].from) {
+      start[std::ptrdiff_t{direction} * seen_[to].steps] = seen_[to].row * cols + seen_[to].col;
+    }
+  }
+
+ private:
+  SeenCell first_cell(LatticePlace start) const {
+    const SeenCell first{start, index_.places().col(start), index_.places().row(start), 0, 0};
+    const LatticeSize size = index_.places().size();
+    if (first.col >= size.cols || first.row >= size.rows) {
+      throw InputError("route index", "a cell of it lies outside the lattice: build it again");
+    }
+    index_.look_at_tile(start);
+    return first;
+  }
+  void expand(std::uint32_t number) {
+    const SeenCell at = seen_[number];
+    for (unsigned open = index_.passages().open_at(at.col, at.row); open != 0; open &= open - 1) {
+      const auto d = static_cast<unsigned>(std::countr_zero(open));
+      const LatticePlace next = index_.places().step(at.place, d);
+      if (next == seen_[at.from].place || !is_core(next, at.place)) continue;
+      if (!enter(next, static_cast<std::uint32_t>(seen_.size()))) continue;
+      seen_.push_back({next, at.col + right[d], at.row + up[d], at.steps + 1, number});
+    }
+  }
+  bool is_core(LatticePlace next, LatticePlace from) const {
+    if (LatticePlaces::tile_of(next) != LatticePlaces::tile_of(from)) {
+      index_.look_at_tile(next);
+      index_.marks().prefetch_tile(LatticePlaces::tile_of(next));
+    }
+    return index_.marks().is_core(next);
+  }
+  bool enter(LatticePlace p, std::uint32_t number) {
+    if (2 * seen_.size() > slots_.size()) grow();
+    Slot& slot = slots_[slot_of(p)];
+    if (slot.search == search_) return false;
+    slot = {search_, number};
+    return true;
+  }
+  /// Where the cell stands, or where it may: a slot of an earlier search.
+  std::size_t slot_of(LatticePlace p) const {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t slot = (p * std::uint64_t{0x9e3779b97f4a7c15U} >> 32) & mask;
+    while (slots_[slot].search == search_ && seen_[slots_[slot].number].place != p) slot = (slot + 1) & mask;
+    return slot;
+  }
+  void grow() {
+    slots_.assign(2 * slots_.size(), Slot{});
+    for (std::uint32_t i = 0; i < seen_.size(); ++i) slots_[slot_of(seen_[i].place)] = {search_, i};
+  }
+
+  const RouteIndex& index_;
+  std::vector<SeenCell> seen_;
+  std::vector<SeenGate> gates_;
+  /// Open addressing: number of a seen cell and in which search; at most half full.
+  struct Slot {
+    std::uint32_t search = 0;
+    std::uint32_t number = 0;
+  };
+  std::vector<Slot> slots_;
+  std::uint32_t search_ = 0;
+};
+
+/// One entry of a front that a way uses, in the order of the way.
+struct FrontStep {
+  FrontId front;
+  GateRank from;
+  GateRank to;
+  std::uint32_t length;
+};
+
+/// The shortest way between two sets of gates, by climbing the fronts from both: a front's gates are settled one after
+/// the other, each lessens the later ones and the bounds by its row, and then it is the parent's turn. A shortest way
+/// has a highest gate, which both climbs settle with its exact distance. A gate no nearer than the best way found so
+/// far needs no row. The arrays read are those of the fronts above both sets, each once. Scratch of one thread: 8 bytes
+/// a gate.
+class FrontQuery {
+ public:
+  explicit FrontQuery(const RouteIndex& index) : index_(index), fronts_(index.arrays().fronts) {
+    forward_.distance.assign(fronts_.gate_place.size(), no_way);
+    backward_.distance.assign(fronts_.gate_place.size(), no_way);
+  }
+
+  /// Least sum of steps to a start gate, length, steps from a goal gate, if it is less than `below`; else `below`. Each
+  /// set's gates bound one leaf or are one gate.
+  std::uint32_t length(std::span<const SeenGate> starts, std::span<const SeenGate> goals, std::uint32_t below) {
+    best_ = below;
+    climb(starts, goals);
+    clear(forward_, starts);
+    clear(backward_, goals);
+    return best_;
+  }
+
+  /// The same with the way. first and last: indices into starts and goals, where the way begins and ends.
+  struct Way {
+    std::uint32_t length;
+    std::size_t first;
+    std::size_t last;
+    std::vector<FrontStep> steps;  ///< none if it begins and ends at one gate
+  };
+  /// A way without end indices has the length `below`.
+  Way way(std::span<const SeenGate> starts, std::span<const SeenGate> goals, std::uint32_t below) {
+    best_ = below;
+    climb(starts, goals);
+    Way way{best_, 0, 0, {}};
+    if (best_ < below) {
+      way.first = trace(forward_, starts, meeting_, way.steps);
+      std::reverse(way.steps.begin(), way.steps.end());
+      std::vector<FrontStep> down;
+      way.last = trace(backward_, goals, meeting_, down);
+      for (const FrontStep& step : down) way.steps.push_back({step.front, step.to, step.from, step.length});
+    }
+    clear(forward_, starts);
+    clear(backward_, goals);
+    return way;
+  }
+
+ private:
+  /// What one of both climbs knows.
+  struct Half {
+    RawVector<std::uint32_t> distance;  // of a gate, no_way where it wasn't reached
+    RawVector<std::uint32_t> bounds;    // those of the bounds of the front that is settled
+    std::vector<FrontId> climbed;
+  };
+
+  FrontId seed(Half& half, std::span<const SeenGate> seeds) const {
+    half.climbed.clear();
+    GateRank lowest = ~GateRank{0};
+    for (const SeenGate& gate : seeds) {
+      half.distance[gate.rank] = gate.steps;
+      lowest = std::min(lowest, gate.rank);
+    }
+    return seeds.empty() ? no_front : index_.front_of(lowest);
+  }
+  void climb(std::span<const SeenGate> starts, std::span<const SeenGate> goals) {
+    FrontId up = seed(forward_, starts);
+    FrontId down = seed(backward_, goals);
+    Half* const halves[] = {&forward_, &backward_};
+    const std::span<Half* const> both(halves);
+    while (up != no_front && down != no_front) {
+      const FrontId front = std::min(up, down);
+      settle(front, up == down ? both : up < down ? both.first(1) : both.last(1));
+      const FrontId parent = fronts_.fronts[front].parent;
+      if (up == front) up = parent;
+      if (down == front) down = parent;
+    }
+  }
+  /// For those of both climbs that have come to it.
+  void settle(FrontId front, std::span<Half* const> halves) {
+    const Front& f = index_.front(front);
+    for (Half* const half : halves) {
+      half->climbed.push_back(front);
+      load_bounds(f, *half);
+    }
+    for (std::uint32_t i = 0; i < f.gates; ++i) {
+      const GateRank gate = f.first + i;
+      if (halves.size() == 2 && forward_.distance[gate] + backward_.distance[gate] < best_) {
+        best_ = forward_.distance[gate] + backward_.distance[gate];
+        meeting_ = gate;
+      }
+      for (Half* const half : halves) lessen_by(f, i, *half);
+    }
+    for (Half* const half : halves) store_bounds(f, *half);
+  }
+  void lessen_by(const Front& f, std::uint32_t gate, Half& half) const {
+    const std::uint32_t distance = half.distance[f.first + gate];
+    if (distance >= best_) return;
+    const std::uint64_t row = f.first_length() + row_offset(gate, f.gates, f.bounds);
+    const auto lessen = [&](const auto* lengths, const auto lessen_all) {
+      const std::uint32_t later = f.gates - gate - 1;
+      lessen_all(half.distance.data() + f.first + gate + 1, lengths, distance, later);
+      lessen_all(half.bounds.data(), lengths + later, distance, f.bounds);
+    };
+    if (f.is_short()) {
+      lessen(fronts_.short_lengths.data() + row, lessen_short_);
+    } else {
+      lessen(fronts_.lengths.data() + row, lessen_);
+    }
+  }
+  void load_bounds(const Front& f, Half& half) const {
+    half.bounds.resize(std::max<std::size_t>(half.bounds.size(), f.bounds));
+    const GateRank* const rank = fronts_.bounds.data() + f.first_bound;
+    for (std::uint32_t i = 0; i < f.bounds; ++i) half.bounds[i] = half.distance[rank[i]];
+  }
+  void store_bounds(const Front& f, Half& half) const {
+    const GateRank* const rank = fronts_.bounds.data() + f.first_bound;
+    for (std::uint32_t i = 0; i < f.bounds; ++i) half.distance[rank[i]] = half.bounds[i];
+  }
+  /// Bounds of a front are gates of fronts above it, which may not all have been climbed.
+  void clear(Half& half, std::span<const SeenGate> seeds) const {
+    for (const SeenGate& gate : seeds) half.distance[gate.rank] = no_way;
+    for (const FrontId front : half.climbed) {
+      const Front& f = fronts_.fronts[front];
+      std::fill_n(half.distance.begin() + f.first, f.gates, no_way);
+      const GateRank* const rank = fronts_.bounds.data() + f.first_bound;
+      for (std::uint32_t i = 0; i < f.bounds; ++i) half.distance[rank[i]] = no_way;
+    }
+  }
+  /// Back to a seed: the steps as they were climbed, the last one first. Returns the seed's index.
+  std::size_t trace(const Half& half, std::span<const SeenGate> seeds, GateRank from,
+                    std::vector<FrontStep>& steps) const {
+    for (;;) {
+      const auto seed = std::find_if(seeds.begin(), seeds.end(), [&](const SeenGate& gate) {
+        return gate.rank == from && gate.steps == half.distance[from];
+      });
+      if (seed != seeds.end()) return static_cast<std::size_t>(seed - seeds.begin());
+      steps.push_back(step_into(half, from));
+      from = steps.back().from;
+    }
+  }
+  FrontStep step_into(const Half& half, GateRank to) const {
+    for (const FrontId front : half.climbed) {
+      const Front& f = fronts_.fronts[front];
+      const std::uint64_t column = front_column(fronts_, f, to);
+      if (column == std::uint64_t{f.gates} + f.bounds) continue;
+      for (std::uint32_t i = 0; i < f.gates && i < column; ++i) {
+        const std::uint32_t distance = half.distance[f.first + i];
+        if (distance >= half.distance[to]) continue;
+        const std::uint32_t length = front_entry(fronts_, f, front_place(f, i, column));
+        if (distance + length == half.distance[to]) return {front, f.first + i, to, length};
+      }
+    }
+    refuse_front();
+  }
+
+  const RouteIndex& index_;
+  const FrontArrays& fronts_;
+  const LessenRow<std::uint32_t> lessen_ = lessen_row<std::uint32_t>();
+  const LessenRow<std::uint16_t> lessen_short_ = lessen_row<std::uint16_t>();
+  Half forward_;
+  Half backward_;
+  std::uint32_t best_ = no_way;
+  GateRank meeting_ = 0;
+};
+
+/// Along a hop.
+struct Hop : MarkedWay {
+  HopTurns turns;
+};
 
 /// The cells of a hop (planners/lengths/separator_fronts.hpp), from marks alone: each cell of a chain says where it
 /// goes on, and at junctions the turns do. Cost: 3 to 6 ns a cell, on all threads.
@@ -102,10 +402,6 @@ class HopWalk : public MarkWalk {
   unsigned came_from_ = 0;  // the motion that leads back, as a bit
 };
 
-// What a motion adds to column and row, modulo 2^32.
-constexpr std::array<std::uint32_t, 4> right{1, 0, ~std::uint32_t{0}, 0};
-constexpr std::array<std::uint32_t, 4> up{0, 1, 0, ~std::uint32_t{0}};
-
 /// Writes the cells of all hops but the last one of each, as they lie: it is the next hop's first. Throws InputError
 /// where marks lead elsewhere: after as many steps as the hops have, whatever the marks are. Throws Stopped.
 void write_hops(const RouteIndex& index, std::span<const Hop> hops, const Execution& execution) {
@@ -114,368 +410,211 @@ void write_hops(const RouteIndex& index, std::span<const Hop> hops, const Execut
              [&](Range r) { walk_side_by_side<HopWalk>(index, hops.subspan(r.first, r.size())); });
 }
 
+/// The cells behind entries of fronts. Beside an entry stands the gate of lower rank that its way goes over, whose row
+/// has both halves of it, and so on down to hops, which are then walked. Nothing is searched for. Entries are opened
+/// level by level, all of a level in three rounds, each of which asks the memory for what the next one reads: one by
+/// one each would wait four times. Scratch of one thread.
+class FrontUnpacking {
+ public:
+  explicit FrontUnpacking(const RouteIndex& index) : index_(index), fronts_(index.arrays().fronts) {}
+
+  /// Writes the cells of the ways, one after the other, from the first gate on, which is `cells` itself: one more than
+  /// their lengths together. Throws InputError where fronts contradict each other, after as many looks as there are
+  /// cells at most. Throws Stopped.
+  void write(std::span<const FrontStep> steps, CellId* cells, const Execution& execution) {
+    todo_.clear();
+    hops_.clear();
+    for (const FrontStep& step : steps) {
+      const auto [low, high] = std::minmax(step.from, step.to);
+      const Front& front = index_.front(step.front);
+      todo_.push_back({&front, place_in(front, low, high), low, high, step.length, step.from > step.to, cells});
+      cells += step.length;
+    }
+    if (!steps.empty()) *cells = index_.places().cell_of(index_.gate_place(steps.back().to));
+    while (!todo_.empty()) {  // ranks become less
+      read_ways();
+      find_halves();
+      open_halves();
+    }
+    // Along the path neighbours share tiles.
+    std::sort(hops_.begin(), hops_.end(), [](const Hop& a, const Hop& b) { return a.first < b.first; });
+    write_hops(index_, hops_, execution);
+  }
+
+ private:
+  /// An entry whose way's cells have their place: from its lower gate on, or the other way round.
+  struct Entry {
+    const Front* front;
+    std::uint64_t place;
+    GateRank low;
+    GateRank high;
+    std::uint32_t length;
+    bool downwards;
+    CellId* cells;
+  };
+  /// An entry whose way goes over a gate: where its halves stand.
+  struct Middle {
+    Entry whole;
+    GateRank gate;
+    const Front* front;
+    std::uint64_t low;
+    std::uint64_t high;
+  };
+  /// What goes over a gate becomes a middle.
+  void read_ways() {
+    middles_.clear();
+    for (const Entry& entry : todo_) {
+      if (entry.length == 0) refuse_front();  // a hop without steps would write beside its cells
+      const std::uint64_t way = front_way(fronts_, *entry.front, entry.place);
+      if ((way & 1U) != 0) {
+        hops_.push_back({{index_.gate_place(entry.low), index_.gate_place(entry.high), entry.length,
+                          entry.downwards ? -1 : 1, entry.downwards ? entry.cells + entry.length : entry.cells},
+                         way / 2});
+        continue;
+      }
+      const std::uint64_t below = way / 2;
+      if (below == 0 || below > entry.low) refuse_front();
+      const GateRank gate = entry.low - static_cast<GateRank>(below);
+      index_.prefetch_front_of(gate);
+      middles_.push_back({entry, gate, nullptr, 0, 0});
+    }
+  }
+  void find_halves() {
+    for (Middle& middle : middles_) {
+      middle.front = &index_.front(index_.front_of(middle.gate));
+      __builtin_prefetch(fronts_.bounds.data() + middle.front->first_bound);
+    }
+    for (Middle& middle : middles_) {
+      middle.low = place_in(*middle.front, middle.gate, middle.whole.low);
+      middle.high = place_in(*middle.front, middle.gate, middle.whole.high);
+      for (const std::uint64_t place : {middle.low, middle.high}) {
+        const std::uint64_t length = middle.front->first_length() + place;
+        if (middle.front->is_short()) {
+          __builtin_prefetch(fronts_.short_lengths.data() + length);
+        } else {
+          __builtin_prefetch(fronts_.lengths.data() + length);
+        }
+        __builtin_prefetch(fronts_.ways.data() + middle.front->first_way() + place * middle.front->way_elements());
+      }
+    }
+  }
+  void open_halves() {
+    todo_.clear();
+    for (const Middle& middle : middles_) {
+      const Entry& whole = middle.whole;
+      const std::uint32_t to_low = front_entry(fronts_, *middle.front, middle.low);
+      const std::uint32_t to_high = front_entry(fronts_, *middle.front, middle.high);
+      if (to_low + to_high != whole.length) refuse_front();
+      CellId* const low_cells = whole.downwards ? whole.cells + to_high : whole.cells;
+      CellId* const high_cells = whole.downwards ? whole.cells : whole.cells + to_low;
+      todo_.push_back({middle.front, middle.low, middle.gate, whole.low, to_low, !whole.downwards, low_cells});
+      todo_.push_back({middle.front, middle.high, middle.gate, whole.high, to_high, whole.downwards, high_cells});
+    }
+  }
+  /// Of the entry between a gate of the front and a gate of higher rank.
+  std::uint64_t place_in(const Front& front, GateRank gate, GateRank other) const {
+    const std::uint64_t column = front_column(fronts_, front, other);
+    if (column == std::uint64_t{front.gates} + front.bounds) refuse_front();
+    return front_place(front, gate - front.first, column);
+  }
+
+  const RouteIndex& index_;
+  const FrontArrays& fronts_;
+  std::vector<Entry> todo_;
+  std::vector<Middle> middles_;
+  std::vector<Hop> hops_;
+};
+
 }  // namespace
 
-FrontQuery::FrontQuery(const RouteIndex& index) : index_(index), fronts_(index.arrays().fronts) {
-  forward_.distance.assign(fronts_.gate_place.size(), no_way);
-  backward_.distance.assign(fronts_.gate_place.size(), no_way);
-}
+class RouteQuery::Scratch {
+ public:
+  explicit Scratch(const RouteIndex& index)
+      : index_(index), trees_(index), near_start_(index), near_goal_(index), fronts_(index), unpacking_(index) {}
 
-FrontId FrontQuery::seed(Half& half, std::span<const SeenGate> seeds) const {
-  half.climbed.clear();
-  GateRank lowest = ~GateRank{0};
-  for (const SeenGate& gate : seeds) {
-    half.distance[gate.rank] = gate.steps;
-    lowest = std::min(lowest, gate.rank);
+  std::optional<std::uint32_t> length(CellId start, CellId goal) {
+    const TreeJoin join = trees_.join(checked(start), checked(goal));
+    const std::uint32_t between = join.in_tree() ? 0 : core_length(join.start_core, join.goal_core);
+    if (between >= no_way) return std::nullopt;
+    return join.start_steps + between + join.goal_steps;
   }
-  return seeds.empty() ? no_front : index_.front_of(lowest);
-}
 
-std::uint32_t FrontQuery::length(std::span<const SeenGate> starts, std::span<const SeenGate> goals,
-                                 std::uint32_t below) {
-  best_ = below;
-  climb(starts, goals);
-  clear(forward_, starts);
-  clear(backward_, goals);
-  return best_;
-}
-
-void FrontQuery::climb(std::span<const SeenGate> starts, std::span<const SeenGate> goals) {
-  FrontId up = seed(forward_, starts);
-  FrontId down = seed(backward_, goals);
-  Half* const halves[] = {&forward_, &backward_};
-  const std::span<Half* const> both(halves);
-  while (up != no_front && down != no_front) {
-    const FrontId front = std::min(up, down);
-    settle(front, up == down ? both : up < down ? both.first(1) : both.last(1));
-    const FrontId parent = fronts_.fronts[front].parent;
-    if (up == front) up = parent;
-    if (down == front) down = parent;
-  }
-}
-
-/// For those of both climbs that have come to it.
-void FrontQuery::settle(FrontId front, std::span<Half* const> halves) {
-  const Front& f = index_.front(front);
-  for (Half* const half : halves) {
-    half->climbed.push_back(front);
-    load_bounds(f, *half);
-  }
-  for (std::uint32_t i = 0; i < f.gates; ++i) {
-    const GateRank gate = f.first + i;
-    if (halves.size() == 2 && forward_.distance[gate] + backward_.distance[gate] < best_) {
-      best_ = forward_.distance[gate] + backward_.distance[gate];
-      meeting_ = gate;
+  RawVector<CellId> path(CellId start, CellId goal, const Execution& execution) {
+    const LatticePlace a = checked(start);
+    const LatticePlace b = checked(goal);
+    const TreeJoin join = trees_.join(a, b);
+    FrontQuery::Way between{};
+    if (!join.in_tree()) between = core_way(join.start_core, join.goal_core);
+    if (between.length >= no_way) return {};
+    for (const std::uint32_t length : {join.start_steps, between.length, join.goal_steps}) {
+      if (length > index_.places().place_count()) refuse_length();
     }
-    for (Half* const half : halves) lessen_by(f, i, *half);
+    const std::size_t count = std::size_t{join.start_steps} + between.length + join.goal_steps + 1;
+    execution.reserve(count * sizeof(CellId));
+    RawVector<CellId> cells(count);
+    CellId* const core = cells.data() + join.start_steps;
+    *core = index_.places().cell_of(join.start_core);
+    if (!join.in_tree()) write_core_way(between, join.goal_core, core, execution);
+    std::vector<MarkedWay> legs;
+    trees_.cut({a, join.start_core, join.start_steps, 1, cells.data()}, legs);
+    trees_.cut({b, join.goal_core, join.goal_steps, -1, &cells.back()}, legs);
+    write_climbs(index_, legs, execution);
+    return cells;
   }
-  for (Half* const half : halves) store_bounds(f, *half);
-}
 
-void FrontQuery::lessen_by(const Front& f, std::uint32_t gate, Half& half) const {
-  const std::uint32_t distance = half.distance[f.first + gate];
-  if (distance >= best_) return;
-  const std::uint64_t row = f.first_length() + row_offset(gate, f.gates, f.bounds);
-  const auto lessen = [&](const auto* lengths, const auto lessen_all) {
-    const std::uint32_t later = f.gates - gate - 1;
-    lessen_all(half.distance.data() + f.first + gate + 1, lengths, distance, later);
-    lessen_all(half.bounds.data(), lengths + later, distance, f.bounds);
-  };
-  if (f.is_short()) {
-    lessen(fronts_.short_lengths.data() + row, lessen_short_);
-  } else {
-    lessen(fronts_.lengths.data() + row, lessen_);
+ private:
+  LatticePlace checked(CellId cell) const {
+    if (cell < index_.passages().cell_count()) return index_.places().place_of(cell);
+    throw InputError("cell", "must be below " + std::to_string(index_.passages().cell_count()), std::to_string(cell));
   }
-}
-
-void FrontQuery::load_bounds(const Front& f, Half& half) const {
-  half.bounds.resize(std::max<std::size_t>(half.bounds.size(), f.bounds));
-  const GateRank* const rank = fronts_.bounds.data() + f.first_bound;
-  for (std::uint32_t i = 0; i < f.bounds; ++i) half.bounds[i] = half.distance[rank[i]];
-}
-
-void FrontQuery::store_bounds(const Front& f, Half& half) const {
-  const GateRank* const rank = fronts_.bounds.data() + f.first_bound;
-  for (std::uint32_t i = 0; i < f.bounds; ++i) half.distance[rank[i]] = half.bounds[i];
-}
-
-/// Bounds of a front are gates of fronts above it, which may not all have been climbed.
-void FrontQuery::clear(Half& half, std::span<const SeenGate> seeds) const {
-  for (const SeenGate& gate : seeds) half.distance[gate.rank] = no_way;
-  for (const FrontId front : half.climbed) {
-    const Front& f = fronts_.fronts[front];
-    std::fill_n(half.distance.begin() + f.first, f.gates, no_way);
-    const GateRank* const rank = fronts_.bounds.data() + f.first_bound;
-    for (std::uint32_t i = 0; i < f.bounds; ++i) half.distance[rank[i]] = no_way;
+  std::uint32_t core_length(LatticePlace start, LatticePlace goal) {
+    near_start_.search(start);
+    near_goal_.search(goal);
+    return fronts_.length(near_start_.gates(), near_goal_.gates(), direct_length(goal));
   }
-}
-
-FrontQuery::Way FrontQuery::way(std::span<const SeenGate> starts, std::span<const SeenGate> goals,
-                                std::uint32_t below) {
-  best_ = below;
-  climb(starts, goals);
-  Way way{best_, 0, 0, {}};
-  if (best_ < below) {
-    way.first = trace(forward_, starts, meeting_, way.steps);
-    std::reverse(way.steps.begin(), way.steps.end());
-    std::vector<FrontStep> down;
-    way.last = trace(backward_, goals, meeting_, down);
-    for (const FrontStep& step : down) way.steps.push_back({step.front, step.to, step.from, step.length});
+  /// By no gate but the two ends, or no_way.
+  std::uint32_t direct_length(LatticePlace goal) const {
+    const std::uint32_t seen = near_start_.number_of(goal);
+    return seen == CoreSearch::none ? no_way : near_start_.seen(seen).steps;
   }
-  clear(forward_, starts);
-  clear(backward_, goals);
-  return way;
-}
-
-/// Back to a seed: the steps as they were climbed, the last one first. Returns the seed's index.
-std::size_t FrontQuery::trace(const Half& half, std::span<const SeenGate> seeds, GateRank from,
-                              std::vector<FrontStep>& steps) const {
-  for (;;) {
-    const auto seed = std::find_if(seeds.begin(), seeds.end(), [&](const SeenGate& gate) {
-      return gate.rank == from && gate.steps == half.distance[from];
-    });
-    if (seed != seeds.end()) return static_cast<std::size_t>(seed - seeds.begin());
-    steps.push_back(step_into(half, from));
-    from = steps.back().from;
+  /// As long as its parts together, or refused.
+  FrontQuery::Way core_way(LatticePlace start, LatticePlace goal) {
+    near_start_.search(start);
+    near_goal_.search(goal);
+    const std::uint32_t direct = direct_length(goal);
+    FrontQuery::Way way = fronts_.way(near_start_.gates(), near_goal_.gates(), direct);
+    if (way.length == direct) return way;
+    std::size_t length = std::size_t{near_start_.gates()[way.first].steps} + near_goal_.gates()[way.last].steps;
+    for (const FrontStep& step : way.steps) length += step.length;
+    if (length != way.length) refuse_length();
+    return way;
   }
-}
-
-FrontStep FrontQuery::step_into(const Half& half, GateRank to) const {
-  for (const FrontId front : half.climbed) {
-    const Front& f = fronts_.fronts[front];
-    const std::uint64_t column = front_column(fronts_, f, to);
-    if (column == std::uint64_t{f.gates} + f.bounds) continue;
-    for (std::uint32_t i = 0; i < f.gates && i < column; ++i) {
-      const std::uint32_t distance = half.distance[f.first + i];
-      if (distance >= half.distance[to]) continue;
-      const std::uint32_t length = front_entry(fronts_, f, front_place(f, i, column));
-      if (distance + length == half.distance[to]) return {front, f.first + i, to, length};
-    }
+  /// cells: the first one stands already.
+  void write_core_way(const FrontQuery::Way& way, LatticePlace goal, CellId* cells, const Execution& execution) {
+    if (way.length == direct_length(goal)) return near_start_.write_way(near_start_.number_of(goal), cells, 1);
+    const SeenGate& first = near_start_.gates()[way.first];
+    near_start_.write_way(first.seen, cells, 1);
+    unpacking_.write(way.steps, cells + first.steps, execution);
+    cells[way.length] = index_.places().cell_of(goal);
+    near_goal_.write_way(near_goal_.gates()[way.last].seen, cells + way.length, -1);
   }
-  refuse_front();
-}
 
-void FrontUnpacking::write(std::span<const FrontStep> steps, CellId* cells, const Execution& execution) {
-  todo_.clear();
-  hops_.clear();
-  for (const FrontStep& step : steps) {
-    const auto [low, high] = std::minmax(step.from, step.to);
-    const Front& front = index_.front(step.front);
-    todo_.push_back({&front, place_in(front, low, high), low, high, step.length, step.from > step.to, cells});
-    cells += step.length;
-  }
-  if (!steps.empty()) *cells = index_.places().cell_of(index_.gate_place(steps.back().to));
-  while (!todo_.empty()) {  // ranks become less
-    read_ways();
-    find_halves();
-    open_halves();
-  }
-  // Along the path neighbours share tiles.
-  std::sort(hops_.begin(), hops_.end(), [](const Hop& a, const Hop& b) { return a.first < b.first; });
-  write_hops(index_, hops_, execution);
-}
+  const RouteIndex& index_;
+  TreeRoutes trees_;
+  CoreSearch near_start_;
+  CoreSearch near_goal_;
+  FrontQuery fronts_;
+  FrontUnpacking unpacking_;
+};
 
-/// What goes over a gate becomes a middle.
-void FrontUnpacking::read_ways() {
-  middles_.clear();
-  for (const Entry& entry : todo_) {
-    if (entry.length == 0) refuse_front();  // a hop without steps would write beside its cells
-    const std::uint64_t way = front_way(fronts_, *entry.front, entry.place);
-    if ((way & 1U) != 0) {
-      hops_.push_back({{index_.gate_place(entry.low), index_.gate_place(entry.high), entry.length,
-                        entry.downwards ? -1 : 1, entry.downwards ? entry.cells + entry.length : entry.cells},
-                       way / 2});
-      continue;
-    }
-    const std::uint64_t below = way / 2;
-    if (below == 0 || below > entry.low) refuse_front();
-    const GateRank gate = entry.low - static_cast<GateRank>(below);
-    index_.prefetch_front_of(gate);
-    middles_.push_back({entry, gate, nullptr, 0, 0});
-  }
-}
+RouteQuery::RouteQuery(const RouteIndex& index) : scratch_(std::make_unique<Scratch>(index)) {}
+RouteQuery::~RouteQuery() = default;
+RouteQuery::RouteQuery(RouteQuery&&) noexcept = default;
 
-void FrontUnpacking::find_halves() {
-  for (Middle& middle : middles_) {
-    middle.front = &index_.front(index_.front_of(middle.gate));
-    __builtin_prefetch(fronts_.bounds.data() + middle.front->first_bound);
-  }
-  for (Middle& middle : middles_) {
-    middle.low = place_in(*middle.front, middle.gate, middle.whole.low);
-    middle.high = place_in(*middle.front, middle.gate, middle.whole.high);
-    for (const std::uint64_t place : {middle.low, middle.high}) {
-      const std::uint64_t length = middle.front->first_length() + place;
-      if (middle.front->is_short()) {
-        __builtin_prefetch(fronts_.short_lengths.data() + length);
-      } else {
-        __builtin_prefetch(fronts_.lengths.data() + length);
-      }
-      __builtin_prefetch(fronts_.ways.data() + middle.front->first_way() + place * middle.front->way_elements());
-    }
-  }
-}
-
-void FrontUnpacking::open_halves() {
-  todo_.clear();
-  for (const Middle& middle : middles_) {
-    const Entry& whole = middle.whole;
-    const std::uint32_t to_low = front_entry(fronts_, *middle.front, middle.low);
-    const std::uint32_t to_high = front_entry(fronts_, *middle.front, middle.high);
-    if (to_low + to_high != whole.length) refuse_front();
-    CellId* const low_cells = whole.downwards ? whole.cells + to_high : whole.cells;
-    CellId* const high_cells = whole.downwards ? whole.cells : whole.cells + to_low;
-    todo_.push_back({middle.front, middle.low, middle.gate, whole.low, to_low, !whole.downwards, low_cells});
-    todo_.push_back({middle.front, middle.high, middle.gate, whole.high, to_high, whole.downwards, high_cells});
-  }
-}
-
-/// Of the entry between a gate of the front and a gate of higher rank.
-std::uint64_t FrontUnpacking::place_in(const Front& front, GateRank gate, GateRank other) const {
-  const std::uint64_t column = front_column(fronts_, front, other);
-  if (column == std::uint64_t{front.gates} + front.bounds) refuse_front();
-  return front_place(front, gate - front.first, column);
-}
-
-SeenCell CoreSearch::first_cell(LatticePlace start) const {
-  const SeenCell first{start, index_.places().col(start), index_.places().row(start), 0, 0};
-  const LatticeSize size = index_.places().size();
-  if (first.col >= size.cols || first.row >= size.rows) {
-    throw InputError("route index", "a cell of it lies outside the lattice: build it again");
-  }
-  index_.look_at_tile(start);
-  return first;
-}
-
-void CoreSearch::search(LatticePlace start) {
-  if (++search_ == 0) {  // after 2^32 searches
-    std::fill(slots_.begin(), slots_.end(), Slot{});
-    search_ = 1;
-  }
-  seen_.assign(1, first_cell(start));
-  gates_.clear();
-  enter(start, 0);
-  for (std::uint32_t i = 0; i < seen_.size(); ++i) {
-    if (index_.is_gate(seen_[i].place)) {
-      gates_.push_back({index_.gate_at(seen_[i].place), seen_[i].steps, i});
-    } else {
-      expand(i);
-    }
-  }
-}
-
-bool CoreSearch::is_core(LatticePlace next, LatticePlace from) const {
-  if (LatticePlaces::tile_of(next) != LatticePlaces::tile_of(from)) {
-    index_.look_at_tile(next);
-    index_.marks().prefetch_tile(LatticePlaces::tile_of(next));
-  }
-  return index_.marks().is_core(next);
-}
-
-void CoreSearch::expand(std::uint32_t number) {
-  const SeenCell at = seen_[number];
-  for (unsigned open = index_.passages().open_at(at.col, at.row); open != 0; open &= open - 1) {
-    const auto d = static_cast<unsigned>(std::countr_zero(open));
-    const LatticePlace next = index_.places().step(at.place, d);
-    if (next == seen_[at.from].place || !is_core(next, at.place)) continue;
-    if (!enter(next, static_cast<std::uint32_t>(seen_.size()))) continue;
-    seen_.push_back({next, at.col + right[d], at.row + up[d], at.steps + 1, number});
-  }
-}
-
-bool CoreSearch::enter(LatticePlace p, std::uint32_t number) {
-  if (2 * seen_.size() > slots_.size()) grow();
-  Slot& slot = slots_[slot_of(p)];
-  if (slot.search == search_) return false;
-  slot = {search_, number};
-  return true;
-}
-
-std::uint32_t CoreSearch::number_of(LatticePlace p) const {
-  const Slot& slot = slots_[slot_of(p)];
-  return slot.search == search_ ? slot.number : none;
-}
-
-void CoreSearch::grow() {
-  slots_.assign(2 * slots_.size(), Slot{});
-  for (std::uint32_t i = 0; i < seen_.size(); ++i) slots_[slot_of(seen_[i].place)] = {search_, i};
-}
-
-void CoreSearch::write_way(std::uint32_t to, CellId* start, int direction) const {
-  const std::uint32_t cols = index_.places().size().cols;
-  for (; to != 0; to = seen_[to].from) {
-    start[std::ptrdiff_t{direction} * seen_[to].steps] = seen_[to].row * cols + seen_[to].col;
-  }
-}
-
-LatticePlace RouteQuery::checked(CellId cell) const {
-  if (cell < index_.passages().cell_count()) return index_.places().place_of(cell);
-  throw InputError("cell", "must be below " + std::to_string(index_.passages().cell_count()), std::to_string(cell));
-}
-
-std::optional<std::uint32_t> RouteQuery::length(CellId start, CellId goal) {
-  const TreeJoin join = trees_.join(checked(start), checked(goal));
-  const std::uint32_t between = join.in_tree() ? 0 : core_length(join.start_core, join.goal_core);
-  if (between >= no_way) return std::nullopt;
-  return join.start_steps + between + join.goal_steps;
-}
-
-std::uint32_t RouteQuery::core_length(LatticePlace start, LatticePlace goal) {
-  near_start_.search(start);
-  near_goal_.search(goal);
-  return fronts_.length(near_start_.gates(), near_goal_.gates(), direct_length(goal));
-}
-
-/// By no gate but the two ends, or no_way.
-std::uint32_t RouteQuery::direct_length(LatticePlace goal) const {
-  const std::uint32_t seen = near_start_.number_of(goal);
-  return seen == CoreSearch::none ? no_way : near_start_.seen(seen).steps;
-}
+std::optional<std::uint32_t> RouteQuery::length(CellId start, CellId goal) { return scratch_->length(start, goal); }
 
 RawVector<CellId> RouteQuery::path(CellId start, CellId goal, const Execution& execution) {
-  const LatticePlace a = checked(start);
-  const LatticePlace b = checked(goal);
-  const TreeJoin join = trees_.join(a, b);
-  FrontQuery::Way between{};
-  if (!join.in_tree()) between = core_way(join.start_core, join.goal_core);
-  if (between.length >= no_way) return {};
-  for (const std::uint32_t length : {join.start_steps, between.length, join.goal_steps}) {
-    if (length > index_.places().place_count()) refuse_length();
-  }
-  const std::size_t count = std::size_t{join.start_steps} + between.length + join.goal_steps + 1;
-  execution.reserve(count * sizeof(CellId));
-  RawVector<CellId> cells(count);
-  CellId* const core = cells.data() + join.start_steps;
-  *core = index_.places().cell_of(join.start_core);
-  if (!join.in_tree()) write_core_way(between, join.goal_core, core, execution);
-  std::vector<MarkedWay> legs;
-  trees_.cut({a, join.start_core, join.start_steps, 1, cells.data()}, legs);
-  trees_.cut({b, join.goal_core, join.goal_steps, -1, &cells.back()}, legs);
-  write_climbs(index_, legs, execution);
-  return cells;
-}
-
-/// As long as its parts together, or refused.
-FrontQuery::Way RouteQuery::core_way(LatticePlace start, LatticePlace goal) {
-  near_start_.search(start);
-  near_goal_.search(goal);
-  const std::uint32_t direct = direct_length(goal);
-  FrontQuery::Way way = fronts_.way(near_start_.gates(), near_goal_.gates(), direct);
-  if (way.length == direct) return way;
-  std::size_t length = std::size_t{near_start_.gates()[way.first].steps} + near_goal_.gates()[way.last].steps;
-  for (const FrontStep& step : way.steps) length += step.length;
-  if (length != way.length) refuse_length();
-  return way;
-}
-
-/// cells: the first one stands already.
-void RouteQuery::write_core_way(const FrontQuery::Way& way, LatticePlace goal, CellId* cells,
-                                const Execution& execution) {
-  if (way.length == direct_length(goal)) return near_start_.write_way(near_start_.number_of(goal), cells, 1);
-  const SeenGate& first = near_start_.gates()[way.first];
-  near_start_.write_way(first.seen, cells, 1);
-  unpacking_.write(way.steps, cells + first.steps, execution);
-  cells[way.length] = index_.places().cell_of(goal);
-  near_goal_.write_way(near_goal_.gates()[way.last].seen, cells + way.length, -1);
+  return scratch_->path(start, goal, execution);
 }
 
 }  // namespace warren

@@ -24,7 +24,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/base/raw_vector.hpp"
 #include "core/run/execution.hpp"
 #include "planners/lengths/array_or_view.hpp"
 #include "planners/lengths/dissection.hpp"

@@ -141,8 +141,7 @@ struct TreeJoin {
 /// Looks at the index; any number of threads may.
 class TreeRoutes {
  public:
-  explicit TreeRoutes(const RouteIndex& index)
-      : index_(index), places_(index.places()), marks_(index.marks()), pieces_(index.pieces()) {}
+  explicit TreeRoutes(const RouteIndex& index) : index_(index), marks_(index.marks()), pieces_(index.pieces()) {}
 
   TreeJoin join(LatticePlace start, LatticePlace goal) const;
   /// Adds the legs of a climb to its end, cut at doors, so that many threads may write them. Throws InputError.
@@ -168,7 +167,6 @@ class TreeRoutes {
   TreeJoin meet_at_core(Climber& start, Climber& goal) const;
 
   const RouteIndex& index_;
-  const LatticePlaces& places_;
   CellMarks marks_;
   PieceForest pieces_;
 };

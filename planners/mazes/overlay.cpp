@@ -288,29 +288,28 @@ std::size_t Overlay::tile_of(VertexId v) const {
 }
 
 std::uint64_t Overlay::peel(const Execution& execution) {
-  const std::size_t grain = peel_grain(tile_count());
-  std::vector<std::uint64_t> closed(chunk_count(tile_count(), grain) + 1, 0);
-  std::vector<std::vector<VertexId>> stops(closed.size() - 1);
-  for_chunks(tile_count(), grain, execution, [&](Range r) {
+  struct Part {
+    std::uint64_t closed = 0;
+    std::vector<VertexId> stops;
+  };
+  const auto parts = parts_of_chunks(tile_count(), peel_grain(tile_count()), execution, [&](Range r) {
     const VertexId first = first_key_[r.first];
     const VertexId last = first_key_[r.last];
-    std::vector<VertexId> stopped_at;
-    std::uint64_t alone = 0;
+    Part part;
     for (VertexId v = first; v < last; ++v) {
       if (left_[v] > 1) continue;
-      const VertexId stop = peel_from(v, first, last, alone);
-      if (stop != no_vertex) stopped_at.push_back(stop);
+      const VertexId stop = peel_from(v, first, last, part.closed);
+      if (stop != no_vertex) part.stops.push_back(stop);
     }
-    closed[r.first / grain] = alone;
-    stops[r.first / grain] = std::move(stopped_at);
+    return part;
   });
-  for (const auto& part : stops) {
+  std::uint64_t closed = 0;
+  for (const Part& part : parts) {
     execution.check();
-    for (const VertexId v : part) peel_from(v, 0, start(), closed.back());
+    closed += part.closed;
+    for (const VertexId v : part.stops) peel_from(v, 0, start(), closed);
   }
-  std::uint64_t total = 0;
-  for (const std::uint64_t count : closed) total += count;
-  return total;
+  return closed;
 }
 
 void Overlay::peel_after(VertexId gone) {
@@ -364,8 +363,7 @@ OverlayComponents::OverlayComponents(const Overlay& overlay, Range vertices, con
   };
   execution.reserve(vertices.size() * sizeof(VertexId));
   parent_.resize(vertices.size());
-  std::vector<Part> parts(chunk_count(vertices.size(), grain));
-  for_chunks(vertices.size(), grain, execution, [&](Range r) {
+  const auto parts = parts_of_chunks(vertices.size(), grain, execution, [&](Range r) {
     Part part;
     for (auto place = static_cast<VertexId>(r.first); place < r.last; ++place) {
       const VertexId v = first_ + place;
@@ -382,7 +380,7 @@ OverlayComponents::OverlayComponents(const Overlay& overlay, Range vertices, con
         }
       }
     }
-    parts[r.first / grain] = std::move(part);
+    return part;
   });
   for (const Part& part : parts) {
     execution.check();

@@ -38,9 +38,7 @@ double longest_link(const OverlayEnds& ends) {
 }  // namespace
 
 StepBorder agree(const StepBorder& forward, const StepBorder& backward) {
-  StepBorder agreed;
-  static_cast<SearchBorder&>(agreed) =
-      agree(static_cast<const SearchBorder&>(forward), static_cast<const SearchBorder&>(backward));
+  StepBorder agreed{agree(static_cast<const SearchBorder&>(forward), static_cast<const SearchBorder&>(backward))};
   agreed.least_key = forward.least_key + backward.least_key;
   return agreed;
 }
@@ -169,11 +167,7 @@ void StepSide::receive(const Told& told) {
 void StepSide::exchange(const StepSide& other, bool stop) {
   for (const VertexId v : labelled_) {
     if (other.is_near_[v / block_size] == 0 || other.label_[v] == unreached) continue;
-    const double length = label(v) + other.label(v);
-    if (length < border_.best || (length == border_.best && v < border_.meeting)) {
-      border_.best = length;
-      border_.meeting = v;
-    }
+    border_.offer(label(v) + other.label(v), v);
   }
   labelled_.clear();
   border_.least_key = least_;

@@ -104,25 +104,19 @@ void TilePlane::reset(std::size_t tile, const Box& box) {
   }
 }
 
-PlaneRowVariants plane_row_variants() {
-  PlaneRowVariants variants{};
-  variants.list[variants.count++] = {"baseline", peel_any, dead_ends_any, keys_any};
+std::vector<PlaneRowWork> plane_row_variants() {
+  std::vector<PlaneRowWork> variants{{"baseline", peel_any, dead_ends_any, keys_any}};
 #if defined(__x86_64__) && !defined(WARREN_PLAIN)
-  if (__builtin_cpu_supports("avx2")) {
-    variants.list[variants.count++] = {"AVX2", peel_avx2, dead_ends_avx2, keys_avx2};
-  }
+  if (__builtin_cpu_supports("avx2")) variants.push_back({"AVX2", peel_avx2, dead_ends_avx2, keys_avx2});
   if (__builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl")) {
-    variants.list[variants.count++] = {"AVX-512", peel_avx512, dead_ends_avx512, keys_avx512};
+    variants.push_back({"AVX-512", peel_avx512, dead_ends_avx512, keys_avx512});
   }
 #endif
   return variants;
 }
 
 const PlaneRowWork& plane_row_work() {
-  static const PlaneRowWork fastest = [] {
-    const PlaneRowVariants variants = plane_row_variants();
-    return variants.list[variants.count - 1];
-  }();
+  static const PlaneRowWork fastest = plane_row_variants().back();
   return fastest;
 }
 
@@ -135,15 +129,12 @@ void clear_bits(std::uint8_t& byte, unsigned bits) { byte = static_cast<std::uin
 /// What a wall blocks of the point (col, row), its right and its upper edge, as bits; asked only for bits in `wanted`.
 unsigned blocked_bits(const Segment& wall, Vec2 point, unsigned wanted, double clearance) {
   unsigned blocked = 0;
-  if ((wanted & plane_bit::milestone) != 0 && blocks_edge(wall, {point, point}, clearance)) {
-    blocked |= plane_bit::milestone;
-  }
-  if ((wanted & plane_bit::right) != 0 && blocks_edge(wall, {point, {point.x + 1, point.y}}, clearance)) {
-    blocked |= plane_bit::right;
-  }
-  if ((wanted & plane_bit::up) != 0 && blocks_edge(wall, {point, {point.x, point.y + 1}}, clearance)) {
-    blocked |= plane_bit::up;
-  }
+  const auto ask = [&](unsigned bit, Vec2 end) {
+    if ((wanted & bit) != 0 && blocks_edge(wall, {point, end}, clearance)) blocked |= bit;
+  };
+  ask(plane_bit::milestone, point);
+  ask(plane_bit::right, {point.x + 1, point.y});
+  ask(plane_bit::up, {point.x, point.y + 1});
   return blocked;
 }
 

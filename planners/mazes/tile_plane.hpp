@@ -43,7 +43,6 @@ inline constexpr std::uint8_t key = 64;  ///< vertex of the overlay
 
 constexpr std::uint8_t opposite_bit(unsigned direction) { return static_cast<std::uint8_t>(1U << (direction ^ 2)); }
 constexpr unsigned first_direction(unsigned bits) { return static_cast<unsigned>(std::countr_zero(bits)); }
-constexpr bool is_single_bit(unsigned bits) { return bits != 0 && (bits & (bits - 1)) == 0; }
 
 class TilePlane {
  public:
@@ -106,11 +105,7 @@ struct PlaneRowWork {
 };
 
 /// What this processor can run, the fastest last; the first needs nothing special.
-struct PlaneRowVariants {
-  std::array<PlaneRowWork, 3> list;
-  std::size_t count;
-};
-PlaneRowVariants plane_row_variants();
+std::vector<PlaneRowWork> plane_row_variants();
 
 /// The fastest.
 const PlaneRowWork& plane_row_work();

@@ -45,7 +45,7 @@ using plane_bit::edges, plane_bit::kept, plane_bit::key;
 constexpr std::uint64_t dead_end_set = [] {
   std::uint64_t set = 0;
   for (unsigned bits = 0; bits < 64; ++bits) {
-    if (is_single_bit(bits & edges) && (bits & kept) == 0) set |= std::uint64_t{1} << bits;
+    if (std::has_single_bit(bits & edges) && (bits & kept) == 0) set |= std::uint64_t{1} << bits;
   }
   return set;
 }();

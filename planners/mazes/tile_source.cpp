@@ -372,7 +372,29 @@ class CellTiles : public TileSource {
   class Reader : public TileReader {
    public:
     Reader(const CellWallSource& cells, const TileGrid& grid) : grid_(grid), cells_(cells.reader()) {}
-    TileWalls read(std::size_t tile) override;
+    /// Written without branches: every second wall stands, and nobody can guess which.
+    TileWalls read(std::size_t tile) override {
+      cells_->read(tile, tile_);
+      walls_.resize(2 * tile_.walls.size());
+      NarrowWall* out = walls_.data();
+      constexpr int half = narrow_unit / 2;
+      const int middle = static_cast<int>(grid_.side() / 2) * narrow_unit;
+      const auto number = [](int x) { return static_cast<std::int16_t>(x); };
+      for (std::ptrdiff_t row = -1; row < std::ptrdiff_t{tile_.height}; ++row) {
+        const std::uint8_t* const line = tile_.walls.data() + tile_.index(0, row);
+        const std::int16_t low = number(static_cast<int>(row) * narrow_unit - half - middle);
+        const std::int16_t high = number(low + narrow_unit);
+        for (std::ptrdiff_t col = -1; col < std::ptrdiff_t{tile_.width}; ++col) {
+          const std::int16_t left = number(static_cast<int>(col) * narrow_unit - half - middle);
+          const std::int16_t right = number(left + narrow_unit);
+          *out = {right, low, right, high};
+          out += row >= 0 ? line[col] & CellTile::right_wall : 0;
+          *out = {left, high, right, high};
+          out += col >= 0 ? (line[col] & CellTile::upper_wall) >> 1 : 0;
+        }
+      }
+      return {.narrow = {walls_.data(), static_cast<std::size_t>(out - walls_.data())}, .wide = {}, .more = {}};
+    }
 
    private:
     const TileGrid& grid_;
@@ -384,30 +406,6 @@ class CellTiles : public TileSource {
   const CellWallSource& cells_;
   const TileGrid grid_;
 };
-
-/// Written without branches: every second wall stands, and nobody can guess which.
-TileWalls CellTiles::Reader::read(std::size_t tile) {
-  cells_->read(tile, tile_);
-  walls_.resize(2 * tile_.walls.size());
-  NarrowWall* out = walls_.data();
-  constexpr int half = narrow_unit / 2;
-  const int middle = static_cast<int>(grid_.side() / 2) * narrow_unit;
-  const auto number = [](int x) { return static_cast<std::int16_t>(x); };
-  for (std::ptrdiff_t row = -1; row < std::ptrdiff_t{tile_.height}; ++row) {
-    const std::uint8_t* const line = tile_.walls.data() + tile_.index(0, row);
-    const std::int16_t low = number(static_cast<int>(row) * narrow_unit - half - middle);
-    const std::int16_t high = number(low + narrow_unit);
-    for (std::ptrdiff_t col = -1; col < std::ptrdiff_t{tile_.width}; ++col) {
-      const std::int16_t left = number(static_cast<int>(col) * narrow_unit - half - middle);
-      const std::int16_t right = number(left + narrow_unit);
-      *out = {right, low, right, high};
-      out += row >= 0 ? line[col] & CellTile::right_wall : 0;
-      *out = {left, high, right, high};
-      out += col >= 0 ? (line[col] & CellTile::upper_wall) >> 1 : 0;
-    }
-  }
-  return {.narrow = {walls_.data(), static_cast<std::size_t>(out - walls_.data())}, .wide = {}, .more = {}};
-}
 
 }  // namespace
 

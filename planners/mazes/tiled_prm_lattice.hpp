@@ -35,7 +35,6 @@
 #include "planners/graph/roadmap_options.hpp"
 #include "planners/mazes/overlay.hpp"
 #include "planners/mazes/overlay_search.hpp"
-#include "planners/mazes/tile_grid.hpp"
 #include "planners/mazes/tile_plane.hpp"
 #include "planners/mazes/tile_reduction.hpp"
 #include "planners/mazes/tile_source.hpp"

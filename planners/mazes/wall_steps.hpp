@@ -49,13 +49,22 @@ struct WallShape {
 
 class PlainWallSteps {
  public:
-  explicit PlainWallSteps(const FloatWall& w) : PlainWallSteps(std::array<float, 4>{w.x1, w.y1, w.x2, w.y2}) {}
+  template <class T>
+  explicit PlainWallSteps(const WallOf<T>& w) {
+    constexpr T limit = most_steps;
+    const std::array<T, 4> ends{w.x1, w.y1, w.x2, w.y2};
+    for (std::size_t i = 0; i < 4; ++i) {
+      const T scaled = ends[i] * narrow_unit;
+      const T below = scaled < limit ? scaled : limit;
+      steps_[i] = static_cast<std::int32_t>(below > -limit ? below : -limit);
+      exact_ = exact_ && static_cast<T>(steps_[i]) == scaled;
+    }
+  }
   explicit PlainWallSteps(const PackedWall& w) {
     const PackedWall::Ends e = w.ends();
     constexpr std::int32_t steps = 1 << packed_shift;
     steps_ = {e.x1 * steps, e.y1 * steps, e.x2 * steps, e.y2 * steps};
   }
-  explicit PlainWallSteps(const DoubleWall& w) : PlainWallSteps(std::array<double, 4>{w.x1, w.y1, w.x2, w.y2}) {}
 
   /// Are all coordinates whole numbers of steps, and not too many? What follows is of use only then.
   bool exact() const { return exact_; }
@@ -84,16 +93,6 @@ class PlainWallSteps {
   }
 
  private:
-  template <class T>
-  explicit PlainWallSteps(const std::array<T, 4>& ends) {
-    constexpr T limit = most_steps;
-    for (std::size_t i = 0; i < 4; ++i) {
-      const T scaled = ends[i] * narrow_unit;
-      const T below = scaled < limit ? scaled : limit;
-      steps_[i] = static_cast<std::int32_t>(below > -limit ? below : -limit);
-      exact_ = exact_ && static_cast<T>(steps_[i]) == scaled;
-    }
-  }
   static std::int16_t narrow(std::int32_t x) {
     return static_cast<std::int16_t>(std::clamp<std::int32_t>(x, std::numeric_limits<std::int16_t>::min(),
                                                               std::numeric_limits<std::int16_t>::max()));

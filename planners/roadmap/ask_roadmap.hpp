@@ -32,60 +32,51 @@ namespace warren {
 /// A roadmap ready to be asked: with the index that attaches start and goal, and with what is known of its edges, which
 /// questions add to. Refers to the world, and to the hierarchy where it has one.
 template <World W>
-class AskedRoadmap {
- public:
+struct AskedRoadmap {
   using State = typename W::State;
 
   /// lazy: the roadmap is lazy_prm's, whose searches run so. Throws Stopped.
-  AskedRoadmap(const W& world, RawVector<State> states, Graph candidates, std::span<const std::uint64_t> edge_states,
-               const ConnectionRule& rule, bool lazy, const Execution& execution, const Hierarchy* hierarchy = nullptr)
-      : world_(world),
-        states_(std::move(states)),
-        candidates_(std::move(candidates)),
-        known_(edge_states),
-        rule_(rule),
-        lazy_(lazy),
-        hierarchy_(hierarchy),
-        index_(index_of_states(world, std::span<const State>(states_), execution)) {
-    if (lazy_) return;
-    const Graph free = free_part(candidates_, edge_states, execution);
+  AskedRoadmap(const W& its_world, RawVector<State> its_states, Graph its_candidates,
+               std::span<const std::uint64_t> edge_states, const ConnectionRule& its_rule, bool lazy,
+               const Execution& execution, const Hierarchy* its_hierarchy = nullptr)
+      : world(its_world),
+        states(std::move(its_states)),
+        candidates(std::move(its_candidates)),
+        known(edge_states),
+        rule(its_rule),
+        is_lazy(lazy),
+        hierarchy(its_hierarchy),
+        index(index_of_states(world, std::span<const State>(states), execution)) {
+    if (is_lazy) return;
+    const Graph free = free_part(candidates, edge_states, execution);
     if constexpr (W::one_way) {
-      free_edges_ = free.targets().size();
+      free_edges = free.targets().size();
     } else {
-      free_edges_ = free.edge_count();
-      stringy_ = warren::is_stringy(free, execution);
-      components_ = components(free, execution);
+      free_edges = free.edge_count();
+      is_stringy = warren::is_stringy(free, execution);
+      component_labels = components(free, execution);
     }
   }
 
-  std::span<const State> states() const { return states_; }
-  const Graph& candidates() const { return candidates_; }
-  /// All that was learnt so far; while nobody asks.
-  std::span<const std::uint64_t> edge_states() const { return known_.words(); }
-  bool is_lazy() const { return lazy_; }
-  /// Of the free edges; not known where lazy or where edges lead one way, nor are components.
-  bool is_stringy() const { return stringy_; }
-  std::uint64_t free_edges() const { return free_edges_; }
-  const Components& component_labels() const { return components_; }
-  /// Of the free edges; nullptr: there is none.
-  const Hierarchy* hierarchy() const { return hierarchy_; }
-  const W& world() const { return world_; }
-  const StateIndex<W>& index() const { return index_; }
-  const ConnectionRule& rule() const { return rule_; }
-  const SharedEdgeStates& known() const { return known_; }
+  AskedRoadmap(const AskedRoadmap&) = delete;  // the index looks at the states
+  AskedRoadmap& operator=(const AskedRoadmap&) = delete;
+  ~AskedRoadmap() = default;
 
- private:
-  const W& world_;
-  RawVector<State> states_;
-  Graph candidates_;
-  SharedEdgeStates known_;
-  ConnectionRule rule_;
-  bool lazy_;
-  const Hierarchy* hierarchy_;
-  StateIndex<W> index_;
-  bool stringy_ = false;
-  std::uint64_t free_edges_ = 0;
-  Components components_;  // by free edges
+  /// All that was learnt so far; while nobody asks.
+  std::span<const std::uint64_t> edge_states() const { return known.words(); }
+
+  const W& world;
+  const RawVector<State> states;
+  const Graph candidates;
+  const SharedEdgeStates known;
+  const ConnectionRule rule;
+  const bool is_lazy;
+  const Hierarchy* const hierarchy;  ///< of the free edges; nullptr: there is none
+  const StateIndex<W> index;
+  // Of the free edges. Not known where the roadmap is lazy; where edges lead one way, their number alone is.
+  std::uint64_t free_edges = 0;
+  bool is_stringy = false;
+  Components component_labels;
 };
 
 namespace detail {
@@ -104,19 +95,19 @@ class AskedNeighbours {
         end_edges_(end_edges),
         used_(used),
         execution_(&execution),
-        query_(roadmap.world().make_query()) {}
+        query_(roadmap.world.make_query()) {}
 
   const State& state(VertexId v) const {
-    const std::size_t n = roadmap_->states().size();
-    return v < n ? roadmap_->states()[v] : (*ends_)[v - n];
+    const std::size_t n = roadmap_->states.size();
+    return v < n ? roadmap_->states[v] : (*ends_)[v - n];
   }
-  double distance(VertexId v, VertexId w) const { return roadmap_->world().distance(state(v), state(w)); }
-  double cost(VertexId v, VertexId w) const { return roadmap_->world().cost(state(v), state(w)); }
+  double distance(VertexId v, VertexId w) const { return roadmap_->world.distance(state(v), state(w)); }
+  double cost(VertexId v, VertexId w) const { return roadmap_->world.cost(state(v), state(w)); }
 
   void operator()(VertexId v, const AnyVisit& visit) {
-    if (v < roadmap_->states().size()) {
-      std::size_t end = roadmap_->candidates().first_end(v);
-      for (const VertexId w : roadmap_->candidates().neighbours(v)) visit_if_free(v, w, end++, visit);
+    if (v < roadmap_->states.size()) {
+      std::size_t end = roadmap_->candidates.first_end(v);
+      for (const VertexId w : roadmap_->candidates.neighbours(v)) visit_if_free(v, w, end++, visit);
     }
     for (const Edge& e : end_edges_) {
       if (e.from == v) visit_end(v, e.to, visit);
@@ -135,37 +126,37 @@ class AskedNeighbours {
   static constexpr std::uint64_t checks_per_poll = 64;
 
   void visit_if_free(VertexId v, VertexId w, std::size_t end, const AnyVisit& visit) {
-    const EdgeState known = roadmap_->known()[end];
+    const EdgeState known = roadmap_->known[end];
     if (known == EdgeState::blocked || !visit.wants(w, 0.0)) return;
     const double length = distance(v, w);
     if (!visit.wants(w, length)) return;
     if (known == EdgeState::unchecked && !asked(v, w, end)) return;
     ++free_edges_;
     if (used_ != nullptr) used_->push_back(one_way ? Edge{v, w} : Edge{std::min(v, w), std::max(v, w)});
-    visit(w, roadmap_->world().motion_cost ? cost(v, w) : length);
+    visit(w, roadmap_->world.motion_cost ? cost(v, w) : length);
   }
   /// An edge of start or goal. Of lazy roadmaps whose edges lead one way it is asked about here, as one_way_prm does.
   void visit_end(VertexId v, VertexId w, const AnyVisit& visit) {
     const double length = distance(v, w);
-    if (one_way && roadmap_->is_lazy()) {
+    if (one_way && roadmap_->is_lazy) {
       if (!visit.wants(w, length)) return;
       if (++counters_.edges_checked % checks_per_poll == 0) execution_->check();
-      if (!roadmap_->world().is_free_motion(state(v), state(w), query_)) return;
+      if (!roadmap_->world.is_free_motion(state(v), state(w), query_)) return;
       ++counters_.edges_free;
       ++free_edges_;
     }
-    visit(w, roadmap_->world().motion_cost ? cost(v, w) : length);
+    visit(w, roadmap_->world.motion_cost ? cost(v, w) : length);
   }
   /// Asks the world; remembers at both ends.
   bool asked(VertexId v, VertexId w, std::size_t end) {
     if (++counters_.edges_checked % checks_per_poll == 0) execution_->check();
     const VertexId from = one_way ? v : std::min(v, w);
     const VertexId to = one_way ? w : std::max(v, w);
-    const bool free = roadmap_->world().is_free_motion(state(from), state(to), query_);
+    const bool free = roadmap_->world.is_free_motion(state(from), state(to), query_);
     counters_.edges_free += free ? 1 : 0;
     const EdgeState answer = free ? EdgeState::free : EdgeState::blocked;
-    roadmap_->known().learn(end, answer);
-    if (!one_way) roadmap_->known().learn(end_of_edge(roadmap_->candidates(), w, v), answer);
+    roadmap_->known.learn(end, answer);
+    if (!one_way) roadmap_->known.learn(end_of_edge(roadmap_->candidates, w, v), answer);
     return free;
   }
 
@@ -199,7 +190,7 @@ class Ask {
   Ask(const AskedRoadmap<W>& roadmap, const State& start, const State& goal, const RoadmapOptions& options,
       const Execution& execution, AskScratch& scratch, bool keep)
       : roadmap_(roadmap),
-        world_(roadmap.world()),
+        world_(roadmap.world),
         ends_{start, goal},
         options_(options),
         execution_(execution),
@@ -225,11 +216,11 @@ class Ask {
 
  private:
   static constexpr bool one_way = W::one_way;
-  VertexId start_vertex() const { return static_cast<VertexId>(roadmap_.states().size()); }
+  VertexId start_vertex() const { return static_cast<VertexId>(roadmap_.states.size()); }
   VertexId goal_vertex() const { return start_vertex() + 1; }
-  std::size_t vertex_count() const { return roadmap_.states().size() + 2; }
+  std::size_t vertex_count() const { return roadmap_.states.size() + 2; }
   /// Of a lazy roadmap it is learnt on the way.
-  bool tells_separation() const { return scratch_.tells_separation || roadmap_.is_lazy(); }
+  bool tells_separation() const { return scratch_.tells_separation || roadmap_.is_lazy; }
   AskedNeighbours<W> neighbours(std::vector<Edge>* used) const {
     return {roadmap_, ends_, end_edges_, used, execution_};
   }
@@ -248,17 +239,17 @@ class Ask {
       attach_one_way(0, Heading::out);
       attach_one_way(1, Heading::in);
       auto query = world_.make_query();
-      if (world_.distance(ends_[0], ends_[1]) <= direct_reach(roadmap_.rule()) &&
+      if (world_.distance(ends_[0], ends_[1]) <= direct_reach(roadmap_.rule) &&
           may_be_free(ends_[0], ends_[1], query)) {
         end_edges_.push_back({start_vertex(), goal_vertex()});
       }
       solution_.counters.refused += refused_motions(query);
     } else {
-      end_edges_ = attach_start_and_goal(world_, roadmap_.states(), roadmap_.index(), roadmap_.rule(), ends_[0],
-                                         ends_[1], solution_.counters);
+      end_edges_ = attach_start_and_goal(world_, roadmap_.states, roadmap_.index, roadmap_.rule, ends_[0], ends_[1],
+                                         solution_.counters);
     }
-    const std::uint64_t known = one_way && roadmap_.is_lazy() ? 0 : end_edges_.size();
-    solution_.roadmap = {vertex_count(), roadmap_.free_edges() + known, 0};
+    const std::uint64_t known = one_way && roadmap_.is_lazy ? 0 : end_edges_.size();
+    solution_.roadmap = {vertex_count(), roadmap_.free_edges + known, 0};
   }
   void attach_one_way(std::size_t end, Heading heading) {
     auto query = world_.make_query();
@@ -266,9 +257,9 @@ class Ask {
     const State& here = ends_[end];
     const auto vertex = static_cast<VertexId>(start_vertex() + end);
     ++solution_.counters.neighbour_queries;
-    for (const Neighbour& c : one_way_candidates<W>(world_, roadmap_.states(), roadmap_.index(), roadmap_.rule(), here,
+    for (const Neighbour& c : one_way_candidates<W>(world_, roadmap_.states, roadmap_.index, roadmap_.rule, here,
                                                     no_vertex, heading, near)) {
-      const State& there = roadmap_.states()[c.id];
+      const State& there = roadmap_.states[c.id];
       const bool out = heading == Heading::out;
       if (!(out ? may_be_free(here, there, query) : may_be_free(there, here, query))) continue;
       end_edges_.push_back(out ? Edge{vertex, c.id} : Edge{c.id, vertex});
@@ -277,7 +268,7 @@ class Ask {
   }
   /// Is the motion free? A lazy roadmap leaves that to the search.
   bool may_be_free(const State& from, const State& to, typename W::Query& query) {
-    if (roadmap_.is_lazy()) return true;
+    if (roadmap_.is_lazy) return true;
     ++solution_.counters.edges_checked;
     const bool free = world_.is_free_motion(from, to, query);
     solution_.counters.edges_free += free ? 1 : 0;
@@ -290,9 +281,9 @@ class Ask {
     const bool fits = never_overestimates(options_.heuristic);
     const bool large = !one_way && fits && vertex_count() >= fewest_for_both_ends;
     SearchResult found;
-    if (roadmap_.hierarchy() != nullptr && scratch_.by_hierarchy) {
+    if (roadmap_.hierarchy != nullptr && scratch_.by_hierarchy) {
       found = search_hierarchy();
-    } else if (!has_queue(options_.search) || (large && roadmap_.is_stringy())) {
+    } else if (!has_queue(options_.search) || (large && roadmap_.is_stringy)) {
       found = search_copy();
     } else if (large) {
       found = search_both_ends();
@@ -350,19 +341,19 @@ class Ask {
     const AskedNeighbours<W> places = neighbours(nullptr);
     std::vector<double> lengths;
     for (const Edge& e : end_edges_) lengths.push_back(places.distance(e.from, e.to));
-    return route_by_hierarchy(*roadmap_.hierarchy(), end_edges_, lengths, scratch_.hierarchy, execution_);
+    return route_by_hierarchy(*roadmap_.hierarchy, end_edges_, lengths, scratch_.hierarchy, execution_);
   }
   /// Are start and goal joined? Nothing where that is not known before the search. Counts the components, start and
   /// goal among them.
   std::optional<bool> known_to_be_joined() {
-    if (roadmap_.is_lazy() || one_way) return std::nullopt;
+    if (roadmap_.is_lazy || one_way) return std::nullopt;
     std::array<std::vector<VertexId>, 2> joined_to;
     bool direct = false;
     for (const Edge& e : end_edges_) {
       if (e.from == start_vertex()) {
         direct = true;
       } else {
-        joined_to[e.to - start_vertex()].push_back(roadmap_.component_labels().label[e.from]);
+        joined_to[e.to - start_vertex()].push_back(roadmap_.component_labels.label[e.from]);
       }
     }
     for (auto& labels : joined_to) {
@@ -373,16 +364,16 @@ class Ask {
     std::set_intersection(joined_to[0].begin(), joined_to[0].end(), joined_to[1].begin(), joined_to[1].end(),
                           std::back_inserter(shared));
     const bool joined = direct || !shared.empty();
-    solution_.roadmap.components = roadmap_.component_labels().count + (joined ? 1 : 2) + shared.size() -
-                                   joined_to[0].size() - joined_to[1].size();
+    solution_.roadmap.components =
+        roadmap_.component_labels.count + (joined ? 1 : 2) + shared.size() - joined_to[0].size() - joined_to[1].size();
     return joined;
   }
   /// Asks the world about all edges that start or the goal can reach; about all that there are where they lead one way.
   void learn_around_ends() {
     if constexpr (one_way) {
-      const auto states = check_edges(world_, roadmap_.states(), roadmap_.candidates(), execution_, solution_.counters);
-      for (std::size_t end = 0; end < roadmap_.candidates().targets().size(); ++end) {
-        roadmap_.known().learn(end, edge_state(states, end));
+      const auto states = check_edges(world_, roadmap_.states, roadmap_.candidates, execution_, solution_.counters);
+      for (std::size_t end = 0; end < roadmap_.candidates.targets().size(); ++end) {
+        roadmap_.known.learn(end, edge_state(states, end));
       }
     } else {
       for (std::size_t end = 0; end < 2; ++end) {
@@ -394,7 +385,7 @@ class Ask {
   /// Between the components of start and goal. Where edges lead one way: between what start reaches and what reaches
   /// the goal.
   void tell_separation() {
-    if (roadmap_.is_lazy()) learn_around_ends();
+    if (roadmap_.is_lazy) learn_around_ends();
     const Graph graph = free_graph();
     const Components parts = one_way ? reached_and_reaching(graph, start_vertex(), goal_vertex(), execution_)
                                      : components(graph, execution_);
@@ -404,42 +395,26 @@ class Ask {
   }
   void count(const AskedNeighbours<W>& seen) {
     solution_.counters += seen.counters();
-    if (roadmap_.is_lazy()) solution_.roadmap.edges += seen.free_edges();
+    if (roadmap_.is_lazy) solution_.roadmap.edges += seen.free_edges();
   }
   /// The free edges, those of start and goal among them; all of them are asked about first where they lead one way.
   Graph free_graph() const {
-    const Graph& all = roadmap_.candidates();
-    RawVector<EdgeEnd> offsets(vertex_count() + 1);
-    RawVector<VertexId> targets;
-    execution_.reserve((all.targets().size() + 2 * end_edges_.size()) * sizeof(VertexId));
-    targets.reserve(all.targets().size() + 2 * end_edges_.size());
+    execution_.reserve((roadmap_.candidates.targets().size() + 2 * end_edges_.size()) * sizeof(VertexId));
     std::vector<Edge> sorted;
     const AskedNeighbours<W> places = neighbours(nullptr);
     auto query = world_.make_query();
     for (const Edge& e : end_edges_) {
-      if (one_way && roadmap_.is_lazy() && !world_.is_free_motion(places.state(e.from), places.state(e.to), query))
+      if (one_way && roadmap_.is_lazy && !world_.is_free_motion(places.state(e.from), places.state(e.to), query))
         continue;
       sorted.push_back(e);
       if (!one_way) sorted.push_back({e.to, e.from});
     }
     std::sort(sorted.begin(), sorted.end());
-    auto next = sorted.begin();
-    for (VertexId v = 0; v < vertex_count(); ++v) {
-      if (v % (1U << 14) == 0) execution_.check();
-      offsets[v] = static_cast<EdgeEnd>(targets.size());
-      std::size_t end = v < start_vertex() ? all.first_end(v) : 0;
-      if (v < start_vertex()) {
-        for (const VertexId w : all.neighbours(v)) {
-          if (roadmap_.known()[end++] == EdgeState::free) targets.push_back(w);
-        }
-      }
-      for (; next != sorted.end() && next->from == v; ++next) targets.push_back(next->to);
-    }
-    offsets[vertex_count()] = static_cast<EdgeEnd>(targets.size());
-    return {std::move(offsets), std::move(targets)};
+    const auto is_free = [&](std::size_t end) { return roadmap_.known[end] == EdgeState::free; };
+    return part_with_edges(roadmap_.candidates, is_free, vertex_count(), sorted, execution_);
   }
   RawVector<State> all_states() const {
-    RawVector<State> states(roadmap_.states().begin(), roadmap_.states().end());
+    RawVector<State> states(roadmap_.states.begin(), roadmap_.states.end());
     states.insert(states.end(), ends_.begin(), ends_.end());
     return states;
   }

@@ -68,19 +68,8 @@ Graph one_way_graph(std::size_t vertex_count, const EdgeParts& edges, const Exec
 
 Graph free_part(const Graph& candidates, std::span<const std::uint64_t> edge_states, const Execution& execution) {
   execution.reserve((candidates.vertex_count() + 1) * sizeof(EdgeEnd) + candidates.targets().size() * sizeof(VertexId));
-  RawVector<EdgeEnd> offsets(candidates.vertex_count() + 1);
-  RawVector<VertexId> targets;
-  targets.reserve(candidates.targets().size());
-  for (VertexId v = 0; v < candidates.vertex_count(); ++v) {
-    if (v % polled_vertices == 0) execution.check();
-    offsets[v] = static_cast<EdgeEnd>(targets.size());
-    std::size_t end = candidates.first_end(v);
-    for (const VertexId w : candidates.neighbours(v)) {
-      if (edge_state(edge_states, end++) == EdgeState::free) targets.push_back(w);
-    }
-  }
-  offsets[candidates.vertex_count()] = static_cast<EdgeEnd>(targets.size());
-  return {std::move(offsets), std::move(targets)};
+  const auto is_free = [&](std::size_t end) { return edge_state(edge_states, end) == EdgeState::free; };
+  return detail::part_with_edges(candidates, is_free, candidates.vertex_count(), {}, execution);
 }
 
 }  // namespace warren

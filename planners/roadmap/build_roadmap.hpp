@@ -76,6 +76,31 @@ void check_row(const W& world, std::span<const typename W::State> states, const 
   if (count > 0) flush();
 }
 
+/// The edges of a graph for which is_free(end), and more, which ascend and may join further vertices, each in the row
+/// of its begin.
+template <class IsFree>
+Graph part_with_edges(const Graph& all, const IsFree& is_free, std::size_t vertex_count, std::span<const Edge> more,
+                      const Execution& execution) {
+  constexpr std::size_t polled = std::size_t{1} << 14;
+  RawVector<EdgeEnd> offsets(vertex_count + 1);
+  RawVector<VertexId> targets;
+  targets.reserve(all.targets().size() + more.size());
+  auto next = more.begin();
+  for (VertexId v = 0; v < vertex_count; ++v) {
+    if (v % polled == 0) execution.check();
+    offsets[v] = static_cast<EdgeEnd>(targets.size());
+    if (v < all.vertex_count()) {
+      std::size_t end = all.first_end(v);
+      for (const VertexId w : all.neighbours(v)) {
+        if (is_free(end++)) targets.push_back(w);
+      }
+    }
+    for (; next != more.end() && next->from == v; ++next) targets.push_back(next->to);
+  }
+  offsets[vertex_count] = static_cast<EdgeEnd>(targets.size());
+  return {std::move(offsets), std::move(targets)};
+}
+
 /// An edge's end at the larger vertex gets what stands at the other.
 inline void copy_to_other_ends(const Graph& graph, std::span<std::uint8_t> answers, const Execution& execution) {
   constexpr std::size_t grain = 2048;

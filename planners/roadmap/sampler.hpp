@@ -52,10 +52,13 @@ double radical_inverse(std::uint64_t number) {
 }  // namespace detail
 
 /// The index-th point of the Halton sequence in bases 2, 3, 5, …, shifted by a random vector of the seed
-/// (Cranley-Patterson), so that seeds differ. Its first `axes` coordinates, the others 0.
-template <std::size_t D>
-std::array<double, D> halton_point(std::uint64_t seed, std::uint64_t index, std::size_t axes = D) {
-  static_assert(D <= detail::halton_bases.size());
+/// (Cranley-Patterson), so that seeds differ. The coordinates that the world's states are made of, the others 0; a
+/// world that has no say about it is made of all.
+template <World W>
+std::array<double, W::dimension> halton_point(const W& world, std::uint64_t seed, std::uint64_t index) {
+  static_assert(W::dimension <= detail::halton_bases.size());
+  std::size_t axes = W::dimension;
+  if constexpr (requires { world.unit_dimension(); }) axes = world.unit_dimension();
   const auto coordinate = [&]<std::size_t axis>(std::integral_constant<std::size_t, axis>) {
     if (axis >= axes) return 0.0;
     const double value = detail::radical_inverse<detail::halton_bases[axis]>(index + 1) + uniform(seed, 0, axis);
@@ -64,16 +67,7 @@ std::array<double, D> halton_point(std::uint64_t seed, std::uint64_t index, std:
   const auto all = [&]<std::size_t... axis>(std::index_sequence<axis...>) {
     return std::array{coordinate(std::integral_constant<std::size_t, axis>{})...};
   };
-  return all(std::make_index_sequence<D>{});
-}
-
-/// Of any world: one that has no say about it is made of all its coordinates.
-template <World W>
-std::array<double, W::dimension> halton_point_of(const W& world, std::uint64_t seed, std::uint64_t index) {
-  if constexpr (requires { world.unit_dimension(); }) {
-    return halton_point<W::dimension>(seed, index, world.unit_dimension());
-  }
-  return halton_point<W::dimension>(seed, index);
+  return all(std::make_index_sequence<W::dimension>{});
 }
 
 /// Do samples of this kind depend on what is free?
@@ -174,7 +168,7 @@ std::optional<typename W::State> obstacle_sample(const W& world, SamplerKind kin
 /// A state that may be blocked: of the kinds that draw one by one and look at no obstacle; uniform for all others.
 template <World W>
 typename W::State plain_sample(const W& world, SamplerKind kind, std::uint64_t seed, std::uint64_t index) {
-  if (kind == SamplerKind::halton) return world.at_unit(halton_point_of(world, seed, index));
+  if (kind == SamplerKind::halton) return world.at_unit(halton_point(world, seed, index));
   if (kind == SamplerKind::corridor) return world.corridor_state(seed, index);
   return uniform_state(world, seed, index);
 }

@@ -47,9 +47,49 @@ class FloodOfPlaces {
     }
   }
   /// Takes steps until a place of `to` is reached: which one; x < 0 where none can be.
-  Place reach(const RowBits& to);
-  /// The places from the first to `last`.
-  std::vector<Place> way_to(Place last) const;
+  Place reach(const RowBits& to) {
+    if (first_ >= last_) return {-1, -1};
+    Place met = common(to);
+    RowBits wide{};
+    while (met.x < 0) {
+      widen(front_, wide, first_, last_);
+      first_ = std::max<std::size_t>(1, first_ - 1);
+      last_ = std::min(free_.rows + 1, last_ + 1);
+      RowBits& reached = steps_[++step_ % 3];
+      std::uint64_t any = 0;
+      std::uint64_t arrived = 0;
+      for (std::size_t r = first_; r < last_; ++r) {
+        const std::uint64_t next = (wide[r - 1] | wide[r] | wide[r + 1]) & unseen_[r];
+        front_[r] = next;
+        unseen_[r] ^= next;
+        reached[r] |= next;
+        any |= next;
+        arrived |= next & to[r];
+      }
+      if (any == 0) return {-1, -1};
+      if (arrived != 0) met = common(to);
+    }
+    return met;
+  }
+  /// The places from the first to `last`. A neighbour of a place that step k reached, reached by step k - 1 modulo 3,
+  /// was reached by step k - 1: the steps of neighbours differ by one at most.
+  std::vector<Place> way_to(Place last) const {
+    constexpr std::array<Place, 8> ways{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}}};
+    std::vector<Place> way(step_ + 1);
+    way[step_] = last;
+    std::size_t kept = 0;  // straight on where that is possible
+    for (std::size_t step = step_; step-- > 0;) {
+      for (std::size_t turn = 0; turn < ways.size(); ++turn) {
+        const std::size_t way_number = (kept + turn) % ways.size();
+        const Place p{way[step + 1].x + ways[way_number].x, way[step + 1].y + ways[way_number].y};
+        if (!holds(steps_[step % 3], p)) continue;
+        way[step] = p;
+        kept = way_number;
+        break;
+      }
+    }
+    return way;
+  }
 
  private:
   bool holds(const RowBits& set, Place p) const {
@@ -73,51 +113,6 @@ class FloodOfPlaces {
   std::array<RowBits, 3> steps_{};
   std::size_t step_ = 0;
 };
-
-Place FloodOfPlaces::reach(const RowBits& to) {
-  if (first_ >= last_) return {-1, -1};
-  Place met = common(to);
-  RowBits wide{};
-  while (met.x < 0) {
-    widen(front_, wide, first_, last_);
-    first_ = std::max<std::size_t>(1, first_ - 1);
-    last_ = std::min(free_.rows + 1, last_ + 1);
-    RowBits& reached = steps_[++step_ % 3];
-    std::uint64_t any = 0;
-    std::uint64_t arrived = 0;
-    for (std::size_t r = first_; r < last_; ++r) {
-      const std::uint64_t next = (wide[r - 1] | wide[r] | wide[r + 1]) & unseen_[r];
-      front_[r] = next;
-      unseen_[r] ^= next;
-      reached[r] |= next;
-      any |= next;
-      arrived |= next & to[r];
-    }
-    if (any == 0) return {-1, -1};
-    if (arrived != 0) met = common(to);
-  }
-  return met;
-}
-
-/// A neighbour of a place that step k reached, reached by step k - 1 modulo 3, was reached by step k - 1: the steps of
-/// neighbours differ by one at most.
-std::vector<Place> FloodOfPlaces::way_to(Place last) const {
-  constexpr std::array<Place, 8> ways{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}}};
-  std::vector<Place> way(step_ + 1);
-  way[step_] = last;
-  std::size_t kept = 0;  // straight on where that is possible
-  for (std::size_t step = step_; step-- > 0;) {
-    for (std::size_t turn = 0; turn < ways.size(); ++turn) {
-      const std::size_t way_number = (kept + turn) % ways.size();
-      const Place p{way[step + 1].x + ways[way_number].x, way[step + 1].y + ways[way_number].y};
-      if (!holds(steps_[step % 3], p)) continue;
-      way[step] = p;
-      kept = way_number;
-      break;
-    }
-  }
-  return way;
-}
 
 /// The free places next to p.
 RowBits places_around(const PlaceGrid& free, Vec2 p) {

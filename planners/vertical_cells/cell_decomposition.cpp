@@ -93,8 +93,47 @@ using SweepOrder = std::multiset<SweepPlace, ByPlace>;
 class CellSweep {
  public:
   CellSweep(const PlaneObstacles& obstacles, std::span<const Vec2> points, Overlaps overlaps,
-            const Execution& execution);
-  CellDecomposition run();
+            const Execution& execution)
+      : obstacles_(obstacles),
+        overlaps_(overlaps),
+        execution_(execution),
+        order_{SweepPlace{{{}, {}, CellDecomposition::floor_segment, no_number, no_number}}} {
+    const std::size_t corners = obstacles.polygons.corners.size() + 2 * obstacles.walls.size();
+    if (corners + points.size() >= std::size_t{1} << 31) throw InputError("cells", "expected fewer than 2^31 corners");
+    execution.reserve(corners * bytes_per_corner);
+    choose_box(points);
+    result_.corners.reserve(corners);
+    result_.segments.reserve(corners - obstacles.walls.size());
+    events_.reserve(corners + points.size());
+    add_polygons();
+    add_walls();
+    add_points(points);
+    node_of_.assign(result_.segments.size(), order_.end());
+  }
+  CellDecomposition run() {
+    execution_.check();
+    polled_sort(events_.begin(), events_.end(), execution_, [](const Event& e, const Event& f) {
+      return is_before(e.at, f.at) || (e.at == f.at && e.number < f.number);
+    });
+    result_.cells.reserve(events_.size() + 1);
+    result_.doors.reserve(events_.size());
+    order_.begin()->entry.cell = open_cell(CellDecomposition::floor_segment, order_.end());
+    result_.cells.front().left = no_number;
+    std::size_t polled = 0;
+    for (std::size_t first = 0, last = 0; first < events_.size(); first = last) {
+      while (last < events_.size() && events_[last].at == events_[first].at) ++last;
+      gather(first, last);
+      find_touching();
+      answer_questions(false);
+      if (!ending_.empty() || !starting_.empty()) pass_corner();
+      answer_questions(true);
+      if (last - polled < corners_per_poll) continue;
+      execution_.check();
+      execution_.advance(last - polled);
+      polled = last;
+    }
+    return std::move(result_);
+  }
 
  private:
   using Node = SweepOrder::const_iterator;
@@ -104,26 +143,243 @@ class CellSweep {
     std::uint32_t number;
   };
 
-  void choose_box(std::span<const Vec2> points);
-  void add_polygons();
-  void add_walls();
-  bool stands_inside(std::span<const Vec2> corners, std::size_t obstacle) const;
-  void add_points(std::span<const Vec2> points);
+  void choose_box(std::span<const Vec2> points) {
+    result_.box = box_around(obstacles_);
+    if (obstacles_.bounds || !result_.box.empty()) return;
+    for (const Vec2 p : points) result_.box.include(p);
+  }
+  void add_polygons() {
+    const PolygonSet& polygons = obstacles_.polygons;
+    result_.corners = polygons.corners;
+    polygon_of_.resize(polygons.corners.size());
+    side_before_.resize(polygons.corners.size());
+    for (std::size_t p = 0; p < polygons.size(); ++p) {
+      if (p % corners_per_poll == 0) execution_.check();
+      const std::span<const Vec2> corners = polygons[p];
+      const bool inside = stands_inside(corners, p);
+      for (std::size_t i = 0; i < corners.size(); ++i) {
+        const auto number = static_cast<std::uint32_t>(polygons.first[p] + i);
+        polygon_of_[number] = static_cast<std::uint32_t>(p);
+        side_before_[number] = i == 0 ? polygons.first[p + 1] - 1 : number - 1;
+        result_.segments.push_back(left_to_right(corners[i], corners[i + 1 == corners.size() ? 0 : i + 1]));
+        if (inside) events_.push_back({corners[i], number});
+      }
+    }
+  }
+  void add_walls() {
+    for (std::size_t w = 0; w < obstacles_.walls.size(); ++w) {
+      if (w % corners_per_poll == 0) execution_.check();
+      const Segment& wall = obstacles_.walls[w];
+      const Segment s = left_to_right(wall.a, wall.b);
+      const auto number = static_cast<std::uint32_t>(result_.corners.size());
+      result_.segments.push_back(s);
+      for (const Vec2 p : {s.a, s.b}) result_.corners.push_back(p);
+      const Vec2 ends[] = {s.a, s.b};
+      if (s.a == s.b || !stands_inside(ends, obstacles_.polygons.size() + w)) continue;
+      for (const std::uint32_t end : {0U, 1U}) events_.push_back({ends[end], number + end});
+    }
+  }
+  /// Is the obstacle to be reckoned with? Throws ObstacleClash where it lies inside and outside the box.
+  bool stands_inside(std::span<const Vec2> corners, std::size_t obstacle) const {
+    const Box& box = result_.box;
+    Box own;
+    for (const Vec2 p : corners) own.include(p);
+    if (box.contains(own.min) && box.contains(own.max)) return true;
+    const bool apart =
+        own.max.x <= box.min.x || own.min.x >= box.max.x || own.max.y <= box.min.y || own.min.y >= box.max.y;
+    if (!apart) throw ObstacleClash(obstacle, ObstacleClash::bounds, obstacles_.polygons.size());
+    return false;
+  }
+  void add_points(std::span<const Vec2> points) {
+    result_.places.resize(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (i % corners_per_poll == 0) execution_.check();
+      result_.places[i].blocked = !result_.box.contains(points[i]);
+      if (result_.places[i].blocked) continue;
+      events_.push_back({points[i], static_cast<std::uint32_t>(result_.corners.size() + i)});
+    }
+  }
 
-  void gather(std::size_t first, std::size_t last);
-  void sort_segment(std::uint32_t segment);
-  void find_touching();
-  void answer_questions(bool passed);
-  void pass_corner();
-  void close_cells();
-  void sort_starting();
-  void put_starting();
-  void open_cells(std::uint32_t upper_polygon);
-  std::uint32_t open_cell(std::uint32_t lower, Node upper_node);
-  void add_door(std::uint32_t left, std::uint32_t right, bool above, bool shut);
-  void check_neighbours(Node lower, Node upper) const;
-  std::uint32_t polygon_beyond(std::uint32_t polygon, std::uint32_t segment) const;
-  [[noreturn]] void clash(std::uint32_t segment, std::uint32_t other) const;
+  /// Which segments end and start in this point, and who asks about it?
+  void gather(std::size_t first, std::size_t last) {
+    at_ = events_[first].at;
+    corner_ = events_[first].number;
+    ending_.clear();
+    starting_.clear();
+    asked_.clear();
+    const auto sides = static_cast<std::uint32_t>(polygon_of_.size());
+    for (std::size_t i = first; i < last; ++i) {
+      const std::uint32_t number = events_[i].number;
+      if (number >= result_.corners.size()) {
+        asked_.push_back(number - static_cast<std::uint32_t>(result_.corners.size()));
+      } else if (number >= sides) {
+        sort_segment(sides + (number - sides) / 2);
+      } else {
+        sort_segment(number);
+        sort_segment(side_before_[number]);
+      }
+    }
+  }
+  void sort_segment(std::uint32_t segment) {
+    (result_.segments[segment].a == at_ ? starting_ : ending_).push_back(segment);
+  }
+  void find_touching() {
+    touching_.clear();
+    Node first;
+    if (ending_.empty()) {
+      first = order_.lower_bound([&](const SweepEntry& entry) { return side(entry, at_) <= 0; });
+    } else {
+      first = node_of_[ending_.front()];
+      while (side(std::prev(first)->entry, at_) == 0) --first;
+    }
+    below_ = std::prev(first);
+    for (above_ = first; above_ != order_.end() && side(above_->entry, at_) == 0; ++above_) touching_.push_back(above_);
+  }
+  /// Where are the points that lie here? Asked before the corner is passed and after, for the cells left and right.
+  void answer_questions(bool passed) {
+    if (asked_.empty()) return;
+    if (!passed) {
+      const auto is_side = [&](std::uint32_t segment) { return !is_wall(segment); };
+      const bool on_side =
+          std::any_of(starting_.begin(), starting_.end(), is_side) ||
+          std::any_of(touching_.begin(), touching_.end(), [&](Node n) { return is_side(n->entry.segment); });
+      const bool blocked = !on_side && below_->entry.polygon != no_number;
+      for (const std::uint32_t i : asked_) result_.places[i].blocked = blocked;
+    } else if (ending_.empty() && starting_.empty()) {
+      return;  // nothing has changed since
+    }
+    for (const std::uint32_t i : asked_) {
+      CellPlace& place = result_.places[i];
+      for (Node n = below_; n != above_; ++n) {
+        const std::uint32_t cell = n->entry.cell;
+        if (cell != no_number && !is_flat(result_, obstacles_, result_.cells[cell])) place.cells.push_back(cell);
+      }
+      std::sort(place.cells.begin(), place.cells.end());
+      place.cells.erase(std::unique(place.cells.begin(), place.cells.end()), place.cells.end());
+    }
+  }
+  void pass_corner() {
+    const std::uint32_t lower_cell = below_->entry.cell;
+    const Node top = touching_.empty() ? below_ : touching_.back();
+    const std::uint32_t upper_cell = top->entry.cell;
+    const std::uint32_t upper_polygon = top->entry.polygon;
+    close_cells();
+    sort_starting();
+    put_starting();
+    open_cells(upper_polygon);
+    const Node last = put_.empty() ? below_ : put_.back();
+    const bool on_floor = below_ == order_.begin() && touches_floor(at_);
+    const bool on_ceiling = above_ == order_.end() && touches_ceiling(at_);
+    add_door(lower_cell, below_->entry.cell, false, on_floor);
+    add_door(upper_cell, last->entry.cell, true, on_ceiling);
+    check_neighbours(below_, put_.empty() ? above_ : put_.front());
+    if (!put_.empty()) check_neighbours(last, above_);
+  }
+  void close_cells() {
+    const auto close = [&](Node n) {
+      const std::uint32_t cell = n->entry.cell;
+      if (cell != no_number) result_.cells[cell].right = corner_;
+    };
+    close(below_);
+    for (const Node n : touching_) close(n);
+  }
+  /// Takes over what goes on through the corner, and sorts by angle from below; of segments that lie on each other,
+  /// those that leave a polygon first, those that enter one last.
+  void sort_starting() {
+    std::size_t ended = 0;
+    for (const Node n : touching_) {
+      const SweepEntry& entry = n->entry;
+      if (entry.b == at_) {
+        ++ended;
+      } else {
+        starting_.push_back(entry.segment);
+      }
+    }
+    if (ended != ending_.size()) clash(ending_.front(), ending_.back());  // crossings are found before they show here
+    if (starting_.size() < 2) return;
+    const auto rank = [&](std::uint32_t segment) { return is_wall(segment) ? 1 : inside_is_above(segment) ? 2 : 0; };
+    polled_sort(starting_.begin(), starting_.end(), execution_, [&](std::uint32_t s, std::uint32_t t) {
+      const int turn = orient2d(at_, result_.segments[s].b, result_.segments[t].b);
+      if (turn != 0) return turn > 0;
+      return rank(s) != rank(t) ? rank(s) < rank(t) : s < t;
+    });
+  }
+  /// Puts starting_ in the place of touching_; nodes are used again.
+  void put_starting() {
+    put_.clear();
+    Node place = below_;
+    for (std::size_t i = 0; i < starting_.size(); ++i) {
+      const std::uint32_t segment = starting_[i];
+      const Segment& s = result_.segments[segment];
+      const SweepEntry entry{s.a, s.b, segment, no_number, no_number};
+      if (i < touching_.size()) {
+        place = touching_[i];
+        place->entry = entry;
+      } else {
+        place = order_.insert(std::next(place), SweepPlace{entry});
+      }
+      node_of_[segment] = place;
+      put_.push_back(place);
+    }
+    for (std::size_t i = starting_.size(); i < touching_.size(); ++i) order_.erase(touching_[i]);
+  }
+  /// Opens a cell in each free gap right of the corner. upper_polygon: what lies below above_, on both sides.
+  void open_cells(std::uint32_t upper_polygon) {
+    std::uint32_t polygon = below_->entry.polygon;
+    below_->entry.cell = no_number;
+    if (polygon == no_number) {
+      below_->entry.cell = open_cell(below_->entry.segment, put_.empty() ? above_ : put_.front());
+    }
+    for (std::size_t i = 0; i < put_.size(); ++i) {
+      SweepEntry& entry = put_[i]->entry;
+      polygon = polygon_beyond(polygon, entry.segment);
+      entry.polygon = polygon;
+      const bool is_last = i + 1 == put_.size();
+      const bool is_void = !is_last && orient2d(at_, entry.b, put_[i + 1]->entry.b) == 0;
+      if (polygon == no_number && !is_void) entry.cell = open_cell(entry.segment, is_last ? above_ : put_[i + 1]);
+    }
+    if (polygon == upper_polygon) return;
+    const std::uint32_t segment = starting_.empty() ? ending_.back() : starting_.back();
+    throw ObstacleClash(owner(segment), polygon != no_number ? polygon : upper_polygon, obstacles_.polygons.size());
+  }
+  std::uint32_t open_cell(std::uint32_t lower, Node upper_node) {
+    constexpr std::array<std::uint32_t, 4> no_doors{no_number, no_number, no_number, no_number};
+    result_.cells.push_back({lower, segment_of(upper_node), corner_, no_number, no_doors});
+    return static_cast<std::uint32_t>(result_.cells.size() - 1);
+  }
+  void add_door(std::uint32_t left, std::uint32_t right, bool above, bool shut) {
+    if (left == no_number) return;  // blocked on both sides
+    if (shut && !obstacles_.bounds) {
+      shut = is_flat(result_, obstacles_, result_.cells[left]) || is_flat(result_, obstacles_, result_.cells[right]);
+    }
+    const auto door = static_cast<std::uint32_t>(result_.doors.size());
+    result_.doors.push_back({left, right, corner_, above, shut});
+    const std::size_t place = above ? 1 : 0;
+    result_.cells[left].doors[2 + place] = door;
+    result_.cells[right].doors[place] = door;
+  }
+  /// Does the upper one stay above the lower one, up to where the first of them ends?
+  void check_neighbours(Node lower, Node upper) const {
+    if (lower == order_.begin() || upper == order_.end()) return;
+    const SweepEntry& low = lower->entry;
+    const SweepEntry& high = upper->entry;
+    const bool low_ends = is_before(low.b, high.b);
+    const int order = low_ends ? -side(high, low.b) : side(low, high.b);
+    if (order < 0) clash(low.segment, high.segment);
+  }
+  /// The polygon above the segment, where `polygon` is the one below it; where polygons are united, one less than the
+  /// number of polygons there, which is no_number where there is none.
+  std::uint32_t polygon_beyond(std::uint32_t polygon, std::uint32_t segment) const {
+    if (is_wall(segment)) return polygon;
+    if (overlaps_ == Overlaps::united) return inside_is_above(segment) ? polygon + 1 : polygon - 1;
+    const std::uint32_t own = polygon_of_[segment];
+    const bool enters = inside_is_above(segment);
+    if (enters ? polygon == no_number : polygon == own) return enters ? own : no_number;
+    throw ObstacleClash(own, polygon == no_number ? own : polygon, obstacles_.polygons.size());
+  }
+  [[noreturn]] void clash(std::uint32_t segment, std::uint32_t other) const {
+    throw ObstacleClash(owner(segment), owner(other), obstacles_.polygons.size());
+  }
 
   static int side(const SweepEntry& entry, Vec2 p) {
     // The box's lower side is below all: what touches it is asked where that matters.
@@ -131,7 +387,10 @@ class CellSweep {
   }
   bool is_wall(std::uint32_t segment) const { return segment >= polygon_of_.size(); }
   bool inside_is_above(std::uint32_t segment) const { return result_.segments[segment].a == result_.corners[segment]; }
-  std::size_t owner(std::uint32_t segment) const;
+  std::size_t owner(std::uint32_t segment) const {
+    if (!is_wall(segment)) return polygon_of_[segment];
+    return obstacles_.polygons.size() + segment - polygon_of_.size();
+  }
   bool touches_floor(Vec2 p) const { return p.y == result_.box.min.y || p.x == result_.box.max.x; }
   bool touches_ceiling(Vec2 p) const { return p.y == result_.box.max.y || p.x == result_.box.min.x; }
   std::uint32_t segment_of(Node n) const {
@@ -156,310 +415,6 @@ class CellSweep {
   std::vector<Node> put_;                                 // where starting_ went
   Node below_, above_;                                    // the neighbours of all that; above_ may be the end
 };
-
-CellSweep::CellSweep(const PlaneObstacles& obstacles, std::span<const Vec2> points, Overlaps overlaps,
-                     const Execution& execution)
-    : obstacles_(obstacles),
-      overlaps_(overlaps),
-      execution_(execution),
-      order_{SweepPlace{{{}, {}, CellDecomposition::floor_segment, no_number, no_number}}} {
-  const std::size_t corners = obstacles.polygons.corners.size() + 2 * obstacles.walls.size();
-  if (corners + points.size() >= std::size_t{1} << 31) throw InputError("cells", "expected fewer than 2^31 corners");
-  execution.reserve(corners * bytes_per_corner);
-  choose_box(points);
-  result_.corners.reserve(corners);
-  result_.segments.reserve(corners - obstacles.walls.size());
-  events_.reserve(corners + points.size());
-  add_polygons();
-  add_walls();
-  add_points(points);
-  node_of_.assign(result_.segments.size(), order_.end());
-}
-
-void CellSweep::choose_box(std::span<const Vec2> points) {
-  result_.box = box_around(obstacles_);
-  if (obstacles_.bounds || !result_.box.empty()) return;
-  for (const Vec2 p : points) result_.box.include(p);
-}
-
-/// Is the obstacle to be reckoned with? Throws ObstacleClash where it lies inside and outside the box.
-bool CellSweep::stands_inside(std::span<const Vec2> corners, std::size_t obstacle) const {
-  const Box& box = result_.box;
-  Box own;
-  for (const Vec2 p : corners) own.include(p);
-  if (box.contains(own.min) && box.contains(own.max)) return true;
-  const bool apart =
-      own.max.x <= box.min.x || own.min.x >= box.max.x || own.max.y <= box.min.y || own.min.y >= box.max.y;
-  if (!apart) throw ObstacleClash(obstacle, ObstacleClash::bounds, obstacles_.polygons.size());
-  return false;
-}
-
-void CellSweep::add_polygons() {
-  const PolygonSet& polygons = obstacles_.polygons;
-  result_.corners = polygons.corners;
-  polygon_of_.resize(polygons.corners.size());
-  side_before_.resize(polygons.corners.size());
-  for (std::size_t p = 0; p < polygons.size(); ++p) {
-    if (p % corners_per_poll == 0) execution_.check();
-    const std::span<const Vec2> corners = polygons[p];
-    const bool inside = stands_inside(corners, p);
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const auto number = static_cast<std::uint32_t>(polygons.first[p] + i);
-      polygon_of_[number] = static_cast<std::uint32_t>(p);
-      side_before_[number] = i == 0 ? polygons.first[p + 1] - 1 : number - 1;
-      result_.segments.push_back(left_to_right(corners[i], corners[i + 1 == corners.size() ? 0 : i + 1]));
-      if (inside) events_.push_back({corners[i], number});
-    }
-  }
-}
-
-void CellSweep::add_walls() {
-  for (std::size_t w = 0; w < obstacles_.walls.size(); ++w) {
-    if (w % corners_per_poll == 0) execution_.check();
-    const Segment& wall = obstacles_.walls[w];
-    const Segment s = left_to_right(wall.a, wall.b);
-    const auto number = static_cast<std::uint32_t>(result_.corners.size());
-    result_.segments.push_back(s);
-    for (const Vec2 p : {s.a, s.b}) result_.corners.push_back(p);
-    const Vec2 ends[] = {s.a, s.b};
-    if (s.a == s.b || !stands_inside(ends, obstacles_.polygons.size() + w)) continue;
-    for (const std::uint32_t end : {0U, 1U}) events_.push_back({ends[end], number + end});
-  }
-}
-
-void CellSweep::add_points(std::span<const Vec2> points) {
-  result_.places.resize(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (i % corners_per_poll == 0) execution_.check();
-    result_.places[i].blocked = !result_.box.contains(points[i]);
-    if (result_.places[i].blocked) continue;
-    events_.push_back({points[i], static_cast<std::uint32_t>(result_.corners.size() + i)});
-  }
-}
-
-CellDecomposition CellSweep::run() {
-  execution_.check();
-  polled_sort(events_.begin(), events_.end(), execution_, [](const Event& e, const Event& f) {
-    return is_before(e.at, f.at) || (e.at == f.at && e.number < f.number);
-  });
-  result_.cells.reserve(events_.size() + 1);
-  result_.doors.reserve(events_.size());
-  order_.begin()->entry.cell = open_cell(CellDecomposition::floor_segment, order_.end());
-  result_.cells.front().left = no_number;
-  std::size_t polled = 0;
-  for (std::size_t first = 0, last = 0; first < events_.size(); first = last) {
-    while (last < events_.size() && events_[last].at == events_[first].at) ++last;
-    gather(first, last);
-    find_touching();
-    answer_questions(false);
-    if (!ending_.empty() || !starting_.empty()) pass_corner();
-    answer_questions(true);
-    if (last - polled < corners_per_poll) continue;
-    execution_.check();
-    execution_.advance(last - polled);
-    polled = last;
-  }
-  return std::move(result_);
-}
-
-/// Which segments end and start in this point, and who asks about it?
-void CellSweep::gather(std::size_t first, std::size_t last) {
-  at_ = events_[first].at;
-  corner_ = events_[first].number;
-  ending_.clear();
-  starting_.clear();
-  asked_.clear();
-  const auto sides = static_cast<std::uint32_t>(polygon_of_.size());
-  for (std::size_t i = first; i < last; ++i) {
-    const std::uint32_t number = events_[i].number;
-    if (number >= result_.corners.size()) {
-      asked_.push_back(number - static_cast<std::uint32_t>(result_.corners.size()));
-    } else if (number >= sides) {
-      sort_segment(sides + (number - sides) / 2);
-    } else {
-      sort_segment(number);
-      sort_segment(side_before_[number]);
-    }
-  }
-}
-
-void CellSweep::sort_segment(std::uint32_t segment) {
-  (result_.segments[segment].a == at_ ? starting_ : ending_).push_back(segment);
-}
-
-void CellSweep::find_touching() {
-  touching_.clear();
-  Node first;
-  if (ending_.empty()) {
-    first = order_.lower_bound([&](const SweepEntry& entry) { return side(entry, at_) <= 0; });
-  } else {
-    first = node_of_[ending_.front()];
-    while (side(std::prev(first)->entry, at_) == 0) --first;
-  }
-  below_ = std::prev(first);
-  for (above_ = first; above_ != order_.end() && side(above_->entry, at_) == 0; ++above_) touching_.push_back(above_);
-}
-
-/// Where are the points that lie here? Asked before the corner is passed and after, for the cells left and right.
-void CellSweep::answer_questions(bool passed) {
-  if (asked_.empty()) return;
-  if (!passed) {
-    const auto is_side = [&](std::uint32_t segment) { return !is_wall(segment); };
-    const bool on_side =
-        std::any_of(starting_.begin(), starting_.end(), is_side) ||
-        std::any_of(touching_.begin(), touching_.end(), [&](Node n) { return is_side(n->entry.segment); });
-    const bool blocked = !on_side && below_->entry.polygon != no_number;
-    for (const std::uint32_t i : asked_) result_.places[i].blocked = blocked;
-  } else if (ending_.empty() && starting_.empty()) {
-    return;  // nothing has changed since
-  }
-  for (const std::uint32_t i : asked_) {
-    CellPlace& place = result_.places[i];
-    for (Node n = below_; n != above_; ++n) {
-      const std::uint32_t cell = n->entry.cell;
-      if (cell != no_number && !is_flat(result_, obstacles_, result_.cells[cell])) place.cells.push_back(cell);
-    }
-    std::sort(place.cells.begin(), place.cells.end());
-    place.cells.erase(std::unique(place.cells.begin(), place.cells.end()), place.cells.end());
-  }
-}
-
-void CellSweep::pass_corner() {
-  const std::uint32_t lower_cell = below_->entry.cell;
-  const Node top = touching_.empty() ? below_ : touching_.back();
-  const std::uint32_t upper_cell = top->entry.cell;
-  const std::uint32_t upper_polygon = top->entry.polygon;
-  close_cells();
-  sort_starting();
-  put_starting();
-  open_cells(upper_polygon);
-  const Node last = put_.empty() ? below_ : put_.back();
-  const bool on_floor = below_ == order_.begin() && touches_floor(at_);
-  const bool on_ceiling = above_ == order_.end() && touches_ceiling(at_);
-  add_door(lower_cell, below_->entry.cell, false, on_floor);
-  add_door(upper_cell, last->entry.cell, true, on_ceiling);
-  check_neighbours(below_, put_.empty() ? above_ : put_.front());
-  if (!put_.empty()) check_neighbours(last, above_);
-}
-
-void CellSweep::close_cells() {
-  const auto close = [&](Node n) {
-    const std::uint32_t cell = n->entry.cell;
-    if (cell != no_number) result_.cells[cell].right = corner_;
-  };
-  close(below_);
-  for (const Node n : touching_) close(n);
-}
-
-/// Takes over what goes on through the corner, and sorts by angle from below; of segments that lie on each other,
-/// those that leave a polygon first, those that enter one last.
-void CellSweep::sort_starting() {
-  std::size_t ended = 0;
-  for (const Node n : touching_) {
-    const SweepEntry& entry = n->entry;
-    if (entry.b == at_) {
-      ++ended;
-    } else {
-      starting_.push_back(entry.segment);
-    }
-  }
-  if (ended != ending_.size()) clash(ending_.front(), ending_.back());  // crossings are found before they show here
-  if (starting_.size() < 2) return;
-  const auto rank = [&](std::uint32_t segment) { return is_wall(segment) ? 1 : inside_is_above(segment) ? 2 : 0; };
-  polled_sort(starting_.begin(), starting_.end(), execution_, [&](std::uint32_t s, std::uint32_t t) {
-    const int turn = orient2d(at_, result_.segments[s].b, result_.segments[t].b);
-    if (turn != 0) return turn > 0;
-    return rank(s) != rank(t) ? rank(s) < rank(t) : s < t;
-  });
-}
-
-/// Puts starting_ in the place of touching_; nodes are used again.
-void CellSweep::put_starting() {
-  put_.clear();
-  Node place = below_;
-  for (std::size_t i = 0; i < starting_.size(); ++i) {
-    const std::uint32_t segment = starting_[i];
-    const Segment& s = result_.segments[segment];
-    const SweepEntry entry{s.a, s.b, segment, no_number, no_number};
-    if (i < touching_.size()) {
-      place = touching_[i];
-      place->entry = entry;
-    } else {
-      place = order_.insert(std::next(place), SweepPlace{entry});
-    }
-    node_of_[segment] = place;
-    put_.push_back(place);
-  }
-  for (std::size_t i = starting_.size(); i < touching_.size(); ++i) order_.erase(touching_[i]);
-}
-
-/// Opens a cell in each free gap right of the corner. upper_polygon: what lies below above_, on both sides.
-void CellSweep::open_cells(std::uint32_t upper_polygon) {
-  std::uint32_t polygon = below_->entry.polygon;
-  below_->entry.cell = no_number;
-  if (polygon == no_number) {
-    below_->entry.cell = open_cell(below_->entry.segment, put_.empty() ? above_ : put_.front());
-  }
-  for (std::size_t i = 0; i < put_.size(); ++i) {
-    SweepEntry& entry = put_[i]->entry;
-    polygon = polygon_beyond(polygon, entry.segment);
-    entry.polygon = polygon;
-    const bool is_last = i + 1 == put_.size();
-    const bool is_void = !is_last && orient2d(at_, entry.b, put_[i + 1]->entry.b) == 0;
-    if (polygon == no_number && !is_void) entry.cell = open_cell(entry.segment, is_last ? above_ : put_[i + 1]);
-  }
-  if (polygon == upper_polygon) return;
-  const std::uint32_t segment = starting_.empty() ? ending_.back() : starting_.back();
-  throw ObstacleClash(owner(segment), polygon != no_number ? polygon : upper_polygon, obstacles_.polygons.size());
-}
-
-std::uint32_t CellSweep::open_cell(std::uint32_t lower, Node upper_node) {
-  constexpr std::array<std::uint32_t, 4> no_doors{no_number, no_number, no_number, no_number};
-  result_.cells.push_back({lower, segment_of(upper_node), corner_, no_number, no_doors});
-  return static_cast<std::uint32_t>(result_.cells.size() - 1);
-}
-
-void CellSweep::add_door(std::uint32_t left, std::uint32_t right, bool above, bool shut) {
-  if (left == no_number) return;  // blocked on both sides
-  if (shut && !obstacles_.bounds) {
-    shut = is_flat(result_, obstacles_, result_.cells[left]) || is_flat(result_, obstacles_, result_.cells[right]);
-  }
-  const auto door = static_cast<std::uint32_t>(result_.doors.size());
-  result_.doors.push_back({left, right, corner_, above, shut});
-  const std::size_t place = above ? 1 : 0;
-  result_.cells[left].doors[2 + place] = door;
-  result_.cells[right].doors[place] = door;
-}
-
-/// Does the upper one stay above the lower one, up to where the first of them ends?
-void CellSweep::check_neighbours(Node lower, Node upper) const {
-  if (lower == order_.begin() || upper == order_.end()) return;
-  const SweepEntry& low = lower->entry;
-  const SweepEntry& high = upper->entry;
-  const bool low_ends = is_before(low.b, high.b);
-  const int order = low_ends ? -side(high, low.b) : side(low, high.b);
-  if (order < 0) clash(low.segment, high.segment);
-}
-
-/// The polygon above the segment, where `polygon` is the one below it; where polygons are united, one less than the
-/// number of polygons there, which is no_number where there is none.
-std::uint32_t CellSweep::polygon_beyond(std::uint32_t polygon, std::uint32_t segment) const {
-  if (is_wall(segment)) return polygon;
-  if (overlaps_ == Overlaps::united) return inside_is_above(segment) ? polygon + 1 : polygon - 1;
-  const std::uint32_t own = polygon_of_[segment];
-  const bool enters = inside_is_above(segment);
-  if (enters ? polygon == no_number : polygon == own) return enters ? own : no_number;
-  throw ObstacleClash(own, polygon == no_number ? own : polygon, obstacles_.polygons.size());
-}
-
-std::size_t CellSweep::owner(std::uint32_t segment) const {
-  if (!is_wall(segment)) return polygon_of_[segment];
-  return obstacles_.polygons.size() + segment - polygon_of_.size();
-}
-
-void CellSweep::clash(std::uint32_t segment, std::uint32_t other) const {
-  throw ObstacleClash(owner(segment), owner(other), obstacles_.polygons.size());
-}
 
 }  // namespace
 

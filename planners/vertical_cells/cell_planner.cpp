@@ -160,22 +160,174 @@ class CellPlanning {
   VertexId start_vertex() const { return static_cast<VertexId>(cells_->cells.size()); }
   VertexId goal_vertex() const { return start_vertex() + 1; }
 
-  void decompose_plane(const PlaneObstacles& obstacles);
-  bool ends_are_blocked();
-  bool share_a_cell();
-  void connect_cells();
-  void compute_points();
-  bool ends_are_joined();
-  void find_route();
-  RawVector<VertexId> search_cells();
-  RawVector<VertexId> search_doors();
-  void follow_cells(std::span<const VertexId> cells);
-  void follow_taut_route();
-  void follow_doors(std::span<const VertexId> doors);
-  void lay_path();
-  std::uint32_t door_between(std::uint32_t cell, std::uint32_t next) const;
+  void decompose_plane(const PlaneObstacles& obstacles) {
+    const StageTimer timer(execution_, "cells", solution_.seconds.graph, obstacles.polygons.corners.size());
+    const std::array<Vec2, 2> ends{start_, goal_};
+    plan_.cells = options_.overlaps == Overlaps::united ? decompose_united(obstacles, ends, execution_)
+                                                        : decompose(obstacles, ends, execution_);
+    cells_ = &plan_.cells;
+  }
+  bool ends_are_blocked() {
+    if (!start_place().blocked && !goal_place().blocked) return false;
+    solution_.outcome = start_place().blocked ? Outcome::start_blocked : Outcome::goal_blocked;
+    return true;
+  }
+  /// Both in one convex cell, or in one point: the straight way.
+  bool share_a_cell() {
+    const std::vector<VertexId>& s = start_place().cells;
+    const auto shared = std::find_first_of(s.begin(), s.end(), goal_place().cells.begin(), goal_place().cells.end());
+    if (shared == s.end() && !(start_ == goal_)) return false;
+    plan_.route = {start_, goal_, {}, {}};
+    if (shared != s.end()) plan_.route.cells.push_back(*shared);
+    solution_.outcome = Outcome::solved;
+    solution_.path = {start_, goal_};
+    return true;
+  }
+  void connect_cells() {
+    const StageTimer timer(execution_, "connect", solution_.seconds.connect, cells_->doors.size());
+    std::vector<Edge> edges;
+    for (const VertexId cell : start_place().cells) edges.push_back({start_vertex(), cell});
+    for (const VertexId cell : goal_place().cells) edges.push_back({goal_vertex(), cell});
+    graph_ = cells_->graph(2, edges, execution_);
+  }
+  void compute_points() {
+    if (points_ == nullptr) points_ = &own_points_.emplace(*cells_, execution_);
+  }
+  bool ends_are_joined() {
+    const StageTimer timer(execution_, "components", solution_.seconds.connect);
+    const Components parts = components(graph_, execution_);
+    solution_.roadmap.components = parts.count;
+    if (parts.connected(start_vertex(), goal_vertex())) return true;
+    solution_.outcome = Outcome::not_connected;
+    solution_.separation = cell_separation(*cells_, parts, start_, goal_, execution_);
+    return false;
+  }
+  void find_route() {
+    const StageTimer timer(execution_, "search", solution_.seconds.search);
+    const bool over_cells = !has_queue(options_.search);
+    plan_.route = {start_, goal_, {}, {}};
+    const bool taut = !over_cells && options_.doors == DoorKind::funnel;
+    if (options_.doors == DoorKind::midpoint) compute_points();
+    if (over_cells) {
+      follow_cells(search_cells());
+    } else if (taut) {
+      follow_taut_route();
+    } else {
+      follow_doors(search_doors());
+    }
+  }
+  RawVector<VertexId> search_cells() {
+    SearchState state;
+    SearchResult found = search_blindly(options_.search, graph_, start_vertex(), goal_vertex(), state, execution_);
+    solution_.counters.expanded = found.expanded;
+    if (found.status == SearchStatus::stopped) execution_.check();
+    return std::move(found.path);
+  }
+  /// Best first over the doors, start and goal behind them.
+  RawVector<VertexId> search_doors() {
+    const auto count = static_cast<VertexId>(cells_->doors.size());
+    const VertexId start = count;
+    const VertexId goal = count + 1;
+    std::vector<char> holds_goal(cells_->cells.size(), 0);
+    for (const VertexId cell : goal_place().cells) holds_goal[cell] = 1;
+    const auto neighbours = [&](VertexId v, const auto& visit) {
+      if (v == start) {
+        for (const VertexId cell : start_place().cells) {
+          for_each_door(cell, [&](std::uint32_t d) { visit(d, distance(start_, points_->middle(d))); });
+        }
+        return;
+      }
+      const Door& door = cells_->doors[v];
+      for (const std::uint32_t cell : {door.left, door.right}) {
+        for_each_door(cell, [&](std::uint32_t d) {
+          if (d != v) visit(d, points_->leg_length(v, d));
+        });
+        if (holds_goal[cell] != 0) visit(goal, distance(points_->middle(v), goal_));
+      }
+    };
+    const bool informed = options_.search == SearchKind::astar;
+    const auto estimate = [&](VertexId v) {
+      if (!informed || v == goal) return 0.0;
+      return distance(v == start ? start_ : points_->middle(v), goal_);
+    };
+    SearchState state;
+    SearchResult found =
+        search_best_first(options_.queue, count + 2, start, goal, neighbours, estimate, state, execution_);
+    solution_.counters.expanded = found.expanded;
+    if (found.status == SearchStatus::stopped) execution_.check();
+    return std::move(found.path);
+  }
+  /// cells: start's vertex, cells, goal's vertex.
+  void follow_cells(std::span<const VertexId> cells) {
+    CellRoute& route = plan_.route;
+    route.cells.assign(cells.begin() + 1, cells.end() - 1);
+    for (std::size_t i = 1; i < route.cells.size(); ++i) {
+      route.doors.push_back(door_between(route.cells[i - 1], route.cells[i]));
+    }
+    middles_ = route.doors;
+  }
+  /// Where nothing is left although the cells are connected, rounding has cut the last way off: then a way through the
+  /// doors' middles does.
+  void follow_taut_route() {
+    const bool informed = options_.search == SearchKind::astar;
+    TautRoute found = shortest_taut_route(*cells_, plan_.cells.places, start_, goal_, informed, execution_);
+    solution_.counters.expanded = found.expanded;
+    if (found.cells.empty()) {
+      compute_points();
+      return follow_doors(search_doors());
+    }
+    plan_.route.cells = std::move(found.cells);
+    plan_.route.doors = std::move(found.doors);
+  }
+  /// doors: start's vertex, doors, goal's vertex. A door that is reached but not passed (all legs lie in one cell) is
+  /// left out, at the ends too.
+  void follow_doors(std::span<const VertexId> doors) {
+    CellRoute& route = plan_.route;
+    middles_.assign(doors.begin() + 1, doors.end() - 1);
+    const auto holds = [](const CellPlace& place, std::uint32_t cell) {
+      return std::binary_search(place.cells.begin(), place.cells.end(), cell);
+    };
+    const std::size_t last = doors.size() - 2;
+    for (std::size_t i = 1; i <= last; ++i) {
+      const std::uint32_t door = doors[i];
+      if (i == 1) {  // if start stands in the cell beyond as well, this door need not be passed
+        const Door& d = cells_->doors[door];
+        const std::uint32_t next = i < last                      ? cells_->shared_cell(door, doors[i + 1])
+                                   : holds(goal_place(), d.left) ? d.left
+                                                                 : d.right;
+        const std::uint32_t other = cells_->beyond(door, next);
+        route.cells.push_back(holds(start_place(), next) ? next : other);
+        if (route.cells.back() == next) continue;
+      }
+      const std::uint32_t beyond = cells_->beyond(door, route.cells.back());
+      if (i < last && cells_->shared_cell(door, doors[i + 1]) != beyond) continue;
+      if (i == last && holds(goal_place(), route.cells.back())) continue;
+      route.doors.push_back(door);
+      route.cells.push_back(beyond);
+    }
+  }
+  void lay_path() {
+    const StageTimer timer(execution_, "path", solution_.seconds.search);
+    Path<Vec2>& path = solution_.path;
+    path = options_.doors == DoorKind::midpoint ? path_through_middles(start_, goal_, middles_, *points_)
+                                                : shortest_path_through(plan_.route, *cells_);
+    path.erase(std::unique(path.begin(), path.end()), path.end());
+    if (path.size() == 1) path.push_back(path.front());
+    solution_.outcome = Outcome::solved;
+  }
+  std::uint32_t door_between(std::uint32_t cell, std::uint32_t next) const {
+    std::uint32_t found = no_number;
+    for_each_door(cell, [&](std::uint32_t door) {
+      if (cells_->beyond(door, cell) == next) found = door;
+    });
+    return found;
+  }
   template <class Visit>
-  void for_each_door(std::uint32_t cell, const Visit& visit) const;
+  void for_each_door(std::uint32_t cell, const Visit& visit) const {
+    for (const std::uint32_t door : cells_->cells[cell].doors) {
+      if (door != no_number && !cells_->doors[door].shut) visit(door);
+    }
+  }
 
   const Vec2 start_, goal_;
   const CellOptions& options_;
@@ -188,189 +340,6 @@ class CellPlanning {
   std::optional<DoorPoints> own_points_;
   Solution<Vec2> solution_;
 };
-
-void CellPlanning::decompose_plane(const PlaneObstacles& obstacles) {
-  const StageTimer timer(execution_, "cells", solution_.seconds.graph, obstacles.polygons.corners.size());
-  const std::array<Vec2, 2> ends{start_, goal_};
-  plan_.cells = options_.overlaps == Overlaps::united ? decompose_united(obstacles, ends, execution_)
-                                                      : decompose(obstacles, ends, execution_);
-  cells_ = &plan_.cells;
-}
-
-void CellPlanning::compute_points() {
-  if (points_ == nullptr) points_ = &own_points_.emplace(*cells_, execution_);
-}
-
-bool CellPlanning::ends_are_blocked() {
-  if (!start_place().blocked && !goal_place().blocked) return false;
-  solution_.outcome = start_place().blocked ? Outcome::start_blocked : Outcome::goal_blocked;
-  return true;
-}
-
-/// Both in one convex cell, or in one point: the straight way.
-bool CellPlanning::share_a_cell() {
-  const std::vector<VertexId>& s = start_place().cells;
-  const auto shared = std::find_first_of(s.begin(), s.end(), goal_place().cells.begin(), goal_place().cells.end());
-  if (shared == s.end() && !(start_ == goal_)) return false;
-  plan_.route = {start_, goal_, {}, {}};
-  if (shared != s.end()) plan_.route.cells.push_back(*shared);
-  solution_.outcome = Outcome::solved;
-  solution_.path = {start_, goal_};
-  return true;
-}
-
-void CellPlanning::connect_cells() {
-  const StageTimer timer(execution_, "connect", solution_.seconds.connect, cells_->doors.size());
-  std::vector<Edge> edges;
-  for (const VertexId cell : start_place().cells) edges.push_back({start_vertex(), cell});
-  for (const VertexId cell : goal_place().cells) edges.push_back({goal_vertex(), cell});
-  graph_ = cells_->graph(2, edges, execution_);
-}
-
-bool CellPlanning::ends_are_joined() {
-  const StageTimer timer(execution_, "components", solution_.seconds.connect);
-  const Components parts = components(graph_, execution_);
-  solution_.roadmap.components = parts.count;
-  if (parts.connected(start_vertex(), goal_vertex())) return true;
-  solution_.outcome = Outcome::not_connected;
-  solution_.separation = cell_separation(*cells_, parts, start_, goal_, execution_);
-  return false;
-}
-
-void CellPlanning::find_route() {
-  const StageTimer timer(execution_, "search", solution_.seconds.search);
-  const bool over_cells = !has_queue(options_.search);
-  plan_.route = {start_, goal_, {}, {}};
-  const bool taut = !over_cells && options_.doors == DoorKind::funnel;
-  if (options_.doors == DoorKind::midpoint) compute_points();
-  if (over_cells) {
-    follow_cells(search_cells());
-  } else if (taut) {
-    follow_taut_route();
-  } else {
-    follow_doors(search_doors());
-  }
-}
-
-RawVector<VertexId> CellPlanning::search_cells() {
-  SearchState state;
-  SearchResult found = search_blindly(options_.search, graph_, start_vertex(), goal_vertex(), state, execution_);
-  solution_.counters.expanded = found.expanded;
-  if (found.status == SearchStatus::stopped) execution_.check();
-  return std::move(found.path);
-}
-
-template <class Visit>
-void CellPlanning::for_each_door(std::uint32_t cell, const Visit& visit) const {
-  for (const std::uint32_t door : cells_->cells[cell].doors) {
-    if (door != no_number && !cells_->doors[door].shut) visit(door);
-  }
-}
-
-/// Best first over the doors, start and goal behind them.
-RawVector<VertexId> CellPlanning::search_doors() {
-  const auto count = static_cast<VertexId>(cells_->doors.size());
-  const VertexId start = count;
-  const VertexId goal = count + 1;
-  std::vector<char> holds_goal(cells_->cells.size(), 0);
-  for (const VertexId cell : goal_place().cells) holds_goal[cell] = 1;
-  const auto neighbours = [&](VertexId v, const auto& visit) {
-    if (v == start) {
-      for (const VertexId cell : start_place().cells) {
-        for_each_door(cell, [&](std::uint32_t d) { visit(d, distance(start_, points_->middle(d))); });
-      }
-      return;
-    }
-    const Door& door = cells_->doors[v];
-    for (const std::uint32_t cell : {door.left, door.right}) {
-      for_each_door(cell, [&](std::uint32_t d) {
-        if (d != v) visit(d, points_->leg_length(v, d));
-      });
-      if (holds_goal[cell] != 0) visit(goal, distance(points_->middle(v), goal_));
-    }
-  };
-  const bool informed = options_.search == SearchKind::astar;
-  const auto estimate = [&](VertexId v) {
-    if (!informed || v == goal) return 0.0;
-    return distance(v == start ? start_ : points_->middle(v), goal_);
-  };
-  SearchState state;
-  SearchResult found =
-      search_best_first(options_.queue, count + 2, start, goal, neighbours, estimate, state, execution_);
-  solution_.counters.expanded = found.expanded;
-  if (found.status == SearchStatus::stopped) execution_.check();
-  return std::move(found.path);
-}
-
-std::uint32_t CellPlanning::door_between(std::uint32_t cell, std::uint32_t next) const {
-  std::uint32_t found = no_number;
-  for_each_door(cell, [&](std::uint32_t door) {
-    if (cells_->beyond(door, cell) == next) found = door;
-  });
-  return found;
-}
-
-/// cells: start's vertex, cells, goal's vertex.
-void CellPlanning::follow_cells(std::span<const VertexId> cells) {
-  CellRoute& route = plan_.route;
-  route.cells.assign(cells.begin() + 1, cells.end() - 1);
-  for (std::size_t i = 1; i < route.cells.size(); ++i) {
-    route.doors.push_back(door_between(route.cells[i - 1], route.cells[i]));
-  }
-  middles_ = route.doors;
-}
-
-/// doors: start's vertex, doors, goal's vertex. A door that is reached but not passed (all legs lie in one cell) is
-/// left out, at the ends too.
-void CellPlanning::follow_doors(std::span<const VertexId> doors) {
-  CellRoute& route = plan_.route;
-  middles_.assign(doors.begin() + 1, doors.end() - 1);
-  const auto holds = [](const CellPlace& place, std::uint32_t cell) {
-    return std::binary_search(place.cells.begin(), place.cells.end(), cell);
-  };
-  const std::size_t last = doors.size() - 2;
-  for (std::size_t i = 1; i <= last; ++i) {
-    const std::uint32_t door = doors[i];
-    if (i == 1) {  // if start stands in the cell beyond as well, this door need not be passed
-      const Door& d = cells_->doors[door];
-      const std::uint32_t next = i < last                      ? cells_->shared_cell(door, doors[i + 1])
-                                 : holds(goal_place(), d.left) ? d.left
-                                                               : d.right;
-      const std::uint32_t other = cells_->beyond(door, next);
-      route.cells.push_back(holds(start_place(), next) ? next : other);
-      if (route.cells.back() == next) continue;
-    }
-    const std::uint32_t beyond = cells_->beyond(door, route.cells.back());
-    if (i < last && cells_->shared_cell(door, doors[i + 1]) != beyond) continue;
-    if (i == last && holds(goal_place(), route.cells.back())) continue;
-    route.doors.push_back(door);
-    route.cells.push_back(beyond);
-  }
-}
-
-/// Where nothing is left although the cells are connected, rounding has cut the last way off: then a way through the
-/// doors' middles does.
-void CellPlanning::follow_taut_route() {
-  const bool informed = options_.search == SearchKind::astar;
-  TautRoute found = shortest_taut_route(*cells_, plan_.cells.places, start_, goal_, informed, execution_);
-  solution_.counters.expanded = found.expanded;
-  if (found.cells.empty()) {
-    compute_points();
-    return follow_doors(search_doors());
-  }
-  plan_.route.cells = std::move(found.cells);
-  plan_.route.doors = std::move(found.doors);
-}
-
-void CellPlanning::lay_path() {
-  const StageTimer timer(execution_, "path", solution_.seconds.search);
-  Path<Vec2>& path = solution_.path;
-  path = options_.doors == DoorKind::midpoint ? path_through_middles(start_, goal_, middles_, *points_)
-                                              : shortest_path_through(plan_.route, *cells_);
-  path.erase(std::unique(path.begin(), path.end()), path.end());
-  if (path.size() == 1) path.push_back(path.front());
-  solution_.outcome = Outcome::solved;
-}
 
 template <class Ground>
 Solution<Vec2> plan_on(const Ground& ground, Vec2 start, Vec2 goal, const CellOptions& options,

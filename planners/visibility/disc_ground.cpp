@@ -39,46 +39,41 @@ std::vector<Vec2> places_of_points(const std::vector<Segment>& walls) {
 }  // namespace
 
 DiscGround::DiscGround(const PlaneObstacles& obstacles, const Execution& execution)
-    : corners_(obstacles, execution), box_(box_around(obstacles)) {
-  if (!obstacles.bounds && !box_.empty()) room_ = box_;
-  const PlanePieces& pieces = corners_.pieces();
-  execution.reserve(pieces.pieces().size() * sizeof(Segment) + corners_.size() * (sizeof(DiscCircle) + 4));
-  segments_.reserve(pieces.pieces().size());
-  for (std::uint32_t i = 0; i < pieces.pieces().size(); ++i) segments_.push_back(pieces.segment(i));
-  circle_of_.assign(corners_.size(), no_vertex);
-  for (VertexId v = 0; v < corners_.size(); ++v) {
+    : corners(obstacles, execution), box(box_around(obstacles)) {
+  if (!obstacles.bounds && !box.empty()) room = box;
+  const PlanePieces& pieces = corners.pieces();
+  execution.reserve(pieces.pieces().size() * sizeof(Segment) + corners.size() * (sizeof(DiscCircle) + 4));
+  segments.reserve(pieces.pieces().size());
+  for (std::uint32_t i = 0; i < pieces.pieces().size(); ++i) segments.push_back(pieces.segment(i));
+  circle_of.assign(corners.size(), no_vertex);
+  for (VertexId v = 0; v < corners.size(); ++v) {
     if (v % circles_per_poll == 0) execution.check();
-    if (!corners_.is_reflex(v)) continue;
-    circle_of_[v] = static_cast<std::uint32_t>(circles_.size());
-    circles_.push_back(circle_around(corners_, v));
+    if (!corners.is_reflex(v)) continue;
+    circle_of[v] = static_cast<std::uint32_t>(circles.size());
+    circles.push_back(circle_around(corners, v));
   }
-  first_whole_ = static_cast<std::uint32_t>(circles_.size());
+  first_whole = static_cast<std::uint32_t>(circles.size());
   const std::vector<Vec2> points = places_of_points(obstacles.walls);
   execution.reserve(points.size() * (sizeof(Segment) + sizeof(DiscCircle)));
   for (const Vec2 p : points) {
     execution.check();
     const std::vector<Sector> sectors = free_sectors(pieces, p);
     if (sectors.empty() || !sectors.front().whole) continue;  // on an obstacle, or inside
-    segments_.push_back({p, p});
-    circles_.push_back({p, {}, {}, {1.0, 0.0}, 2.0 * std::numbers::pi, no_vertex});
+    segments.push_back({p, p});
+    circles.push_back({p, {}, {}, {1.0, 0.0}, 2.0 * std::numbers::pi, no_vertex});
   }
-  grid_ = SegmentGrid(segments_, execution);
+  grid = SegmentGrid(segments, execution);
 }
 
 DiscRoadmap::DiscRoadmap(const PlaneObstacles& obstacles, const Execution& execution)
-    : ground(obstacles, execution), graph(ground.corners(), VisibilityEdges::discs, execution) {}
+    : ground(obstacles, execution), graph(ground.corners, VisibilityEdges::discs, execution) {}
 
 DiscRoadmap::DiscRoadmap(const PlaneObstacles& obstacles, Graph known, const Execution& execution)
-    : ground(obstacles, execution), graph(ground.corners(), std::move(known), VisibilityEdges::discs) {}
+    : ground(obstacles, execution), graph(ground.corners, std::move(known), VisibilityEdges::discs) {}
 
 SegmentGrid::Cell NearSegments::cell(Vec2 p) const {
-  const Box box = ground_.grid().box();
-  return ground_.grid().cell_of({std::clamp(p.x, box.min.x, box.max.x), std::clamp(p.y, box.min.y, box.max.y)});
-}
-
-void NearSegments::next_round() {
-  std::fill(epoch_.begin(), epoch_.end(), 0U);
-  now_ = 1;
+  const Box box = ground_.grid.box();
+  return ground_.grid.cell_of({std::clamp(p.x, box.min.x, box.max.x), std::clamp(p.y, box.min.y, box.max.y)});
 }
 
 NearSegments::Span NearSegments::span_in(const Segment& s, double y_low, double y_high) {

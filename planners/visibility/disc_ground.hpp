@@ -14,9 +14,9 @@
 // Build as VisibleCorners, O(n log n); 200 bytes a corner.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "core/base/types.hpp"
@@ -39,34 +39,18 @@ struct DiscCircle {
 };
 
 /// Immutable; any number of threads may read.
-class DiscGround {
- public:
+struct DiscGround {
   /// Throws Stopped at the deadline and the memory limit.
   DiscGround(const PlaneObstacles& obstacles, const Execution& execution);
 
-  std::span<const DiscCircle> circles() const { return circles_; }
-  /// The number of the circle around a vertex with a sector wider than half a turn.
-  std::uint32_t circle_of(VertexId v) const { return circle_of_[v]; }
-  /// The circles from here on go around walls without length.
-  std::uint32_t first_whole() const { return first_whole_; }
-  const VisibleCorners& corners() const { return corners_; }
-  /// Where the centre must stay, where there are obstacles but no bounds.
-  const std::optional<Box>& room() const { return room_; }
-  /// Of obstacles and bounds; empty where there is nothing.
-  const Box& box() const { return box_; }
-
-  std::span<const Segment> segments() const { return segments_; }
-  const SegmentGrid& grid() const { return grid_; }
-
- private:
-  VisibleCorners corners_;
-  Box box_;
-  std::optional<Box> room_;
-  std::vector<Segment> segments_;  // pieces of the obstacles, then the walls without length that stand alone
-  SegmentGrid grid_;
-  std::vector<DiscCircle> circles_;
-  std::vector<std::uint32_t> circle_of_;  // one a vertex
-  std::uint32_t first_whole_ = 0;
+  VisibleCorners corners;
+  Box box;                        ///< of obstacles and bounds; empty where there is nothing
+  std::optional<Box> room;        ///< where the centre must stay, where there are obstacles but no bounds
+  std::vector<Segment> segments;  ///< pieces of the obstacles, then walls without length that stand alone
+  SegmentGrid grid;               ///< of the segments
+  std::vector<DiscCircle> circles;
+  std::vector<std::uint32_t> circle_of;  ///< number of each vertex's, where its sector is wider than half a turn
+  std::uint32_t first_whole = 0;         ///< the circles from here on go around walls without length
 };
 
 /// A ground, and which corners see each other, for questions that are many: the discs' radius, start and goal are each
@@ -85,16 +69,19 @@ struct DiscRoadmap {
 /// Which segments come near a leg; scratch of one thread. The ground must outlive it.
 class NearSegments {
  public:
-  explicit NearSegments(const DiscGround& ground) : ground_(ground), epoch_(ground.segments().size(), 0) {}
+  explicit NearSegments(const DiscGround& ground) : ground_(ground), epoch_(ground.segments.size(), 0) {}
 
   /// Calls visit(number) once for all segments of the ground that come nearer to s than `within`, and some more, until
   /// it returns false; whether it never did. `within` allows for the rounding of the caller's coordinates.
   template <class Visit>
   bool for_each(const Segment& s, double within, const Visit& visit) {
-    const SegmentGrid& grid = ground_.grid();
+    const SegmentGrid& grid = ground_.grid;
     const Box box = box_of(s).grown(within);
-    if (ground_.segments().empty() || !box.meets(grid.box())) return true;
-    if (++now_ == 0) next_round();
+    if (ground_.segments.empty() || !box.meets(grid.box())) return true;
+    if (++now_ == 0) {
+      std::fill(epoch_.begin(), epoch_.end(), 0U);
+      now_ = 1;
+    }
     const std::uint32_t last = cell(box.max).row;
     for (std::uint32_t row = cell(box.min).row; row <= last; ++row) {
       const auto [low, high] = span_in(s, grid.y_line(row) - within, grid.y_line(row + 1) + within);
@@ -115,7 +102,6 @@ class NearSegments {
     double low, high;
   };
   SegmentGrid::Cell cell(Vec2 p) const;
-  void next_round();
   /// The x that s takes where its y is between these.
   static Span span_in(const Segment& s, double y_low, double y_high);
 

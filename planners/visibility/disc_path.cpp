@@ -67,11 +67,11 @@ class DiscSight {
         execution(execution),
         near(ground),
         known_(known),
-        sight_(ground.corners(), execution),
+        sight_(ground.corners, execution),
         candidates_(asked_for(ground, execution)),
         looked_(candidates_.size(), 0) {}
 
-  std::uint32_t ends() const { return static_cast<std::uint32_t>(ground.circles().size()); }
+  std::uint32_t ends() const { return static_cast<std::uint32_t>(ground.circles.size()); }
   /// Circles that can follow on this side, ends(): the goal; of 2 * ends(): on the start. Throws Stopped.
   std::span<const std::uint32_t> candidates(SideId side) {
     if (looked_[side] == 0) look(side);
@@ -87,9 +87,9 @@ class DiscSight {
  private:
   /// Asks for the memory of both searches, too.
   static std::size_t asked_for(const DiscGround& ground, const Execution& execution) {
-    const std::size_t count = 2 * ground.circles().size() + 1;
+    const std::size_t count = 2 * ground.circles.size() + 1;
     execution.reserve(count * (2 * sizeof(CircleSide) + sizeof(std::vector<std::uint32_t>) + 1) +
-                      ground.segments().size() * sizeof(std::uint32_t));
+                      ground.segments.size() * sizeof(std::uint32_t));
     return count;
   }
 
@@ -97,15 +97,15 @@ class DiscSight {
     execution.check();
     const std::uint32_t circle = side / 2;
     std::vector<std::uint32_t>& found = candidates_[side];
-    const bool is_whole = circle < ends() && ground.circles()[circle].whole();
+    const bool is_whole = circle < ends() && ground.circles[circle].whole();
     if (is_whole) {
-      for (std::uint32_t c = 0; c < ground.first_whole(); ++c) found.push_back(c);
+      for (std::uint32_t c = 0; c < ground.first_whole; ++c) found.push_back(c);
       found.push_back(ends());
     } else {
       see(side);
-      for (const VertexId v : seen_) found.push_back(v == CornerSight::target ? ends() : ground.circle_of(v));
+      for (const VertexId v : seen_) found.push_back(v == CornerSight::target ? ends() : ground.circle_of[v]);
     }
-    for (std::uint32_t c = ground.first_whole(); c < ends(); ++c) {
+    for (std::uint32_t c = ground.first_whole; c < ends(); ++c) {
       if (c != circle) found.push_back(c);
     }
     execution.reserve(found.size() * sizeof(std::uint32_t));
@@ -114,7 +114,7 @@ class DiscSight {
 
   void see(SideId side) {
     if (side / 2 == ends()) return sight_.from_point(start, SightLines::reflex, goal, seen_);
-    const DiscCircle& circle = ground.circles()[side / 2];
+    const DiscCircle& circle = ground.circles[side / 2];
     const VertexId v = circle.vertex;
     if (known_ == nullptr) return sight_.within_ranges(v, ranges_of(circle, side % 2 != 0), goal, seen_);
     if (!goal_seen_) {
@@ -157,11 +157,12 @@ class DiscSight {
   std::vector<std::uint8_t> looked_;
 };
 
-/// One search, with its own idea of what is free.
+/// One search, with its own idea of what is free. What it does is counted in `counts`.
 class DiscSearch {
  public:
-  DiscSearch(DiscSight& sight, const DiscRoom& room, double reach_of_rounding)
+  DiscSearch(DiscSight& sight, const DiscRoom& room, double reach_of_rounding, DiscPath& counts)
       : sight_(sight),
+        counts_(counts),
         room_(room),
         rounding_(reach_of_rounding),
         bulge_(room.radius * turn_of_polyline_rad * turn_of_polyline_rad),
@@ -169,20 +170,13 @@ class DiscSearch {
         start_(2 * sight.ends()),
         goal_(start_ + 1) {}
 
-  void tell(DiscPath& path) const {
-    path.candidates += drawn_;
-    path.checked += checked_;
-    path.free += free_;
-    path.arrivals += arrivals_;
-  }
-
   /// Does the disc fit there as an end?
   bool stands(Vec2 p) const {
-    const auto& room = sight_.ground.room();
-    if ((room && !room->contains(p)) || sight_.ground.corners().is_blocked(p)) return false;
+    const auto& room = sight_.ground.room;
+    if ((room && !room->contains(p)) || sight_.ground.corners.is_blocked(p)) return false;
     const double least = room_.loose ? room_.least : room_.radius;
     return sight_.near.for_each({p, p}, least + rounding_,
-                                [&](std::uint32_t i) { return !(distance(p, sight_.ground.segments()[i]) < least); });
+                                [&](std::uint32_t i) { return !(distance(p, sight_.ground.segments[i]) < least); });
   }
 
   /// The ways of a shortest path, start to goal; empty: there is none.
@@ -237,7 +231,7 @@ class DiscSearch {
 
   bool is_end(SideId side) const { return side >= start_; }
   static bool is_left(SideId side) { return side % 2 != 0; }
-  const DiscCircle& circle(SideId side) const { return sight_.ground.circles()[side / 2]; }
+  const DiscCircle& circle(SideId side) const { return sight_.ground.circles[side / 2]; }
   Vec2 centre(SideId side) const {
     return side == start_ ? sight_.start : side == goal_ ? sight_.goal : circle(side).centre;
   }
@@ -289,7 +283,7 @@ class DiscSearch {
   double travelled(SideId side, double angle) const { return is_left(side) ? angle : circle(side).width - angle; }
 
   bool in_room(const DiscCircle& c, Vec2 n) const {
-    const auto& room = sight_.ground.room();
+    const auto& room = sight_.ground.room;
     if (!room) return true;
     const double doubt = (room_.loose ? 1.0 : -1.0) * (room_.radius - room_.least);
     const Vec2 p = room_.radius * n;
@@ -326,7 +320,7 @@ class DiscSearch {
   void for_each_direction(const DiscCircle& c, double nearly, const Visit& visit) const {
     const double within = room_.radius + room_.least + nearly;
     sight_.near.for_each({c.centre, c.centre}, within + rounding_, [&](std::uint32_t i) {
-      const Segment s = sight_.ground.segments()[i];
+      const Segment s = sight_.ground.segments[i];
       if (s.a == c.centre || s.b == c.centre) return true;  // what ends here is the cone's affair
       const Vec2 q = nearest_from(c.centre, s);
       const double far = norm(q);
@@ -341,7 +335,7 @@ class DiscSearch {
       }
       return true;
     });
-    const auto& room = sight_.ground.room();
+    const auto& room = sight_.ground.room;
     if (!room) return;
     const double gaps[] = {room->max.x - c.centre.x, room->max.y - c.centre.y, c.centre.x - room->min.x,
                            c.centre.y - room->min.y};
@@ -364,7 +358,7 @@ class DiscSearch {
     CircleSide& left = sides_[2 * std::size_t{number} + 1];
     if (left.known) return;
     left.known = true;
-    const DiscCircle& c = sight_.ground.circles()[number];
+    const DiscCircle& c = sight_.ground.circles[number];
     for_each_direction(c, 0.0, [&](Vec2 n, double gap) {
       if (gap < 0.0) left.blocked.push_back(angle_of(c, n));
     });
@@ -377,7 +371,7 @@ class DiscSearch {
 
   /// No obstacle nearer than asked for?
   bool is_free(const TangentWay& way) {
-    ++checked_;
+    ++counts_.checked;
     const Vec2 c = centre(way.from);
     const double aside = offset(way.from);
     double least = room_.least;
@@ -385,14 +379,14 @@ class DiscSearch {
     const Vec2 p = place(way.from, way.along);
     const bool free = !(least > 0.0) ||
                       sight_.near.for_each({p, p + way.length * way.along}, least + rounding_, [&](std::uint32_t i) {
-                        const Segment s = sight_.ground.segments()[i];
+                        const Segment s = sight_.ground.segments[i];
                         const Vec2 a = s.a - c;
                         const Vec2 b = s.b - c;
                         return keeps({{dot(way.along, a), cross(way.along, a) + aside},
                                       {dot(way.along, b), cross(way.along, b) + aside}},
                                      way.length, least);
                       });
-    if (free) ++free_;
+    if (free) ++counts_.free;
     return free;
   }
 
@@ -425,7 +419,7 @@ class DiscSearch {
   }
 
   std::uint32_t add(const TangentWay& way) {
-    ++drawn_;
+    ++counts_.candidates;
     ways_.push_back(way);
     return static_cast<std::uint32_t>(ways_.size() - 1);
   }
@@ -451,7 +445,7 @@ class DiscSearch {
       const double on = arc(side, ways_[earlier].in, in, 0.0);
       if (ways_[earlier].cost + room_.radius * on <= cost && on <= reach(side, ways_[earlier].in)) return;
     }
-    ++arrivals_;
+    ++counts_.arrivals;
     sides_[side].arrivals.push_back(number);
     leave(side);
     const double end = reach(side, in);
@@ -519,6 +513,7 @@ class DiscSearch {
   }
 
   DiscSight& sight_;
+  DiscPath& counts_;
   const DiscRoom room_;
   const double rounding_;  // of coordinates
   const double bulge_;     // of the polyline around an arc, and as much again
@@ -527,10 +522,6 @@ class DiscSearch {
   std::vector<TangentWay> ways_;
   std::vector<Queued> queue_;
   std::uint64_t settled_ = 0;
-  std::uint64_t drawn_ = 0;
-  std::uint64_t checked_ = 0;
-  std::uint64_t free_ = 0;
-  std::uint64_t arrivals_ = 0;
 };
 
 /// A point's path: circles of radius 0 are corners.
@@ -573,20 +564,19 @@ class DiscPlan {
  public:
   DiscPlan(const DiscGround& ground, const Graph* known, Vec2 start, Vec2 goal, double radius,
            const Execution& execution)
-      : size_(ground.box(), start, goal),
+      : size_(ground.box, start, goal),
         doubt_(1e-12 * radius + 64.0 * unit_rounding * size_.extent),
         room_(doubt_ + 8.0 * unit_rounding * size_.largest),
         sight_(ground, known, start, goal, radius + room_, execution),
-        loose_(sight_, {radius, radius - 0.5 * doubt_, true}, 8.0 * unit_rounding * size_.largest + doubt_),
-        tight_(sight_, {radius + room_, radius + 0.5 * room_, false}, 8.0 * unit_rounding * size_.largest + doubt_) {
+        rounding_(8.0 * unit_rounding * size_.largest + doubt_),
+        loose_(sight_, {radius, radius - 0.5 * doubt_, true}, rounding_, path_),
+        tight_(sight_, {radius + room_, radius + 0.5 * room_, false}, rounding_, path_) {
     path_.radius = radius + room_;
-    path_.circles = ground.circles().size();
+    path_.circles = ground.circles.size();
   }
 
   DiscPath run() {
     path_.outcome = plan();
-    loose_.tell(path_);
-    tight_.tell(path_);
     return std::move(path_);
   }
 
@@ -627,9 +617,10 @@ class DiscPlan {
   const double doubt_;  // what counts as rounding
   const double room_;   // by which circles are larger
   DiscSight sight_;
+  const double rounding_;  // of coordinates
+  DiscPath path_;
   DiscSearch loose_;
   DiscSearch tight_;
-  DiscPath path_;
 };
 
 }  // namespace

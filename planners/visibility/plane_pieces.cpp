@@ -125,7 +125,6 @@ PlanePieces::PlanePieces(const PlaneObstacles& obstacles, const Execution& execu
   outside_depth_ = obstacles.bounds && has_area(*obstacles.bounds) ? 1 : 0;
   execution.reserve(sides.rise.size() * 150);
   const std::vector<PointId> number = number_points(sides.ends, points_, execution);
-  corner_count_ = 0;
   for (std::size_t i = 0; i < sides.corner_ends; ++i)
     corner_count_ = std::max<std::size_t>(corner_count_, number[i] + 1);
   cut(number, sides.rise, execution);
@@ -269,7 +268,6 @@ NearPieces::NearPieces(const PlanePieces& pieces, const Execution& execution)
 }
 
 void NearPieces::open(std::span<const PlaceRange> ranges) {
-  constexpr double scale = static_cast<double>(directions) / 4.0;
   sight_.fill(0.0);
   for (const PlaceRange& r : ranges) {
     const double end = r.last >= r.first ? r.last : r.last + 4.0;
@@ -278,16 +276,6 @@ void NearPieces::open(std::span<const PlaceRange> ranges) {
     const auto last = static_cast<std::size_t>((end + 4.0 + place_margin) * scale);
     for (std::size_t i = first; i <= last; ++i) sight_[i % directions] = std::max(sight_[i % directions], r.reach);
   }
-}
-
-/// But for the range that begins at place 2: directions just before it may be rounded to it.
-void NearPieces::close_downwards() { std::fill(sight_.begin() + directions / 2 + 1, sight_.end(), 0.0); }
-
-void NearPieces::next_epoch() {
-  if (++epoch_ != 0) return;
-  std::fill(cell_epoch_.begin(), cell_epoch_.end(), 0);
-  std::fill(piece_epoch_.begin(), piece_epoch_.end(), 0);
-  epoch_ = 1;
 }
 
 bool NearPieces::is_hidden(const View& v) const {
@@ -326,7 +314,6 @@ void NearPieces::hide_behind(const View& v) {
 }
 
 void NearPieces::see(std::uint32_t piece) {
-  constexpr double scale = static_cast<double>(directions) / 4.0;
   if (piece_epoch_[piece] == epoch_) return;
   piece_epoch_[piece] = epoch_;
   const Segment s = pieces_.segment(piece);
@@ -359,7 +346,6 @@ void NearPieces::see(std::uint32_t piece) {
 }
 
 bool NearPieces::is_hidden(SegmentGrid::Cell cell) const {
-  constexpr double scale = static_cast<double>(directions) / 4.0;
   const Box at = pieces_.grid().box_of_cell(cell);
   const Box box{at.min - eye_, at.max - eye_};
   const Vec2 nearest{std::max({box.min.x, -box.max.x, 0.0}), std::max({box.min.y, -box.max.y, 0.0})};
@@ -406,9 +392,14 @@ std::span<const std::uint32_t> NearPieces::look(Vec2 p, std::span<const PlaceRan
     std::iota(seen_.begin(), seen_.end(), 0U);
     return seen_;
   }
-  next_epoch();
+  if (++epoch_ == 0) {
+    std::fill(cell_epoch_.begin(), cell_epoch_.end(), 0);
+    std::fill(piece_epoch_.begin(), piece_epoch_.end(), 0);
+    epoch_ = 1;
+  }
   open(ranges);
-  if (upwards) close_downwards();
+  // The range that begins at place 2 stays open: directions just before it may be rounded to it.
+  if (upwards) std::fill(sight_.begin() + directions / 2 + 1, sight_.end(), 0.0);
   eye_ = p;
   home_ = grid.cell_of(p);
   next_.clear();

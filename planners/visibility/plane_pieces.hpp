@@ -112,9 +112,8 @@ class NearPieces {
 
  private:
   static constexpr std::size_t directions = 512;
+  static constexpr double scale = static_cast<double>(directions) / 4.0;  // ranges of directions a place
   void open(std::span<const PlaceRange> ranges);
-  void close_downwards();
-  void next_epoch();
   void enter(SegmentGrid::Cell cell);
   /// A piece as seen from the eye, anticlockwise from first to last.
   struct View {

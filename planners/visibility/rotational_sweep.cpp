@@ -77,11 +77,12 @@ std::vector<Sector> free_sectors(const PlanePieces& pieces, Vec2 at) {
 }
 
 std::vector<SectorOfPoints> free_sectors_at(const PlanePieces& pieces, PointId at, const Execution& execution) {
+  const Vec2 p = pieces.points()[at];
   std::vector<Spoke> spokes;
-  for (const std::uint32_t piece : pieces.pieces_at(at)) add_spokes(pieces, piece, pieces.points()[at], spokes);
+  for (const std::uint32_t piece : pieces.pieces_at(at)) add_spokes(pieces, piece, p, spokes);
   std::vector<SectorOfPoints> sectors;
-  visit_free(pieces, pieces.points()[at], spokes, execution, [&](const Spoke& s, const Spoke& t) {
-    sectors.push_back({s.end, t.end});
+  visit_free(pieces, p, spokes, execution, [&](const Spoke& s, const Spoke& t) {
+    sectors.push_back({s.end, t.end, is_reflex(p, {s.towards, t.towards, false})});
   });
   return sectors;
 }

@@ -78,6 +78,7 @@ std::vector<Sector> free_sectors(const PlanePieces& pieces, Vec2 at);
 struct SectorOfPoints {
   PointId first;
   PointId last;
+  bool reflex;  ///< is_reflex()
 };
 /// The same around an end of pieces, of which there may be many. Throws Stopped.
 std::vector<SectorOfPoints> free_sectors_at(const PlanePieces& pieces, PointId at, const Execution& execution);

@@ -127,17 +127,12 @@ VisibleCorners::VisibleCorners(const PlaneObstacles& obstacles, const Execution&
   const std::size_t corners = pieces_.corner_count();
   first_vertex_.assign(pieces_.points().size() + 1, 0);
   const auto parts = parts_of_chunks(corners, grain, execution, [&](Range r) {
-    std::vector<SectorEnds> part;
+    std::vector<SectorOfPoints> part;
     for (std::size_t p = r.first; p < r.last; ++p) {
       if (p % 64 == 0) execution.check();
-      const auto at = static_cast<PointId>(p);
-      const std::vector<SectorOfPoints> sectors = free_sectors_at(pieces_, at, execution);
+      const std::vector<SectorOfPoints> sectors = free_sectors_at(pieces_, static_cast<PointId>(p), execution);
       first_vertex_[p + 1] = static_cast<VertexId>(sectors.size());
-      for (const SectorOfPoints& s : sectors) {
-        const Vec2 first = pieces_.points()[s.first];
-        const Vec2 last = pieces_.points()[s.last];
-        part.push_back({s.first, s.last, warren::is_reflex(pieces_.points()[p], {first, last, false})});
-      }
+      part.insert(part.end(), sectors.begin(), sectors.end());
     }
     return part;
   });
@@ -317,61 +312,42 @@ Graph VisibilityGraph::joined(const VisibilityLinks& links, const Execution& exe
   return Graph(std::move(offsets), std::move(targets));
 }
 
-namespace {
-
-constexpr double places_of_ends = 100.0;
-
-class SampledSight {
- public:
-  SampledSight(const PolygonIndex& polygons, double step) : polygons_(polygons), step_(step) {
-    const Box& box = polygons.box();
-    for (const double c : {box.min.x, box.min.y, box.max.x, box.max.y}) size_ = std::max(size_, std::abs(c));
-  }
-
-  bool sees(Vec2 a, Vec2 b, bool of_end) const {
+std::vector<Edge> sampled_visibility(const PolygonIndex& polygons, Vec2 start, Vec2 goal, double step,
+                                     const Execution& execution) {
+  constexpr double places_of_ends = 100.0;
+  constexpr double units = 1e-14;
+  double size = 0.0;
+  const Box& box = polygons.box();
+  for (const double c : {box.min.x, box.min.y, box.max.x, box.max.y}) size = std::max(size, std::abs(c));
+  const auto is_inside = [&, rounding = units * size](Vec2 p) {
+    const auto polygon = polygons.polygon_around(p);
+    if (!polygon) return false;
+    return polygons.for_each_side_near(*polygon, Box{p, p}.grown(rounding),
+                                       [&](std::size_t side) { return distance(p, polygons.side(side)) > rounding; });
+  };
+  const auto sees = [&](Vec2 a, Vec2 b, bool of_end) {
     const double length = distance(a, b);
-    const double step = of_end ? length / places_of_ends : step_;
-    const double places = length > 0.0 ? std::floor(length / step) : 0.0;
+    const double between = of_end ? length / places_of_ends : step;
+    const double places = length > 0.0 ? std::floor(length / between) : 0.0;
     for (double k = 0.0; k <= places; ++k) {
-      const double t = length > 0.0 ? k * step / length : 0.0;
+      const double t = length > 0.0 ? k * between / length : 0.0;
       if (is_inside(a + t * (b - a))) return false;
     }
     return true;
-  }
-
- private:
-  bool is_inside(Vec2 p) const {
-    constexpr double units = 1e-14;
-    const double rounding = units * size_;
-    const auto polygon = polygons_.polygon_around(p);
-    if (!polygon) return false;
-    return polygons_.for_each_side_near(*polygon, Box{p, p}.grown(rounding),
-                                        [&](std::size_t side) { return distance(p, polygons_.side(side)) > rounding; });
-  }
-
-  const PolygonIndex& polygons_;
-  double step_;
-  double size_ = 0.0;
-};
-
-}  // namespace
-
-std::vector<Edge> sampled_visibility(const PolygonIndex& polygons, Vec2 start, Vec2 goal, double step,
-                                     const Execution& execution) {
-  const SampledSight sight(polygons, step);
+  };
   std::vector<Vec2> points = polygons.polygons().corners;
   const std::size_t corners = points.size();
   points.push_back(start);
   points.push_back(goal);
-  std::vector<std::vector<Edge>> parts(points.size());
-  for_chunks(points.size(), 1, execution, [&](Range r) {
+  const auto parts = parts_of_chunks(points.size(), 1, execution, [&](Range r) {
     const std::size_t i = r.first;
+    std::vector<Edge> part;
     for (std::size_t j = i + 1; j < points.size(); ++j) {
       if (execution.should_stop()) execution.check();
-      if (sight.sees(points[i], points[j], j >= corners)) {
-        parts[i].push_back({static_cast<VertexId>(i), static_cast<VertexId>(j)});
-      }
+      if (sees(points[i], points[j], j >= corners))
+        part.push_back({static_cast<VertexId>(i), static_cast<VertexId>(j)});
     }
+    return part;
   });
   std::vector<Edge> edges;
   for (const std::vector<Edge>& part : parts) edges.insert(edges.end(), part.begin(), part.end());

@@ -64,17 +64,12 @@ class VisibleCorners {
 
  private:
   friend class CornerSight;
-  struct SectorEnds {
-    PointId first;
-    PointId last;
-    bool reflex;
-  };
 
   const PolygonSet polygons_;
   std::optional<Box> bounds_;
   PlanePieces pieces_;
-  std::vector<PointId> point_;    // of each vertex
-  std::vector<SectorEnds> ends_;  // of each vertex's sector
+  std::vector<PointId> point_;        // of each vertex
+  std::vector<SectorOfPoints> ends_;  // of each vertex's sector
   std::vector<VertexId> first_vertex_;
   std::vector<std::uint8_t> any_;     // one a point: has it a vertex?
   std::vector<std::uint8_t> reflex_;  // one a point: has it a reflex one?

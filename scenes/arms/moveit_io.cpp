@@ -45,10 +45,11 @@ PoseNumbers joined(const PoseNumbers& outer, const PoseNumbers& inner) {
   return {{at.x(), at.y(), at.z()}, quaternion_of_turn(whole.linear())};
 }
 
-/// Nodes as what they should be; each error names its line.
-class MoveItNodes {
+/// What scenes and requests have in common: nodes as what they should be, and the robot's state. Each error names its
+/// line.
+class MoveItReader {
  public:
-  MoveItNodes(const InputFile& file, std::string_view what, const Execution& execution)
+  MoveItReader(const InputFile& file, std::string_view what, const Execution& execution)
       : yaml_(file, what, most_mebibytes, execution), execution_(execution) {}
 
  protected:
@@ -136,28 +137,13 @@ class MoveItNodes {
   }
   bool truth(const Node& node, std::string_view key) const {
     const std::string text = node.IsScalar() ? node.Scalar() : "";
-    for (const std::string_view yes : {"true", "True", "TRUE", "1", "yes", "on"}) {
-      if (text == yes) return true;
-    }
-    for (const std::string_view no : {"false", "False", "FALSE", "0", "no", "off"}) {
-      if (text == no) return false;
-    }
+    constexpr std::array<std::string_view, 6> yes{"true", "True", "TRUE", "1", "yes", "on"};
+    constexpr std::array<std::string_view, 6> no{"false", "False", "FALSE", "0", "no", "off"};
+    if (std::ranges::count(yes, text) > 0) return true;
+    if (std::ranges::count(no, text) > 0) return false;
     yaml_.fail(node, fmt::format("`{}` must be true or false", key));
   }
 
-  YamlFile yaml_;
-  const Execution& execution_;
-
- private:
-  static constexpr std::size_t most_mebibytes = 64;
-};
-
-/// What scenes and requests have in common: the robot's state.
-class MoveItStates : public MoveItNodes {
- public:
-  using MoveItNodes::MoveItNodes;
-
- protected:
   /// Of a robot_state or start_state.
   void take_state(Scene& scene, const Node& state) {
     expect_keys(state, "a robot's state",
@@ -223,7 +209,12 @@ class MoveItStates : public MoveItNodes {
   /// What the world's own line says of the robot, which the request takes the place of; null: nothing.
   ArmFiles* line_of(Scene& scene) const { return scene.robot && scene.robot->files ? &*scene.robot->files : nullptr; }
 
+  YamlFile yaml_;
+  const Execution& execution_;
+
  private:
+  static constexpr std::size_t most_mebibytes = 64;
+
   void take_joints(Scene& scene, const Node& joints) const {
     NamedState state;
     std::map<std::string, double> values;
@@ -306,9 +297,9 @@ class MoveItStates : public MoveItNodes {
   std::set<std::string> root_frames_{"", "world"};  ///< names of the root's frame
 };
 
-class MoveItSceneReader : public MoveItStates {
+class MoveItSceneReader : MoveItReader {
  public:
-  using MoveItStates::MoveItStates;
+  using MoveItReader::MoveItReader;
 
   Scene read() {
     const Node& root = yaml_.root();
@@ -429,9 +420,9 @@ class MoveItSceneReader : public MoveItStates {
   std::set<std::string> ids_;  ///< of the world's objects
 };
 
-class MoveItRequestReader : public MoveItStates {
+class MoveItRequestReader : MoveItReader {
  public:
-  using MoveItStates::MoveItStates;
+  using MoveItReader::MoveItReader;
 
   void read(Scene& scene) {
     const Node& root = yaml_.root();

@@ -31,17 +31,6 @@ Eigen::Matrix3d turn_to(const Vec3& axis) {
   return turn;
 }
 
-/// cylinder, capsule: two ends and a radius.
-void stretch(Solid& solid, std::span<const double> numbers) {
-  const Vec3 a = point_at(numbers, 0);
-  const Vec3 b = point_at(numbers, 3);
-  const Vec3 axis = b - a;
-  const double length = std::sqrt(axis.dot(axis));
-  if (length > 0.0) solid.pose.linear() = turn_to(axis);
-  solid.pose.translation() = 0.5 * (a + b);
-  solid.half = {numbers[6], 0.0, 0.5 * length};
-}
-
 /// "": nothing is wrong.
 std::string_view fault_of(std::string_view name, std::span<const double> numbers) {
   const auto any_negative = [](std::span<const double> some) {
@@ -161,7 +150,13 @@ Solid solid_of_numbers(const SolidWord& word, std::span<const double> numbers, c
     solid.given = std::move(given);
   } else {
     solid.kind = word.name == "capsule" ? SolidKind::capsule : SolidKind::cylinder;
-    stretch(solid, numbers);
+    const Vec3 a = point_at(numbers, 0);
+    const Vec3 b = point_at(numbers, 3);
+    const Vec3 axis = b - a;
+    const double length = std::sqrt(axis.dot(axis));
+    if (length > 0.0) solid.pose.linear() = turn_to(axis);
+    solid.pose.translation() = 0.5 * (a + b);
+    solid.half = {numbers[6], 0.0, 0.5 * length};
   }
   return solid;
 }

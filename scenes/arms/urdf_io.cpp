@@ -132,12 +132,10 @@ class MeshShelf {
       if (std::filesystem::is_regular_file(place, error)) return place;
     }
     constexpr std::size_t most_shown = 6;
-    std::string shown;
-    for (std::size_t i = 0; i < std::min(most_shown, tried.size()); ++i)
-      shown += fmt::format("{}{}", i == 0 ? "" : ", ", tried[i]);
+    const auto shown = std::span(tried).first(std::min(most_shown, tried.size()));
     xml_.fail(mesh,
-              fmt::format("the mesh is not there; looked for {}{}; `package-path DIR` says where its package is", shown,
-                          tried.size() > most_shown ? " and in the folders above" : ""),
+              fmt::format("the mesh is not there; looked for {}{}; `package-path DIR` says where its package is",
+                          fmt::join(shown, ", "), tried.size() > most_shown ? " and in the folders above" : ""),
               name);
   }
 

@@ -138,8 +138,9 @@ bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' |
 /// Tokens between white space; `#` starts a comment to the end of the line. Runs of blanks look at the deadline.
 class PgmTokens {
  public:
+  /// Begins behind the two letters that say what it is.
   PgmTokens(const InputFile& file, const Execution& execution)
-      : name_(file.name()), rest_(file.bytes()), execution_(execution) {}
+      : name_(file.name()), rest_(file.bytes().substr(2)), execution_(execution) {}
 
   std::uint32_t number(std::string_view what, std::uint32_t least, std::uint32_t most) {
     skip();
@@ -153,7 +154,6 @@ class PgmTokens {
     return *value;
   }
   std::string_view rest() const { return rest_; }
-  void magic() { rest_.remove_prefix(2); }
   /// Exactly one byte stands between header and binary pixels.
   std::string_view pixels() const { return rest_.substr(std::min<std::size_t>(1, rest_.size())); }
 
@@ -186,23 +186,14 @@ class PgmTokens {
   std::size_t line_ = 1;
 };
 
-/// Gives back what was read, so that a large image is never held as a whole.
-class Forgetting {
- public:
-  explicit Forgetting(const InputFile& file) : file_(file) {}
-  /// All before these last bytes of the file was read.
-  void but(std::string_view rest) {
-    constexpr std::size_t piece = std::size_t{1} << 22;
-    const std::size_t read = file_.bytes().size() - rest.size();
-    if (read - forgotten_ < piece) return;
-    file_.forget(forgotten_, read);
-    forgotten_ = read;
-  }
-
- private:
-  const InputFile& file_;
-  std::size_t forgotten_ = 0;
-};
+/// Gives back what was read, all but the last bytes of the file, so that a large image is never held as a whole.
+void forget_all_but(std::string_view rest, const InputFile& file, std::size_t& forgotten) {
+  constexpr std::size_t piece = std::size_t{1} << 22;
+  const std::size_t read = file.bytes().size() - rest.size();
+  if (read - forgotten < piece) return;
+  file.forget(forgotten, read);
+  forgotten = read;
+}
 
 /// One sample of a binary row; two bytes, the high one first, where maxval is beyond 255.
 std::uint16_t sample(std::string_view bytes, std::size_t i, bool wide) {
@@ -218,10 +209,10 @@ void read_binary(const InputFile& file, const ImageHeader& header, std::string_v
   sink.begin(header);
   execution.reserve(sizeof(std::uint16_t) * header.width);
   std::vector<std::uint16_t> samples(header.width);
-  Forgetting forgetting(file);
+  std::size_t forgotten = 0;
   for (std::uint32_t y = 0; y < header.height; ++y) {
     execution.check();
-    forgetting.but(pixels.substr(y * row_bytes));
+    forget_all_but(pixels.substr(y * row_bytes), file, forgotten);
     const std::string_view row = pixels.substr(y * row_bytes, row_bytes);
     unsigned highest = 0;
     for (std::uint32_t x = 0; x < header.width; ++x) {
@@ -247,12 +238,12 @@ void read_ascii(const InputFile& file, const ImageHeader& header, PgmTokens& tok
   sink.begin(header);
   execution.reserve(sizeof(std::uint16_t) * header.width);
   std::vector<std::uint16_t> samples(header.width);
-  Forgetting forgetting(file);
+  std::size_t forgotten = 0;
   for (std::uint32_t y = 0; y < header.height; ++y) {
     for (std::uint32_t x = 0; x < header.width; ++x) {
       if (x % pixels_a_look == 0) {
         execution.check();
-        forgetting.but(tokens.rest());
+        forget_all_but(tokens.rest(), file, forgotten);
       }
       samples[x] = static_cast<std::uint16_t>(tokens.number("a pixel", 0, header.maximum));
     }
@@ -265,7 +256,6 @@ void read_ascii(const InputFile& file, const ImageHeader& header, PgmTokens& tok
 void read_pgm(const InputFile& file, const ImageSink& sink, const Execution& execution) {
   constexpr std::uint32_t most_side = 0x7fffffff;
   PgmTokens tokens(file, execution);
-  tokens.magic();
   ImageHeader header;
   header.width = tokens.number("the width of a PGM image", 1, most_side);
   header.height = tokens.number("the height of a PGM image", 1, most_side);
@@ -312,48 +302,37 @@ void write_map_pgm(const OccupancyMap& map, const std::string& path, UnknownCell
 
 namespace {
 
+/// Below 128 of 255: 255 v < 128 maximum.
+bool is_dark(std::uint64_t sum, std::uint64_t maximum) { return 255 * sum < 128 * maximum; }
+
+bool is_dark(const ImageHeader& header, const std::uint16_t* pixel) {
+  const unsigned colours = header.channels - (header.has_alpha() ? 1 : 0);
+  const std::uint64_t sum = std::accumulate(pixel, pixel + colours, std::uint64_t{0});
+  const std::uint64_t brightest = std::uint64_t{colours} * header.maximum;
+  if (!header.has_alpha()) return is_dark(sum, brightest);
+  const std::uint64_t alpha = pixel[colours];
+  return is_dark(alpha * sum + (header.maximum - alpha) * brightest, header.maximum * brightest);
+}
+
+void set_dark_greys(std::uint64_t maximum, std::span<const std::uint16_t> samples, std::span<std::uint64_t> words) {
+  for (std::size_t w = 0; w < words.size(); ++w) {
+    const auto part = samples.subspan(w * 64, std::min<std::size_t>(64, samples.size() - w * 64));
+    std::uint64_t word = 0;
+    for (std::size_t i = 0; i < part.size(); ++i) word |= std::uint64_t{is_dark(part[i], maximum)} << i;
+    words[w] = word;
+  }
+}
+
 /// Sets the bits of dark pixels.
-class Darkness {
- public:
-  Darkness(const ImageHeader& header, Bitmap& dark) : header_(header), dark_(dark) {}
-
-  void row(const PixelRun& run) const {
-    const std::uint32_t y = header_.height - 1 - run.y;
-    if (header_.channels == 1 && run.step_x == 1) return grey_row(run.samples, dark_.row(y));
-    std::uint32_t x = run.first_x;
-    for (const std::uint16_t* pixel = run.samples.data(); pixel != run.samples.data() + run.samples.size();
-         pixel += header_.channels, x += run.step_x) {
-      if (is_dark(pixel)) dark_.set(x, y);
-    }
+void set_dark(const ImageHeader& header, const PixelRun& run, Bitmap& dark) {
+  const std::uint32_t y = header.height - 1 - run.y;
+  if (header.channels == 1 && run.step_x == 1) return set_dark_greys(header.maximum, run.samples, dark.row(y));
+  std::uint32_t x = run.first_x;
+  for (const std::uint16_t* pixel = run.samples.data(); pixel != run.samples.data() + run.samples.size();
+       pixel += header.channels, x += run.step_x) {
+    if (is_dark(header, pixel)) dark.set(x, y);
   }
-
- private:
-  /// Below 128 of 255: 255 v < 128 maximum.
-  bool is_dark(std::uint64_t sum, std::uint64_t maximum) const { return 255 * sum < 128 * maximum; }
-
-  bool is_dark(const std::uint16_t* pixel) const {
-    const unsigned colours = header_.channels - (header_.has_alpha() ? 1 : 0);
-    const std::uint64_t sum = std::accumulate(pixel, pixel + colours, std::uint64_t{0});
-    const std::uint64_t brightest = std::uint64_t{colours} * header_.maximum;
-    if (!header_.has_alpha()) return is_dark(sum, brightest);
-    const std::uint64_t alpha = pixel[colours];
-    return is_dark(alpha * sum + (header_.maximum - alpha) * brightest, header_.maximum * brightest);
-  }
-
-  void grey_row(std::span<const std::uint16_t> samples, std::span<std::uint64_t> words) const {
-    for (std::size_t w = 0; w < words.size(); ++w) {
-      const auto part = samples.subspan(w * 64, std::min<std::size_t>(64, samples.size() - w * 64));
-      std::uint64_t word = 0;
-      for (std::size_t i = 0; i < part.size(); ++i) {
-        word |= std::uint64_t{is_dark(part[i], header_.maximum)} << i;
-      }
-      words[w] = word;
-    }
-  }
-
-  ImageHeader header_;
-  Bitmap& dark_;
-};
+}
 
 /// The middle of the only free cell of a row.
 std::optional<Vec2> opening(const OccupancyMap& map, std::uint32_t y) {
@@ -372,12 +351,12 @@ OccupancyMap read_maze_image(const InputFile& file, const Execution& execution) 
   OccupancyMap map;
   map.format = MapFormat::image;
   map.source = file.name();
-  std::optional<Darkness> darkness;
-  const auto begin = [&](const ImageHeader& header) {
+  ImageHeader header;
+  const auto begin = [&](const ImageHeader& read) {
+    header = read;
     map.blocked = cell_bitmap(header.width, header.height, execution);
-    darkness.emplace(header, map.blocked);
   };
-  read_image(file, {begin, [&](const PixelRun& run) { darkness->row(run); }}, execution);
+  read_image(file, {begin, [&](const PixelRun& run) { set_dark(header, run, map.blocked); }}, execution);
   map.occupied = map.blocked.count();
   map.free = map.blocked.size() - map.occupied;
   map.start = opening(map, map.height() - 1);

@@ -333,14 +333,11 @@ void NpyMaze::read(const InputFile& file, const Execution& execution) {
   constexpr std::size_t window = 8 * WallsHash::grain;  // walls: of the file no more is held at once
   const std::span<const WallOf<T>> walls = walls_in<T>(file, array_);
   WallsHash hash(walls.size());
-  std::vector<std::uint64_t> parts;
   for (std::size_t first = 0; first < walls.size(); first += window) {
     const std::span<const WallOf<T>> some = walls.subspan(first, std::min(window, walls.size() - first));
-    parts.assign(chunk_count(some.size(), WallsHash::grain), 0);
-    for_chunks(some.size(), WallsHash::grain, execution, [&](Range r) {
-      parts[r.first / WallsHash::grain] = WallsHash::of_chunk(some.subspan(r.first, r.size()));
-    });
-    for (const std::uint64_t part : parts) hash.add(part);
+    const auto hash_of_chunk = [&](Range r) { return WallsHash::of_chunk(some.subspan(r.first, r.size())); };
+    for (const std::uint64_t part : parts_of_chunks(some.size(), WallsHash::grain, execution, hash_of_chunk))
+      hash.add(part);
     for (std::size_t i = 0; i < some.size(); ++i) {
       if (i % WallsHash::grain == 0) execution.check();
       if (first + i >= 4) add<T>(file, first + i, some[i], execution);

@@ -120,13 +120,12 @@ void refuse_more_rows(TextLines& lines, std::uint32_t width, std::uint32_t heigh
   }
 }
 
-/// The power of ten of the first digit of a number > 0.
-int first_digit_of(double value) {
-  const std::string digits = fmt::format("{:.17e}", value);  // exact as far as a double goes
+/// What is behind the `e` of a number; 0 where there is none.
+int exponent_of(std::string_view digits) {
   int exponent = 0;
-  const std::size_t sign = digits.find('e') + 1;
-  const std::size_t from = sign + (digits[sign] == '+' ? 1 : 0);
-  std::from_chars(digits.data() + from, digits.data() + digits.size(), exponent);
+  digits.remove_prefix(std::min(digits.find_first_of("eE"), digits.size()));
+  digits.remove_prefix(std::min(digits.find_first_not_of("eE+"), digits.size()));
+  std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
   return exponent;
 }
 
@@ -136,15 +135,11 @@ double half_unit_of(std::string_view digits, double value) {
   constexpr int usual_digits = 6;
   const std::size_t mantissa_end = std::min(digits.find_first_of("eE"), digits.size());
   const std::size_t point = std::min(digits.find('.'), mantissa_end);
-  int last = value > 0.0 ? first_digit_of(value) - (usual_digits - 1) : -usual_digits;
+  // 18 digits: more than tell a double from the next
+  int last = value > 0.0 ? exponent_of(fmt::format("{:.17e}", value)) - (usual_digits - 1) : -usual_digits;
   if (point < mantissa_end) {
-    int exponent = 0;
-    const std::size_t sign = mantissa_end + 1 < digits.size() && digits[mantissa_end + 1] == '+' ? 1 : 0;
-    if (mantissa_end < digits.size()) {
-      std::from_chars(digits.data() + mantissa_end + 1 + sign, digits.data() + digits.size(), exponent);
-    }
     constexpr int beyond_all = 1000;  // of a double
-    last = std::clamp(exponent, -beyond_all, beyond_all) - static_cast<int>(mantissa_end - point - 1);
+    last = std::clamp(exponent_of(digits), -beyond_all, beyond_all) - static_cast<int>(mantissa_end - point - 1);
   }
   const std::string half = fmt::format("5e{}", last - 1);
   double result = last > 0 ? std::numeric_limits<double>::infinity() : 0.0;  // kept where it is beyond all doubles

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <set>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -60,7 +61,7 @@ class HeaderParser {
     NpyWalls header;
     rest_ = dictionary(header.data);
     parse_entries(header);
-    if (!has_type_ || !has_order_ || !has_shape_) fail("the header must have descr, fortran_order and shape", rest_);
+    if (seen_.size() < 3) fail("the header must have descr, fortran_order and shape", rest_);
     return header;
   }
   [[noreturn]] void fail(std::string_view what, std::string_view found) const {
@@ -102,6 +103,7 @@ class HeaderParser {
       } else {
         fail("unknown entry in the header", key);
       }
+      seen_.insert(key);
       if (!accept(',') && !rest_.starts_with('}')) fail("expected `,` or `}` in the header", rest_);
     }
   }
@@ -111,7 +113,6 @@ class HeaderParser {
     const std::string_view type = quoted();
     if (type != "<f4" && type != "<f8") fail("expected numbers of type <f4 or <f8", type);
     header.is_float = type == "<f4";
-    has_type_ = true;
   }
   void parse_order() {
     skip_blanks();
@@ -119,7 +120,6 @@ class HeaderParser {
       fail("expected C order, not Fortran order: save numpy.ascontiguousarray(walls)", rest_);
     if (!rest_.starts_with("False")) fail("expected fortran_order False", rest_);
     rest_.remove_prefix(5);
-    has_order_ = true;
   }
   void parse_shape() {
     shape_text_ = rest_.substr(0, rest_.find(')') + 1);
@@ -129,7 +129,6 @@ class HeaderParser {
       shape_.push_back(whole_number());
       if (!accept(',') && !rest_.starts_with(')')) fail("expected a shape like (28, 4)", shape_text_);
     }
-    has_shape_ = true;
   }
 
   void skip_blanks() {
@@ -167,9 +166,7 @@ class HeaderParser {
   std::string_view rest_;
   std::string_view shape_text_;
   std::vector<std::size_t> shape_;
-  bool has_type_ = false;
-  bool has_order_ = false;
-  bool has_shape_ = false;
+  std::set<std::string_view> seen_;  ///< keys of the header
 };
 
 /// Copies rows out of the file; In is what the file holds.
@@ -177,25 +174,24 @@ template <class In>
 class Rows {
  public:
   Rows(const InputFile& file, const NpyWalls& header, const Execution& execution)
-      : file_(file), header_(header), execution_(execution), bad_(chunk_count(header.walls, npy_grain), header.walls) {}
+      : file_(file), header_(header), execution_(execution) {}
 
   template <class Wall>
   WallSet copy() {
     execution_.reserve(header_.walls * sizeof(Wall));
     RawVector<Wall> walls(header_.walls);
-    for_chunks(header_.walls, npy_grain, execution_, [&](Range r) {
+    const std::size_t bad = first_in_chunks(header_.walls, npy_grain, execution_, [&](Range r) {
       bool good = true;
       for (std::size_t i = r.first; i < r.last; ++i) {
         const WallOf<In> w = row(i);
         good = good && is_sane(w) && holds<Wall>(w);  // the file may have changed since it was looked at
         walls[i] = as<Wall>(w);
       }
-      if (!good) bad_[r.first / npy_grain] = first_bad(r);
+      const std::size_t first = good ? r.last : first_bad(r);
       forget(r);
+      return first;
     });
-    for (const std::size_t bad : bad_) {
-      if (bad < header_.walls) refuse(bad);
-    }
+    if (bad < header_.walls) refuse(bad);
     return WallSet(std::move(walls));
   }
   bool fit_floats() const {
@@ -221,14 +217,14 @@ class Rows {
   /// Ends at the first row of each chunk that says no.
   template <class Test>
   bool all(const Test& test) const {
-    std::vector<std::uint8_t> passed(bad_.size(), 0);
-    for_chunks(header_.walls, npy_grain, {execution_.threads, execution_.deadline}, [&](Range r) {
-      bool every = true;
-      for (std::size_t i = r.first; i < r.last && every; ++i) every = test(row(i));
-      passed[r.first / npy_grain] = every ? 1 : 0;
+    const Execution quiet{execution_.threads, execution_.deadline};
+    const std::size_t other = first_in_chunks(header_.walls, npy_grain, quiet, [&](Range r) {
+      std::size_t i = r.first;
+      while (i < r.last && test(row(i))) ++i;
       forget(r);
+      return i;
     });
-    return std::all_of(passed.begin(), passed.end(), [](std::uint8_t every) { return every == 1; });
+    return other == header_.walls;
   }
   template <class Out>
   static Out number(In x) {
@@ -264,7 +260,6 @@ class Rows {
   const InputFile& file_;
   const NpyWalls& header_;
   const Execution& execution_;
-  std::vector<std::size_t> bad_;  ///< a slot a chunk: its first row that is refused
 };
 
 WallSet walls_of(const InputFile& file, const NpyWalls& header, const Execution& execution) {

@@ -22,10 +22,10 @@ namespace {
 struct PngInput {
   std::string_view rest;
   const Execution& execution;
-  std::string error;
-  std::size_t bits_a_pixel = 0;        // as the file has them
-  std::vector<png_byte> bytes;         // one row as libpng gives it
-  std::vector<std::uint16_t> samples;  // the same, widened
+  std::string error = {};
+  std::size_t bits_a_pixel = 0;             // as the file has them
+  std::vector<png_byte> bytes = {};         // one row as libpng gives it
+  std::vector<std::uint16_t> samples = {};  // the same, widened
 };
 
 void png_take(png_structp png, png_bytep to, std::size_t size) {
@@ -166,8 +166,7 @@ bool encode(png_structp png, png_infop info, const PngRows& rows, PngSink& sink,
 }  // namespace
 
 void read_png(const InputFile& file, const ImageSink& sink, const Execution& execution) {
-  PngInput input{
-      .rest = file.bytes(), .execution = execution, .error = {}, .bits_a_pixel = 0, .bytes = {}, .samples = {}};
+  PngInput input{file.bytes(), execution};
   const auto fail = [&] {
     execution.check();
     throw InputError(file.name(), "expected a whole PNG image: " + input.error);

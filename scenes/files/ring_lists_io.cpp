@@ -171,38 +171,15 @@ std::size_t depth_of(const PolygonIndex& rings, std::size_t ring, const Scene& s
   return depth.value_or(0);
 }
 
-/// Rings and how deep they lie in one another; in which ring the holes of what is blocked are.
-class SortedRings {
- public:
-  SortedRings(const Scene& scene, const Execution& execution)
-      : rings_(plane_obstacles(scene, execution).polygons, execution) {
-    for (std::size_t i = 0; i < scene.polygons.size(); ++i) {
-      if (i % 256 == 0) execution.check();
-      push_asked(depth_, depth_of(rings_, i, scene), execution);
-    }
-    holes_.resize(depth_.size());
-    for (std::size_t i = 0; i < depth_.size(); ++i) {
-      if (i % 256 == 0) execution.check();
-      if (depth_[i] % 2 == 0 && depth_[i] > 0) push_asked(holes_[parent_of(i)], scene.polygons[i].corners, execution);
-    }
+/// The ring that a ring lies in, one less deep.
+std::size_t parent_of(const PolygonIndex& rings, std::size_t ring, std::span<const std::size_t> depth) {
+  std::size_t parent = ring;
+  for (const Vec2 p : rings.polygons()[ring]) {
+    const auto take = [&](std::uint32_t other) { parent = depth[other] + 1 == depth[ring] ? other : parent; };
+    if (for_each_around(rings, ring, p, take)) break;
   }
-  std::size_t depth(std::size_t ring) const { return depth_[ring]; }
-  const std::vector<std::vector<Vec2>>& holes(std::size_t ring) const { return holes_[ring]; }
-
- private:
-  std::size_t parent_of(std::size_t ring) const {
-    std::size_t parent = ring;
-    for (const Vec2 p : rings_.polygons()[ring]) {
-      const auto take = [&](std::uint32_t other) { parent = depth_[other] + 1 == depth_[ring] ? other : parent; };
-      if (for_each_around(rings_, ring, p, take)) break;
-    }
-    return parent;
-  }
-
-  PolygonIndex rings_;
-  std::vector<std::size_t> depth_;
-  std::vector<std::vector<std::vector<Vec2>>> holes_;
-};
+  return parent;
+}
 
 void add_blocked(Scene& scene, const ScenePolygon& ring, std::span<const std::vector<Vec2>> holes,
                  const Execution& execution) {
@@ -226,12 +203,23 @@ void confine_to(Scene& scene, std::span<const ScenePolygon> outermost, const Exe
 
 /// Free is inside an odd number of rings.
 void sort_by_depth(Scene& scene, const Execution& execution) {
-  const SortedRings sorted(scene, execution);
+  const PolygonIndex index(plane_obstacles(scene, execution).polygons, execution);
+  std::vector<std::size_t> depth;
+  for (std::size_t i = 0; i < scene.polygons.size(); ++i) {
+    if (i % 256 == 0) execution.check();
+    push_asked(depth, depth_of(index, i, scene), execution);
+  }
+  std::vector<std::vector<std::vector<Vec2>>> holes(depth.size());  // of what is blocked in each ring
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    if (i % 256 == 0) execution.check();
+    if (depth[i] % 2 == 0 && depth[i] > 0)
+      push_asked(holes[parent_of(index, i, depth)], scene.polygons[i].corners, execution);
+  }
   const Rings rings = std::exchange(scene.polygons, {});
   Rings outermost;
   for (std::size_t i = 0; i < rings.size(); ++i) {
-    if (sorted.depth(i) == 0) push_asked(outermost, rings[i], execution);
-    if (sorted.depth(i) % 2 == 1) add_blocked(scene, rings[i], sorted.holes(i), execution);
+    if (depth[i] == 0) push_asked(outermost, rings[i], execution);
+    if (depth[i] % 2 == 1) add_blocked(scene, rings[i], holes[i], execution);
   }
   confine_to(scene, outermost, execution);
 }

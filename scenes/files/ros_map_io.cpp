@@ -61,8 +61,9 @@ class DescriptionReader {
   Description read() const {
     Description d;
     d.image = converted<std::string>(needed("image"), "image", "the name of an image");
-    if (d.image.empty()) fail(root_["image"], "`image` must be the name of an image");
-    d.resolution = positive("resolution");
+    if (d.image.empty()) yaml_.fail(root_["image"], "`image` must be the name of an image");
+    d.resolution = yaml_.number(needed("resolution"), "resolution", "a number above 0",
+                                [](double x) { return x > smallest_coordinate && x < largest_coordinate; });
     d.origin = origin();
     d.occupied_thresh = fraction("occupied_thresh");
     d.free_thresh = fraction("free_thresh");
@@ -72,7 +73,6 @@ class DescriptionReader {
   }
 
  private:
-  [[noreturn]] void fail(const YAML::Node& node, std::string_view what) const { yaml_.fail(node, what); }
   YAML::Node needed(const char* key) const {
     const YAML::Node node = root_[key];
     if (!node) throw InputError(name_, fmt::format("the key `{}` is missing: a map server needs it", key));
@@ -83,12 +83,8 @@ class DescriptionReader {
     try {
       return node.as<T>();
     } catch (const YAML::Exception&) {
-      fail(node, fmt::format("`{}` must be {}", key, expected));
+      yaml_.fail(node, fmt::format("`{}` must be {}", key, expected));
     }
-  }
-  double positive(const char* key) const {
-    return yaml_.number(needed(key), key, "a number above 0",
-                        [](double x) { return x > smallest_coordinate && x < largest_coordinate; });
   }
   double fraction(const char* key) const {
     return yaml_.number(needed(key), key, "a number from 0 to 1", [](double x) { return x >= 0.0 && x <= 1.0; });
@@ -96,7 +92,7 @@ class DescriptionReader {
   std::array<double, 3> origin() const {
     constexpr std::string_view expected = "three numbers, [x, y, yaw]";
     const YAML::Node node = needed("origin");
-    if (!node.IsSequence() || node.size() != 3) fail(node, fmt::format("`origin` must be {}", expected));
+    if (!node.IsSequence() || node.size() != 3) yaml_.fail(node, fmt::format("`origin` must be {}", expected));
     std::array<double, 3> numbers{};
     for (std::size_t i = 0; i < numbers.size(); ++i)
       numbers[i] =
@@ -118,7 +114,7 @@ class DescriptionReader {
     if (text == "trinary") return Mode::trinary;
     if (text == "scale") return Mode::scale;
     if (text == "raw") return Mode::raw;
-    fail(node, "`mode` must be trinary, scale or raw");
+    yaml_.fail(node, "`mode` must be trinary, scale or raw");
   }
 
   const std::string& name_;

@@ -40,7 +40,7 @@ class SceneReader {
     scene_.walls = walls_.take();
     scene_.source = file_.name();
     check_whole();
-    if (scene_.arm && first_lines_[moveit_item] > 0) scene_.arm->said.clear();
+    if (scene_.arm && first_line("moveit-names") > 0) scene_.arm->said.clear();
     return std::move(scene_);
   }
 
@@ -54,18 +54,14 @@ class SceneReader {
   static constexpr std::size_t item_count = 26;
   static constexpr std::size_t most_named = 1024;  // joints
   static const std::array<Item, item_count> items;
-  enum ItemNumber : std::size_t {
-    maze_item = 10,
-    robot_item = 11,
-    start_item = 12,
-    goal_item = 13,
-    attach_item = 15,
-    hold_item = 16,
-    allow_item = 17,
-    tool_item = 18,
-    moveit_item = 24,
-    group_item = 25
-  };
+
+  static const Item* item_named(std::string_view name) {
+    return std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.name == name; });
+  }
+  /// Of an item of `items`; 0: there is no such line.
+  std::size_t first_line(std::string_view item) const {
+    return first_lines_[static_cast<std::size_t>(item_named(item) - items.begin())];
+  }
 
   void refuse_other_encodings() const {
     const std::string_view all = file_.bytes();
@@ -82,10 +78,10 @@ class SceneReader {
       return read_wall(fields);
     }
     const std::string_view name = fields.word();
-    item_ = std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.name == name; });
+    item_ = item_named(name);
     if (item_ == items.end()) refuse_word(fields.place(), name, line);
     std::size_t& first = first_lines_[static_cast<std::size_t>(item_ - items.begin())];
-    const bool one_of_several = item_ == &items[goal_item] && !scene_.goal_pose;
+    const bool one_of_several = name == "goal" && !scene_.goal_pose;
     if (item_->once && first != 0 && !one_of_several) {
       fields.place().fail(fmt::format("a second `{}` line; the first is line {}", name, first), line);
     }
@@ -188,7 +184,8 @@ class SceneReader {
     scene_.bounds = Box{{n[0], n[1]}, {n[2], n[3]}};
   }
   void read_clearance(Fields& fields) {
-    scene_.clearance = not_negative(fields.place(), "R", numbers(fields, 1, 1)[0]);
+    scene_.clearance = numbers(fields, 1, 1)[0];
+    if (!(*scene_.clearance >= 0.0)) refuse(fields.place(), "R must be at least 0", *scene_.clearance);
   }
   void read_maze(Fields& fields) {
     const std::vector<double>& n = numbers(fields, 2, 2);
@@ -255,17 +252,10 @@ class SceneReader {
   }
   void read_grid(Fields& fields) {
     const std::vector<double>& n = numbers(fields, 2, 2);
-    scene_.grid = GridSpec{positive(fields.place(), "CELL", n[0]), count(fields.place(), "ANGLES", n[1])};
+    if (!(n[0] > 0.0)) refuse(fields.place(), "CELL must be greater than 0", n[0]);
+    scene_.grid = GridSpec{n[0], count(fields.place(), "ANGLES", n[1])};
   }
 
-  double positive(const Place& place, std::string_view name, double value) const {
-    if (!(value > 0.0)) refuse(place, fmt::format("{} must be greater than 0", name), value);
-    return value;
-  }
-  double not_negative(const Place& place, std::string_view name, double value) const {
-    if (!(value >= 0.0)) refuse(place, fmt::format("{} must be at least 0", name), value);
-    return value;
-  }
   std::uint32_t count(const Place& place, std::string_view name, double value) const {
     if (!(value >= 1.0 && value <= std::numeric_limits<std::uint32_t>::max()) || value != std::floor(value)) {
       refuse(place, fmt::format("{} must be a whole number, at least 1 and below 2^32", name), value);
@@ -287,59 +277,60 @@ class SceneReader {
     if (scene_.walls.size() == 0 && !has_lines) {
       Place{file_.name(), last_line_}.fail("the file ends without any wall, polygon, sphere, box or bounds");
     }
-    check_state(scene_.start, start_item, first_lines_[start_item]);
-    check_state(scene_.goal, goal_item, goal_lines_.empty() ? 0 : goal_lines_.front());
+    check_state(scene_.start, "start", first_line("start"));
+    check_state(scene_.goal, "goal", goal_lines_.empty() ? 0 : goal_lines_.front());
     for (std::size_t i = 0; i < scene_.other_goals.size(); ++i) {
-      check_state(scene_.other_goals[i], goal_item, goal_lines_[i + 1]);
+      check_state(scene_.other_goals[i], "goal", goal_lines_[i + 1]);
     }
     check_arm_lines();
     if (scene_.maze) check_maze();
   }
-  void check_state(const std::vector<double>& given, ItemNumber item, std::size_t line) const {
+  void check_state(const std::vector<double>& given, std::string_view item, std::size_t line) const {
     if (given.empty() || (scene_.robot && scene_.robot->kind == RobotKind::urdf)) return;
     if (const std::size_t count = given.size(); count == 1 || count == 4 || count == 5) {
-      Place{file_.name(), line}.fail(fmt::format("expected `{}`", items[item].usage), scene_text::numbers_text(count));
+      Place{file_.name(), line}.fail(fmt::format("expected `{}`", item_named(item)->usage),
+                                     scene_text::numbers_text(count));
     }
     if (!scene_.robot) return;
     const std::size_t wanted = state_size(*scene_.robot);
-    const bool any_heading = item == goal_item && wanted == 3 && given.size() == 2;
-    const bool place_of_tool = item == goal_item && wanted == 6 && given.size() == 3;
+    const bool any_heading = item == "goal" && wanted == 3 && given.size() == 2;
+    const bool place_of_tool = item == "goal" && wanted == 6 && given.size() == 3;
     if (given.size() == wanted || any_heading || place_of_tool) return;
-    Place{file_.name(), line}.fail(fmt::format("`{}` must be {} numbers for the robot of line {}", items[item].name,
-                                               wanted, first_lines_[robot_item]),
-                                   fmt::format("{} numbers", given.size()));
+    Place{file_.name(), line}.fail(
+        fmt::format("`{}` must be {} numbers for the robot of line {}", item, wanted, first_line("robot")),
+        fmt::format("{} numbers", given.size()));
   }
   /// Without a robot's line the question names an arm, or says what is wrong.
   void check_arm_lines() const {
     const bool has_plane_robot = !scene_.robot || scene_.robot->kind == RobotKind::point ||
                                  scene_.robot->kind == RobotKind::disc || state_size(*scene_.robot) == 3;
     if (!scene_.other_goals.empty() && !has_plane_robot) {
-      place_of(goal_item).fail("an arm's goals are several where all are `goal joints NAME VALUE ...`");
+      place_of("goal").fail("an arm's goals are several where all are `goal joints NAME VALUE ...`");
     }
     if (scene_.robot && scene_.robot->kind == RobotKind::urdf) return check_robot_line(*scene_.robot->files);
     if (!scene_.robot) return;
-    for (const ItemNumber item : {attach_item, hold_item, allow_item, tool_item, group_item}) {
-      if (first_lines_[item] > 0) place_of(item).fail(fmt::format("`{}` takes a `robot urdf`", items[item].name));
+    for (const std::string_view item : {"attach", "hold", "allow", "tool", "group"}) {
+      if (first_line(item) > 0) place_of(item).fail(fmt::format("`{}` takes a `robot urdf`", item));
     }
     const bool has_names = scene_.named_start.has_value();
     if (has_names || !scene_.named_goals.empty() || scene_.goal_pose) {
-      place_of(has_names ? start_item : goal_item).fail("names of joints and poses of the tool take a `robot urdf`");
+      place_of(has_names ? "start" : "goal").fail("names of joints and poses of the tool take a `robot urdf`");
     }
   }
   /// A line of its own says nothing else than the robot's line says.
   void check_robot_line(const ArmFiles& own) const {
     if (!scene_.arm) return;
-    const auto refuse = [&](ItemNumber item) {
-      place_of(item).fail(fmt::format("`{}` says another thing than the robot's line {}; leave one out",
-                                      items[item].name, first_lines_[robot_item]));
+    const auto refuse = [&](std::string_view item) {
+      place_of(item).fail(
+          fmt::format("`{}` says another thing than the robot's line {}; leave one out", item, first_line("robot")));
     };
     const ArmFiles& said = *scene_.arm;
-    if (!own.tool.empty() && !said.tool.empty() && own.tool != said.tool) refuse(tool_item);
+    if (!own.tool.empty() && !said.tool.empty() && own.tool != said.tool) refuse("tool");
     const bool has_ends = !own.base.empty() || !own.tip.empty();
-    if (!said.group.empty() && (has_ends || (!own.group.empty() && own.group != said.group))) refuse(group_item);
+    if (!said.group.empty() && (has_ends || (!own.group.empty() && own.group != said.group))) refuse("group");
     for (const auto& held : own.held) {
       const auto differs = [&](const auto& line) { return line.first == held.first && line.second != held.second; };
-      if (std::ranges::any_of(said.held, differs)) refuse(hold_item);
+      if (std::ranges::any_of(said.held, differs)) refuse("hold");
     }
   }
   void check_maze() const {
@@ -352,11 +343,11 @@ class SceneReader {
       if (!fields.number_follows() && fields.word() != "wall") continue;
       if (walls++ < *off) continue;
       fields.place().fail(fmt::format("this wall is not on the unit grid of the {}x{} maze of line {}",
-                                      scene_.maze->rows, scene_.maze->cols, first_lines_[maze_item]),
+                                      scene_.maze->rows, scene_.maze->cols, first_line("maze")),
                           lines.line());
     }
   }
-  Place place_of(ItemNumber item) const { return {file_.name(), first_lines_[item]}; }
+  Place place_of(std::string_view item) const { return {file_.name(), first_line(item)}; }
 
   const InputFile& file_;
   const Execution& execution_;
@@ -416,13 +407,16 @@ void append_number(std::string& text, double x) {
   fmt::format_to(std::back_inserter(text), "{}", x + 0.0);  // no negative zeros
 }
 
+/// A blank and a number.
+void append_next(std::string& text, double x) {
+  text.push_back(' ');
+  append_number(text, x);
+}
+
 /// An item and its numbers, one line.
 void append_item(std::string& text, std::string_view item, std::span<const double> numbers) {
   text.append(item);
-  for (const double x : numbers) {
-    text.push_back(' ');
-    append_number(text, x);
-  }
+  for (const double x : numbers) append_next(text, x);
   text.push_back('\n');
 }
 template <class... Numbers>
@@ -435,10 +429,7 @@ void append_polygon(std::string& text, const std::vector<Vec2>& points, const Ex
   text.append("polygon");
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (i % points_per_poll == points_per_poll - 1) execution.check();
-    for (const double x : {points[i].x, points[i].y}) {
-      text.push_back(' ');
-      append_number(text, x);
-    }
+    for (const double x : {points[i].x, points[i].y}) append_next(text, x);
   }
   text.push_back('\n');
 }
@@ -513,11 +504,8 @@ std::string solids_of(const Scene& scene) {
 }
 
 void append_wall(std::string& text, const Segment& s) {
-  for (const double x : {s.a.x, s.a.y, s.b.x}) {
-    append_number(text, x);
-    text.push_back(' ');
-  }
-  append_number(text, s.b.y);
+  append_number(text, s.a.x);
+  for (const double x : {s.a.y, s.b.x, s.b.y}) append_next(text, x);
   text.push_back('\n');
 }
 

@@ -63,6 +63,12 @@ class Tokens {
     }
     return word;
   }
+  /// What says that more coordinates follow x and y, if it is there.
+  void take_dimensions() {
+    for (const std::string_view tag : {"ZM", "Z", "M"}) {
+      if (take_word(tag)) return;
+    }
+  }
   bool take_word(std::string_view wanted) {
     const Tokens before = *this;
     if (word() == wanted) return true;
@@ -153,29 +159,14 @@ class WktReader {
     if (depth > deepest) tokens_.fail("geometry collections that are nested less deeply");
     const Type type = read_type();
     if (tokens_.take_word("EMPTY")) return;
-    switch (type) {
-      case Type::point:
-        chain();
-        break;
-      case Type::points:
-        list([&] { tokens_.next_is('(') ? static_cast<void>(chain()) : static_cast<void>(position()); });
-        break;
-      case Type::line:
-        line();
-        break;
-      case Type::lines:
-        list([&] { line(); });
-        break;
-      case Type::polygon:
-        polygon();
-        break;
-      case Type::polygons:
-        list([&] { polygon(); });
-        break;
-      case Type::collection:
-        list([&] { geometry(depth + 1); });
-        break;
-    }
+    if (type == Type::point) chain();
+    if (type == Type::points)
+      list([&] { tokens_.next_is('(') ? static_cast<void>(chain()) : static_cast<void>(position()); });
+    if (type == Type::line) line();
+    if (type == Type::lines) list([&] { line(); });
+    if (type == Type::polygon) polygon();
+    if (type == Type::polygons) list([&] { polygon(); });
+    if (type == Type::collection) list([&] { geometry(depth + 1); });
   }
 
   Type read_type() {
@@ -184,11 +175,7 @@ class WktReader {
     for (const std::string_view tail : {"", "Z", "M", "ZM"}) {
       for (std::size_t i = 0; i < type_names.size(); ++i) {
         if (word != std::string{type_names[i]} + std::string{tail}) continue;
-        if (tail.empty()) {
-          for (const std::string_view tag : {"ZM", "Z", "M"}) {
-            if (tokens_.take_word(tag)) break;
-          }
-        }
+        if (tail.empty()) tokens_.take_dimensions();
         return static_cast<Type>(i);
       }
     }
@@ -274,9 +261,7 @@ bool is_wkt(std::string_view bytes) {
   std::string type = head.word();
   while (type.ends_with('Z') || type.ends_with('M')) type.pop_back();
   if (std::find(type_names.begin(), type_names.end(), type) == type_names.end()) return false;
-  for (const std::string_view tag : {"ZM", "Z", "M"}) {
-    if (head.take_word(tag)) break;
-  }
+  head.take_dimensions();
   return head.take_word("EMPTY") || head.next_is('(');
 }
 

@@ -18,14 +18,13 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "four cells are copied as one number");
 
 /// The four cells of a byte, a byte each.
-constexpr std::array<std::uint32_t, 256> make_cells() {
+constexpr std::array<std::uint32_t, 256> cells_of_byte = [] {
   std::array<std::uint32_t, 256> cells{};
   for (std::uint32_t byte = 0; byte < 256; ++byte) {
     cells[byte] = (byte & 3U) | (byte >> 2U & 3U) << 8U | (byte >> 4U & 3U) << 16U | (byte >> 6U) << 24U;
   }
   return cells;
-}
-constexpr std::array<std::uint32_t, 256> cells_of_byte = make_cells();
+}();
 
 void unpack(const std::uint8_t* bits, std::uint32_t count, std::uint8_t* out) {
   const std::uint32_t whole = count / 4;

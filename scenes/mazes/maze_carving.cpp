@@ -13,37 +13,6 @@
 namespace warren::maze {
 namespace {
 
-/// Puts cells next to the maze up for a random draw.
-class Frontier {
- public:
-  Frontier(const Steps& at, const Execution& execution) : at_(at), execution_(execution) {}
-  bool empty() const { return cells_.empty(); }
-
-  /// Puts cell i into the maze and its new neighbours into the frontier.
-  void add_to_maze(std::size_t i) {
-    at_[i] |= in_maze;
-    const unsigned fresh = at_.neighbours_with(i, in_maze | in_frontier, 0);
-    for (unsigned d = 0; d < 4; ++d) {
-      if ((fresh >> d & 1U) == 0) continue;
-      const std::size_t to = at_.neighbour(i, d);
-      at_[to] |= in_frontier;
-      push_asked(cells_, to, execution_);
-    }
-  }
-  std::size_t take(SequentialRng& rng) {
-    std::size_t& drawn = cells_[rng.below(cells_.size())];
-    const std::size_t i = drawn;
-    drawn = cells_.back();
-    cells_.pop_back();
-    return i;
-  }
-
- private:
-  const Steps& at_;
-  const Execution& execution_;
-  std::vector<std::size_t> cells_;
-};
-
 /// Directions from 64 random bits, two bits each.
 class DirectionBits {
  public:
@@ -63,42 +32,6 @@ class DirectionBits {
   SequentialRng rng_;
   std::uint64_t bits_ = 0;
   unsigned left_ = 0;
-};
-
-class Walker {
- public:
-  Walker(MazeCells& cells, std::uint64_t seed, const Execution& execution)
-      : at_(cells), directions_(seed), poll_(execution) {}
-
-  /// Walks from i until the tree is met; every cell on the way remembers how it was last left.
-  void walk(std::size_t i) {
-    while ((at_[i] & in_maze) == 0) {
-      poll_.step(carved_);
-      const unsigned d = directions_.next();
-      const std::size_t to = at_.neighbour(i, d);
-      if (!at_.is_index(to) || (at_[to] & outside) != 0) continue;  // draw again: uniform among those that exist
-      at_[i] = static_cast<std::uint8_t>((at_[i] & ~direction_bits) | d << direction_shift);
-      i = to;
-    }
-  }
-  /// Follows the remembered directions from i and carves them.
-  void carve(std::size_t i) {
-    while ((at_[i] & in_maze) == 0) {
-      const unsigned d = at_[i] >> direction_shift & 3U;
-      at_[i] |= in_maze;
-      at_.open(i, d);
-      i = at_.neighbour(i, d);
-      ++carved_;
-    }
-  }
-  void add(std::size_t i) { at_[i] |= in_maze; }
-  void skip() { poll_.step(carved_); }
-
- private:
-  Steps at_;
-  DirectionBits directions_;
-  StepPoll poll_;
-  std::uint64_t carved_ = 0;
 };
 
 /// Gives the gap bytes further bits, so that no walk enters them.
@@ -145,13 +78,26 @@ void carve_prim(MazeCells& cells, std::uint64_t seed, const Execution& execution
   const Steps at(cells);
   SequentialRng rng(seed);
   StepPoll poll(execution);
-  Frontier frontier(at, execution);
-  frontier.add_to_maze(cells.index(cells.cols() / 2, cells.rows() / 2));
+  std::vector<std::size_t> frontier;
+  const auto add_to_maze = [&](std::size_t i) {
+    at[i] |= in_maze;
+    const unsigned fresh = at.neighbours_with(i, in_maze | in_frontier, 0);
+    for (unsigned d = 0; d < 4; ++d) {
+      if ((fresh >> d & 1U) == 0) continue;
+      const std::size_t to = at.neighbour(i, d);
+      at[to] |= in_frontier;
+      push_asked(frontier, to, execution);
+    }
+  };
+  add_to_maze(cells.index(cells.cols() / 2, cells.rows() / 2));
   for (std::uint64_t carved = 1; !frontier.empty(); ++carved) {
     poll.step(carved);
-    const std::size_t i = frontier.take(rng);
+    std::size_t& drawn = frontier[rng.below(frontier.size())];
+    const std::size_t i = drawn;
+    drawn = frontier.back();
+    frontier.pop_back();
     at.open(i, choose_direction(at.neighbours_with(i, in_maze, in_maze), rng));
-    frontier.add_to_maze(i);
+    add_to_maze(i);
   }
 }
 
@@ -162,12 +108,27 @@ void carve_prim(MazeCells& cells, std::uint64_t seed, const Execution& execution
 /// resistances to it, about 10 a cell at 1000 x 1000, growing with the logarithm of the side) is least there.
 void carve_wilson(MazeCells& cells, std::uint64_t seed, const Execution& execution) {
   mark_gaps(cells, in_maze | outside, execution);
-  Walker walker(cells, seed, execution);
-  walker.add(cells.index(cells.cols() / 2, cells.rows() / 2));
-  for (std::size_t i = 1; i < cells.bytes().size(); ++i) {
-    walker.skip();
-    walker.walk(i);  // nothing for gap bytes: they count as tree
-    walker.carve(i);
+  const Steps at(cells);
+  DirectionBits directions(seed);
+  StepPoll poll(execution);
+  std::uint64_t carved = 0;
+  at[cells.index(cells.cols() / 2, cells.rows() / 2)] |= in_maze;
+  for (std::size_t begin = 1; begin < cells.bytes().size(); ++begin) {
+    poll.step(carved);
+    for (std::size_t i = begin; (at[i] & in_maze) == 0;) {  // no step for gap bytes: they count as tree
+      poll.step(carved);
+      const unsigned d = directions.next();
+      const std::size_t to = at.neighbour(i, d);
+      if (!at.is_index(to) || (at[to] & outside) != 0) continue;  // draw again: uniform among those that exist
+      at[i] = static_cast<std::uint8_t>((at[i] & ~direction_bits) | d << direction_shift);
+      i = to;
+    }
+    for (std::size_t i = begin; (at[i] & in_maze) == 0; ++carved) {
+      const unsigned d = at[i] >> direction_shift & 3U;
+      at[i] |= in_maze;
+      at.open(i, d);
+      i = at.neighbour(i, d);
+    }
   }
 }
 

@@ -39,8 +39,6 @@ class Steps {
 
   /// The neighbour's index; may be a gap byte, and right of the last or left of the first column it is no index at all.
   std::size_t neighbour(std::size_t i, unsigned d) const { return i + static_cast<std::size_t>(offsets_[d]); }
-  bool has_left(std::size_t i) const { return i > static_cast<std::size_t>(offsets_[0]); }
-  bool has_right(std::size_t i) const { return i + static_cast<std::size_t>(offsets_[0]) < end_; }
   bool is_index(std::size_t i) const { return i < end_; }
   std::uint8_t& operator[](std::size_t i) const { return bytes_[i]; }
 
@@ -54,8 +52,8 @@ class Steps {
   unsigned neighbours_with(std::size_t i, std::uint8_t bits, std::uint8_t value) const {
     unsigned mask = (bytes_[i + 1] & bits) == value ? 2U : 0U;
     mask |= (bytes_[i - 1] & bits) == value ? 8U : 0U;
-    if (has_right(i)) mask |= (bytes_[neighbour(i, 0)] & bits) == value ? 1U : 0U;
-    if (has_left(i)) mask |= (bytes_[neighbour(i, 2)] & bits) == value ? 4U : 0U;
+    if (is_index(neighbour(i, 0))) mask |= (bytes_[neighbour(i, 0)] & bits) == value ? 1U : 0U;
+    if (i > static_cast<std::size_t>(offsets_[0])) mask |= (bytes_[neighbour(i, 2)] & bits) == value ? 4U : 0U;
     return mask;
   }
 
@@ -65,26 +63,23 @@ class Steps {
   std::array<std::ptrdiff_t, 4> offsets_;
 };
 
-/// One of the directions in a mask of 1 to 15, each as likely as the others: one random number below 12 serves 1, 2, 3
-/// and 4 candidates alike.
-class DirectionChoice {
- public:
-  constexpr DirectionChoice() {
-    for (unsigned mask = 1; mask < 16; ++mask) {
-      std::array<std::uint8_t, 4> candidates{};
-      unsigned count = 0;
-      for (std::uint8_t d = 0; d < 4; ++d) {
-        if ((mask >> d & 1U) != 0) candidates[count++] = d;
-      }
-      for (unsigned k = 0; k < 12; ++k) table_[mask * 16 + k] = candidates[k % count];
+/// By mask of directions, 1 to 15: twelve of them, each as often as the others.
+inline constexpr std::array<std::uint8_t, 256> direction_choices = [] {
+  std::array<std::uint8_t, 256> choices{};
+  for (unsigned mask = 1; mask < 16; ++mask) {
+    std::array<std::uint8_t, 4> candidates{};
+    unsigned count = 0;
+    for (std::uint8_t d = 0; d < 4; ++d) {
+      if ((mask >> d & 1U) != 0) candidates[count++] = d;
     }
+    for (unsigned k = 0; k < 12; ++k) choices[mask * 16 + k] = candidates[k % count];
   }
-  unsigned operator()(unsigned mask, SequentialRng& rng) const { return table_[mask * 16 + rng.below(12)]; }
-
- private:
-  std::array<std::uint8_t, 256> table_{};
-};
-inline constexpr DirectionChoice choose_direction;
+  return choices;
+}();
+/// One of the directions in a mask: one random number below 12 serves 1, 2, 3 and 4 candidates alike.
+inline unsigned choose_direction(unsigned mask, SequentialRng& rng) {
+  return direction_choices[mask * 16 + rng.below(12)];
+}
 
 /// Looks at the deadline every 16384th step and tells how many cells are carved.
 class StepPoll {

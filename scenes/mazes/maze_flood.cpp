@@ -43,13 +43,9 @@ bool all_on_grid(std::span<const WallOf<T>> walls, MazeHint hint) {
   return off.sum() == 0 && oblique == 0 && excess.maxCoeff() <= 0;
 }
 
-/// Floats count grid lines exactly below this.
-bool fits_float_lines(MazeHint hint) {
-  return std::max(hint.rows, hint.cols) < (std::uint32_t{1} << (std::numeric_limits<float>::digits - 1));
-}
-
 bool all_on_grid_exactly(std::span<const FloatWall> walls, MazeHint hint) {
-  if (fits_float_lines(hint)) return all_on_grid(walls, hint);
+  constexpr std::uint32_t exact_lines = std::uint32_t{1} << (std::numeric_limits<float>::digits - 1);
+  if (std::max(hint.rows, hint.cols) < exact_lines) return all_on_grid(walls, hint);
   return std::all_of(walls.begin(), walls.end(), [&](const FloatWall& w) {
     const DoubleWall wide{w.x1, w.y1, w.x2, w.y2};
     return all_on_grid(std::span<const DoubleWall>(&wide, 1), hint);

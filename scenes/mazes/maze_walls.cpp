@@ -19,30 +19,19 @@ namespace {
 constexpr std::size_t wall_grain = std::size_t{1} << 16;
 constexpr std::uint32_t largest_float_side = (1U << 23U) - 1;  // side + 0.5 is a float up to here
 
-/// Makes walls from grid lines: line k is the coordinate k + 0.5.
+/// The wall that goes so far to the right, or up, from where grid lines x and y cross; line k is at k + 0.5.
 template <class Wall>
-struct GridLines;
-template <class T>
-struct GridLines<WallOf<T>> {
-  static T at(std::uint32_t line) { return static_cast<T>(line) + T{0.5}; }
-  static WallOf<T> upright(std::uint32_t x, std::uint32_t y, std::uint32_t length) {
-    return {at(x), at(y), at(x), at(y + length)};
+Wall wall_on_lines(std::uint32_t x, std::uint32_t y, std::uint32_t right, std::uint32_t up) {
+  if constexpr (std::is_same_v<Wall, PackedWall>) {
+    const auto steps = [](std::uint32_t units) { return static_cast<std::int32_t>(units) * PackedWall::per_unit; };
+    const auto at = [&](std::uint32_t line) { return steps(line) + PackedWall::per_unit / 2; };
+    return right == 0 ? PackedWall::upright(at(x), at(y), steps(up)) : PackedWall::level(at(x), at(y), steps(right));
+  } else {
+    using T = typename Wall::Number;
+    const auto at = [](std::uint32_t line) { return static_cast<T>(line) + T{0.5}; };
+    return {at(x), at(y), at(x + right), at(y + up)};
   }
-  static WallOf<T> level(std::uint32_t x, std::uint32_t y, std::uint32_t length) {
-    return {at(x), at(y), at(x + length), at(y)};
-  }
-};
-template <>
-struct GridLines<PackedWall> {
-  static std::int32_t steps(std::uint32_t units) { return static_cast<std::int32_t>(units) * PackedWall::per_unit; }
-  static std::int32_t at(std::uint32_t line) { return steps(line) + PackedWall::per_unit / 2; }
-  static PackedWall upright(std::uint32_t x, std::uint32_t y, std::uint32_t length) {
-    return PackedWall::upright(at(x), at(y), steps(length));
-  }
-  static PackedWall level(std::uint32_t x, std::uint32_t y, std::uint32_t length) {
-    return PackedWall::level(at(x), at(y), steps(length));
-  }
-};
+}
 
 /// Where columns of cells lie in a maze of which they are a part.
 struct ColumnsOfMaze {
@@ -165,38 +154,35 @@ class WallWriter {
 template <class Wall, class Writer>
 void write_units(const MazeCells& cells, const WallStarts& starts, const Run& run, Writer& writer) {
   const std::uint8_t* bytes = cells.bytes().data() + cells.index(run.col, 0);
-  using Lines = GridLines<Wall>;
   const unsigned interior = starts.interior_of(run.col);
   const std::uint32_t col = starts.col_of(run.col);
   for (std::uint32_t row = run.row_first; row < run.row_last; ++row) {
     const unsigned bits = bytes[row] & interior & (row + 1 == cells.rows() ? 1U : 3U);
     writer.make_room();
-    writer.add(Lines::upright(col + 1, row, 1), bits & 1U);
-    writer.add(Lines::level(col, row + 1, 1), bits >> 1U);
+    writer.add(wall_on_lines<Wall>(col + 1, row, 0, 1), bits & 1U);
+    writer.add(wall_on_lines<Wall>(col, row + 1, 1, 0), bits >> 1U);
   }
 }
 
 template <class Wall>
 void write_merged(const WallStarts& starts, const Run& run, WallWriter<Wall>& writer) {
-  using Lines = GridLines<Wall>;
   const std::uint32_t col = starts.col_of(run.col);
   for (std::uint32_t row = run.row_first; row < run.row_last; ++row) {
     const unsigned bits = starts.at(run.col, row);
     writer.make_room();
     if ((bits & MazeCells::right_wall) != 0) {
-      writer.add(Lines::upright(col + 1, row, starts.rows_along(run.col, row)), 1);
+      writer.add(wall_on_lines<Wall>(col + 1, row, 0, starts.rows_along(run.col, row)), 1);
     }
     if ((bits & MazeCells::upper_wall) != 0) {
-      writer.add(Lines::level(col, row + 1, starts.cols_along(run.col, row)), 1);
+      writer.add(wall_on_lines<Wall>(col, row + 1, starts.cols_along(run.col, row), 0), 1);
     }
   }
 }
 
 template <class Wall>
 std::array<Wall, 4> outline(std::uint32_t rows, std::uint32_t cols) {
-  using Lines = GridLines<Wall>;
-  return {Lines::level(0, 0, cols), Lines::level(0, rows, cols), Lines::upright(0, 1, rows - 1),
-          Lines::upright(cols, 0, rows - 1)};
+  return {wall_on_lines<Wall>(0, 0, cols, 0), wall_on_lines<Wall>(0, rows, cols, 0),
+          wall_on_lines<Wall>(0, 1, 0, rows - 1), wall_on_lines<Wall>(cols, 0, 0, rows - 1)};
 }
 
 /// Where the walls of each chunk of these cells stand, behind the first `before`; and the end.
@@ -259,13 +245,12 @@ bool has_walls_as(std::span<const Wall> walls, const MazeCells& cells, const Exe
   const std::vector<std::size_t> places = places_of(cells, starts, {0, cells.cell_count()}, 4, execution);
   const std::array<Wall, 4> frame = outline<Wall>(cells.rows(), cells.cols());
   if (walls.size() != places.back() || !std::equal(frame.begin(), frame.end(), walls.begin())) return false;
-  std::vector<std::uint8_t> same(places.size() - 1);
-  for_chunks(cells.cell_count(), wall_grain, execution, [&](Range r) {
+  const std::size_t first_other = first_in_chunks(cells.cell_count(), wall_grain, execution, [&](Range r) {
     WallComparer<Wall> comparer(walls.data() + places[r.first / wall_grain]);
     for_runs(cells, r, [&](const Run& run) { write_units<Wall>(cells, starts, run, comparer); });
-    same[r.first / wall_grain] = comparer.same() ? 1 : 0;
+    return comparer.same() ? r.last : r.first;
   });
-  return std::find(same.begin(), same.end(), 0) == same.end();
+  return first_other == cells.cell_count();
 }
 
 template <class Wall>
@@ -290,15 +275,80 @@ std::string_view bytes_of(std::span<const WallOf<T>> walls) {
 
 Execution quietly(const Execution& execution) { return {execution.threads, execution.deadline}; }
 
+std::uint32_t width_of_strip(const CellWallSource& maze, std::size_t strip) {
+  const std::uint32_t side = 1U << maze.side_log2();
+  return std::min(side, maze.cols() - static_cast<std::uint32_t>(strip) * side);
+}
+
+/// A column of tiles, and of the one before it the last column of cells.
+struct WallStrip {
+  std::size_t number;
+  std::uint32_t lead;  // columns before it that are there: 0 or 1
+  MazeCells cells;
+
+  std::uint32_t first_col(const CellWallSource& maze) const {
+    return (static_cast<std::uint32_t>(number) << maze.side_log2()) - lead;
+  }
+  Range own_cells() const { return {std::uint64_t{lead} * cells.rows(), cells.cell_count()}; }
+  void read(const CellWallSource& maze, const Execution& execution) {
+    constexpr std::size_t grain = 8;  // a reader's scratch is large
+    for_chunks(maze.tile_count() / maze.tile_cols(), grain, execution, [&](Range r) {
+      const auto reader = maze.reader();
+      CellTile tile;
+      for (std::size_t row_of_tiles = r.first; row_of_tiles < r.last; ++row_of_tiles) {
+        reader->read(row_of_tiles * maze.tile_cols() + number, tile);
+        copy_tile(tile, cells, lead);
+      }
+    });
+  }
+};
+
+/// Calls visit(strip) for each strip of a maze, from the left.
+template <class Visit>
+void for_each_strip(const CellWallSource& maze, const Execution& execution, const Visit& visit) {
+  WallStrip strip{0, 0, MazeCells(maze.rows(), width_of_strip(maze, 0), execution)};
+  strip.read(maze, execution);
+  for (;;) {
+    visit(strip);
+    const std::size_t number = strip.number + 1;
+    if (number == maze.tile_cols()) return;
+    WallStrip next{number, 1, MazeCells(maze.rows(), width_of_strip(maze, number) + 1, execution)};
+    const std::span<const std::uint8_t> last = std::span<const std::uint8_t>(strip.cells.bytes())
+                                                   .subspan(strip.cells.index(strip.cells.cols() - 1, 0), maze.rows());
+    std::copy(last.begin(), last.end(),
+              next.cells.bytes().begin() + static_cast<std::ptrdiff_t>(next.cells.index(0, 0)));
+    next.read(maze, execution);
+    strip = std::move(next);
+  }
+}
+
+/// By row, how many of its own cells an upper wall at a strip's left end runs along.
+void note_runs(const WallStrip& strip, std::span<std::uint16_t> runs, const Execution& execution) {
+  for_each_index<std::uint32_t>(runs.size(), rows_grain, quietly(execution), [&](std::uint32_t row) {
+    std::uint32_t col = strip.lead;
+    while (col < strip.cells.cols() && strip.cells.wall_above(col, row)) ++col;
+    runs[row] = static_cast<std::uint16_t>(col - strip.lead);
+  });
+}
+
+template <class T>
+void write_strip(const MazeCells& cells, Range own, const WallStarts& starts,
+                 const std::function<void(std::string_view)>& take, const Execution& execution) {
+  RawVector<WallOf<T>> walls;
+  for (std::uint64_t first = own.first; first < own.last; first += cells_a_piece) {
+    const Range some{first, std::min(first + cells_a_piece, own.last)};
+    const std::vector<std::size_t> places = places_of(cells, starts, some, 0, execution);
+    if (places.back() > walls.capacity()) execution.reserve(places.back() * sizeof(WallOf<T>));
+    walls.resize(places.back());
+    write_walls(cells, starts, some, places, walls.data(), quietly(execution));
+    take(bytes_of<T>(walls));
+  }
+}
+
 }  // namespace
 
 std::uint64_t interior_walls(const MazeCells& cells, const Execution& execution) {
-  const WallStarts starts(cells, false);
-  return sum_of_chunks(cells.cell_count(), wall_grain, execution, [&](Range r) {
-    std::uint64_t sum = 0;
-    for_runs(cells, r, [&](const Run& run) { sum += starts.count(run); });
-    return sum;
-  });
+  return places_of(cells, WallStarts(cells, false), {0, cells.cell_count()}, 0, execution).back();
 }
 
 std::size_t maze_wall_bytes(std::uint32_t rows, std::uint32_t cols) {
@@ -323,97 +373,29 @@ bool has_maze_walls(const WallSet& walls, const MazeCells& cells, const Executio
 WallStrips::WallStrips(const CellWallSource& cells, bool merged, const Execution& execution)
     : cells_(cells), merged_(merged) {
   if (merged) {
-    execution.reserve(strip_count() * cells.rows() * sizeof(runs_[0]));
-    runs_.resize(strip_count() * cells.rows());
+    execution.reserve(cells.tile_cols() * cells.rows() * sizeof(runs_[0]));
+    runs_.resize(cells.tile_cols() * cells.rows());
   }
   if (execution.progress != nullptr) execution.progress->begin("walls", cells.tile_count());
-  Strip strip = first_strip(execution);
-  for (;; go_on(strip, execution)) {
-    const WallStarts starts(strip.cells, merged, {first_col(strip), cells.cols()});
-    const std::uint64_t lead = std::uint64_t{strip.lead} * cells.rows();
-    count_ = places_of(strip.cells, starts, {lead, strip.cells.cell_count()}, count_, execution).back();
-    if (merged) note_runs(strip, execution);
-    if (strip.number + 1 == strip_count()) break;
-  }
+  for_each_strip(cells, execution, [&](const WallStrip& strip) {
+    const WallStarts starts(strip.cells, merged, {strip.first_col(cells), cells.cols()});
+    count_ = places_of(strip.cells, starts, strip.own_cells(), count_, execution).back();
+    if (merged) note_runs(strip, std::span(runs_).subspan(strip.number * cells.rows(), cells.rows()), execution);
+  });
 }
 
 bool WallStrips::holds_floats() const { return std::max(cells_.rows(), cells_.cols()) <= largest_float_side; }
 
-std::uint32_t WallStrips::width_of(std::size_t strip) const {
-  const std::uint32_t side = 1U << cells_.side_log2();
-  return std::min(side, cells_.cols() - static_cast<std::uint32_t>(strip) * side);
-}
-
-std::uint32_t WallStrips::first_col(const Strip& strip) const {
-  return (static_cast<std::uint32_t>(strip.number) << cells_.side_log2()) - strip.lead;
-}
-
-WallStrips::Strip WallStrips::first_strip(const Execution& execution) const {
-  Strip strip{0, 0, MazeCells(cells_.rows(), width_of(0), execution)};
-  read(strip, execution);
-  return strip;
-}
-
-void WallStrips::go_on(Strip& strip, const Execution& execution) const {
-  const std::size_t number = strip.number + 1;
-  Strip next{number, 1, MazeCells(cells_.rows(), width_of(number) + 1, execution)};
-  const std::span<const std::uint8_t> last = std::span<const std::uint8_t>(strip.cells.bytes())
-                                                 .subspan(strip.cells.index(strip.cells.cols() - 1, 0), cells_.rows());
-  std::copy(last.begin(), last.end(), next.cells.bytes().begin() + static_cast<std::ptrdiff_t>(next.cells.index(0, 0)));
-  read(next, execution);
-  strip = std::move(next);
-}
-
-void WallStrips::read(Strip& strip, const Execution& execution) const {
-  constexpr std::size_t grain = 8;  // a reader's scratch is large
-  for_chunks(cells_.tile_count() / strip_count(), grain, execution, [&](Range r) {
-    const auto reader = cells_.reader();
-    CellTile tile;
-    for (std::size_t row_of_tiles = r.first; row_of_tiles < r.last; ++row_of_tiles) {
-      reader->read(row_of_tiles * strip_count() + strip.number, tile);
-      copy_tile(tile, strip.cells, strip.lead);
-    }
-  });
-}
-
-void WallStrips::note_runs(const Strip& strip, const Execution& execution) {
-  for_chunks(cells_.rows(), rows_grain, quietly(execution), [&](Range r) {
-    for (auto row = static_cast<std::uint32_t>(r.first); row < r.last; ++row) {
-      std::uint32_t col = strip.lead;
-      while (col < strip.cells.cols() && strip.cells.wall_above(col, row)) ++col;
-      runs_[strip.number * cells_.rows() + row] = static_cast<std::uint16_t>(col - strip.lead);
-    }
-  });
-}
-
-/// By row, how far an upper wall goes on right of a strip.
 std::vector<std::uint32_t> WallStrips::beyond(std::size_t strip) const {
   std::vector<std::uint32_t> cells(merged_ ? cells_.rows() : 0, 0);
   for (std::size_t row = 0; row < cells.size(); ++row) {
-    for (std::size_t next = strip + 1; next < strip_count(); ++next) {
+    for (std::size_t next = strip + 1; next < cells_.tile_cols(); ++next) {
       const std::uint32_t run = runs_[next * cells_.rows() + row];
       cells[row] += run;
-      if (run < width_of(next)) break;
+      if (run < width_of_strip(cells_, next)) break;
     }
   }
   return cells;
-}
-
-template <class T>
-void WallStrips::write_strip(const Strip& strip, const std::function<void(std::string_view)>& take,
-                             const Execution& execution) const {
-  const std::vector<std::uint32_t> going_on = beyond(strip.number);
-  const WallStarts starts(strip.cells, merged_, {first_col(strip), cells_.cols(), merged_ ? going_on.data() : nullptr});
-  RawVector<WallOf<T>> walls;
-  const std::uint64_t last = strip.cells.cell_count();
-  for (std::uint64_t first = std::uint64_t{strip.lead} * cells_.rows(); first < last; first += cells_a_piece) {
-    const Range some{first, std::min(first + cells_a_piece, last)};
-    const std::vector<std::size_t> places = places_of(strip.cells, starts, some, 0, execution);
-    if (places.back() > walls.capacity()) execution.reserve(places.back() * sizeof(WallOf<T>));
-    walls.resize(places.back());
-    write_walls(strip.cells, starts, some, places, walls.data(), quietly(execution));
-    take(bytes_of<T>(walls));
-  }
 }
 
 void WallStrips::write(const std::function<void(std::string_view)>& take, const Execution& execution) const {
@@ -422,10 +404,13 @@ void WallStrips::write(const std::function<void(std::string_view)>& take, const 
   const auto with = [&]<class T>(T) {
     const auto frame = outline<WallOf<T>>(cells_.rows(), cells_.cols());
     take(bytes_of<T>(frame));
-    for (Strip strip = first_strip(execution);; go_on(strip, execution)) {
-      write_strip<T>(strip, take, execution);
-      if (strip.number + 1 == strip_count()) break;
-    }
+    for_each_strip(cells_, execution, [&](const WallStrip& strip) {
+      const std::vector<std::uint32_t> going_on = beyond(strip.number);
+      write_strip<T>(
+          strip.cells, strip.own_cells(),
+          {strip.cells, merged_, {strip.first_col(cells_), cells_.cols(), merged_ ? going_on.data() : nullptr}}, take,
+          execution);
+    });
   };
   holds_floats() ? with(float{}) : with(double{});
 }

@@ -29,23 +29,8 @@ class WallStrips {
   void write(const std::function<void(std::string_view)>& take, const Execution& execution) const;
 
  private:
-  /// A column of tiles, and of the one before it the last column of cells.
-  struct Strip {
-    std::size_t number;
-    std::uint32_t lead;  // columns before it that are there: 0 or 1
-    MazeCells cells;
-  };
-  Strip first_strip(const Execution& execution) const;
-  void read(Strip& strip, const Execution& execution) const;
-  void go_on(Strip& strip, const Execution& execution) const;
-  std::size_t strip_count() const { return cells_.tile_cols(); }
-  std::uint32_t width_of(std::size_t strip) const;
-  std::uint32_t first_col(const Strip& strip) const;
-  void note_runs(const Strip& strip, const Execution& execution);
+  /// By row, how far an upper wall goes on right of a strip.
   std::vector<std::uint32_t> beyond(std::size_t strip) const;
-  template <class T>
-  void write_strip(const Strip& strip, const std::function<void(std::string_view)>& take,
-                   const Execution& execution) const;
 
   const CellWallSource& cells_;
   const bool merged_;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <iterator>
 #include <limits>
@@ -20,6 +21,7 @@ namespace {
 
 constexpr std::uint32_t no_edge = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint16_t off_the_rim = std::numeric_limits<std::uint16_t>::max();
+constexpr std::uint32_t not_on_rim = std::numeric_limits<std::uint32_t>::max();
 
 /// found[i] becomes the bit of the one of four numbers that is the greatest, or least; 0 where several are.
 template <bool greatest>
@@ -37,252 +39,412 @@ void mark_single(const std::array<const std::uint32_t*, 4>& of, std::uint8_t* __
   }
 }
 
+/// The tree of one tile: scratch of one thread.
+class SpanningTile {
+ public:
+  static constexpr std::uint32_t largest_side = 256;
+
+  explicit SpanningTile(std::uint64_t seed) : weights_(seed) {}
+
+  /// width, height: 1 .. largest_side.
+  void make(const GridPiece& piece) {
+    assert(piece.width >= 1 && piece.width <= largest_side && piece.height >= 1 && piece.height <= largest_side);
+    decide_early(piece);
+    contract();
+    collect();
+    sort();
+    number_rim();
+    join();
+  }
+
+  /// How the edges were decided that are neither least nor greatest around a corner: a bit each, in the order of the
+  /// cells, 0.6 a cell.
+  void choices(std::vector<std::uint64_t>& bits) const {
+    bits.assign(2 * cells_ / 64 + 1, 0);
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < cells_; ++i) {
+      const unsigned contested = contested_[i];
+      const unsigned open = open_[i];
+      bits[n / 64] |= std::uint64_t{contested & open & 1U} << n % 64;
+      n += contested & 1U;
+      bits[n / 64] |= std::uint64_t{(contested & open) >> 1U} << n % 64;
+      n += contested >> 1U;
+    }
+    bits.resize(n / 64 + 1);
+    bits.shrink_to_fit();
+  }
+
+  /// As make(), of the same piece, from its choices: nothing is sorted, a fourth of the time. There are no rim_edges.
+  void remake(const GridPiece& piece, std::span<const std::uint64_t> choices) {
+    decide_early(piece);
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < cells_; ++i) {
+      const unsigned contested = contested_[i];
+      const unsigned first = static_cast<unsigned>(choices[n / 64] >> n % 64) & contested & 1U;
+      n += contested & 1U;
+      const unsigned second = static_cast<unsigned>(choices[n / 64] >> n % 64) & contested >> 1U;
+      n += contested >> 1U;
+      open_[i] = static_cast<std::uint8_t>(open_[i] | first | second << 1U);
+    }
+  }
+
+  /// Edges of the tree, cell by cell (row * width + col), as bits of the cell on whose right or upper side they lie.
+  std::span<const std::uint8_t> open() const { return {open_.data(), cells_}; }
+  /// By weight, ascending; with no neighbour beyond: none.
+  std::span<const RimEdge> rim_edges() const { return rim_edges_; }
+
+ private:
+  static constexpr std::uint8_t right = 1, up = 2;
+
+  struct Candidate {
+    std::uint32_t weight;  // its upper half
+    std::uint32_t place;   // 2 * cell + direction
+  };
+  using Count = std::array<std::uint32_t, 2048>;
+
+  /// What the least and the greatest edges decide.
+  void decide_early(const GridPiece& piece) {
+    piece_ = piece;
+    cells_ = std::size_t{piece.width} * piece.height;
+    weigh();
+    find_least();
+    find_greatest();
+    mark();
+  }
+
+  std::uint64_t number_of(std::uint32_t place) const {
+    const std::uint32_t cell = place / 2;
+    return edge_number(piece_.first_col + cell % piece_.width, piece_.first_row + cell / piece_.width, place % 2);
+  }
+
+  void weigh() {
+    const std::size_t width = piece_.width;
+    right_.assign(cells_ + 2 * width, no_edge);
+    up_.assign(cells_ + 2 * width, no_edge);
+    for (std::uint32_t row = 0; row < piece_.height; ++row) {
+      std::uint32_t* const right = right_.data() + (row + 1) * width;
+      std::uint32_t* const up = up_.data() + (row + 1) * width;
+      const std::uint64_t first = edge_number(piece_.first_col, std::uint64_t{piece_.first_row} + row, 0);
+      for (std::uint32_t col = 0; col < width; ++col) {
+        right[col] = static_cast<std::uint32_t>(weights_(first + 2 * col) >> 32);
+        up[col] = static_cast<std::uint32_t>(weights_(first + 2 * col + 1) >> 32);
+      }
+      right[width - 1] = no_edge;
+    }
+    std::fill_n(up_.begin() + static_cast<std::ptrdiff_t>(cells_), width, no_edge);
+  }
+
+  void find_least() {
+    const std::size_t width = piece_.width;
+    least_.assign(cells_ + 2 * width, 0);
+    mark_single<false>({right_.data() + width, up_.data() + width, right_.data() + width - 1, up_.data()},
+                       least_.data() + width, cells_);
+    cut_at_rim();
+  }
+
+  /// Cells of the rim choose nothing and are not chosen.
+  void cut_at_rim() {
+    const std::size_t width = piece_.width;
+    std::uint8_t* const least = least_.data() + width;
+    const auto clear = [&](std::size_t cell, unsigned bits) {
+      least[cell] = static_cast<std::uint8_t>(least[cell] & ~bits);
+    };
+    for (std::size_t row = 0; row < piece_.height; ++row) {
+      if ((piece_.more & 4U) != 0) {
+        clear(row * width, 15);
+        if (width > 1) clear(row * width + 1, 4);
+      }
+      if ((piece_.more & 1U) != 0) {
+        clear(row * width + width - 1, 15);
+        if (width > 1) clear(row * width + width - 2, 1);
+      }
+    }
+    for (std::size_t col = 0; col < width; ++col) {
+      if ((piece_.more & 8U) != 0) {
+        clear(col, 15);
+        if (piece_.height > 1) clear(width + col, 8);
+      }
+      if ((piece_.more & 2U) != 0) {
+        clear(cells_ - width + col, 15);
+        if (piece_.height > 1) clear(cells_ - 2 * width + col, 2);
+      }
+    }
+  }
+
+  /// Corners on the tile's sides have an edge that is none, which is the greatest and marks nothing.
+  void find_greatest() {
+    const std::size_t width = piece_.width;
+    greatest_.assign(cells_ + width + 1, 0);
+    mark_single<true>({right_.data() + width, up_.data() + width, right_.data() + 2 * width, up_.data() + width + 1},
+                      greatest_.data() + width, cells_);
+  }
+
+  /// Opens the least edges, and finds those that neither rule decides.
+  void mark() {
+    const std::size_t width = piece_.width;
+    open_.resize(cells_);
+    contested_.resize(cells_);
+    const std::uint8_t* const least = least_.data() + width;
+    const std::uint8_t* const greatest = greatest_.data() + width;
+    std::uint8_t* __restrict const open = open_.data();
+    std::uint8_t* __restrict const contested = contested_.data();
+    const auto below = static_cast<std::ptrdiff_t>(width);
+    for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(cells_); ++i) {
+      const unsigned in = (least[i] & 3U) | (least[i + 1] >> 2U & 1U) | (least[i + below] >> 2U & 2U);
+      const unsigned out = (greatest[i] & 3U) | (greatest[i - below] >> 2U & 1U) | (greatest[i - 1] >> 2U & 2U);
+      open[i] = static_cast<std::uint8_t>(in);
+      contested[i] = static_cast<std::uint8_t>(~(in | out) & 3U);
+    }
+    for (std::size_t row = 0; row < piece_.height; ++row) contested[row * width + width - 1] &= up;
+    for (std::size_t col = 0; col < width; ++col) contested[cells_ - width + col] &= right;
+  }
+
+  /// Every cell points at where its least edge leads; of two that point at each other the first is the root.
+  void contract() {
+    const std::int32_t above = static_cast<std::int32_t>(piece_.width);
+    const std::array<std::int32_t, 9> step{0, 1, above, 0, -1, 0, 0, 0, -above};
+    parent_.resize(cells_);
+    std::uint16_t* const parent = parent_.data();
+    const std::uint8_t* const least = least_.data() + piece_.width;
+    for (std::size_t i = 0; i < cells_; ++i) {
+      parent[i] = static_cast<std::uint16_t>(static_cast<std::int32_t>(i) + step[least[i]]);
+    }
+    for (std::size_t i = 0; i < cells_; ++i) {
+      const std::size_t next = parent[i];
+      const bool is_root = (next > i) & (parent[next] == i);
+      parent[i] = static_cast<std::uint16_t>(is_root ? i : next);
+    }
+    for (bool changed = true; changed;) {
+      unsigned differences = 0;
+      for (std::size_t i = 0; i < cells_; ++i) {
+        const std::uint16_t next = parent[i];
+        const std::uint16_t after = parent[next];
+        differences |= static_cast<unsigned>(next) ^ after;
+        parent[i] = after;
+      }
+      changed = differences != 0;
+    }
+  }
+
+  void collect() {
+    const std::size_t width = piece_.width;
+    candidates_.resize(2 * cells_ + 1);
+    Candidate* out = candidates_.data();
+    const std::uint32_t* const right_weight = right_.data() + width;
+    const std::uint32_t* const up_weight = up_.data() + width;
+    for (std::size_t i = 0; i < cells_; ++i) {
+      const std::size_t beside = std::min(i + 1, cells_ - 1);
+      const std::size_t above = std::min(i + width, cells_ - 1);
+      *out = {right_weight[i], static_cast<std::uint32_t>(2 * i)};
+      out += (contested_[i] & right) & (parent_[i] != parent_[beside] ? 1U : 0U);
+      *out = {up_weight[i], static_cast<std::uint32_t>(2 * i + 1)};
+      out += (contested_[i] >> 1U) & (parent_[i] != parent_[above] ? 1U : 0U);
+    }
+    candidate_count_ = static_cast<std::size_t>(out - candidates_.data());
+  }
+
+  void sort() {
+    sorted_.resize(candidates_.size());
+    pass(0, 0x7ff);
+    pass(11, 0x7ff);
+    pass(22, 0x3ff);
+    sort_ties();
+  }
+
+  void pass(unsigned shift, std::uint32_t mask) {
+    Count count{};
+    for (std::size_t k = 0; k < candidate_count_; ++k) ++count[candidates_[k].weight >> shift & mask];
+    std::uint32_t first = 0;
+    for (std::uint32_t& n : count) {
+      const std::uint32_t size = n;
+      n = first;
+      first += size;
+    }
+    for (std::size_t k = 0; k < candidate_count_; ++k)
+      sorted_[count[candidates_[k].weight >> shift & mask]++] = candidates_[k];
+    candidates_.swap(sorted_);
+  }
+
+  void sort_ties() {
+    const auto by_weight = [&](const Candidate& x, const Candidate& y) {
+      return weights_(number_of(x.place)) < weights_(number_of(y.place));
+    };
+    for (std::size_t k = 0; k + 1 < candidate_count_; ++k) {
+      if (candidates_[k].weight != candidates_[k + 1].weight) continue;
+      std::size_t end = k + 1;
+      while (end < candidate_count_ && candidates_[end].weight == candidates_[k].weight) ++end;
+      std::sort(candidates_.begin() + static_cast<std::ptrdiff_t>(k),
+                candidates_.begin() + static_cast<std::ptrdiff_t>(end), by_weight);
+      k = end - 1;
+    }
+  }
+
+  void number_rim() {
+    on_rim_.assign(cells_, off_the_rim);
+    piece_.each_on_sides([&](std::uint32_t col, std::uint32_t row) {
+      if (!piece_.on_rim(col, row)) return;
+      on_rim_[std::size_t{row} * piece_.width + col] = static_cast<std::uint16_t>(piece_.side_number(col, row));
+    });
+  }
+
+  void join() {
+    rim_edges_.clear();
+    const std::array<std::uint32_t, 2> offset{1, piece_.width};
+    for (std::size_t k = 0; k < candidate_count_; ++k) {
+      const std::uint32_t place = candidates_[k].place;
+      const auto cell = static_cast<std::uint16_t>(place / 2);
+      const std::uint16_t a = root_of(parent_, cell);
+      const std::uint16_t b = root_of(parent_, static_cast<std::uint16_t>(cell + offset[place % 2]));
+      if (a == b) continue;
+      open_[cell] = static_cast<std::uint8_t>(open_[cell] | (1U << (place % 2)));
+      const std::uint16_t kept = std::min(a, b);
+      const std::uint16_t gone = std::max(a, b);
+      parent_[gone] = kept;
+      if (on_rim_[gone] == off_the_rim) continue;
+      if (on_rim_[kept] == off_the_rim) {
+        on_rim_[kept] = on_rim_[gone];
+      } else {
+        rim_edges_.push_back({on_rim_[kept], on_rim_[gone], number_of(place)});
+      }
+    }
+  }
+
+  EdgeWeights weights_;
+  GridPiece piece_{};
+  std::size_t cells_ = 0;
+  std::vector<std::uint32_t> right_, up_;  // upper halves of weights; a row of none before and after the tile's
+  std::vector<std::uint8_t> least_;        // bits: right, up, left, down; a row of 0 before and after
+  std::vector<std::uint8_t> greatest_;  // of the corner above right of a cell, bits: its lower edge, left, upper, right
+  std::vector<std::uint8_t> open_;
+  std::vector<std::uint8_t> contested_;
+  std::vector<std::uint16_t> parent_;
+  std::vector<std::uint16_t> on_rim_;  // of a part's root: a side number, or none
+  std::vector<Candidate> candidates_, sorted_;
+  std::size_t candidate_count_ = 0;
+  std::vector<RimEdge> rim_edges_;
+};
+
+/// Joins a rectangle of parts to one.
+class Joining {
+ public:
+  Joining(std::uint64_t seed, std::span<RimPart> parts, std::size_t cols, unsigned side_log2)
+      : weights_(seed), parts_(parts), cols_(cols), last_((1U << side_log2) - 1) {}
+
+  JoinedParts run(const Execution& execution) {
+    JoinedParts joined;
+    RimPart& whole = joined.whole;
+    whole.at = frame();
+    number_vertices(whole.at);
+    take_edges();
+    std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) { return a.weight < b.weight; });
+    execution.check();
+    RawVector<std::uint32_t> regions = single_regions<std::uint32_t>(first_.back(), {1, execution.deadline});
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+      if (i % 65536 == 0) execution.check();
+      join(edges_[i], regions, joined);
+    }
+    return joined;
+  }
+
+ private:
+  struct Edge {
+    std::uint64_t weight;
+    RimEdge between;  // vertices
+  };
+
+  GridPiece frame() const {
+    const GridPiece& low = parts_.front().at;
+    const GridPiece& high = parts_.back().at;
+    return {low.first_col, low.first_row, high.first_col + high.width - low.first_col,
+            high.first_row + high.height - low.first_row, (low.more & 12U) | (high.more & 3U)};
+  }
+
+  /// A vertex is a cell on a side of a part; on_rim_ says which of the whole's it is.
+  void number_vertices(const GridPiece& whole) {
+    first_.assign(1, 0);
+    for (const RimPart& part : parts_) first_.push_back(first_.back() + 2 * (part.at.width + part.at.height));
+    on_rim_.assign(first_.back(), not_on_rim);
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      const GridPiece& at = parts_[p].at;
+      at.each_on_sides([&](std::uint32_t col, std::uint32_t row) {
+        const std::uint32_t whole_col = at.first_col - whole.first_col + col;
+        const std::uint32_t whole_row = at.first_row - whole.first_row + row;
+        if (!whole.on_rim(whole_col, whole_row)) return;
+        on_rim_[first_[p] + at.side_number(col, row)] = whole.side_number(whole_col, whole_row);
+      });
+    }
+  }
+
+  void add(std::uint32_t a, std::uint32_t b, std::uint64_t edge) { edges_.push_back({weights_(edge), {a, b, edge}}); }
+
+  void take_edges() {
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      RimPart& part = parts_[p];
+      const GridPiece& at = part.at;
+      for (const RimEdge& e : part.edges) add(first_[p] + e.a, first_[p] + e.b, e.edge);
+      let_go(part.edges);
+      if ((p + 1) % cols_ != 0) {
+        const GridPiece& other = parts_[p + 1].at;
+        for (std::uint32_t row = 0; row < at.height; ++row) {
+          add(first_[p] + at.side_number(at.width - 1, row), first_[p + 1] + other.side_number(0, row),
+              edge_number(at.first_col + at.width - 1, at.first_row + row, 0));
+        }
+      }
+      if (p + cols_ < parts_.size()) {
+        const GridPiece& other = parts_[p + cols_].at;
+        for (std::uint32_t col = 0; col < at.width; ++col) {
+          add(first_[p] + at.side_number(col, at.height - 1), first_[p + cols_] + other.side_number(col, 0),
+              edge_number(at.first_col + col, at.first_row + at.height - 1, 1));
+        }
+      }
+    }
+  }
+
+  void join(const Edge& edge, RawVector<std::uint32_t>& regions, JoinedParts& joined) {
+    const std::uint32_t a = root_of(regions, edge.between.a);
+    const std::uint32_t b = root_of(regions, edge.between.b);
+    if (!unite(regions, a, b)) return note(edge.between.edge, false, joined);
+    const std::uint32_t kept = std::min(a, b);
+    const std::uint32_t gone = std::max(a, b);
+    if (on_rim_[kept] != not_on_rim && on_rim_[gone] != not_on_rim) {
+      joined.whole.edges.push_back({on_rim_[kept], on_rim_[gone], edge.between.edge});
+      return;
+    }
+    on_rim_[kept] = std::min(on_rim_[kept], on_rim_[gone]);
+    note(edge.between.edge, true, joined);
+  }
+  void note(std::uint64_t edge, bool is_in, JoinedParts& joined) const {
+    const bool leaves = ((edge_direction(edge) == 0 ? edge_col(edge) : edge_row(edge)) & last_) == last_;
+    if (leaves == is_in) joined.turned.push_back(edge);
+  }
+
+  const EdgeWeights weights_;
+  std::span<RimPart> parts_;
+  std::size_t cols_;
+  const std::uint32_t last_;  // column or row of a tile
+  std::vector<std::uint32_t> first_;
+  std::vector<std::uint32_t> on_rim_;  // of a region's root: the side number of one of its cells, or none
+  std::vector<Edge> edges_;
+};
+
 }  // namespace
 
-void SpanningTile::make(const GridPiece& piece) {
-  assert(piece.width >= 1 && piece.width <= largest_side && piece.height >= 1 && piece.height <= largest_side);
-  decide_early(piece);
-  contract();
-  collect();
-  sort();
-  number_rim();
-  join();
+void RimPart::pack(ValuePacker& to) const {
+  to.add(at);
+  to.add_list(edges);
 }
 
-/// What the least and the greatest edges decide.
-void SpanningTile::decide_early(const GridPiece& piece) {
-  piece_ = piece;
-  cells_ = std::size_t{piece.width} * piece.height;
-  weigh();
-  find_least();
-  find_greatest();
-  mark();
+RimPart RimPart::unpack(ValueUnpacker& from) {
+  RimPart part{from.take<GridPiece>(), from.take_list<RimEdge>()};
+  const std::uint64_t cells = 2 * (std::uint64_t{part.at.width} + part.at.height);
+  const auto is_beyond = [&](const RimEdge& edge) { return edge.a >= cells || edge.b >= cells; };
+  if (std::any_of(part.edges.begin(), part.edges.end(), is_beyond)) from.refuse();
+  return part;
 }
 
-std::uint64_t SpanningTile::number_of(std::uint32_t place) const {
-  const std::uint32_t cell = place / 2;
-  return edge_number(piece_.first_col + cell % piece_.width, piece_.first_row + cell / piece_.width, place % 2);
-}
-
-void SpanningTile::weigh() {
-  const std::size_t width = piece_.width;
-  right_.assign(cells_ + 2 * width, no_edge);
-  up_.assign(cells_ + 2 * width, no_edge);
-  for (std::uint32_t row = 0; row < piece_.height; ++row) {
-    std::uint32_t* const right = right_.data() + (row + 1) * width;
-    std::uint32_t* const up = up_.data() + (row + 1) * width;
-    const std::uint64_t first = edge_number(piece_.first_col, std::uint64_t{piece_.first_row} + row, 0);
-    for (std::uint32_t col = 0; col < width; ++col) {
-      right[col] = static_cast<std::uint32_t>(weights_(first + 2 * col) >> 32);
-      up[col] = static_cast<std::uint32_t>(weights_(first + 2 * col + 1) >> 32);
-    }
-    right[width - 1] = no_edge;
-  }
-  std::fill_n(up_.begin() + static_cast<std::ptrdiff_t>(cells_), width, no_edge);
-}
-
-void SpanningTile::find_least() {
-  const std::size_t width = piece_.width;
-  least_.assign(cells_ + 2 * width, 0);
-  mark_single<false>({right_.data() + width, up_.data() + width, right_.data() + width - 1, up_.data()},
-                     least_.data() + width, cells_);
-  cut_at_rim();
-}
-
-/// Cells of the rim choose nothing and are not chosen.
-void SpanningTile::cut_at_rim() {
-  const std::size_t width = piece_.width;
-  std::uint8_t* const least = least_.data() + width;
-  const auto clear = [&](std::size_t cell, unsigned bits) {
-    least[cell] = static_cast<std::uint8_t>(least[cell] & ~bits);
-  };
-  for (std::size_t row = 0; row < piece_.height; ++row) {
-    if ((piece_.more & 4U) != 0) {
-      clear(row * width, 15);
-      if (width > 1) clear(row * width + 1, 4);
-    }
-    if ((piece_.more & 1U) != 0) {
-      clear(row * width + width - 1, 15);
-      if (width > 1) clear(row * width + width - 2, 1);
-    }
-  }
-  for (std::size_t col = 0; col < width; ++col) {
-    if ((piece_.more & 8U) != 0) {
-      clear(col, 15);
-      if (piece_.height > 1) clear(width + col, 8);
-    }
-    if ((piece_.more & 2U) != 0) {
-      clear(cells_ - width + col, 15);
-      if (piece_.height > 1) clear(cells_ - 2 * width + col, 2);
-    }
-  }
-}
-
-/// Corners on the tile's sides have an edge that is none, which is the greatest and marks nothing.
-void SpanningTile::find_greatest() {
-  const std::size_t width = piece_.width;
-  greatest_.assign(cells_ + width + 1, 0);
-  mark_single<true>({right_.data() + width, up_.data() + width, right_.data() + 2 * width, up_.data() + width + 1},
-                    greatest_.data() + width, cells_);
-}
-
-/// Opens the least edges, and finds those that neither rule decides.
-void SpanningTile::mark() {
-  const std::size_t width = piece_.width;
-  open_.resize(cells_);
-  contested_.resize(cells_);
-  const std::uint8_t* const least = least_.data() + width;
-  const std::uint8_t* const greatest = greatest_.data() + width;
-  std::uint8_t* __restrict const open = open_.data();
-  std::uint8_t* __restrict const contested = contested_.data();
-  const auto below = static_cast<std::ptrdiff_t>(width);
-  for (std::ptrdiff_t i = 0; i < static_cast<std::ptrdiff_t>(cells_); ++i) {
-    const unsigned in = (least[i] & 3U) | (least[i + 1] >> 2U & 1U) | (least[i + below] >> 2U & 2U);
-    const unsigned out = (greatest[i] & 3U) | (greatest[i - below] >> 2U & 1U) | (greatest[i - 1] >> 2U & 2U);
-    open[i] = static_cast<std::uint8_t>(in);
-    contested[i] = static_cast<std::uint8_t>(~(in | out) & 3U);
-  }
-  for (std::size_t row = 0; row < piece_.height; ++row) contested[row * width + width - 1] &= up;
-  for (std::size_t col = 0; col < width; ++col) contested[cells_ - width + col] &= right;
-}
-
-/// Every cell points at where its least edge leads; of two that point at each other the first is the root.
-void SpanningTile::contract() {
-  const std::int32_t above = static_cast<std::int32_t>(piece_.width);
-  const std::array<std::int32_t, 9> step{0, 1, above, 0, -1, 0, 0, 0, -above};
-  parent_.resize(cells_);
-  std::uint16_t* const parent = parent_.data();
-  const std::uint8_t* const least = least_.data() + piece_.width;
-  for (std::size_t i = 0; i < cells_; ++i) {
-    parent[i] = static_cast<std::uint16_t>(static_cast<std::int32_t>(i) + step[least[i]]);
-  }
-  for (std::size_t i = 0; i < cells_; ++i) {
-    const std::size_t next = parent[i];
-    const bool is_root = (next > i) & (parent[next] == i);
-    parent[i] = static_cast<std::uint16_t>(is_root ? i : next);
-  }
-  for (bool changed = true; changed;) {
-    unsigned differences = 0;
-    for (std::size_t i = 0; i < cells_; ++i) {
-      const std::uint16_t next = parent[i];
-      const std::uint16_t after = parent[next];
-      differences |= static_cast<unsigned>(next) ^ after;
-      parent[i] = after;
-    }
-    changed = differences != 0;
-  }
-}
-
-void SpanningTile::collect() {
-  const std::size_t width = piece_.width;
-  candidates_.resize(2 * cells_ + 1);
-  Candidate* out = candidates_.data();
-  const std::uint32_t* const right_weight = right_.data() + width;
-  const std::uint32_t* const up_weight = up_.data() + width;
-  for (std::size_t i = 0; i < cells_; ++i) {
-    const std::size_t beside = std::min(i + 1, cells_ - 1);
-    const std::size_t above = std::min(i + width, cells_ - 1);
-    *out = {right_weight[i], static_cast<std::uint32_t>(2 * i)};
-    out += (contested_[i] & right) & (parent_[i] != parent_[beside] ? 1U : 0U);
-    *out = {up_weight[i], static_cast<std::uint32_t>(2 * i + 1)};
-    out += (contested_[i] >> 1U) & (parent_[i] != parent_[above] ? 1U : 0U);
-  }
-  candidate_count_ = static_cast<std::size_t>(out - candidates_.data());
-}
-
-/// A bit for each contested edge, in the order of the cells.
-void SpanningTile::choices(std::vector<std::uint64_t>& bits) const {
-  bits.assign(2 * cells_ / 64 + 1, 0);
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < cells_; ++i) {
-    const unsigned contested = contested_[i];
-    const unsigned open = open_[i];
-    bits[n / 64] |= std::uint64_t{contested & open & 1U} << n % 64;
-    n += contested & 1U;
-    bits[n / 64] |= std::uint64_t{(contested & open) >> 1U} << n % 64;
-    n += contested >> 1U;
-  }
-  bits.resize(n / 64 + 1);
-  bits.shrink_to_fit();
-}
-
-void SpanningTile::remake(const GridPiece& piece, std::span<const std::uint64_t> choices) {
-  decide_early(piece);
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < cells_; ++i) {
-    const unsigned contested = contested_[i];
-    const unsigned first = static_cast<unsigned>(choices[n / 64] >> n % 64) & contested & 1U;
-    n += contested & 1U;
-    const unsigned second = static_cast<unsigned>(choices[n / 64] >> n % 64) & contested >> 1U;
-    n += contested >> 1U;
-    open_[i] = static_cast<std::uint8_t>(open_[i] | first | second << 1U);
-  }
-}
-
-void SpanningTile::sort() {
-  sorted_.resize(candidates_.size());
-  pass(0, 0x7ff);
-  pass(11, 0x7ff);
-  pass(22, 0x3ff);
-  sort_ties();
-}
-
-void SpanningTile::pass(unsigned shift, std::uint32_t mask) {
-  Count count{};
-  for (std::size_t k = 0; k < candidate_count_; ++k) ++count[candidates_[k].weight >> shift & mask];
-  std::uint32_t first = 0;
-  for (std::uint32_t& n : count) {
-    const std::uint32_t size = n;
-    n = first;
-    first += size;
-  }
-  for (std::size_t k = 0; k < candidate_count_; ++k)
-    sorted_[count[candidates_[k].weight >> shift & mask]++] = candidates_[k];
-  candidates_.swap(sorted_);
-}
-
-void SpanningTile::sort_ties() {
-  const auto by_weight = [&](const Candidate& x, const Candidate& y) {
-    return weights_(number_of(x.place)) < weights_(number_of(y.place));
-  };
-  for (std::size_t k = 0; k + 1 < candidate_count_; ++k) {
-    if (candidates_[k].weight != candidates_[k + 1].weight) continue;
-    std::size_t end = k + 1;
-    while (end < candidate_count_ && candidates_[end].weight == candidates_[k].weight) ++end;
-    std::sort(candidates_.begin() + static_cast<std::ptrdiff_t>(k),
-              candidates_.begin() + static_cast<std::ptrdiff_t>(end), by_weight);
-    k = end - 1;
-  }
-}
-
-void SpanningTile::number_rim() {
-  on_rim_.assign(cells_, off_the_rim);
-  piece_.each_on_sides([&](std::uint32_t col, std::uint32_t row) {
-    if (!piece_.on_rim(col, row)) return;
-    on_rim_[std::size_t{row} * piece_.width + col] = static_cast<std::uint16_t>(piece_.side_number(col, row));
-  });
-}
-
-void SpanningTile::join() {
-  rim_edges_.clear();
-  const std::array<std::uint32_t, 2> offset{1, piece_.width};
-  for (std::size_t k = 0; k < candidate_count_; ++k) {
-    const std::uint32_t place = candidates_[k].place;
-    const auto cell = static_cast<std::uint16_t>(place / 2);
-    const std::uint16_t a = root_of(parent_, cell);
-    const std::uint16_t b = root_of(parent_, static_cast<std::uint16_t>(cell + offset[place % 2]));
-    if (a == b) continue;
-    open_[cell] = static_cast<std::uint8_t>(open_[cell] | (1U << (place % 2)));
-    const std::uint16_t kept = std::min(a, b);
-    const std::uint16_t gone = std::max(a, b);
-    parent_[gone] = kept;
-    if (on_rim_[gone] == off_the_rim) continue;
-    if (on_rim_[kept] == off_the_rim) {
-      on_rim_[kept] = on_rim_[gone];
-    } else {
-      rim_edges_.push_back({on_rim_[kept], on_rim_[gone], number_of(place)});
-    }
-  }
+JoinedParts join_parts(std::uint64_t seed, std::span<RimPart> parts, std::size_t cols, unsigned side_log2,
+                       const Execution& execution) {
+  return Joining(seed, parts, cols, side_log2).run(execution);
 }
 
 }  // namespace warren::maze
@@ -295,29 +457,18 @@ using maze::edge_col, maze::edge_direction, maze::edge_number, maze::edge_row, m
 
 constexpr std::uint32_t group_side = 8;  // pieces that are joined at once, along a side
 
-std::uint32_t local_place(std::uint32_t col, std::uint32_t row, unsigned direction) {
-  return (row << 8U | col) << 1U | direction;
-}
-
-/// A rectangle of parts, in rows.
-struct Parts {
-  std::size_t cols = 0;
-  std::vector<RimPart> list;
-};
+/// Groups of `group_side` parts in a row.
+std::size_t groups_of(std::size_t parts) { return (parts - 1) / group_side + 1; }
 
 /// The rectangle of parts that group g of 8 x 8 is made of.
 struct Group {
   std::size_t first_col, first_row, cols, rows;
   static Group of(std::size_t g, std::size_t cols, std::size_t rows) {
-    const std::size_t across = (cols - 1) / group_side + 1;
-    const std::size_t col = g % across * group_side;
-    const std::size_t row = g / across * group_side;
+    const std::size_t col = g % groups_of(cols) * group_side;
+    const std::size_t row = g / groups_of(cols) * group_side;
     return {col, row, std::min<std::size_t>(group_side, cols - col), std::min<std::size_t>(group_side, rows - row)};
   }
   std::size_t size() const { return cols * rows; }
-  static std::size_t count(std::size_t cols, std::size_t rows) {
-    return ((cols - 1) / group_side + 1) * ((rows - 1) / group_side + 1);
-  }
 };
 
 }  // namespace
@@ -346,32 +497,32 @@ class SpanningMaze::Builder {
     execution_.reserve(cols * rows * (side * side / 12 + side * 16 + 128) + 48 * maze_.tile_count());
     maze_.turned_.resize(maze_.tile_count());
     maze_.choices_.resize(maze_.tile_count());
-    Parts parts = join_all(cols, rows, [&](const Group& group, std::size_t number) { return tiles(group, number); });
-    while (parts.list.size() > 1) {
-      const std::size_t width = parts.cols;
-      parts = join_all(width, parts.list.size() / width, [&](const Group& group, std::size_t) {
+    std::vector<RimPart> parts =
+        join_all(cols, rows, [&](const Group& group, std::size_t number) { return tiles(group, number); });
+    for (std::size_t width = groups_of(cols); parts.size() > 1; width = groups_of(width)) {
+      parts = join_all(width, parts.size() / width, [&](const Group& group, std::size_t) {
         std::vector<RimPart> taken;
         for (std::size_t row = 0; row < group.rows; ++row) {
           const auto first =
-              parts.list.begin() + static_cast<std::ptrdiff_t>((group.first_row + row) * width + group.first_col);
+              parts.begin() + static_cast<std::ptrdiff_t>((group.first_row + row) * width + group.first_col);
           std::move(first, first + static_cast<std::ptrdiff_t>(group.cols), std::back_inserter(taken));
         }
         return join_parts(maze_.seed_, taken, group.cols, maze_.side_log2(), execution_);
       });
     }
-    return std::move(parts.list.front());
+    return std::move(parts.front());
   }
 
  private:
   /// One level: join(group, number) makes one part of a group. A group decides edges of its own tiles alone, so no two
   /// threads meet.
   template <class Join>
-  Parts join_all(std::size_t cols, std::size_t rows, const Join& join) {
-    Parts joined{(cols - 1) / group_side + 1, std::vector<RimPart>(Group::count(cols, rows))};
-    for_chunks(joined.list.size(), 1, execution_, [&](Range r) {
+  std::vector<RimPart> join_all(std::size_t cols, std::size_t rows, const Join& join) {
+    std::vector<RimPart> joined(groups_of(cols) * groups_of(rows));
+    for_chunks(joined.size(), 1, execution_, [&](Range r) {
       JoinedParts group = join(Group::of(r.first, cols, rows), r.first);
       maze_.turn(group.turned);
-      joined.list[r.first] = std::move(group.whole);
+      joined[r.first] = std::move(group.whole);
     });
     return joined;
   }
@@ -511,7 +662,7 @@ void SpanningMaze::turn(std::span<const std::uint64_t> edges) {
     const std::uint32_t col = edge_col(edge);
     const std::uint32_t row = edge_row(edge);
     if (col >= cols() || row >= rows()) throw InputError("maze", "an edge lies beyond it");
-    turned_[tile_of(col, row)].push_back(local_place(col & last, row & last, edge_direction(edge)));
+    turned_[tile_of(col, row)].push_back(((row & last) << 8U | (col & last)) << 1U | edge_direction(edge));
   }
 }
 
@@ -529,133 +680,3 @@ maze::GridPiece SpanningMaze::piece(std::size_t tile) const {
 }
 
 }  // namespace warren
-
-namespace warren::maze {
-namespace {
-
-constexpr std::uint32_t not_on_rim = std::numeric_limits<std::uint32_t>::max();
-
-/// Joins a rectangle of parts to one.
-class Joining {
- public:
-  Joining(std::uint64_t seed, std::span<RimPart> parts, std::size_t cols, unsigned side_log2)
-      : weights_(seed), parts_(parts), cols_(cols), last_((1U << side_log2) - 1) {}
-
-  JoinedParts run(const Execution& execution) {
-    JoinedParts joined;
-    RimPart& whole = joined.whole;
-    whole.at = frame();
-    number_vertices(whole.at);
-    take_edges();
-    std::sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) { return a.weight < b.weight; });
-    execution.check();
-    RawVector<std::uint32_t> regions = single_regions<std::uint32_t>(first_.back(), {1, execution.deadline});
-    for (std::size_t i = 0; i < edges_.size(); ++i) {
-      if (i % 65536 == 0) execution.check();
-      join(edges_[i], regions, joined);
-    }
-    return joined;
-  }
-
- private:
-  struct Edge {
-    std::uint64_t weight;
-    RimEdge between;  // vertices
-  };
-
-  GridPiece frame() const {
-    const GridPiece& low = parts_.front().at;
-    const GridPiece& high = parts_.back().at;
-    return {low.first_col, low.first_row, high.first_col + high.width - low.first_col,
-            high.first_row + high.height - low.first_row, (low.more & 12U) | (high.more & 3U)};
-  }
-
-  /// A vertex is a cell on a side of a part; on_rim_ says which of the whole's it is.
-  void number_vertices(const GridPiece& whole) {
-    first_.assign(1, 0);
-    for (const RimPart& part : parts_) first_.push_back(first_.back() + 2 * (part.at.width + part.at.height));
-    on_rim_.assign(first_.back(), not_on_rim);
-    for (std::size_t p = 0; p < parts_.size(); ++p) {
-      const GridPiece& at = parts_[p].at;
-      at.each_on_sides([&](std::uint32_t col, std::uint32_t row) {
-        const std::uint32_t whole_col = at.first_col - whole.first_col + col;
-        const std::uint32_t whole_row = at.first_row - whole.first_row + row;
-        if (!whole.on_rim(whole_col, whole_row)) return;
-        on_rim_[first_[p] + at.side_number(col, row)] = whole.side_number(whole_col, whole_row);
-      });
-    }
-  }
-
-  void add(std::uint32_t a, std::uint32_t b, std::uint64_t edge) { edges_.push_back({weights_(edge), {a, b, edge}}); }
-
-  void take_edges() {
-    for (std::size_t p = 0; p < parts_.size(); ++p) {
-      RimPart& part = parts_[p];
-      const GridPiece& at = part.at;
-      for (const RimEdge& e : part.edges) add(first_[p] + e.a, first_[p] + e.b, e.edge);
-      let_go(part.edges);
-      if ((p + 1) % cols_ != 0) {
-        const GridPiece& other = parts_[p + 1].at;
-        for (std::uint32_t row = 0; row < at.height; ++row) {
-          add(first_[p] + at.side_number(at.width - 1, row), first_[p + 1] + other.side_number(0, row),
-              edge_number(at.first_col + at.width - 1, at.first_row + row, 0));
-        }
-      }
-      if (p + cols_ < parts_.size()) {
-        const GridPiece& other = parts_[p + cols_].at;
-        for (std::uint32_t col = 0; col < at.width; ++col) {
-          add(first_[p] + at.side_number(col, at.height - 1), first_[p + cols_] + other.side_number(col, 0),
-              edge_number(at.first_col + col, at.first_row + at.height - 1, 1));
-        }
-      }
-    }
-  }
-
-  void join(const Edge& edge, RawVector<std::uint32_t>& regions, JoinedParts& joined) {
-    const std::uint32_t a = root_of(regions, edge.between.a);
-    const std::uint32_t b = root_of(regions, edge.between.b);
-    if (!unite(regions, a, b)) return note(edge.between.edge, false, joined);
-    const std::uint32_t kept = std::min(a, b);
-    const std::uint32_t gone = std::max(a, b);
-    if (on_rim_[kept] != not_on_rim && on_rim_[gone] != not_on_rim) {
-      joined.whole.edges.push_back({on_rim_[kept], on_rim_[gone], edge.between.edge});
-      return;
-    }
-    on_rim_[kept] = std::min(on_rim_[kept], on_rim_[gone]);
-    note(edge.between.edge, true, joined);
-  }
-  void note(std::uint64_t edge, bool is_in, JoinedParts& joined) const {
-    const bool leaves = ((edge_direction(edge) == 0 ? edge_col(edge) : edge_row(edge)) & last_) == last_;
-    if (leaves == is_in) joined.turned.push_back(edge);
-  }
-
-  const EdgeWeights weights_;
-  std::span<RimPart> parts_;
-  std::size_t cols_;
-  const std::uint32_t last_;  // column or row of a tile
-  std::vector<std::uint32_t> first_;
-  std::vector<std::uint32_t> on_rim_;  // of a region's root: the side number of one of its cells, or none
-  std::vector<Edge> edges_;
-};
-
-}  // namespace
-
-void RimPart::pack(ValuePacker& to) const {
-  to.add(at);
-  to.add_list(edges);
-}
-
-RimPart RimPart::unpack(ValueUnpacker& from) {
-  RimPart part{from.take<GridPiece>(), from.take_list<RimEdge>()};
-  const std::uint64_t cells = 2 * (std::uint64_t{part.at.width} + part.at.height);
-  const auto is_beyond = [&](const RimEdge& edge) { return edge.a >= cells || edge.b >= cells; };
-  if (std::any_of(part.edges.begin(), part.edges.end(), is_beyond)) from.refuse();
-  return part;
-}
-
-JoinedParts join_parts(std::uint64_t seed, std::span<RimPart> parts, std::size_t cols, unsigned side_log2,
-                       const Execution& execution) {
-  return Joining(seed, parts, cols, side_log2).run(execution);
-}
-
-}  // namespace warren::maze

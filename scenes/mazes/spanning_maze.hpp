@@ -24,7 +24,6 @@
 // of CPU a cell to make a tile again.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -59,10 +58,12 @@ class EdgeWeights {
   std::uint64_t begin_;
 };
 
-/// Which of the walls that the tree leaves are taken out: each by itself, with probability `loops`, 0 to 1.
+/// Which of the walls that the tree leaves are taken out: each by itself, with probability `loops`, 0 to 1; of another
+/// number, which check_spanning_maze() refuses, none.
 class LoopDraw {
  public:
-  explicit LoopDraw(double loops) : least_kept_(static_cast<std::uint64_t>(std::ceil(loops * 0x1.0p53))) {}
+  explicit LoopDraw(double loops)
+      : least_kept_(loops >= 0.0 && loops <= 1.0 ? static_cast<std::uint64_t>(std::ceil(loops * 0x1.0p53)) : 0) {}
   bool any() const { return least_kept_ > 0; }
   bool operator()(std::uint64_t weight) const { return mix64(~weight) >> 11 < least_kept_; }
 
@@ -104,61 +105,6 @@ struct GridPiece {
 struct RimEdge {
   std::uint32_t a, b;  ///< side numbers of a cell of each
   std::uint64_t edge;  ///< number of the grid's edge
-};
-
-/// Scratch of one thread.
-class SpanningTile {
- public:
-  static constexpr std::uint32_t largest_side = 256;
-  static constexpr std::uint8_t right = 1, up = 2;
-
-  explicit SpanningTile(std::uint64_t seed) : weights_(seed) {}
-  /// width, height: 1 .. largest_side.
-  void make(const GridPiece& piece);
-  /// How the edges were decided that are neither least nor greatest around a corner: a bit each, 0.6 a cell.
-  void choices(std::vector<std::uint64_t>& bits) const;
-  /// As make(), of the same piece, from its choices: nothing is sorted, a fourth of the time. There are no rim_edges.
-  void remake(const GridPiece& piece, std::span<const std::uint64_t> choices);
-  /// Edges of the tree, cell by cell (row * width + col), as bits of the cell on whose right or upper side they lie.
-  std::span<const std::uint8_t> open() const { return {open_.data(), cells_}; }
-  /// By weight, ascending; with no neighbour beyond: none.
-  std::span<const RimEdge> rim_edges() const { return rim_edges_; }
-
- private:
-  struct Candidate {
-    std::uint32_t weight;  // its upper half
-    std::uint32_t place;   // 2 * cell + direction
-  };
-  using Count = std::array<std::uint32_t, 2048>;
-
-  void decide_early(const GridPiece& piece);
-  void weigh();
-  void find_least();
-  void cut_at_rim();
-  void find_greatest();
-  void mark();
-  void contract();
-  void collect();
-  void sort();
-  void pass(unsigned shift, std::uint32_t mask);
-  void sort_ties();
-  void number_rim();
-  void join();
-  std::uint64_t number_of(std::uint32_t place) const;
-
-  EdgeWeights weights_;
-  GridPiece piece_{};
-  std::size_t cells_ = 0;
-  std::vector<std::uint32_t> right_, up_;  // upper halves of weights; a row of none before and after the tile's
-  std::vector<std::uint8_t> least_;        // bits: right, up, left, down; a row of 0 before and after
-  std::vector<std::uint8_t> greatest_;  // of the corner above right of a cell, bits: its lower edge, left, upper, right
-  std::vector<std::uint8_t> open_;
-  std::vector<std::uint8_t> contested_;
-  std::vector<std::uint16_t> parent_;
-  std::vector<std::uint16_t> on_rim_;  // of a part's root: a side number, or none
-  std::vector<Candidate> candidates_, sorted_;
-  std::size_t candidate_count_ = 0;
-  std::vector<RimEdge> rim_edges_;
 };
 
 /// Rectangles of the unit grid that are decided but for what their rims stand for, joined to larger ones: a step of

@@ -381,11 +381,7 @@ class HoleCutter {
 std::vector<Segment> shared_sides(std::span<const std::vector<Vec2>> pieces) {
   std::vector<Segment> sides;
   for (const std::vector<Vec2>& piece : pieces) {
-    for (std::size_t i = 0; i < piece.size(); ++i) {
-      const Vec2 a = piece[i];
-      const Vec2 b = piece[i + 1 == piece.size() ? 0 : i + 1];
-      sides.push_back(is_before(a, b) ? Segment{a, b} : Segment{b, a});
-    }
+    for_each_side(piece, [&](Vec2 a, Vec2 b) { sides.push_back(is_before(a, b) ? Segment{a, b} : Segment{b, a}); });
   }
   std::sort(sides.begin(), sides.end(),
             [](const Segment& s, const Segment& t) { return s.a == t.a ? is_before(s.b, t.b) : is_before(s.a, t.a); });
@@ -394,15 +390,6 @@ std::vector<Segment> shared_sides(std::span<const std::vector<Vec2>> pieces) {
     if (sides[i] == sides[i - 1]) shared.push_back(sides[i]);
   }
   return shared;
-}
-
-std::optional<SideContact> compare_all(const RingSides& outline) {
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    for (std::size_t j = i + 1; j < outline.size(); ++j) {
-      if (outline.meet(i, j)) return SideContact{i, j};
-    }
-  }
-  return std::nullopt;
 }
 
 }  // namespace
@@ -447,7 +434,14 @@ std::optional<SideContact> self_contact(std::span<const Vec2> corners, const Exe
   constexpr std::size_t few = 24;
   constexpr std::uint32_t one_ring[] = {0};
   const RingSides outline(corners, one_ring);
-  if (outline.size() <= few) return compare_all(outline);
+  if (outline.size() <= few) {
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+      for (std::size_t j = i + 1; j < outline.size(); ++j) {
+        if (outline.meet(i, j)) return SideContact{i, j};
+      }
+    }
+    return std::nullopt;
+  }
   for (std::size_t i = 0; i < outline.size(); ++i) {
     if (outline.fold(i)) return SideContact{outline.previous(i), i};
   }
@@ -469,17 +463,15 @@ void append_distinct(std::vector<Vec2>& to, const std::vector<Vec2>& corners) {
 
 /// Asked at the leftmost corner, the lowest of these: a simple outline is convex there.
 bool runs_clockwise(std::span<const Vec2> corners) {
-  const auto before = [](Vec2 p, Vec2 q) { return p.x < q.x || (p.x == q.x && p.y < q.y); };
+  const auto before = [](Vec2 p, Vec2 q) { return is_before(p, q); };
   const auto at = static_cast<std::size_t>(std::min_element(corners.begin(), corners.end(), before) - corners.begin());
   const std::size_t n = corners.size();
   return orient2d(corners[(at + n - 1) % n], corners[at], corners[(at + 1) % n]) < 0;
 }
 
+/// Of three corners at least.
 bool has_area(std::span<const Vec2> corners) {
-  for (std::size_t i = 2; i < corners.size(); ++i) {
-    if (orient2d(corners[0], corners[1], corners[i]) != 0) return true;
-  }
-  return false;
+  return std::ranges::any_of(corners.subspan(2), [&](Vec2 p) { return orient2d(corners[0], corners[1], p) != 0; });
 }
 
 std::string text_of(Vec2 p) { return fmt::format("{} {}", p.x, p.y); }
@@ -517,15 +509,6 @@ PolygonSet checked_outlines(const Scene& scene, Range range, const Execution& ex
   return set;
 }
 
-std::vector<PolygonSet> checked_parts(const Scene& scene, const Execution& execution, bool keep) {
-  std::vector<PolygonSet> parts(chunk_count(scene.polygons.size(), obstacle_grain));
-  for_chunks(scene.polygons.size(), obstacle_grain, execution, [&](Range range) {
-    PolygonSet part = checked_outlines(scene, range, execution);
-    if (keep) parts[range.first / obstacle_grain] = std::move(part);
-  });
-  return parts;
-}
-
 }  // namespace
 
 std::vector<Vec2> anticlockwise(const std::vector<Vec2>& corners) {
@@ -541,7 +524,10 @@ std::string place_of_polygon(const Scene& scene, std::size_t polygon) {
   return line > 0 ? fmt::format("{}:{}", scene.source, line) : fmt::format("{}: polygon {}", scene.source, polygon);
 }
 
-void check_polygons(const Scene& scene, const Execution& execution) { checked_parts(scene, execution, false); }
+void check_polygons(const Scene& scene, const Execution& execution) {
+  for_chunks(scene.polygons.size(), obstacle_grain, execution,
+             [&](Range range) { checked_outlines(scene, range, execution); });
+}
 
 void check_body(std::span<const Vec2> outline, const std::string& where, const Execution& execution) {
   std::vector<Vec2> corners;
@@ -552,7 +538,9 @@ void check_body(std::span<const Vec2> outline, const std::string& where, const E
 
 PlaneObstacles plane_obstacles(const Scene& scene, const Execution& execution) {
   PlaneObstacles obstacles;
-  std::vector<PolygonSet> parts = checked_parts(scene, execution, true);
+  const std::vector<PolygonSet> parts =
+      parts_of_chunks(scene.polygons.size(), obstacle_grain, execution,
+                      [&](Range range) { return checked_outlines(scene, range, execution); });
   std::size_t corners = 0;
   for (const PolygonSet& part : parts) corners += part.corners.size();
   if (corners > std::numeric_limits<std::uint32_t>::max()) {

@@ -18,25 +18,11 @@
 namespace warren {
 namespace {
 
-constexpr std::size_t scene_grain = WallsHash::grain;
-
 template <class Wall>
 std::uint64_t hash_of(std::span<const Wall> walls) {
   WallFold fold;
   for (const Wall& wall : walls) fold.add(wall.segment());
   return fold.value(walls.size());
-}
-
-std::uint64_t folded(std::uint64_t hash, std::span<const std::uint64_t> parts) {
-  for (const std::uint64_t part : parts) hash = folded_words(hash ^ fold_secret_a, part ^ fold_secret_b);
-  return hash;
-}
-
-std::uint64_t hash_of(const WallSet& set, const Execution& execution) {
-  return set.visit([&](auto walls) {
-    return folded(walls.size(), parts_of_chunks(walls.size(), scene_grain, execution,
-                                                [&](Range r) { return hash_of(walls.subspan(r.first, r.size())); }));
-  });
 }
 
 /// Folds numbers, and how many there are, into a hash.
@@ -50,6 +36,17 @@ class Hasher {
  private:
   std::uint64_t state_;
 };
+
+/// Of the walls, chunk by chunk.
+Hasher hasher_of(const WallSet& set, const Execution& execution) {
+  Hasher hasher(set.size());
+  set.visit([&](auto walls) {
+    const auto hash_of_chunk = [&](Range r) { return hash_of(walls.subspan(r.first, r.size())); };
+    for (const std::uint64_t part : parts_of_chunks(walls.size(), WallsHash::grain, execution, hash_of_chunk))
+      hasher.add(part);
+  });
+  return hasher;
+}
 
 /// The numbers that shape it: those of its pose, of its size, and its corners.
 void add_solid(Hasher& hasher, const Solid& solid) {
@@ -69,16 +66,8 @@ void add_word(Hasher& hasher, std::string_view word) {
   for (const char letter : word) hasher.add(std::uint64_t{static_cast<unsigned char>(letter)});
 }
 
-/// What its arm carries; what else a world says of an arm, its robot's words say, too.
-void add_carried(Hasher& hasher, const AttachedSolid& attached) {
-  add_word(hasher, attached.link);
-  for (const std::string& link : attached.may_touch) add_word(hasher, link);
-  add_solid(hasher, attached.solid);
-}
-
-/// walls: their hash.
-std::string hash_with(std::uint64_t walls, const Scene& scene) {
-  Hasher hasher(walls);
+/// hasher: has the walls.
+std::string hash_with(Hasher hasher, const Scene& scene) {
   hasher.add(std::uint64_t{scene.polygons.size()});
   for (const ScenePolygon& polygon : scene.polygons) {
     hasher.add(std::uint64_t{polygon.corners.size()});
@@ -96,8 +85,12 @@ std::string hash_with(std::uint64_t walls, const Scene& scene) {
     for (const double number : box.high) hasher.add(number);
   }
   for (const Solid& solid : scene.solids) add_solid(hasher, solid);
-  if (scene.arm) {
-    for (const AttachedSolid& attached : scene.arm->attached) add_carried(hasher, attached);
+  if (scene.arm) {  // what it carries; what else a world says of an arm, its robot's words say, too
+    for (const AttachedSolid& attached : scene.arm->attached) {
+      add_word(hasher, attached.link);
+      for (const std::string& link : attached.may_touch) add_word(hasher, link);
+      add_solid(hasher, attached.solid);
+    }
   }
   hasher.add(std::uint64_t{scene.bounds.has_value()});
   if (scene.bounds) {
@@ -229,13 +222,13 @@ std::string unmade_hash(const Scene& scene) {
 std::string scene_hash(const Scene& scene, const Execution& execution) {
   if (is_unmade(scene)) return unmade_hash(scene);
   if (scene.map) return map_hash(*scene.map);
-  return hash_with(hash_of(scene.walls, execution), scene);
+  return hash_with(hasher_of(scene.walls, execution), scene);
 }
 
 std::uint64_t WallsHash::of_chunk(std::span<const FloatWall> walls) { return hash_of(walls); }
 std::uint64_t WallsHash::of_chunk(std::span<const DoubleWall> walls) { return hash_of(walls); }
-void WallsHash::add(std::uint64_t chunk) { state_ = folded(state_, std::span(&chunk, 1)); }
-std::string WallsHash::text() const { return hash_with(state_, {}); }
+void WallsHash::add(std::uint64_t chunk) { state_ = folded_words(state_ ^ fold_secret_a, chunk ^ fold_secret_b); }
+std::string WallsHash::text() const { return hash_with(Hasher(state_), {}); }
 
 Scene without_arrays(const Scene& scene) {
   Scene rest;
@@ -271,7 +264,7 @@ Box box_of_walls(const WallSet& set, const Execution& execution) {
       return box;
     };
     Box all;
-    for (const Box& part : parts_of_chunks(walls.size(), scene_grain, execution, box_of_chunk)) all.include(part);
+    for (const Box& part : parts_of_chunks(walls.size(), WallsHash::grain, execution, box_of_chunk)) all.include(part);
     return all;
   });
 }

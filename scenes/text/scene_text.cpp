@@ -107,45 +107,66 @@ namespace {
 
 using scene_text::Fields;
 
+/// What the readers of a line's words share: how they refuse it, and its numbers.
+class LineReader {
+ protected:
+  /// usage: what is expected of such a line.
+  LineReader(std::string_view usage, Fields& fields, const Execution& execution)
+      : usage_(usage), fields_(fields), execution_(execution) {}
+
+  static bool is_option(const Fields& fields) { return fields.place().line == 0; }
+  [[noreturn]] void refuse_usage(std::string_view found) const {
+    fields_.place().fail(fmt::format("expected `{}`", usage_), found);
+  }
+  std::vector<double> numbers(std::size_t least, std::size_t most) {
+    std::vector<double> read;
+    scene_text::read_numbers(fields_, read, execution_);
+    if (read.size() < least || read.size() > most) refuse_usage(scene_text::numbers_text(read.size()));
+    return read;
+  }
+  /// what: the numbers are.
+  std::vector<Vec2> corners(std::string_view what) {
+    const std::vector<double> n = numbers(6, std::numeric_limits<std::size_t>::max());
+    if (n.size() % 2 != 0) refuse_usage(fmt::format("{} {}", n.size(), what));
+    return scene_text::points_of(n, execution_);
+  }
+
+  const std::string_view usage_;
+  Fields& fields_;
+  const Execution& execution_;
+};
+
 /// Reads one body.
-class RobotReader {
+class RobotReader : LineReader {
  public:
-  RobotReader(Fields& fields, const Execution& execution) : fields_(fields), execution_(execution) {}
+  RobotReader(Fields& fields, const Execution& execution)
+      : LineReader(is_option(fields) ? robot_option : robot_usage, fields, execution) {}
 
   RobotSpec read() {
-    RobotSpec robot;
-    const std::string_view kind = fields_.word();
-    if (kind == "point") {
+    const std::string_view word = fields_.word();
+    const auto kind = enum_named<RobotKind>(word);
+    if (!kind) refuse_usage(word.empty() ? "nothing" : word);
+    RobotSpec robot{.kind = *kind};
+    if (kind == RobotKind::point) {
       numbers(0, 0);
-    } else if (kind == "disc") {
-      robot.kind = RobotKind::disc;
+    } else if (kind == RobotKind::disc) {
       robot.radius = not_negative("R", numbers(1, 1)[0]);
-    } else if (kind == "polygon") {
-      robot.kind = RobotKind::polygon;
-      robot.outline = corners();
-    } else if (kind == "car") {
-      robot.kind = RobotKind::car;
+    } else if (kind == RobotKind::polygon) {
+      robot.outline = corners("numbers");
+    } else if (kind == RobotKind::car) {
       read_car(robot);
-    } else if (kind == "puma560" || kind == "arm") {
-      robot.kind = kind == "arm" ? RobotKind::arm : RobotKind::puma560;
-      if (robot.kind == RobotKind::arm) robot.table = fields_.word();
-      if (robot.kind == RobotKind::arm && robot.table.empty()) refuse_usage("no file");
-      read_sizes(robot);
-    } else if (kind == "urdf") {
-      robot.kind = RobotKind::urdf;
+    } else if (kind == RobotKind::urdf) {
       robot.files = urdf_files();
     } else {
-      refuse_usage(kind.empty() ? "nothing" : kind);
+      if (kind == RobotKind::arm) robot.table = fields_.word();
+      if (kind == RobotKind::arm && robot.table.empty()) refuse_usage("no file");
+      read_sizes(robot);
     }
     if (!robot.outline.empty()) check_body(robot.outline, fields_.place().text(), execution_);
     return robot;
   }
 
  private:
-  [[noreturn]] void refuse_usage(std::string_view found) const {
-    const bool is_option = fields_.place().line == 0;
-    fields_.place().fail(fmt::format("expected `{}`", is_option ? robot_option : robot_usage), found);
-  }
   [[noreturn]] void refuse(std::string_view what, double value) const {
     fields_.place().fail(fmt::format("`robot`: {}", what), fmt::format("{}", value));
   }
@@ -156,19 +177,6 @@ class RobotReader {
   double positive(std::string_view name, double value) const {
     if (!(value > 0.0)) refuse(fmt::format("{} must be greater than 0", name), value);
     return value;
-  }
-
-  std::vector<double> numbers(std::size_t least, std::size_t most) {
-    std::vector<double> read;
-    scene_text::read_numbers(fields_, read, execution_);
-    if (read.size() < least || read.size() > most) refuse_usage(scene_text::numbers_text(read.size()));
-    return read;
-  }
-
-  std::vector<Vec2> corners() {
-    const std::vector<double> n = numbers(6, std::numeric_limits<std::size_t>::max());
-    if (n.size() % 2 != 0) refuse_usage(scene_text::numbers_text(n.size()));
-    return scene_text::points_of(n, execution_);
   }
 
   /// Named numbers, `radius R` and the like: each once, in any order.
@@ -190,7 +198,7 @@ class RobotReader {
 
   /// Options take a line without its first word.
   [[noreturn]] void refuse_line(std::string_view usage, std::string_view found) const {
-    const std::size_t word = fields_.place().line == 0 ? usage.find(' ') + 1 : 0;
+    const std::size_t word = is_option(fields_) ? usage.find(' ') + 1 : 0;
     fields_.place().fail(fmt::format("expected `{}`", usage.substr(word)), found);
   }
   [[noreturn]] void refuse_car(std::string_view found) const { refuse_line(car_usage, found); }
@@ -282,10 +290,118 @@ class RobotReader {
   }
 
   static constexpr std::size_t numbers_per_look = 4096;
-
-  Fields& fields_;
-  const Execution& execution_;
 };
+
+// A file's name is one word: blanks, commas, # and \ in it stand as \xHH.
+
+std::string word_of_file(std::string_view file) {
+  std::string word;
+  for (const char c : file) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool is_plain = byte > 0x20 && byte != 0x7f && c != ',' && c != '#' && c != '\\';
+    word += is_plain ? std::string(1, c) : fmt::format("\\x{:02x}", byte);
+  }
+  return word;
+}
+
+std::string file_of_word(std::string_view word) {
+  std::string file;
+  for (std::size_t i = 0; i < word.size(); ++i) {
+    unsigned byte = 0;
+    const std::string_view digits = word.substr(i).starts_with("\\x") ? word.substr(i + 2, 2) : "";
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), byte, 16);
+    const bool is_byte = error == std::errc{} && digits.size() == 2 && end == digits.data() + 2;
+    file += is_byte ? static_cast<char>(byte) : word[i];
+    if (is_byte) i += 3;
+  }
+  return file;
+}
+
+/// Reads one line; as an option it is without its word.
+class PriceReader : LineReader {
+ public:
+  PriceReader(const PriceWord& word, Fields& fields, Prices& prices, const Execution& execution)
+      : LineReader(word.usage.substr(is_option(fields) ? word.name.size() + 1 : 0), fields, execution),
+        word_(word),
+        prices_(prices) {}
+
+  void read() {
+    if (word_.name == "clearance-price") {
+      const std::vector<double> n = numbers(1, 2);
+      check(n[0] >= 0.0 && n[0] <= largest_price, fmt::format("P must be from 0 to {}", largest_price), n[0]);
+      if (n.size() == 2) check(n[1] > 0.0, "D must be greater than 0", n[1]);
+      prices_.clearance = {n[0], n.size() == 2 ? std::optional(n[1]) : std::nullopt};
+    } else if (word_.name == "area") {
+      if (!fields_.number_follows()) refuse_usage(fields_.done() ? "nothing" : fields_.word());
+      const double factor = factor_of(fields_.number());
+      push_asked(prices_.areas, {factor, checked_corners(), fields_.place().line}, execution_);
+    } else if (word_.name == "keep-out") {
+      push_asked(prices_.keep_out, {checked_corners(), fields_.place().line}, execution_);
+    } else if (word_.name == "unknown") {
+      prices_.unknown = factor_of(numbers(1, 1)[0]);
+    } else {
+      read_mask();
+    }
+  }
+
+ private:
+  void check(bool holds, std::string_view what, double value) const {
+    if (holds) return;
+    fields_.place().fail(is_option(fields_) ? std::string(what) : fmt::format("`{}`: {}", word_.name, what),
+                         fmt::format("{}", value));
+  }
+  double factor_of(double factor) const {
+    check(factor >= 1.0 && factor <= largest_price, fmt::format("F must be from 1 to {}", largest_price), factor);
+    return factor;
+  }
+  std::vector<Vec2> checked_corners() {
+    std::vector<Vec2> points = corners("coordinates");
+    check_body(points, fields_.place().text(), execution_);
+    return points;
+  }
+  void read_mask() {
+    PriceMask mask;
+    mask.file = file_of_word(fields_.word());
+    const std::string_view kind = fields_.word();
+    if (mask.file.empty() || kind.empty()) refuse_usage("too few words");
+    if (kind == "areas") {
+      mask.factor = factor_of(numbers(1, 1)[0]);
+    } else if (kind == "keep-out") {
+      mask.kind = MaskKind::keep_out;
+      if (const std::vector<double> n = numbers(0, 1); !n.empty()) mask.factor = factor_of(n[0]);
+    } else if (kind == "speed") {
+      mask.kind = MaskKind::speed;
+      const std::vector<double> n = numbers(0, 2);
+      if (n.size() == 1) refuse_usage("1 number");
+      if (n.size() == 2) std::tie(mask.base, mask.multiplier) = std::pair(n[0], n[1]);
+      for (const double x : n) check(std::abs(x) <= largest_of_speed, "BASE and MULTIPLIER are at most 1e6", x);
+    } else {
+      refuse_usage(kind);
+    }
+    push_asked(prices_.masks, std::move(mask), execution_);
+  }
+
+  static constexpr double largest_of_speed = 1e6;
+
+  const PriceWord& word_;
+  Prices& prices_;
+};
+
+std::string digits_of(double x) { return fmt::format("{}", x + 0.0); }  // no negative zeros
+
+std::string corners_text(const std::vector<Vec2>& corners) {
+  std::string text;
+  for (const Vec2 p : corners) text += fmt::format(" {} {}", digits_of(p.x), digits_of(p.y));
+  return text;
+}
+
+std::string mask_text(const PriceMask& mask, const std::string& file) {
+  const std::string text = "mask " + word_of_file(file);
+  const std::string factor = mask.factor ? ' ' + digits_of(*mask.factor) : "";
+  if (mask.kind == MaskKind::areas) return text + " areas" + factor;
+  if (mask.kind == MaskKind::keep_out) return text + " keep-out" + factor;
+  return fmt::format("{} speed {} {}", text, digits_of(mask.base), digits_of(mask.multiplier));
+}
 
 constexpr std::size_t bytes_a_look = std::size_t{1} << 18;
 
@@ -339,134 +455,6 @@ void TextLines::look() {
   file_.forget(forgotten_, at_);
   forgotten_ = at_;
 }
-
-namespace {
-
-// A file's name is one word: blanks, commas, # and \ in it stand as \xHH.
-
-std::string word_of_file(std::string_view file) {
-  std::string word;
-  for (const char c : file) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool is_plain = byte > 0x20 && byte != 0x7f && c != ',' && c != '#' && c != '\\';
-    word += is_plain ? std::string(1, c) : fmt::format("\\x{:02x}", byte);
-  }
-  return word;
-}
-
-std::string file_of_word(std::string_view word) {
-  std::string file;
-  for (std::size_t i = 0; i < word.size(); ++i) {
-    unsigned byte = 0;
-    const std::string_view digits = word.substr(i).starts_with("\\x") ? word.substr(i + 2, 2) : "";
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), byte, 16);
-    const bool is_byte = error == std::errc{} && digits.size() == 2 && end == digits.data() + 2;
-    file += is_byte ? static_cast<char>(byte) : word[i];
-    if (is_byte) i += 3;
-  }
-  return file;
-}
-
-/// Reads one line.
-class PriceReader {
- public:
-  PriceReader(const PriceWord& word, Fields& fields, Prices& prices, const Execution& execution)
-      : word_(word), fields_(fields), prices_(prices), execution_(execution) {}
-
-  void read() {
-    if (word_.name == "clearance-price") {
-      const std::vector<double> n = numbers(1, 2);
-      check(n[0] >= 0.0 && n[0] <= largest_price, fmt::format("P must be from 0 to {}", largest_price), n[0]);
-      if (n.size() == 2) check(n[1] > 0.0, "D must be greater than 0", n[1]);
-      prices_.clearance = {n[0], n.size() == 2 ? std::optional(n[1]) : std::nullopt};
-    } else if (word_.name == "area") {
-      if (!fields_.number_follows()) refuse_usage(fields_.done() ? "nothing" : fields_.word());
-      const double factor = factor_of(fields_.number());
-      push_asked(prices_.areas, {factor, corners(), fields_.place().line}, execution_);
-    } else if (word_.name == "keep-out") {
-      push_asked(prices_.keep_out, {corners(), fields_.place().line}, execution_);
-    } else if (word_.name == "unknown") {
-      prices_.unknown = factor_of(numbers(1, 1)[0]);
-    } else {
-      read_mask();
-    }
-  }
-
- private:
-  [[noreturn]] void refuse_usage(std::string_view found) const {
-    fields_.place().fail(
-        fmt::format("expected `{}`", is_option() ? word_.usage.substr(word_.name.size() + 1) : word_.usage), found);
-  }
-  bool is_option() const { return fields_.place().line == 0; }
-  void check(bool holds, std::string_view what, double value) const {
-    if (holds) return;
-    fields_.place().fail(is_option() ? std::string(what) : fmt::format("`{}`: {}", word_.name, what),
-                         fmt::format("{}", value));
-  }
-  double factor_of(double factor) const {
-    check(factor >= 1.0 && factor <= largest_price, fmt::format("F must be from 1 to {}", largest_price), factor);
-    return factor;
-  }
-  std::vector<double> numbers(std::size_t least, std::size_t most) {
-    std::vector<double> read;
-    scene_text::read_numbers(fields_, read, execution_);
-    if (read.size() < least || read.size() > most) refuse_usage(scene_text::numbers_text(read.size()));
-    return read;
-  }
-  std::vector<Vec2> corners() {
-    const std::vector<double> n = numbers(6, std::numeric_limits<std::size_t>::max());
-    if (n.size() % 2 != 0) refuse_usage(fmt::format("{} coordinates", n.size()));
-    std::vector<Vec2> points = scene_text::points_of(n, execution_);
-    check_body(points, fields_.place().text(), execution_);
-    return points;
-  }
-  void read_mask() {
-    PriceMask mask;
-    mask.file = file_of_word(fields_.word());
-    const std::string_view kind = fields_.word();
-    if (mask.file.empty() || kind.empty()) refuse_usage("too few words");
-    if (kind == "areas") {
-      mask.factor = factor_of(numbers(1, 1)[0]);
-    } else if (kind == "keep-out") {
-      mask.kind = MaskKind::keep_out;
-      if (const std::vector<double> n = numbers(0, 1); !n.empty()) mask.factor = factor_of(n[0]);
-    } else if (kind == "speed") {
-      mask.kind = MaskKind::speed;
-      const std::vector<double> n = numbers(0, 2);
-      if (n.size() == 1) refuse_usage("1 number");
-      if (n.size() == 2) std::tie(mask.base, mask.multiplier) = std::pair(n[0], n[1]);
-      for (const double x : n) check(std::abs(x) <= largest_of_speed, "BASE and MULTIPLIER are at most 1e6", x);
-    } else {
-      refuse_usage(kind);
-    }
-    push_asked(prices_.masks, std::move(mask), execution_);
-  }
-
-  static constexpr double largest_of_speed = 1e6;
-
-  const PriceWord& word_;
-  Fields& fields_;
-  Prices& prices_;
-  const Execution& execution_;
-};
-
-std::string digits_of(double x) { return fmt::format("{}", x + 0.0); }  // no negative zeros
-
-std::string corners_text(const std::vector<Vec2>& corners) {
-  std::string text;
-  for (const Vec2 p : corners) text += fmt::format(" {} {}", digits_of(p.x), digits_of(p.y));
-  return text;
-}
-
-std::string mask_text(const PriceMask& mask, const std::string& file) {
-  const std::string text = "mask " + word_of_file(file);
-  const std::string factor = mask.factor ? ' ' + digits_of(*mask.factor) : "";
-  if (mask.kind == MaskKind::areas) return text + " areas" + factor;
-  if (mask.kind == MaskKind::keep_out) return text + " keep-out" + factor;
-  return fmt::format("{} speed {} {}", text, digits_of(mask.base), digits_of(mask.multiplier));
-}
-
-}  // namespace
 
 void read_price(const PriceWord& word, Fields& fields, Prices& prices, const Execution& execution) {
   PriceReader(word, fields, prices, execution).read();

@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
-#include <utility>
 
 #include "core/base/printable.hpp"
 #include "scenes/text/json_text.hpp"
@@ -40,18 +39,13 @@ std::string_view why_dropped(const Answer& answer) {
   return "in obstacles or out of bounds";
 }
 
-class Lines {
- public:
-  explicit Lines(const Palette& palette) : palette_(palette) {}
+struct Lines {
+  const Palette& palette;
+  std::string text = {};
   /// Nothing of what is empty.
   void add(std::string_view name, std::string_view what) {
-    if (!what.empty()) text_ += fmt::format("  {}{}\n", palette_.faint(fmt::format("{:<14}", name)), what);
+    if (!what.empty()) text += fmt::format("  {}{}\n", palette.faint(fmt::format("{:<14}", name)), what);
   }
-  std::string text() && { return std::move(text_); }
-
- private:
-  const Palette& palette_;
-  std::string text_;
 };
 
 void add_samples(Lines& lines, const Answer& answer) {
@@ -237,7 +231,7 @@ std::string narrowest_json(const std::optional<NarrowPlace>& narrow) {
 
 std::string explanation_text(const Answer& answer, const Palette& palette) {
   if (!answer.explained) return {};
-  Lines lines(palette);
+  Lines lines{palette};
   add_samples(lines, answer);
   add_edges(lines, answer);
   add_components(lines, answer);
@@ -249,7 +243,7 @@ std::string explanation_text(const Answer& answer, const Palette& palette) {
   if (answer.explained->stopped) {
     lines.add("explained", fmt::format("in part, {}; the answer stands", text_of(*answer.explained->stopped)));
   }
-  return std::move(lines).text();
+  return lines.text;
 }
 
 std::string explanation_json(const Answer& answer) {
@@ -276,14 +270,14 @@ std::string explanation_json(const Answer& answer) {
 }
 
 std::string notes_text(const Answer& answer, const Palette& palette) {
-  Lines lines(palette);
+  Lines lines{palette};
   lines.add("room", room_note(answer));
   lines.add("heuristic", heuristic_note(answer));
   if (!answer.explained) lines.add("samples", samples_note(answer));
   lines.add("note", lazy_note(answer));
   lines.add("note", doors_note(answer));
   for (const std::string& line : answer.problem.told) lines.add("note", line);
-  return std::move(lines).text();
+  return lines.text;
 }
 
 }  // namespace warren

@@ -197,8 +197,7 @@ class AnswerReader {
     if (!began_) refuse_kind();
     const bool wanted = in("path") || in_state() || in_states() || in_number();
     if (wanted && !(std::abs(value) <= largest_coordinate)) refuse("finite numbers of at most 1e60");
-    if (in("path") && arrays_ != 2) refuse(path_expected, "a number");
-    if (in_states() && arrays_ != 2) refuse(path_expected, "a number");
+    if ((in("path") || in_states()) && arrays_ != 2) refuse(path_expected, "a number");
     if (in_state() && arrays_ != 1) refuse(point_expected, "a number");
     if (objects_ >= 2) take_inner(value);
     if (in("order") && arrays_ == 1) answer_.order.push_back(bounded_whole<std::uint64_t>(value, 0.0));

@@ -102,16 +102,12 @@ std::vector<Fact> map_facts(const Scene& scene, const WorldAccount& world, const
   return facts;
 }
 
-std::string held_as(const WallSet& walls) {
-  if (walls.holds_packed()) return "packed";
-  return walls.holds_floats() ? "float" : "double";
-}
-
 std::vector<Fact> obstacle_facts(const Scene& scene, const WorldAccount& world, const Execution& execution) {
   if (scene.map) return map_facts(scene, world, execution);
   std::vector<Fact> facts{text_fact("source", world.source), text_fact("kind", world.kind),
                           count_fact("walls", scene.walls.size())};
-  if (scene.walls.size() > 0) facts.push_back(text_fact("held as", held_as(scene.walls)));
+  const char* held = scene.walls.holds_packed() ? "packed" : scene.walls.holds_floats() ? "float" : "double";
+  if (scene.walls.size() > 0) facts.push_back(text_fact("held as", held));
   if (!scene.polygons.empty()) {
     facts.push_back(count_fact("polygons", scene.polygons.size()));
     std::size_t corners = 0;

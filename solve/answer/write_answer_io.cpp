@@ -49,12 +49,6 @@ std::string json_of(const WrongEdge& wrong) {
   return json.closed();
 }
 
-std::string options_json(const Answer& answer) {
-  JsonObject options;
-  for (const NamedFigure& option : answer.options) options.add_json(option.name, figure_json(option.value));
-  return options.closed();
-}
-
 std::string counters_json(const Counters& counters) {
   JsonObject json;
   json.add("samples", counters.samples);
@@ -68,24 +62,6 @@ std::string counters_json(const Counters& counters) {
   if (counters.pushes > 0) json.add("pushes", counters.pushes);
   if (counters.pushes > 0) json.add("decreases", counters.decreases);
   if (counters.row_bytes > 0) json.add("row_bytes", counters.row_bytes);
-  return json.closed();
-}
-
-std::string stages_json(const Answer& answer) {
-  JsonObject stages;
-  for (const auto& [key, seconds] : keyed_seconds(answer.seconds, answer.costs)) stages.add(key, seconds);
-  return stages.closed();
-}
-
-std::string roadmap_json(const Answer& answer) {
-  JsonObject json;
-  json.add("milestones", answer.roadmap.milestones);
-  json.add("edges", answer.roadmap.edges);
-  json.add("components", answer.roadmap.components);
-  if (answer.cells) {
-    json.add("cells", answer.cells->cells);
-    json.add("adjacencies", answer.cells->adjacencies);
-  }
   return json.closed();
 }
 
@@ -281,8 +257,16 @@ void add_work(JsonObject& json, const Answer& answer) {
   add_text(json, "search", answer.search);
   json.add("seed", answer.seed);
   json.add("threads", std::uint64_t{answer.threads});
-  json.add_json("options", options_json(answer));
-  json.add_json("roadmap", roadmap_json(answer));
+  JsonObject options;
+  for (const NamedFigure& option : answer.options) options.add_json(option.name, figure_json(option.value));
+  json.add_json("options", options.closed());
+  JsonObject roadmap;
+  roadmap.add("milestones", answer.roadmap.milestones);
+  roadmap.add("edges", answer.roadmap.edges);
+  roadmap.add("components", answer.roadmap.components);
+  if (answer.cells) roadmap.add("cells", answer.cells->cells);
+  if (answer.cells) roadmap.add("adjacencies", answer.cells->adjacencies);
+  json.add_json("roadmap", roadmap.closed());
   for (const auto* figures : {&answer.figures, &answer.path_figures}) {
     for (const NamedFigure& figure : *figures) json.add_json(figure.name, figure_json(figure.value));
   }
@@ -291,7 +275,9 @@ void add_work(JsonObject& json, const Answer& answer) {
   }
   json.add_json("counters", counters_json(answer.counters));
   if (answer.explained) json.add_json("explained", explanation_json(answer));
-  json.add_json("stages_s", stages_json(answer));
+  JsonObject stages;
+  for (const auto& [key, seconds] : keyed_seconds(answer.seconds, answer.costs)) stages.add(key, seconds);
+  json.add_json("stages_s", stages.closed());
   json.add("solve_s", answer.solve_s);
   json.add("peak_memory_bytes", std::uint64_t{answer.peak_memory_bytes});
 }
@@ -340,13 +326,6 @@ void append_alternative(std::string& text, const AlternativePath& other) {
   text += json.open() + ", \"path\": ";
 }
 
-/// The same of a refuted one.
-std::string refuted_head(const RefutedPath& refuted) {
-  std::string text = fmt::format("\"length\": {}", json_number(refuted.length));
-  if (refuted.cost) text += fmt::format(", \"cost\": {}", json_number(*refuted.cost));
-  return text + fmt::format(R"(, "first_violation": {})", violation_json(refuted.violation));
-}
-
 }  // namespace
 
 std::string violation_json(const Violation& violation) {
@@ -389,9 +368,11 @@ std::string figure_json(const Figure& figure) {
 void write_answer_json(const Answer& answer, const Execution& execution,
                        const std::function<void(std::string_view)>& write) {
   write(json_head(answer, execution));
-  if (answer.refuted) {
-    write(fmt::format("\"refuted\": {{{}, \"path\": ", refuted_head(*answer.refuted)));
-    write_states(answer.refuted->path, answer.refuted->states, execution, write);
+  if (const auto& refuted = answer.refuted) {
+    const std::string cost = refuted->cost ? fmt::format(", \"cost\": {}", json_number(*refuted->cost)) : "";
+    write(fmt::format(R"("refuted": {{"length": {}{}, "first_violation": {}, "path": )", json_number(refuted->length),
+                      cost, violation_json(refuted->violation)));
+    write_states(refuted->path, refuted->states, execution, write);
     write("},\n ");
   }
   if (!answer.alternatives.empty()) {

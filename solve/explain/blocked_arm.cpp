@@ -64,13 +64,10 @@ std::vector<JointState> joint_directions(std::size_t width) {
 class BlockedArm {
  public:
   BlockedArm(const Scene& scene, const Problem& problem, const Execution& execution)
-      : scene_(scene),
-        execution_(execution),
-        model_(arm_model_of(problem.robot, problem.clearance, execution)),
-        kinematics_(model_) {
+      : scene_(scene), execution_(execution), kinematics_(arm_model_of(problem.robot, problem.clearance, execution)) {
     problem_.robot = problem.robot;
     if (!problem.robot.files) problem_.table = table_of(problem.robot, execution);
-    problem_.model = model_;
+    problem_.model = kinematics_.model();
     problem_.start = joint_state(problem.start);
     problem_.goal = problem.goal;
     problem_.clearance = problem.clearance;
@@ -85,7 +82,7 @@ class BlockedArm {
   std::optional<Violation> met(const JointState& q, double more) const {
     execution_.check();
     const ArmVerifyOptions options{.clearance = problem_.clearance + more};
-    return verify_arm(scene_, model_, std::span(&q, 1), options, execution_).first_violation;
+    return verify_arm(scene_, kinematics_.model(), std::span(&q, 1), options, execution_).first_violation;
   }
   /// Of the deepest link in the solid that is named, or of two links in one another. Nobody knows it of arms of files.
   std::optional<double> depth_in(const Violation& violation, const JointState& q) const {
@@ -119,7 +116,7 @@ class BlockedArm {
     constexpr double digits = 1e3;
     JointState within = q;
     for (std::size_t k = 0; k < problem_.width(); ++k) {
-      const ArmVariable& variable = model_.variables[k];
+      const ArmVariable& variable = kinematics_.model().variables[k];
       const double low = std::ceil(variable.low * digits) / digits;
       const double high = std::floor(variable.high * digits) / digits;
       if (variable.continuous || low > high) continue;
@@ -164,7 +161,7 @@ class BlockedArm {
     double most = -std::numeric_limits<double>::infinity();
     ArmPosture posture;
     kinematics_.place(q, posture);
-    for (const ArmLink& link : model_.links) {
+    for (const ArmLink& link : kinematics_.model().links) {
       const MovingFrame& frame = ArmKinematics::frame(posture, link.frame);
       for (const Solid& capsule : link.solids) {
         const Vec3 middle = frame.at + frame.turn * capsule.pose.translation();
@@ -177,7 +174,6 @@ class BlockedArm {
 
   const Scene& scene_;
   const Execution& execution_;
-  ArmModel model_;
   ArmKinematics kinematics_;
   ArmProblem problem_;
   double reach_ = 0.0;
@@ -214,13 +210,6 @@ void tell(Answer& answer, bool is_start, const Violation& met, const BlockedArm&
                               .depth = arm.depth_in(met, q)};
 }
 
-template <std::size_t n>
-void tell_free(Answer& answer, const std::optional<Numbers<n>>& free, std::span<const double> asked) {
-  if (!free) return;
-  answer.blocked->free_place.assign(free->begin(), free->end());
-  answer.blocked->distance = norm_between(*free, asked);
-}
-
 /// Of all postures there, the one that the tool's place is asked about is as good as any: the first.
 void explain_tool_place(Answer& answer, const BlockedArm& arm, const Vec3& place) {
   const std::optional<JointState> posture = arm.posture(place);
@@ -228,7 +217,10 @@ void explain_tool_place(Answer& answer, const BlockedArm& arm, const Vec3& place
   const auto met = arm.met(*posture, arm.margin());
   if (!met) return;
   tell(answer, false, *met, arm, *posture);
-  tell_free(answer, arm.free_tool_place(place), answer.problem.goal);
+  const std::optional<Numbers<3>> free = arm.free_tool_place(place);
+  if (!free) return;
+  answer.blocked->free_place.assign(free->begin(), free->end());
+  answer.blocked->distance = norm_between(*free, answer.problem.goal);
 }
 
 }  // namespace

@@ -31,53 +31,34 @@
 namespace warren {
 namespace {
 
-bool is_same_side(const Segment& s, const Segment& t) {
-  return (s.a == t.a && s.b == t.b) || (s.a == t.b && s.b == t.a);
+bool has_side(const ScenePolygon& polygon, const Segment& side, const Execution& execution) {
+  execution.check();
+  for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
+    const Segment own = polygon_side(polygon.corners, i);
+    if (own == side || (own.a == side.b && own.b == side.a)) return true;
+  }
+  return false;
 }
 
 /// The polygon and those that seams part from it or from one another.
-class PiecesOfOne {
- public:
-  PiecesOfOne(const Scene& scene, const Execution& execution) : scene_(scene), execution_(execution) {}
-
-  std::vector<ScenePolygon> with(std::size_t first) {
-    std::vector<std::size_t> pieces{first};
-    std::vector<bool> taken(scene_.polygons.size(), false);
-    taken[first] = true;
-    for (std::size_t i = 0; i < pieces.size() && !scene_.seams.empty(); ++i) {
-      for (const Segment& seam : seams_of(scene_.polygons[pieces[i]])) {
-        for (std::size_t k = 0; k < taken.size(); ++k) {
-          if (taken[k] || !has(scene_.polygons[k], seam)) continue;
-          taken[k] = true;
-          pieces.push_back(k);
-        }
+std::vector<ScenePolygon> pieces_with(const Scene& scene, std::size_t first, const Execution& execution) {
+  std::vector<std::size_t> pieces{first};
+  std::vector<bool> taken(scene.polygons.size(), false);
+  taken[first] = true;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    for (const Segment& seam : scene.seams) {
+      if (!has_side(scene.polygons[pieces[i]], seam, execution)) continue;
+      for (std::size_t k = 0; k < taken.size(); ++k) {
+        if (taken[k] || !has_side(scene.polygons[k], seam, execution)) continue;
+        taken[k] = true;
+        pieces.push_back(k);
       }
     }
-    std::vector<ScenePolygon> polygons;
-    for (const std::size_t i : pieces) polygons.push_back(scene_.polygons[i]);
-    return polygons;
   }
-
- private:
-  bool has(const ScenePolygon& polygon, const Segment& side) const {
-    execution_.check();
-    const std::vector<Vec2>& corners = polygon.corners;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      if (is_same_side({corners[i], corners[(i + 1) % corners.size()]}, side)) return true;
-    }
-    return false;
-  }
-  std::vector<Segment> seams_of(const ScenePolygon& polygon) const {
-    std::vector<Segment> seams;
-    for (const Segment& seam : scene_.seams) {
-      if (has(polygon, seam)) seams.push_back(seam);
-    }
-    return seams;
-  }
-
-  const Scene& scene_;
-  const Execution& execution_;
-};
+  std::vector<ScenePolygon> polygons;
+  for (const std::size_t i : pieces) polygons.push_back(scene.polygons[i]);
+  return polygons;
+}
 
 /// One obstacle of a scene of the plane, with nothing else around: how deep a body stands in it is asked there. name:
 /// as Violation::obstacle. A wall, or a polygon with all that were cut from the same one, within bounds that leave
@@ -97,7 +78,7 @@ std::optional<Scene> obstacle_alone(const Scene& scene, std::string_view name, d
     alone.walls = WallSet::narrowest(std::vector{segment});
     box = box_of(segment);
   } else if (const auto polygon = number_after(name, "polygon "); polygon && *polygon < scene.polygons.size()) {
-    alone.polygons = PiecesOfOne(scene, execution).with(*polygon);
+    alone.polygons = pieces_with(scene, *polygon, execution);
     for (const ScenePolygon& piece : alone.polygons) box.include(box_around(piece.corners));
   } else {
     return std::nullopt;
@@ -316,11 +297,6 @@ class BlockedEndSearch {
   double near_reach_ = 0.0;
 };
 
-std::string numbers(const Box& box) {
-  return fmt::format("{} {} {} {}", human_number(box.min.x), human_number(box.min.y), human_number(box.max.x),
-                     human_number(box.max.y));
-}
-
 /// Of a map of metres, where the cell is, and whether anything is known of it; of all maps, that it is none of theirs.
 std::string cell_in_words(const Scene& scene, const std::string& name, const OccupancyMap* own) {
   if (!scene.map || !name.starts_with("cell ")) return {};
@@ -340,13 +316,14 @@ std::string cell_in_words(const Scene& scene, const std::string& name, const Occ
 
 /// Outside of all that there is, or what the judge met.
 std::string in_the_way(const Scene& scene, const Violation& met, const BlockedEndSearch& search) {
-  const bool is_outside = !search.room().contains(search.at());
-  if (!is_outside) return met.obstacle;
-  return fmt::format("outside of the {} {}",
+  const Box room = search.room();
+  if (room.contains(search.at())) return met.obstacle;
+  return fmt::format("outside of the {} {} {} {} {}",
                      scene.map      ? "map"
                      : scene.bounds ? "bounds"
                                     : "box of the obstacles",
-                     numbers(search.room()));
+                     human_number(room.min.x), human_number(room.min.y), human_number(room.max.x),
+                     human_number(room.max.y));
 }
 
 /// What may have been meant.
@@ -364,31 +341,6 @@ double free_beside(double x, std::uint32_t count, double reach) {
   if (std::abs(x - middle) * digits <= room) return x;
   return (middle * digits + std::copysign(room, x - middle)) / digits;
 }
-
-constexpr std::size_t obstacles_a_poll = 1U << 14U;
-
-class NearPath {
- public:
-  NearPath(const Scene& scene, std::span<const Vec2> path, double reach, const Execution& execution)
-      : all_(obstacle_box(scene, execution)), legs_(path, execution), reach_(reach) {}
-
-  bool keeps(const Box& box) const {
-    if (box.min.x == all_.min.x || box.min.y == all_.min.y || box.max.x == all_.max.x || box.max.y == all_.max.y) {
-      return true;
-    }
-    const Box around = box.grown(reach_);
-    const auto is_apart = [&](const Box& legs) { return !legs.meets(around); };
-    bool is_near = false;
-    legs_.for_each([&](const Box& legs) { return is_near || is_apart(legs); },
-                   [&](std::size_t leg) { is_near = is_near || around.meets(box_of(legs_.leg(leg))); });
-    return is_near;
-  }
-
- private:
-  Box all_;
-  LegBoxes legs_;
-  double reach_;
-};
 
 }  // namespace
 
@@ -463,18 +415,30 @@ void explain_blocked_cell(const WallProblem& problem, MazeHint maze, Answer& ans
 Scene obstacles_near(const Scene& scene, std::span<const Vec2> path, double reach, const Execution& execution) {
   if (scene.map || is_unmade(scene)) return scene;
   const Vec2 twice[] = {path.front(), path.front()};
-  const NearPath places(scene, path.size() > 1 ? path : std::span<const Vec2>(twice), reach, execution);
+  const Box all = obstacle_box(scene, execution);
+  const LegBoxes legs(path.size() > 1 ? path : std::span<const Vec2>(twice), execution);
+  const auto keeps = [&](const Box& box) {
+    if (box.min.x == all.min.x || box.min.y == all.min.y || box.max.x == all.max.x || box.max.y == all.max.y) {
+      return true;
+    }
+    const Box around = box.grown(reach);
+    bool is_near = false;
+    legs.for_each([&](const Box& some) { return is_near || !some.meets(around); },
+                  [&](std::size_t leg) { is_near = is_near || around.meets(box_of(legs.leg(leg))); });
+    return is_near;
+  };
   Scene near = without_arrays(scene);
   std::vector<Segment> walls;
+  constexpr std::size_t obstacles_a_poll = 1U << 14U;
   for (std::size_t i = 0; i < scene.walls.size(); ++i) {
     if (i % obstacles_a_poll == 0) execution.check();
     const Segment wall = scene.walls.segment(i);
-    if (places.keeps(box_of(wall))) walls.push_back(wall);
+    if (keeps(box_of(wall))) walls.push_back(wall);
   }
   near.walls = WallSet::narrowest(walls);
   std::erase_if(near.polygons, [&](const ScenePolygon& polygon) {
     execution.check();
-    return !places.keeps(box_around(polygon.corners));
+    return !keeps(box_around(polygon.corners));
   });
   return near;
 }

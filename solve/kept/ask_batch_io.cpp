@@ -53,9 +53,8 @@ std::span<const std::string_view> axes_of(unsigned dimension) {
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blanks = " \t\r";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+  text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+  return text.substr(0, text.find_last_not_of(blanks) + 1);  // npos + 1 is 0
 }
 
 /// Takes the next field of a line of CSV; quotes mean nothing to numbers.
@@ -120,6 +119,13 @@ class BatchQuestions {
         kind_(kind),
         scene_(roadmap.world.outline()),
         axes_(axes_of(roadmap.arrays.dimension)) {
+    for (const bool is_goal : {false, true}) {
+      if (kind != BatchLines::questions && is_goal != (kind == BatchLines::goals)) continue;
+      const std::string_view prefix = kind != BatchLines::questions ? "" : is_goal ? "goal_" : "start_";
+      for (std::size_t i = 0; i < axes_.size(); ++i) {
+        known_.push_back({is_goal, i, fmt::format("{}{}", prefix, axes_[i])});
+      }
+    }
     std::string_view line;
     while (line.empty() && lines_.next()) line = trimmed(lines_.line());
     if (line.empty()) return;
@@ -144,55 +150,41 @@ class BatchQuestions {
   struct Column {
     bool is_goal;
     std::size_t place;
-    bool operator==(const Column&) const = default;
+    std::string name;
   };
-  std::string_view prefix(bool is_goal) const {
-    if (kind_ != BatchLines::questions) return "";
-    return is_goal ? "goal_" : "start_";
-  }
   std::string whole_header() const {
     std::string header;
-    for (const bool is_goal : {false, true}) {
-      if (is_goal && kind_ != BatchLines::questions) break;
-      for (const std::string_view axis : axes_) {
-        header.append(header.empty() ? "" : ",").append(prefix(is_goal)).append(axis);
-      }
-    }
+    for (const Column& column : known_) header.append(header.empty() ? "" : ",").append(column.name);
     return header;
   }
   void read_header(std::string_view line) {
     const std::string where = lines_.place().text();
     while (!line.empty()) {
       const std::string_view name = take_field(line);
-      const bool is_goal = kind_ == BatchLines::goals || (kind_ == BatchLines::questions && name.starts_with("goal_"));
-      const std::string_view head = prefix(is_goal);
-      const auto axis = std::ranges::find(axes_, name.substr(std::min(head.size(), name.size())));
-      if (!name.starts_with(head) || axis == axes_.end()) {
+      const auto column = std::ranges::find(known_, name, &Column::name);
+      if (column == known_.end()) {
         throw InputError(where, fmt::format("expected the header {} of a CSV, or JSON lines", whole_header()),
                          name.substr(0, 40));
       }
-      const Column column{is_goal, static_cast<std::size_t>(axis - axes_.begin())};
-      if (std::ranges::find(columns_, column) != columns_.end()) {
+      if (std::ranges::find(columns_, name, &Column::name) != columns_.end()) {
         throw InputError(where, "expected each column once", name);
       }
-      columns_.push_back(column);
+      columns_.push_back(*column);
     }
     check_columns(where);
   }
   /// All columns of a state or none: then the world has a state of its own.
   void check_columns(const std::string& where) const {
-    for (const bool is_goal : {false, true}) {
-      const bool any = std::ranges::any_of(columns_, [&](Column c) { return c.is_goal == is_goal; });
-      const bool has_own = !(is_goal ? scene_.goal : scene_.start).empty();
-      if (!any && (kind_ != BatchLines::questions || has_own)) continue;
-      for (std::size_t i = 0; i < axes_.size(); ++i) {
-        const bool may_lack = is_goal && axes_[i] == plane_axes.back();
-        if (may_lack || std::ranges::find(columns_, Column{is_goal, i}) != columns_.end()) continue;
-        const std::string_view why = any       ? ""
-                                     : is_goal ? ", for the world has no goal"
-                                               : ", for the world has no start";
-        throw InputError(where, fmt::format("lacks the column {}{}{}", prefix(is_goal), axes_[i], why));
-      }
+    for (const Column& column : known_) {
+      const bool any = std::ranges::count(columns_, column.is_goal, &Column::is_goal) > 0;
+      const bool has_own = !(column.is_goal ? scene_.goal : scene_.start).empty();
+      const bool is_heading_of_goal = column.is_goal && axes_[column.place] == plane_axes.back();
+      if ((!any && has_own) || is_heading_of_goal) continue;
+      if (std::ranges::find(columns_, column.name, &Column::name) != columns_.end()) continue;
+      const std::string_view why = any              ? ""
+                                   : column.is_goal ? ", for the world has no goal"
+                                                    : ", for the world has no start";
+      throw InputError(where, fmt::format("lacks the column {}{}", column.name, why));
     }
   }
   BatchQuestion read_line(std::string_view line) const {
@@ -261,6 +253,7 @@ class BatchQuestions {
   BatchLines kind_;
   const Scene& scene_;
   std::span<const std::string_view> axes_;  // names of a state's numbers
+  std::vector<Column> known_;               // all that a header may have
   std::vector<Column> columns_;             // empty: JSON lines
   std::uint64_t count_ = 0;
 };
@@ -302,12 +295,16 @@ class Batch {
     if (error.empty()) {
       try {
         one_thread_.check();
-        if (options_.lengths_only) return add_length(question, scratch, chunk);
+        if (options_.lengths_only) {
+          const auto [outcome, length] =
+              query_.length_within(question.start, question.goal, options_.how, one_thread_, scratch);
+          return add_line(question, outcome, outcome == Outcome::solved ? std::optional(length) : std::nullopt, nullptr,
+                          chunk);
+        }
         const Answer answer = query_.ask_within(question.start, question.goal, options_.how, one_thread_, scratch);
         if (answer.outcome == Outcome::stopped) throw Stopped(answer.stop_reason.value_or(StopReason::time));
-        chunk.solved += answer.outcome == Outcome::solved ? 1 : 0;
-        chunk.text += options_.csv ? csv_line(question, answer) : json_line(question, answer);
-        return;
+        return add_line(question, answer.outcome, answer.verified ? std::optional(answer.length) : std::nullopt,
+                        &answer, chunk);
       } catch (const UsageError& wrong) {
         error = wrong.what();
       }
@@ -322,29 +319,24 @@ class Batch {
   }
 
  private:
-  void add_length(const BatchQuestion& question, QuestionScratch& scratch, AnsweredChunk& chunk) const {
-    const LengthAnswer answer = query_.length_within(question.start, question.goal, options_.how, one_thread_, scratch);
-    const bool solved = answer.outcome == Outcome::solved;
-    chunk.solved += solved ? 1 : 0;
-    const std::string length = solved ? json_number(answer.length) : options_.csv ? "" : "null";
-    const std::string status(name_of(answer.outcome));
-    chunk.text += options_.csv
-                      ? question.csv_id() + "," + status + "," + length + "\n"
-                      : "{\"id\":" + question.json_id() + ",\"status\":\"" + status + "\",\"length\":" + length + "}\n";
-  }
-  std::string json_line(const BatchQuestion& question, const Answer& answer) const {
-    JsonObject object;
-    object.add_json("id", question.json_id());
-    object.add("status", name_of(answer.outcome));
-    object.add_or_null("length", answer.verified, answer.length);
-    object.add("verified", answer.verified);
-    object.add_json("path", path_json(answer));
-    return object.closed() + "\n";
-  }
-  std::string csv_line(const BatchQuestion& question, const Answer& answer) const {
-    std::string line = question.csv_id() + "," + std::string(name_of(answer.outcome)) + ",";
-    if (answer.verified) line += json_number(answer.length);
-    return line + (answer.verified ? ",true\n" : ",false\n");
+  /// whole: nullptr where lengths alone are asked.
+  void add_line(const BatchQuestion& question, Outcome outcome, std::optional<double> length, const Answer* whole,
+                AnsweredChunk& chunk) const {
+    chunk.solved += outcome == Outcome::solved ? 1 : 0;
+    if (options_.csv) {
+      chunk.text.append(question.csv_id()).append(",").append(name_of(outcome)).append(",");
+      if (length) append_json_number(chunk.text, *length);
+      if (whole != nullptr) chunk.text += whole->verified ? ",true" : ",false";
+    } else {
+      JsonObject object;
+      object.add_json("id", question.json_id());
+      object.add("status", name_of(outcome));
+      object.add_or_null("length", length.has_value(), length.value_or(0.0));
+      if (whole != nullptr) object.add("verified", whole->verified);
+      if (whole != nullptr) object.add_json("path", path_json(*whole));
+      chunk.text += object.closed();
+    }
+    chunk.text += '\n';
   }
 
   const RoadmapQuery& query_;
@@ -373,6 +365,8 @@ std::vector<BatchQuestion> all_places(const InputFile& file, const Roadmap& road
 struct Entry {
   LengthAnswer answer;
   std::string error;  ///< why it can't be asked; empty: it can
+
+  bool is_solved() const { return error.empty() && answer.outcome == Outcome::solved; }
 };
 
 class Matrix {
@@ -439,18 +433,15 @@ class Matrix {
     for (std::size_t i = 0; i < row.size(); ++i) {
       const bool is_its_own = start.error.empty() && goals_[i].error.empty();
       account_.wrong += is_its_own && !row[i].error.empty() ? 1 : 0;
-      account_.solved += row[i].error.empty() && row[i].answer.outcome == Outcome::solved ? 1 : 0;
+      account_.solved += row[i].is_solved() ? 1 : 0;
     }
   }
   std::string csv_line(const BatchQuestion& start, std::span<const Entry> row) const {
     std::string text = start.csv_id();
     for (const Entry& entry : row) {
       text += ',';
-      if (!entry.error.empty()) {
-        text += "error";
-      } else if (entry.answer.outcome == Outcome::solved) {
-        text += json_number(entry.answer.length);
-      }
+      if (!entry.error.empty()) text += "error";
+      if (entry.is_solved()) append_json_number(text, entry.answer.length);
     }
     return text + "\n";
   }
@@ -462,19 +453,14 @@ class Matrix {
       object.add("error", std::string_view(start.error));
       return object.closed() + "\n";
     }
-    std::string status;
-    std::string length;
-    std::string_view error;
-    for (const Entry& entry : row) {
-      const bool solved = entry.error.empty() && entry.answer.outcome == Outcome::solved;
-      if (error.empty()) error = entry.error;
-      status.append(status.empty() ? "\"" : ",\"");
-      status.append(entry.error.empty() ? name_of(entry.answer.outcome) : "error").append("\"");
-      length.append(length.empty() ? "" : ",").append(solved ? json_number(entry.answer.length) : "null");
-    }
-    object.add_json("status", "[" + status + "]");
-    object.add_json("length", "[" + length + "]");
-    if (!error.empty()) object.add("error", error);
+    object.add_json("status", json_list_of(row, ",", [](const Entry& entry) {
+                      return fmt::format("\"{}\"", entry.error.empty() ? name_of(entry.answer.outcome) : "error");
+                    }));
+    object.add_json("length", json_list_of(row, ",", [](const Entry& entry) {
+                      return entry.is_solved() ? json_number(entry.answer.length) : "null";
+                    }));
+    const auto wrong = std::ranges::find_if(row, [](const Entry& entry) { return !entry.error.empty(); });
+    if (wrong != row.end()) object.add("error", std::string_view(wrong->error));
     return object.closed() + "\n";
   }
 

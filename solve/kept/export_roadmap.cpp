@@ -17,29 +17,18 @@
 namespace warren {
 namespace {
 
-using Files = std::vector<std::string>;
-
 struct ExportFormat {
   std::string_view ending;
   std::string_view second_ending;  ///< of the file beside it, if there is one
-  ExportAccount (*write)(const ExportedRoadmapView&, const Files&, const Execution&);
+  ExportAccount (*write)(const ExportedRoadmapView&, const ExportFiles&, const Execution&);
 };
 
-template <ExportAccount (*write)(const ExportedRoadmapView&, const std::string&, const Execution&)>
-ExportAccount write_one(const ExportedRoadmapView& roadmap, const Files& files, const Execution& execution) {
-  return write(roadmap, files.front(), execution);
-}
-template <ExportAccount (*write)(const ExportedRoadmapView&, const std::string&, const std::string&, const Execution&)>
-ExportAccount write_two(const ExportedRoadmapView& roadmap, const Files& files, const Execution& execution) {
-  return write(roadmap, files.front(), files.back(), execution);
-}
-
-constexpr std::array<ExportFormat, 6> formats{{{".geojson", "", write_one<write_roadmap_geojson>},
-                                               {".graphml", "", write_one<write_roadmap_graphml>},
-                                               {".gr", ".co", write_two<write_roadmap_dimacs>},
-                                               {".csv", ".edges.csv", write_two<write_roadmap_csv>},
-                                               {".npz", "", write_one<write_roadmap_npz>},
-                                               {".dot", "", write_one<write_roadmap_dot>}}};
+constexpr std::array<ExportFormat, 6> formats{{{".geojson", "", write_roadmap_geojson},
+                                               {".graphml", "", write_roadmap_graphml},
+                                               {".gr", ".co", write_roadmap_dimacs},
+                                               {".csv", ".edges.csv", write_roadmap_csv},
+                                               {".npz", "", write_roadmap_npz},
+                                               {".dot", "", write_roadmap_dot}}};
 
 const ExportFormat& format_of(const std::string& path) {
   std::string endings;
@@ -57,7 +46,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::vector<std::string> files_of_export(const std::string& path) {
   const ExportFormat& format = format_of(path);
-  Files files{path};
+  ExportFiles files{path};
   if (!format.second_ending.empty()) {
     files.push_back(path.substr(0, path.size() - format.ending.size()).append(format.second_ending));
   }
@@ -66,7 +55,7 @@ std::vector<std::string> files_of_export(const std::string& path) {
 
 ExportAccount export_roadmap(const std::string& path, const RoadmapParts& parts, const VertexDistance& length,
                              const ExportOptions& options, const Execution& execution) {
-  const Files files = files_of_export(path);
+  const ExportFiles files = files_of_export(path);
   if (execution.progress != nullptr) execution.progress->begin("export", parts.vertex_count() + 2 * parts.to.size());
   return format_of(path).write({parts, length, options}, files, execution);
 }
@@ -81,8 +70,7 @@ ExportedEdgesView::ExportedEdgesView(const ExportedRoadmapView& roadmap, EdgeWay
   assert(parts_.edge_states.size() >= edge_state_words(ends()));
   const std::size_t blocks = chunk_count(ends(), grain);
   execution.reserve(blocks * (sizeof(Tally) + sizeof(std::uint64_t)));
-  std::vector<Tally> tallies(blocks);
-  for_chunks(ends(), grain, execution, [&](Range range) { tallies[range.first / grain] = tally(range); });
+  const auto tallies = parts_of_chunks(ends(), grain, execution, [&](Range range) { return tally(range); });
   numbers_.assign(1, 0);
   numbers_.reserve(blocks + 1);
   for (const Tally& tally : tallies) {

@@ -6,13 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "core/base/error.hpp"
-#include "parallel/chunks.hpp"
 #include "planners/lengths/lattice_passages.hpp"
 #include "planners/mazes/tiled_prm_lattice.hpp"
-#include "planners/roadmap/milestones.hpp"
 #include "scenes/mazes/cell_bits.hpp"
 #include "solve/kept/maze_bits.hpp"
 #include "solve/question/planner_choice.hpp"
@@ -91,10 +88,10 @@ Scene KeptCells::walls_in(const Box& box) const {
   return scene;
 }
 
-const WallsNearEnds::Indexed* WallsNearEnds::index(const Execution& execution) const {
+const std::optional<MazeWorld>* WallsNearEnds::index(const Execution& execution) const {
   return indexed_.get_after(most_passes, execution, [&] {
-    auto indexed = std::make_unique<Indexed>();
-    memory_holds([&] { indexed->world.emplace(world_.whole(execution), reach_, execution); });
+    auto indexed = std::make_unique<std::optional<MazeWorld>>();
+    memory_holds([&] { indexed->emplace(world_.whole(execution), reach_, execution); });
     return indexed;
   });
 }
@@ -141,106 +138,6 @@ std::unique_ptr<RouteIndex> lattice_index(const Scene& scene, const Question& bo
   } catch (const InputError&) {  // it doesn't pay
     return nullptr;
   }
-}
-
-LatticeQuestion::LatticeQuestion(const WallsNearEnds& near, const WallProblem& problem, const RouteIndex& index,
-                                 RouteQuery& query, const Execution& execution)
-    : near_(near), problem_(problem), index_(index), query_(query), execution_(execution) {
-  if (!link(0, problem.start)) {
-    outcome_ = Outcome::start_blocked;
-  } else if (!link(1, problem.goal)) {
-    outcome_ = Outcome::goal_blocked;
-  } else {
-    join();
-  }
-}
-
-std::optional<CellId> lattice_cell(const RouteIndex& index, Vec2 p) {
-  const LatticeSize size = index.passages().size();
-  const bool inside = p.x >= 1.0 && p.y >= 1.0 && p.x <= size.cols && p.y <= size.rows;
-  if (!inside || std::floor(p.x) != p.x || std::floor(p.y) != p.y) return std::nullopt;
-  const auto col = static_cast<std::uint32_t>(p.x) - 1;
-  const auto row = static_cast<std::uint32_t>(p.y) - 1;
-  return index.passages().open_at(col, row) != 0 ? std::optional(row * size.cols + col) : std::nullopt;
-}
-
-/// False where the body does not fit there.
-bool LatticeQuestion::link(std::size_t end, Vec2 p) {
-  if (const auto cell = lattice_cell(index_, p)) {  // every other link leads over a longer way
-    links_[end].push_back({*cell, 0.0});
-    return true;
-  }
-  bool is_free = false;
-  near_.look(p, execution_, [&](const MazeWorld& world) { is_free = link_among(world, end, p); });
-  return is_free;
-}
-
-bool LatticeQuestion::link_among(const MazeWorld& world, std::size_t end, Vec2 p) {
-  auto query = world.make_query();
-  if (!world.is_free(p, query)) return false;
-  const LatticeSize size = index_.passages().size();
-  std::vector<std::pair<double, CellId>> near;
-  const auto middle_x = static_cast<std::int64_t>(std::clamp(std::round(p.x), 1.0, static_cast<double>(size.cols)));
-  const auto middle_y = static_cast<std::int64_t>(std::clamp(std::round(p.y), 1.0, static_cast<double>(size.rows)));
-  for (std::int64_t y = std::max<std::int64_t>(1, middle_y - widest_look);
-       y <= std::min<std::int64_t>(size.rows, middle_y + widest_look); ++y) {
-    for (std::int64_t x = std::max<std::int64_t>(1, middle_x - widest_look);
-         x <= std::min<std::int64_t>(size.cols, middle_x + widest_look); ++x) {
-      const Vec2 at{static_cast<double>(x), static_cast<double>(y)};
-      if (!world.is_free(at, query)) continue;
-      near.emplace_back(distance(p, at), static_cast<CellId>((y - 1) * size.cols + (x - 1)));
-    }
-  }
-  std::sort(near.begin(), near.end());
-  constexpr std::size_t farthest = 256;
-  for (std::size_t i = 0; i < std::min(near.size(), farthest); ++i) {
-    const auto [length, cell] = near[i];
-    if (length > 1.0 && !links_[end].empty()) break;
-    const Vec2 at = lattice_point(size, cell);
-    if (world.is_free_motion(p, at, query)) links_[end].push_back({cell, length});
-  }
-  return true;
-}
-
-void LatticeQuestion::join() {
-  double best = std::numeric_limits<double>::infinity();
-  for (const Link& from : links_[0]) {
-    for (const Link& to : links_[1]) {
-      const auto steps = query_.length(from.cell, to.cell);
-      if (!steps || from.length + *steps + to.length >= best) continue;
-      best = from.length + *steps + to.length;
-      from_ = from.cell;
-      to_ = to.cell;
-    }
-  }
-  const double straight = distance(problem_.start, problem_.goal);
-  if (straight <= 1.0 && straight < best) {
-    near_.look(problem_.start, execution_, [&](const MazeWorld& world) {
-      auto query = world.make_query();
-      direct_ = world.is_free_motion(problem_.start, problem_.goal, query);
-    });
-    if (direct_) best = straight;
-  }
-  if (!std::isfinite(best)) return;
-  outcome_ = Outcome::solved;
-  length_ = best;
-}
-
-Path<Vec2> LatticeQuestion::path() const {
-  if (direct_) return {problem_.start, problem_.goal};
-  const RawVector<CellId> cells = query_.path(from_, to_, execution_);
-  execution_.reserve((cells.size() + 2) * sizeof(Vec2));
-  const LatticeSize size = index_.passages().size();
-  const std::size_t before = lattice_point(size, cells.front()) != problem_.start ? 1 : 0;
-  const bool ends_there = lattice_point(size, cells.back()) == problem_.goal && before + cells.size() > 1;
-  const std::size_t behind = ends_there ? 0 : 1;
-  Path<Vec2> path(before + cells.size() + behind);
-  for_chunks(cells.size(), std::size_t{1} << 14, execution_, [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; ++i) path[before + i] = lattice_point(size, cells[i]);
-  });
-  path.front() = problem_.start;
-  path.back() = problem_.goal;
-  return path;
 }
 
 }  // namespace warren

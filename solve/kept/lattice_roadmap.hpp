@@ -2,9 +2,9 @@
 // The roadmap of a maze's lattice, held as a route index (planners/lengths) instead of states and edges: two bits a
 // cell for its edges, and about one byte a cell by which any question is answered exactly without a search.
 //
-// Ends are joined to the lattice as solve() joins them: to the milestones within a step that they reach freely, and
-// where there is none to the nearest of the 256 nearest that they do. An end on a milestone that has an edge needs no
-// look at the walls; others have one (WallsNearEnds), and the walls of a file are made first.
+// Ends are joined to the lattice as solve() joins them (roadmap_query.cpp): to the milestones within a step that they
+// reach freely, and where there is none to the nearest of the 256 nearest that they do. An end on a milestone that has
+// an edge needs no look at the walls; others have one (WallsNearEnds), and the walls of a file are made first.
 //
 // The walls of a kept maze as its judge looks them up (KeptCells): by bits of the file, read by code of verify/ and
 // held against the world's hash, or by bits of its own. Some milliseconds or a second once, at 10^8 cells; then each
@@ -21,12 +21,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "core/run/execution.hpp"
 #include "parallel/once.hpp"
 #include "planners/lengths/route_index.hpp"
-#include "planners/lengths/route_query.hpp"
 #include "scenes/scene/scene.hpp"
 #include "solve/kept/roadmap_file.hpp"
 #include "solve/question/question.hpp"
@@ -136,7 +134,7 @@ class WallsNearEnds {
       return look(MazeWorld(cells->walls_in(room_of_motions(p)), reach_, execution));
     }
     const Scene& whole = world_.whole(execution);
-    if (const Indexed* indexed = index(execution); indexed != nullptr && indexed->world) return look(*indexed->world);
+    if (const auto* indexed = index(execution); indexed != nullptr && *indexed) return look(**indexed);
     look(MazeWorld(around(whole, p, execution), reach_, execution));
   }
   /// An end will be looked at: the index is made now, on the execution's threads, if its turn has come.
@@ -145,10 +143,8 @@ class WallsNearEnds {
   }
 
  private:
-  struct Indexed {
-    std::optional<MazeWorld> world;  // none: too large
-  };
-  const Indexed* index(const Execution& execution) const;
+  /// nullptr: its turn has not come; none: too large.
+  const std::optional<MazeWorld>* index(const Execution& execution) const;
   Box room_of_motions(Vec2 p) const {
     Box near;
     near.include(p);
@@ -158,7 +154,7 @@ class WallsNearEnds {
 
   const KeptWorld& world_;
   double reach_;
-  MadeOnce<Indexed> indexed_;
+  MadeOnce<std::optional<MazeWorld>> indexed_;
 };
 
 /// where_it_pays ("auto"): of large lattices that are no open space; none: never.
@@ -172,44 +168,5 @@ inline constexpr std::uint64_t fewest_indexed_cells = 65'536;
 /// small lattices, and where the index doesn't pay. Throws InputError, Stopped.
 std::unique_ptr<RouteIndex> lattice_index(const Scene& scene, const Question& body, const SolveOptions& options,
                                           const Execution& execution);
-
-/// The cell whose milestone stands at p and has an edge.
-std::optional<CellId> lattice_cell(const RouteIndex& index, Vec2 p);
-
-/// The shortest way over the lattice between any two places.
-class LatticeQuestion {
- public:
-  /// `query`: of the index. All are referred to. Throws Stopped.
-  LatticeQuestion(const WallsNearEnds& near, const WallProblem& problem, const RouteIndex& index, RouteQuery& query,
-                  const Execution& execution);
-
-  Outcome outcome() const { return outcome_; }
-  /// Only for solved.
-  double length() const { return length_; }
-  /// Start, cells, goal.
-  Path<Vec2> path() const;
-  std::uint64_t links() const { return links_[0].size() + links_[1].size(); }
-
- private:
-  struct Link {
-    CellId cell;
-    double length;
-  };
-  bool link(std::size_t end, Vec2 p);
-  bool link_among(const MazeWorld& world, std::size_t end, Vec2 p);
-  void join();
-
-  const WallsNearEnds& near_;
-  const WallProblem& problem_;
-  const RouteIndex& index_;
-  RouteQuery& query_;
-  const Execution& execution_;
-  std::vector<Link> links_[2];
-  Outcome outcome_ = Outcome::not_connected;
-  double length_ = 0.0;
-  bool direct_ = false;
-  CellId from_ = 0;
-  CellId to_ = 0;
-};
 
 }  // namespace warren

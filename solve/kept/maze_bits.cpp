@@ -36,13 +36,11 @@ void for_each_cell(const Cells& cells, std::size_t word, const Visit& visit) {
 RawVector<std::uint64_t> packed(const MazeCells& cells, const Execution& execution) {
   execution.reserve(words_for(cells.cell_count()) * sizeof(std::uint64_t));
   RawVector<std::uint64_t> words(words_for(cells.cell_count()));
-  for_chunks(words.size(), grain, execution, [&](Range r) {
-    for (std::size_t w = r.first; w < r.last; ++w) {
-      words[w] = 0;
-      for_each_cell(cells, w, [&](std::uint64_t i, std::size_t byte) {
-        words[w] |= std::uint64_t{cells.bytes()[byte]} % 4 << (2 * i);
-      });
-    }
+  for_each_index(words.size(), grain, execution, [&](std::size_t w) {
+    words[w] = 0;
+    for_each_cell(cells, w, [&](std::uint64_t i, std::size_t byte) {
+      words[w] |= std::uint64_t{cells.bytes()[byte]} % 4 << (2 * i);
+    });
   });
   return words;
 }
@@ -51,13 +49,11 @@ RawVector<std::uint64_t> packed(const MazeCells& cells, const Execution& executi
 template <class Visit>
 void for_each_tile(LatticeSize size, const Execution& execution, const Visit& visit) {
   const LatticePlaces places(size);
-  for_chunks(places.tile_count(), 16, execution, [&](Range r) {
-    for (std::size_t tile = r.first; tile < r.last; ++tile) {
-      const auto first_col = static_cast<std::uint32_t>(tile % places.tile_cols()) * LatticePlaces::side;
-      const auto first_row = static_cast<std::uint32_t>(tile / places.tile_cols()) * LatticePlaces::side;
-      visit(first_col, first_row, std::min(LatticePlaces::side, size.cols - first_col),
-            std::min(LatticePlaces::side, size.rows - first_row));
-    }
+  for_each_index(places.tile_count(), 16, execution, [&](std::size_t tile) {
+    const auto first_col = static_cast<std::uint32_t>(tile % places.tile_cols()) * LatticePlaces::side;
+    const auto first_row = static_cast<std::uint32_t>(tile / places.tile_cols()) * LatticePlaces::side;
+    visit(first_col, first_row, std::min(LatticePlaces::side, size.cols - first_col),
+          std::min(LatticePlaces::side, size.rows - first_row));
   });
 }
 
@@ -150,12 +146,10 @@ WallSet walls_of_maze_bits(const std::string& where, MazeHint maze, std::span<co
   }
   MazeCells cells(maze.rows, maze.cols, execution);
   const std::span<std::uint8_t> bytes = cells.bytes();
-  for_chunks(bits.size(), grain, execution, [&](Range r) {
-    for (std::size_t w = r.first; w < r.last; ++w) {
-      for_each_cell(cells, w, [&](std::uint64_t i, std::size_t byte) {
-        bytes[byte] = static_cast<std::uint8_t>(bits[w] >> (2 * i) & 3U);
-      });
-    }
+  for_each_index(bits.size(), grain, execution, [&](std::size_t w) {
+    for_each_cell(cells, w, [&](std::uint64_t i, std::size_t byte) {
+      bytes[byte] = static_cast<std::uint8_t>(bits[w] >> (2 * i) & 3U);
+    });
   });
   return maze_walls(cells, false, execution);
 }

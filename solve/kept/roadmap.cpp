@@ -72,11 +72,10 @@ using StateKey = std::array<double, most_joints>;
 std::vector<StateKey> sorted_states(const RoadmapParts& parts, const Execution& execution) {
   constexpr std::size_t polled = std::size_t{1} << 16;
   execution.reserve(parts.vertex_count() * sizeof(StateKey));
-  std::vector<StateKey> states(parts.vertex_count());
+  std::vector<StateKey> states(parts.vertex_count(), StateKey{});
   for (VertexId v = 0; v < states.size(); ++v) {
     if (v % polled == 0) execution.check();
-    states[v].fill(0.0);
-    std::copy(parts.state(v).begin(), parts.state(v).end(), states[v].begin());
+    std::ranges::copy(parts.state(v), states[v].begin());
   }
   polled_sort(states.begin(), states.end(), execution);
   return states;

@@ -179,10 +179,8 @@ std::vector<std::uint64_t> checksums_of(std::span<const RoadmapSection> sections
       blocks.push_back(s.bytes.subspan(at, std::min(checked_block, s.bytes.size() - at)));
     }
   }
-  std::vector<std::uint64_t> sums(blocks.size());
-  for_chunks(blocks.size(), 1, without_progress(execution),
-             [&](Range r) { sums[r.first] = checksum(blocks[r.first]); });
-  return sums;
+  return parts_of_chunks(blocks.size(), 1, without_progress(execution),
+                         [&](Range r) { return checksum(blocks[r.first]); });
 }
 
 template <class T>

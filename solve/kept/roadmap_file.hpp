@@ -186,7 +186,7 @@ class RoadmapFile {
   std::span<const T> section(std::string_view name, const Execution& execution) const {
     const SectionPlace& place = required(name, element_type<T>());
     check_section(place, execution);
-    return unchecked<T>(place);
+    return {reinterpret_cast<const T*>(bytes().data() + place.offset), place.elements};
   }
   /// The same, or nothing where the section is missing.
   template <FileElement T>
@@ -221,10 +221,6 @@ class RoadmapFile {
   [[noreturn]] void refuse(std::size_t block) const;
 
   std::span<const std::byte> bytes() const { return std::as_bytes(std::span(file_.bytes())); }
-  template <class T>
-  std::span<const T> unchecked(const SectionPlace& place) const {
-    return {reinterpret_cast<const T*>(bytes().data() + place.offset), place.elements};
-  }
 
   InputFile file_;
   CheckedHeader head_;

@@ -67,15 +67,13 @@ RoadmapParts checked_parts(const RoadmapFile& file, const Roadmap& roadmap, cons
 
 RoadmapArrays read_arrays(const RoadmapFile& file, const Roadmap& roadmap, const Execution& execution) {
   const RoadmapParts parts = checked_parts(file, roadmap, execution);
-  RoadmapArrays arrays;
-  arrays.dimension = parts.dimension;
-  arrays.directed = parts.directed;
-  arrays.states = copied(parts.states, execution);
-  arrays.candidates = Graph(copied(parts.first, execution), copied(parts.to, execution));
-  arrays.edge_states = copied(parts.edge_states, execution);
-  arrays.component = copied(parts.component, execution);
-  arrays.hierarchy = read_hierarchy(file, parts.vertex_count(), execution);
-  return arrays;
+  return {.dimension = parts.dimension,
+          .directed = parts.directed,
+          .states = copied(parts.states, execution),
+          .candidates = Graph(copied(parts.first, execution), copied(parts.to, execution)),
+          .edge_states = copied(parts.edge_states, execution),
+          .component = copied(parts.component, execution),
+          .hierarchy = read_hierarchy(file, parts.vertex_count(), execution)};
 }
 
 KeptWorld given_world(const RoadmapFile& file, Scene given, const Roadmap& roadmap, const Execution& execution) {

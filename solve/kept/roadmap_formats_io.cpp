@@ -5,14 +5,54 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <algorithm>
+#include <array>
 #include <cassert>
+#include <exception>
 
 #include "core/base/error.hpp"
+#include "parallel/chunks.hpp"
 #include "scenes/files/npy_io.hpp"
 #include "scenes/text/json_text.hpp"
 
 namespace warren {
 namespace {
+
+/// Vertices in a piece: at most half a megabyte of text.
+constexpr std::size_t vertices_a_piece = 2048;
+
+/// Long texts, made piece by piece on all cores and written in their order: a file of any size goes through 16 pieces
+/// of memory, and its bytes are the same for any number of threads. Calls make(Range, std::string&), which appends, for
+/// each piece of `grain` indices of 0 .. n - 1, and sink.write() with what it made, one after the other. Throws
+/// Stopped, and as make and the sink do.
+template <class Sink, class Make>
+void write_in_pieces(Sink& sink, std::size_t n, std::size_t grain, const Execution& execution, const Make& make) {
+  constexpr std::size_t pieces_at_once = 16;
+  std::array<std::string, pieces_at_once> texts;
+  std::array<std::exception_ptr, pieces_at_once> errors;  // the first by number, not by time
+  for (std::size_t begin = 0; begin < n; begin += pieces_at_once * grain) {
+    const std::size_t count = std::min(pieces_at_once * grain, n - begin);
+    for_chunks(count, grain, execution, [&](Range range) {
+      std::string& text = texts[range.first / grain];
+      text.clear();
+      try {
+        make(Range{begin + range.first, begin + range.last}, text);
+      } catch (...) {
+        errors[range.first / grain] = std::current_exception();
+      }
+    });
+    for (std::size_t piece = 0; piece < chunk_count(count, grain); ++piece) {
+      if (errors[piece]) std::rethrow_exception(errors[piece]);
+      sink.write(texts[piece]);
+    }
+  }
+}
+
+/// A number as bytes of a file, the least significant first (roadmap_file.hpp).
+template <class Number>
+void append_little_endian(std::string& bytes, Number number) {
+  bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
+}
 
 /// What the numbers of a state are called: "x", "y" of two, "theta" (radians) with them of three; else "q1", "q2" and
 /// so on (radians).
@@ -207,12 +247,12 @@ std::uint16_t size_16(std::string_view text) { return static_cast<std::uint16_t>
 
 }  // namespace
 
-ExportAccount write_roadmap_csv(const ExportedRoadmapView& roadmap, const std::string& vertex_path,
-                                const std::string& edge_path, const Execution& execution) {
+ExportAccount write_roadmap_csv(const ExportedRoadmapView& roadmap, const ExportFiles& files,
+                                const Execution& execution) {
   const RoadmapParts& parts = roadmap.parts;
   const ExportedEdgesView edges(roadmap, EdgeWays::once, execution);
-  OutputFile vertex_file(vertex_path, execution);
-  OutputFile edge_file(edge_path, execution);
+  OutputFile vertex_file(files.front(), execution);
+  OutputFile edge_file(files.back(), execution);
   vertex_file.write(fmt::format("id,{},component\n", fmt::join(state_names(parts.dimension), ",")));
   write_each_vertex(parts, vertex_file, execution, [&](std::size_t v, ExportedState state, auto out) {
     fmt::format_to(out, FMT_COMPILE("{}"), v);
@@ -223,16 +263,16 @@ ExportAccount write_roadmap_csv(const ExportedRoadmapView& roadmap, const std::s
   write_each_edge(edges, edge_file, execution, [&](const ExportedEdge& edge, auto out) {
     fmt::format_to(out, FMT_COMPILE("{},{},{},{}\n"), edge.from, edge.to, edges.length(edge), name_of(edge.state));
   });
-  commit_both(vertex_path, vertex_file, edge_file);
+  commit_both(files.front(), vertex_file, edge_file);
   return edges.account();
 }
 
 /// Numbers are quoted: a bare numeral of the language has no exponent.
-ExportAccount write_roadmap_dot(const ExportedRoadmapView& roadmap, const std::string& path,
+ExportAccount write_roadmap_dot(const ExportedRoadmapView& roadmap, const ExportFiles& files,
                                 const Execution& execution) {
   const RoadmapParts& parts = roadmap.parts;
   const ExportedEdgesView edges(roadmap, EdgeWays::once, execution);
-  OutputFile file(path, execution);
+  OutputFile file(files.front(), execution);
   file.write(parts.directed ? "digraph roadmap {\n" : "graph roadmap {\n");
   file.write("node [shape=point];\n");
   const std::vector<std::string> names = state_names(parts.dimension);
@@ -255,12 +295,12 @@ ExportAccount write_roadmap_dot(const ExportedRoadmapView& roadmap, const std::s
   return edges.account();
 }
 
-ExportAccount write_roadmap_dimacs(const ExportedRoadmapView& roadmap, const std::string& arc_path,
-                                   const std::string& coordinate_path, const Execution& execution) {
+ExportAccount write_roadmap_dimacs(const ExportedRoadmapView& roadmap, const ExportFiles& files,
+                                   const Execution& execution) {
   const std::size_t vertices = roadmap.parts.vertex_count();
   const ExportedEdgesView edges(roadmap, EdgeWays::both, execution);
-  OutputFile arc_file(arc_path, execution);
-  OutputFile coordinate_file(coordinate_path, execution);
+  OutputFile arc_file(files.front(), execution);
+  OutputFile coordinate_file(files.back(), execution);
   const BinaryUnit weight(edges.longest(execution));
   arc_file.write(
       fmt::format("c weights are lengths in units of {}\np sp {} {}\n", weight.name(), vertices, edges.count()));
@@ -275,17 +315,17 @@ ExportAccount write_roadmap_dimacs(const ExportedRoadmapView& roadmap, const std
     for (const double x : coordinates(state)) fmt::format_to(out, FMT_COMPILE(" {}"), unit.multiple(x));
     fmt::format_to(out, FMT_COMPILE("\n"));
   });
-  commit_both(arc_path, arc_file, coordinate_file);
+  commit_both(files.front(), arc_file, coordinate_file);
   return edges.account();
 }
 
 /// Metadata keep the point of whole numbers: Nav2 tells the type of a value by it.
-ExportAccount write_roadmap_geojson(const ExportedRoadmapView& roadmap, const std::string& path,
+ExportAccount write_roadmap_geojson(const ExportedRoadmapView& roadmap, const ExportFiles& files,
                                     const Execution& execution) {
   const RoadmapParts& parts = roadmap.parts;
   const ExportedEdgesView edges(roadmap, EdgeWays::both, execution);
-  check_loadable(roadmap, edges, path);
-  OutputFile file(path, execution);
+  check_loadable(roadmap, edges, files.front());
+  OutputFile file(files.front(), execution);
   file.write("{\"type\":\"FeatureCollection\",\"name\":\"graph\",\"features\":[\n");
   const std::string frame = json_string(roadmap.options.frame);
   write_each_vertex(parts, file, execution, [&](std::size_t v, ExportedState state, auto out) {
@@ -310,11 +350,11 @@ ExportAccount write_roadmap_geojson(const ExportedRoadmapView& roadmap, const st
   return edges.account();
 }
 
-ExportAccount write_roadmap_graphml(const ExportedRoadmapView& roadmap, const std::string& path,
+ExportAccount write_roadmap_graphml(const ExportedRoadmapView& roadmap, const ExportFiles& files,
                                     const Execution& execution) {
   const RoadmapParts& parts = roadmap.parts;
   const ExportedEdgesView edges(roadmap, EdgeWays::once, execution);
-  OutputFile file(path, execution);
+  OutputFile file(files.front(), execution);
   file.write(graphml_head(parts));
   const std::vector<std::string> names = state_names(parts.dimension);
   write_each_vertex(parts, file, execution, [&](std::size_t v, ExportedState state, auto out) {
@@ -336,10 +376,10 @@ ExportAccount write_roadmap_graphml(const ExportedRoadmapView& roadmap, const st
   return edges.account();
 }
 
-ExportAccount write_roadmap_npz(const ExportedRoadmapView& roadmap, const std::string& path,
+ExportAccount write_roadmap_npz(const ExportedRoadmapView& roadmap, const ExportFiles& files,
                                 const Execution& execution) {
   const ExportedEdgesView edges(roadmap, EdgeWays::both, execution);
-  OutputFile file(path, execution);
+  OutputFile file(files.front(), execution);
   NpzWriter(roadmap, edges, file, execution).write(roadmap.options.with_unchecked);
   file.commit();
   return edges.account();

@@ -1,27 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The formats of exported roadmaps. All throw InputError for a length that is no number, and as OutputFile; where there
-// are two files, both are put in place when both are whole. And what they are written by: texts in pieces, whole
-// numbers for real ones, zip archives.
+// are two files, both are put in place when both are whole. And what they are written by: whole numbers for real ones,
+// zip archives.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <limits>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <vector>
 
-#include "parallel/chunks.hpp"
 #include "scenes/text/output_file_io.hpp"
 #include "solve/kept/export_roadmap.hpp"
 
 namespace warren {
+
+/// Of a roadmap, as files_of_export() names them.
+using ExportFiles = std::vector<std::string>;
 
 /// A roadmap as a route graph of Nav2, by the rules of its loader (nav2_route's GeoJsonGraphFileLoader): nodes are
 /// Points with id and frame, edges MultiLineStrings with id, startid, endid and cost, the length. Edges are directed,
@@ -29,67 +25,37 @@ namespace warren {
 /// vertex_count + i. Headings are metadata of nodes, "state": "unchecked" of edges that are. One feature a line.
 /// Nav2 holds coordinates and costs as floats and ids in 32 bits. Throws UsageError where its loader would refuse the
 /// file (no edges, states that are no places of the plane), and InputError where ids run out, too.
-ExportAccount write_roadmap_geojson(const ExportedRoadmapView& roadmap, const std::string& path,
+ExportAccount write_roadmap_geojson(const ExportedRoadmapView& roadmap, const ExportFiles& files,
                                     const Execution& execution);
 
 /// A roadmap as GraphML: nodes with x, y, theta or q1..qn and component, edges with length and, where they are
 /// unchecked, state ("free" is its default). http://graphml.graphdrawing.org
-ExportAccount write_roadmap_graphml(const ExportedRoadmapView& roadmap, const std::string& path,
+ExportAccount write_roadmap_graphml(const ExportedRoadmapView& roadmap, const ExportFiles& files,
                                     const Execution& execution);
 
 /// A roadmap in the formats of the 9th DIMACS implementation challenge (shortest paths, 2006): arcs with whole weights
 /// (.gr) and whole coordinates (.co), vertices numbered from 1. Undirected edges are two arcs. Comment lines name the
 /// units (roadmap_formats_io.hpp). Of a state the plane's x and y are written, of an arm's all joints.
 /// Computes each length twice, first to find the longest.
-ExportAccount write_roadmap_dimacs(const ExportedRoadmapView& roadmap, const std::string& arc_path,
-                                   const std::string& coordinate_path, const Execution& execution);
+ExportAccount write_roadmap_dimacs(const ExportedRoadmapView& roadmap, const ExportFiles& files,
+                                   const Execution& execution);
 
 /// A roadmap as two tables: vertices (id,x,y[,theta] or q1..qn,component) and edges (from,to,length,state), one line of
 /// names above each. Undirected edges stand once, from the smaller vertex.
-ExportAccount write_roadmap_csv(const ExportedRoadmapView& roadmap, const std::string& vertex_path,
-                                const std::string& edge_path, const Execution& execution);
+ExportAccount write_roadmap_csv(const ExportedRoadmapView& roadmap, const ExportFiles& files,
+                                const Execution& execution);
 
 /// A roadmap for SciPy and NumPy: the matrix of lengths in compressed rows as scipy.sparse.load_npz reads it (indices,
 /// indptr, format, shape, data; both ways of an undirected edge), and by numpy.load also `states` (vertex_count x
 /// dimension), `component`, and where unchecked edges are asked for `edge_states`, one a length: 0 unchecked, 1 free.
-ExportAccount write_roadmap_npz(const ExportedRoadmapView& roadmap, const std::string& path,
+ExportAccount write_roadmap_npz(const ExportedRoadmapView& roadmap, const ExportFiles& files,
                                 const Execution& execution);
 
 /// A roadmap for Graphviz: `neato -n roadmap.dot -Tsvg`. Vertices stand where they are (pos, with ! so that neato
 /// leaves them there), edges have their length (len), unchecked ones are dashed. Headings and joints are attributes by
 /// their names; an arm's vertices have no pos.
-ExportAccount write_roadmap_dot(const ExportedRoadmapView& roadmap, const std::string& path,
+ExportAccount write_roadmap_dot(const ExportedRoadmapView& roadmap, const ExportFiles& files,
                                 const Execution& execution);
-
-/// Vertices in a piece: at most half a megabyte of text.
-inline constexpr std::size_t vertices_a_piece = 2048;
-
-/// Long texts, made piece by piece on all cores and written in their order: a file of any size goes through 16 pieces
-/// of memory, and its bytes are the same for any number of threads. Calls make(Range, std::string&), which appends, for
-/// each piece of `grain` indices of 0 .. n - 1, and sink.write() with what it made, one after the other. Throws
-/// Stopped, and as make and the sink do.
-template <class Sink, class Make>
-void write_in_pieces(Sink& sink, std::size_t n, std::size_t grain, const Execution& execution, const Make& make) {
-  constexpr std::size_t pieces_at_once = 16;
-  std::array<std::string, pieces_at_once> texts;
-  std::array<std::exception_ptr, pieces_at_once> errors;  // the first by number, not by time
-  for (std::size_t begin = 0; begin < n; begin += pieces_at_once * grain) {
-    const std::size_t count = std::min(pieces_at_once * grain, n - begin);
-    for_chunks(count, grain, execution, [&](Range range) {
-      std::string& text = texts[range.first / grain];
-      text.clear();
-      try {
-        make(Range{begin + range.first, begin + range.last}, text);
-      } catch (...) {
-        errors[range.first / grain] = std::current_exception();
-      }
-    });
-    for (std::size_t piece = 0; piece < chunk_count(count, grain); ++piece) {
-      if (errors[piece]) std::rethrow_exception(errors[piece]);
-      sink.write(texts[piece]);
-    }
-  }
-}
 
 /// Real numbers as whole ones, for formats that have no others: multiples of a power of two, the finest that lets the
 /// largest number stay below 2^31, which is what most readers' integers hold. A power of two, because scaling by it is
@@ -146,14 +112,5 @@ class StoredZip {
   std::uint64_t place_ = 0;
   std::vector<Member> members_;
 };
-
-// Numbers as bytes of a file, the least significant first.
-
-template <class Number>
-void append_little_endian(std::string& bytes, Number number) {
-  static_assert(std::is_arithmetic_v<Number>);
-  static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie in the file");
-  bytes.append(reinterpret_cast<const char*>(&number), sizeof(number));
-}
 
 }  // namespace warren

@@ -3,11 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
+#include <vector>
 
 #include "core/base/error.hpp"
 #include "parallel/chunks.hpp"
 #include "planners/graph/roadmap_arrays.hpp"
+#include "planners/roadmap/milestones.hpp"
 #include "planners/shorten/taut_path.hpp"
 #include "solve/explain/blocked_end.hpp"
 #include "solve/kinds/lower_bound.hpp"
@@ -92,6 +97,130 @@ Question question_to_one(const Roadmap& roadmap, const std::vector<double>& star
 }
 
 std::vector<double> anywhere(const Roadmap& roadmap) { return std::vector<double>(state_size(roadmap.robot), 0.0); }
+
+/// The cell whose milestone stands at p and has an edge.
+std::optional<CellId> lattice_cell(const RouteIndex& index, Vec2 p) {
+  const LatticeSize size = index.passages().size();
+  const bool inside = p.x >= 1.0 && p.y >= 1.0 && p.x <= size.cols && p.y <= size.rows;
+  if (!inside || std::floor(p.x) != p.x || std::floor(p.y) != p.y) return std::nullopt;
+  const auto col = static_cast<std::uint32_t>(p.x) - 1;
+  const auto row = static_cast<std::uint32_t>(p.y) - 1;
+  return index.passages().open_at(col, row) != 0 ? std::optional(row * size.cols + col) : std::nullopt;
+}
+
+/// The shortest way over the lattice between any two places.
+class LatticeQuestion {
+ public:
+  /// `query`: of the index. All are referred to. Throws Stopped.
+  LatticeQuestion(const WallsNearEnds& near, const WallProblem& problem, const RouteIndex& index, RouteQuery& query,
+                  const Execution& execution)
+      : near_(near), problem_(problem), index_(index), query_(query), execution_(execution) {
+    if (!link(0, problem.start)) {
+      outcome_ = Outcome::start_blocked;
+    } else if (!link(1, problem.goal)) {
+      outcome_ = Outcome::goal_blocked;
+    } else {
+      join();
+    }
+  }
+
+  Outcome outcome() const { return outcome_; }
+  /// Only for solved.
+  double length() const { return length_; }
+  /// Start, cells, goal.
+  Path<Vec2> path() const {
+    if (direct_) return {problem_.start, problem_.goal};
+    const RawVector<CellId> cells = query_.path(from_, to_, execution_);
+    execution_.reserve((cells.size() + 2) * sizeof(Vec2));
+    const LatticeSize size = index_.passages().size();
+    const std::size_t before = lattice_point(size, cells.front()) != problem_.start ? 1 : 0;
+    const bool ends_there = lattice_point(size, cells.back()) == problem_.goal && before + cells.size() > 1;
+    const std::size_t behind = ends_there ? 0 : 1;
+    Path<Vec2> path(before + cells.size() + behind);
+    for_each_index(cells.size(), std::size_t{1} << 14, execution_,
+                   [&](std::size_t i) { path[before + i] = lattice_point(size, cells[i]); });
+    path.front() = problem_.start;
+    path.back() = problem_.goal;
+    return path;
+  }
+
+ private:
+  /// False where the body does not fit there.
+  bool link(std::size_t end, Vec2 p) {
+    if (const auto cell = lattice_cell(index_, p)) {  // every other link leads over a longer way
+      links_[end].push_back({*cell, 0.0});
+      return true;
+    }
+    bool is_free = false;
+    near_.look(p, execution_, [&](const MazeWorld& world) { is_free = link_among(world, end, p); });
+    return is_free;
+  }
+  bool link_among(const MazeWorld& world, std::size_t end, Vec2 p) {
+    auto query = world.make_query();
+    if (!world.is_free(p, query)) return false;
+    const LatticeSize size = index_.passages().size();
+    std::vector<std::pair<double, CellId>> near;
+    const auto middle_x = static_cast<std::int64_t>(std::clamp(std::round(p.x), 1.0, static_cast<double>(size.cols)));
+    const auto middle_y = static_cast<std::int64_t>(std::clamp(std::round(p.y), 1.0, static_cast<double>(size.rows)));
+    for (std::int64_t y = std::max<std::int64_t>(1, middle_y - widest_look);
+         y <= std::min<std::int64_t>(size.rows, middle_y + widest_look); ++y) {
+      for (std::int64_t x = std::max<std::int64_t>(1, middle_x - widest_look);
+           x <= std::min<std::int64_t>(size.cols, middle_x + widest_look); ++x) {
+        const Vec2 at{static_cast<double>(x), static_cast<double>(y)};
+        if (!world.is_free(at, query)) continue;
+        near.emplace_back(distance(p, at), static_cast<CellId>((y - 1) * size.cols + (x - 1)));
+      }
+    }
+    std::sort(near.begin(), near.end());
+    constexpr std::size_t farthest = 256;
+    for (std::size_t i = 0; i < std::min(near.size(), farthest); ++i) {
+      const auto [length, cell] = near[i];
+      if (length > 1.0 && !links_[end].empty()) break;
+      const Vec2 at = lattice_point(size, cell);
+      if (world.is_free_motion(p, at, query)) links_[end].push_back({cell, length});
+    }
+    return true;
+  }
+  void join() {
+    double best = std::numeric_limits<double>::infinity();
+    for (const Link& from : links_[0]) {
+      for (const Link& to : links_[1]) {
+        const auto steps = query_.length(from.cell, to.cell);
+        if (!steps || from.length + *steps + to.length >= best) continue;
+        best = from.length + *steps + to.length;
+        from_ = from.cell;
+        to_ = to.cell;
+      }
+    }
+    const double straight = distance(problem_.start, problem_.goal);
+    if (straight <= 1.0 && straight < best) {
+      near_.look(problem_.start, execution_, [&](const MazeWorld& world) {
+        auto query = world.make_query();
+        direct_ = world.is_free_motion(problem_.start, problem_.goal, query);
+      });
+      if (direct_) best = straight;
+    }
+    if (!std::isfinite(best)) return;
+    outcome_ = Outcome::solved;
+    length_ = best;
+  }
+
+  struct Link {
+    CellId cell;
+    double length;
+  };
+  const WallsNearEnds& near_;
+  const WallProblem& problem_;
+  const RouteIndex& index_;
+  RouteQuery& query_;
+  const Execution& execution_;
+  std::vector<Link> links_[2];
+  Outcome outcome_ = Outcome::not_connected;
+  double length_ = 0.0;
+  bool direct_ = false;
+  CellId from_ = 0;
+  CellId to_ = 0;
+};
 
 }  // namespace
 

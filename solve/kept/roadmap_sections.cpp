@@ -52,14 +52,12 @@ template <class Wall, class T>
 WallSet walls_as(std::span<const T> numbers, const Execution& execution) {
   execution.reserve(numbers.size() / 4 * sizeof(Wall));
   RawVector<Wall> walls(numbers.size() / 4);
-  for_chunks(walls.size(), wall_grain, execution, [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; ++i) {
-      const T* const x = &numbers[4 * i];
-      if constexpr (std::is_same_v<Wall, PackedWall>) {
-        walls[i] = PackedWall::of(x[0], x[1], x[2], x[3]);
-      } else {
-        walls[i] = {x[0], x[1], x[2], x[3]};
-      }
+  for_each_index(walls.size(), wall_grain, execution, [&](std::size_t i) {
+    const T* const x = &numbers[4 * i];
+    if constexpr (std::is_same_v<Wall, PackedWall>) {
+      walls[i] = PackedWall::of(x[0], x[1], x[2], x[3]);
+    } else {
+      walls[i] = {x[0], x[1], x[2], x[3]};
     }
   });
   return WallSet(std::move(walls));
@@ -156,8 +154,8 @@ Hierarchy read_hierarchy(const RoadmapFile& file, std::size_t vertex_count, cons
   execution.reserve(first.size_bytes() + to.size() * sizeof(HierarchyArc));
   Hierarchy hierarchy{.first = {first.begin(), first.end()}, .arcs = {}};
   hierarchy.arcs.resize(to.size());
-  for_chunks(to.size(), arc_grain, execution, [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; ++i) hierarchy.arcs[i] = {to[i], middle[i], length[i]};
+  for_each_index(to.size(), arc_grain, execution, [&](std::size_t i) {
+    hierarchy.arcs[i] = {to[i], middle[i], length[i]};
   });
   check_hierarchy(hierarchy, vertex_count, file.name(), execution);
   return hierarchy;
@@ -169,12 +167,10 @@ HierarchySections::HierarchySections(const Hierarchy& hierarchy, const Execution
   to_.resize(arcs);
   middle_.resize(arcs);
   length_.resize(arcs);
-  for_chunks(arcs, arc_grain, execution, [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; ++i) {
-      to_[i] = hierarchy.arcs[i].to;
-      middle_[i] = hierarchy.arcs[i].middle;
-      length_[i] = hierarchy.arcs[i].length;
-    }
+  for_each_index(arcs, arc_grain, execution, [&](std::size_t i) {
+    to_[i] = hierarchy.arcs[i].to;
+    middle_[i] = hierarchy.arcs[i].middle;
+    length_[i] = hierarchy.arcs[i].length;
   });
 }
 
@@ -259,11 +255,9 @@ void WorldSections::unpack_walls(const Execution& execution) {
   execution.reserve(scene_.walls.size() * sizeof(FloatWall));
   unpacked_.resize(scene_.walls.size());
   scene_.walls.visit([&](auto walls) {
-    for_chunks(walls.size(), wall_grain, execution, [&](Range r) {
-      if constexpr (std::is_same_v<decltype(walls), std::span<const PackedWall>>) {
-        for (std::size_t i = r.first; i < r.last; ++i) unpacked_[i] = unpacked(walls[i]);
-      }
-    });
+    if constexpr (std::is_same_v<decltype(walls), std::span<const PackedWall>>) {
+      for_each_index(walls.size(), wall_grain, execution, [&](std::size_t i) { unpacked_[i] = unpacked(walls[i]); });
+    }
   });
 }
 

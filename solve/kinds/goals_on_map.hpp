@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which goal, and which places in which order: what GoalRule leaves open on a map, decided over the cells, where the
 // cheapest way to a set of places is one field (planners/grid/price_field). The choice is geometry: the grid planner
-// takes the ways over cells, those that sample plan to the chosen places.
+// takes the ways over cells, those that sample plan to the chosen places. And other ways to a place than the cheapest.
 #pragma once
 
 #include <cstdint>
@@ -130,5 +130,22 @@ void take_bound_of_choice(Answer& answer, std::optional<double> bound);
 
 /// A path cut where it first comes as near to a place.
 Path<Vec2> cut_at_region(Path<Vec2> path, Vec2 place, double radius);
+
+/// What a solve over cells holds when it has found a path.
+struct RoutesAsked {
+  const OccupancyMap& map;                      ///< as the question closes and opens it
+  const WallProblem& problem;                   ///< its goal is the one that is reached
+  const Bitmap& closed;                         ///< cells that the body may not touch
+  const Bitmap& wide;                           ///< cells where its middle may not be
+  StepWeights& weights;                         ///< of steps between the others
+  const DistanceField* distances;               ///< of the closed cells; nullptr: not made
+  LegPrices prices;                             ///< empty: ways cost their length
+  std::function<PriceParts(Vec2, Vec2)> parts;  ///< of a leg, where there are prices
+};
+
+/// Takes the cheapest of the paths as the answer's own, and the others as its alternatives, all of them verified, of
+/// different classes by the judge's own cuts. answer: has the path that is found without alternatives, which is never
+/// cheaper than what is taken. Throws UsageError where the question has stops or a region, Stopped.
+void take_alternatives(Answer& answer, const RouteRule& route, const RoutesAsked& asked, const Execution& execution);
 
 }  // namespace warren

@@ -50,9 +50,9 @@ std::vector<CellRange> ranges_of(std::span<const Cell> cells, std::uint32_t by) 
 
 }  // namespace
 
-std::size_t KeptWays::HashOfEnds::operator()(const Ends& ends) const {
+std::size_t KeptWays::HashOfLeg::operator()(const Segment& leg) const {
   std::uint64_t hash = 0;
-  for (const double x : {ends.a.x, ends.a.y, ends.b.x, ends.b.y}) {
+  for (const double x : {leg.a.x, leg.a.y, leg.b.x, leg.b.y}) {
     hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15ULL;
     hash ^= hash >> 29U;
   }

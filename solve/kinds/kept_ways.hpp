@@ -48,13 +48,8 @@ class KeptWays {
   Leg& leg(Vec2 a, Vec2 b);
 
  private:
-  struct Ends {
-    Vec2 a;
-    Vec2 b;
-    bool operator==(const Ends&) const = default;
-  };
-  struct HashOfEnds {
-    std::size_t operator()(const Ends& ends) const;
+  struct HashOfLeg {
+    std::size_t operator()(const Segment& leg) const;
   };
   bool is_same_frame(const OccupancyMap& map) const;
   void make(const OccupancyMap& map, const WallProblem& problem, const Execution& execution);
@@ -68,8 +63,8 @@ class KeptWays {
   Bitmap wide_;
   std::optional<StepWeights> weights_;
   std::optional<PriceField> field_;
-  std::uint64_t fresh_ = 0;                         // cells that the field expanded when it was new; 0: not known yet
-  std::unordered_map<Ends, Leg, HashOfEnds> legs_;  // lookups only
+  std::uint64_t fresh_ = 0;                           // cells that the field expanded when it was new; 0: not known yet
+  std::unordered_map<Segment, Leg, HashOfLeg> legs_;  // lookups only
 };
 
 }  // namespace warren

@@ -58,7 +58,7 @@ struct SessionIn : RoadmapSession {
   std::optional<AskedRoadmap<AnyWorldOf<W>>> roadmap;
   std::span<const std::uint64_t> edge_states() const override { return roadmap->edge_states(); }
   double distance(VertexId from, VertexId to) const override {
-    return world->distance(roadmap->states()[from], roadmap->states()[to]);
+    return world->distance(roadmap->states[from], roadmap->states[to]);
   }
 };
 

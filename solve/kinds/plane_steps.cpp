@@ -220,16 +220,11 @@ Path<Vec2> path_over_cells(const OccupancyMap& map, Vec2 start, std::span<const 
   return path;
 }
 
-Verification verify_map_path(const OccupancyMap& map, const WallProblem& problem, std::span<const Vec2> path,
-                             const Execution& execution) {
-  return verify_on_map(map, path, verify_options(problem), execution);
-}
-
 void verify_solved_on_map(Answer& answer, const OccupancyMap& map, const WallProblem& problem, bool over_cells,
                           const Execution& execution) {
   if (answer.outcome != Outcome::solved) return;
   const StageTimer timer(execution, "verify", answer.seconds.verify, answer.path.size());
-  const Verification verification = verify_map_path(map, problem, answer.path, execution);
+  const Verification verification = verify_on_map(map, answer.path, verify_options(problem), execution);
   if (!verification.verified) {
     const Violation violation = verification.first_violation.value_or(Violation{});
     const bool at_an_end = violation.leg == 0 || violation.leg + 2 == answer.path.size();

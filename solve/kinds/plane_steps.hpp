@@ -17,7 +17,6 @@
 #include "scenes/scene/occupancy_map.hpp"
 #include "solve/answer/by_products.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
-#include "verify/judges/verify_point.hpp"
 
 namespace warren {
 
@@ -103,10 +102,6 @@ std::vector<Cell> cells_joined_to(const OccupancyMap& map, const Bitmap& wide, d
 /// From the start over the middles of the cells where the path turns to the goal; each cell is a neighbour of the one
 /// before.
 Path<Vec2> path_over_cells(const OccupancyMap& map, Vec2 start, std::span<const Cell> cells, Vec2 goal);
-
-/// A path on a map judged against the closed cells: whole problem, ends included.
-Verification verify_map_path(const OccupancyMap& map, const WallProblem& problem, std::span<const Vec2> path,
-                             const Execution& execution);
 
 /// Verifies a solved answer and fills in length and clearance. A path that fails is a bug, std::logic_error; but for
 /// paths over_cells of a disc, which may fail on the way between an end and the middle of its cell: not_connected.

@@ -15,18 +15,12 @@
 
 namespace warren {
 
-class PoseBody : public UsualBody {
+class PoseBody : public UsualBody<PoseProblem> {
  public:
   static constexpr bool judged_by_index = true;
 
-  PoseBody(const SolveRequest& request, PoseProblem problem)
-      : scene_(request.scene),
-        execution_(request.execution),
-        judged_(request.asked.judged()),
-        problem_(std::move(problem)) {}
+  PoseBody(const SolveRequest& request, PoseProblem problem) : UsualBody(request, std::move(problem)) {}
 
-  Problem problem() const { return problem_.general(); }
-  Se2 start() const { return problem_.start; }
   template <class World>
   std::vector<Se2> goals(const World& world) const {
     auto query = world.make_query();
@@ -67,22 +61,6 @@ class PoseBody : public UsualBody {
       return warren::provably_apart(*scene_.map, problem_.robot, problem_.start, goal, execution_);
     });
   }
-
- protected:
-  const Scene& scene() const { return scene_; }
-  const Execution& execution() const { return execution_; }
-  const ObstacleIndex* judged() const { return judged_; }
-  const PoseProblem& question() const { return problem_; }
-  template <class World, class Length>
-  Path<Se2> shortcut(const World& world, Path<Se2> path, const Length& length, Answer& answer) const {
-    return shorter_path(WorldView(world), std::move(path), length, {.seed = answer.seed}, execution_, answer.counters);
-  }
-
- private:
-  const Scene& scene_;
-  const Execution& execution_;
-  const ObstacleIndex* judged_;
-  PoseProblem problem_;
 };
 
 }  // namespace warren

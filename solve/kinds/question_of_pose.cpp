@@ -100,11 +100,6 @@ std::optional<double> held_radius(const RobotSpec& robot) {
 
 double extent_of(const RobotSpec& robot) { return std::max(robot.radius, outline_reach(robot.outline)); }
 
-std::vector<Se2> recorded_poses(const RecordedAnswer& answer, std::string_view body) {
-  check_state_width(answer, 3, body);
-  return poses_of(answer.states);
-}
-
 PoseVerifyOptions verify_options(const PoseProblem& problem) {
   return {.clearance = problem.clearance,
           .start = problem.start,
@@ -141,8 +136,9 @@ void judge_turning(const Scene& scene, const PoseProblem& problem, const Path<Se
 Verdict recheck_turning(const Scene& scene, const Question& question, const RecordedAnswer& answer,
                         const Execution& execution) {
   const PoseProblem problem = pose_problem(scene, question, turning_body);
-  const std::vector<Se2> path = recorded_poses(answer, turning_body);
-  return {verify_se2(scene, problem.robot.outline, path, verify_options(problem), execution), problem.general()};
+  check_state_width(answer, 3, turning_body);
+  return {verify_se2(scene, problem.robot.outline, poses_of(answer.states), verify_options(problem), execution),
+          problem.general()};
 }
 
 }  // namespace warren

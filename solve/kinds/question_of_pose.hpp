@@ -79,8 +79,6 @@ double extent_of(const RobotSpec& robot);
 inline double end_margin(const Scene& scene, const PoseProblem& problem, const Execution& execution) {
   return end_margin(scene, problem.robot, problem.clearance, extent_of(problem.robot), execution);
 }
-/// The path of an answer whose states have three numbers; throws InputError for others.
-std::vector<Se2> recorded_poses(const RecordedAnswer& answer, std::string_view body);
 
 /// What the judge of a turning body or a car is asked for the problem.
 PoseVerifyOptions verify_options(const PoseProblem& problem);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solve/kinds/routes_on_map.hpp"
+// The cheapest path of each of the cheapest homotopy classes on a map, pulled taut in its class, for points and discs
+// (goals_on_map.hpp).
 
 #include <algorithm>
 #include <optional>
@@ -12,9 +13,11 @@
 #include "core/base/whole.hpp"
 #include "planners/grid/path_classes.hpp"
 #include "planners/shorten/priced_taut.hpp"
+#include "solve/kinds/goals_on_map.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "verify/judges/verify_classes.hpp"
+#include "verify/judges/verify_map.hpp"
 #include "worlds/plane/grid_world.hpp"
 
 namespace warren {
@@ -148,7 +151,7 @@ class Routes {
     AlternativePath path;
     path.path = std::move(way);
     path.passed = word(path.path);
-    const Verification verdict = verify_map_path(asked_.map, asked_.problem, path.path, execution_);
+    const Verification verdict = verify_on_map(asked_.map, path.path, verify_options(asked_.problem), execution_);
     if (!verdict.verified) return std::nullopt;
     path.length = verdict.length;
     path.min_clearance = verdict.min_clearance;

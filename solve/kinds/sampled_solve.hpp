@@ -57,18 +57,33 @@
 #include "solve/question/solve_options.hpp"
 
 namespace warren {
-/// What most bodies of sampled_solve.hpp and sampled_roadmap.hpp have in common.
-struct UsualBody {
+/// What most bodies of sampled_solve.hpp and sampled_roadmap.hpp have in common. Asked: WallProblem, PoseProblem or
+/// ArmProblem.
+template <class Asked>
+class UsualBody {
+ public:
   static constexpr bool names_pipeline = false;
   static constexpr bool has_cost = false;          ///< is what the planners make small another measure than the length?
   static constexpr bool judged_by_index = false;   ///< does its judge take an ObstacleIndex?
   static constexpr bool improves_by_draws = true;  ///< does improved() make use of its seed?
+
+  Problem problem() const { return problem_.general(); }
+  const auto& start() const { return problem_.start; }
   /// What nobody asked for of the trees.
   static void suit(RrtOptions&) {}
+  static SamplerKind choose_sampler(const SolveOptions&, const RoadmapOptions& roadmap) { return roadmap.sampler; }
 
   template <class World, class State>
   static std::vector<State> best_first(const World&, const std::vector<State>& goals) {
     return goals;
+  }
+  template <class World, class State>
+  static bool provably_apart(const World&, const std::vector<State>&) {
+    return false;
+  }
+  template <class World, class State>
+  static double length(const World& world, const State& a, const State& b) {
+    return world.distance(a, b);
   }
   template <class World>
   static Path<typename World::State> improved(const World& world, const Path<typename World::State>& path,
@@ -85,6 +100,23 @@ struct UsualBody {
   static std::string_view cause_of_blocked(const World&, Outcome outcome, const Goals&) {
     return outcome == Outcome::start_blocked ? "start_in_collision" : "goal_in_collision";
   }
+
+ protected:
+  /// Refers to what the request does.
+  UsualBody(const SolveRequest& request, Asked problem)
+      : scene_(request.scene),
+        execution_(request.execution),
+        judged_(request.asked.judged()),
+        problem_(std::move(problem)) {}
+  template <class World, class State, class Length>
+  Path<State> shortcut(const World& world, Path<State> path, const Length& length, Answer& answer) const {
+    return shorter_path(WorldView(world), std::move(path), length, {.seed = answer.seed}, execution_, answer.counters);
+  }
+
+  const Scene& scene_;
+  const Execution& execution_;
+  const ObstacleIndex* judged_;  // of the scene, or nullptr
+  Asked problem_;
 };
 
 /// Nodes of a tree that has no way to go, unless options say how many: it need not fill what it can reach.
@@ -102,11 +134,10 @@ class SampledSolve {
       : request_(request), own_(own), body_(std::move(body)) {
     answer_.problem = body_.problem();
     answer_.planner = name_of(request.planner);
+    answer_.seed = request.options.seed;
     if (gets_better(request.planner)) {
       describe_better();
-    } else if (on_lattice()) {
-      answer_.seed = request.options.seed;
-    } else {
+    } else if (!on_lattice()) {
       by_roadmap() ? describe_roadmap() : describe_trees();
     }
     answer_.options = given_figures(request.options);
@@ -143,7 +174,6 @@ class SampledSolve {
     if (body_.names_pipeline && request_.planner == PlannerKind::prm) answer_.pipeline = name_of(PipelineKind::plain);
     answer_.sampler = name_of(roadmap_options_.sampler);
     answer_.search = name_of(roadmap_options_.search);
-    answer_.seed = roadmap_options_.seed;
   }
   /// rrt-star is the textbook's; what anytime draws is its own business.
   void describe_better() {
@@ -158,13 +188,11 @@ class SampledSolve {
     const std::vector<AnytimePart>& parts = request_.options.anytime.parts;
     if (std::ranges::count(parts, AnytimePart::shorten) == std::ranges::ssize(parts) && !parts.empty())
       throw UsageError("@parts: shorten alone finds no path; add tree, restarts or roadmap");
-    answer_.seed = tree_options_.seed;
   }
   void describe_trees() {
     tree_options_ = tree_options(request_.options);
     body_.suit(tree_options_);
     answer_.sampler = sampler_name(tree_options_);
-    answer_.seed = tree_options_.seed;
   }
   void index() {
     const StageTimer timer(execution(), "index", answer_.seconds.index);
@@ -181,7 +209,7 @@ class SampledSolve {
       if (asked_ == nullptr) {
         view_->motion_cost = body_.price_motions(*world_);
       } else if constexpr (requires { body_.take_prices(view_->motion_cost); }) {
-        body_.take_prices(asked_->world().motion_cost);
+        body_.take_prices(asked_->world.motion_cost);
       }
     }
     goals_ = body_.goals(*world_);
@@ -248,21 +276,11 @@ class SampledSolve {
     if (apart_) options.iterations = std::min<std::uint64_t>(options.iterations.value_or(4), 4);
     return options;
   }
-  /// Nobody is told of the stages of what is done meanwhile.
-  class BesideTheStages {
-   public:
-    explicit BesideTheStages(Execution& execution) : execution_(execution), whole_(execution) {
-      execution_.progress = nullptr;
-      execution_.trace = nullptr;
-      execution_.account = nullptr;
-    }
-    ~BesideTheStages() { execution_ = whole_; }
-    BesideTheStages(const BesideTheStages&) = delete;
-    BesideTheStages& operator=(const BesideTheStages&) = delete;
-
-   private:
-    Execution& execution_;
-    const Execution whole_;
+  /// Makes an execution at its end what it was.
+  struct Restored {
+    Execution& execution;
+    const Execution whole = execution;
+    ~Restored() { execution = whole; }
   };
   AnytimeBody<State> body_of_better() {
     AnytimeBody<State> body;
@@ -279,7 +297,10 @@ class SampledSolve {
       Answer judged;
       judged.outcome = Outcome::solved;
       const auto begin = std::chrono::steady_clock::now();
-      const BesideTheStages beside(*own_);
+      const Restored restored{*own_};
+      own_->progress = nullptr;  // nobody is told of the stages meanwhile
+      own_->trace = nullptr;
+      own_->account = nullptr;
       body_.judge(*world_, Path<State>(path), judged);
       return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     };

@@ -22,17 +22,13 @@
 namespace warren {
 namespace {
 
-class Arm : public UsualBody {
+class Arm : public UsualBody<ArmProblem> {
  public:
   using World = ArmWorld;
 
   explicit Arm(const SolveRequest& request)
-      : scene_(request.scene),
-        execution_(request.execution),
-        problem_(arm_problem(request.scene, request.question, request.execution)) {}
+      : UsualBody(request, arm_problem(request.scene, request.question, request.execution)) {}
 
-  Problem problem() const { return problem_.general(); }
-  const JointState& start() const { return problem_.start; }
   /// A place of the tool is met in any posture within the limits; the nearest to the start come first.
   std::vector<JointState> goals(const World& world) {
     std::vector<JointState> goals = postures(world);
@@ -68,18 +64,15 @@ class Arm : public UsualBody {
   void index(std::optional<World>& world, SamplerKind) const {
     world.emplace(scene_, problem_.model, ArmOptions{.clearance = problem_.clearance}, execution_);
   }
-  static bool provably_apart(const World&, const std::vector<JointState>&) { return false; }
   bool start_stands_free() const { return goal_stands_free(problem_.start); }
   bool goal_stands_free(const JointState& q) const {
     const double margin = end_margin(scene_, problem_.robot, problem_.clearance, reach_of(problem_), execution_);
     const ArmVerifyOptions options{.clearance = problem_.clearance + margin};
     return verify_arm(scene_, problem_.model, std::span(&q, 1), options, execution_).verified;
   }
-  static double length(const World& world, const JointState& a, const JointState& b) { return world.distance(a, b); }
   Path<JointState> shortened(const World& world, Path<JointState> path, Answer& answer) const {
     const auto length_of = [&](const JointState& a, const JointState& b) { return length(world, a, b); };
-    return with_even_idle_joints(world, shorter_path(WorldView(world), std::move(path), length_of,
-                                                     {.seed = answer.seed}, execution_, answer.counters));
+    return with_even_idle_joints(world, shortcut(world, std::move(path), length_of, answer));
   }
   void judge(const World& world, const Path<JointState>& path, Answer& answer) const {
     ArmProblem reached = problem_;
@@ -161,9 +154,6 @@ class Arm : public UsualBody {
     return {};
   }
 
-  const Scene& scene_;
-  const Execution& execution_;
-  ArmProblem problem_;
   std::uint64_t tried_ = 0;
   bool knows_all_ = true;  // is every posture blocked where none of the goals is free?
 };

@@ -68,17 +68,15 @@ class Car : public PoseBody {
 
   explicit Car(const SolveRequest& request)
       : PoseBody(request, car_problem(request.scene, request.question, request.options.car)),
-        asked_(request.options.car),
-        grid_(request.options.grid),
-        anytime_(request.options.anytime),
+        options_(request.options),
         prices_(prices_of(request.scene, request.question)),
-        pose_prices_(std::make_unique<PosePrices>(scene(), prices_, question().clearance)),
-        on_lattice_(request.planner == PlannerKind::grid),
-        optimise_(request.options.optimise) {
+        pose_prices_(std::make_unique<PosePrices>(scene_, prices_, problem_.clearance)),
+        on_lattice_(request.planner == PlannerKind::grid) {
     if (on_lattice_) check_lattice();
-    if (!asked_.cusp_cost && !asked_.reverse_cost) return;
-    const std::string_view option = name_of(asked_.cusp_cost ? Option::cusp_cost : Option::reverse_cost);
-    if (!request.options.optimise && !on_lattice_)
+    const CarFields& asked = options_.car;
+    if (!asked.cusp_cost && !asked.reverse_cost) return;
+    const std::string_view option = name_of(asked.cusp_cost ? Option::cusp_cost : Option::reverse_cost);
+    if (!options_.optimise && !on_lattice_)
       throw UsageError(fmt::format("@{} prices what @optimise drives: ask for it", option));
     if (Curve::one_way) throw UsageError(fmt::format("@{}: a car with @steering dubins has one gear", option));
     if (Curve::turns_on_spot && !on_lattice_)
@@ -86,19 +84,17 @@ class Car : public PoseBody {
   }
 
   void index(std::optional<World>& world, SamplerKind) const {
-    const RobotSpec& robot = question().robot;
+    const RobotSpec& robot = problem_.robot;
     const CarOptions options{.turning_radius = robot.turning_radius,
                              .radius = robot.radius,
                              .outline = robot.outline,
-                             .clearance = question().clearance};
-    world.emplace(scene(), options, execution());
+                             .clearance = problem_.clearance};
+    world.emplace(scene_, options, execution_);
   }
-  bool start_stands_free() const { return goal_stands_free(question().start); }
+  bool start_stands_free() const { return goal_stands_free(problem_.start); }
   bool goal_stands_free(const Se2& pose) const {
-    const double margin = end_margin(scene(), question(), execution());
-    const PoseVerifyOptions options{.clearance = question().clearance + margin};
-    return verify_car(scene(), verified_car(question().robot), std::span(&pose, 1), options, execution(), judged())
-        .verified;
+    const double margin = end_margin(scene_, problem_, execution_);
+    return judged(std::span(&pose, 1), {.clearance = problem_.clearance + margin}).verified;
   }
   static double length(const World& world, const Se2& a, const Se2& b) {
     return Curve::turns_on_spot ? norm(b.position() - a.position()) : world.distance(a, b);
@@ -109,8 +105,7 @@ class Car : public PoseBody {
                                 std::vector<std::vector<double>> goals) const {
     if (!start_stands_free()) return {};
     const CarLatticeOptions options = lattice_options();
-    CarLattice lattice(world.body(), scene(), question().robot, Curve::shortest, question().start, {}, options,
-                       execution());
+    CarLattice lattice(world.body(), scene_, problem_.robot, Curve::shortest, problem_.start, {}, options, execution_);
     double coarse = 0.0;  // half of the widest gap between two headings
     for (std::uint32_t k = 1; k < lattice.headings(); ++k) {
       const double gap = turn_between(lattice.motions().heading_rad(k - 1), lattice.motions().heading_rad(k));
@@ -119,7 +114,7 @@ class Car : public PoseBody {
     GoalPlaces places(std::move(goals), rule, coarse * (1.0 + 1e-9));
     LatticeSearchOptions search;
     search.gear_change = lattice.units_of(options.price.cusp);
-    LatticeSearch everywhere(lattice, search, execution());
+    LatticeSearch everywhere(lattice, search, execution_);
     everywhere.run();
     everywhere.for_each_met([&](Cell cell, std::uint32_t heading, std::uint64_t cost) {
       const Se2 pose = lattice.pose_of(cell, heading);
@@ -130,7 +125,7 @@ class Car : public PoseBody {
   /// The path of least price over the lattice, near enough; where there is none, one with strokes at an end where the
   /// car can hardly move; empty: nor that.
   Path<Se2> on_lattice(const World& world, std::span<const Se2> goals, Answer& answer) const {
-    OverLattice over = over_lattice(world, question().start, goals, answer);
+    OverLattice over = over_lattice(world, problem_.start, goals, answer);
     const LatticeSolution& found = over.found;
     answer.figures.push_back({"headings", std::uint64_t{lattice_options().headings}});
     answer.figures.push_back({"cell", over.cell});
@@ -168,15 +163,15 @@ class Car : public PoseBody {
   }
   void judge(const World& world, const Path<Se2>& path, Answer& answer) const {
     const std::vector<Se2> poses = joints(world, path);
-    const StageTimer timer(execution(), "verify", answer.seconds.verify, poses.size());
-    const Verification found =
-        verify_car(scene(), verified_car(question().robot), poses, verify_options(question()), execution(), judged());
+    const StageTimer timer(execution_, "verify", answer.seconds.verify, poses.size());
+    const Verification found = judged(poses, verify_options(problem_));
     take_poses(answer, found, poses);
-    answer.path_figures.push_back({"steering", std::string(name_of(question().robot.steering))});
+    answer.path_figures.push_back({"steering", std::string(name_of(problem_.robot.steering))});
     answer.path_figures.push_back({"cusps", std::uint64_t{found.cusps}});
     answer.path_figures.push_back({"reversed_length", found.reversed});
     const bool weighs_driving = on_lattice_ || pose_prices_->is_priced();
-    if (!weighs_driving || !(asked_.cusp_cost || asked_.reverse_cost || grid_.turn_cost)) return;
+    if (!weighs_driving) return;
+    if (!options_.car.cusp_cost && !options_.car.reverse_cost && !options_.grid.turn_cost) return;
     answer.price = driving(found);
     answer.cost = found.length + answer.price->sum();
     answer.bound_of = "all";
@@ -195,22 +190,22 @@ class Car : public PoseBody {
  private:
   static constexpr bool has_gears = !Curve::one_way && !Curve::turns_on_spot;  // that redriving has words for
   DrivingPrice price() const {
-    const double usual_cusp = has_gears ? question().robot.turning_radius : 0.0;
-    return {asked_.cusp_cost.value_or(usual_cusp), asked_.reverse_cost.value_or(1.0)};
+    const double usual_cusp = has_gears ? problem_.robot.turning_radius : 0.0;
+    return {options_.car.cusp_cost.value_or(usual_cusp), options_.car.reverse_cost.value_or(1.0)};
   }
   /// What the lattice makes small. Where turning costs nothing a drive that turns on the spot would turn for nothing.
   double turn_cost_on_lattice() const {
-    return grid_.turn_cost.value_or(Curve::turns_on_spot ? question().robot.turning_radius : 0.0);
+    return options_.grid.turn_cost.value_or(Curve::turns_on_spot ? problem_.robot.turning_radius : 0.0);
   }
   /// Unasked, only what is driven anew has a price: where places have one, nothing is.
   DrivingPrice price_on_lattice() const {
     DrivingPrice on_lattice = price();
-    if (!asked_.cusp_cost && (!optimise_ || pose_prices_->is_priced())) on_lattice.cusp = 0.0;
+    if (!options_.car.cusp_cost && (!options_.optimise || pose_prices_->is_priced())) on_lattice.cusp = 0.0;
     return on_lattice;
   }
   PriceParts driving(const Verification& found) const {
     const DrivingPrice asked = price_on_lattice();
-    return {.turning = grid_.turn_cost.value_or(0.0) * found.turn_rad,
+    return {.turning = options_.grid.turn_cost.value_or(0.0) * found.turn_rad,
             .cusps = asked.cusp * static_cast<double>(found.cusps),
             .reverse = (asked.reverse - 1.0) * found.reversed};
   }
@@ -219,13 +214,14 @@ class Car : public PoseBody {
     for (std::size_t i = 1; i < path.size(); ++i) append_joints(poses, world.curve(path[i - 1], path[i]));
     return poses;
   }
+  Verification judged(std::span<const Se2> poses, const PoseVerifyOptions& options) const {
+    return verify_car(scene_, verified_car(problem_.robot), poses, options, execution_, judged_);
+  }
   /// As the judge has it.
   double paid(const World& world, const Path<Se2>& path) const {
-    const RobotSpec& robot = question().robot;
     const std::vector<Se2> poses = joints(world, path);
-    const Verification found =
-        verify_car(scene(), verified_car(robot), poses, verify_options(question()), execution(), judged());
-    const PriceParts price = verify_body_price(scene(), poses, robot, prices_, execution());
+    const Verification found = judged(poses, verify_options(problem_));
+    const PriceParts price = verify_body_price(scene_, poses, problem_.robot, prices_, execution_);
     return found.length + driving(found).sum() + price.sum();
   }
   /// The path with shortcuts where those cost less, and itself where all of it costs more then.
@@ -234,17 +230,17 @@ class Car : public PoseBody {
     return paid(world, cut) < paid(world, path) ? cut : path;
   }
   void check_lattice() const {
-    if (grid_.cell && scene().map)
+    if (options_.grid.cell && scene_.map)
       throw UsageError("@cell: on a map the grid's positions are the middles of its cells");
-    const std::uint32_t headings = grid_.headings.value_or(16);
+    const std::uint32_t headings = options_.grid.headings.value_or(16);
     if (headings != 16 && headings != 32) throw UsageError("@headings: a car's lattice has 16 or 32");
   }
   CarLatticeOptions lattice_options() const {
     CarLatticeOptions options;
-    options.headings = grid_.headings.value_or(options.headings);
-    options.cell = grid_.cell;
-    if (!options.cell && scene().grid) options.cell = scene().grid->cell;
-    options.clearance = question().clearance;
+    options.headings = options_.grid.headings.value_or(options.headings);
+    options.cell = options_.grid.cell;
+    if (!options.cell && scene_.grid) options.cell = scene_.grid->cell;
+    options.clearance = problem_.clearance;
     options.price = price_on_lattice();
     options.turn_cost = turn_cost_on_lattice();
     if (pose_prices_->is_priced()) options.prices = pose_prices_.get();
@@ -254,17 +250,17 @@ class Car : public PoseBody {
     const CarLatticeOptions options = lattice_options();
     std::optional<CarLattice> lattice;
     {
-      const StageTimer timer(execution(), "stamps", answer.seconds.index);
-      lattice.emplace(world.body(), scene(), question().robot, Curve::shortest, start, goals, options, execution());
+      const StageTimer timer(execution_, "stamps", answer.seconds.index);
+      lattice.emplace(world.body(), scene_, problem_.robot, Curve::shortest, start, goals, options, execution_);
     }
-    const StageTimer timer(execution(), "search", answer.seconds.search);
+    const StageTimer timer(execution_, "search", answer.seconds.search);
     LatticeSearchOptions search;
     search.gear_change = lattice->units_of(options.price.cusp);
-    search.gap = anytime_.gap.value_or(search.gap);
-    search.iterations = anytime_.iterations;
+    search.gap = options_.anytime.gap.value_or(search.gap);
+    search.iterations = options_.anytime.iterations;
     search.unit = lattice->unit();
     OverLattice over{.path = {},
-                     .found = LatticeSearch(*lattice, search, execution()).run(),
+                     .found = LatticeSearch(*lattice, search, execution_).run(),
                      .cell = lattice->cell(),
                      .unit = search.unit};
     answer.counters.expanded += over.found.expanded;
@@ -281,17 +277,17 @@ class Car : public PoseBody {
     std::vector<Path<Se2>> ways_in;
     std::vector<Path<Se2>> starts;
     {
-      const StageTimer timer(execution(), "ways out", answer.seconds.search);
+      const StageTimer timer(execution_, "ways out", answer.seconds.search);
       for (const Se2& goal : goals) {
-        for (Path<Se2>& way : ways_out(world.body(), goal, most_ends, execution())) {
+        for (Path<Se2>& way : ways_out(world.body(), goal, most_ends, execution_)) {
           ends.push_back(way.back());
           std::ranges::reverse(way);
           ways_in.push_back(std::move(way));
         }
       }
-      starts = ways_out(world.body(), question().start, most_starts, execution());
+      starts = ways_out(world.body(), problem_.start, most_starts, execution_);
     }
-    if (!ways_in.empty()) starts.insert(starts.begin(), {question().start});
+    if (!ways_in.empty()) starts.insert(starts.begin(), {problem_.start});
     for (Path<Se2>& path : starts) {
       const OverLattice over = over_lattice(world, path.back(), ends, answer);
       if (!over.found.found()) continue;
@@ -311,17 +307,14 @@ class Car : public PoseBody {
   /// With fewer changes of gear, and less of it backwards, as their prices have it.
   Path<Se2> redriven(const World& world, Path<Se2> path, Answer& answer) const {
     if (is_length_alone()) return path;
-    return redriven_path(PricedCar(world.body(), price()), std::move(path), {.seed = answer.seed}, execution(),
+    return redriven_path(PricedCar(world.body(), price()), std::move(path), {.seed = answer.seed}, execution_,
                          answer.counters);
   }
 
-  CarFields asked_;
-  GridFields grid_;
-  AnytimeFields anytime_;
+  const SolveOptions& options_;
   Prices prices_;
   std::unique_ptr<PosePrices> pose_prices_;  // motions refer to it
   bool on_lattice_;
-  bool optimise_;
 };
 
 constexpr OptionSet shape_options{Option::steering, Option::turning_radius};
@@ -376,8 +369,9 @@ std::unique_ptr<RoadmapSession> open_for_car(const SolveRequest& request, const 
 Verdict recheck_car(const Scene& scene, const Question& question, const RecordedAnswer& answer,
                     const Execution& execution) {
   const PoseProblem problem = pose_problem(scene, question, body_words);
-  const std::vector<Se2> path = recorded_poses(answer, body_words);
-  return {verify_car(scene, verified_car(problem.robot), path, verify_options(problem), execution), problem.general()};
+  check_state_width(answer, 3, body_words);
+  return {verify_car(scene, verified_car(problem.robot), poses_of(answer.states), verify_options(problem), execution),
+          problem.general()};
 }
 
 }  // namespace

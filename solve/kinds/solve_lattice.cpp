@@ -11,7 +11,7 @@
 #include <optional>
 #include <set>
 #include <span>
-#include <variant>
+#include <type_traits>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -110,7 +110,7 @@ OccupancyMap cut_out(const OccupancyMap& map, const Se2& pose, double reach) {
 }
 
 /// Around an end of a body that turns.
-Se2World turning_world(const Scene& scene, const Problem& problem, const Se2& pose, const Execution& execution) {
+Se2World turning_world(const Scene& scene, const PoseProblem& problem, const Se2& pose, const Execution& execution) {
   const Se2Options options{.clearance = problem.clearance};
   if (!scene.map) return {scene, problem.robot.outline, options, execution};
   Scene around;
@@ -168,71 +168,18 @@ std::vector<LayerEnd> states_at(const HeadingLayers& layers, const LatticeEnd& e
   return states;
 }
 
-/// The robot around one end, for motions between it and the lattice.
-class EndWorld {
- public:
-  /// Of a map only what the body may reach from the end. Throws what the worlds throw.
-  EndWorld(const Scene& scene, const Problem& problem, const HeadingLayers& layers, const LatticeEnd& end,
-           const Execution& execution)
-      : layers_(layers), end_(end), execution_(execution) {
-    const double radius = problem.robot.radius + problem.clearance;
-    if (problem.robot.kind == RobotKind::polygon) {
-      world_.emplace<Se2World>(turning_world(scene, problem, end.pose, execution));
-    } else if (scene.polygons.empty()) {
-      world_.emplace<MazeWorld>(scene, radius, execution);
+template <class World>
+bool is_free_motion(const World& world, const Se2& from, const Se2& to) {
+  const auto state = [](const Se2& pose) {
+    if constexpr (std::is_same_v<World, Se2World>) {
+      return pose;
     } else {
-      world_.emplace<PolygonWorld>(scene, radius, execution);
+      return pose.position();
     }
-  }
-
-  /// The free states near the end to which its motion is certified, with what it costs; none if the end is not free.
-  std::vector<LayerEnd> joined(const LayerSearchOptions& costs) const {
-    constexpr std::int64_t usual_join = 2;
-    std::vector<LayerEnd> ends = joined_within(usual_join, costs);
-    return ends.empty() ? joined_within(widest_join, costs) : ends;
-  }
-
- private:
-  std::vector<LayerEnd> joined_within(std::int64_t reach, const LayerSearchOptions& costs) const {
-    const Around columns((end_.pose.x - layers_.origin.x) / layers_.cell, reach);
-    const Around rows((end_.pose.y - layers_.origin.y) / layers_.cell, reach);
-    const std::vector<std::uint32_t> headings = headings_around(layers_, end_);
-    std::vector<LayerEnd> ends;
-    for (std::int64_t j = std::max<std::int64_t>(rows.first, 0);
-         j <= std::min<std::int64_t>(rows.last, layers_.height - 1); ++j) {
-      for (std::int64_t i = std::max<std::int64_t>(columns.first, 0);
-           i <= std::min<std::int64_t>(columns.last, layers_.width - 1); ++i) {
-        execution_.check();
-        for (const std::uint32_t k : headings) {
-          const LayerState state{static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), k};
-          if (!layers_.is_free(state.i, state.j, k)) continue;
-          const Se2 to = pose_of(layers_, state);
-          const Se2 from{end_.pose.x, end_.pose.y, end_.any_heading ? to.theta : end_.pose.theta};
-          if (!is_free_motion(from, to)) continue;
-          const double turn = layers_.angles > 1 ? std::abs(turn_between(from.theta, to.theta)) : 0.0;
-          ends.push_back({state, costs.step_cost * distance(from.position(), to.position()) / layers_.cell +
-                                     costs.turn_cost * turn / heading_step(layers_)});
-        }
-      }
-    }
-    return ends;
-  }
-  bool is_free_motion(const Se2& from, const Se2& to) const {
-    const auto is_free = [&](const auto& world, const auto& a, const auto& b) {
-      auto query = world.make_query();
-      return world.is_free(a, query) && world.is_free_motion(a, b, query);
-    };
-    if (const auto* turning = std::get_if<Se2World>(&world_)) return is_free(*turning, from, to);
-    if (const auto* walls = std::get_if<MazeWorld>(&world_)) return is_free(*walls, from.position(), to.position());
-    if (const auto* plane = std::get_if<PolygonWorld>(&world_)) return is_free(*plane, from.position(), to.position());
-    return false;
-  }
-
-  const HeadingLayers& layers_;
-  LatticeEnd end_;
-  const Execution& execution_;
-  std::variant<std::monostate, MazeWorld, PolygonWorld, Se2World> world_;
-};
+  };
+  auto query = world.make_query();
+  return world.is_free(state(from), query) && world.is_free_motion(state(from), state(to), query);
+}
 
 constexpr PlannerChoice lattice_planners[] = {
     {PlannerKind::grid,
@@ -294,13 +241,13 @@ class LatticeSolve {
  public:
   LatticeSolve(const SolveRequest& request, const Problem& problem)
       : request_(request),
-        problem_(problem),
-        poses_asked_{problem.robot,
-                     {problem.start[0], problem.start[1], turns() ? problem.start[2] : 0.0},
-                     problem.goal,
-                     problem.clearance},
+        problem_{problem.robot,
+                 {problem.start[0], problem.start[1], problem.start.size() == 3 ? problem.start[2] : 0.0},
+                 problem.goal,
+                 problem.clearance},
         layer_options_(layer_options(request, problem)),
         frame_(request.scene) {
+    if (!turns()) problem_.goal.resize(3, 0.0);
     search_.diagonal = request.options.grid.diagonal.value_or(Diagonal::sqrt2);
     search_.face_motion = request.options.grid.face_motion;
     search_.step_cost = request.options.grid.step_cost.value_or(1.0);
@@ -402,9 +349,51 @@ class LatticeSolve {
                       request_.execution);
   }
 
-  const Se2& start_pose() const { return poses_asked_.start; }
-  Se2 goal_pose() const { return poses_asked_.goal_pose(); }
-  bool any_heading() const { return turns() && poses_asked_.any_heading(); }
+  const Se2& start_pose() const { return problem_.start; }
+  Se2 goal_pose() const { return problem_.goal_pose(); }
+  bool any_heading() const { return problem_.any_heading(); }
+
+  /// The free states so near to the end to which its motion is certified, with what it costs; none if the end is not
+  /// free.
+  template <class World>
+  std::vector<LayerEnd> joined_within(const World& world, const LatticeEnd& end, std::int64_t reach) const {
+    const Around columns((end.pose.x - layers_.origin.x) / layers_.cell, reach);
+    const Around rows((end.pose.y - layers_.origin.y) / layers_.cell, reach);
+    const std::vector<std::uint32_t> headings = headings_around(layers_, end);
+    std::vector<LayerEnd> ends;
+    for (std::int64_t j = std::max<std::int64_t>(rows.first, 0);
+         j <= std::min<std::int64_t>(rows.last, layers_.height - 1); ++j) {
+      for (std::int64_t i = std::max<std::int64_t>(columns.first, 0);
+           i <= std::min<std::int64_t>(columns.last, layers_.width - 1); ++i) {
+        request_.execution.check();
+        for (const std::uint32_t k : headings) {
+          const LayerState state{static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), k};
+          if (!layers_.is_free(state.i, state.j, k)) continue;
+          const Se2 to = pose_of(layers_, state);
+          const Se2 from{end.pose.x, end.pose.y, end.any_heading ? to.theta : end.pose.theta};
+          if (!is_free_motion(world, from, to)) continue;
+          const double turn = layers_.angles > 1 ? std::abs(turn_between(from.theta, to.theta)) : 0.0;
+          ends.push_back({state, search_.step_cost * distance(from.position(), to.position()) / layers_.cell +
+                                     search_.turn_cost * turn / heading_step(layers_)});
+        }
+      }
+    }
+    return ends;
+  }
+  /// In the robot's world around the end, of a map as far as the body may reach from there. Throws what the worlds
+  /// throw.
+  std::vector<LayerEnd> joined(const LatticeEnd& end) const {
+    const auto in = [&](const auto& world) {
+      constexpr std::int64_t usual_join = 2;
+      std::vector<LayerEnd> ends = joined_within(world, end, usual_join);
+      return ends.empty() ? joined_within(world, end, widest_join) : ends;
+    };
+    const Scene& scene = request_.scene;
+    const double radius = problem_.robot.radius + problem_.clearance;
+    if (turns()) return in(turning_world(scene, problem_, end.pose, request_.execution));
+    if (scene.polygons.empty()) return in(MazeWorld(scene, radius, request_.execution));
+    return in(PolygonWorld(scene, radius, request_.execution));
+  }
 
   /// The states of the lattice by which a path may begin or end.
   std::vector<LayerEnd> ends_at(std::string_view option, const Se2& pose, bool any_heading) const {
@@ -421,31 +410,23 @@ class LatticeSolve {
     const bool any_free = std::ranges::any_of(
         states, [&](const LayerEnd& e) { return layers_.is_free(e.state.i, e.state.j, e.state.k); });
     if (any_free || is_report) return states;
-    return EndWorld(request_.scene, problem_, layers_, end, request_.execution).joined(search_);
+    return joined(end);
   }
 
-  /// Does the body fit at an end, in some heading where any will do, as the verification sees it?
-  bool stands_free(const Se2& pose, bool any_heading) const {
-    const double margin = end_margin(request_.scene, poses_asked_, request_.execution);
-    const auto is_free = [&](const Se2& turned) { return judged(std::span(&turned, 1), false, margin).verified; };
-    if (!any_heading) return is_free(pose);
-    const std::vector<Se2> poses =
-        poses_to_meet(request_.scene, poses_asked_, problem_.goal, request_.execution, is_free);
-    return std::ranges::any_of(poses, is_free);
-  }
-
-  Outcome settled_ends() const {
-    return warren::settled_ends(
-        Outcome::start_blocked, [&] { return stands_free(start_pose(), false); },
-        [&] { return stands_free(goal_pose(), any_heading()); });
+  /// Does the body fit at its ends, in some heading where any will do, as the verification sees it?
+  void settle_ends() {
+    answer_.outcome = Outcome::start_blocked;
+    const double margin = end_margin(request_.scene, problem_, request_.execution);
+    settle_blocked_poses(answer_, request_.scene, problem_, request_.execution,
+                         [&](const Se2& pose) { return judged(std::span(&pose, 1), false, margin).verified; });
   }
 
   void search() {
     const StageTimer timer(request_.execution, "search", answer_.seconds.search, layers_.states());
     const bool is_report = layer_options_.kind == LayerKind::report004;  // its discs say what is blocked
-    if (!is_report) answer_.outcome = settled_ends();
+    if (!is_report) settle_ends();
     if (is_blocked(answer_.outcome)) return;
-    if (!is_report && poses_asked_.is_at_goal()) {
+    if (!is_report && problem_.is_at_goal()) {
       answer_.outcome = Outcome::solved;
       return take({});  // without a move, whatever the states around it would say
     }
@@ -500,7 +481,7 @@ class LatticeSolve {
   Verification judged(std::span<const Se2> poses, bool ends_too, double margin = 0.0) const {
     if (turns()) {
       PoseVerifyOptions options;
-      if (ends_too) options = verify_options(poses_asked_);
+      if (ends_too) options = verify_options(problem_);
       options.clearance = problem_.clearance + margin;
       return verify_se2(request_.scene, problem_.robot.outline, poses, options, request_.execution);
     }
@@ -536,8 +517,7 @@ class LatticeSolve {
   }
 
   const SolveRequest& request_;
-  Problem problem_;
-  PoseProblem poses_asked_;  // the same; of what does not turn all headings are 0
+  PoseProblem problem_;  // of what does not turn all headings are 0
   LayerOptions layer_options_;
   LayerSearchOptions search_;
   LatticeFrame frame_;

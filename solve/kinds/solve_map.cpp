@@ -19,12 +19,12 @@
 #include "solve/kinds/kept_ways.hpp"
 #include "solve/kinds/plane_steps.hpp"
 #include "solve/kinds/priced_motions.hpp"
-#include "solve/kinds/routes_on_map.hpp"
 #include "solve/kinds/sampled_solve.hpp"
 #include "solve/kinds/solve_steps.hpp"
 #include "solve/kinds/solve_to_goal.hpp"
 #include "solve/question/planner_choice.hpp"
 #include "spatial/maps/distance_field.hpp"
+#include "verify/judges/verify_map.hpp"
 #include "worlds/plane/grid_world.hpp"
 #include "worlds/prices/map_prices.hpp"
 
@@ -70,14 +70,13 @@ void take_choice(Answer& answer, const GoalChoice& choice, Outcome outcome) {
     answer.figures.push_back({"nearest_reachable_y", choice.nearest->y});
   }
 }
-void take_choice(Answer& answer, const GoalChoice& choice) { take_choice(answer, choice, choice.outcome); }
 
-/// What the cells do not join may be proved to be apart: all that would do.
+/// What the cells do not join may be proved to be apart: all places that would do.
 void prove_apart(Answer& answer, const OccupancyMap& map, const Bitmap& closed, const WallProblem& problem,
-                 const GoalChoice& choice, const Execution& execution) {
-  if (answer.outcome != Outcome::not_connected || choice.unreached.empty()) return;
+                 const std::vector<Vec2>& places, const Execution& execution) {
+  if (answer.outcome != Outcome::not_connected || places.empty()) return;
   const StageTimer timer(execution, "proof", answer.seconds.search);
-  const bool apart = std::ranges::all_of(choice.unreached, [&](Vec2 place) {
+  const bool apart = std::ranges::all_of(places, [&](Vec2 place) {
     WallProblem to_place = problem;
     to_place.goal = place;
     return provably_apart(map, closed, to_place, execution);
@@ -136,7 +135,8 @@ class CellSolve {
       count(1, 0.0);
     } else {
       search(joined(problem_.start, *start), joined(problem_.goal, *goal));
-      if (answer_.outcome != Outcome::solved) return prove();
+      if (answer_.outcome != Outcome::solved)
+        return prove_apart(answer_, map_, closed_, problem_, {problem_.goal}, request_.execution);
     }
     if (wants_taut()) optimise();
     verify_solved_on_map(answer_, map_, problem_, true, request_.execution);
@@ -164,9 +164,9 @@ class CellSolve {
     }
     index();
     const GoalChoice choice = choose();
-    take_choice(answer_, choice);
+    take_choice(answer_, choice, choice.outcome);
     if (choice.outcome != Outcome::solved)
-      return prove_apart(answer_, map_, closed_, problem_, choice, request_.execution);
+      return prove_apart(answer_, map_, closed_, problem_, choice.unreached, request_.execution);
     WallProblem reached = problem_;
     reached.goal = choice.goal;
     take_ways(choice);
@@ -277,11 +277,6 @@ class CellSolve {
     answer_.path = path_over_cells(map_, problem_.start, path.cells, problem_.goal);
   }
 
-  void prove() {
-    const StageTimer timer(request_.execution, "proof", answer_.seconds.search);
-    if (provably_apart(map_, closed_, problem_, request_.execution)) answer_.outcome = Outcome::infeasible;
-  }
-
   /// Off the grid: motions between any two points, certified against the closed cells.
   void optimise() {
     const StageTimer timer(request_.execution, "optimise", answer_.seconds.optimise, answer_.path.size());
@@ -343,7 +338,7 @@ Answer solve_over_cells(const SolveRequest& request) {
 
 /// For prm, lazy-prm, rrt and rrt-connect. Motions are certified against the closed squares of blocked cells, wherever
 /// between them they lead.
-class BodyOnMap : public UsualBody {
+class BodyOnMap : public UsualBody<WallProblem> {
  public:
   using World = GridWorld;
   static void suit(RrtOptions& options) {
@@ -351,12 +346,8 @@ class BodyOnMap : public UsualBody {
   }
 
   explicit BodyOnMap(const SolveRequest& request)
-      : map_(*request.scene.map),
-        execution_(request.execution),
-        problem_(map_problem(request.scene, request.question)) {}
+      : UsualBody(request, map_problem(request.scene, request.question)), map_(*request.scene.map) {}
 
-  Problem problem() const { return problem_.general(); }
-  Vec2 start() const { return problem_.start; }
   std::vector<Vec2> goals(const World&) const { return {problem_.goal}; }
   SamplerKind choose_sampler(const SolveOptions& options, const RoadmapOptions& roadmap) const {
     const bool free_choice = !options.sampler && !roadmap.samples;
@@ -381,7 +372,6 @@ class BodyOnMap : public UsualBody {
   bool goal_stands_free(Vec2 goal) const {
     return starts_on_water(map_, problem_.start) || stands_free_on_map(map_, problem_, goal, execution_);
   }
-  static double length(const World&, Vec2 a, Vec2 b) { return World::distance(a, b); }
   void take_prices(const MotionCost& cost) { cost_ = cost; }
   const MotionCost& price_motions(const World& world) {
     if (!problem_.prices.empty()) {
@@ -391,8 +381,7 @@ class BodyOnMap : public UsualBody {
   }
   Path<Vec2> shortened(const World& world, Path<Vec2> path, Answer& answer) const {
     if (cost_) return pulled_taut(world, std::move(path), cost_, map_.cell, execution_);
-    return shorter_path(WorldView(world), std::move(path), World::distance, {.seed = answer.seed}, execution_,
-                        answer.counters);
+    return shortcut(world, std::move(path), World::distance, answer);
   }
   void judge(const World&, Path<Vec2> path, Answer& answer) const {
     answer.path = std::move(path);
@@ -401,8 +390,6 @@ class BodyOnMap : public UsualBody {
 
  private:
   const OccupancyMap& map_;
-  const Execution& execution_;
-  WallProblem problem_;
   std::optional<MapPrices> prices_;
   MotionCost cost_;  // empty: nothing has a price
 };
@@ -436,8 +423,9 @@ Answer solve_chosen(const SolveRequest& request) {
     WaysOverCells ways(map, problem, closed, wide, Diagonal::sqrt2, leg_prices(priced, scratch), request.execution);
     choice = choose_goal(ways, map, problem, {}, has_open_end(request));
     chosen.counters.expanded += ways.expanded();
-    take_choice(chosen, choice);
-    if (choice.outcome != Outcome::solved) prove_apart(chosen, map, closed, problem, choice, request.execution);
+    take_choice(chosen, choice, choice.outcome);
+    if (choice.outcome != Outcome::solved)
+      prove_apart(chosen, map, closed, problem, choice.unreached, request.execution);
   });
   if (choice.outcome != Outcome::solved) return chosen;
   Question question = request.question;
@@ -537,7 +525,7 @@ Verdict recheck_occupancy(const Scene& scene, const Question& question, const Re
                           const Execution& execution) {
   check_state_width(answer, 2, "a point or disc");
   const WallProblem problem = map_problem(scene, question);
-  return {verify_map_path(*scene.map, problem, answer.path, execution), problem.general()};
+  return {verify_on_map(*scene.map, answer.path, verify_options(problem), execution), problem.general()};
 }
 
 }  // namespace

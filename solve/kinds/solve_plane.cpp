@@ -112,7 +112,7 @@ PlannerKind usual_plane_planner(const SolveOptions& options, const Scene& scene,
 }
 
 /// For all planners that sample.
-class PointAmongPolygons : public UsualBody {
+class PointAmongPolygons : public UsualBody<WallProblem> {
  public:
   using World = PolygonWorld;
   static constexpr bool names_pipeline = true;
@@ -120,21 +120,13 @@ class PointAmongPolygons : public UsualBody {
   static constexpr bool improves_by_draws = false;
 
   explicit PointAmongPolygons(const SolveRequest& request)
-      : scene_(request.scene),
-        execution_(request.execution),
-        judged_(request.asked.judged()),
-        problem_(keeping_off(request.scene, request.question,
-                             fmt::format("{} keeps off the walls", name_of(request.planner)))) {}
+      : UsualBody(request, keeping_off(request.scene, request.question,
+                                       fmt::format("{} keeps off the walls", name_of(request.planner)))) {}
 
-  Problem problem() const { return problem_.general(); }
-  Vec2 start() const { return problem_.start; }
   std::vector<Vec2> goals(const World&) const { return {problem_.goal}; }
-  static SamplerKind choose_sampler(const SolveOptions&, const RoadmapOptions& roadmap) { return roadmap.sampler; }
   void index(std::optional<World>& world, SamplerKind) const { world.emplace(scene_, problem_.reach(), execution_); }
-  static bool provably_apart(const World&, const std::vector<Vec2>&) { return false; }
   bool start_stands_free() const { return stands_free(scene_, problem_, problem_.start, execution_, judged_); }
   bool goal_stands_free(Vec2 goal) const { return stands_free(scene_, problem_, goal, execution_, judged_); }
-  static double length(const World&, Vec2 a, Vec2 b) { return World::distance(a, b); }
   void take_prices(const MotionCost& cost) { cost_ = cost; }
   const MotionCost& price_motions(const World& world) {
     if (!problem_.prices.empty()) {
@@ -158,10 +150,6 @@ class PointAmongPolygons : public UsualBody {
   }
 
  private:
-  const Scene& scene_;
-  const Execution& execution_;
-  const ObstacleIndex* judged_;
-  WallProblem problem_;
   std::optional<SidePrices> prices_;
   MotionCost cost_;  // empty: nothing has a price
 };

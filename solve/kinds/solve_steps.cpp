@@ -60,16 +60,6 @@ void describe_roadmap_planner(Answer& answer, const WallProblem& problem, const 
   answer.options = options.given;
 }
 
-void take_account(Answer& answer, Outcome outcome, StopReason stop_reason, const RoadmapSize& roadmap,
-                  const Separation& separation, const Counters& counters, const StageTimes& seconds) {
-  answer.outcome = outcome;
-  answer.roadmap = roadmap;
-  answer.separation = separation;
-  answer.counters = counters;
-  if (outcome == Outcome::stopped) answer.stop_reason = stop_reason;
-  answer.seconds += seconds;
-}
-
 void take_solution(Answer& answer, Solution<Vec2> solution) {
   answer.path = std::move(solution.path);
   take_account(answer, solution);

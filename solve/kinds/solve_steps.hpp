@@ -34,11 +34,14 @@ void describe_roadmap_planner(Answer& answer, const WallProblem& problem, const 
 void take_solution(Answer& answer, Solution<Vec2> solution);
 
 /// The same without the path, for states of any kind.
-void take_account(Answer& answer, Outcome outcome, StopReason stop_reason, const RoadmapSize& roadmap,
-                  const Separation& separation, const Counters& counters, const StageTimes& seconds);
 template <class State>
-void take_account(Answer& answer, const Solution<State>& s) {
-  take_account(answer, s.outcome, s.stop_reason, s.roadmap, s.separation, s.counters, s.seconds);
+void take_account(Answer& answer, const Solution<State>& solution) {
+  answer.outcome = solution.outcome;
+  answer.roadmap = solution.roadmap;
+  answer.separation = solution.separation;
+  answer.counters = solution.counters;
+  if (solution.outcome == Outcome::stopped) answer.stop_reason = solution.stop_reason;
+  answer.seconds += solution.seconds;
 }
 
 /// What the judge of points is asked for a place of the problem as an end.

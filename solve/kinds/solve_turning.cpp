@@ -29,15 +29,15 @@ class TurningPolygon : public PoseBody {
 
   explicit TurningPolygon(const SolveRequest& request)
       : PoseBody(request, pose_problem(request.scene, request.question, turning_body)),
-        prices_(std::make_unique<PosePrices>(scene(), prices_of(scene(), request.question), question().clearance)) {}
+        prices_(std::make_unique<PosePrices>(scene_, prices_of(scene_, request.question), problem_.clearance)) {}
 
   MotionLength<Se2> price_motions(const World& world) const { return motion_cost(world, *prices_); }
   void index(std::optional<World>& world, SamplerKind) const {
-    world.emplace(scene(), question().robot.outline, Se2Options{.clearance = question().clearance}, execution());
+    world.emplace(scene_, problem_.robot.outline, Se2Options{.clearance = problem_.clearance}, execution_);
   }
-  bool start_stands_free() const { return goal_stands_free(question().start); }
+  bool start_stands_free() const { return goal_stands_free(problem_.start); }
   bool goal_stands_free(const Se2& pose) const {
-    return turning_stands_free(scene(), question(), pose, execution(), judged());
+    return turning_stands_free(scene_, problem_, pose, execution_, judged_);
   }
   static double length(const World&, const Se2& a, const Se2& b) { return distance(a.position(), b.position()); }
   Path<Se2> shortened(const World& world, Path<Se2> path, Answer& answer) const {
@@ -46,7 +46,7 @@ class TurningPolygon : public PoseBody {
     return shortcut(world, std::move(path), plane_length, answer);
   }
   void judge(const World&, const Path<Se2>& path, Answer& answer) const {
-    judge_turning(scene(), question(), path, execution(), answer, judged());
+    judge_turning(scene_, problem_, path, execution_, answer, judged_);
   }
 
  private:
@@ -99,10 +99,10 @@ class AxisSolve {
     const SolveRequest of_disc = request_of_disc(request_, disc);
     answer_ = request_.scene.map ? solve_on_skeleton(of_disc) : solve_on_medial_axis(of_disc);
     answer_.problem = problem_.general();
+    if (answer_.outcome == Outcome::stopped) return std::move(answer_);
     const double seconds = answer_.solve_s;
-    const Outcome outcome = answer_.outcome;
-    if (outcome != Outcome::stopped) answer_within_limits(answer_, [&] { finish(); });
-    if (outcome != Outcome::stopped) answer_.solve_s += seconds;
+    answer_within_limits(answer_, [&] { finish(); });
+    answer_.solve_s += seconds;
     return std::move(answer_);
   }
 

@@ -25,30 +25,24 @@ namespace {
 
 constexpr std::size_t most_corners_at_once = 20'000;
 
-struct VisibilityRequest {
-  VisibilityOptions options;
-  std::optional<double> sample_step;
-};
-
-VisibilityRequest options_of(const SolveRequest& request, const SearchChoice& search) {
+VisibilityOptions options_of(const SolveRequest& request, const SearchChoice& search) {
   const VisibilityFields& fields = request.options.visibility;
-  VisibilityRequest asked;
-  asked.options.search = search.search;
-  asked.options.queue = search.queue;
-  if (fields.full) asked.options.edges = VisibilityEdges::full;
-  asked.sample_step = fields.sampled_edges;
-  if (asked.sample_step && fields.full) {
+  VisibilityOptions options;
+  options.search = search.search;
+  options.queue = search.queue;
+  if (fields.full) options.edges = VisibilityEdges::full;
+  if (fields.sampled_edges && fields.full) {
     throw UsageError("@full: @sampled_edges makes a graph of its own, of all edges");
   }
-  const bool plain = asked.options.edges == VisibilityEdges::reduced && search.search == SearchKind::astar &&
-                     search.queue == QueueKind::heap && !asked.sample_step;
+  const bool plain =
+      !fields.full && search.search == SearchKind::astar && search.queue == QueueKind::heap && !fields.sampled_edges;
   if (request.options.roadmap.lazy) throw UsageError("@lazy: takes no value with visibility");
   if (fields.lazy && !plain) {
     throw UsageError("@lazy: finds edges as A* needs them; @full, @sampled_edges, @search and @queue need all of them");
   }
   const bool is_kept = request.asked.session != nullptr;
-  asked.options.lazy = fields.lazy || (plain && !is_kept && corner_count(request.scene) > most_corners_at_once);
-  return asked;
+  options.lazy = fields.lazy || (plain && !is_kept && corner_count(request.scene) > most_corners_at_once);
+  return options;
 }
 
 /// The polygons as the file has them, for edges that are told by their corners' numbers there.
@@ -62,8 +56,8 @@ PolygonSet polygons_of(const Scene& scene) {
 /// refuted is answered as such.
 class SampledVisibilitySolve {
  public:
-  SampledVisibilitySolve(const SolveRequest& request, const WallProblem& problem, const VisibilityRequest& asked)
-      : request_(request), problem_(problem), asked_(asked) {}
+  SampledVisibilitySolve(const SolveRequest& request, const WallProblem& problem, const VisibilityOptions& how)
+      : request_(request), problem_(problem), how_(how) {}
 
   void run(Answer& answer) {
     const Execution& execution = request_.execution;
@@ -73,7 +67,8 @@ class SampledVisibilitySolve {
     points_.push_back(problem_.goal);
     {
       const StageTimer timer(execution, "connect", answer.seconds.connect, points_.size());
-      edges_ = sampled_visibility(polygons, problem_.start, problem_.goal, *asked_.sample_step, execution);
+      edges_ = sampled_visibility(polygons, problem_.start, problem_.goal, *request_.options.visibility.sampled_edges,
+                                  execution);
     }
     answer.roadmap = {points_.size(), edges_.size(), 0};
     search(answer);
@@ -91,14 +86,13 @@ class SampledVisibilitySolve {
  private:
   SearchResult search(const Graph& graph, VertexId start, VertexId goal) const {
     SearchState state;
-    const VisibilityOptions& how = asked_.options;
-    if (!has_queue(how.search)) return search_blindly(how.search, graph, start, goal, state, request_.execution);
+    if (!has_queue(how_.search)) return search_blindly(how_.search, graph, start, goal, state, request_.execution);
     const auto neighbours = [&](VertexId v, const auto& visit) {
       for (const VertexId w : graph.neighbours(v)) visit(w, distance(points_[v], points_[w]));
     };
-    const bool informed = how.search == SearchKind::astar;
+    const bool informed = how_.search == SearchKind::astar;
     const auto remaining = [&](VertexId v) { return informed ? distance(points_[v], points_[goal]) : 0.0; };
-    return search_best_first(how.queue, graph.vertex_count(), start, goal, neighbours, remaining, state,
+    return search_best_first(how_.queue, graph.vertex_count(), start, goal, neighbours, remaining, state,
                              request_.execution);
   }
 
@@ -145,7 +139,7 @@ class SampledVisibilitySolve {
 
   const SolveRequest& request_;
   const WallProblem& problem_;
-  const VisibilityRequest& asked_;
+  const VisibilityOptions& how_;
   std::vector<Vec2> points_;  // corners in the file's order, start, goal
   std::vector<Edge> edges_;
   std::vector<WrongEdge> wrong_;
@@ -229,14 +223,15 @@ Answer solve_by_visibility(const SolveRequest& request) {
     answer_within_limits(answer, [&] { solve_disc(request, problem, answer); });
     return answer;
   }
-  const VisibilityRequest asked = options_of(request, search);
-  if (asked.options.edges == VisibilityEdges::full) answer.options.push_back({"full", true});
-  if (asked.options.lazy) answer.options.push_back({"lazy", true});
-  if (asked.sample_step) answer.options.push_back({"sampled_edges", *asked.sample_step});
-  SampledVisibilitySolve sampled(request, problem, asked);
+  const VisibilityOptions options = options_of(request, search);
+  const std::optional<double>& sample_step = request.options.visibility.sampled_edges;
+  if (options.edges == VisibilityEdges::full) answer.options.push_back({"full", true});
+  if (options.lazy) answer.options.push_back({"lazy", true});
+  if (sample_step) answer.options.push_back({"sampled_edges", *sample_step});
+  SampledVisibilitySolve sampled(request, problem, options);
   answer_within_limits(answer, [&] {
-    if (asked.sample_step) return sampled.run(answer);
-    solve_whole(request, problem, asked.options, answer);
+    if (sample_step) return sampled.run(answer);
+    solve_whole(request, problem, options, answer);
   });
   answer.solve_s -= sampled.proof_s();
   return answer;

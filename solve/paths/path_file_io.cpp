@@ -254,12 +254,10 @@ void PathArrayFile::add(std::span<const Vec2> piece) {
 }
 
 PathFormat path_format(const std::string& file) {
-  const std::size_t dot = file.rfind('.');
-  const std::string_view ending = dot == std::string::npos ? std::string_view() : std::string_view(file).substr(dot);
-  if (file == "-" || ending == ".csv") return PathFormat::csv;
-  if (ending == ".yaml" || ending == ".yml") return PathFormat::yaml;
-  if (ending == ".geojson") return PathFormat::geojson;
-  if (ending == ".npy") return PathFormat::npy;
+  if (file == "-" || file.ends_with(".csv")) return PathFormat::csv;
+  if (file.ends_with(".yaml") || file.ends_with(".yml")) return PathFormat::yaml;
+  if (file.ends_with(".geojson")) return PathFormat::geojson;
+  if (file.ends_with(".npy")) return PathFormat::npy;
   throw UsageError(
       fmt::format("@path: writes .csv, .yaml (nav_msgs/Path), .geojson and .npy by ending (found: {})", file));
 }

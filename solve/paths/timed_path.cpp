@@ -111,20 +111,14 @@ PathMoment TimedPath::at(double t) const {
   const double length = legs_->length(leg);
   if (!(length > 0.0)) return {leg, 1.0, 0.0};
   const Ramp r = ramp(leg);
-  double s = std::clamp(t - times_[leg], 0.0, r.duration_s());
+  const double s = std::clamp(t - times_[leg], 0.0, r.duration_s());
   const double gear = legs_->gear(leg);
   if (std::isinf(r.rate)) return {leg, std::min(1.0, s / r.level_s), gear * r.top};
-  double way = 0.0;
-  double speed = r.from;
   const double up = std::min(s, r.up_s);
-  way += up * (r.from + 0.5 * r.rate * up);
-  speed += r.rate * up;
-  s -= up;
-  const double level = std::min(s, r.level_s);
-  way += level * r.top;
-  s -= level;
-  way += s * (r.top - 0.5 * r.rate * s);
-  speed -= r.rate * s;
+  const double level = std::min(s - up, r.level_s);
+  const double down = s - up - level;
+  const double way = up * (r.from + 0.5 * r.rate * up) + level * r.top + down * (r.top - 0.5 * r.rate * down);
+  const double speed = r.from + r.rate * up - r.rate * down;
   return {leg, std::clamp(way / length, 0.0, 1.0), gear * std::max(0.0, speed)};
 }
 

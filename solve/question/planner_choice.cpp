@@ -44,11 +44,6 @@ void check_queue(const SolveOptions& asked, SearchKind search) {
   throw UsageError(fmt::format("@queue: {} has no priority queue; astar and dijkstra take one", name_of(search)));
 }
 
-void check_heuristic(const SolveOptions& asked, SearchKind search) {
-  if (!asked.heuristic || search == SearchKind::astar) return;
-  throw UsageError(fmt::format("@heuristic: {} estimates nothing; astar takes one", name_of(search)));
-}
-
 void check_planner(const SolveOptions& asked, PlannerKind planner, SearchKind search) {
   if (planner == PlannerKind::prm && given(asked).has(Option::lazy)) {
     throw UsageError("@lazy: prm checks every edge; the planner lazy-prm takes this option");
@@ -60,34 +55,20 @@ void check_planner(const SolveOptions& asked, PlannerKind planner, SearchKind se
   }
 }
 
-/// The lattice has a point a cell: no number of samples to choose.
-void check_samples(SamplerKind sampler, const RoadmapOptions& options) {
-  if (!takes_all_places(sampler) || !options.samples) return;
-  throw UsageError(
-      fmt::format("@samples: {} takes every cell centre; the other samplers take a number", name_of(sampler)));
-}
-
-void check_lattice(SamplerKind sampler, const Scene& scene) {
-  if (sampler != SamplerKind::lattice || scene.maze) return;
-  throw UsageError(fmt::format(
-      "@sampler: lattice needs a maze, and {} has no 'maze ROWS COLS' line; the others take any world", scene.source));
-}
-
-/// Fused tiles take the lattice with its own rule of joining, and have a search of their own.
-bool takes_fused_tiles(const SolveOptions& asked, const PlannerOptions& options, double clearance) {
-  const bool usual_search = !asked.search && !asked.queue && !asked.heuristic && !asked.roadmap.neighbour_index;
-  return options.planner == PlannerKind::prm && usual_search && tiled_prm_applies(options.roadmap, clearance);
-}
-
 /// Whatever else is asked for, the plain stages do.
-PipelineKind pipeline_for(const SolveOptions& asked, const PlannerOptions& options, const Scene& scene) {
+PipelineKind pipeline_for(const SolveOptions& asked, const PlannerOptions& options, const Scene& scene,
+                          double clearance) {
   const std::optional<PipelineKind> pipeline = asked.roadmap.pipeline;
   if (pipeline && options.planner != PlannerKind::prm) {
     throw UsageError("@pipeline: lazy-prm has one way of working; the planner prm takes this option");
   }
+  // Fused tiles take the lattice with its own rule of joining, and have a search of their own.
+  const bool usual_search = !asked.search && !asked.queue && !asked.heuristic && !asked.roadmap.neighbour_index;
+  const bool fused =
+      options.planner == PlannerKind::prm && usual_search && tiled_prm_applies(options.roadmap, clearance);
   const bool unmade = is_unmade(scene);
   if (pipeline.value_or(unmade ? PipelineKind::streamed : PipelineKind::plain) != PipelineKind::plain &&
-      (!options.fused || !scene.polygons.empty())) {
+      (!fused || !scene.polygons.empty())) {
     throw UsageError(
         fmt::format("@pipeline: {} takes the lattice of a maze without polygons, with the usual rules of joining and "
                     "searching, and "
@@ -98,7 +79,7 @@ PipelineKind pipeline_for(const SolveOptions& asked, const PlannerOptions& optio
     throw UsageError(fmt::format("@pipeline: the walls of {} are not held; streamed takes them", scene.source));
   }
   if (unmade) return PipelineKind::streamed;
-  return pipeline.value_or(options.fused ? PipelineKind::tiled : PipelineKind::plain);
+  return pipeline.value_or(fused ? PipelineKind::tiled : PipelineKind::plain);
 }
 
 SamplerKind sampler_for(const SolveOptions& asked, const Scene& scene) {
@@ -131,9 +112,10 @@ void check_planner_options(const SolveOptions& asked) {
   if (planner && !is_roadmap_planner(*planner)) {
     throw UsageError(fmt::format("@planner: {} builds no roadmap of samples; prm and lazy-prm do", name_of(*planner)));
   }
-  const auto sampler = asked.sampler;
   check_queue(asked, options.search);
-  check_heuristic(asked, options.search);
+  if (asked.heuristic && options.search != SearchKind::astar) {
+    throw UsageError(fmt::format("@heuristic: {} estimates nothing; astar takes one", name_of(options.search)));
+  }
   if (planner) check_planner(asked, *planner, options.search);
   if ((options.neighbours || options.radius) && options.star != StarRule::none) {
     throw UsageError("@radius: a number and a rule of PRM* contradict each other; give one of the two");
@@ -141,7 +123,11 @@ void check_planner_options(const SolveOptions& asked) {
   if (options.neighbours && options.radius) {
     throw UsageError("@radius: replaces the number of neighbours; give @neighbours or @radius, not both");
   }
-  if (sampler) check_samples(*sampler, options);
+  // The lattice has a point a cell: no number of samples to choose.
+  if (asked.sampler && takes_all_places(*asked.sampler) && options.samples) {
+    throw UsageError(
+        fmt::format("@samples: {} takes every cell centre; the other samplers take a number", name_of(*asked.sampler)));
+  }
 }
 
 PlannerKind usual_roadmap_planner(const SolveOptions& asked, const Scene& scene) {
@@ -153,11 +139,14 @@ PlannerOptions planner_options(const SolveOptions& asked, const Scene& scene, co
   options.roadmap = roadmap_options(asked);
   options.roadmap.sampler = sampler_for(asked, scene);
   if (scene.maze) options.roadmap.lattice = {scene.maze->rows, scene.maze->cols};
-  check_lattice(options.roadmap.sampler, scene);
+  if (options.roadmap.sampler == SamplerKind::lattice && !scene.maze) {
+    throw UsageError(
+        fmt::format("@sampler: lattice needs a maze, and {} has no 'maze ROWS COLS' line; the others take any world",
+                    scene.source));
+  }
   options.planner = asked.planner.value_or(usual_roadmap_planner(asked, scene));
   check_planner(asked, options.planner, options.roadmap.search);
-  options.fused = takes_fused_tiles(asked, options, problem.reach());
-  options.pipeline = pipeline_for(asked, options, scene);
+  options.pipeline = pipeline_for(asked, options, scene, problem.reach());
   options.optimise = asked.optimise;
   options.given = given_figures(asked);
   return options;

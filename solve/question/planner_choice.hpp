@@ -37,7 +37,6 @@ struct PlannerOptions {
   PlannerKind planner = PlannerKind::prm;
   RoadmapOptions roadmap;
   PipelineKind pipeline = PipelineKind::plain;  ///< only for prm
-  bool fused = false;                           ///< may be tiled or streamed: a lattice with the usual rules
   bool optimise = false;                        ///< pull the path taut after the search
   std::vector<NamedFigure> given;               ///< what was asked for beyond planner, sampler, search and seed
 };

@@ -83,7 +83,11 @@ class ArrayWalls : public StreamedWalls {
 };
 
 VerifyOptions judged_as(const WallProblem& problem) {
-  return {.radius = problem.robot.radius, .clearance = problem.clearance, .start = problem.start, .goal = problem.goal};
+  return {.radius = problem.robot.radius,
+          .clearance = problem.clearance,
+          .contact = problem.contact,
+          .start = problem.start,
+          .goal = problem.goal};
 }
 
 /// Judges a path as it comes, and hands it on.

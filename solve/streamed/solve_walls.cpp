@@ -144,21 +144,13 @@ WallProblem problem_of(const SolveRequest& request) {
 }
 
 /// As a body of sampled_roadmap.hpp.
-class PointAmongWalls : public UsualBody {
+class PointAmongWalls : public UsualBody<WallProblem> {
  public:
   using World = MazeWorld;
   static constexpr bool judged_by_index = true;
 
-  explicit PointAmongWalls(const SolveRequest& request)
-      : scene_(request.scene), execution_(request.execution), problem_(problem_of(request)) {}
-  Problem problem() const { return problem_.general(); }
-  static SamplerKind choose_sampler(const SolveOptions&, const RoadmapOptions& roadmap) { return roadmap.sampler; }
+  explicit PointAmongWalls(const SolveRequest& request) : UsualBody(request, problem_of(request)) {}
   void index(std::optional<World>& world, SamplerKind) const { world.emplace(scene_, problem_.reach(), execution_); }
-
- private:
-  const Scene& scene_;
-  const Execution& execution_;
-  WallProblem problem_;
 };
 
 constexpr AskedWords walls_words{AskedWord::goal};
@@ -191,11 +183,6 @@ void make_roadmap(const SolveRequest& request) {
   prm(WorldView(world), problem.start, problem.goal, options.roadmap, request.execution, &request.keep->roadmap);
 }
 
-Verdict recheck_walls(const Scene& scene, const Question& question, const RecordedAnswer& answer,
-                      const Execution& execution) {
-  return verify_plane_answer(scene, wall_problem(scene, question), answer, execution);
-}
-
 }  // namespace
 
 Answer solve_walls(const Scene& scene, const WallProblem& problem, const PlannerOptions& options,
@@ -211,7 +198,7 @@ SolveKind walls_kind() {
           walls_planners,
           usual_walls_planner,
           solve_walls,
-          recheck_walls,
+          nullptr,  // plane_kind() judges
           build_sampled<PointAmongWalls>,
           open_sampled<PointAmongWalls>,
           make_roadmap};

@@ -101,9 +101,9 @@ const std::array<std::uint8_t, 512>& allowed_steps(StepRule rule) {
 
 CorridorCells::CorridorCells(const DistanceField& field, double least, const Execution& execution)
     : width_(field.width()), ridge_(field.width(), field.height()) {
-  std::vector<std::vector<std::uint32_t>> bands((field.height() + tile - 1) / tile);
-  for_chunks(bands.size(), 1, execution,
-             [&](Range r) { bands[r.first] = places_of(field, least, as_whole<std::uint32_t>(r.first) * tile); });
+  const auto bands = parts_of_chunks((field.height() + tile - 1) / tile, 1, execution, [&](Range r) {
+    return places_of(field, least, as_whole<std::uint32_t>(r.first) * tile);
+  });
   std::size_t count = 0;
   for (const auto& band : bands) count += band.size();
   execution.reserve(count * (sizeof(std::uint32_t) + sizeof(double)));

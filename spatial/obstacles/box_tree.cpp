@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "core/base/whole.hpp"
+#include "spatial/points/neighbour.hpp"
 
 namespace warren {
 namespace {
@@ -19,30 +20,6 @@ BoxOf<D> joined(const BoxOf<D>& a, const BoxOf<D>& b) {
     box.high[axis] = std::max(a.high[axis], b.high[axis]);
   }
   return box;
-}
-
-template <int D>
-double doubled_centre(const BoxOf<D>& box, std::size_t axis) {
-  return box.low[axis] + box.high[axis];
-}
-
-/// The axis on which the centres of the boxes spread most.
-template <int D>
-std::size_t widest_axis(std::span<const BoxOf<D>> boxes, std::span<const std::uint32_t> ids) {
-  std::size_t best = 0;
-  double widest = -1.0;
-  for (std::size_t axis = 0; axis < D; ++axis) {
-    const auto less = [&](std::uint32_t a, std::uint32_t b) {
-      return doubled_centre(boxes[a], axis) < doubled_centre(boxes[b], axis);
-    };
-    const auto [low, high] = std::minmax_element(ids.begin(), ids.end(), less);
-    const double width = doubled_centre(boxes[*high], axis) - doubled_centre(boxes[*low], axis);
-    if (width > widest) {
-      widest = width;
-      best = axis;
-    }
-  }
-  return best;
 }
 
 }  // namespace
@@ -78,12 +55,13 @@ void BoxTree<D>::build(std::uint32_t first, std::uint32_t last, Building& buildi
   const auto node = as_whole<std::uint32_t>(nodes_.size());
   nodes_.push_back({box, first, last - first});
   if (ids.size() <= box_leaf_size) return;
-  const std::size_t axis = widest_axis<D>(boxes, ids);
+  const auto doubled_centre = [&](std::uint32_t id, std::size_t on) { return boxes[id].low[on] + boxes[id].high[on]; };
+  const std::size_t axis = widest_axis<D>(ids, doubled_centre);
   std::uint32_t comparisons = 0;
   const auto less = [&](std::uint32_t a, std::uint32_t b) {
     if (++comparisons % polled_boxes == 0) building.execution.check();
-    const double left = doubled_centre(boxes[a], axis);
-    const double right = doubled_centre(boxes[b], axis);
+    const double left = doubled_centre(a, axis);
+    const double right = doubled_centre(b, axis);
     return left != right ? left < right : a < b;
   };
   const std::uint32_t middle = first + (last - first) / 2;

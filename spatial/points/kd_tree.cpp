@@ -91,29 +91,14 @@ struct TopTree {
   }
   void cut(std::size_t node, std::span<PointOf<D>> sample) {
     if (node >= leaves) return;
-    const std::size_t axis = widest_axis(sample);
+    const auto at = [](const PointOf<D>& p, std::size_t on) { return coordinate<D>(p, on); };
+    const std::size_t axis = widest_axis<D>(sample, at);
     const std::size_t half = sample.size() / 2;
-    const auto less = [axis](const auto& a, const auto& b) { return coordinate<D>(a, axis) < coordinate<D>(b, axis); };
+    const auto less = [&](const auto& a, const auto& b) { return at(a, axis) < at(b, axis); };
     std::nth_element(sample.begin(), sample.begin() + as_whole<std::ptrdiff_t>(half), sample.end(), less);
     cuts[node] = {axis, coordinate<D>(sample[half], axis)};
     cut(2 * node, sample.first(half));
     cut(2 * node + 1, sample.subspan(half));
-  }
-  static std::size_t widest_axis(std::span<const PointOf<D>> sample) {
-    std::size_t best = 0;
-    double widest = -1.0;
-    for (std::size_t axis = 0; axis < D; ++axis) {
-      const auto less = [axis](const auto& a, const auto& b) {
-        return coordinate<D>(a, axis) < coordinate<D>(b, axis);
-      };
-      const auto [low, high] = std::minmax_element(sample.begin(), sample.end(), less);
-      const double width = coordinate<D>(*high, axis) - coordinate<D>(*low, axis);
-      if (width > widest) {
-        widest = width;
-        best = axis;
-      }
-    }
-    return best;
   }
   std::uint32_t leaf_of(const PointOf<D>& p) const {
     std::size_t node = 1;

@@ -35,6 +35,23 @@ double distance_between(const PointOf<D>& a, const PointOf<D>& b) {
   }
 }
 
+/// The axis on which at(element, axis) spreads most, the first of such; D axes, one element at least.
+template <int D, class Elements, class At>
+std::size_t widest_axis(const Elements& elements, const At& at) {
+  std::size_t best = 0;
+  double widest = -1.0;
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    const auto less = [&](const auto& a, const auto& b) { return at(a, axis) < at(b, axis); };
+    const auto [low, high] = std::minmax_element(elements.begin(), elements.end(), less);
+    const double width = at(*high, axis) - at(*low, axis);
+    if (width > widest) {
+      widest = width;
+      best = axis;
+    }
+  }
+  return best;
+}
+
 struct Neighbour {
   VertexId id;
   double distance;  ///< world units

@@ -95,12 +95,36 @@ class PointGrid : public NeighboursByVisits<PointGrid, 2> {
   void nearest(Vec2 p, std::size_t k, VertexId except, std::vector<Neighbour>& out) const;
   /// Calls visit(id, distance) for all points at a distance <= radius from p; ascending by id if in tile order.
   template <class Visit>
-  void for_each_within(Vec2 p, const SearchRadius& radius, const Visit& visit) const;
+  void for_each_within(Vec2 p, const SearchRadius& radius, const Visit& visit) const {
+    if (points_.empty() || radius.square() < 0.0) return;
+    const auto visit_place = [&](std::uint32_t place, double distance) { visit(id_at(place), distance); };
+    Gathering gathering(*this, p, radius.square(), visit_place);
+    for_each_run(window(p, radius.reach()),
+                 [&](std::uint32_t first, std::uint32_t last) { gathering.add(first, last); });
+    gathering.visit_all();
+  }
   /// Calls visit(i, j) for each point i of the range, ascending, and all points j > i at a distance <= radius from it:
   /// over all points, each pair once. Ascending by j if in tile order, where it costs least: a few
   /// cells are looked around once for all of their points.
   template <class Visit>
-  void for_each_later_pair(Range ids, const SearchRadius& radius, const Visit& visit) const;
+  void for_each_later_pair(Range ids, const SearchRadius& radius, const Visit& visit) const {
+    if (radius.square() < 0.0) return;
+    if (!in_tile_order()) return NeighboursByVisits::for_each_later_pair(ids, radius, visit);
+    constexpr std::uint32_t cells_together = 4;  // looked around once: fewer looks, but more points for each to compare
+    CellCandidates candidates(*this);
+    auto i = as_whole<VertexId>(ids.first);
+    while (i < ids.last) {
+      VertexId end = last_of(i, ids, cells_together);
+      bool few = candidates.gather(i, end, radius.reach());
+      if (!few) {
+        end = last_of(i, ids, 1);
+        few = candidates.gather(i, end, radius.reach());
+      }
+      if (!few) NeighboursByVisits::for_each_later_pair({i, end}, radius, visit);
+      for (VertexId v = i; few && v < end; ++v) candidates.visit_later(v, radius.square(), visit);
+      i = end;
+    }
+  }
 
  private:
   struct Window {  // columns and rows, both ends included
@@ -115,10 +139,116 @@ class PointGrid : public NeighboursByVisits<PointGrid, 2> {
 
   /// Calls run(first, last) for the places of each row of the window, ascending.
   template <class Run>
-  void for_each_run(const Window& w, const Run& run) const;
+  void for_each_run(const Window& w, const Run& run) const {
+    for (std::uint32_t strip = w.left / CellFrame::strip_width; strip <= w.right / CellFrame::strip_width; ++strip) {
+      const std::uint32_t column = strip * CellFrame::strip_width;
+      const std::uint32_t width = frame_.width_of_strip(strip);
+      const std::uint32_t left = w.left > column ? w.left - column : 0;
+      const std::uint32_t right = std::min(w.right - column, width - 1);
+      const std::uint32_t* row = begin_.data() + frame_.strip_begin(strip) + std::size_t{w.bottom} * width;
+      for (std::uint32_t y = w.bottom; y <= w.top; ++y, row += width) run(row[left], row[right + 1]);
+    }
+  }
+
+  /// The points of a disc, gathered run by run without a branch on their distance and visited when there are many.
   template <class Visit>
-  class Gathering;
-  class CellCandidates;
+  class Gathering {
+   public:
+    Gathering(const PointGrid& grid, Vec2 p, double square, const Visit& visit)
+        : grid_(grid), p_(p), square_(square), visit_(visit) {}
+
+    void add(std::uint32_t first, std::uint32_t last) {
+      while (first < last) {
+        if (count_ + (last - first) > room) visit_all();
+        const std::uint32_t end = first + std::min(room, last - first);
+        for (; first < end; ++first) {
+          const Vec2 along = grid_.points_[first] - p_;
+          const double sum = along.x * along.x + along.y * along.y;
+          place_[count_] = first;
+          sum_[count_] = sum;
+          count_ += as_whole<std::uint32_t>(sum <= square_);
+        }
+      }
+    }
+    void visit_all() {
+      for (std::uint32_t i = 0; i < count_; ++i) visit_(place_[i], std::sqrt(sum_[i]));
+      count_ = 0;
+    }
+
+   private:
+    static constexpr std::uint32_t room = 64;
+
+    const PointGrid& grid_;
+    Vec2 p_;
+    double square_;
+    const Visit& visit_;
+    std::uint32_t count_ = 0;
+    std::array<std::uint32_t, room> place_;
+    std::array<double, room> sum_;
+  };
+
+  /// Some points of one cell or of a few, and all later ones that may be within reach of any of them.
+  class CellCandidates {
+   public:
+    explicit CellCandidates(const PointGrid& grid) : grid_(grid) {}
+
+    /// For the points first .. last - 1, which share a cell or a few. False if there are too many.
+    bool gather(std::uint32_t first, std::uint32_t last, double reach) {
+      first_ = first;
+      count_ = 0;
+      fits_ = true;
+      Box box;
+      for (std::uint32_t place = first; place < last; ++place) box.include(grid_.points_[place]);
+      const CellFrame& frame = grid_.frame_;
+      const Window all{frame.column(box.min.x - reach), frame.column(box.max.x + reach), frame.row(box.min.y - reach),
+                       frame.row(box.max.y + reach)};
+      // Of the points' own strip only the rows from their own one on hold later points; strips to the left hold none.
+      const std::uint32_t strip_left = frame.column(box.min.x) / CellFrame::strip_width * CellFrame::strip_width;
+      const std::uint32_t next_strip = strip_left + CellFrame::strip_width;
+      const auto add_later = [&](std::uint32_t begin, std::uint32_t end) { add(std::max(begin, first), end); };
+      grid_.for_each_run(
+          {std::max(all.left, strip_left), std::min(all.right, next_strip - 1), frame.row(box.min.y), all.top},
+          add_later);
+      if (all.right >= next_strip) grid_.for_each_run({next_strip, all.right, all.bottom, all.top}, add_later);
+      return fits_;
+    }
+
+    /// Calls visit(place, later place) for the candidates after `place` with a squared distance <= square.
+    template <class Visit>
+    void visit_later(std::uint32_t place, double square, const Visit& visit) const {
+      for (std::uint32_t from = place - first_ + 1; from < count_; from += 64) {
+        for (std::uint64_t near = near_bits(from, grid_.points_[place], square); near != 0; near &= near - 1)
+          visit(place, place_[from + as_whole<std::uint32_t>(std::countr_zero(near))]);
+      }
+    }
+
+   private:
+    static constexpr std::uint32_t room = 256;
+
+    void add(std::uint32_t begin, std::uint32_t end) {
+      fits_ = fits_ && (begin >= end || count_ + (end - begin) <= room);
+      if (!fits_) return;
+      for (; begin < end; ++begin, ++count_) {
+        x_[count_] = grid_.points_[begin].x;
+        y_[count_] = grid_.points_[begin].y;
+        place_[count_] = begin;
+      }
+    }
+
+    /// Bit i is set if the squared distance of candidate from + i is <= square, for up to 64 of them.
+    std::uint64_t near_bits(std::uint32_t from, Vec2 p, double square) const {
+      const std::uint32_t count = std::min(count_ - from, 64U);
+      return detail::near_bits(&x_[from], &y_[from], count, p, square);
+    }
+
+    const PointGrid& grid_;
+    std::uint32_t first_ = 0;
+    std::uint32_t count_ = 0;
+    bool fits_ = true;
+    std::array<double, room + 2> x_{}, y_{};
+    std::array<std::uint32_t, room> place_;
+  };
+
   void sort_points(std::span<const Vec2> points, const Execution& execution);
   bool in_order(std::span<const Vec2> points, const Execution& execution) const;
   void file_points(const Execution& execution);
@@ -145,145 +275,5 @@ class PointGrid : public NeighboursByVisits<PointGrid, 2> {
   RawVector<VertexId> id_;                // of each place; empty: the place
   RawVector<std::uint32_t> place_of_;     // of each id; empty: the id
 };
-
-template <class Run>
-void PointGrid::for_each_run(const Window& w, const Run& run) const {
-  for (std::uint32_t strip = w.left / CellFrame::strip_width; strip <= w.right / CellFrame::strip_width; ++strip) {
-    const std::uint32_t column = strip * CellFrame::strip_width;
-    const std::uint32_t width = frame_.width_of_strip(strip);
-    const std::uint32_t left = w.left > column ? w.left - column : 0;
-    const std::uint32_t right = std::min(w.right - column, width - 1);
-    const std::uint32_t* row = begin_.data() + frame_.strip_begin(strip) + std::size_t{w.bottom} * width;
-    for (std::uint32_t y = w.bottom; y <= w.top; ++y, row += width) run(row[left], row[right + 1]);
-  }
-}
-
-/// The points of a disc, gathered run by run without a branch on their distance and visited when there are many.
-template <class Visit>
-class PointGrid::Gathering {
- public:
-  Gathering(const PointGrid& grid, Vec2 p, double square, const Visit& visit)
-      : grid_(grid), p_(p), square_(square), visit_(visit) {}
-
-  void add(std::uint32_t first, std::uint32_t last) {
-    while (first < last) {
-      if (count_ + (last - first) > room) visit_all();
-      const std::uint32_t end = first + std::min(room, last - first);
-      for (; first < end; ++first) {
-        const Vec2 along = grid_.points_[first] - p_;
-        const double sum = along.x * along.x + along.y * along.y;
-        place_[count_] = first;
-        sum_[count_] = sum;
-        count_ += as_whole<std::uint32_t>(sum <= square_);
-      }
-    }
-  }
-  void visit_all() {
-    for (std::uint32_t i = 0; i < count_; ++i) visit_(place_[i], std::sqrt(sum_[i]));
-    count_ = 0;
-  }
-
- private:
-  static constexpr std::uint32_t room = 64;
-
-  const PointGrid& grid_;
-  Vec2 p_;
-  double square_;
-  const Visit& visit_;
-  std::uint32_t count_ = 0;
-  std::array<std::uint32_t, room> place_;
-  std::array<double, room> sum_;
-};
-
-template <class Visit>
-void PointGrid::for_each_within(Vec2 p, const SearchRadius& radius, const Visit& visit) const {
-  if (points_.empty() || radius.square() < 0.0) return;
-  const auto visit_place = [&](std::uint32_t place, double distance) { visit(id_at(place), distance); };
-  Gathering gathering(*this, p, radius.square(), visit_place);
-  for_each_run(window(p, radius.reach()), [&](std::uint32_t first, std::uint32_t last) { gathering.add(first, last); });
-  gathering.visit_all();
-}
-
-/// Some points of one cell or of a few, and all later ones that may be within reach of any of them.
-class PointGrid::CellCandidates {
- public:
-  explicit CellCandidates(const PointGrid& grid) : grid_(grid) {}
-
-  /// For the points first .. last - 1, which share a cell or a few. False if there are too many.
-  bool gather(std::uint32_t first, std::uint32_t last, double reach) {
-    first_ = first;
-    count_ = 0;
-    fits_ = true;
-    Box box;
-    for (std::uint32_t place = first; place < last; ++place) box.include(grid_.points_[place]);
-    const CellFrame& frame = grid_.frame_;
-    const Window all{frame.column(box.min.x - reach), frame.column(box.max.x + reach), frame.row(box.min.y - reach),
-                     frame.row(box.max.y + reach)};
-    // Of the points' own strip only the rows from their own one on hold later points; strips to the left hold none.
-    const std::uint32_t strip_left = frame.column(box.min.x) / CellFrame::strip_width * CellFrame::strip_width;
-    const std::uint32_t next_strip = strip_left + CellFrame::strip_width;
-    const auto add_later = [&](std::uint32_t begin, std::uint32_t end) { add(std::max(begin, first), end); };
-    grid_.for_each_run(
-        {std::max(all.left, strip_left), std::min(all.right, next_strip - 1), frame.row(box.min.y), all.top},
-        add_later);
-    if (all.right >= next_strip) grid_.for_each_run({next_strip, all.right, all.bottom, all.top}, add_later);
-    return fits_;
-  }
-
-  /// Calls visit(place, later place) for the candidates after `place` with a squared distance <= square.
-  template <class Visit>
-  void visit_later(std::uint32_t place, double square, const Visit& visit) const {
-    for (std::uint32_t from = place - first_ + 1; from < count_; from += 64) {
-      for (std::uint64_t near = near_bits(from, grid_.points_[place], square); near != 0; near &= near - 1)
-        visit(place, place_[from + as_whole<std::uint32_t>(std::countr_zero(near))]);
-    }
-  }
-
- private:
-  static constexpr std::uint32_t room = 256;
-
-  void add(std::uint32_t begin, std::uint32_t end) {
-    fits_ = fits_ && (begin >= end || count_ + (end - begin) <= room);
-    if (!fits_) return;
-    for (; begin < end; ++begin, ++count_) {
-      x_[count_] = grid_.points_[begin].x;
-      y_[count_] = grid_.points_[begin].y;
-      place_[count_] = begin;
-    }
-  }
-
-  /// Bit i is set if the squared distance of candidate from + i is <= square, for up to 64 of them.
-  std::uint64_t near_bits(std::uint32_t from, Vec2 p, double square) const {
-    const std::uint32_t count = std::min(count_ - from, 64U);
-    return detail::near_bits(&x_[from], &y_[from], count, p, square);
-  }
-
-  const PointGrid& grid_;
-  std::uint32_t first_ = 0;
-  std::uint32_t count_ = 0;
-  bool fits_ = true;
-  std::array<double, room + 2> x_{}, y_{};
-  std::array<std::uint32_t, room> place_;
-};
-
-template <class Visit>
-void PointGrid::for_each_later_pair(Range ids, const SearchRadius& radius, const Visit& visit) const {
-  if (radius.square() < 0.0) return;
-  if (!in_tile_order()) return NeighboursByVisits::for_each_later_pair(ids, radius, visit);
-  constexpr std::uint32_t cells_together = 4;  // looked around once: fewer looks, but more points for each to compare
-  CellCandidates candidates(*this);
-  auto i = as_whole<VertexId>(ids.first);
-  while (i < ids.last) {
-    VertexId end = last_of(i, ids, cells_together);
-    bool few = candidates.gather(i, end, radius.reach());
-    if (!few) {
-      end = last_of(i, ids, 1);
-      few = candidates.gather(i, end, radius.reach());
-    }
-    if (!few) NeighboursByVisits::for_each_later_pair({i, end}, radius, visit);
-    for (VertexId v = i; few && v < end; ++v) candidates.visit_later(v, radius.square(), visit);
-    i = end;
-  }
-}
 
 }  // namespace warren

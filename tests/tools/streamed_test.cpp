@@ -282,6 +282,11 @@ TEST(Streamed, ArraysLargerThanTheMemoryAreReadInWindows) {
     const std::string answer = folder.write("a.json", found.dump());
     EXPECT_EQ(answered({"verify", array, answer})["verified"], true);
     EXPECT_EQ(answered({"verify", array, answer, "--memory", "64MiB"})["verified"], true);
+    Json touching = found;
+    touching["contact"] = "allowed";
+    check({{"verify", array, folder.write("b.json", touching.dump()), "--memory", "64MiB"},
+           65,
+           "contact: is not judged"});
   }
 }
 

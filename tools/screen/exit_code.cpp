@@ -17,7 +17,6 @@
 
 #include "core/base/error.hpp"
 #include "core/base/printable.hpp"
-#include "core/run/execution.hpp"
 #include "core/run/mapped_ranges.hpp"
 #include "scenes/text/human_units.hpp"
 #include "solve/question/limits.hpp"

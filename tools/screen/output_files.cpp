@@ -7,19 +7,14 @@
 
 #include <array>
 #include <cerrno>
-#include <functional>
 #include <limits>
 #include <map>
-#include <optional>
 #include <set>
-#include <string_view>
 #include <system_error>
-#include <vector>
 
 #include "apps/studies/contest_pictures.hpp"
 #include "core/base/error.hpp"
 #include "core/base/printable.hpp"
-#include "core/run/execution.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "scenes/files/read_world_io.hpp"
 #include "scenes/files/ros_map_io.hpp"

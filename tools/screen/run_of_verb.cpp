@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
 #include <iterator>
 #include <limits>
@@ -113,11 +112,8 @@ int exit_code_of(StopReason reason) {
 }
 
 std::string trace_json(const Trace& trace) {
-  std::string text =
-      R"({"displayTimeUnit":"ms","otherData":{"version":"warren )" WARREN_VERSION R"("},"traceEvents":[)";
-  text +=
-      "\n"
-      R"({"name":"process_name","ph":"M","pid":1,"tid":0,"args":{"name":"warren"}})";
+  std::string text = R"({"displayTimeUnit":"ms","otherData":{"version":"warren )" WARREN_VERSION R"("},"traceEvents":[
+{"name":"process_name","ph":"M","pid":1,"tid":0,"args":{"name":"warren"}})";
   for (std::size_t thread = 0; thread < trace.thread_count(); ++thread) {
     fmt::format_to(std::back_inserter(text),
                    ",\n"

@@ -42,12 +42,16 @@ class Run {
   bool quiet() const { return quiet_; }
   const Palette& palette() const { return palette_; }
   unsigned threads() const { return thread_count(execution_.threads); }
-  /// What work() gives, as a stage of that name with so many items, 0: not known.
+  /// What work() gives, as a stage of that name with so many items, 0: not known. Its time is added to seconds.
   template <class Work>
-  auto in_stage(const char* name, const Work& work, std::uint64_t items = 0) const {
-    double seconds = 0.0;
+  auto in_stage(const char* name, double& seconds, const Work& work, std::uint64_t items = 0) const {
     const StageTimer timer(execution_, name, seconds, items);
     return work();
+  }
+  template <class Work>
+  auto in_stage(const char* name, const Work& work, std::uint64_t items = 0) const {
+    double unasked = 0.0;
+    return in_stage(name, unasked, work, items);
   }
   /// Says one line on standard error, above the bar; nothing with --quiet or --progress none.
   void note(std::string_view line) const;

@@ -6,8 +6,6 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
-#include <optional>
-#include <string>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -28,7 +26,6 @@
 #include "solve/answer/world_account.hpp"
 #include "solve/kept/roadmap_file.hpp"
 #include "solve/kept/roadmap_file_io.hpp"
-#include "solve/question/question.hpp"
 #include "tools/screen/exit_code.hpp"
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"

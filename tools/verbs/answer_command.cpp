@@ -37,12 +37,11 @@ std::vector<OptionSpec> answer_output_specs() { return joined_options({output_sp
 
 AnswerCommand::AnswerCommand(const Arguments& arguments, std::string_view keep)
     : arguments_(arguments),
-      explains_(arguments.has("--explain")),
       json_(output_file(arguments, "--json").value_or("")),
       svg_(output_file(arguments, "--picture").value_or("")),
       roadmap_(output_file(arguments, keep).value_or("")),
       path_(output_file(arguments, "--path").value_or("")),
-      certificate_(arguments.has("--certificate") ? output_file(arguments, "--certificate").value_or("") : ""),
+      certificate_(output_file(arguments, "--certificate").value_or("")),
       path_options_(path_words(arguments)),
       picture_options_(picture_words(arguments, arguments.has("--picture"), "--picture FILE", svg_)) {
   check_picture("--picture", svg_);
@@ -69,7 +68,7 @@ int AnswerCommand::run() {
 
 /// Only a file that is put into its place when all is verified may be begun before.
 bool AnswerCommand::hands_path_on() const {
-  if (!arguments_.has("--no-path") || !svg_.empty() || explains_ || keeps_roadmap() || !certificate_.empty())
+  if (!arguments_.has("--no-path") || !svg_.empty() || explains() || keeps_roadmap() || !certificate_.empty())
     return false;
   if (path_.empty()) return true;
   return path_format(path_) == PathFormat::npy && !path_options_.every && !is_written_straight(path_);
@@ -80,7 +79,7 @@ void AnswerCommand::answer(const Run& run) {
   if (hands_path_on()) handed_on_.emplace(path_, run.execution());
   const auto stopped = stopped_by([&] {
     by_products_.wants_certificate = !certificate_.empty();
-    const bool keeps = !svg_.empty() || explains_ || by_products_.wants_certificate;
+    const bool keeps = !svg_.empty() || explains() || by_products_.wants_certificate;
     answer_ = find(run, before, keeps ? &by_products_ : nullptr);
   });
   if (stopped) answer_.stop_reason = stopped;
@@ -95,7 +94,7 @@ void AnswerCommand::answer(const Run& run) {
 /// What is on disk says the same as the exit code: a stop while something is written makes it a stopped answer, one
 /// before, after the answer was found, does not.
 void AnswerCommand::write_outputs(Run& run) {
-  if (explains_) {
+  if (explains()) {
     explain_in_time(answer_, [&] {
       if (answer_.world.kind.empty()) return explain_stop(answer_);
       explain(run.execution(), answer_, by_products_);

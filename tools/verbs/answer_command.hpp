@@ -62,8 +62,8 @@ class AnswerCommand {
   void write_json(std::optional<OutputFile>& file, const Execution& execution) const;
   void write_kept(std::optional<OutputFile>& file, const Execution& execution) const;
   void draw(const Execution& execution);
+  bool explains() const { return arguments_.has("--explain"); }
 
-  bool explains_;
   std::string json_;
   std::string svg_;
   std::string roadmap_;

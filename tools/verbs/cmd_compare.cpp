@@ -14,14 +14,10 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
-#include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "apps/studies/comparison_report.hpp"
 #include "apps/studies/contest_pictures.hpp"
-#include "apps/studies/search_contest.hpp"
 #include "core/base/error.hpp"
 #include "pictures/formats/write_picture.hpp"
 #include "pictures/layers/draw_bodies.hpp"
@@ -31,7 +27,6 @@
 #include "tools/screen/output_files.hpp"
 #include "tools/screen/run_of_verb.hpp"
 #include "tools/screen/world_files.hpp"
-#include "tools/words/command.hpp"
 #include "tools/words/option_values.hpp"
 #include "tools/words/output_words.hpp"
 #include "tools/words/planner_words.hpp"

@@ -248,13 +248,6 @@ Parsed parsed(const Command& command, std::span<const std::string> words) {
   return p;
 }
 
-void add_options_left(Candidates& to, const Command& command, const Parsed& p) {
-  for (const OptionSpec& option : command.options) {
-    if (!p.given.contains(option.name)) to.add(std::string{option.name}, option.help);
-  }
-  to.add("--help", "this command's options");
-}
-
 }  // namespace
 
 Command completion_command() {
@@ -280,7 +273,10 @@ std::string completion_lines(std::span<const std::string> words) {
     const OptionSpec* option = option_named(*command, to.typed.substr(0, equals));
     if (option != nullptr && !option->value.empty()) add_value(to, *option, 0, to.typed.substr(0, equals + 1));
   } else if (to.typed.starts_with('-') && !p.options_ended) {
-    add_options_left(to, *command, p);
+    for (const OptionSpec& option : command->options) {
+      if (!p.given.contains(option.name)) to.add(std::string{option.name}, option.help);
+    }
+    to.add("--help", "this command's options");
   } else {
     if (p.pending != nullptr) add_value(to, *p.pending, 0);
     add_operand(to, *command, p.operands, {words.begin(), words.end()});

@@ -75,14 +75,6 @@ int simplify_graph(const Arguments& arguments, const std::string& file) {
   return exit_code::success;
 }
 
-/// The map that the scene is, or that it becomes with cells of the side that --cell says.
-OccupancyMap map_for(const Scene& scene, const std::optional<double>& cell, const Execution& execution) {
-  if (scene.map && cell) throw UsageError("--cell: the world is a map, and its cells stay as they are");
-  if (scene.map) return *scene.map;
-  if (!cell) throw UsageError("--cell: is missing; it says how large a cell of the map shall be");
-  return map_of_scene(scene, *cell, execution);
-}
-
 /// What there is to note, once all is done.
 std::string write_any(Scene& scene, const std::string& file, const Arguments& arguments, const PictureOptions& options,
                       const Execution& execution) {
@@ -91,7 +83,9 @@ std::string write_any(Scene& scene, const std::string& file, const Arguments& ar
     arguments.refuse(picture_option_specs(), "is for a picture; an image of a map has a pixel a cell");
     const auto cell = given_value(arguments, "--cell", positive_value);
     if (cell) check_cell(*cell, scene);
-    const OccupancyMap map = map_for(scene, cell, execution);
+    if (scene.map && cell) throw UsageError("--cell: the world is a map, and its cells stay as they are");
+    if (!scene.map && !cell) throw UsageError("--cell: is missing; it says how large a cell of the map shall be");
+    const OccupancyMap map = scene.map ? *scene.map : map_of_scene(scene, *cell, execution);
     write_map(map, file, execution);
     constexpr std::string_view no_cell =
         "warren: note: no cell of the map is free, each touches a wall; a smaller --cell leaves some\n";

@@ -24,14 +24,6 @@ namespace {
 
 constexpr OptionSpec example_specs[] = {{"--output", "FOLDER", "where to (default: where you are)", {}, "-o"}};
 
-/// `puma` by its name of before, which scripts may know.
-Example former_example() {
-  return {"puma-seed",
-          {"puma-seed.scene"},
-          "a Puma 560 among spheres; its name is puma now",
-          "warren solve puma-seed.scene --optimise --picture puma.svg"};
-}
-
 std::string_view bytes_of(std::string_view name) {
   if (name == "puma-seed.scene") name = "puma.scene";
   const auto files = example_files();
@@ -83,7 +75,12 @@ std::vector<Example> examples() {
 }
 
 Example example_named(std::string_view name) {
-  if (name == "puma-seed") return former_example();
+  if (name == "puma-seed") {  // `puma` by its name of before, which scripts may know
+    return {"puma-seed",
+            {"puma-seed.scene"},
+            "a Puma 560 among spheres; its name is puma now",
+            "warren solve puma-seed.scene --optimise --picture puma.svg"};
+  }
   const std::vector<Example> all = examples();
   std::vector<std::string_view> names;
   for (const Example& each : all) names.push_back(each.name);

@@ -78,10 +78,7 @@ void generate_maze_file(const MazeOptions& options, bool merged, const std::stri
 
 int generate_packed(const MazeOptions& options, bool merged, const std::string& file, Run& run) {
   double seconds = 0.0;
-  {
-    const StageTimer timer(run.execution(), "generate", seconds);
-    generate_maze_file(options, merged, file, run.execution());
-  }
+  run.in_stage("generate", seconds, [&] { generate_maze_file(options, merged, file, run.execution()); });
   run.end();
   if (!run.quiet()) {
     print_text(fmt::format("{}: {} x {} maze, generated and written in {}\n", run.palette().strong(file), options.rows,
@@ -108,21 +105,18 @@ int generate(const Arguments& arguments) {
   const bool is_mst = maze && maze->algorithm == MazeAlgorithm::mst;
   if (maze && (ending == ".maze" || (ending == ".npy" && is_mst))) return generate_packed(*maze, merged, *file, run);
   double seconds = 0.0;
-  Scene scene;
-  {
-    const StageTimer timer(run.execution(), "generate", seconds);
-    scene = maze ? maze_scene(*maze, merged, run.execution()) : polygon_scene(polygons, run.execution());
-  }
+  Scene scene = run.in_stage("generate", seconds, [&] {
+    return maze ? maze_scene(*maze, merged, run.execution()) : polygon_scene(polygons, run.execution());
+  });
   double write_seconds = 0.0;
   std::string note;
-  {
-    const StageTimer timer(run.execution(), "write", write_seconds);
+  run.in_stage("write", write_seconds, [&] {
     const auto bounds = scene.bounds;
     if (ending == ".wkt") scene.bounds.reset();  // or no polygons could be written there
     say_of_picture(arguments, *file, write_world(scene, *file, options, arguments.command_line(), run.execution()));
     scene.bounds = bounds;
     if (!is_picture(ending)) note = note_of_left_out(scene, *file);
-  }
+  });
   run.end();
   if (!run.quiet() && *file != "-") {
     print_text(fmt::format("{}: {}, generated in {}, written in {}\n", run.palette().strong(*file),

@@ -83,11 +83,6 @@ struct Timed {
   }
 };
 
-std::optional<double> median_wall(const Timed& timed, const std::string& key) {
-  const auto found = timed.wall_s.find(key);
-  return found == timed.wall_s.end() ? std::nullopt : std::optional(studies::median_of(found->second));
-}
-
 std::vector<std::string> row_of(const ProfiledStage& stage, double whole_s) {
   const StageLine& line = stage.line;
   const auto speed_up = stage.speed_up();
@@ -132,7 +127,8 @@ StageProfile profile_stages(const Scene& scene, const Question& question, const 
     if ((both && !run(alone, one)) || !run(execution, all)) break;
   }
   for (const StageLine& line : all.lines) {
-    ProfiledStage stage{line, median_wall(one, line.key)};
+    ProfiledStage stage{line, {}};
+    if (one.wall_s.contains(line.key)) stage.one_thread_s = studies::median_of(one.wall_s[line.key]);
     stage.line.wall_s = studies::median_of(all.wall_s[line.key]);
     stage.line.cpu_s = studies::median_of(all.cpu_s[line.key]);
     profile.stages.push_back(std::move(stage));

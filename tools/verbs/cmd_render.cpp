@@ -31,14 +31,6 @@ constexpr OptionSpec render_specs[] = {
     {"--animate", "", "with --answer: the body moves along the path (.svg and .html)"},
 };
 
-std::string picture_file(const Arguments& arguments) {
-  const auto file = arguments.value("--output");
-  if (!file) throw UsageError("-o FILE is missing");
-  check_picture("--output", *file);
-  check_writable(*file);
-  return *file;
-}
-
 void check_animation(const Arguments& arguments, const std::string& file) {
   if (!arguments.has("--animate")) return;
   if (!arguments.has("--answer")) throw UsageError("--animate: needs --answer FILE, a path to move along");
@@ -58,7 +50,10 @@ void take_prices(const Arguments& arguments, const Scene& scene, Question& drawn
 }
 
 int render(const Arguments& arguments) {
-  const std::string file = picture_file(arguments);
+  const std::string file = arguments.value("--output").value_or("");
+  if (!arguments.has("--output")) throw UsageError("-o FILE is missing");
+  check_picture("--output", file);
+  check_writable(file);
   const PictureOptions options = picture_words(arguments, true, {}, file);
   const auto answer_file = arguments.value("--answer");
   check_animation(arguments, file);

@@ -109,8 +109,8 @@ int serve(const Arguments& arguments) {
       limits.options.insert(limits.options.end(), {std::string(option.name), value});
     }
   }
-  serve::WritableService service(std::move(world), limits, token);
-  serve::HttpServer server(place, {.threads = std::max(2U, run.threads())}, service);
+  const std::unique_ptr<serve::HttpService> service = serve::writable_service(std::move(world), limits, token);
+  serve::HttpServer server(place, {.threads = std::max(2U, run.threads())}, *service);
   if (limits.writable && !server.is_loopback() && token.empty()) {
     throw UsageError(
         "--listen: whoever reaches this address could change the world; there --writable needs --token-file");

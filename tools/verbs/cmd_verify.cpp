@@ -46,24 +46,23 @@ std::string verdict_json(const Verdict& v, const std::string& more) {
 void print_verdict(const Verdict& v, std::string_view metres, const Palette& palette) {
   const double clearance = v.problem.clearance;
   if (v.verified) {
-    print_text(fmt::format("{0}: length {2}{1}, clearance {3}{1} at least, {4}{1} asked for{5}\n",
-                           palette.good("verified"), metres, human_number(v.length), human_number(v.min_clearance),
-                           human_number(clearance),
-                           v.bound == BoundVerdict::absent ? "" : fmt::format(", lower bound {}", name_of(v.bound))));
-  } else {
-    const Violation violation = v.first_violation.value_or(Violation{});
-    if (violation.kind == ViolationKind::claim) {
-      return print_text(fmt::format("{}, {}\n", palette.bad("refuted"), violation.obstacle));
-    }
-    if (violation.kind == ViolationKind::motion) {
-      return print_text(fmt::format("{} at leg {}: {}\n", palette.bad("refuted"), violation.leg, violation.obstacle));
-    }
-    const std::string distance = human_number(violation.distance);
-    std::string needed = human_number(clearance + v.problem.robot.radius);
-    print_text(fmt::format("{0} at leg {2}: {3}, distance {4}{1}, {5} asked for\n", palette.bad("refuted"), metres,
-                           violation.leg, violation.obstacle, distance,
-                           distance == needed ? "a hair more" : needed.append(metres)));
+    return print_text(
+        fmt::format("{0}: length {2}{1}, clearance {3}{1} at least, {4}{1} asked for{5}\n", palette.good("verified"),
+                    metres, human_number(v.length), human_number(v.min_clearance), human_number(clearance),
+                    v.bound == BoundVerdict::absent ? "" : fmt::format(", lower bound {}", name_of(v.bound))));
   }
+  const Violation violation = v.first_violation.value_or(Violation{});
+  if (violation.kind == ViolationKind::claim) {
+    return print_text(fmt::format("{}, {}\n", palette.bad("refuted"), violation.obstacle));
+  }
+  if (violation.kind == ViolationKind::motion) {
+    return print_text(fmt::format("{} at leg {}: {}\n", palette.bad("refuted"), violation.leg, violation.obstacle));
+  }
+  const std::string distance = human_number(violation.distance);
+  std::string needed = human_number(clearance + v.problem.robot.radius);
+  print_text(fmt::format("{0} at leg {2}: {3}, distance {4}{1}, {5} asked for\n", palette.bad("refuted"), metres,
+                         violation.leg, violation.obstacle, distance,
+                         distance == needed ? "a hair more" : needed.append(metres)));
 }
 
 /// What stops it leaves the verdict as it is.

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string>
 
 #include "core/base/error.hpp"
 #include "core/base/printable.hpp"
@@ -39,10 +38,7 @@ std::vector<std::string> words_of(std::string_view text) {
   return words;
 }
 
-bool is_among(std::string_view word, std::string_view words) {
-  const std::vector<std::string> all = words_of(words);
-  return std::find(all.begin(), all.end(), word) != all.end();
-}
+bool is_among(std::string_view word, std::string_view words) { return std::ranges::count(words_of(words), word) > 0; }
 
 Arguments::Arguments(const Command& command, std::span<const std::string> words) {
   command_line_ = "warren " + std::string{command.name};
@@ -116,15 +112,9 @@ void Arguments::check_operands(const Command& command) const {
   throw UsageError(extra + (options_.empty() ? "" : "; a value of several words is quoted: --robot \"disc 0.2\""));
 }
 
-bool Arguments::has(std::string_view option) const {
-  return std::any_of(options_.begin(), options_.end(), [&](const auto& given) { return given.first == option; });
-}
-
 std::optional<std::string> Arguments::value(std::string_view option) const {
-  for (const auto& [name, text] : options_) {
-    if (name == option) return text;
-  }
-  return std::nullopt;
+  const std::vector<std::string> all = values(option);
+  return all.empty() ? std::nullopt : std::optional(all.front());
 }
 
 std::vector<std::string> Arguments::values(std::string_view option) const {
@@ -153,9 +143,7 @@ Arguments Arguments::of(std::string_view option, std::string value) {
 
 Arguments Arguments::without(std::span<const std::string_view> options) const {
   Arguments others = *this;
-  std::erase_if(others.options_, [&](const auto& given) {
-    return std::find(options.begin(), options.end(), given.first) != options.end();
-  });
+  std::erase_if(others.options_, [&](const auto& given) { return std::ranges::count(options, given.first) > 0; });
   return others;
 }
 
@@ -171,10 +159,8 @@ const std::vector<Command>& command_table() {
 }
 
 const Command* find_command(std::string_view name) {
-  for (const Command& command : command_table()) {
-    if (command.name == name) return &command;
-  }
-  return nullptr;
+  const auto found = std::ranges::find(command_table(), name, &Command::name);
+  return found == command_table().end() ? nullptr : &*found;
 }
 
 const Command& command_named(std::string_view name) {

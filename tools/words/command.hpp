@@ -29,7 +29,7 @@ class Arguments {
   /// One option alone; its name must outlive the words.
   static Arguments of(std::string_view option, std::string value);
 
-  bool has(std::string_view option) const;
+  bool has(std::string_view option) const { return value(option).has_value(); }
   /// What was given with the option: empty for a flag, and where a value that may be missing is.
   std::optional<std::string> value(std::string_view option) const;
   /// All that was given with it, where it takes several words.

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cctype>
 #include <set>
-#include <string>
-#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/base/printable.hpp"
@@ -111,14 +109,10 @@ std::string build_instruction_sets() {
 #endif
 }
 
-struct NamedGroup {
-  std::string_view title;
-  std::string_view names;
-};
-
 /// What stands in none is the verb's own.
 constexpr std::string_view own = "Options";
-constexpr NamedGroup option_groups[] = {
+/// Titles, and the names below them.
+constexpr std::pair<std::string_view, std::string_view> option_groups[] = {
     {"Question",
      "--robot --start --goal --goal-pose --via --clearance --contact --map-rules --request --goal-tolerance "
      "--goal-region --visit --return --alternatives --stretch --keep-to --unless-gain"},
@@ -142,7 +136,7 @@ constexpr NamedGroup option_groups[] = {
     {"Run", "--threads --budget --memory --quiet --progress --color --trace --resume"},
 };
 
-constexpr NamedGroup command_groups[] = {
+constexpr std::pair<std::string_view, std::string_view> command_groups[] = {
     {"Paths", "solve verify render compare"},
     {"Roadmaps that are kept", "build query update export"},
     {"In the browser", "serve"},
@@ -153,8 +147,8 @@ constexpr NamedGroup command_groups[] = {
 
 std::string_view group_of(const OptionSpec& option) {
   if (!option.group.empty()) return option.group;
-  for (const NamedGroup& group : option_groups) {
-    if (is_among(option.name, group.names)) return group.title;
+  for (const auto& [title, names] : option_groups) {
+    if (is_among(option.name, names)) return title;
   }
   return own;
 }
@@ -329,7 +323,7 @@ std::string version_text(std::string_view commit) {
 
 std::vector<OptionGroup> grouped_options(const Command& command) {
   std::vector<OptionGroup> groups{{own, {}}};
-  for (const NamedGroup& group : option_groups) groups.push_back({group.title, {}});
+  for (const auto& [title, names] : option_groups) groups.push_back({title, {}});
   for (const OptionSpec& option : command.options) {
     const std::string_view title = group_of(option);
     std::find_if(groups.begin(), groups.end(), [&](const OptionGroup& group) {
@@ -342,10 +336,10 @@ std::vector<OptionGroup> grouped_options(const Command& command) {
 
 std::vector<std::pair<std::string_view, std::vector<const Command*>>> grouped_commands() {
   std::vector<std::pair<std::string_view, std::vector<const Command*>>> groups;
-  for (const NamedGroup& group : command_groups) {
-    groups.push_back({group.title, {}});
+  for (const auto& [title, names] : command_groups) {
+    groups.push_back({title, {}});
     for (const Command& command : command_table()) {
-      if (is_among(command.name, group.names)) groups.back().second.push_back(&command);
+      if (is_among(command.name, names)) groups.back().second.push_back(&command);
     }
   }
   return groups;

@@ -9,7 +9,6 @@
 #include <numbers>
 
 #include "apps/studies/comparison.hpp"
-#include "core/base/error.hpp"
 #include "core/base/printable.hpp"
 #include "scenes/scene/arm_model.hpp"
 #include "tools/words/unknown_words.hpp"
@@ -21,17 +20,15 @@ namespace {
   throw UsageError(fmt::format("{}: expected {} (found: '{}')", option, expected, found));
 }
 
-struct Unit {
-  std::string_view name;
-  double factor;
-};
+/// Its name and its factor.
+using Unit = std::pair<std::string_view, double>;
 
 /// NUMBER UNIT, the number finite and > 0.
 std::optional<double> quantity_in(std::string_view text, std::span<const Unit> units) {
-  for (const Unit& unit : units) {
-    if (!text.ends_with(unit.name)) continue;
-    const auto number = number_in(text.substr(0, text.size() - unit.name.size()));
-    if (number && *number > 0.0 && std::isfinite(*number * unit.factor)) return *number * unit.factor;
+  for (const auto& [name, factor] : units) {
+    if (!text.ends_with(name)) continue;
+    const auto number = number_in(text.substr(0, text.size() - name.size()));
+    if (number && *number > 0.0 && std::isfinite(*number * factor)) return *number * factor;
   }
   return std::nullopt;
 }
@@ -151,12 +148,10 @@ std::vector<std::string> list_value(std::string_view option, std::string_view te
 }
 
 std::size_t choice_value(std::string_view option, std::string_view text, std::span<const std::string_view> words) {
-  std::string list;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (words[i] == text) return i;
-    list.append(i == 0 ? "" : ", ").append(words[i]);
-  }
-  throw UsageError(fmt::format("{}: '{}' is none of {}{}", option, text, list, suggestion(text, words)));
+  const auto found = std::ranges::find(words, text);
+  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+  throw UsageError(
+      fmt::format("{}: '{}' is none of {}{}", option, text, fmt::join(words, ", "), suggestion(text, words)));
 }
 
 std::optional<std::uint32_t> given_count(const Arguments& arguments, std::string_view option, std::uint32_t low,
@@ -167,8 +162,7 @@ std::optional<std::uint32_t> given_count(const Arguments& arguments, std::string
 }
 
 std::vector<std::string> given_list(const Arguments& arguments, std::string_view option) {
-  const auto text = arguments.value(option);
-  return text ? list_value(option, *text) : std::vector<std::string>{};
+  return given_value(arguments, option, list_value).value_or(std::vector<std::string>{});
 }
 
 }  // namespace warren::tools

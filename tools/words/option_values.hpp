@@ -90,8 +90,7 @@ std::optional<std::uint32_t> given_count(const Arguments& arguments, std::string
                                          std::uint32_t high);
 template <NamedEnum E>
 std::optional<E> given_choice(const Arguments& arguments, std::string_view option) {
-  const auto text = arguments.value(option);
-  return text ? std::optional(choice_value<E>(option, *text)) : std::nullopt;
+  return given_value(arguments, option, choice_value<E>);
 }
 /// The words of a list; none where the option is not given.
 std::vector<std::string> given_list(const Arguments& arguments, std::string_view option);

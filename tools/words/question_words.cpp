@@ -115,11 +115,6 @@ ClearancePrice clearance_price_value(std::string_view option, std::string_view t
   return price;
 }
 
-PricedArea area_option(std::string_view option, std::string text) {
-  std::replace(text.begin(), text.end(), ';', ' ');
-  return as_usage([&] { return area_value(std::string{option}, text); });
-}
-
 /// "FILE,1,2": the numbers behind the last commas, as many as there may be or none; a name may have commas, too.
 std::pair<std::string, std::vector<std::string>> file_and_numbers(std::string_view option, std::string_view text,
                                                                   std::size_t count) {
@@ -198,7 +193,10 @@ std::span<const OptionSpec> price_option_specs() { return std::span(asked_specs)
 Prices price_words(const Arguments& arguments) {
   Prices prices;
   prices.clearance = given_value(arguments, "--clearance-price", clearance_price_value);
-  for (const std::string& text : arguments.values("--area")) prices.areas.push_back(area_option("--area", text));
+  for (std::string& text : arguments.values("--area")) {
+    std::ranges::replace(text, ';', ' ');
+    prices.areas.push_back(as_usage([&] { return area_value("--area", text); }));
+  }
   for (const std::string& text : arguments.values("--areas")) {
     const auto [file, numbers] = file_and_numbers("--areas", text, 1);
     if (numbers.empty()) throw UsageError(fmt::format("--areas: expected FILE,F (found: '{}')", text));

@@ -19,6 +19,42 @@ Arc arc_of(const Leg& leg) {
   return {leg.a.position() + 0.5 * leg.way + (0.5 / portable::tan(0.5 * leg.turn)) * aside, leg.a.position(), leg.turn};
 }
 
+double distance_to(const std::vector<Vec2>& corners, const Segment& s) {
+  if (outline_holds(corners, s.a, true)) return 0.0;  // exact signs, but the corners are rounded
+  double least = infinity;
+  Vec2 a = corners.back();
+  for (const Vec2 b : corners) {
+    least = std::min(least, exact::distance({a, b}, s));
+    a = b;
+  }
+  return least;
+}
+
+/// Where the body does not turn, it sweeps the bodies at both ends and a parallelogram a side.
+double distance_to_sweep(const std::vector<Vec2>& corners, Vec2 way, const Segment& s) {
+  double least = distance_to(corners, s);
+  Vec2 a = corners.back();
+  for (const Vec2 b : corners) {
+    const std::vector<Vec2> swept{a, b, b + way, a + way};
+    least = std::min(least, distance_to(swept, s));
+    a = b;
+  }
+  return least;
+}
+
+/// The corners go along arcs, and in the body's eyes the side's ends do, the other way round: apart at the start, they
+/// come nearest where one of these is.
+double distance_to_arcs(const std::vector<Vec2>& corners, const Arc& way, const Segment& s) {
+  double least = distance_to(corners, s);
+  Vec2 a = corners.back();
+  for (const Vec2 b : corners) {
+    least = std::min(least, distance(Arc{way.center, b, way.turn}, s));
+    for (const Vec2 end : {s.a, s.b}) least = std::min(least, distance(Arc{way.center, end, -way.turn}, {a, b}));
+    a = b;
+  }
+  return least;
+}
+
 }  // namespace
 
 BodyVerifier::BodyVerifier(const Scene& scene, std::span<const Vec2> outline, double clearance, double poses_off,
@@ -97,29 +133,6 @@ std::vector<Vec2> BodyVerifier::corners_at(const Leg& leg, double t) const {
   return corners;
 }
 
-double BodyVerifier::distance_to(const std::vector<Vec2>& corners, const Segment& s) const {
-  if (outline_holds(corners, s.a, true)) return 0.0;  // exact signs, but the corners are rounded
-  double least = infinity;
-  Vec2 a = corners.back();
-  for (const Vec2 b : corners) {
-    least = std::min(least, exact::distance({a, b}, s));
-    a = b;
-  }
-  return least;
-}
-
-/// Where the body does not turn, it sweeps the bodies at both ends and a parallelogram a side.
-double BodyVerifier::distance_to_sweep(const std::vector<Vec2>& corners, Vec2 way, const Segment& s) const {
-  double least = distance_to(corners, s);
-  Vec2 a = corners.back();
-  for (const Vec2 b : corners) {
-    const std::vector<Vec2> swept{a, b, b + way, a + way};
-    least = std::min(least, distance_to(swept, s));
-    a = b;
-  }
-  return least;
-}
-
 /// No halving: exact but for the rounding of corners.
 LegReport BodyVerifier::check_straight(const Leg& leg, const Sides& sides, std::size_t number) const {
   const std::vector<Vec2> corners = corners_at(leg, 0.0);
@@ -144,19 +157,6 @@ void BodyVerifier::note(double distance, double rounding, const NearSide& side, 
   report.least = distance - rounding;
   if (report.least > clearance_ || (clearance_ > 0.0 && report.least >= clearance_)) return;
   report.violation = Violation{number, distance, surroundings_.name(side.number)};
-}
-
-/// The corners go along arcs, and in the body's eyes the side's ends do, the other way round: apart at the start, they
-/// come nearest where one of these is.
-double BodyVerifier::distance_to_arcs(const std::vector<Vec2>& corners, const Arc& way, const Segment& s) const {
-  double least = distance_to(corners, s);
-  Vec2 a = corners.back();
-  for (const Vec2 b : corners) {
-    least = std::min(least, distance(Arc{way.center, b, way.turn}, s));
-    for (const Vec2 end : {s.a, s.b}) least = std::min(least, distance(Arc{way.center, end, -way.turn}, {a, b}));
-    a = b;
-  }
-  return least;
 }
 
 /// No halving: exact but for rounding.

@@ -96,10 +96,7 @@ class BodyVerifier {
   /// Notes a distance, which is known but for `rounding`, if it is the least.
   void note(double distance, double rounding, const NearSide& side, std::size_t number, LegReport& report) const;
   bool leaves_box(const Arc& way) const;
-  double distance_to_sweep(const std::vector<Vec2>& corners, Vec2 way, const Segment& s) const;
-  double distance_to_arcs(const std::vector<Vec2>& corners, const Arc& way, const Segment& s) const;
   std::vector<Vec2> corners_at(const Leg& leg, double t) const;
-  double distance_to(const std::vector<Vec2>& corners, const Segment& s) const;
   /// The sides of `among` that may be the nearest to the body within `way` of the place t.
   std::vector<Near> nearest_at(const Leg& leg, double t, double way, const Sides& sides,
                                const std::vector<Near>& among) const;

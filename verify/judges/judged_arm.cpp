@@ -223,11 +223,6 @@ Vec3 SolidCore::support(const Vec3& direction) const {
   return p;
 }
 
-double PlacedCore::reach(const Vec3& direction) const {
-  const Vec3 own = frame.seen(direction);
-  return frame.at.dot(direction) + core.support(own).dot(own);
-}
-
 SolidCore core_of(const Solid& solid, SolidFrame& frame) {
   SolidCore core{solid.kind, solid.half};
   if (solid.kind == SolidKind::sphere) core.half.setZero();

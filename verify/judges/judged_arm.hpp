@@ -19,7 +19,6 @@
 
 #include "core/run/execution.hpp"
 #include "scenes/scene/arm_model.hpp"
-#include "scenes/scene/scene.hpp"
 
 namespace warren {
 
@@ -57,7 +56,10 @@ struct PlacedCore {
   const SolidFrame& frame;
 
   /// How far the core goes in a direction of any length.
-  double reach(const Vec3& direction) const;
+  double reach(const Vec3& direction) const {
+    const Vec3 own = frame.seen(direction);
+    return frame.at.dot(direction) + core.support(own).dot(own);
+  }
 };
 
 /// Between cores: their radii are not taken off.

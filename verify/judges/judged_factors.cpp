@@ -50,19 +50,11 @@ void add_crossings(const JudgedArc& arc, Vec2 on, Vec2 along, std::vector<double
 
 /// The same for the lines of the unit grid that it may cross.
 void add_grid_crossings(const JudgedArc& arc, std::vector<double>& cuts) {
-  Vec2 low = arc.at(0.0);
-  Vec2 high = low;
-  const auto include = [&](Vec2 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  };
-  include(arc.at(0.5));
-  include(arc.at(1.0));
-  const double beside = std::abs(arc.length) * 0.25;  // no place of a half is farther from its ends
-  for (double x = std::ceil(low.x - beside); x <= high.x + beside; x += 1.0)
-    add_crossings(arc, {x, 0.0}, {0.0, 1.0}, cuts);
-  for (double y = std::ceil(low.y - beside); y <= high.y + beside; y += 1.0)
-    add_crossings(arc, {0.0, y}, {1.0, 0.0}, cuts);
+  Box box;
+  for (const double share : {0.0, 0.5, 1.0}) box.include(arc.at(share));
+  box = box.grown(std::abs(arc.length) * 0.25);  // no place of a half is farther from its ends
+  for (double x = std::ceil(box.min.x); x <= box.max.x; x += 1.0) add_crossings(arc, {x, 0.0}, {0.0, 1.0}, cuts);
+  for (double y = std::ceil(box.min.y); y <= box.max.y; y += 1.0) add_crossings(arc, {0.0, y}, {1.0, 0.0}, cuts);
 }
 
 }  // namespace
@@ -74,12 +66,14 @@ Vec2 JudgedArc::at(double share) const {
   return from + chord * Vec2{cosine, sine};
 }
 
-void add_grid_lines(double at, double slope, double length, std::vector<double>& cuts) {
-  if (slope == 0.0) return;
-  const double end = at + slope * length;
-  for (double line = std::ceil(std::min(at, end)); line <= std::max(at, end); line += 1.0) {
-    const double t = (line - at) / slope;
-    if (t > 0.0 && t < length) cuts.push_back(t);
+void add_grid_lines(Vec2 from, Vec2 by, double length, std::vector<double>& cuts) {
+  for (const auto& [at, slope] : {std::pair{from.x, by.x}, {from.y, by.y}}) {
+    if (slope == 0.0) continue;
+    const double end = at + slope * length;
+    for (double line = std::ceil(std::min(at, end)); line <= std::max(at, end); line += 1.0) {
+      const double t = (line - at) / slope;
+      if (t > 0.0 && t < length) cuts.push_back(t);
+    }
   }
 }
 
@@ -107,16 +101,11 @@ double JudgedFactors::over(const Segment& leg) {
       if (t > 0.0 && t < ray.length) cuts_.push_back(t);  // not NaN, where it runs along
     }
   }
-  if (unknown_ > 1.0) {
-    add_grid_lines(ray.from.x, ray.u.x, ray.length, cuts_);
-    add_grid_lines(ray.from.y, ray.u.y, ray.length, cuts_);
-  }
+  if (unknown_ > 1.0) add_grid_lines(ray.from, ray.u, ray.length, cuts_);
   const double to_world = distance(leg.a, leg.b) / ray.length;
   for (const PriceMask* mask : masks_) {
     const Vec2 from = in_mask(*mask->read, leg.a);
-    const Vec2 by = (1.0 / ray.length) * (in_mask(*mask->read, leg.b) - from);
-    add_grid_lines(from.x, by.x, ray.length, cuts_);
-    add_grid_lines(from.y, by.y, ray.length, cuts_);
+    add_grid_lines(from, (1.0 / ray.length) * (in_mask(*mask->read, leg.b) - from), ray.length, cuts_);
   }
   double sum = 0.0;
   for_pieces(cuts_, ray.length, execution_, [&](double from, double to) {

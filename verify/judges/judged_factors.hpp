@@ -36,8 +36,8 @@ struct JudgedArc {
   Vec2 at(double share) const;
 };
 
-/// Adds where a leg passes the lines 0, 1, 2, … of a grid, along one of its axes.
-void add_grid_lines(double at, double slope, double length, std::vector<double>& cuts);
+/// Adds where a leg passes the lines 0, 1, 2, … of a grid, along both of its axes. by: of the leg a unit of its length.
+void add_grid_lines(Vec2 from, Vec2 by, double length, std::vector<double>& cuts);
 
 /// Calls piece(from, to) for all between two cuts, and the ends.
 template <class Piece>

@@ -27,7 +27,7 @@ Verification verdict_on(const LegReport& legs, const std::optional<Violation>& s
   return verdict;
 }
 
-void Tally::join(Tally&& other) {
+void Tally::join(const Tally& other) {
   least = std::min(least, other.least);
   violation = std::min(violation, other.violation);
   contacts.insert(contacts.end(), other.contacts.begin(), other.contacts.end());

@@ -38,10 +38,8 @@ struct LegReport {
 template <class ReportOf>
 LegReport report_legs(std::size_t count, std::size_t legs_a_chunk, const Execution& execution,
                       const ReportOf& report_of) {
-  std::vector<LegReport> parts(chunk_count(count, legs_a_chunk));
-  for_chunks(count, legs_a_chunk, execution, [&](Range r) { parts[r.first / legs_a_chunk] = report_of(r); });
   LegReport whole;
-  for (const LegReport& part : parts) whole.add(part);
+  for (const LegReport& part : parts_of_chunks(count, legs_a_chunk, execution, report_of)) whole.add(part);
   return whole;
 }
 
@@ -74,7 +72,7 @@ struct Tally {
   std::vector<LegContact> contacts;                        ///< only where contact is allowed
   Box box;                                                 ///< of the obstacles
 
-  void join(Tally&& other);
+  void join(const Tally& other);
 };
 
 /// The first leg that leaves the box is a violation; an empty box confines nothing.
@@ -96,19 +94,18 @@ class Comparison {
 
   /// Is all that lies in the box too far from the leg or obstacle, or from all in a box, to matter?
   bool skips(const BoxedSegment& one, const Box& others) const {
-    return too_far(one.box, others) || beside(one.segment, others);
+    return skips(one.box, others) || beside(one.segment, others);
   }
-  bool skips(const Box& some, const Box& others) const { return too_far(some, others); }
+  bool skips(const Box& some, const Box& others) const {
+    const double gap = exact::gap_sq(some, others);
+    return gap >= near_sq_ && gap > 0.0;
+  }
   void with_leg(const BoxedSegment& leg, const BoxedSegment& side) {
     if (!skips(leg, side.box)) compare(leg.segment, leg.number, side.segment, side.number);
   }
   Tally take() { return std::move(tally_); }
 
  private:
-  bool too_far(const Box& a, const Box& b) const {
-    const double gap = exact::gap_sq(a, b);
-    return gap >= near_sq_ && gap > 0.0;
-  }
   bool beside(const Segment& one, const Box& others) const;
   void compare(const Segment& s, std::size_t leg, const Segment& obstacle, std::size_t number);
   bool is_doubtful(double d, const Segment& s, const Segment& obstacle) const;
@@ -128,14 +125,13 @@ class Comparison {
 template <class Compare>
 Tally tally_chunks(std::size_t count, std::size_t grain, const VerifyOptions& options, double at_most,
                    const Execution& execution, const Compare& compare) {
-  std::vector<Tally> parts(chunk_count(count, grain));
-  for_chunks(count, grain, execution, [&](Range r) {
+  const auto tally_of = [&](Range r) {
     Comparison comparison(options, at_most);
     compare(r, comparison);
-    parts[r.first / grain] = comparison.take();
-  });
+    return comparison.take();
+  };
   Tally all;
-  for (Tally& part : parts) all.join(std::move(part));
+  for (const Tally& part : parts_of_chunks(count, grain, execution, tally_of)) all.join(part);
   return all;
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "core/base/whole.hpp"
@@ -25,12 +24,12 @@ constexpr std::size_t most_near = 32;     // blocks near a group: more are long 
 
 /// Some in their order, each against many that lie in blocks of boxes: obstacles against the legs of a path, or legs
 /// against the sides of an index. Those that follow each other are near each other: the blocks near 64 are looked for
-/// once, and each eight of them choose among those, unless they are many.
-template <class Many>
+/// once, and each eight of them choose among those, unless they are many. with(one, i) compares with number i of many.
+template <class Blocks, class With>
 class AgainstBlocks {
  public:
-  AgainstBlocks(const Many& many, Comparison& comparison, const Execution& execution)
-      : many_(many), comparison_(comparison), execution_(execution) {}
+  AgainstBlocks(const Blocks& blocks, const Comparison& comparison, const Execution& execution, const With& with)
+      : blocks_(blocks), comparison_(comparison), execution_(execution), with_(with) {}
 
   /// one(i): of i in the range, a BoxedSegment.
   template <class One>
@@ -40,8 +39,7 @@ class AgainstBlocks {
     }
   }
   void compare_alone(const BoxedSegment& one) {
-    many_.blocks().for_each([&](const Box& blocks) { return skips(one, blocks); },
-                            [&](std::size_t i) { many_.compare(comparison_, one, i); });
+    blocks_.for_each([&](const Box& box) { return skips(one, box); }, [&](std::size_t i) { with_(one, i); });
   }
 
  private:
@@ -57,8 +55,8 @@ class AgainstBlocks {
     for (std::size_t i = stretch.first; i < stretch.last; ++i) some_.push_back(one(i));
     around_.clear();
     const Box box = box_around({0, some_.size()});
-    many_.blocks().for_each_block([&](const Box& blocks) { return around_.size() > most_around || skips(box, blocks); },
-                                  [&](std::size_t block) { around_.push_back(block); });
+    blocks_.for_each_block([&](const Box& blocks) { return around_.size() > most_around || skips(box, blocks); },
+                           [&](std::size_t block) { around_.push_back(block); });
     for (std::size_t first = 0; first < some_.size(); first += in_a_group) {
       compare_group({first, std::min(first + in_a_group, some_.size())});
     }
@@ -86,44 +84,27 @@ class AgainstBlocks {
     near_.clear();
     const auto skip = [&](const Box& blocks) { return near_.size() > most_near || skips(group, blocks); };
     const auto add = [&](std::size_t block) { near_.push_back(block); };
-    if (around_.size() > most_around) return many_.blocks().for_each_block(skip, add);
+    if (around_.size() > most_around) return blocks_.for_each_block(skip, add);
     for (const std::size_t block : around_) {
-      if (!skip(many_.blocks().block_box(block))) add(block);
+      if (!skip(blocks_.block_box(block))) add(block);
     }
   }
 
   void compare_with_near(const BoxedSegment& one) {
     for (const std::size_t block : near_) {
-      if (skips(one, many_.blocks().block_box(block))) continue;
-      many_.blocks().for_each_in(block, [&](std::size_t i) { many_.compare(comparison_, one, i); });
+      if (skips(one, blocks_.block_box(block))) continue;
+      blocks_.for_each_in(block, [&](std::size_t i) { with_(one, i); });
     }
   }
 
-  const Many& many_;
-  Comparison& comparison_;
+  const Blocks& blocks_;
+  const Comparison& comparison_;
   const Execution& execution_;
+  const With& with_;
   std::vector<BoxedSegment> some_;   // a stretch
   std::vector<std::size_t> around_;  // blocks near it
   std::vector<std::size_t> near_;    // near a group of it
   std::size_t looks_ = 0;
-};
-
-/// The legs of a path, which obstacles are compared with.
-struct ManyLegs {
-  const LegBoxes& legs;
-  const LegBoxes& blocks() const { return legs; }
-  void compare(Comparison& comparison, const BoxedSegment& obstacle, std::size_t leg) const {
-    comparison.with_leg({legs.leg(leg), leg}, obstacle);
-  }
-};
-
-/// The sides of an index, which legs are compared with.
-struct ManySides {
-  const ObstacleIndex& index;
-  const BoxBlocks& blocks() const { return index.sides(); }
-  void compare(Comparison& comparison, const BoxedSegment& leg, std::size_t side) const {
-    comparison.with_leg(leg, {index.obstacles().segment(side), side});
-  }
 };
 
 /// One comparison of all obstacles in progress.
@@ -154,7 +135,10 @@ class ObstaclePass {
   Tally tally_of(std::size_t count, std::size_t size, double at_most, const Number& number) const {
     const auto obstacle = [&](std::size_t i) { return BoxedSegment(obstacles_.segment(number(i)), number(i)); };
     return tally_chunks(count, size, options_, at_most, execution_, [&](Range r, Comparison& comparison) {
-      AgainstBlocks(ManyLegs{legs_}, comparison, execution_).compare(r, obstacle);
+      const auto with_leg = [&](const BoxedSegment& one, std::size_t leg) {
+        comparison.with_leg({legs_.leg(leg), leg}, one);
+      };
+      AgainstBlocks(legs_, comparison, execution_, with_leg).compare(r, obstacle);
     });
   }
 
@@ -210,13 +194,14 @@ class ObstaclePass {
   template <class WallsIn>
   PathScreen::Rest screened(const PathScreen& screen, std::size_t count, std::size_t first_number,
                             const WallsIn& walls_in) const {
-    std::vector<PathScreen::Rest> parts(chunk_count(count, verify_grain));
-    for_chunks(count, verify_grain, execution_, [&](Range r) {
+    const auto rest_of = [&](Range r) {
+      PathScreen::Rest rest;
       const auto& walls = walls_in(r);
-      screen.sift(std::span(walls), first_number + r.first, parts[r.first / verify_grain]);
-    });
+      screen.sift(std::span(walls), first_number + r.first, rest);
+      return rest;
+    };
     PathScreen::Rest all;
-    for (const PathScreen::Rest& part : parts) {
+    for (const PathScreen::Rest& part : parts_of_chunks(count, verify_grain, execution_, rest_of)) {
       all.doubtful.insert(all.doubtful.end(), part.doubtful.begin(), part.doubtful.end());
       all.box.include(part.box);
     }
@@ -240,12 +225,14 @@ Tally compare_obstacles(const Scene& scene, const Obstacles& obstacles, const Le
 Tally compare_indexed(const ObstacleIndex& index, const LegBoxes& legs, const VerifyOptions& options,
                       const Execution& execution) {
   constexpr std::size_t leg_grain = 256;
-  const ManySides sides{index};
   const auto compare = [&](Range r, Comparison& comparison) {
-    AgainstBlocks against(sides, comparison, execution);
+    const auto with_side = [&](const BoxedSegment& leg, std::size_t side) {
+      comparison.with_leg(leg, {index.obstacles().segment(side), side});
+    };
+    AgainstBlocks against(index.sides(), comparison, execution, with_side);
     const auto leg = [&](std::size_t i) { return BoxedSegment(legs.leg(i), i); };
     const BoxedSegment first = leg(r.first);
-    index.sides().for_some_near(first.box, [&](std::size_t side) { sides.compare(comparison, first, side); });
+    index.sides().for_some_near(first.box, [&](std::size_t side) { with_side(first, side); });
     against.compare_alone(first);  // what is nearest to it keeps the searches of the others narrow
     against.compare(r, leg);
   };

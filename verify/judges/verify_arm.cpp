@@ -158,11 +158,7 @@ class ArmVerifier {
     execution.reserve(count * sizeof(JudgedBody) + corners * sizeof(Vec3));
     obstacles.reserve(count);
     for (const Sphere& s : scene.spheres) {
-      JudgedBody body;
-      body.core.radius = s.radius;
-      body.frame.at = {s.x, s.y, s.z};
-      body.owner = obstacles.size();
-      obstacles.push_back(std::move(body));
+      obstacles.push_back({.core = {.radius = s.radius}, .frame = {.at = {s.x, s.y, s.z}}, .owner = obstacles.size()});
     }
     for (const auto& [low, high] : scene.boxes) {
       add_box(obstacles.size(), {}, {low[0], low[1], low[2]}, {high[0], high[1], high[2]});
@@ -188,14 +184,10 @@ class ArmVerifier {
       high[k] = std::clamp(base[k] + 2.0 * reach, low[k], high[k]);
       low[k] = near;
     }
-    JudgedBody body;
-    body.core.kind = SolidKind::box;
-    body.core.half = 0.5 * (high - low);
-    body.core.far = body.core.half.norm();
-    frame.at = frame.point(low + body.core.half);
-    body.frame = frame;
-    body.owner = number;
-    obstacles.push_back(std::move(body));
+    const Vec3 half = 0.5 * (high - low);
+    frame.at = frame.point(low + half);
+    obstacles.push_back(
+        {.core = {.kind = SolidKind::box, .half = half, .far = half.norm()}, .frame = frame, .owner = number});
   }
   /// The largest difference of a joint, in radians or metres.
   double difference(const JointState& a, const JointState& b) const {

@@ -23,8 +23,6 @@
 
 namespace warren {
 
-class ObstacleIndex;  // verify/near/obstacle_index.hpp
-
 /// What drives.
 struct VerifiedCar {
   double turning_radius = 1.0;     ///< > 0

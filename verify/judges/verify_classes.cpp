@@ -150,12 +150,11 @@ class Holes {
   /// of their holes.
   void follow(Vec2 a, Vec2 b, std::vector<std::int32_t>& word) const {
     const bool up = a.y < b.y;
-    const double low = std::min(a.y, b.y);
-    const double high = std::max(a.y, b.y);
-    const auto first =
-        std::upper_bound(rays_.begin(), rays_.end(), low, [](double y, const Ray& r) { return y < r.y; });
-    const auto last =
-        std::upper_bound(rays_.begin(), rays_.end(), high, [](double y, const Ray& r) { return y < r.y; });
+    const auto first_above = [&](double height) {
+      return std::upper_bound(rays_.begin(), rays_.end(), height, [](double y, const Ray& r) { return y < r.y; });
+    };
+    const auto first = first_above(std::min(a.y, b.y));
+    const auto last = first_above(std::max(a.y, b.y));
     for (auto i = 0; i < last - first; ++i) {
       const Ray& ray = up ? first[i] : *(last - 1 - i);
       const double x = a.x + (b.x - a.x) * ((ray.y - a.y) / (b.y - a.y));
@@ -205,9 +204,8 @@ class Holes {
 JudgedClasses judged_classes(const OccupancyMap& map, const ClassRule& rule, std::span<const Path<Vec2>> paths,
                              const Execution& execution) {
   const Holes holes(cells_without_room(map, rule.keeps, execution), rule.hole / map.cell * (1.0 - 1e-12), execution);
-  JudgedClasses judged{.classes = std::vector<std::vector<std::int32_t>>(paths.size()), .told = {}, .holes = {}};
-  judged.told.resize(paths.size());
-  judged.holes = holes.boxes();
+  const std::vector<std::vector<std::int32_t>> empty(paths.size());
+  JudgedClasses judged{empty, empty, holes.boxes()};
   for (std::size_t i = 0; i < paths.size(); ++i) {
     for (std::size_t leg = 1; leg < paths[i].size(); ++leg) {
       execution.check();

@@ -75,21 +75,17 @@ Verification judged_legs(const Scene& scene, const ObstacleIndex* index, std::sp
   return result;
 }
 
-/// The first point whose coordinates are not numbers or too large; the path's size, if there is none.
-std::size_t first_misfit(std::span<const Vec2> path, const Execution& execution) {
-  constexpr std::size_t grain = std::size_t{1} << 14;
-  const auto fits = [](Vec2 p) { return std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate; };
-  return first_that(path.size(), grain, execution.quiet(), [&](std::size_t i) { return !fits(path[i]); });
-}
-
 }  // namespace
 
 void check_judged_path(std::span<const Vec2> path, const VerifyOptions& options, const Execution& execution) {
   constexpr std::size_t most_legs = 500'000'000;  // told at once; a path is 16 bytes a leg, and its boxes come on top
   if (path.empty()) throw InputError("path", "has no points");
   if (path.size() > most_legs + 1) throw InputError("path", "more than 500 million legs can't be verified");
-  if (const std::size_t i = first_misfit(path, execution); i < path.size()) {
-    throw InputError(fmt::format("path point {}", i), "expected finite coordinates of at most 1e60");
+  constexpr std::size_t grain = std::size_t{1} << 14;
+  const auto fits = [](Vec2 p) { return std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate; };
+  const auto misfit = first_that(path.size(), grain, execution.quiet(), [&](std::size_t i) { return !fits(path[i]); });
+  if (misfit < path.size()) {
+    throw InputError(fmt::format("path point {}", misfit), "expected finite coordinates of at most 1e60");
   }
   check_not_negative("radius", options.radius);
   check_not_negative("clearance", options.clearance);

@@ -129,8 +129,7 @@ class NearCells {
 
   double over(const JudgedRay& ray) {
     cuts_.clear();
-    add_grid_lines(ray.from.x, ray.u.x, ray.length, cuts_);
-    add_grid_lines(ray.from.y, ray.u.y, ray.length, cuts_);
+    add_grid_lines(ray.from, ray.u, ray.length, cuts_);
     double sum = 0.0;
     for_pieces(cuts_, ray.length, execution_, [&](double from, double to) {
       sum += over_piece(ray.at(from), ray.u, to - from, ray.at(0.5 * (from + to)));

@@ -40,8 +40,7 @@ LegBoxes::LegBoxes(std::span<const Vec2> path, const Execution& execution) : pat
       Box box = box_of(leg(8 * block));
       for (std::size_t i = 8 * block; i < last; ++i) {
         const Vec2 to = path_[i + 1];
-        box.min = {std::min(box.min.x, to.x), std::min(box.min.y, to.y)};
-        box.max = {std::max(box.max.x, to.x), std::max(box.max.y, to.y)};
+        box.include(to);
         length += norm(to - path_[i]);
         skew = skew || is_skew(to - path_[i]);
       }

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <utility>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "parallel/sort.hpp"
@@ -32,18 +31,17 @@ ObstacleExtent extent_of(const Obstacles& obstacles, const Execution& execution)
     if (i < obstacles.wall_count()) return true;
     return obstacles.rings()[obstacles.sides()[i - obstacles.wall_count()].ring].polygon != Ring::none;
   };
-  std::vector<ObstacleExtent> parts(chunk_count(obstacles.size(), grain));
-  for_chunks(obstacles.size(), grain, execution, [&](Range r) {
+  const auto extent_in = [&](Range r) {
     ObstacleExtent part;
     for (std::size_t i = r.first; i < r.last; ++i) {
       const Box box = box_of(obstacles.segment(i));
       part.with_bounds.include(box);
       if (confines(i)) part.box.include(box);
     }
-    parts[r.first / grain] = part;
-  });
+    return part;
+  };
   ObstacleExtent all;
-  for (const ObstacleExtent& part : parts) {
+  for (const ObstacleExtent& part : parts_of_chunks(obstacles.size(), grain, execution, extent_in)) {
     all.box.include(part.box);
     all.with_bounds.include(part.with_bounds);
   }

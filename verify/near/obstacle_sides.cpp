@@ -11,10 +11,8 @@ namespace warren {
 namespace {
 
 std::vector<Vec2> without_repetitions(const std::vector<Vec2>& corners) {
-  std::vector<Vec2> kept;
-  for (const Vec2 p : corners) {
-    if (kept.empty() || !(p == kept.back())) kept.push_back(p);
-  }
+  std::vector<Vec2> kept = corners;
+  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
   while (kept.size() > 1 && kept.front() == kept.back()) kept.pop_back();
   return kept;
 }

@@ -39,7 +39,11 @@ class Obstacles {
   std::size_t wall_count() const { return scene_.walls.size(); }
   const std::vector<Side>& sides() const { return sides_; }
   const std::vector<Ring>& rings() const { return rings_; }
-  Segment side_segment(std::size_t i) const { return segment_of(sides_[i]); }
+  Segment side_segment(std::size_t i) const {
+    const std::vector<Vec2>& corners = rings_[sides_[i].ring].corners;
+    const std::size_t side = sides_[i].side;
+    return {corners[side], corners[side + 1 == corners.size() ? 0 : side + 1]};
+  }
   Segment segment(std::size_t i) const {
     return i < wall_count() ? scene_.walls.segment(i) : side_segment(i - wall_count());
   }
@@ -49,11 +53,6 @@ class Obstacles {
   std::string name(std::size_t i) const;
 
  private:
-  Segment segment_of(const Side& s) const {
-    const std::vector<Vec2>& corners = rings_[s.ring].corners;
-    return {corners[s.side], corners[s.side + 1 == corners.size() ? 0 : s.side + 1]};
-  }
-
   const Scene& scene_;
   std::vector<Ring> rings_;
   std::vector<Side> sides_;

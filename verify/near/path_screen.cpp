@@ -148,6 +148,18 @@ double power_of_two_above(double x) {
   return below < x ? 2.0 * below : below;
 }
 
+/// Do most of the path's points lie on the corners of the cells?
+bool on_lattice(std::span<const Vec2> path, double cell) {
+  const std::size_t step = path.size() / 64 + 1;
+  std::size_t asked = 0;
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < path.size(); i += step) {
+    ++asked;
+    if (std::fmod(path[i].x, cell) == 0.0 && std::fmod(path[i].y, cell) == 0.0) ++found;
+  }
+  return 4 * found >= 3 * asked;
+}
+
 }  // namespace
 
 PathScreen::PathScreen(const LegBoxes& legs, const Plan& plan, const Execution& execution) : plain_(plan.plain) {
@@ -190,18 +202,6 @@ void PathScreen::choose_cell(const LegBoxes& legs, const Plan& plan) {
   const bool halves = !on_lattice(legs.path(), cell_) && on_lattice(legs.path(), 0.5 * cell_);
   if (halves && cell_ >= least) cell_ = 0.5 * cell_;
   per_cell_ = 1.0 / cell_;
-}
-
-/// Do most of the path's points lie on the corners of the cells?
-bool PathScreen::on_lattice(std::span<const Vec2> path, double cell) {
-  const std::size_t step = path.size() / 64 + 1;
-  std::size_t asked = 0;
-  std::size_t found = 0;
-  for (std::size_t i = 0; i < path.size(); i += step) {
-    ++asked;
-    if (std::fmod(path[i].x, cell) == 0.0 && std::fmod(path[i].y, cell) == 0.0) ++found;
-  }
-  return 4 * found >= 3 * asked;
 }
 
 PathScreen::Place PathScreen::place(double x, double first_cell) const {
@@ -256,17 +256,13 @@ void PathScreen::mark_box(const Box& box, const Stripe& stripe) {
       } else if (along_column) {
         set(column - 1, row, right, stripe);
       } else {
-        mark_cell(column, row, stripe);
+        set(column, row, up, stripe);
+        set(column, row - 1, up, stripe);
+        set(column, row, right, stripe);
+        set(column - 1, row, right, stripe);
       }
     }
   }
-}
-
-void PathScreen::mark_cell(std::int32_t column, std::int32_t row, const Stripe& stripe) {
-  set(column, row, up, stripe);
-  set(column, row - 1, up, stripe);
-  set(column, row, right, stripe);
-  set(column - 1, row, right, stripe);
 }
 
 void PathScreen::set(std::int32_t column, std::int32_t row, unsigned which, const Stripe& stripe) {
@@ -309,14 +305,6 @@ bool PathScreen::is_clear(const Window& w, std::size_t& budget) const {
     }
   }
   return true;
-}
-
-template <class Wall>
-void PathScreen::keep_all(std::span<const Wall> walls, std::size_t first_number, Rest& rest) {
-  for (std::size_t i = 0; i < walls.size(); ++i) {
-    rest.doubtful.push_back(first_number + i);
-    rest.box.include(box_of(walls[i].segment()));
-  }
 }
 
 CellAxis PathScreen::axis(double first_cell, std::int32_t count) const {
@@ -389,27 +377,26 @@ void PathScreen::sift_along(std::span<const Wall> walls, std::size_t first_numbe
 }
 
 template <class Wall>
-void PathScreen::sift_all(std::span<const Wall> walls, std::size_t first_number, Rest& rest) const {
-  if (!usable_) return keep_all(walls, first_number, rest);
-  sift_along(walls, first_number, axis(first_column_, columns_), axis(first_row_, rows_), rest);
+void PathScreen::sift(std::span<const Wall> walls, std::size_t first_number, Rest& rest) const {
+  if (!usable_) {
+    for (std::size_t i = 0; i < walls.size(); ++i) {
+      rest.doubtful.push_back(first_number + i);
+      rest.box.include(box_of(walls[i].segment()));
+    }
+  } else if constexpr (std::is_same_v<Wall, PackedWall>) {
+    const auto x = step_axis(first_column_, columns_);
+    const auto y = step_axis(first_row_, rows_);
+    if (x && y) return sift_along(walls, first_number, *x, *y, rest);
+    std::vector<FloatWall> floats(walls.size());
+    std::transform(walls.begin(), walls.end(), floats.begin(), [](const PackedWall& wall) { return unpacked(wall); });
+    sift(std::span<const FloatWall>(floats), first_number, rest);
+  } else {
+    sift_along(walls, first_number, axis(first_column_, columns_), axis(first_row_, rows_), rest);
+  }
 }
 
-void PathScreen::sift(std::span<const PackedWall> walls, std::size_t first_number, Rest& rest) const {
-  if (!usable_) return keep_all(walls, first_number, rest);
-  const auto x = step_axis(first_column_, columns_);
-  const auto y = step_axis(first_row_, rows_);
-  if (x && y) return sift_along(walls, first_number, *x, *y, rest);
-  std::vector<FloatWall> floats(walls.size());
-  std::transform(walls.begin(), walls.end(), floats.begin(), [](const PackedWall& wall) { return unpacked(wall); });
-  sift_all(std::span<const FloatWall>(floats), first_number, rest);
-}
-
-void PathScreen::sift(std::span<const FloatWall> walls, std::size_t first_number, Rest& rest) const {
-  sift_all(walls, first_number, rest);
-}
-
-void PathScreen::sift(std::span<const DoubleWall> walls, std::size_t first_number, Rest& rest) const {
-  sift_all(walls, first_number, rest);
-}
+template void PathScreen::sift(std::span<const PackedWall>, std::size_t, Rest&) const;
+template void PathScreen::sift(std::span<const FloatWall>, std::size_t, Rest&) const;
+template void PathScreen::sift(std::span<const DoubleWall>, std::size_t, Rest&) const;
 
 }  // namespace warren

@@ -82,9 +82,8 @@ class PathScreen {
     Box box;                            ///< of all walls
   };
   /// Walls are numbered from `first_number`; what they say is added to `rest`.
-  void sift(std::span<const PackedWall> walls, std::size_t first_number, Rest& rest) const;
-  void sift(std::span<const FloatWall> walls, std::size_t first_number, Rest& rest) const;
-  void sift(std::span<const DoubleWall> walls, std::size_t first_number, Rest& rest) const;
+  template <class Wall>  // PackedWall, FloatWall or DoubleWall
+  void sift(std::span<const Wall> walls, std::size_t first_number, Rest& rest) const;
 
  private:
   static constexpr std::int32_t margin = 2;           ///< empty cells around the path: what is outside falls on these
@@ -105,12 +104,10 @@ class PathScreen {
   };
 
   void choose_cell(const LegBoxes& legs, const Plan& plan);
-  static bool on_lattice(std::span<const Vec2> path, double cell);
   Place place(double x, double first_cell) const;
   void mark(const LegBoxes& legs, const Stripe& stripe, const Execution& execution);
   void mark_leg(const Segment& leg, const Stripe& stripe);
   void mark_box(const Box& box, const Stripe& stripe);
-  void mark_cell(std::int32_t column, std::int32_t row, const Stripe& stripe);
   void set(std::int32_t column, std::int32_t row, unsigned which, const Stripe& stripe);
   bool is_clear(const Window& window, std::size_t& budget) const;
   CellAxis axis(double first_cell, std::int32_t count) const;
@@ -118,10 +115,6 @@ class PathScreen {
   template <class Wall, class Scale>
   void sift_along(std::span<const Wall> walls, std::size_t first_number, const Scale& x, const Scale& y,
                   Rest& rest) const;
-  template <class Wall>
-  static void keep_all(std::span<const Wall> walls, std::size_t first_number, Rest& rest);
-  template <class Wall>
-  void sift_all(std::span<const Wall> walls, std::size_t first_number, Rest& rest) const;
 
   bool plain_;
   double cell_ = 1.0;

@@ -14,7 +14,6 @@
 namespace warren {
 namespace {
 
-constexpr std::size_t surroundings_grain = std::size_t{1} << 14;
 constexpr std::uint64_t most_cells_a_side = 64;
 
 template <class T>
@@ -83,15 +82,7 @@ bool PathSurroundings::is_marked(const Range& range) const {
 void PathSurroundings::file(std::span<const Box> boxes, const Execution& execution) {
   if (scene_.map || boxes.empty()) return;
   lay_grid(boxes, execution);
-  if (index_ != nullptr) {
-    if (const auto numbers = may_be_marked(boxes, execution)) {
-      sift(
-          numbers->size(), [&](std::size_t i) { return (*numbers)[i]; }, execution);
-      return file_in_cells(execution);
-    }
-  }
-  sift(
-      obstacles_.size(), [](std::size_t i) { return i; }, execution);
+  sift(index_ != nullptr ? may_be_marked(boxes, execution) : std::nullopt, execution);
   file_in_cells(execution);
 }
 
@@ -121,18 +112,19 @@ std::optional<std::vector<std::size_t>> PathSurroundings::may_be_marked(std::spa
   return numbers;
 }
 
-/// Keeps those of `count` obstacles that meet marked cells, and all that lie across many.
-template <class Number>
-void PathSurroundings::sift(std::size_t count, const Number& number, const Execution& execution) {
+/// Keeps those of the obstacles of these numbers, of all where there are none, that meet marked cells, and all that lie
+/// across many.
+void PathSurroundings::sift(const std::optional<std::vector<std::size_t>>& numbers, const Execution& execution) {
+  constexpr std::size_t grain = std::size_t{1} << 14;
   struct Part {
     std::vector<NearSide> near;
     std::vector<NearSide> far_across;
   };
-  std::vector<Part> parts(chunk_count(count, surroundings_grain));
-  for_chunks(count, surroundings_grain, execution, [&](warren::Range r) {
-    Part& part = parts[r.first / surroundings_grain];
+  const auto sides_in = [&](warren::Range r) {
+    Part part;
     for (std::size_t i = r.first; i < r.last; ++i) {
-      const NearSide side{obstacles_.segment(number(i)), number(i)};
+      const std::size_t number = numbers ? (*numbers)[i] : i;
+      const NearSide side{obstacles_.segment(number), number};
       const Range range = range_of(box_of(side.segment));
       if (range.first_x > range.last_x) continue;
       if (range.count() > most_cells_a_side) {
@@ -141,10 +133,12 @@ void PathSurroundings::sift(std::size_t count, const Number& number, const Execu
         part.near.push_back(side);
       }
     }
-  });
+    return part;
+  };
   near_.clear();
   long_.clear();
-  for (const Part& part : parts) {
+  const std::size_t count = numbers ? numbers->size() : obstacles_.size();
+  for (const Part& part : parts_of_chunks(count, grain, execution, sides_in)) {
     near_.insert(near_.end(), part.near.begin(), part.near.end());
     long_.insert(long_.end(), part.far_across.begin(), part.far_across.end());
   }
@@ -198,11 +192,6 @@ void PathSurroundings::gather(std::span<const Box> boxes, std::vector<NearSide>&
   }
 }
 
-/// Cells first_x .. last_x and rows first_y .. last_y of a map, the ring of blocked ones around it included.
-struct PathSurroundings::MapPart {
-  std::int64_t first_x, first_y, last_x, last_y;
-};
-
 /// 64 cells of a row, from column 64 w on: which are blocked. What lies outside is.
 std::uint64_t PathSurroundings::blocked_word(std::int64_t y, std::int64_t w) const {
   const Bitmap& blocked = scene_.map->blocked;
@@ -219,7 +208,7 @@ std::uint64_t PathSurroundings::number_of(std::int64_t x, std::int64_t y) const 
   return as_whole<std::uint64_t>(y) * map.width() + as_whole<std::uint64_t>(x);
 }
 
-/// The borders between free and blocked cells.
+/// The borders between free and blocked cells, the ring of blocked ones around the map included.
 void PathSurroundings::gather_from_map(const Box& box, std::vector<NearSide>& sides, const Execution& execution) const {
   const OccupancyMap& map = *scene_.map;
   Box in_cells;
@@ -227,29 +216,29 @@ void PathSurroundings::gather_from_map(const Box& box, std::vector<NearSide>& si
   const auto clamped = [](double x, double most) { return bounded_whole<std::int64_t>(x, 0.0, most); };
   constexpr double rounding = 1e-6;  // cells
   constexpr std::size_t words_a_poll = 4096;
-  const MapPart part{clamped(std::floor(in_cells.min.x - rounding), map.width()),
-                     clamped(std::floor(in_cells.min.y - rounding), map.height()),
-                     clamped(std::floor(in_cells.max.x + rounding), map.width()),
-                     clamped(std::floor(in_cells.max.y + rounding), map.height())};
+  const std::int64_t first_x = clamped(std::floor(in_cells.min.x - rounding), map.width());
+  const std::int64_t first_y = clamped(std::floor(in_cells.min.y - rounding), map.height());
+  const std::int64_t last_x = clamped(std::floor(in_cells.max.x + rounding), map.width());
+  const std::int64_t last_y = clamped(std::floor(in_cells.max.y + rounding), map.height());
   std::size_t words = 0;
-  for (std::int64_t y = part.first_y; y <= part.last_y; ++y) {
-    for (std::int64_t w = part.first_x / 64; w <= part.last_x / 64; ++w) {
+  for (std::int64_t y = first_y; y <= last_y; ++y) {
+    for (std::int64_t w = first_x / 64; w <= last_x / 64; ++w) {
       if (words++ % words_a_poll == 0) execution.check();
-      gather_from_word(part, y, w, sides, execution);
+      std::uint64_t wanted = ~std::uint64_t{0};
+      if (first_x > 64 * w) wanted <<= first_x - 64 * w;
+      if (last_x < 64 * w + 63) wanted &= (std::uint64_t{2} << (last_x - 64 * w)) - 1;
+      gather_from_word(y, w, wanted, sides, execution);
     }
   }
 }
 
-/// The borders below and left of 64 cells.
-void PathSurroundings::gather_from_word(const MapPart& part, std::int64_t y, std::int64_t w,
+/// The borders below and left of those of 64 cells that are wanted.
+void PathSurroundings::gather_from_word(std::int64_t y, std::int64_t w, std::uint64_t wanted,
                                         std::vector<NearSide>& sides, const Execution& execution) const {
   const auto point = [&](std::int64_t x, std::int64_t row) {
     return world_point(*scene_.map, {static_cast<double>(x), static_cast<double>(row)});
   };
   const std::int64_t base = 64 * w;
-  std::uint64_t wanted = ~std::uint64_t{0};
-  if (part.first_x > base) wanted <<= part.first_x - base;
-  if (part.last_x < base + 63) wanted &= (std::uint64_t{2} << (part.last_x - base)) - 1;
   const std::uint64_t here = blocked_word(y, w);
   const std::uint64_t left = here << 1 | blocked_word(y, w - 1) >> 63;
   for (std::uint64_t rest = (here ^ left) & wanted; rest != 0 && y < scene_.map->height(); rest &= rest - 1) {

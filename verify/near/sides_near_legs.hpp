@@ -60,12 +60,10 @@ class PathSurroundings {
   template <class Visit>
   void for_each_cell(const Range& range, const Visit& visit) const;
   std::optional<std::vector<std::size_t>> may_be_marked(std::span<const Box> boxes, const Execution& execution) const;
-  template <class Number>
-  void sift(std::size_t count, const Number& number, const Execution& execution);
+  void sift(const std::optional<std::vector<std::size_t>>& numbers, const Execution& execution);
   void file_in_cells(const Execution& execution);
-  struct MapPart;
   void gather_from_map(const Box& box, std::vector<NearSide>& sides, const Execution& execution) const;
-  void gather_from_word(const MapPart& part, std::int64_t y, std::int64_t w, std::vector<NearSide>& sides,
+  void gather_from_word(std::int64_t y, std::int64_t w, std::uint64_t wanted, std::vector<NearSide>& sides,
                         const Execution& execution) const;
   std::uint64_t blocked_word(std::int64_t y, std::int64_t w) const;
   std::uint64_t number_of(std::int64_t x, std::int64_t y) const;

@@ -157,12 +157,6 @@ JudgedMazeFile::JudgedMazeFile(const std::string& name, std::string_view bytes, 
   }
 }
 
-bool JudgedMazeFile::stands(std::uint64_t col, std::uint64_t row, bool above) const {
-  const std::uint64_t bit = 2 * col + (above ? 1 : 0);
-  const auto byte = as_whole<unsigned char>(bytes_[first_cell + row * row_bytes(cols()) + bit / 8]);
-  return (byte >> (bit % 8) & 1U) != 0;
-}
-
 class JudgedMazeFile::Reader : public CellWallReader {
  public:
   explicit Reader(const JudgedMazeFile& file) : file_(file) {}
@@ -185,14 +179,16 @@ class JudgedMazeFile::Reader : public CellWallReader {
   }
 
  private:
-  /// Left of and below the maze its outline stands, but for the door of the first row.
+  /// Left of and below the maze its outline stands, but for the door of the first row. Of a cell the file's lower bit
+  /// is its right wall, the other one its upper wall.
   std::uint8_t walls_of(std::ptrdiff_t col, std::ptrdiff_t row) const {
     if (col < 0) return row == 0 ? 0 : CellTile::right_wall;
     if (row < 0) return CellTile::upper_wall;
-    const auto c = as_whole<std::uint64_t>(col);
-    const auto r = as_whole<std::uint64_t>(row);
-    return as_whole<std::uint8_t>((file_.stands(c, r, false) ? CellTile::right_wall : 0) |
-                                  (file_.stands(c, r, true) ? CellTile::upper_wall : 0));
+    const std::uint64_t bit = 2 * as_whole<std::uint64_t>(col);
+    const std::uint64_t row_begin = first_cell + as_whole<std::uint64_t>(row) * row_bytes(file_.cols());
+    const auto bits = as_whole<unsigned char>(file_.bytes_[row_begin + bit / 8]) >> bit % 8;
+    static_assert(CellTile::right_wall == 1 && CellTile::upper_wall == 2);
+    return as_whole<std::uint8_t>(bits & (CellTile::right_wall | CellTile::upper_wall));
   }
 
   const JudgedMazeFile& file_;
@@ -203,25 +199,22 @@ class JudgedMazeFile::Reader : public CellWallReader {
 std::unique_ptr<CellWallReader> JudgedMazeFile::reader() const { return std::make_unique<Reader>(*this); }
 
 JudgedNpyMaze::JudgedNpyMaze(const std::string& name, std::string_view bytes, std::uint32_t rows, std::uint32_t cols,
-                             Range held, const Forget& forget, const Execution& execution)
+                             Range held, const JudgedMazeFile::Forget& forget, const Execution& execution)
     : JudgedGridLines(rows, cols, tile_side_log2, held, execution) {
   constexpr std::size_t window = std::size_t{1} << 23;  // bytes
   const std::size_t begin = begin_of_numbers(name, bytes);
   const bool is_float = bytes.substr(0, begin).find("<f4") != std::string_view::npos;
+  const auto take_all = [&]<class T>(std::array<T, 4> wall, std::string_view numbers) {
+    for (std::size_t at = 0; at + sizeof wall <= numbers.size(); at += sizeof wall) {
+      if (at % (std::size_t{1} << 20) == 0) execution.check();
+      std::memcpy(wall.data(), numbers.data() + at, sizeof wall);
+      take(name, wall[0], wall[1], wall[2], wall[3], execution);
+    }
+  };
   for (std::size_t at = begin; at < bytes.size(); at += window) {
     const std::string_view numbers = bytes.substr(at, window);
-    is_float ? take_all<float>(name, numbers, execution) : take_all<double>(name, numbers, execution);
+    is_float ? take_all(std::array<float, 4>{}, numbers) : take_all(std::array<double, 4>{}, numbers);
     if (forget) forget(at, at + numbers.size());
-  }
-}
-
-template <class T>
-void JudgedNpyMaze::take_all(const std::string& name, std::string_view numbers, const Execution& execution) {
-  T wall[4];
-  for (std::size_t at = 0; at + sizeof wall <= numbers.size(); at += sizeof wall) {
-    if (at % (std::size_t{1} << 20) == 0) execution.check();
-    std::memcpy(wall, numbers.data() + at, sizeof wall);
-    take(name, wall[0], wall[1], wall[2], wall[3], execution);
   }
 }
 

@@ -12,7 +12,6 @@
 #include <string_view>
 
 #include "core/base/raw_vector.hpp"
-#include "core/base/types.hpp"
 #include "core/plane/cell_walls.hpp"
 #include "core/plane/wall_set.hpp"
 #include "core/run/execution.hpp"
@@ -72,8 +71,6 @@ class JudgedMazeFile : public CellWallSource {
 
  private:
   class Reader;
-  /// Does the wall right of a cell stand, or above it?
-  bool stands(std::uint64_t col, std::uint64_t row, bool above) const;
 
   std::string_view bytes_;
   Forget forget_;
@@ -84,17 +81,10 @@ class JudgedMazeFile : public CellWallSource {
 
 class JudgedNpyMaze : public JudgedGridLines {
  public:
-  /// Called for bytes first .. last - 1 that have been looked at.
-  using Forget = std::function<void(std::size_t first, std::size_t last)>;
-
   /// held: rows of cells whose walls are kept. Throws InputError for what is no array (n, 4) of <f4 or <f8, and for
   /// walls that are none of such a maze; Stopped.
   JudgedNpyMaze(const std::string& name, std::string_view bytes, std::uint32_t rows, std::uint32_t cols, Range held,
-                const Forget& forget, const Execution& execution);
-
- private:
-  template <class T>
-  void take_all(const std::string& name, std::string_view numbers, const Execution& execution);
+                const JudgedMazeFile::Forget& forget, const Execution& execution);
 };
 
 // The walls of a maze in a roadmap's file, where they stand wherever its lattice has no passage, as the judge reads

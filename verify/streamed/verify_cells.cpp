@@ -59,7 +59,9 @@ class LegsAmongCells {
       for (std::size_t i = r.first; i < r.last; ++i) {
         execution_.check();
         reader->read(runs_[passed_[i].first].tile, tile);
-        compare_in(tile, passed_[i], comparison);
+        for (std::size_t run = passed_[i].first; run < passed_[i].last; ++run) {
+          for (std::size_t leg = runs_[run].first; leg <= runs_[run].last; ++leg) compare_leg(tile, leg, comparison);
+        }
       }
     };
     return tally_chunks(passed_.size(), grain, options_, std::numeric_limits<double>::infinity(), execution_, compare);
@@ -101,9 +103,10 @@ class LegsAmongCells {
   /// Runs by tile, in the order of the path within each.
   void file_legs() {
     constexpr std::size_t grain = std::size_t{1} << 14;
-    std::vector<RawVector<Run>> parts(chunk_count(legs_.leg_count(), grain));
-    for_chunks(legs_.leg_count(), grain, execution_.quiet(), [&](Range r) {
-      for (std::size_t leg = r.first; leg < r.last; ++leg) add_runs(leg, parts[r.first / grain]);
+    auto parts = parts_of_chunks(legs_.leg_count(), grain, execution_.quiet(), [&](Range r) {
+      RawVector<Run> runs;
+      for (std::size_t leg = r.first; leg < r.last; ++leg) add_runs(leg, runs);
+      return runs;
     });
     std::size_t total = 0;
     for (const RawVector<Run>& part : parts) total += part.size();
@@ -123,11 +126,6 @@ class LegsAmongCells {
     }
   }
 
-  void compare_in(const CellTile& tile, Range runs, Comparison& comparison) const {
-    for (std::size_t i = runs.first; i < runs.last; ++i) {
-      for (std::size_t leg = runs_[i].first; leg <= runs_[i].last; ++leg) compare_leg(tile, leg, comparison);
-    }
-  }
   void compare_leg(const CellTile& tile, std::size_t number, Comparison& comparison) const {
     const BoxedSegment leg(legs_.leg(number), number);
     const Cells near = around(leg.number);
@@ -256,11 +254,9 @@ Steps look_at(const LookedUpWalls& walls, std::span<const Vec2> path, Range legs
 std::optional<double> length_of_steps(const LookedUpWalls& walls, std::span<const Vec2> path,
                                       const Execution& execution) {
   constexpr std::size_t grain = LegBoxes::legs_a_sum;
-  std::vector<Steps> parts(chunk_count(path.size() - 1, grain));
-  for_chunks(path.size() - 1, grain, execution,
-             [&](Range legs) { parts[legs.first / grain] = look_at(walls, path, legs); });
+  const auto steps_in = [&](Range legs) { return look_at(walls, path, legs); };
   Steps all;
-  for (const Steps& part : parts) {
+  for (const Steps& part : parts_of_chunks(path.size() - 1, grain, execution, steps_in)) {
     all.are_open = all.are_open && part.are_open;
     all.pass_by_walls = all.pass_by_walls || part.pass_by_walls;
     all.length += part.length;

@@ -67,14 +67,13 @@ struct ArmScratch {
     frames[0].z.z += T(1);
   }
   void fit(const ArmSetup& setup) {
-    const std::size_t items_needed = setup.link_lanes + setup.pair_lanes;
-    if (hulls.size() < setup.links.size()) hulls.resize(setup.links.size());
-    if (hull_stamps.size() < setup.links.size()) hull_stamps.resize(setup.links.size());
-    if (ball_stamps.size() < setup.links.size()) ball_stamps.resize(setup.links.size());
-    if (balls.size() < setup.solid_of_ball.size()) balls.resize(setup.solid_of_ball.size());
-    if (bends.size() < items_needed) bends.resize(items_needed);
-    const std::size_t near_needed = std::max(setup.obstacle_lanes, setup.solid_of_ball.size());
-    if (near.size() < near_needed) near.resize(near_needed);
+    const auto grow = [](auto& some, std::size_t needed) { some.resize(std::max(some.size(), needed)); };
+    grow(hulls, setup.links.size());
+    grow(hull_stamps, setup.links.size());
+    grow(ball_stamps, setup.links.size());
+    grow(balls, setup.solid_of_ball.size());
+    grow(bends, setup.link_lanes + setup.pair_lanes);
+    grow(near, std::max(setup.obstacle_lanes, setup.solid_of_ball.size()));
   }
 };
 
@@ -449,14 +448,6 @@ class alignas(32) ArmMotion {
     const T need = tables_.hulls[other].outer + tables_.balls[ball].outer + room;
     return bits_of<T>(is_parted(dot_of<T>(gap, gap), gap, velocity, need)) != all_lanes<T>;
   }
-  /// Balls of a link that are not parted from the hull of another one.
-  [[gnu::always_inline]] inline std::size_t near_balls(std::uint32_t link, std::uint32_t other, T room) {
-    std::size_t count = 0;
-    for (std::uint32_t i = setup_.links[link].first_ball; i < setup_.links[link].end_ball; ++i) {
-      if (is_near(i, other, room)) scratch_.near[count++] = i;
-    }
-    return count;
-  }
 
   [[gnu::always_inline]] inline bool look_at_pair(std::uint32_t pair, unsigned& open) {
     const auto [a, b, common] = setup_.pairs[pair];
@@ -472,7 +463,10 @@ class alignas(32) ArmMotion {
     if (bits_of<T>(is_parted(dot_of<T>(gap, gap), gap, velocity, hulls)) == all_lanes<T>) return false;
     place_balls(a);
     place_balls(b);
-    const std::size_t count = near_balls(b, a, room);
+    std::size_t count = 0;
+    for (std::uint32_t i = setup_.links[b].first_ball; i < setup_.links[b].end_ball; ++i) {
+      if (is_near(i, a, room)) scratch_.near[count++] = i;
+    }
     if (count == 0) return false;
     for (std::uint32_t i = setup_.links[a].first_ball; i < setup_.links[a].end_ball; ++i) {
       if (count > 1 && !is_near(i, b, room)) continue;
@@ -534,11 +528,51 @@ class alignas(32) ArmMotion {
     return !scratch_.unsure.empty() && settle(block.end_item);
   }
 
-  /// The convex bodies themselves, lane by lane, for what their balls leave open. True: two surely meet. Items that
-  /// stay open are noted from first_item on.
-  bool settle(std::size_t first_item);
+  /// The convex bodies themselves, lane by lane, for what their balls leave open: rare, so no part of the search's
+  /// code. True: two surely meet. Items that stay open are noted from first_item on.
+  [[gnu::noinline]] bool settle(std::size_t first_item) {
+    const double room = setup_.clearance + double{slack_};
+    for (const ArmUnsure& unsure : scratch_.unsure) {
+      const bool is_link = unsure.item < setup_.link_lanes;
+      const ArmSetup::Pair pair =
+          is_link ? ArmSetup::Pair{unsure.item, 0, 0} : setup_.pairs[unsure.item - setup_.link_lanes];
+      const std::size_t slot = setup_.links[pair.a].slot;
+      const std::size_t other_slot = is_link ? 0 : setup_.links[pair.b].slot;
+      const double bend = double{scratch_.bends[unsure.item]} * (is_link ? 1.0 : 0.5);  // of a pair it is that of both
+      const ConvexBody& one = setup_.solids[unsure.solid];
+      const ConvexBody& other = is_link ? setup_.bodies[unsure.other] : setup_.solids[unsure.other];
+      const auto cost = as_whole<unsigned>(one.cost() + other.cost());
+      unsigned open = 0;
+      for (unsigned lanes = unsure.lanes; lanes != 0; lanes &= lanes - 1) {
+        bodies_looked_at_ += cost;
+        const auto lane = as_whole<unsigned>(std::countr_zero(lanes));
+        const MovingFrame at = frame_of(slot, pair.common, lane, bend);
+        const MovingFrame other_at = frame_of(other_slot, pair.common, lane, is_link ? 0.0 : bend);
+        const Apart apart = keep_apart(one, at, other, other_at, double{half_}, room);
+        if (apart == Apart::proved) continue;
+        if (apart == Apart::meet && surely_meet(one, slot, other, other_slot, lane)) return true;
+        open |= 1U << lane;
+      }
+      open_ |= open;
+      auto& items = scratch_.items;
+      const auto noted = items.begin() + as_whole<std::ptrdiff_t>(first_item);
+      if (open != 0 && std::find(noted, items.end(), unsure.item) == items.end()) items.push_back(unsure.item);
+    }
+    return false;
+  }
+  /// By frames in doubles: do they meet in the middle of a piece?
   bool surely_meet(const ConvexBody& one, std::size_t slot, const ConvexBody& other, std::size_t other_slot,
-                   unsigned lane);
+                   unsigned lane) {
+    ArmMotion<double> exact(setup_, setup_.doubles, arm_scratch<double>());
+    if constexpr (sizeof(T) == sizeof(float)) {
+      if (!exact.take(q_, all_way_)) return false;
+      exact.place_at(double{middles_[lane]});
+      lane = 0;
+    }
+    const MovingFrame at = exact.frame_of(slot, slot, lane, 0.0);
+    const MovingFrame other_at = exact.frame_of(other_slot, other_slot, lane, 0.0);
+    return keep_apart(one, at, other, other_at, 0.0, setup_.clearance) == Apart::meet;
+  }
 
   /// Open pieces are cut, half a block of them into a whole one, as finely as its lanes allow.
   [[gnu::always_inline]] inline void cut(const ArmBlock<T>& block) {
@@ -588,53 +622,6 @@ class alignas(32) ArmMotion {
 };
 
 template <class T>
-bool ArmMotion<T>::settle(std::size_t first_item) {
-  const double room = setup_.clearance + double{slack_};
-  for (const ArmUnsure& unsure : scratch_.unsure) {
-    const bool is_link = unsure.item < setup_.link_lanes;
-    const ArmSetup::Pair pair =
-        is_link ? ArmSetup::Pair{unsure.item, 0, 0} : setup_.pairs[unsure.item - setup_.link_lanes];
-    const std::size_t slot = setup_.links[pair.a].slot;
-    const std::size_t other_slot = is_link ? 0 : setup_.links[pair.b].slot;
-    const double bend = double{scratch_.bends[unsure.item]} * (is_link ? 1.0 : 0.5);  // of a pair it is that of both
-    const ConvexBody& one = setup_.solids[unsure.solid];
-    const ConvexBody& other = is_link ? setup_.bodies[unsure.other] : setup_.solids[unsure.other];
-    const auto cost = as_whole<unsigned>(one.cost() + other.cost());
-    unsigned open = 0;
-    for (unsigned lanes = unsure.lanes; lanes != 0; lanes &= lanes - 1) {
-      bodies_looked_at_ += cost;
-      const auto lane = as_whole<unsigned>(std::countr_zero(lanes));
-      const MovingFrame at = frame_of(slot, pair.common, lane, bend);
-      const MovingFrame other_at = frame_of(other_slot, pair.common, lane, is_link ? 0.0 : bend);
-      const Apart apart = keep_apart(one, at, other, other_at, double{half_}, room);
-      if (apart == Apart::proved) continue;
-      if (apart == Apart::meet && surely_meet(one, slot, other, other_slot, lane)) return true;
-      open |= 1U << lane;
-    }
-    open_ |= open;
-    auto& items = scratch_.items;
-    const auto noted = items.begin() + as_whole<std::ptrdiff_t>(first_item);
-    if (open != 0 && std::find(noted, items.end(), unsure.item) == items.end()) items.push_back(unsure.item);
-  }
-  return false;
-}
-
-/// By frames in doubles: do they meet in the middle of a piece?
-template <class T>
-bool ArmMotion<T>::surely_meet(const ConvexBody& one, std::size_t slot, const ConvexBody& other, std::size_t other_slot,
-                               unsigned lane) {
-  ArmMotion<double> exact(setup_, setup_.doubles, arm_scratch<double>());
-  if constexpr (sizeof(T) == sizeof(float)) {
-    if (!exact.take(q_, all_way_)) return false;
-    exact.place_at(double{middles_[lane]});
-    lane = 0;
-  }
-  const MovingFrame at = exact.frame_of(slot, slot, lane, 0.0);
-  const MovingFrame other_at = exact.frame_of(other_slot, other_slot, lane, 0.0);
-  return keep_apart(one, at, other, other_at, 0.0, setup_.clearance) == Apart::meet;
-}
-
-template <class T>
 [[gnu::always_inline]] inline MotionVerdict judge_by_lanes(const ArmSetup& setup, const ArmTables<T>& tables,
                                                            std::span<const double> q, std::span<const double> way,
                                                            double bend_factor) {
@@ -645,52 +632,41 @@ template <class T>
   return motion.judge();
 }
 
-using ArmJudge = MotionVerdict (*)(const ArmSetup&, std::span<const double>, std::span<const double>, double);
+template <class T>
+using ArmJudge = MotionVerdict (*)(const ArmSetup&, const ArmTables<T>&, std::span<const double>,
+                                   std::span<const double>, double);
 
-MotionVerdict judge_in_floats(const ArmSetup& setup, std::span<const double> q, std::span<const double> way,
-                              double bend_factor) {
-  return judge_by_lanes<float>(setup, setup.floats, q, way, bend_factor);
-}
-MotionVerdict judge_in_doubles(const ArmSetup& setup, std::span<const double> q, std::span<const double> way,
-                               double bend_factor) {
-  return judge_by_lanes<double>(setup, setup.doubles, q, way, bend_factor);
+template <class T>
+MotionVerdict judge_by_any(const ArmSetup& setup, const ArmTables<T>& tables, std::span<const double> q,
+                           std::span<const double> way, double bend_factor) {
+  return judge_by_lanes(setup, tables, q, way, bend_factor);
 }
 #if defined(__x86_64__) && !defined(WARREN_PLAIN)
-[[gnu::target("avx2")]] MotionVerdict judge_in_floats_avx2(const ArmSetup& setup, std::span<const double> q,
-                                                           std::span<const double> way, double bend_factor) {
-  return judge_by_lanes<float>(setup, setup.floats, q, way, bend_factor);
-}
-[[gnu::target("avx2")]] MotionVerdict judge_in_doubles_avx2(const ArmSetup& setup, std::span<const double> q,
-                                                            std::span<const double> way, double bend_factor) {
-  return judge_by_lanes<double>(setup, setup.doubles, q, way, bend_factor);
+template <class T>
+[[gnu::target("avx2")]] MotionVerdict judge_by_avx2(const ArmSetup& setup, const ArmTables<T>& tables,
+                                                    std::span<const double> q, std::span<const double> way,
+                                                    double bend_factor) {
+  return judge_by_lanes(setup, tables, q, way, bend_factor);
 }
 #endif
 
-struct ArmJudges {
-  ArmJudge floats = judge_in_floats;
-  ArmJudge doubles = judge_in_doubles;
-};
-
-ArmJudges judges_by([[maybe_unused]] InstructionSet set) {
+template <class T>
+ArmJudge<T> judge_by([[maybe_unused]] InstructionSet set) {
 #if defined(__x86_64__) && !defined(WARREN_PLAIN)
-  if (set != InstructionSet::baseline) return {judge_in_floats_avx2, judge_in_doubles_avx2};
+  if (set != InstructionSet::baseline) return judge_by_avx2<T>;
 #endif
-  return {};
-}
-
-MotionVerdict judge_arm_motion_by(const ArmJudges& judges, const ArmSetup& setup, std::span<const double> q,
-                                  std::span<const double> way, double bend_factor) {
-  if (setup.always_meets) return MotionVerdict::blocked;
-  MotionVerdict verdict = setup.floats_hold ? judges.floats(setup, q, way, bend_factor) : MotionVerdict::refused;
-  if (verdict == MotionVerdict::refused) verdict = judges.doubles(setup, q, way, bend_factor);
-  return verdict == MotionVerdict::free && setup.always_touches ? MotionVerdict::refused : verdict;
+  return judge_by_any<T>;
 }
 
 }  // namespace
 
 MotionVerdict judge_arm_motion(const ArmSetup& setup, std::span<const double> q, std::span<const double> way,
                                InstructionSet set, double bend_factor) {
-  return judge_arm_motion_by(judges_by(set), setup, q, way, bend_factor);
+  if (setup.always_meets) return MotionVerdict::blocked;
+  MotionVerdict verdict = MotionVerdict::refused;
+  if (setup.floats_hold) verdict = judge_by<float>(set)(setup, setup.floats, q, way, bend_factor);
+  if (verdict == MotionVerdict::refused) verdict = judge_by<double>(set)(setup, setup.doubles, q, way, bend_factor);
+  return verdict == MotionVerdict::free && setup.always_touches ? MotionVerdict::refused : verdict;
 }
 
 }  // namespace warren::detail
@@ -702,8 +678,7 @@ ArmCertificate::ArmCertificate(const ArmModel& model, std::span<const Solid> obs
     : setup_(model, obstacles, clearance, resolution, execution) {}
 
 MotionVerdict ArmCertificate::motion(std::span<const double> q, std::span<const double> way) const {
-  static const detail::ArmJudges judges = detail::judges_by(detail::best_instruction_set());
-  return detail::judge_arm_motion_by(judges, setup_, q, way, 1.0);
+  return detail::judge_arm_motion(setup_, q, way, detail::best_instruction_set());
 }
 
 bool ArmCertificate::is_free(std::span<const double> q) const {

@@ -33,7 +33,6 @@
 // |v| h instead of |n v| h (2 to 10 times the cost), one A for all links (2 times), one obstacle after the other.
 #pragma once
 
-#include <cstdint>
 #include <span>
 
 #include "core/run/execution.hpp"
@@ -67,7 +66,8 @@ class ArmCertificate {
 
 namespace detail {
 
-/// For tests: by the instruction set, and with a bound of the acceleration that is so much of the true one.
+/// What motion() says, by the instruction set; of tests, with a bound of the acceleration that is so much of the true
+/// one.
 MotionVerdict judge_arm_motion(const ArmSetup& setup, std::span<const double> q, std::span<const double> way,
                                InstructionSet set, double bend_factor = 1.0);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/base/rng.hpp"
 #include "core/base/trigonometry.hpp"
@@ -13,12 +14,6 @@ namespace {
 
 /// What is missing: a way, in units of the arm's length, and a turn.
 using ToolError = std::array<double, 6>;
-
-double error_sq(const ToolError& error) {
-  double sum = 0.0;
-  for (const double part : error) sum += part * part;
-  return sum;
-}
 
 /// The turn from one frame to another as axis times angle.
 Vec3 turn_between(const Eigen::Matrix3d& from, const Eigen::Matrix3d& to) {
@@ -123,7 +118,7 @@ class ToolSearch {
         columns_[joint.variable][as_number(k) + 3] += by_turn[k];
       }
     }
-    return error_sq(error_);
+    return std::inner_product(error_.begin(), error_.end(), error_.begin(), 0.0);
   }
 
   /// One damped step; what would leave the limits is held there, and the others step again.

@@ -48,11 +48,6 @@ Eigen::Matrix3d turn_about(const Vec3& axis, double angle) {
 
 }  // namespace
 
-struct ArmKinematics::Ball {
-  Vec3 centre;
-  double radius;
-};
-
 ArmKinematics::ArmKinematics(ArmModel model) : model_(std::move(model)) {
   check_model(model_);
   std::vector<double> reach(model_.joints.size(), 0.0);
@@ -61,22 +56,21 @@ ArmKinematics::ArmKinematics(ArmModel model) : model_(std::move(model)) {
       const Vec3 along = solid.half.z() * solid.pose.linear().col(2);
       const Vec3 middle = solid.pose.translation();
       const double rim = solid.kind == SolidKind::cylinder ? solid.half.x() : 0.0;
-      if (solid.kind == SolidKind::sphere) add_reach(link.frame, {middle, 0.0}, solid.half.x(), reach);
+      if (solid.kind == SolidKind::sphere) add_reach(link.frame, middle, 0.0, solid.half.x(), reach);
       if (solid.kind == SolidKind::cylinder || solid.kind == SolidKind::capsule) {
         const double margin = solid.half.x() - rim;
-        add_reach(link.frame, {middle - along, rim}, margin, reach);
-        add_reach(link.frame, {middle + along, rim}, margin, reach);
+        add_reach(link.frame, middle - along, rim, margin, reach);
+        add_reach(link.frame, middle + along, rim, margin, reach);
       }
       for (int corner = 0; corner < 8 && solid.kind == SolidKind::box; ++corner) {
         const Vec3 sides(corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0);
-        add_reach(link.frame, {placed_point(solid.pose, solid.half.cwiseProduct(sides)), 0.0}, 0.0, reach);
+        add_reach(link.frame, placed_point(solid.pose, solid.half.cwiseProduct(sides)), 0.0, 0.0, reach);
       }
-      for (const Vec3& corner : solid.corners)
-        add_reach(link.frame, {placed_point(solid.pose, corner), 0.0}, 0.0, reach);
+      for (const Vec3& corner : solid.corners) add_reach(link.frame, placed_point(solid.pose, corner), 0.0, 0.0, reach);
     }
   }
   std::vector<double> of_tool(reach.size(), 0.0);
-  add_reach(model_.tool_frame, {model_.tool.translation(), 0.0}, 0.0, of_tool);
+  add_reach(model_.tool_frame, model_.tool.translation(), 0.0, 0.0, of_tool);
   for (std::size_t j = 0; j < reach.size(); ++j) {
     const ArmJoint& joint = model_.joints[j];
     tool_reach_[joint.variable] += std::abs(joint.multiplier) * of_tool[j];
@@ -86,27 +80,27 @@ ArmKinematics::ArmKinematics(ArmModel model) : model_(std::move(model)) {
 
 /// How far a ball that is fixed in a frame may come from the axes of this frame and those before it, and with its
 /// margin from the base.
-void ArmKinematics::add_reach(int frame, Ball ball, double margin, std::vector<double>& reach) {
+void ArmKinematics::add_reach(int frame, Vec3 centre, double radius, double margin, std::vector<double>& reach) {
   constexpr double upward = 1.0 + 1e-12;
   while (frame != base_frame) {
     const std::size_t number = frame_number(frame);
     const ArmJoint& joint = model_.joints[number];
-    const Vec3 beside = joint.axis.dot(ball.centre) * joint.axis;
+    const Vec3 beside = joint.axis.dot(centre) * joint.axis;
     if (joint.slides) {
       const ArmVariable& variable = model_.variables[joint.variable];
       const double middle = 0.5 * (variable.low + variable.high);
       reach[number] = std::max(reach[number], 1.0);
-      ball.centre += (joint.multiplier * middle + joint.offset) * joint.axis;
-      ball.radius += upward * std::abs(joint.multiplier) * (variable.high - middle);
+      centre += (joint.multiplier * middle + joint.offset) * joint.axis;
+      radius += upward * std::abs(joint.multiplier) * (variable.high - middle);
     } else {
-      ball.radius = upward * ((ball.centre - beside).norm() + ball.radius);
-      reach[number] = std::max(reach[number], ball.radius);
-      ball.centre = beside;
+      radius = upward * ((centre - beside).norm() + radius);
+      reach[number] = std::max(reach[number], radius);
+      centre = beside;
     }
-    ball.centre = placed_point(joint.origin, ball.centre);
+    centre = placed_point(joint.origin, centre);
     frame = joint.parent;
   }
-  whole_reach_ = std::max(whole_reach_, margin + (ball.centre.norm() + ball.radius));
+  whole_reach_ = std::max(whole_reach_, margin + (centre.norm() + radius));
 }
 
 const MovingFrame& ArmKinematics::frame(const ArmPosture& posture, int number) {

@@ -50,8 +50,7 @@ class ArmKinematics {
   std::size_t variable_outside_limits(const JointState& q) const;
 
  private:
-  struct Ball;
-  void add_reach(int frame, Ball ball, double margin, std::vector<double>& reach);
+  void add_reach(int frame, Vec3 centre, double radius, double margin, std::vector<double>& reach);
 
   ArmModel model_;
   std::array<bool, most_joints> moving_{};

@@ -60,10 +60,6 @@ template <class T>
   return lanes;
 }
 template <class T>
-[[gnu::always_inline]] inline Lanes<T> chosen(LaneMask<T> mask, Lanes<T> yes, Lanes<T> no) {
-  return mask ? yes : no;
-}
-template <class T>
 [[gnu::always_inline]] inline Lanes<T> lesser(Lanes<T> a, Lanes<T> b) {
   return a < b ? a : b;
 }
@@ -177,8 +173,8 @@ template <class T>
   constexpr int to_sign = is_float ? 30 : 62;  // from bit 1 to the highest
   const Whole turns = reinterpret_cast<Whole>(shifted);
   const Whole odd = (turns & 1) != 0;
-  sine = reinterpret_cast<Lanes<T>>(reinterpret_cast<Whole>(chosen<T>(odd, c, s)) ^ ((turns & 2) << to_sign));
-  cosine = reinterpret_cast<Lanes<T>>(reinterpret_cast<Whole>(chosen<T>(odd, s, c)) ^ (((turns + 1) & 2) << to_sign));
+  sine = reinterpret_cast<Lanes<T>>(reinterpret_cast<Whole>(odd ? c : s) ^ ((turns & 2) << to_sign));
+  cosine = reinterpret_cast<Lanes<T>>(reinterpret_cast<Whole>(odd ? s : c) ^ (((turns + 1) & 2) << to_sign));
 }
 
 /// A vector of space in every lane.

@@ -301,12 +301,8 @@ class ArmBuilder {
 
   void take_joint(const ArmJoint& joint) {
     const ArmVariable& variable = model_.variables[joint.variable];
-    ArmDrive drive;
-    drive.parent = as_whole<std::size_t>(joint.parent + 1);
-    drive.slides = joint.slides;
-    drive.variable = joint.variable;
-    drive.multiplier = joint.multiplier;
-    drive.offset = joint.offset;
+    ArmDrive drive{as_whole<std::size_t>(joint.parent + 1), joint.slides, joint.variable, joint.multiplier,
+                   joint.offset};
     const double low = joint.multiplier * variable.low + joint.offset;
     const double high = joint.multiplier * variable.high + joint.offset;
     const double rounding = 1e-9 * (1.0 + std::max(std::abs(low), std::abs(high)));
@@ -418,13 +414,12 @@ class ArmBuilder {
     for (std::size_t row = 0; row < 6; ++row) tables_.bounds[row].assign(setup_.obstacle_lanes, row < 3 ? inf : -inf);
     for (std::size_t i = 0; i < tables_.obstacles.size(); ++i) {
       const Doubles::Obstacle& o = tables_.obstacles[i];
-      const Eigen::Map<const Eigen::Matrix3d> axes(o.axes.data());
       const std::array<double, 3> centre{o.x, o.y, o.z};
-      for (int row = 0; row < 3; ++row) {
+      for (std::size_t row = 0; row < 3; ++row) {
         double half = o.inflate;
-        for (int axis = 0; axis < 3; ++axis) half += std::abs(axes(row, axis)) * o.half[as_whole<std::size_t>(axis)];
-        tables_.bounds[as_whole<std::size_t>(row)][i] = centre[as_whole<std::size_t>(row)] - half;
-        tables_.bounds[as_whole<std::size_t>(row) + 3][i] = centre[as_whole<std::size_t>(row)] + half;
+        for (std::size_t axis = 0; axis < 3; ++axis) half += std::abs(o.axes[3 * axis + row]) * o.half[axis];
+        tables_.bounds[row][i] = centre[row] - half;
+        tables_.bounds[row + 3][i] = centre[row] + half;
       }
     }
   }

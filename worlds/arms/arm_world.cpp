@@ -99,16 +99,6 @@ MotionVerdict ArmWorld::judge_motion(const State& a, const State& b) const {
   return certificate_.motion(a, way);
 }
 
-bool ArmWorld::is_free_motion(const State& a, const State& b, Query& query) const {
-  const MotionVerdict verdict = judge_motion(a, b);
-  if (verdict == MotionVerdict::refused) ++query.refused;
-  return verdict == MotionVerdict::free;
-}
-
-bool ArmWorld::is_free_step(const State& a, const State& b, Query& query) const {
-  return kinematics_.variable_outside_limits(b) == most_joints && is_free_motion(a, b, query);
-}
-
 double ArmWorld::sampled_volume() const {
   double volume = 1.0;
   for (std::size_t j = 0; j < ways_.size(); ++j) {

@@ -45,9 +45,13 @@ class ArmWorld {
   State at_unit(const std::array<double, dimension>& u) const;
   /// Within the limits, and clear of everything?
   bool is_free(const State& a, Query& query) const;
-  bool is_free_motion(const State& a, const State& b, Query& query) const;
+  bool is_free_motion(const State& a, const State& b, Query& query) const {
+    return proved_free(judge_motion(a, b), query.refused);
+  }
   /// Is b within the limits, and the motion free? That includes b.
-  bool is_free_step(const State& a, const State& b, Query& query) const;
+  bool is_free_step(const State& a, const State& b, Query& query) const {
+    return kinematics_.variable_outside_limits(b) == most_joints && is_free_motion(a, b, query);
+  }
   /// The root of the sum of the variables' squared ways: radians, and metres of joints that slide.
   double distance(const State& a, const State& b) const;
   State interpolate(const State& a, const State& b, double t) const;

@@ -27,8 +27,6 @@ Isometry3d step_of(DhConvention convention, DhJoint row) {
   return SerialChain(table).frame({}, 1);
 }
 
-Isometry3d along_z(double d) { return Isometry3d(Eigen::Translation3d(0.0, 0.0, d)); }
-
 /// A frame between two points, whose z leads from one to the other.
 Isometry3d frame_between(const Vec3& a, const Vec3& b) {
   Isometry3d frame = Isometry3d::Identity();
@@ -64,19 +62,12 @@ ArmModel model_of(const DhTable& table, double radius, bool self_collision, doub
   ArmModel model;
   model.name = "arm";
   for (std::size_t i = 0; i < std::max(most_chain_joints, table.joints.size()); ++i) {
-    ArmVariable variable;
-    variable.name = "joint " + std::to_string(i + 1);
-    variable.low = chain.low(i);
-    variable.high = chain.high(i);
-    model.variables.push_back(variable);
+    model.variables.push_back({.name = "joint " + std::to_string(i + 1), .low = chain.low(i), .high = chain.high(i)});
   }
   const auto add_link = [&](int frame, const Vec3& from, const Vec3& to) {
     const double length = (to - from).norm();
     if (length <= 1e-12 * chain.reach()) return;
-    Solid capsule;
-    capsule.kind = SolidKind::capsule;
-    capsule.pose = frame_between(from, to);
-    capsule.half = Vec3(radius, radius, 0.5 * length);
+    const Solid capsule{SolidKind::capsule, frame_between(from, to), {radius, radius, 0.5 * length}};
     model.links.push_back({"link " + std::to_string(model.links.size()), frame, {capsule}});
   };
   const bool modified = table.convention == DhConvention::modified;
@@ -85,16 +76,14 @@ ArmModel model_of(const DhTable& table, double radius, bool self_collision, doub
     DhJoint row = table.joints[i];
     const Isometry3d step = step_of(table.convention, row);
     row.d = 0.0;
-    ArmJoint joint;
-    joint.name = model.variables[i].name;
-    joint.parent = as_whole<int>(i) - 1;
-    joint.origin = modified ? tail * step_of(table.convention, row) : tail;
-    joint.variable = i;
-    joint.offset = table.joints[i].offset_rad;
-    model.joints.push_back(joint);
+    model.joints.push_back({.name = model.variables[i].name,
+                            .parent = as_whole<int>(i) - 1,
+                            .origin = modified ? tail * step_of(table.convention, row) : tail,
+                            .variable = i,
+                            .offset = table.joints[i].offset_rad});
     if (modified) {
-      add_link(joint.parent, tail.translation(), (tail * step).translation());
-      tail = along_z(table.joints[i].d);
+      add_link(as_whole<int>(i) - 1, tail.translation(), (tail * step).translation());
+      tail = Isometry3d(Eigen::Translation3d(0.0, 0.0, table.joints[i].d));
     } else {
       tail = step;
       add_link(as_whole<int>(i), Vec3::Zero(), tail.translation());

@@ -69,7 +69,6 @@ class ConvexBody {
     double along;
     Vec3 corner;
   };
-  void take_corners(std::vector<Vec3> corners);
   void split_corners(std::vector<Vec3>& corners, std::size_t begin, std::size_t end);
   static void look(const Corners& corners, const Vec3& direction, Farthest& best);
   Vec3 hull_support(const Vec3& direction, std::size_t& near) const;

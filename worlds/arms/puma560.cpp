@@ -122,48 +122,6 @@ Vec3 tip_in_frame_3(const SerialChain& chain, const JointState& q) {
   return chain.frame(q, 3).inverse() * chain.tool_pose(q).translation();
 }
 
-}  // namespace
-
-DhTable puma560_table(double tool, PumaLimits limits) {
-  const auto& range = limits == PumaLimits::classic ? classic_degrees : symmetric_degrees;
-  DhTable table;
-  for (std::size_t i = 0; i < standard_rows.size(); ++i) {
-    const auto [d, a, alpha_degrees] = standard_rows[i];
-    table.joints.push_back({d, a, alpha_degrees * degree, range[i][0] * degree, range[i][1] * degree, 0.0});
-  }
-  table.tool.translation() = Vec3(0.0, 0.0, tool);
-  return table;
-}
-
-bool has_puma560_shape(const SerialChain& chain) {
-  const DhTable& table = chain.table();
-  if (table.convention != DhConvention::standard || table.joints.size() != standard_rows.size()) return false;
-  constexpr std::array<bool, 6> any_d{false, false, true, true, false, false};
-  constexpr std::array<bool, 6> any_a{false, true, true, false, false, false};
-  for (std::size_t i = 0; i < standard_rows.size(); ++i) {
-    const DhJoint& joint = table.joints[i];
-    if (!is_near(joint.alpha_rad, standard_rows[i].alpha_degrees * degree) || joint.offset_rad != 0.0) return false;
-    if ((!any_d[i] && joint.d != 0.0) || (!any_a[i] && joint.a != 0.0)) return false;
-  }
-  const Vec3 tool = table.tool.translation();
-  return table.tool.linear().isIdentity(0.0) && tool.x() == 0.0 && tool.y() == 0.0;
-}
-
-std::vector<JointState> puma560_inverse_place(const SerialChain& chain, const Vec3& place,
-                                              const std::array<double, 3>& wrist) {
-  if (!has_puma560_shape(chain)) {
-    throw InputError("arm", "only arms of the Puma 560's shape have inverse kinematics in closed form here");
-  }
-  const JointState bent{0.0, 0.0, 0.0, wrist[0], wrist[1], wrist[2]};
-  std::vector<JointState> all;
-  for (const Angles& first : ShoulderAndElbow(chain.table(), tip_in_frame_3(chain, bent)).solve(place)) {
-    add_turns(chain, {first[0], first[1], first[2], wrist[0], wrist[1], wrist[2]}, all);
-  }
-  return all;
-}
-
-namespace {
-
 struct Interval {
   double low;
   double high;
@@ -268,6 +226,44 @@ struct Piece {
 };
 
 }  // namespace
+
+DhTable puma560_table(double tool, PumaLimits limits) {
+  const auto& range = limits == PumaLimits::classic ? classic_degrees : symmetric_degrees;
+  DhTable table;
+  for (std::size_t i = 0; i < standard_rows.size(); ++i) {
+    const auto [d, a, alpha_degrees] = standard_rows[i];
+    table.joints.push_back({d, a, alpha_degrees * degree, range[i][0] * degree, range[i][1] * degree, 0.0});
+  }
+  table.tool.translation() = Vec3(0.0, 0.0, tool);
+  return table;
+}
+
+bool has_puma560_shape(const SerialChain& chain) {
+  const DhTable& table = chain.table();
+  if (table.convention != DhConvention::standard || table.joints.size() != standard_rows.size()) return false;
+  constexpr std::array<bool, 6> any_d{false, false, true, true, false, false};
+  constexpr std::array<bool, 6> any_a{false, true, true, false, false, false};
+  for (std::size_t i = 0; i < standard_rows.size(); ++i) {
+    const DhJoint& joint = table.joints[i];
+    if (!is_near(joint.alpha_rad, standard_rows[i].alpha_degrees * degree) || joint.offset_rad != 0.0) return false;
+    if ((!any_d[i] && joint.d != 0.0) || (!any_a[i] && joint.a != 0.0)) return false;
+  }
+  const Vec3 tool = table.tool.translation();
+  return table.tool.linear().isIdentity(0.0) && tool.x() == 0.0 && tool.y() == 0.0;
+}
+
+std::vector<JointState> puma560_inverse_place(const SerialChain& chain, const Vec3& place,
+                                              const std::array<double, 3>& wrist) {
+  if (!has_puma560_shape(chain)) {
+    throw InputError("arm", "only arms of the Puma 560's shape have inverse kinematics in closed form here");
+  }
+  const JointState bent{0.0, 0.0, 0.0, wrist[0], wrist[1], wrist[2]};
+  std::vector<JointState> all;
+  for (const Angles& first : ShoulderAndElbow(chain.table(), tip_in_frame_3(chain, bent)).solve(place)) {
+    add_turns(chain, {first[0], first[1], first[2], wrist[0], wrist[1], wrist[2]}, all);
+  }
+  return all;
+}
 
 ToolPostures tool_postures(const SerialChain& chain, const Vec3& place, double sixth, std::size_t enough,
                            const Execution& execution) {

@@ -18,11 +18,31 @@
 
 namespace warren {
 
-/// Immutable after construction; one Query a thread.
-class MazeWorld {
+/// What worlds of points in a box have in common.
+class PointWorld {
  public:
   static constexpr std::size_t dimension = 2;
   using State = Vec2;
+
+  State at_unit(const std::array<double, 2>& u) const {
+    return {box_.min.x + u[0] * box_.width(), box_.min.y + u[1] * box_.height()};
+  }
+  static double distance(const State& a, const State& b) { return warren::distance(a, b); }
+  static State interpolate(const State& a, const State& b, double t) {
+    return t <= 0.0 ? a : t >= 1.0 ? b : a + t * (b - a);
+  }
+  std::array<double, 2> embed(const State& a) const { return {a.x, a.y}; }
+  const Box& box() const { return box_; }
+  /// Area of the box that uniform samples are drawn from.
+  double sampled_area() const { return box_.width() * box_.height(); }
+
+ protected:
+  Box box_;
+};
+
+/// Immutable after construction; one Query a thread.
+class MazeWorld : public PointWorld {
+ public:
   struct Query {
     std::array<Segment, bunch_size> motions;  ///< scratch
   };
@@ -32,9 +52,6 @@ class MazeWorld {
   MazeWorld(const Scene& scene, double clearance, const Execution& execution);
 
   Query make_query() const { return {}; }
-  State at_unit(const std::array<double, 2>& u) const {
-    return {box_.min.x + u[0] * box_.width(), box_.min.y + u[1] * box_.height()};
-  }
   bool is_free(const State& a, Query&) const noexcept;
   bool is_free_motion(const State& a, const State& b, Query&) const noexcept {
     return index_.keeps_clearance(a, b, planning_clearance_);
@@ -47,25 +64,16 @@ class MazeWorld {
   /// that meet the box. Nothing where they are more than most_cells, where the clearance is below a thousandth of a
   /// cell, or coordinates are beyond 10^9: then a point's cell may not be told for sure. Throws Stopped.
   CellSides cell_sides(std::size_t most_cells, const Execution& execution) const;
-  static double distance(const State& a, const State& b) { return warren::distance(a, b); }
-  State interpolate(const State& a, const State& b, double t) const {
-    return t <= 0.0 ? a : t >= 1.0 ? b : a + t * (b - a);
-  }
-  std::array<double, 2> embed(const State& a) const { return {a.x, a.y}; }
 
-  /// Area of the box that uniform samples are drawn from.
-  double sampled_area() const { return box_.width() * box_.height(); }
   /// Uniform samples that a first roadmap needs: 4.5 for each square as wide as the corridors are free. The corridors'
   /// width is the lower quartile of what rays from some walls' middles see on either side. A pure function of the
   /// walls.
   double suggested_samples(const Execution& execution) const;
 
-  const Box& box() const { return box_; }
   double planning_clearance() const { return planning_clearance_; }  ///< what motions keep: clearance (1 + 1e-9)
   const WallIndex& walls() const { return index_; }
 
  private:
-  Box box_;
   double clearance_;
   double planning_clearance_;
   WallIndex index_;

@@ -26,9 +26,7 @@ std::vector<std::vector<Vec2>> mirrored_pieces(std::span<const Vec2> outline, do
 /// Where the reference point may be so that the body, which is `mirrored`, is in the bounds.
 Box shrunk(const Box& bounds, const std::vector<std::vector<Vec2>>& mirrored) {
   Box body;  // mirrored: its max is how far the body reaches down and left
-  for (const auto& piece : mirrored) {
-    for (const Vec2 p : piece) body.include(p);
-  }
+  for (const auto& piece : mirrored) body.include(box_around(piece));
   const Box box{bounds.min + body.max, bounds.max + body.min};
   if (box.empty()) throw InputError("robot", "does not fit into the bounds at this angle");
   return box;

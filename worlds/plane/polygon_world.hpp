@@ -8,22 +8,19 @@
 // the former, since who starts outside and crosses no outline stays outside.
 #pragma once
 
-#include <array>
-
 #include "core/base/types.hpp"
 #include "core/base/world.hpp"
 #include "core/run/execution.hpp"
 #include "scenes/scene/scene.hpp"
 #include "spatial/obstacles/polygon_index.hpp"
 #include "spatial/obstacles/wall_index.hpp"
+#include "worlds/plane/maze_world.hpp"
 
 namespace warren {
 
 /// Immutable after construction; one Query a thread.
-class PolygonWorld {
+class PolygonWorld : public PointWorld {
  public:
-  static constexpr std::size_t dimension = 2;
-  using State = Vec2;
   struct Query {};
 
   /// clearance >= 0 and finite (InputError otherwise). Throws InputError for polygons that are not simple, naming their
@@ -31,9 +28,6 @@ class PolygonWorld {
   PolygonWorld(const Scene& scene, double clearance, const Execution& execution);
 
   Query make_query() const { return {}; }
-  State at_unit(const std::array<double, 2>& u) const {
-    return {box_.min.x + u[0] * box_.width(), box_.min.y + u[1] * box_.height()};
-  }
   bool is_free(const State& a, Query&) const noexcept {
     return box_.contains(a) && sides_.keeps_clearance(a, a, planning_clearance_) && !polygons_.polygon_around(a);
   }
@@ -41,25 +35,16 @@ class PolygonWorld {
   bool is_free_motion(const State& a, const State& b, Query&) const noexcept {
     return sides_.keeps_clearance(a, b, planning_clearance_);
   }
-  static double distance(const State& a, const State& b) { return warren::distance(a, b); }
-  static State interpolate(const State& a, const State& b, double t) {
-    return t <= 0.0 ? a : t >= 1.0 ? b : a + t * (b - a);
-  }
-  std::array<double, 2> embed(const State& a) const { return {a.x, a.y}; }
 
-  /// Area of the box that uniform samples are drawn from.
-  double sampled_area() const { return box_.width() * box_.height(); }
   /// Uniform samples that a first roadmap needs: 4.5 for each square as wide as a typical gap, at least 500 and at most
   /// 8 a corner beyond that. A pure function of the obstacles.
   double suggested_samples(const Execution& execution) const;
 
-  const Box& box() const { return box_; }
   double planning_clearance() const { return planning_clearance_; }  ///< what motions keep: clearance (1 + 1e-9)
   const WallIndex& sides() const { return sides_; }                  ///< walls, outlines and bounds
   const PolygonIndex& polygons() const { return polygons_; }
 
  private:
-  Box box_;
   double clearance_;
   double planning_clearance_;
   PolygonIndex polygons_;

@@ -18,10 +18,10 @@ double planning_reach(const CarOptions& options) {
   return asked * (1.0 + more) + more * options.turning_radius;
 }
 
-double usual_resolution(const CarOptions& options) {
+double resolution_of(const CarOptions& options) {
   constexpr double share = 1e-4;
   const double size = options.outline.empty() ? options.radius : outline_reach(options.outline);
-  return share * (size > 0.0 ? size : options.turning_radius);
+  return options.resolution.value_or(share * (size > 0.0 ? size : options.turning_radius));
 }
 
 /// Throws InputError for what is out of range.
@@ -29,6 +29,7 @@ const CarOptions& checked_car(const CarOptions& options, const Execution& execut
   if (!options.outline.empty()) check_body(options.outline, "robot", execution);
   checked_length("robot: turning radius", options.turning_radius, false);
   planning_reach(options);
+  checked_length("resolution", resolution_of(options), false);
   return options;
 }
 
@@ -37,10 +38,10 @@ constexpr double as_good = 1e-9;  // in turning radii: what is shorter by less i
 }  // namespace
 
 CarBody::CarBody(const Scene& scene, const CarOptions& options, const Execution& execution)
-    : turning_radius_(checked_car(options, execution).turning_radius),
-      resolution_(checked_length("resolution", options.resolution.value_or(usual_resolution(options)), false)),
-      body_(scene, options.outline.empty() ? std::vector{Vec2{}} : options.outline, planning_reach(options),
-            turning_radius_, "car", execution) {
+    : BodyAmongObstacles(scene, options.outline.empty() ? std::vector{Vec2{}} : options.outline,
+                         planning_reach(checked_car(options, execution)), options.turning_radius, "car", execution),
+      turning_radius_(options.turning_radius),
+      resolution_(resolution_of(options)) {
   for (int steer = -2; steer <= 2; ++steer) {
     pace_[as_whole<std::size_t>(steer + 2)] = pace_of(static_cast<Steer>(steer), options.outline, turning_radius_);
   }
@@ -48,7 +49,7 @@ CarBody::CarBody(const Scene& scene, const CarOptions& options, const Execution&
 
 bool CarBody::confines(const Box& way) const {
   constexpr double rounding = 1e-11;
-  if (body_.obstacles().bounds() || body_.map()) return true;  // they are obstacles like others, as is a map's rim
+  if (obstacles().bounds() || map()) return true;  // they are obstacles like others, as is a map's rim
   const Box room = box().grown(rounding * (turning_radius_ + box().width() + box().height()));
   return room.contains(way.min) && room.contains(way.max);
 }
@@ -60,12 +61,6 @@ MotionVerdict CarBody::judge(const SteeringCurve& curve, Query& query) const {
   return certified_motion([&](double t, double enough) { return clearance(curve.at(t * length), enough, query); },
                           [&](double t, double u) { return travelled(u * length) - travelled(t * length); },
                           resolution_);
-}
-
-bool CarBody::is_free_curve(const SteeringCurve& curve, Query& query) const {
-  const MotionVerdict verdict = judge(curve, query);
-  if (verdict == MotionVerdict::refused) ++query.refused;
-  return verdict == MotionVerdict::free;
 }
 
 struct PricedCar::Recipe {
@@ -94,10 +89,6 @@ PricedCurve PricedCar::shortest(const State& a, const State& b) const {
   const double radius = car_->turning_radius();
   const Recipe recipe = priced(ReedsSheppCurve::shortest(a, b, radius), off_by_rounding(a, b, radius));
   return {{a, b, recipe.word, radius}, recipe.price, recipe.first_gear, recipe.last_gear};
-}
-
-double PricedCar::distance(const State& a, const State& b) const {
-  return car_->turning_radius() * ReedsSheppCurve::shortest(a, b, car_->turning_radius()).length;
 }
 
 std::vector<PricedCurve> PricedCar::ways(const State& a, const State& b, double most) const {

@@ -41,28 +41,21 @@ struct CarOptions {
   std::optional<double> resolution = {};  ///< motions that come so near may be refused; > 0; none: body size / 10,000
 };
 
-/// The body among the obstacles, whatever the steering. Immutable after construction; one Query a thread.
-class CarBody {
+/// The body among the obstacles, whatever the steering; its reach is the clearance, of discs their radius too, and
+/// rounding. Immutable after construction; one Query a thread.
+class CarBody : public BodyAmongObstacles {
  public:
-  using Query = BodyAmongObstacles::Query;
-
   /// Throws InputError for options out of range, outlines of the car and of obstacles that are no simple polygons, and
   /// a scene without anything that confines the car. Copies a map. Throws Stopped.
   CarBody(const Scene& scene, const CarOptions& options, const Execution& execution = {});
 
-  Query make_query() const { return body_.make_query(); }
-  /// Poses at which the body is in the bounds, if it can be there at that angle.
-  Se2 at_unit(const std::array<double, 3>& u) const { return body_.at_unit(u); }
-  bool is_free(const Se2& a, Query& query) const { return body_.is_free(a, query); }
-  /// Lower bound of the distance to the nearest obstacle less the clearance; <= 0: not free. More than `enough` counts
-  /// as any number above it.
-  double clearance(const Se2& a, double enough, Query& query) const { return body_.clearance(a, enough, query); }
   MotionVerdict judge(const SteeringCurve& curve, Query& query) const;
-  bool is_free_curve(const SteeringCurve& curve, Query& query) const;
+  bool is_free_curve(const SteeringCurve& curve, Query& query) const {
+    return proved_free(judge(curve, query), query.refused);
+  }
 
   double turning_radius() const { return turning_radius_; }
   double resolution() const { return resolution_; }
-  const Box& box() const { return body_.box(); }  ///< the bounds, else the box of the obstacles
   /// As pace_of(), computed once.
   double pace(Steer steer) const { return pace_[as_whole<std::size_t>(as_whole<int>(steer) + 2)]; }
 
@@ -72,7 +65,6 @@ class CarBody {
   double turning_radius_;
   std::array<double, 5> pace_{};  // by Steer
   double resolution_;
-  BodyAmongObstacles body_;  // its reach: the clearance, of discs their radius too, and rounding
 };
 
 /// Curve: DubinsCurve, ReedsSheppCurve or DifferentialCurve.
@@ -156,7 +148,9 @@ class PricedCar {
   bool is_free_way(const Way& way, Query& query) const { return car_->is_free_curve(way.curve, query); }
   double gear_change_price() const { return price_.cusp; }
   /// Of the shortest curve: no way costs less.
-  double distance(const State& a, const State& b) const;
+  double distance(const State& a, const State& b) const {
+    return car_->turning_radius() * ReedsSheppCurve::shortest(a, b, car_->turning_radius()).length;
+  }
   /// Of each gear at the begin and at the end the cheapest way below that price, if there is one: at most four.
   std::vector<Way> ways(const State& a, const State& b, double most) const;
   /// A pose near a by four numbers in [0, 1): where the car gets from it by one piece, or shifted and turned. `scale`

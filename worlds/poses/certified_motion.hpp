@@ -20,6 +20,12 @@ namespace warren {
 
 enum class MotionVerdict : std::uint8_t { free, blocked, refused };
 
+/// Is it free? Counts what is refused.
+inline bool proved_free(MotionVerdict verdict, std::uint64_t& refused) {
+  if (verdict == MotionVerdict::refused) ++refused;
+  return verdict == MotionVerdict::free;
+}
+
 /// The shares middle - half .. middle + half of a motion.
 struct OpenPiece {
   static constexpr double finest = 0x1p-31;  ///< half of a piece where bits run out

@@ -60,6 +60,66 @@ SteeringWord reversed(const SteeringWord& word) {
   return back;
 }
 
+constexpr double resolution = 0x1p-4;  // cells
+
+/// A body along one shape, in cells.
+class ShapeSweep {
+ public:
+  ShapeSweep(const MotionSet& motions, const MotionShape& shape, std::span<const Vec2> outline, double reach)
+      : outline_(outline),
+        reach_(reach),
+        curve_({0.0, 0.0, motions.heading_rad(shape.from)},
+               {1.0 * shape.dx, 1.0 * shape.dy, motions.heading_rad(shape.to)}, shape.word, motions.turning_radius()),
+        radius_(outline_reach(outline)),
+        box_(box_around(outline)),
+        travelled_(curve_, [this](Steer steer) { return pace_of(steer, outline_, curve_.turning_radius()); }) {}
+
+  /// Those that may be touched, row by row.
+  std::vector<Vector> cells(const Execution& execution) const {
+    std::vector<Vector> touched;
+    const Box way = curve_.box();
+    const Box wide = way.grown(radius_ + reach_ + 1.0);
+    const auto whole = [](double x) { return bounded_whole<std::int32_t>(x, least_whole<std::int32_t>); };
+    for (std::int32_t y = whole(std::floor(wide.min.y)); y <= whole(std::ceil(wide.max.y)); ++y) {
+      execution.check();
+      for (std::int32_t x = whole(std::floor(wide.min.x)); x <= whole(std::ceil(wide.max.x)); ++x) {
+        if (!is_clear_of({1.0 * x, 1.0 * y})) touched.push_back({x, y});
+      }
+    }
+    return touched;
+  }
+
+ private:
+  Se2 pose(double t) const { return curve_.at(t * curve_.length()); }
+  /// A lower bound of the distance between body and square, less the reach; exact where it is small.
+  double clearance(const Se2& pose, Vec2 middle, double enough) const {
+    constexpr double half_diagonal = 0.5 * std::numbers::sqrt2;
+    const Vec2 seen = Rotation(-pose.theta)(middle - pose.position());
+    const double aside = std::max({box_.min.x - seen.x, seen.x - box_.max.x, 0.0});
+    const double above = std::max({box_.min.y - seen.y, seen.y - box_.max.y, 0.0});
+    const double at_least = std::sqrt(aside * aside + above * above) - half_diagonal - reach_;
+    if (at_least > enough) return at_least;
+    const Rotation turned(-pose.theta);
+    std::array<Vec2, 4> square;
+    constexpr std::array<Vec2, 4> corners{{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}};
+    for (std::size_t i = 0; i < 4; ++i) square[i] = seen + turned(corners[i]);
+    return distance(outline_, square) - reach_;
+  }
+  bool is_clear_of(Vec2 middle) const {
+    const double length = curve_.length();
+    return certified_motion([&](double t, double enough) { return clearance(pose(t), middle, enough); },
+                            [&](double t, double u) { return travelled_(u * length) - travelled_(t * length); },
+                            resolution) == MotionVerdict::free;
+  }
+
+  std::span<const Vec2> outline_;
+  double reach_;
+  SteeringCurve curve_;
+  double radius_;
+  Box box_;  // of the outline
+  CurveTravel travelled_;
+};
+
 }  // namespace
 
 MotionSet::MotionSet(const MotionSetOptions& options, const Execution& execution)
@@ -223,92 +283,24 @@ double MotionSet::ratio_of(const MotionShape& shape) const {
   return never;  // no chain of neighbours is that far from a way
 }
 
-namespace {
-
-using CellAt = std::array<std::int32_t, 2>;
-
-constexpr double resolution = 0x1p-4;  // cells
-
-/// A body along one shape, in cells.
-class ShapeSweep {
- public:
-  ShapeSweep(const MotionSet& motions, const MotionShape& shape, std::span<const Vec2> outline, double reach)
-      : outline_(outline),
-        reach_(reach),
-        curve_({0.0, 0.0, motions.heading_rad(shape.from)},
-               {1.0 * shape.dx, 1.0 * shape.dy, motions.heading_rad(shape.to)}, shape.word, motions.turning_radius()),
-        radius_(outline_reach(outline)),
-        box_(box_around(outline)),
-        travelled_(curve_, [this](Steer steer) { return pace_of(steer, outline_, curve_.turning_radius()); }) {}
-
-  /// Those that may be touched, row by row.
-  std::vector<CellAt> cells(const Execution& execution) const {
-    std::vector<CellAt> touched;
-    const Box way = curve_.box();
-    const Box wide = way.grown(radius_ + reach_ + 1.0);
-    const auto whole = [](double x) { return bounded_whole<std::int32_t>(x, least_whole<std::int32_t>); };
-    for (std::int32_t y = whole(std::floor(wide.min.y)); y <= whole(std::ceil(wide.max.y)); ++y) {
-      execution.check();
-      for (std::int32_t x = whole(std::floor(wide.min.x)); x <= whole(std::ceil(wide.max.x)); ++x) {
-        if (!is_clear_of({1.0 * x, 1.0 * y})) touched.push_back({x, y});
-      }
-    }
-    return touched;
-  }
-
- private:
-  Se2 pose(double t) const { return curve_.at(t * curve_.length()); }
-  /// A lower bound of the distance between body and square, less the reach; exact where it is small.
-  double clearance(const Se2& pose, Vec2 middle, double enough) const {
-    constexpr double half_diagonal = 0.5 * std::numbers::sqrt2;
-    const Vec2 seen = Rotation(-pose.theta)(middle - pose.position());
-    const double aside = std::max({box_.min.x - seen.x, seen.x - box_.max.x, 0.0});
-    const double above = std::max({box_.min.y - seen.y, seen.y - box_.max.y, 0.0});
-    const double at_least = std::sqrt(aside * aside + above * above) - half_diagonal - reach_;
-    if (at_least > enough) return at_least;
-    const Rotation turned(-pose.theta);
-    std::array<Vec2, 4> square;
-    constexpr std::array<Vec2, 4> corners{{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}};
-    for (std::size_t i = 0; i < 4; ++i) square[i] = seen + turned(corners[i]);
-    return distance(outline_, square) - reach_;
-  }
-  bool is_clear_of(Vec2 middle) const {
-    const double length = curve_.length();
-    return certified_motion([&](double t, double enough) { return clearance(pose(t), middle, enough); },
-                            [&](double t, double u) { return travelled_(u * length) - travelled_(t * length); },
-                            resolution) == MotionVerdict::free;
-  }
-
-  std::span<const Vec2> outline_;
-  double reach_;
-  SteeringCurve curve_;
-  double radius_;
-  Box box_;  // of the outline
-  CurveTravel travelled_;
-};
-
-}  // namespace
-
 SweptStamps::SweptStamps(const MotionSet& motions, std::span<const Vec2> outline, double reach,
                          const Execution& execution) {
   const std::span<const MotionShape> shapes = motions.shapes();
-  std::vector<std::vector<CellAt>> touched(shapes.size());
-  for_chunks(shapes.size(), 1, execution.quiet(), [&](Range r) {
-    for (std::size_t i = r.first; i < r.last; ++i)
-      touched[i] = ShapeSweep(motions, shapes[i], outline, reach).cells(execution);
+  auto touched = parts_of_chunks(shapes.size(), 1, execution.quiet(), [&](Range r) {
+    return ShapeSweep(motions, shapes[r.first], outline, reach).cells(execution);
   });
-  for (std::vector<CellAt>& cells : touched) {
+  for (std::vector<Vector>& cells : touched) {
     for (std::uint32_t quarters = 0; quarters < 4; ++quarters) {
       add(cells);
-      for (CellAt& cell : cells) cell = {-cell[1], cell[0]};
+      for (Vector& cell : cells) cell = {-cell[1], cell[0]};
     }
   }
 }
 
-void SweptStamps::add(std::vector<CellAt> cells) {
+void SweptStamps::add(std::vector<Vector> cells) {
   constexpr std::int32_t bits = 64;
   std::sort(cells.begin(), cells.end(),
-            [](const CellAt& a, const CellAt& b) { return a[1] != b[1] ? a[1] < b[1] : a[0] < b[0]; });
+            [](const Vector& a, const Vector& b) { return a[1] != b[1] ? a[1] < b[1] : a[0] < b[0]; });
   Stamp stamp{rows_.size(), 0, 0, 0, 0, 0};
   for (const auto& [x, y] : cells) {
     stamp.min_x = std::min(stamp.min_x, x);

@@ -263,12 +263,6 @@ Room ObstacleTree::room_in_bounds(const Footprint& body, const Move& move, doubl
   return stays ? Room::clear : Room::narrow;
 }
 
-bool ObstacleTree::passes(const Footprint& body, const Move& move, const ConvexPolygon& polygon, double reach) const {
-  const std::span<const ConvexSide> sides(convex_sides_.data() + polygon.first, polygon.last - polygon.first);
-  return std::any_of(sides.begin(), sides.end(),
-                     [&](const ConvexSide& s) { return stays_before(body, move.time, s.side.a, s.outward, reach); });
-}
-
 Room ObstacleTree::room(const Footprint& body, const Move& move, double reach) const {
   const double touch = reach + rounding_;
   const double enough = touch + move.travel;
@@ -279,10 +273,12 @@ Room ObstacleTree::room(const Footprint& body, const Move& move, double reach) c
     if (distance <= enough) room = distance <= touch ? Room::blocked : Room::narrow;
     return room == Room::blocked ? -1.0 : enough;
   };
+  const auto passes = [&](const ConvexSide& s) { return stays_before(body, move.time, s.side.a, s.outward, before); };
   const BoxOf<2> box = box_of_body(body.box);
   convex_tree_.search(box, enough, [&](std::uint32_t place) {
     const ConvexPolygon& polygon = convex_[place];
-    if (room == Room::clear && passes(body, move, polygon, before)) return enough;
+    const ConvexSide* const sides = convex_sides_.data();
+    if (room == Room::clear && std::any_of(sides + polygon.first, sides + polygon.last, passes)) return enough;
     const double distance = distance_to(body, polygon, room == Room::clear ? enough : touch);
     return room == Room::clear || distance <= touch ? end_at(distance) : enough;
   });
@@ -294,8 +290,7 @@ Room ObstacleTree::room(const Footprint& body, const Move& move, double reach) c
         stays_before(body, move.time, side.a, Vec2{} - across, before)) {
       return enough;
     }
-    const Box here = box_of(Segment{side.a, side.a + side.along});
-    const bool swallowed = within(here, body.box) && encloses(body.corners, side.a);
+    const bool swallowed = within(box_of({side.a, side.a + side.along}), body.box) && encloses(body.corners, side.a);
     return end_at(swallowed ? 0.0 : std::sqrt(distance_sq(body, side)));
   });
   return room != Room::blocked && swallows(body) ? Room::blocked : room;

@@ -95,7 +95,6 @@ class ObstacleTree {
   double distance_to(const Footprint& body, const ConvexPolygon& polygon, double enough) const;
   bool swallows(const Footprint& body) const;
   Room room_in_bounds(const Footprint& body, const Move& move, double reach) const;
-  bool passes(const Footprint& body, const Move& move, const ConvexPolygon& polygon, double reach) const;
   void file_convex(const std::vector<std::span<const Vec2>>& polygons, const Execution& execution);
 
   std::optional<Box> bounds_;

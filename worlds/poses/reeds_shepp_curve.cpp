@@ -64,38 +64,32 @@ struct Polar {
 
 /// The pieces of the shape in the frame in which it was solved.
 SteeringWord plain_word(const Solved& w) {
-  SteeringWord word;
-  const auto left = [&](double arc) { word.add(Steer::left, arc); };
-  const auto right = [&](double arc) { word.add(Steer::right, arc); };
-  const auto straight = [&](double way) { word.add(Steer::straight, way); };
-  left(w.first);
+  using enum Steer;
+  const auto word = [&w](std::initializer_list<SteeringPiece> behind_the_first) {
+    SteeringWord all;
+    all.add(left, w.first);
+    for (const SteeringPiece& piece : behind_the_first) all.add(piece.steer, piece.length);
+    return all;
+  };
   switch (w.shape) {
     case WordShape::lsl:
-      straight(w.middle), left(w.last);
-      break;
+      return word({{straight, w.middle}, {left, w.last}});
     case WordShape::lsr:
-      straight(w.middle), right(w.last);
-      break;
+      return word({{straight, w.middle}, {right, w.last}});
     case WordShape::lrl:
-      right(w.middle), left(w.last);
-      break;
+      return word({{right, w.middle}, {left, w.last}});
     case WordShape::lrlr_out:
-      right(w.middle), left(-w.middle), right(w.last);
-      break;
+      return word({{right, w.middle}, {left, -w.middle}, {right, w.last}});
     case WordShape::lrlr_in:
-      right(w.middle), left(w.middle), right(w.last);
-      break;
+      return word({{right, w.middle}, {left, w.middle}, {right, w.last}});
     case WordShape::lrsl:
-      right(-quarter), straight(w.middle), left(w.last);
-      break;
+      return word({{right, -quarter}, {straight, w.middle}, {left, w.last}});
     case WordShape::lrsr:
-      right(-quarter), straight(w.middle), right(w.last);
-      break;
+      return word({{right, -quarter}, {straight, w.middle}, {right, w.last}});
     case WordShape::lrslr:
-      right(-quarter), straight(w.middle), left(-quarter), right(w.last);
-      break;
+      return word({{right, -quarter}, {straight, w.middle}, {left, -quarter}, {right, w.last}});
   }
-  return word;
+  return {};
 }
 
 SteeringWord word_of(const Solved& w) {

@@ -16,7 +16,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "core/base/trigonometry.hpp"
 #include "core/base/world.hpp"
@@ -36,11 +35,10 @@ struct Se2Options {
 };
 
 /// Immutable after construction; one Query a thread.
-class Se2World {
+class Se2World : public BodyAmongObstacles {
  public:
   static constexpr std::size_t dimension = 3;
   using State = Se2;
-  using Query = BodyAmongObstacles::Query;
 
   /// Throws InputError for options out of range, outlines of the body and of obstacles that are no simple polygons, and
   /// a scene without anything that confines the body. Without bounds the box of the obstacles confines the reference
@@ -48,11 +46,9 @@ class Se2World {
   Se2World(const Scene& scene, std::span<const Vec2> outline, const Se2Options& options,
            const Execution& execution = {});
 
-  Query make_query() const { return body_.make_query(); }
-  /// Poses at which the body is in the bounds, if it can be there at that angle; on maps, poses of the map's box.
-  State at_unit(const std::array<double, 3>& u) const { return body_.at_unit(u); }
-  bool is_free(const State& a, Query& query) const { return body_.is_free(a, query); }
-  bool is_free_motion(const State& a, const State& b, Query& query) const;
+  bool is_free_motion(const State& a, const State& b, Query& query) const {
+    return proved_free(judge_motion(a, b, query), query.refused);
+  }
   double distance(const State& a, const State& b) const {
     const double turn = angle_weight_ * turn_between(a.theta, b.theta);
     const Vec2 way = b.position() - a.position();
@@ -67,9 +63,6 @@ class Se2World {
     return {a.x, a.y, angle_weight_ * cosine, angle_weight_ * sine};
   }
 
-  /// Lower bound of the distance to the nearest obstacle less the clearance; <= 0: not free. More than `enough` counts
-  /// as any number above it.
-  double clearance(const State& a, double enough, Query& query) const { return body_.clearance(a, enough, query); }
   MotionVerdict judge_motion(const State& a, const State& b, Query& query) const;
 
   /// Where the reference point may be while the body has the heading of a, on a coarse grid; no places where there are
@@ -84,13 +77,11 @@ class Se2World {
   double sampled_volume() const { return box().width() * box().height() * 2.0 * std::numbers::pi * angle_weight_; }
   double radius() const { return radius_; }  ///< of the body: its farthest corner from the reference point
   double resolution() const { return resolution_; }
-  const Box& box() const { return body_.box(); }  ///< the bounds, else the box of the obstacles
 
  private:
   double radius_;
   double angle_weight_;
   double resolution_;
-  BodyAmongObstacles body_;
   std::optional<CorridorPoints> corridors_;  // only of maps
 };
 

@@ -102,15 +102,11 @@ std::array<Vec2, 4> mask_square(const OccupancyMap& map, const MaskCells& mask, 
 
 void add_polygon_cells(Bitmap& cells, std::span<const Vec2> corners, const Execution& execution) {
   const Box box = box_around(corners);
-  const auto first = [](double low, std::uint32_t end) {
-    return bounded_whole<std::uint32_t>(std::floor(low), 0.0, end);
-  };
-  const auto last = [](double high, std::uint32_t end) {
-    return bounded_whole<std::uint32_t>(std::ceil(high), 0.0, end);
-  };
-  const std::uint32_t first_x = first(box.min.x, cells.width());
-  const std::uint32_t last_x = last(box.max.x, cells.width());
-  for (std::uint32_t y = first(box.min.y, cells.height()); y < last(box.max.y, cells.height()); ++y) {
+  const auto whole = [](double x, std::uint32_t end) { return bounded_whole<std::uint32_t>(x, 0.0, end); };
+  const std::uint32_t first_x = whole(std::floor(box.min.x), cells.width());
+  const std::uint32_t last_x = whole(std::ceil(box.max.x), cells.width());
+  const std::uint32_t last_y = whole(std::ceil(box.max.y), cells.height());
+  for (std::uint32_t y = whole(std::floor(box.min.y), cells.height()); y < last_y; ++y) {
     execution.check();
     std::vector<std::size_t> sides;  // that come near the row
     for (std::size_t i = 0; i < corners.size(); ++i) {

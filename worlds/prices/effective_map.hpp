@@ -89,7 +89,16 @@ class AreaFactors {
       }
       areas_.push_back(std::move(own));
     }
-    for (const PriceMask& mask : prices.masks) add_mask(mask, placed);
+    for (const PriceMask& mask : prices.masks) {
+      if (!mask.read) continue;
+      // The axes from the far corners, so that their rounding is that of one cell.
+      const double width = mask.read->width;
+      const double height = mask.read->height;
+      const Vec2 origin = placed(mask_corner(*mask.read, 0.0, 0.0));
+      const Vec2 across = placed(mask_corner(*mask.read, width, 0.0)) - origin;
+      const Vec2 along = placed(mask_corner(*mask.read, 0.0, height)) - origin;
+      masks_.push_back({mask, origin, (1.0 / width) * across, (1.0 / height) * along});
+    }
   }
 
   bool empty() const { return areas_.empty() && masks_.empty(); }
@@ -130,17 +139,6 @@ class AreaFactors {
     Vec2 up;
   };
 
-  template <class Placed>
-  void add_mask(const PriceMask& mask, const Placed& placed) {
-    if (!mask.read) return;
-    // The axes from the far corners, so that their rounding is that of one cell.
-    const double width = mask.read->width;
-    const double height = mask.read->height;
-    const Vec2 origin = placed(mask_corner(*mask.read, 0.0, 0.0));
-    const Vec2 across = placed(mask_corner(*mask.read, width, 0.0)) - origin;
-    const Vec2 along = placed(mask_corner(*mask.read, 0.0, height)) - origin;
-    masks_.push_back({mask, origin, (1.0 / width) * across, (1.0 / height) * along});
-  }
   void cut(Vec2 p, Vec2 u, double length, std::vector<double>& cuts) const;
 
   std::vector<Area> areas_;

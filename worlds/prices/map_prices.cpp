@@ -54,9 +54,7 @@ void walk_cells(const OccupancyMap& map, Vec2 a, Vec2 b, const Piece& piece) {
   while (t < length) {
     const double to = std::min({columns.next(), rows.next(), length});
     double seen = 0.0;
-    if (to > t) {
-      seen = piece(cell_of(map, a + 0.5 * (t + to) * u), u, t, to);
-    }
+    if (to > t) seen = piece(cell_of(map, a + 0.5 * (t + to) * u), u, t, to);
     t = to;
     if (seen > 0.0) {
       columns.go_on(to + seen);

@@ -13,7 +13,7 @@
 #include "core/base/bitmap.hpp"
 #include "core/plane/nearness.hpp"
 #include "core/run/execution.hpp"
-#include "core/run/fresh_number.hpp"
+#include "parallel/once.hpp"
 #include "scenes/scene/occupancy_map.hpp"
 #include "scenes/scene/prices.hpp"
 #include "spatial/maps/distance_field.hpp"

@@ -153,9 +153,8 @@ HeadingLayers exact_layers(const Scene& scene, const RobotSpec& robot, const Lay
   const std::vector<Vec2> middle{{0.0, 0.0}};
   const auto jobs = list_layer_jobs(robot.kind == RobotKind::polygon ? robot.outline : middle, layers);
   execution.reserve(jobs.size() * (layers.width / 8 + 8) * std::size_t{layers.height});
-  layers.bitmaps.resize(jobs.size());
-  for_chunks(jobs.size(), 1, execution, [&](Range r) {
-    layers.bitmaps[r.first] = touching_bitmap(jobs[r.first], scene, sides, radius, layers, execution);
+  layers.bitmaps = parts_of_chunks(jobs.size(), 1, execution, [&](Range r) {
+    return touching_bitmap(jobs[r.first], scene, sides, radius, layers, execution);
   });
   return layers;
 }
@@ -252,6 +251,7 @@ struct Stamp {
   int most_x = 0;
   int least_y = 0;
   int most_y = 0;
+  int widest = 0;  // cells of a run
 
   void add(const StampRun& run) {
     runs.push_back(run);
@@ -259,11 +259,7 @@ struct Stamp {
     most_x = std::max(most_x, run.last);
     least_y = std::min(least_y, run.dy);
     most_y = std::max(most_y, run.dy);
-  }
-  int widest() const {
-    int most = 0;
-    for (const StampRun& run : runs) most = std::max(most, run.last - run.first + 1);
-    return most;
+    widest = std::max(widest, run.last - run.first + 1);
   }
 };
 
@@ -283,10 +279,10 @@ class Widening {
  public:
   Widening(const Bitmap& blocked, const Stamp& stamp)
       : blocked_(blocked), stamp_(stamp), result_(blocked.width(), blocked.height()) {
-    const int reach = std::max({-stamp.least_x, stamp.most_x, stamp.widest()});
+    const int reach = std::max({-stamp.least_x, stamp.most_x, stamp.widest});
     margin_ = (as_whole<std::size_t>(reach) / 64 + 1) * 64;
     const std::size_t words = blocked.row(0).size() + 2 * (margin_ / 64) + 2;
-    const auto widest = as_whole<unsigned>(stamp.widest());
+    const auto widest = as_whole<unsigned>(stamp.widest);
     doubled_.assign(as_whole<std::size_t>(std::bit_width(widest)), std::vector<std::uint64_t>(words, 0));
   }
 
@@ -421,10 +417,9 @@ HeadingLayers map_layers(const OccupancyMap& map, std::span<const Vec2> outline,
   const double room = clearance + rounding * (std::abs(map.origin.x) + std::abs(map.origin.y) + size);
   const std::vector<LayerJob> jobs = list_layer_jobs(outline, layers);
   execution.reserve(jobs.size() * map.blocked.bytes());
-  layers.bitmaps.resize(jobs.size());
-  for_chunks(jobs.size(), 1, execution, [&](Range r) {
+  layers.bitmaps = parts_of_chunks(jobs.size(), 1, execution, [&](Range r) {
     const Stamp stamp = stamp_of(jobs[r.first], map.cell, room, execution);
-    layers.bitmaps[r.first] = Widening(map.blocked, stamp).run(execution);
+    return Widening(map.blocked, stamp).run(execution);
   });
   return layers;
 }

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "apps/serve/http/http_message.hpp"
@@ -16,7 +15,6 @@
 #include "core/plane/polygon.hpp"
 #include "parallel/chunks.hpp"
 #include "scenes/text/human_units.hpp"
-#include "solve/paths/timed_path.hpp"
 
 namespace warren::serve {
 namespace {

@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -21,7 +20,6 @@
 #include "scenes/mazes/maze_generator.hpp"
 #include "scenes/scene/plane_obstacles.hpp"
 #include "scenes/text/human_units.hpp"
-#include "scenes/text/json_text.hpp"
 #include "scenes/text/scene_text.hpp"
 #include "solve/question/question.hpp"
 

@@ -5,13 +5,11 @@
 #include <fmt/ranges.h>
 
 #include <cstdint>
-#include <utility>
 
 #include "core/base/error.hpp"
 #include "scenes/text/scene_text.hpp"
 #include "solve/explain_answer.hpp"
 #include "solve/kept/lattice_roadmap.hpp"
-#include "solve/kept/roadmap.hpp"
 #include "solve/kinds/kind_of_problem.hpp"
 #include "solve/question/question.hpp"
 #include "solve/solve.hpp"
@@ -94,7 +92,7 @@ void ServedWorld::describe(const Execution& execution) {
   if (roadmap_ && roadmap_->lattice != nullptr && roadmap_->world.is_looked_up()) {
     // Walls stand wherever the lattice has no passage: it says where they are, and nobody makes them.
     const LatticePassages& lattice = *passages(execution);
-    tiles_ = maze_tiles({lattice.size(), lattice.right_words(), lattice.up_words()},
+    tiles_ = maze_tiles({lattice.size(), ArrayOrView(lattice.right_words()), ArrayOrView(lattice.up_words())},
                         MazeOutline::of_course(lattice.size()), execution);
     const MazeHint maze = *roadmap_->world.outline().maze;
     box_ = {{0.5, 0.5}, {maze.cols + 0.5, maze.rows + 0.5}};

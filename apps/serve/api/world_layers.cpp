@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
 
 #include "apps/serve/api/kept_path.hpp"
 #include "apps/serve/graphs/route_graph.hpp"

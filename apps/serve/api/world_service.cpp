@@ -10,13 +10,16 @@
 #include <limits>
 #include <span>
 #include <utility>
-#include <vector>
 
+#include "apps/serve/api/graph_service.hpp"
 #include "apps/serve/api/kept_path.hpp"
 #include "apps/serve/api/request_bodies_io.hpp"
+#include "apps/serve/api/route.hpp"
+#include "apps/serve/api/world_layers.hpp"
+#include "apps/serve/http/http_message.hpp"
+#include "apps/serve/http/kept_values.hpp"
 #include "apps/serve/page/served_files.hpp"
 #include "core/base/error.hpp"
-#include "core/run/execution.hpp"
 #include "pictures/formats/markup.hpp"
 #include "pictures/layers/draw_cells.hpp"
 #include "scenes/files/scene_io.hpp"
@@ -24,6 +27,7 @@
 #include "scenes/text/human_units.hpp"
 #include "scenes/text/input_file_io.hpp"
 #include "scenes/text/json_text.hpp"
+#include "solve/answer/answer.hpp"
 #include "solve/answer/path_hash.hpp"
 #include "solve/answer/world_account.hpp"
 #include "solve/answer/write_answer_io.hpp"
@@ -262,373 +266,418 @@ bool is_same_secret(std::string_view a, std::string_view b) {
   return differing == 0;
 }
 
+/// Paths that were found, kept by name, and what is asked about them (docs/service.md): their points, the room around
+/// the body along them, the body's sweep. Any number of threads may ask.
+class PathService {
+ public:
+  /// Refers to the world.
+  PathService(const ServedWorld& world, const ServiceLimits& limits)
+      : world_(world), most_view_points_(limits.most_view_points), paths_(limits.path_bytes) {}
+
+  /// The answer has a path. Throws Stopped.
+  void keep(const std::string& name, Answer answer, const Execution& execution) {
+    KeptPath kept;
+    const bool is_driven = !answer.states.empty() && answer.problem.robot.kind == RobotKind::car;
+    kept.curve = KeptCurve(is_driven ? curve_of(answer, execution) : std::move(answer.path), execution);
+    kept.way.states = std::move(answer.states);
+    kept.way.problem.robot = std::move(answer.problem.robot);
+    kept.way.length = answer.length;
+    kept.way.min_clearance = answer.min_clearance;
+    const std::size_t bytes = kept.curve.bytes() + kept.way.states.numbers.size() * sizeof(double) + sizeof(KeptPath);
+    paths_.put(name, std::move(kept), bytes);
+  }
+  /// Of a path by its name, at Place::path, clearance or sweep. Throws HttpError, UsageError, Stopped.
+  HttpResponse answer(const Route& route, const HttpRequest& request, const Execution& execution) {
+    const auto kept = paths_.find(route.name);
+    if (!kept) {
+      throw HttpError(404, "not_found", "path",
+                      "no path of this name is kept, or none any more; POST its question to /api/query again, and the "
+                      "field Warren-Path of the answer names it");
+    }
+    if (route.place == Place::clearance) return clearance(*kept, request, execution);
+    if (route.place == Place::sweep) return sweep(*kept, request, execution);
+    return told(*kept, request, execution);
+  }
+  /// Of all that is kept.
+  std::size_t bytes() const { return paths_.bytes(); }
+
+ private:
+  struct KeptPath {
+    Answer way;  // states, body, length and clearance alone
+    KeptCurve curve;
+  };
+  /// What of a path is seen: everything where the request doesn't say.
+  PathView view_of(const HttpRequest& request) const {
+    constexpr double everything = std::numeric_limits<double>::infinity();
+    PathView view{.box = {{-everything, -everything}, {everything, everything}}};
+    if (const auto box = numbers_parameter(request, "bbox", 4))
+      view.box = {{(*box)[0], (*box)[1]}, {(*box)[2], (*box)[3]}};
+    if (const auto zoom = numbers_parameter(request, "z", 1)) {
+      const TileGrid& grid = world_.tiles().grid();
+      constexpr double farthest = -8.0;
+      view.pixel = std::ldexp(grid.pixel(0), -static_cast<int>(std::clamp((*zoom)[0], farthest, grid.levels - 1.0)));
+    }
+    return view;
+  }
+  HttpResponse told(const KeptPath& kept, const HttpRequest& request, const Execution& execution) const {
+    constexpr std::size_t bytes_a_point = 96;  // of text that doubles, and of the answer
+    PathView view = view_of(request);
+    view.most_points = most_view_points_;
+    const std::vector<std::vector<Vec2>> chains = seen_of(kept.curve, view, execution);
+    std::size_t points = 0;
+    for (const std::vector<Vec2>& chain : chains) points += chain.size();
+    execution.reserve(points * bytes_a_point);
+    JsonObject json;
+    json.add("length", kept.way.length);
+    json.add("points", std::uint64_t{kept.curve.size()});
+    json.add_json("chains", json_chains(chains, execution));
+    return {.body = json.closed() + "\n"};
+  }
+  HttpResponse clearance(const KeptPath& kept, const HttpRequest& request, const Execution& execution) const {
+    const std::size_t count = sample_count(request);
+    Answer way = kept.way;
+    if (way.states.empty()) way.path = kept.curve.whole(execution);
+    std::optional<EdgeJudge> other;
+    if (!world_.is_own(way.problem.robot, world_.clearance())) {
+      other.emplace(world_.barred(execution), world_.box(), way.problem.robot, world_.clearance());
+    }
+    const auto place_told = [&](const PathPlace& place) {
+      execution.check();
+      const double clearance = world_.clearance_at(place.state.used(), execution, other ? &*other : nullptr);
+      JsonObject told;
+      told.add("along", place.along);
+      told.add_json("at", json_list(place.state.used()));
+      told.add_or_null("clearance", std::isfinite(clearance), clearance);
+      return told.closed();
+    };
+    JsonObject json;
+    json.add("length", kept.way.length);
+    json.add_or_null("min_clearance", std::isfinite(kept.way.min_clearance), kept.way.min_clearance);
+    json.add_json("places", json_list_of(places_along(way, count, execution), ",", place_told));
+    return {.body = json.closed() + "\n"};
+  }
+  HttpResponse sweep(const KeptPath& kept, const HttpRequest& request, const Execution& execution) const {
+    const SweptBodies bodies = swept_bodies(kept.way, kept.curve, view_of(request), execution);
+    JsonObject json;
+    add_outline(json, kept.way.problem.robot);
+    json.add("apart", bodies.apart);
+    json.add_json("places", json_list_of(bodies.places, ",", [](const PathState& at) { return json_list(at.used()); }));
+    return {.body = json.closed() + "\n"};
+  }
+
+  const ServedWorld& world_;
+  const std::size_t most_view_points_;
+  KeptValues<KeptPath> paths_;
+};
+
+class AnsweringService : public HttpService {
+ public:
+  AnsweringService(const ServedWorld& world, const ServiceLimits& limits, LatestWays* kept)
+      : world_(world),
+        kept_(kept),
+        limits_(limits),
+        layers_(world),
+        world_json_(description_json(world, world.body_asked({}, {}), layers_, limits, Execution())),
+        tiles_(limits.tile_bytes),
+        paths_(world, limits) {}
+
+  std::size_t most_body(const HttpRequest& head) const override {
+    const Route asked = route(head);
+    if (asked.place == Place::file) file(head, asked.name);  // or there is none
+    if ((asked.place == Place::layer || asked.place == Place::legend) && layers_.account_of(asked.name) == nullptr) {
+      throw HttpError(404, "not_found", "path", "there is no layer of this name; /api/world lists them");
+    }
+    if (asked.place == Place::update) {
+      throw HttpError(403, "read_only", "path", "this world is not to be changed; 'serve --writable' lets it");
+    }
+    if (asked.place == Place::batch || is_of_graphs(asked.place)) return limits_.batch_body;
+    return asked.place == Place::query ? limits_.small_body : 0;
+  }
+  void prepare(const SignalFlag& gone) override {
+    const Deadline deadline(std::numeric_limits<double>::infinity(), limits_.memory_bytes, &gone);
+    world_.prepare({.threads = limits_.threads, .deadline = &deadline});
+  }
+  std::optional<HttpResponse> at_once(const HttpRequest& request, const HttpFigures& figures) override {
+    const Route asked = route(request);
+    switch (asked.place) {
+      case Place::file:
+        return file(request, asked.name);
+      case Place::health:
+        return HttpResponse{.body = "{\"status\":\"ok\"}\n"};
+      case Place::metrics:
+        return HttpResponse{.type = "text/plain; version=0.0.4",
+                            .body = metrics_text(figures, tiles_.bytes(), paths_.bytes())};
+      case Place::progress:
+        return progress(request);
+      case Place::world:
+        return request.query.empty() ? std::optional(HttpResponse{.body = world_json_}) : std::nullopt;
+      case Place::tile: {
+        if (request.if_none_match == tile_tag()) return not_modified(tile_tag());
+        const auto known = tiles_.find(tile_name(asked.tile));
+        return known ? std::optional(tile_response(asked, *known)) : std::nullopt;
+      }
+      case Place::layer: {
+        const auto known = tiles_.find(layer_name(request, asked));
+        return known ? std::optional(layer_response(request, *known)) : std::nullopt;
+      }
+      default:
+        return std::nullopt;
+    }
+  }
+  HttpResponse work(const HttpRequest& request, const SignalFlag& gone) override {
+    const Route asked = route(request);
+    if (asked.place == Place::query) return query(request, gone);
+    const Deadline deadline(limits_.budget_s, limits_.memory_bytes, &gone);
+    const Execution execution{.threads = limits_.threads, .deadline = &deadline};
+    execution.check();
+    if (asked.place == Place::tile) return tile(asked, execution);
+    if (asked.place == Place::layer) return layer(request, asked, execution);
+    if (asked.place == Place::legend) {
+      return {.body = layers_.legend(asked.name, numbers_parameter(request, "from", 2), execution) + "\n"};
+    }
+    if (asked.place == Place::batch) return batch(request, execution);
+    if (asked.place == Place::scene) return scene(request, execution);
+    if (asked.place == Place::world)
+      return {.body = description_json(world_, body_in(request), layers_, limits_, execution)};
+    if (is_of_graphs(asked.place)) return answer_of_graphs(world_, asked.place, request.body, execution);
+    return paths_.answer(asked, request, execution);
+  }
+
+ private:
+  Route route(const HttpRequest& request) const { return route_of(request, world_.tiles().grid(), world_.hash()); }
+  Question body_in(const HttpRequest& request) const {
+    std::optional<RobotSpec> robot;
+    if (const auto text = parameter(request, "robot")) robot = robot_value("robot", *text);
+    const auto clearance = numbers_parameter(request, "clearance", 1);
+    return world_.body_asked(robot, clearance ? std::optional((*clearance)[0]) : std::nullopt);
+  }
+  HttpResponse file(const HttpRequest& request, const std::string& name) const {
+    const ServedFile* found = served_file(name);
+    if (found == nullptr) throw HttpError(404, "not_found", "path", "there is nothing at this address");
+    const std::string tag = fmt::format("\"{}\"", found->tag);
+    if (request.if_none_match == tag) return not_modified(tag);
+    return {.type = std::string(found->type),
+            .body = std::string(found->bytes),
+            .fields = {{"ETag", tag}, {"Cache-Control", "no-cache"}}};
+  }
+  std::string layer_name(const HttpRequest& request, const Route& route) const {
+    const std::string name = route.name + "/" + tile_name(route.tile);
+    const LayerAccount* const layer = layers_.account_of(route.name);
+    if (layer == nullptr || !layer->is_of_start) return name;
+    return fmt::format("{}?{}", name,
+                       fmt::join(numbers_parameter(request, "from", 2).value_or(std::vector<double>()), ","));
+  }
+  std::string tile_tag() const { return fmt::format("\"{}-{}\"", world_.hash(), tile_style); }
+  HttpResponse tile_response(const Route& route, std::string bytes) const {
+    return {.type = "image/png",
+            .body = std::move(bytes),
+            .fields = {{"ETag", tile_tag()},
+                       {"Cache-Control", route.has_its_hash ? "public, max-age=31536000, immutable" : "no-cache"}}};
+  }
+  HttpResponse tile(const Route& route, const Execution& execution) {
+    std::string bytes = world_.tiles().draw(route.tile, execution);
+    tiles_.put(tile_name(route.tile), bytes, bytes.size() + of_an_entry);
+    return tile_response(route, std::move(bytes));
+  }
+  HttpResponse layer(const HttpRequest& request, const Route& route, const Execution& execution) {
+    const std::string bytes = layers_.draw(route.name, route.tile, numbers_parameter(request, "from", 2), execution);
+    tiles_.put(layer_name(request, route), bytes, bytes.size() + of_an_entry);
+    return layer_response(request, bytes);
+  }
+  HttpResponse query(const HttpRequest& request, const SignalFlag& gone) {
+    const QueryBody body = read_query_body(request.body);
+    const double budget_s = std::min(limits_.budget_s, body.question.budget_s.value_or(limits_.budget_s));
+    const Deadline deadline(budget_s, limits_.memory_bytes, &gone);
+    Execution execution{.threads = limits_.threads, .deadline = &deadline};
+    execution.check();
+    std::string name;
+    RunningQuestions::Entry entry(running_, body.watch);
+    ByProducts made;
+    const std::function<bool(const Improvement&)> tell = [&](const Improvement& better) {
+      std::vector<Vec2> way;
+      if (!made.improved.empty()) {
+        const auto newest = made.improved[made.improved.size() - 1];
+        way.assign(newest.begin(), newest.end());
+      }
+      entry.tell(better, std::move(way));
+      return true;
+    };
+    const bool is_seen = entry.is_seen() && body.question.planner && gets_better(*body.question.planner);
+    if (is_seen) execution.on_improvement = &tell;
+    Answer answer = world_.ask(
+        body.question, execution, [&](const Answer& found) { name = path_hash(found, execution); },
+        is_seen ? &made : nullptr, kept_);
+    if (answer.outcome == Outcome::stopped) throw Stopped(answer.stop_reason.value_or(StopReason::time));
+    const Deadline unhurried(std::numeric_limits<double>::infinity(), limits_.memory_bytes, &gone);
+    if (answer.stop_reason) execution.deadline = &unhurried;  // what gets better has used the time up
+    HttpResponse response;
+    if (answer.verified) {
+      if (name.empty()) name = path_hash(answer, execution);
+      answer.tells_path = body.tells_path && path_points(answer) <= limits_.most_points;
+      if (!answer.tells_path) answer.handed = HandedPath{path_points(answer), name};
+      name += mark_of_body(world_, answer.problem);
+      response.fields.emplace_back("Warren-Path", name);
+    }
+    write_answer_json(answer, execution, [&](std::string_view piece) { response.body += piece; });
+    if (answer.verified) paths_.keep(name, std::move(answer), execution);
+    return response;
+  }
+  HttpResponse progress(const HttpRequest& request) const {
+    constexpr double most = 1e15;
+    const double from = numbers_parameter(request, "from", 1).value_or(std::vector{0.0})[0];
+    if (!(from >= 0.0 && from < most)) throw HttpError(400, "bad_request", "query", "from: expected a count");
+    return {.body = running_.told(parameter(request, "watch").value_or(""), static_cast<std::uint64_t>(from)) + "\n"};
+  }
+  HttpResponse batch(const HttpRequest& request, const Execution& execution) const {
+    if (world_.query() == nullptr) {
+      throw HttpError(400, "no_roadmap", "",
+                      "many questions are for roadmaps; serve what 'warren build' makes of this world");
+    }
+    if (nesting_of(request.body) > deepest_json) {
+      throw HttpError(400, "bad_request", "body", "JSON that is nested at most 8 deep is expected");
+    }
+    const BatchOptions options{.how = {.optimise = flag_parameter(request, "optimise")},
+                               .lengths_only = flag_parameter(request, "lengths_only")};
+    const InputFile questions = InputFile::of_bytes("body", request.body);
+    HttpResponse response{.type = "application/x-ndjson"};
+    ask_batch(*world_.query(), questions, options, execution, [&](std::string_view piece) {
+      response.body += piece;
+      if (response.body.size() <= limits_.batch_answers) return;
+      throw HttpError(413, "answers_too_large", "body",
+                      "the answers are more than 32 MiB; ask fewer questions, or lengths_only=1");
+    });
+    return response;
+  }
+  HttpResponse scene(const HttpRequest& request, const Execution& execution) const {
+    constexpr std::string_view shortest = "wall 1 1 1 2\n";
+    if (world_.outline().map) throw UsageError("this world is the cells of a map, which no scene holds");
+    const Question body = body_in(request);
+    const std::size_t walls = world_.wall_count(execution);
+    if (walls > limits_.scene_bytes / shortest.size()) throw scene_too_large();
+    execution.reserve(walls * sizeof(Segment));
+    Scene told = world_.copy_of_whole(execution);
+    told.robot = body.robot;
+    told.clearance = body.clearance;
+    const std::size_t numbers = state_size(*body.robot);
+    if (auto start = numbers_parameter(request, "start", numbers)) told.start = std::move(*start);
+    const bool any_heading = std::ranges::count(parameter(request, "goal").value_or(""), ',') == 1;
+    if (auto goal = numbers_parameter(request, "goal", any_heading ? 2 : numbers)) {
+      told.goal = std::move(*goal);
+      told.other_goals.clear();
+    }
+    add_prices(told.prices, world_.query() != nullptr ? world_.query()->roadmap().prices : body.prices);
+    Question{.start = told.start, .goal = told.goal}.validate();
+    HttpResponse response{.type = "text/plain; charset=utf-8",
+                          .fields = {{"Content-Disposition", "attachment; filename=\"world.scene\""}}};
+    write_scene_text(
+        told,
+        [&](std::string_view piece) {
+          response.body += piece;
+          if (response.body.size() <= limits_.scene_bytes) return;
+          throw scene_too_large();
+        },
+        execution);
+    return response;
+  }
+
+  const ServedWorld& world_;
+  LatestWays* const kept_;
+  const ServiceLimits limits_;
+  WorldLayers layers_;
+  const std::string world_json_;
+  KeptValues<std::string> tiles_;
+  PathService paths_;
+  RunningQuestions running_;
+};
+
+class WritableService : public HttpService {
+ public:
+  WritableService(std::unique_ptr<ServedWorld> world, const ServiceLimits& limits, std::string token)
+      : limits_(limits), token_(std::move(token)) {
+    versions_.put("", std::make_unique<Version>(std::move(world), limits, limits.writable ? &kept_ : nullptr), 0);
+  }
+
+  std::size_t most_body(const HttpRequest& head) const override {
+    if (!limits_.writable || !is_update(head)) return (*now())->service.most_body(head);
+    check_token(head);
+    return limits_.batch_body;
+  }
+  std::optional<HttpResponse> at_once(const HttpRequest& request, const HttpFigures& figures) override {
+    if (is_update(request)) return std::nullopt;
+    return (*now())->service.at_once(request, figures);
+  }
+  HttpResponse work(const HttpRequest& request, const SignalFlag& gone) override {
+    if (!is_update(request)) return (*now())->service.work(request, gone);
+    check_token(request);
+    const Deadline deadline(limits_.budget_s, limits_.memory_bytes, &gone);
+    const Execution execution{.threads = limits_.threads, .deadline = &deadline};
+    return update(request, execution);
+  }
+  void prepare(const SignalFlag& gone) override { (*now())->service.prepare(gone); }
+
+ private:
+  struct Version {
+    Version(std::unique_ptr<ServedWorld> its_world, const ServiceLimits& limits, LatestWays* kept)
+        : world(std::move(its_world)), service(*world, limits, kept) {}
+    std::unique_ptr<ServedWorld> world;
+    WorldService service;
+  };
+  using Versions = KeptValues<std::unique_ptr<Version>>;  // the current one is kept; the others are leased
+
+  Versions::Lease now() const { return versions_.find(""); }
+  void check_token(const HttpRequest& request) const {
+    if (token_.empty() || is_same_secret(request.authorization, "Bearer " + token_)) return;
+    throw HttpError(request.authorization.empty() ? 401 : 403, "token", "Authorization",
+                    "who changes this world must send 'Bearer TOKEN', the token that the service was started with");
+  }
+  HttpResponse update(const HttpRequest& request, const Execution& execution) {
+    const SceneChange wanted = read_scene_change(request.body, execution);
+    HttpResponse said;
+    if (changing_.unless_busy([&] { said = change(wanted, execution); })) return said;
+    return busy_response("somebody else changes the world now; try again");
+  }
+  HttpResponse change(const SceneChange& wanted, const Execution& execution) {
+    const Versions::Lease held = now();
+    const ServedWorld& before = *(*held)->world;
+    if (const std::string_view why = before.why_fixed(); !why.empty()) throw UsageError(std::string(why));
+    const Scene& scene = before.whole(execution);
+    if (scene.maze) maze_ = scene.maze;
+    ChangedScene made = changed(scene, wanted, maze_, execution);
+    auto next = std::make_unique<Version>(before.changed(std::move(made.scene), execution), limits_, &kept_);
+    JsonObject json;
+    json.add("schema", "warren.change/1");
+    json.add("before", std::string_view(before.hash()));
+    json.add("hash", std::string_view(next->world->hash()));
+    tell_change(json, made);
+    execution.check();
+    versions_.put("", std::move(next), 0);
+    return {.body = json.closed() + "\n"};
+  }
+
+  const ServiceLimits limits_;
+  const std::string token_;
+  std::optional<MazeHint> maze_;  // what the walls were of; of whoever changes the world
+  LatestWays kept_;
+  mutable Versions versions_{1};
+  OneAtATime changing_;
+};
+
 }  // namespace
 
-void PathService::keep(const std::string& name, Answer answer, const Execution& execution) {
-  KeptPath kept;
-  const bool is_driven = !answer.states.empty() && answer.problem.robot.kind == RobotKind::car;
-  kept.curve = KeptCurve(is_driven ? curve_of(answer, execution) : std::move(answer.path), execution);
-  kept.way.states = std::move(answer.states);
-  kept.way.problem.robot = std::move(answer.problem.robot);
-  kept.way.length = answer.length;
-  kept.way.min_clearance = answer.min_clearance;
-  const std::size_t bytes = kept.curve.bytes() + kept.way.states.numbers.size() * sizeof(double) + sizeof(KeptPath);
-  paths_.put(name, std::move(kept), bytes);
-}
-
-HttpResponse PathService::answer(const Route& route, const HttpRequest& request, const Execution& execution) {
-  const auto kept = paths_.find(route.name);
-  if (!kept) {
-    throw HttpError(404, "not_found", "path",
-                    "no path of this name is kept, or none any more; POST its question to /api/query again, and the "
-                    "field Warren-Path of the answer names it");
-  }
-  if (route.place == Place::clearance) return clearance(*kept, request, execution);
-  if (route.place == Place::sweep) return sweep(*kept, request, execution);
-  return told(*kept, request, execution);
-}
-
-/// What of a path is seen: everything where the request doesn't say.
-PathView PathService::view_of(const HttpRequest& request) const {
-  constexpr double everything = std::numeric_limits<double>::infinity();
-  PathView view{.box = {{-everything, -everything}, {everything, everything}}};
-  if (const auto box = numbers_parameter(request, "bbox", 4))
-    view.box = {{(*box)[0], (*box)[1]}, {(*box)[2], (*box)[3]}};
-  if (const auto zoom = numbers_parameter(request, "z", 1)) {
-    const TileGrid& grid = world_.tiles().grid();
-    constexpr double farthest = -8.0;
-    view.pixel = std::ldexp(grid.pixel(0), -static_cast<int>(std::clamp((*zoom)[0], farthest, grid.levels - 1.0)));
-  }
-  return view;
-}
-
-HttpResponse PathService::told(const KeptPath& kept, const HttpRequest& request, const Execution& execution) const {
-  constexpr std::size_t bytes_a_point = 96;  // of text that doubles, and of the answer
-  PathView view = view_of(request);
-  view.most_points = most_view_points_;
-  const std::vector<std::vector<Vec2>> chains = seen_of(kept.curve, view, execution);
-  std::size_t points = 0;
-  for (const std::vector<Vec2>& chain : chains) points += chain.size();
-  execution.reserve(points * bytes_a_point);
-  JsonObject json;
-  json.add("length", kept.way.length);
-  json.add("points", std::uint64_t{kept.curve.size()});
-  json.add_json("chains", json_chains(chains, execution));
-  return {.body = json.closed() + "\n"};
-}
-
-HttpResponse PathService::clearance(const KeptPath& kept, const HttpRequest& request,
-                                    const Execution& execution) const {
-  const std::size_t count = sample_count(request);
-  Answer way = kept.way;
-  if (way.states.empty()) way.path = kept.curve.whole(execution);
-  std::optional<EdgeJudge> other;
-  if (!world_.is_own(way.problem.robot, world_.clearance())) {
-    other.emplace(world_.barred(execution), world_.box(), way.problem.robot, world_.clearance());
-  }
-  const auto place_told = [&](const PathPlace& place) {
-    execution.check();
-    const double clearance = world_.clearance_at(place.state.used(), execution, other ? &*other : nullptr);
-    JsonObject told;
-    told.add("along", place.along);
-    told.add_json("at", json_list(place.state.used()));
-    told.add_or_null("clearance", std::isfinite(clearance), clearance);
-    return told.closed();
-  };
-  JsonObject json;
-  json.add("length", kept.way.length);
-  json.add_or_null("min_clearance", std::isfinite(kept.way.min_clearance), kept.way.min_clearance);
-  json.add_json("places", json_list_of(places_along(way, count, execution), ",", place_told));
-  return {.body = json.closed() + "\n"};
-}
-
-HttpResponse PathService::sweep(const KeptPath& kept, const HttpRequest& request, const Execution& execution) const {
-  const SweptBodies bodies = swept_bodies(kept.way, kept.curve, view_of(request), execution);
-  JsonObject json;
-  add_outline(json, kept.way.problem.robot);
-  json.add("apart", bodies.apart);
-  json.add_json("places", json_list_of(bodies.places, ",", [](const PathState& at) { return json_list(at.used()); }));
-  return {.body = json.closed() + "\n"};
-}
-
 WorldService::WorldService(const ServedWorld& world, const ServiceLimits& limits, LatestWays* kept)
-    : world_(world),
-      kept_(kept),
-      limits_(limits),
-      layers_(world),
-      world_json_(description_json(world, world.body_asked({}, {}), layers_, limits, Execution())),
-      tiles_(limits.tile_bytes),
-      paths_(world, limits) {}
-
-Route WorldService::route(const HttpRequest& request) const {
-  return route_of(request, world_.tiles().grid(), world_.hash());
-}
-
-std::size_t WorldService::most_body(const HttpRequest& head) const {
-  const Route asked = route(head);
-  if (asked.place == Place::file) file(head, asked.name);  // or there is none
-  if ((asked.place == Place::layer || asked.place == Place::legend) && layers_.account_of(asked.name) == nullptr) {
-    throw HttpError(404, "not_found", "path", "there is no layer of this name; /api/world lists them");
-  }
-  if (asked.place == Place::update) {
-    throw HttpError(403, "read_only", "path", "this world is not to be changed; 'serve --writable' lets it");
-  }
-  if (asked.place == Place::batch || is_of_graphs(asked.place)) return limits_.batch_body;
-  return asked.place == Place::query ? limits_.small_body : 0;
-}
-
-void WorldService::prepare(const SignalFlag& gone) {
-  const Deadline deadline(std::numeric_limits<double>::infinity(), limits_.memory_bytes, &gone);
-  world_.prepare({.threads = limits_.threads, .deadline = &deadline});
-}
-
+    : answering_(std::make_unique<AnsweringService>(world, limits, kept)) {}
+std::size_t WorldService::most_body(const HttpRequest& head) const { return answering_->most_body(head); }
 std::optional<HttpResponse> WorldService::at_once(const HttpRequest& request, const HttpFigures& figures) {
-  const Route asked = route(request);
-  switch (asked.place) {
-    case Place::file:
-      return file(request, asked.name);
-    case Place::health:
-      return HttpResponse{.body = "{\"status\":\"ok\"}\n"};
-    case Place::metrics:
-      return HttpResponse{.type = "text/plain; version=0.0.4",
-                          .body = metrics_text(figures, tiles_.bytes(), paths_.bytes())};
-    case Place::progress:
-      return progress(request);
-    case Place::world:
-      return request.query.empty() ? std::optional(HttpResponse{.body = world_json_}) : std::nullopt;
-    case Place::tile: {
-      if (request.if_none_match == tile_tag()) return not_modified(tile_tag());
-      const auto known = tiles_.find(tile_name(asked.tile));
-      return known ? std::optional(tile_response(asked, *known)) : std::nullopt;
-    }
-    case Place::layer: {
-      const auto known = tiles_.find(layer_name(request, asked));
-      return known ? std::optional(layer_response(request, *known)) : std::nullopt;
-    }
-    default:
-      return std::nullopt;
-  }
+  return answering_->at_once(request, figures);
 }
-
 HttpResponse WorldService::work(const HttpRequest& request, const SignalFlag& gone) {
-  const Route asked = route(request);
-  if (asked.place == Place::query) return query(request, gone);
-  const Deadline deadline(limits_.budget_s, limits_.memory_bytes, &gone);
-  const Execution execution{.threads = limits_.threads, .deadline = &deadline};
-  execution.check();
-  if (asked.place == Place::tile) return tile(asked, execution);
-  if (asked.place == Place::layer) return layer(request, asked, execution);
-  if (asked.place == Place::legend) {
-    return {.body = layers_.legend(asked.name, numbers_parameter(request, "from", 2), execution) + "\n"};
-  }
-  if (asked.place == Place::batch) return batch(request, execution);
-  if (asked.place == Place::scene) return scene(request, execution);
-  if (asked.place == Place::world)
-    return {.body = description_json(world_, body_in(request), layers_, limits_, execution)};
-  if (is_of_graphs(asked.place)) return answer_of_graphs(world_, asked.place, request.body, execution);
-  return paths_.answer(asked, request, execution);
+  return answering_->work(request, gone);
 }
+void WorldService::prepare(const SignalFlag& gone) { answering_->prepare(gone); }
 
-Question WorldService::body_in(const HttpRequest& request) const {
-  std::optional<RobotSpec> robot;
-  if (const auto text = parameter(request, "robot")) robot = robot_value("robot", *text);
-  const auto clearance = numbers_parameter(request, "clearance", 1);
-  return world_.body_asked(robot, clearance ? std::optional((*clearance)[0]) : std::nullopt);
-}
-
-HttpResponse WorldService::file(const HttpRequest& request, const std::string& name) const {
-  const ServedFile* found = served_file(name);
-  if (found == nullptr) throw HttpError(404, "not_found", "path", "there is nothing at this address");
-  const std::string tag = fmt::format("\"{}\"", found->tag);
-  if (request.if_none_match == tag) return not_modified(tag);
-  return {.type = std::string(found->type),
-          .body = std::string(found->bytes),
-          .fields = {{"ETag", tag}, {"Cache-Control", "no-cache"}}};
-}
-
-std::string WorldService::layer_name(const HttpRequest& request, const Route& route) const {
-  const std::string name = route.name + "/" + tile_name(route.tile);
-  const LayerAccount* const layer = layers_.account_of(route.name);
-  if (layer == nullptr || !layer->is_of_start) return name;
-  return fmt::format("{}?{}", name,
-                     fmt::join(numbers_parameter(request, "from", 2).value_or(std::vector<double>()), ","));
-}
-
-std::string WorldService::tile_tag() const { return fmt::format("\"{}-{}\"", world_.hash(), tile_style); }
-
-HttpResponse WorldService::tile_response(const Route& route, std::string bytes) const {
-  return {.type = "image/png",
-          .body = std::move(bytes),
-          .fields = {{"ETag", tile_tag()},
-                     {"Cache-Control", route.has_its_hash ? "public, max-age=31536000, immutable" : "no-cache"}}};
-}
-
-HttpResponse WorldService::tile(const Route& route, const Execution& execution) {
-  std::string bytes = world_.tiles().draw(route.tile, execution);
-  tiles_.put(tile_name(route.tile), bytes, bytes.size() + of_an_entry);
-  return tile_response(route, std::move(bytes));
-}
-
-HttpResponse WorldService::layer(const HttpRequest& request, const Route& route, const Execution& execution) {
-  const std::string bytes = layers_.draw(route.name, route.tile, numbers_parameter(request, "from", 2), execution);
-  tiles_.put(layer_name(request, route), bytes, bytes.size() + of_an_entry);
-  return layer_response(request, bytes);
-}
-
-HttpResponse WorldService::query(const HttpRequest& request, const SignalFlag& gone) {
-  const QueryBody body = read_query_body(request.body);
-  const double budget_s = std::min(limits_.budget_s, body.question.budget_s.value_or(limits_.budget_s));
-  const Deadline deadline(budget_s, limits_.memory_bytes, &gone);
-  Execution execution{.threads = limits_.threads, .deadline = &deadline};
-  execution.check();
-  std::string name;
-  RunningQuestions::Entry entry(running_, body.watch);
-  ByProducts made;
-  const std::function<bool(const Improvement&)> tell = [&](const Improvement& better) {
-    std::vector<Vec2> way;
-    if (!made.improved.empty()) {
-      const auto newest = made.improved[made.improved.size() - 1];
-      way.assign(newest.begin(), newest.end());
-    }
-    entry.tell(better, std::move(way));
-    return true;
-  };
-  const bool is_seen = entry.is_seen() && body.question.planner && gets_better(*body.question.planner);
-  if (is_seen) execution.on_improvement = &tell;
-  Answer answer = world_.ask(
-      body.question, execution, [&](const Answer& found) { name = path_hash(found, execution); },
-      is_seen ? &made : nullptr, kept_);
-  if (answer.outcome == Outcome::stopped) throw Stopped(answer.stop_reason.value_or(StopReason::time));
-  const Deadline unhurried(std::numeric_limits<double>::infinity(), limits_.memory_bytes, &gone);
-  if (answer.stop_reason) execution.deadline = &unhurried;  // what gets better has used the time up
-  HttpResponse response;
-  if (answer.verified) {
-    if (name.empty()) name = path_hash(answer, execution);
-    answer.tells_path = body.tells_path && path_points(answer) <= limits_.most_points;
-    if (!answer.tells_path) answer.handed = HandedPath{path_points(answer), name};
-    name += mark_of_body(world_, answer.problem);
-    response.fields.emplace_back("Warren-Path", name);
-  }
-  write_answer_json(answer, execution, [&](std::string_view piece) { response.body += piece; });
-  if (answer.verified) paths_.keep(name, std::move(answer), execution);
-  return response;
-}
-
-HttpResponse WorldService::progress(const HttpRequest& request) const {
-  constexpr double most = 1e15;
-  const double from = numbers_parameter(request, "from", 1).value_or(std::vector{0.0})[0];
-  if (!(from >= 0.0 && from < most)) throw HttpError(400, "bad_request", "query", "from: expected a count");
-  return {.body = running_.told(parameter(request, "watch").value_or(""), static_cast<std::uint64_t>(from)) + "\n"};
-}
-
-HttpResponse WorldService::batch(const HttpRequest& request, const Execution& execution) const {
-  if (world_.query() == nullptr) {
-    throw HttpError(400, "no_roadmap", "",
-                    "many questions are for roadmaps; serve what 'warren build' makes of this world");
-  }
-  if (nesting_of(request.body) > deepest_json) {
-    throw HttpError(400, "bad_request", "body", "JSON that is nested at most 8 deep is expected");
-  }
-  const BatchOptions options{.how = {.optimise = flag_parameter(request, "optimise")},
-                             .lengths_only = flag_parameter(request, "lengths_only")};
-  const InputFile questions = InputFile::of_bytes("body", request.body);
-  HttpResponse response{.type = "application/x-ndjson"};
-  ask_batch(*world_.query(), questions, options, execution, [&](std::string_view piece) {
-    response.body += piece;
-    if (response.body.size() <= limits_.batch_answers) return;
-    throw HttpError(413, "answers_too_large", "body",
-                    "the answers are more than 32 MiB; ask fewer questions, or lengths_only=1");
-  });
-  return response;
-}
-
-HttpResponse WorldService::scene(const HttpRequest& request, const Execution& execution) const {
-  constexpr std::string_view shortest = "wall 1 1 1 2\n";
-  if (world_.outline().map) throw UsageError("this world is the cells of a map, which no scene holds");
-  const Question body = body_in(request);
-  const std::size_t walls = world_.wall_count(execution);
-  if (walls > limits_.scene_bytes / shortest.size()) throw scene_too_large();
-  execution.reserve(walls * sizeof(Segment));
-  Scene told = world_.copy_of_whole(execution);
-  told.robot = body.robot;
-  told.clearance = body.clearance;
-  const std::size_t numbers = state_size(*body.robot);
-  if (auto start = numbers_parameter(request, "start", numbers)) told.start = std::move(*start);
-  const bool any_heading = std::ranges::count(parameter(request, "goal").value_or(""), ',') == 1;
-  if (auto goal = numbers_parameter(request, "goal", any_heading ? 2 : numbers)) {
-    told.goal = std::move(*goal);
-    told.other_goals.clear();
-  }
-  add_prices(told.prices, world_.query() != nullptr ? world_.query()->roadmap().prices : body.prices);
-  Question{.start = told.start, .goal = told.goal}.validate();
-  HttpResponse response{.type = "text/plain; charset=utf-8",
-                        .fields = {{"Content-Disposition", "attachment; filename=\"world.scene\""}}};
-  write_scene_text(
-      told,
-      [&](std::string_view piece) {
-        response.body += piece;
-        if (response.body.size() <= limits_.scene_bytes) return;
-        throw scene_too_large();
-      },
-      execution);
-  return response;
-}
-
-WritableService::WritableService(std::unique_ptr<ServedWorld> world, const ServiceLimits& limits, std::string token)
-    : limits_(limits), token_(std::move(token)) {
-  versions_.put("", std::make_unique<Version>(std::move(world), limits, limits.writable ? &kept_ : nullptr), 0);
-}
-
-std::size_t WritableService::most_body(const HttpRequest& head) const {
-  if (!limits_.writable || !is_update(head)) return (*now())->service.most_body(head);
-  check_token(head);
-  return limits_.batch_body;
-}
-
-std::optional<HttpResponse> WritableService::at_once(const HttpRequest& request, const HttpFigures& figures) {
-  if (is_update(request)) return std::nullopt;
-  return (*now())->service.at_once(request, figures);
-}
-
-HttpResponse WritableService::work(const HttpRequest& request, const SignalFlag& gone) {
-  if (!is_update(request)) return (*now())->service.work(request, gone);
-  check_token(request);
-  const Deadline deadline(limits_.budget_s, limits_.memory_bytes, &gone);
-  const Execution execution{.threads = limits_.threads, .deadline = &deadline};
-  return update(request, execution);
-}
-
-void WritableService::prepare(const SignalFlag& gone) { (*now())->service.prepare(gone); }
-
-void WritableService::check_token(const HttpRequest& request) const {
-  if (token_.empty() || is_same_secret(request.authorization, "Bearer " + token_)) return;
-  throw HttpError(request.authorization.empty() ? 401 : 403, "token", "Authorization",
-                  "who changes this world must send 'Bearer TOKEN', the token that the service was started with");
-}
-
-HttpResponse WritableService::update(const HttpRequest& request, const Execution& execution) {
-  const SceneChange wanted = read_scene_change(request.body, execution);
-  HttpResponse said;
-  if (changing_.unless_busy([&] { said = change(wanted, execution); })) return said;
-  return busy_response("somebody else changes the world now; try again");
-}
-
-HttpResponse WritableService::change(const SceneChange& wanted, const Execution& execution) {
-  const Versions::Lease held = now();
-  const ServedWorld& before = *(*held)->world;
-  if (const std::string_view why = before.why_fixed(); !why.empty()) throw UsageError(std::string(why));
-  const Scene& scene = before.whole(execution);
-  if (scene.maze) maze_ = scene.maze;
-  ChangedScene made = changed(scene, wanted, maze_, execution);
-  auto next = std::make_unique<Version>(before.changed(std::move(made.scene), execution), limits_, &kept_);
-  JsonObject json;
-  json.add("schema", "warren.change/1");
-  json.add("before", std::string_view(before.hash()));
-  json.add("hash", std::string_view(next->world->hash()));
-  tell_change(json, made);
-  execution.check();
-  versions_.put("", std::move(next), 0);
-  return {.body = json.closed() + "\n"};
+std::unique_ptr<HttpService> writable_service(std::unique_ptr<ServedWorld> world, const ServiceLimits& limits,
+                                              std::string token) {
+  return std::make_unique<WritableService>(std::move(world), limits, std::move(token));
 }
 
 }  // namespace warren::serve

@@ -12,23 +12,14 @@
 #include <string>
 #include <vector>
 
-#include "apps/serve/api/graph_service.hpp"
-#include "apps/serve/api/kept_path.hpp"
-#include "apps/serve/api/route.hpp"
 #include "apps/serve/api/served_world.hpp"
-#include "apps/serve/api/world_layers.hpp"
-#include "apps/serve/http/http_message.hpp"
 #include "apps/serve/http/http_server.hpp"
-#include "apps/serve/http/kept_values.hpp"
 #include "core/base/solution.hpp"
 #include "core/base/types.hpp"
 #include "core/run/execution.hpp"
 #include "parallel/once.hpp"
-#include "solve/answer/answer.hpp"
 
 namespace warren::serve {
-
-struct SceneChange;  // apps/serve/api/request_bodies_io.hpp
 
 // Questions that are being answered, by the names that their askers gave them, and each better path of planners that
 // get better with time: whoever waits for the answer sees what there is already.
@@ -90,36 +81,7 @@ struct ServiceLimits {
   std::size_t batch_answers = std::size_t{32} << 20U;  ///< bytes
 };
 
-/// Paths that were found, kept by name, and what is asked about them (docs/service.md): their points, the room around
-/// the body along them, the body's sweep. Any number of threads may ask.
-class PathService {
- public:
-  /// Refers to the world.
-  PathService(const ServedWorld& world, const ServiceLimits& limits)
-      : world_(world), most_view_points_(limits.most_view_points), paths_(limits.path_bytes) {}
-
-  /// The answer has a path. Throws Stopped.
-  void keep(const std::string& name, Answer answer, const Execution& execution);
-  /// Of a path by its name, at Place::path, clearance or sweep. Throws HttpError, UsageError, Stopped.
-  HttpResponse answer(const Route& route, const HttpRequest& request, const Execution& execution);
-  /// Of all that is kept.
-  std::size_t bytes() const { return paths_.bytes(); }
-
- private:
-  struct KeptPath {
-    Answer way;  // states, body, length and clearance alone
-    KeptCurve curve;
-  };
-  HttpResponse told(const KeptPath& kept, const HttpRequest& request, const Execution& execution) const;
-  HttpResponse clearance(const KeptPath& kept, const HttpRequest& request, const Execution& execution) const;
-  HttpResponse sweep(const KeptPath& kept, const HttpRequest& request, const Execution& execution) const;
-  PathView view_of(const HttpRequest& request) const;
-
-  const ServedWorld& world_;
-  const std::size_t most_view_points_;
-  KeptValues<KeptPath> paths_;
-};
-
+/// Of one world.
 class WorldService : public HttpService {
  public:
   /// Refers to the world, and to what is kept for it and its followers.
@@ -131,62 +93,14 @@ class WorldService : public HttpService {
   void prepare(const SignalFlag& gone) override;
 
  private:
-  Route route(const HttpRequest& request) const;
-  HttpResponse file(const HttpRequest& request, const std::string& name) const;
-  HttpResponse tile(const Route& route, const Execution& execution);
-  HttpResponse layer(const HttpRequest& request, const Route& route, const Execution& execution);
-  HttpResponse query(const HttpRequest& request, const SignalFlag& gone);
-  HttpResponse progress(const HttpRequest& request) const;
-  HttpResponse batch(const HttpRequest& request, const Execution& execution) const;
-  HttpResponse scene(const HttpRequest& request, const Execution& execution) const;
-  Question body_in(const HttpRequest& request) const;
-  std::string layer_name(const HttpRequest& request, const Route& route) const;
-  std::string tile_tag() const;
-  HttpResponse tile_response(const Route& route, std::string bytes) const;
-
-  const ServedWorld& world_;
-  LatestWays* const kept_;
-  const ServiceLimits limits_;
-  WorldLayers layers_;
-  const std::string world_json_;
-  KeptValues<std::string> tiles_;
-  PathService paths_;
-  RunningQuestions running_;
+  std::unique_ptr<HttpService> answering_;
 };
 
 /// A service whose world may be changed while it is asked (docs/service.md): each change makes a new world with a
-/// service of its own, and requests that have begun go on in the one that they began in. One change at a time.
-class WritableService : public HttpService {
- public:
-  /// Changes are refused where limits.writable is false. token: who sends it as `Authorization: Bearer TOKEN` may
-  /// change the world; empty: whoever reaches it.
-  WritableService(std::unique_ptr<ServedWorld> world, const ServiceLimits& limits, std::string token);
-
-  std::size_t most_body(const HttpRequest& head) const override;
-  std::optional<HttpResponse> at_once(const HttpRequest& request, const HttpFigures& figures) override;
-  HttpResponse work(const HttpRequest& request, const SignalFlag& gone) override;
-  void prepare(const SignalFlag& gone) override;
-
- private:
-  struct Version {
-    Version(std::unique_ptr<ServedWorld> its_world, const ServiceLimits& limits, LatestWays* kept)
-        : world(std::move(its_world)), service(*world, limits, kept) {}
-    std::unique_ptr<ServedWorld> world;
-    WorldService service;
-  };
-  using Versions = KeptValues<std::unique_ptr<Version>>;  // the current one is kept; the others are leased
-
-  Versions::Lease now() const { return versions_.find(""); }
-  void check_token(const HttpRequest& request) const;
-  HttpResponse update(const HttpRequest& request, const Execution& execution);
-  HttpResponse change(const SceneChange& wanted, const Execution& execution);
-
-  const ServiceLimits limits_;
-  const std::string token_;
-  std::optional<MazeHint> maze_;  // what the walls were of; of whoever changes the world
-  LatestWays kept_;
-  mutable Versions versions_{1};
-  OneAtATime changing_;
-};
+/// service of its own, and requests that have begun go on in the one that they began in. One change at a time. Changes
+/// are refused where limits.writable is false. token: who sends it as `Authorization: Bearer TOKEN` may change the
+/// world; empty: whoever reaches it.
+std::unique_ptr<HttpService> writable_service(std::unique_ptr<ServedWorld> world, const ServiceLimits& limits,
+                                              std::string token);
 
 }  // namespace warren::serve

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "apps/serve/graphs/json_body_io.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <vector>
 
 #include "apps/serve/http/http_message.hpp"
 #include "core/base/types.hpp"

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "apps/serve/graphs/edge_judge.hpp"
-#include "apps/serve/graphs/json_body_io.hpp"
 #include "apps/serve/graphs/route_graph.hpp"
 #include "core/run/execution.hpp"
 

@@ -7,8 +7,6 @@
 #include <boost/beast/http/error.hpp>
 #include <string>
 
-#include "apps/serve/http/http_message.hpp"
-
 namespace warren::serve {
 
 namespace http = boost::beast::http;

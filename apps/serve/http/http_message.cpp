@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <string>
 
 #include "scenes/text/json_text.hpp"
 #include "scenes/text/scene_text.hpp"

@@ -14,25 +14,18 @@
 #include <boost/beast/http/parser.hpp>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <csignal>
-#include <cstddef>
-#include <cstdint>
 #include <exception>
 #include <limits>
 #include <map>
-#include <memory>
 #include <new>
-#include <optional>
 #include <system_error>
 #include <utility>
 
 #include "apps/serve/http/beast_words.hpp"
-#include "apps/serve/http/http_message.hpp"
 #include "core/base/error.hpp"
 #include "core/base/page_pool.hpp"
-#include "core/run/execution.hpp"
 #include "scenes/text/human_units.hpp"
 
 namespace warren::serve {
@@ -85,11 +78,11 @@ struct Job {
 };
 
 struct Connection {
-  Connection(std::uint64_t number, Tcp::socket&& its_socket, std::size_t buffer_bytes)
-      : id(number), socket(std::move(its_socket)), buffer(buffer_bytes) {}
+  Connection(std::uint64_t number, Tcp::socket&& its_socket, const asio::ip::address& from, std::size_t buffer_bytes)
+      : id(number), socket(std::move(its_socket)), address(from), buffer(buffer_bytes) {}
   std::uint64_t id;
   Tcp::socket socket;
-  asio::ip::address address = {};
+  asio::ip::address address;
   boost::beast::flat_buffer buffer;
   std::optional<RequestParser> parser = {};
   std::optional<BeastResponse> response = {};
@@ -103,41 +96,6 @@ struct Connection {
   bool keep_alive = true;
   bool has_large_body = false;
   std::size_t unsent_bytes = 0;  ///< of a large answer on its way
-};
-
-/// Who is connected, and who gives way where all places are taken. Owns the connections.
-class ConnectionPlaces {
- public:
-  Connection& add(Tcp::socket socket, const asio::ip::address& address, std::size_t buffer_bytes) {
-    const std::uint64_t id = next_id_++;
-    auto& place = connections_[id] = std::make_unique<Connection>(id, std::move(socket), buffer_bytes);
-    place->address = address;
-    return *place;
-  }
-  void forget(const Connection& connection) { connections_.erase(connection.id); }
-  std::size_t size() const { return connections_.size(); }
-  std::size_t of_address(const asio::ip::address& address) const {
-    const auto same = [&](const auto& other) { return other.second->address == address; };
-    return static_cast<std::size_t>(std::count_if(connections_.begin(), connections_.end(), same));
-  }
-  /// Who has waited longest without a whole request; nullptr: all are worked on or answered.
-  Connection* longest_waiting() const {
-    Connection* longest = nullptr;
-    for (const auto& [id, other] : connections_) {
-      const bool waits = !other->closed && (other->stage <= Stage::body || other->stage == Stage::linger);
-      if (waits && (longest == nullptr || other->waits_since < longest->waits_since)) longest = other.get();
-    }
-    return longest;
-  }
-  /// Calls visit with each; it may forget the one that it is given.
-  template <class Visit>
-  void each(const Visit& visit) {
-    for (auto next = connections_.begin(); next != connections_.end();) visit(*(next++)->second);
-  }
-
- private:
-  std::uint64_t next_id_ = 0;
-  std::map<std::uint64_t, std::unique_ptr<Connection>> connections_;
 };
 
 /// Listens at all addresses that the machine has, at the first one's port. Throws UsageError where the first can't be.
@@ -291,18 +249,36 @@ class HttpServer::Connections {
     ++figures_.accepted;
     socket.set_option(Tcp::no_delay(true), code);
     socket.non_blocking(true, code);
-    Connection& c = connections_.add(std::move(socket), peer.address(), limits_.head_bytes + 8192);
+    const std::uint64_t id = next_connection_++;
+    auto& c = connections_[id] =
+        std::make_unique<Connection>(id, std::move(socket), peer.address(), limits_.head_bytes + 8192);
     figures_.connections = connections_.size();
-    wait_for_request(c);
+    wait_for_request(*c);
   }
   bool has_place_for(const asio::ip::address& address) {
-    if (!address.is_loopback() && connections_.of_address(address) >= limits_.of_an_address) return false;
+    const auto same = [&](const auto& other) { return other.second->address == address; };
+    const auto of_address = [&] { return std::count_if(connections_.begin(), connections_.end(), same); };
+    if (!address.is_loopback() && static_cast<std::size_t>(of_address()) >= limits_.of_an_address) return false;
     if (connections_.size() < limits_.connections) return true;
-    Connection* const longest = connections_.longest_waiting();
+    Connection* const longest = longest_waiting();
     if (longest == nullptr) return false;
     ++figures_.gave_way;
     close(*longest);
     return true;
+  }
+  /// Who has waited longest without a whole request; nullptr: all are worked on or answered.
+  Connection* longest_waiting() const {
+    Connection* longest = nullptr;
+    for (const auto& [id, other] : connections_) {
+      const bool waits = !other->closed && (other->stage <= Stage::body || other->stage == Stage::linger);
+      if (waits && (longest == nullptr || other->waits_since < longest->waits_since)) longest = other.get();
+    }
+    return longest;
+  }
+  /// Calls visit with each; it may forget the one that it is given.
+  template <class Visit>
+  void each(const Visit& visit) {
+    for (auto next = connections_.begin(); next != connections_.end();) visit(*(next++)->second);
   }
   void close(Connection& c) {
     if (c.closed) return;
@@ -319,7 +295,7 @@ class HttpServer::Connections {
     if (c.pending == 0) forget(c);
   }
   void forget(Connection& c) {
-    connections_.forget(c);
+    connections_.erase(c.id);
     figures_.connections = connections_.size();
   }
   void enter(Connection& c, Stage stage, double seconds) {
@@ -496,14 +472,14 @@ class HttpServer::Connections {
     if (stop.load() != 0 && ending_ == never) begin_end();
     if (Clock::now() >= ending_) {
       for (const auto& [number, job] : jobs_) job->gone = SIGTERM;
-      connections_.each([this](Connection& c) { close(c); });
+      each([this](Connection& c) { close(c); });
     }
-    if (ending_ != never && connections_.size() == 0 && jobs_.empty()) return io_.stop();
+    if (ending_ != never && connections_.empty() && jobs_.empty()) return io_.stop();
     const auto now = Clock::now();
-    connections_.each([this, now](Connection& c) {
+    each([this, now](Connection& c) {
       if (!c.closed && now >= c.end) end_stage(c);
     });
-    connections_.each([this](Connection& c) { leave(c); });
+    each([this](Connection& c) { leave(c); });
     if (ending_ == never) {
       for (Tcp::acceptor* acceptor : std::exchange(idle_acceptors_, {})) accept(*acceptor);
     }
@@ -515,7 +491,7 @@ class HttpServer::Connections {
     ended_ = SIGTERM;
     Code ignored;
     for (Tcp::acceptor& acceptor : acceptors_) acceptor.close(ignored);
-    connections_.each([this](Connection& c) {
+    each([this](Connection& c) {
       if (c.stage <= Stage::body) close(c);
     });
   }
@@ -540,7 +516,8 @@ class HttpServer::Connections {
   std::size_t large_bodies_ = 0;
   std::size_t unsent_bytes_ = 0;
   std::array<char, 4096> unread_{};  // what nobody looks at; all connections may share it
-  ConnectionPlaces connections_;
+  std::uint64_t next_connection_ = 0;
+  std::map<std::uint64_t, std::unique_ptr<Connection>> connections_;
   std::map<std::uint64_t, std::unique_ptr<Job>> jobs_;
   TaskCrew crew_;  // last: it ends before what its tasks look at
 };

@@ -5,11 +5,8 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <utility>
-#include <vector>
 
-#include "apps/serve/tiles/web_tile.hpp"
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
 #include "parallel/sort.hpp"

@@ -99,17 +99,17 @@ TEST(BandRounds, ABandThatLacksMemorySaysHowMuch) {
   const auto asked = static_cast<std::uint32_t>(RoundStep::hold);
   TileSummary tile;
   tile.keys = {3, 7};
-  BandRounds rounds(grid, {0, 1}, {}, {tile}, {.threads = 1});
-  BandRounds poor(grid, {0, 1}, {}, {tile}, {.threads = 1, .deadline = &tight});
+  const auto rounds = band_rounds(grid, {0, 1}, {}, {tile}, {.threads = 1});
+  const auto poor = band_rounds(grid, {0, 1}, {}, {tile}, {.threads = 1, .deadline = &tight});
   const auto lacking = [&](BandRounds& band) {
     ValueUnpacker from(std::as_bytes(std::span(&asked, 1)), "test");
     ValuePacker to;
     band.serve(from, to);
     ValueUnpacker answer(to.bytes(), "test");
-    return HeldBand::unpack(answer).lacking_bytes;
+    return answer.take<std::uint64_t>();
   };
-  EXPECT_EQ(lacking(rounds), 0);
-  EXPECT_GE(lacking(poor), 2 * 53U);
+  EXPECT_EQ(lacking(*rounds), 0);
+  EXPECT_GE(lacking(*poor), 2 * 53U);
 }
 
 /// Rank 0's end of a transport, which lets a signal come after so many messages of the rounds.
@@ -145,8 +145,8 @@ TEST(Leader, ASignalInTheRoundsStopsAll) {
       const Execution execution{.threads = 1, .deadline = &deadline};
       SignalInRounds signalled(transport, messages, signal);
       const EndOfFollowers end(transport);
-      Leader leader(signalled, task_of(asked), execution, 0);
-      answer = solved(asked, execution, &leader);
+      const auto leader = leader_of(signalled, task_of(asked), execution, 0);
+      answer = solved(asked, execution, leader.get());
     });
     EXPECT_EQ(answer.outcome, Outcome::stopped);
     EXPECT_EQ(answer.stop_reason, StopReason::terminate);
@@ -176,9 +176,9 @@ TEST(Leader, JudgesOfAllRanksSayWhatOneSays) {
         team.run([&](Transport& transport) {
           if (transport.rank() > 0) return follow(transport, task, {.threads = 1, .memory_bytes = much_memory});
           const EndOfFollowers end(transport);
-          Leader leader(transport, task, {.threads = 1});
-          const auto walls = leader.make({.threads = 1});
-          JudgeAmongCells judge(walls->judged(), options, {.threads = 1}, &leader.judges());
+          const auto leader = leader_of(transport, task, {.threads = 1});
+          const auto walls = leader->make({.threads = 1});
+          JudgeAmongCells judge(walls->judged(), options, {.threads = 1}, &leader->judges());
           judge.add(path);
           const Verification found = judge.verdict();
           EXPECT_EQ(found.verified, expected.verified);

@@ -135,8 +135,8 @@ Answer stopped_at_the_gap(const Asked& asked, StopReason reason, std::uint64_t m
     if (transport.rank() > 0) return follow(transport, task_of(asked), {.threads = 1, .memory_bytes = much_memory});
     StopAtTheGap stopping(transport, reason);
     const EndOfFollowers end(transport);
-    Leader leader(stopping, task_of(asked), {.threads = 1}, most_keys);
-    answer = solved(asked, {.threads = 1}, &leader);
+    const auto leader = leader_of(stopping, task_of(asked), {.threads = 1}, most_keys);
+    answer = solved(asked, {.threads = 1}, leader.get());
   });
   return answer;
 }
@@ -200,8 +200,8 @@ TEST(SharedFile, TilesForTheGapThatDisagreeAreRefused) {
       return follow(other, task_of(asked), {.threads = 1, .memory_bytes = much_memory});
     }
     const EndOfFollowers end(transport);
-    Leader leader(transport, task_of(asked), {.threads = 1}, 0);  // hands over for the gap alone
-    solved(asked, {.threads = 1}, &leader);
+    const auto leader = leader_of(transport, task_of(asked), {.threads = 1}, 0);  // hands over for the gap alone
+    solved(asked, {.threads = 1}, leader.get());
   };
   EXPECT_THROW(team.run(run), InputError);
 }

@@ -41,7 +41,7 @@ inline Answer solved(const Asked& asked, const Execution& execution = {.threads 
 struct Found {
   Answer answer;
   std::uint64_t bytes_of_rounds = 0;
-  std::optional<distributed::SharedSearch::Lack> lack = {};
+  std::optional<distributed::SearchLack> lack = {};
 };
 
 /// tasks: of each rank, as it sees the world. most_keys: of the overlay, at rank 0.
@@ -55,10 +55,10 @@ inline Found solved_by(const std::vector<distributed::BandTask>& tasks, const As
       return distributed::follow(transport, task, {.threads = execution.threads, .memory_bytes = followers_memory});
     }
     const distributed::EndOfFollowers end(transport);
-    distributed::Leader leader(transport, task, execution, most_keys);
-    found.answer = solved(asked, execution, &leader);
-    found.bytes_of_rounds = leader.traffic()[static_cast<std::size_t>(distributed::Request::rounds)];
-    found.lack = leader.lack();
+    const auto leader = distributed::leader_of(transport, task, execution, most_keys);
+    found.answer = solved(asked, execution, leader.get());
+    found.bytes_of_rounds = leader->traffic()[static_cast<std::size_t>(distributed::Request::rounds)];
+    found.lack = leader->lack();
   });
   return found;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "bench/plain_graph.hpp"
 #include "core/base/rng.hpp"
 
 namespace warren {
@@ -29,7 +30,7 @@ TEST(Graph, RowsHoldTheNeighboursOfAnAdjacencyMatrix) {
     const auto edges = random_edges(seed, n, 3 * n);
     std::vector<std::vector<bool>> joined(n, std::vector<bool>(n, false));
     for (const Edge& e : edges) joined[e.from][e.to] = joined[e.to][e.from] = true;
-    const Graph graph = Graph::from_edges(n, edges);
+    const Graph graph = bench::plain_graph(n, edges);
     ASSERT_EQ(graph.vertex_count(), n);
     ASSERT_EQ(graph.edge_count(), edges.size());
     for (VertexId v = 0; v < n; ++v) {
@@ -45,16 +46,16 @@ TEST(Graph, RowsHoldTheNeighboursOfAnAdjacencyMatrix) {
 
 TEST(Graph, WithoutVerticesIsEmpty) {
   EXPECT_EQ(Graph().vertex_count(), 0U);
-  EXPECT_EQ(Graph::from_edges(0, {}).edge_count(), 0U);
-  EXPECT_EQ(components(Graph()).count, 0U);
+  EXPECT_EQ(bench::plain_graph(0, {}).edge_count(), 0U);
+  EXPECT_EQ(bench::plain_components(Graph()).count, 0U);
 }
 
 TEST(Components, LabelsAreTheSmallestVertexThatAFloodReaches) {
   for (std::uint64_t seed = 1; seed <= 24; ++seed) {
     SCOPED_TRACE(seed);
     const std::size_t n = 10 * seed;
-    const Graph graph = Graph::from_edges(n, random_edges(seed, n, n * (seed % 5) / 4));
-    const Components found = components(graph);
+    const Graph graph = bench::plain_graph(n, random_edges(seed, n, n * (seed % 5) / 4));
+    const Components found = bench::plain_components(graph);
     std::vector<VertexId> label(n, no_vertex);
     std::size_t count = 0;
     for (VertexId first = 0; first < n; ++first) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/plain_graph.hpp"
 #include "core/base/rng.hpp"
 #include "core/search/graph.hpp"
 
@@ -53,7 +54,7 @@ inline PlaneGraph random_maze(std::uint64_t seed, std::uint32_t side, double loo
     if (uniform(seed, i, 5) < (a != b ? 1.0 - walled : loops))
       edges.push_back({number[doors[i].from], number[doors[i].to]});
   }
-  maze.graph = Graph::from_edges(n, edges);
+  maze.graph = bench::plain_graph(n, edges);
   return maze;
 }
 
@@ -73,7 +74,7 @@ inline PlaneGraph random_graph(std::uint64_t seed, std::size_t vertices, std::si
     const auto b = static_cast<VertexId>(rng.below(vertices));
     if (a != b) unique.insert({std::min(a, b), std::max(a, b)});
   }
-  result.graph = Graph::from_edges(vertices, std::vector<Edge>(unique.begin(), unique.end()));
+  result.graph = bench::plain_graph(vertices, std::vector<Edge>(unique.begin(), unique.end()));
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "bench/plain_graph.hpp"
 #include "core/base/rng.hpp"
 #include "core/search/search_queues.hpp"
 #include "tests/core/search/search_graphs.hpp"
@@ -144,7 +145,7 @@ TEST(BreadthFirst, HopsAreMinimalAndDepthFirstPathsAreValid) {
 }
 
 TEST(DepthFirst, GoesDownTheFirstNeighbourThatIsNew) {
-  const Graph graph = Graph::from_edges(5, std::vector<Edge>{{0, 1}, {0, 4}, {1, 2}, {1, 3}, {3, 4}});
+  const Graph graph = bench::plain_graph(5, std::vector<Edge>{{0, 1}, {0, 4}, {1, 2}, {1, 3}, {3, 4}});
   SearchState state;
   state.resize(5);
   const SearchResult result = depth_first(graph, 0, 4, state);
@@ -153,7 +154,7 @@ TEST(DepthFirst, GoesDownTheFirstNeighbourThatIsNew) {
 }
 
 TEST(BreadthFirst, TiesGoToTheSmallerParent) {
-  const Graph graph = Graph::from_edges(4, std::vector<Edge>{{0, 1}, {0, 2}, {1, 3}, {2, 3}});
+  const Graph graph = bench::plain_graph(4, std::vector<Edge>{{0, 1}, {0, 2}, {1, 3}, {2, 3}});
   SearchState state;
   state.resize(4);
   EXPECT_EQ(breadth_first(graph, 0, 3, state).path, (RawVector<VertexId>{0, 1, 3}));
@@ -162,7 +163,7 @@ TEST(BreadthFirst, TiesGoToTheSmallerParent) {
 TEST(Searches, StopWithinOnePollWhenAsked) {
   std::vector<Edge> edges;
   for (VertexId v = 1; v < 5000; ++v) edges.push_back({v - 1, v});
-  const Graph graph = Graph::from_edges(5000, edges);
+  const Graph graph = bench::plain_graph(5000, edges);
   const auto stop = [] { return true; };
   SearchState state;
   const auto expect_stopped = [](const SearchResult& result) {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "pictures/formats/svg_surface.hpp"
-
 #include <gtest/gtest.h>
 
 #include <numbers>
 
+#include "pictures/formats/surface.hpp"
 #include "tests/tools/process.hpp"
 
 namespace warren {

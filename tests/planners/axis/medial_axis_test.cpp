@@ -9,6 +9,7 @@
 #include <map>
 #include <vector>
 
+#include "bench/plain_graph.hpp"
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
 #include "core/search/graph.hpp"
@@ -155,7 +156,7 @@ TEST(MedialAxis, JoinsAllOfAConnectedFreeSpace) {
       if (e.from != e.to) edges.push_back({e.from, e.to});
       is_end[e.from] = is_end[e.to] = 1;
     }
-    const Components parts = components(Graph::from_edges(axis.vertices().size(), edges));
+    const Components parts = bench::plain_components(bench::plain_graph(axis.vertices().size(), edges));
     for (VertexId v = 0; v < axis.vertices().size(); ++v) {
       EXPECT_TRUE(is_end[v] == 0 || parts.connected(v, axis.edges().front().from));
     }

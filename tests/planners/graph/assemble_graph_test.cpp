@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/plain_graph.hpp"
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
 #include "planners/graph/components.hpp"
@@ -62,7 +63,7 @@ TEST(AssembleGraph, OrderedPartsGiveTheSameRowsAsTheSerialBuilder) {
     for (const std::uint64_t seed : test::seeds(4)) {
       SCOPED_TRACE("vertices " + std::to_string(c.vertices) + " seed " + std::to_string(seed));
       const auto edges = random_edges(seed, c.vertices, c.edges, c.reach);
-      const Graph oracle = Graph::from_edges(c.vertices, edges);
+      const Graph oracle = bench::plain_graph(c.vertices, edges);
       for (const unsigned threads : {1U, 2U, 3U, 8U}) {
         expect_same(assemble_graph(c.vertices, split(edges, c.span), on(threads)), oracle);
       }
@@ -75,7 +76,7 @@ TEST(AssembleGraph, AnyOrderOfEdgesAndEndsIsAccepted) {
     SCOPED_TRACE(seed);
     const std::size_t n = seed % 2 == 0 ? 50 : 40000;
     auto edges = random_edges(seed, n, 2 * n, 0);
-    const Graph oracle = Graph::from_edges(n, edges);
+    const Graph oracle = bench::plain_graph(n, edges);
     SequentialRng rng(seed);
     for (std::size_t i = edges.size(); i > 1; --i) {  // from a random place on: shuffled and turned round
       const std::size_t first = seed * edges.size() / 21;
@@ -99,13 +100,13 @@ TEST(AssembleGraph, EdgesOfStartAndGoalMayFollowAsALastPart) {
   parts.push_back({{3, 20000}, {19000, 20000}, {5, 20001}, {20000, 20001}});
   std::vector<Edge> all = edges;
   all.insert(all.end(), parts.back().begin(), parts.back().end());
-  expect_same(assemble_graph(n + 2, parts, on(2)), Graph::from_edges(n + 2, all));
+  expect_same(assemble_graph(n + 2, parts, on(2)), bench::plain_graph(n + 2, all));
 }
 
 TEST(AssembleGraph, TargetsOutOfOrderWithinARowAreSorted) {
   const std::vector<RawVector<Edge>> parts{{{0, 3}, {0, 1}, {0, 2}, {1, 3}, {1, 2}}};
   expect_same(assemble_graph(4, parts, on(1)),
-              Graph::from_edges(4, std::vector<Edge>(parts[0].begin(), parts[0].end())));
+              bench::plain_graph(4, std::vector<Edge>(parts[0].begin(), parts[0].end())));
 }
 
 TEST(AssembleGraph, LengthsStandBesideTheirEdges) {
@@ -144,8 +145,8 @@ TEST(ParallelComponents, EqualTheSerialOnes) {
     SCOPED_TRACE(seed);
     const std::size_t n = seed % 3 == 0 ? 60000 : 200 * seed;
     const std::size_t reach = seed % 2 == 0 ? 0 : 50;
-    const Graph graph = Graph::from_edges(n, random_edges(seed, n, n * (seed % 4 + 1) / 3, reach));
-    const Components oracle = components(graph);
+    const Graph graph = bench::plain_graph(n, random_edges(seed, n, n * (seed % 4 + 1) / 3, reach));
+    const Components oracle = bench::plain_components(graph);
     for (const unsigned threads : {1U, 2U, 3U, 8U}) {
       const Components found = components(graph, on(threads));
       ASSERT_EQ(found.label, oracle.label);
@@ -162,7 +163,7 @@ TEST(ParallelComponents, OneLongPathInBadOrderIsOneComponent) {
     const auto b = static_cast<VertexId>(i * 61607 % n);
     edges.push_back({std::min(a, b), std::max(a, b)});
   }
-  const Graph graph = Graph::from_edges(n, edges);
+  const Graph graph = bench::plain_graph(n, edges);
   for (const unsigned threads : {1U, 2U, 8U}) {
     const Components found = components(graph, on(threads));
     EXPECT_EQ(found.count, 1U);

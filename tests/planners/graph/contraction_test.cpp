@@ -11,9 +11,10 @@
 #include <random>
 #include <vector>
 
+#include "bench/plain_graph.hpp"
 #include "core/base/error.hpp"
-#include "core/search/indexed_heap.hpp"
 #include "core/search/search.hpp"
+#include "core/search/search_queues.hpp"
 #include "planners/graph/hierarchy.hpp"
 #include "tests/refusals.hpp"
 
@@ -23,7 +24,7 @@ namespace {
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 
 Graph with_lengths(std::size_t n, const std::vector<Edge>& edges, const std::vector<double>& lengths) {
-  const Graph plain = Graph::from_edges(n, edges);
+  const Graph plain = bench::plain_graph(n, edges);
   RawVector<double> all;
   for (VertexId v = 0; v < n; ++v) {
     for (const VertexId w : plain.neighbours(v)) {

@@ -7,9 +7,11 @@
 #include <functional>
 #include <string>
 
+#include "bench/plain_graph.hpp"
 #include "core/base/error.hpp"
 #include "core/base/rng.hpp"
 #include "core/search/search.hpp"
+#include "core/search/search_queues.hpp"
 #include "tests/core/search/search_graphs.hpp"
 #include "tests/parallel/on_threads.hpp"
 
@@ -81,7 +83,7 @@ void expect_exact(const Graph& graph, VertexId start, VertexId goal) {
   const std::vector<VertexId> keep{start, goal};
   const auto left = peeled_naively(graph, keep);
   const SearchResult oracle = shortest(graph, start, goal);
-  const Components labels = components(graph);
+  const Components labels = bench::plain_components(graph);
   RawVector<VertexId> path_of_one_thread;
   RawVector<VertexId> twice_reduced_path;
   for (const unsigned threads : {1U, 2U, 3U, 8U}) {
@@ -156,7 +158,7 @@ TEST(ReduceGraph, FollowsDeadEndsThroughManyBlocks) {
   std::vector<Edge> edges;
   for (std::size_t i = 1; i < n; ++i) edges.push_back({number[i - 1], number[i]});
   edges.push_back({number[10'000], number[20'000]});  // one ring, with a dead end at either side
-  const Graph graph = Graph::from_edges(n, edges);
+  const Graph graph = bench::plain_graph(n, edges);
   for (const unsigned threads : {1U, 2U, 8U}) {
     const std::vector<VertexId> keep{number[12'000], number[15'000]};
     const ReducedGraphView reduced = reduce_graph(graph, keep, edge_length, on(threads));
@@ -201,11 +203,11 @@ TEST(ReduceGraph, CountsComponentsThatHaveNoKey) {
   next += 20'001;
   ring(4, false);
   const VertexId kept = next - 2;
-  const Graph graph = Graph::from_edges(next, edges);
+  const Graph graph = bench::plain_graph(next, edges);
   for (const auto& keep :
        {std::vector<VertexId>{}, std::vector<VertexId>{1, kept}, std::vector<VertexId>{50, 60'100}}) {
     const TwiceReducedGraphView reduced(graph, keep, edge_length, on(2));
-    EXPECT_EQ(reduced.component_count(), components(graph).count);
+    EXPECT_EQ(reduced.component_count(), bench::plain_components(graph).count);
     EXPECT_EQ(reduced.component_count(), 13U);
   }
 }

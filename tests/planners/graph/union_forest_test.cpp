@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "bench/plain_graph.hpp"
 #include "core/base/rng.hpp"
 #include "core/search/graph.hpp"
 #include "parallel/chunks.hpp"
@@ -29,7 +30,7 @@ TEST(UnionForest, HasTheSmallestVertexOfEachComponentAsItsRoot) {
     for_chunks(edges.size(), 16, {.threads = 8}, [&](Range r) {
       for (std::size_t i = r.first; i < r.last; ++i) forest.join(edges[i].from, edges[i].to);
     });
-    const Components plain = components(Graph::from_edges(n, edges));
+    const Components plain = bench::plain_components(bench::plain_graph(n, edges));
     for (VertexId v = 0; v < n; ++v) {
       EXPECT_EQ(forest.root_of(v), plain.label[v]);
       EXPECT_EQ(forest.root(v), plain.label[v]);

@@ -156,8 +156,8 @@ TEST(AskRoadmap, IsTheSameForAnyNumberOfThreads) {
   const AskedRoadmap<AnyWorld<Vec2>> one = asked(world, options, false, 1);
   for (const unsigned threads : {2U, 3U, 8U}) {
     const AskedRoadmap<AnyWorld<Vec2>> more = asked(world, options, false, threads);
-    EXPECT_TRUE(std::equal(one.states().begin(), one.states().end(), more.states().begin(), more.states().end()));
-    EXPECT_TRUE(std::ranges::equal(one.candidates().targets(), more.candidates().targets()));
+    EXPECT_TRUE(std::equal(one.states.begin(), one.states.end(), more.states.begin(), more.states.end()));
+    EXPECT_TRUE(std::ranges::equal(one.candidates.targets(), more.candidates.targets()));
     EXPECT_TRUE(std::ranges::equal(one.edge_states(), more.edge_states()));
   }
 }
@@ -199,8 +199,8 @@ TEST(AskRoadmap, LearnsWhatItHasAskedTheWorld) {
   EXPECT_EQ(first.outcome, Outcome::solved);
   EXPECT_GT(first.counters.edges_checked, second.counters.edges_checked + 100);
   Counters counters;
-  const auto checked = check_edges(world, roadmap.states(), roadmap.candidates(), {}, counters);
-  for (std::size_t end = 0; end < roadmap.candidates().targets().size(); ++end) {
+  const auto checked = check_edges(world, roadmap.states, roadmap.candidates, {}, counters);
+  for (std::size_t end = 0; end < roadmap.candidates.targets().size(); ++end) {
     const EdgeState known = edge_state(roadmap.edge_states(), end);
     if (known == EdgeState::unchecked) continue;
     EXPECT_EQ(known, edge_state(checked, end));

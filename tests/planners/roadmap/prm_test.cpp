@@ -8,6 +8,7 @@
 #include <string>
 #include <tuple>
 
+#include "bench/plain_graph.hpp"
 #include "core/base/error.hpp"
 #include "core/plane/geometry.hpp"
 #include "scenes/mazes/maze_generator.hpp"
@@ -213,7 +214,7 @@ TEST(Prm, LargeLatticesAreReducedWithoutChangingTheAnswer) {
       ASSERT_EQ(one.outcome, Outcome::solved);
       ASSERT_GE(one.roadmap.milestones, fewest_for_both_ends);
       EXPECT_LT(one.counters.expanded, one.roadmap.milestones / 4);
-      EXPECT_EQ(one.roadmap.components, components(roadmap.graph).count);
+      EXPECT_EQ(one.roadmap.components, bench::plain_components(roadmap.graph).count);
       EXPECT_DOUBLE_EQ(length_of(one), shortest_walk(scene));
       expect_tree(roadmap, one.path);
       const auto two = plan(2);
@@ -283,7 +284,7 @@ TEST(Prm, KnowsTheComponentsOfWhatItReduces) {
   const auto solution = prm(WorldView(world), start_of(scene), goal_of(scene), lattice_options(scene), {}, &roadmap);
   EXPECT_EQ(solution.outcome, Outcome::not_connected);
   ASSERT_GE(solution.roadmap.milestones, fewest_for_both_ends);
-  const Components oracle = components(roadmap.graph);
+  const Components oracle = bench::plain_components(roadmap.graph);
   const auto start = static_cast<VertexId>(roadmap.states.size() - 2);
   EXPECT_GT(oracle.count, 1U);
   EXPECT_EQ(solution.roadmap.components, oracle.count);

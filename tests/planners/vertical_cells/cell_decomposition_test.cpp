@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/plain_graph.hpp"
 #include "core/plane/geometry.hpp"
 #include "scenes/files/read_world_io.hpp"
 #include "tests/paths.hpp"
@@ -170,7 +171,7 @@ TEST(CellDecomposition, JoinsTheSquaresOfAGridExactlyWhereAFloodDoes) {
       for (int x = 0; x < world.side(); ++x) centers.push_back({x + 0.5, y + 0.5});
     }
     const CellDecomposition cells = decompose(world.obstacles(), centers, {});
-    const Components parts = components(cells.graph(0, {}, {}));
+    const Components parts = bench::plain_components(cells.graph(0, {}, {}));
     const std::vector<int> regions = world.regions();
     for (std::size_t i = 0; i < centers.size(); ++i) {
       const bool full = world.is_full(static_cast<int>(i) % world.side(), static_cast<int>(i) / world.side());

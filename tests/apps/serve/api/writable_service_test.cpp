@@ -49,22 +49,24 @@ Scene hall(bool with_unknown = false) {
 class Writable {
  public:
   explicit Writable(const std::string& scene = town, const std::string& token = {}, bool writable = true)
-      : service_(std::make_unique<ServedWorld>(scene_of(scene), Question{}, Execution{}), {.writable = writable},
-                 token) {}
+      : service_(writable_service(std::make_unique<ServedWorld>(scene_of(scene), Question{}, Execution{}),
+                                  {.writable = writable}, token)) {}
   explicit Writable(Scene scene)
-      : service_(std::make_unique<ServedWorld>(std::move(scene), Question{}, Execution{}), {.writable = true}, {}) {}
+      : service_(writable_service(std::make_unique<ServedWorld>(std::move(scene), Question{}, Execution{}),
+                                  {.writable = true}, {})) {}
   explicit Writable(Roadmap roadmap)
-      : service_(std::make_unique<ServedWorld>(std::move(roadmap), Execution{}), {.writable = true}, {}) {}
+      : service_(
+            writable_service(std::make_unique<ServedWorld>(std::move(roadmap), Execution{}), {.writable = true}, {})) {}
 
   HttpResponse asked(const HttpRequest& request) {
     try {
-      if (request.body.size() > service_.most_body(request)) return error_response(413, "body_too_large", "body", "");
-      if (auto said = service_.at_once(request, {})) return *said;
+      if (request.body.size() > service_->most_body(request)) return error_response(413, "body_too_large", "body", "");
+      if (auto said = service_->at_once(request, {})) return *said;
     } catch (const HttpError& error) {
       return error_response(error);
     }
     const SignalFlag flag{0};
-    return answer_of(service_, request, flag);
+    return answer_of(*service_, request, flag);
   }
   HttpResponse post(const std::string& path, const Json& body, const std::string& authorization = {}) {
     return asked({.method = "POST", .path = path, .authorization = authorization, .body = body.dump()});
@@ -75,7 +77,7 @@ class Writable {
   std::string hash() { return Json::parse(asked({.path = "/api/world"}).body).at("hash"); }
 
  private:
-  WritableService service_;
+  std::unique_ptr<HttpService> service_;
 };
 
 const Json wall_across = {{"add", {{"walls", {{55, 0, 55, 59}}}}}};
@@ -228,13 +230,13 @@ TEST(WritableService, LargeMazesAndReadersAreToldWhy) {
 
 TEST(WritableService, WallsOfALargeMazeAreNotMadeForAChangeThatIsRefused) {
   auto world = std::make_unique<ServedWorld>(read_world("maze:1500x1500,seed=1", {}), Question{}, Execution{});
-  WritableService service(std::move(world), {.writable = true, .scene_bytes = 1000}, {});
+  const auto service = writable_service(std::move(world), {.writable = true, .scene_bytes = 1000}, {});
   const SignalFlag flag{0};
   const std::size_t held = resident_bytes();
   const HttpResponse change =
-      answer_of(service, {.method = "POST", .path = "/api/update", .body = wall_across.dump()}, flag);
+      answer_of(*service, {.method = "POST", .path = "/api/update", .body = wall_across.dump()}, flag);
   EXPECT_EQ(change.status, 400U) << change.body;
-  const HttpResponse scene = answer_of(service, {.path = "/api/scene"}, flag);
+  const HttpResponse scene = answer_of(*service, {.path = "/api/scene"}, flag);
   EXPECT_EQ(scene.status, 413U) << scene.body;
   EXPECT_LT(resident_bytes(), held + (std::size_t{4} << 20U));
 }

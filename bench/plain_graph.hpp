@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/search/graph.hpp"
+// The serial ways from edges to a graph and to its components: what planners/graph/assemble_graph and
+// planners/graph/components are measured against, and the oracles of their tests.
+#pragma once
 
 #include <algorithm>
-#include <limits>
+#include <cstddef>
+#include <span>
+#include <utility>
 
-#include "core/base/error.hpp"
 #include "core/base/items_by_key.hpp"
+#include "core/search/graph.hpp"
 #include "core/search/union_find.hpp"
 
-namespace warren {
+namespace warren::bench {
 
-Graph Graph::from_edges(std::size_t vertex_count, std::span<const Edge> edges) {
-  if (edges.size() > std::numeric_limits<EdgeEnd>::max() / 2) {
-    throw InputError("graph", "too many edges for 32-bit positions; use fewer samples or neighbours");
-  }
+/// Edges may come in any order; duplicates are kept as they are. O(V + E log degree).
+inline Graph plain_graph(std::size_t vertex_count, std::span<const Edge> edges) {
   ItemsByKey rows = items_by_key(vertex_count, [&](const auto& visit) {
     for (const Edge& e : edges) {
       visit(e.from, e.to);
@@ -26,11 +28,8 @@ Graph Graph::from_edges(std::size_t vertex_count, std::span<const Edge> edges) {
   return Graph(std::move(rows.first), std::move(rows.items));
 }
 
-std::size_t Components::size_of(VertexId v) const {
-  return static_cast<std::size_t>(std::count(label.begin(), label.end(), label[v]));
-}
-
-Components components(const Graph& graph) {
+/// Union-find with path halving, O(E α(V)).
+inline Components plain_components(const Graph& graph) {
   const auto n = static_cast<VertexId>(graph.vertex_count());
   Components result;
   RawVector<VertexId>& parent = result.label;
@@ -49,4 +48,4 @@ Components components(const Graph& graph) {
   return result;
 }
 
-}  // namespace warren
+}  // namespace warren::bench
