@@ -83,11 +83,7 @@ class ArrayWalls : public StreamedWalls {
 };
 
 VerifyOptions judged_as(const WallProblem& problem) {
-  return {.radius = problem.robot.radius,
-          .clearance = problem.clearance,
-          .contact = problem.contact,
-          .start = problem.start,
-          .goal = problem.goal};
+  return {.radius = problem.robot.radius, .clearance = problem.clearance, .start = problem.start, .goal = problem.goal};
 }
 
 /// Judges a path as it comes, and hands it on.
@@ -237,7 +233,10 @@ Verdict recheck_streamed(const Scene& scene, const Question& question, const Rec
   if (walls->hash() && answer.world_hash && *walls->hash() != *answer.world_hash) {
     refuse_other_world(answer, answer.file, scene, *walls->hash());
   }
-  return {verify_among_cells(walls->judged(), answer.path, judged_as(problem), execution), problem.general()};
+  const Verification kept_off = verify_among_cells(walls->judged(), answer.path, judged_as(problem), execution);
+  if (!kept_off.verified && problem.contact == Contact::allowed)
+    throw InputError("contact", "is not judged where walls are made tile by tile, and this path doesn't keep off them");
+  return {kept_off, problem.general()};
 }
 
 }  // namespace

@@ -284,6 +284,10 @@ TEST(Streamed, ArraysLargerThanTheMemoryAreReadInWindows) {
     EXPECT_EQ(answered({"verify", array, answer, "--memory", "64MiB"})["verified"], true);
     Json touching = found;
     touching["contact"] = "allowed";
+    touching["clearance"] = 0.0;
+    EXPECT_EQ(answered({"verify", array, folder.write("b.json", touching.dump()), "--memory", "64MiB"})["verified"],
+              true);
+    touching["path"][3] = {touching["path"][3][0].get<double>() - 0.5, touching["path"][3][1]};
     check({{"verify", array, folder.write("b.json", touching.dump()), "--memory", "64MiB"},
            65,
            "contact: is not judged"});
