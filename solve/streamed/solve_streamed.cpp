@@ -235,7 +235,7 @@ Verdict recheck_streamed(const Scene& scene, const Question& question, const Rec
   }
   const Verification kept_off = verify_among_cells(walls->judged(), answer.path, judged_as(problem), execution);
   if (!kept_off.verified && problem.contact == Contact::allowed)
-    throw InputError("contact", "is not judged where walls are made tile by tile, and this path doesn't keep off them");
+    throw InputError("contact", "is not judged where walls are made tile by tile, and without it the path is refuted");
   return {kept_off, problem.general()};
 }
 

@@ -106,7 +106,12 @@ TEST(BandRounds, ABandThatLacksMemorySaysHowMuch) {
     ValuePacker to;
     band.serve(from, to);
     ValueUnpacker answer(to.bytes(), "test");
-    return answer.take<std::uint64_t>();
+    const auto bytes = answer.take<std::uint64_t>();
+    answer.take<std::uint64_t>();  // components, and their numbers
+    answer.take<std::uint32_t>();
+    for (int list = 0; list < 6; ++list) answer.take_list<std::uint32_t>();  // crossings, their keys, what ends join
+    EXPECT_TRUE(answer.is_done());
+    return bytes;
   };
   EXPECT_EQ(lacking(*rounds), 0);
   EXPECT_GE(lacking(*poor), 2 * 53U);
